@@ -1,0 +1,38 @@
+//! The cycle of the interpolator: an integer number of microseconds, counted, never accumulated.
+
+/// Length of one interpolator cycle `T`.
+///
+/// Range 100 to 20 000 us; the vendor has no parameter for it (it is the cycle of the GEO task).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CycleTime {
+    us: u32,
+}
+
+impl CycleTime {
+    /// Shortest accepted cycle in us.
+    pub const MIN_US: u32 = 100;
+    /// Longest accepted cycle in us.
+    pub const MAX_US: u32 = 20_000;
+    /// The default of 1 ms.
+    pub const DEFAULT: Self = Self { us: 1000 };
+
+    /// A cycle of `us` microseconds, `None` outside 100..=20 000.
+    pub const fn from_us(us: u32) -> Option<Self> {
+        if us >= Self::MIN_US && us <= Self::MAX_US { Some(Self { us }) } else { None }
+    }
+
+    /// Length in microseconds.
+    pub const fn us(self) -> u32 {
+        self.us
+    }
+
+    /// Length in seconds, correctly rounded.
+    pub fn seconds(self) -> f64 {
+        f64::from(self.us) / 1e6
+    }
+
+    /// Time of cycle `k` in seconds: one rounding, whatever `k` is.
+    pub fn time_of(self, k: u64) -> f64 {
+        (k as f64 * f64::from(self.us)) / 1e6
+    }
+}

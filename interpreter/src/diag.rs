@@ -1,0 +1,286 @@
+//! Diagnostics: what a user is told, with ID, place, values and a hint.
+//!
+//! Vendor conditions carry the vendor's number, kontur's own carry `K-nnnn`; numbers are never invented inside the
+//! vendor's space. The meaning of an ID stands in one table, [`catalog`].
+
+pub mod catalog;
+
+use serde::{Serialize, Serializer};
+use std::sync::Arc;
+
+/// Identification of a condition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Id {
+    /// A number of the vendor's (`P-ERR-70082` is the same as `70082`), or 1 to 1000 from `#ERROR`.
+    Vendor(u32),
+    /// A condition of kontur's own, printed `K-0012`.
+    Kontur(u16),
+}
+
+impl std::fmt::Display for Id {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Vendor(n) => write!(f, "{n}"),
+            Self::Kontur(n) => write!(f, "K-{n:04}"),
+        }
+    }
+}
+
+/// How serious a diagnostic is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Worth knowing.
+    Note,
+    /// The run goes on; something was corrected, ignored or is not simulated.
+    Warning,
+    /// The program (or the list) is refused or aborted.
+    Error,
+}
+
+/// A place in a source text.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Location {
+    /// Name of the file as the user gave it.
+    pub file: Arc<str>,
+    /// Line, from 1.
+    pub line: u32,
+    /// Column in characters, from 1.
+    pub column: u32,
+    /// Offset in bytes from the start of the file.
+    pub offset: u64,
+    /// Length of the marked text in characters, at least 1.
+    #[serde(skip)]
+    pub length: u32,
+    /// N number of the block.
+    pub block: Option<u64>,
+    /// The line itself, without its end.
+    #[serde(skip)]
+    pub text: Arc<str>,
+}
+
+/// What a value of a diagnostic is (the vendor's flag, `70-errors` section 2, by name).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ValueKind {
+    /// A limit.
+    Limit,
+    /// The current value.
+    Current,
+    /// The wrong value.
+    Wrong,
+    /// The value that was expected.
+    Expected,
+    /// The value after the correction.
+    Corrected,
+    /// A logical axis number.
+    AxisNumber,
+    /// A lower limit.
+    LowerLimit,
+    /// An upper limit.
+    UpperLimit,
+    /// A start value.
+    StartValue,
+    /// A target value.
+    TargetValue,
+    /// An index or number that identifies something (filter, stage, block).
+    Identification,
+    /// A state or a word.
+    State,
+}
+
+/// A number or a word.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Datum {
+    /// A number.
+    Number(f64),
+    /// A word.
+    Text(String),
+}
+
+impl From<f64> for Datum {
+    fn from(v: f64) -> Self {
+        Self::Number(v)
+    }
+}
+
+impl From<u32> for Datum {
+    fn from(v: u32) -> Self {
+        Self::Number(f64::from(v))
+    }
+}
+
+impl From<&str> for Datum {
+    fn from(v: &str) -> Self {
+        Self::Text(v.to_owned())
+    }
+}
+
+impl From<String> for Datum {
+    fn from(v: String) -> Self {
+        Self::Text(v)
+    }
+}
+
+/// One value of a diagnostic.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Value {
+    /// What it is.
+    pub kind: ValueKind,
+    /// The value.
+    pub value: Datum,
+    /// Its unit, `-` if it has none.
+    pub unit: &'static str,
+}
+
+/// The axis that a diagnostic is about.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AxisRef {
+    /// Logical axis number.
+    pub number: u32,
+    /// Name in the NC program.
+    pub name: String,
+}
+
+/// One message to the user.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// What happened.
+    pub id: Id,
+    /// How serious it is.
+    pub severity: Severity,
+    /// Message: quantity, value, limit, axis, parameter, in this order.
+    pub text: String,
+    /// Where in a program or list.
+    pub source: Option<Location>,
+    /// Cycle at which it happened, for conditions of the running machine.
+    pub cycle: Option<u64>,
+    /// The same in seconds of program time.
+    pub time_s: Option<f64>,
+    /// Axis concerned.
+    pub axis: Option<AxisRef>,
+    /// Values, in the vendor's order where documented.
+    pub values: Vec<Value>,
+    /// Value that was put in place of a wrong one.
+    pub correction: Option<Datum>,
+    /// Parameter concerned (`P-AXIS-00236`).
+    pub parameter: Option<&'static str>,
+    /// What to do about it.
+    pub hint: Option<String>,
+}
+
+impl Diagnostic {
+    /// A diagnostic with the severity of its catalogue row and the given message.
+    pub fn new(id: Id, text: impl Into<String>) -> Self {
+        Self {
+            id,
+            severity: catalog::entry(id).severity,
+            text: text.into(),
+            source: None,
+            cycle: None,
+            time_s: None,
+            axis: None,
+            values: Vec::new(),
+            correction: None,
+            parameter: None,
+            hint: None,
+        }
+    }
+
+    /// A diagnostic with a vendor number.
+    pub fn vendor(id: u32, text: impl Into<String>) -> Self {
+        Self::new(Id::Vendor(id), text)
+    }
+
+    /// A diagnostic with one of kontur's own numbers.
+    pub fn kontur(id: u16, text: impl Into<String>) -> Self {
+        Self::new(Id::Kontur(id), text)
+    }
+
+    /// Sets another severity than the catalogue's.
+    #[must_use]
+    pub fn severity(mut self, severity: Severity) -> Self {
+        self.severity = severity;
+        self
+    }
+
+    /// Sets the place.
+    #[must_use]
+    pub fn at(mut self, source: Location) -> Self {
+        self.source = Some(source);
+        self
+    }
+
+    /// Adds a value.
+    #[must_use]
+    pub fn value(mut self, kind: ValueKind, value: impl Into<Datum>, unit: &'static str) -> Self {
+        self.values.push(Value { kind, value: value.into(), unit });
+        self
+    }
+
+    /// Sets the axis.
+    #[must_use]
+    pub fn axis(mut self, number: u32, name: impl Into<String>) -> Self {
+        self.axis = Some(AxisRef { number, name: name.into() });
+        self
+    }
+
+    /// Sets the corrected value.
+    #[must_use]
+    pub fn corrected(mut self, value: impl Into<Datum>) -> Self {
+        self.correction = Some(value.into());
+        self
+    }
+
+    /// Sets the parameter.
+    #[must_use]
+    pub fn parameter(mut self, id: &'static str) -> Self {
+        self.parameter = Some(id);
+        self
+    }
+
+    /// Sets the hint.
+    #[must_use]
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// True if the program or list is refused or aborted.
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+}
+
+impl Serialize for Diagnostic {
+    /// The vendor's fields, all present, absent ones null.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let entry = catalog::entry(self.id);
+        let (vendor, own) = match self.id {
+            Id::Vendor(n) => (Some(n), None),
+            Id::Kontur(_) => (None, Some(self.id.to_string())),
+        };
+        let mut s = serializer.serialize_struct("Diagnostic", 17)?;
+        s.serialize_field("id", &vendor)?;
+        s.serialize_field("kontur_id", &own)?;
+        s.serialize_field("severity", &self.severity)?;
+        s.serialize_field("text", &self.text)?;
+        s.serialize_field("reaction", &entry.reaction)?;
+        s.serialize_field("remedy", &entry.remedy)?;
+        s.serialize_field("root", &entry.root)?;
+        s.serialize_field("multiple_id", &0)?;
+        s.serialize_field("source", &self.source)?;
+        s.serialize_field("cycle", &self.cycle)?;
+        s.serialize_field("time_s", &self.time_s)?;
+        s.serialize_field("channel", &1)?;
+        s.serialize_field("axis", &self.axis)?;
+        s.serialize_field("values", &self.values)?;
+        s.serialize_field("correction", &self.correction)?;
+        s.serialize_field("parameter", &self.parameter)?;
+        s.serialize_field("hint", &self.hint)?;
+        s.serialize_field("documented", &matches!(self.id, Id::Vendor(_)))?;
+        s.end()
+    }
+}

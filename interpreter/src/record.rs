@@ -1,0 +1,87 @@
+//! What the simulation tells about one cycle; traces, summaries and reports are made from these records only.
+
+/// What held the path speed down in a cycle (trace column `v_limit`).
+pub use kontur_motion::limit::SpeedLimit;
+
+/// The path in one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PathRecord {
+    /// Path length since the start of the program in mm (deg).
+    pub s_mm: f64,
+    /// Path velocity in mm/s.
+    pub v_mm_s: f64,
+    /// Path acceleration in mm/s2.
+    pub a_mm_s2: f64,
+    /// Path jerk in mm/s3.
+    pub j_mm_s3: f64,
+    /// What held the speed down.
+    pub limit: SpeedLimit,
+}
+
+/// One axis in one cycle. Millimetre (degree for rotary axes) and seconds; see `design` section 4 for the columns.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxisRecord {
+    /// Interpolated setpoint.
+    pub ipo: f64,
+    /// Set position: after filters or Vibration Guard.
+    pub set: f64,
+    /// Velocity of `set` (backward difference).
+    pub vel: f64,
+    /// Acceleration of `set` (second difference).
+    pub acc: f64,
+    /// Jerk of `set` (third difference).
+    pub jerk: f64,
+    /// `set` minus the interpolated setpoint of the moment that the filters' mean delay points to.
+    pub err: f64,
+    /// Component of the shortest vector from the set point to the contour.
+    pub dev: f64,
+    /// Feedforward speed.
+    pub ff: f64,
+    /// Speed command.
+    pub cmd: f64,
+    /// Additional speed of Improved Position Control.
+    pub vadd: f64,
+    /// Reference position of the position controller.
+    pub reference: f64,
+    /// Actual position (motor encoder).
+    pub act: f64,
+    /// Load position (direct encoder; equal to `act` without one).
+    pub load: f64,
+    /// `reference - act`.
+    pub lag: f64,
+    /// Additional interface.
+    pub add: f64,
+    /// Position of the tool point (modal plants; else equal to `load`).
+    pub tcp: f64,
+    /// Acceleration of the tool point.
+    pub tcp_acc: f64,
+    /// Speed command in the drive's format.
+    pub cmd_drive: f64,
+    /// Velocity feedforward in the drive's format.
+    pub vff_drive: f64,
+    /// Additional speed in the drive's format.
+    pub vadd_drive: f64,
+    /// Torque feedforward in the drive's format.
+    pub torque_drive: f64,
+    /// Torque feedforward in Nm (N for linear motors).
+    pub torque_n_m: f64,
+}
+
+/// One row of the trace.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CycleRecord {
+    /// Cycle count; the time is `k T`.
+    pub k: u64,
+    /// Index of the source file in `Simulation::files`.
+    pub file: u32,
+    /// Line in that file, from 1; 0 before the first motion.
+    pub line: u32,
+    /// N number of the block, if it has one.
+    pub block: Option<u64>,
+    /// The path.
+    pub path: PathRecord,
+    /// Length of the shortest vector from the set point to the contour in mm.
+    pub contour_err_mm: f64,
+    /// Path axes in channel order, then spindles.
+    pub axes: Vec<AxisRecord>,
+}

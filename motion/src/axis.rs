@@ -1,0 +1,102 @@
+//! Axis values and the dynamic limits of one axis.
+
+use smallvec::SmallVec;
+use std::ops::{Deref, DerefMut};
+
+/// One value per axis of the channel, in channel order; up to eight without allocation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AxisVec(SmallVec<[f64; 8]>);
+
+impl AxisVec {
+    /// `n` zeros.
+    pub fn zeros(n: usize) -> Self {
+        Self(SmallVec::from_elem(0.0, n))
+    }
+
+    /// One value per axis, in channel order.
+    pub fn from_slice(values: &[f64]) -> Self {
+        Self(SmallVec::from_slice(values))
+    }
+}
+
+impl Deref for AxisVec {
+    type Target = [f64];
+    fn deref(&self) -> &[f64] {
+        &self.0
+    }
+}
+
+impl DerefMut for AxisVec {
+    fn deref_mut(&mut self) -> &mut [f64] {
+        &mut self.0
+    }
+}
+
+impl FromIterator<f64> for AxisVec {
+    fn from_iter<I: IntoIterator<Item = f64>>(iter: I) -> Self {
+        Self(iter.into_iter().collect())
+    }
+}
+
+/// Non-linear slope of one axis in feed blocks (TRAPEZ, SIN2, HSC).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FeedSlope {
+    /// Acceleration in mm/s2 (P-AXIS-00001).
+    pub acc_mm_s2: f64,
+    /// Deceleration in mm/s2 (P-AXIS-00002).
+    pub dec_mm_s2: f64,
+    /// Ramp times t1..t4 in s: acceleration builds up, falls, deceleration builds up, falls
+    /// (P-AXIS-00196, 00195, 00198, 00197).
+    pub ramps_s: [f64; 4],
+}
+
+/// Non-linear slope of one axis in rapid blocks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RapidSlope {
+    /// Acceleration and deceleration in mm/s2 (P-AXIS-00004).
+    pub acc_mm_s2: f64,
+    /// All four ramp times in s (P-AXIS-00200).
+    pub ramp_s: f64,
+}
+
+/// Linear slope (STEP) of one axis: two stages with a change-over speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepSlope {
+    /// Accelerations below and above the change-over speed in mm/s2.
+    pub acc_mm_s2: [f64; 2],
+    /// Decelerations below and above the change-over speed in mm/s2.
+    pub dec_mm_s2: [f64; 2],
+    /// Change-over speed in mm/s.
+    pub change_mm_s: f64,
+}
+
+/// Dynamic limits of one axis, converted to mm (deg) and s, weights G127..G134, G23x already applied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisDynamics {
+    /// Hard velocity limit in mm/s (P-AXIS-00212).
+    pub v_max_mm_s: f64,
+    /// Rapid velocity in mm/s (P-AXIS-00209).
+    pub v_rapid_mm_s: f64,
+    /// Hard acceleration limit in mm/s2 (P-AXIS-00008).
+    pub a_max_mm_s2: f64,
+    /// Braking in error stops in mm/s2 (P-AXIS-00003).
+    pub a_emergency_mm_s2: f64,
+    /// Geometric ramp time in s: bounds axis jerk that comes from the contour (P-AXIS-00199).
+    pub tr_geom_s: f64,
+    /// Non-linear slope in feed blocks.
+    pub feed: FeedSlope,
+    /// Non-linear slope in rapid blocks.
+    pub rapid: RapidSlope,
+    /// Linear slope in feed blocks (P-AXIS-00011, 00012, 00282, 00283, 00221).
+    pub step_feed: StepSlope,
+    /// Linear slope in rapid blocks (P-AXIS-00005, 00006, 00280, 00281, 00211).
+    pub step_rapid: StepSlope,
+    /// Weight of the acceleration allowed at a kink, 0..1; 0 means cycle time / ramp time (P-AXIS-00013).
+    pub a_trans_ratio: f64,
+    /// Weight of the jerk allowed at tangential transitions, 0..1 (P-AXIS-00154).
+    pub r_trans_ratio: f64,
+    /// Direct jerk limit at kinks in mm/s3 (P-AXIS-00339), used with P-CHAN-00117 = 2.
+    pub j_trans_kink_mm_s3: f64,
+    /// Direct jerk limit at tangential transitions in mm/s3 (P-AXIS-00340), used with P-CHAN-00117 = 2.
+    pub j_trans_tangential_mm_s3: f64,
+}

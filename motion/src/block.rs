@@ -1,0 +1,132 @@
+//! What the planner is fed with: one programmed motion with everything that limits it.
+
+use crate::axis::AxisDynamics;
+use std::sync::Arc;
+
+/// Shape of the acceleration over time (P-CHAN-00071, `#SLOPE`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum SlopeKind {
+    /// Linear slope, acceleration jumps.
+    #[default]
+    Step,
+    /// Trapezoidal acceleration, acceleration is zero at block limits.
+    Trapez,
+    /// Sine-square ramps, acceleration is zero at block limits.
+    Sin2,
+    /// Trapezoidal acceleration planned across block limits.
+    Hsc,
+}
+
+/// The slope with its options.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Slope {
+    /// Shape.
+    pub kind: SlopeKind,
+    /// `NO_OPT=0`: profile planned across block limits.
+    pub optimised: bool,
+    /// P-CHAN-00349 = 1: constant ramp time instead of constant jerk (never in rapid blocks).
+    pub constant_ramp_time: bool,
+}
+
+/// How fast the programmer wants the path to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Feed {
+    /// G00: at least one axis at its rapid velocity.
+    Rapid,
+    /// Path velocity in mm/s (G94, G95 already multiplied out).
+    PathVelocity(f64),
+    /// G93: time for the block in s.
+    Duration(f64),
+    /// G194: share (0..1) of the greatest path velocity the axes allow.
+    ShareOfMaximum(f64),
+}
+
+/// Path limits of `#VECTOR LIMIT`; `None` = not limited.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct VectorLimits {
+    /// Path velocity in mm/s.
+    pub vel_mm_s: Option<f64>,
+    /// Path acceleration in mm/s2.
+    pub acc_mm_s2: Option<f64>,
+    /// Path deceleration in mm/s2.
+    pub dec_mm_s2: Option<f64>,
+    /// Path jerk in mm/s3.
+    pub jerk_mm_s3: Option<f64>,
+    /// Centripetal acceleration in mm/s2.
+    pub radial_acc_mm_s2: Option<f64>,
+    /// Centripetal jerk in mm/s3.
+    pub radial_jerk_mm_s3: Option<f64>,
+    /// Acceleration of the path at a kink in mm/s2: caps `v |du| / T`.
+    pub trans_acc_mm_s2: Option<f64>,
+}
+
+/// Which rule P-CHAN-00117 selects for the limits at block transitions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum TransitionJerkMode {
+    /// 0: the kink weight is not below the tangential weight (only with P-CHAN-00009 = 1 and a kink weight > 0).
+    #[default]
+    Coupled,
+    /// 1: both weights are independent.
+    Independent,
+    /// 2: the direct jerk limits act.
+    DirectJerk,
+}
+
+/// Limits and modes of a channel that hold for a run of blocks; shared, replaced when a word changes one of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelDynamics {
+    /// One entry per axis, in channel order.
+    pub axes: Vec<AxisDynamics>,
+    /// Members of the feed group (P-CHAN-00011), one flag per axis: the path length is measured over them.
+    pub feed_axes: Vec<bool>,
+    /// P-CHAN-00009: limit the jerk at tangential transitions.
+    pub limit_tangential_jerk: bool,
+    /// P-CHAN-00117.
+    pub transition_jerk: TransitionJerkMode,
+    /// P-CHAN-00245: 0 off, 1 acceleration, 2 geometric ramp time, 3 as 1 in space.
+    pub curvature_estimate: u8,
+    /// `#VECTOR LIMIT`.
+    pub vector: VectorLimits,
+    /// P-CHAN-00350: the path acceleration limit also bounds arcs.
+    pub vector_acc_on_arcs: bool,
+    /// `#TRANSVELMIN ON`: lower bound of kink velocities in mm/s.
+    pub transition_velocity_min_mm_s: f64,
+    /// G116: every transition is a stop.
+    pub stop_at_transitions: bool,
+}
+
+/// Tolerance monitoring of a filter kernel (`AX_DEV`, `ACC_FACT` of `#VIB GUARD` and `#FILTER`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Largest deviation of each axis from the contour in mm (deg); `None` = no monitoring.
+    pub ax_dev_mm: Option<f64>,
+    /// Factor 1..10 on the admissible acceleration at kinks.
+    pub acc_fact: f64,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self { ax_dev_mm: None, acc_fact: 1.0 }
+    }
+}
+
+/// One programmed motion.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Number of the block in order of execution; comes back with every sample of the block.
+    pub seq: u64,
+    /// Geometry over all axes.
+    pub path: crate::path::Path,
+    /// Programmed speed.
+    pub feed: Feed,
+    /// Override and path weights on the programmed feed, 1.0 = 100 %.
+    pub feed_ratio: f64,
+    /// Path velocity wanted at the end of the block in mm/s (E word).
+    pub end_velocity_mm_s: Option<f64>,
+    /// Slope.
+    pub slope: Slope,
+    /// Limits.
+    pub dynamics: Arc<ChannelDynamics>,
+    /// Tolerance monitoring.
+    pub tolerance: Tolerance,
+}

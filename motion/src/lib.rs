@@ -1,0 +1,9 @@
+//! From programmed blocks to one set of interpolated setpoints per cycle.
+//!
+//! Units: `_mm _mm_s _mm_s2 _mm_s3` (degrees for rotary axes), `_s`, `_rad`, `_ratio` (1.0 = 100 %), `_cycles`.
+//! The crate knows axes, paths and limits; it knows no NC text, no files and no clock.
+
+pub mod axis;
+pub mod block;
+pub mod limit;
+pub mod path;

@@ -1,0 +1,84 @@
+//! Geometry of one block over all axes of the channel, parameterised by path length `s`.
+//!
+//! `s` is measured over the feed axes; the other axes are slaved and run linearly in `s`. If no feed axis moves, `s` is
+//! measured over all axes that move (Assumption: the documents are silent; every axis then counts alike).
+
+mod arc;
+mod line;
+
+pub use arc::{ArcPath, ArcShape};
+pub use line::LinePath;
+
+use crate::axis::AxisVec;
+
+/// The contour of one block.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Path {
+    /// Straight line in all axes.
+    Line(LinePath),
+    /// Arc in a plane of two axes, the others linear in the angle (helix); several turns are possible.
+    Arc(ArcPath),
+}
+
+impl Path {
+    /// Length in mm (deg), greater than zero for every path that moves.
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Line(p) => p.length(),
+            Self::Arc(p) => p.length(),
+        }
+    }
+
+    /// Position of every axis at path length `s` (clamped to `0..=length`); exact at both ends.
+    pub fn position(&self, s: f64, out: &mut [f64]) {
+        match self {
+            Self::Line(p) => p.position(s, out),
+            Self::Arc(p) => p.position(s, out),
+        }
+    }
+
+    /// First derivative `dq/ds` of every axis.
+    pub fn tangent(&self, s: f64, out: &mut [f64]) {
+        match self {
+            Self::Line(p) => out.copy_from_slice(p.direction()),
+            Self::Arc(p) => p.tangent(s, out),
+        }
+    }
+
+    /// Second derivative of every axis by `s` in 1/mm.
+    pub fn curvature(&self, s: f64, out: &mut [f64]) {
+        match self {
+            Self::Line(_) => out.fill(0.0),
+            Self::Arc(p) => p.curvature(s, out),
+        }
+    }
+
+    /// Start point.
+    pub fn start(&self) -> &AxisVec {
+        match self {
+            Self::Line(p) => p.start(),
+            Self::Arc(p) => p.start(),
+        }
+    }
+
+    /// End point.
+    pub fn end(&self) -> &AxisVec {
+        match self {
+            Self::Line(p) => p.end(),
+            Self::Arc(p) => p.end(),
+        }
+    }
+
+    /// True for a straight line in all axes.
+    pub fn is_straight(&self) -> bool {
+        matches!(self, Self::Line(_))
+    }
+
+    /// Path length of the point of the path nearest to `point` (Euclidean over all axes), searched over the whole path.
+    pub fn nearest(&self, point: &[f64]) -> f64 {
+        match self {
+            Self::Line(p) => p.nearest(point),
+            Self::Arc(p) => p.nearest(point),
+        }
+    }
+}

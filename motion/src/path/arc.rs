@@ -1,0 +1,229 @@
+//! Arc in a plane of two axes, the others linear in the angle (helix).
+
+use super::line::feed_length;
+use crate::axis::AxisVec;
+
+/// What defines an arc beside its end points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArcShape {
+    /// Channel indices of the two plane axes, first and second (G17: X Y, G18: Z X, G19: Y Z).
+    pub plane: [usize; 2],
+    /// Centre in mm, in the plane axes.
+    pub centre_mm: [f64; 2],
+    /// Swept angle in rad, positive counter-clockwise in (first, second); may exceed one turn.
+    pub sweep_rad: f64,
+}
+
+/// An arc or helix, `s` proportional to the angle.
+///
+/// A difference between the radii at start and end (rounding of the program, or G164) is spread linearly over the
+/// angle, so that both ends are met exactly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArcPath {
+    start: AxisVec,
+    end: AxisVec,
+    shape: ArcShape,
+    /// Angle of the start point.
+    start_rad: f64,
+    /// Correction of the swept angle so that the end is met, below rounding for a full specification.
+    radius_start: f64,
+    radius_end: f64,
+    /// Slope of the axes outside the plane, per s; zero in the plane.
+    linear: AxisVec,
+    length: f64,
+}
+
+impl ArcPath {
+    /// An arc; `None` if the radius or the sweep is zero or not finite.
+    pub fn new(start: AxisVec, end: AxisVec, shape: ArcShape, feed_axes: &[bool]) -> Option<Self> {
+        let [a, b] = shape.plane;
+        let from = |p: &AxisVec| (p[a] - shape.centre_mm[0], p[b] - shape.centre_mm[1]);
+        let (sx, sy) = from(&start);
+        let (ex, ey) = from(&end);
+        let (radius_start, radius_end) = (libm::hypot(sx, sy), libm::hypot(ex, ey));
+        let mut flat_end = end.clone();
+        (flat_end[a], flat_end[b]) = (start[a], start[b]);
+        let arc = 0.5 * (radius_start + radius_end) * shape.sweep_rad.abs();
+        let straight = if start[..] == flat_end[..] {
+            0.0
+        } else {
+            // slaved axes do not count, the plane is always part of the feed group
+            let only_feed: Vec<bool> = (0..start.len())
+                .map(|i| i != a && i != b && feed_axes.get(i).copied().unwrap_or(true))
+                .collect();
+            if only_feed.iter().any(|&f| f) {
+                let masked: AxisVec = (0..start.len())
+                    .map(|i| if only_feed[i] { flat_end[i] } else { start[i] })
+                    .collect();
+                feed_length(&start, &masked, &only_feed)
+            } else {
+                0.0
+            }
+        };
+        let length = libm::hypot(arc, straight);
+        if !(length.is_finite() && radius_start > 0.0 && radius_end > 0.0 && arc > 0.0) {
+            return None;
+        }
+        let linear = start.iter().zip(flat_end.iter()).map(|(s, e)| (e - s) / length).collect();
+        let start_rad = libm::atan2(sy, sx);
+        Some(Self { start, end, shape, start_rad, radius_start, radius_end, linear, length })
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        self.length
+    }
+
+    pub(super) fn start(&self) -> &AxisVec {
+        &self.start
+    }
+
+    pub(super) fn end(&self) -> &AxisVec {
+        &self.end
+    }
+
+    /// Plane, centre and sweep.
+    pub fn shape(&self) -> &ArcShape {
+        &self.shape
+    }
+
+    /// Mean radius in mm.
+    pub fn radius(&self) -> f64 {
+        0.5 * (self.radius_start + self.radius_end)
+    }
+
+    /// Angle in rad at the start.
+    pub fn start_angle(&self) -> f64 {
+        self.start_rad
+    }
+
+    /// Radius, angle and d(angle)/ds at `s`.
+    fn polar(&self, s: f64) -> (f64, f64, f64) {
+        let x = s / self.length;
+        let radius = self.radius_start + (self.radius_end - self.radius_start) * x;
+        (radius, self.start_rad + self.shape.sweep_rad * x, self.shape.sweep_rad / self.length)
+    }
+
+    pub(super) fn position(&self, s: f64, out: &mut [f64]) {
+        if s <= 0.0 {
+            out.copy_from_slice(&self.start);
+            return;
+        }
+        if s >= self.length {
+            out.copy_from_slice(&self.end);
+            return;
+        }
+        for (i, o) in out.iter_mut().enumerate() {
+            *o = self.start[i] + s * self.linear[i];
+        }
+        let (radius, angle, _) = self.polar(s);
+        let (sin, cos) = libm::sincos(angle);
+        let [a, b] = self.shape.plane;
+        out[a] = self.shape.centre_mm[0] + radius * cos;
+        out[b] = self.shape.centre_mm[1] + radius * sin;
+    }
+
+    pub(super) fn tangent(&self, s: f64, out: &mut [f64]) {
+        out.copy_from_slice(&self.linear);
+        let (radius, angle, rate) = self.polar(s.clamp(0.0, self.length));
+        let growth = (self.radius_end - self.radius_start) / self.length;
+        let (sin, cos) = libm::sincos(angle);
+        let [a, b] = self.shape.plane;
+        out[a] = growth * cos - radius * rate * sin;
+        out[b] = growth * sin + radius * rate * cos;
+    }
+
+    pub(super) fn curvature(&self, s: f64, out: &mut [f64]) {
+        out.fill(0.0);
+        let (radius, angle, rate) = self.polar(s.clamp(0.0, self.length));
+        let growth = (self.radius_end - self.radius_start) / self.length;
+        let (sin, cos) = libm::sincos(angle);
+        let [a, b] = self.shape.plane;
+        out[a] = -radius * rate * rate * cos - 2.0 * growth * rate * sin;
+        out[b] = -radius * rate * rate * sin + 2.0 * growth * rate * cos;
+    }
+
+    /// Nearest point: for a plane arc the point at the same angle, for a helix refined by Newton from the angles of
+    /// every turn (the distance has at most one minimum per turn within half a turn of those angles).
+    pub(super) fn nearest(&self, point: &[f64]) -> f64 {
+        let [a, b] = self.shape.plane;
+        let (px, py) = (point[a] - self.shape.centre_mm[0], point[b] - self.shape.centre_mm[1]);
+        let angle = libm::atan2(py, px);
+        let turn = 2.0 * std::f64::consts::PI;
+        let sweep = self.shape.sweep_rad;
+        // progress in the sense of rotation from the start to the angle of the point
+        let delta = (angle - self.start_rad) * sweep.signum();
+        let first = delta - turn * libm::floor(delta / turn);
+        let mut best = (f64::INFINITY, 0.0);
+        let mut candidate = |s: f64| {
+            let s = self.polish(point, s.clamp(0.0, self.length));
+            let d = self.distance2(point, s);
+            if d < best.0 {
+                best = (d, s);
+            }
+        };
+        candidate(0.0);
+        candidate(self.length);
+        let turns = libm::ceil(sweep.abs() / turn) as u32;
+        // of a helix with many turns only those around the height of the point can be nearest
+        let (from, to) = self.turn_range(point, turns);
+        for k in from..=to {
+            let phi = first + turn * f64::from(k);
+            if phi <= sweep.abs() {
+                candidate(phi / sweep.abs() * self.length);
+            }
+        }
+        best.1
+    }
+
+    fn turn_range(&self, point: &[f64], turns: u32) -> (u32, u32) {
+        let (mut dot, mut norm) = (0.0, 0.0);
+        for ((p, s), l) in point.iter().zip(self.start.iter()).zip(self.linear.iter()) {
+            dot += (p - s) * l;
+            norm += l * l;
+        }
+        if turns <= 2 || norm <= 0.0 {
+            return (0, turns.min(2));
+        }
+        let at = (dot / norm / self.length).clamp(0.0, 1.0) * f64::from(turns);
+        let mid = libm::floor(at) as u32;
+        (mid.saturating_sub(1), (mid + 1).min(turns))
+    }
+
+    fn distance2(&self, point: &[f64], s: f64) -> f64 {
+        let mut q = AxisVec::zeros(point.len());
+        self.position(s, &mut q);
+        q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
+    }
+
+    /// Newton on the derivative of the squared distance; stays where it is if a step would not help.
+    fn polish(&self, point: &[f64], s: f64) -> f64 {
+        if self.linear.iter().all(|l| *l == 0.0) && self.radius_start.to_bits() == self.radius_end.to_bits() {
+            return s;
+        }
+        let n = point.len();
+        let (mut q, mut t, mut c) = (AxisVec::zeros(n), AxisVec::zeros(n), AxisVec::zeros(n));
+        let mut s = s;
+        for _ in 0..20 {
+            self.position(s, &mut q);
+            self.tangent(s, &mut t);
+            self.curvature(s, &mut c);
+            let (mut first, mut second) = (0.0, 0.0);
+            for i in 0..n {
+                first += (q[i] - point[i]) * t[i];
+                second += t[i] * t[i] + (q[i] - point[i]) * c[i];
+            }
+            if second <= 0.0 {
+                break;
+            }
+            let next = (s - first / second).clamp(0.0, self.length);
+            if (next - s).abs() <= 1e-13 * self.length {
+                return next;
+            }
+            if self.distance2(point, next) > self.distance2(point, s) {
+                break;
+            }
+            s = next;
+        }
+        s
+    }
+}
