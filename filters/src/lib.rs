@@ -5,4 +5,6 @@
 //!
 //! The crate knows no NC text, no axis names, no files and no clock. Nothing in it allocates or panics per cycle.
 
+pub mod kernel;
 pub mod time;
+pub mod vib_guard;
