@@ -5,5 +5,14 @@
 
 pub mod axis;
 pub mod block;
+pub mod contour;
+pub mod corner;
 pub mod limit;
+pub mod limits;
+pub mod lookahead;
 pub mod path;
+pub mod planner;
+pub mod profile;
+pub mod queue;
+mod timeline;
+pub mod tolerance;

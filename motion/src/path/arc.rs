@@ -25,8 +25,9 @@ pub struct ArcPath {
     shape: ArcShape,
     /// Angle of the start point.
     start_rad: f64,
-    /// Correction of the swept angle so that the end is met, below rounding for a full specification.
+    /// Distance of the start point from the centre.
     radius_start: f64,
+    /// Distance of the end point from the centre.
     radius_end: f64,
     /// Slope of the axes outside the plane, per s; zero in the plane.
     linear: AxisVec,
@@ -69,11 +70,11 @@ impl ArcPath {
         Some(Self { start, end, shape, start_rad, radius_start, radius_end, linear, length })
     }
 
-    pub(super) fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.length
     }
 
-    pub(super) fn start(&self) -> &AxisVec {
+    pub(crate) fn start(&self) -> &AxisVec {
         &self.start
     }
 
@@ -94,6 +95,11 @@ impl ArcPath {
     /// Angle in rad at the start.
     pub fn start_angle(&self) -> f64 {
         self.start_rad
+    }
+
+    /// `dq/ds` of the axes outside the plane (constant), zero in the plane.
+    pub(crate) fn tangent_outside_plane(&self, out: &mut [f64]) {
+        out.copy_from_slice(&self.linear);
     }
 
     /// Radius, angle and d(angle)/ds at `s`.

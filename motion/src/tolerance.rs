@@ -1,0 +1,490 @@
+//! Tolerance monitoring (`AX_DEV`): the filtered setpoints of a plan, before it becomes final.
+//!
+//! A kernel `h_k` (weights positive, sum 1, mean delay `d`) cuts a corner: an axis whose velocity jumps by `dv` gets
+//! the delay-aligned error `dv * phi(x)`, `phi(x) = sum h_k max(0, x - t_k) - max(0, x - d)`, largest at `x = d` with
+//! `M1`, half the mean absolute deviation of the kernel (TF5250 gives the task, the formula is derived). Acceleration
+//! near the corner and neighbouring corners add to it, so the closed form alone promises nothing.
+//!
+//! The promise is kept by trying: every plan is sampled on the cycle grid, filtered and measured against the contour,
+//! exactly as the trace will be. Where it exceeds the tolerance, the speed of the corners (or curves) that cause it is
+//! lowered by the closed form, and the window is planned again. A corner that is still too coarse at a full stop dwells
+//! for as many cycles as needed, at most the length of the kernel, when nothing is left of the error.
+
+use crate::axis::AxisVec;
+use crate::contour::Contour;
+use crate::queue::Queued;
+use crate::timeline::{PathState, Reader, Timeline};
+use kontur_filters::kernel::Kernel;
+use kontur_filters::time::CycleTime;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// Part of the tolerance kept in hand, in mm: two digits below the last one of a trace.
+const MARGIN_MM: f64 = 2e-7;
+/// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
+const ROUNDS_OF_SPEED: usize = 24;
+/// Rounds of planning after which the tolerance is given up with a message.
+const ROUNDS: usize = 60;
+
+/// The filter kernels of the axes of a channel.
+#[derive(Clone, Debug, Default)]
+pub struct Kernels {
+    axes: Vec<Option<Arc<Kernel>>>,
+}
+
+impl Kernels {
+    /// One kernel per axis, `None` without one.
+    pub fn new(axes: Vec<Option<Arc<Kernel>>>) -> Self {
+        Self { axes }
+    }
+
+    /// True if any axis has a kernel.
+    pub fn any(&self) -> bool {
+        self.axes.iter().any(Option::is_some)
+    }
+
+    /// Cycles until every axis is constant after the path has come to rest.
+    pub fn length(&self) -> u32 {
+        self.axes.iter().flatten().map(|k| k.length()).max().unwrap_or(0)
+    }
+
+    fn get(&self, i: usize) -> Option<&Kernel> {
+        self.axes.get(i).and_then(|k| k.as_deref())
+    }
+}
+
+/// A block whose tolerance could not be kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unkept {
+    /// Number of the block.
+    pub seq: u64,
+    /// Deviation that is left in mm.
+    pub deviation_mm: f64,
+    /// Tolerance in mm.
+    pub tolerance_mm: f64,
+}
+
+/// What the monitor asks of the next plan, one entry per boundary or block of the window.
+#[derive(Clone, Debug)]
+pub(crate) struct Demands {
+    /// Velocity cap at each boundary.
+    pub(crate) cap: Vec<f64>,
+    /// Full stop at the boundary with this many cycles of dwell.
+    pub(crate) stop: Vec<Option<u32>>,
+    /// Velocity cap of each block.
+    pub(crate) feed: Vec<f64>,
+}
+
+impl Demands {
+    pub(crate) fn none(blocks: usize) -> Self {
+        Self {
+            cap: vec![f64::INFINITY; blocks + 1],
+            stop: vec![None; blocks + 1],
+            feed: vec![f64::INFINITY; blocks],
+        }
+    }
+}
+
+/// Raw setpoints of the last cycles.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Monitor {
+    history: VecDeque<AxisVec>,
+    length: usize,
+}
+
+/// A block entered in a plan.
+struct Mark {
+    cycles: f64,
+    /// Index of the boundary in the window; `None` if it can no longer change.
+    boundary: Option<usize>,
+    /// Index of the block in the window; `None` if it is final.
+    block: Option<usize>,
+    queued: Arc<Queued>,
+    /// Largest jump of direction of an axis with a kernel, and that axis.
+    jump: f64,
+    axis: usize,
+}
+
+/// What exceeded the tolerance in one round.
+struct Findings {
+    /// Largest excess in mm blamed on each boundary.
+    corner: Vec<f64>,
+    /// Largest excess in mm and tolerance blamed on each block.
+    curve: Vec<Option<(f64, f64)>>,
+    worst: Option<Unkept>,
+}
+
+/// A plan under examination.
+pub(crate) struct Trial<'a> {
+    pub(crate) timeline: &'a Timeline,
+    pub(crate) window: &'a [Arc<Queued>],
+    pub(crate) past: &'a Contour,
+    pub(crate) kernels: &'a Kernels,
+    pub(crate) cycle: CycleTime,
+    /// Last cycle that was output.
+    pub(crate) now: u64,
+}
+
+impl Monitor {
+    /// The path rests at `position`; the kernels reach `length` cycles back.
+    pub(crate) fn rest(&mut self, position: &AxisVec, length: u32) {
+        self.length = length as usize + 1;
+        self.history = std::iter::repeat_n(position.clone(), self.length).collect();
+    }
+
+    /// Takes the setpoint of a cycle.
+    pub(crate) fn record(&mut self, position: &AxisVec) {
+        if self.length > 1 {
+            self.history.push_back(position.clone());
+            if self.history.len() > self.length {
+                self.history.pop_front();
+            }
+        }
+    }
+
+    /// Examines a plan. `None`: it keeps the tolerance. Otherwise the demands are tightened, or, after too many rounds,
+    /// what could not be kept comes back.
+    pub(crate) fn examine(
+        &self,
+        trial: &Trial<'_>,
+        round: usize,
+        demands: &mut Demands,
+    ) -> Option<Result<(), Unkept>> {
+        let marks = marks(trial);
+        let findings = self.search(trial, &marks);
+        let worst = findings.worst?;
+        if round >= ROUNDS {
+            return Some(Err(worst));
+        }
+        self.tighten(trial, &marks, &findings, round, demands);
+        Some(Ok(()))
+    }
+
+    fn position(&self, k: u64, reader: &mut Reader<'_>, trial: &Trial<'_>, state: &mut PathState) {
+        if k > trial.now {
+            reader.state(k, trial.cycle, state);
+        } else {
+            let back = (trial.now - k) as usize;
+            let i = self.history.len().saturating_sub(1 + back);
+            if let Some(p) = self.history.get(i) {
+                state.position.copy_from_slice(p);
+            }
+        }
+    }
+
+    /// Measures every cycle whose kernel support holds a corner or a curve.
+    fn search(&self, trial: &Trial<'_>, marks: &[Mark]) -> Findings {
+        let reach = u64::from(trial.kernels.length());
+        let mut findings = Findings {
+            corner: vec![0.0; trial.window.len() + 1],
+            curve: vec![None; trial.window.len()],
+            worst: None,
+        };
+        let contour = contour(marks);
+        let mut buffer = Buffer::new(trial);
+        let mut next = trial.now + 1;
+        for (m, mark) in marks.iter().enumerate() {
+            let bent = mark.queued.bend > 0.0 || buffer.unequal;
+            if mark.jump <= 1e-9 && !bent {
+                continue;
+            }
+            let until = if bent { marks.get(m + 1).map_or_else(|| rest_tick(trial), |n| n.cycles) } else { mark.cycles };
+            let last = until.ceil() as u64 + reach;
+            let first = next.max(mark.cycles.floor() as u64 + 1);
+            if first > last {
+                continue;
+            }
+            buffer.fill(self, trial, first);
+            for k in first..=last {
+                buffer.step(self, trial, k);
+                self.judge(trial, marks, &contour, k, &buffer, &mut findings);
+            }
+            next = last + 1;
+        }
+        findings
+    }
+
+    fn judge(
+        &self,
+        trial: &Trial<'_>,
+        marks: &[Mark],
+        contour: &Contour,
+        k: u64,
+        buffer: &Buffer<'_>,
+        findings: &mut Findings,
+    ) {
+        let reach = f64::from(trial.kernels.length());
+        let (from, to) = (k as f64 - reach, k as f64);
+        let Some(tolerance) = contour
+            .between(from, to)
+            .filter_map(|(_, q)| q.block.tolerance.ax_dev_mm)
+            .min_by(f64::total_cmp)
+        else {
+            return;
+        };
+        let mut vector = AxisVec::zeros(buffer.set.len());
+        contour.deviation(&buffer.set, from, to, &mut vector);
+        let deviation = vector.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+        let excess = deviation - (tolerance - MARGIN_MM.min(0.1 * tolerance));
+        if excess <= 0.0 {
+            return;
+        }
+        let first = marks.partition_point(|m| m.cycles <= from).saturating_sub(1);
+        let last = marks.partition_point(|m| m.cycles <= to);
+        let support = &marks[first..last];
+        if findings.worst.is_none_or(|w| w.deviation_mm < deviation) {
+            let seq = support.last().map_or(0, |m| m.queued.block.seq);
+            findings.worst = Some(Unkept { seq, deviation_mm: deviation, tolerance_mm: tolerance });
+        }
+        // shares of the error, relative to the speed: corners by phi, curves by v kappa sigma^2 / 2
+        let speed = buffer.travelled() / reach.max(1.0);
+        let share = |m: &Mark| -> (f64, f64) {
+            let kernel = trial.kernels.get(m.axis);
+            let corner = kernel.map_or(0.0, |h| m.jump * phi(h, to - m.cycles));
+            let variance = kernel.map_or(0.0, Kernel::variance_cycles2);
+            (if m.cycles > from { corner } else { 0.0 }, m.queued.bend * speed * variance / 2.0)
+        };
+        let largest = support.iter().map(share).fold(0.0_f64, |x, (a, b)| x.max(a).max(b));
+        let mut blamed = false;
+        for m in support {
+            let (corner, curve) = share(m);
+            if let Some(b) = m.boundary.filter(|_| corner > 0.0 && corner >= 0.5 * largest) {
+                findings.corner[b] = findings.corner[b].max(excess);
+                blamed = true;
+            }
+            if let Some(b) = m.block.filter(|_| curve > 0.0 && curve >= 0.5 * largest) {
+                note(&mut findings.curve[b], excess, tolerance);
+                blamed = true;
+            }
+        }
+        // kernels that differ between the axes, or a cause that is final already: slow down what still can be
+        if !blamed {
+            for m in support {
+                if let Some(b) = m.block {
+                    note(&mut findings.curve[b], excess, tolerance);
+                }
+            }
+        }
+    }
+
+    fn tighten(
+        &self,
+        trial: &Trial<'_>,
+        marks: &[Mark],
+        findings: &Findings,
+        round: usize,
+        demands: &mut Demands,
+    ) {
+        let full = trial.kernels.length();
+        let gain = if round < 8 { 1.0 } else { 2.0 };
+        for mark in marks {
+            let Some(b) = mark.boundary else { continue };
+            let excess = findings.corner[b];
+            if excess <= 0.0 {
+                continue;
+            }
+            if round >= ROUNDS_OF_SPEED {
+                (demands.cap[b], demands.stop[b]) = (0.0, Some(full));
+                continue;
+            }
+            if let Some(dwell) = demands.stop[b] {
+                let needed = self.needed_dwell(trial, marks, mark, dwell);
+                demands.stop[b] = Some(needed.max(dwell + 1).min(full));
+                continue;
+            }
+            let m1 = trial.kernels.get(mark.axis).map_or(1.0, Kernel::m1_cycles)
+                * trial.cycle.seconds();
+            let now = speed_at(trial, b);
+            let lowered = now - gain * 1.002 * excess / (m1 * mark.jump);
+            if lowered > 0.03 * now {
+                demands.cap[b] = demands.cap[b].min(lowered);
+            } else {
+                (demands.cap[b], demands.stop[b]) = (0.0, Some(0));
+            }
+        }
+        for (b, found) in findings.curve.iter().enumerate() {
+            if let Some((excess, tolerance)) = *found {
+                // the deviation on a curve grows with the square of the speed
+                let ratio = (tolerance / (tolerance + excess)).sqrt() * 0.999;
+                let now = demands.feed[b].min(trial.window[b].velocity.0);
+                demands.feed[b] = now * ratio.max(0.3);
+            }
+        }
+    }
+
+    /// Least dwell at a stop that keeps the tolerance as far as this corner is concerned, by bisection.
+    fn needed_dwell(&self, trial: &Trial<'_>, marks: &[Mark], mark: &Mark, dwell: u32) -> u32 {
+        let start = mark.cycles.round() as u64;
+        let rest = start.saturating_sub(u64::from(dwell));
+        let full = trial.kernels.length();
+        let contour = contour(marks);
+        let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
+        let (from, to) = (rest as f64 - f64::from(full), start as f64 + f64::from(full));
+        let keeps = |cycles: u32| -> bool {
+            let mut buffer = Buffer::new(trial);
+            buffer.fill(self, trial, rest);
+            let mut vector = AxisVec::zeros(buffer.set.len());
+            for k in rest..=rest + u64::from(cycles + full) {
+                // before the rest as planned, behind it as planned after the present dwell
+                let behind = k.saturating_sub(rest + u64::from(cycles));
+                buffer.step(self, trial, if behind > 0 { start + behind } else { k.min(rest) });
+                contour.deviation(&buffer.set, from, to, &mut vector);
+                if vector.iter().any(|c| c.abs() > tolerance - MARGIN_MM.min(0.1 * tolerance)) {
+                    return false;
+                }
+            }
+            true
+        };
+        let (mut low, mut high) = (dwell, full);
+        while high - low > 1 {
+            let mid = low + (high - low) / 2;
+            if keeps(mid) { high = mid } else { low = mid }
+        }
+        high
+    }
+}
+
+fn note(slot: &mut Option<(f64, f64)>, excess: f64, tolerance: f64) {
+    if slot.is_none_or(|(e, _)| e < excess) {
+        *slot = Some((excess, tolerance));
+    }
+}
+
+/// `phi(x)` of a kernel in cycles: delay-aligned error of a unit velocity jump, `x` cycles after it.
+fn phi(kernel: &Kernel, x: f64) -> f64 {
+    let ramp: f64 = kernel.taps().iter().map(|t| t.weight * (x - f64::from(t.delay)).max(0.0)).sum();
+    (ramp - (x - kernel.delay_cycles()).max(0.0)).max(0.0)
+}
+
+fn rest_tick(trial: &Trial<'_>) -> f64 {
+    trial.timeline.entries().last().map_or(trial.now as f64, |e| e.end.cycles(trial.cycle))
+}
+
+/// Planned speed at a boundary of the window.
+fn speed_at(trial: &Trial<'_>, boundary: usize) -> f64 {
+    let mut index = 0;
+    for e in trial.timeline.entries() {
+        if boundary < index + e.blocks.len() {
+            let s = if boundary == index { 0.0 } else { e.blocks[boundary - index - 1].1 };
+            return e.profile.at(e.profile.time_at(s)).v;
+        }
+        index += e.blocks.len();
+    }
+    0.0
+}
+
+fn contour(marks: &[Mark]) -> Contour {
+    let mut contour = Contour::default();
+    for m in marks {
+        contour.enter(m.cycles, Arc::clone(&m.queued));
+    }
+    contour
+}
+
+/// Blocks that are within reach already, then those of the plan.
+fn marks(trial: &Trial<'_>) -> Vec<Mark> {
+    let reach = f64::from(trial.kernels.length());
+    let mut out: Vec<Mark> = Vec::with_capacity(trial.window.len() + 8);
+    let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>| {
+        let (mut jump, mut axis) = (0.0, 0);
+        if let Some(before) = out.last() {
+            let (a, b) = (&before.queued.ends.tangent_out, &queued.ends.tangent_in);
+            for i in 0..a.len() {
+                let du = (b[i] - a[i]).abs();
+                if du > jump && trial.kernels.get(i).is_some() {
+                    (jump, axis) = (du, i);
+                }
+            }
+        }
+        let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
+        let boundary = block.filter(|b| *b > 0);
+        out.push(Mark { cycles, boundary, block, queued: Arc::clone(queued), jump, axis });
+    };
+    let now = trial.now as f64;
+    for (cycles, queued) in trial.past.between(now - reach - 1.0, f64::INFINITY) {
+        add(*cycles, queued, None);
+    }
+    let mut index = 0;
+    for entry in trial.timeline.entries() {
+        for (cycles, queued) in entry.entries(trial.cycle) {
+            add(cycles, queued, Some(index));
+            index += 1;
+        }
+    }
+    out
+}
+
+/// Axis with the longest kernel.
+fn widest(kernels: &Kernels) -> usize {
+    let length = |i: &usize| kernels.get(*i).map_or(0, Kernel::length);
+    (0..kernels.axes.len()).max_by_key(length).unwrap_or(0)
+}
+
+/// Raw positions in reach of the kernels, and the set point they give.
+struct Buffer<'a> {
+    reader: Reader<'a>,
+    kernels: &'a Kernels,
+    ring: Vec<AxisVec>,
+    head: usize,
+    state: PathState,
+    set: AxisVec,
+    unequal: bool,
+}
+
+impl<'a> Buffer<'a> {
+    fn new(trial: &Trial<'a>) -> Self {
+        let n = trial.window.first().map_or(0, |q| q.block.path.start().len());
+        let zero = AxisVec::zeros(n);
+        let size = trial.kernels.length() as usize + 1;
+        let unequal = (1..n).any(|i| trial.kernels.get(i) != trial.kernels.get(0));
+        Self {
+            reader: trial.timeline.reader(),
+            kernels: trial.kernels,
+            ring: vec![zero.clone(); size],
+            head: 0,
+            state: PathState { position: zero.clone(), ..PathState::default() },
+            set: zero,
+            unequal,
+        }
+    }
+
+    /// Loads the cycles before `first`.
+    fn fill(&mut self, monitor: &Monitor, trial: &Trial<'_>, first: u64) {
+        for back in (1..self.ring.len() as u64).rev() {
+            self.take(monitor, trial, first.saturating_sub(back));
+        }
+    }
+
+    fn take(&mut self, monitor: &Monitor, trial: &Trial<'_>, k: u64) {
+        monitor.position(k, &mut self.reader, trial, &mut self.state);
+        self.head = (self.head + 1) % self.ring.len();
+        self.ring[self.head].copy_from_slice(&self.state.position);
+    }
+
+    /// Takes cycle `k` and filters.
+    fn step(&mut self, monitor: &Monitor, trial: &Trial<'_>, k: u64) {
+        self.take(monitor, trial, k);
+        let size = self.ring.len();
+        for i in 0..self.set.len() {
+            let x = self.ring[self.head][i];
+            self.set[i] = match self.kernels.get(i) {
+                None => x,
+                Some(kernel) => {
+                    let mut y = 0.0;
+                    for tap in kernel.taps() {
+                        let at = (self.head + size - tap.delay as usize) % size;
+                        y += tap.weight * (self.ring[at][i] - x);
+                    }
+                    x + y
+                }
+            };
+        }
+    }
+
+    /// Distance between the newest and the oldest setpoint in reach, in mm.
+    fn travelled(&self) -> f64 {
+        let old = &self.ring[(self.head + 1) % self.ring.len()];
+        let new = &self.ring[self.head];
+        old.iter().zip(new.iter()).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    }
+}
