@@ -8,7 +8,7 @@ use crate::axis::{AxisDynamics, AxisVec};
 use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};
 use crate::limit::SpeedLimit;
 use crate::path::{ArcPath, Path};
-use crate::profile::{RampShape, RampedLimits, SlopeLimits, StepLimits};
+use crate::profile::{RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
 use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
 
@@ -201,42 +201,36 @@ pub fn path_slope(block: &Block, x: &PathExtremes, cycle: CycleTime) -> SlopeLim
         });
         path / jerk.min(vector.jerk_mm_s3.unwrap_or(f64::INFINITY))
     };
-    SlopeLimits::Ramped(RampedLimits {
-        shape: if block.slope.kind == SlopeKind::Sin2 { RampShape::Sin2 } else { RampShape::Trapez },
-        constant_ramp_time: block.slope.constant_ramp_time && !rapid,
-        acc,
-        dec,
-        ramps_s: [ramp(0), ramp(1), ramp(2), ramp(3)],
-    })
+    let shape =
+        if block.slope.kind == SlopeKind::Sin2 { RampShape::Sin2 } else { RampShape::Trapez };
+    let constant_ramp_time = block.slope.constant_ramp_time && !rapid;
+    let ramps = [ramp(0), ramp(1), ramp(2), ramp(3)];
+    SlopeLimits::Ramped(RampedLimits::new(shape, constant_ramp_time, acc, dec, ramps))
 }
 
-/// Two-stage slope of a path: per axis stage 1 while `v |q_i'|` is below its change-over speed, the path value is the
-/// minimum over the axes, so there is one break point per axis.
+/// Two-stage slope of a path: the path value is the minimum over the axes, so there is one break point per axis.
 fn step_slope(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> StepLimits {
+    let mut axes: SmallVec<[StepAxis; 9]> = d
+        .axes
+        .iter()
+        .zip(x.first.iter())
+        .filter(|(_, u)| **u > 0.0)
+        .map(|(axis, u)| {
+            let s = if rapid { axis.step_rapid } else { axis.step_feed };
+            StepAxis {
+                acc_mm_s2: s.acc_mm_s2.map(|a| a / u),
+                dec_mm_s2: s.dec_mm_s2.map(|a| a / u),
+                change_mm_s: s.change_mm_s / u,
+            }
+        })
+        .collect();
     let vector = &d.vector;
-    let moved: SmallVec<[(&AxisDynamics, f64); 8]> =
-        d.axes.iter().zip(x.first.iter()).filter(|(_, u)| **u > 0.0).map(|(a, u)| (a, *u)).collect();
-    let of = |a: &AxisDynamics| if rapid { a.step_rapid } else { a.step_feed };
-    let mut breaks: SmallVec<[f64; 8]> =
-        moved.iter().map(|(a, u)| of(a).change_mm_s / u).filter(|v| v.is_finite()).collect();
-    breaks.sort_by(f64::total_cmp);
-    breaks.dedup();
-    let level = |from: f64, braking: bool| -> f64 {
-        let cap = if braking { vector.dec_mm_s2 } else { vector.acc_mm_s2 };
-        moved
-            .iter()
-            .map(|(a, u)| {
-                let s = of(a);
-                let stage = usize::from(from * u >= s.change_mm_s);
-                (if braking { s.dec_mm_s2 } else { s.acc_mm_s2 })[stage] / u
-            })
-            .fold(cap.unwrap_or(f64::INFINITY), f64::min)
-    };
-    // the value at a break point is that of the interval above it
-    let starts = || std::iter::once(0.0).chain(breaks.iter().copied());
-    StepLimits::new(
-        &breaks,
-        &starts().map(|v| level(v, false)).collect::<SmallVec<[f64; 9]>>(),
-        &starts().map(|v| level(v, true)).collect::<SmallVec<[f64; 9]>>(),
-    )
+    if vector.acc_mm_s2.is_some() || vector.dec_mm_s2.is_some() {
+        axes.push(StepAxis {
+            acc_mm_s2: [vector.acc_mm_s2.unwrap_or(f64::INFINITY); 2],
+            dec_mm_s2: [vector.dec_mm_s2.unwrap_or(f64::INFINITY); 2],
+            change_mm_s: f64::INFINITY,
+        });
+    }
+    StepLimits::from_axes(&axes)
 }

@@ -196,13 +196,13 @@ fn most_exceeded(
 ) -> Option<usize> {
     let mut worst = (1.0 + 1e-9, None);
     let mut at = 0.0;
-    let mut before = profile.at(0.0).v;
+    let mut before = profile.at(0.0).v_mm_s;
     for i in s.first..s.end {
         at += blocks[i].length;
         let behind = if i + 1 == s.end {
-            profile.at(profile.duration()).v
+            profile.at(profile.duration()).v_mm_s
         } else {
-            profile.at(profile.time_at(at)).v
+            profile.at(profile.time_at(at)).v_mm_s
         };
         if i + 1 < s.end {
             let cap = caps[i + 1].0.min(feeds[i].0).min(feeds[i + 1].0);

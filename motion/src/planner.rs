@@ -312,7 +312,7 @@ impl Planner {
             }
             blocks += entry.blocks.len();
             self.travelled = entry.s0 + entry.profile.length();
-            self.speed = (entry.profile.at(entry.profile.duration()).v, entry.why_down);
+            self.speed = (entry.profile.at(entry.profile.duration()).v_mm_s, entry.why_down);
             self.cursor = entry.end;
             if entry.stops {
                 let dwell = u64::from(demands.stop[blocks].unwrap_or(0));

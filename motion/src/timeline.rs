@@ -111,7 +111,7 @@ impl Entry {
         let t = (cycle.time_of(k.saturating_sub(self.start.origin)) - self.start.seconds()).max(0.0);
         let over = self.stops && k >= self.end.next_tick(cycle);
         let state = self.profile.at(if over { self.profile.duration() } else { t });
-        let i = self.blocks.partition_point(|b| b.1 <= state.s).min(self.blocks.len() - 1);
+        let i = self.blocks.partition_point(|b| b.1 <= state.s_mm).min(self.blocks.len() - 1);
         let (queued, s_end) = &self.blocks[i];
         let path = &queued.block.path;
         if over {
@@ -119,19 +119,19 @@ impl Entry {
             (out.v, out.a, out.j) = (0.0, 0.0, 0.0);
             out.limit = self.why_down;
         } else {
-            path.position(state.s - (s_end - queued.length), &mut out.position);
-            (out.v, out.a, out.j) = (state.v, state.a, state.j);
-            out.limit = if state.a > 0.0 {
+            path.position(state.s_mm - (s_end - queued.length), &mut out.position);
+            (out.v, out.a, out.j) = (state.v_mm_s, state.a_mm_s2, state.j_mm_s3);
+            out.limit = if state.a_mm_s2 > 0.0 {
                 self.why_up
-            } else if state.a < 0.0 {
+            } else if state.a_mm_s2 < 0.0 {
                 self.why_down
-            } else if state.v >= queued.velocity.0 * (1.0 - 1e-9) {
+            } else if state.v_mm_s >= queued.velocity.0 * (1.0 - 1e-9) {
                 queued.velocity.1
             } else {
                 self.why_down
             };
         }
-        out.s = self.s0 + state.s;
+        out.s = self.s0 + state.s_mm;
         out.seq = queued.block.seq;
     }
 

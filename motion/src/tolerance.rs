@@ -366,7 +366,7 @@ fn speed_at(trial: &Trial<'_>, boundary: usize) -> f64 {
     for e in trial.timeline.entries() {
         if boundary < index + e.blocks.len() {
             let s = if boundary == index { 0.0 } else { e.blocks[boundary - index - 1].1 };
-            return e.profile.at(e.profile.time_at(s)).v;
+            return e.profile.at(e.profile.time_at(s)).v_mm_s;
         }
         index += e.blocks.len();
     }
