@@ -7,3 +7,4 @@ pub mod axis;
 pub mod block;
 pub mod limit;
 pub mod path;
+pub mod profile;
