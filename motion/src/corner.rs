@@ -63,7 +63,13 @@ fn kink_acceleration(block: &Block, i: usize, cycle: CycleTime, acc_fact: f64) -
 ///
 /// ACC_FACT of an active filter kernel multiplies a valid P-AXIS-00013 only: the kernel spreads the jump over its
 /// length. P-CHAN-00117 = 0 lifts the weight to P-AXIS-00154 if P-CHAN-00009 = 1 and the weight is not zero.
-fn kink_weight(block: &Block, axis: &AxisDynamics, rapid: bool, cycle: CycleTime, acc_fact: f64) -> f64 {
+fn kink_weight(
+    block: &Block,
+    axis: &AxisDynamics,
+    rapid: bool,
+    cycle: CycleTime,
+    acc_fact: f64,
+) -> f64 {
     if axis.a_trans_ratio > 0.0 {
         let d = &block.dynamics;
         let coupled = d.limit_tangential_jerk && d.transition_jerk == TransitionJerkMode::Coupled;
@@ -77,7 +83,13 @@ fn kink_weight(block: &Block, axis: &AxisDynamics, rapid: bool, cycle: CycleTime
 }
 
 /// Velocity jump in mm/s that a kink between two blocks may put on one axis.
-pub fn admissible_jump(from: &Block, to: &Block, i: usize, cycle: CycleTime, kernel_active: bool) -> f64 {
+pub fn admissible_jump(
+    from: &Block,
+    to: &Block,
+    i: usize,
+    cycle: CycleTime,
+    kernel_active: bool,
+) -> f64 {
     let t = cycle.seconds();
     [from, to]
         .into_iter()
@@ -121,7 +133,8 @@ pub fn kink_velocity(
     if dot <= -(n_out * n_in).sqrt() * (1.0 - 1e-12) {
         return 0.0;
     }
-    let lift = from.dynamics.transition_velocity_min_mm_s.min(to.dynamics.transition_velocity_min_mm_s);
+    let lift =
+        from.dynamics.transition_velocity_min_mm_s.min(to.dynamics.transition_velocity_min_mm_s);
     if !to.dynamics.limit_tangential_jerk {
         v = v.max(lift);
     }
@@ -137,7 +150,13 @@ pub fn kink_velocity(
 
 /// Velocity at a transition whose curvature jumps (P-CHAN-00009 = 1, non-linear slopes): the axis acceleration jumps by
 /// `v^2 |dq''|`, P-AXIS-00154 or P-AXIS-00340 bounds it.
-pub fn curvature_step_velocity(from: &Block, to: &Block, a: &Ends, b: &Ends, cycle: CycleTime) -> f64 {
+pub fn curvature_step_velocity(
+    from: &Block,
+    to: &Block,
+    a: &Ends,
+    b: &Ends,
+    cycle: CycleTime,
+) -> f64 {
     if !to.dynamics.limit_tangential_jerk
         || from.slope.kind == SlopeKind::Step
         || to.slope.kind == SlopeKind::Step

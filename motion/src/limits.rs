@@ -103,7 +103,11 @@ pub fn longest_ramp(axis: &AxisDynamics, rapid: bool) -> f64 {
 
 /// Velocity limit of the axes on a path (P-AXIS-00212; P-AXIS-00209 in rapid).
 pub fn axis_velocity(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> f64 {
-    weakest(&d.axes, &x.first, |a| if rapid { a.v_rapid_mm_s.min(a.v_max_mm_s) } else { a.v_max_mm_s })
+    weakest(
+        &d.axes,
+        &x.first,
+        |a| if rapid { a.v_rapid_mm_s.min(a.v_max_mm_s) } else { a.v_max_mm_s },
+    )
 }
 
 /// Velocity limit from centripetal acceleration: `v^2 max|q_i''| <= a_i`.
@@ -150,9 +154,7 @@ pub fn path_velocity(block: &Block, x: &PathExtremes) -> (f64, SpeedLimit) {
         Feed::Rapid => axis * ratio.min(1.0),
         Feed::PathVelocity(v) => v * ratio,
         Feed::Duration(t) => block.path.length() / t * ratio,
-        Feed::ShareOfMaximum(share) => {
-            weakest(&d.axes, &x.first, |a| a.v_max_mm_s) * share * ratio
-        }
+        Feed::ShareOfMaximum(share) => weakest(&d.axes, &x.first, |a| a.v_max_mm_s) * share * ratio,
     };
     let curve = curve_acceleration(d, x, block.slope, rapid)
         .min(curve_jerk(d, x, block.slope, rapid))

@@ -205,8 +205,8 @@ impl Planner {
             Moment::tick(self.cursor.origin.max(self.setpoint.k))
         };
         let end = if self.finishing { SpeedLimit::Stop } else { SpeedLimit::Lookahead };
-        let monitored = self.kernels.any()
-            && window.iter().any(|q| q.block.tolerance.ax_dev_mm.is_some());
+        let monitored =
+            self.kernels.any() && window.iter().any(|q| q.block.tolerance.ax_dev_mm.is_some());
         let mut demands = Demands::none(n);
         let mut forced = vec![false; n + 1];
         let mut round = 0;

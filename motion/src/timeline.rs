@@ -29,7 +29,8 @@ impl Moment {
     /// Neumaier sum, so that a motion of a million spans keeps its ticks.
     pub(crate) fn plus(mut self, s: f64) -> Self {
         let sum = self.after_s + s;
-        self.error_s += if self.after_s >= s { (self.after_s - sum) + s } else { (s - sum) + self.after_s };
+        self.error_s +=
+            if self.after_s >= s { (self.after_s - sum) + s } else { (s - sum) + self.after_s };
         self.after_s = sum;
         self
     }
@@ -67,21 +68,21 @@ pub(crate) struct Entry {
 
 /// State of the path in one cycle.
 #[derive(Clone, Debug, Default)]
-pub struct PathState {
+pub(crate) struct PathState {
     /// Position of every axis.
-    pub position: AxisVec,
+    pub(crate) position: AxisVec,
     /// Path length since the start of the program in mm.
-    pub s: f64,
+    pub(crate) s: f64,
     /// Path velocity in mm/s.
-    pub v: f64,
+    pub(crate) v: f64,
     /// Path acceleration in mm/s2.
-    pub a: f64,
+    pub(crate) a: f64,
     /// Path jerk in mm/s3.
-    pub j: f64,
+    pub(crate) j: f64,
     /// What holds the speed down.
-    pub limit: SpeedLimit,
+    pub(crate) limit: SpeedLimit,
     /// Number of the block.
-    pub seq: u64,
+    pub(crate) seq: u64,
 }
 
 impl Entry {
@@ -102,13 +103,23 @@ impl Entry {
             .collect();
         let end = start.plus(span.profile.duration());
         let profile = span.profile.clone();
-        Self { start, end, s0, profile, why_up: span.why_up, why_down: span.why_down, blocks, stops }
+        Self {
+            start,
+            end,
+            s0,
+            profile,
+            why_up: span.why_up,
+            why_down: span.why_down,
+            blocks,
+            stops,
+        }
     }
 
     /// State at `k` cycles; exact at the end of a motion.
     fn state(&self, k: u64, cycle: CycleTime, out: &mut PathState) {
         // before the start (a dwell in front of it) the path rests at its beginning
-        let t = (cycle.time_of(k.saturating_sub(self.start.origin)) - self.start.seconds()).max(0.0);
+        let t =
+            (cycle.time_of(k.saturating_sub(self.start.origin)) - self.start.seconds()).max(0.0);
         let over = self.stops && k >= self.end.next_tick(cycle);
         let state = self.profile.at(if over { self.profile.duration() } else { t });
         let i = self.blocks.partition_point(|b| b.1 <= state.s_mm).min(self.blocks.len() - 1);

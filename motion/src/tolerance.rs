@@ -21,8 +21,10 @@ use std::sync::Arc;
 
 /// Part of the tolerance kept in hand, in mm: two digits below the last one of a trace.
 const MARGIN_MM: f64 = 2e-7;
+/// Part of the tolerance by which a correction aims below it, so that the search ends.
+const AIM: f64 = 0.003;
 /// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
-const ROUNDS_OF_SPEED: usize = 24;
+const ROUNDS_OF_SPEED: usize = 32;
 /// Rounds of planning after which the tolerance is given up with a message.
 const ROUNDS: usize = 60;
 
@@ -73,6 +75,8 @@ pub(crate) struct Demands {
     pub(crate) stop: Vec<Option<u32>>,
     /// Velocity cap of each block.
     pub(crate) feed: Vec<f64>,
+    /// Speed and excess at each boundary when it was last found too fast.
+    tried: Vec<Option<(f64, f64)>>,
 }
 
 impl Demands {
@@ -81,6 +85,7 @@ impl Demands {
             cap: vec![f64::INFINITY; blocks + 1],
             stop: vec![None; blocks + 1],
             feed: vec![f64::INFINITY; blocks],
+            tried: vec![None; blocks + 1],
         }
     }
 }
@@ -107,6 +112,8 @@ struct Mark {
 
 /// What exceeded the tolerance in one round.
 struct Findings {
+    /// Part of the largest cause from which on a cause is blamed.
+    share: f64,
     /// Largest excess in mm blamed on each boundary.
     corner: Vec<f64>,
     /// Largest excess in mm and tolerance blamed on each block.
@@ -151,7 +158,9 @@ impl Monitor {
         demands: &mut Demands,
     ) -> Option<Result<(), Unkept>> {
         let marks = marks(trial);
-        let findings = self.search(trial, &marks);
+        // after many rounds every corner and curve in reach counts as a cause
+        let share = if round < ROUNDS_OF_SPEED { 0.5 } else { 0.0 };
+        let findings = self.search(trial, &marks, share);
         let worst = findings.worst?;
         if round >= ROUNDS {
             return Some(Err(worst));
@@ -173,9 +182,10 @@ impl Monitor {
     }
 
     /// Measures every cycle whose kernel support holds a corner or a curve.
-    fn search(&self, trial: &Trial<'_>, marks: &[Mark]) -> Findings {
+    fn search(&self, trial: &Trial<'_>, marks: &[Mark], share: f64) -> Findings {
         let reach = u64::from(trial.kernels.length());
         let mut findings = Findings {
+            share,
             corner: vec![0.0; trial.window.len() + 1],
             curve: vec![None; trial.window.len()],
             worst: None,
@@ -188,7 +198,11 @@ impl Monitor {
             if mark.jump <= 1e-9 && !bent {
                 continue;
             }
-            let until = if bent { marks.get(m + 1).map_or_else(|| rest_tick(trial), |n| n.cycles) } else { mark.cycles };
+            let until = if bent {
+                marks.get(m + 1).map_or_else(|| rest_tick(trial), |n| n.cycles)
+            } else {
+                mark.cycles
+            };
             let last = until.ceil() as u64 + reach;
             let first = next.max(mark.cycles.floor() as u64 + 1);
             if first > last {
@@ -248,11 +262,13 @@ impl Monitor {
         let mut blamed = false;
         for m in support {
             let (corner, curve) = share(m);
-            if let Some(b) = m.boundary.filter(|_| corner > 0.0 && corner >= 0.5 * largest) {
+            if let Some(b) =
+                m.boundary.filter(|_| corner > 0.0 && corner >= findings.share * largest)
+            {
                 findings.corner[b] = findings.corner[b].max(excess);
                 blamed = true;
             }
-            if let Some(b) = m.block.filter(|_| curve > 0.0 && curve >= 0.5 * largest) {
+            if let Some(b) = m.block.filter(|_| curve > 0.0 && curve >= findings.share * largest) {
                 note(&mut findings.curve[b], excess, tolerance);
                 blamed = true;
             }
@@ -276,7 +292,6 @@ impl Monitor {
         demands: &mut Demands,
     ) {
         let full = trial.kernels.length();
-        let gain = if round < 8 { 1.0 } else { 2.0 };
         for mark in marks {
             let Some(b) = mark.boundary else { continue };
             let excess = findings.corner[b];
@@ -288,14 +303,24 @@ impl Monitor {
                 continue;
             }
             if let Some(dwell) = demands.stop[b] {
+                // in small steps, because neighbouring corners within reach share the error
                 let needed = self.needed_dwell(trial, marks, mark, dwell);
-                demands.stop[b] = Some(needed.max(dwell + 1).min(full));
+                let step = (full / 8).max(1);
+                demands.stop[b] = Some(needed.min(dwell + step).max(dwell + 1).min(full));
                 continue;
             }
-            let m1 = trial.kernels.get(mark.axis).map_or(1.0, Kernel::m1_cycles)
-                * trial.cycle.seconds();
+            let m1 =
+                trial.kernels.get(mark.axis).map_or(1.0, Kernel::m1_cycles) * trial.cycle.seconds();
             let now = speed_at(trial, b);
-            let lowered = now - gain * 1.002 * excess / (m1 * mark.jump);
+            // the closed form is the steepest the error can fall with the speed; what the last step showed is better
+            let steepest = m1 * mark.jump;
+            let slope = demands.tried[b].map_or(steepest, |(v, e)| {
+                let seen = (e - excess) / (v - now);
+                if seen.is_finite() { seen } else { steepest }.clamp(0.25 * steepest, steepest)
+            });
+            demands.tried[b] = Some((now, excess));
+            let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
+            let lowered = now - (excess + AIM * tolerance) / slope;
             if lowered > 0.03 * now {
                 demands.cap[b] = demands.cap[b].min(lowered);
             } else {
@@ -352,7 +377,8 @@ fn note(slot: &mut Option<(f64, f64)>, excess: f64, tolerance: f64) {
 
 /// `phi(x)` of a kernel in cycles: delay-aligned error of a unit velocity jump, `x` cycles after it.
 fn phi(kernel: &Kernel, x: f64) -> f64 {
-    let ramp: f64 = kernel.taps().iter().map(|t| t.weight * (x - f64::from(t.delay)).max(0.0)).sum();
+    let ramp: f64 =
+        kernel.taps().iter().map(|t| t.weight * (x - f64::from(t.delay)).max(0.0)).sum();
     (ramp - (x - kernel.delay_cycles()).max(0.0)).max(0.0)
 }
 
