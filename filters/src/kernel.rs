@@ -3,6 +3,7 @@
 //! A [`Kernel`] is configuration: FIR filters, HSC filters and the Vibration Guard are kernels and differ in nothing
 //! else. A [`KernelFilter`] is the state of one axis: its raw input history and a shared kernel.
 
+use crate::stage::Stage;
 use std::sync::Arc;
 
 /// One impulse of a kernel.
@@ -192,27 +193,6 @@ impl KernelFilter {
         Self { kernel, history, rest_cycles: u32::MAX }
     }
 
-    /// Output for the next input. Neither allocates nor panics.
-    pub fn step(&mut self, x: f64) -> f64 {
-        let at_rest = x.to_bits() == self.history.newest().to_bits();
-        self.rest_cycles = if at_rest { self.rest_cycles.saturating_add(1) } else { 1 };
-        self.history.push(x);
-        match self.kernel.taps() {
-            _ if self.settled() => x,
-            [Tap { delay, .. }] => self.history.past(*delay),
-            taps => {
-                let pull = |tap: &Tap| tap.weight * (self.history.past(tap.delay) - x);
-                x + taps.iter().map(pull).sum::<f64>()
-            }
-        }
-    }
-
-    /// Puts the filter at rest at `x` since ever; no transient follows.
-    pub fn settle(&mut self, x: f64) {
-        self.history.fill(x);
-        self.rest_cycles = u32::MAX;
-    }
-
     /// Whether all inputs that the kernel sees are equal bit for bit: the output is the input and stays it.
     pub fn settled(&self) -> bool {
         self.settled_for(&self.kernel)
@@ -246,6 +226,31 @@ impl KernelFilter {
     /// The kernel that runs.
     pub fn kernel(&self) -> &Arc<Kernel> {
         &self.kernel
+    }
+}
+
+impl Stage for KernelFilter {
+    fn step(&mut self, x: f64) -> f64 {
+        let at_rest = x.to_bits() == self.history.newest().to_bits();
+        self.rest_cycles = if at_rest { self.rest_cycles.saturating_add(1) } else { 1 };
+        self.history.push(x);
+        match self.kernel.taps() {
+            _ if self.settled() => x,
+            [Tap { delay, .. }] => self.history.past(*delay),
+            taps => {
+                let pull = |tap: &Tap| tap.weight * (self.history.past(tap.delay) - x);
+                x + taps.iter().map(pull).sum::<f64>()
+            }
+        }
+    }
+
+    fn settle(&mut self, x: f64) {
+        self.history.fill(x);
+        self.rest_cycles = u32::MAX;
+    }
+
+    fn delay_cycles(&self) -> f64 {
+        self.kernel.delay_cycles()
     }
 }
 

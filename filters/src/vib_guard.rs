@@ -7,6 +7,7 @@
 //! Source: TF5250 Vibration Guard (modes, ranges, sensitivity table), P-AXIS-00568, 00571, 00589.
 //! Assumption: the impulses, identified from the sensitivity table.
 
+use crate::issue::{IssueId, OwnId};
 use crate::kernel::{Kernel, Tap};
 use crate::time::CycleTime;
 use std::f64::consts::PI;
@@ -62,6 +63,17 @@ pub enum VibGuardError {
     },
 }
 
+impl VibGuardError {
+    /// The ID of the condition.
+    pub const fn id(&self) -> IssueId {
+        match self {
+            Self::Mode { .. } => IssueId::Vendor(22_062),
+            Self::Frequency { .. } | Self::Damping { .. } => IssueId::Own(OwnId::VibGuardRange),
+            Self::NotRealisable { .. } => IssueId::Vendor(50_820),
+        }
+    }
+}
+
 impl VibGuardSettings {
     /// Largest damping with a kernel: towards 1 the damped period, and with it the kernel, grows without bound.
     pub const MAX_DAMPING: f64 = 0.99;
@@ -100,6 +112,30 @@ impl VibGuardSettings {
             return Err(VibGuardError::NotRealisable { freq_hz, damping });
         }
         Ok(kernel)
+    }
+
+    /// The impulses (time in s, amplitude) of the ideal shaper, before they are put on the cycle grid; `None` for
+    /// settings that give no kernel in any cycle time.
+    ///
+    /// `K = exp(-z pi / sqrt(1 - z^2))`, impulses half a damped period `1 / (2 f sqrt(1 - z^2))` apart; modes 1 to 3
+    /// the powers of `(1 + K) / (1 + K)`, mode 4 mode 1 and its time reverse in series.
+    pub fn ideal_impulses(&self) -> Option<Vec<(f64, f64)>> {
+        let usable = self.freq_hz.is_finite()
+            && self.freq_hz >= 1.0
+            && (0.0..=Self::MAX_DAMPING).contains(&self.damping);
+        let root = ((1.0 - self.damping) * (1.0 + self.damping)).sqrt();
+        let k = libm::exp(-self.damping * PI / root);
+        let amplitudes = match self.mode {
+            1 => vec![1.0, k],
+            2 => vec![1.0, 2.0 * k, k * k],
+            3 => vec![1.0, 3.0 * k, 3.0 * k * k, k * k * k],
+            4 => vec![k, 1.0 + k * k, k],
+            _ => return None,
+        };
+        let half_period_s = 0.5 / (self.freq_hz * root);
+        let sum: f64 = amplitudes.iter().sum();
+        let impulse = |(amplitude, i): (f64, u32)| (f64::from(i) * half_period_s, amplitude / sum);
+        usable.then(|| amplitudes.into_iter().zip(0..).map(impulse).collect())
     }
 
     /// Mode 1 on the cycle grid: the taps a, b, c at 0, n, n + 1 whose sum is 1 and whose transfer function vanishes
