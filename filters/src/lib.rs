@@ -5,4 +5,5 @@
 //!
 //! The crate knows no NC text, no axis names, no files and no clock. Nothing in it allocates or panics per cycle.
 
+pub mod control;
 pub mod time;
