@@ -6,7 +6,7 @@ use kontur_motion::profile::{
 
 const CASES: u32 = 20_000;
 
-/// SplitMix64: a fixed sequence on every platform.
+/// `SplitMix64`: a fixed sequence on every platform.
 struct Random(u64);
 
 impl Random {
