@@ -75,7 +75,7 @@ impl RampedLimits {
             let pair = LegPair { up: &self.up, down: &self.down, v0, ve };
             (false, pair.gains(vf, length))
         };
-        let peak = if at_feed { vf } else { (v0 + gains.0).max(ve + gains.1).min(vf) };
+        let peak = if at_feed { vf } else { (v0 + gains.0).clamp(top, vf) };
         Ok(SpanProfile::assemble(length, peak, at_feed, total(gains.0, gains.1), |stretch| {
             (
                 Leg::Ramp(RampLeg::new(&self.up, v0, gains.0, stretch)),

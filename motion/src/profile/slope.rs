@@ -85,6 +85,10 @@ impl SlopeLimits {
     }
 
     /// Largest velocity from which braking to `ve` fits into `length`.
+    ///
+    /// Grows with `length`, but with ramps not always with `ve`: acceleration has to be zero at `ve`, so braking
+    /// to a crawl can take longer than braking to rest. Lowering one boundary velocity of a plan can make its
+    /// neighbours infeasible; both passes of the look-ahead have to run again.
     pub fn reach_down(&self, ve: f64, length: f64) -> f64 {
         match self {
             Self::Step(l) => l.down().reach(ve, length),
