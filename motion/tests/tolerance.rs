@@ -8,7 +8,9 @@ use common::{Job, axis, channel, deviation, filtered};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
+use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Tolerance;
+use kontur_motion::path::{LinePath, Path};
 
 const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];
 
@@ -119,5 +121,53 @@ fn random_polygons_keep_the_tolerance() {
             dev <= tol,
             "case {case}: {dev} > {tol} {kind:?} mode {mode} {freq} Hz z {damping} {cycle_us} us feed {feed} {points:?}"
         );
+    }
+}
+
+/// Least number of cycles with one speed for all corners that keeps the tolerance, by brute force.
+fn best_uniform(job: &Job, points: &[&[f64]], feed: f64, tol: f64) -> Option<usize> {
+    let kernel = job.kernel.clone().unwrap();
+    let drive = |v: f64| {
+        let blocks: Vec<_> = points
+            .windows(2)
+            .enumerate()
+            .map(|(i, w)| {
+                let line = LinePath::new(AxisVec::from_slice(w[0]), AxisVec::from_slice(w[1]), &[]);
+                let mut block = job.block(i as u64, Path::Line(line.unwrap()), feed);
+                block.end_velocity_mm_s = Some(v);
+                block.tolerance = Tolerance::default();
+                block
+            })
+            .collect();
+        let out = job.run(points[0], blocks.into_iter());
+        let keeps = filtered(&out, &kernel).iter().all(|p| deviation(p, points) <= tol);
+        keeps.then_some(out.len() - 1)
+    };
+    (0..400).filter_map(|i| drive(0.02 * f64::from(i))).min()
+}
+
+#[test]
+fn no_slower_than_the_best_uniform_corner_speed() {
+    let zigzag: Vec<[f64; 2]> =
+        (0..12).map(|i| [f64::from(i) * 1.5, f64::from(i % 3) * 0.8]).collect();
+    let zigzag: Vec<&[f64]> = zigzag.iter().map(|p| &p[..]).collect();
+    for points in [&SQUARE[..], &zigzag] {
+        for (mode, freq) in [(1, 40.0), (2, 40.0), (2, 60.0), (3, 60.0), (4, 30.0), (1, 20.0)] {
+            for ramp in [0.02, 0.05] {
+                let mut fast = axis(1.0);
+                fast.feed.acc_mm_s2 = 3000.0;
+                fast.feed.dec_mm_s2 = 3000.0;
+                fast.feed.ramps_s = [ramp; 4];
+                let job = Job { dynamics: channel(vec![fast; 2]), ..Job::new(1.0, Trapez) };
+                let job = guarded(job, mode, freq, 0.1, Some(0.01));
+                let (dev, cycles) = worst(&job, points, 4000.0 / 60.0);
+                assert!(dev <= 0.01);
+                let best = best_uniform(&job, points, 4000.0 / 60.0, 0.01);
+                println!("mode {mode} {freq} Hz ramp {ramp}: {cycles}, uniform {best:?}");
+                if let Some(best) = best {
+                    assert!(cycles as f64 <= 1.05 * best as f64, "{cycles} against {best}");
+                }
+            }
+        }
     }
 }
