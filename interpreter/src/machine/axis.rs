@@ -226,6 +226,15 @@ pub(super) fn logical_number(parameters: &Parameters) -> u32 {
     integer(parameters.number("kopf.achs_nr")).unwrap_or_default()
 }
 
+/// Kind of axis of an axis list.
+pub(super) fn kind_of(parameters: &Parameters) -> AxisKind {
+    match integer(parameters.number("kenngr.achs_typ")) {
+        Some(2) => AxisKind::Rotary,
+        Some(4) => AxisKind::Spindle,
+        _ => AxisKind::Linear,
+    }
+}
+
 /// A list number that is a whole number of the type UNS32.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked before")]
 pub(super) fn integer(x: Option<f64>) -> Option<u32> {

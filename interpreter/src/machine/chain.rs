@@ -213,6 +213,13 @@ impl Chain<'_> {
             let name = names.name(number).unwrap_or_default().to_owned();
             let axis_ref = AxisRef { number, name };
             plausible::check(&mut axis.parameters, cycle, Some(&axis_ref), diagnostics);
+            plausible::check_sampling(
+                &axis.parameters,
+                &settled.own,
+                cycle,
+                &axis_ref,
+                diagnostics,
+            );
         }
         cycle
     }

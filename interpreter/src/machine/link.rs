@@ -1,7 +1,7 @@
 //! Ties channel list and axis lists together: `log_achs_nr` = `kopf.achs_nr`.
 
 use super::Machine;
-use super::axis::{Axis, AxisKind, integer, logical_number};
+use super::axis::{Axis, AxisKind, integer, kind_of, logical_number};
 use super::chain::Settled;
 use super::channel::Channel;
 use super::parameters::Parameters;
@@ -186,14 +186,6 @@ fn own_of(own: &Parameters, number: u32) -> Parameters {
         part.set(setting.row, indices, setting.value.clone(), setting.at.clone());
     }
     part
-}
-
-fn kind_of(parameters: &Parameters) -> AxisKind {
-    match integer(parameters.number("kenngr.achs_typ")) {
-        Some(2) => AxisKind::Rotary,
-        Some(4) => AxisKind::Spindle,
-        _ => AxisKind::Linear,
-    }
 }
 
 /// The channel list decides what is a spindle; K-0031 if the axis list says otherwise.

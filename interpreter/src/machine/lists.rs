@@ -174,7 +174,7 @@ impl Reader<'_> {
         names.truncate(NAMED_UNKNOWN);
         let mut message = format!("{total} unknown element(s), ignored: {}", names.join(", "));
         if more > 0 {
-            message.push_str(&format!(" and {more} more"));
+            message = format!("{message} and {more} more");
         }
         self.diagnostics.push(
             Diagnostic::vendor(1001119, message)

@@ -3,6 +3,7 @@
 //! Rows whose range depends on other words of a function (filters, Improved Position Control) are checked where that
 //! function is set up.
 
+use super::axis::{AxisKind, integer, kind_of};
 use super::key::{Indices, with_indices};
 use super::lists::parameter;
 use super::parameters::Parameters;
@@ -42,7 +43,9 @@ pub(super) fn check(
             if second && !places.contains(&[0; 2]) {
                 places.push([0; 2]);
             }
-            for indices in places {
+            // of several gear stages only the first one is used
+            let used = |i: &Indices| !row.key.starts_with("getriebe[i]") || i[0] == 0;
+            for indices in places.into_iter().filter(used) {
                 check_value(parameters, row, indices, cycle, axis, diagnostics);
             }
         }
@@ -93,9 +96,11 @@ fn check_value(
         (None, None) => String::new(),
     };
     let default = if at.is_none() { "default " } else { "" };
-    let mut text = format!("{key}: {default}{value} {} is outside its range ({range})", unit(row));
+    let unit = unit_of(parameters, row);
+    let of = if unit == "-" { String::new() } else { format!(" {unit}") };
+    let mut text = format!("{key}: {default}{value}{of} is outside its range ({range})");
     match corrected {
-        Some(c) => text.push_str(&format!(", {c} is used")),
+        Some(c) => text = format!("{text}, {c} is used"),
         None if reaction.correction == Correction::Refuse => {}
         None => text.push_str(", the function is off"),
     }
@@ -107,14 +112,14 @@ fn check_value(
     };
     let mut diagnostic = Diagnostic::new(reaction.id, text)
         .severity(severity)
-        .value(ValueKind::Wrong, value, row.unit)
+        .value(ValueKind::Wrong, value, unit)
         .value(
             if below { ValueKind::LowerLimit } else { ValueKind::UpperLimit },
             bound.value,
-            row.unit,
+            unit,
         );
     if let Some(c) = corrected {
-        diagnostic = diagnostic.value(ValueKind::Corrected, c, row.unit).corrected(c);
+        diagnostic = diagnostic.value(ValueKind::Corrected, c, unit).corrected(c);
         parameters.set(row, indices, Value::Number(c), at.clone());
     }
     diagnostics.push(finish(diagnostic, row, at, axis));
@@ -133,8 +138,9 @@ fn finish(
     parameter(diagnostic, row)
 }
 
-fn unit(row: &Row) -> &'static str {
-    if row.unit == "-" { "" } else { row.unit }
+fn unit_of(parameters: &Parameters, row: &Row) -> &'static str {
+    let linear = parameters.kind() != ListKind::Axis || kind_of(parameters) == AxisKind::Linear;
+    if linear { row.unit } else { row.unit_rotary }
 }
 
 fn describe(end: End, allowed: &str, excluded: &str) -> String {
@@ -194,9 +200,10 @@ fn check_together(
         let Some(row) = table::by_key(ListKind::Axis, key) else { return };
         let wrong = parameters.number(key).unwrap_or_default();
         let at = parameters.setting(key).and_then(|s| s.at.clone());
+        let unit = unit_of(parameters, row);
         let diagnostic = Diagnostic::new(Id::Vendor(id), text)
-            .value(ValueKind::Wrong, wrong, row.unit)
-            .value(ValueKind::Corrected, value, row.unit)
+            .value(ValueKind::Wrong, wrong, unit)
+            .value(ValueKind::Corrected, value, unit)
             .corrected(value);
         parameters.set(row, [0; 2], Value::Number(value), at.clone());
         diagnostics.push(finish(diagnostic, row, at, axis));
@@ -214,13 +221,7 @@ fn check_together(
     }
 
     // P-AXIS-00566 allows velocity feedforward only
-    let mode = number(parameters, "vorsteuer.vorsteuerung");
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "flags are below 2^32"
-    )]
-    let flags = mode as u32;
+    let flags = integer(parameters.number("vorsteuer.vorsteuerung")).unwrap_or_default();
     if parameters.flag("vorsteuer.feedforward_without_delay") && flags & 0x6 != 0 {
         let text = "vorsteuer.vorsteuerung: without the delay of 5 cycles only velocity feedforward is possible, \
                     the acceleration and jerk parts are off"
@@ -237,4 +238,33 @@ fn check_together(
         );
         put(parameters, 80044, "antr.simu.daempfung_z", text, 0.999 * n);
     }
+}
+
+/// K-0032: the sampling time written for the simulated drive (P-AXIS-00239 / P-AXIS-00238) is not the cycle, which is
+/// used instead.
+pub(super) fn check_sampling(
+    parameters: &Parameters,
+    own: &Parameters,
+    cycle: CycleTime,
+    axis: &AxisRef,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let keys = ["antr.simu.zeitkonstante_z", "antr.simu.zeitkonstante_n"];
+    let [z, n] = keys.map(|key| parameters.number(key).unwrap_or_default());
+    let Some(setting) = keys.iter().find_map(|key| parameters.setting(key)) else { return };
+    let model = own.text(&format!("kontur.axis[{}].plant.model", axis.number));
+    if model.as_deref() != Some("SIMU") || (z / n - cycle.seconds()).abs() <= 1e-9 {
+        return;
+    }
+    let text = format!(
+        "antr.simu.zeitkonstante_z: sampling time {z}/{n} s of the simulated drive is not the cycle of {} s, the \
+         cycle is used",
+        cycle.seconds()
+    );
+    let diagnostic = Diagnostic::kontur(32, text).value(ValueKind::Wrong, z / n, "s").value(
+        ValueKind::Corrected,
+        cycle.seconds(),
+        "s",
+    );
+    diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), Some(axis)));
 }

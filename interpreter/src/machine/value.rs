@@ -124,7 +124,7 @@ fn integer(raw: Raw, text: &str, names: Option<&[(&str, u32)]>) -> Result<Value,
         let reason = format!("{text} is outside {} ({low}..{high})", raw.name());
         return Err(BadValue { instead: Some(Value::Number(whole)), reason });
     }
-    if whole < value || whole > value {
+    if value.fract().abs() > 0.0 {
         let reason = format!("{text} is not a whole number");
         return Err(BadValue { instead: Some(Value::Number(whole)), reason });
     }

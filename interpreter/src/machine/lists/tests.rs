@@ -90,7 +90,7 @@ fn every_rule_has_its_message() {
 fn unknown_keys_are_counted_and_named_once() {
     let mut text = String::new();
     for i in 0..20 {
-        text.push_str(&format!("handbetrieb.key{i} 1\nhandbetrieb.key{i} 2\n"));
+        text = format!("{text}handbetrieb.key{i} 1\nhandbetrieb.key{i} 2\n");
     }
     text.push_str("vorsteuer.jerk_fact_nom 3\n");
     let (_, diagnostics) = read_text(ListKind::Axis, &text);
@@ -184,7 +184,7 @@ proptest! {
             let line = text.split('\n').nth(at.line as usize - 1).unwrap();
             prop_assert_eq!(line, &*at.text);
             prop_assert!(at.column as usize + at.length as usize <= line.chars().count() + 2);
-            prop_assert!(at.offset as usize <= text.len());
+            prop_assert!(at.offset <= text.len() as u64);
         }
     }
 }
