@@ -3,4 +3,5 @@
 //! The library opens no file and reads no clock: sources come through a trait, results leave as records.
 
 pub mod diag;
+pub mod machine;
 pub mod record;
