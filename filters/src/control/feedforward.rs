@@ -122,6 +122,11 @@ impl FeedforwardConfig {
         if on { g136_ratio.clamp(0.0, 1.0) } else { 0.0 }
     }
 
+    /// Something goes to the additive torque.
+    pub fn uses_torque(&self) -> bool {
+        [FeedforwardMode::ADD_ACC, FeedforwardMode::ADD_JERK].iter().any(|m| self.mode.contains(*m))
+    }
+
     /// Delay of the position path in cycles that this axis asks for.
     pub fn delay_cycles(&self) -> usize {
         match (self.mode.is_empty(), self.without_delay) {
