@@ -28,11 +28,11 @@ pub fn channel_delay_cycles<'a>(axes: impl IntoIterator<Item = &'a FeedforwardCo
     axes.into_iter().map(FeedforwardConfig::delay_cycles).max().unwrap_or(0)
 }
 
-/// Four successive setpoints around the one that feedforward is computed for.
+/// Six successive setpoints around the one that feedforward is computed for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// One cycle before, this cycle, one and two cycles after; mm.
-    pub positions_mm: [f64; 4],
+    /// Two and one cycles before, this cycle, one, two and three cycles after; mm.
+    pub positions_mm: [f64; 6],
     /// Gain of this cycle.
     pub gain: f64,
     /// Jerk limitation of this cycle.
@@ -49,10 +49,10 @@ pub struct SetpointBuffer {
 }
 
 impl SetpointBuffer {
-    /// Base delay 5, time offset 4, one setpoint before the reference, itself; rounded up to a power of two.
+    /// Base delay 5, time offset 4, two setpoints before the reference, itself; rounded up to a power of two.
     const CAPACITY: usize = 16;
     /// Longest delay in cycles.
-    pub const MAX_DELAY: usize = Self::CAPACITY - 2;
+    pub const MAX_DELAY: usize = Self::CAPACITY - 3;
 
     /// A buffer that delays by `delay_cycles`; feedforward is taken `shift_cycles` before its setpoint.
     /// Both are limited to what the ring holds.
@@ -100,10 +100,12 @@ impl SetpointBuffer {
         let here = self.at(centre, 0);
         Window {
             positions_mm: [
+                self.at(centre + 2, 0).position_mm,
                 self.at(centre + 1, 0).position_mm,
                 here.position_mm,
                 self.at(centre, 1).position_mm,
                 self.at(centre, 2).position_mm,
+                self.at(centre, 3).position_mm,
             ],
             gain: here.gain,
             jerk_limited: here.jerk_limited,
@@ -134,7 +136,7 @@ mod tests {
         let mut buffer = SetpointBuffer::new(5, 0);
         (0..20).for_each(|k| buffer.push(at(f64::from(k))));
         let window = buffer.window();
-        assert_eq!(window.positions_mm, [13.0, 14.0, 15.0, 16.0]);
+        assert_eq!(window.positions_mm, [12.0, 13.0, 14.0, 15.0, 16.0, 17.0]);
         assert_eq!(
             (window.gain, window.jerk_limited),
             (0.14, true),
@@ -148,7 +150,7 @@ mod tests {
         let mut buffer = SetpointBuffer::new(8, 3);
         (0..20).for_each(|k| buffer.push(at(f64::from(k))));
         assert_eq!(buffer.reference_mm(), 11.0);
-        assert_eq!(buffer.window().positions_mm[1], 14.0, "three cycles later than the reference");
+        assert_eq!(buffer.window().positions_mm[2], 14.0, "three cycles later than the reference");
     }
 
     #[test]

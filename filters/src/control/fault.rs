@@ -74,7 +74,7 @@ pub enum Fault {
         /// Limit in mm/s.
         limit_mm_s: f64,
     },
-    /// Setpoint above its warning threshold: 50119 for velocity, for acceleration and jerk K-0036.
+    /// Setpoint above its warning threshold: 50119 for velocity, for acceleration and jerk K-0060.
     SetpointWarning {
         /// What was watched.
         what: Derivative,
@@ -83,7 +83,7 @@ pub enum Fault {
         /// Threshold, unit of `what`.
         limit: f64,
     },
-    /// Setpoint above its error threshold: 50118 for velocity, for acceleration and jerk K-0037.
+    /// Setpoint above its error threshold: 50118 for velocity, for acceleration and jerk K-0061.
     SetpointError {
         /// What was watched.
         what: Derivative,
@@ -112,8 +112,8 @@ impl Fault {
             Self::ControllerSpeed { .. } => ErrorId::Vendor(70382),
             Self::SetpointWarning { what: Derivative::Velocity, .. } => ErrorId::Vendor(50119),
             Self::SetpointError { what: Derivative::Velocity, .. } => ErrorId::Vendor(50118),
-            Self::SetpointWarning { .. } => ErrorId::Kontur(36),
-            Self::SetpointError { .. } => ErrorId::Kontur(37),
+            Self::SetpointWarning { .. } => ErrorId::Kontur(60),
+            Self::SetpointError { .. } => ErrorId::Kontur(61),
             Self::IpcChangedMoving => ErrorId::Vendor(70601),
             Self::Unstable { .. } => ErrorId::Kontur(35),
         }
@@ -201,7 +201,7 @@ pub enum Issue {
     },
     /// 110465: torque scale denominator (P-AXIS-00326) 0: no torque output.
     TorqueScaleDenominatorZero,
-    /// K-0038: reference torque (P-AXIS-00392) or torque scale numerator (P-AXIS-00325) not positive: no torque
+    /// K-0062: reference torque (P-AXIS-00392) or torque scale numerator (P-AXIS-00325) not positive: no torque
     /// output.
     NoTorqueScale,
     /// 80044: damping of the simulated drive (P-AXIS-00051/00050) of 1 or more; limited to 0.999.
@@ -248,7 +248,7 @@ pub enum Issue {
         /// Value found.
         weight: f64,
     },
-    /// K-0039: the pass bands of two stages overlap; they influence each other.
+    /// K-0063: the pass bands of two stages overlap; they influence each other.
     IpcOverlap {
         /// Stages, from 0.
         stages: (usize, usize),
@@ -282,7 +282,7 @@ impl Issue {
             Self::OutputWithoutActivation | Self::ActiveAndDisabled => ErrorId::Kontur(23),
             Self::ImplausibleLoad { .. } => ErrorId::Kontur(24),
             Self::TorqueScaleDenominatorZero => ErrorId::Vendor(110465),
-            Self::NoTorqueScale => ErrorId::Kontur(38),
+            Self::NoTorqueScale => ErrorId::Kontur(62),
             Self::SimulationDamping { .. } => ErrorId::Vendor(80044),
             Self::DeadTime { .. } => ErrorId::Vendor(110040),
             Self::IpcGantrySlave => ErrorId::Vendor(70600),
@@ -291,7 +291,7 @@ impl Issue {
             Self::IpcRange { .. } => ErrorId::Kontur(25),
             Self::IpcNoLimit => ErrorId::Kontur(26),
             Self::IpcWeight { .. } => ErrorId::Kontur(27),
-            Self::IpcOverlap { .. } => ErrorId::Kontur(39),
+            Self::IpcOverlap { .. } => ErrorId::Kontur(63),
         }
     }
 }

@@ -9,8 +9,10 @@
 //! Additive variant (flags with output bit): velocity and torque for the inner loops of the drive, each with its own
 //! delay. `g` is the switch and the weight of G135, G136, G137; `W` the global weight.
 //!
-//! `v`, `a`, `j` are forward differences of the setpoint: means over the coming cycle, for which the drive holds its
-//! command. Instantaneous derivatives would leave a lag of `a T / (2 Kv)`.
+//! `v`, `a`, `j` are forward differences of setpoint, its velocity and its acceleration: means over the coming cycle, for
+//! which the drive holds its command. Instantaneous derivatives would leave a lag of `a T / (2 Kv)`. The velocity at a
+//! sample comes from the setpoints around it by the rule of fourth order, which is exact while the jerk is constant and
+//! leaves no net error where it changes.
 //!
 //! The manual prints the lag under constant jerk as `j+T/K2`; the plus cannot be (the units differ), it is the product
 //! `j Ta / Kv2`.
@@ -120,6 +122,11 @@ impl FeedforwardConfig {
     pub fn gain(&self, g135: bool, g136_ratio: f64) -> f64 {
         let on = !self.global_disable && (self.default_active || g135) && !self.mode.is_empty();
         if on { g136_ratio.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// Something goes to the additive torque.
+    pub fn uses_torque(&self) -> bool {
+        [FeedforwardMode::ADD_ACC, FeedforwardMode::ADD_JERK].iter().any(|m| self.mode.contains(*m))
     }
 
     /// Delay of the position path in cycles that this axis asks for.
@@ -241,13 +248,13 @@ impl Feedforward {
 
     /// Values of one cycle; `kv_per_s` is the gain of the position controller in this cycle.
     pub fn step(&mut self, window: &Window, kv_per_s: f64) -> FeedforwardOutput {
-        let [p, x, n, nn] = window.positions_mm;
+        let [pp, p, x, n, nn, nnn] = window.positions_mm;
         let t = self.cycle_s;
         let c = &self.config;
         let mode = c.mode;
-        // all three centred on the middle of the coming cycle
+        let v_at = |[a, b, d, e]: [f64; 4]| ((a - e) - 8.0 * (b - d)) / (12.0 * t);
         let v = c.velocity_ratio * ((n - x) / t);
-        let a = c.acceleration_quotient * (((nn - n) - (x - p)) / (2.0 * t * t));
+        let a = c.acceleration_quotient * ((v_at([p, x, nn, nnn]) - v_at([pp, p, n, nn])) / t);
         let j = if window.jerk_limited {
             c.jerk_ratio * (((nn - n) - 2.0 * (n - x) + (x - p)) / (t * t * t))
         } else {

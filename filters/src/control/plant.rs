@@ -210,18 +210,23 @@ impl Plant {
         matches!(&self.dynamics, Dynamics::Linear(linear) if linear.has_tool_point())
     }
 
-    /// Advances by one cycle.
-    pub fn advance(&mut self, mut input: PlantInput) {
+    /// Advances by one cycle. False if the state is no longer finite; what was measured last then stays.
+    pub fn advance(&mut self, mut input: PlantInput) -> bool {
         self.dead_time.rotate_right(1);
         self.dead_time[0] = input.speed_mm_s;
         input.speed_mm_s = self.dead_time[self.dead_time_cycles];
-        self.measured = match &mut self.dynamics {
+        let measured = match &mut self.dynamics {
             Dynamics::Follow { cycle_s } => {
                 let before = self.measured.motor_mm;
                 Measured::rigid(input.reference_mm, (input.reference_mm - before) / *cycle_s)
             }
             Dynamics::Linear(linear) => linear.advance(&input),
         };
+        let finite = measured.is_finite();
+        if finite {
+            self.measured = measured;
+        }
+        finite
     }
 }
 

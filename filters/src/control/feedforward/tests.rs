@@ -16,7 +16,11 @@ fn window(v: f64, a: f64, j: f64) -> Window {
         let t = k * 1e-3;
         t * (v + t * (a / 2.0 + t * j / 6.0))
     };
-    Window { positions_mm: [at(-1.0), 0.0, at(1.0), at(2.0)], gain: 1.0, jerk_limited: true }
+    Window {
+        positions_mm: [at(-2.0), at(-1.0), 0.0, at(1.0), at(2.0), at(3.0)],
+        gain: 1.0,
+        jerk_limited: true,
+    }
 }
 
 fn ids(issues: &[Issue]) -> Vec<ErrorId> {
