@@ -12,8 +12,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 fn dynamics() -> Arc<ChannelDynamics> {
-    let step =
-        StepSlope { acc_mm_s2: [4000.0; 2], dec_mm_s2: [4000.0; 2], change_mm_s: 100.0 };
+    let step = StepSlope { acc_mm_s2: [4000.0; 2], dec_mm_s2: [4000.0; 2], change_mm_s: 100.0 };
     let axis = AxisDynamics {
         v_max_mm_s: 1000.0,
         v_rapid_mm_s: 1000.0,

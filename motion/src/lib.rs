@@ -5,6 +5,7 @@
 
 pub mod axis;
 pub mod block;
+mod brake;
 pub mod contour;
 pub mod corner;
 pub mod limit;

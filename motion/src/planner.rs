@@ -7,6 +7,7 @@
 
 use crate::axis::AxisVec;
 use crate::block::Block;
+use crate::brake::Brake;
 use crate::contour::Contour;
 use crate::corner::transition;
 use crate::limit::SpeedLimit;
@@ -75,6 +76,7 @@ pub struct Planner {
     contour: Contour,
     reach_cycles: u32,
     unkept: Vec<Unkept>,
+    brake: Option<Brake>,
 }
 
 impl Planner {
@@ -99,6 +101,7 @@ impl Planner {
             contour: Contour::default(),
             reach_cycles: 0,
             unkept: Vec::new(),
+            brake: None,
         }
     }
 
@@ -169,6 +172,43 @@ impl Planner {
         (self.setpoint.v_mm_s, self.setpoint.a_mm_s2, self.setpoint.j_mm_s3) = (0.0, 0.0, 0.0);
         self.setpoint.limit = limit;
         self.monitor.record(&self.setpoint.position);
+    }
+
+    /// Emergency braking from here on (P-AXIS-00003): [`Self::advance_braking`] takes the place of [`Self::advance`].
+    pub fn brake(&mut self) {
+        let mut path: Vec<(f64, Arc<Queued>)> = Vec::new();
+        for entry in self.timeline.entries() {
+            for (queued, s_end) in &entry.blocks {
+                path.push((entry.s0 + s_end - queued.length, Arc::clone(queued)));
+            }
+        }
+        let mut s = self.travelled;
+        for queued in &self.queue {
+            path.push((s, Arc::clone(queued)));
+            s += queued.length;
+        }
+        self.brake = Some(Brake::new(path, self.setpoint.s_mm, self.setpoint.v_mm_s));
+    }
+
+    /// The braking has come to rest.
+    pub fn brake_is_over(&self) -> bool {
+        self.brake.as_ref().is_none_or(Brake::is_over)
+    }
+
+    /// One cycle of braking, or of standstill behind it.
+    pub fn advance_braking(&mut self) {
+        let Some(brake) = self.brake.as_mut().filter(|b| !b.is_over()) else {
+            self.hold(SpeedLimit::Stop);
+            return;
+        };
+        self.setpoint.k += 1;
+        if let Some(seq) = brake.step(self.cycle.seconds(), &mut self.setpoint.position) {
+            self.setpoint.seq = seq;
+        }
+        self.setpoint.s_mm = brake.s;
+        self.setpoint.a_mm_s2 = if brake.v > 0.0 { -brake.dec } else { 0.0 };
+        (self.setpoint.v_mm_s, self.setpoint.j_mm_s3) = (brake.v, 0.0);
+        self.setpoint.limit = SpeedLimit::Stop;
     }
 
     /// Components of the shortest vector from the contour within reach of the filters to `point`; returns its length.

@@ -7,8 +7,8 @@ mod common;
 use common::{Job, axis, channel, deviation, filtered};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::Tolerance;
 use kontur_motion::path::{LinePath, Path};
 
