@@ -38,7 +38,7 @@ pub(super) fn increasing_root(
         let next = if newton >= lo && newton <= hi { newton } else { 0.5 * (lo + hi) };
         let step = (next - x).abs();
         x = next;
-        if step <= 1e-15 * x {
+        if step <= 1e-15 * x.abs() {
             break;
         }
     }
