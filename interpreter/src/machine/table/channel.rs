@@ -2,9 +2,6 @@
 
 use super::row::{Bound, Correction, Default, Raw, Row, chan};
 
-/// Slope types (P-CHAN-00071).
-const SLOPES: &[(&str, u32)] = &[("STEP", 0), ("TRAPEZ", 1), ("SIN2", 2), ("HSC", 3)];
-
 /// The rows.
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
@@ -47,7 +44,7 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
     chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters survive the start of a program")
         .default(0.0),
-    chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Names(SLOPES), "0 STEP 1 TRAPEZ 2 SIN2 3 HSC")
+    chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Sgn16, "0 STEP 1 TRAPEZ 2 SIN2 3 HSC")
         .range(Bound::None, Bound::At(3.0)).default(0.0).outside(70, Correction::Default),
     chan("P-CHAN-00073", "prog_start.slope.ramp_time", Raw::Sgn16, "which ramp times G132/G133 weight: 0 all, 1 acc up, 2 acc down, 3 dec up, 4 dec down")
         .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(120178, Correction::Refuse).below(120178, Correction::Refuse),
