@@ -146,7 +146,7 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
     for c in &o.columns {
         write!(out, "  {:<18} {:>6}", c.column, c.rows)?;
         match &c.worst {
-            Some(d) => writeln!(out, "    {} at {}", number(d.difference), place(d))?,
+            Some(d) => writeln!(out, "    {} at {}", number(d.size), place(d))?,
             None => writeln!(out)?,
         }
     }
@@ -174,7 +174,7 @@ fn place(d: &Difference) -> String {
 
 fn sentence(d: &Difference) -> String {
     let mut out = format!("{}: {} is {} in A, {} in B", place(d), d.column, d.a, d.b);
-    if let (Some(difference), Some(tolerance)) = (d.difference, d.tolerance) {
+    if let (Some(difference), Some(tolerance)) = (d.size, d.tolerance) {
         let _ = write!(out, " (difference {difference:.3e}, tolerance {tolerance:e})");
     }
     out

@@ -136,10 +136,10 @@ impl Collector {
             self.worst = place;
         }
         // row k stands for the time since the row before; the first row is the start itself
-        if let Some((before, _)) = self.last {
-            if let Some(i) = SpeedLimit::ALL.iter().position(|l| *l == record.path.limit) {
-                self.limits[i] += record.k - before;
-            }
+        if let Some((before, _)) = self.last
+            && let Some(i) = SpeedLimit::ALL.iter().position(|l| *l == record.path.limit)
+        {
+            self.limits[i] += record.k.saturating_sub(before);
         }
         self.last = Some((record.k, record.path.s_mm));
         self.cycles += 1;
@@ -211,6 +211,10 @@ impl Collector {
     }
 }
 
+fn many(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
 impl Summary {
     /// One JSON object on one line.
     pub fn json(&self) -> String {
@@ -260,7 +264,7 @@ impl Summary {
         let count = |severity| self.messages.iter().filter(|m| m.severity == severity).count();
         let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
         if errors + warnings > 0 || self.messages_omitted > 0 {
-            write!(out, "  messages       {errors} errors, {warnings} warnings")?;
+            write!(out, "  messages       {}, {}", many(errors, "error"), many(warnings, "warning"))?;
             if self.messages_omitted > 0 {
                 write!(out, " and {} more", self.messages_omitted)?;
             }

@@ -28,7 +28,7 @@ pub(super) struct Difference {
     /// Cell of B.
     pub(super) b: String,
     /// Size of the difference, for numbers.
-    pub(super) difference: Option<f64>,
+    pub(super) size: Option<f64>,
     /// What would have been equal, for numbers.
     pub(super) tolerance: Option<f64>,
 }
@@ -154,10 +154,10 @@ impl Comparison {
             let (Some(cell_a), Some(cell_b)) = (a.get(pair.a), b.get(pair.b)) else { continue };
             let Some(excess) = excess(cell_a, cell_b, pair.tolerance) else { continue };
             pair.rows += 1;
-            let is_worst = |other: &Option<Difference>| match (excess.difference, other) {
+            let is_worst = |other: &Option<Difference>| match (excess.size, other) {
                 (None, _) => false,
                 (Some(_), None) => true,
-                (Some(d), Some(other)) => other.difference.is_none_or(|o| d > o),
+                (Some(d), Some(other)) => other.size.is_none_or(|o| d > o),
             };
             let new_first = self.outcome.first.is_none();
             let new_of_column = is_worst(&pair.worst);
@@ -176,7 +176,7 @@ impl Comparison {
                 column: pair.name.clone(),
                 a: text(cell_a),
                 b: text(cell_b),
-                difference: excess.difference,
+                size: excess.size,
                 tolerance: pair.tolerance,
             };
             if new_of_column {
@@ -234,15 +234,15 @@ impl Comparison {
             let found = self.shifts.iter().find(|s| s.alive && s.compared > 1);
             o.shift_cycles = found.map(|s| s.rows);
         }
-        let ratio = |d: &Difference| match (d.difference, d.tolerance) {
+        let ratio = |d: &Difference| match (d.size, d.tolerance) {
             (Some(d), Some(t)) if t > 0.0 => d / t,
             _ => 0.0,
         };
         for pair in self.pairs.into_iter().filter(|p| p.rows > 0) {
-            if let Some(d) = &pair.worst {
-                if o.worst.as_ref().is_none_or(|w| ratio(d) > ratio(w)) {
-                    o.worst = Some(d.clone());
-                }
+            if let Some(d) = &pair.worst
+                && o.worst.as_ref().is_none_or(|w| ratio(d) > ratio(w))
+            {
+                o.worst = Some(d.clone());
             }
             o.columns.push(ColumnOutcome { column: pair.name, rows: pair.rows, worst: pair.worst });
         }
@@ -252,7 +252,7 @@ impl Comparison {
 
 /// A difference beyond the tolerance.
 struct Excess {
-    difference: Option<f64>,
+    size: Option<f64>,
 }
 
 /// None if two cells are equal within the tolerance.
@@ -267,9 +267,9 @@ fn excess(a: &[u8], b: &[u8], tolerance: Option<f64>) -> Option<Excess> {
             // a difference of 1e-6 between printed numbers is a little more or less in binary
             let within =
                 difference <= tolerance * (1.0 + 1e-9) + f64::EPSILON * a.abs().max(b.abs());
-            (!within).then_some(Excess { difference: Some(difference) })
+            (!within).then_some(Excess { size: Some(difference) })
         }
-        _ => Some(Excess { difference: None }),
+        _ => Some(Excess { size: None }),
     }
 }
 
@@ -330,7 +330,7 @@ mod tests {
         assert_eq!((first.row, first.column.as_str()), (20, "X_set_mm"));
         assert_eq!(first.time_s.as_deref(), Some("0.020000"));
         assert_eq!((first.line.as_deref(), first.block.as_deref()), (Some("3"), Some("30")));
-        assert!((first.difference.unwrap() - 2e-6).abs() < 1e-12);
+        assert!((first.size.unwrap() - 2e-6).abs() < 1e-12);
         let worst = o.worst.unwrap();
         assert_eq!(
             (worst.row, worst.column.as_str(), worst.line.as_deref()),

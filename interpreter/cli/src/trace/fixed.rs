@@ -5,6 +5,7 @@
 //! rounding error matters only when the product lands on a tie, and then a fused multiply-add tells its sign.
 
 /// Two decimal digits of 0..=99.
+#[allow(clippy::cast_possible_truncation, reason = "digits")]
 const PAIRS: [[u8; 2]; 100] = {
     let mut table = [[b'0'; 2]; 100];
     let mut i = 0;
@@ -40,6 +41,7 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u8) {
 
 /// `value * scale` rounded half away from zero, where `product` is their rounded product.
 #[allow(clippy::cast_possible_truncation, reason = "the caller checked |product| < 2^52")]
+#[allow(clippy::float_cmp, reason = "a tie is an exact bit pattern")]
 fn round_product(value: f64, scale: f64, product: f64) -> i64 {
     // truncation is exact, and so is the rest
     let whole = product as i64;
@@ -73,6 +75,7 @@ fn push_scaled(out: &mut Vec<u8>, scaled: i64, decimals: usize, power: u64) {
     out.extend_from_slice(&text[at..]);
 }
 
+#[allow(clippy::cast_possible_truncation, reason = "digits")]
 /// Writes the digits of `n`, at least `width`, so that they end before `at`; gives back where they start.
 fn put_digits(text: &mut [u8; 24], mut at: usize, mut n: u64, width: usize) -> usize {
     let end = at;
@@ -84,10 +87,6 @@ fn put_digits(text: &mut [u8; 24], mut at: usize, mut n: u64, width: usize) -> u
     if n > 0 {
         at -= 1;
         text[at] = b'0' + n as u8;
-    }
-    // a pair may have brought a leading zero, as in "05"
-    while end - at > width && text[at] == b'0' {
-        at += 1;
     }
     while end - at < width {
         at -= 1;
