@@ -264,7 +264,12 @@ impl Summary {
         let count = |severity| self.messages.iter().filter(|m| m.severity == severity).count();
         let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
         if errors + warnings > 0 || self.messages_omitted > 0 {
-            write!(out, "  messages       {}, {}", many(errors, "error"), many(warnings, "warning"))?;
+            write!(
+                out,
+                "  messages       {}, {}",
+                many(errors, "error"),
+                many(warnings, "warning")
+            )?;
             if self.messages_omitted > 0 {
                 write!(out, " and {} more", self.messages_omitted)?;
             }

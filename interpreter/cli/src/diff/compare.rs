@@ -342,8 +342,8 @@ mod tests {
 
     #[test]
     fn shifts_by_one_to_three_rows_are_recognised() {
-        for n in 1..=3 {
-            for (from_a, from_b, expected) in [(5, 5 + n, n as i64), (5 + n, 5, -(n as i64))] {
+        for (n, rows) in [(1, 1), (2, 2), (3, 3)] {
+            for (from_a, from_b, expected) in [(5, 5 + n, rows), (5 + n, 5, -rows)] {
                 let o = outcome(HEADER, &ramp(from_a, 100), HEADER, &ramp(from_b, 100));
                 assert_eq!(o.shift_cycles, Some(expected));
                 assert!(!o.equal);

@@ -51,7 +51,7 @@ function ticks(low, high, wanted) {
 
 function grid(c, box, x, y, xText) {
   const [x0, y0, w, h] = box;
-  const [xs, xd] = ticks(x[0], x[1], w / 90), [ys, yd] = ticks(y[0], y[1], h / 35);
+  const [xs, xd] = ticks(x[0], x[1], w / 90), [ys, yd] = ticks(y[0], y[1], h / 28);
   c.strokeStyle = "#e9ecef"; c.fillStyle = "#868e96"; c.lineWidth = 1;
   c.textAlign = "center"; c.textBaseline = "top";
   for (const v of xs) {
@@ -172,7 +172,7 @@ for (const [kind, title, open] of KINDS) {
   if (!lines.length) continue;
   const card = make("div", undefined, "card"), bar = make("div", undefined, "bar"), canvas = make("canvas");
   const head = make("button", title, open ? "on" : "");
-  bar.append(head, make("span", lines[0].c.unit, "hint"));
+  bar.append(head, make("span", `${lines[0].c.unit} over s`, "hint"));
   lines.forEach(l => key(bar, l.name, l.colour, l, l.dash.length > 0));
   bar.append(bar.querySelector(".hint"));
   card.append(bar, canvas);
@@ -189,7 +189,7 @@ for (const [kind, title, open] of KINDS) {
   plots.push(plot);
   pointer(canvas, px => timeOf(canvas, px), px => moveTime(canvas, px));
 }
-function plotBox(canvas) { return [64, 4, canvas.clientWidth - 72, canvas.clientHeight - 24]; }
+function plotBox(canvas) { return [64, 8, canvas.clientWidth - 72, canvas.clientHeight - 28]; }
 function timeOf(canvas, px) {
   const [x0, , w] = plotBox(canvas);
   return view.time[0] + (px - x0) / w * (view.time[1] - view.time[0]);

@@ -108,7 +108,7 @@ impl Json {
 
     fn text(&mut self, key: &str, value: &str) {
         self.0.push(if self.0.is_empty() { '{' } else { ',' });
-        self.0.push_str(&format!("\"{key}\":{value}"));
+        self.0.extend(["\"", key, "\":", value]);
     }
 
     fn finish(self) -> String {

@@ -13,7 +13,7 @@ const ACC: f64 = 4000.0;
 const VERTICES: [[f64; 2]; 5] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]];
 
 #[derive(Debug, Default)]
-pub struct Synthetic;
+pub(crate) struct Synthetic;
 
 #[derive(Debug)]
 struct Square {
