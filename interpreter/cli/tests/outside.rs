@@ -1,5 +1,7 @@
 //! The command line from outside, on an engine without a simulation: files, forms, exit codes.
 
+#![allow(clippy::unwrap_used, reason = "a test that fails here has failed")]
+
 mod synthetic;
 
 use kontur::console::Console;

@@ -61,10 +61,11 @@ fn square(slow: bool, late: bool, bad: bool) -> VecDeque<CycleRecord> {
     ipo.extend((0..if late { 3 } else { 1 }).map(|_| ([0.0; 2], 0.0, 0.0, 0, false)));
     for (pass, corner) in [(0_u32, 4.0), (1, 60.0), (2, 15.0)] {
         for (s, v) in drive(60.0, corner, last) {
-            let edge = (libm::floor(s - 1e-12).clamp(0.0, 3.0)) as usize;
+            let edge = [1.0, 2.0, 3.0].iter().filter(|&&corner| s > corner).count();
+            let line = [4, 5, 6, 7][edge] + pass * 5;
             let (a, b, u) = (VERTICES[edge], VERTICES[edge + 1], s - edge as f64);
             let p = [a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1])];
-            ipo.push((p, v, f64::from(pass) * 4.0 + s, 4 + pass * 5 + edge as u32, pass < 2));
+            ipo.push((p, v, f64::from(pass) * 4.0 + s, line, pass < 2));
         }
         for _ in 0..30 {
             let line = 7 + pass * 5;
