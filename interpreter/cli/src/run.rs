@@ -28,7 +28,7 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
         traces.iter_mut().try_for_each(|t| t.write(record))
     });
     // every trace is brought to its file even if another one failed
-    let finished: Vec<_> = traces.into_iter().map(Trace::finish).collect();
+    let finished: Vec<_> = traces.into_iter().map(|t| t.finish(source.as_ref())).collect();
     written?;
     finished.into_iter().collect::<Result<(), _>>()?;
     let totals = source.totals();
