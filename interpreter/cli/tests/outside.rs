@@ -122,6 +122,19 @@ fn decimated_traces_keep_the_rows_they_show() {
 }
 
 #[test]
+#[cfg(feature = "parquet")]
+fn parquet_and_csv_side_by_side() {
+    let f = Folder::new();
+    let words = ["run", "@bad.nc", "-o", "@a.parquet", "-o", "@a.csv", "--summary", "none"];
+    assert_eq!(f.call(&words).0, Exit::Aborted);
+    let bytes = std::fs::read(f.path("a.parquet")).unwrap();
+    assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"), "complete after an abort");
+    let (exit, _, err) = f.call(&["diff", "@a.parquet", "@a.csv"]);
+    assert_eq!((exit, err.contains("CSV")), (Exit::Usage, true));
+    assert_eq!(f.call(&["run", "@corner.nc", "-o", "/dev/full.parquet"]).0, Exit::Io);
+}
+
+#[test]
 fn an_aborted_run_leaves_a_whole_trace() {
     let f = Folder::new();
     let (exit, out, err) =

@@ -241,7 +241,7 @@ mod tests {
             let row = row.unwrap();
             assert_eq!(row.get_double(0).unwrap().to_bits(), (k as f64 * 500.0 / 1e6).to_bits());
             assert_eq!(row.get_long(1).unwrap(), 7);
-            assert_eq!(row.get_long(2).ok(), (k % 3 == 0).then_some(k as i64));
+            assert_eq!(row.get_long(2).ok(), (k % 3 == 0).then(|| k.cast_signed()));
             assert_eq!(row.get_string(3).unwrap(), if k > 10 { "b.nc" } else { "a.nc" });
             assert_eq!(row.get_string(4).unwrap(), "ax_dev");
             assert_eq!(row.get_double(5).unwrap().to_bits(), position(k).to_bits());
