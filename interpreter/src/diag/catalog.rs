@@ -283,6 +283,7 @@ pub const ENTRIES: &[Entry] = &[
     row(Kontur(72), "K-LIST-END", Note, 1, 1, 2, "end mark in a list, the rest is not read", "a line with END or Ende only"),
     row(Kontur(73), "K-SETTING", Error, 3, 3, 0, "setting names no axis, parameter or value", "--set TARGET.key=value"),
     row(Kontur(74), "K-LIST-COUNT", Warning, 1, 1, 2, "more entries than the list's own count, ignored", "zahl_mds, achs_anzahl, spdl_anzahl"),
+    row(Kontur(75), "K-LIST-NOEFFECT", Warning, 1, 1, 2, "list value without effect", "P-CHAN-00063 presets G135"),
 ];
 
 #[cfg(test)]

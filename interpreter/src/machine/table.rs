@@ -16,5 +16,5 @@ mod row;
 mod start_up;
 
 pub(crate) use lookup::edit_distance;
-pub use lookup::{by_id, by_key, rows, suggestions};
+pub use lookup::{by_id, by_key, misspelt, rows, suggestions};
 pub use row::{Bound, Correction, Default, ListKind, Raw, Reaction, Row};
