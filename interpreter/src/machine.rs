@@ -6,6 +6,7 @@ mod axis;
 mod builtin;
 mod chain;
 mod channel;
+pub mod explain;
 pub mod key;
 mod link;
 pub mod lists;

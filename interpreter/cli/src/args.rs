@@ -1,6 +1,7 @@
 //! The command line as clap sees it. Wrong usage ends with exit code 2.
 
-use crate::engine::{Request, Setting};
+use crate::engine::Request;
+use kontur_interpreter::machine::Override;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -66,7 +67,11 @@ pub struct SimulationArgs {
 
     /// A list parameter in place of the machine's, e.g. `X.getriebe[0].kv=5000` or `channel.key=value`
     #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = setting)]
-    pub set: Vec<Setting>,
+    pub set: Vec<String>,
+
+    /// Folder with global subroutines, searched after the caller's own
+    #[arg(long, value_name = "DIR")]
+    pub path: Vec<PathBuf>,
 
     /// Cycle time in microseconds in place of the machine's
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -104,6 +109,7 @@ impl SimulationArgs {
             program: program.into(),
             machine: self.machine.clone(),
             settings: self.set.clone(),
+            path: self.path.clone(),
             cycle_us: self.cycle_us,
             start: self.start.clone(),
             skip: self.skip.clone(),
@@ -199,14 +205,12 @@ pub struct ExplainArgs {
     pub thing: Vec<String>,
 }
 
-fn setting(text: &str) -> Result<Setting, String> {
-    let (path, value) = text.split_once('=').ok_or("AXIS.key=value expected, `=` is missing")?;
-    let (scope, key) = path.split_once('.').ok_or("AXIS.key=value expected, `.` is missing")?;
-    let (scope, key, value) = (scope.trim(), key.trim(), value.trim());
-    if scope.is_empty() || key.is_empty() || value.is_empty() {
-        return Err("AXIS.key=value expected, a part is empty".to_owned());
+/// The form only; what the words name is the machine's business.
+fn setting(text: &str) -> Result<String, String> {
+    match Override::parse(text) {
+        Ok(_) => Ok(text.to_owned()),
+        Err(d) => Err(d.hint.unwrap_or(d.text)),
     }
-    Ok(Setting { scope: scope.to_owned(), key: key.to_owned(), value: value.to_owned() })
 }
 
 /// `X10`, `X=10`, `X1=10`: an axis name that ends in a digit needs the equals sign.
@@ -256,9 +260,7 @@ mod tests {
         let Command::Run(run) = args.command else { panic!("run expected") };
         let request = run.simulation.request(&run.program);
         assert_eq!(run.output.len(), 2);
-        assert_eq!(request.settings[0].scope, "X");
-        assert_eq!(request.settings[0].key, "getriebe[0].kv");
-        assert_eq!(request.settings[0].value, "5000");
+        assert_eq!(request.settings, ["X.getriebe[0].kv=5000"]);
         let start = [("X".to_owned(), 10.0), ("Y".to_owned(), -5.5), ("A1".to_owned(), 3.0)];
         assert_eq!(request.start, start);
         assert_eq!(request.skip, [1, 3]);

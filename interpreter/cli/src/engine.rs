@@ -6,7 +6,7 @@
 use crate::Error;
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::record::CycleRecord;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What a user may say about a run, apart from what becomes of its results.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,7 +16,9 @@ pub struct Request {
     /// Folder or start-up list of the machine; none: the built-in `xyz`.
     pub machine: Option<PathBuf>,
     /// `AXIS.key=value` or `channel.key=value`, in the order given.
-    pub settings: Vec<Setting>,
+    pub settings: Vec<String>,
+    /// Folders of global subroutines, in the order of search.
+    pub path: Vec<PathBuf>,
     /// Cycle time in microseconds in place of the machine's.
     pub cycle_us: Option<u32>,
     /// Start positions in mm (deg) by axis name.
@@ -29,17 +31,6 @@ pub struct Request {
     pub max_blocks: u64,
     /// Keys of a list that are not modelled are refused.
     pub strict: bool,
-}
-
-/// One `--set`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Setting {
-    /// Axis name, or `channel`.
-    pub scope: String,
-    /// Key of the parameter list (`getriebe[0].kv`).
-    pub key: String,
-    /// Value as a list would hold it.
-    pub value: String,
 }
 
 /// What stays the same during a run.
@@ -143,41 +134,9 @@ pub trait Engine {
         report: &mut dyn FnMut(Diagnostic),
     ) -> Result<(), OpenError>;
 
-    /// Meaning, range, default and example of a parameter or a command; none if it is unknown.
-    fn explain(&self, thing: &str) -> Option<String>;
-
-    /// Words that `explain` knows and that resemble an unknown one, best first.
-    fn similar(&self, thing: &str) -> Vec<String>;
-}
-
-/// The simulation of this workspace.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Kontur;
-
-impl Kontur {
-    fn missing(program: &Path) -> OpenError {
-        OpenError::Usage(format!("{}: the simulation is not linked in", program.display()))
-    }
-}
-
-impl Engine for Kontur {
-    fn open(&mut self, request: &Request) -> Result<Box<dyn Source>, OpenError> {
-        Err(Self::missing(&request.program))
-    }
-
-    fn check(
-        &mut self,
-        request: &Request,
-        _report: &mut dyn FnMut(Diagnostic),
-    ) -> Result<(), OpenError> {
-        Err(Self::missing(&request.program))
-    }
-
-    fn explain(&self, _thing: &str) -> Option<String> {
-        None
-    }
-
-    fn similar(&self, _thing: &str) -> Vec<String> {
-        Vec::new()
-    }
+    /// Meaning, range, default and example of an ID, a parameter or a command.
+    ///
+    /// # Errors
+    /// Words that resemble an unknown one, best first.
+    fn explain(&self, thing: &str) -> Result<String, Vec<String>>;
 }

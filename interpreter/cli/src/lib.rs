@@ -9,9 +9,11 @@ pub mod console;
 pub mod diff;
 pub mod engine;
 pub mod explain;
+pub mod files;
 pub mod render;
 pub mod report;
 pub mod run;
+pub mod simulator;
 pub mod summary;
 pub mod trace;
 
@@ -70,7 +72,7 @@ impl Error {
 /// Runs one command on the process' own stdout and stderr.
 pub fn main_with(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     let mut console = Console::of_process();
-    ExitCode::from(run_with(args, &mut engine::Kontur, &mut console) as u8)
+    ExitCode::from(run_with(args, &mut simulator::Kontur, &mut console) as u8)
 }
 
 /// Runs one command on the given engine and console.

@@ -1,7 +1,6 @@
 //! One axis of the machine: its parameters and what the planner makes of them.
 
 use super::parameters::Parameters;
-use super::value::Value;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, RapidSlope, StepSlope};
 
 /// Kind of an axis (P-AXIS-00018).
@@ -213,11 +212,6 @@ impl Axis {
     /// Difference of input and output below which the filters count as settled, in mm (P-AXIS-00351).
     pub fn filter_window_mm(&self) -> f64 {
         self.converted("kenngr.filter_position_window").unwrap_or_default()
-    }
-
-    /// A value of the list, with its default.
-    pub fn value(&self, key: &str) -> Option<Value> {
-        self.parameters.raw(key)
     }
 }
 

@@ -15,5 +15,6 @@ mod lookup;
 mod row;
 mod start_up;
 
-pub use lookup::{by_id, by_key, rows, suggestions};
+pub(crate) use lookup::edit_distance;
+pub use lookup::{by_id, by_key, misspelt, rows, suggestions};
 pub use row::{Bound, Correction, Default, ListKind, Raw, Reaction, Row};

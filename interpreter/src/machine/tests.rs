@@ -370,6 +370,24 @@ fn rules_over_several_parameters() {
 }
 
 #[test]
+fn what_has_no_effect_is_said() {
+    let mut files = Memory::machine();
+    files.add("m/lists/channel.lis", "prog_start.g_gruppe[21].nr 135\n");
+    assert_eq!(files.ids(&[]), ["K-0075"]);
+    let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "sda_mds[1] more.lis\n");
+    files.put(
+        "m/hochlauf.lis",
+        &files.0["m/hochlauf.lis"].replace("kanal_anzahl 1", "kanal_anzahl 2"),
+    );
+    let (_, warnings) = files.load(&[]).unwrap();
+    assert_eq!(warnings.iter().map(|d| d.id).collect::<Vec<_>>(), [Id::Kontur(19)]);
+    let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "listen BINAER\n");
+    assert!(files.load(&[]).is_err());
+}
+
+#[test]
 fn counts_limit_what_is_used() {
     let mut files = Memory::machine();
     files.add("m/hochlauf.lis", "achs_mds[3] lists/more.lis\n");

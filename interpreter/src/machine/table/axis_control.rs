@@ -27,8 +27,6 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("us", "us"),
     axis("P-AXIS-00172", "getriebe[i].slep_ueberw_typ", Raw::Uns32, "lag monitoring: 1 standard, 2 linear, 4 speed-independent, else off")
         .range(Bound::At(0.0), Bound::None).default(0.0),
-    axis("P-AXIS-00176", "", Raw::Boolean, "compute but raise no lag error")
-        .default(0.0).axes("TR"),
     axis("P-AXIS-00233", "getriebe[i].wegaufn", Raw::Uns32, "encoder resolution, path (denominator); 0 gives 110086")
         .range(Bound::At(1.0), Bound::None).default(1.0).unit("0.1um", "0.0001deg").below(110086, Correction::Value(1.0)),
     axis("P-AXIS-00234", "getriebe[i].wegaufz", Raw::Uns32, "encoder resolution, increments (numerator); 0 gives 110386")

@@ -25,6 +25,8 @@ pub(super) const ROWS: &[Row] = &[
         .axes("TR").source("TF5200 feedforward control"),
     axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "override ceiling of single axes and spindles")
         .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(110111, Correction::Limit),
+    axis("P-AXIS-00176", "kenngr.suppress_pos_lag_error", Raw::Boolean, "the lag is monitored and traced but raises no error; no document prints the prefix of the key, kenngr., lr_param., getriebe[0]. and none are taken")
+        .default(0.0).axes("TR"),
     axis("P-AXIS-00177", "kenngr.swe_neg", Raw::Sgn32, "negative software limit for setpoints; actuals may pass it by swe_toleranz")
         .default(-100000000.0).unit("0.1um", "0.0001deg").axes("TR"),
     axis("P-AXIS-00178", "kenngr.swe_pos", Raw::Sgn32, "positive software limit")

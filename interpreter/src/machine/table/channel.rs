@@ -18,7 +18,7 @@ pub(super) const ROWS: &[Row] = &[
         .default(0.0),
     chan("P-CHAN-00011", "gruppe[i].achse[j].default_feed_axis", Raw::Boolean, "member of the feed group; none given = the first three main axes")
         .default(0.0),
-    chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC, parsed and ignored (with 00013, 00017, 00018)"),
+    chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC: distance behind the corner; read and ignored"),
     chan("P-CHAN-00019", "syn_chk.errors_total", Raw::Uns16, "syntax check: stop after this many errors (old key syn_chk.fehler_gesamt)")
         .range(Bound::At(0.0), Bound::At(65535.0)).default(0.0),
     chan("P-CHAN-00020", "syn_chk.errors_per_block", Raw::Uns16, "errors per line before going to the next (old key syn_chk.fehler_pro_zeile)")
@@ -99,6 +99,9 @@ pub(super) const ROWS: &[Row] = &[
         .default(0.0),
     chan("P-CHAN-00518", "configuration.decoder.msg_to_default", Raw::Word(&["STANDARD", "DISABLED", "WARNING", "ERROR"]), "#MSG to the diagnosis receiver: STANDARD, DISABLED, WARNING (22194), ERROR (22195)")
         .default_is(Default::Text("STANDARD")),
+    chan("P-CHAN-00013", "speed_limit_look_ahead.dist_to_corner", Raw::Real64, "velocity look-ahead for the PLC: distance before the corner; read and ignored"),
+    chan("P-CHAN-00017", "speed_limit_look_ahead.f_enable", Raw::Boolean, "velocity look-ahead for the PLC; read and ignored"),
+    chan("P-CHAN-00018", "speed_limit_look_ahead.f_time", Raw::Real64, "velocity look-ahead for the PLC: time; read and ignored"),
     chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs in the path compound"),
     chan("P-CHAN-00026", "h_prozess_zeit[i]", Raw::Uns32, "duration of H function i, counted with --techno-times")
         .default(0.0).unit("us", "us"),
