@@ -230,6 +230,27 @@ pub fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b: &Ends
         .fold(f64::INFINITY, f64::min)
 }
 
+/// Velocity at which the changes of direction from the end of `from` to the start of `to`, `length` mm further on, may
+/// fall into one cycle: for every axis `v |u_to - u_from| / T <= w a`, unless they are further apart than `v T`.
+///
+/// For one kink (`length` 0) this is [`kink_velocity`]; on a finely divided arc it tends to `v^2 / r <= w a`.
+pub fn one_cycle_velocity(
+    from: &Block,
+    to: &Block,
+    out: &[f64],
+    into: &[f64],
+    length: f64,
+    cycle: CycleTime,
+    kernel_active: bool,
+) -> f64 {
+    let v = (0..out.len())
+        .map(|i| ((into[i] - out[i]).abs(), i))
+        .filter(|(du, _)| *du > TANGENT)
+        .map(|(du, i)| admissible_jump(from, to, i, cycle, kernel_active) / du)
+        .fold(f64::INFINITY, f64::min);
+    v.max(length / cycle.seconds())
+}
+
 /// Velocity cap at the boundary of two blocks and where it comes from; the path velocities of the blocks are not in it.
 pub fn transition(
     from: &Block,
