@@ -37,7 +37,9 @@ fn all_load_without_a_message_that_the_vendor_does_not_demand() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     names.sort();
-    assert_eq!(names, ["gantry", "rack_and_pinion", "two_spindles", "vendor_defaults", "xyz"]);
+    for name in ["gantry", "rack_and_pinion", "two_spindles", "vendor_defaults", "xyz"] {
+        assert!(names.iter().any(|n| n == name), "{name}");
+    }
     for name in names {
         let (machine, messages) = load(&name);
         assert_eq!(machine.name, name);

@@ -1,7 +1,7 @@
 //! The one table of list parameters: reader, range check, `explain` and documentation come from its rows.
 //!
 //! A row states what the vendor's manuals state about one parameter, in the units of the lists (0.1 um, us, 0.1 %);
-//! conversion to mm and s happens once, in [`super::axis`] and [`super::channel`].
+//! conversion to mm and s happens once, in [`Axis`](super::Axis) and [`Channel`](super::Channel).
 
 mod axis_control;
 mod axis_drive;

@@ -52,7 +52,7 @@ const NOTES: &[Note] = &[
     Note("P-AXIS-00757", "0 lets nothing through (K-0026)", "100", &["P-AXIS-00212", "K-0026"]),
     Note("P-AXIS-00758", "set it in the gantry master, not in a slave (70600)", "", &["70600", "P-AXIS-00757"]),
     Note("P-CHAN-00063", "groups: 0 motion, 4 plane, 12 units, 14 dimension, 23 arc centre, 25 centre correction", "91", &["P-AXIS-00255"]),
-    Note("P-CHAN-00071", "0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC", "1", &["#SLOPE"]),
+    Note("P-CHAN-00071", "", "1", &["#SLOPE"]),
     Note("P-CHAN-00439", "covers AX_DEV and PATH_DEV, only while G70 is active", "", &["#VIB GUARD", "#CONTOUR MODE", "G70"]),
 ];
 

@@ -23,7 +23,7 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::Beyond(0.0), Bound::At(500.0)).default(-1.0).unit("Hz", "Hz").drives("SERCOS, Profidrive, CANopen").at_setup().source("TF5200 Improved Position Control"),
     axis("P-AXIS-00752", "lr_param.improved_position_control.stage[i].filter[k].q_factor", Raw::Real64, "Q = f0/bandwidth")
         .range(Bound::At(1.0), Bound::At(10.0)).default(-1.0).drives("SERCOS, Profidrive, CANopen").at_setup().source("TF5200 Improved Position Control"),
-    axis("P-AXIS-00753", "lr_param.improved_position_control.stage[i].mode", Raw::Names(IPC_MODES), "0 NOT_ACTIVE 1 DIRECT 2 INDIRECT 3 SET_POINT; i = 0..2")
+    axis("P-AXIS-00753", "lr_param.improved_position_control.stage[i].mode", Raw::Names(IPC_MODES), "kind of the stage: 0 NOT_ACTIVE, 1 DIRECT, 2 INDIRECT, 3 SET_POINT; i = 0..2")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).drives("SERCOS, Profidrive, CANopen").at_setup().source("TF5200 Improved Position Control"),
     axis("P-AXIS-00754", "lr_param.improved_position_control.stage[i].weight_fact_num", Raw::Uns32, "weight numerator; weight at most 7.0; <= 0 gives 70603")
         .range(Bound::At(1.0), Bound::None).default(1.0).drives("SERCOS, Profidrive, CANopen").at_setup().source("TF5200 Improved Position Control"),

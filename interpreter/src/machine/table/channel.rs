@@ -5,7 +5,7 @@ use super::row::{Bound, Correction, Default, Raw, Row, chan};
 /// The rows.
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    chan("P-CHAN-00001", "prog_start.slope.acceleration", Raw::Sgn16, "0 all, 1 a_beschl, 2 a_brems")
+    chan("P-CHAN-00001", "prog_start.slope.acceleration", Raw::Sgn16, "which accelerations G130 and G131 weight: 0 all, 1 a_beschl, 2 a_brems")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
     chan("P-CHAN-00002", "vector.acceleration", Raw::Real64, "path acceleration limit, unit by P-CHAN-00351, after #VECTOR LIMIT ON")
         .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"),
@@ -44,8 +44,8 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
     chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters survive the start of a program")
         .default(0.0),
-    chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Sgn16, "0 STEP 1 TRAPEZ 2 SIN2 3 HSC")
-        .range(Bound::None, Bound::At(3.0)).default(0.0).outside(70, Correction::Default),
+    chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Sgn16, "slope at program start: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC")
+        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(70, Correction::Default),
     chan("P-CHAN-00073", "prog_start.slope.ramp_time", Raw::Sgn16, "which ramp times G132/G133 weight: 0 all, 1 acc up, 2 acc down, 3 dec up, 4 dec down")
         .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(120178, Correction::Refuse).below(120178, Correction::Refuse),
     chan("P-CHAN-00090", "vector.velocity", Raw::Real64, "path speed limit")
@@ -87,7 +87,7 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
     chan("P-CHAN-00297", "", Raw::Uns32, "join of asynchronous axes with or without exact stop")
         .source("TF5200 programming"),
-    chan("P-CHAN-00349", "prog_start.slope.mode_ramp_time", Raw::Boolean, "0 constant jerk, 1 constant ramp time")
+    chan("P-CHAN-00349", "prog_start.slope.mode_ramp_time", Raw::Boolean, "TRAPEZ and SIN2, not G00: 0 constant jerk, 1 constant ramp time")
         .default(0.0),
     chan("P-CHAN-00350", "vector.cir_radial_acc_limit", Raw::Boolean, "P-CHAN-00002 also limits arcs")
         .default(0.0),
