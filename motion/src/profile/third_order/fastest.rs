@@ -103,7 +103,9 @@ impl Search {
         let [t0, t1, t2] = rising(v_max - v0, a0, a_max);
         let [t6, t5, t4] = rising(v_max - ve, -ae, -a_min);
         let mut t = [t0, t1, t2, 0.0, t4, t5, t6];
-        t[3] = (distance - displacement(v0, a0, &t, &UP_DOWN_DOWN_UP)) / v_max;
+        // what rounding makes of the limit: over a long cruise the difference would show
+        let cruise = v0 + t0 * (a0 + 0.5 * t0) + t1 * (a0 + t0) + t2 * (a0 + t0 - 0.5 * t2);
+        t[3] = (distance - displacement(v0, a0, &t, &UP_DOWN_DOWN_UP)) / cruise;
         self.offer(problem, t, mirrored, false)
     }
 

@@ -98,6 +98,7 @@ pub enum ThirdOrderError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Phase {
     start_s: f64,
+    duration_s: f64,
     from: MotionState,
     jerk: f64,
 }
@@ -110,6 +111,7 @@ pub struct ThirdOrderProfile {
     end: MotionState,
     duration: f64,
     brake: f64,
+    a_largest: f64,
 }
 
 impl ThirdOrderProfile {
@@ -192,13 +194,25 @@ impl ThirdOrderProfile {
     }
 
     fn still(start: &MotionState) -> Self {
-        Self { phases: SmallVec::new(), start: *start, end: *start, duration: 0.0, brake: 0.0 }
+        Self {
+            phases: SmallVec::new(),
+            start: *start,
+            end: *start,
+            duration: 0.0,
+            brake: 0.0,
+            a_largest: start.a_mm_s2.abs(),
+        }
     }
 
     fn push(&mut self, t: f64, jerk: f64) {
         if t > 0.0 {
-            self.phases.push(Phase { start_s: self.duration, from: self.end, jerk });
+            self.phases.push(Phase { start_s: self.duration, duration_s: t, from: self.end, jerk });
             self.end = self.end.after(t, jerk);
+            // what is left of a ramp to zero is rounding, and would add up over a long cruise
+            self.a_largest = self.a_largest.max(self.end.a_mm_s2.abs());
+            if self.end.a_mm_s2.abs() <= 1e-14 * self.a_largest {
+                self.end.a_mm_s2 = 0.0;
+            }
             self.duration += t;
         }
     }
@@ -215,8 +229,7 @@ impl ThirdOrderProfile {
 
     /// Duration in s and jerk in mm/s3 of every phase, brake included, empty phases left out.
     pub fn phases(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let ends = self.phases.iter().skip(1).map(|p| p.start_s).chain([self.duration]);
-        self.phases.iter().zip(ends).map(|(p, end)| (end - p.start_s, p.jerk))
+        self.phases.iter().map(|p| (p.duration_s, p.jerk))
     }
 
     /// Lowest and highest velocity in mm/s.
