@@ -8,7 +8,8 @@ pub(super) const UP_DOWN_DOWN_UP: [f64; 7] = [1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.
 /// Error of the final velocity and excess over limits that is rounding, in the problem's units.
 const ROUNDING: f64 = 1e-12;
 
-/// Error of the final displacement, relative to the distance travelled.
+/// Error of the final displacement, relative to the distance travelled. Solved candidates are far better; a
+/// single bump of acceleration has no freedom left to meet a position that is itself rounded.
 const DISTANCE_ERROR: f64 = 1e-10;
 
 /// Seven phases in scaled units.
@@ -45,8 +46,7 @@ impl Candidate {
         let total: f64 = t.iter().map(|t| t.abs()).sum();
         let least = -ROUNDING * (1.0 + total);
         for t in &mut t {
-            // written so that NaN fails
-            if !(*t >= least) {
+            if t.is_nan() || *t < least {
                 return None;
             }
             *t = t.max(0.0);

@@ -2,8 +2,9 @@
 
 use super::brake::Brake;
 use super::candidate::Candidate;
+use super::leg::Leg;
 use super::scaled::{Problem, Units};
-use super::{duration, fastest, velocity};
+use super::{duration, fastest};
 use smallvec::SmallVec;
 
 /// State of one coordinate.
@@ -146,8 +147,7 @@ impl ThirdOrderProfile {
         if surplus.abs() <= 1e-12 * duration_s {
             return Ok(shortest);
         }
-        // written so that NaN is refused
-        if !(surplus > 0.0) {
+        if surplus.is_nan() || surplus < 0.0 {
             return Err(ThirdOrderError::TooShort { duration_s, shortest_s: shortest.duration });
         }
         let Some(task) = Task::new(start, target, limits)? else {
@@ -179,13 +179,16 @@ impl ThirdOrderProfile {
         }
         let jerk = limits.jerk_mm_s3;
         let mut profile = Self::still(start);
-        for (t, j) in velocity::to_velocity(
-            start.v_mm_s / jerk,
-            start.a_mm_s2 / jerk,
-            velocity_mm_s / jerk,
-            limits.a_min_mm_s2 / jerk,
-            limits.a_max_mm_s2 / jerk,
-        ) {
+        // in units of jerk 1 and seconds
+        let (v0, a0, v1) = (start.v_mm_s / jerk, start.a_mm_s2 / jerk, velocity_mm_s / jerk);
+        let (a_min, a_max) = (limits.a_min_mm_s2 / jerk, limits.a_max_mm_s2 / jerk);
+        // an acceleration outside its limits is first brought to the limit
+        let inside = a0.clamp(a_min, a_max);
+        profile.push((a0 - inside).abs(), jerk.copysign(inside - a0));
+        profile.brake = profile.duration;
+        let v = v0 + 0.5 * (a0 - inside).abs() * (a0 + inside);
+        let leg = Leg::new(v, inside, v1, a_min, a_max);
+        for (t, j) in leg.t.into_iter().zip(leg.jerks()) {
             profile.push(t, j * jerk);
         }
         profile.end.v_mm_s = velocity_mm_s;
