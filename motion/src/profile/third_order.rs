@@ -23,6 +23,5 @@ mod leg;
 mod polynomial;
 mod profile;
 mod scaled;
-mod velocity;
 
 pub use profile::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderProfile};

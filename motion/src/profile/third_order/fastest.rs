@@ -13,7 +13,7 @@
 //! in `RUCKIG-LICENSE`).
 
 use super::candidate::{Candidate, UP_DOWN_DOWN_UP, displacement};
-use super::leg::{rising, settled_velocity};
+use super::leg::{Leg, rising, settled_velocity};
 use super::polynomial::roots_in;
 use super::scaled::Problem;
 
@@ -42,19 +42,18 @@ pub(super) fn fastest(problem: &Problem) -> Option<Candidate> {
 
 /// True if one boundary is at rest or both have no acceleration: then the displacement grows with the duration
 /// on the branch of the solution, and the first valid candidate is the fastest.
-#[allow(
-    clippy::float_cmp,
-    reason = "programmed zeros are exact; anything else takes the general way"
-)]
 fn unique(problem: &Problem) -> bool {
-    let start = problem.a0 == 0.0;
-    let end = problem.ae == 0.0;
-    (start && end) || (start && problem.v0 == 0.0) || (end && problem.ve == 0.0)
+    let Problem { v0, a0, ve, ae, .. } = *problem;
+    match (a0 == 0.0, ae == 0.0) {
+        (true, true) => true,
+        (true, false) => v0 == 0.0,
+        (false, true) => ve == 0.0,
+        (false, false) => false,
+    }
 }
 
 /// Displacement of the fastest change from `(v0, a0)` to `(ve, ae)`, where one acceleration is zero.
 fn direct_distance(problem: &Problem) -> f64 {
-    use super::leg::Leg;
     let Problem { v0, a0, ve, ae, a_min, a_max, .. } = *problem;
     if ae == 0.0 {
         Leg::new(v0, a0, ve, a_min, a_max).displacement(v0, a0)
@@ -103,7 +102,9 @@ impl Search {
         let [t0, t1, t2] = rising(v_max - v0, a0, a_max);
         let [t6, t5, t4] = rising(v_max - ve, -ae, -a_min);
         let mut t = [t0, t1, t2, 0.0, t4, t5, t6];
-        t[3] = (distance - displacement(v0, a0, &t, &UP_DOWN_DOWN_UP)) / v_max;
+        // what rounding makes of the limit: over a long cruise the difference would show
+        let cruise = v0 + t0 * (a0 + 0.5 * t0) + t1 * (a0 + t0) + t2 * (a0 + t0 - 0.5 * t2);
+        t[3] = (distance - displacement(v0, a0, &t, &UP_DOWN_DOWN_UP)) / cruise;
         self.offer(problem, t, mirrored, false)
     }
 
@@ -219,8 +220,7 @@ fn polished(problem: &Problem, x: f64, times: &impl Fn(f64) -> [f64; 7], slope: 
     for _ in 0..3 {
         let next = x - e / slope;
         let reduced = error(next);
-        // written so that NaN stops
-        if !(reduced.abs() < 0.5 * e.abs()) {
+        if reduced.is_nan() || reduced.abs() >= 0.5 * e.abs() {
             break;
         }
         (x, e) = (next, reduced);

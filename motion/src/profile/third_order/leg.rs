@@ -1,5 +1,7 @@
 //! Fastest change to a velocity with zero acceleration, jerk 1.
 
+use super::candidate::ramped;
+
 /// Times of the three phases and the sign of the jerk in the first: `+1` raises the velocity at zero
 /// acceleration, `-1` lowers it.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +39,7 @@ impl Leg {
         for (t, j) in self.t.into_iter().zip(self.jerks()) {
             s += t * (v + t * (0.5 * a + t * j / 6.0));
             v += t * (a + 0.5 * t * j);
-            a += t * j;
+            a = ramped(a, t * j);
         }
         s
     }
@@ -49,8 +51,11 @@ impl Leg {
 pub(super) fn rising(gain: f64, a0: f64, a_max: f64) -> [f64; 3] {
     let square = gain + 0.5 * a0 * a0;
     let peak = square.max(0.0).sqrt();
-    if peak <= a_max {
-        [(peak - a0).max(0.0), 0.0, peak]
+    if peak <= a0 {
+        // nothing to gain: straight down; the time is that of `a0` so that exactly zero is left
+        [0.0, 0.0, a0.max(0.0)]
+    } else if peak <= a_max {
+        [peak - a0, 0.0, peak]
     } else {
         [(a_max - a0).max(0.0), (square - a_max * a_max) / a_max, a_max]
     }

@@ -15,7 +15,7 @@ pub(super) fn roots_in(c: &[f64], lo: f64, hi: f64) -> Roots {
     let mut found = Roots::new();
     match *c {
         [] | [_] => {}
-        [lead, ..] if lead == 0.0 => return roots_in(&c[1..], lo, hi),
+        [0.0, ..] => return roots_in(&c[1..], lo, hi),
         [a, b] => found.push(-b / a),
         [a, b, c] => quadratic(a, b, c, &mut found),
         _ => return isolated(c, lo, hi),

@@ -2,8 +2,9 @@
 
 use super::brake::Brake;
 use super::candidate::Candidate;
+use super::leg::Leg;
 use super::scaled::{Problem, Units};
-use super::{duration, fastest, velocity};
+use super::{duration, fastest};
 use smallvec::SmallVec;
 
 /// State of one coordinate.
@@ -98,6 +99,7 @@ pub enum ThirdOrderError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Phase {
     start_s: f64,
+    duration_s: f64,
     from: MotionState,
     jerk: f64,
 }
@@ -110,6 +112,7 @@ pub struct ThirdOrderProfile {
     end: MotionState,
     duration: f64,
     brake: f64,
+    a_largest: f64,
 }
 
 impl ThirdOrderProfile {
@@ -144,8 +147,7 @@ impl ThirdOrderProfile {
         if surplus.abs() <= 1e-12 * duration_s {
             return Ok(shortest);
         }
-        // written so that NaN is refused
-        if !(surplus > 0.0) {
+        if surplus.is_nan() || surplus < 0.0 {
             return Err(ThirdOrderError::TooShort { duration_s, shortest_s: shortest.duration });
         }
         let Some(task) = Task::new(start, target, limits)? else {
@@ -177,13 +179,16 @@ impl ThirdOrderProfile {
         }
         let jerk = limits.jerk_mm_s3;
         let mut profile = Self::still(start);
-        for (t, j) in velocity::to_velocity(
-            start.v_mm_s / jerk,
-            start.a_mm_s2 / jerk,
-            velocity_mm_s / jerk,
-            limits.a_min_mm_s2 / jerk,
-            limits.a_max_mm_s2 / jerk,
-        ) {
+        // in units of jerk 1 and seconds
+        let (v0, a0, v1) = (start.v_mm_s / jerk, start.a_mm_s2 / jerk, velocity_mm_s / jerk);
+        let (a_min, a_max) = (limits.a_min_mm_s2 / jerk, limits.a_max_mm_s2 / jerk);
+        // an acceleration outside its limits is first brought to the limit
+        let inside = a0.clamp(a_min, a_max);
+        profile.push((a0 - inside).abs(), jerk.copysign(inside - a0));
+        profile.brake = profile.duration;
+        let v = v0 + 0.5 * (a0 - inside).abs() * (a0 + inside);
+        let leg = Leg::new(v, inside, v1, a_min, a_max);
+        for (t, j) in leg.t.into_iter().zip(leg.jerks()) {
             profile.push(t, j * jerk);
         }
         profile.end.v_mm_s = velocity_mm_s;
@@ -192,13 +197,25 @@ impl ThirdOrderProfile {
     }
 
     fn still(start: &MotionState) -> Self {
-        Self { phases: SmallVec::new(), start: *start, end: *start, duration: 0.0, brake: 0.0 }
+        Self {
+            phases: SmallVec::new(),
+            start: *start,
+            end: *start,
+            duration: 0.0,
+            brake: 0.0,
+            a_largest: start.a_mm_s2.abs(),
+        }
     }
 
     fn push(&mut self, t: f64, jerk: f64) {
         if t > 0.0 {
-            self.phases.push(Phase { start_s: self.duration, from: self.end, jerk });
+            self.phases.push(Phase { start_s: self.duration, duration_s: t, from: self.end, jerk });
             self.end = self.end.after(t, jerk);
+            // what is left of a ramp to zero is rounding, and would add up over a long cruise
+            self.a_largest = self.a_largest.max(self.end.a_mm_s2.abs());
+            if self.end.a_mm_s2.abs() <= 1e-14 * self.a_largest {
+                self.end.a_mm_s2 = 0.0;
+            }
             self.duration += t;
         }
     }
@@ -215,8 +232,7 @@ impl ThirdOrderProfile {
 
     /// Duration in s and jerk in mm/s3 of every phase, brake included, empty phases left out.
     pub fn phases(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let ends = self.phases.iter().skip(1).map(|p| p.start_s).chain([self.duration]);
-        self.phases.iter().zip(ends).map(|(p, end)| (end - p.start_s, p.jerk))
+        self.phases.iter().map(|p| (p.duration_s, p.jerk))
     }
 
     /// Lowest and highest velocity in mm/s.

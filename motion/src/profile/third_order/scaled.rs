@@ -19,7 +19,7 @@ impl Units {
         let acceleration = start.a_mm_s2.abs().max(end.a_mm_s2.abs());
         let time =
             libm::cbrt(distance / jerk).max((velocity / jerk).sqrt()).max(acceleration / jerk);
-        (time > 0.0).then(|| Self {
+        (time > 0.0).then_some(Self {
             time,
             velocity: jerk * time * time,
             acceleration: jerk * time,
