@@ -266,15 +266,26 @@ fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f6
     }
 }
 
-/// A curve over time: smallest and largest value of each bucket.
+/// A curve over time: smallest and largest value per pixel, or of each bucket where there are fewer.
 fn over_time(run: &Recording, curve: usize, pass: Option<usize>) -> Vec<[f64; 2]> {
-    let mut points = Vec::with_capacity(run.buckets.len());
-    for bucket in run.buckets.iter().filter(|b| pass.is_none_or(|p| p == b.pass)) {
+    let per_px = (run.buckets.len() as f64 / (RIGHT - LEFT)).max(1.0);
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    let mut pixel = None;
+    for (i, bucket) in run.buckets.iter().enumerate() {
+        if pass.is_some_and(|p| p != bucket.pass) {
+            continue;
+        }
         let (low, high) = bucket.range[curve];
         let t = run.seconds(bucket.k);
-        points.push([t, low]);
-        if high > low {
-            points.push([t, high]);
+        let this = Some(libm::floor(i as f64 / per_px));
+        if this == pixel
+            && let [.., bottom, top] = points.as_mut_slice()
+        {
+            bottom[1] = bottom[1].min(low);
+            top[1] = top[1].max(high);
+        } else {
+            pixel = this;
+            points.extend([[t, low], [t, high]]);
         }
     }
     points
