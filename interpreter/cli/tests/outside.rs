@@ -210,6 +210,15 @@ fn exit_codes_of_wrong_usage_and_files() {
     assert_eq!(f.call(&["run", "@absent.nc"]).0, Exit::Io);
     assert_eq!(f.call(&["run", "@corner.nc", "-o", "@no/such/folder/a.csv"]).0, Exit::Io);
     assert_eq!(f.call(&["diff", "@absent.csv", "@absent.csv"]).0, Exit::Io);
+    for (name, text, expected) in [
+        ("empty.csv", "", Exit::Usage),
+        ("foreign.csv", "a,b\n1,2\n", Exit::Usage),
+        ("torn.csv", "t_s,line,block\n0.000000,1,10\n0.001000,1", Exit::Io),
+    ] {
+        std::fs::write(f.path(name), text).unwrap();
+        let file = format!("@{name}");
+        assert_eq!(f.call(&["diff", &file, "@corner.nc"]).0, expected, "{name}");
+    }
     let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "@a.csv", "--signals", "bogus"]);
     assert_eq!(exit, Exit::Usage);
     assert!(
