@@ -31,6 +31,7 @@ pub fn report(
         (None, None) => return Err(Error::Usage("a program is expected".to_owned())),
     };
     let draw = drawer(&output)?;
+    crate::run::keep_apart(&args.programs, std::slice::from_ref(&output))?;
     let mut runs: Vec<(Recording, Summary)> = Vec::new();
     for program in &args.programs {
         let form = args.simulation.diagnostics;

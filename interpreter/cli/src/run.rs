@@ -7,6 +7,7 @@ use crate::summary::Collector;
 use crate::trace::Trace;
 use crate::{Error, Exit, render};
 use kontur_interpreter::diag::Diagnostic;
+use std::path::{Path, PathBuf};
 
 /// Cycles between two looks at the clock and at new messages.
 const LOOK_EVERY: u64 = 1024;
@@ -16,6 +17,7 @@ const LOOK_EVERY: u64 = 1024;
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or a trace cannot be written.
 pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Result<Exit, Error> {
+    keep_apart(std::slice::from_ref(&args.program), &args.output)?;
     let form = args.simulation.diagnostics;
     let mut source = engine
         .open(&args.simulation.request(&args.program))
@@ -39,6 +41,25 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
         SummaryForm::None => {}
     }
     Ok(if totals.aborted { Exit::Aborted } else { Exit::Finished })
+}
+
+/// Refuses to write over the program, or two traces into one file.
+///
+/// # Errors
+/// [`Error::Usage`] that names the file.
+pub fn keep_apart(programs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error> {
+    // a file that does not exist yet has no canonical name, and its given name serves
+    let name = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let mut taken: Vec<PathBuf> = programs.iter().map(|p| name(p)).collect();
+    for output in outputs {
+        let name = name(output);
+        if taken.contains(&name) && !output.starts_with("/dev") {
+            let message = format!("-o {}: the file is used twice", output.display());
+            return Err(Error::Usage(message));
+        }
+        taken.push(name);
+    }
+    Ok(())
 }
 
 /// Drives a source to its end: every record to `take` and to the summary, every message to the console.

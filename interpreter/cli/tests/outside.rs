@@ -131,7 +131,6 @@ fn parquet_and_csv_side_by_side() {
     assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"), "complete after an abort");
     let (exit, _, err) = f.call(&["diff", "@a.parquet", "@a.csv"]);
     assert_eq!((exit, err.contains("CSV")), (Exit::Usage, true));
-    assert_eq!(f.call(&["run", "@corner.nc", "-o", "/dev/full.parquet"]).0, Exit::Io);
 }
 
 #[test]
@@ -211,12 +210,30 @@ fn exit_codes_of_wrong_usage_and_files() {
     assert_eq!(f.call(&["run", "@absent.nc"]).0, Exit::Io);
     assert_eq!(f.call(&["run", "@corner.nc", "-o", "@no/such/folder/a.csv"]).0, Exit::Io);
     assert_eq!(f.call(&["diff", "@absent.csv", "@absent.csv"]).0, Exit::Io);
+    for (name, text, expected) in [
+        ("empty.csv", "", Exit::Usage),
+        ("foreign.csv", "a,b\n1,2\n", Exit::Usage),
+        ("torn.csv", "t_s,line,block\n0.000000,1,10\n0.001000,1", Exit::Io),
+    ] {
+        std::fs::write(f.path(name), text).unwrap();
+        let file = format!("@{name}");
+        assert_eq!(f.call(&["diff", &file, "@corner.nc"]).0, expected, "{name}");
+    }
     let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "@a.csv", "--signals", "bogus"]);
     assert_eq!(exit, Exit::Usage);
     assert!(
         err.contains("`bogus`") && err.contains("spindle") && err.contains("X_set_mm"),
         "{err}"
     );
+    // a slip of the hand must not cost the program
+    for words in [
+        ["run", "@corner.nc", "-o", "@corner.nc"].as_slice(),
+        &["run", "@corner.nc", "-o", "@a.csv", "-o", "@a.csv"],
+        &["run", "@corner.nc", "-o", "@./corner.nc"],
+    ] {
+        assert_eq!(f.call(words).0, Exit::Usage, "{words:?}");
+    }
+    assert_eq!(f.read("corner.nc"), "N10 M30\n");
     assert_eq!(f.call(&["run"]).0, Exit::Usage);
     let (exit, out, _) = f.call(&["--help"]);
     assert_eq!(exit, Exit::Finished);

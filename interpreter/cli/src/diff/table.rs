@@ -35,7 +35,7 @@ struct Fresh {
 /// True if a file is a trace, false if it is an NC program.
 ///
 /// # Errors
-/// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a Parquet trace.
+/// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a Parquet trace or a foreign table.
 pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
     let io = |e| Error::io(path.display().to_string(), e);
     let mut start = Vec::new();
@@ -43,7 +43,12 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
     if start == b"PAR1" {
         return Err(Error::Usage(format!("{}: diff reads CSV traces", path.display())));
     }
-    Ok(start == b"t_s,")
+    let trace = start == b"t_s,";
+    // an empty or foreign table must not pass for a program that does nothing
+    if !trace && path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
+        return Err(Error::Usage(format!("{}: no trace, it starts without `t_s`", path.display())));
+    }
+    Ok(trace)
 }
 
 impl Table {

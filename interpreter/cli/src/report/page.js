@@ -358,6 +358,10 @@ for (const { summary: s } of runs) for (const m of s.messages.slice(0, 50)) {
   byId("messages").append(make("div", `${place}${m.severity} ${m.id || m.kontur_id}: ${m.text}`, m.severity));
 }
 
+const widest = Math.max(...runs.map(r => r.width));
+if (widest > 1) byId("legend").append(make("div",
+  `One bucket of points for ${widest} cycles: corners are cut when zoomed in, except around the largest contour error.`, "note"));
+
 function draw() { drawContour(); plots.forEach(drawPlot); }
 view.time = [0, end];
 showAll();

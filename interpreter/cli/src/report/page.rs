@@ -28,6 +28,7 @@ fn run(r: &Recording, s: &Summary) -> String {
     out.text("summary", &safe(&s.json()));
     out.text("files", &safe(&json!(r.facts.files).to_string()));
     out.text("plane", &safe(&json!(names).to_string()));
+    out.text("width", &r.width.to_string());
     out.text("passes", &r.passes.len().to_string());
     let buckets = |value: fn(&Bucket) -> String| join(r.buckets.iter().map(value));
     out.text("k", &buckets(|b| b.k.to_string()));

@@ -39,11 +39,12 @@ pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
     };
     let panel = panel.equal_scale();
     let names = plane.map(|i| axis_label(&runs[0].0, i));
-    contour(&mut svg, &panel, runs, &groups, plane, "Contour", &names);
+    contour(&mut svg, &panel, &drawn(runs, false), &groups, plane, "Contour", &names);
     if let Some(worst) = worst.filter(|_| has_zoom) {
         let zoom = zoom_panel(&worst, plane, 0.2 * (panel.x.1 - panel.x.0));
         let (a, b) = (panel.at([zoom.x.0, zoom.y.1]), panel.at([zoom.x.1, zoom.y.0]));
-        contour(&mut svg, &zoom, runs, &groups, plane, "Largest contour error", &names);
+        let close = drawn(runs, true);
+        contour(&mut svg, &zoom, &close, &groups, plane, "Largest contour error", &names);
         let size = [(b[0] - a[0]).max(4.0), (b[1] - a[1]).max(4.0)];
         let lens_style = format!("fill=\"{INK}\" fill-opacity=\"0.05\" stroke=\"{INK}\"");
         svg.clip(&panel);
@@ -165,10 +166,20 @@ fn zoom_panel(worst: &Point, [x, y]: [usize; 2], most: f64) -> Panel {
     .equal_scale()
 }
 
+/// The points to draw of every run; for a close look only those of which no neighbour was left out.
+fn drawn(runs: &[(Recording, Summary)], close: bool) -> Vec<Vec<Point>> {
+    let points = |r: &Recording| match r.close() {
+        [] => r.points().copied().collect(),
+        _ if !close => r.points().copied().collect(),
+        points => points.to_vec(),
+    };
+    runs.iter().map(|(r, _)| points(r)).collect()
+}
+
 fn contour(
     svg: &mut Svg,
     panel: &Panel,
-    runs: &[(Recording, Summary)],
+    runs: &[Vec<Point>],
     groups: &[Group],
     plane: [usize; 2],
     title: &str,
@@ -177,14 +188,13 @@ fn contour(
     svg.axes(panel, title, &names[0], &names[1]);
     svg.clip(panel);
     let wide = Stroke { colour: "#ced4da", width: 5.0, dash: "" };
-    for (run, _) in runs {
-        let points: Vec<Point> = run.points().copied().collect();
-        svg.curve(panel, programmed(&points, plane).into_iter(), wide);
+    for points in runs {
+        svg.curve(panel, programmed(points, plane).into_iter(), wide);
     }
     let mine = |group: &Group, p: &Point| group.pass.is_none_or(|pass| pass == p.pass);
     for (actual, width, dash) in [(true, 1.0, "3 3"), (false, 1.7, "")] {
         for group in groups {
-            let points = runs[group.run].0.points().filter(|p| mine(group, p));
+            let points = runs[group.run].iter().filter(|p| mine(group, p));
             let at = points.map(|p| if actual { p.act } else { p.set });
             let stroke = Stroke { colour: group.colour, width, dash };
             svg.curve(panel, at.map(|p| [p[plane[0]], p[plane[1]]]), stroke);
@@ -266,15 +276,26 @@ fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f6
     }
 }
 
-/// A curve over time: smallest and largest value of each bucket.
+/// A curve over time: smallest and largest value per pixel, or of each bucket where there are fewer.
 fn over_time(run: &Recording, curve: usize, pass: Option<usize>) -> Vec<[f64; 2]> {
-    let mut points = Vec::with_capacity(run.buckets.len());
-    for bucket in run.buckets.iter().filter(|b| pass.is_none_or(|p| p == b.pass)) {
+    let per_px = (run.buckets.len() as f64 / (RIGHT - LEFT)).max(1.0);
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    let mut pixel = None;
+    for (i, bucket) in run.buckets.iter().enumerate() {
+        if pass.is_some_and(|p| p != bucket.pass) {
+            continue;
+        }
         let (low, high) = bucket.range[curve];
         let t = run.seconds(bucket.k);
-        points.push([t, low]);
-        if high > low {
-            points.push([t, high]);
+        let this = Some(libm::floor(i as f64 / per_px));
+        if this == pixel
+            && let [.., bottom, top] = points.as_mut_slice()
+        {
+            bottom[1] = bottom[1].min(low);
+            top[1] = top[1].max(high);
+        } else {
+            pixel = this;
+            points.extend([[t, low], [t, high]]);
         }
     }
     points

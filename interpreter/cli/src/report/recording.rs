@@ -1,11 +1,16 @@
 //! What a picture needs of a run, in bounded memory: one bucket per stretch of cycles, with the smallest and largest
-//! value of every curve and the points that span the contour. Short runs keep every cycle.
+//! value of every curve and the points that span the contour. Short runs keep every cycle; long ones keep every cycle
+//! around the largest contour error, where one looks closest.
 
 use crate::engine::Facts;
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
+use std::collections::VecDeque;
 
 /// Buckets of a finished recording are at least half of this many, once a run is longer than that.
-const MOST_BUCKETS: usize = 6000;
+const MOST_BUCKETS: usize = 4000;
+
+/// Cycles before and after the largest contour error of which every one is kept.
+const CLOSE: usize = 256;
 
 /// More passes than this over one contour are drawn as one.
 pub(crate) const MOST_PASSES: usize = 6;
@@ -95,6 +100,13 @@ pub(crate) struct Recording {
     pub(crate) width: u64,
     start: Option<[f64; 3]>,
     moved: bool,
+    /// The last cycles.
+    recent: VecDeque<Point>,
+    /// Every cycle around the largest contour error.
+    close: Vec<Point>,
+    /// Cycles that are still to come after the largest contour error.
+    close_left: usize,
+    largest: f64,
 }
 
 impl Recording {
@@ -132,6 +144,10 @@ impl Recording {
             width: 1,
             start: None,
             moved: false,
+            recent: VecDeque::new(),
+            close: Vec::new(),
+            close_left: 0,
+            largest: 0.0,
         }
     }
 
@@ -140,14 +156,40 @@ impl Recording {
         k as f64 * f64::from(self.facts.cycle_us) / 1e6
     }
 
-    /// Every point of the contour, in order.
+    /// Every cycle around the largest contour error; empty if every cycle of the run is kept anyway.
+    pub(crate) fn close(&self) -> &[Point] {
+        if self.width > 1 { &self.close } else { &[] }
+    }
+
+    /// Every point of the contour that is kept, in order.
     pub(crate) fn points(&self) -> impl Iterator<Item = &Point> {
-        self.buckets.iter().flat_map(|b| &b.points)
+        let close = self.close();
+        let from = close.first().map_or(u64::MAX, |p| p.k);
+        let to = close.last().map_or(u64::MAX, |p| p.k);
+        let all = || self.buckets.iter().flat_map(|b| &b.points);
+        let before = all().filter(move |p| p.k < from);
+        before.chain(close).chain(all().filter(move |p| p.k > to))
+    }
+
+    fn look_closely(&mut self, point: Point) {
+        if self.recent.len() >= CLOSE {
+            self.recent.pop_front();
+        }
+        self.recent.push_back(point);
+        if point.error > self.largest {
+            self.largest = point.error;
+            self.close = self.recent.iter().copied().collect();
+            self.close_left = CLOSE;
+        } else if self.close_left > 0 {
+            self.close_left -= 1;
+            self.close.push(point);
+        }
     }
 
     /// Adds a cycle.
     pub(crate) fn add(&mut self, record: &CycleRecord) {
         let point = self.point(record);
+        self.look_closely(point);
         let value = |c: &Curve| match (c.kind, c.axis) {
             (Kind::Speed, _) => record.path.v_mm_s,
             (Kind::ContourError, _) => record.contour_err_mm,
@@ -219,6 +261,7 @@ impl Recording {
             bucket.pass = 0;
             bucket.points.iter_mut().for_each(|p| p.pass = 0);
         }
+        self.recent.iter_mut().chain(&mut self.close).for_each(|p| p.pass = 0);
         // a start that no path comes back to
         self.start = Some([f64::INFINITY; 3]);
         self.moved = true;
@@ -259,6 +302,8 @@ impl Bucket {
         for axis in 0..3 {
             keep.push(most(&|p| p.set[axis]));
             keep.push(most(&|p| -p.set[axis]));
+            keep.push(most(&|p| p.ipo[axis]));
+            keep.push(most(&|p| -p.ipo[axis]));
         }
         keep.push(most(&|p| p.error));
         keep.sort_unstable();
@@ -332,6 +377,10 @@ mod tests {
         }
         assert!(r.buckets.len() < MOST_BUCKETS && r.buckets.len() > MOST_BUCKETS / 4);
         assert!(r.points().count() < 5 * r.buckets.len());
+        // around the largest error nothing is left out
+        assert_eq!(r.close().len(), 2 * CLOSE);
+        let near = r.points().filter(|p| p.k.abs_diff(77_777) < 250).count();
+        assert_eq!(near, 499);
         let error = r.curves.iter().position(|c| c.kind == Kind::ContourError).unwrap();
         let most = r.buckets.iter().map(|b| b.range[error].1).fold(0.0, f64::max);
         assert_eq!(most.to_bits(), 0.5_f64.to_bits());

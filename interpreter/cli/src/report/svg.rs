@@ -59,10 +59,6 @@ impl Panel {
             self.top + (self.y.1 - y) / (self.y.1 - self.y.0) * self.height,
         ]
     }
-
-    fn sees(&self, [x, y]: [f64; 2]) -> bool {
-        x >= self.x.0 && x <= self.x.1 && y >= self.y.0 && y <= self.y.1
-    }
 }
 
 impl Svg {
@@ -126,7 +122,7 @@ impl Svg {
         self.body.push_str("</g>\n");
     }
 
-    /// A line through data points, in steps of a tenth of a pixel; parts far outside the panel are left out.
+    /// A line through data points; what moves less than a third of a pixel and what lies outside is left out.
     pub(super) fn curve(
         &mut self,
         panel: &Panel,
@@ -134,31 +130,36 @@ impl Svg {
         stroke: Stroke<'_>,
     ) {
         let mut path = String::new();
-        let mut last: Option<([f64; 2], bool)> = None;
-        let mut pen_down = false;
-        let mut previous = String::new();
+        let mut last: Option<[f64; 2]> = None;
+        // where the pen is on paper, and a small step it has not drawn yet
+        let mut pen: Option<[f64; 2]> = None;
+        let mut waiting: Option<[f64; 2]> = None;
+        let mut put = |command: char, [x, y]: [f64; 2]| {
+            let _ = write!(path, "{command}{} {}", px(x), px(y));
+        };
         for p in points {
-            let seen = panel.sees(p);
-            if let Some((q, q_seen)) = last {
-                // a stretch is drawn if one of its ends is visible, or if it may cross the panel
-                let crosses = seen || q_seen || may_cross(panel, q, p);
-                if crosses {
-                    if !pen_down {
-                        let [x, y] = panel.at(q).map(px);
-                        let _ = write!(path, "M{x} {y}");
-                        pen_down = true;
-                    }
-                    let [x, y] = panel.at(p).map(px);
-                    let next = format!("L{x} {y}");
-                    if next != previous {
-                        path.push_str(&next);
-                        previous = next;
-                    }
+            if let Some(q) = last.filter(|q| may_cross(panel, *q, p)) {
+                let from = pen.unwrap_or_else(|| {
+                    put('M', panel.at(q));
+                    panel.at(q)
+                });
+                let to = panel.at(p);
+                if (to[0] - from[0]).abs().max((to[1] - from[1]).abs()) < 0.3 {
+                    (pen, waiting) = (Some(from), Some(to));
                 } else {
-                    pen_down = false;
+                    put('L', to);
+                    (pen, waiting) = (Some(to), None);
                 }
+            } else {
+                if let Some(w) = waiting.take() {
+                    put('L', w);
+                }
+                pen = None;
             }
-            last = Some((p, seen));
+            last = Some(p);
+        }
+        if let Some(w) = waiting {
+            put('L', w);
         }
         if !path.is_empty() {
             let style = stroke.attributes();

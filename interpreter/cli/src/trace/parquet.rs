@@ -221,7 +221,7 @@ mod tests {
                 k,
                 file: u32::from(k > 10),
                 line: 7,
-                block: (k % 3 == 0).then_some(k),
+                block: k.is_multiple_of(3).then_some(k),
                 path: PathRecord { limit: SpeedLimit::AxDev, ..PathRecord::default() },
                 axes: vec![AxisRecord { ipo: position(k), ..AxisRecord::default() }],
                 ..CycleRecord::default()
@@ -236,12 +236,12 @@ mod tests {
         let value = |key: &str| meta.iter().find(|m| m.key == key).unwrap().value.clone().unwrap();
         assert_eq!(value("kontur.cycle_us"), "500");
         assert_eq!(value("kontur.filter_delay_cycles.X"), "12.5");
-        let mut k = 0;
+        let mut k = 0_u64;
         for row in reader.get_row_iter(None).unwrap() {
             let row = row.unwrap();
             assert_eq!(row.get_double(0).unwrap().to_bits(), (k as f64 * 500.0 / 1e6).to_bits());
             assert_eq!(row.get_long(1).unwrap(), 7);
-            assert_eq!(row.get_long(2).ok(), (k % 3 == 0).then(|| k.cast_signed()));
+            assert_eq!(row.get_long(2).ok(), k.is_multiple_of(3).then(|| k.cast_signed()));
             assert_eq!(row.get_string(3).unwrap(), if k > 10 { "b.nc" } else { "a.nc" });
             assert_eq!(row.get_string(4).unwrap(), "ax_dev");
             assert_eq!(row.get_double(5).unwrap().to_bits(), position(k).to_bits());
