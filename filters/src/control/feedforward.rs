@@ -118,7 +118,7 @@ impl FeedforwardConfig {
     /// Source: TF5200 parameter tables (six interpolator cycles); the example text and older builds say one.
     const MAX_DELAY_CYCLES: usize = 6;
 
-    /// Gain of this axis in a cycle: the weight of G136 (1 = 100 %, limited to 1) while it is switched on, else 0.
+    /// Gain of this axis in a cycle, of the checked configuration: the weight of G136 (1 = 100 %, limited to 1) while it is switched on, else 0.
     pub fn gain(&self, g135: bool, g136_ratio: f64) -> f64 {
         let on = !self.global_disable && (self.default_active || g135) && !self.mode.is_empty();
         if on { g136_ratio.clamp(0.0, 1.0) } else { 0.0 }
@@ -248,6 +248,7 @@ impl Feedforward {
 
     /// Values of one cycle; `kv_per_s` is the gain of the position controller in this cycle.
     pub fn step(&mut self, window: &Window, kv_per_s: f64) -> FeedforwardOutput {
+        use FeedforwardMode as M;
         let [pp, p, x, n, nn, nnn] = window.positions_mm;
         let t = self.cycle_s;
         let c = &self.config;
@@ -262,7 +263,6 @@ impl Feedforward {
         };
         let weight = window.gain * c.global_ratio;
         let on = |flag: bool, value: f64| if flag { weight * value } else { 0.0 };
-        use FeedforwardMode as M;
         let ta = 1e-6; // the quotient is in microseconds in the conventional variant
         FeedforwardOutput {
             speed_mm_s: on(mode.conventional(M::VEL, M::ADD_VEL), v)

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! The source is the measured speed of the direct measuring system (DIRECT), of the motor (INDIRECT) or the speed
-//! command (SET_POINT); the last two see a vibration that the encoders do not show through a simulated oscillator.
+//! command (`SET_POINT`); the last two see a vibration that the encoders do not show through a simulated oscillator.
 //!
 //! Assumption: the manual speaks of a counter-movement and prints no sign; minus adds damping wherever the motor moves
 //! with the encoder that is fed back, plus removes it.
@@ -120,10 +120,11 @@ impl IpcStageConfig {
 
     /// Errors that switch the function off, then warnings.
     fn check(&self, stage: usize, cycle: CycleTime, issues: &mut Vec<Issue>) {
-        if !(self.weight_num > 0.0) {
+        let positive = |v: f64| v > 0.0;
+        if !positive(self.weight_num) {
             issues.push(Issue::IpcNumerator { stage, value: self.weight_num });
         }
-        if !(self.weight_denom > 0.0) {
+        if !positive(self.weight_denom) {
             issues.push(Issue::IpcDenominator { stage, value: self.weight_denom });
         }
         let mut range = |good: bool, what, value| {
@@ -206,6 +207,8 @@ impl IpcConfig {
 }
 
 /// Speeds that the stages may use, mm/s.
+///
+/// Assumption: the true speeds at the start of the cycle; the resolution of the encoders is not modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct IpcInput {
     /// Measured motor speed.

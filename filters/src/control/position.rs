@@ -55,7 +55,7 @@ impl PositionConfig {
 
     /// Limit of the speed command in mm/s, if there is one.
     pub fn speed_limit_mm_s(&self) -> Option<f64> {
-        (self.v_excess_ratio > 0.0).then(|| self.v_max_mm_s * (1.0 + self.v_excess_ratio))
+        (self.v_excess_ratio > 0.0).then_some(self.v_max_mm_s * (1.0 + self.v_excess_ratio))
     }
 }
 
@@ -86,6 +86,8 @@ impl SpeedLimiter {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
     use super::*;
     use crate::control::fault::{ErrorId, Reaction};
 

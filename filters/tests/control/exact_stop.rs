@@ -4,7 +4,7 @@ use crate::profile::Profile;
 use kontur_filters::control::monitor::ExactStopConfig;
 use kontur_filters::control::plant::PlantModel;
 use kontur_filters::control::{
-    AxisControl, AxisControlConfig, ErrorId, FeedforwardConfig, FeedforwardMode,
+    AxisControl, AxisControlConfig, ErrorId, Fault, FeedforwardConfig, FeedforwardMode,
 };
 use kontur_filters::time::CycleTime;
 
@@ -30,7 +30,7 @@ fn stop(mut axis: AxisControl, set: impl Fn(u32) -> f64, last: u32) -> (u32, Vec
             axis.expect_stop(set(last));
         }
         let out = axis.step(set(k), 1.0, true);
-        ids.extend(out.faults.iter().map(|f| f.id()));
+        ids.extend(out.faults.iter().map(Fault::id));
         // the actual value of the cycle start
         if k >= last && (set(last) - out.act_mm).abs() <= 0.05 {
             entered.get_or_insert(k - last);
@@ -109,7 +109,7 @@ fn disturbed_axis_misses_the_window() {
             if k == 2000 {
                 axis.expect_stop(abrupt(2000));
             }
-            ids.extend(axis.step(abrupt(k), 0.0, false).faults.iter().map(|f| f.id()));
+            ids.extend(axis.step(abrupt(k), 0.0, false).faults.iter().map(Fault::id));
         }
         ids
     };
@@ -125,7 +125,7 @@ fn disturbed_axis_misses_the_window() {
             if k % 20 == 0 {
                 axis.set_encoder_offset(0.2 * f64::from(k / 20));
             }
-            axis.step(abrupt(k), 0.0, false).faults.iter().map(|f| f.id()).collect::<Vec<_>>()
+            axis.step(abrupt(k), 0.0, false).faults.iter().map(Fault::id).collect::<Vec<_>>()
         })
         .collect();
     assert_eq!(ids, [ErrorId::Vendor(70082)]);

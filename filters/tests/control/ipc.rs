@@ -264,7 +264,7 @@ fn detuned_machine() {
     }
 }
 
-/// SET_POINT wants its frequency above the mode: its oscillator must be in phase there.
+/// `SET_POINT` wants its frequency above the mode: its oscillator must be in phase there.
 #[test]
 fn set_point_frequency() {
     let above = run(on([stage(IpcMode::SetPoint, 14.0, 1.0, 0.1, 0.4)]));
@@ -307,7 +307,7 @@ fn set_point_damps_higher_frequencies() {
     }
 }
 
-/// At a weight at which INDIRECT swings into its limit, SET_POINT only responds to the motion and comes to rest.
+/// At a weight at which INDIRECT swings into its limit, `SET_POINT` only responds to the motion and comes to rest.
 #[test]
 fn set_point_cannot_swing_up() {
     let last = |shown: &Shown| {
@@ -348,7 +348,7 @@ fn largest_kv(dead_time_cycles: usize, ipc: &IpcConfig) -> f64 {
         peak(&lags[3500..]) < 0.99 * peak(&lags[1500..2000]).max(1e-17)
     };
     let (mut low, mut high) = (10.0, 2000.0);
-    while high - low > 1.0 {
+    for _ in 0..11 {
         let middle = 0.5 * (low + high);
         if stable(middle) { low = middle } else { high = middle }
     }

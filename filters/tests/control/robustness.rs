@@ -5,7 +5,7 @@ use kontur_filters::control::ipc::{
 };
 use kontur_filters::control::plant::{ModalConfig, PlantModel, SpeedLoop, TwoMassConfig};
 use kontur_filters::control::{
-    AxisControl, AxisControlConfig, ControlOutput, Encoder, ErrorId, FeedforwardConfig,
+    AxisControl, AxisControlConfig, ControlOutput, Encoder, ErrorId, Fault, FeedforwardConfig,
     FeedforwardMode,
 };
 use kontur_filters::time::CycleTime;
@@ -110,7 +110,7 @@ fn divergence_is_reported_once_and_held() {
     let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
     let out: Vec<_> = (0..5000).map(|_| axis.step(1.0, 0.0, false)).collect();
     let raised: Vec<_> =
-        out.iter().flat_map(|o| o.faults.iter().map(|f| f.id()).collect::<Vec<_>>()).collect();
+        out.iter().flat_map(|o| o.faults.iter().map(Fault::id).collect::<Vec<_>>()).collect();
     assert_eq!(raised.iter().filter(|id| **id == ErrorId::Kontur(35)).count(), 1);
     assert!(out.iter().all(finite));
     assert_eq!(out[4998].act_mm, out[4999].act_mm, "held");
@@ -158,5 +158,32 @@ fn rest_is_bit_exact() {
         let out = axis.step(123.456_789, 1.0, true);
         assert_eq!([out.act_mm, out.load_mm, out.tcp_mm, out.reference_mm], [123.456_789; 4]);
         assert!(out.faults.is_empty());
+    }
+}
+
+/// A constant force on the load bends the coupling by F/c; whichever encoder closes the loop ends at the reference.
+#[test]
+fn encoder_of_the_position_loop() {
+    let (ratio, resonance_hz, force) = (3.0, 40.0, 500.0);
+    let speed_loop =
+        SpeedLoop { gain_per_s: 20.0, integral_time_s: Some(0.1), current_time_s: 0.0005 };
+    let coupling =
+        TwoMassConfig { load_to_motor_ratio: ratio, resonance_hz, damping_ratio: 0.05, speed_loop };
+    // c = w2 mu for a whole mass of 1
+    let w = std::f64::consts::TAU * resonance_hz;
+    let bend_mm = force / (w * w * ratio / ((1.0 + ratio) * (1.0 + ratio)));
+    for (encoder, motor_mm, load_mm) in
+        [(Encoder::Motor, 1.0, 1.0 + bend_mm), (Encoder::Direct, 1.0 - bend_mm, 1.0)]
+    {
+        let mut config = AxisControlConfig::new(500.0, 1e4, 1e6);
+        config.plant.model = PlantModel::TwoMass(coupling);
+        config.encoder = encoder;
+        config.position.kv_per_s = 3.0;
+        let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+        axis.start(1.0);
+        axis.set_force(force);
+        let out = (0..20_000).map(|_| axis.step(1.0, 0.0, false)).last().unwrap();
+        assert!((out.act_mm - motor_mm).abs() < 1e-6, "{encoder:?} {} {motor_mm}", out.act_mm);
+        assert!((out.load_mm - load_mm).abs() < 1e-6, "{encoder:?} {} {load_mm}", out.load_mm);
     }
 }
