@@ -44,7 +44,8 @@ pub struct AxisControlConfig {
     /// Additive inputs of the drive.
     pub additive_inputs: AdditiveInputs,
     /// Delay of the position path in cycles, the same for every axis of a channel
-    /// ([`channel_delay_cycles`](super::buffer::channel_delay_cycles)). Never less than the axis' own feedforward needs.
+    /// ([`channel_delay_cycles`](super::buffer::channel_delay_cycles)). Never less than the axis' own feedforward
+    /// needs.
     pub delay_cycles: usize,
     /// Position controller.
     pub position: PositionConfig,
@@ -240,7 +241,8 @@ impl AxisControl {
         self.plant.has_tool_point()
     }
 
-    /// The path comes to a stop, for this axis at `target_mm`: the exact-stop timer starts when the set position gets there.
+    /// The path comes to a stop, for this axis at `target_mm`: the exact-stop timer starts when the set position
+    /// gets there.
     pub fn expect_stop(&mut self, target_mm: f64) {
         self.exact_stop.expect(target_mm);
     }

@@ -49,8 +49,8 @@ pub enum IpcFilterType {
 pub struct IpcFilterConfig {
     /// Type (P-AXIS-00849).
     pub kind: IpcFilterType,
-    /// Order (P-AXIS-00750), 1..=3. A band-pass falls by 20 dB per decade and order on either side; an all-pass turns by
-    /// 90 degrees per order at its frequency.
+    /// Order (P-AXIS-00750), 1..=3. A band-pass falls by 20 dB per decade and order on either side; an all-pass
+    /// turns by 90 degrees per order at its frequency.
     pub order: u32,
     /// Damped frequency in Hz (P-AXIS-00751), above 0, at most 500 and below half the sampling rate.
     pub frequency_hz: f64,
@@ -67,8 +67,8 @@ pub struct IpcStageConfig {
     pub weight_num: f64,
     /// Denominator of the weight (P-AXIS-00755), above 0, default 1.
     pub weight_denom: f64,
-    /// The filters, at least one of them a band-pass; their order does not matter. The first band-pass gives the frequency
-    /// of the oscillator.
+    /// The filters, at least one of them a band-pass; their order does not matter. The first band-pass gives the
+    /// frequency of the oscillator.
     pub filters: Vec<IpcFilterConfig>,
     /// Damping of the simulated oscillation (P-AXIS-00756, newer builds P-AXIS-00850), between 0 and 1, exclusive; the
     /// less, the larger the additive speed. Without meaning for DIRECT.
@@ -162,8 +162,8 @@ impl IpcConfig {
 
     /// What is wrong with the configuration; empty while it is off.
     ///
-    /// 70600, 70603, 70604, K-0025 switch the function off for the axis ([`IpcConfig::active`]); K-0026, K-0027, K-0063
-    /// warn.
+    /// 70600, 70603, 70604, K-0025 switch the function off for the axis ([`IpcConfig::active`]); K-0026, K-0027,
+    /// K-0063 warn.
     pub fn check(&self, cycle: CycleTime) -> Vec<Issue> {
         let mut issues = Vec::new();
         if !self.enable {

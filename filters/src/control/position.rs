@@ -26,7 +26,8 @@ pub struct PositionConfig {
     pub dynamic_kv: Option<DynamicKv>,
     /// Largest speed of the axis in mm/s (P-AXIS-00212), default 200.
     pub v_max_mm_s: f64,
-    /// Excess over it that the command may reach, 1 = 100 % (P-AXIS-00407 / 1000), default 1; 0 switches the limit off.
+    /// Excess over it that the command may reach, 1 = 100 % (P-AXIS-00407 / 1000), default 1; 0 switches the limit
+    /// off.
     pub v_excess_ratio: f64,
 }
 

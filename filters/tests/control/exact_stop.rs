@@ -65,8 +65,8 @@ fn time_limit_decides() {
     }
 }
 
-/// What shortens the 530 ms: the drive's own lag, which carries the axis on (502 ms), and a braking phase, which begins
-/// to close the lag of 10 mm before the stop: `a / Kv2 (1 - exp(-1))` = 6.32 mm are left then (484 ms).
+/// What shortens the 530 ms: the drive's own lag, which carries the axis on (502 ms), and a braking phase, which
+/// begins to close the lag of 10 mm before the stop: `a / Kv2 (1 - exp(-1))` = 6.32 mm are left then (484 ms).
 #[test]
 fn what_shortens_the_settling() {
     let (cycles, _) = stop(axis(10.0, 0.005, 1.0), abrupt, 2000);

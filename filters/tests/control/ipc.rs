@@ -45,7 +45,8 @@ fn on<const N: usize>(stages: [IpcStageConfig; N]) -> IpcConfig {
     IpcConfig { enable: true, limit_ratio: 0.1, stages: stages.into(), ..IpcConfig::default() }
 }
 
-/// The axis and its motion: 0.5 m with 272.7 mm/s, 2 m/s2 and ramps of 20 ms from 0.1 s on, then 1.2 s at rest.
+/// The axis and its motion: from 0.1 s on 0.5 m forth with 272.7 mm/s, 2 m/s2 and ramps of 20 ms, 1.2 s at rest, and
+/// back, up to the constant speed.
 #[derive(Clone, Debug)]
 struct Experiment {
     plant: ModalConfig,
@@ -61,7 +62,7 @@ impl Default for Experiment {
 struct Shown(Vec<ControlOutput>);
 
 impl Experiment {
-    fn run(&self, ipc: IpcConfig) -> Shown {
+    fn config(&self, ipc: IpcConfig) -> AxisControlConfig {
         let mut config = AxisControlConfig::new(500.0, 1e5, 1e8);
         config.position.kv_per_s = 30.0;
         config.feedforward =
@@ -76,17 +77,28 @@ impl Experiment {
             }),
         };
         config.ipc = ipc;
-        let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+        config
+    }
+
+    fn profile() -> Profile {
         let hold = 500.0 / 272.7 - (272.7 / 2000.0 + 0.02);
-        let profile = Profile::rest()
+        Profile::rest()
             .then(0.1, 0.0)
             .ramp(272.7, 2000.0, 0.02)
             .then(hold, 0.0)
-            .ramp(-272.7, 2000.0, 0.02);
+            .ramp(-272.7, 2000.0, 0.02)
+            .then(1.2, 0.0)
+            .ramp(-272.7, 2000.0, 0.02)
+            .then(hold, 0.0)
+    }
+
+    fn run(&self, ipc: IpcConfig) -> Shown {
+        let mut axis = AxisControl::new(self.config(ipc), CycleTime::DEFAULT).unwrap();
+        let profile = Self::profile();
         // the reference, not the set position, starts at 0.1 s
         let early = axis.delay_cycles();
         let step = |k: usize| axis.step(profile.at((k + early) as f64 * 1e-3), 1.0, true);
-        Shown((0..3290).map(step).collect())
+        Shown((0..5000).map(step).collect())
     }
 }
 
@@ -184,6 +196,7 @@ fn direct_weight() {
     near(heavy.lag_um(), 151.0, 0.5);
     near(light.v_add(), 0.6, 0.05);
     near(heavy.v_add(), 1.5, 0.05);
+    near(run(on([direct(5.0)])).v_add(), 4.2, 0.05);
     let most = run(on([direct(7.0)]));
     near(most.at_53(), 0.310, DIGIT);
     near(most.lag_um(), 272.0, 0.5);
@@ -201,9 +214,11 @@ fn indirect_weight() {
     });
     assert!(got[0] > got[1] && got[1] > got[2], "better");
     assert!(got[2] < got[3] && got[3] < got[4], "then worse");
-    let light = run(on([indirect(4.0, 0.2)]));
-    near(light.lag_um(), 137.0, 0.5);
-    near(light.v_add(), 3.4, 0.05);
+    for (weight, lag_um, v_add) in [(0.2, 137.0, 3.4), (0.6, 298.0, 10.8)] {
+        let shown = run(on([indirect(4.0, weight)]));
+        near(shown.lag_um(), lag_um, 0.5);
+        near(shown.v_add(), v_add, 0.05);
+    }
 }
 
 /// Transport delay of the additive speed: the high stage tolerates less than the low one.
@@ -311,7 +326,7 @@ fn set_point_damps_higher_frequencies() {
 #[test]
 fn set_point_cannot_swing_up() {
     let last = |shown: &Shown| {
-        shown.0[3000..].iter().map(|o| o.additive_speed_mm_s.abs()).fold(0.0, f64::max)
+        shown.0[3000..3290].iter().map(|o| o.additive_speed_mm_s.abs()).fold(0.0, f64::max)
     };
     let indirect = run(on([stage(IpcMode::Indirect, 11.0, 3.0, 0.2, 2.0)]));
     let set_point = run(on([stage(IpcMode::SetPoint, 11.0, 3.0, 0.2, 2.0)]));
@@ -355,7 +370,8 @@ fn largest_kv(dead_time_cycles: usize, ipc: &IpcConfig) -> f64 {
     low
 }
 
-/// The eigenvalues of the sampled loop leave the unit circle at 870 (no dead time), 433, 299 and 230 1/s (three cycles).
+/// The eigenvalues of the sampled loop leave the unit circle at 870 (no dead time), 433, 299 and 230 1/s (three
+/// cycles).
 #[test]
 fn largest_stable_kv() {
     for (dead_time, kv) in [(0, 870.0), (1, 433.0), (2, 299.0), (3, 230.0)] {
@@ -369,4 +385,47 @@ fn damping_allows_a_higher_kv() {
     let damped = on([stage(IpcMode::Direct, 90.0, 1.0, -1.0, 0.5)]);
     let (plain, damped) = (largest_kv(0, &off()), largest_kv(0, &damped));
     assert!(damped > 1.2 * plain, "{plain} {damped}");
+}
+
+/// The sign: added instead of subtracted, the same speed feeds the vibration that the motor and the load show alike.
+/// The loop is put together from its parts here, since no parameter turns the sign.
+#[test]
+fn added_speed_excites() {
+    use kontur_filters::control::buffer::{Setpoint, SetpointBuffer};
+    use kontur_filters::control::feedforward::Feedforward;
+    use kontur_filters::control::ipc::{Ipc, IpcInput};
+    use kontur_filters::control::plant::{Plant, PlantInput};
+
+    let experiment = Experiment::default();
+    let loop_with = |sign: f64| {
+        let config = experiment.config(on([direct(3.0), indirect(4.0, 0.4)]));
+        let mut buffer = SetpointBuffer::new(5, 0);
+        let mut feedforward = Feedforward::new(config.feedforward, CycleTime::DEFAULT);
+        let mut ipc = Ipc::new(&config.ipc, 500.0, CycleTime::DEFAULT);
+        let mut plant = Plant::new(&config.plant, CycleTime::DEFAULT).unwrap();
+        let profile = Experiment::profile();
+        let mut tcp_mm_s = 0.0;
+        let step = |k: usize| {
+            let position_mm = profile.at((k + 5) as f64 * 1e-3);
+            buffer.push(Setpoint { position_mm, gain: 1.0, jerk_limited: true });
+            let m = *plant.measured();
+            let lag_mm = buffer.reference_mm() - m.motor_mm;
+            let command_mm_s = 30.0 * lag_mm + feedforward.step(&buffer.window(), 30.0).speed_mm_s;
+            let input = IpcInput { motor_mm_s: m.motor_mm_s, direct_mm_s: None, command_mm_s };
+            let additive_speed_mm_s = sign * ipc.step(&input).speed_mm_s;
+            let speed_mm_s = command_mm_s + additive_speed_mm_s;
+            assert!(plant.advance(PlantInput { speed_mm_s, ..PlantInput::default() }));
+            let tcp_acc_mm_s2 = (m.tcp_mm_s - std::mem::replace(&mut tcp_mm_s, m.tcp_mm_s)) * 1e3;
+            ControlOutput { lag_mm, additive_speed_mm_s, tcp_acc_mm_s2, ..Default::default() }
+        };
+        Shown((0..5000).map(step).collect())
+    };
+    let added = loop_with(-1.0);
+    near(added.at_53(), 1.032, DIGIT);
+    near(added.at_11(), 0.321, DIGIT);
+    near(added.lag_um(), 269.0, 0.5);
+    near(added.v_add(), 9.8, 0.05);
+    let subtracted = loop_with(1.0);
+    let axis = run(on([direct(3.0), indirect(4.0, 0.4)]));
+    assert_eq!(subtracted.at_53(), axis.at_53(), "the axis is the sum of its parts");
 }
