@@ -1,7 +1,13 @@
 //! One axis behind its set position: the parts in their fixed order, once per cycle.
 //!
-//! 1. read the actual values of the cycle start, 2. take the setpoint out of the buffer, 3. feedforward, 4. position
-//! controller, 5. Improved Position Control, 6. speed limit, 7. monitors, 8. advance the plant by one cycle.
+//! 1. Actual values of the cycle start.
+//! 2. Setpoint out of the buffer.
+//! 3. Feedforward.
+//! 4. Position controller.
+//! 5. Improved Position Control.
+//! 6. Speed limit.
+//! 7. Monitors.
+//! 8. The plant advances by one cycle.
 
 use super::{
     buffer::{Setpoint, SetpointBuffer},
@@ -38,7 +44,8 @@ pub struct AxisControlConfig {
     /// Additive inputs of the drive.
     pub additive_inputs: AdditiveInputs,
     /// Delay of the position path in cycles, the same for every axis of a channel
-    /// ([`channel_delay_cycles`](super::buffer::channel_delay_cycles)). Never less than the axis' own feedforward needs.
+    /// ([`channel_delay_cycles`](super::buffer::channel_delay_cycles)). Never less than the axis' own feedforward
+    /// needs.
     pub delay_cycles: usize,
     /// Position controller.
     pub position: PositionConfig,
@@ -224,12 +231,18 @@ impl AxisControl {
         self.buffer.delay_cycles()
     }
 
+    /// Following-error monitor, with lag and permitted lag of the last cycle.
+    pub const fn lag_monitor(&self) -> &LagMonitor {
+        &self.lag
+    }
+
     /// The plant separates the tool point from the load.
     pub fn has_tool_point(&self) -> bool {
         self.plant.has_tool_point()
     }
 
-    /// The path comes to a stop, for this axis at `target_mm`: the exact-stop timer starts when the set position gets there.
+    /// The path comes to a stop, for this axis at `target_mm`: the exact-stop timer starts when the set position
+    /// gets there.
     pub fn expect_stop(&mut self, target_mm: f64) {
         self.exact_stop.expect(target_mm);
     }
@@ -275,7 +288,7 @@ impl AxisControl {
     /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
         let set_mm = if set_mm.abs() <= Self::RANGE_MM { set_mm } else { self.set_mm };
-        self.moving = set_mm != self.set_mm;
+        self.moving = (set_mm - self.set_mm).abs() > 0.0;
         self.set_mm = set_mm;
         let cycle_s = self.cycle.seconds();
         let measured = *self.plant.measured();
@@ -341,10 +354,8 @@ impl AxisControl {
         }
         let theoretical = self.config.position.v_max_mm_s / self.config.position.lowest_gain();
         let limit_mm = Self::DIVERGED * self.config.lag.lag_max_mm.max(theoretical);
-        if lag_mm.abs() <= limit_mm {
-            if self.plant.advance(input) {
-                return None;
-            }
+        if lag_mm.abs() <= limit_mm && self.plant.advance(input) {
+            return None;
         }
         self.diverged = true;
         Some(Fault::Unstable { lag_mm, limit_mm })

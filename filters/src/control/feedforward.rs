@@ -9,10 +9,10 @@
 //! Additive variant (flags with output bit): velocity and torque for the inner loops of the drive, each with its own
 //! delay. `g` is the switch and the weight of G135, G136, G137; `W` the global weight.
 //!
-//! `v`, `a`, `j` are forward differences of setpoint, its velocity and its acceleration: means over the coming cycle, for
-//! which the drive holds its command. Instantaneous derivatives would leave a lag of `a T / (2 Kv)`. The velocity at a
-//! sample comes from the setpoints around it by the rule of fourth order, which is exact while the jerk is constant and
-//! leaves no net error where it changes.
+//! `v`, `a`, `j` are forward differences of setpoint, its velocity and its acceleration: means over the coming
+//! cycle, for which the drive holds its command. Instantaneous derivatives would leave a lag of `a T / (2 Kv)`. The
+//! velocity at a sample comes from the setpoints around it by the rule of fourth order, which is exact while the
+//! jerk is constant and leaves no net error where it changes.
 //!
 //! The manual prints the lag under constant jerk as `j+T/K2`; the plus cannot be (the units differ), it is the product
 //! `j Ta / Kv2`.
@@ -118,7 +118,8 @@ impl FeedforwardConfig {
     /// Source: TF5200 parameter tables (six interpolator cycles); the example text and older builds say one.
     const MAX_DELAY_CYCLES: usize = 6;
 
-    /// Gain of this axis in a cycle: the weight of G136 (1 = 100 %, limited to 1) while it is switched on, else 0.
+    /// Gain of this axis in a cycle, of the checked configuration: the weight of G136 (1 = 100 %, limited to 1)
+    /// while it is switched on, else 0.
     pub fn gain(&self, g135: bool, g136_ratio: f64) -> f64 {
         let on = !self.global_disable && (self.default_active || g135) && !self.mode.is_empty();
         if on { g136_ratio.clamp(0.0, 1.0) } else { 0.0 }
@@ -248,6 +249,7 @@ impl Feedforward {
 
     /// Values of one cycle; `kv_per_s` is the gain of the position controller in this cycle.
     pub fn step(&mut self, window: &Window, kv_per_s: f64) -> FeedforwardOutput {
+        use FeedforwardMode as M;
         let [pp, p, x, n, nn, nnn] = window.positions_mm;
         let t = self.cycle_s;
         let c = &self.config;
@@ -262,7 +264,6 @@ impl Feedforward {
         };
         let weight = window.gain * c.global_ratio;
         let on = |flag: bool, value: f64| if flag { weight * value } else { 0.0 };
-        use FeedforwardMode as M;
         let ta = 1e-6; // the quotient is in microseconds in the conventional variant
         FeedforwardOutput {
             speed_mm_s: on(mode.conventional(M::VEL, M::ADD_VEL), v)

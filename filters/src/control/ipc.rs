@@ -8,7 +8,7 @@
 //! ```
 //!
 //! The source is the measured speed of the direct measuring system (DIRECT), of the motor (INDIRECT) or the speed
-//! command (SET_POINT); the last two see a vibration that the encoders do not show through a simulated oscillator.
+//! command (`SET_POINT`); the last two see a vibration that the encoders do not show through a simulated oscillator.
 //!
 //! Assumption: the manual speaks of a counter-movement and prints no sign; minus adds damping wherever the motor moves
 //! with the encoder that is fed back, plus removes it.
@@ -49,8 +49,8 @@ pub enum IpcFilterType {
 pub struct IpcFilterConfig {
     /// Type (P-AXIS-00849).
     pub kind: IpcFilterType,
-    /// Order (P-AXIS-00750), 1..=3. A band-pass falls by 20 dB per decade and order on either side; an all-pass turns by
-    /// 90 degrees per order at its frequency.
+    /// Order (P-AXIS-00750), 1..=3. A band-pass falls by 20 dB per decade and order on either side; an all-pass
+    /// turns by 90 degrees per order at its frequency.
     pub order: u32,
     /// Damped frequency in Hz (P-AXIS-00751), above 0, at most 500 and below half the sampling rate.
     pub frequency_hz: f64,
@@ -67,8 +67,8 @@ pub struct IpcStageConfig {
     pub weight_num: f64,
     /// Denominator of the weight (P-AXIS-00755), above 0, default 1.
     pub weight_denom: f64,
-    /// The filters, at least one of them a band-pass; their order does not matter. The first band-pass gives the frequency
-    /// of the oscillator.
+    /// The filters, at least one of them a band-pass; their order does not matter. The first band-pass gives the
+    /// frequency of the oscillator.
     pub filters: Vec<IpcFilterConfig>,
     /// Damping of the simulated oscillation (P-AXIS-00756, newer builds P-AXIS-00850), between 0 and 1, exclusive; the
     /// less, the larger the additive speed. Without meaning for DIRECT.
@@ -120,10 +120,11 @@ impl IpcStageConfig {
 
     /// Errors that switch the function off, then warnings.
     fn check(&self, stage: usize, cycle: CycleTime, issues: &mut Vec<Issue>) {
-        if !(self.weight_num > 0.0) {
+        let positive = |v: f64| v > 0.0;
+        if !positive(self.weight_num) {
             issues.push(Issue::IpcNumerator { stage, value: self.weight_num });
         }
-        if !(self.weight_denom > 0.0) {
+        if !positive(self.weight_denom) {
             issues.push(Issue::IpcDenominator { stage, value: self.weight_denom });
         }
         let mut range = |good: bool, what, value| {
@@ -161,8 +162,8 @@ impl IpcConfig {
 
     /// What is wrong with the configuration; empty while it is off.
     ///
-    /// 70600, 70603, 70604, K-0025 switch the function off for the axis ([`IpcConfig::active`]); K-0026, K-0027, K-0063
-    /// warn.
+    /// 70600, 70603, 70604, K-0025 switch the function off for the axis ([`IpcConfig::active`]); K-0026, K-0027,
+    /// K-0063 warn.
     pub fn check(&self, cycle: CycleTime) -> Vec<Issue> {
         let mut issues = Vec::new();
         if !self.enable {
@@ -206,6 +207,8 @@ impl IpcConfig {
 }
 
 /// Speeds that the stages may use, mm/s.
+///
+/// Assumption: the true speeds at the start of the cycle; the resolution of the encoders is not modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct IpcInput {
     /// Measured motor speed.

@@ -170,7 +170,7 @@ pub struct Plant {
 #[derive(Clone, Debug)]
 enum Dynamics {
     Follow { cycle_s: f64 },
-    Linear(LinearPlant),
+    Linear(Box<LinearPlant>),
 }
 
 impl Plant {
@@ -181,7 +181,9 @@ impl Plant {
     pub fn new(config: &PlantConfig, cycle: CycleTime) -> Result<Self, PlantError> {
         let dynamics = match models::continuous(&config.model)? {
             None => Dynamics::Follow { cycle_s: cycle.seconds() },
-            Some(model) => Dynamics::Linear(LinearPlant::new(&model, cycle, config.disturbance)?),
+            Some(model) => {
+                Dynamics::Linear(Box::new(LinearPlant::new(&model, cycle, config.disturbance)?))
+            }
         };
         Ok(Self {
             dynamics,

@@ -26,7 +26,8 @@ pub struct PositionConfig {
     pub dynamic_kv: Option<DynamicKv>,
     /// Largest speed of the axis in mm/s (P-AXIS-00212), default 200.
     pub v_max_mm_s: f64,
-    /// Excess over it that the command may reach, 1 = 100 % (P-AXIS-00407 / 1000), default 1; 0 switches the limit off.
+    /// Excess over it that the command may reach, 1 = 100 % (P-AXIS-00407 / 1000), default 1; 0 switches the limit
+    /// off.
     pub v_excess_ratio: f64,
 }
 
@@ -55,7 +56,7 @@ impl PositionConfig {
 
     /// Limit of the speed command in mm/s, if there is one.
     pub fn speed_limit_mm_s(&self) -> Option<f64> {
-        (self.v_excess_ratio > 0.0).then(|| self.v_max_mm_s * (1.0 + self.v_excess_ratio))
+        (self.v_excess_ratio > 0.0).then_some(self.v_max_mm_s * (1.0 + self.v_excess_ratio))
     }
 }
 
@@ -86,6 +87,8 @@ impl SpeedLimiter {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
     use super::*;
     use crate::control::fault::{ErrorId, Reaction};
 

@@ -122,7 +122,8 @@ impl TorqueFormat {
     pub fn check(&self, a_max_mm_s2: f64) -> Vec<Issue> {
         let torque = self.torque(a_max_mm_s2).abs();
         let mut issues = Vec::new();
-        if !(self.scale_denom > 0.0) {
+        let denominator = self.scale_denom > 0.0;
+        if !denominator {
             issues.push(Issue::TorqueScaleDenominatorZero);
         } else if !self.defined() {
             issues.push(Issue::NoTorqueScale);
@@ -143,6 +144,8 @@ pub fn encoder_resolution(increments_per_rev: f64, feed_mm: f64, gear_ratio: f64
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
     use super::*;
     use crate::control::fault::ErrorId;
 

@@ -72,8 +72,8 @@ fn lag_table() {
             [(0.0, m), (99.25, c), (99.42, c), (-99.42, c)],
         ),
         row("VEL+ACC", 50.0, 0.005, fed(both, 0.005), [(0.0, m), (0.0, c), (0.03, c), (-0.03, c)]),
-        // the figures 38.70 and -1.45 belong to the derivatives of the profile itself; third differences of its samples
-        // spread each jump of the jerk over two cycles
+        // the figures 38.70 and -1.45 belong to the derivatives of the profile itself; third differences of its
+        // samples spread each jump of the jerk over two cycles
         row(
             "VEL+ACC+JERK",
             50.0,

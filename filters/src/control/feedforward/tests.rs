@@ -1,3 +1,5 @@
+#![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
 use super::*;
 use crate::control::fault::ErrorId;
 
@@ -55,6 +57,7 @@ fn switch_and_weight() {
 /// Means over the coming cycle: v + aT/2 + jT2/6 for the velocity, a + jT/2 for the acceleration.
 #[test]
 fn conventional_law() {
+    use FeedforwardMode as M;
     let (v, a, j, t) = (80.0, 900.0, 20000.0, 1e-3);
     let c = FeedforwardConfig {
         global_ratio: 0.9,
@@ -74,7 +77,6 @@ fn conventional_law() {
     let vel = 0.8 * (v + a * t / 2.0 + j * t * t / 6.0);
     let acc = 0.005 * (a + j * t / 2.0);
     let jerk = 0.5 * 0.005 / KV * j;
-    use FeedforwardMode as M;
     for (mode, want) in [
         (M::VEL, vel),
         (M::ACC, acc),

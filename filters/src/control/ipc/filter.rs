@@ -1,8 +1,8 @@
 //! Recursive filters of the stages: band-pass, all-pass and oscillator, discretised with the bilinear rule that meets
 //! the analogue filter exactly at the given frequency.
 //!
-//! All are written in `p = s / K` with the pre-warped `K = w0 / tan(w0 T / 2)`, so that `p = (z - 1) / (z + 1)` and the
-//! centre frequency is `W = tan(pi f0 T)`.
+//! All are written in `p = s / K` with the pre-warped `K = w0 / tan(w0 T / 2)`, so that `p = (z - 1) / (z + 1)` and
+//! the centre frequency is `W = tan(pi f0 T)`.
 
 use std::f64::consts::PI;
 
@@ -100,8 +100,8 @@ pub(super) fn all_pass(order: u32, frequency_hz: f64, cycle_s: f64) -> Cascade {
     Cascade { sections }
 }
 
-/// `w0^2 / (s2 + 2 D w0 s + w0^2)`: speed of a load that hangs on a motor of the given speed. At its frequency the gain is
-/// `1 / (2D)`, the phase -90 degrees.
+/// `w0^2 / (s2 + 2 D w0 s + w0^2)`: speed of a load that hangs on a motor of the given speed. At its frequency the
+/// gain is `1 / (2D)`, the phase -90 degrees.
 pub(super) fn oscillator(frequency_hz: f64, damping_ratio: f64, cycle_s: f64) -> Cascade {
     let w = libm::tan(PI * frequency_hz * cycle_s);
     let section = Section::bilinear([w * w, 0.0, 0.0], [w * w, 2.0 * damping_ratio * w, 1.0]);
@@ -118,6 +118,8 @@ fn complex_sqrt(re: f64, im: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
     use super::*;
 
     const T: f64 = 1e-3;

@@ -1,3 +1,5 @@
+#![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
 use super::*;
 use crate::control::fault::ErrorId;
 

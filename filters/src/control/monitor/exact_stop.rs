@@ -1,7 +1,7 @@
 //! Position monitoring: the axis must be inside the exact-stop window in time.
 //!
-//! Source: TF5200 position monitoring. The timer starts (t1) in the cycle in which the set position, behind all filters,
-//! reaches the target of the stop; it ends (t2) when the actual position is inside the window.
+//! Source: TF5200 position monitoring. The timer starts (t1) in the cycle in which the set position, behind all
+//! filters, reaches the target of the stop; it ends (t2) when the actual position is inside the window.
 
 use crate::control::fault::Fault;
 use crate::time::CycleTime;
@@ -59,8 +59,8 @@ impl ExactStopMonitor {
         (self.state, self.moved) = (State::Idle, false);
     }
 
-    /// The path comes to a stop, for this axis at `target_mm`. An axis that has not moved since its last stop, and need not,
-    /// has no new one.
+    /// The path comes to a stop, for this axis at `target_mm`. An axis that has not moved since its last stop, and
+    /// need not, has no new one.
     pub fn expect(&mut self, target_mm: f64) {
         if self.moved || (target_mm - self.last_mm).abs() > Self::REACHED_MM {
             self.state = State::Approaching { target_mm };
@@ -113,6 +113,8 @@ impl ExactStopMonitor {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
     use super::*;
     use crate::control::fault::{ErrorId, Reaction};
 

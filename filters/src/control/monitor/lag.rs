@@ -1,7 +1,7 @@
 //! Following-error monitoring: permitted lag of types 1, 2 and 4.
 //!
-//! Source: TF5200 position lag monitoring, P-AXIS-00167 to 00172, 00176, 00191, 00488. Type 3 was dropped by the vendor;
-//! it and any other value switch the monitor off.
+//! Source: TF5200 position lag monitoring, P-AXIS-00167 to 00172, 00176, 00191, 00488. Type 3 was dropped by the
+//! vendor; it and any other value switch the monitor off.
 
 use crate::control::fault::Fault;
 use crate::time::CycleTime;
@@ -18,7 +18,8 @@ pub enum LagMonitorType {
     Standard,
     /// 2: the theoretical lag v/Kv times a factor, not below `lag_max` while moving; at rest `lag_min`.
     ///
-    /// Assumption for the factor: `1024 / (1024 - dynamics)`, 1 at 0 and off at 1024; the manual's formula is a picture.
+    /// Assumption for the factor: `1024 / (1024 - dynamics)`, 1 at 0 and off at 1024; the manual's formula is a
+    /// picture.
     Linear,
     /// 4: `lag_max` while moving, `lag_min` at rest; meant for full feedforward.
     VelocityIndependent,
@@ -39,8 +40,8 @@ pub struct LagMonitorConfig {
     pub shift_s: f64,
     /// Time in s for which type 4 tolerates an excess (P-AXIS-00488), up to 0.25, default 0.
     pub tolerance_s: f64,
-    /// Cycles between command and actual value (P-AXIS-00191), 0..=10. The vendor's default of 4 holds for digital drives;
-    /// 0 for the simulated one.
+    /// Cycles between command and actual value (P-AXIS-00191), 0..=10. The vendor's default of 4 holds for digital
+    /// drives; 0 for the simulated one.
     pub delay_cycles: usize,
     /// Compute but raise nothing (P-AXIS-00176), default false.
     pub suppress: bool,
@@ -181,6 +182,8 @@ impl LagMonitor {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
     use super::*;
     use crate::control::fault::{ErrorId, Reaction};
 

@@ -93,7 +93,7 @@ impl LinearPlant {
 
     fn disturbance_at(&self, time_s: f64) -> f64 {
         let Some(d) = self.disturbance else { return 0.0 };
-        let speed = self.speeds[1].transpose().dot(&self.state);
+        let speed = self.value(&self.speeds[1]);
         let share =
             if d.full_speed_mm_s > 0.0 { (speed.abs() / d.full_speed_mm_s).min(1.0) } else { 1.0 };
         let wave = if d.frequency_hz > 0.0 {
@@ -120,10 +120,13 @@ impl LinearPlant {
         }
     }
 
+    /// A function of the state; no allocation.
+    fn value(&self, row: &RowDVector<f64>) -> f64 {
+        row.iter().zip(self.state.iter()).map(|(c, s)| c * s).sum()
+    }
+
     fn measured(&self) -> Measured {
-        let of = |row: &RowDVector<f64>| {
-            row.iter().zip(self.state.iter()).map(|(c, s)| c * s).sum::<f64>()
-        };
+        let of = |row| self.value(row);
         let [motor, load, tcp] = &self.positions;
         let [motor_v, load_v, tcp_v] = &self.speeds;
         Measured {
@@ -199,6 +202,8 @@ fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
     use super::*;
 
     fn close(a: f64, b: f64, relative: f64) -> bool {

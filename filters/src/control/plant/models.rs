@@ -191,13 +191,12 @@ fn drive_rows(
     b[(tau, 0)] += rate * kp;
     b[(tau, 1)] += rate;
     b[(z, 0)] += 1.0;
-    match config.integral_time_s {
-        Some(tn) => a[(tau, z)] += rate * kp / tn,
-        None => {
-            // an integrator nobody reads would only grow
-            a.row_mut(z).fill(0.0);
-            b.row_mut(z).fill(0.0);
-        }
+    if let Some(tn) = config.integral_time_s {
+        a[(tau, z)] += rate * kp / tn;
+    } else {
+        // an integrator nobody reads would only grow
+        a.row_mut(z).fill(0.0);
+        b.row_mut(z).fill(0.0);
     }
 }
 
