@@ -116,7 +116,7 @@ impl FeedforwardConfig {
     /// Delay limit of the additive values in cycles.
     ///
     /// Source: TF5200 parameter tables (six interpolator cycles); the example text and older builds say one.
-    const MAX_DELAY_CYCLES: usize = 6;
+    pub const MAX_DELAY_CYCLES: usize = 6;
 
     /// Gain of this axis in a cycle, of the checked configuration: the weight of G136 (1 = 100 %, limited to 1)
     /// while it is switched on, else 0.

@@ -1,6 +1,8 @@
 //! One axis of the machine: its parameters and what the planner makes of them.
 
-use super::parameters::Parameters;
+use super::key::Indices;
+use super::parameters::{Parameters, Setting};
+use super::value::Value;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, RapidSlope, StepSlope};
 
 /// Kind of an axis (P-AXIS-00018).
@@ -102,6 +104,11 @@ impl Axis {
     /// Text of a key of `kontur.lis` for this axis.
     pub fn own_text(&self, key: &str) -> Option<String> {
         self.own.text(&self.own_key(key))
+    }
+
+    /// Everything that `kontur.lis` sets for this axis.
+    pub(super) fn own_settings(&self) -> impl Iterator<Item = (Indices, &Setting)> {
+        self.own.settings()
     }
 
     fn own_key(&self, key: &str) -> String {
