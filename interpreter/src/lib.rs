@@ -4,3 +4,4 @@
 
 pub mod diag;
 pub mod record;
+pub mod syntax;
