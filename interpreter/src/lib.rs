@@ -4,4 +4,5 @@
 
 pub mod diag;
 pub mod record;
+pub mod source;
 pub mod syntax;
