@@ -11,6 +11,7 @@
 pub mod ast;
 mod build;
 mod expr;
+pub mod macros;
 mod number;
 mod plain;
 mod print;
@@ -37,6 +38,9 @@ mod grammar {
     #[grammar = "nc.pest"]
     pub(super) struct Grammar;
 }
+
+#[cfg(test)]
+mod tests;
 
 use grammar::{Grammar, Rule};
 
@@ -180,7 +184,7 @@ impl Parser {
             Ok(pairs) => builder.block(pairs),
             Err(error) => {
                 let context = problem::Context::of(&masked.text);
-                builder.report(problem::from_error(&error, &masked.text, context, 0));
+                builder.report_error(problem::from_error(&error, &masked.text, context, 0));
                 let rule = match (context, mode) {
                     (problem::Context::Words, Mode::Block) => Rule::tolerant,
                     _ => Rule::head_only,

@@ -42,7 +42,12 @@ impl Display for Block {
             Body::Command(command) => write!(f, "{gap}{command}"),
             Body::Control(control) => write!(f, "{gap}{control}"),
             Body::ProgramHead(head) => {
-                write!(f, "{gap}%{}{}", if head.local { "L " } else { "" }, spaced(head.local, &head.text))
+                write!(
+                    f,
+                    "{gap}%{}{}",
+                    if head.local { "L " } else { "" },
+                    spaced(head.local, &head.text)
+                )
             }
             Body::Declarations(declarations) => {
                 f.write_str(gap)?;
@@ -128,7 +133,9 @@ impl Display for Word {
 fn code(f: &mut Formatter<'_>, letter: char, number: &CodeNumber, value: Option<&Expr>) -> Result {
     match number {
         CodeNumber::Literal(n) => write!(f, "{letter}{n}")?,
-        CodeNumber::Computed(e) if matches!(e.kind, ExprKind::Place(_)) => write!(f, "{letter}{e}")?,
+        CodeNumber::Computed(e) if matches!(e.kind, ExprKind::Place(_)) => {
+            write!(f, "{letter}{e}")?;
+        }
         CodeNumber::Computed(e) => write!(f, "{letter}[{e}]")?,
     }
     value.map_or(Ok(()), |value| write!(f, "={value}"))

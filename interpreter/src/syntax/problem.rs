@@ -80,8 +80,9 @@ impl Context {
         if content.starts_with('$') && !starts_with(content, "$GOTO") {
             Self::Control
         } else if let Some(name) = content.strip_prefix('#') {
-            let length = name.bytes().take_while(|b| b.is_ascii_alphanumeric()).count();
-            let among_words = super::HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(&name[..length]));
+            let length = name.bytes().take_while(u8::is_ascii_alphanumeric).count();
+            let among_words =
+                super::HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(&name[..length]));
             if among_words { Self::Words } else { Self::Command }
         } else {
             Self::Words
@@ -153,15 +154,11 @@ fn refine(problem: Problem, before: &str, rest: &str, context: Context, content:
         Context::Command if before.trim_end().ends_with(']') => {
             id(problem, 20207).hint("a # command stands alone in its block")
         }
-        Context::Command => problem,
         Context::Control if starts_with(content, "$ELSE") => id(problem, 20215),
         Context::Control if starts_with(content, "$ELSEIF") => id(problem, 20217),
         Context::Control if starts_with(content, "$ENDFOR") => id(problem, 20233),
         Context::Control if rest.starts_with('=') => problem.hint("`==` compares"),
-        Context::Control if before.trim_end().len() + content.len() <= before.len() + rest.len() => {
-            unknown_control(problem, rest)
-        }
-        Context::Control => problem,
+        Context::Control if rest.starts_with('$') => problem.hint(CONTROL_HINT),
         Context::Words if starts_with(rest, "$ELSE") => id(problem, 20215),
         Context::Words if starts_with(rest, "$ENDFOR") => id(problem, 20233),
         Context::Words if rest.starts_with('#') => {
@@ -177,21 +174,13 @@ fn refine(problem: Problem, before: &str, rest: &str, context: Context, content:
         Context::Words if ends_in_variable(before) => {
             id(problem, 20194).hint("a variable alone is no word: `=` and a value are missing")
         }
-        Context::Words => problem,
+        _ => problem,
     }
 }
 
-/// A hint for a word behind `$` that is no control statement.
-fn unknown_control(problem: Problem, rest: &str) -> Problem {
-    if rest.starts_with('$') {
-        problem.hint(
-            "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE $DO $ENDDO \
-             $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist",
-        )
-    } else {
-        problem
-    }
-}
+/// Hint for a word behind `$` that is no control statement.
+const CONTROL_HINT: &str = "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE \
+                            $DO $ENDDO $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist";
 
 /// True if the innermost open bracket belongs to G80 to G89 or G800 to G899.
 fn in_cycle_list(before: &str) -> bool {
@@ -228,7 +217,8 @@ fn token(rest: &str) -> usize {
 
 /// What could have stood there, in the order of likelihood and without repetition.
 fn expected(rules: &[Rule]) -> Vec<&'static str> {
-    let mut words: Vec<(u8, &'static str)> = rules.iter().filter_map(|rule| user_word(*rule)).collect();
+    let mut words: Vec<(u8, &'static str)> =
+        rules.iter().filter_map(|rule| user_word(*rule)).collect();
     words.sort_unstable();
     words.dedup();
     words.truncate(4);
