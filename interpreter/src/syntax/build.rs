@@ -8,7 +8,7 @@ use super::ast::{
 use super::grammar::Grammar;
 use super::problem::{self, Context, Problem};
 use super::{PROBLEMS_MAX, Rule};
-use crate::diag::Id;
+use crate::diag::{Id, Severity};
 use pest::Parser as _;
 use pest::iterators::{Pair, Pairs};
 
@@ -38,7 +38,10 @@ impl<'a> Builder<'a> {
 
     /// Reports what the grammar met with.
     pub(super) fn report_error(&mut self, problem: Problem) {
-        self.reported = problem.span.start;
+        let rest = self.masked.get(problem.span.start as usize..).unwrap_or_default();
+        // Behind a misplaced command or control statement nothing is worth a second message.
+        let last = rest.starts_with(['#', '$']);
+        self.reported = if last { u32::MAX } else { problem.span.start };
         self.report(problem);
     }
 
@@ -86,7 +89,7 @@ impl<'a> Builder<'a> {
         }
         // The first piece is the error that the grammar itself reported.
         for (span, after_word) in junk.into_iter().skip(1) {
-            if after_word || self.begins_word(span) {
+            if span.start >= self.reported && (after_word || self.begins_word(span)) {
                 self.explain_junk(span);
             }
         }
@@ -106,10 +109,11 @@ impl<'a> Builder<'a> {
     fn begins_word(&self, span: Span) -> bool {
         let at = span.start as usize;
         let bytes = self.masked.as_bytes();
-        span.start >= self.reported
-            && bytes[at].is_ascii_alphabetic()
-            && at > 0
-            && matches!(bytes[at - 1], b' ' | b'\t')
+        let blank_before = at > 0 && matches!(bytes[at - 1], b' ' | b'\t');
+        // The error already names a longer word that stands where it was met.
+        bytes[at].is_ascii_alphabetic()
+            && blank_before
+            && (span.start > self.reported || span.len == 1)
     }
 
     /// What is wrong with a later piece of a block with several errors.
@@ -366,6 +370,11 @@ impl<'a> Builder<'a> {
                             .push(Item { kind: ItemKind::Missing, span: Span { len: 0, ..place } });
                     }
                     bare = true;
+                }
+                Rule::bar => {
+                    let text =
+                        "`|` between two keys belongs to the notation of manuals, it is ignored";
+                    self.report(Problem::syntax(place, text).severity(Severity::Note));
                 }
                 Rule::item | Rule::name_item => {
                     items.push(Item { kind: self.item(part), span: place });

@@ -116,6 +116,13 @@ pub(super) fn strings(text: &str) -> impl Iterator<Item = Range<usize>> {
     regions(text).filter(|(region, _)| *region == Region::Text).map(|(_, range)| range)
 }
 
+/// Place of the first string that is never closed.
+pub(super) fn unclosed_string(text: &str) -> Option<usize> {
+    regions(text)
+        .find(|(region, range)| *region == Region::Code && text[range.clone()].starts_with('"'))
+        .map(|(_, range)| range.start)
+}
+
 /// Text as the grammar sees it.
 pub(super) struct Masked {
     /// Same length in bytes as the block.

@@ -1,5 +1,9 @@
 use super::{Mode, accepted, parse, parse_as, refused, shape};
+use crate::diag::Severity;
+use crate::source::{BlockReader, MemorySources, Sources};
+use crate::syntax::Parser;
 use crate::syntax::ast::{Body, ExprKind, ItemKind, ItemValue, LabelKind, Word, WordKind};
+use std::sync::Arc;
 
 fn words(line: &str) -> Vec<Word> {
     match accepted(line).body {
@@ -261,8 +265,15 @@ fn what_is_refused_and_where() {
         ("G1 X[1+*2] Y5", &[("K-0002", 8)]),
         ("X[1+2", &[("K-0002", 6)]),
         ("X1.2.3", &[("K-0002", 5)]),
-        ("G91.1", &[("K-0002", 4)]),
-        ("G", &[("K-0002", 2)]),
+        ("G91.1", &[("K-0002", 1)]),
+        ("G", &[("K-0002", 1)]),
+        ("M 30", &[("K-0002", 1)]),
+        ("X1 FOO BAR", &[("K-0002", 4), ("K-0002", 8)]),
+        ("P1", &[("20194", 3)]),
+        ("#MSG [\"a]", &[("21220", 7)]),
+        ("L CYCLE [NAME=x", &[("21220", 16)]),
+        ("X SIN[30] COS[30]", &[("K-0002", 11)]),
+        ("X1 $IF P1", &[("K-0002", 4)]),
         ("X10 Y Z[1+] G1", &[("K-0002", 7), ("K-0002", 11)]),
         ("X1äY2", &[("K-0001", 3)]),
         ("X1 { Y2 }", &[("K-0001", 4), ("K-0001", 9)]),
@@ -479,4 +490,29 @@ M29
     for line in PROGRAM.lines().chain(shapes.lines()) {
         accepted(line);
     }
+}
+
+#[test]
+fn notes_and_warnings() {
+    let found = |line: &str| {
+        let (_, diagnostics) = parse(line);
+        diagnostics.iter().map(|d| (d.id.to_string(), d.severity)).collect::<Vec<_>>()
+    };
+    assert_eq!(found("#A [B=1 | C=2]"), [("K-0002".to_owned(), Severity::Note)]);
+    assert_eq!(found("% Größe"), [("K-0001".to_owned(), Severity::Warning)]);
+}
+
+#[test]
+fn errors_in_continued_lines_name_the_line() {
+    let source = MemorySources::new().with("a.nc", "\r\nX1 \\\r\n N20 Y[1+*2]\r\n#A [B \\\n C]");
+    let mut reader = BlockReader::new(source.open("a.nc", None).unwrap());
+    let mut diagnostics = Vec::new();
+    let parser = Parser::default();
+    while let Some(raw) = reader.next_block().unwrap() {
+        parser.block(&raw, &Arc::from("a.nc"), &mut diagnostics);
+    }
+    let place = diagnostics[0].source.as_ref().unwrap();
+    assert_eq!((place.line, place.column, &*place.text), (3, 10, " N20 Y[1+*2]"));
+    assert_eq!(diagnostics[1].severity, Severity::Note);
+    assert_eq!(diagnostics.len(), 2);
 }
