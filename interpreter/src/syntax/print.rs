@@ -79,6 +79,20 @@ impl Display for Quoted<'_> {
     }
 }
 
+/// A file name or identifier, with quotes if it cannot stand without.
+struct FileName<'a>(&'a str);
+
+impl Display for FileName<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let bare = |b: u8| b.is_ascii_graphic() && !br#""[],#$=();{}`"#.contains(&b);
+        if !self.0.is_empty() && self.0.bytes().all(bare) {
+            f.write_str(self.0)
+        } else {
+            write!(f, "{}", Quoted(self.0))
+        }
+    }
+}
+
 impl Display for Name {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         f.write_str(self.as_str())
@@ -145,7 +159,7 @@ impl Display for Call {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let letters = if self.local { "LL" } else { "L" };
         match &self.kind {
-            CallKind::Program(name) => write!(f, "{letters} {}", Quoted(&name.text)),
+            CallKind::Program(name) => write!(f, "{letters} {}", FileName(&name.text)),
             CallKind::Cycle(group) => write!(f, "{letters} CYCLE {group}"),
             CallKind::Sequence(group) => write!(f, "{letters} SEQUENCE {group}"),
         }
@@ -199,7 +213,7 @@ impl Display for ItemValue {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
             Self::Expr(value) => write!(f, "{value}"),
-            Self::Name(name) => f.write_str(&name.text),
+            Self::Name(name) => write!(f, "{}", FileName(&name.text)),
             Self::List(group) => write!(f, "{group}"),
         }
     }

@@ -30,6 +30,7 @@ const LINES: &[&str] = &[
     "#CALL AX FAST [X,1,,0][Y,2,1]",
     "#WAIT FOR [P1 + 1] * 2 == TRUE",
     "L CYCLE [NAME=a\\b.nc @P1=5 MODAL_MOVE @P2=\"x\"]",
+    "LL CYCLE [NAME=\"a b.nc\" @P3=[1+2]*V.P.A[1]] ",
     "$IF P1==2 && NOT[P2] || [1|2]&3 $GOTO N20",
     "$FOR P1 = 1, V.P.RUNS, -[P2 - 1]",
     "$SWITCH P1=INT[2.5]",
