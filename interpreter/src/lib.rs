@@ -5,3 +5,5 @@
 pub mod diag;
 pub mod machine;
 pub mod record;
+pub mod source;
+pub mod syntax;
