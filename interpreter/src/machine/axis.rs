@@ -2,7 +2,6 @@
 
 use super::key::Indices;
 use super::parameters::{Parameters, Setting};
-use super::value::Value;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, RapidSlope, StepSlope};
 
 /// Kind of an axis (P-AXIS-00018).

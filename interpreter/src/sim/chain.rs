@@ -1,27 +1,16 @@
 //! One axis from its interpolated setpoint to its actual position, one cycle at a time.
 
+use crate::machine::setup::ChainSetup;
 use crate::record::AxisRecord;
-use kontur_filters::control::{AxisControl, AxisControlConfig, ControlOutput, Faults, PlantError};
-use kontur_filters::iir::AxisFilter;
+use kontur_filters::control::axis_control::{AxisControl, ControlOutput};
+use kontur_filters::control::fault::Faults;
+use kontur_filters::control::plant::PlantError;
 use kontur_filters::kernel::{Kernel, SwitchWhileMoving};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 use std::sync::Arc;
-
-/// What an axis chain is made from.
-#[derive(Clone, Debug)]
-pub(crate) struct ChainSetup {
-    /// Standard filters, designed.
-    pub(crate) filters: Vec<AxisFilter>,
-    /// Everything behind the set position, checked.
-    pub(crate) control: AxisControlConfig,
-    /// Standstill window of the filters in mm (P-AXIS-00351).
-    pub(crate) filter_window_mm: f64,
-    /// Exact-stop window in mm (P-AXIS-00236).
-    pub(crate) window_mm: f64,
-}
 
 /// Shaping and control of one axis with what the trace derives from them.
 #[derive(Debug)]

@@ -6,7 +6,8 @@
 use super::{Phase, Simulation};
 use crate::diag::{Diagnostic, ValueKind};
 use crate::machine::Machine;
-use kontur_filters::control::{Derivative, ErrorId, Fault, PlantError, Reaction};
+use kontur_filters::control::fault::{Derivative, ErrorId, Fault, Reaction};
+use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
 use kontur_motion::profile::Infeasible;
 use kontur_motion::tolerance::Unkept;
