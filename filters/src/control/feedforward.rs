@@ -262,16 +262,15 @@ impl Feedforward {
         } else {
             0.0
         };
+        // a controller without gain has no lag that jerk feedforward could anticipate
+        let wj = if kv_per_s > 0.0 { 1e-6 * c.acceleration_quotient / kv_per_s } else { 0.0 };
         let weight = window.gain * c.global_ratio;
         let on = |flag: bool, value: f64| if flag { weight * value } else { 0.0 };
         let ta = 1e-6; // the quotient is in microseconds in the conventional variant
         FeedforwardOutput {
             speed_mm_s: on(mode.conventional(M::VEL, M::ADD_VEL), v)
                 + on(mode.conventional(M::ACC, M::ADD_ACC), ta * a)
-                + on(
-                    mode.conventional(M::JERK, M::ADD_JERK),
-                    ta * c.acceleration_quotient / kv_per_s * j,
-                ),
+                + on(mode.conventional(M::JERK, M::ADD_JERK), wj * j),
             additive_speed_mm_s: self.velocity.step(on(mode.contains(M::ADD_VEL), v)),
             additive_acc_mm_s2: self.acceleration.step(on(mode.contains(M::ADD_ACC), a))
                 + self.jerk.step(on(mode.contains(M::ADD_JERK), Self::JERK_TIME_S * j)),

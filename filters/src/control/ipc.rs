@@ -59,7 +59,7 @@ pub struct IpcFilterConfig {
 }
 
 /// One stage.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct IpcStageConfig {
     /// Mode (P-AXIS-00753).
     pub mode: IpcMode,
@@ -71,7 +71,7 @@ pub struct IpcStageConfig {
     /// frequency of the oscillator.
     pub filters: Vec<IpcFilterConfig>,
     /// Damping of the simulated oscillation (P-AXIS-00756, newer builds P-AXIS-00850), between 0 and 1, exclusive; the
-    /// less, the larger the additive speed. Without meaning for DIRECT.
+    /// less, the larger the additive speed. Without meaning for DIRECT. Default -1: outside the range on purpose.
     pub oscillator_damping: f64,
 }
 
@@ -101,6 +101,18 @@ impl Default for IpcConfig {
             delay_cycles: 1,
             stages: Vec::new(),
             gantry_slave: false,
+        }
+    }
+}
+
+impl Default for IpcStageConfig {
+    fn default() -> Self {
+        Self {
+            mode: IpcMode::NotActive,
+            weight_num: 1.0,
+            weight_denom: 1.0,
+            filters: Vec::new(),
+            oscillator_damping: -1.0,
         }
     }
 }

@@ -45,12 +45,12 @@ impl PlantModel {
     pub const VENDOR_DEFAULT: Self = Self::Simulated { damping_ratio: 0.6, natural_rad_s: 100.0 };
 }
 
-/// Sinusoidal disturbance force that grows with the speed of the load up to a nominal speed.
+/// Disturbance force, sinusoidal or constant, that may grow with the speed of the load up to a nominal speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disturbance {
     /// Amplitude as the acceleration of the whole mass in mm/s2.
     pub amplitude_mm_s2: f64,
-    /// Frequency in Hz; 0 is a constant force against the direction of motion.
+    /// Frequency in Hz; 0 is a constant force.
     pub frequency_hz: f64,
     /// Load speed in mm/s from which the amplitude is full; 0: always full.
     pub full_speed_mm_s: f64,

@@ -9,7 +9,7 @@ use kontur_filters::control::ipc::{
 };
 use kontur_filters::control::plant::{Disturbance, ModalConfig, PlantConfig, PlantModel};
 use kontur_filters::control::{
-    AxisControl, AxisControlConfig, ControlOutput, FeedforwardConfig, FeedforwardMode,
+    AxisControl, AxisControlConfig, ControlOutput, ErrorId, FeedforwardConfig, FeedforwardMode,
 };
 use kontur_filters::time::CycleTime;
 use std::f64::consts::TAU;
@@ -428,4 +428,17 @@ fn added_speed_excites() {
     let subtracted = loop_with(1.0);
     let axis = run(on([direct(3.0), indirect(4.0, 0.4)]));
     assert_eq!(subtracted.at_53(), axis.at_53(), "the axis is the sum of its parts");
+}
+
+#[test]
+fn parameters_are_taken_at_standstill_only() {
+    let config = Experiment::default().config(on([direct(2.0)]));
+    let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+    axis.step(0.1, 0.0, false);
+    let fault = axis.change_ipc(on([direct(3.0)])).unwrap_err();
+    assert_eq!(fault.id(), ErrorId::Vendor(70601));
+    assert_eq!(axis.config().ipc, on([direct(2.0)]), "the old ones stay");
+    axis.step(0.1, 0.0, false);
+    axis.change_ipc(on([direct(3.0)])).unwrap();
+    assert_eq!(axis.config().ipc, on([direct(3.0)]));
 }

@@ -98,10 +98,8 @@ impl LinearPlant {
             if d.full_speed_mm_s > 0.0 { (speed.abs() / d.full_speed_mm_s).min(1.0) } else { 1.0 };
         let wave = if d.frequency_hz > 0.0 {
             libm::sin(2.0 * std::f64::consts::PI * d.frequency_hz * time_s)
-        } else if speed == 0.0 {
-            0.0
         } else {
-            -speed.signum()
+            1.0
         };
         d.amplitude_mm_s2 * share * wave
     }
