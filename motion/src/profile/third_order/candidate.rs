@@ -12,6 +12,9 @@ const ROUNDING: f64 = 1e-12;
 /// single bump of acceleration has no freedom left to meet a position that is itself rounded.
 const DISTANCE_ERROR: f64 = 1e-10;
 
+/// Error of the final displacement, relative to the terms it is the sum of; they may cancel.
+const CANCELLATION: f64 = 1e-13;
+
 /// Seven phases in scaled units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
@@ -52,7 +55,7 @@ impl Candidate {
             *t = t.max(0.0);
         }
         let (mut s, mut v, mut a) = (0.0, problem.v0, problem.a0);
-        let (mut travelled, mut kept) = (0.0, true);
+        let (mut travelled, mut terms, mut kept) = (0.0, 0.0, true);
         let excess = ROUNDING * (1.0 + problem.v_max.min(1.0));
         let (top, bottom) = (problem.v_max + excess, problem.v_min - excess);
         let mut inside = false;
@@ -74,13 +77,16 @@ impl Candidate {
                 kept &= allowed(v - 0.5 * a * a / j);
             }
             travelled += ds.abs();
+            terms += t * (v.abs() + t * (0.5 * a.abs() + t * j.abs() / 6.0));
             s += ds;
             v += t * (a + 0.5 * t * j);
             a = next;
             kept &= allowed(v) && a <= problem.a_max + ROUNDING && a >= problem.a_min - ROUNDING;
         }
-        let met = (s - problem.distance).abs()
-            <= DISTANCE_ERROR * (travelled + problem.distance.abs()) + problem.distance_rounding
+        let slack = DISTANCE_ERROR * (travelled + problem.distance.abs())
+            + CANCELLATION * terms
+            + problem.distance_rounding;
+        let met = (s - problem.distance).abs() <= slack
             && (v - problem.ve).abs() <= excess
             && (a - problem.ae).abs() <= ROUNDING * (1.0 + total);
         (kept && met).then(|| Self { t, j, duration: t.iter().sum() })
