@@ -7,6 +7,7 @@
 
 mod chain;
 mod fault;
+mod spindle;
 mod totals;
 mod wait;
 
@@ -14,10 +15,11 @@ pub use totals::Totals;
 
 use crate::diag::Diagnostic;
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
-use crate::machine::Machine;
+use crate::machine::{Axis, Machine};
 use crate::record::{CycleRecord, PathRecord};
 use crate::source::Sources;
 use chain::AxisChain;
+use spindle::Spindle;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, SlopeKind};
@@ -58,6 +60,16 @@ struct Underway {
     events: Vec<Event>,
 }
 
+/// Where the setpoint of a chain comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Driver {
+    /// Path axis; gantry slaves follow the path axis that is their master.
+    Path(usize),
+    Spindle(usize),
+    /// A gantry slave whose master is not in the channel.
+    Standing,
+}
+
 /// What follows when the path has come to rest.
 #[derive(Debug)]
 enum After {
@@ -72,8 +84,10 @@ pub struct Simulation {
     cycle: CycleTime,
     executor: Executor,
     planner: Planner,
-    /// Path axes, then spindles.
+    /// Path axes, spindles, gantry slaves.
     chains: Vec<AxisChain>,
+    drivers: Vec<Driver>,
+    spindles: Vec<Spindle>,
     /// Feedforward gain of every chain.
     gains: Vec<f64>,
     underway: VecDeque<Underway>,
@@ -108,15 +122,20 @@ impl Simulation {
         let executor = Executor::new(sources, program, Arc::clone(&machine), options);
         let n = machine.axes.len();
         let start = executor.start_position();
+        let drivers = drivers(&machine);
         let mut chains = Vec::with_capacity(setups.len());
         for (i, setup) in setups.into_iter().enumerate() {
-            let x = start.get(i).copied().unwrap_or(0.0);
+            let x = match drivers.get(i) {
+                Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
+                _ => 0.0,
+            };
             match AxisChain::new(setup, x, cycle) {
                 Ok(chain) => chains.push(chain),
                 Err(e) => return Err(vec![fault::plant(&e, &machine, i)]),
             }
         }
         let window = machine.channel.look_ahead.blocks as usize;
+        let spindles = machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
         let records = chains.iter().map(AxisChain::at_start).collect();
         let mut simulation = Self {
             planner: Planner::new(cycle, window, &start[..n]),
@@ -124,6 +143,8 @@ impl Simulation {
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
             frozen: vec![None; chains.len()],
             chains,
+            drivers,
+            spindles,
             underway: VecDeque::new(),
             current: SourceRef::default(),
             jerk_limited: false,
@@ -139,6 +160,9 @@ impl Simulation {
             executor,
         };
         simulation.feedforward(false, &vec![1.0; n]);
+        for spindle in 0..simulation.spindles.len() {
+            simulation.spindle_feedforward(spindle, false, 1.0);
+        }
         let setup = simulation.executor.shaping().clone();
         simulation.swap_kernels(&setup);
         Ok(simulation)
@@ -191,7 +215,7 @@ impl Simulation {
                     }
                 },
                 Phase::Waiting(wait) => {
-                    if wait.is_over(&self.chains) {
+                    if wait.is_over(&self.chains[..self.vector.len()]) {
                         self.go_on();
                     } else {
                         wait.count();
@@ -201,7 +225,7 @@ impl Simulation {
                 }
                 Phase::Stopping { settled_cycles } => {
                     let resting = self.planner.brake_is_over()
-                        && self.chains.iter().all(AxisChain::settled);
+                        && self.chains[..self.vector.len()].iter().all(AxisChain::settled);
                     *settled_cycles = if resting { *settled_cycles + 1 } else { 0 };
                     if *settled_cycles > fault::CYCLES_AT_REST {
                         self.phase = Phase::Done;
@@ -252,8 +276,10 @@ impl Simulation {
         for event in events {
             self.act(event);
         }
-        for (chain, x) in self.chains.iter_mut().zip(self.planner.setpoint().position.iter()) {
-            chain.expect_stop(*x);
+        for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
+            if let Driver::Path(p) = driver {
+                chain.expect_stop(self.planner.setpoint().position[*p]);
+            }
         }
         self.phase = Phase::Waiting(match after {
             After::Sync(sync) => Wait::for_sync(sync, self.cycle),
@@ -282,6 +308,14 @@ impl Simulation {
     fn act(&mut self, event: Event) {
         match event {
             Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
+            Event::SpindleFeedforward { spindle, on, weight_ratio } => {
+                self.spindle_feedforward(spindle, on, weight_ratio);
+            }
+            Event::Spindle { spindle, motion } => {
+                if let Some(spindle) = self.spindles.get_mut(spindle) {
+                    spindle.command(motion);
+                }
+            }
             other => {
                 let time_s = self.cycle.time_of(self.planner.setpoint().k);
                 self.diagnostics.extend(self.totals.note(other, &self.machine, time_s));
@@ -291,9 +325,18 @@ impl Simulation {
 
     fn feedforward(&mut self, on: bool, weights: &[f64]) {
         for (i, chain) in self.chains.iter().enumerate() {
-            let path_axis = i < self.vector.len();
-            let weight = weights.get(i).copied().unwrap_or(1.0);
-            self.gains[i] = chain.feedforward_gain(on && path_axis, weight);
+            if let Driver::Path(p) = self.drivers[i] {
+                let weight = weights.get(p).copied().unwrap_or(1.0);
+                self.gains[i] = chain.feedforward_gain(on, weight);
+            }
+        }
+    }
+
+    fn spindle_feedforward(&mut self, spindle: usize, on: bool, weight: f64) {
+        for (i, chain) in self.chains.iter().enumerate() {
+            if self.drivers[i] == Driver::Spindle(spindle) {
+                self.gains[i] = chain.feedforward_gain(on, weight);
+            }
         }
     }
 
@@ -328,10 +371,13 @@ impl Simulation {
         let setpoint = self.planner.setpoint();
         let n = self.vector.len();
         let mut faults = Vec::new();
+        let spindles: Vec<f64> = self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
         for (i, chain) in self.chains.iter_mut().enumerate() {
-            let ipo = match self.frozen[i] {
-                Some(x) => x,
-                None => setpoint.position.get(i).copied().unwrap_or(chain.set_mm()),
+            let ipo = match (self.frozen[i], self.drivers[i]) {
+                (Some(x), _) => x,
+                (None, Driver::Path(p)) => setpoint.position[p],
+                (None, Driver::Spindle(s)) => spindles[s],
+                (None, Driver::Standing) => chain.set_mm(),
             };
             let (record, found) = chain.step(ipo, self.gains[i], self.jerk_limited);
             self.record.axes[i] = record;
@@ -380,4 +426,16 @@ impl Simulation {
             self.phase = Phase::Done;
         }
     }
+}
+
+/// The driver of every chain, in the order of [`Machine::all_axes`].
+fn drivers(machine: &Machine) -> Vec<Driver> {
+    let master = |axis: &Axis| {
+        let number = axis.gantry_master()?;
+        machine.axes.iter().position(|a| a.number() == number)
+    };
+    let slaves = machine.gantry_slaves.iter().map(|a| master(a).map_or(Driver::Standing, Driver::Path));
+    let paths = (0..machine.axes.len()).map(Driver::Path);
+    let spindles = (0..machine.spindles.len()).map(Driver::Spindle);
+    paths.chain(spindles).chain(slaves).collect()
 }

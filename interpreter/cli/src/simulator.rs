@@ -76,7 +76,7 @@ fn readable(program: &Path) -> Result<(), OpenError> {
 }
 
 fn facts(request: &Request, machine: &Machine, simulation: &Simulation) -> Facts {
-    let axes = machine.axes.iter().chain(&machine.spindles).enumerate().map(|(i, axis)| AxisFacts {
+    let axes = machine.all_axes().enumerate().map(|(i, axis)| AxisFacts {
         name: axis.name().to_owned(),
         rotary: axis.kind() != AxisKind::Linear,
         spindle: axis.kind() == AxisKind::Spindle,

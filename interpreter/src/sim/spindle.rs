@@ -52,16 +52,6 @@ impl Spindle {
         self.positioning = None;
     }
 
-    /// At the speed or angle that was commanded.
-    pub(super) fn arrived(&self) -> bool {
-        match self.wanted {
-            SpindleMotion::Position { .. } => self.positioning.as_ref().is_some_and(|p| {
-                (self.position_deg - p.from_deg - p.profile.length()).abs() <= 0.0
-            }),
-            _ => (self.speed_deg_s - self.target_deg_s()).abs() <= 0.0,
-        }
-    }
-
     fn target_deg_s(&self) -> f64 {
         let speed = match self.wanted {
             SpindleMotion::Clockwise { rpm } => rpm * 6.0,

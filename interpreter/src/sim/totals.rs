@@ -41,13 +41,14 @@ impl Totals {
             }
             Event::HFunction { number, .. } => format!("H{number}"),
             Event::Tool { .. } => "tool change (T)".to_owned(),
-            Event::Spindle { .. } => "spindle run-up".to_owned(),
             Event::Message { text, .. } => {
                 let mut message = Diagnostic::kontur(81, text).severity(Severity::Note);
                 message.time_s = Some(time_s);
                 return Some(message);
             }
-            Event::Feedforward { .. } | Event::SpindleFeedforward { .. } => return None,
+            Event::Feedforward { .. }
+            | Event::SpindleFeedforward { .. }
+            | Event::Spindle { .. } => return None,
         };
         if !self.not_counted.contains(&name) {
             self.not_counted.push(name);
