@@ -2,12 +2,14 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use kontur_filters::time::CycleTime;
+use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, RapidSlope, StepSlope};
 use kontur_motion::block::{
     Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance, TransitionJerkMode, VectorLimits,
 };
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
+use kontur_motion::tolerance::Kernels;
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -50,10 +52,15 @@ fn point(i: usize) -> AxisVec {
     AxisVec::from_slice(&[along, across, z])
 }
 
-/// Plans and samples `count` blocks; returns the number of cycles.
-fn drive(count: usize, kind: SlopeKind) -> u64 {
+/// Plans and samples `count` blocks, optionally with a guard of mode 2, 40 Hz and a tolerance; returns the cycles.
+fn drive(count: usize, kind: SlopeKind, ax_dev_mm: Option<f64>) -> u64 {
     let dynamics = dynamics();
     let mut planner = Planner::new(CycleTime::DEFAULT, 120, &point(0));
+    if ax_dev_mm.is_some() {
+        let settings = VibGuardSettings { mode: 2, freq_hz: 40.0, damping: 0.1 };
+        let kernel = settings.kernel(CycleTime::DEFAULT).ok().map(Arc::new);
+        planner.set_kernels(Kernels::new(vec![kernel; 3]), 0);
+    }
     let mut i = 0;
     loop {
         match planner.advance() {
@@ -70,7 +77,7 @@ fn drive(count: usize, kind: SlopeKind) -> u64 {
                         end_velocity_mm_s: None,
                         slope: Slope { kind, ..Slope::default() },
                         dynamics: Arc::clone(&dynamics),
-                        tolerance: Tolerance::default(),
+                        tolerance: Tolerance { ax_dev_mm, acc_fact: 1.0 },
                     });
                 }
                 i += 1;
@@ -90,10 +97,14 @@ fn blocks(c: &mut Criterion) {
             group.bench_with_input(
                 BenchmarkId::new(format!("{kind:?}"), count),
                 &count,
-                |b, &count| b.iter(|| drive(count, kind)),
+                |b, &count| b.iter(|| drive(count, kind, None)),
             );
         }
     }
+    group.throughput(Throughput::Elements(5_000));
+    group.bench_function("Trapez with AX_DEV/5000", |b| {
+        b.iter(|| drive(5_000, SlopeKind::Trapez, Some(0.01)));
+    });
     group.finish();
 }
 
