@@ -8,13 +8,14 @@ mod filters;
 mod ipc;
 mod plant;
 
+pub(super) use control::has_rotary_motor;
 pub use filters::{FirPreset, KernelPreset, VibGuardPreset};
 pub(super) use ipc::PREFIX as IPC;
 
 use super::{Axis, Machine, issues};
 use crate::diag::Diagnostic;
 use kontur_filters::{
-    control::{AxisControlConfig, Issue, buffer::channel_delay_cycles},
+    control::{AxisControlConfig, IpcConfig, Issue, buffer::channel_delay_cycles},
     iir::AxisFilter,
     time::CycleTime,
 };
@@ -57,7 +58,7 @@ impl Machine {
     fn chain(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> ChainSetup {
         let cascade = filters::cascade(axis, self.cycle, diagnostics);
         filters::check_kernels(axis, self.cycle, diagnostics);
-        let mut config = control::config(axis, self.cycle, diagnostics);
+        let mut config = control::config(axis, diagnostics);
         config.ipc = self.ipc(axis, diagnostics);
         let (control, found) = config.checked(self.cycle);
         // loading has reported the denominator 0 already, whether or not torque is output
@@ -73,11 +74,7 @@ impl Machine {
     }
 
     /// Improved Position Control of an axis; of a gantry slave that of its master, without effect if there is none.
-    fn ipc(
-        &self,
-        axis: &Axis,
-        diagnostics: &mut Vec<Diagnostic>,
-    ) -> kontur_filters::control::IpcConfig {
+    fn ipc(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> IpcConfig {
         let own = ipc::config(axis);
         let Some(master) = axis.gantry_master() else { return own };
         if own.enable {
@@ -96,6 +93,3 @@ impl Axis {
         filters::preset(self, cycle)
     }
 }
-
-#[cfg(test)]
-mod tests;
