@@ -160,7 +160,7 @@ impl IpcStageConfig {
             range(d > 0.0 && d < 1.0, IpcParameter::Damping, d);
         }
         let weight = self.weight_num / self.weight_denom;
-        if weight > Self::MAX_WEIGHT {
+        if self.weight_denom > 0.0 && weight > Self::MAX_WEIGHT {
             issues.push(Issue::IpcWeight { stage, weight });
         }
     }

@@ -5,7 +5,7 @@
 use super::Axis;
 use super::axis::AxisKind;
 use super::key::Key;
-use super::setup::IPC;
+use super::setup::{IPC, has_rotary_motor};
 use super::table::ListKind;
 use crate::diag::{Diagnostic, Id, ValueKind};
 use kontur_filters::{
@@ -243,10 +243,7 @@ pub fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnostic {
             "it is off",
         ),
         Issue::ImplausibleLoad { torque, reference } => {
-            let unit = match axis.kind() {
-                AxisKind::Linear => "N or N m",
-                _ => "N m",
-            };
+            let unit = if has_rotary_motor(axis) { "N m" } else { "N" };
             about(
                 "getriebe[0].load",
                 &format!("torque at the largest acceleration {torque} {unit}, ten times the reference is {}", 10.0 * reference),
@@ -295,13 +292,13 @@ pub fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnostic {
         ),
         Issue::IpcNumerator { stage, value } => about(
             &stage_key(stage, "weight_fact_num"),
-            &format!("weight numerator {value}, above 0"),
+            &format!("weight numerator {value}, it must be above 0"),
             ipc_off,
         )
         .value(ValueKind::Wrong, value, "-"),
         Issue::IpcDenominator { stage, value } => about(
             &stage_key(stage, "weight_fact_denom"),
-            &format!("weight denominator {value}, above 0"),
+            &format!("weight denominator {value}, it must be above 0"),
             ipc_off,
         )
         .value(ValueKind::Wrong, value, "-"),

@@ -8,13 +8,14 @@ mod filters;
 mod ipc;
 mod plant;
 
+pub(super) use control::has_rotary_motor;
 pub use filters::{FirPreset, KernelPreset, VibGuardPreset};
 pub(super) use ipc::PREFIX as IPC;
 
 use super::{Axis, Machine, issues};
 use crate::diag::Diagnostic;
 use kontur_filters::{
-    control::{AxisControlConfig, Issue, buffer::channel_delay_cycles},
+    control::{AxisControlConfig, IpcConfig, Issue, buffer::channel_delay_cycles},
     iir::AxisFilter,
     time::CycleTime,
 };
@@ -40,9 +41,10 @@ impl Machine {
     /// get the delay of the axis that needs the longest one, so that they stay in step; spindles too, because threads
     /// tie them to the path.
     ///
-    /// Diagnostics, always with axis and parameter: 110239, 110500, 110501, 50663, 50910, 50911, 50989, 110361, K-0033,
-    /// K-0036 to K-0040 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023, K-0024, K-0062, K-0064,
-    /// K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063 (Improved Position Control); K-0070.
+    /// Diagnostics, always with axis and parameter: 110239, 110500, 110501, 50663 (spindles 60311), 50910, 50911, 50989,
+    /// 110361, K-0033, K-0036 to K-0040 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023, K-0024,
+    /// K-0062, K-0064, K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063 (Improved Position Control);
+    /// K-0070 (numbers that mean nothing).
     pub fn chains(&self) -> (Vec<ChainSetup>, Vec<Diagnostic>) {
         let mut diagnostics = Vec::new();
         let mut chains: Vec<ChainSetup> =
@@ -57,7 +59,7 @@ impl Machine {
     fn chain(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> ChainSetup {
         let cascade = filters::cascade(axis, self.cycle, diagnostics);
         filters::check_kernels(axis, self.cycle, diagnostics);
-        let mut config = control::config(axis, self.cycle, diagnostics);
+        let mut config = control::config(axis, diagnostics);
         config.ipc = self.ipc(axis, diagnostics);
         let (control, found) = config.checked(self.cycle);
         // loading has reported the denominator 0 already, whether or not torque is output
@@ -73,11 +75,7 @@ impl Machine {
     }
 
     /// Improved Position Control of an axis; of a gantry slave that of its master, without effect if there is none.
-    fn ipc(
-        &self,
-        axis: &Axis,
-        diagnostics: &mut Vec<Diagnostic>,
-    ) -> kontur_filters::control::IpcConfig {
+    fn ipc(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> IpcConfig {
         let own = ipc::config(axis);
         let Some(master) = axis.gantry_master() else { return own };
         if own.enable {
@@ -96,6 +94,3 @@ impl Axis {
         filters::preset(self, cycle)
     }
 }
-
-#[cfg(test)]
-mod tests;

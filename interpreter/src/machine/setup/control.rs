@@ -13,7 +13,6 @@ use kontur_filters::control::{
     position::DynamicKv,
     scaling::{Motor, SpeedFormat, TimeBase, TorqueFormat},
 };
-use kontur_filters::time::CycleTime;
 
 /// Kind of drive (P-AXIS-00020), as far as it matters here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,13 +39,9 @@ impl Drive {
 }
 
 /// Everything behind the set position but Improved Position Control, as the list states it.
-pub(super) fn config(
-    axis: &Axis,
-    cycle: CycleTime,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> AxisControlConfig {
+pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisControlConfig {
     let limits = axis.dynamics();
-    let j_max_mm_s3 = limits.a_max_mm_s2 / axis.tr_min_s().max(cycle.seconds());
+    let j_max_mm_s3 = limits.a_max_mm_s2 / axis.tr_min_s();
     let drive = Drive::of(axis);
     let feedforward = feedforward(axis, drive, diagnostics);
     let command_format = match drive {
@@ -226,8 +221,7 @@ fn lag(axis: &Axis, drive: Drive) -> LagMonitorConfig {
         shift_s: number("slep_time_const"),
         tolerance_s: number("pos_lag_mon_error_delay_time"),
         delay_cycles: if delay { cycles(axis.raw(delay_key)) } else { 0 },
-        // P-AXIS-00176: the place of its key in the list is not known
-        suppress: false,
+        suppress: axis.flag("kenngr.suppress_pos_lag_error"),
     }
 }
 
@@ -271,23 +265,38 @@ fn resolution(axis: &Axis) -> SpeedFormat {
     }
 }
 
-/// Motor-side scaling (a feed constant or gear ratio other than 1) means a rotary motor, otherwise a linear one.
-///
+fn one(x: f64) -> bool {
+    (x - 1.0).abs() <= 0.0
+}
+
+/// Feed constant: path in 0.1 um and the revolutions of the gear output for it.
+fn feed_constant(axis: &Axis) -> [f64; 2] {
+    ["antr.feed_const_num", "antr.feed_const_denom"].map(|key| raw(axis, key))
+}
+
+/// Gear ratio: revolutions of input and output.
+fn gear(axis: &Axis) -> [f64; 2] {
+    ["getriebe[0].gear_fact_num", "getriebe[0].gear_fact_denom"].map(|key| raw(axis, key))
+}
+
+/// Motor-side scaling (a feed constant or gear ratio other than 1) means a rotary motor, otherwise the motor of a linear
+/// axis is linear.
+pub(in crate::machine) fn has_rotary_motor(axis: &Axis) -> bool {
+    axis.kind() != AxisKind::Linear || !feed_constant(axis).into_iter().chain(gear(axis)).all(one)
+}
+
 /// Assumption: a rotary axis without feed constant turns by 360 degrees per revolution of the gear output.
 fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
-    let one = |x: f64| (x - 1.0).abs() <= 0.0;
-    let feed = ["antr.feed_const_num", "antr.feed_const_denom"].map(|key| raw(axis, key));
-    let gear =
-        ["getriebe[0].gear_fact_num", "getriebe[0].gear_fact_denom"].map(|key| raw(axis, key));
-    let feed_given = !feed.iter().all(|x| one(*x));
-    let gear_given = !gear.iter().all(|x| one(*x));
-    let gear_ratio = gear[0] / gear[1];
-    let motor = if feed_given || (gear_given && axis.kind() == AxisKind::Linear) {
-        Motor::Rotary { feed_mm: feed[0] / feed[1] / 1e4, gear_ratio }
-    } else if axis.kind() == AxisKind::Linear {
-        Motor::Linear
+    let (feed, gear) = (feed_constant(axis), gear(axis));
+    let feed_given = !feed.into_iter().all(one);
+    let motor = if has_rotary_motor(axis) {
+        let turn = !feed_given && axis.kind() != AxisKind::Linear;
+        Motor::Rotary {
+            feed_mm: if turn { 360.0 } else { feed[0] / feed[1] / 1e4 },
+            gear_ratio: gear[0] / gear[1],
+        }
     } else {
-        Motor::Rotary { feed_mm: 360.0, gear_ratio }
+        Motor::Linear
     };
     for key in ["getriebe[0].wegaufz", "getriebe[0].wegaufn"] {
         if feed_given && !one(raw(axis, key)) {
