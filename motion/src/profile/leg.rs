@@ -76,13 +76,15 @@ impl LegLimits {
         }
     }
 
-    /// Derivative of [`Self::distance`] by the gain; for a short leg of constant jerk `gain > 0`.
-    fn distance_slope(&self, v: f64, gain: f64) -> f64 {
+    /// [`Self::distance`] and its derivative by the gain; for a short leg of constant jerk `gain > 0`.
+    fn distance_and_slope(&self, v: f64, gain: f64) -> (f64, f64) {
         if gain >= self.gain_full {
-            (v + gain) / self.a + 0.5 * self.t2
+            (self.distance(v, gain), (v + gain) / self.a + 0.5 * self.t2)
         } else {
-            let root = (gain / self.gain_full).sqrt();
-            (v * self.ramps + 3.0 * self.shoulder * root * root) / (2.0 * self.gain_full * root)
+            let ratio = gain / self.gain_full;
+            let root = ratio.sqrt();
+            let (linear, cubic) = (v * self.ramps, self.shoulder * ratio);
+            (root * (linear + cubic), (linear + 3.0 * cubic) / (2.0 * self.gain_full * root))
         }
     }
 
@@ -243,11 +245,11 @@ fn short_gain(
     // start from a cubic through both ends with the true slope at λ = 0
     let c3 = (at_hi - at_lo - linear * (hi - lo)) / (hi * hi * hi - lo * lo * lo);
     let guess = monotone_cubic(c3, linear, length - at_lo + lo * (linear + c3 * lo * lo));
-    let root = increasing_root(lo, hi, guess, |x| {
+    let root = increasing_root(lo, hi, guess, 1e-10, |x| {
         let gain = full * x * x;
-        let slope =
-            linear + 3.0 * cubic * x * x + 2.0 * full * x * other.distance_slope(w, offset + gain);
-        (total(x) - length, slope)
+        let (other, slope) = other.distance_and_slope(w, offset + gain);
+        let value = x * (linear + cubic * x * x) + other - length;
+        (value, linear + 3.0 * cubic * x * x + 2.0 * full * x * slope)
     });
     full * root * root
 }
@@ -266,9 +268,9 @@ pub(super) struct RampLeg {
 }
 
 impl RampLeg {
-    /// The leg from `v` to `v + gain`, its time scaled by `stretch` (close to 1): velocities stay, distance
-    /// scales with time.
-    pub(super) fn new(limits: &LegLimits, v: f64, gain: f64, stretch: f64) -> Self {
+    /// The leg from `v` to `v + gain` over `distance` (that of the limits), its time scaled by `stretch` (close
+    /// to 1): velocities stay, distance scales with time.
+    pub(super) fn new(limits: &LegLimits, v: f64, gain: f64, distance: f64, stretch: f64) -> Self {
         let (plateau, ramp, tc) = if gain >= limits.gain_full {
             (limits.a, 1.0, gain / limits.a - 0.5 * limits.ramps)
         } else if gain <= 0.0 {
@@ -287,7 +289,7 @@ impl RampLeg {
             t1: limits.t1 * ramp * stretch,
             tc: tc.max(0.0) * stretch,
             t2: limits.t2 * ramp * stretch,
-            distance: limits.distance(v, gain) * stretch,
+            distance: distance * stretch,
         }
     }
 
@@ -344,7 +346,7 @@ impl RampLeg {
     pub(super) fn time_at(&self, s: f64) -> f64 {
         let (s1, v1) = self.shoulder();
         if s <= s1 {
-            return increasing_root(0.0, self.t1, self.t1, |x| {
+            return increasing_root(0.0, self.t1, self.t1, 1e-15, |x| {
                 let r = self.shape.rise(self.a, self.t1, x);
                 (self.v_low * x + r.s - s, self.v_low + r.v)
             });
@@ -355,7 +357,7 @@ impl RampLeg {
             return self.t1 + (2.0 * d / (v1 + (v1 * v1 + 2.0 * self.a * d).sqrt())).min(self.tc);
         }
         let to_go = (self.distance - s).max(0.0);
-        let left = increasing_root(0.0, self.t2, to_go / self.v_high, |x| {
+        let left = increasing_root(0.0, self.t2, to_go / self.v_high, 1e-15, |x| {
             let r = self.shape.rise(self.a, self.t2, x);
             (self.v_high * x - r.s - to_go, self.v_high - r.v)
         });

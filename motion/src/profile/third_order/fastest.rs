@@ -77,19 +77,12 @@ impl Search {
     }
 
     fn upwards(&mut self, problem: &Problem, mirrored: bool, first_only: bool) {
-        if self.velocity_limit(problem, mirrored) && first_only {
-            return;
-        }
-        if self.free(problem, mirrored) && first_only {
-            return;
-        }
-        if self.peak_limit(problem, mirrored, false) && first_only {
-            return;
-        }
-        if self.peak_limit(&problem.reversed(), mirrored, true) && first_only {
-            return;
-        }
-        self.both_limits(problem, mirrored);
+        // cheapest first
+        let _ = (self.velocity_limit(problem, mirrored) && first_only)
+            || (self.both_limits(problem, mirrored) && first_only)
+            || (self.free(problem, mirrored) && first_only)
+            || (self.peak_limit(problem, mirrored, false) && first_only)
+            || self.peak_limit(&problem.reversed(), mirrored, true);
     }
 
     fn velocity_limit(&mut self, problem: &Problem, mirrored: bool) -> bool {
