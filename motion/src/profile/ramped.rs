@@ -64,7 +64,7 @@ impl RampedLimits {
         let at_feed = parts.0 + parts.1 <= length;
         if !at_feed {
             let pair = LegPair { up: &self.up, down: &self.down, v0, ve };
-            gains = pair.gains(vf, length);
+            gains = pair.gains(vf, length, needed_up + needed_down, parts.0 + parts.1);
             parts = distances(gains.0, gains.1);
             peak = (v0 + gains.0).clamp(top, vf);
         }

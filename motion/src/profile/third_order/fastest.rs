@@ -21,6 +21,7 @@ use super::scaled::Problem;
 pub(super) fn fastest(problem: &Problem) -> Option<Candidate> {
     let mut search = Search { best: None };
     let mirror = problem.mirrored();
+    // first: near the end of a motion rounding may have closed every other way
     search.direct(problem, false);
     search.direct(&mirror, true);
     if unique(problem) {
