@@ -29,6 +29,9 @@ pub(super) struct LegLimits {
     skew: f64,
     /// Least gain of velocity that reaches the plateau.
     gain_full: f64,
+    /// `1/a` and `1/gain_full`: divisions are what these formulas would wait for.
+    per_a: f64,
+    per_gain_full: f64,
 }
 
 impl LegLimits {
@@ -56,6 +59,8 @@ impl LegLimits {
             shoulder: a * (k1 * t1 * t1 + 0.5 * t1 * t2 + k2 * t2 * t2),
             skew: a * c * (t1 - t2) * (t1 + t2),
             gain_full: 0.5 * a * (t1 + t2),
+            per_a: 1.0 / a,
+            per_gain_full: 2.0 / (a * (t1 + t2)),
         }
     }
 
@@ -80,12 +85,12 @@ impl LegLimits {
     /// Distance of the leg from `v` to `v + gain`.
     pub(super) fn distance(&self, v: f64, gain: f64) -> f64 {
         if gain >= self.gain_full {
-            let plateau = gain / self.a;
+            let plateau = gain * self.per_a;
             v * (plateau + 0.5 * self.ramps) + 0.5 * gain * (plateau + self.t2) + self.skew
         } else if gain <= 0.0 {
             0.0
         } else {
-            let ratio = gain / self.gain_full;
+            let ratio = gain * self.per_gain_full;
             if self.constant_ramp_time {
                 v * self.ramps + self.shoulder * ratio
             } else {
@@ -94,13 +99,15 @@ impl LegLimits {
         }
     }
 
-    /// Derivative of [`Self::distance`] by the gain; for a short leg of constant jerk `gain > 0`.
-    fn distance_slope(&self, v: f64, gain: f64) -> f64 {
+    /// [`Self::distance`] and its derivative by the gain; for a short leg of constant jerk `gain > 0`.
+    fn distance_and_slope(&self, v: f64, gain: f64) -> (f64, f64) {
         if gain >= self.gain_full {
-            (v + gain) / self.a + 0.5 * self.t2
+            (self.distance(v, gain), (v + gain) * self.per_a + 0.5 * self.t2)
         } else {
-            let root = (gain / self.gain_full).sqrt();
-            (v * self.ramps + 3.0 * self.shoulder * root * root) / (2.0 * self.gain_full * root)
+            let ratio = gain * self.per_gain_full;
+            let root = ratio.sqrt();
+            let (linear, cubic) = (v * self.ramps, self.shoulder * ratio);
+            (root * (linear + cubic), 0.5 * self.per_gain_full * (linear + 3.0 * cubic) / root)
         }
     }
 
@@ -134,7 +141,7 @@ impl LegLimits {
 
     /// Distance of a full leg from `v` to `v + gain + x` as a polynomial in `x`.
     fn quadratic(&self, v: f64, gain: f64) -> Quadratic {
-        let plateau = gain / self.a;
+        let plateau = gain * self.per_a;
         Quadratic {
             c2: 0.5 / self.a,
             c1: (v + gain) / self.a + 0.5 * self.t2,
@@ -183,12 +190,12 @@ pub(super) struct LegPair<'a> {
 }
 
 impl LegPair<'_> {
-    /// Gains of both legs for the peak that uses up `length`, where the peak lies between
-    /// `max(v0, ve)` (which fits) and `v_max` (which does not).
+    /// Gains of both legs for the peak that uses up `length`, where the peak lies between `max(v0, ve)`, which
+    /// needs only `least`, and `v_max`, which needs `most`.
     ///
     /// With constant ramp time the distance jumps when a leg appears; a length inside the jump gives the
     /// lower peak and the rest is cruised.
-    pub(super) fn gains(&self, v_max: f64, length: f64) -> (f64, f64) {
+    pub(super) fn gains(&self, v_max: f64, length: f64, least: f64, most: f64) -> (f64, f64) {
         let Self { up, down, v0, ve } = *self;
         let top = v0.max(ve);
         let (up_base, down_base) = (top - v0, top - ve);
@@ -197,12 +204,14 @@ impl LegPair<'_> {
         // narrow to the interval in which neither leg changes between short and full
         let (up_knee, down_knee) = (up.gain_full - up_base, down.gain_full - down_base);
         let (mut lo, mut hi) = (0.0, v_max - top);
+        let (mut at_lo, mut at_hi) = (least, most);
         for knee in [up_knee.min(down_knee), up_knee.max(down_knee)] {
             if knee > lo && knee < hi {
-                if distance(knee) <= length {
-                    lo = knee;
+                let at_knee = distance(knee);
+                if at_knee <= length {
+                    (lo, at_lo) = (knee, at_knee);
                 } else {
-                    hi = knee;
+                    (hi, at_hi) = (knee, at_knee);
                 }
             }
         }
@@ -216,12 +225,12 @@ impl LegPair<'_> {
             let x = sum.root(length).clamp(lo, hi);
             (up_base + x, down_base + x)
         } else if !up_full && (down_full || v0 >= ve) {
-            let gain =
-                short_gain(up, v0, down, ve, !down_full, (up_base + lo, up_base + hi), length);
+            let bracket = [(up_base + lo, at_lo), (up_base + hi, at_hi)];
+            let gain = short_gain(up, v0, down, ve, !down_full, bracket, length);
             (gain, (v0 - ve) + gain)
         } else {
-            let range = (down_base + lo, down_base + hi);
-            let gain = short_gain(down, ve, up, v0, !up_full, range, length);
+            let bracket = [(down_base + lo, at_lo), (down_base + hi, at_hi)];
+            let gain = short_gain(down, ve, up, v0, !up_full, bracket, length);
             ((ve - v0) + gain, gain)
         }
     }
@@ -231,14 +240,14 @@ impl LegPair<'_> {
 ///
 /// Unknown is `λ`, the ratio of the short leg's ramp times to the full ones: gain `g λ²`, distance a cubic in
 /// `λ`. The total is increasing and convex in `λ` (the other leg too is convex in it, given `w <= v` if it is
-/// short), so Newton converges from any start.
+/// short), so Newton converges from any start. `bracket`: least and largest gain with the total at both.
 fn short_gain(
     leg: &LegLimits,
     v: f64,
     other: &LegLimits,
     w: f64,
     other_short: bool,
-    range: (f64, f64),
+    bracket: [(f64, f64); 2],
     length: f64,
 ) -> f64 {
     let linear = v * leg.ramps;
@@ -252,20 +261,16 @@ fn short_gain(
         let root = monotone_cubic(c3, v * (leg.ramps + other.ramps * k), length);
         return full * root * root;
     }
-    let total = |x: f64| {
-        let gain = full * x * x;
-        x * (linear + cubic * x * x) + other.distance(w, offset + gain)
-    };
-    let (lo, hi) = ((range.0 / full).sqrt(), (range.1 / full).sqrt());
-    let (at_lo, at_hi) = (total(lo), total(hi));
+    let [(lo, at_lo), (hi, at_hi)] = bracket;
+    let (lo, hi) = ((lo / full).sqrt(), (hi / full).sqrt());
     // start from a cubic through both ends with the true slope at λ = 0
     let c3 = (at_hi - at_lo - linear * (hi - lo)) / (hi * hi * hi - lo * lo * lo);
     let guess = monotone_cubic(c3, linear, length - at_lo + lo * (linear + c3 * lo * lo));
-    let root = increasing_root(lo, hi, guess, |x| {
+    let root = increasing_root(lo, hi, guess, 1e-10, |x| {
         let gain = full * x * x;
-        let slope =
-            linear + 3.0 * cubic * x * x + 2.0 * full * x * other.distance_slope(w, offset + gain);
-        (total(x) - length, slope)
+        let (other, slope) = other.distance_and_slope(w, offset + gain);
+        let value = x * (linear + cubic * x * x) + other - length;
+        (value, linear + 3.0 * cubic * x * x + 2.0 * full * x * slope)
     });
     full * root * root
 }
@@ -284,9 +289,9 @@ pub(super) struct RampLeg {
 }
 
 impl RampLeg {
-    /// The leg from `v` to `v + gain`, its time scaled by `stretch` (close to 1): velocities stay, distance
-    /// scales with time.
-    pub(super) fn new(limits: &LegLimits, v: f64, gain: f64, stretch: f64) -> Self {
+    /// The leg from `v` to `v + gain` over `distance` (that of the limits), its time scaled by `stretch` (close
+    /// to 1): velocities stay, distance scales with time.
+    pub(super) fn new(limits: &LegLimits, v: f64, gain: f64, distance: f64, stretch: f64) -> Self {
         let (plateau, ramp, tc) = if gain >= limits.gain_full {
             (limits.a, 1.0, gain / limits.a - 0.5 * limits.ramps)
         } else if gain <= 0.0 {
@@ -305,7 +310,7 @@ impl RampLeg {
             t1: limits.t1 * ramp * stretch,
             tc: tc.max(0.0) * stretch,
             t2: limits.t2 * ramp * stretch,
-            distance: limits.distance(v, gain) * stretch,
+            distance: distance * stretch,
         }
     }
 
@@ -362,7 +367,7 @@ impl RampLeg {
     pub(super) fn time_at(&self, s: f64) -> f64 {
         let (s1, v1) = self.shoulder();
         if s <= s1 {
-            return increasing_root(0.0, self.t1, self.t1, |x| {
+            return increasing_root(0.0, self.t1, self.t1, 1e-15, |x| {
                 let r = self.shape.rise(self.a, self.t1, x);
                 (self.v_low * x + r.s - s, self.v_low + r.v)
             });
@@ -373,7 +378,7 @@ impl RampLeg {
             return self.t1 + (2.0 * d / (v1 + (v1 * v1 + 2.0 * self.a * d).sqrt())).min(self.tc);
         }
         let to_go = (self.distance - s).max(0.0);
-        let left = increasing_root(0.0, self.t2, to_go / self.v_high, |x| {
+        let left = increasing_root(0.0, self.t2, to_go / self.v_high, 1e-15, |x| {
             let r = self.shape.rise(self.a, self.t2, x);
             (self.v_high * x - r.s - to_go, self.v_high - r.v)
         });

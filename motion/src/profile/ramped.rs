@@ -3,7 +3,7 @@
 use super::leg::{LegLimits, LegPair, RampLeg};
 use super::ramp::RampShape;
 use super::slope::Infeasible;
-use super::span::{Leg, SpanProfile};
+use super::span::{Leg, Span, SpanProfile};
 
 /// Path limits of a non-linear slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,22 +64,27 @@ impl RampedLimits {
         length: f64,
     ) -> Result<SpanProfile, Infeasible> {
         let top = v0.max(ve);
-        let total = |up_gain: f64, down_gain: f64| {
-            self.up.distance(v0, up_gain) + self.down.distance(ve, down_gain)
+        let distances = |up_gain: f64, down_gain: f64| {
+            (self.up.distance(v0, up_gain), self.down.distance(ve, down_gain))
         };
-        Infeasible::check(total(top - v0, top - ve), length, vf.max(top))?;
+        let (needed_up, needed_down) = distances(top - v0, top - ve);
         let vf = vf.max(top);
-        let (at_feed, gains) = if total(vf - v0, vf - ve) <= length {
-            (true, (vf - v0, vf - ve))
-        } else {
+        Infeasible::check(needed_up + needed_down, length, vf)?;
+        let mut gains = (vf - v0, vf - ve);
+        let mut parts = distances(gains.0, gains.1);
+        let mut peak = vf;
+        let at_feed = parts.0 + parts.1 <= length;
+        if !at_feed {
             let pair = LegPair { up: &self.up, down: &self.down, v0, ve };
-            (false, pair.gains(vf, length))
-        };
-        let peak = if at_feed { vf } else { (v0 + gains.0).clamp(top, vf) };
-        Ok(SpanProfile::assemble(length, peak, at_feed, total(gains.0, gains.1), |stretch| {
+            gains = pair.gains(vf, length, needed_up + needed_down, parts.0 + parts.1);
+            parts = distances(gains.0, gains.1);
+            peak = (v0 + gains.0).clamp(top, vf);
+        }
+        let span = Span { length, v0, ve, peak, at_feed };
+        Ok(SpanProfile::assemble(span, parts.0 + parts.1, |stretch| {
             (
-                Leg::Ramp(RampLeg::new(&self.up, v0, gains.0, stretch)),
-                Leg::Ramp(RampLeg::new(&self.down, ve, gains.1, stretch)),
+                Leg::Ramp(RampLeg::new(&self.up, v0, gains.0, parts.0, stretch)),
+                Leg::Ramp(RampLeg::new(&self.down, ve, gains.1, parts.1, stretch)),
             )
         }))
     }

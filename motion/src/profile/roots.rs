@@ -17,12 +17,13 @@ pub(super) fn monotone_cubic(c3: f64, c1: f64, d: f64) -> f64 {
 
 /// Root of an increasing function in `lo..=hi` with `f(lo) <= 0 <= f(hi)`; `eval` gives value and slope.
 ///
-/// Newton from `guess`, bisection whenever a step leaves the bracket; stops at a relative step of 1e-15
-/// or after 64 steps.
+/// Newton from `guess`, bisection whenever a step leaves the bracket; stops after 64 steps or after a step of less
+/// than `precision`, relative to the root: where Newton converges quadratically, the error is then its square.
 pub(super) fn increasing_root(
     mut lo: f64,
     mut hi: f64,
     guess: f64,
+    precision: f64,
     eval: impl Fn(f64) -> (f64, f64),
 ) -> f64 {
     let mut x = if guess >= lo && guess <= hi { guess } else { 0.5 * (lo + hi) };
@@ -38,7 +39,7 @@ pub(super) fn increasing_root(
         let next = if newton >= lo && newton <= hi { newton } else { 0.5 * (lo + hi) };
         let step = (next - x).abs();
         x = next;
-        if step <= 1e-15 * x.abs() {
+        if step <= precision * x.abs() {
             break;
         }
     }
@@ -64,7 +65,7 @@ mod tests {
 
     #[test]
     fn bracketed_newton_survives_a_flat_start() {
-        let x = increasing_root(0.0, 8.0, 0.0, |x| (x * x * x - 8.0, 3.0 * x * x));
+        let x = increasing_root(0.0, 8.0, 0.0, 1e-9, |x| (x * x * x - 8.0, 3.0 * x * x));
         assert!((x - 2.0).abs() < 1e-14);
     }
 }

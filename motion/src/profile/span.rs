@@ -60,6 +60,17 @@ impl Leg {
     }
 }
 
+/// What a plan has settled about its span.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    pub(super) length: f64,
+    pub(super) v0: f64,
+    pub(super) ve: f64,
+    pub(super) peak: f64,
+    /// The peak is the feed, not the solution for the length.
+    pub(super) at_feed: bool,
+}
+
 /// Speed-up, cruise and braking over one span; acceleration is zero at start, peak and end (except STEP).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpanProfile {
@@ -81,12 +92,11 @@ impl SpanProfile {
     /// `distance` is that of both legs unstretched. What is missing is cruised at the peak; a rounding error of
     /// the peak, or legs slightly too long, are taken out by stretching time.
     pub(super) fn assemble(
-        length: f64,
-        peak: f64,
-        at_feed: bool,
+        span: Span,
         distance: f64,
         legs: impl FnOnce(f64) -> (Leg, Leg),
     ) -> Self {
+        let Span { length, v0, ve, peak, at_feed } = span;
         let rest = length - distance;
         let rounding = rest < 0.0 || (!at_feed && rest <= 1e-12 * length);
         let (stretch, cruise_s) = if distance > 0.0 && rounding {
@@ -100,8 +110,8 @@ impl SpanProfile {
         Self {
             up_s: up.duration(),
             down_s: down.duration(),
-            v_start: up.at(0.0).v_mm_s,
-            v_end: down.at(0.0).v_mm_s,
+            v_start: v0,
+            v_end: ve,
             up,
             down,
             cruise_s,

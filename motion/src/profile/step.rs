@@ -1,7 +1,7 @@
 //! STEP: acceleration jumps between levels that depend on the velocity.
 
 use super::slope::{Infeasible, add_rounding_down};
-use super::span::{Leg, SpanProfile, State};
+use super::span::{Leg, Span, SpanProfile, State};
 use smallvec::SmallVec;
 
 /// Two-stage limits of one axis, referred to the path (divided by its component of the tangent).
@@ -63,7 +63,8 @@ impl StepLimits {
         Infeasible::check(needed, length, vf)?;
         let peak = self.peak(top, vf, length - needed);
         let at_feed = peak >= vf;
-        Ok(SpanProfile::assemble(length, peak, at_feed, total(peak), |stretch| {
+        let span = Span { length, v0, ve, peak, at_feed };
+        Ok(SpanProfile::assemble(span, total(peak), |stretch| {
             (
                 Leg::Step(StepLeg::new(&self.up, v0, peak, stretch)),
                 Leg::Step(StepLeg::new(&self.down, ve, peak, stretch)),

@@ -21,6 +21,7 @@ use super::scaled::Problem;
 pub(super) fn fastest(problem: &Problem) -> Option<Candidate> {
     let mut search = Search { best: None };
     let mirror = problem.mirrored();
+    // first: near the end of a motion rounding may have closed every other way
     search.direct(problem, false);
     search.direct(&mirror, true);
     if unique(problem) {
@@ -77,19 +78,12 @@ impl Search {
     }
 
     fn upwards(&mut self, problem: &Problem, mirrored: bool, first_only: bool) {
-        if self.velocity_limit(problem, mirrored) && first_only {
-            return;
-        }
-        if self.free(problem, mirrored) && first_only {
-            return;
-        }
-        if self.peak_limit(problem, mirrored, false) && first_only {
-            return;
-        }
-        if self.peak_limit(&problem.reversed(), mirrored, true) && first_only {
-            return;
-        }
-        self.both_limits(problem, mirrored);
+        // cheapest first
+        let _ = (self.velocity_limit(problem, mirrored) && first_only)
+            || (self.both_limits(problem, mirrored) && first_only)
+            || (self.free(problem, mirrored) && first_only)
+            || (self.peak_limit(problem, mirrored, false) && first_only)
+            || self.peak_limit(&problem.reversed(), mirrored, true);
     }
 
     fn velocity_limit(&mut self, problem: &Problem, mirrored: bool) -> bool {

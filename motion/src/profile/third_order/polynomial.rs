@@ -58,7 +58,7 @@ fn isolated(c: &[f64], lo: f64, hi: f64) -> Roots {
             let sign = if right.1 > 0.0 { 1.0 } else { -1.0 };
             let guess = 0.5 * (left.0 + right.0);
             let both = |x: f64| (sign * value(c, x), sign * value(slope, x));
-            found.push(increasing_root(left.0, right.0, guess, both));
+            found.push(increasing_root(left.0, right.0, guess, 1e-8, both));
         }
         touching(c, right, &mut found);
         left = right;
