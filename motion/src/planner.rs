@@ -265,7 +265,7 @@ impl Planner {
         self.setpoint.limit = self.state.limit;
         self.setpoint.seq = self.state.seq;
         self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
-        self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 1.0);
+        self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
     }
 
     /// Plans what is queued and makes all but the last window final.

@@ -107,7 +107,8 @@ impl Job {
                 Next::Rest => break,
             }
         }
-        assert!(planner.take_unkept().is_empty());
+        let unkept = planner.take_unkept();
+        assert!(unkept.is_empty(), "{unkept:?}");
         out
     }
 }
