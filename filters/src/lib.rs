@@ -5,4 +5,14 @@
 //!
 //! The crate knows no NC text, no axis names, no files and no clock. Nothing in it allocates or panics per cycle.
 
+pub mod cascade;
+pub mod fir;
+pub mod hsc;
+pub mod iir;
+pub mod issue;
+pub mod kernel;
+pub mod response;
+pub mod shaping;
+pub mod stage;
 pub mod time;
+pub mod vib_guard;

@@ -1,0 +1,431 @@
+//! Finite impulse responses on the cycle grid, and the ring buffer that runs one.
+//!
+//! A [`Kernel`] is configuration: FIR filters, HSC filters and the Vibration Guard are kernels and differ in nothing
+//! else. A [`KernelFilter`] is the state of one axis: its raw input history and a shared kernel.
+
+use crate::stage::Stage;
+use std::sync::Arc;
+
+/// One impulse of a kernel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tap {
+    /// Delay in cycles.
+    pub delay: u32,
+    /// Share of the input that arrives with this delay; the weights of a kernel sum to 1.
+    pub weight: f64,
+}
+
+/// A finite impulse response with the sum 1: taps on the cycle grid, sorted by delay, no two with the same delay.
+///
+/// Because the sum is 1, an axis at rest stays where it is, and a long ramp comes out as the same ramp
+/// [`delay_cycles`](Self::delay_cycles) later.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kernel {
+    taps: Vec<Tap>,
+}
+
+impl Kernel {
+    /// The kernel that changes nothing: one tap of weight 1 without delay.
+    pub fn identity() -> Self {
+        Self::delay(0)
+    }
+
+    /// A pure delay by `cycles`.
+    pub fn delay(cycles: u32) -> Self {
+        Self { taps: vec![Tap { delay: cycles, weight: 1.0 }] }
+    }
+
+    /// A kernel of the given taps in any order: equal delays are added, zero weights dropped, the sum normalised to 1.
+    ///
+    /// `None` if a weight is not finite or the weights do not sum to a positive number: such taps have no normalised
+    /// form.
+    pub fn from_taps(taps: impl IntoIterator<Item = Tap>) -> Option<Self> {
+        let mut taps: Vec<Tap> = taps.into_iter().collect();
+        taps.sort_by_key(|tap| tap.delay);
+        taps.dedup_by(|next, kept| {
+            let same = next.delay == kept.delay;
+            if same {
+                kept.weight += next.weight;
+            }
+            same
+        });
+        taps.retain(|tap| tap.weight != 0.0);
+        // Division by the compensated sum rounds each tap once, so the exact sum of the result is within half an ulp
+        // per unit weight; a correction of single taps would only spoil the symmetry of a symmetric kernel.
+        let sum = compensated_sum(taps.iter().map(|tap| tap.weight));
+        if !(sum.is_finite() && sum > 0.0) {
+            return None;
+        }
+        for tap in &mut taps {
+            tap.weight /= sum;
+        }
+        taps.iter().all(|tap| tap.weight.is_finite()).then_some(Self { taps })
+    }
+
+    /// The taps, sorted by delay.
+    pub fn taps(&self) -> &[Tap] {
+        &self.taps
+    }
+
+    /// Largest delay in cycles: as many cycles of constant input flush the kernel.
+    pub fn length(&self) -> u32 {
+        self.taps.last().map_or(0, |tap| tap.delay)
+    }
+
+    /// Mean delay `tbar = sum h_k t_k` in cycles: by this a slow signal comes late.
+    pub fn delay_cycles(&self) -> f64 {
+        compensated_sum(self.taps.iter().map(|tap| tap.weight * f64::from(tap.delay)))
+    }
+
+    /// First one-sided moment `M1 = sum h_k max(0, tbar - t_k)` in cycles, half the mean absolute deviation.
+    ///
+    /// A velocity jump `dv` of the axis pulls the delay-aligned output aside by `|dv| M1 T` if no tap is negative.
+    pub fn m1_cycles(&self) -> f64 {
+        self.central_moment(|s| (-s).max(0.0))
+    }
+
+    /// `sum h_k max(0, t_k - tbar)^2` in cycles squared: weighs an acceleration before a corner.
+    pub fn m2_before_cycles2(&self) -> f64 {
+        self.central_moment(|s| s.max(0.0) * s.max(0.0))
+    }
+
+    /// `sum h_k max(0, tbar - t_k)^2` in cycles squared: weighs an acceleration after a corner.
+    pub fn m2_after_cycles2(&self) -> f64 {
+        self.central_moment(|s| (-s).max(0.0) * (-s).max(0.0))
+    }
+
+    /// `sum h_k max(0, t_k - tbar)^3` in cycles cubed: weighs a jerk before a corner.
+    pub fn m3_before_cycles3(&self) -> f64 {
+        self.central_moment(|s| s.max(0.0) * s.max(0.0) * s.max(0.0))
+    }
+
+    /// `sum h_k max(0, tbar - t_k)^3` in cycles cubed: weighs a jerk after a corner.
+    pub fn m3_after_cycles3(&self) -> f64 {
+        self.central_moment(|s| (-s).max(0.0) * (-s).max(0.0) * (-s).max(0.0))
+    }
+
+    /// Variance `sigma^2 = sum h_k (t_k - tbar)^2` in cycles squared: on a circle of radius R the path shrinks by about
+    /// `v^2 sigma^2 T^2 / (2 R)`.
+    pub fn variance_cycles2(&self) -> f64 {
+        self.central_moment(|s| s * s)
+    }
+
+    /// The kernel of both run one after the other.
+    #[must_use]
+    pub fn convolve(&self, other: &Self) -> Self {
+        let products = self.taps.iter().flat_map(|a| {
+            other.taps.iter().map(|b| Tap {
+                delay: a.delay.saturating_add(b.delay),
+                weight: a.weight * b.weight,
+            })
+        });
+        // Two sums of 1 multiply to 1, so there is always a normalised form.
+        Self::from_taps(products).unwrap_or_else(Self::identity)
+    }
+
+    /// The same kernel backwards in time, starting at delay 0.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let length = self.length();
+        let taps =
+            self.taps.iter().rev().map(|tap| Tap { delay: length - tap.delay, weight: tap.weight });
+        Self { taps: taps.collect() }
+    }
+
+    /// Whether the kernel passes its input through unchanged.
+    pub fn is_identity(&self) -> bool {
+        self.length() == 0
+    }
+
+    /// Whether a weight is below zero: then the step response overshoots and [`m1_cycles`](Self::m1_cycles) is no
+    /// bound of the corner error.
+    pub fn has_negative_taps(&self) -> bool {
+        self.taps.iter().any(|tap| tap.weight < 0.0)
+    }
+
+    /// `sum h_k f(t_k - tbar)`.
+    fn central_moment(&self, f: impl Fn(f64) -> f64) -> f64 {
+        let mean = self.delay_cycles();
+        compensated_sum(self.taps.iter().map(|tap| tap.weight * f(f64::from(tap.delay) - mean)))
+    }
+}
+
+/// Sum with Neumaier's running compensation: exact to one rounding for the sums met here.
+fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
+    let (mut sum, mut lost) = (0.0_f64, 0.0);
+    for value in values {
+        let next = sum + value;
+        lost += if sum.abs() >= value.abs() { (sum - next) + value } else { (value - next) + sum };
+        sum = next;
+    }
+    sum + lost
+}
+
+/// A kernel was to be changed while its output would have jumped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the kernel cannot be changed before the axis has stood for {needed_cycles} cycles, it has for {rest_cycles}"
+)]
+pub struct SwitchWhileMoving {
+    /// Equal inputs in a row so far.
+    pub rest_cycles: u32,
+    /// Equal inputs in a row that make the change free of a jump.
+    pub needed_cycles: u32,
+}
+
+/// A kernel and the raw input history of one axis.
+///
+/// Evaluates `y = x + sum h_k (x[n-k] - x)` with the newest input `x`: at rest all differences are zero, so the output
+/// is the input bit for bit, whatever the weights round to. The history is kept from the first cycle on, also while
+/// the kernel is the identity.
+#[derive(Clone, Debug)]
+pub struct KernelFilter {
+    kernel: Arc<Kernel>,
+    history: Ring,
+    /// Equal inputs in a row, the newest included.
+    rest_cycles: u32,
+}
+
+impl KernelFilter {
+    /// Runs `kernel`, at rest at `x` since ever.
+    pub fn new(kernel: Arc<Kernel>, x: f64) -> Self {
+        let history = Ring::new(kernel.length(), x);
+        Self { kernel, history, rest_cycles: u32::MAX }
+    }
+
+    /// Whether all inputs that the kernel sees are equal bit for bit: the output is the input and stays it.
+    pub fn settled(&self) -> bool {
+        self.settled_for(&self.kernel)
+    }
+
+    /// Whether `kernel` would see equal inputs only.
+    pub fn settled_for(&self, kernel: &Kernel) -> bool {
+        self.rest_cycles > kernel.length()
+    }
+
+    /// Replaces the kernel, keeping the raw input history. May allocate: a longer kernel grows the history.
+    ///
+    /// # Errors
+    ///
+    /// [`SwitchWhileMoving`] unless the present and the new kernel are both [settled](Self::settled_for): with kernels
+    /// of the sum 1 both give the standing position then, otherwise the output would jump by the difference of what
+    /// the two remember.
+    pub fn set_kernel(&mut self, kernel: Arc<Kernel>) -> Result<(), SwitchWhileMoving> {
+        if !(self.settled() && self.settled_for(&kernel)) {
+            let longest = self.kernel.length().max(kernel.length());
+            return Err(SwitchWhileMoving {
+                rest_cycles: self.rest_cycles,
+                needed_cycles: longest.saturating_add(1),
+            });
+        }
+        self.history.grow(kernel.length());
+        self.kernel = kernel;
+        Ok(())
+    }
+
+    /// The kernel that runs.
+    pub fn kernel(&self) -> &Arc<Kernel> {
+        &self.kernel
+    }
+}
+
+impl Stage for KernelFilter {
+    fn step(&mut self, x: f64) -> f64 {
+        let at_rest = x.to_bits() == self.history.newest().to_bits();
+        self.rest_cycles = if at_rest { self.rest_cycles.saturating_add(1) } else { 1 };
+        self.history.push(x);
+        match self.kernel.taps() {
+            _ if self.settled() => x,
+            [Tap { delay, .. }] => self.history.past(*delay),
+            taps => {
+                let pull = |tap: &Tap| tap.weight * (self.history.past(tap.delay) - x);
+                x + taps.iter().map(pull).sum::<f64>()
+            }
+        }
+    }
+
+    fn settle(&mut self, x: f64) {
+        self.history.fill(x);
+        self.rest_cycles = u32::MAX;
+    }
+
+    fn delay_cycles(&self) -> f64 {
+        self.kernel.delay_cycles()
+    }
+}
+
+/// The newest inputs, at least one, as many as a power of two.
+#[derive(Clone, Debug)]
+struct Ring {
+    values: Vec<f64>,
+    newest: usize,
+}
+
+impl Ring {
+    /// Room for delays up to `length`, filled with `x`.
+    fn new(length: u32, x: f64) -> Self {
+        Self { values: vec![x; Self::capacity(length)], newest: 0 }
+    }
+
+    fn capacity(length: u32) -> usize {
+        (length as usize + 1).next_power_of_two()
+    }
+
+    fn push(&mut self, x: f64) {
+        self.newest = (self.newest + 1) & (self.values.len() - 1);
+        self.values[self.newest] = x;
+    }
+
+    fn newest(&self) -> f64 {
+        self.values[self.newest]
+    }
+
+    fn past(&self, delay: u32) -> f64 {
+        self.values[self.newest.wrapping_sub(delay as usize) & (self.values.len() - 1)]
+    }
+
+    fn fill(&mut self, x: f64) {
+        self.values.fill(x);
+    }
+
+    /// Makes room for delays up to `length`; what is older than the history so far counts as its oldest value.
+    fn grow(&mut self, length: u32) {
+        let (old, new) = (self.values.len(), Self::capacity(length));
+        if new <= old {
+            return;
+        }
+        // Oldest first, then the room for older ones in front of it.
+        self.values.rotate_left((self.newest + 1) & (old - 1));
+        let oldest = self.values[0];
+        self.values.splice(0..0, std::iter::repeat_n(oldest, new - old));
+        self.newest = new - 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kernel(taps: &[(u32, f64)]) -> Kernel {
+        Kernel::from_taps(taps.iter().map(|&(delay, weight)| Tap { delay, weight })).unwrap()
+    }
+
+    #[test]
+    fn taps_are_sorted_merged_and_normalised() {
+        let k = kernel(&[(4, 1.0), (0, 1.0), (4, 2.0), (7, 0.0)]);
+        assert_eq!(k.taps(), [Tap { delay: 0, weight: 0.25 }, Tap { delay: 4, weight: 0.75 }]);
+        assert_eq!(k.length(), 4);
+        for n in 1..=1000 {
+            let k = kernel(&(0..n).map(|i| (i, 1.0 + f64::from(i))).collect::<Vec<_>>());
+            let sum = compensated_sum(k.taps().iter().map(|tap| tap.weight));
+            assert!((sum - 1.0).abs() <= f64::EPSILON, "{n} taps sum to {sum:e}");
+        }
+    }
+
+    #[test]
+    fn taps_without_a_normalised_form_are_refused() {
+        let of = |weights: &[f64]| {
+            Kernel::from_taps(weights.iter().zip(0..).map(|(&weight, delay)| Tap { delay, weight }))
+        };
+        for weights in [&[][..], &[0.0], &[1.0, -1.0], &[-1.0], &[f64::NAN, 1.0], &[f64::INFINITY]]
+        {
+            assert_eq!(of(weights), None, "{weights:?}");
+        }
+    }
+
+    /// Three taps 1/4, 1/2, 1/4 at 0, 2, 4 cycles: all moments by hand.
+    #[test]
+    fn moments() {
+        let k = kernel(&[(0, 0.25), (2, 0.5), (4, 0.25)]);
+        let moments = [
+            (k.delay_cycles(), 2.0),
+            (k.m1_cycles(), 0.5),
+            (k.m2_before_cycles2(), 1.0),
+            (k.m2_after_cycles2(), 1.0),
+            (k.m3_before_cycles3(), 2.0),
+            (k.m3_after_cycles3(), 2.0),
+            (k.variance_cycles2(), 2.0),
+        ];
+        for (is, want) in moments {
+            assert_eq!(is.to_bits(), f64::to_bits(want));
+        }
+        // Unsymmetric: 3/4 at 0, 1/4 at 4, mean 1: before = 1/4 * 3^2, after = 3/4 * 1^2.
+        let k = kernel(&[(0, 3.0), (4, 1.0)]);
+        assert_eq!(k.m2_before_cycles2().to_bits(), f64::to_bits(2.25));
+        assert_eq!(k.m2_after_cycles2().to_bits(), f64::to_bits(0.75));
+        assert_eq!(k.m3_before_cycles3().to_bits(), f64::to_bits(6.75));
+        assert_eq!(k.m3_after_cycles3().to_bits(), f64::to_bits(0.75));
+        assert_eq!(k.m1_cycles().to_bits(), f64::to_bits(0.75));
+    }
+
+    #[test]
+    fn convolution_and_reversal() {
+        let pair = kernel(&[(0, 0.75), (3, 0.25)]);
+        let twice = pair.convolve(&pair);
+        assert_eq!(twice, kernel(&[(0, 0.5625), (3, 0.375), (6, 0.0625)]));
+        assert_eq!(pair.reversed(), kernel(&[(0, 0.25), (3, 0.75)]));
+        assert_eq!(pair.convolve(&Kernel::identity()), pair);
+        let symmetric = pair.convolve(&pair.reversed());
+        assert_eq!(symmetric, symmetric.reversed());
+        assert!(Kernel::identity().is_identity() && !Kernel::delay(1).is_identity());
+    }
+
+    #[test]
+    fn a_single_late_tap_is_a_delay_bit_for_bit() {
+        let mut filter = KernelFilter::new(Arc::new(Kernel::delay(3)), 0.1);
+        let inputs: Vec<f64> = (1..40).map(|i| 1000.0 / f64::from(i)).collect();
+        let outputs: Vec<f64> = inputs.iter().map(|&x| filter.step(x)).collect();
+        assert_eq!(outputs[..3], [0.1; 3]);
+        assert_eq!(outputs[3..], inputs[..inputs.len() - 3]);
+    }
+
+    #[test]
+    fn the_identity_returns_every_bit() {
+        let mut filter = KernelFilter::new(Arc::new(Kernel::identity()), 0.0);
+        for x in [-0.0, 1.0e-310, 1000.123456789, -3.0e300] {
+            assert_eq!(filter.step(x).to_bits(), f64::to_bits(x));
+            assert!(filter.settled());
+        }
+    }
+
+    #[test]
+    fn a_change_waits_until_neither_kernel_remembers_motion() {
+        let long = Arc::new(kernel(&[(0, 0.5), (9, 0.5)]));
+        let mut filter = KernelFilter::new(Arc::new(Kernel::identity()), 0.0);
+        let mut last = 0.0;
+        for i in 1..=20 {
+            last = filter.step(f64::from(i) * 0.1);
+        }
+        let refused = filter.set_kernel(Arc::clone(&long));
+        assert_eq!(refused, Err(SwitchWhileMoving { rest_cycles: 1, needed_cycles: 10 }));
+        for _ in 1..10 {
+            assert_eq!(filter.step(last).to_bits(), last.to_bits());
+        }
+        filter.set_kernel(Arc::clone(&long)).unwrap();
+        assert!(filter.settled());
+        assert_eq!(filter.step(last).to_bits(), last.to_bits());
+        // Back again: the longer of the two decides.
+        let moved = last + 1.0;
+        for _ in 0..9 {
+            assert!((filter.step(moved) - (last + 0.5)).abs() < 1e-15);
+            assert!(filter.set_kernel(Arc::new(Kernel::identity())).is_err());
+        }
+        assert_eq!(filter.step(moved).to_bits(), moved.to_bits());
+        filter.set_kernel(Arc::new(Kernel::identity())).unwrap();
+    }
+
+    #[test]
+    fn growing_keeps_the_history() {
+        let mut ring = Ring::new(3, 0.0);
+        for i in 1..=6 {
+            ring.push(f64::from(i));
+        }
+        ring.grow(10);
+        assert_eq!(ring.values.len(), 16);
+        let past: Vec<f64> = (0..7).map(|delay| ring.past(delay)).collect();
+        assert_eq!(past, [6.0, 5.0, 4.0, 3.0, 3.0, 3.0, 3.0]);
+        ring.push(7.0);
+        let past: Vec<f64> = [0, 1, 4].map(|delay| ring.past(delay)).to_vec();
+        assert_eq!(past, [7.0, 6.0, 3.0]);
+    }
+}

@@ -1,0 +1,97 @@
+//! The shaping chain of one axis: a kernel (FIR, HSC or Vibration Guard), then up to three standard filters.
+//!
+//! The kernels share one slot because they exclude each other on an axis. The kernel comes first, on the raw set
+//! position; all stages are linear, so the order changes rounding and start-up only.
+//!
+//! Assumption: the order; the vendor does not state it.
+
+use crate::iir::AxisFilter;
+use crate::kernel::{Kernel, KernelFilter, SwitchWhileMoving};
+use crate::response::{Angle, Response};
+use crate::stage::Stage;
+use std::sync::Arc;
+
+/// Shaping chain of one axis, with its state.
+#[derive(Clone, Debug)]
+pub struct Shaping {
+    kernel: KernelFilter,
+    filters: Vec<AxisFilter>,
+    /// Last input and output.
+    newest: (f64, f64),
+}
+
+impl Shaping {
+    /// The chain of the standard `filters` without a kernel, at rest at `x`.
+    pub fn new(filters: Vec<AxisFilter>, x: f64) -> Self {
+        let kernel = KernelFilter::new(Arc::new(Kernel::identity()), x);
+        let mut shaping = Self { kernel, filters, newest: (x, x) };
+        shaping.settle(x);
+        shaping
+    }
+
+    /// Puts a kernel into the slot, `None` empties it. May allocate.
+    ///
+    /// # Errors
+    ///
+    /// [`SwitchWhileMoving`] unless [`ready_for`](Self::ready_for) the kernel: the set position would jump.
+    pub fn set_kernel(&mut self, kernel: Option<Arc<Kernel>>) -> Result<(), SwitchWhileMoving> {
+        self.kernel.set_kernel(kernel.unwrap_or_else(|| Arc::new(Kernel::identity())))
+    }
+
+    /// Whether the kernel in the slot can be replaced by `kernel` (`None`: removed) without a jump: the axis has stood
+    /// for as long as either of them remembers.
+    pub fn ready_for(&self, kernel: Option<&Kernel>) -> bool {
+        self.kernel.settled() && kernel.is_none_or(|kernel| self.kernel.settled_for(kernel))
+    }
+
+    /// The kernel in the slot, the identity if it is empty.
+    pub fn kernel(&self) -> &Arc<Kernel> {
+        self.kernel.kernel()
+    }
+
+    /// Whether the axis has arrived: the kernel is flushed and the output is closer than `window_mm` (P-AXIS-00351) to
+    /// the value it tends to, the input.
+    ///
+    /// A high-pass or band-pass never reaches its input; what it tends to instead counts, so that nobody waits for ever.
+    pub fn settled(&self, window_mm: f64) -> bool {
+        let (x, y) = self.newest;
+        let target = self.filters.iter().fold(x, |x, filter| filter.final_value(x));
+        self.kernel.settled() && (y - target).abs() < window_mm
+    }
+
+    /// Cycles of constant input that flush the kernel; the standard filters come on top.
+    pub fn flush_cycles(&self) -> u32 {
+        self.kernel().length()
+    }
+
+    /// Frequency response of the whole chain at one frequency.
+    pub fn response(&self, at: Angle) -> Response {
+        self.filters
+            .iter()
+            .fold(self.kernel().response(at), |chain, filter| chain * filter.response(at))
+    }
+}
+
+impl Stage for Shaping {
+    /// Next set position; with neither kernel nor filters the input bit for bit.
+    fn step(&mut self, x: f64) -> f64 {
+        let shaped = self.kernel.step(x);
+        let y = self.filters.iter_mut().fold(shaped, |x, filter| filter.step(x));
+        self.newest = (x, y);
+        y
+    }
+
+    fn settle(&mut self, x: f64) {
+        self.kernel.settle(x);
+        for filter in &mut self.filters {
+            filter.settle(x);
+        }
+        self.newest = (x, x);
+    }
+
+    fn delay_cycles(&self) -> f64 {
+        self.filters
+            .iter()
+            .fold(self.kernel().delay_cycles(), |sum, filter| sum + filter.delay_cycles())
+    }
+}
