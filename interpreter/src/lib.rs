@@ -3,5 +3,6 @@
 //! The library opens no file and reads no clock: sources come through a trait, results leave as records.
 
 pub mod diag;
+pub mod exec;
 pub mod record;
 pub mod syntax;

@@ -197,7 +197,9 @@ impl ArcPath {
 
     /// Newton on the derivative of the squared distance; stays where it is if a step would not help.
     fn polish(&self, point: &[f64], s: f64) -> f64 {
-        if self.linear.iter().all(|l| *l == 0.0) && self.radius_start.to_bits() == self.radius_end.to_bits() {
+        if self.linear.iter().all(|l| *l == 0.0)
+            && self.radius_start.to_bits() == self.radius_end.to_bits()
+        {
             return s;
         }
         let n = point.len();
