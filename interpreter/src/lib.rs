@@ -4,5 +4,6 @@
 
 pub mod diag;
 pub mod exec;
+pub mod machine;
 pub mod record;
 pub mod syntax;

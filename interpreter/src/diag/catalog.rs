@@ -277,7 +277,13 @@ pub const ENTRIES: &[Entry] = &[
     row(Kontur(32), "K-SIMU-SAMPLE", Warning, 1, 1, 0, "sampling time of the simulated drive differs from the cycle", ""),
     row(Kontur(33), "K-FILTER-RANGE", Error, 2, 3, 0, "filter order, Q, share or frequency out of range, filter off", ""),
     row(Kontur(34), "K-VIB-RANGE", Error, 2, 3, 0, "Vibration Guard FREQ, DAMPING, AX_DEV or ACC_FACT out of range", ""),
-    row(Kontur(35), "K-UNSTABLE", Error, 6, 6, 0, "simulated plant diverged (lag beyond ±10 × slep_max or not finite), run stopped", ""),];
+    row(Kontur(35), "K-UNSTABLE", Error, 6, 6, 0, "simulated plant diverged (lag beyond ±10 × slep_max or not finite), run stopped", ""),
+    row(Kontur(70), "K-LIST-RANGE", Warning, 1, 1, 2, "list parameter outside its range, corrected", "the vendor's ID for this parameter is not known"),
+    row(Kontur(71), "K-LIST-ENTRY", Warning, 1, 1, 2, "line of a list that is no entry, ignored", "no key or no value"),
+    row(Kontur(72), "K-LIST-END", Note, 1, 1, 2, "end mark in a list, the rest is not read", "a line with END or Ende only"),
+    row(Kontur(73), "K-SETTING", Error, 3, 3, 0, "setting names no axis, parameter or value", "--set TARGET.key=value"),
+    row(Kontur(74), "K-LIST-COUNT", Warning, 1, 1, 2, "more entries than the list's own count, ignored", "zahl_mds, achs_anzahl, spdl_anzahl"),
+];
 
 #[cfg(test)]
 mod tests {

@@ -1,0 +1,70 @@
+//! The machine: parameter lists in the vendor's format, their ranges, and what the simulation makes of them.
+//!
+//! Lists hold integers in 0.1 um, us and 0.1 %; they are converted to mm, s and ratios here, once, and nowhere else.
+
+mod axis;
+mod builtin;
+mod chain;
+mod channel;
+pub mod key;
+mod link;
+pub mod lists;
+mod overrides;
+mod parameters;
+mod plausible;
+pub mod table;
+pub mod value;
+
+pub use axis::{Axis, AxisKind};
+pub use channel::{ArcCentre, Channel, LookAhead, OverrideMode, RapidOverride};
+pub use lists::ListFiles;
+pub use overrides::Override;
+pub use parameters::{Parameters, Setting};
+
+use crate::diag::Diagnostic;
+use kontur_filters::time::CycleTime;
+
+/// A machine: one channel with its axes and spindles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    /// Name of the folder of its lists.
+    pub name: String,
+    /// Cycle of the interpolator (`kontur.cycle_time_us`).
+    pub cycle: CycleTime,
+    /// Path axes in the order of the channel list.
+    pub axes: Vec<Axis>,
+    /// Spindles in the order of the channel list.
+    pub spindles: Vec<Axis>,
+    /// Gantry slaves: axis lists that no channel names and that name a master (P-AXIS-00070).
+    pub gantry_slaves: Vec<Axis>,
+    /// Channel.
+    pub channel: Channel,
+}
+
+impl Machine {
+    /// Loads a machine from its start-up list and applies overrides. Beside the machine come all warnings.
+    ///
+    /// # Errors
+    /// All diagnostics, if at least one of them is an error: K-0013 a list that cannot be read, K-0031 numbers that do
+    /// not fit together, K-0070 a refused value, K-0073 an override that names nothing, 110472, 110597, 120178.
+    pub fn load(
+        files: &dyn ListFiles,
+        start_up: &str,
+        overrides: &[Override],
+    ) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
+        chain::load(files, start_up, overrides)
+    }
+
+    /// Axis, spindle or gantry slave with a name of the channel list, without regard to case.
+    pub fn axis(&self, name: &str) -> Option<&Axis> {
+        self.all_axes().find(|a| a.name().eq_ignore_ascii_case(name))
+    }
+
+    /// Path axes, spindles, gantry slaves.
+    pub fn all_axes(&self) -> impl Iterator<Item = &Axis> {
+        self.axes.iter().chain(&self.spindles).chain(&self.gantry_slaves)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,226 @@
+//! From the start-up list to settled parameters: defaults, default list, specific list, overrides, range checks.
+
+use super::axis::logical_number;
+use super::lists::{self, List, ListFiles};
+use super::overrides::Override;
+use super::parameters::Parameters;
+use super::plausible;
+use super::table::ListKind;
+use super::{Machine, link};
+use crate::diag::{AxisRef, Diagnostic, Location};
+use kontur_filters::time::CycleTime;
+
+/// Name of kontur's own list, beside the start-up list.
+const OWN_LIST: &str = "kontur.lis";
+
+/// The settled parameters of a whole machine.
+#[derive(Debug)]
+pub(super) struct Settled {
+    pub(super) start_up: Parameters,
+    pub(super) channel: Parameters,
+    /// Axis lists in the order of the start-up list.
+    pub(super) axes: Vec<AxisList>,
+    pub(super) own: Parameters,
+}
+
+/// One axis list.
+#[derive(Debug)]
+pub(super) struct AxisList {
+    pub(super) file: String,
+    pub(super) parameters: Parameters,
+}
+
+/// Loads a machine, see [`Machine::load`].
+pub(super) fn load(
+    files: &dyn ListFiles,
+    start_up: &str,
+    overrides: &[Override],
+) -> Result<(Machine, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let mut chain = Chain { files, start_up, diagnostics: Vec::new() };
+    let machine = chain.run(overrides);
+    let diagnostics = chain.diagnostics;
+    match machine {
+        Some(machine) if !diagnostics.iter().any(Diagnostic::is_error) => {
+            Ok((machine, diagnostics))
+        }
+        _ => Err(diagnostics),
+    }
+}
+
+struct Chain<'a> {
+    files: &'a dyn ListFiles,
+    start_up: &'a str,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Chain<'_> {
+    fn run(&mut self, overrides: &[Override]) -> Option<Machine> {
+        let mut settled = self.read_all(overrides)?;
+        let names = link::names(&settled, &mut self.diagnostics);
+        self.override_all(&mut settled, &names, overrides);
+        let cycle = self.check_all(&mut settled, &names);
+        let folder = self.start_up.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let name = folder.rsplit('/').find(|n| !n.is_empty() && *n != ".").unwrap_or("machine");
+        link::machine(name, cycle, settled, &names, &mut self.diagnostics)
+    }
+
+    /// The path of a list named in the start-up list: relative to its folder, either slash.
+    fn path(&self, named: &str) -> String {
+        let named = named.replace('\\', "/");
+        let absolute = named.starts_with('/') || named.as_bytes().get(1) == Some(&b':');
+        match self.start_up.rsplit_once('/') {
+            Some((folder, _)) if !absolute => {
+                format!("{folder}/{}", named.strip_prefix("./").unwrap_or(&named))
+            }
+            _ => named,
+        }
+    }
+
+    /// Reads a list that must exist; `at` is the place that names it.
+    fn read(&mut self, kind: ListKind, path: &str, at: Option<Location>) -> Option<List> {
+        let reason = match self.files.read(path) {
+            Ok(Some(bytes)) => return Some(lists::read(kind, path, &bytes, &mut self.diagnostics)),
+            Ok(None) => "there is no such file".to_owned(),
+            Err(reason) => reason,
+        };
+        let mut diagnostic =
+            Diagnostic::kontur(13, format!("list `{path}` cannot be read: {reason}"));
+        diagnostic.source = at;
+        self.diagnostics.push(diagnostic);
+        None
+    }
+
+    /// Reads the list that a text entry of the start-up list names; an absent entry is no error.
+    fn read_named(&mut self, start_up: &Parameters, kind: ListKind, key: &str) -> Option<List> {
+        let setting = start_up.setting(key)?;
+        let named = setting.value.text().filter(|name| !name.is_empty())?;
+        self.read(kind, &self.path(named), setting.at.clone())
+    }
+
+    fn read_all(&mut self, overrides: &[Override]) -> Option<Settled> {
+        let mut start_up = Parameters::new(ListKind::StartUp);
+        start_up.apply(&self.read(ListKind::StartUp, self.start_up, None)?);
+        self.override_list(&mut start_up, "start_up", overrides);
+        if start_up.text("listen").as_deref() == Some("BINAER") {
+            let message = "listen: binary lists are not read, export the lists as ASCII";
+            self.diagnostics.push(Diagnostic::kontur(19, message).parameter("P-STUP-00008"));
+            return None;
+        }
+        let mut channel = Parameters::new(ListKind::Channel);
+        for key in ["default_sda_mds", "sda_mds[0]"] {
+            if let Some(list) = self.read_named(&start_up, ListKind::Channel, key) {
+                channel.apply(&list);
+            }
+        }
+        if start_up.setting("sda_mds[0]").is_none() {
+            let message =
+                format!("{}: the start-up list names no channel list (sda_mds[0])", self.start_up);
+            self.diagnostics.push(Diagnostic::kontur(31, message).parameter("P-STUP-00009"));
+        }
+        self.override_list(&mut channel, "channel", overrides);
+        let defaults = self.read_named(&start_up, ListKind::Axis, "default_achs_mds");
+        let mut axes = Vec::new();
+        for file in self.axis_files(&start_up) {
+            let Some(list) = self.read_named(&start_up, ListKind::Axis, &file) else { continue };
+            let mut parameters = Parameters::new(ListKind::Axis);
+            if let Some(defaults) = &defaults {
+                parameters.apply(defaults);
+            }
+            parameters.apply(&list);
+            let named = start_up.text(&file).unwrap_or_default();
+            axes.push(AxisList { file: self.path(&named), parameters });
+        }
+        let mut own = Parameters::new(ListKind::Kontur);
+        let path = self.path(OWN_LIST);
+        match self.files.read(&path) {
+            Ok(None) => {}
+            Ok(Some(bytes)) => {
+                own.apply(&lists::read(ListKind::Kontur, &path, &bytes, &mut self.diagnostics));
+            }
+            Err(reason) => {
+                let message = format!("list `{path}` cannot be read: {reason}");
+                self.diagnostics.push(Diagnostic::kontur(13, message));
+            }
+        }
+        self.override_list(&mut own, "kontur", overrides);
+        Some(Settled { start_up, channel, axes, own })
+    }
+
+    /// Keys of the axis lists in ascending order, at most P-STUP-00014.
+    fn axis_files(&mut self, start_up: &Parameters) -> Vec<String> {
+        let mut files: Vec<String> = (0..32)
+            .map(|i| format!("achs_mds[{i}]"))
+            .filter(|key| start_up.setting(key).is_some())
+            .collect();
+        let limit = start_up.number("zahl_mds").unwrap_or(f64::INFINITY);
+        let more: Vec<String> = (files.len() as f64 > limit)
+            .then(|| {
+                files.drain(
+                    files.len().min(super::axis::integer(Some(limit)).unwrap_or(0) as usize)..,
+                )
+            })
+            .into_iter()
+            .flatten()
+            .collect();
+        for key in more {
+            let message = format!("{key}: more axis lists than zahl_mds = {limit}, ignored");
+            let mut diagnostic = Diagnostic::kontur(74, message).parameter("P-STUP-00014");
+            diagnostic.source = start_up.setting(&key).and_then(|s| s.at.clone());
+            self.diagnostics.push(diagnostic);
+        }
+        files
+    }
+
+    fn override_list(&mut self, parameters: &mut Parameters, target: &str, overrides: &[Override]) {
+        for wanted in overrides.iter().filter(|o| o.target().eq_ignore_ascii_case(target)) {
+            if let Err(diagnostic) = wanted.apply(parameters) {
+                self.diagnostics.push(*diagnostic);
+            }
+        }
+    }
+
+    fn override_all(&mut self, settled: &mut Settled, names: &link::Names, overrides: &[Override]) {
+        for wanted in overrides {
+            if ["start_up", "channel", "kontur"]
+                .iter()
+                .any(|t| wanted.target().eq_ignore_ascii_case(t))
+            {
+                continue;
+            }
+            let Some(number) = names.number(wanted.target()) else {
+                self.diagnostics.push(wanted.unknown_target(&names.all()));
+                continue;
+            };
+            for axis in settled.axes.iter_mut().filter(|a| logical_number(&a.parameters) == number)
+            {
+                if let Err(diagnostic) = wanted.apply(&mut axis.parameters) {
+                    self.diagnostics.push(*diagnostic);
+                }
+            }
+        }
+    }
+
+    fn check_all(&mut self, settled: &mut Settled, names: &link::Names) -> CycleTime {
+        let diagnostics = &mut self.diagnostics;
+        // the cycle first: it limits delay times
+        plausible::check(&mut settled.own, CycleTime::DEFAULT, None, diagnostics);
+        let cycle = super::axis::integer(settled.own.number("kontur.cycle_time_us"));
+        let cycle = cycle.and_then(CycleTime::from_us).unwrap_or(CycleTime::DEFAULT);
+        plausible::check(&mut settled.start_up, cycle, None, diagnostics);
+        plausible::check(&mut settled.channel, cycle, None, diagnostics);
+        for axis in &mut settled.axes {
+            let number = logical_number(&axis.parameters);
+            let name = names.name(number).unwrap_or_default().to_owned();
+            let axis_ref = AxisRef { number, name };
+            plausible::check(&mut axis.parameters, cycle, Some(&axis_ref), diagnostics);
+            plausible::check_sampling(
+                &axis.parameters,
+                &settled.own,
+                cycle,
+                &axis_ref,
+                diagnostics,
+            );
+        }
+        cycle
+    }
+}

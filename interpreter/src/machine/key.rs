@@ -1,0 +1,153 @@
+//! Keys of list entries: dotted names with indices, `getriebe[0].dynamik.vb_max`.
+
+use super::table::{self, ListKind, Row};
+
+/// Indices of a key from left to right, 0 where it has fewer than two.
+pub type Indices = [u32; 2];
+
+/// A key as it was written, taken apart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Key {
+    /// In lower case, `[]` for every index.
+    pub shape: String,
+    /// Indices from left to right.
+    pub indices: Vec<u32>,
+    /// At least one index was left empty (`getriebe[].kv`) and reads as 0.
+    pub empty_index: bool,
+}
+
+impl Key {
+    /// Takes a key apart; `None` if it is none.
+    pub fn parse(text: &str) -> Option<Self> {
+        let mut key = Self {
+            shape: String::with_capacity(text.len()),
+            indices: Vec::new(),
+            empty_index: false,
+        };
+        for segment in text.split('.') {
+            let (name, index) = match segment.split_once('[') {
+                Some((name, rest)) => (name, Some(rest.strip_suffix(']')?)),
+                None => (segment, None),
+            };
+            if name.is_empty()
+                || !name.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c))
+            {
+                return None;
+            }
+            if !key.shape.is_empty() {
+                key.shape.push('.');
+            }
+            key.shape.push_str(&name.to_ascii_lowercase());
+            if let Some(digits) = index {
+                if digits.is_empty() {
+                    key.empty_index = true;
+                    key.indices.push(0);
+                } else if digits.bytes().all(|b| b.is_ascii_digit()) {
+                    key.indices.push(digits.parse().ok()?);
+                } else {
+                    return None;
+                }
+                key.shape.push_str("[]");
+            }
+        }
+        Some(key)
+    }
+
+    /// The row of the key in a list and its indices; `None` for an unknown key or an index beyond the array.
+    pub fn resolve(&self, list: ListKind) -> Option<(&'static Row, Indices)> {
+        let row = table::by_key(list, &self.shape)?;
+        let mut indices = [0; 2];
+        for (slot, index) in indices.iter_mut().zip(&self.indices) {
+            *slot = *index;
+        }
+        within(row.key, indices).then_some((row, indices))
+    }
+}
+
+/// Sizes of arrays by the part of the key before the index; arrays not named here are not limited.
+///
+/// Source: the lists' manuals; four gear stages and two measuring systems are an assumption (no document read gives
+/// the number).
+const SIZES: &[(&str, u32)] = &[
+    ("getriebe", 4),
+    ("filter", 3),
+    ("lr_param.add_interface.filter", 1),
+    ("lr_param.improved_position_control.stage", 3),
+    ("lr_param.improved_position_control.stage[i].filter", 2),
+    ("lr_hw", 2),
+    ("error_filter", 4),
+    ("achs_mds", 32),
+    ("sda_mds", 12),
+    ("gruppe", 1),
+    ("gruppe[i].achse", 32),
+    ("spindel", 16),
+    ("prog_start.g_gruppe", 38),
+    ("configuration.channel", 12),
+];
+
+fn within(key: &str, indices: Indices) -> bool {
+    let brackets = key.char_indices().filter(|(_, c)| *c == '[').map(|(at, _)| at);
+    brackets.zip(indices).all(|(at, index)| {
+        SIZES.iter().find(|(array, _)| *array == &key[..at]).is_none_or(|(_, size)| index < *size)
+    })
+}
+
+/// A key of the table with indices put in: `filter[i].order`, `[2, 0]` gives `filter[2].order`.
+pub fn with_indices(key: &str, indices: Indices) -> String {
+    let mut text = String::with_capacity(key.len());
+    let mut indices = indices.into_iter();
+    let mut chars = key.chars();
+    while let Some(c) = chars.next() {
+        text.push(c);
+        if c == '[' {
+            chars.next();
+            text.push_str(&indices.next().unwrap_or_default().to_string());
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_come_apart() {
+        let key = Key::parse("Gruppe[0].achse[12].Log_achs_nr").unwrap();
+        assert_eq!(key.shape, "gruppe[].achse[].log_achs_nr");
+        assert_eq!(key.indices, [0, 12]);
+        assert!(!key.empty_index);
+        assert!(Key::parse("getriebe[].kv").unwrap().empty_index);
+        for bad in
+            ["", ".", "a..b", "a[", "a[1", "a[x].b", "a[1]b", "a[-1]", "(x)", "a[99999999999]"]
+        {
+            assert_eq!(Key::parse(bad), None, "{bad}");
+        }
+    }
+
+    #[test]
+    fn keys_find_their_row_without_regard_to_case() {
+        let find = |text: &str| Key::parse(text).unwrap().resolve(ListKind::Axis);
+        let (row, indices) = find("Lr_param.add_interface.Filter[0].ORDER").unwrap();
+        assert_eq!((row.id, indices), ("P-AXIS-00736", [0, 0]));
+        // sizes of arrays
+        assert!(find("filter[2].order").is_some());
+        assert!(find("filter[3].order").is_none());
+        assert!(find("lr_param.add_interface.filter[1].order").is_none());
+        assert!(find("getriebe[3].kv").is_some());
+        assert!(find("getriebe[4].kv").is_none());
+        // both spellings of the band-pass of a stage
+        let stage = |k| find(&format!("lr_param.improved_position_control.stage[1].{k}")).unwrap();
+        assert_eq!(stage("filter.order"), stage("filter[0].order"));
+        assert_eq!(stage("filter[1].order").1, [1, 1]);
+    }
+
+    #[test]
+    fn indices_go_back_into_the_key() {
+        assert_eq!(
+            with_indices("gruppe[i].achse[j].bezeichnung", [0, 7]),
+            "gruppe[0].achse[7].bezeichnung"
+        );
+        assert_eq!(with_indices("mass_einh", [0, 0]), "mass_einh");
+    }
+}

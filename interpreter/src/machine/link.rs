@@ -1,0 +1,255 @@
+//! Ties channel list and axis lists together: `log_achs_nr` = `kopf.achs_nr`.
+
+use super::Machine;
+use super::axis::{Axis, AxisKind, integer, kind_of, logical_number};
+use super::chain::Settled;
+use super::channel::Channel;
+use super::parameters::Parameters;
+use super::table::ListKind;
+use crate::diag::{Diagnostic, Location};
+use kontur_filters::time::CycleTime;
+
+/// One axis or spindle of the channel list.
+#[derive(Clone, Debug, PartialEq)]
+struct Named {
+    name: String,
+    number: u32,
+    spindle: bool,
+    feed: bool,
+    at: Option<Location>,
+}
+
+/// Axes and spindles of the channel list in its order; gantry slaves under the names of their axis lists.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Names {
+    named: Vec<Named>,
+    slaves: Vec<(u32, String)>,
+}
+
+impl Names {
+    /// Logical number of a name, without regard to case.
+    pub(super) fn number(&self, name: &str) -> Option<u32> {
+        let named = self.named.iter().map(|n| (n.number, &n.name));
+        let slaves = self.slaves.iter().map(|(number, name)| (*number, name));
+        named.chain(slaves).find(|(_, n)| n.eq_ignore_ascii_case(name)).map(|(number, _)| number)
+    }
+
+    /// Name of a logical number.
+    pub(super) fn name(&self, number: u32) -> Option<&str> {
+        let slave = self.slaves.iter().find(|(n, _)| *n == number).map(|(_, name)| name);
+        let named = self.named.iter().find(|n| n.number == number).map(|n| &n.name);
+        named.or(slave).map(String::as_str)
+    }
+
+    /// Every name.
+    pub(super) fn all(&self) -> Vec<&str> {
+        let slaves = self.slaves.iter().map(|(_, name)| name.as_str());
+        self.named.iter().map(|n| n.name.as_str()).chain(slaves).collect()
+    }
+}
+
+/// Reads names and numbers from the channel list.
+pub(super) fn names(settled: &Settled, diagnostics: &mut Vec<Diagnostic>) -> Names {
+    let channel = &settled.channel;
+    let mut named = group(channel, "gruppe[0].achse", "gruppe[0].achs_anzahl", 32, diagnostics);
+    let mut spindles = group(channel, "spindel", "spdl_anzahl", 16, diagnostics);
+    for spindle in &mut spindles {
+        spindle.spindle = true;
+    }
+    named.append(&mut spindles);
+    let mut slaves = Vec::new();
+    for list in &settled.axes {
+        let number = logical_number(&list.parameters);
+        let is_slave = list.parameters.flag("kenngr.gantry_ax_nr");
+        if is_slave && !named.iter().any(|n| n.number == number) {
+            let name = list.parameters.text("kopf.log_achs_name");
+            slaves.push((number, name.unwrap_or_else(|| format!("axis {number}"))));
+        }
+    }
+    Names { named, slaves }
+}
+
+/// One array of names. The count of the list decides; Assumption: without a count all named entries are taken.
+fn group(
+    channel: &Parameters,
+    array: &str,
+    count: &str,
+    size: u32,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Named> {
+    let name_at = |i: u32| channel.setting(&format!("{array}[{i}].bezeichnung"));
+    let number_at = |i: u32| channel.setting(&format!("{array}[{i}].log_achs_nr"));
+    let given = (0..size).filter(|i| name_at(*i).is_some()).map(|i| i + 1).max().unwrap_or(0);
+    let wanted = match channel.setting(count) {
+        Some(_) => integer(channel.number(count)).unwrap_or_default(),
+        None => given,
+    };
+    if given > wanted {
+        let message =
+            format!("{array}[{}]: {count} is {wanted}, what is beyond is ignored", given - 1);
+        diagnostics.push(error(74, message, name_at(given - 1).and_then(|s| s.at.clone())));
+    }
+    let mut found = Vec::new();
+    for i in 0..wanted.min(size) {
+        let Some(name) = name_at(i) else {
+            let message = format!("{array}[{i}] has no name (bezeichnung), {count} is {wanted}");
+            let at = channel.setting(count).and_then(|s| s.at.clone());
+            diagnostics.push(error(31, message, at));
+            continue;
+        };
+        let text = name.value.text().unwrap_or_default().to_owned();
+        let Some(number) = number_at(i) else {
+            let message = format!("{array}[{i}]: axis {text} has no logical number (log_achs_nr)");
+            diagnostics.push(error(31, message, name.at.clone()));
+            continue;
+        };
+        let value = integer(number.value.number()).unwrap_or_default();
+        let at = number.at.clone().or_else(|| name.at.clone());
+        check_name(&text, array == "spindel", name.at.as_ref(), diagnostics);
+        let feed = channel.flag(&format!("{array}[{i}].default_feed_axis"));
+        found.push(Named { name: text, number: value, spindle: false, feed, at });
+    }
+    found
+}
+
+/// Names of path axes begin with A B C U V W X Y Z Q, names of spindles with S; then letters, digits and `_`.
+fn check_name(name: &str, spindle: bool, at: Option<&Location>, diagnostics: &mut Vec<Diagnostic>) {
+    let letters = if spindle { "S" } else { "ABCUVWXYZQ" };
+    let first = name.chars().next().map(|c| c.to_ascii_uppercase());
+    let rest = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if !first.is_some_and(|c| letters.contains(c)) || !rest || name.len() > 16 {
+        let message = format!(
+            "`{name}` is no name of {}: it begins with one of {letters}, then at most 15 letters, digits and _",
+            if spindle { "a spindle" } else { "an axis" }
+        );
+        diagnostics.push(error(31, message, at.cloned()));
+    }
+}
+
+fn error(id: u16, message: String, at: Option<Location>) -> Diagnostic {
+    let mut diagnostic = Diagnostic::kontur(id, message);
+    diagnostic.source = at;
+    diagnostic
+}
+
+/// Builds the machine; `None` if numbers or names do not fit together (K-0031, 110597).
+pub(super) fn machine(
+    name: &str,
+    cycle: CycleTime,
+    settled: Settled,
+    names: &Names,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Machine> {
+    let before = diagnostics.len();
+    check_numbers(&settled, names, diagnostics);
+    if diagnostics.iter().skip(before).any(Diagnostic::is_error) {
+        return None;
+    }
+    let Settled { start_up, channel, axes: lists, own } = settled;
+    let mut lists: Vec<Option<Parameters>> =
+        lists.into_iter().map(|l| Some(l.parameters)).collect();
+    let mut take = |number: u32| -> Option<Parameters> {
+        lists.iter_mut().find(|l| l.as_ref().is_some_and(|p| logical_number(p) == number))?.take()
+    };
+    let mut axes = Vec::new();
+    let mut spindles = Vec::new();
+    let mut marked = Vec::new();
+    for named in &names.named {
+        let parameters = take(named.number)?;
+        let kind = kind(&parameters, named, diagnostics);
+        let axis = Axis::new(named.name.clone(), kind, parameters, own_of(&own, named.number));
+        if named.spindle {
+            spindles.push(axis);
+        } else {
+            marked.push(named.feed);
+            axes.push(axis);
+        }
+    }
+    let mut gantry_slaves = Vec::new();
+    for (number, name) in &names.slaves {
+        let parameters = take(*number)?;
+        let kind = kind_of(&parameters);
+        gantry_slaves.push(Axis::new(name.clone(), kind, parameters, own_of(&own, *number)));
+    }
+    if !marked.contains(&true) {
+        marked.iter_mut().take(3).for_each(|feed| *feed = true);
+    }
+    let channel = Channel::new(channel, start_up, marked);
+    Some(Machine { name: name.to_owned(), cycle, axes, spindles, gantry_slaves, channel })
+}
+
+/// The entries of `kontur.lis` that concern one axis.
+fn own_of(own: &Parameters, number: u32) -> Parameters {
+    let mut part = Parameters::new(ListKind::Kontur);
+    let of_axis = |key: &str, index: u32| key.starts_with("kontur.axis[i]") && index == number;
+    for (indices, setting) in own.settings().filter(|(i, s)| of_axis(s.row.key, i[0])) {
+        part.set(setting.row, indices, setting.value.clone(), setting.at.clone());
+    }
+    part
+}
+
+/// The channel list decides what is a spindle; K-0031 if the axis list says otherwise.
+fn kind(parameters: &Parameters, named: &Named, diagnostics: &mut Vec<Diagnostic>) -> AxisKind {
+    let kind = kind_of(parameters);
+    if (kind == AxisKind::Spindle) != named.spindle {
+        let (is, list) =
+            if named.spindle { ("a spindle", "no spindle") } else { ("a path axis", "a spindle") };
+        let message = format!(
+            "{} is {is} in the channel list and {list} in its axis list (kenngr.achs_typ)",
+            named.name
+        );
+        let at = parameters.setting("kenngr.achs_typ").and_then(|s| s.at.clone());
+        diagnostics.push(
+            error(31, message, at.or_else(|| named.at.clone())).axis(named.number, &*named.name),
+        );
+    }
+    kind
+}
+
+fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
+    let number_at = |p: &Parameters| p.setting("kopf.achs_nr").and_then(|s| s.at.clone());
+    for (i, list) in settled.axes.iter().enumerate() {
+        let number = logical_number(&list.parameters);
+        if number == 0 {
+            let message =
+                format!("{}: axis number 0 is not allowed, the list is not loaded", list.file);
+            let mut diagnostic = Diagnostic::vendor(110597, message).parameter("P-AXIS-00016");
+            diagnostic.source = number_at(&list.parameters);
+            diagnostics.push(diagnostic);
+        }
+        let earlier = &settled.axes[..i];
+        if let Some(first) = earlier.iter().find(|l| logical_number(&l.parameters) == number) {
+            let message =
+                format!("{}: axis number {number} is that of {} already", list.file, first.file);
+            let at = number_at(&list.parameters);
+            diagnostics.push(error(31, message, at).parameter("P-AXIS-00016"));
+        }
+    }
+    for (i, named) in names.named.iter().enumerate() {
+        let earlier = &names.named[..i];
+        let Named { name, number, .. } = named;
+        let problem = if *number == 0 {
+            Some(format!("{name}: logical axis number 0 is not allowed"))
+        } else if let Some(first) = earlier.iter().find(|n| n.number == *number) {
+            Some(format!("{name}: logical axis number {number} is that of {} already", first.name))
+        } else if earlier.iter().any(|n| n.name.eq_ignore_ascii_case(name)) {
+            Some(format!("the name {name} stands twice in the channel list"))
+        } else if !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number) {
+            Some(format!("{name}: no axis list has kopf.achs_nr {number}"))
+        } else {
+            None
+        };
+        if let Some(message) = problem {
+            diagnostics.push(error(31, message, named.at.clone()).axis(*number, name.as_str()));
+        }
+    }
+    for (number, name) in &names.slaves {
+        let list = settled.axes.iter().find(|l| logical_number(&l.parameters) == *number);
+        let master = list.and_then(|l| integer(l.parameters.number("kenngr.gantry_ax_nr")));
+        if !names.named.iter().any(|n| Some(n.number) == master) {
+            let master = master.unwrap_or_default();
+            let message = format!("{name}: the gantry master {master} is no axis of the channel");
+            diagnostics.push(error(31, message, None).axis(*number, name.as_str()));
+        }
+    }
+}

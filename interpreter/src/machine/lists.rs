@@ -1,0 +1,224 @@
+//! Reader and writer of parameter lists in the vendor's text format.
+//!
+//! One entry per line, key and value separated by blanks; `#` at the start of a line and any text after a value are
+//! comments. Nothing in a list stops the reading: what cannot be used is reported and left out.
+//! Source: examples of the TF5200 manuals, rules of the start-up and parameter manuals.
+
+mod line;
+
+use super::key::{Indices, Key, with_indices};
+use super::table::{self, ListKind, Row};
+use super::value::{self, Value};
+use crate::diag::{Diagnostic, Location, Severity, ValueKind};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Where the texts of lists come from; the library itself opens no file.
+pub trait ListFiles {
+    /// The bytes of a file, `None` if there is no such file. Paths use `/` and start where the caller's path to the
+    /// start-up list starts.
+    ///
+    /// # Errors
+    /// The reason in words if the file exists but cannot be read.
+    fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String>;
+}
+
+/// One entry of a list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Row of the table.
+    pub row: &'static Row,
+    /// Indices of the key.
+    pub indices: Indices,
+    /// Value in the units of the list.
+    pub value: Value,
+    /// Place of the entry: the key and the value.
+    pub at: Location,
+}
+
+impl Entry {
+    /// Key with its indices.
+    pub fn key(&self) -> String {
+        with_indices(self.row.key, self.indices)
+    }
+}
+
+/// A list: its known entries in the order of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct List {
+    /// Which list it is.
+    pub kind: ListKind,
+    /// Entries, each parameter at most once.
+    pub entries: Vec<Entry>,
+}
+
+/// Number of unknown keys that are named in one message; more are only counted.
+const NAMED_UNKNOWN: usize = 12;
+
+/// Reads a list. Diagnostics: 1001119 unknown element, 1001138 bad number, K-0028 key twice, K-0029 empty index,
+/// K-0030 second word after a text, K-0071 line that is no entry, K-0072 end mark.
+pub fn read(kind: ListKind, file: &str, bytes: &[u8], diagnostics: &mut Vec<Diagnostic>) -> List {
+    let mut reader =
+        Reader { kind, list: BTreeMap::new(), order: 0, unknown: BTreeMap::new(), diagnostics };
+    let file: Arc<str> = file.into();
+    for line in line::lines(bytes) {
+        let text = line.text.trim();
+        if text.is_empty() || text.starts_with('#') {
+            continue;
+        }
+        if text.eq_ignore_ascii_case("ende") || text.eq_ignore_ascii_case("end") {
+            let message = "the list ends here: what follows the end mark is not read";
+            reader.diagnostics.push(Diagnostic::kontur(72, message).at(line.location(&file, text)));
+            break;
+        }
+        reader.entry(&line, text, &file);
+    }
+    reader.report_unknown();
+    let mut entries: Vec<(usize, Entry)> = reader.list.into_values().collect();
+    entries.sort_by_key(|(order, _)| *order);
+    List { kind, entries: entries.into_iter().map(|(_, entry)| entry).collect() }
+}
+
+struct Reader<'a> {
+    kind: ListKind,
+    list: BTreeMap<(&'static str, Indices), (usize, Entry)>,
+    order: usize,
+    unknown: BTreeMap<String, (u32, Location)>,
+    diagnostics: &'a mut Vec<Diagnostic>,
+}
+
+impl Reader<'_> {
+    fn entry(&mut self, line: &line::Line<'_>, text: &str, file: &Arc<str>) {
+        let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+        let key_at = line.location(file, word);
+        let Some(key) = Key::parse(word) else {
+            let message = format!("`{word}` is no key, the line is ignored");
+            let hint = "an entry is a key, at least one blank and a value; comments start with #";
+            self.diagnostics.push(Diagnostic::kontur(71, message).at(key_at).hint(hint));
+            return;
+        };
+        let Some((row, indices)) = key.resolve(self.kind) else {
+            self.unknown.entry(key.shape).or_insert((0, key_at)).0 += 1;
+            return;
+        };
+        if key.empty_index {
+            let message = format!("empty index in `{word}`, read as 0");
+            self.diagnostics.push(Diagnostic::kontur(29, message).at(key_at.clone()));
+        }
+        let parts = line::value(row.raw, rest.trim());
+        let Some(written) = parts.value else {
+            let message = format!("`{word}` has no value, the line is ignored");
+            self.diagnostics.push(Diagnostic::kontur(71, message).at(key_at));
+            return;
+        };
+        let value_at =
+            if written.is_empty() { key_at.clone() } else { line.location(file, written) };
+        if let Some(dropped) = parts.dropped {
+            let message = format!("`{dropped}` after the text of `{word}` is dropped");
+            self.diagnostics.push(
+                Diagnostic::kontur(30, message)
+                    .at(line.location(file, dropped))
+                    .hint("put a text with blanks in double quotes, start a comment with ("),
+            );
+        }
+        let value = match value::read(row.raw, written) {
+            Ok(value) => value,
+            Err(bad) => {
+                self.diagnostics.push(bad_value(row, &bad, written).at(value_at.clone()));
+                match bad.instead {
+                    Some(value) => value,
+                    None => return,
+                }
+            }
+        };
+        let mut at = value_at;
+        // the entry is marked from its key to the end of its value
+        at.length = at.column + at.length - key_at.column;
+        (at.column, at.offset) = (key_at.column, key_at.offset);
+        let entry = Entry { row, indices, value, at };
+        if let Some((_, earlier)) = self.list.get(&(row.key, indices)) {
+            let message = format!(
+                "`{}` stands twice in this list, the value of line {} is replaced",
+                entry.key(),
+                earlier.at.line
+            );
+            self.diagnostics.push(parameter(Diagnostic::kontur(28, message), row).at(key_at));
+        }
+        self.order += 1;
+        self.list.insert((row.key, indices), (self.order, entry));
+    }
+
+    /// 1001119: a key that resembles a known one is reported by itself, the others together.
+    fn report_unknown(&mut self) {
+        let mut plain: Vec<(String, u32, Location)> = Vec::new();
+        for (shape, (count, at)) in std::mem::take(&mut self.unknown) {
+            match table::suggestions(Some(self.kind), &shape).first() {
+                Some(near) if near.len().abs_diff(shape.len()) <= 3 => {
+                    let message = format!("unknown element `{shape}`, ignored");
+                    let hint = format!("did you mean `{near}`?");
+                    self.diagnostics.push(
+                        Diagnostic::vendor(1001119, message)
+                            .value(ValueKind::Identification, count, "-")
+                            .at(at)
+                            .hint(hint),
+                    );
+                }
+                _ => plain.push((shape, count, at)),
+            }
+        }
+        plain.sort_by_key(|(_, _, at)| at.line);
+        let total: u32 = plain.iter().map(|(_, count, _)| count).sum();
+        let mut names: Vec<&str> = plain.iter().map(|(shape, _, _)| shape.as_str()).collect();
+        let Some((_, _, first)) = plain.first() else { return };
+        let more = names.len().saturating_sub(NAMED_UNKNOWN);
+        names.truncate(NAMED_UNKNOWN);
+        let mut message = format!("{total} unknown element(s), ignored: {}", names.join(", "));
+        if more > 0 {
+            message = format!("{message} and {more} more");
+        }
+        self.diagnostics.push(
+            Diagnostic::vendor(1001119, message)
+                .value(ValueKind::Identification, total, "-")
+                .at(first.clone()),
+        );
+    }
+}
+
+/// Names the parameter of a row, if it has an ID.
+pub(super) fn parameter(diagnostic: Diagnostic, row: &Row) -> Diagnostic {
+    if row.id.is_empty() { diagnostic } else { diagnostic.parameter(row.id) }
+}
+
+/// 1001138 for a value that could not be read.
+pub(super) fn bad_value(row: &Row, bad: &value::BadValue, written: &str) -> Diagnostic {
+    let instead = match &bad.instead {
+        Some(value) => format!("{} is used", value::write(row.raw, value)),
+        None => "the earlier value stays".to_owned(),
+    };
+    let mut diagnostic =
+        Diagnostic::vendor(1001138, format!("{}: {}, {instead}", row.key, bad.reason))
+            .severity(Severity::Warning)
+            .value(ValueKind::Wrong, written, "-");
+    if let Some(Value::Number(x)) = bad.instead {
+        diagnostic = diagnostic.value(ValueKind::Corrected, x, row.unit).corrected(x);
+    }
+    if written == "=" {
+        diagnostic = diagnostic.hint("lists have no equals sign: key, blank, value");
+    }
+    parameter(diagnostic, row)
+}
+
+/// The text of a list; reading it gives the same entries.
+pub fn write(list: &List) -> String {
+    let mut text = String::new();
+    for entry in &list.entries {
+        text.push_str(&entry.key());
+        text.push_str("  ");
+        text.push_str(&value::write(entry.row.raw, &entry.value));
+        text.push('\n');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,155 @@
+//! Lines of a list: encoding, places, and where a value ends and a comment begins.
+
+use crate::diag::Location;
+use crate::machine::table::Raw;
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// A line with its place in the file.
+pub(super) struct Line<'a> {
+    /// The text without the end of line.
+    pub(super) text: Cow<'a, str>,
+    number: u32,
+    offset: u64,
+    utf8: bool,
+}
+
+/// Lines of a file; LF and CR LF end a line, a byte order mark is skipped, what is no UTF-8 is read as Latin-1.
+pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = Line<'_>> {
+    let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
+    let bytes = &bytes[mark..];
+    let utf8 = std::str::from_utf8(bytes).is_ok();
+    let mut offset = mark as u64;
+    let mut number = 0;
+    bytes.split(|b| *b == b'\n').map(move |line| {
+        let start = offset;
+        offset += line.len() as u64 + 1;
+        number += 1;
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        let text = match std::str::from_utf8(line) {
+            Ok(text) if utf8 => Cow::Borrowed(text),
+            _ => Cow::Owned(line.iter().map(|b| char::from(*b)).collect()),
+        };
+        Line { text, number, offset: start, utf8 }
+    })
+}
+
+impl Line<'_> {
+    /// Place of a part of the line.
+    pub(super) fn location(&self, file: &Arc<str>, part: &str) -> Location {
+        // parts are slices of the line, so the difference of the addresses is the place
+        let start = (part.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
+        let before = self.text.get(..start).unwrap_or_default();
+        let column = before.chars().count();
+        let offset = if self.utf8 { start } else { column };
+        Location {
+            file: file.clone(),
+            line: self.number,
+            column: u32::try_from(column + 1).unwrap_or(u32::MAX),
+            offset: self.offset + offset as u64,
+            length: u32::try_from(part.chars().count().max(1)).unwrap_or(u32::MAX),
+            block: None,
+            text: self.text.as_ref().into(),
+        }
+    }
+}
+
+/// A value and what stands behind it.
+#[derive(Debug, PartialEq)]
+pub(super) struct Parts<'a> {
+    /// The value without quotes; `None` if there is none.
+    pub(super) value: Option<&'a str>,
+    /// Text behind a text value that is no comment.
+    pub(super) dropped: Option<&'a str>,
+}
+
+fn is_comment(text: &str) -> bool {
+    ["#", "(", "/*"].iter().any(|opener| text.starts_with(opener))
+}
+
+/// Takes the rest of a line (without blanks at its ends) behind the key apart.
+pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
+    if rest.is_empty() || is_comment(rest) {
+        return Parts { value: None, dropped: None };
+    }
+    if let Some(quoted) = rest.strip_prefix('"') {
+        let (value, tail) = quoted.split_once('"').unwrap_or((quoted, ""));
+        return Parts { value: Some(value.trim_end()), dropped: leftover(raw, tail) };
+    }
+    if let Raw::Flags(_) = raw {
+        return Parts { value: Some(flags(rest)), dropped: None };
+    }
+    let (word, tail) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+    if raw == Raw::Text {
+        return Parts { value: Some(word), dropped: leftover(raw, tail) };
+    }
+    let end = word.find('#').unwrap_or(word.len());
+    Parts { value: Some(&word[..end]), dropped: None }
+}
+
+/// Behind numbers and names any text is a comment, behind a text a comment needs its opener.
+fn leftover(raw: Raw, tail: &str) -> Option<&str> {
+    let tail = tail.trim();
+    (raw == Raw::Text && !tail.is_empty() && !is_comment(tail)).then_some(tail)
+}
+
+/// Words joined by `|`, with or without blanks around it.
+fn flags(rest: &str) -> &str {
+    let mut end = 0;
+    let mut joined = true;
+    for word in rest.split_inclusive(char::is_whitespace) {
+        let trimmed = word.trim_end();
+        let start = word.as_ptr() as usize - rest.as_ptr() as usize;
+        if !trimmed.is_empty() {
+            if is_comment(trimmed) || !(joined || trimmed.starts_with('|')) {
+                break;
+            }
+            joined = trimmed.ends_with('|');
+            end = start + trimmed.find('#').unwrap_or(trimmed.len());
+            if trimmed.contains('#') {
+                break;
+            }
+        }
+    }
+    &rest[..end]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_end_where_comments_begin() {
+        let text = |rest| value(Raw::Text, rest);
+        assert_eq!(text("X        (table"), Parts { value: Some("X"), dropped: None });
+        assert_eq!(text("\"two words \" (c"), Parts { value: Some("two words"), dropped: None });
+        assert_eq!(text("two words"), Parts { value: Some("two"), dropped: Some("words") });
+        assert_eq!(text("(only a comment"), Parts { value: None, dropped: None });
+        let number = |rest| value(Raw::Uns32, rest).value;
+        assert_eq!(number("5000      50/s"), Some("5000"));
+        assert_eq!(number("500000    /* um/s"), Some("500000"));
+        assert_eq!(number("0x101#0x001"), Some("0x101"));
+        let names = |rest| value(Raw::Flags(&[]), rest).value;
+        assert_eq!(names("VEL | ACC"), Some("VEL | ACC"));
+        assert_eq!(names("VEL|ACC and more"), Some("VEL|ACC"));
+        assert_eq!(names("VEL ACC"), Some("VEL"));
+        assert_eq!(names("VEL |ACC  # both"), Some("VEL |ACC"));
+        assert_eq!(names("0x101 #0x001: Activation velocity feedforward"), Some("0x101"));
+    }
+
+    #[test]
+    fn places_count_characters_and_bytes() {
+        let bytes = "\u{feff}# ä\r\nkey ü  5\n".as_bytes();
+        let all: Vec<Line<'_>> = lines(bytes).collect();
+        assert_eq!(all[1].text, "key ü  5");
+        let part = &all[1].text[8..];
+        let at = all[1].location(&"f".into(), part);
+        assert_eq!((at.line, at.column, at.length), (2, 8, 1));
+        assert_eq!(bytes[usize::try_from(at.offset).unwrap()], b'5');
+        // the same in Latin-1: one byte per character
+        let bytes = b"a \xfc  5";
+        let line = lines(bytes).next().unwrap();
+        let at = line.location(&"f".into(), &line.text[6..]);
+        assert_eq!((at.column, at.offset), (6, 5));
+    }
+}

@@ -1,0 +1,96 @@
+//! Values that the command line puts over the lists (`--set X.getriebe[0].kv=5000`).
+
+use super::key::{Indices, Key};
+use super::lists::parameter;
+use super::parameters::Parameters;
+use super::table::{self, ListKind, Row};
+use super::value;
+use crate::diag::{Diagnostic, Location};
+
+/// One override: target, key and value. Targets are an axis or spindle name, `channel`, `start_up` and `kontur`
+/// (whose keys begin with `kontur.` themselves).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Override {
+    text: String,
+    target: String,
+    key: String,
+    value: String,
+}
+
+impl Override {
+    /// Takes `TARGET.key=value` apart.
+    ///
+    /// # Errors
+    /// K-0073 if it has not this form.
+    pub fn parse(text: &str) -> Result<Self, Box<Diagnostic>> {
+        let form = || {
+            let hint = "write AXIS.key=value, channel.key=value or kontur.key=value";
+            Box::new(Diagnostic::kontur(73, format!("`{text}` is no setting")).hint(hint))
+        };
+        let (left, value) = text.split_once('=').ok_or_else(form)?;
+        let (left, value) = (left.trim(), value.trim());
+        let (target, key) = left.split_once('.').ok_or_else(form)?;
+        if target.is_empty() || key.is_empty() || value.is_empty() {
+            return Err(form());
+        }
+        let key = if target.eq_ignore_ascii_case("kontur") { left } else { key };
+        let owned = |s: &str| s.to_owned();
+        Ok(Self { text: owned(text), target: owned(target), key: owned(key), value: owned(value) })
+    }
+
+    /// Axis or spindle name, `channel`, `start_up` or `kontur`.
+    pub fn target(&self) -> &str {
+        &self.target
+    }
+
+    /// Puts the value over the lists.
+    ///
+    /// # Errors
+    /// K-0073 for a key or value that does not exist.
+    pub(super) fn apply(&self, parameters: &mut Parameters) -> Result<(), Box<Diagnostic>> {
+        let (row, indices) = self.resolve(parameters.kind())?;
+        let value = value::read(row.raw, &self.value).map_err(|bad| {
+            let message = format!("{}: {}", self.key, bad.reason);
+            Box::new(parameter(Diagnostic::kontur(73, message), row).at(self.location(&self.value)))
+        })?;
+        parameters.set(row, indices, value, Some(self.location(&self.text)));
+        Ok(())
+    }
+
+    fn resolve(&self, kind: ListKind) -> Result<(&'static Row, Indices), Box<Diagnostic>> {
+        let key = Key::parse(&self.key);
+        if let Some(found) = key.as_ref().and_then(|key| key.resolve(kind)) {
+            return Ok(found);
+        }
+        let message = format!("`{}` is no parameter of {}", self.key, self.target);
+        let mut diagnostic = Diagnostic::kontur(73, message).at(self.location(&self.key));
+        let shape = key.map_or_else(|| self.key.clone(), |key| key.shape);
+        if table::by_key(kind, &shape).is_some() {
+            diagnostic = diagnostic.hint("the index is beyond the end of the array");
+        } else if let Some(near) = table::suggestions(Some(kind), &shape).first() {
+            diagnostic = diagnostic.hint(format!("did you mean `{near}`?"));
+        }
+        Err(Box::new(diagnostic))
+    }
+
+    /// K-0073 for a target that is neither an axis nor a list.
+    pub(super) fn unknown_target(&self, names: &[&str]) -> Diagnostic {
+        let message = format!("`{}` is no axis of the machine", self.target);
+        let hint = format!("targets are {}, channel, start_up and kontur", names.join(", "));
+        Diagnostic::kontur(73, message).at(self.location(&self.target)).hint(hint)
+    }
+
+    fn location(&self, part: &str) -> Location {
+        let start = self.text.find(part).unwrap_or_default();
+        let column = self.text[..start].chars().count() + 1;
+        Location {
+            file: "--set".into(),
+            line: 1,
+            column: u32::try_from(column).unwrap_or(u32::MAX),
+            offset: start as u64,
+            length: u32::try_from(part.chars().count().max(1)).unwrap_or(u32::MAX),
+            block: None,
+            text: self.text.as_str().into(),
+        }
+    }
+}

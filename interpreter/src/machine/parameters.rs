@@ -1,0 +1,118 @@
+//! The settled parameters of one axis, one channel or the machine: defaults, overwritten by list after list.
+
+use super::key::{Indices, Key};
+use super::lists::List;
+use super::table::{self, Default, ListKind, Row};
+use super::value::Value;
+use crate::diag::Location;
+use std::collections::BTreeMap;
+
+/// A value that a list or an override has set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// Row of the table.
+    pub row: &'static Row,
+    /// Value in the units of the list.
+    pub value: Value,
+    /// Where it was set; `None` for a correction of a default.
+    pub at: Option<Location>,
+}
+
+/// Parameters of one list kind; what no list names has the default of its row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameters {
+    kind: ListKind,
+    settings: BTreeMap<(&'static str, Indices), Setting>,
+}
+
+impl Parameters {
+    /// Nothing set: every parameter has its default.
+    pub fn new(kind: ListKind) -> Self {
+        Self { kind, settings: BTreeMap::new() }
+    }
+
+    /// Which list they belong to.
+    pub fn kind(&self) -> ListKind {
+        self.kind
+    }
+
+    /// Takes over what a list names; the rest keeps its earlier value.
+    pub fn apply(&mut self, list: &List) {
+        for entry in &list.entries {
+            let setting =
+                Setting { row: entry.row, value: entry.value.clone(), at: Some(entry.at.clone()) };
+            self.settings.insert((entry.row.key, entry.indices), setting);
+        }
+    }
+
+    /// Sets one value.
+    pub fn set(&mut self, row: &'static Row, indices: Indices, value: Value, at: Option<Location>) {
+        self.settings.insert((row.key, indices), Setting { row, value, at });
+    }
+
+    /// Everything that was set, ordered by key and index.
+    pub fn settings(&self) -> impl Iterator<Item = (Indices, &Setting)> {
+        self.settings.iter().map(|((_, indices), setting)| (*indices, setting))
+    }
+
+    /// The setting of a key such as `getriebe[0].kv`, `None` if nothing set it.
+    pub fn setting(&self, key: &str) -> Option<&Setting> {
+        let (row, indices) = Key::parse(key)?.resolve(self.kind)?;
+        self.settings.get(&(row.key, indices))
+    }
+
+    /// Value of a key such as `getriebe[0].kv` in the units of the list: what was set, else the default; `None` for
+    /// an unknown key and for a parameter without default that nothing set.
+    pub fn raw(&self, key: &str) -> Option<Value> {
+        let (row, indices) = Key::parse(key)?.resolve(self.kind)?;
+        self.of(row, indices)
+    }
+
+    /// Number of a key in the units of the list, see [`raw`](Self::raw).
+    pub fn number(&self, key: &str) -> Option<f64> {
+        self.raw(key)?.number()
+    }
+
+    /// Text of a key, see [`raw`](Self::raw).
+    pub fn text(&self, key: &str) -> Option<String> {
+        self.raw(key)?.text().map(str::to_owned)
+    }
+
+    /// Switch of a key: true if it is set to something else than 0.
+    pub fn flag(&self, key: &str) -> bool {
+        self.number(key).is_some_and(|x| x.abs() > 0.0)
+    }
+
+    /// Number of a key in mm (deg), s and ratios instead of 0.1 um, us and 0.1 %.
+    pub fn converted(&self, key: &str) -> Option<f64> {
+        let (row, indices) = Key::parse(key)?.resolve(self.kind)?;
+        Some(convert(row, self.of(row, indices)?.number()?))
+    }
+
+    /// Value of a row, see [`raw`](Self::raw).
+    pub fn of(&self, row: &'static Row, indices: Indices) -> Option<Value> {
+        if let Some(setting) = self.settings.get(&(row.key, indices)) {
+            return Some(setting.value.clone());
+        }
+        match row.default {
+            Default::None => None,
+            Default::Number(x) => Some(Value::Number(x)),
+            Default::Text(text) => Some(Value::Text(text.to_owned())),
+            Default::Of(id) => self.of(table::by_id(id)?, indices),
+        }
+    }
+}
+
+/// A number of a list in internal units.
+///
+/// Divisors and not reciprocal factors: the result is the double nearest to the decimal value.
+fn convert(row: &Row, x: f64) -> f64 {
+    match row.unit {
+        "0.1um" | "0.0001mm" => x / 1e4,
+        "um" | "um/s" | "0.1%" => x / 1e3,
+        "us" => x / 1e6,
+        "0.01/s" | "%" => x / 1e2,
+        "m/s3" => x * 1e3,
+        _ => x,
+    }
+}

@@ -1,0 +1,270 @@
+//! Range checks after the last step of the chain, with the documented IDs and corrections.
+//!
+//! Rows whose range depends on other words of a function (filters, Improved Position Control) are checked where that
+//! function is set up.
+
+use super::axis::{AxisKind, integer, kind_of};
+use super::key::{Indices, with_indices};
+use super::lists::parameter;
+use super::parameters::Parameters;
+use super::table::{self, Bound, Correction, Default, ListKind, Raw, Reaction, Row};
+use super::value::Value;
+use crate::diag::{AxisRef, Diagnostic, Id, Severity, ValueKind};
+use kontur_filters::time::CycleTime;
+
+/// An end of a range in numbers: the value and whether it is allowed itself.
+#[derive(Clone, Copy, Debug)]
+struct End {
+    value: f64,
+    allowed: bool,
+}
+
+/// Checks one set of parameters and puts corrected values into it.
+pub(super) fn check(
+    parameters: &mut Parameters,
+    cycle: CycleTime,
+    axis: Option<&AxisRef>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    // ranges in numbers first: the ranges that name other parameters then see corrected values
+    let rows = || table::rows().filter(|r| !r.key.is_empty() && !r.at_setup);
+    let named = |b: Bound| {
+        !matches!(b, Bound::None | Bound::At(_) | Bound::Beyond(_) | Bound::BeyondCycles(_))
+    };
+    let kind = parameters.kind();
+    let first = diagnostics.len();
+    for second in [false, true] {
+        for row in rows().filter(|r| r.list == kind && (named(r.low) || named(r.high)) == second) {
+            let mut places: Vec<Indices> = parameters
+                .settings()
+                .filter(|(_, s)| s.row.key == row.key)
+                .map(|(i, _)| i)
+                .collect();
+            if second && !places.contains(&[0; 2]) {
+                places.push([0; 2]);
+            }
+            // of several gear stages only the first one is used
+            let used = |i: &Indices| !row.key.starts_with("getriebe[i]") || i[0] == 0;
+            for indices in places.into_iter().filter(used) {
+                check_value(parameters, row, indices, cycle, axis, diagnostics);
+            }
+        }
+    }
+    if kind == ListKind::Axis {
+        check_together(parameters, axis, diagnostics);
+        // P-AXIS-00515: if one of the two velocity weights is 0, both become 1
+        let weights = ["vorsteuer.feedforward_v_add_num", "vorsteuer.feedforward_v_add_denom"];
+        let wrong = |d: &Diagnostic| matches!(d.parameter, Some("P-AXIS-00514" | "P-AXIS-00515"));
+        if diagnostics.iter().skip(first).any(wrong) {
+            for row in weights.iter().filter_map(|key| table::by_key(kind, key)) {
+                parameters.set(row, [0; 2], Value::Number(1.0), None);
+            }
+        }
+    }
+}
+
+fn check_value(
+    parameters: &mut Parameters,
+    row: &'static Row,
+    indices: Indices,
+    cycle: CycleTime,
+    axis: Option<&AxisRef>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let Some(Value::Number(value)) = parameters.of(row, indices) else { return };
+    if row.special.is_some_and(|special| special.total_cmp(&value).is_eq()) {
+        return;
+    }
+    let low = end(parameters, row.low, indices, cycle);
+    let high = end(parameters, row.high, indices, cycle);
+    let below = low.is_some_and(|e| value < e.value || (!e.allowed && value <= e.value));
+    let above = high.is_some_and(|e| value > e.value || (!e.allowed && value >= e.value));
+    let (reaction, bound) = match (low, high) {
+        (Some(e), _) if below => (row.below, e),
+        (_, Some(e)) if above => (row.above, e),
+        _ => return,
+    };
+    let key = with_indices(row.key, indices);
+    let at = parameters.setting(&key).and_then(|s| s.at.clone());
+    let corrected = correction(row, reaction, bound, below);
+    let range = match (low, high) {
+        (Some(l), Some(h)) => {
+            format!("{} {}", describe(l, "from", "above"), describe(h, "to", "below"))
+        }
+        (Some(l), None) => describe(l, "at least", "above"),
+        (None, Some(h)) => describe(h, "at most", "below"),
+        (None, None) => String::new(),
+    };
+    let default = if at.is_none() { "default " } else { "" };
+    let unit = unit_of(parameters, row);
+    let of = if unit == "-" { String::new() } else { format!(" {unit}") };
+    let mut text = format!("{key}: {default}{value}{of} is outside its range ({range})");
+    match corrected {
+        Some(c) => text = format!("{text}, {c} is used"),
+        None if reaction.correction == Correction::Refuse => {}
+        None => text.push_str(", the function is off"),
+    }
+    let severity = match reaction.correction {
+        Correction::Refuse => Severity::Error,
+        // nobody wrote the value: a limit that was set elsewhere rules it
+        _ if at.is_none() => Severity::Note,
+        _ => Severity::Warning,
+    };
+    let mut diagnostic = Diagnostic::new(reaction.id, text)
+        .severity(severity)
+        .value(ValueKind::Wrong, value, unit)
+        .value(
+            if below { ValueKind::LowerLimit } else { ValueKind::UpperLimit },
+            bound.value,
+            unit,
+        );
+    if let Some(c) = corrected {
+        diagnostic = diagnostic.value(ValueKind::Corrected, c, unit).corrected(c);
+        parameters.set(row, indices, Value::Number(c), at.clone());
+    }
+    diagnostics.push(finish(diagnostic, row, at, axis));
+}
+
+fn finish(
+    mut diagnostic: Diagnostic,
+    row: &Row,
+    at: Option<crate::diag::Location>,
+    axis: Option<&AxisRef>,
+) -> Diagnostic {
+    if let Some(axis) = axis {
+        diagnostic = diagnostic.axis(axis.number, axis.name.clone());
+    }
+    diagnostic.source = at;
+    parameter(diagnostic, row)
+}
+
+fn unit_of(parameters: &Parameters, row: &Row) -> &'static str {
+    let linear = parameters.kind() != ListKind::Axis || kind_of(parameters) == AxisKind::Linear;
+    if linear { row.unit } else { row.unit_rotary }
+}
+
+fn describe(end: End, allowed: &str, excluded: &str) -> String {
+    format!("{} {}", if end.allowed { allowed } else { excluded }, end.value)
+}
+
+fn end(parameters: &Parameters, bound: Bound, indices: Indices, cycle: CycleTime) -> Option<End> {
+    let of = |id: &str| parameters.of(table::by_id(id)?, indices)?.number();
+    let allowed = |value| Some(End { value, allowed: true });
+    match bound {
+        Bound::None | Bound::Text(_) => None,
+        Bound::At(value) => allowed(value),
+        Bound::Beyond(value) => Some(End { value, allowed: false }),
+        Bound::Of(id) => allowed(of(id)?),
+        Bound::BeyondOf(id) => Some(End { value: of(id)?, allowed: false }),
+        Bound::Times(factor, id) => allowed(factor * of(id)?),
+        Bound::LeastOf(ids) => {
+            ids.iter().filter_map(|id| of(id)).reduce(f64::min).and_then(allowed)
+        }
+        Bound::GreatestOf(ids) => {
+            ids.iter().filter_map(|id| of(id)).reduce(f64::max).and_then(allowed)
+        }
+        Bound::BeyondCycles(n) => Some(End { value: n * f64::from(cycle.us()), allowed: false }),
+    }
+}
+
+fn correction(row: &Row, reaction: Reaction, bound: End, below: bool) -> Option<f64> {
+    let limit = match (bound.allowed, row.raw) {
+        (true, _) => bound.value,
+        (false, Raw::Real64) => return default_of(row),
+        // the nearest whole number inside the range
+        (false, _) if below => bound.value + 1.0,
+        (false, _) => bound.value - 1.0,
+    };
+    match reaction.correction {
+        Correction::Default => Some(default_of(row).unwrap_or(limit)),
+        Correction::Limit => Some(limit),
+        Correction::Value(value) => Some(value),
+        Correction::Keep | Correction::Refuse => None,
+    }
+}
+
+fn default_of(row: &Row) -> Option<f64> {
+    match row.default {
+        Default::Number(value) => Some(value),
+        _ => None,
+    }
+}
+
+/// Rules over several parameters of one axis.
+fn check_together(
+    parameters: &mut Parameters,
+    axis: Option<&AxisRef>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let mut put = |parameters: &mut Parameters, id: u32, key: &str, text: String, value: f64| {
+        let Some(row) = table::by_key(ListKind::Axis, key) else { return };
+        let wrong = parameters.number(key).unwrap_or_default();
+        let at = parameters.setting(key).and_then(|s| s.at.clone());
+        let unit = unit_of(parameters, row);
+        let diagnostic = Diagnostic::new(Id::Vendor(id), text)
+            .value(ValueKind::Wrong, wrong, unit)
+            .value(ValueKind::Corrected, value, unit)
+            .corrected(value);
+        parameters.set(row, [0; 2], Value::Number(value), at.clone());
+        diagnostics.push(finish(diagnostic, row, at, axis));
+    };
+    let number = |p: &Parameters, key: &str| p.number(key).unwrap_or_default();
+
+    // P-AXIS-00177, P-AXIS-00178: a range without length
+    let (low, high) = (number(parameters, "kenngr.swe_neg"), number(parameters, "kenngr.swe_pos"));
+    if low >= high {
+        let text = format!(
+            "kenngr.swe_neg: software limits {low} and {high} leave no range, the defaults are used"
+        );
+        put(parameters, 110110, "kenngr.swe_neg", text.clone(), -1e8);
+        put(parameters, 110110, "kenngr.swe_pos", text, 1e8);
+    }
+
+    // P-AXIS-00566 allows velocity feedforward only
+    let flags = integer(parameters.number("vorsteuer.vorsteuerung")).unwrap_or_default();
+    if parameters.flag("vorsteuer.feedforward_without_delay") && flags & 0x6 != 0 {
+        let text = "vorsteuer.vorsteuerung: without the delay of 5 cycles only velocity feedforward is possible, \
+                    the acceleration and jerk parts are off"
+            .to_owned();
+        put(parameters, 110624, "vorsteuer.vorsteuerung", text, f64::from(flags & 0x101));
+    }
+
+    // P-AXIS-00051 / P-AXIS-00050 is the damping of the simulated drive
+    let (z, n) =
+        (number(parameters, "antr.simu.daempfung_z"), number(parameters, "antr.simu.daempfung_n"));
+    if z >= n {
+        let text = format!(
+            "antr.simu.daempfung_z: damping {z}/{n} of the simulated drive is not below 1, 0.999 is used"
+        );
+        put(parameters, 80044, "antr.simu.daempfung_z", text, 0.999 * n);
+    }
+}
+
+/// K-0032: the sampling time written for the simulated drive (P-AXIS-00239 / P-AXIS-00238) is not the cycle, which is
+/// used instead.
+pub(super) fn check_sampling(
+    parameters: &Parameters,
+    own: &Parameters,
+    cycle: CycleTime,
+    axis: &AxisRef,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let keys = ["antr.simu.zeitkonstante_z", "antr.simu.zeitkonstante_n"];
+    let [z, n] = keys.map(|key| parameters.number(key).unwrap_or_default());
+    let Some(setting) = keys.iter().find_map(|key| parameters.setting(key)) else { return };
+    let model = own.text(&format!("kontur.axis[{}].plant.model", axis.number));
+    if model.as_deref() != Some("SIMU") || (z / n - cycle.seconds()).abs() <= 1e-9 {
+        return;
+    }
+    let text = format!(
+        "antr.simu.zeitkonstante_z: sampling time {z}/{n} s of the simulated drive is not the cycle of {} s, the \
+         cycle is used",
+        cycle.seconds()
+    );
+    let diagnostic = Diagnostic::kontur(32, text).value(ValueKind::Wrong, z / n, "s").value(
+        ValueKind::Corrected,
+        cycle.seconds(),
+        "s",
+    );
+    diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), Some(axis)));
+}

@@ -1,0 +1,64 @@
+//! Axis lists: position controller, position and lag monitoring, measuring systems.
+
+use super::row::{Bound, Correction, Default, Raw, Row, axis};
+
+/// The rows.
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    axis("P-AXIS-00092", "getriebe[i].incr_per_rev", Raw::Uns32, "encoder increments per motor revolution")
+        .range(Bound::At(0.0), Bound::None).default(1024.0).unit("incr/rev", "incr/rev").source("TF5200 feedforward control"),
+    axis("P-AXIS-00099", "getriebe[i].kv", Raw::Uns32, "gain of the P position controller in the CNC (1000 = 10/s); 0 gives 110150")
+        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").below(110150, Correction::Default),
+    axis("P-AXIS-00128", "getriebe[i].multi_gain_n", Raw::Uns32, "denominator, output at 1 m/min or 1000 deg/min")
+        .range(Bound::At(1.0), Bound::None).default(1.0).source("TF5200 Improved Position Control"),
+    axis("P-AXIS-00129", "getriebe[i].multi_gain_z", Raw::Uns32, "numerator of the same")
+        .range(Bound::At(1.0), Bound::None).default(2000.0).unit("bit", "bit").source("TF5200 Improved Position Control"),
+    axis("P-AXIS-00151", "getriebe[i].pos_einschw_zeit", Raw::Uns32, "old time limit, 0 off; older manual gives ms")
+        .range(Bound::At(0.0), Bound::At(4294967.0)).default(1000000.0).unit("us", "us"),
+    axis("P-AXIS-00166", "getriebe[i].slep_abw", Raw::Uns32, "remaining deviation of the dropped type 3")
+        .range(Bound::At(0.0), Bound::At(1024.0)).default(512.0),
+    axis("P-AXIS-00167", "getriebe[i].slep_dyn", Raw::Sgn16, "filter constant or slope factor; 1024 = off")
+        .range(Bound::At(0.0), Bound::At(1024.0)).default(1000.0),
+    axis("P-AXIS-00168", "getriebe[i].slep_max", Raw::Sgn32, "largest lag (type 1, 4) / lower bound while moving (type 2); older manual default 5000000")
+        .range(Bound::At(0.0), Bound::None).default(100000.0).unit("0.1um", "0.0001deg"),
+    axis("P-AXIS-00169", "getriebe[i].slep_min", Raw::Sgn32, "limit at standstill / lower bound (type 1)")
+        .range(Bound::At(1.0), Bound::None).default(20000.0).unit("0.1um", "0.0001deg"),
+    axis("P-AXIS-00170", "getriebe[i].slep_time_const", Raw::Uns32, "time shift of the limit curve")
+        .range(Bound::At(0.0), Bound::None).default(0.0).unit("us", "us"),
+    axis("P-AXIS-00172", "getriebe[i].slep_ueberw_typ", Raw::Uns32, "lag monitoring: 1 standard, 2 linear, 4 speed-independent, else off")
+        .range(Bound::At(0.0), Bound::None).default(0.0),
+    axis("P-AXIS-00176", "", Raw::Boolean, "compute but raise no lag error")
+        .default(0.0).axes("TR"),
+    axis("P-AXIS-00233", "getriebe[i].wegaufn", Raw::Uns32, "encoder resolution, path (denominator); 0 gives 110086")
+        .range(Bound::At(1.0), Bound::None).default(1.0).unit("0.1um", "0.0001deg").below(110086, Correction::Value(1.0)),
+    axis("P-AXIS-00234", "getriebe[i].wegaufz", Raw::Uns32, "encoder resolution, increments (numerator); 0 gives 110386")
+        .range(Bound::At(1.0), Bound::None).default(1.0).unit("incr", "incr").below(110386, Correction::Value(1.0)),
+    axis("P-AXIS-00236", "getriebe[i].window", Raw::Sgn32, "exact-stop window, also for G60")
+        .range(Bound::At(0.0), Bound::None).default(500.0).unit("0.1um", "0.0001deg").source("TF5200 position monitoring"),
+    axis("P-AXIS-00245", "getriebe[i].dyn_kv.kv1", Raw::Uns32, "dynamic kv: gain at v1")
+        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s"),
+    axis("P-AXIS-00246", "getriebe[i].dyn_kv.v1", Raw::Uns32, "dynamic kv: lower speed")
+        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("um/s", "0.001deg/s"),
+    axis("P-AXIS-00247", "getriebe[i].dyn_kv.kv2", Raw::Uns32, "dynamic kv: gain at v2")
+        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s"),
+    axis("P-AXIS-00248", "getriebe[i].dyn_kv.v2", Raw::Uns32, "dynamic kv: upper speed (AXIS prints the key kv2 by mistake)")
+        .range(Bound::BeyondOf("P-AXIS-00246"), Bound::None).default(2000.0).unit("um/s", "0.001deg/s"),
+    axis("P-AXIS-00320", "antr.operation_mode", Raw::Text, "mode of positioning: where the position loop is closed")
+        .default_is(Default::Text("DRIVE_DEFAULT")),
+    axis("P-AXIS-00395", "getriebe[i].pos_control_deadband", Raw::Uns32, "dead band of the position controller")
+        .range(Bound::None, Bound::Of("P-AXIS-00236")).default(0.0).unit("0.1um", "0.0001deg").above(110528, Correction::Limit).source("TF5200 diagnosis"),
+    axis("P-AXIS-00407", "lr_param.dyn_monitoring_v_err", Raw::Uns32, "speed excess allowed in the controller (70382); 0 = off")
+        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1%", "0.1%"),
+    axis("P-AXIS-00422", "lr_hw[i].encoder_resolution_num", Raw::Uns32, "resolution of the direct measuring system (i = 1), increments")
+        .range(Bound::At(1.0), Bound::None).default(1.0).unit("incr", "incr"),
+    axis("P-AXIS-00423", "lr_hw[i].encoder_resolution_denom", Raw::Uns32, "the same, path")
+        .range(Bound::At(1.0), Bound::None).default(1.0).unit("0.1um", "0.0001deg"),
+    axis("P-AXIS-00488", "getriebe[i].pos_lag_mon_error_delay_time", Raw::Uns32, "delay of 70020 in type 4")
+        .range(Bound::At(0.0), Bound::At(250000.0)).default(0.0).unit("us", "us"),
+    axis("P-AXIS-00511", "getriebe[i].gear_fact_num", Raw::Uns32, "gear ratio, input revolutions")
+        .range(Bound::At(1.0), Bound::None).default(1.0).source("TF5200 feedforward control"),
+    axis("P-AXIS-00512", "getriebe[i].gear_fact_denom", Raw::Uns32, "gear ratio, output revolutions; 0 gives 110579 (one page of the diagnosis manual prints 110580)")
+        .range(Bound::At(1.0), Bound::None).default(1.0).below(110579, Correction::Value(1.0)).source("TF5200 feedforward control"),
+    axis("P-AXIS-00532", "getriebe[i].position_settling_time", Raw::Sgn32, "time limit to reach the window; 0 off, < 0 use P-AXIS-00151")
+        .default(-1.0).unit("us", "us").source("TF5200 position monitoring"),
+];

@@ -1,0 +1,182 @@
+//! Finding rows: by key, by ID, and the nearest ones to a misspelt key.
+
+use super::{
+    ListKind, Row, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general, axis_guard,
+    channel, kontur, start_up,
+};
+
+/// Families of the table, in the order of the documentation.
+const FAMILIES: &[&[Row]] = &[
+    start_up::ROWS,
+    channel::ROWS,
+    axis_general::ROWS,
+    axis_dynamics::ROWS,
+    axis_control::ROWS,
+    axis_drive::ROWS,
+    axis_filters::ROWS,
+    axis_guard::ROWS,
+    kontur::ROWS,
+];
+
+/// Other spellings of a key that mean the same parameter, with `[]` for every index.
+///
+/// Source: the channel manual's older edition (`syn_chk.fehler_*`); TF5200 Improved Position Control: builds with one
+/// filter per stage write `filter.`, newer ones `filter[k].`.
+const ALIASES: &[(&str, &str)] = &[
+    ("syn_chk.fehler_gesamt", "syn_chk.errors_total"),
+    ("syn_chk.fehler_pro_zeile", "syn_chk.errors_per_block"),
+    (
+        "lr_param.improved_position_control.stage[].filter.order",
+        "lr_param.improved_position_control.stage[i].filter[k].order",
+    ),
+    (
+        "lr_param.improved_position_control.stage[].filter.fg_f0",
+        "lr_param.improved_position_control.stage[i].filter[k].fg_f0",
+    ),
+    (
+        "lr_param.improved_position_control.stage[].filter.q_factor",
+        "lr_param.improved_position_control.stage[i].filter[k].q_factor",
+    ),
+    (
+        "lr_param.improved_position_control.stage[].filter.damping",
+        "lr_param.improved_position_control.stage[i].filter[k].damping",
+    ),
+    (
+        "lr_param.improved_position_control.stage[].filter.type",
+        "lr_param.improved_position_control.stage[i].filter[k].type",
+    ),
+];
+
+/// Every row of the table.
+pub fn rows() -> impl Iterator<Item = &'static Row> {
+    FAMILIES.iter().flat_map(|family| family.iter())
+}
+
+/// The row with an ID; the first one if several keys share it.
+pub fn by_id(id: &str) -> Option<&'static Row> {
+    rows().find(|r| !r.id.is_empty() && r.id.eq_ignore_ascii_case(id))
+}
+
+/// The row of a key in a list; `shape` is the key in lower case with `[]` for every index.
+pub fn by_key(list: ListKind, shape: &str) -> Option<&'static Row> {
+    let key = ALIASES.iter().find(|(from, _)| *from == shape).map(|(_, to)| *to);
+    rows().filter(|r| r.list == list && !r.key.is_empty()).find(|r| match key {
+        Some(key) => r.key == key,
+        None => same_shape(r.key, shape),
+    })
+}
+
+/// Compares a key of the table (`filter[i].order`) with a shape (`filter[].order`), without regard to case.
+fn same_shape(key: &str, shape: &str) -> bool {
+    let mut key = key.bytes();
+    let mut shape = shape.bytes();
+    loop {
+        match (key.next(), shape.next()) {
+            (None, None) => return true,
+            (Some(a), Some(b)) if a.eq_ignore_ascii_case(&b) => {
+                if a == b'[' {
+                    key.next();
+                }
+            }
+            _ => return false,
+        }
+    }
+}
+
+/// Keys that were probably meant by a key that is not in the table, best first, at most three.
+///
+/// Two wrong letters are forgiven; otherwise keys whose last name is the same are offered (`kv` for `getriebe[i].kv`).
+pub fn suggestions(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
+    let wanted = shape.to_ascii_lowercase();
+    let keys =
+        || rows().filter(|r| list.is_none_or(|l| l == r.list) && !r.key.is_empty()).map(|r| r.key);
+    let mut near: Vec<(usize, &'static str)> = keys()
+        .filter_map(|key| {
+            let plain = plain(key);
+            let distance = edit_distance(&plain, &wanted, 2)?;
+            Some((distance, key))
+        })
+        .collect();
+    near.sort_by_key(|(distance, _)| *distance);
+    let last = |s: &str| s.rsplit('.').next().unwrap_or_default().to_owned();
+    let mut found: Vec<&'static str> = near.into_iter().map(|(_, key)| key).collect();
+    if found.is_empty() && !last(&wanted).is_empty() {
+        found = keys().filter(|key| last(&plain(key)) == last(&wanted)).collect();
+    }
+    found.truncate(3);
+    found
+}
+
+/// A key of the table in lower case with `[]` for every index.
+fn plain(key: &str) -> String {
+    key.to_ascii_lowercase().replace("[i]", "[]").replace("[j]", "[]").replace("[k]", "[]")
+}
+
+/// Number of letters to insert, delete or replace, `None` above `limit`.
+pub(crate) fn edit_distance(a: &str, b: &str, limit: usize) -> Option<usize> {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    if a.len().abs_diff(b.len()) > limit {
+        return None;
+    }
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let replace = diagonal + usize::from(ca != cb);
+            diagonal = row[j + 1];
+            row[j + 1] = replace.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row.last().copied().filter(|d| *d <= limit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn keys_and_ids_are_unique() {
+        let mut keys = BTreeSet::new();
+        let mut ids = BTreeSet::new();
+        for r in rows() {
+            assert!(r.key.is_empty() || keys.insert((r.list, plain(r.key))), "key {}", r.key);
+            assert!(r.id.is_empty() || ids.insert(r.id), "id {}", r.id);
+            assert!(!r.key.is_empty() || !r.id.is_empty());
+            assert!(!r.meaning.is_empty() && !r.source.is_empty(), "{}{}", r.id, r.key);
+        }
+    }
+
+    #[test]
+    fn aliases_lead_to_rows() {
+        for (from, to) in ALIASES {
+            assert!(rows().any(|r| r.key == *to), "{from} -> {to}");
+        }
+    }
+
+    #[test]
+    fn printed_variants_get_the_right_suggestion() {
+        // Variants printed in the manuals beside the right spelling.
+        for (printed, meant) in [
+            ("vorsteuer.jerk_fact_nom", "vorsteuer.jerk_fact_num"),
+            (
+                "lr_param.improved_position_control.stages[].mode",
+                "lr_param.improved_position_control.stage[i].mode",
+            ),
+            ("antr.v_time_bae", "antr.v_time_base"),
+            ("kv", "getriebe[i].kv"),
+        ] {
+            assert_eq!(by_key(ListKind::Axis, printed), None);
+            assert_eq!(suggestions(Some(ListKind::Axis), printed).first(), Some(&meant));
+        }
+    }
+
+    #[test]
+    fn edit_distance_counts_letters() {
+        assert_eq!(edit_distance("kitten", "sitting", 3), Some(3));
+        assert_eq!(edit_distance("kitten", "sitting", 2), None);
+        assert_eq!(edit_distance("", "", 0), Some(0));
+        assert_eq!(edit_distance("abc", "abc", 0), Some(0));
+    }
+}

@@ -1,0 +1,321 @@
+//! What one row of the parameter table holds, and the words it is written with.
+
+use crate::diag::Id;
+
+/// Which list a parameter stands in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ListKind {
+    /// The list that names the others (P-STUP).
+    StartUp,
+    /// Channel list (P-CHAN).
+    Channel,
+    /// Axis list (P-AXIS).
+    Axis,
+    /// kontur's own settings, `kontur.lis`.
+    Kontur,
+}
+
+/// Data type of a value in a list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Raw {
+    /// Unsigned, 8 bits.
+    Uns08,
+    /// Unsigned, 16 bits.
+    Uns16,
+    /// Unsigned, 32 bits.
+    Uns32,
+    /// Signed, 16 bits.
+    Sgn16,
+    /// Signed, 32 bits.
+    Sgn32,
+    /// Floating point, 64 bits.
+    Real64,
+    /// 0 or 1.
+    Boolean,
+    /// Any text.
+    Text,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// A number or the name of a number.
+    Names(&'static [(&'static str, u32)]),
+    /// A number or names joined by `|`.
+    Flags(&'static [(&'static str, u32)]),
+}
+
+impl Raw {
+    /// Smallest and largest value of the data type; `None` for texts.
+    pub fn limits(self) -> Option<(f64, f64)> {
+        match self {
+            Self::Uns08 => Some((0.0, 255.0)),
+            Self::Uns16 => Some((0.0, 65535.0)),
+            Self::Uns32 | Self::Names(_) | Self::Flags(_) => Some((0.0, 4294967295.0)),
+            Self::Sgn16 => Some((-32768.0, 32767.0)),
+            Self::Sgn32 => Some((-2147483648.0, 2147483647.0)),
+            Self::Real64 => Some((f64::MIN, f64::MAX)),
+            Self::Boolean => Some((0.0, 1.0)),
+            Self::Text | Self::Word(_) => None,
+        }
+    }
+
+    /// Name as the vendor prints it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uns08 => "UNS08",
+            Self::Uns16 => "UNS16",
+            Self::Uns32 => "UNS32",
+            Self::Sgn16 => "SGN16",
+            Self::Sgn32 => "SGN32",
+            Self::Real64 => "REAL64",
+            Self::Boolean => "BOOLEAN",
+            Self::Text | Self::Word(_) => "STRING",
+            Self::Names(_) => "UNS32 (names accepted)",
+            Self::Flags(_) => "STRING (flags, numbers accepted)",
+        }
+    }
+}
+
+/// One end of a range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// Only the data type limits.
+    None,
+    /// This value is allowed.
+    At(f64),
+    /// This value is not allowed any more.
+    Beyond(f64),
+    /// The value of another parameter is allowed.
+    Of(&'static str),
+    /// The value of another parameter is not allowed any more.
+    BeyondOf(&'static str),
+    /// A multiple of another parameter is allowed.
+    Times(f64, &'static str),
+    /// The smallest of some parameters is allowed.
+    LeastOf(&'static [&'static str]),
+    /// The greatest of some parameters is allowed.
+    GreatestOf(&'static [&'static str]),
+    /// So many cycles, in us, are not allowed any more.
+    BeyondCycles(f64),
+    /// Depends on other words of the function; checked where the function is set up.
+    Text(&'static str),
+}
+
+impl std::fmt::Display for Bound {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Self::None => write!(f, "limit of the data type"),
+            Self::At(x) => write!(f, "{x}"),
+            Self::Beyond(x) => write!(f, "{x} (excluded)"),
+            Self::Of(id) => write!(f, "{id}"),
+            Self::BeyondOf(id) => write!(f, "{id} (excluded)"),
+            Self::Times(k, id) => write!(f, "{k} x {id}"),
+            Self::LeastOf(ids) => write!(f, "least of {}", ids.join(", ")),
+            Self::GreatestOf(ids) => write!(f, "greatest of {}", ids.join(", ")),
+            Self::BeyondCycles(n) => write!(f, "{n} cycles (excluded)"),
+            Self::Text(text) => write!(f, "{text}"),
+        }
+    }
+}
+
+/// What is put in place of a value out of range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Correction {
+    /// The default.
+    Default,
+    /// The nearer end of the range.
+    Limit,
+    /// This value.
+    Value(f64),
+    /// Nothing: the value stays and switches its function off.
+    Keep,
+    /// Nothing: the machine is refused.
+    Refuse,
+}
+
+/// Documented reaction to a value out of range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reaction {
+    /// ID of the message.
+    pub id: Id,
+    /// What happens with the value.
+    pub correction: Correction,
+}
+
+/// Value of a parameter that no list names.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Default {
+    /// None: the parameter is absent.
+    None,
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(&'static str),
+    /// The value of another parameter.
+    Of(&'static str),
+}
+
+/// One parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// ID (`P-AXIS-00212`); empty where the documents print none.
+    pub id: &'static str,
+    /// Key with `[i]`, `[j]`, `[k]` for indices; empty if no document prints it (row for `explain` only).
+    pub key: &'static str,
+    /// List it stands in.
+    pub list: ListKind,
+    /// Data type.
+    pub raw: Raw,
+    /// Meaning in a few words.
+    pub meaning: &'static str,
+    /// Lower end of the plausible range.
+    pub low: Bound,
+    /// Upper end of the plausible range.
+    pub high: Bound,
+    /// A value with a meaning of its own outside the range, usually 0 = "as ...".
+    pub special: Option<f64>,
+    /// Value if no list names it.
+    pub default: Default,
+    /// Unit for linear axes (and everything that is no axis), `-` if none.
+    pub unit: &'static str,
+    /// Unit for rotary axes and spindles.
+    pub unit_rotary: &'static str,
+    /// Axis types: letters of `TRS` (translatory, rotary, spindle), empty outside axis lists.
+    pub axes: &'static str,
+    /// Reaction below the range.
+    pub below: Reaction,
+    /// Reaction above the range.
+    pub above: Reaction,
+    /// The range is checked where the function is set up, since it depends on other words.
+    pub at_setup: bool,
+    /// Document.
+    pub source: &'static str,
+}
+
+/// Reaction where no document names an ID: limited, with kontur's own number.
+const UNDOCUMENTED: Reaction = Reaction { id: Id::Kontur(70), correction: Correction::Limit };
+
+const fn row(
+    list: ListKind,
+    id: &'static str,
+    key: &'static str,
+    raw: Raw,
+    meaning: &'static str,
+) -> Row {
+    Row {
+        id,
+        key,
+        list,
+        raw,
+        meaning,
+        low: Bound::None,
+        high: Bound::None,
+        special: None,
+        default: Default::None,
+        unit: "-",
+        unit_rotary: "-",
+        axes: "",
+        below: UNDOCUMENTED,
+        above: UNDOCUMENTED,
+        at_setup: false,
+        source: "",
+    }
+}
+
+/// A row of an axis list for all axis types.
+pub(super) const fn axis(id: &'static str, key: &'static str, raw: Raw, text: &'static str) -> Row {
+    let mut r = row(ListKind::Axis, id, key, raw, text);
+    r.axes = "TRS";
+    r.source = "TF5200 axis parameters";
+    r
+}
+
+/// A row of a channel list.
+pub(super) const fn chan(id: &'static str, key: &'static str, raw: Raw, text: &'static str) -> Row {
+    let mut r = row(ListKind::Channel, id, key, raw, text);
+    r.source = "TF5200 channel parameters";
+    r
+}
+
+/// A row of a start-up list.
+pub(super) const fn stup(id: &'static str, key: &'static str, raw: Raw, text: &'static str) -> Row {
+    let mut r = row(ListKind::StartUp, id, key, raw, text);
+    r.source = "TF5200 start-up list";
+    r
+}
+
+/// A row of `kontur.lis`.
+pub(super) const fn own(key: &'static str, raw: Raw, text: &'static str) -> Row {
+    let mut r = row(ListKind::Kontur, "", key, raw, text);
+    r.source = "kontur";
+    r
+}
+
+impl Row {
+    /// Plausible range.
+    pub(super) const fn range(mut self, low: Bound, high: Bound) -> Self {
+        self.low = low;
+        self.high = high;
+        self
+    }
+
+    /// Default number.
+    pub(super) const fn default(mut self, value: f64) -> Self {
+        self.default = Default::Number(value);
+        self
+    }
+
+    /// Default that is not a number.
+    pub(super) const fn default_is(mut self, value: Default) -> Self {
+        self.default = value;
+        self
+    }
+
+    /// Value with a meaning of its own outside the range.
+    pub(super) const fn special(mut self, value: f64) -> Self {
+        self.special = Some(value);
+        self
+    }
+
+    /// Units for linear and for rotary axes.
+    pub(super) const fn unit(mut self, linear: &'static str, rotary: &'static str) -> Self {
+        self.unit = linear;
+        self.unit_rotary = rotary;
+        self
+    }
+
+    /// Axis types.
+    pub(super) const fn axes(mut self, axes: &'static str) -> Self {
+        self.axes = axes;
+        self
+    }
+
+    /// Documented reaction below the range.
+    pub(super) const fn below(mut self, id: u32, correction: Correction) -> Self {
+        self.below = Reaction { id: Id::Vendor(id), correction };
+        self
+    }
+
+    /// Documented reaction above the range.
+    pub(super) const fn above(mut self, id: u32, correction: Correction) -> Self {
+        self.above = Reaction { id: Id::Vendor(id), correction };
+        self
+    }
+
+    /// kontur's own reaction on both sides of the range.
+    pub(super) const fn outside(mut self, id: u16, correction: Correction) -> Self {
+        self.below = Reaction { id: Id::Kontur(id), correction };
+        self.above = self.below;
+        self
+    }
+
+    /// The range is checked where the function is set up.
+    pub(super) const fn at_setup(mut self) -> Self {
+        self.at_setup = true;
+        self
+    }
+
+    /// Document, if it is not the manual of the list.
+    pub(super) const fn source(mut self, source: &'static str) -> Self {
+        self.source = source;
+        self
+    }
+}

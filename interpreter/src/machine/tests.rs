@@ -1,0 +1,390 @@
+use super::*;
+use crate::diag::{Id, Severity};
+use kontur_motion::block::{SlopeKind, TransitionJerkMode};
+use std::collections::BTreeMap;
+
+/// Files in memory.
+#[derive(Default)]
+struct Memory(BTreeMap<String, String>);
+
+impl Memory {
+    /// A machine X, Y (numbers 1, 7) and spindle S (4) in folder `m`.
+    fn machine() -> Self {
+        let mut files = Self::default();
+        files.put(
+            "m/hochlauf.lis",
+            "kanal_anzahl 1\nzahl_mds 3\nsda_mds[0] lists\\channel.lis\nachs_mds[0] lists/x.lis\n\
+             achs_mds[1] lists/y.lis\nachs_mds[2] lists/s.lis\n",
+        );
+        files.put(
+            "m/lists/channel.lis",
+            "gruppe[0].achs_anzahl 2\ngruppe[0].achse[0].bezeichnung X\ngruppe[0].achse[0].log_achs_nr 1\n\
+             gruppe[0].achse[1].bezeichnung Y\ngruppe[0].achse[1].log_achs_nr 7\n\
+             spindel[0].bezeichnung S\nspindel[0].log_achs_nr 4\n",
+        );
+        // the order of the axis lists carries no meaning
+        files.put("m/lists/x.lis", "kopf.achs_nr 7\ngetriebe[0].kv 700\n");
+        files.put("m/lists/y.lis", "kopf.achs_nr 1\ngetriebe[0].kv 100\n");
+        files.put("m/lists/s.lis", "kopf.achs_nr 4\nkenngr.achs_typ ACHSTYP_SPINDEL\n");
+        files
+    }
+
+    fn put(&mut self, path: &str, text: &str) {
+        self.0.insert(path.to_owned(), text.to_owned());
+    }
+
+    fn add(&mut self, path: &str, text: &str) {
+        self.0.get_mut(path).unwrap().push_str(text);
+    }
+
+    fn load(&self, overrides: &[&str]) -> Result<(Machine, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let overrides: Vec<Override> =
+            overrides.iter().map(|text| Override::parse(text).unwrap()).collect();
+        Machine::load(self, "m/hochlauf.lis", &overrides)
+    }
+
+    fn ids(&self, overrides: &[&str]) -> Vec<String> {
+        let diagnostics = match self.load(overrides) {
+            Ok((_, warnings)) => warnings,
+            Err(all) => all,
+        };
+        diagnostics.iter().map(|d| d.id.to_string()).collect()
+    }
+}
+
+impl ListFiles for Memory {
+    fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        Ok(self.0.get(path).map(|text| text.clone().into_bytes()))
+    }
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-12 * b.abs().max(1.0)
+}
+
+#[test]
+fn axes_are_tied_by_their_number() {
+    let (machine, warnings) = Memory::machine().load(&[]).unwrap();
+    assert_eq!(warnings, []);
+    assert_eq!(machine.name, "m");
+    let names: Vec<(&str, u32)> = machine.all_axes().map(|a| (a.name(), a.number())).collect();
+    assert_eq!(names, [("X", 1), ("Y", 7), ("S", 4)]);
+    assert_eq!(machine.axis("x").unwrap().raw("getriebe[0].kv"), Some(100.0));
+    assert_eq!(machine.axis("Y").unwrap().raw("getriebe[0].kv"), Some(700.0));
+    assert_eq!(machine.spindles[0].kind(), AxisKind::Spindle);
+    assert_eq!(machine.cycle.us(), 1000);
+}
+
+#[test]
+fn lists_overwrite_only_what_they_name() {
+    let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "default_achs_mds all.lis\n");
+    files.put("m/all.lis", "getriebe[0].kv 4000\ngetriebe[0].window 200\n");
+    let (machine, _) = files.load(&[]).unwrap();
+    let x = machine.axis("X").unwrap();
+    // specific list over default list over built-in default
+    assert_eq!(x.raw("getriebe[0].kv"), Some(100.0));
+    assert_eq!(x.raw("getriebe[0].window"), Some(200.0));
+    assert_eq!(x.raw("getriebe[0].dynamik.vb_max"), Some(200000.0));
+    assert_eq!(machine.axis("S").unwrap().raw("getriebe[0].kv"), Some(4000.0));
+}
+
+#[test]
+fn vendor_defaults_in_mm_and_s() {
+    let (machine, _) = Memory::machine().load(&[]).unwrap();
+    let d = machine.axis("X").unwrap().dynamics();
+    // 200 mm/s, 1000 mm/s2, ramps 50 ms, rapid ramp 10 ms
+    assert!(
+        close(d.v_max_mm_s, 200.0)
+            && close(d.v_rapid_mm_s, 166.666)
+            && close(d.a_max_mm_s2, 1000.0)
+    );
+    assert!(close(d.a_emergency_mm_s2, 1000.0) && close(d.tr_geom_s, 0.01));
+    assert!(close(d.feed.acc_mm_s2, 1000.0) && close(d.feed.dec_mm_s2, 1000.0));
+    assert!(d.feed.ramps_s.iter().all(|t| close(*t, 0.05)));
+    assert!(close(d.rapid.acc_mm_s2, 1000.0) && close(d.rapid.ramp_s, 0.01));
+    assert!(close(d.step_feed.dec_mm_s2[0], 1000.0) && close(d.step_feed.change_mm_s, 100.0));
+    assert!(close(d.a_trans_ratio, 0.0) && close(d.r_trans_ratio, 1.0));
+    assert!(close(machine.axis("X").unwrap().a_w_max_mm_s2(), 1000.0));
+    assert!(close(machine.axis("X").unwrap().tr_w_min_s(), 0.01));
+    assert!(close(machine.axis("S").unwrap().kv_1_s(), 10.0));
+    let c = &machine.channel;
+    assert_eq!((c.slope, c.feed_mm_s, c.look_ahead.blocks), (SlopeKind::Step, None, 120));
+    assert_eq!(c.transition_jerk, TransitionJerkMode::Coupled);
+    assert_eq!(c.feed_axes, [true, true]);
+    assert!(close(c.feed_unit_mm_min, 1.0) && close(c.arc_centre.radius_difference_mm, 0.005));
+    assert!(close(c.arc_centre.shift_ratio, 0.05) && c.arc_centre.shift_mm.is_none());
+    assert!(close(c.arc_centre.radius_difference_ratio, 0.001));
+}
+
+#[test]
+fn channel_values_are_converted() {
+    let mut files = Memory::machine();
+    files.add(
+        "m/lists/channel.lis",
+        "prog_start.slope.profile SIN2\nprog_start.feedrate 3000\nprog_start.feedrate_factor 0.1\n\
+         mode_trans_jerk 2\nvector.velocity 6000\nvector.acceleration 1500\nvector.acc_dec_unit mm_s2\n\
+         mittelpkt_diff 100\nm_prozess_zeit[7] 500000\nspindel[0].m3_prozess_zeit 1500000\n\
+         prog_start.g_gruppe[14].nr 91\np_param_haltend 1\ng85_prog_file drill.nc\n\
+         gruppe[0].achse[1].default_feed_axis 1\n",
+    );
+    files.add(
+        "m/hochlauf.lis",
+        "configuration.channel[0].interpolator.function FCT_LOOK_AHEAD_CUSTOM\n\
+         configuration.channel[0].interpolator.number_blocks_lah 500\n",
+    );
+    let (machine, warnings) = files.load(&[]).unwrap();
+    assert_eq!(warnings, []);
+    let c = machine.channel;
+    assert_eq!((c.slope, c.look_ahead.blocks), (SlopeKind::Sin2, 500));
+    assert_eq!(c.transition_jerk, TransitionJerkMode::DirectJerk);
+    assert!(close(c.feed_mm_s.unwrap(), 50.0) && close(c.feed_unit_mm_min, 1000.0));
+    assert!(close(c.vector.vel_mm_s.unwrap(), 100.0) && close(c.vector.acc_mm_s2.unwrap(), 1500.0));
+    assert!(close(c.arc_centre.shift_mm.unwrap(), 0.01));
+    assert!(close(c.m_durations_s[&7], 0.5) && close(c.spindle_duration_s(0, "m3"), 1.5));
+    assert_eq!((c.g_groups[&14], c.g8x_programs[&85].as_str()), (91, "drill.nc"));
+    assert!(c.keep_p_parameters);
+    assert_eq!(c.feed_axes, [false, true]);
+}
+
+#[test]
+fn an_override_gives_the_bits_of_a_list_value() {
+    let mut files = Memory::machine();
+    let (set, _) = files
+        .load(&[
+            "X.getriebe[0].kv=5000",
+            "Y.filter[0].fg_f0=21.7",
+            "channel.prog_start.feedrate=1e3",
+            "kontur.cycle_time_us=2000",
+            "kontur.axis[1].plant.ta_us=3000",
+            "S.getriebe[0].dynamik.vb_max=0x1000",
+        ])
+        .unwrap();
+    files.add("m/lists/y.lis", "getriebe[0].kv 5000\n");
+    files.add("m/lists/x.lis", "filter[0].fg_f0 21.7\n");
+    files.add("m/lists/channel.lis", "prog_start.feedrate 1e3\n");
+    files.add("m/lists/s.lis", "getriebe[0].dynamik.vb_max 0x1000\n");
+    files.put("m/kontur.lis", "kontur.cycle_time_us 2000\nkontur.axis[1].plant.ta_us 3000\n");
+    // the listed twin warns about the key that stands twice, nothing else differs but the places
+    let (listed, _) = files.load(&[]).unwrap();
+    assert_eq!(set.cycle, listed.cycle);
+    assert_eq!(set.channel.feed_mm_s, listed.channel.feed_mm_s);
+    for (a, b) in set.all_axes().zip(listed.all_axes()) {
+        assert_eq!(a.dynamics(), b.dynamics());
+        for key in ["getriebe[0].kv", "filter[0].fg_f0", "getriebe[0].dynamik.vb_max"] {
+            assert_eq!(a.raw(key).map(f64::to_bits), b.raw(key).map(f64::to_bits));
+        }
+        assert_eq!(a.own("plant.ta_us").map(f64::to_bits), b.own("plant.ta_us").map(f64::to_bits));
+    }
+}
+
+#[test]
+fn overrides_that_name_nothing_are_errors() {
+    let files = Memory::machine();
+    for (text, hint) in [
+        ("Q.getriebe[0].kv=1", "targets are X, Y, S, channel, start_up and kontur"),
+        ("X.vorsteuer.jerk_fact_nom=1", "did you mean `vorsteuer.jerk_fact_num`?"),
+        ("X.kv=1", "did you mean `getriebe[i].kv`?"),
+        ("X.filter[7].order=1", "the index is beyond the end of the array"),
+    ] {
+        let errors = files.load(&[text]).unwrap_err();
+        assert_eq!(errors.iter().map(|d| d.id).collect::<Vec<_>>(), [Id::Kontur(73)], "{text}");
+        assert_eq!(errors[0].hint.as_deref(), Some(hint), "{text}");
+    }
+    let errors = files.load(&["X.getriebe[0].kv=fast"]).unwrap_err();
+    assert_eq!(errors[0].id, Id::Kontur(73));
+    for text in ["X", "X=1", "X.=1", ".a=1", "X.kv="] {
+        assert!(Override::parse(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn numbers_that_do_not_fit_together() {
+    let broken = |path: &str, text: &str| {
+        let mut files = Memory::machine();
+        files.put(path, text);
+        files.ids(&[])
+    };
+    assert_eq!(broken("m/lists/y.lis", "kopf.achs_nr 2\n"), ["K-0031"]);
+    assert_eq!(broken("m/lists/y.lis", "kopf.achs_nr 7\n"), ["K-0031", "K-0031"]);
+    let channel = "gruppe[0].achse[0].bezeichnung X\ngruppe[0].achse[0].log_achs_nr 1\n\
+                   gruppe[0].achse[1].bezeichnung";
+    assert_eq!(
+        broken("m/lists/channel.lis", &format!("{channel} Y\ngruppe[0].achse[1].log_achs_nr 1\n")),
+        ["K-0031"]
+    );
+    assert_eq!(
+        broken("m/lists/channel.lis", &format!("{channel} x\ngruppe[0].achse[1].log_achs_nr 7\n")),
+        ["K-0031"]
+    );
+    assert_eq!(
+        broken("m/lists/channel.lis", &format!("{channel} M\ngruppe[0].achse[1].log_achs_nr 7\n")),
+        ["K-0031"]
+    );
+    assert_eq!(broken("m/lists/channel.lis", &format!("{channel} Y\n")), ["K-0031"]);
+    // a path axis whose list says spindle
+    assert_eq!(
+        broken("m/lists/channel.lis", &format!("{channel} Y\ngruppe[0].achse[1].log_achs_nr 4\n")),
+        ["K-0031"]
+    );
+    let mut files = Memory::machine();
+    files.0.remove("m/lists/y.lis");
+    assert_eq!(files.ids(&[]), ["K-0013", "K-0031"]);
+    let errors = Memory::default().load(&[]).unwrap_err();
+    assert_eq!(errors[0].id, Id::Kontur(13));
+}
+
+#[test]
+fn documented_reactions_to_values_out_of_range() {
+    // TF5200 diagnosis, plausibility of axis parameters: line of the list, ID, value used
+    let cases = [
+        ("antr.simu.totzeit 6", "110040", "antr.simu.totzeit", 5.0),
+        ("getriebe[0].dynamik.vb_max 0", "110079", "getriebe[0].dynamik.vb_max", 200000.0),
+        ("getriebe[0].wegaufn 0", "110086", "getriebe[0].wegaufn", 1.0),
+        ("getriebe[0].wegaufz 0", "110386", "getriebe[0].wegaufz", 1.0),
+        ("kenngr.max_vb_override 0", "110111", "kenngr.max_vb_override", 1.0),
+        ("getriebe[0].kv 0", "110150", "getriebe[0].kv", 1000.0),
+        ("vorsteuer.vs_a_nenner 0", "110381", "vorsteuer.vs_a_nenner", 1.0),
+        ("vorsteuer.vs_v_nenner 0", "110123", "vorsteuer.vs_v_nenner", 1.0),
+        ("vorsteuer.jerk_fact_denom 0", "110473", "vorsteuer.jerk_fact_denom", 100.0),
+        ("getriebe[0].gear_fact_denom 0", "110579", "getriebe[0].gear_fact_denom", 1.0),
+        ("getriebe[0].gear_fact_num 0", "K-0070", "getriebe[0].gear_fact_num", 1.0),
+        ("antr.torque_scale_denom 0", "110465", "antr.torque_scale_denom", 0.0),
+        ("getriebe[0].dynamik.tr_w_min 5000", "110406", "getriebe[0].dynamik.tr_w_min", 10000.0),
+        (
+            "getriebe[0].pos_control_deadband 501",
+            "110528",
+            "getriebe[0].pos_control_deadband",
+            500.0,
+        ),
+        ("vorsteuer.velocity_delay_time 6000", "70349", "vorsteuer.velocity_delay_time", 0.0),
+        (
+            "vorsteuer.acceleration_delay_time 6000",
+            "70348",
+            "vorsteuer.acceleration_delay_time",
+            0.0,
+        ),
+        ("vorsteuer.jerk_delay_time 6000", "70348", "vorsteuer.jerk_delay_time", 0.0),
+        ("antr.simu.daempfung_z 10", "80044", "antr.simu.daempfung_z", 9.99),
+        ("vib_guard.mode 5", "K-0034", "vib_guard.mode", 1.0),
+        ("vib_guard.freq 0.5", "K-0034", "vib_guard.freq", 30.0),
+        ("vib_guard.damping 1.1", "K-0034", "vib_guard.damping", 0.1),
+        ("getriebe[0].slope_type 4", "60226", "getriebe[0].slope_type", 0.0),
+        (
+            "getriebe[0].slope_profil.a_beschl 1001",
+            "K-0070",
+            "getriebe[0].slope_profil.a_beschl",
+            1000.0,
+        ),
+        (
+            "getriebe[0].slope_profil.tr_grenz 9999",
+            "K-0070",
+            "getriebe[0].slope_profil.tr_grenz",
+            10000.0,
+        ),
+    ];
+    for (line, id, key, used) in cases {
+        let mut files = Memory::machine();
+        files.put("m/lists/y.lis", &format!("kopf.achs_nr 1\n{line}\n"));
+        let (machine, warnings) = files.load(&[]).unwrap();
+        let found: Vec<String> = warnings.iter().map(|d| d.id.to_string()).collect();
+        assert_eq!(found, [id], "{line}");
+        assert_eq!(warnings[0].severity, Severity::Warning, "{line}");
+        assert_eq!(warnings[0].axis.as_ref().unwrap().name, "X", "{line}");
+        let at = warnings[0].source.as_ref().unwrap();
+        assert_eq!((&*at.file, &*at.text), ("m/lists/y.lis", line));
+        assert!(close(machine.axis("X").unwrap().raw(key).unwrap(), used), "{line}");
+    }
+}
+
+#[test]
+fn values_with_a_meaning_of_their_own_are_no_faults() {
+    let mut files = Memory::machine();
+    files.add(
+        "m/lists/y.lis",
+        "getriebe[0].dynamik.a_emergency 0\ngetriebe[0].dynamik.tr_w_min 0\nvorsteuer.vs_a_faktor 0\n\
+         vorsteuer.vs_v_faktor 0\ngetriebe[0].dynamik.a_trans_weight 0\nvorsteuer.velocity_delay_time 5999\n\
+         getriebe[0].lslope_profil.d_stufe_1 0\nlr_param.add_interface.filter[0].order 2\n",
+    );
+    assert_eq!(files.ids(&[]), [""; 0]);
+}
+
+#[test]
+fn some_values_refuse_the_machine() {
+    for (path, line, id) in [
+        ("m/lists/x.lis", "antr.feed_const_denom 0\n", "110472"),
+        ("m/lists/channel.lis", "prog_start.slope.ramp_time 5\n", "120178"),
+    ] {
+        let mut files = Memory::machine();
+        files.add(path, line);
+        assert!(files.load(&[]).is_err());
+        assert_eq!(files.ids(&[]), [id]);
+    }
+    let mut files = Memory::machine();
+    files.put("m/kontur.lis", "kontur.cycle_time_us 50\n");
+    assert!(files.load(&[]).is_err());
+}
+
+#[test]
+fn rules_over_several_parameters() {
+    let check = |text: &str| {
+        let mut files = Memory::machine();
+        files.add("m/lists/y.lis", text);
+        let (machine, warnings) = files.load(&[]).unwrap();
+        let ids: Vec<String> = warnings.iter().map(|d| d.id.to_string()).collect();
+        (machine.axis("X").unwrap().clone(), ids)
+    };
+    let (x, ids) =
+        check("vorsteuer.vorsteuerung VEL | ACC | JERK\nvorsteuer.feedforward_without_delay 1\n");
+    assert_eq!((x.raw("vorsteuer.vorsteuerung"), ids), (Some(1.0), vec!["110624".to_owned()]));
+    let (x, ids) = check("kenngr.swe_neg 100\nkenngr.swe_pos 100\n");
+    assert_eq!(ids, ["110110", "110110"]);
+    assert_eq!(x.software_limits_mm(), Some((-10000.0, 10000.0)));
+    // the sampling time of the simulated drive is written and is not the cycle
+    let (_, ids) = check("antr.simu.zeitkonstante_z 1\nantr.simu.zeitkonstante_n 100\n");
+    assert_eq!(ids, ["K-0032"]);
+    let (_, ids) = check("antr.simu.zeitkonstante_z 1\nantr.simu.zeitkonstante_n 1000\n");
+    assert_eq!(ids, [""; 0]);
+    // gear stages beyond the first are stored, not checked
+    let (x, ids) = check("getriebe[1].slope_profil.a_beschl 9000\n");
+    assert_eq!((x.raw("getriebe[1].slope_profil.a_beschl"), ids), (Some(9000.0), Vec::new()));
+    // one velocity weight 0: both become 1
+    let (x, ids) =
+        check("vorsteuer.feedforward_v_add_num 7\nvorsteuer.feedforward_v_add_denom 0\n");
+    assert_eq!(ids, ["110123"]);
+    assert_eq!(x.raw("vorsteuer.feedforward_v_add_num"), Some(1.0));
+    // a limit below the defaults: the defaults follow it, with notes
+    let (x, ids) = check("getriebe[0].dynamik.a_max 500\n");
+    assert!(ids.iter().all(|id| id == "K-0070") && !ids.is_empty());
+    let d = x.dynamics();
+    assert!(
+        d.feed.acc_mm_s2 <= 500.0
+            && d.rapid.acc_mm_s2 <= 500.0
+            && d.step_feed.acc_mm_s2[1] <= 500.0
+    );
+}
+
+#[test]
+fn counts_limit_what_is_used() {
+    let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "achs_mds[3] lists/more.lis\n");
+    assert_eq!(files.ids(&[]), ["K-0074"]);
+    let mut files = Memory::machine();
+    files.add("m/lists/channel.lis", "gruppe[0].achse[2].bezeichnung Z\n");
+    assert_eq!(files.ids(&[]), ["K-0074"]);
+}
+
+#[test]
+fn the_builtin_machine_loads_without_a_message() {
+    let (machine, warnings) = Machine::builtin(&[]).unwrap();
+    assert_eq!(warnings, []);
+    assert_eq!(machine.name, "xyz");
+    let names: Vec<(&str, u32)> = machine.all_axes().map(|a| (a.name(), a.number())).collect();
+    assert_eq!(names, [("X", 1), ("Y", 2), ("Z", 3), ("S", 4)]);
+    assert_eq!(machine.channel.slope, SlopeKind::Trapez);
+    let x = machine.axis("X").unwrap();
+    assert!(close(x.kv_1_s(), 50.0) && close(x.own("plant.ta_us").unwrap(), 0.005));
+    assert_eq!(x.own_text("plant.model").as_deref(), Some("PT1"));
+    // the square-corner program needs a jump of speed at kinks that does not depend on the cycle
+    assert!(close(x.dynamics().a_trans_ratio, 1.0));
+}
