@@ -6,4 +6,5 @@ pub mod diag;
 pub mod exec;
 pub mod machine;
 pub mod record;
+pub mod source;
 pub mod syntax;

@@ -1,3 +1,211 @@
 //! Text of a block to syntax tree; shape only, no meaning.
+//!
+//! [`Parser`] takes one block at a time: plain blocks go through a byte loop (`plain`), everything else is masked
+//! (`scan`), parsed by one call of the grammar `nc.pest` and built into the tree of [`ast`] (`build`). Errors become
+//! diagnostics with the place of the offending text (`problem`), and what can be used of the block is still built.
+//!
+//! Which G functions, commands, keys and axes exist is the business of the decoder. The one thing the parser has to be
+//! told are the names of axes and spindles that have more than one character: without them `AP10` is A with the value
+//! of P10.
 
 pub mod ast;
+mod build;
+mod expr;
+mod number;
+mod plain;
+mod print;
+mod problem;
+pub(crate) mod scan;
+
+pub use scan::NESTING_MAX;
+
+use crate::diag::{Diagnostic, Severity};
+use crate::source::{BLOCK_LENGTH, BLOCK_LENGTH_MAX, RawBlock};
+use ast::{Block, BlockNumber, Span};
+use build::Builder;
+use pest::Parser as _;
+use problem::Problem;
+use std::sync::Arc;
+
+/// The grammar.
+mod grammar {
+    #![allow(missing_docs, reason = "the generated items are documented in nc.pest")]
+    #![allow(clippy::pedantic, reason = "generated code")]
+
+    /// Parser made from `nc.pest`.
+    #[derive(Debug, pest_derive::Parser)]
+    #[grammar = "nc.pest"]
+    pub(super) struct Grammar;
+}
+
+use grammar::{Grammar, Rule};
+
+/// `#` words that may stand among DIN words, without `#SUPPRESS OFFSETS`.
+///
+/// Source: TF5200 programming manual (chamfers, #ANG, #CANG, #PSET, #ACHSE) and diagnosis, 20207.
+const HASH_WORDS: &[&str] =
+    &["FRC", "CHR", "CHF", "RND", "ANG", "CANG", "ACHSE", "PSET", "PRESET", "ADD"];
+
+/// Diagnostics per block; what follows is most likely noise.
+const PROBLEMS_MAX: usize = 10;
+
+/// Binary operators per block. Bounds the depth of the tree together with [`NESTING_MAX`]; above it K-0006.
+pub const OPERATORS_MAX: usize = 500;
+
+/// Parses blocks.
+#[derive(Clone, Debug, Default)]
+pub struct Parser {
+    /// Names of several characters in upper case, longest first.
+    names: Vec<Box<str>>,
+}
+
+/// How a block is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Mode {
+    Block,
+    Declaration,
+    Inactive,
+}
+
+impl Parser {
+    /// A parser that knows the names of the channel's axes and spindles; names of one letter need not be told.
+    pub fn new<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        let mut names: Vec<Box<str>> = names
+            .into_iter()
+            .filter(|name| name.len() > 1 && name.is_ascii())
+            .map(|name| name.to_ascii_uppercase().into())
+            .collect();
+        names.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| a.cmp(b)));
+        names.dedup();
+        Self { names }
+    }
+
+    /// Parses a block of a program.
+    ///
+    /// `file` names the program in diagnostics. An error among them means that the block is incomplete: what could not
+    /// be read is missing in it.
+    ///
+    /// # Errors
+    /// None; diagnostics K-0001 (invalid character), K-0002 (syntax), K-0005 (program head), K-0006 (nesting), 20194,
+    /// 20207, 20215, 20217, 20227, 20233, 20301, 20566, 20569, 20593, 21220, 22151.
+    pub fn block(
+        &self,
+        raw: &RawBlock<'_>,
+        file: &Arc<str>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Block {
+        match plain::recognize(raw.text) {
+            Some(block) if raw.characters <= BLOCK_LENGTH => block,
+            _ => self.parse(raw, file, diagnostics, Mode::Block),
+        }
+    }
+
+    /// Parses a line between `#VAR` and `#ENDVAR`: declarations, or the command that ends them.
+    ///
+    /// # Errors
+    /// As [`block`](Self::block).
+    pub fn declaration(
+        &self,
+        raw: &RawBlock<'_>,
+        file: &Arc<str>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Block {
+        self.parse(raw, file, diagnostics, Mode::Declaration)
+    }
+
+    /// Parses a block of a branch that is not taken: number, label and control statement; other content is not looked
+    /// at and leaves an empty body.
+    ///
+    /// # Errors
+    /// As [`block`](Self::block), for what is looked at.
+    pub fn inactive(
+        &self,
+        raw: &RawBlock<'_>,
+        file: &Arc<str>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Block {
+        self.parse(raw, file, diagnostics, Mode::Inactive)
+    }
+
+    fn parse(
+        &self,
+        raw: &RawBlock<'_>,
+        file: &Arc<str>,
+        diagnostics: &mut Vec<Diagnostic>,
+        mode: Mode,
+    ) -> Block {
+        let mut problems = Vec::new();
+        if raw.characters > BLOCK_LENGTH {
+            problems.push(too_long(raw));
+        }
+        let block = if raw.characters > BLOCK_LENGTH_MAX {
+            Block::default()
+        } else {
+            self.tree(raw.text, mode, &mut problems)
+        };
+        if !problems.is_empty() {
+            problems.sort_by_key(|p| p.span.start);
+            problems.dedup_by_key(|p| (p.id, p.span));
+            problems.truncate(PROBLEMS_MAX);
+            let number = match block.number {
+                Some(BlockNumber::Literal(n)) => Some(n),
+                _ => None,
+            };
+            diagnostics.extend(problems.into_iter().map(|problem| {
+                let mut location = raw.locate(file, problem.span);
+                location.block = number;
+                problem.diagnostic(location)
+            }));
+        }
+        block
+    }
+
+    /// Mask, grammar, tree.
+    fn tree(&self, text: &str, mode: Mode, problems: &mut Vec<Problem>) -> Block {
+        let masked = scan::mask(text, &self.names);
+        if mode != Mode::Inactive {
+            problems.extend(masked.invalid.iter().map(|span| problem::invalid(text, *span)));
+        }
+        if let Some(at) = masked.too_deep {
+            problems.push(problem::too_deep(at));
+            return Block::default();
+        }
+        let rule = match mode {
+            Mode::Block => Rule::block,
+            Mode::Declaration => Rule::var_line,
+            Mode::Inactive => Rule::inactive,
+        };
+        let mut builder = Builder::new(text, &masked.text, problems);
+        match Grammar::parse(rule, &masked.text) {
+            Ok(pairs) => builder.block(pairs),
+            Err(error) => {
+                let context = problem::Context::of(&masked.text);
+                builder.report(problem::from_error(&error, &masked.text, context, 0));
+                let rule = match (context, mode) {
+                    (problem::Context::Words, Mode::Block) => Rule::tolerant,
+                    _ => Rule::head_only,
+                };
+                match Grammar::parse(rule, &masked.text) {
+                    Ok(pairs) => builder.block(pairs),
+                    Err(_) => Block::default(),
+                }
+            }
+        }
+    }
+}
+
+/// 20301 for a block that is too long.
+fn too_long(raw: &RawBlock<'_>) -> Problem {
+    let (severity, limit) = if raw.characters > BLOCK_LENGTH_MAX {
+        (Severity::Error, BLOCK_LENGTH_MAX)
+    } else {
+        (Severity::Warning, BLOCK_LENGTH)
+    };
+    let end = raw.text.char_indices().nth(1).map_or(raw.text.len(), |(i, _)| i);
+    Problem::vendor(
+        20301,
+        Span::new(0, end),
+        format!("block of {} characters, at most {limit} are allowed", raw.characters),
+    )
+    .severity(severity)
+}

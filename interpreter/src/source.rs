@@ -1,0 +1,178 @@
+//! Where programs come from, and their text block by block.
+//!
+//! The library opens no file: programs come through [`Sources`]. [`BlockReader`] turns bytes into logical blocks (line
+//! ends, continued lines, encoding, length limit) through a window of fixed size, so memory does not depend on the
+//! length of a program or of a line. It does not look at words; that is the business of [`crate::syntax`].
+
+mod memory;
+mod reader;
+
+pub use memory::MemorySources;
+pub use reader::BlockReader;
+
+use crate::diag::Location;
+use crate::syntax::ast::Span;
+use std::io;
+use std::sync::Arc;
+
+/// Longest block in characters; longer ones are warned about, 20301.
+///
+/// Source: TF5200 programming manual, block structure.
+pub const BLOCK_LENGTH: u32 = 4000;
+
+/// Longest block that is decoded, in characters; above it 20301 is an error.
+///
+/// Source: TF5200 diagnosis, 20301. The limit holds for the joined block if lines are continued.
+pub const BLOCK_LENGTH_MAX: u32 = 4096;
+
+/// Opens programs.
+pub trait Sources {
+    /// Opens `name`, as it is written in the program `caller` (its [`Source::name`]) or on the command line.
+    ///
+    /// # Errors
+    /// If no program of that name can be opened; the error lists every place that was tried.
+    fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError>;
+}
+
+/// Bytes of one program.
+pub trait Source {
+    /// Name as messages show it; also what a called program gets as its caller.
+    fn name(&self) -> Arc<str>;
+
+    /// Reads bytes from `offset` on into `buffer` and returns how many; 0 is the end of the program.
+    ///
+    /// # Errors
+    /// What reading met with.
+    fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize>;
+}
+
+/// A program could not be opened (K-0013).
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name}: {reason}")]
+pub struct OpenError {
+    /// Name as asked for.
+    pub name: String,
+    /// Why.
+    pub reason: String,
+    /// Places tried, in order.
+    pub searched: Vec<String>,
+}
+
+/// Place of a block in a program; [`BlockReader::seek`] goes there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// Offset of the first byte of the block's first line.
+    pub offset: u64,
+    /// Number of that line, from 1.
+    pub line: u32,
+}
+
+impl Position {
+    /// The beginning of a program.
+    pub const START: Self = Self { offset: 0, line: 1 };
+}
+
+impl Default for Position {
+    fn default() -> Self {
+        Self::START
+    }
+}
+
+/// A stretch of a block's text that stands unbroken in one line of the program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// Where it begins in the block's text, in bytes.
+    pub start: u32,
+    /// Where it begins in its line as decoded, in bytes.
+    pub column: u32,
+    /// Offset of the line in the program.
+    pub offset: u64,
+    /// Number of the line, from 1.
+    pub line: u32,
+    /// The line was decoded as Latin-1: each of its characters is one byte in the program.
+    pub latin1: bool,
+    /// Where the line ends in the block's text; the text behind it belongs to the next piece.
+    pub end: u32,
+    /// The piece replaces text of this length, in bytes (use of a macro): all of it has one place in the program.
+    pub replaces: Option<u32>,
+    /// The decoded line.
+    pub text: Arc<str>,
+}
+
+/// One logical block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RawBlock<'a> {
+    /// Text without line ends; continued lines are joined, with a blank for each `\`. At most
+    /// [`BLOCK_LENGTH_MAX`] characters.
+    pub text: &'a str,
+    /// Place in the program.
+    pub position: Position,
+    /// Length in characters, also of what was cut off.
+    pub characters: u32,
+    /// Pieces of the text; empty for a block of one line in UTF-8.
+    pub pieces: &'a [Piece],
+}
+
+impl<'a> RawBlock<'a> {
+    /// A block of one line at the beginning of a program, for tests and single lines from elsewhere.
+    pub fn from_line(text: &'a str) -> Self {
+        let characters = u32::try_from(text.chars().count()).unwrap_or(u32::MAX);
+        let end = text.char_indices().nth(BLOCK_LENGTH_MAX as usize).map_or(text.len(), |(i, _)| i);
+        Self { text: &text[..end], position: Position::START, characters, pieces: &[] }
+    }
+
+    /// Line, column, offset and source text of a span of this block in the program called `file`.
+    pub fn locate(&self, file: &Arc<str>, span: Span) -> Location {
+        let start = span.start as usize;
+        let piece = self.pieces.iter().rev().find(|piece| piece.start as usize <= start);
+        let (line, offset, text, mut from, mut to, latin1) = match piece {
+            None => (
+                self.position.line,
+                self.position.offset,
+                Arc::from(self.text),
+                start,
+                span.end() as usize,
+                false,
+            ),
+            Some(piece) => {
+                let text = Arc::clone(&piece.text);
+                let column = piece.column as usize;
+                let (from, to) = match piece.replaces {
+                    Some(length) => (column, column + length as usize),
+                    None => {
+                        let end = span.end().min(piece.end) as usize;
+                        let begin = piece.start as usize;
+                        (start - begin + column, end.max(start) - begin + column)
+                    }
+                };
+                (piece.line, piece.offset, text, from, to, piece.latin1)
+            }
+        };
+        from = floor_boundary(&text, from);
+        to = floor_boundary(&text, to).max(from);
+        let before = count(&text[..from]);
+        Location {
+            file: Arc::clone(file),
+            line,
+            column: before.saturating_add(1),
+            offset: offset + if latin1 { u64::from(before) } else { from as u64 },
+            length: count(&text[from..to]).max(1),
+            block: None,
+            text,
+        }
+    }
+}
+
+/// Characters of a text.
+fn count(text: &str) -> u32 {
+    u32::try_from(text.chars().count()).unwrap_or(u32::MAX)
+}
+
+/// The last character boundary at or before `at`.
+fn floor_boundary(text: &str, at: usize) -> usize {
+    let mut at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}

@@ -1,0 +1,274 @@
+//! Errors of the grammar in the words of a user, with the vendor's number where there is one.
+
+use super::Rule;
+use super::ast::Span;
+use crate::diag::{Diagnostic, Id, Location, Severity};
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+/// Something wrong with a block, before its place in the program is worked out.
+#[derive(Debug)]
+pub(super) struct Problem {
+    pub(super) id: Id,
+    pub(super) span: Span,
+    text: String,
+    hint: Option<&'static str>,
+    severity: Option<Severity>,
+}
+
+impl Problem {
+    pub(super) fn new(id: Id, span: Span, text: impl Into<String>) -> Self {
+        Self { id, span, text: text.into(), hint: None, severity: None }
+    }
+
+    pub(super) fn vendor(id: u32, span: Span, text: impl Into<String>) -> Self {
+        Self::new(Id::Vendor(id), span, text)
+    }
+
+    /// K-0002.
+    pub(super) fn syntax(span: Span, text: impl Into<String>) -> Self {
+        Self::new(Id::Kontur(2), span, text)
+    }
+
+    pub(super) fn hint(mut self, hint: &'static str) -> Self {
+        self.hint = Some(hint);
+        self
+    }
+
+    pub(super) fn severity(mut self, severity: Severity) -> Self {
+        self.severity = Some(severity);
+        self
+    }
+
+    pub(super) fn diagnostic(self, location: Location) -> Diagnostic {
+        let mut diagnostic = Diagnostic::new(self.id, self.text).at(location);
+        if let Some(severity) = self.severity {
+            diagnostic = diagnostic.severity(severity);
+        }
+        match self.hint {
+            Some(hint) => diagnostic.hint(hint),
+            None => diagnostic,
+        }
+    }
+}
+
+/// K-0001.
+pub(super) fn invalid(text: &str, span: Span) -> Problem {
+    let shown = text.get(span.start as usize..span.end() as usize).unwrap_or("?");
+    let shown: String = shown.chars().take(10).flat_map(char::escape_debug).collect();
+    Problem::new(Id::Kontur(1), span, format!("invalid character `{shown}`"))
+        .hint("other characters than those of the dialect may stand in comments and strings only")
+}
+
+/// K-0006 for the bracket at `at`.
+pub(super) fn too_deep(at: usize) -> Problem {
+    let limit = super::NESTING_MAX;
+    let span = Span::new(at, at + 1);
+    Problem::new(Id::Kontur(6), span, format!("brackets nested more than {limit} deep"))
+}
+
+/// What the content of a block is, judged by its first character.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Context {
+    Words,
+    Command,
+    Control,
+}
+
+impl Context {
+    pub(super) fn of(masked: &str) -> Self {
+        let content = content(masked);
+        if content.starts_with('$') && !starts_with(content, "$GOTO") {
+            Self::Control
+        } else if let Some(name) = content.strip_prefix('#') {
+            let length = name.bytes().take_while(|b| b.is_ascii_alphanumeric()).count();
+            let among_words = super::HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(&name[..length]));
+            if among_words { Self::Words } else { Self::Command }
+        } else {
+            Self::Words
+        }
+    }
+}
+
+/// Block without skip mark, number and label.
+fn content(masked: &str) -> &str {
+    let mut rest = masked.trim_start();
+    if let Some(behind) = rest.strip_prefix('/') {
+        rest = behind.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
+    }
+    if let Some(behind) = rest.strip_prefix(['N', 'n']) {
+        rest = behind.trim_start_matches(|c: char| c.is_ascii_digit());
+        rest = rest.strip_prefix(':').unwrap_or(rest).trim_start();
+    }
+    rest
+}
+
+fn starts_with(text: &str, keyword: &str) -> bool {
+    text.get(..keyword.len()).is_some_and(|head| head.eq_ignore_ascii_case(keyword))
+        && !text[keyword.len()..].starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
+}
+
+/// The problem that the grammar met with in `masked`, of which `offset` bytes were left out at the beginning.
+pub(super) fn from_error(
+    error: &Error<Rule>,
+    masked: &str,
+    context: Context,
+    offset: usize,
+) -> Problem {
+    let at = offset
+        + match error.location {
+            InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+        };
+    let at = at + masked[at..].bytes().take_while(|b| matches!(b, b' ' | b'\t')).count();
+    let rest = &masked[at..];
+    let span = Span::new(at, at + token(rest));
+    let expected = match &error.variant {
+        ErrorVariant::ParsingError { positives, .. } => expected(positives),
+        ErrorVariant::CustomError { .. } => Vec::new(),
+    };
+    let mut text = if rest.is_empty() {
+        "the block ends too early".to_owned()
+    } else {
+        format!("unexpected `{}`", &rest[..token(rest)])
+    };
+    if !expected.is_empty() {
+        text.push_str(", expected ");
+        text.push_str(&expected.join(" or "));
+    }
+    let problem = Problem::new(Id::Kontur(2), span, text);
+    refine(problem, &masked[offset..at], rest, context, content(masked))
+}
+
+/// Puts in the vendor's number and a hint.
+fn refine(problem: Problem, before: &str, rest: &str, context: Context, content: &str) -> Problem {
+    let id = |mut problem: Problem, id| {
+        problem.id = Id::Vendor(id);
+        problem
+    };
+    let depth = before.matches('[').count().saturating_sub(before.matches(']').count());
+    match context {
+        Context::Command if depth > 0 => {
+            let problem = id(problem, 21220);
+            if rest.is_empty() { problem.hint("the bracket is not closed") } else { problem }
+        }
+        Context::Command if before.trim_end().ends_with(']') => {
+            id(problem, 20207).hint("a # command stands alone in its block")
+        }
+        Context::Command => problem,
+        Context::Control if starts_with(content, "$ELSE") => id(problem, 20215),
+        Context::Control if starts_with(content, "$ELSEIF") => id(problem, 20217),
+        Context::Control if starts_with(content, "$ENDFOR") => id(problem, 20233),
+        Context::Control if rest.starts_with('=') => problem.hint("`==` compares"),
+        Context::Control if before.trim_end().len() + content.len() <= before.len() + rest.len() => {
+            unknown_control(problem, rest)
+        }
+        Context::Control => problem,
+        Context::Words if starts_with(rest, "$ELSE") => id(problem, 20215),
+        Context::Words if starts_with(rest, "$ENDFOR") => id(problem, 20233),
+        Context::Words if rest.starts_with('#') => {
+            id(problem, 20207).hint("a # command stands alone in its block")
+        }
+        Context::Words if rest.starts_with('$') => {
+            problem.hint("a control statement stands at the beginning of its block")
+        }
+        Context::Words if rest.starts_with('\\') => {
+            problem.hint("`\\` continues a block only as the last character of its line")
+        }
+        Context::Words if depth > 0 && in_cycle_list(before) => id(problem, 22151),
+        Context::Words if ends_in_variable(before) => {
+            id(problem, 20194).hint("a variable alone is no word: `=` and a value are missing")
+        }
+        Context::Words => problem,
+    }
+}
+
+/// A hint for a word behind `$` that is no control statement.
+fn unknown_control(problem: Problem, rest: &str) -> Problem {
+    if rest.starts_with('$') {
+        problem.hint(
+            "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE $DO $ENDDO \
+             $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist",
+        )
+    } else {
+        problem
+    }
+}
+
+/// True if the innermost open bracket belongs to G80 to G89 or G800 to G899.
+fn in_cycle_list(before: &str) -> bool {
+    let mut open = Vec::new();
+    for (i, byte) in before.bytes().enumerate() {
+        match byte {
+            b'[' => open.push(i),
+            b']' => {
+                open.pop();
+            }
+            _ => {}
+        }
+    }
+    let Some(first) = open.first() else { return false };
+    let head = before[..*first].trim_end();
+    let digits = head.trim_end_matches(|c: char| c.is_ascii_digit());
+    let number = head[digits.len()..].trim_start_matches('0');
+    digits.ends_with(['G', 'g']) && number.starts_with('8') && matches!(number.len(), 2 | 3)
+}
+
+/// True if `before` ends in a variable that begins a word.
+fn ends_in_variable(before: &str) -> bool {
+    let before = before.trim_end();
+    let start = before.rfind([' ', '\t']).map_or(0, |i| i + 1);
+    let word = &before[start..];
+    word.get(..2).is_some_and(|head| head.eq_ignore_ascii_case("V."))
+}
+
+/// Length of the text to be marked: a run of letters and digits, or one character.
+fn token(rest: &str) -> usize {
+    let run = rest.bytes().take_while(|b| b.is_ascii_alphanumeric() || *b == b'_').count();
+    if run > 0 { run } else { rest.chars().next().map_or(0, char::len_utf8) }
+}
+
+/// What could have stood there, in the order of likelihood and without repetition.
+fn expected(rules: &[Rule]) -> Vec<&'static str> {
+    let mut words: Vec<(u8, &'static str)> = rules.iter().filter_map(|rule| user_word(*rule)).collect();
+    words.sort_unstable();
+    words.dedup();
+    words.truncate(4);
+    words.into_iter().map(|(_, word)| word).collect()
+}
+
+/// A rule of the grammar in the words of a user.
+fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
+    Some(match rule {
+        Rule::expression
+        | Rule::decimal
+        | Rule::sign
+        | Rule::constant
+        | Rule::function
+        | Rule::bracketed
+        | Rule::function_name
+        | Rule::signed_number
+        | Rule::value
+        | Rule::code_number
+        | Rule::code_digits
+        | Rule::value_name => (0, "a value"),
+        Rule::digits | Rule::index => (1, "a number"),
+        Rule::equals => (2, "`=`"),
+        Rule::comma => (3, "`,`"),
+        Rule::close => (4, "`]`"),
+        Rule::open | Rule::group | Rule::cycle_group => (5, "`[`"),
+        Rule::key | Rule::flag | Rule::item | Rule::pair | Rule::bare_pair | Rule::item_value => {
+            (6, "a key")
+        }
+        Rule::operator => (7, "an operator"),
+        Rule::target | Rule::label_name => (8, "a label"),
+        Rule::file_name | Rule::program_call => (8, "a program name"),
+        Rule::type_name => (8, "a type"),
+        Rule::command_word | Rule::hash_name => (8, "a command word"),
+        Rule::control => (8, "a control statement"),
+        Rule::place | Rule::parameter | Rule::variable => (9, "a parameter or variable"),
+        Rule::g_word | Rule::letter_word | Rule::letter | Rule::assignment | Rule::m_word => {
+            (10, "a word")
+        }
+        Rule::EOI => (11, "the end of the block"),
+        _ => return None,
+    })
+}

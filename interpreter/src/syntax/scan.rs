@@ -1,0 +1,304 @@
+//! What has to be known about the characters of a block before its grammar: comments, strings, brackets.
+//!
+//! The grammar sees a masked text of the same length: comments and invalid characters are blanks, and names of
+//! several characters that the machine configures (`X1`, `AP`) are marked, because which of them exist is not a
+//! question of grammar.
+
+use super::ast::Span;
+use std::ops::Range;
+
+/// Byte that stands in the masked text for every character of a configured name.
+pub(super) const MARK: u8 = 1;
+
+/// Deepest nesting of square brackets; deeper blocks get K-0006. Far beyond anything written by hand or post-processor,
+/// and small enough for the stack of every platform.
+pub const NESTING_MAX: usize = 64;
+
+/// What a stretch of text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Region {
+    Code,
+    /// `"..."`, quotes included; a quote that is never closed is code.
+    Text,
+    /// `(...)`, nested, or everything behind `;` or an unclosed `(`.
+    Comment {
+        closed: bool,
+    },
+}
+
+/// Cuts a text into regions.
+struct Regions<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl Iterator for Regions<'_> {
+    type Item = (Region, Range<usize>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let start = self.at;
+        let rest = &self.bytes[start..];
+        let (region, length) = match rest.first()? {
+            b';' => (Region::Comment { closed: false }, rest.len()),
+            b'(' => comment(rest),
+            b'"' => match string(rest) {
+                Some(length) => (Region::Text, length),
+                None => (Region::Code, 1),
+            },
+            _ => {
+                let length = memchr::memchr3(b';', b'(', b'"', rest).unwrap_or(rest.len());
+                (Region::Code, length)
+            }
+        };
+        self.at += length;
+        Some((region, start..self.at))
+    }
+}
+
+fn regions(text: &str) -> Regions<'_> {
+    Regions { bytes: text.as_bytes(), at: 0 }
+}
+
+/// Length of a comment in round brackets.
+fn comment(bytes: &[u8]) -> (Region, usize) {
+    let mut depth = 0_usize;
+    for (i, byte) in bytes.iter().enumerate() {
+        match byte {
+            b'(' => depth += 1,
+            b')' => {
+                depth -= 1;
+                if depth == 0 {
+                    return (Region::Comment { closed: true }, i + 1);
+                }
+            }
+            _ => {}
+        }
+    }
+    (Region::Comment { closed: false }, bytes.len())
+}
+
+/// Length of a string with its quotes, `None` if the closing one is missing.
+fn string(bytes: &[u8]) -> Option<usize> {
+    let mut i = 1;
+    loop {
+        match bytes.get(i)? {
+            b'\\' if bytes.get(i + 1) == Some(&b'"') => i += 2,
+            b'"' => return Some(i + 1),
+            _ => i += 1,
+        }
+    }
+}
+
+/// True if what is written behind `text` would be part of a comment.
+pub(crate) fn ends_in_comment(text: &str) -> bool {
+    regions(text).last().is_some_and(|(region, _)| region == Region::Comment { closed: false })
+}
+
+/// True if a square bracket is open at the end of `text`.
+pub(crate) fn bracket_is_open(text: &str) -> bool {
+    let mut depth = 0_usize;
+    for (region, range) in regions(text) {
+        if region == Region::Code {
+            for byte in &text.as_bytes()[range] {
+                match byte {
+                    b'[' => depth += 1,
+                    b']' => depth = depth.saturating_sub(1),
+                    _ => {}
+                }
+            }
+        }
+    }
+    depth > 0
+}
+
+/// Places of the strings of a block, quotes included.
+pub(super) fn strings(text: &str) -> impl Iterator<Item = Range<usize>> {
+    regions(text).filter(|(region, _)| *region == Region::Text).map(|(_, range)| range)
+}
+
+/// Text as the grammar sees it.
+pub(super) struct Masked {
+    /// Same length in bytes as the block.
+    pub(super) text: String,
+    /// Invalid characters, blanks in `text`.
+    pub(super) invalid: Vec<Span>,
+    /// First bracket that is nested too deeply.
+    pub(super) too_deep: Option<usize>,
+}
+
+/// Masks a block; `names` are configured names in upper case, longest first.
+pub(super) fn mask(text: &str, names: &[Box<str>]) -> Masked {
+    let bytes = text.as_bytes();
+    let mut out = bytes.to_vec();
+    let mut invalid: Vec<Span> = Vec::new();
+    let mut too_deep = None;
+    let mut depth = 0_usize;
+    for (region, range) in regions(text) {
+        match region {
+            Region::Comment { .. } => out[range].fill(b' '),
+            Region::Text => {}
+            Region::Code => {
+                for i in range {
+                    match bytes[i] {
+                        b'[' => {
+                            depth += 1;
+                            if depth > NESTING_MAX {
+                                too_deep = too_deep.or(Some(i));
+                            }
+                        }
+                        b']' => depth = depth.saturating_sub(1),
+                        byte if is_valid(byte) => {}
+                        _ => {
+                            out[i] = b' ';
+                            match invalid.last_mut() {
+                                Some(last) if last.end() as usize == i => last.len += 1,
+                                _ => invalid.push(Span::new(i, i + 1)),
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    if !names.is_empty() {
+        mark_names(&mut out, names);
+    }
+    // Whole characters were replaced, or ASCII by ASCII: the bytes are text again.
+    let text = String::from_utf8(out).unwrap_or_default();
+    Masked { text, invalid, too_deep }
+}
+
+/// Characters of the dialect outside comments and strings.
+fn is_valid(byte: u8) -> bool {
+    byte == b'\t' || matches!(byte, b' '..=b'~') && !matches!(byte, b'{' | b'}' | b'`')
+}
+
+/// Marks configured names where a DIN word may begin.
+fn mark_names(bytes: &mut [u8], names: &[Box<str>]) {
+    let first = bytes.iter().copied().find(|b| !matches!(b, b' ' | b'\t'));
+    if matches!(first, Some(b'%')) {
+        return;
+    }
+    let (mut i, mut depth) = (0, 0_usize);
+    while i < bytes.len() {
+        let rest = &bytes[i..];
+        let letter_before = i > 0 && (bytes[i - 1].is_ascii_alphabetic() || bytes[i - 1] == b'_');
+        match rest[0] {
+            // Commands and control statements have no DIN words, but for the `#` words that stand among them.
+            b'$' => return,
+            b'#' if hash_word(rest).is_none() => return,
+            b'#' => i += hash_word(rest).unwrap_or(1),
+            b'"' => i += string(rest).unwrap_or(1),
+            b'[' => {
+                depth += 1;
+                i += 1;
+            }
+            b']' => {
+                depth = depth.saturating_sub(1);
+                i += 1;
+            }
+            b'@' => i += 1 + run(&rest[1..], |b| b.is_ascii_alphanumeric()),
+            b'V' | b'v' if rest.get(1) == Some(&b'.') => i += variable(rest),
+            b'L' | b'l' if !letter_before => i += call(rest),
+            byte if byte.is_ascii_alphabetic() && depth == 0 && !letter_before => {
+                match names.iter().find(|name| name_is_at(rest, name)) {
+                    Some(name) => {
+                        bytes[i..i + name.len()].fill(MARK);
+                        i += name.len();
+                    }
+                    None => i += 1,
+                }
+            }
+            _ => i += 1,
+        }
+    }
+}
+
+/// Length of a `#` word that may stand among DIN words.
+fn hash_word(bytes: &[u8]) -> Option<usize> {
+    let length = 1 + run(&bytes[1..], |b| b.is_ascii_alphanumeric() || b == b'_');
+    let name = std::str::from_utf8(&bytes[1..length]).ok()?;
+    super::HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(name)).then_some(length)
+}
+
+/// A name that ends in a digit needs `=` or a bracket: `X1=10`, but `X10` is X.
+fn name_is_at(bytes: &[u8], name: &str) -> bool {
+    let Some(head) = bytes.get(..name.len()) else { return false };
+    if !head.eq_ignore_ascii_case(name.as_bytes()) {
+        return false;
+    }
+    let behind = bytes[name.len()..].iter().find(|b| !matches!(b, b' ' | b'\t'));
+    !name.ends_with(|c: char| c.is_ascii_digit()) || matches!(behind, Some(b'=' | b'['))
+}
+
+/// Length of a variable.
+fn variable(bytes: &[u8]) -> usize {
+    let mut i = 1;
+    while let Some(byte) = bytes.get(i) {
+        let sign = matches!(byte, b'+' | b'-') && bytes[i - 1] == b'.';
+        if !(sign || *byte == b'.' || *byte == b'@' || *byte == b'_' || byte.is_ascii_alphanumeric()) {
+            break;
+        }
+        i += 1;
+    }
+    i
+}
+
+/// Length of `L`, `LL` with the name behind it.
+fn call(bytes: &[u8]) -> usize {
+    let letters = run(bytes, |b| matches!(b, b'L' | b'l'));
+    let blanks = run(&bytes[letters..], |b| matches!(b, b' ' | b'\t'));
+    if blanks == 0 {
+        return letters;
+    }
+    let begin = letters + blanks;
+    begin + run(&bytes[begin..], |b| !matches!(b, b' ' | b'\t' | b'[' | b'"' | b',' | b'#' | b'$'))
+}
+
+/// Length of the run of bytes at the beginning that fulfil a condition.
+fn run(bytes: &[u8], accept: impl Fn(u8) -> bool) -> usize {
+    bytes.iter().take_while(|b| accept(**b)).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{bracket_is_open, ends_in_comment, mask};
+
+    fn masked(text: &str, names: &[&str]) -> String {
+        let names: Vec<Box<str>> = names.iter().map(|n| Box::from(*n)).collect();
+        mask(text, &names).text.replace('\u{1}', "_")
+    }
+
+    #[test]
+    fn comments_become_blanks_and_strings_stay() {
+        assert_eq!(masked("X1 (a (b) c)Y2", &[]), "X1          Y2");
+        assert_eq!(masked("( N010 #SLOPE[TYPE=HSC]", &[]).trim(), "");
+        assert_eq!(masked(r#"["(a;\"" ;x"#, &[]), r#"["(a;\""   "#);
+        assert_eq!(masked("X1 ;(Y2)", &[]).trim_end(), "X1");
+        assert_eq!(masked("\"a ;b", &[]), "\"a   ");
+    }
+
+    #[test]
+    fn open_comments_and_brackets_are_seen() {
+        assert!(ends_in_comment("X1 (a") && ends_in_comment("X1 ;a"));
+        assert!(!ends_in_comment("X1 (a) "));
+        assert!(bracket_is_open("L CYCLE [A=1") && !bracket_is_open("X[1](["));
+    }
+
+    #[test]
+    fn configured_names_are_marked_only_as_words() {
+        let names = ["X1", "AP"];
+        assert_eq!(masked("N10AP5X1=3X10", &names), "N10__5__=3X10");
+        assert_eq!(masked("X10 ap-5 XV.P.AP X[AP]", &names), "X10 __-5 XV.P.AP X[AP]");
+        assert_eq!(masked("L AP #AX [AP]", &names), "L AP #AX [AP]");
+        assert_eq!(masked("P1=V.A.-AP.AP @AP1", &names), "P1=V.A.-AP.AP @AP1");
+        assert_eq!(masked("#PSET AP5", &names), "#PSET __5");
+    }
+
+    #[test]
+    fn invalid_characters_are_listed() {
+        let found = mask("X1ä{Y2 (ä) \"ä\"", &[]);
+        assert_eq!(found.text, "X1   Y2      \"ä\"");
+        assert_eq!((found.invalid[0].start, found.invalid[0].len, found.invalid.len()), (2, 3, 1));
+    }
+}
