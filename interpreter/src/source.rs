@@ -6,6 +6,8 @@
 
 mod memory;
 mod reader;
+#[cfg(test)]
+mod tests;
 
 pub use memory::MemorySources;
 pub use reader::BlockReader;
@@ -137,13 +139,12 @@ impl<'a> RawBlock<'a> {
             Some(piece) => {
                 let text = Arc::clone(&piece.text);
                 let column = piece.column as usize;
-                let (from, to) = match piece.replaces {
-                    Some(length) => (column, column + length as usize),
-                    None => {
-                        let end = span.end().min(piece.end) as usize;
-                        let begin = piece.start as usize;
-                        (start - begin + column, end.max(start) - begin + column)
-                    }
+                let (from, to) = if let Some(length) = piece.replaces {
+                    (column, column + length as usize)
+                } else {
+                    let end = span.end().min(piece.end) as usize;
+                    let begin = piece.start as usize;
+                    (start - begin + column, end.max(start) - begin + column)
                 };
                 (piece.line, piece.offset, text, from, to, piece.latin1)
             }

@@ -11,6 +11,7 @@
 pub mod ast;
 mod build;
 mod expr;
+pub mod macros;
 mod number;
 mod plain;
 mod print;
@@ -21,7 +22,7 @@ pub use scan::NESTING_MAX;
 
 use crate::diag::{Diagnostic, Severity};
 use crate::source::{BLOCK_LENGTH, BLOCK_LENGTH_MAX, RawBlock};
-use ast::{Block, BlockNumber, Span};
+use ast::{Block, BlockNumber, Body, Span};
 use build::Builder;
 use pest::Parser as _;
 use problem::Problem;
@@ -37,6 +38,9 @@ mod grammar {
     #[grammar = "nc.pest"]
     pub(super) struct Grammar;
 }
+
+#[cfg(test)]
+mod tests;
 
 use grammar::{Grammar, Rule};
 
@@ -85,8 +89,7 @@ impl Parser {
     /// `file` names the program in diagnostics. An error among them means that the block is incomplete: what could not
     /// be read is missing in it.
     ///
-    /// # Errors
-    /// None; diagnostics K-0001 (invalid character), K-0002 (syntax), K-0005 (program head), K-0006 (nesting), 20194,
+    /// Diagnostics: K-0001 (invalid character), K-0002 (syntax), K-0005 (program head), K-0006 (nesting), 20194,
     /// 20207, 20215, 20217, 20227, 20233, 20301, 20566, 20569, 20593, 21220, 22151.
     pub fn block(
         &self,
@@ -102,8 +105,7 @@ impl Parser {
 
     /// Parses a line between `#VAR` and `#ENDVAR`: declarations, or the command that ends them.
     ///
-    /// # Errors
-    /// As [`block`](Self::block).
+    /// Diagnostics: as for [`block`](Self::block).
     pub fn declaration(
         &self,
         raw: &RawBlock<'_>,
@@ -116,8 +118,7 @@ impl Parser {
     /// Parses a block of a branch that is not taken: number, label and control statement; other content is not looked
     /// at and leaves an empty body.
     ///
-    /// # Errors
-    /// As [`block`](Self::block), for what is looked at.
+    /// Diagnostics: as for [`block`](Self::block), for what is looked at.
     pub fn inactive(
         &self,
         raw: &RawBlock<'_>,
@@ -143,6 +144,14 @@ impl Parser {
         } else {
             self.tree(raw.text, mode, &mut problems)
         };
+        if let Body::Command(command) = &block.body
+            && raw.pieces.iter().any(|piece| piece.line != raw.position.line)
+            && !command.is("VECTOR LIMIT")
+        {
+            let text =
+                "a # command continued by `\\`: the control promises it for few commands only";
+            problems.push(Problem::syntax(command.span, text).severity(Severity::Note));
+        }
         if !problems.is_empty() {
             problems.sort_by_key(|p| p.span.start);
             problems.dedup_by_key(|p| (p.id, p.span));
@@ -164,7 +173,11 @@ impl Parser {
     fn tree(&self, text: &str, mode: Mode, problems: &mut Vec<Problem>) -> Block {
         let masked = scan::mask(text, &self.names);
         if mode != Mode::Inactive {
-            problems.extend(masked.invalid.iter().map(|span| problem::invalid(text, *span)));
+            // Lines that begin with `%` are remarks in the programs of some post-processors.
+            let remark = masked.text.trim_ascii_start().starts_with('%');
+            let severity = if remark { Severity::Warning } else { Severity::Error };
+            let invalid = masked.invalid.iter();
+            problems.extend(invalid.map(|s| problem::invalid(text, *s).severity(severity)));
         }
         if let Some(at) = masked.too_deep {
             problems.push(problem::too_deep(at));
@@ -180,7 +193,7 @@ impl Parser {
             Ok(pairs) => builder.block(pairs),
             Err(error) => {
                 let context = problem::Context::of(&masked.text);
-                builder.report(problem::from_error(&error, &masked.text, context, 0));
+                builder.report_error(problem::from_error(&error, &masked.text, context, 0));
                 let rule = match (context, mode) {
                     (problem::Context::Words, Mode::Block) => Rule::tolerant,
                     _ => Rule::head_only,

@@ -30,7 +30,8 @@ impl Sources for MemorySources {
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError> {
         let plain = normalize(name);
         let mut searched = Vec::new();
-        if let Some((folder, _)) = caller.map(normalize).as_deref().and_then(|c| c.rsplit_once('/')) {
+        if let Some((folder, _)) = caller.map(normalize).as_deref().and_then(|c| c.rsplit_once('/'))
+        {
             searched.push(normalize(&format!("{folder}/{plain}")));
         }
         searched.push(plain);

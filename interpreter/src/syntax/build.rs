@@ -8,7 +8,7 @@ use super::ast::{
 use super::grammar::Grammar;
 use super::problem::{self, Context, Problem};
 use super::{PROBLEMS_MAX, Rule};
-use crate::diag::Id;
+use crate::diag::{Id, Severity};
 use pest::Parser as _;
 use pest::iterators::{Pair, Pairs};
 
@@ -21,17 +21,28 @@ pub(super) struct Builder<'a> {
     problems: &'a mut Vec<Problem>,
     /// Binary operators so far.
     pub(super) operators: usize,
+    /// Place of the last error of the grammar.
+    reported: u32,
 }
 
 impl<'a> Builder<'a> {
     pub(super) fn new(text: &'a str, masked: &'a str, problems: &'a mut Vec<Problem>) -> Self {
-        Self { text, masked, problems, operators: 0 }
+        Self { text, masked, problems, operators: 0, reported: 0 }
     }
 
     pub(super) fn report(&mut self, problem: Problem) {
         if self.problems.len() < PROBLEMS_MAX {
             self.problems.push(problem);
         }
+    }
+
+    /// Reports what the grammar met with.
+    pub(super) fn report_error(&mut self, problem: Problem) {
+        let rest = self.masked.get(problem.span.start as usize..).unwrap_or_default();
+        // Behind a misplaced command or control statement nothing is worth a second message.
+        let last = rest.starts_with(['#', '$']);
+        self.reported = if last { u32::MAX } else { problem.span.start };
+        self.report(problem);
     }
 
     /// Place of a rule; the grammar's own spans may end in blanks.
@@ -51,12 +62,12 @@ impl<'a> Builder<'a> {
         let mut block = Block::default();
         let mut words = Vec::new();
         let mut declarations = Vec::new();
-        let mut junk: Vec<Span> = Vec::new();
+        let mut junk: Vec<(Span, bool)> = Vec::new();
         for pair in pairs.flat_map(Pair::into_inner) {
             let span = self.span(&pair);
             match pair.as_rule() {
                 Rule::skip => block.skip = self.skip(&pair),
-                Rule::number => self.number(pair, &mut block),
+                Rule::number | Rule::number_label => self.number(pair, &mut block),
                 Rule::label_name => block.label = Some(self.label(pair)),
                 Rule::program_head => block.body = self.program_head(pair),
                 Rule::command => {
@@ -67,21 +78,20 @@ impl<'a> Builder<'a> {
                 Rule::control => block.body = self.control(pair, span),
                 Rule::declaration => declarations.push(self.declaration(pair)),
                 Rule::junk => {
-                    match (junk.last_mut(), words.last()) {
-                        // One run of junk is one error.
-                        (Some(last), word) if word.is_none_or(|w: &Word| w.span.start < last.start) => {
-                            *last = last.to(span);
-                        }
-                        _ => junk.push(span),
-                    }
+                    let after_word = words.last().is_some_and(|word: &Word| {
+                        junk.last().is_some_and(|(last, _)| last.start < word.span.start)
+                    });
+                    junk.push((span, after_word));
                 }
                 Rule::EOI | Rule::comma | Rule::rest => {}
                 _ => words.push(self.word(pair, span)),
             }
         }
-        // The first run is the error that the grammar itself reported.
-        for span in junk.into_iter().skip(1) {
-            self.explain_junk(span);
+        // The first piece is the error that the grammar itself reported.
+        for (span, after_word) in junk.into_iter().skip(1) {
+            if span.start >= self.reported && (after_word || self.begins_word(span)) {
+                self.explain_junk(span);
+            }
         }
         if !words.is_empty() {
             block.body = Body::Words(words);
@@ -95,12 +105,22 @@ impl<'a> Builder<'a> {
         block
     }
 
+    /// True if a piece of junk, not seen by the last error, looks like the beginning of a word.
+    fn begins_word(&self, span: Span) -> bool {
+        let at = span.start as usize;
+        let bytes = self.masked.as_bytes();
+        let blank_before = at > 0 && matches!(bytes[at - 1], b' ' | b'\t');
+        // The error already names a longer word that stands where it was met.
+        bytes[at].is_ascii_alphabetic()
+            && blank_before
+            && (span.start > self.reported || span.len == 1)
+    }
+
     /// What is wrong with a later piece of a block with several errors.
     fn explain_junk(&mut self, span: Span) {
         let start = span.start as usize;
         if let Err(error) = Grammar::parse(Rule::words_only, &self.masked[start..]) {
-            let problem = problem::from_error(&error, self.masked, Context::Words, start);
-            self.report(problem);
+            self.report_error(problem::from_error(&error, self.masked, Context::Words, start));
         }
     }
 
@@ -121,7 +141,9 @@ impl<'a> Builder<'a> {
         let span = self.span(&pair);
         for part in pair.into_inner() {
             match part.as_rule() {
-                Rule::index => block.number = Some(BlockNumber::Computed(Box::new(self.index(part)))),
+                Rule::index => {
+                    block.number = Some(BlockNumber::Computed(Box::new(self.index(part))));
+                }
                 rule => {
                     let digits = part.as_str().trim_end_matches(':');
                     let value = digits.parse().unwrap_or_else(|_| {
@@ -140,15 +162,12 @@ impl<'a> Builder<'a> {
     /// `label_name`, or what stands in `target`.
     fn label(&mut self, pair: Pair<'_, Rule>) -> Label {
         let span = self.span(&pair);
-        let kind = match pair.as_rule() {
-            Rule::label_name => {
-                let text = pair.into_inner().as_str().trim_ascii().to_ascii_uppercase();
-                LabelKind::Name(text.into())
-            }
-            _ => {
-                let digits = pair.as_str().trim_end_matches(':');
-                LabelKind::Number(digits.parse().unwrap_or(u64::MAX))
-            }
+        let kind = if pair.as_rule() == Rule::label_name {
+            let text = pair.into_inner().as_str().trim_ascii().to_ascii_uppercase();
+            LabelKind::Name(text.into())
+        } else {
+            let digits = pair.as_str().trim_end_matches(':');
+            LabelKind::Number(digits.parse().unwrap_or(u64::MAX))
         };
         Label { kind, span }
     }
@@ -241,15 +260,23 @@ impl<'a> Builder<'a> {
         }
         let address = || name.map_or(Name::Letter(b'?'), Name::new);
         match (rule, value) {
-            (Rule::g_cycle, _) => WordKind::G { number, value: Some(Box::new(GValue::List(slots))) },
+            (Rule::g_cycle, _) => {
+                WordKind::G { number, value: Some(Box::new(GValue::List(slots))) }
+            }
             (Rule::g_word, value) => {
                 WordKind::G { number, value: value.map(|v| Box::new(GValue::Scalar(v))) }
             }
             (Rule::m_word, value) => WordKind::M(code, value.map(Box::new)),
             (Rule::h_word, value) => WordKind::H(code, value.map(Box::new)),
-            (Rule::bracket_word, _) => WordKind::Bracket(Box::new(Bracket { name: address(), group })),
+            (Rule::bracket_word, _) => {
+                WordKind::Bracket(Box::new(Bracket { name: address(), group }))
+            }
             (Rule::hash_word, value) => {
-                let words: Vec<&str> = name.unwrap_or_default().split_ascii_whitespace().collect();
+                let words: Vec<&str> = name
+                    .unwrap_or_default()
+                    .trim_start_matches('#')
+                    .split_ascii_whitespace()
+                    .collect();
                 let name = words.join(" ").to_ascii_uppercase().into();
                 WordKind::Hash(Box::new(HashWord { name, value }))
             }
@@ -299,7 +326,9 @@ impl<'a> Builder<'a> {
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::call_mark => local = part.as_str().len() > 1,
-                Rule::cycle_call => kind = part.into_inner().next().map(|p| CallKind::Cycle(self.group(p))),
+                Rule::cycle_call => {
+                    kind = part.into_inner().next().map(|p| CallKind::Cycle(self.group(p)));
+                }
                 Rule::sequence_call => {
                     kind = part.into_inner().next().map(|p| CallKind::Sequence(self.group(p)));
                 }
@@ -337,9 +366,15 @@ impl<'a> Builder<'a> {
             match part.as_rule() {
                 Rule::comma => {
                     if bare {
-                        items.push(Item { kind: ItemKind::Missing, span: Span { len: 0, ..place } });
+                        items
+                            .push(Item { kind: ItemKind::Missing, span: Span { len: 0, ..place } });
                     }
                     bare = true;
+                }
+                Rule::bar => {
+                    let text =
+                        "`|` between two keys belongs to the notation of manuals, it is ignored";
+                    self.report(Problem::syntax(place, text).severity(Severity::Note));
                 }
                 Rule::item | Rule::name_item => {
                     items.push(Item { kind: self.item(part), span: place });
@@ -352,7 +387,8 @@ impl<'a> Builder<'a> {
     }
 
     fn item(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
-        let whole = if pair.as_rule() == Rule::name_item { Some(pair) } else { pair.into_inner().next() };
+        let whole =
+            if pair.as_rule() == Rule::name_item { Some(pair) } else { pair.into_inner().next() };
         let Some(whole) = whole else { return ItemKind::Missing };
         if whole.as_rule() == Rule::flag {
             return ItemKind::Flag(self.ident(&whole));
@@ -418,7 +454,8 @@ impl<'a> Builder<'a> {
     /// Rules of shape for single commands.
     fn check_command(&mut self, command: &Command, block: &Block) {
         let words: Vec<&str> = command.words.iter().map(|word| &*word.text).collect();
-        let bare = command.arguments.is_empty() && command.groups.is_empty() && command.tail.is_empty();
+        let bare =
+            command.arguments.is_empty() && command.groups.is_empty() && command.tail.is_empty();
         match words.as_slice() {
             ["COMMENT", "BEGIN", rest @ ..] if !rest.is_empty() || !bare => {
                 let text = "#COMMENT BEGIN does not stand alone in its block";
@@ -440,7 +477,8 @@ impl<'a> Builder<'a> {
     fn declaration(&mut self, pair: Pair<'_, Rule>) -> Declaration {
         let span = self.span(&pair);
         let place = Place { kind: PlaceKind::Variable(Vec::new()), span };
-        let mut declaration = Declaration { place, type_name: None, length: None, value: None, span };
+        let mut declaration =
+            Declaration { place, type_name: None, length: None, value: None, span };
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::place => declaration.place = self.place(part),
@@ -485,7 +523,8 @@ impl<'a> Builder<'a> {
             Rule::c_default => ControlKind::Default,
             Rule::c_endswitch => ControlKind::EndSwitch,
             Rule::c_for => {
-                let counter = place.unwrap_or(Place { kind: PlaceKind::Variable(Vec::new()), span });
+                let counter =
+                    place.unwrap_or(Place { kind: PlaceKind::Variable(Vec::new()), span });
                 ControlKind::For { counter, start: value(), end: value(), step: values.next() }
             }
             Rule::c_endfor => ControlKind::EndFor,

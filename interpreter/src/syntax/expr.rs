@@ -147,10 +147,15 @@ impl Builder<'_> {
     fn atom(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
-            Rule::decimal => ExprKind::Number(number::decimal(pair.as_str()).unwrap_or_else(|| {
-                self.report(Problem::syntax(span, "number beyond the range of 64 bit floating point"));
-                f64::MAX
-            })),
+            Rule::decimal => {
+                ExprKind::Number(number::decimal(pair.as_str()).unwrap_or_else(|| {
+                    self.report(Problem::syntax(
+                        span,
+                        "number beyond the range of 64 bit floating point",
+                    ));
+                    f64::MAX
+                }))
+            }
             Rule::constant => match pair.as_str().to_ascii_uppercase().as_str() {
                 "TRUE" => ExprKind::Bool(true),
                 "FALSE" => ExprKind::Bool(false),
@@ -197,7 +202,9 @@ impl Builder<'_> {
     pub(super) fn place_kind(&mut self, pair: Pair<'_, Rule>) -> PlaceKind {
         match pair.as_rule() {
             Rule::parameter => self.parameter(pair),
-            Rule::variable => PlaceKind::Variable(pair.into_inner().map(|p| self.segment(p)).collect()),
+            Rule::variable => {
+                PlaceKind::Variable(pair.into_inner().map(|p| self.segment(p)).collect())
+            }
             _ => PlaceKind::Cycle(pair.as_str()[1..].to_ascii_uppercase().into()),
         }
     }
@@ -210,7 +217,8 @@ impl Builder<'_> {
             match part.as_rule() {
                 Rule::indirection => indirections += 1,
                 Rule::digits => {
-                    index = Some(ParameterIndex::Literal(part.as_str().parse().unwrap_or(u32::MAX)));
+                    index =
+                        Some(ParameterIndex::Literal(part.as_str().parse().unwrap_or(u32::MAX)));
                 }
                 Rule::index => {
                     let value = self.index(part);

@@ -65,7 +65,7 @@ mod tests {
         assert_eq!(short_decimal(b".5"), Some((0.5, 2)));
         assert_eq!(short_decimal(b"."), None);
         assert_eq!(short_decimal(b"X"), None);
-        assert_eq!(decimal("123456789012345678901234567890"), Some(123456789012345678901234567890.0));
+        assert_eq!(decimal("123456789012345678901234567890"), Some(1.2345678901234568e29));
         assert_eq!(decimal(&"9".repeat(400)), None);
     }
 

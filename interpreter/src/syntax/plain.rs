@@ -1,6 +1,6 @@
 //! Byte loop for plain blocks: almost every line of a CAM program.
 //!
-//! It accepts a block number, G and M functions, and one-letter addresses with plain numbers, and gives the tree that
+//! It accepts a block number, G and M functions, one-letter addresses with plain numbers and a comment behind `;`, and gives the tree that
 //! the grammar gives. Everything else it hands over, so it never reports an error. The tests compare both over random
 //! and damaged lines.
 
@@ -29,11 +29,11 @@ pub(super) fn recognize(text: &str) -> Option<Block> {
     }
     let mut end = at;
     at = blanks(bytes, at);
-    if at == bytes.len() && number.is_none() {
-        return Some(Block::default()).filter(|_| bytes.is_empty());
+    if number.is_none() && matches!(bytes.get(at), None | Some(b';')) {
+        return Some(Block::default());
     }
     let mut words = Vec::new();
-    while let Some(letter) = bytes.get(at) {
+    while let Some(letter) = bytes.get(at).filter(|b| **b != b';') {
         let word = word(bytes, at, letter.to_ascii_uppercase())?;
         at = word.span.end() as usize;
         end = at;
@@ -62,7 +62,7 @@ fn word(bytes: &[u8], start: usize, letter: u8) -> Option<Word> {
             followed_by_word(bytes, next)?;
             Some(Word { kind, span: Span::new(start, end) })
         }
-        b'X' | b'Y' | b'Z' | b'A' | b'B' | b'C' | b'U' | b'W' | b'I' | b'J' | b'K' | b'R' | b'F' => {
+        b'A'..=b'F' | b'I'..=b'K' | b'Q'..=b'U' | b'W'..=b'Z' => {
             let mut at = start + 1;
             let negative = bytes.get(at) == Some(&b'-');
             at += usize::from(negative);
@@ -82,7 +82,7 @@ fn word(bytes: &[u8], start: usize, letter: u8) -> Option<Word> {
 /// next step finds out.
 fn followed_by_word(bytes: &[u8], at: usize) -> Option<()> {
     match bytes.get(at) {
-        None => Some(()),
+        None | Some(b';') => Some(()),
         Some(byte) if byte.is_ascii_alphabetic() => {
             // Two letters in a row: an operator (`MOD`), a function or a name.
             (!bytes.get(at + 1)?.is_ascii_alphabetic()).then_some(())

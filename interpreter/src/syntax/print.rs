@@ -42,7 +42,12 @@ impl Display for Block {
             Body::Command(command) => write!(f, "{gap}{command}"),
             Body::Control(control) => write!(f, "{gap}{control}"),
             Body::ProgramHead(head) => {
-                write!(f, "{gap}%{}{}", if head.local { "L " } else { "" }, spaced(head.local, &head.text))
+                write!(
+                    f,
+                    "{gap}%{}{}",
+                    if head.local { "L " } else { "" },
+                    spaced(head.local, &head.text)
+                )
             }
             Body::Declarations(declarations) => {
                 f.write_str(gap)?;
@@ -71,6 +76,20 @@ struct Quoted<'a>(&'a str);
 impl Display for Quoted<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         write!(f, "\"{}\"", self.0.replace('"', "\\\""))
+    }
+}
+
+/// A file name or identifier, with quotes if it cannot stand without.
+struct FileName<'a>(&'a str);
+
+impl Display for FileName<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let bare = |b: u8| b.is_ascii_graphic() && !br#""[],#$=();{}`"#.contains(&b);
+        if !self.0.is_empty() && self.0.bytes().all(bare) {
+            f.write_str(self.0)
+        } else {
+            write!(f, "{}", Quoted(self.0))
+        }
     }
 }
 
@@ -128,7 +147,9 @@ impl Display for Word {
 fn code(f: &mut Formatter<'_>, letter: char, number: &CodeNumber, value: Option<&Expr>) -> Result {
     match number {
         CodeNumber::Literal(n) => write!(f, "{letter}{n}")?,
-        CodeNumber::Computed(e) if matches!(e.kind, ExprKind::Place(_)) => write!(f, "{letter}{e}")?,
+        CodeNumber::Computed(e) if matches!(e.kind, ExprKind::Place(_)) => {
+            write!(f, "{letter}{e}")?;
+        }
         CodeNumber::Computed(e) => write!(f, "{letter}[{e}]")?,
     }
     value.map_or(Ok(()), |value| write!(f, "={value}"))
@@ -138,7 +159,7 @@ impl Display for Call {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let letters = if self.local { "LL" } else { "L" };
         match &self.kind {
-            CallKind::Program(name) => write!(f, "{letters} {}", Quoted(&name.text)),
+            CallKind::Program(name) => write!(f, "{letters} {}", FileName(&name.text)),
             CallKind::Cycle(group) => write!(f, "{letters} CYCLE {group}"),
             CallKind::Sequence(group) => write!(f, "{letters} SEQUENCE {group}"),
         }
@@ -192,7 +213,7 @@ impl Display for ItemValue {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
             Self::Expr(value) => write!(f, "{value}"),
-            Self::Name(name) => f.write_str(&name.text),
+            Self::Name(name) => write!(f, "{}", FileName(&name.text)),
             Self::List(group) => write!(f, "{group}"),
         }
     }

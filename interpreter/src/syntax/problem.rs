@@ -1,7 +1,7 @@
 //! Errors of the grammar in the words of a user, with the vendor's number where there is one.
 
-use super::Rule;
 use super::ast::Span;
+use super::{Rule, scan};
 use crate::diag::{Diagnostic, Id, Location, Severity};
 use pest::error::{Error, ErrorVariant, InputLocation};
 
@@ -80,8 +80,9 @@ impl Context {
         if content.starts_with('$') && !starts_with(content, "$GOTO") {
             Self::Control
         } else if let Some(name) = content.strip_prefix('#') {
-            let length = name.bytes().take_while(|b| b.is_ascii_alphanumeric()).count();
-            let among_words = super::HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(&name[..length]));
+            let length = name.bytes().take_while(u8::is_ascii_alphanumeric).count();
+            let among_words =
+                super::HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(&name[..length]));
             if among_words { Self::Words } else { Self::Command }
         } else {
             Self::Words
@@ -118,13 +119,19 @@ pub(super) fn from_error(
         + match error.location {
             InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
         };
-    let at = at + masked[at..].bytes().take_while(|b| matches!(b, b' ' | b'\t')).count();
-    let rest = &masked[at..];
-    let span = Span::new(at, at + token(rest));
+    let mut at = at + masked[at..].bytes().take_while(|b| matches!(b, b' ' | b'\t')).count();
+    if at == masked.len() {
+        at = masked.trim_ascii_end().len().max(offset);
+    }
     let expected = match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => expected(positives),
         ErrorVariant::CustomError { .. } => Vec::new(),
     };
+    if let Some(quote) = scan::unclosed_string(masked).filter(|q| (offset..=at).contains(q)) {
+        let problem = Problem::syntax(Span::new(quote, quote + 1), "string without closing `\"`");
+        return refine(problem, &masked[offset..quote], "\"", context, masked, &expected);
+    }
+    let rest = &masked[at..];
     let mut text = if rest.is_empty() {
         "the block ends too early".to_owned()
     } else {
@@ -134,12 +141,54 @@ pub(super) fn from_error(
         text.push_str(", expected ");
         text.push_str(&expected.join(" or "));
     }
-    let problem = Problem::new(Id::Kontur(2), span, text);
-    refine(problem, &masked[offset..at], rest, context, content(masked))
+    let problem = Problem::syntax(Span::new(at, at + token(rest)), text);
+    let before = &masked[offset..at];
+    match no_word(before, &expected) {
+        Some((length, text)) if context == Context::Words => {
+            let start = offset + before.trim_ascii_end().len() - length;
+            Problem::syntax(Span::new(start, start + length), text)
+        }
+        _ => refine(problem, before, rest, context, masked, &expected),
+    }
+}
+
+/// Length and message for letters that begin no word: the grammar could only have gone on with a bracket, or took
+/// several letters for the name of an axis.
+fn no_word(before: &str, expected: &[&str]) -> Option<(usize, String)> {
+    let before = before.trim_ascii_end();
+    let length = before.bytes().rev().take_while(u8::is_ascii_alphanumeric).count();
+    let word = &before[before.len() - length..];
+    let upper = word.to_ascii_uppercase();
+    let operator = matches!(upper.as_str(), "AND" | "OR" | "XOR" | "MOD");
+    let name = length > 1 && !operator && word.bytes().all(|b| b.is_ascii_alphabetic());
+    if expected != [BRACKET] && !(expected == [VALUE] && name) {
+        return None;
+    }
+    let text = match upper.as_bytes() {
+        [] => return None,
+        [b'G' | b'M' | b'H'] => format!("`{word}` without a number directly behind it"),
+        [b'G' | b'M' | b'H', b'0'..=b'9', ..] => {
+            format!("`{word}` is followed by something that is no word")
+        }
+        [b'L'] | [b'L', b'L'] => format!("`{word}` without the name of a program"),
+        [b'N'] | [b'N', b'0'..=b'9', ..] => {
+            format!("`{word}`: a block number stands at the beginning of its block")
+        }
+        _ => format!("`{word}` is no word of an NC program"),
+    };
+    Some((length, text))
 }
 
 /// Puts in the vendor's number and a hint.
-fn refine(problem: Problem, before: &str, rest: &str, context: Context, content: &str) -> Problem {
+fn refine(
+    problem: Problem,
+    before: &str,
+    rest: &str,
+    context: Context,
+    masked: &str,
+    expected: &[&str],
+) -> Problem {
+    let content = content(masked);
     let id = |mut problem: Problem, id| {
         problem.id = Id::Vendor(id);
         problem
@@ -153,15 +202,11 @@ fn refine(problem: Problem, before: &str, rest: &str, context: Context, content:
         Context::Command if before.trim_end().ends_with(']') => {
             id(problem, 20207).hint("a # command stands alone in its block")
         }
-        Context::Command => problem,
         Context::Control if starts_with(content, "$ELSE") => id(problem, 20215),
         Context::Control if starts_with(content, "$ELSEIF") => id(problem, 20217),
         Context::Control if starts_with(content, "$ENDFOR") => id(problem, 20233),
         Context::Control if rest.starts_with('=') => problem.hint("`==` compares"),
-        Context::Control if before.trim_end().len() + content.len() <= before.len() + rest.len() => {
-            unknown_control(problem, rest)
-        }
-        Context::Control => problem,
+        Context::Control if rest.starts_with('$') => problem.hint(CONTROL_HINT),
         Context::Words if starts_with(rest, "$ELSE") => id(problem, 20215),
         Context::Words if starts_with(rest, "$ENDFOR") => id(problem, 20233),
         Context::Words if rest.starts_with('#') => {
@@ -174,27 +219,33 @@ fn refine(problem: Problem, before: &str, rest: &str, context: Context, content:
             problem.hint("`\\` continues a block only as the last character of its line")
         }
         Context::Words if depth > 0 && in_cycle_list(before) => id(problem, 22151),
-        Context::Words if ends_in_variable(before) => {
-            id(problem, 20194).hint("a variable alone is no word: `=` and a value are missing")
-        }
-        Context::Words => problem,
+        Context::Words if depth > 0 && in_cycle_call(before) => id(problem, 21220),
+        Context::Words if expected.contains(&EQUALS) && ends_in_place(before) => id(problem, 20194)
+            .hint("a parameter or variable alone is no word: `=` and a value are missing"),
+        _ => problem,
     }
 }
 
-/// A hint for a word behind `$` that is no control statement.
-fn unknown_control(problem: Problem, rest: &str) -> Problem {
-    if rest.starts_with('$') {
-        problem.hint(
-            "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE $DO $ENDDO \
-             $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist",
-        )
-    } else {
-        problem
-    }
-}
+/// Hint for a word behind `$` that is no control statement.
+const CONTROL_HINT: &str = "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE \
+                            $DO $ENDDO $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist";
 
-/// True if the innermost open bracket belongs to G80 to G89 or G800 to G899.
+/// True if the outermost open bracket belongs to G80 to G89 or G800 to G899.
 fn in_cycle_list(before: &str) -> bool {
+    let head = before_bracket(before);
+    let digits = head.trim_end_matches(|c: char| c.is_ascii_digit());
+    let number = head[digits.len()..].trim_start_matches('0');
+    digits.ends_with(['G', 'g']) && number.starts_with('8') && matches!(number.len(), 2 | 3)
+}
+
+/// True if the outermost open bracket belongs to `L CYCLE` or `L SEQUENCE`.
+fn in_cycle_call(before: &str) -> bool {
+    let word = before_bracket(before).rsplit([' ', '\t']).next().unwrap_or_default();
+    word.eq_ignore_ascii_case("CYCLE") || word.eq_ignore_ascii_case("SEQUENCE")
+}
+
+/// What stands before the outermost open bracket.
+fn before_bracket(before: &str) -> &str {
     let mut open = Vec::new();
     for (i, byte) in before.bytes().enumerate() {
         match byte {
@@ -205,19 +256,17 @@ fn in_cycle_list(before: &str) -> bool {
             _ => {}
         }
     }
-    let Some(first) = open.first() else { return false };
-    let head = before[..*first].trim_end();
-    let digits = head.trim_end_matches(|c: char| c.is_ascii_digit());
-    let number = head[digits.len()..].trim_start_matches('0');
-    digits.ends_with(['G', 'g']) && number.starts_with('8') && matches!(number.len(), 2 | 3)
+    open.first().map_or("", |first| before[..*first].trim_ascii_end())
 }
 
-/// True if `before` ends in a variable that begins a word.
-fn ends_in_variable(before: &str) -> bool {
-    let before = before.trim_end();
-    let start = before.rfind([' ', '\t']).map_or(0, |i| i + 1);
-    let word = &before[start..];
-    word.get(..2).is_some_and(|head| head.eq_ignore_ascii_case("V."))
+/// True if `before` ends in a parameter or variable that begins a word.
+fn ends_in_place(before: &str) -> bool {
+    let word = before.trim_ascii_end().rsplit([' ', '\t']).next().unwrap_or_default().as_bytes();
+    match word {
+        [b'V' | b'v', b'.', ..] | [b'@', ..] => true,
+        [b'P' | b'p', next, ..] => next.is_ascii_digit() || matches!(next, b'[' | b'P' | b'p'),
+        _ => false,
+    }
 }
 
 /// Length of the text to be marked: a run of letters and digits, or one character.
@@ -226,13 +275,24 @@ fn token(rest: &str) -> usize {
     if run > 0 { run } else { rest.chars().next().map_or(0, char::len_utf8) }
 }
 
+const VALUE: &str = "a value";
+const EQUALS: &str = "`=`";
+const BRACKET: &str = "`[`";
+const WORD: &str = "a word";
+
 /// What could have stood there, in the order of likelihood and without repetition.
 fn expected(rules: &[Rule]) -> Vec<&'static str> {
-    let mut words: Vec<(u8, &'static str)> = rules.iter().filter_map(|rule| user_word(*rule)).collect();
+    let mut words: Vec<(u8, &'static str)> =
+        rules.iter().filter_map(|rule| user_word(*rule)).collect();
     words.sort_unstable();
     words.dedup();
+    let mut words: Vec<&'static str> = words.into_iter().map(|(_, word)| word).collect();
+    // A value may begin with a bracket or a parameter, and an index may follow nearly everywhere: no news.
+    let value = words.contains(&VALUE);
+    let many = words.len() > 1;
+    words.retain(|word| !(value && *word == WORD || many && *word == BRACKET));
     words.truncate(4);
-    words.into_iter().map(|(_, word)| word).collect()
+    words
 }
 
 /// A rule of the grammar in the words of a user.
@@ -247,14 +307,14 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::function_name
         | Rule::signed_number
         | Rule::value
-        | Rule::code_number
-        | Rule::code_digits
-        | Rule::value_name => (0, "a value"),
-        Rule::digits | Rule::index => (1, "a number"),
-        Rule::equals => (2, "`=`"),
+        | Rule::value_name => (0, VALUE),
+        Rule::digits | Rule::code_number | Rule::code_digits => (1, "a number"),
+        Rule::equals => (2, EQUALS),
         Rule::comma => (3, "`,`"),
         Rule::close => (4, "`]`"),
-        Rule::open | Rule::group | Rule::cycle_group => (5, "`[`"),
+        Rule::open | Rule::group | Rule::cycle_group | Rule::index | Rule::word_bracket => {
+            (5, BRACKET)
+        }
         Rule::key | Rule::flag | Rule::item | Rule::pair | Rule::bare_pair | Rule::item_value => {
             (6, "a key")
         }
@@ -262,12 +322,17 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         Rule::target | Rule::label_name => (8, "a label"),
         Rule::file_name | Rule::program_call => (8, "a program name"),
         Rule::type_name => (8, "a type"),
-        Rule::command_word | Rule::hash_name => (8, "a command word"),
-        Rule::control => (8, "a control statement"),
-        Rule::place | Rule::parameter | Rule::variable => (9, "a parameter or variable"),
-        Rule::g_word | Rule::letter_word | Rule::letter | Rule::assignment | Rule::m_word => {
-            (10, "a word")
-        }
+        Rule::command_word => (8, "a command word"),
+        Rule::place
+        | Rule::parameter
+        | Rule::variable
+        | Rule::assignment
+        | Rule::hash_name
+        | Rule::hash_word
+        | Rule::g_word
+        | Rule::m_word
+        | Rule::letter
+        | Rule::letter_word => (10, WORD),
         Rule::EOI => (11, "the end of the block"),
         _ => return None,
     })

@@ -116,6 +116,13 @@ pub(super) fn strings(text: &str) -> impl Iterator<Item = Range<usize>> {
     regions(text).filter(|(region, _)| *region == Region::Text).map(|(_, range)| range)
 }
 
+/// Place of the first string that is never closed.
+pub(super) fn unclosed_string(text: &str) -> Option<usize> {
+    regions(text)
+        .find(|(region, range)| *region == Region::Code && text[range.clone()].starts_with('"'))
+        .map(|(_, range)| range.start)
+}
+
 /// Text as the grammar sees it.
 pub(super) struct Masked {
     /// Same length in bytes as the block.
@@ -221,14 +228,14 @@ fn hash_word(bytes: &[u8]) -> Option<usize> {
     super::HASH_WORDS.iter().any(|w| w.eq_ignore_ascii_case(name)).then_some(length)
 }
 
-/// A name that ends in a digit needs `=` or a bracket: `X1=10`, but `X10` is X.
+/// A name with a digit needs `=` or a bracket: `X1=10`, but `X10` is X.
 fn name_is_at(bytes: &[u8], name: &str) -> bool {
     let Some(head) = bytes.get(..name.len()) else { return false };
     if !head.eq_ignore_ascii_case(name.as_bytes()) {
         return false;
     }
     let behind = bytes[name.len()..].iter().find(|b| !matches!(b, b' ' | b'\t'));
-    !name.ends_with(|c: char| c.is_ascii_digit()) || matches!(behind, Some(b'=' | b'['))
+    !name.contains(|c: char| c.is_ascii_digit()) || matches!(behind, Some(b'=' | b'['))
 }
 
 /// Length of a variable.
@@ -236,7 +243,12 @@ fn variable(bytes: &[u8]) -> usize {
     let mut i = 1;
     while let Some(byte) = bytes.get(i) {
         let sign = matches!(byte, b'+' | b'-') && bytes[i - 1] == b'.';
-        if !(sign || *byte == b'.' || *byte == b'@' || *byte == b'_' || byte.is_ascii_alphanumeric()) {
+        if !(sign
+            || *byte == b'.'
+            || *byte == b'@'
+            || *byte == b'_'
+            || byte.is_ascii_alphanumeric())
+        {
             break;
         }
         i += 1;

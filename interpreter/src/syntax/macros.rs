@@ -1,0 +1,213 @@
+//! Macros: their text is put in place of `"NAME"` before a block is parsed.
+//!
+//! A string that is the name of a macro is a use of it wherever it stands, but for the two strings of a definition
+//! `"NAME" = "text"`. Places in the expanded text map to the use in the program.
+
+use super::ast::Span;
+use super::scan;
+use crate::diag::Diagnostic;
+use crate::source::{BLOCK_LENGTH_MAX, Piece, Position, RawBlock};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Deepest use of macros in the texts of macros; a macro that uses itself ends there with 20734.
+pub const MACRO_DEPTH_MAX: usize = 20;
+
+/// A block with its macros replaced.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Expanded {
+    text: String,
+    position: Position,
+    characters: u32,
+    pieces: Vec<Piece>,
+}
+
+impl Expanded {
+    /// The block as the parser takes it.
+    pub fn raw(&self) -> RawBlock<'_> {
+        RawBlock {
+            text: &self.text,
+            position: self.position,
+            characters: self.characters,
+            pieces: &self.pieces,
+        }
+    }
+}
+
+/// Replaces the macros of a block; `None` if it uses none. `lookup` gives the text of a macro by its name.
+///
+/// # Errors
+/// 20734 if macros are nested more than [`MACRO_DEPTH_MAX`] deep. An expansion that is too long is cut and gets 20301
+/// from the parser.
+pub fn expand<'m>(
+    raw: &RawBlock<'_>,
+    file: &Arc<str>,
+    lookup: &impl Fn(&str) -> Option<&'m str>,
+) -> Result<Option<Expanded>, Box<Diagnostic>> {
+    let uses = uses(raw.text, lookup);
+    if uses.is_empty() {
+        return Ok(None);
+    }
+    let line: Arc<str> = Arc::from(raw.text);
+    let mut out = Expanded {
+        text: String::new(),
+        position: raw.position,
+        characters: raw.characters,
+        pieces: Vec::new(),
+    };
+    let mut at = 0;
+    for (range, text) in uses {
+        copy(raw, &line, at..range.start, &mut out);
+        at = range.end;
+        let start = out.text.len();
+        if insert(text, 1, lookup, &mut out.text).is_err() {
+            let location = raw.locate(file, Span::new(range.start, range.end));
+            let text = format!("macros nested more than {MACRO_DEPTH_MAX} deep");
+            return Err(Box::new(Diagnostic::vendor(20734, text).at(location)));
+        }
+        let place = Span::new(start, out.text.len());
+        let home = home(raw, &line, range.start);
+        let replaces = Some(Span::new(range.start, range.end).len);
+        out.pieces.push(Piece { start: place.start, end: place.end(), replaces, ..home });
+    }
+    copy(raw, &line, at..raw.text.len(), &mut out);
+    let length = out.text.chars().count();
+    out.characters = u32::try_from(length).unwrap_or(u32::MAX);
+    if let Some((end, _)) = out.text.char_indices().nth(BLOCK_LENGTH_MAX as usize) {
+        out.text.truncate(end);
+    }
+    Ok(Some(out))
+}
+
+/// Macros nested too deeply.
+struct TooDeep;
+
+/// Appends the text of a macro, its own macros replaced.
+fn insert<'m>(
+    text: &str,
+    depth: usize,
+    lookup: &impl Fn(&str) -> Option<&'m str>,
+    out: &mut String,
+) -> Result<(), TooDeep> {
+    if depth > MACRO_DEPTH_MAX {
+        return Err(TooDeep);
+    }
+    let mut at = 0;
+    for (range, inner) in uses(text, lookup) {
+        out.push_str(&text[at..range.start]);
+        at = range.end;
+        insert(inner, depth + 1, lookup, out)?;
+        // Macros that use others twice grow without bound.
+        if out.len() > 4 * BLOCK_LENGTH_MAX as usize {
+            return Ok(());
+        }
+    }
+    out.push_str(&text[at..]);
+    Ok(())
+}
+
+/// Places of macros in a text, and what they stand for.
+fn uses<'m>(text: &str, lookup: &impl Fn(&str) -> Option<&'m str>) -> Vec<(Range<usize>, &'m str)> {
+    let mut found = Vec::new();
+    let mut defined = false;
+    for range in scan::strings(text) {
+        let behind = text[range.end..].trim_ascii_start();
+        let definition = behind.starts_with('=') && !behind.starts_with("==");
+        let skip = std::mem::replace(&mut defined, definition) || definition;
+        if !skip {
+            let name = text[range.start + 1..range.end - 1].replace("\\\"", "\"");
+            found.extend(lookup(&name).map(|text| (range, text)));
+        }
+    }
+    found
+}
+
+/// The piece in which a place of the unexpanded text lies, moved so that it begins there.
+fn home(raw: &RawBlock<'_>, line: &Arc<str>, at: usize) -> Piece {
+    let at = Span::new(at, at).start;
+    match raw.pieces.iter().rev().find(|piece| piece.start <= at) {
+        Some(piece) => Piece { column: piece.column + (at - piece.start), ..piece.clone() },
+        None => Piece {
+            start: at,
+            column: at,
+            offset: raw.position.offset,
+            line: raw.position.line,
+            latin1: false,
+            end: Span::new(0, line.len()).len,
+            replaces: None,
+            text: Arc::clone(line),
+        },
+    }
+}
+
+/// Copies unexpanded text together with its places.
+fn copy(raw: &RawBlock<'_>, line: &Arc<str>, range: Range<usize>, out: &mut Expanded) {
+    let mut at = range.start;
+    while at < range.end {
+        let home = home(raw, line, at);
+        // Up to where the next piece begins.
+        let next = raw.pieces.iter().map(|p| p.start as usize).find(|start| *start > at);
+        let end = next.unwrap_or(range.end).min(range.end);
+        let start = out.text.len();
+        out.text.push_str(&raw.text[at..end]);
+        let span = Span::new(start, out.text.len());
+        out.pieces.push(Piece { start: span.start, end: span.end(), ..home });
+        at = end;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Expanded, expand};
+    use crate::diag::{Diagnostic, Id};
+    use crate::source::RawBlock;
+    use crate::syntax::ast::Span;
+    use std::sync::Arc;
+
+    fn run(line: &str) -> Result<Option<Expanded>, Box<Diagnostic>> {
+        let lookup = |name: &str| match name {
+            "A" => Some("X10 \"B\" Y5"),
+            "B" => Some("Z1"),
+            "LOOP" => Some("\"LOOP\""),
+            "TWICE" => Some("\"LONG\" \"LONG\""),
+            "LONG" => {
+                Some("0123456789012345678901234567890123456789 \"TEN\" \"TEN\" \"TEN\" \"TEN\"")
+            }
+            "TEN" => Some("\"L1\" \"L1\" \"L1\" \"L1\" \"L1\" \"L1\" \"L1\" \"L1\" \"L1\" \"L1\""),
+            "L1" => Some(
+                "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx",
+            ),
+            _ => None,
+        };
+        expand(&RawBlock::from_line(line), &Arc::from("f"), &lookup)
+    }
+
+    #[test]
+    fn uses_are_replaced_and_definitions_stay() {
+        let text = |line: &str| run(line).unwrap().map(|e| e.raw().text.to_owned());
+        assert_eq!(text("G1 \"A\" F5").as_deref(), Some("G1 X10 Z1 Y5 F5"));
+        assert_eq!(text("\"A\" = \"B\""), None);
+        assert_eq!(text("V.P.S = \"other\" ; \"A\""), None);
+        assert_eq!(text("P1==\"B\"").as_deref(), Some("P1==Z1"));
+    }
+
+    #[test]
+    fn places_map_to_the_use() {
+        let expanded = run("G1 \"A\" F5").unwrap().unwrap();
+        let raw = expanded.raw();
+        let column = |start, end| {
+            let place = raw.locate(&Arc::from("f"), Span::new(start, end));
+            (place.column, place.length, place.text.to_string())
+        };
+        let line = "G1 \"A\" F5".to_owned();
+        assert_eq!(column(0, 2), (1, 2, line.clone()));
+        assert_eq!(column(7, 9), (4, 3, line.clone()));
+        assert_eq!(column(13, 15), (8, 2, line));
+    }
+
+    #[test]
+    fn endless_and_exploding_macros_end() {
+        assert_eq!(run("\"LOOP\"").unwrap_err().id, Id::Vendor(20734));
+        assert!(run("\"TWICE\"").unwrap().unwrap().raw().characters > 4096);
+    }
+}
