@@ -3,22 +3,51 @@
 //! An executor runs a program block by block and hands out [`Step`]s. It holds modal state, coordinates, variables,
 //! program levels and the words in between; it knows neither time nor speed. Meaning stands in tables, one row per G
 //! function, `#` command and key.
-//!
-//! ```text
-//! Executor::new(Box<dyn Sources>, program: &str, Arc<Machine>, Options) -> Executor
-//! Executor::next(&mut self, &Feedback) -> Step          // after Step::End always Step::End
-//! Executor::take_diagnostics(&mut self) -> Vec<Diagnostic>
-//! Executor::files(&self) -> &[Arc<str>]                 // index: SourceRef::file
-//! Executor::shaping(&self) -> &ShapingSetup             // the setup in force; before the first step: the lists
-//! Executor::blocks(&self) -> u64                        // executed so far
-//! check(Box<dyn Sources>, program: &str, Arc<Machine>, Options) -> Vec<Diagnostic>
-//! ```
 
+mod angle;
+mod arc;
+mod brackets;
+mod calls;
+mod check;
+mod commands;
+mod contour;
+mod coordinates;
+mod decoder;
+mod dialect;
+mod din;
+mod dynamics;
+mod executor;
+mod expr;
+mod fault;
+mod files;
+mod flow;
+mod frame;
+mod functions;
+mod groups;
+mod index;
+mod insertion;
+mod modal;
+mod modes;
+mod motion;
 mod options;
+mod overrides;
+mod program;
+mod shaping;
+mod spindles;
 mod step;
+mod suggest;
+mod system;
+mod tools;
+mod variables;
+mod words;
 
+pub use check::check;
+pub use executor::Executor;
 pub use options::{Access, External, Options, SkipLevels, Value};
 pub use step::{
     AxisShaping, EndReason, Event, Feedback, ShapingSettings, ShapingSetup, SourceRef,
     SpindleMotion, Step, Sync,
 };
+
+#[cfg(test)]
+mod tests;

@@ -33,10 +33,6 @@ impl Contour {
         self.queue.pop_front()
     }
 
-    pub(super) fn is_empty(&self) -> bool {
-        self.queue.is_empty()
-    }
-
     pub(super) fn event(&mut self, event: Event) {
         self.events.push(event);
     }
@@ -46,9 +42,10 @@ impl Contour {
         std::mem::take(&mut self.events)
     }
 
-    /// Last motion, if something can still be inserted behind it.
-    pub(super) fn held(&self) -> Option<&Motion> {
-        self.held.as_deref()
+    /// Drops the last motion: its block has an error.
+    pub(super) fn drop_held(&mut self) {
+        self.held = None;
+        self.insertion = None;
     }
 
     /// G301, G302 and relatives: between the motion before and the next one.

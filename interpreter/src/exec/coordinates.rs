@@ -117,11 +117,6 @@ impl Coordinates {
         self.zero_table.get(&group).map_or(0.0, |offsets| offsets[axis])
     }
 
-    /// Offset contained in the target of an axis.
-    pub(super) fn applied_offset(&self, axis: usize) -> f64 {
-        self.applied[axis]
-    }
-
     /// Entry of the zero-offset table.
     pub(super) fn zero_entry(&self, group: u32, axis: usize) -> f64 {
         self.zero_table.get(&group).map_or(0.0, |offsets| offsets[axis])

@@ -11,7 +11,9 @@ use super::options::Options;
 use super::overrides::Overrides;
 use super::program::ProgramInfo;
 use super::shaping::{ShapingState, Worked};
+use super::calls::ModalCycle;
 use super::spindles::Spindle;
+use super::system::Timers;
 use super::step::{Event, Feedback, SourceRef, Sync};
 use super::tools::Tools;
 use super::variables::Variables;
@@ -28,6 +30,18 @@ use std::sync::Arc;
 pub(super) struct Feedforward {
     pub(super) on: bool,
     pub(super) weight_ratios: AxisVec,
+}
+
+/// The last arc, for system variables.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LastArc {
+    /// Main axes of its plane.
+    pub(super) plane: [usize; 2],
+    /// Centre relative to the start point.
+    pub(super) centre_mm: [f64; 2],
+    /// Shift of the centre by G165.
+    pub(super) shift_mm: [f64; 2],
+    pub(super) radius_mm: f64,
 }
 
 /// State of a running program.
@@ -56,8 +70,24 @@ pub(super) struct Decoder {
     pub(super) macros: BTreeMap<Box<str>, Box<str>>,
     /// Subroutines of G80 to G89 and G800 to G839.
     pub(super) cycle_files: BTreeMap<u32, String>,
-    /// Milliseconds of `#TIMER`, by number.
+    pub(super) timers: Timers,
     pub(super) feedback: Feedback,
+    pub(super) last_arc: LastArc,
+    /// Coordinate system stored last.
+    pub(super) last_system: u32,
+    /// A word that only this dialect knows has shown that the program is written for it.
+    pub(super) dialect_seen: bool,
+    /// Cycle that is called behind every motion or block.
+    pub(super) modal_cycle: Option<ModalCycle>,
+    /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
+    pub(super) retain_cycle_changes: bool,
+    /// Names of axes or the table of macros have changed: parsed blocks are out of date.
+    pub(super) names_changed: bool,
+    pub(super) macros_changed: bool,
+    /// Syntax check: blocks with errors are carried out as far as possible.
+    pub(super) checking: bool,
+    /// A motion of the block in work went out.
+    pub(super) moved: bool,
     /// Place of the block in work.
     pub(super) source: SourceRef,
     /// Its first line, for conditions that name an earlier place.
@@ -110,7 +140,17 @@ impl Decoder {
             info: ProgramInfo::default(),
             macros: BTreeMap::new(),
             cycle_files: machine.channel.g8x_programs.clone(),
+            timers: Timers::default(),
             feedback: Feedback::default(),
+            last_arc: LastArc::default(),
+            last_system: 1,
+            dialect_seen: false,
+            modal_cycle: None,
+            retain_cycle_changes: false,
+            names_changed: false,
+            macros_changed: false,
+            checking: false,
+            moved: false,
             source: SourceRef::default(),
             location: None,
             faults: Vec::new(),
@@ -148,14 +188,6 @@ impl Decoder {
                 (14, 91) => self.modal.absolute = false,
                 (23, 161) => self.modal.centre_absolute = true,
                 (25, 164) => self.modal.centre_correction = false,
-                (21, 135) => {
-                    let text = "a program starts with G137 whatever the list presets";
-                    let d = Diagnostic::kontur(super::fault::own::ODD, text)
-                        .severity(crate::diag::Severity::Warning)
-                        .parameter("P-CHAN-00063")
-                        .hint("P-AXIS-00255 feeds an axis forward always");
-                    self.unplaced.push(d);
-                }
                 _ => {}
             }
         }
@@ -203,10 +235,54 @@ impl Decoder {
         self.contour.event(event);
     }
 
-    /// A step at rest.
+    /// A step at rest; left out if the block has an error, unless only the syntax is checked.
     pub(super) fn sync(&mut self, what: Sync) {
+        if self.failed() && !self.checking {
+            return;
+        }
         let faults = self.contour.sync(what, self.source);
         self.faults.extend(faults);
+    }
+
+    /// Names of axes have changed.
+    pub(super) fn names_changed(&mut self) {
+        self.axis_names_changed();
+        self.names_changed = true;
+    }
+
+    /// Axes take over where they really are; all of them if none is named.
+    pub(super) fn take_actual_positions(&mut self, axes: &[usize]) {
+        let mut target = self.coordinates.target().clone();
+        for (axis, position) in target.iter_mut().enumerate() {
+            if axes.is_empty() || axes.contains(&axis) {
+                *position = self.feedback.actual_mm.get(axis).copied().unwrap_or(*position);
+            }
+        }
+        self.coordinates.set_target(&target);
+    }
+
+    /// `#MACHINE DATA`: one value of an axis list.
+    pub(super) fn set_machine_data(
+        &mut self,
+        axis: usize,
+        key: &str,
+        value: &str,
+        span: Span,
+    ) -> Result<(), Box<Fault>> {
+        let machine = Arc::make_mut(&mut self.machine);
+        if let Err(reason) = machine.axes[axis].set(key, value) {
+            let text = format!("axis {}: {reason}", machine.axes[axis].name());
+            return Err(Fault::vendor(21220, text, span));
+        }
+        let number = machine.axes[axis].number();
+        self.dynamics_changed();
+        self.sync(Sync::MachineData {
+            axis: number,
+            key: key.to_owned(),
+            value: value.to_owned(),
+        });
+        self.update_shaping(span);
+        Ok(())
     }
 
     /// Dynamics in force; rebuilt when something changed.

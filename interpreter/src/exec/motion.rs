@@ -181,6 +181,11 @@ impl Decoder {
             events: self.contour.take_events(),
             plane: [axis(main[0]), axis(main[1])],
         };
+        // of a block with an error nothing moves
+        if self.failed() && !self.checking {
+            return Ok(());
+        }
+        self.moved = true;
         if let Some(fault) = self.contour.motion(Box::new(motion)) {
             self.note(fault);
         }
