@@ -24,7 +24,7 @@ fn assert_arc(text: &str, centre: [f64; 2], sweep_rad: f64) {
 
 #[test]
 fn centre_relative_and_absolute() {
-    assert_arc("G02 X10 Y0 I5 J0.2 F100", [5.0, 0.2], -(PI - 2.0 * libm::atan(0.04)));
+    assert_arc("G02 X10 Y0 I5 J0.2 F100", [5.0, 0.2], -(PI + 2.0 * libm::atan(0.04)));
     assert_arc("G00 X10\nG161 G03 X-10 I0 J0 F100", [0.0, 0.0], PI);
     assert_arc("G00 X10\nG91 G03 X-20 I-10 F100", [0.0, 0.0], PI);
     // G165 moves the centre to the bisector

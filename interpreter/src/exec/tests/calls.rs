@@ -49,7 +49,7 @@ fn local_variables_live_as_long_as_their_level() {
 #[test]
 fn cycles_have_parameters_of_their_own() {
     let cycle = "P1 = 99\nG91 X @P1 Y[@P2*2] F100\n$IF V.G.@P[3].VALID\nZ9\n$ENDIF\n";
-    let run = with("P1=1\nL CYCLE [NAME=c.nc @P1=3 @P2=P1+1]\nX P1\nM30\n", "c.nc", cycle);
+    let run = with("P1=1 F100\nL CYCLE [NAME=c.nc @P1=3 @P2=P1+1]\nX P1\nM30\n", "c.nc", cycle);
     assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
     // G90 is back, P1 is the caller's
     assert_eq!(run.end, [1.0, 4.0, 0.0]);

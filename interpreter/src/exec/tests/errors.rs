@@ -25,7 +25,7 @@ fn smallest_programs_for_each_id() {
         ("G160=2", "20003 1:1"),
         ("#FOO", "20509 1:1"),
         ("#PUT AX [1]", "20797 1:10"),
-        ("X[FOO]", "K-0012 1:3"),
+        ("X[FOO]", "K-0019 1:3"),
         ("M70000", "K-0009 1:1"),
         ("G33 Z10 K1", "K-0019 1:1"),
         ("#CYL ON", "K-0019 1:1"),
@@ -57,7 +57,7 @@ fn the_dialect_guard() {
 
 #[test]
 fn the_check_reports_ten_mistakes_in_one_run() {
-    let text = "G01 X10\nF100\nG7\n#FOO\nX1 X2\nP1=P2\nG02 X9 I5 R5\nLL NO\n#VIB GUARD ON [MODE=9]\nG70 G71\nR3=5\nX1\nM30\n";
+    let text = "G01 X10\nF100\nG7\n#FOO\nX1 X2\nP1=P2\nG02 X9 I5 R5\nLL NO\n#VIB GUARD ON [MODE=9]\nG70 G71\nR3=5\nG01 X1\nM30\n";
     let found = places(&checked(text));
     let expected = [
         "20008 1:5", "20131 3:1", "20509 4:1", "20203 5:4", "K-0012 6:4", "21024 7:11", "K-0014 8:4", "22062 9:16",
