@@ -48,3 +48,6 @@ pub use step::{
     AxisShaping, EndReason, Event, Feedback, ShapingSettings, ShapingSetup, SourceRef,
     SpindleMotion, Step, Sync,
 };
+
+#[cfg(test)]
+mod tests;

@@ -213,9 +213,9 @@ fn find(command: &Command) -> Option<(&'static Row, usize)> {
 /// Name of a command up to its second word, for messages.
 fn unknown(command: &Command) -> Box<Fault> {
     let name = command.name();
-    let span = match (command.words.first(), command.words.last()) {
-        (Some(first), Some(last)) => first.span.to(last.span),
-        _ => command.span,
+    let span = match command.words.last() {
+        Some(last) => Span::new(command.span.start as usize, last.span.end() as usize),
+        None => command.span,
     };
     let fault = Fault::vendor(20509, format!("unknown command #{name}"), span);
     match suggest::nearest(&name, ROWS.iter().map(|row| row.name)) {

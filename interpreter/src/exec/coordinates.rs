@@ -4,8 +4,8 @@
 //! systems; offsets are zero offset, G92 and tool. A change of offsets or frames moves nothing: an axis takes the
 //! active offset over when it is next programmed absolutely.
 //!
-//! Source: TF5200 programming manual, G53 to G59, G92, G20 to G23, G68, #CS. Assumption: in an active frame all main
-//! axes that a programmed one moves take their offsets over with it.
+//! Source: TF5200 programming manual, G53 to G59, G92, G20 to G23, G68, #CS. Assumption: axes that a
+//! rotation couples take their offsets over together.
 
 use super::frame::Frame;
 use kontur_motion::axis::AxisVec;
@@ -115,11 +115,6 @@ impl Coordinates {
     pub(super) fn zero_offset(&self, axis: usize) -> f64 {
         let group = self.zero_group[axis];
         self.zero_table.get(&group).map_or(0.0, |offsets| offsets[axis])
-    }
-
-    /// Offset contained in the target of an axis.
-    pub(super) fn applied_offset(&self, axis: usize) -> f64 {
-        self.applied[axis]
     }
 
     /// Entry of the zero-offset table.
@@ -282,13 +277,15 @@ impl Coordinates {
         }
     }
 
-    /// Targets of the main axes that depend on a programmed one.
+    /// Targets of the programmed main axes, and of those that the frame couples with them.
     fn program_in_frame(&mut self, programmed: [bool; 3], absolute: bool) {
         let p = self.main.map(|m| m.map_or(0.0, |axis| self.program[axis]));
         let q = self.frame.apply(p);
+        let coupled: [bool; 3] =
+            std::array::from_fn(|i| (0..3).any(|j| i != j && self.frame.m[i][j] != 0.0));
+        let couples = (0..3).any(|i| programmed[i] && coupled[i]);
         for main in 0..3 {
-            let row = self.frame.m[main];
-            let affected = (0..3).any(|j| programmed[j] && row[j] != 0.0);
+            let affected = programmed[main] || (couples && coupled[main]);
             if let (Some(axis), true) = (self.main[main], affected) {
                 if absolute {
                     self.applied[axis] = self.active_offset(axis);

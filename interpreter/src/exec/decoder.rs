@@ -188,14 +188,6 @@ impl Decoder {
                 (14, 91) => self.modal.absolute = false,
                 (23, 161) => self.modal.centre_absolute = true,
                 (25, 164) => self.modal.centre_correction = false,
-                (21, 135) => {
-                    let text = "a program starts with G137 whatever the list presets";
-                    let d = Diagnostic::kontur(super::fault::own::ODD, text)
-                        .severity(crate::diag::Severity::Warning)
-                        .parameter("P-CHAN-00063")
-                        .hint("P-AXIS-00255 feeds an axis forward always");
-                    self.unplaced.push(d);
-                }
                 _ => {}
             }
         }

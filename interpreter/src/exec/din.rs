@@ -59,8 +59,11 @@ impl Decoder {
         let takes_axes = self.axis_functions(&words);
         self.tools_and_offsets(&words, takes_axes);
         self.feeds_and_modes(&words, takes_axes, span);
-        for (i, speed, span) in &words.speeds {
-            self.speed(*i, *speed, *span);
+        // behind G04 the S word is a number of revolutions
+        if words.group(Group::Path).is_none_or(|g| g.row.act != Act::Dwell) {
+            for (i, speed, span) in &words.speeds {
+                self.speed(*i, *speed, *span);
+            }
         }
         self.functions_before(&words);
         for bracket in &words.brackets {

@@ -102,8 +102,6 @@ pub(super) mod own {
     pub(in crate::exec) const FALLBACK: u16 = 111;
     /// Unequal kernels of the axes of the channel.
     pub(in crate::exec) const UNEQUAL_KERNELS: u16 = 112;
-    /// Target outside the software limits.
-    pub(in crate::exec) const SOFTWARE_LIMIT: u16 = 113;
     /// Tool data missing.
     pub(in crate::exec) const NO_TOOL: u16 = 114;
     /// Tool radius compensation: the contour is too tight for the tool.

@@ -153,7 +153,8 @@ impl Decoder {
         };
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
-        let feed = self.feed_of(&path, span)?;
+        let at = words.axes.first().map_or(span, |(_, _, at)| *at);
+        let feed = self.feed_of(&path, at)?;
         let end_velocity_mm_s = match words.end_feed {
             Some(end) => self.end_velocity(end, feed)?,
             None => None,

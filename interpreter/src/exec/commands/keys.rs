@@ -104,7 +104,14 @@ pub(in crate::exec) fn arguments(
     keys: &[Key],
 ) -> Arguments {
     let mut arguments = Arguments::default();
-    for item in group.iter().flat_map(|g| &g.items) {
+    let items: &[Item] = group.map_or(&[], |g| &g.items);
+    let mut at = 0;
+    while let Some(item) = items.get(at) {
+        at += 1;
+        // `TYPE HSC`: the equals sign is missing
+        let pair = pair_of_words(item, items.get(at), keys);
+        at += usize::from(pair.is_some());
+        let item = pair.as_ref().unwrap_or(item);
         match read(decoder, title, item, keys) {
             Ok(None) => {}
             Ok(Some((name, found))) if arguments.has(name) => {
@@ -116,6 +123,19 @@ pub(in crate::exec) fn arguments(
         }
     }
     arguments
+}
+
+/// A key for a word and a word behind it as one item.
+fn pair_of_words(item: &Item, next: Option<&Item>, keys: &[Key]) -> Option<Item> {
+    let (ItemKind::Flag(key), ItemKind::Flag(word)) = (&item.kind, &next?.kind) else {
+        return None;
+    };
+    keys.iter().find(|k| key.is(k.name) && matches!(k.kind, Kind::Word | Kind::Text))?;
+    let value = ItemValue::Name(word.clone());
+    Some(Item {
+        kind: ItemKind::Pair { key: key.clone(), value },
+        span: item.span.to(word.span),
+    })
 }
 
 fn read(
