@@ -4,7 +4,8 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, RapidSlope, StepSlope};
 use kontur_motion::block::{
-    Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance, TransitionJerkMode, VectorLimits,
+    Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance, TransitionJerkMode,
+    VectorLimits,
 };
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
@@ -34,6 +35,7 @@ fn dynamics() -> Arc<ChannelDynamics> {
         limit_tangential_jerk: false,
         transition_jerk: TransitionJerkMode::Coupled,
         curvature_estimate: 0,
+        curve_jerk: CurveJerk::Geometric,
         vector: VectorLimits::default(),
         vector_acc_on_arcs: false,
         transition_velocity_min_mm_s: 0.0,
@@ -71,6 +73,8 @@ fn drive(count: usize, kind: SlopeKind) -> u64 {
                         slope: Slope { kind, ..Slope::default() },
                         dynamics: Arc::clone(&dynamics),
                         tolerance: Tolerance::default(),
+                        contour: None,
+                        spline: None,
                     });
                 }
                 i += 1;
