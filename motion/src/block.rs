@@ -98,7 +98,7 @@ pub struct ChannelDynamics {
     pub limit_tangential_jerk: bool,
     /// P-CHAN-00117.
     pub transition_jerk: TransitionJerkMode,
-    /// P-CHAN-00245: 0 off, 1 acceleration, 2 geometric ramp time, 3 as 1 in space.
+    /// P-CHAN-00245: 0 off, 1 acceleration, 2 geometric ramp time, 3 acceleration, the same in every direction.
     pub curvature_estimate: u8,
     /// P-CHAN-00110.
     pub curve_jerk: CurveJerk,

@@ -14,6 +14,7 @@ use crate::limit::SpeedLimit;
 use crate::lookahead::{Cap, plan};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
+use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment, PathState, Timeline};
 use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept};
 use kontur_filters::time::CycleTime;
@@ -136,6 +137,7 @@ impl Planner {
         };
         self.caps.push_back(cap);
         self.queue.push_back(Arc::clone(&queued));
+        lower_caps(&self.queue, &mut self.caps, self.cycle, self.kernels.any());
         self.last = Some(queued);
     }
 
