@@ -74,7 +74,7 @@ impl Side {
                 start_rad: arc.start_angle(),
                 sweep_rad: arc.shape().sweep_rad,
             }),
-            Path::Arc(_) => None,
+            Path::Arc(_) | Path::Curve(_) => None,
         }
     }
 
@@ -338,5 +338,7 @@ pub(super) fn cut(
                 swept(shape.centre_mm, &from, &to, shape.plane, shape.sweep_rad > 0.0);
             ArcPath::new(from, to, ArcShape { sweep_rad, ..shape }, feed_axes).map(Path::Arc)
         }
+        // programs hold lines and arcs only
+        Path::Curve(_) => None,
     }
 }

@@ -173,6 +173,8 @@ impl Decoder {
             slope: self.modal.slope,
             dynamics: self.dynamics(),
             tolerance: self.shaping.tolerance(),
+            contour: None,
+            spline: None,
         };
         let main = self.modal.plane.main_axes();
         let axis = |m: usize| self.coordinates.main_axis(m).unwrap_or(usize::MAX);
