@@ -12,9 +12,11 @@ pub mod explain;
 pub mod files;
 pub mod render;
 pub mod report;
+pub mod response;
 pub mod run;
 pub mod simulator;
 pub mod summary;
+mod table;
 pub mod trace;
 
 use clap::Parser as _;
@@ -97,6 +99,7 @@ pub fn run_with(
         args::Command::Check(a) => check::check(a, engine, console),
         args::Command::Diff(a) => diff::diff(a, engine, console),
         args::Command::Report(a) => report::report(a, engine, console),
+        args::Command::Response(a) => response::response(a, console),
         args::Command::Explain(a) => explain::explain(a, engine, console),
     };
     console.finish(done)
