@@ -27,6 +27,8 @@ pub enum Command {
     Report(ReportArgs),
     /// Frequency response, step response, residual vibration or corner of filters, shapers and axes.
     Response(crate::response::args::ResponseArgs),
+    /// Propose Vibration Guard settings from measured frequencies or recordings, or the order of a filter.
+    Tune(crate::tune::args::TuneArgs),
     /// Explain an error ID, a parameter or a command.
     Explain(ExplainArgs),
 }

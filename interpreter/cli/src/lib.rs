@@ -18,6 +18,7 @@ pub mod simulator;
 pub mod summary;
 mod table;
 pub mod trace;
+pub mod tune;
 
 use clap::Parser as _;
 use console::Console;
@@ -100,6 +101,7 @@ pub fn run_with(
         args::Command::Diff(a) => diff::diff(a, engine, console),
         args::Command::Report(a) => report::report(a, engine, console),
         args::Command::Response(a) => response::response(a, console),
+        args::Command::Tune(a) => tune::tune(a, engine, console),
         args::Command::Explain(a) => explain::explain(a, engine, console),
     };
     console.finish(done)

@@ -5,14 +5,14 @@ use crate::Error;
 /// Rows of text under a header.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
-    header: &'static [&'static str],
+    header: Vec<String>,
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
     /// An empty table.
-    pub(crate) const fn new(header: &'static [&'static str]) -> Self {
-        Self { header, rows: Vec::new() }
+    pub(crate) fn new(header: &[&str]) -> Self {
+        Self { header: header.iter().map(ToString::to_string).collect(), rows: Vec::new() }
     }
 
     /// Adds a row; it has a cell for each column.
@@ -29,10 +29,8 @@ impl Table {
     fn write(&self) -> Result<String, Error> {
         let wrong = |e: std::io::Error| Error::io("table", e);
         let mut writer = csv::Writer::from_writer(Vec::new());
-        for row in std::iter::once(self.header.iter().map(ToString::to_string).collect())
-            .chain(self.rows.iter().cloned())
-        {
-            writer.write_record(&row).map_err(|e| wrong(e.into()))?;
+        for row in std::iter::once(&self.header).chain(&self.rows) {
+            writer.write_record(row).map_err(|e| wrong(e.into()))?;
         }
         let bytes = writer.into_inner().map_err(|e| wrong(e.into_error()))?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
@@ -58,7 +56,7 @@ impl Table {
             }
             format!("{}\n", line.trim_end())
         };
-        let mut out = line(&mut self.header.iter().copied());
+        let mut out = line(&mut self.header.iter().map(String::as_str));
         for row in &self.rows {
             out.push_str(&line(&mut row.iter().map(String::as_str)));
         }
