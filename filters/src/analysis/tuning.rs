@@ -42,6 +42,8 @@ pub const RESOLUTION_HZ: f64 = 0.01;
 const REAL_STEPS: u32 = 200;
 /// Set frequencies at which the best one is looked for before the search is refined.
 const SET_STEPS: u32 = 100;
+/// Bound of the refinement to either side.
+const MOST_FINE_STEPS: u32 = 500;
 
 impl VibrationBand {
     /// The band of frequencies measured at several positions; `None` without one, and for a frequency that is not
@@ -87,13 +89,12 @@ impl VibrationBand {
             .filter_map(|f| judge(rounded(f, f64::round)));
         let coarse = scan.reduce(better)?;
         // the least residual lies between the neighbours of the best of the scan
-        let step = width / f64::from(SET_STEPS);
-        let fine_steps = (step / RESOLUTION_HZ).ceil().clamp(0.0, 1000.0);
-        let count = fine_steps as i32;
-        let near = (-count..=count).filter_map(|i| {
-            let f = coarse.settings.freq_hz + step * f64::from(i) / fine_steps;
-            judge(rounded(f, f64::round))
-        });
+        let reach_hz = width / f64::from(SET_STEPS);
+        let near = (1..=MOST_FINE_STEPS)
+            .map(|i| f64::from(i) * RESOLUTION_HZ)
+            .take_while(|offset| *offset < reach_hz + RESOLUTION_HZ)
+            .flat_map(|offset| [-offset, offset])
+            .filter_map(|offset| judge(rounded(coarse.settings.freq_hz + offset, f64::round)));
         Some(near.fold(coarse, better))
     }
 
@@ -115,15 +116,16 @@ impl VibrationBand {
                 _ => break next,
             }
         };
-        while outside - inside.settings.freq_hz > 1.5 * RESOLUTION_HZ {
+        loop {
             let middle = rounded(0.5 * (inside.settings.freq_hz + outside), f64::floor);
+            if middle <= inside.settings.freq_hz {
+                return Some(inside);
+            }
             match judge(middle) {
-                Some(choice) if middle > inside.settings.freq_hz => inside = choice,
-                _ if middle > inside.settings.freq_hz => outside = middle,
-                _ => break,
+                Some(choice) => inside = choice,
+                None => outside = middle,
             }
         }
-        Some(inside)
     }
 }
 

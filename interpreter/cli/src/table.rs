@@ -36,29 +36,26 @@ impl Table {
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// The readable form: columns aligned at their right ends, the first at its left.
+    /// The readable form: columns of numbers aligned at their right ends, the others at their left.
     pub(crate) fn text(&self) -> String {
-        let widths: Vec<usize> = (0..self.header.len())
-            .map(|i| {
-                let cells = self.rows.iter().map(|row| row[i].chars().count());
-                cells.chain([self.header[i].chars().count()]).max().unwrap_or(0)
-            })
-            .collect();
-        let line = |cells: &mut dyn Iterator<Item = &str>| {
-            let mut line = String::new();
-            for (i, (cell, width)) in cells.zip(&widths).enumerate() {
-                let padding = " ".repeat(width - cell.chars().count());
-                let gap = if i == 0 { "" } else { "  " };
-                let padded =
-                    if i == 0 { format!("{cell}{padding}") } else { format!("{padding}{cell}") };
-                line.push_str(gap);
-                line.push_str(&padded);
-            }
-            format!("{}\n", line.trim_end())
+        let width = |i: usize| {
+            let cells = self.rows.iter().map(|row| &row[i]).chain([&self.header[i]]);
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
         };
-        let mut out = line(&mut self.header.iter().map(String::as_str));
-        for row in &self.rows {
-            out.push_str(&line(&mut row.iter().map(String::as_str)));
+        let numbers = |i: usize| {
+            let first = self.rows.iter().find_map(|row| row[i].chars().next());
+            i > 0 && first.is_some_and(|c| c.is_ascii_digit() || "+-".contains(c))
+        };
+        let columns: Vec<(usize, bool)> =
+            (0..self.header.len()).map(|i| (width(i), numbers(i))).collect();
+        let mut out = String::new();
+        for row in std::iter::once(&self.header).chain(&self.rows) {
+            let cells = row.iter().zip(&columns).map(|(cell, (width, right))| {
+                let padding = " ".repeat(width - cell.chars().count());
+                if *right { format!("{padding}{cell}") } else { format!("{cell}{padding}") }
+            });
+            out.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());
+            out.push('\n');
         }
         out
     }

@@ -10,7 +10,7 @@ mod program;
 pub mod recording;
 
 use crate::console::Console;
-use crate::engine::{Engine, Request};
+use crate::engine::Engine;
 use crate::table::{Table, number};
 use crate::{Error, Exit, simulator};
 use args::TuneArgs;
@@ -71,28 +71,23 @@ pub fn tune(
     };
     let rows = task.rows();
     console.print(&task.text(&rows))?;
-    match (&args.program, args.max_dev) {
-        (Some(file), Some(max_dev_mm)) => {
-            program::answer(&task, args, file, max_dev_mm, engine, console)
-        }
-        _ => {
-            console.print(&task.proposal(&rows))?;
-            Ok(Exit::Finished)
-        }
+    if let (Some(file), Some(max_dev_mm)) = (&args.program, args.max_dev) {
+        return program::answer(&task, args, file, max_dev_mm, engine, console);
     }
+    console.print(&task.proposal(&rows))?;
+    Ok(Exit::Finished)
 }
 
 /// The cycle of the machine, if one is named, else that of the option.
 fn cycle(args: &TuneArgs, console: &mut Console) -> Result<CycleTime, Error> {
     let form = args.simulation.diagnostics;
-    let request =
-        Request { program: std::path::PathBuf::new(), ..args.simulation.request("") };
-    let loaded = simulator::machine(&request);
-    let (machine, messages) =
-        loaded.map_err(|e| crate::run::announce_lists(e, form, console))?;
+    let loaded = simulator::machine(&args.simulation.request(""));
+    let (machine, messages) = loaded.map_err(|e| crate::run::announce_lists(e, form, console))?;
     // with a program the run repeats them
     if args.program.is_none() {
-        messages.iter().for_each(|message| crate::run::announce(message, form, console));
+        for message in &messages {
+            crate::run::announce(message, form, console);
+        }
     }
     Ok(machine.cycle)
 }
@@ -146,7 +141,11 @@ impl Task {
     /// What was measured, what was assumed, and both tables.
     fn text(&self, rows: &[Row]) -> String {
         let list = |values: &[f64]| {
-            values.iter().map(|f| format!("{}", (f * 1e3).round() / 1e3)).collect::<Vec<_>>().join(", ")
+            values
+                .iter()
+                .map(|f| format!("{}", (f * 1e3).round() / 1e3))
+                .collect::<Vec<_>>()
+                .join(", ")
         };
         let mut out = format!(
             "measured  {} Hz, damping {}\n\
@@ -170,7 +169,8 @@ impl Task {
         ]);
         for Row { choice, given } in rows {
             let set = choice.settings.freq_hz;
-            let span = |a: f64, b: f64| format!("{:+.1} {:+.1} %", 100.0 * (a - 1.0), 100.0 * (b - 1.0));
+            let span =
+                |a: f64, b: f64| format!("{:+.1} {:+.1} %", 100.0 * (a - 1.0), 100.0 * (b - 1.0));
             table.push(vec![
                 choice.settings.mode.to_string(),
                 format!("{set}"),
@@ -196,7 +196,8 @@ impl Task {
     /// Residual vibration at each measured frequency.
     fn residuals(&self, rows: &[Row]) -> String {
         let mut header = vec!["mode".to_owned(), "f_set Hz".to_owned()];
-        header.extend(self.freqs_hz.iter().map(|f| format!("f_real {} Hz", (f * 1e3).round() / 1e3)));
+        header
+            .extend(self.freqs_hz.iter().map(|f| format!("f_real {} Hz", (f * 1e3).round() / 1e3)));
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
         let mut table = Table::new(&header);
         for Row { choice, .. } in rows {
@@ -205,7 +206,8 @@ impl Task {
             row.extend(self.freqs_hz.iter().map(|&real_hz| {
                 let one = VibrationBand { low_hz: real_hz, high_hz: real_hz, ..self.band };
                 let judged = one.judge(choice.settings, self.cycle);
-                judged.map_or_else(String::new, |c| format!("{} %", number(100.0 * c.worst_ratio, 2)))
+                judged
+                    .map_or_else(String::new, |c| format!("{} %", number(100.0 * c.worst_ratio, 2)))
             }));
             table.push(row);
         }
@@ -254,9 +256,11 @@ mod tests {
 
     #[test]
     fn medians() {
-        assert_eq!(median(&[6.9, 6.0, 5.4]), 6.0);
-        assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), 2.5);
-        assert_eq!(median(&[7.0]), 7.0);
+        for (values, want) in
+            [(&[6.9, 6.0, 5.4][..], 6.0), (&[4.0, 1.0, 2.0, 3.0], 2.5), (&[7.0], 7.0)]
+        {
+            assert!((median(values) - want).abs() < 1e-12, "{values:?}");
+        }
     }
 
     #[test]
@@ -277,9 +281,14 @@ mod tests {
             let numbers: Vec<f64> = numbers.skip(2).collect();
             [numbers[0], numbers[2]]
         };
-        for (mode, want) in [("1", [19.3, 13.5]), ("2", [3.7, 1.8]), ("3", [0.7, 0.2]), ("4", [6.6, 4.0])] {
+        for (mode, want) in
+            [("1", [19.3, 13.5]), ("2", [3.7, 1.8]), ("3", [0.7, 0.2]), ("4", [6.6, 4.0])]
+        {
             let is = residual(mode);
-            assert!((is[0] - want[0]).abs() < 0.06 && (is[1] - want[1]).abs() < 0.06, "{mode} {is:?}");
+            assert!(
+                (is[0] - want[0]).abs() < 0.06 && (is[1] - want[1]).abs() < 0.06,
+                "{mode} {is:?}"
+            );
         }
         assert!(task.proposal(&rows).contains("#VIB GUARD ON [MODE=2 FREQ="));
     }

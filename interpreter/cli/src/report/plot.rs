@@ -176,7 +176,9 @@ fn decades(svg: &mut Svg, panel: &Panel, (low, high): (f64, f64)) {
     if high < 10.0 * low {
         let (values, decimals) = ticks((low, high), panel.width / 90.0);
         let scale = libm::pow(10.0, decimals as f64);
-        values.into_iter().for_each(|v| mark((v * scale).round() / scale, true));
+        for value in values {
+            mark((value * scale).round() / scale, true);
+        }
         return;
     }
     let first = libm::floor(libm::log10(low));
@@ -210,8 +212,10 @@ mod tests {
 
     #[test]
     fn curves_break_at_what_is_no_number() {
-        let line =
-            Line { series: Some(0), points: vec![[1.0, 0.0], [10.0, 1.0], [20.0, f64::NAN], [50.0, 1.0], [100.0, 0.0]] };
+        let line = Line {
+            series: Some(0),
+            points: vec![[1.0, 0.0], [10.0, 1.0], [20.0, f64::NAN], [50.0, 1.0], [100.0, 0.0]],
+        };
         let diagram = Diagram {
             title: "a".to_owned(),
             x: Scale::logarithmic("Hz", (1.0, 100.0)),

@@ -141,8 +141,9 @@ impl FromStr for Numbers {
             if !(step > 0.0 && last >= first && (last - first) / step < MOST_NUMBERS as f64) {
                 return Err(wrong());
             }
-            let count = ((last - first) / step + 1e-9).floor() as u32;
-            numbers.extend((0..=count).map(|i| first + f64::from(i) * step));
+            let steps = (last - first) / step + 1e-9;
+            let indices = (0..=MOST_NUMBERS).map(|i| i as f64).take_while(|i| *i <= steps);
+            numbers.extend(indices.map(|i| first + i * step));
         }
         if numbers.len() > MOST_NUMBERS {
             return Err(format!("more than {MOST_NUMBERS} values"));

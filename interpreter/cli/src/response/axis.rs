@@ -7,6 +7,7 @@ use crate::engine::Request;
 use crate::{Error, args::MessageForm, run, simulator};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::time::CycleTime;
+use kontur_interpreter::machine::Axis;
 use std::sync::Arc;
 
 /// One curve per axis named, and the machine's cycle.
@@ -36,7 +37,7 @@ pub(super) fn curves(
         let mut all = machine.all_axes().zip(&chains);
         let Some((axis, chain)) = all.find(|(axis, _)| axis.name().eq_ignore_ascii_case(name))
         else {
-            let known: Vec<&str> = machine.all_axes().map(|axis| axis.name()).collect();
+            let known: Vec<&str> = machine.all_axes().map(Axis::name).collect();
             let known = known.join(", ");
             return Err(Error::Usage(format!("--axis: no axis `{name}`; the axes are {known}")));
         };

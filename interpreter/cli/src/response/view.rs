@@ -23,11 +23,7 @@ pub(super) struct View {
 ///
 /// # Errors
 /// [`Error::Usage`] if the view does not suit a curve.
-pub(super) fn view(
-    args: &ResponseArgs,
-    curves: &[Curve],
-    cycle: CycleTime,
-) -> Result<View, Error> {
+pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> Result<View, Error> {
     if args.step {
         Ok(step::view(curves, cycle))
     } else if args.residual {

@@ -56,7 +56,9 @@ pub(super) fn answer(
         loaded.map_err(|e| run::announce_lists(e, args.simulation.diagnostics, console))?;
     console.print(&assumed(&machine, &own, max_dev_mm))?;
     let mut outcomes = Vec::new();
-    for choice in std::iter::once(None).chain(choices(task).into_iter().map(Some)) {
+    // a program that switches the guard on itself has no run without it to compare with
+    let off = own.on.is_none().then_some(None);
+    for choice in off.into_iter().chain(choices(task).into_iter().map(Some)) {
         let request = with(&request, &machine, choice.as_ref());
         let outcome = drive(&request, choice, engine, args, console, outcomes.is_empty())?;
         outcomes.push(outcome);
@@ -87,8 +89,9 @@ fn choices(task: &Task) -> Vec<Choice> {
 fn with(request: &Request, machine: &Machine, choice: Option<&Choice>) -> Request {
     let mut request = request.clone();
     for axis in &machine.axes {
-        let mut set =
-            |key: &str, value: String| request.settings.push(format!("{}.vib_guard.{key}={value}", axis.name()));
+        let mut set = |key: &str, value: String| {
+            request.settings.push(format!("{}.vib_guard.{key}={value}", axis.name()));
+        };
         set("active", u8::from(choice.is_some()).to_string());
         if let Some(Choice { settings, .. }) = choice {
             set("mode", settings.mode.to_string());
@@ -109,8 +112,7 @@ fn drive(
     first: bool,
 ) -> Result<Outcome, Error> {
     let form = args.simulation.diagnostics;
-    let mut source =
-        engine.open(request).map_err(|e| run::announce_lists(e, form, console))?;
+    let mut source = engine.open(request).map_err(|e| run::announce_lists(e, form, console))?;
     let mut summary = Collector::new(source.facts());
     let mut progress = console.progress();
     let name = choice.map_or_else(|| "guard off".to_owned(), |c| command(&c.settings, ""));
@@ -171,9 +173,11 @@ fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
 struct Commands {
     /// First line that names what is to be chosen, and its text.
     outvoting: Option<(usize, String)>,
-    /// Whether the guard is switched off somewhere.
+    /// First line that switches the guard on.
+    on: Option<usize>,
+    /// First line that switches the guard off.
     off: Option<usize>,
-    /// Line and text of the first AX_DEV.
+    /// Line and value of the first `AX_DEV`.
     tolerance: Option<(usize, String)>,
 }
 
@@ -206,6 +210,9 @@ impl Commands {
         if self.outvoting.is_none() && names(&["MODE", "FREQ", "DAMPING"]) {
             self.outvoting = Some((number, line.trim().to_owned()));
         }
+        if self.on.is_none() && names(&["ON"]) {
+            self.on = Some(number);
+        }
         if self.off.is_none() && names(&["OFF"]) {
             self.off = Some(number);
         }
@@ -234,15 +241,12 @@ fn without_comments(line: &str) -> String {
 
 /// Limits of the machine and how the program is run.
 fn assumed(machine: &Machine, own: &Commands, max_dev_mm: f64) -> String {
-    let mut out = format!(
-        "\nmachine   {}, cycle {} ms\n",
-        machine.name,
-        f64::from(machine.cycle.us()) / 1000.0
-    );
+    let cycle_ms = f64::from(machine.cycle.us()) / 1000.0;
+    let mut lines = vec![format!("\nmachine   {}, cycle {cycle_ms} ms", machine.name)];
     for axis in &machine.axes {
         let d = axis.dynamics();
-        out.push_str(&format!(
-            "  {:<8}v_max {} mm/s, a_max {} mm/s2, feed {} / {} mm/s2, ramps {} ms, kink {} %\n",
+        lines.push(format!(
+            "  {:<8}v_max {} mm/s, a_max {} mm/s2, feed {} / {} mm/s2, ramps {} ms, kink {} %",
             axis.name(),
             d.v_max_mm_s,
             d.a_max_mm_s2,
@@ -252,19 +256,25 @@ fn assumed(machine: &Machine, own: &Commands, max_dev_mm: f64) -> String {
             100.0 * d.a_trans_ratio,
         ));
     }
-    out.push_str("assumed   every choice in the lists of all path axes (vib_guard.active, mode, freq, damping)\n");
-    out.push_str(&match &own.tolerance {
-        Some((line, value)) => format!("          the program's own AX_DEV={value} (line {line}) with each of them\n"),
+    lines.push(
+        "assumed   every choice in the lists of all path axes (vib_guard.active, mode, freq, damping)"
+            .to_owned(),
+    );
+    lines.push(match &own.tolerance {
+        Some((line, value)) => {
+            format!("          the program's own AX_DEV={value} (line {line}) with each of them")
+        }
         None => format!(
-            "          no AX_DEV in the program: nothing slows it down for the guard; with #VIB GUARD ON [AX_DEV={max_dev_mm}] \
-             in it this table shows what the tolerance costs\n"
+            "          no AX_DEV in the program, so nothing slows it down for the guard; with\n          \
+             #VIB GUARD ON [AX_DEV={max_dev_mm}] in it this table shows what the tolerance costs"
         ),
     });
     if let Some(line) = own.off {
-        out.push_str(&format!("          line {line} switches the guard off: from there on nothing is damped\n"));
+        lines.push(format!(
+            "          line {line} switches the guard off: from there on nothing is damped"
+        ));
     }
-    out.push('\n');
-    out
+    lines.join("\n") + "\n\n"
 }
 
 impl Outcome {
@@ -355,11 +365,21 @@ mod tests {
         assert_eq!(commands("N10 G1 X1\nN20 M30"), Commands::default());
         let own = commands("N10 #vib guard on [AX_DEV = 0.01]\nN20 #VIB GUARD OFF");
         assert_eq!(own.outvoting, None);
-        assert_eq!((own.off, own.tolerance), (Some(2), Some((1, "0.01".to_owned()))));
-        for line in ["#VIB GUARD ON[MODE=2 FREQ=40]", "N1 #VIB GUARD [DAMPING 0.1]", "#VIB  GUARD [FREQ=6 ,MODE=2]"] {
+        assert_eq!((own.on, own.off), (Some(1), Some(2)));
+        assert_eq!(own.tolerance, Some((1, "0.01".to_owned())));
+        for line in [
+            "#VIB GUARD ON[MODE=2 FREQ=40]",
+            "N1 #VIB GUARD [DAMPING 0.1]",
+            "#VIB  GUARD [FREQ=6 ,MODE=2]",
+        ] {
             assert_eq!(commands(line).outvoting, Some((1, line.to_owned())), "{line}");
         }
-        for line in ["(#VIB GUARD ON [MODE=2])", "; #VIB GUARD [MODE=2]", "#FILTER ON [ORDER=2]", "#VIB GUARD ON (MODE=2)"] {
+        for line in [
+            "(#VIB GUARD ON [MODE=2])",
+            "; #VIB GUARD [MODE=2]",
+            "#FILTER ON [ORDER=2]",
+            "#VIB GUARD ON (MODE=2)",
+        ] {
             assert_eq!(commands(line).outvoting, None, "{line}");
         }
     }
@@ -374,7 +394,10 @@ mod tests {
         let choice = band.best(2, machine.cycle).unwrap();
         let on = with(&own, &machine, Some(&choice)).settings;
         assert_eq!(on.len(), 13);
-        assert_eq!(on[1..5], ["active=1", "mode=2", "freq=40", "damping=0.1"].map(|s| format!("X.vib_guard.{s}")));
+        assert_eq!(
+            on[1..5],
+            ["active=1", "mode=2", "freq=40", "damping=0.1"].map(|s| format!("X.vib_guard.{s}"))
+        );
         // later settings win, and the machine accepts them
         let settings: Vec<_> =
             on.iter().map(|s| kontur_interpreter::machine::Override::parse(s).unwrap()).collect();

@@ -71,19 +71,14 @@ pub(super) fn measured(
 }
 
 /// Samples and sampling rate of a CSV file.
-fn read(
-    path: &Path,
-    column: Option<&str>,
-    rate_hz: Option<f64>,
-) -> Result<(Vec<f64>, f64), Error> {
+fn read(path: &Path, column: Option<&str>, rate_hz: Option<f64>) -> Result<(Vec<f64>, f64), Error> {
     let name = path.display().to_string();
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));
     let io = |e: csv::Error| match e.into_kind() {
         csv::ErrorKind::Io(e) => Error::io(name.clone(), e),
         other => Error::Usage(format!("{name}: no CSV table: {other:?}")),
     };
-    let mut reader =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(io)?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(io)?;
     let header: Vec<String> = reader.headers().map_err(io)?.iter().map(str::to_owned).collect();
     let place = |wanted: &str| header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
     let known = || format!("its columns are {}", header.join(", "));
@@ -117,11 +112,17 @@ fn read(
     let rate_hz = match rate_hz {
         Some(rate_hz) => rate_hz,
         None if times.is_empty() => {
-            let text = format!("no column t_s, time or t; --rate names the samples per second; {}", known());
+            let text = format!(
+                "no column t_s, time or t; --rate names the samples per second; {}",
+                known()
+            );
             return Err(wrong(text));
         }
         None => uniform_rate(&times).ok_or_else(|| {
-            wrong("its times do not rise in equal steps; --rate names the samples per second".to_owned())
+            wrong(
+                "its times do not rise in equal steps; --rate names the samples per second"
+                    .to_owned(),
+            )
         })?,
     };
     Ok((samples, rate_hz))
@@ -220,9 +221,12 @@ impl Spectrum {
     fn band(&self, [low, high]: [f64; 2], samples: usize) -> Vec<f64> {
         let weight = |f_hz: f64| {
             // raised cosines over the logarithm of the frequency keep the ringing of the band short
-            let edge = |octaves: f64| 0.5 - 0.5 * libm::cos(std::f64::consts::PI * octaves.clamp(0.0, 1.0));
+            let edge = |octaves: f64| {
+                0.5 - 0.5 * libm::cos(std::f64::consts::PI * octaves.clamp(0.0, 1.0))
+            };
             let octaves = |ratio: f64| libm::log2(ratio.max(f64::MIN_POSITIVE));
-            edge(octaves(f_hz / low) + 0.5) * edge(octaves(high / f_hz.max(f64::MIN_POSITIVE)) + 0.5)
+            edge(octaves(f_hz / low) + 0.5)
+                * edge(octaves(high / f_hz.max(f64::MIN_POSITIVE)) + 0.5)
         };
         let mut values: Vec<Complex<f64>> = self
             .values
@@ -253,12 +257,16 @@ mod tests {
     fn record(modes: &[(f64, f64, f64)], noise: f64, rate_hz: f64, seconds: f64) -> Vec<f64> {
         let mut state = 1_u64;
         let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
         };
-        (0..(rate_hz * seconds) as u32)
-            .map(|i| {
-                let t = f64::from(i) / rate_hz - 0.1;
+        (0..100_000)
+            .map(|i| f64::from(i) / rate_hz)
+            .take_while(|t| *t < seconds)
+            .map(|t| t - 0.1)
+            .map(|t| {
                 let sum: f64 = modes
                     .iter()
                     .filter(|_| t >= 0.0)
@@ -284,7 +292,8 @@ mod tests {
 
     #[test]
     fn two_modes() {
-        let found = modes(&record(&[(8.0, 0.03, 2.0), (35.0, 0.02, 1.0)], 0.02, 1000.0, 5.0), 1000.0);
+        let found =
+            modes(&record(&[(8.0, 0.03, 2.0), (35.0, 0.02, 1.0)], 0.02, 1000.0, 5.0), 1000.0);
         assert_eq!(found.len(), 2, "{found:?}");
         for (mode, (f, z)) in found.iter().zip([(8.0, 0.03), (35.0, 0.02)]) {
             assert!((mode.freq_hz / f - 1.0).abs() < 0.01, "{found:?}");
@@ -303,13 +312,12 @@ mod tests {
     fn files() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
-        let mut text = "t_s, a, b\n".to_owned();
-        for i in 0..200 {
-            text.push_str(&format!("{}, {}, 1\n", f64::from(i) / 500.0, i % 7));
-        }
+        let row = |i: u32| format!("{}, {}, 1\n", f64::from(i) / 500.0, i % 7);
+        let text = format!("t_s, a, b\n{}", (0..200).map(row).collect::<String>());
         std::fs::write(&path, &text).unwrap();
         let (samples, rate_hz) = read(&path, Some("A"), None).unwrap();
-        assert_eq!((samples.len(), samples[8]), (200, 1.0));
+        assert_eq!(samples.len(), 200);
+        assert!((samples[8] - 1.0).abs() < 1e-12);
         assert!((rate_hz - 500.0).abs() < 1e-6);
         assert!((read(&path, None, Some(100.0)).unwrap().1 - 100.0).abs() < 1e-12);
         let message = |e: Error| e.to_string();

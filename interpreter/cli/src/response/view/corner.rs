@@ -58,7 +58,9 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
             levels: Vec::new(),
         });
     } else if !few {
-        let text = format!("--corner: {MOST_PATHS} paths at most in a picture, or filters that differ in their order");
+        let text = format!(
+            "--corner: {MOST_PATHS} paths at most in a picture, or filters that differ in their order"
+        );
         return Err(Error::Usage(text));
     }
     let with_errors = || {

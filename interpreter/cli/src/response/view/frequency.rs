@@ -22,15 +22,12 @@ struct Sample {
     delay_ms: f64,
 }
 
-pub(super) fn view(
-    args: &ResponseArgs,
-    curves: &[Curve],
-    cycle: CycleTime,
-) -> Result<View, Error> {
+pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> Result<View, Error> {
     let nyquist_hz = 0.5 / cycle.seconds();
     let range = args.range.unwrap_or((0.5_f64.min(0.001 * nyquist_hz), nyquist_hz));
     if range.1 > nyquist_hz {
-        let text = format!("--range: frequencies end at {nyquist_hz} Hz, half the sampling frequency");
+        let text =
+            format!("--range: frequencies end at {nyquist_hz} Hz, half the sampling frequency");
         return Err(Error::Usage(text));
     }
     let header = &["curve", "f_hz", "magnitude_db", "phase_deg", "group_delay_ms"];
@@ -54,7 +51,8 @@ pub(super) fn view(
         }
     }
     let [magnitude, phase, delay] = lines;
-    let all = |lines: &[Line]| lines.iter().flat_map(|l| &l.points).map(|p| p[1]).collect::<Vec<_>>();
+    let all =
+        |lines: &[Line]| lines.iter().flat_map(|l| &l.points).map(|p| p[1]).collect::<Vec<_>>();
     let high = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(0.0, f64::max);
     let low = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(-3.0, f64::min);
     // near a zero the group delay has no bound; the picture shows what the frequencies get that pass
@@ -108,11 +106,8 @@ fn samples(curve: &Curve, range: (f64, f64), cycle: CycleTime) -> Vec<Sample> {
         let response = curve.shaping.response(Angle::of(f_hz, cycle));
         let magnitude_db = response.magnitude_db();
         let zero = magnitude_db < ZERO_DB;
-        let delay_ms = if zero {
-            f64::NAN
-        } else {
-            response.group_delay_cycles() * 1000.0 * cycle.seconds()
-        };
+        let delay_ms =
+            if zero { f64::NAN } else { response.group_delay_cycles() * 1000.0 * cycle.seconds() };
         let principal = response.phase_deg();
         let expected = match last {
             Some(l) => {
@@ -140,9 +135,9 @@ fn anchor(samples: &mut [Sample]) {
     /// A pass band ripples less than this.
     const RIPPLE_DB: f64 = 0.5;
     let Some(first) = samples.first().copied() else { return };
-    let most = samples.iter().fold(first, |most, s| {
-        if s.magnitude_db > most.magnitude_db { *s } else { most }
-    });
+    let most = samples
+        .iter()
+        .fold(first, |most, s| if s.magnitude_db > most.magnitude_db { *s } else { most });
     if most.magnitude_db > first.magnitude_db + RIPPLE_DB {
         let turns = (most.phase_deg / 360.0).round();
         for sample in samples {

@@ -14,11 +14,7 @@ const STEPS: u32 = 600;
 /// The vendor's limit of the residual vibration.
 const LIMIT_RATIO: f64 = 0.05;
 
-pub(super) fn view(
-    args: &ResponseArgs,
-    curves: &[Curve],
-    cycle: CycleTime,
-) -> Result<View, Error> {
+pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> Result<View, Error> {
     if let Some(curve) = curves.iter().find(|curve| curve.has_filters) {
         return Err(Error::Usage(format!(
             "--residual: {} holds standard filters, which have no last impulse; \
@@ -78,7 +74,7 @@ pub(super) fn view(
     let panel = |title: &str, x: Scale, top: f64, lines| Diagram {
         title: title.to_owned(),
         x,
-        y: Scale::linear("residual in %", (0.0, top)),
+        y: Scale::linear("%", (0.0, top)),
         equal: false,
         lines,
         levels: vec![100.0 * LIMIT_RATIO],
@@ -90,12 +86,22 @@ pub(super) fn view(
     let deviation = (-40.0, 60.0);
     let panels = if all_set {
         vec![
-            panel("f_set / f_real - 1", Scale::linear("%", deviation), 20.0, inverse),
-            panel("f_real / f_set - 1", Scale::linear("%", deviation), 20.0, real),
+            panel(
+                "Residual over f_set / f_real - 1",
+                Scale::linear("deviation in %", deviation),
+                20.0,
+                inverse,
+            ),
+            panel(
+                "Residual over f_real / f_set - 1",
+                Scale::linear("deviation in %", deviation),
+                20.0,
+                real,
+            ),
         ]
     } else {
         let x = Scale::logarithmic("real frequency in Hz", ends(&hertz));
-        vec![panel("Over the real natural frequency", x, 105.0, hertz)]
+        vec![panel("Residual over the real natural frequency", x, 105.0, hertz)]
     };
     let plot = Plot {
         title: "Residual vibration".to_owned(),

@@ -12,10 +12,8 @@ const MOST_CYCLES: usize = 20_000;
 const BEFORE: i64 = 10;
 
 pub(super) fn view(curves: &[Curve], cycle: CycleTime) -> View {
-    let all: Vec<Vec<f64>> = curves
-        .iter()
-        .map(|curve| step_response(&mut curve.shaping.clone(), MOST_CYCLES))
-        .collect();
+    let all: Vec<Vec<f64>> =
+        curves.iter().map(|curve| step_response(&mut curve.shaping.clone(), MOST_CYCLES)).collect();
     let cycles = all.iter().map(|y| settled(y)).max().unwrap_or(0);
     let cycles = (cycles + cycles / 5 + 10).min(MOST_CYCLES);
     let mut table = Table::new(&["curve", "t_s", "output"]);
