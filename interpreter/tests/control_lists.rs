@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 use kontur_filters::control::{AxisControl, ControlOutput, Fault};
+use kontur_filters::shaping::Shaping;
+use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::table::ListKind;
@@ -324,4 +326,71 @@ fn settling_time_of_the_lists() {
     assert_eq!(late(&format!("{new}=-1 {old}=200000")), Some(200));
     assert_eq!(late(&format!("{new}=400000 {old}=200000")), Some(400));
     assert_eq!(late(&format!("{new}=600000 Y.getriebe[0].position_settling_time=10000")), None);
+}
+
+/// Additive speed of a bus drive in the drive's format, and with the sampling interval as time base.
+/// Conformance: I022, I023, I050.
+#[test]
+fn drive_format_of_the_additive_speed() {
+    let sercos = "X.kenngr.antr_typ=2 X.antr.v_reso_num=7 X.antr.v_reso_denom=3";
+    let out = |settings: &str| {
+        let mut axis = axis(&stage(settings));
+        let at = |k: u32| 0.1 * libm::sin(std::f64::consts::TAU * 53e-3 * f64::from(k));
+        let out: Vec<_> = (0..200).map(|k| axis.step(at(k), 0.0, true)).collect();
+        assert!(out.iter().any(|o| o.additive_speed_mm_s.abs() > 0.1));
+        out
+    };
+    for o in out(sercos) {
+        let um_min = o.additive_speed_mm_s * 1000.0 * 60.0;
+        near(o.drive.additive_speed, um_min * 7.0 / 3.0, 1e-9 * um_min.abs());
+    }
+    // the drive of the CNC's position control: P-AXIS-00129 / 00128 at 1 m/min
+    for o in out("X.getriebe[0].multi_gain_z=3000 X.getriebe[0].multi_gain_n=2") {
+        let m_min = o.command_mm_s * 0.06;
+        near(o.drive.command, m_min * 1500.0, 1e-9 * (m_min * 1500.0).abs());
+        near(o.drive.additive_speed, o.additive_speed_mm_s * 0.06 * 1500.0, 1e-9);
+    }
+    let counts = |cycle_us: u32| {
+        let settings = format!("{sercos} X.antr.v_time_base=2 kontur.cycle_time_us={cycle_us}");
+        let (machine, _) = machine(&split(&settings));
+        let format = machine.chains().0.swap_remove(0).control.command_format;
+        format.counts_per_mm_s(machine.cycle.seconds())
+    };
+    near(counts(2000), 2.0 * counts(1000), 1e-12);
+    near(counts(1000), 7.0 / 3.0, 1e-12);
+}
+
+/// A drive three cycles late beside one without dead time, fed forward with next to no gain: with a time delay of three
+/// cycles in the other axis a diagonal is as straight as with equal axes. Conformance: A066.
+#[test]
+fn a_time_delay_equalises_dead_times() {
+    let gap = |settings: &str| {
+        let equal = "X.getriebe[0].kv=10 Y.getriebe[0].kv=10";
+        let (machine, _) = machine(&split(&format!("{equal} {settings}")));
+        let chains = machine.chains().0;
+        let mut axes: Vec<(Shaping, AxisControl)> = chains
+            .into_iter()
+            .take(2)
+            .map(|c| (Shaping::new(c.filters, 0.0), AxisControl::new(c.control, MS).unwrap()))
+            .collect();
+        let mut worst: f64 = 0.0;
+        for k in 0..400 {
+            let mut act = [0.0; 2];
+            for (act, (shaping, control)) in act.iter_mut().zip(&mut axes) {
+                *act = control.step(shaping.step(ramp(k)), 1.0, true).act_mm;
+            }
+            worst = worst.max((act[0] - act[1]).abs() / std::f64::consts::SQRT_2);
+        }
+        worst
+    };
+    let late = "Y.antr.simu.totzeit=3";
+    let delay = "X.filter[0].enable=1 X.filter[0].type=TIME_DELAY X.filter[0].order=1 X.filter[0].time_constant=3000";
+    assert!(gap("") <= 0.0);
+    // three cycles at 100 mm/s, seen across the diagonal
+    near(gap(late), 0.3 / std::f64::consts::SQRT_2, 0.03);
+    assert!(
+        gap(&format!("{late} {delay}")) < 0.25 * gap(late),
+        "{}",
+        gap(&format!("{late} {delay}"))
+    );
 }

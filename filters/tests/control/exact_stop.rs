@@ -130,3 +130,13 @@ fn disturbed_axis_misses_the_window() {
         .collect();
     assert_eq!(ids, [ErrorId::Vendor(70082)]);
 }
+
+/// The window lies on both sides of the target: the same cycles from either direction. Conformance: P008.
+#[test]
+fn both_sides_of_the_target() {
+    for settling_s in [0.2, 1.0] {
+        let forth = stop(axis(10.0, 0.005, settling_s), abrupt, 2000);
+        let back = stop(axis(10.0, 0.005, settling_s), |k| -abrupt(k), 2000);
+        assert_eq!(forth, back);
+    }
+}

@@ -442,3 +442,16 @@ fn parameters_are_taken_at_standstill_only() {
     axis.change_ipc(on([direct(3.0)])).unwrap();
     assert_eq!(axis.config().ipc, on([direct(3.0)]));
 }
+
+/// At 53 Hz the transport delay of the simulated oscillation turns damping into excitation. Conformance: I014.
+#[test]
+fn indirect_with_dead_time_excites_high_frequencies() {
+    let plain = run(off()).at_53();
+    let late = |weight| {
+        let high = stage(IpcMode::Indirect, 53.0, 3.0, 0.2, weight);
+        run(IpcConfig { delay_cycles: 4, ..on([high]) }).at_53()
+    };
+    for weight in [0.4, 1.0] {
+        assert!(late(weight) > 1.1 * plain, "{} of {plain}", late(weight));
+    }
+}
