@@ -67,7 +67,7 @@ fn fir_is_recommended_instead_of_hsc() {
 }
 
 /// Axis filters, 3.2 and 3.3.
-/// Conformance: A090, A097, A105, A110, A111, A112, A114, A115, A120.
+/// Conformance: A090, A097, A105, A108, A110, A111, A112, A113, A114, A115, A120.
 #[test]
 fn table_of_axis_filters() {
     let below = "below 0.5 / cycle";
@@ -85,6 +85,8 @@ fn table_of_axis_filters() {
     let own = "lr_param.add_interface";
     says(&format!("{own}.enable"), &["switches the additional interface"]);
     is("P-AXIS-00735", &format!("{own}.filter[i].enable"), "BOOLEAN", "0 or 1", "0", "-");
+    says("P-AXIS-00736", &["default    2", "PT1, PT2, TIME_DELAY: any above 0 switches on"]);
+    is("P-AXIS-00740", &format!("{own}.filter[i].guete"), "REAL64", "1 .. 10", "1", "-");
     says("P-AXIS-00737", &["default    CRIT_DAMPING", "axes       T ("]);
     says(
         "P-AXIS-00738",

@@ -66,7 +66,8 @@ fn said(text: &str) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// The listings of the manual for one axis. Conformance: A031, A049, A055.
+/// The listings of the manual for one axis.
+/// Conformance: A031, A049, A055, A059.
 #[test]
 fn listings_of_the_axis_filter_manual() {
     let (shaping, ids) =

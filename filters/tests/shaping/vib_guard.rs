@@ -113,6 +113,7 @@ fn ideal(mode: u8, freq_hz: f64, damping: f64) -> Vec<Impulse> {
     VibGuardSettings { mode, freq_hz, damping }.ideal_impulses().unwrap()
 }
 
+/// Conformance: V001.
 #[test]
 fn nothing_is_left_at_the_set_frequency() {
     for mode in 1..=4 {
@@ -179,6 +180,7 @@ fn sensitivity_bands() {
 }
 
 /// The vendor's example: set to 6 Hz, really 6.9 or 5.4 Hz; only mode 2 (and 3) keep below 5 %.
+/// Conformance: V020.
 #[test]
 fn the_vendors_worked_example() {
     let left =
@@ -239,6 +241,7 @@ fn acceleration_near_a_corner_adds_the_second_moment() {
 }
 
 /// A 10 Hz mass on a damped spring, its base moved by a shaped step: after the kernel's length it stands still.
+/// Conformance: V001.
 #[test]
 fn a_spring_and_mass_stand_still() {
     let (w, z) = (2.0 * PI * 10.0, 0.1);
@@ -272,6 +275,7 @@ fn a_spring_and_mass_stand_still() {
 }
 
 /// There and back: only the symmetric mode draws the same path in both directions.
+/// Conformance: V008, V009.
 #[test]
 fn the_symmetric_mode_repeats_the_path_backwards() {
     let gap = |mode| {

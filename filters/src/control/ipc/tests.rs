@@ -28,6 +28,7 @@ fn ids(config: &IpcConfig) -> Vec<ErrorId> {
     config.check(T).iter().map(Issue::id).collect()
 }
 
+/// Conformance: I026, I035, I037, I041, I043, I046.
 #[test]
 fn errors_switch_the_axis_off_and_warnings_do_not() {
     use ErrorId::{Kontur, Vendor};
@@ -79,6 +80,7 @@ fn amplitude(config: &IpcConfig) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// Conformance: I041, I044, I047.
 #[test]
 fn weight_and_oscillator_set_the_amplitude() {
     assert!((amplitude(&config(vec![stage(IpcMode::Direct)])) - 2.0).abs() < 1e-3);
@@ -93,6 +95,7 @@ fn weight_and_oscillator_set_the_amplitude() {
     assert_eq!(amplitude(&tight), 1.0, "0.2 % of 500 mm/s");
 }
 
+/// Conformance: I007.
 #[test]
 fn direct_falls_back_to_the_motor() {
     let mut ipc =
@@ -123,6 +126,7 @@ fn delay_shifts_the_output() {
     }
 }
 
+/// Conformance: I024.
 #[test]
 fn parameters_change_at_standstill_only() {
     let mut ipc = Ipc::new(&config(vec![stage(IpcMode::Direct)]), 500.0, T);

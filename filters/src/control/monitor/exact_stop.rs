@@ -135,6 +135,7 @@ mod tests {
         (0..2000).find_map(|k| m.step(1.0, actual_mm(k)).map(|f| (k, f)))
     }
 
+    /// Conformance: P005.
     #[test]
     fn raises_in_the_cycle_the_time_is_over() {
         let (k, fault) = fault_after(&mut monitor(Some(0.2)), |_| 0.94).unwrap();
@@ -145,6 +146,7 @@ mod tests {
         assert_eq!((window_mm, time_s), (0.05, 0.2));
     }
 
+    /// Conformance: P006, P019.
     #[test]
     fn inside_in_time_ends_the_monitoring_of_this_stop() {
         let inside_then_out = |k| if (150..160).contains(&k) { 0.96 } else { 0.5 };
@@ -164,6 +166,7 @@ mod tests {
         assert!((0..100).all(|_| m.step(1.0, 5.0).is_none()));
     }
 
+    /// Conformance: P017.
     #[test]
     fn without_a_stop_of_the_path_no_timer() {
         let mut m = monitor(Some(0.001));
