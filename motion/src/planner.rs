@@ -115,7 +115,7 @@ impl Planner {
     /// `reach_cycles` is how far back the contour is kept for [`Planner::deviation`].
     pub fn set_kernels(&mut self, kernels: Kernels, reach_cycles: u32) {
         self.reach_cycles = reach_cycles.max(kernels.length());
-        self.monitor.rest(&self.setpoint.position, kernels.length());
+        self.monitor.rest(&self.setpoint.position, self.setpoint.s_mm, kernels.length());
         self.kernels = kernels;
     }
 
@@ -204,7 +204,7 @@ impl Planner {
         self.cursor = Moment::tick(self.setpoint.k);
         (self.setpoint.v_mm_s, self.setpoint.a_mm_s2, self.setpoint.j_mm_s3) = (0.0, 0.0, 0.0);
         self.setpoint.limit = limit;
-        self.monitor.record(&self.setpoint.position);
+        self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
     }
 
     /// Emergency braking from here on (P-AXIS-00003): [`Self::advance_braking`] takes the place of [`Self::advance`].
@@ -264,7 +264,7 @@ impl Planner {
         self.setpoint.j_mm_s3 = self.state.j;
         self.setpoint.limit = self.state.limit;
         self.setpoint.seq = self.state.seq;
-        self.monitor.record(&self.setpoint.position);
+        self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
         self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 1.0);
     }
 

@@ -1,8 +1,8 @@
 //! Tolerance monitoring (`AX_DEV`): the filtered setpoints of a plan, before it becomes final.
 //!
-//! A kernel `h_k` (weights positive, sum 1, mean delay `d`) cuts a corner: an axis whose velocity jumps by `dv` gets
-//! the delay-aligned error `dv * phi(x)`, `phi(x) = sum h_k max(0, x - t_k) - max(0, x - d)`, largest at `x = d` with
-//! `M1`, half the mean absolute deviation of the kernel (TF5250 gives the task, the formula is derived). Acceleration
+//! A kernel `h_k` (weights positive, sum 1, mean delay `d`) cuts a corner: an axis whose velocity jumps by `dv` gets the
+//! delay-aligned error `dv * M1`, `M1` half the mean absolute deviation of the kernel (TF5250 gives the task, the formula
+//! is derived). Acceleration
 //! near the corner and neighbouring corners add to it, so the closed form alone promises nothing.
 //!
 //! The promise is kept by trying: every plan is sampled on the cycle grid, filtered and measured against the contour,
@@ -90,10 +90,10 @@ impl Demands {
     }
 }
 
-/// Raw setpoints of the last cycles.
+/// Raw setpoints of the last cycles, with the path length.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Monitor {
-    history: VecDeque<AxisVec>,
+    history: VecDeque<(AxisVec, f64)>,
     length: usize,
 }
 
@@ -105,6 +105,10 @@ struct Mark {
     /// Index of the block in the window; `None` if it is final.
     block: Option<usize>,
     queued: Arc<Queued>,
+    /// Path length at the start of the block.
+    s_mm: f64,
+    /// Highest speed planned for it in mm/s.
+    speed: f64,
     /// Largest jump of direction of an axis with a kernel, and that axis.
     jump: f64,
     axis: usize,
@@ -134,15 +138,15 @@ pub(crate) struct Trial<'a> {
 
 impl Monitor {
     /// The path rests at `position`; the kernels reach `length` cycles back.
-    pub(crate) fn rest(&mut self, position: &AxisVec, length: u32) {
+    pub(crate) fn rest(&mut self, position: &AxisVec, s_mm: f64, length: u32) {
         self.length = length as usize + 1;
-        self.history = std::iter::repeat_n(position.clone(), self.length).collect();
+        self.history = std::iter::repeat_n((position.clone(), s_mm), self.length).collect();
     }
 
     /// Takes the setpoint of a cycle.
-    pub(crate) fn record(&mut self, position: &AxisVec) {
+    pub(crate) fn record(&mut self, position: &AxisVec, s_mm: f64) {
         if self.length > 1 {
-            self.history.push_back(position.clone());
+            self.history.push_back((position.clone(), s_mm));
             if self.history.len() > self.length {
                 self.history.pop_front();
             }
@@ -175,8 +179,9 @@ impl Monitor {
         } else {
             let back = (trial.now - k) as usize;
             let i = self.history.len().saturating_sub(1 + back);
-            if let Some(p) = self.history.get(i) {
-                state.position.copy_from_slice(p);
+            if let Some((position, s)) = self.history.get(i) {
+                state.position.copy_from_slice(position);
+                state.s = *s;
             }
         }
     }
@@ -250,18 +255,19 @@ impl Monitor {
             let seq = support.last().map_or(0, |m| m.queued.block.seq);
             findings.worst = Some(Unkept { seq, deviation_mm: deviation, tolerance_mm: tolerance });
         }
-        // shares of the error, relative to the speed: corners by phi, curves by v kappa sigma^2 / 2
-        let speed = buffer.travelled() / reach.max(1.0);
-        let share = |m: &Mark| -> (f64, f64) {
-            let kernel = trial.kernels.get(m.axis);
-            let corner = kernel.map_or(0.0, |h| m.jump * phi(h, to - m.cycles));
-            let variance = kernel.map_or(0.0, Kernel::variance_cycles2);
-            (if m.cycles > from { corner } else { 0.0 }, m.queued.bend * speed * variance / 2.0)
+        // shares of the error by geometry: a corner with both its legs in the kernel's reach, the sagitta of a curve
+        let (oldest, newest) = buffer.stretch();
+        let share = |i: usize| -> (f64, f64) {
+            let m = &support[i];
+            let end = support.get(i + 1).map_or(newest, |next| next.s_mm.min(newest));
+            let inside = (end - m.s_mm.max(oldest)).max(0.0);
+            let legs = (m.s_mm - oldest).min(newest - m.s_mm).max(0.0);
+            (0.5 * m.jump * legs, 0.125 * m.queued.bend * inside * inside)
         };
-        let largest = support.iter().map(share).fold(0.0_f64, |x, (a, b)| x.max(a).max(b));
+        let largest = (0..support.len()).map(share).fold(0.0_f64, |x, (a, b)| x.max(a).max(b));
         let mut blamed = false;
-        for m in support {
-            let (corner, curve) = share(m);
+        for (i, m) in support.iter().enumerate() {
+            let (corner, curve) = share(i);
             if let Some(b) =
                 m.boundary.filter(|_| corner > 0.0 && corner >= findings.share * largest)
             {
@@ -327,12 +333,15 @@ impl Monitor {
                 (demands.cap[b], demands.stop[b]) = (0.0, Some(0));
             }
         }
-        for (b, found) in findings.curve.iter().enumerate() {
-            if let Some((excess, tolerance)) = *found {
+        for mark in marks {
+            let Some(b) = mark.block else { continue };
+            if let Some((excess, tolerance)) = findings.curve[b] {
                 // the deviation on a curve grows with the square of the speed
                 let ratio = (tolerance / (tolerance + excess)).sqrt() * 0.999;
-                let now = demands.feed[b].min(trial.window[b].velocity.0);
-                demands.feed[b] = now * ratio.max(0.3);
+                let queued = &trial.window[b];
+                let now = demands.feed[b].min(queued.velocity.0).min(mark.speed);
+                demands.feed[b] =
+                    (now * ratio.max(0.3)).max(slowest(trial, queued, tolerance).min(now));
             }
         }
     }
@@ -369,17 +378,21 @@ impl Monitor {
     }
 }
 
+/// A tenth of the speed at which a curve alone uses up the tolerance: slower is never needed.
+fn slowest(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> f64 {
+    let variance = (0..queued.ends.tangent_in.len())
+        .filter_map(|i| trial.kernels.get(i))
+        .map(Kernel::variance_cycles2)
+        .fold(0.0, f64::max);
+    let t = trial.cycle.seconds();
+    let bend = queued.bend.max(1e-6);
+    0.1 * (2.0 * tolerance / (variance * t * t * bend)).sqrt()
+}
+
 fn note(slot: &mut Option<(f64, f64)>, excess: f64, tolerance: f64) {
     if slot.is_none_or(|(e, _)| e < excess) {
         *slot = Some((excess, tolerance));
     }
-}
-
-/// `phi(x)` of a kernel in cycles: delay-aligned error of a unit velocity jump, `x` cycles after it.
-fn phi(kernel: &Kernel, x: f64) -> f64 {
-    let ramp: f64 =
-        kernel.taps().iter().map(|t| t.weight * (x - f64::from(t.delay)).max(0.0)).sum();
-    (ramp - (x - kernel.delay_cycles()).max(0.0)).max(0.0)
 }
 
 fn rest_tick(trial: &Trial<'_>) -> f64 {
@@ -411,29 +424,37 @@ fn contour(marks: &[Mark]) -> Contour {
 fn marks(trial: &Trial<'_>) -> Vec<Mark> {
     let reach = f64::from(trial.kernels.length());
     let mut out: Vec<Mark> = Vec::with_capacity(trial.window.len() + 8);
-    let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>| {
-        let (mut jump, mut axis) = (0.0, 0);
-        if let Some(before) = out.last() {
-            let (a, b) = (&before.queued.ends.tangent_out, &queued.ends.tangent_in);
-            for i in 0..a.len() {
-                let du = (b[i] - a[i]).abs();
-                if du > jump && trial.kernels.get(i).is_some() {
-                    (jump, axis) = (du, i);
+    let mut add =
+        |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s_mm: f64, speed: f64| {
+            let (mut jump, mut axis) = (0.0, 0);
+            if let Some(before) = out.last() {
+                let (a, b) = (&before.queued.ends.tangent_out, &queued.ends.tangent_in);
+                for i in 0..a.len() {
+                    let du = (b[i] - a[i]).abs();
+                    if du > jump && trial.kernels.get(i).is_some() {
+                        (jump, axis) = (du, i);
+                    }
                 }
             }
-        }
-        let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
-        let boundary = block.filter(|b| *b > 0);
-        out.push(Mark { cycles, boundary, block, queued: Arc::clone(queued), jump, axis });
-    };
+            let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
+            let boundary = block.filter(|b| *b > 0);
+            let queued = Arc::clone(queued);
+            out.push(Mark { cycles, boundary, block, queued, s_mm, speed, jump, axis });
+        };
     let now = trial.now as f64;
-    for (cycles, queued) in trial.past.between(now - reach - 1.0, f64::INFINITY) {
-        add(*cycles, queued, None);
+    let start = trial.timeline.entries().next().map_or(0.0, |e| e.s0);
+    let past = || trial.past.between(now - reach - 1.0, f64::INFINITY);
+    let mut s = start - past().map(|(_, q)| q.length).sum::<f64>();
+    for (cycles, queued) in past() {
+        add(*cycles, queued, None, s, queued.velocity.0);
+        s += queued.length;
     }
     let mut index = 0;
     for entry in trial.timeline.entries() {
+        let mut s = entry.s0;
         for (cycles, queued) in entry.entries(trial.cycle) {
-            add(cycles, queued, Some(index));
+            add(cycles, queued, Some(index), s, entry.profile.peak());
+            s += queued.length;
             index += 1;
         }
     }
@@ -451,6 +472,7 @@ struct Buffer<'a> {
     reader: Reader<'a>,
     kernels: &'a Kernels,
     ring: Vec<AxisVec>,
+    s_mm: Vec<f64>,
     head: usize,
     state: PathState,
     set: AxisVec,
@@ -467,6 +489,7 @@ impl<'a> Buffer<'a> {
             reader: trial.timeline.reader(),
             kernels: trial.kernels,
             ring: vec![zero.clone(); size],
+            s_mm: vec![0.0; size],
             head: 0,
             state: PathState { position: zero.clone(), ..PathState::default() },
             set: zero,
@@ -485,6 +508,7 @@ impl<'a> Buffer<'a> {
         monitor.position(k, &mut self.reader, trial, &mut self.state);
         self.head = (self.head + 1) % self.ring.len();
         self.ring[self.head].copy_from_slice(&self.state.position);
+        self.s_mm[self.head] = self.state.s;
     }
 
     /// Takes cycle `k` and filters.
@@ -507,10 +531,8 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// Distance between the newest and the oldest setpoint in reach, in mm.
-    fn travelled(&self) -> f64 {
-        let old = &self.ring[(self.head + 1) % self.ring.len()];
-        let new = &self.ring[self.head];
-        old.iter().zip(new.iter()).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    /// Path lengths of the oldest and the newest setpoint in reach.
+    fn stretch(&self) -> (f64, f64) {
+        (self.s_mm[(self.head + 1) % self.s_mm.len()], self.s_mm[self.head])
     }
 }
