@@ -59,11 +59,13 @@ impl ExactStopMonitor {
         (self.state, self.moved) = (State::Idle, false);
     }
 
-    /// The path comes to a stop, for this axis at `target_mm`. An axis that has not moved since its last stop, and
-    /// need not, has no new one.
+    /// The path comes to a stop, for this axis at `target_mm`; told at the latest right behind the cycle in which the
+    /// set position got there. An axis that has not moved since its last stop, and need not, has no new one.
     pub fn expect(&mut self, target_mm: f64) {
-        if self.moved || (target_mm - self.last_mm).abs() > Self::REACHED_MM {
+        if (target_mm - self.last_mm).abs() > Self::REACHED_MM {
             self.state = State::Approaching { target_mm };
+        } else if self.moved {
+            self.state = State::Settling { target_mm, cycles: 0 };
         }
     }
 
@@ -153,6 +155,15 @@ mod tests {
         assert_eq!(fault_after(&mut monitor(Some(0.2)), inside_then_out), None);
         assert_eq!(fault_after(&mut monitor(None), |_| 0.0), None, "0 switches the monitor off");
         assert!(fault_after(&mut monitor(Some(0.149)), inside_then_out).is_some());
+    }
+
+    /// Told before the last step or right behind it: the same cycle.
+    #[test]
+    fn a_stop_told_behind_the_last_step() {
+        let mut m = monitor(Some(0.2));
+        (1..=10).for_each(|k| assert_eq!(m.step(0.1 * f64::from(k), 0.0), None));
+        m.expect(1.0);
+        assert_eq!((1..2000).find(|_| m.step(1.0, 0.94).is_some()), Some(200));
     }
 
     #[test]
