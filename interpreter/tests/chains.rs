@@ -85,6 +85,7 @@ fn xyz() {
     assert!(silent("xyz", &none[1..]).iter().all(|chain| chain.control.delay_cycles == 5));
 }
 
+/// Conformance: I048, P020.
 #[test]
 fn vendor_defaults() {
     for chain in silent("vendor_defaults", &[]) {
@@ -124,6 +125,7 @@ fn vendor_defaults() {
     }
 }
 
+/// Conformance: I006.
 #[test]
 fn rack_and_pinion() {
     let c = &silent("rack_and_pinion", &[])[0].control;
@@ -174,6 +176,7 @@ fn spindles_stand_behind_the_path_axes() {
     near(chains[4].control.setpoint.a_max_mm_s2, 40_000.0);
 }
 
+/// Conformance: I004, I026.
 #[test]
 fn a_gantry_slave_is_the_last_chain_and_damps_as_its_master() {
     let chains = silent("gantry", &[]);
@@ -210,6 +213,7 @@ const VELOCITY_INPUT: &str = "antr.sercos.at[0].ident_nr 37\nantr.sercos.mdt[0].
                               antr.sercos.mdt[0].nc_ref S_0_0037\n";
 
 /// TF5200 feedforward control 4.1: 10 mm per revolution, drive unit 1e-4 rpm; without and with a gear of 3.
+/// Conformance: F049, F050, F051, F052, F053, F056.
 #[test]
 fn velocity_listing_of_the_manual() {
     let listing = |path| {
@@ -235,6 +239,7 @@ fn velocity_listing_of_the_manual() {
 }
 
 /// TF5200 feedforward control 4.2: 5 mm per revolution, gear of 3, 0.48 kg cm2, 0.45 N m, factor 500, weight 12/10.
+/// Conformance: F057, F058, F059, F061, F063, F064, F066, F067.
 #[test]
 fn torque_listing_of_the_manual() {
     let listing = "vorsteuer.vorsteuerung 0x202 #0x002: Activation acceleration feedforward\n\
@@ -279,6 +284,7 @@ fn torque_listing_of_the_manual() {
 }
 
 /// Settings of `xyz` and the one message that they give while loading or converting, once, with its parameter.
+/// Conformance: F062, F080, F082, F086, F088.
 #[test]
 #[rustfmt::skip]
 fn corrections_name_axis_parameter_and_place() {

@@ -160,6 +160,7 @@ mod tests {
     }
 
     /// Pitch 10 mm, drive unit 1e-4 rpm, without and with a gear of 3.
+    /// Conformance: F052, F053, I048, I049.
     #[test]
     fn speed_examples_of_the_manual() {
         assert!((counts(SpeedFormat::default(), 100.0) - 12_000.0).abs() < 1e-9, "6 m/min");
@@ -172,6 +173,7 @@ mod tests {
         );
     }
 
+    /// Conformance: I049.
     #[test]
     fn time_bases() {
         let with = |time_base| SpeedFormat::Resolution { increments: 5.0, path_um: 1.0, time_base };
@@ -190,6 +192,7 @@ mod tests {
         }
     }
 
+    /// Conformance: F059, F060, F064, F066.
     #[test]
     fn torque_example_of_the_manual() {
         let format = example();
@@ -202,6 +205,7 @@ mod tests {
         assert!((linear.torque(1000.0) - 200.0).abs() < 1e-12, "F = m a");
     }
 
+    /// Conformance: F063, F080, F086.
     #[test]
     fn undefined_scales_give_no_output() {
         let ids = |f: TorqueFormat| f.check(1000.0).iter().map(Issue::id).collect::<Vec<_>>();

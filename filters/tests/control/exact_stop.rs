@@ -41,6 +41,7 @@ fn stop(mut axis: AxisControl, set: impl Fn(u32) -> f64, last: u32) -> (u32, Vec
 }
 
 /// `ln(lag / window) / Kv` for a drive without lag of its own (Ta 10 us): 74 ms and 530 ms.
+/// Conformance: P006.
 #[test]
 fn abrupt_stop_closed_form() {
     for (kv, lag_mm) in [(50.0, 2.0), (10.0, 10.0)] {
@@ -55,6 +56,7 @@ fn abrupt_stop_closed_form() {
 }
 
 /// Kv 10/s: 200 ms are too short, 600 ms are not, whatever the drive adds.
+/// Conformance: P006, P007.
 #[test]
 fn time_limit_decides() {
     let late = vec![ErrorId::Vendor(70082)];
@@ -99,6 +101,7 @@ fn feedforward_settles_soon() {
 }
 
 /// Friction and a measuring fault raise 70082 in an unchanged program.
+/// Conformance: P004.
 #[test]
 fn disturbed_axis_misses_the_window() {
     let disturbed = |disturb: fn(&mut AxisControl)| {
@@ -129,4 +132,14 @@ fn disturbed_axis_misses_the_window() {
         })
         .collect();
     assert_eq!(ids, [ErrorId::Vendor(70082)]);
+}
+
+/// The window lies on both sides of the target: the same cycles from either direction. Conformance: P008.
+#[test]
+fn both_sides_of_the_target() {
+    for settling_s in [0.2, 1.0] {
+        let forth = stop(axis(10.0, 0.005, settling_s), abrupt, 2000);
+        let back = stop(axis(10.0, 0.005, settling_s), |k| -abrupt(k), 2000);
+        assert_eq!(forth, back);
+    }
 }

@@ -52,6 +52,7 @@ struct Row {
     columns: [(f64, f64); 4],
 }
 
+/// Conformance: F001, F002, F004, F008, F010, F011, F046, F047, F048.
 #[test]
 fn lag_table() {
     let row = |what, kv, ta, feedforward, columns| Row { what, kv, ta, feedforward, columns };
@@ -138,6 +139,7 @@ fn lags(feedforward: FeedforwardConfig, gain: f64) -> Vec<f64> {
 }
 
 /// Lag at constant speed is `(1 - W wv g) v / Kv`.
+/// Conformance: F001, F004, F007, F008, F012, F025.
 #[test]
 fn constant_speed_closed_form() {
     for (global_ratio, velocity_ratio, gain) in
@@ -151,6 +153,7 @@ fn constant_speed_closed_form() {
 }
 
 /// Constant acceleration long enough for everything else to decay leaves `a Ta / Kv`, or nothing with ACC.
+/// Conformance: F002, F004, F010.
 #[test]
 fn constant_acceleration_closed_form() {
     let profile = Profile::rest().ramp(400.0, 1000.0, 0.05);
@@ -191,6 +194,7 @@ fn weight_travels_through_the_buffer() {
 }
 
 /// Values in the drive's format at 100 mm/s and 1 m/s2, the examples of the feedforward manual.
+/// Conformance: F052, F064, F066, I023.
 #[test]
 fn drive_formats() {
     use kontur_filters::control::scaling::{Motor, SpeedFormat, TimeBase, TorqueFormat};

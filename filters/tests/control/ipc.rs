@@ -159,6 +159,7 @@ fn near(got: f64, want: f64, digit: f64) {
 }
 
 /// The manual's result: both vibrations reduced at least as far, without influence on each other.
+/// Conformance: I006, I013, I029, I030, I031.
 #[test]
 fn both_stages_reduce_as_in_the_manual() {
     let plain = run(off());
@@ -179,6 +180,7 @@ fn both_stages_reduce_as_in_the_manual() {
 }
 
 /// Raising the weight: better, then worse again.
+/// Conformance: I010, I032.
 #[test]
 fn direct_weight() {
     let mut before = f64::MAX;
@@ -247,6 +249,7 @@ fn limit_of_the_additive_speed() {
     }
 }
 
+/// Conformance: I039.
 #[test]
 fn order_and_frequency_of_the_band_pass() {
     let changed = |mut s: IpcStageConfig, change: fn(&mut IpcFilterConfig)| {
@@ -263,6 +266,7 @@ fn order_and_frequency_of_the_band_pass() {
 }
 
 /// Parameters found for one machine on one whose resonances lie 5 % lower or higher.
+/// Conformance: I040.
 #[test]
 fn detuned_machine() {
     for (factor, plain, damped) in
@@ -290,6 +294,7 @@ fn set_point_frequency() {
 }
 
 /// The command is there before the motor has followed it.
+/// Conformance: I017.
 #[test]
 fn set_point_leads_indirect() {
     let begins = |mode, above: f64| {
@@ -303,6 +308,7 @@ fn set_point_leads_indirect() {
 }
 
 /// Best residual over frequency and weight, for a tool-point mode at 11 and at 25 Hz.
+/// Conformance: I018.
 #[test]
 fn set_point_damps_higher_frequencies() {
     for f in [11.0, 25.0] {
@@ -323,6 +329,7 @@ fn set_point_damps_higher_frequencies() {
 }
 
 /// At a weight at which INDIRECT swings into its limit, `SET_POINT` only responds to the motion and comes to rest.
+/// Conformance: I019.
 #[test]
 fn set_point_cannot_swing_up() {
     let last = |shown: &Shown| {
@@ -336,6 +343,7 @@ fn set_point_cannot_swing_up() {
 }
 
 /// A vibration that neither motor nor load shows cannot be damped by what they measure.
+/// Conformance: I008.
 #[test]
 fn direct_does_not_reach_a_hidden_mode() {
     let mut e = Experiment::default();
@@ -380,6 +388,7 @@ fn largest_stable_kv() {
 }
 
 /// Active damping around the crossover allows a higher Kv.
+/// Conformance: I001.
 #[test]
 fn damping_allows_a_higher_kv() {
     let damped = on([stage(IpcMode::Direct, 90.0, 1.0, -1.0, 0.5)]);
@@ -389,6 +398,7 @@ fn damping_allows_a_higher_kv() {
 
 /// The sign: added instead of subtracted, the same speed feeds the vibration that the motor and the load show alike.
 /// The loop is put together from its parts here, since no parameter turns the sign.
+/// Conformance: I010.
 #[test]
 fn added_speed_excites() {
     use kontur_filters::control::buffer::{Setpoint, SetpointBuffer};
@@ -430,6 +440,7 @@ fn added_speed_excites() {
     assert_eq!(subtracted.at_53(), axis.at_53(), "the axis is the sum of its parts");
 }
 
+/// Conformance: I024.
 #[test]
 fn parameters_are_taken_at_standstill_only() {
     let config = Experiment::default().config(on([direct(2.0)]));
@@ -441,4 +452,17 @@ fn parameters_are_taken_at_standstill_only() {
     axis.step(0.1, 0.0, false);
     axis.change_ipc(on([direct(3.0)])).unwrap();
     assert_eq!(axis.config().ipc, on([direct(3.0)]));
+}
+
+/// At 53 Hz the transport delay of the simulated oscillation turns damping into excitation. Conformance: I014.
+#[test]
+fn indirect_with_dead_time_excites_high_frequencies() {
+    let plain = run(off()).at_53();
+    let late = |weight| {
+        let high = stage(IpcMode::Indirect, 53.0, 3.0, 0.2, weight);
+        run(IpcConfig { delay_cycles: 4, ..on([high]) }).at_53()
+    };
+    for weight in [0.4, 1.0] {
+        assert!(late(weight) > 1.1 * plain, "{} of {plain}", late(weight));
+    }
 }

@@ -208,6 +208,7 @@ fn arrival() {
     }
 }
 
+/// Conformance: A011.
 #[test]
 fn the_chain_multiplies_responses_and_adds_delays() {
     let low = standard(FilterKind::LowPass, Prototype::CritDamping, 4, 1.0);
@@ -231,6 +232,7 @@ fn the_chain_multiplies_responses_and_adds_delays() {
     assert_close(highest, product.magnitude(), 1e-4 * highest, &"sine");
 }
 
+/// Conformance: A098.
 #[test]
 fn a_share_of_the_signal_goes_past_the_filter() {
     for kind in KINDS {
@@ -251,6 +253,7 @@ fn a_share_of_the_signal_goes_past_the_filter() {
     assert_close(floor.magnitude_db(), -6.02, 0.01, &half);
 }
 
+/// Conformance: A013, A068, A069, A070, A075, A087.
 #[test]
 fn entries_of_a_list() {
     let low = FilterEntry { enable: true, order: 4, f_hz: 15.0, ..FilterEntry::default() };
@@ -282,6 +285,7 @@ fn entries_of_a_list() {
     assert_eq!(of(&[delay]), (0, None, vec![(0, refused)]));
 }
 
+/// Conformance: A002, A099.
 #[test]
 fn numbers_of_types_and_prototypes() {
     for number in [0, 7, 9, 13, u32::MAX] {

@@ -31,6 +31,7 @@ fn filter(kernel: Kernel) -> KernelFilter {
     KernelFilter::new(Arc::new(kernel), 0.0)
 }
 
+/// Conformance: A082.
 #[test]
 fn kernels_and_corner_errors_of_the_reference() {
     for row in rows("axis_filters_fir_corner") {
@@ -123,6 +124,7 @@ fn the_bell_and_the_sinc() {
     assert_close(highest - 1.0, 0.064, 5e-4, &"overshoot");
 }
 
+/// Conformance: A077.
 #[test]
 fn no_vibration_blocks_its_frequency() {
     for tenth_hz in 50..=3333 {
@@ -227,6 +229,7 @@ fn ranges_of_fir_filters() {
     }
 }
 
+/// Conformance: A088, A102, A103.
 #[test]
 fn ranges_of_hsc_filters() {
     let of = |config: HscConfig| {

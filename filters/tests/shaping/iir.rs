@@ -58,6 +58,7 @@ fn lag(kind: FilterKind, time_constant_us: u32) -> AxisFilter {
     design(&FilterConfig { kind, order: 2, time_constant_us, ..FilterConfig::default() })
 }
 
+/// Conformance: A016, A017, A024.
 #[test]
 fn magnitude_phase_and_delay_of_the_reference() {
     for row in rows("axis_filters_reference") {
@@ -226,6 +227,7 @@ fn minus_three_decibels_at_the_corner() {
     }
 }
 
+/// Conformance: A022.
 #[test]
 fn a_second_order_lag_is_two_first_order_lags() {
     let (pt1, pt2) = (lag(FilterKind::Pt1, 5000), lag(FilterKind::Pt2, 5000));
@@ -354,6 +356,7 @@ fn group_delay_is_the_slope_of_the_phase() {
     }
 }
 
+/// Conformance: A023, A065.
 #[test]
 fn a_whole_time_delay_shifts_bit_for_bit() {
     for cycles in 0..6_u32 {
@@ -373,6 +376,7 @@ fn a_whole_time_delay_shifts_bit_for_bit() {
     }
 }
 
+/// Conformance: A062.
 #[test]
 fn a_time_delay_passes_every_amplitude() {
     for time_constant_us in [1, 300, 400, 499, 500, 501, 1500, 2300, 3700, 5499, 5500, 5999] {
@@ -409,6 +413,7 @@ fn issues(config: FilterConfig) -> (bool, Vec<FilterIssue>) {
     (filter.is_some(), issues)
 }
 
+/// Conformance: A053, A063, A091, A092, A094, A101.
 #[test]
 fn ranges() {
     let on = FilterConfig { order: 1, ..FilterConfig::default() };

@@ -7,6 +7,8 @@ mod chain;
 #[cfg(test)]
 mod corner;
 #[cfg(test)]
+mod figures;
+#[cfg(test)]
 mod fir;
 #[cfg(test)]
 mod iir;

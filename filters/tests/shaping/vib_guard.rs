@@ -113,6 +113,7 @@ fn ideal(mode: u8, freq_hz: f64, damping: f64) -> Vec<Impulse> {
     VibGuardSettings { mode, freq_hz, damping }.ideal_impulses().unwrap()
 }
 
+/// Conformance: V001.
 #[test]
 fn nothing_is_left_at_the_set_frequency() {
     for mode in 1..=4 {
@@ -179,6 +180,7 @@ fn sensitivity_bands() {
 }
 
 /// The vendor's example: set to 6 Hz, really 6.9 or 5.4 Hz; only mode 2 (and 3) keep below 5 %.
+/// Conformance: V020.
 #[test]
 fn the_vendors_worked_example() {
     let left =
@@ -239,6 +241,7 @@ fn acceleration_near_a_corner_adds_the_second_moment() {
 }
 
 /// A 10 Hz mass on a damped spring, its base moved by a shaped step: after the kernel's length it stands still.
+/// Conformance: V001.
 #[test]
 fn a_spring_and_mass_stand_still() {
     let (w, z) = (2.0 * PI * 10.0, 0.1);
@@ -272,6 +275,7 @@ fn a_spring_and_mass_stand_still() {
 }
 
 /// There and back: only the symmetric mode draws the same path in both directions.
+/// Conformance: V008, V009.
 #[test]
 fn the_symmetric_mode_repeats_the_path_backwards() {
     let gap = |mode| {
@@ -280,4 +284,55 @@ fn the_symmetric_mode_repeats_the_path_backwards() {
     };
     assert!(gap(4) < 1e-12, "{:e}", gap(4));
     assert!(gap(2) > 1e-3, "{:e}", gap(2));
+}
+
+/// 5 % residual at damping 0.1: the printed limits of each mode, as set over real frequency, and what is left there.
+/// Conformance: V010, V012, V013, V014, V015.
+#[test]
+fn printed_limits_of_the_modes() {
+    let mut width = 0.0;
+    for (mode, low, high, at_low, at_high) in [
+        (1, -3.0, 3.0, 4.1, 3.9),
+        (2, -13.0, 19.0, 3.7, 4.7),
+        (3, -20.0, 33.0, 3.0, 3.8),
+        (4, -10.0, 13.0, 4.6, 4.7),
+    ] {
+        let impulses = ideal(mode, 30.0, 0.1);
+        let left = |percent: f64| {
+            100.0 * residual_vibration_ratio(&impulses, 30.0 / (1.0 + percent / 100.0), 0.1)
+        };
+        assert_close(left(low), at_low, 0.06, &(mode, low));
+        assert_close(left(high), at_high, 0.06, &(mode, high));
+        let band = SensitivityBand::of(&impulses, 30.0, 0.1, 0.05).unwrap().set_over_real();
+        if mode < 4 {
+            assert!(band.1 - band.0 > width, "less sensitive than the mode before");
+            width = band.1 - band.0;
+        }
+    }
+}
+
+/// F4000 without slow-down. The error at a corner grows with the mode, in proportion to the feed and to one over the
+/// frequency. Conformance: V005, V011, V017, V023, V024.
+#[test]
+fn axis_error_at_a_corner() {
+    let error = |mode, freq_hz, feed: f64| {
+        let kernel = kernel(mode, freq_hz, 0.1);
+        let cycles = 2 * kernel.length() + 2;
+        corner(&KernelFilter::new(Arc::new(kernel), 0.0), feed / 60.0 * 0.001, cycles).contour_error
+    };
+    let at_40_hz = [0.20439, 0.23561, 0.29943];
+    let at_10_hz = [0.8170, 0.9448, 1.1956, 0.8193];
+    for (mode, want) in (1..=3).zip(at_40_hz) {
+        assert_close(error(mode, 40.0, 4000.0), want, 6e-6, &mode);
+    }
+    for (mode, want) in (1..=4).zip(at_10_hz) {
+        assert_close(error(mode, 10.0, 4000.0), want, 6e-5, &mode);
+    }
+    assert!(at_40_hz.is_sorted() && at_10_hz[..3].is_sorted());
+    for mode in 1..=4 {
+        assert_close(error(mode, 40.0, 4000.0) / error(mode, 40.0, 2000.0), 2.0, 1e-12, &mode);
+        assert_close(error(mode, 20.0, 4000.0) / error(mode, 40.0, 4000.0), 2.0, 0.03, &mode);
+        assert_ne!(kernel(mode, 40.0, 0.1), kernel(mode, 41.0, 0.1));
+        assert_ne!(kernel(mode, 40.0, 0.1), kernel(mode, 40.0, 0.2));
+    }
 }

@@ -239,6 +239,7 @@ fn numbers_that_do_not_fit_together() {
     assert_eq!(errors[0].id, Id::Kontur(13));
 }
 
+/// Conformance: F055, F065, F082, F087, F088, V063, V065, V067.
 #[test]
 fn documented_reactions_to_values_out_of_range() {
     // TF5200 diagnosis, plausibility of axis parameters: line of the list, ID, value used
@@ -302,6 +303,7 @@ fn documented_reactions_to_values_out_of_range() {
     }
 }
 
+/// Conformance: A108, F075, F076.
 #[test]
 fn values_with_a_meaning_of_their_own_are_no_faults() {
     let mut files = Memory::machine();
@@ -369,6 +371,7 @@ fn rules_over_several_parameters() {
     );
 }
 
+/// Conformance: F023.
 #[test]
 fn what_has_no_effect_is_said() {
     let mut files = Memory::machine();

@@ -29,6 +29,7 @@ fn ids(issues: &[Issue]) -> Vec<ErrorId> {
     issues.iter().map(Issue::id).collect()
 }
 
+/// Conformance: F049, F057, F072.
 #[test]
 fn flags_are_the_vendor_numbers() {
     assert_eq!(FeedforwardMode::from_bits(0x101), Some(FeedforwardMode::ADD_VEL));
@@ -42,6 +43,7 @@ fn flags_are_the_vendor_numbers() {
     assert_eq!(FeedforwardMode::from_bits(0x1000), None);
 }
 
+/// Conformance: F006, F026, F078.
 #[test]
 fn switch_and_weight() {
     let c = config(FeedforwardMode::VEL);
@@ -55,6 +57,7 @@ fn switch_and_weight() {
 }
 
 /// Means over the coming cycle: v + aT/2 + jT2/6 for the velocity, a + jT/2 for the acceleration.
+/// Conformance: F003, F005, F077.
 #[test]
 fn conventional_law() {
     use FeedforwardMode as M;
@@ -87,6 +90,7 @@ fn conventional_law() {
     }
 }
 
+/// Conformance: F074.
 #[test]
 fn no_jerk_branch_on_a_step_slope() {
     let mut w = window(0.0, 0.0, 1000.0);
@@ -97,6 +101,7 @@ fn no_jerk_branch_on_a_step_slope() {
     assert_eq!(Feedforward::new(c, T).step(&w, KV).additive_acc_mm_s2, 0.0);
 }
 
+/// Conformance: F015.
 #[test]
 fn additive_variant_weights_and_leaves_the_controller_alone() {
     let mode = FeedforwardMode::ADD_VEL | FeedforwardMode::ADD_ACC | FeedforwardMode::ADD_JERK;
@@ -110,6 +115,7 @@ fn additive_variant_weights_and_leaves_the_controller_alone() {
     assert!((out.additive_acc_mm_s2 - 2.0 * 1e-3 * 20000.0).abs() < 1e-3);
 }
 
+/// Conformance: F054.
 #[test]
 fn delays_interpolate_between_samples() {
     for (delay_s, shift) in
@@ -127,6 +133,7 @@ fn delays_interpolate_between_samples() {
     }
 }
 
+/// Conformance: F050, F055, F058, F065.
 #[test]
 fn corrections() {
     let mode = FeedforwardMode::ADD_VEL | FeedforwardMode::ADD_ACC | FeedforwardMode::ADD_JERK;

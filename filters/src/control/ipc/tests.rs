@@ -28,6 +28,7 @@ fn ids(config: &IpcConfig) -> Vec<ErrorId> {
     config.check(T).iter().map(Issue::id).collect()
 }
 
+/// Conformance: I026, I035, I037, I041, I043, I046.
 #[test]
 fn errors_switch_the_axis_off_and_warnings_do_not() {
     use ErrorId::{Kontur, Vendor};
@@ -79,6 +80,7 @@ fn amplitude(config: &IpcConfig) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// Conformance: I041, I044, I047.
 #[test]
 fn weight_and_oscillator_set_the_amplitude() {
     assert!((amplitude(&config(vec![stage(IpcMode::Direct)])) - 2.0).abs() < 1e-3);
@@ -93,6 +95,7 @@ fn weight_and_oscillator_set_the_amplitude() {
     assert_eq!(amplitude(&tight), 1.0, "0.2 % of 500 mm/s");
 }
 
+/// Conformance: I007.
 #[test]
 fn direct_falls_back_to_the_motor() {
     let mut ipc =
@@ -123,6 +126,7 @@ fn delay_shifts_the_output() {
     }
 }
 
+/// Conformance: I024.
 #[test]
 fn parameters_change_at_standstill_only() {
     let mut ipc = Ipc::new(&config(vec![stage(IpcMode::Direct)]), 500.0, T);
@@ -132,4 +136,74 @@ fn parameters_change_at_standstill_only() {
     assert_eq!(ipc.stages.len(), 1, "the old parameters stay");
     ipc.change(&IpcConfig::default(), 500.0, T, false).unwrap();
     assert!(ipc.stages.is_empty());
+}
+
+/// Largest additive speed for cosines of amplitude 1 at `f_hz` in the speed of the motor and in the command.
+fn response(config: &IpcConfig, f_hz: f64, motor: f64, command: f64) -> Vec<f64> {
+    let mut ipc = Ipc::new(config, 500.0, T);
+    let cosine = |k: u32| libm::cos(std::f64::consts::TAU * f_hz * 1e-3 * f64::from(k));
+    let step = |k: u32| {
+        let motor_mm_s = motor * cosine(k);
+        ipc.step(&IpcInput { motor_mm_s, direct_mm_s: None, command_mm_s: command * cosine(k) })
+    };
+    (0..8000).map(step).map(|out| out.speed_mm_s).collect()
+}
+
+fn peak(out: &[f64]) -> f64 {
+    out[6000..].iter().map(|v| v.abs()).fold(0.0, f64::max)
+}
+
+/// Conformance: I015, I042.
+#[test]
+fn amplitude_over_weight_and_damping() {
+    let with = |mode, weight_num, oscillator_damping| {
+        let stage = IpcStageConfig { weight_num, oscillator_damping, ..stage(mode) };
+        peak(&response(&config(vec![stage]), 53.0, 1.0, 1.0))
+    };
+    for mode in [IpcMode::Direct, IpcMode::Indirect, IpcMode::SetPoint] {
+        let one = with(mode, 1.0, 0.2);
+        assert!((with(mode, 0.5, 0.2) / one - 0.5).abs() < 1e-9);
+        assert!((with(mode, 2.0, 0.2) / one - 2.0).abs() < 1e-9);
+        let twice = if mode == IpcMode::Direct { 1.0 } else { 2.0 };
+        assert!((with(mode, 1.0, 0.1) / one - twice).abs() < 1e-3, "1 / (2 D)");
+    }
+}
+
+/// 53 Hz with Q 10: -3 dB 5.3 Hz apart, 11 Hz at least 20 dB below what comes in. Conformance: I009, I033.
+#[test]
+fn a_stage_cuts_its_band_out() {
+    let direct = || config(vec![IpcStageConfig { weight_num: 1.0, ..stage(IpcMode::Direct) }]);
+    let gain = |f_hz| peak(&response(&direct(), f_hz, 1.0, 0.0));
+    assert!(gain(11.0) < 0.1, "{}", gain(11.0));
+    let edge = |mut inside: f64, mut outside: f64| {
+        for _ in 0..20 {
+            let middle = 0.5 * (inside + outside);
+            if gain(middle) > 0.5_f64.sqrt() { inside = middle } else { outside = middle }
+        }
+        inside
+    };
+    let width = edge(53.0, 70.0) - edge(53.0, 40.0);
+    // the bilinear transform narrows the band by 3 % at 53 Hz
+    assert!((width - 5.3).abs() < 0.16, "{width}");
+}
+
+/// DIRECT and INDIRECT take the measured speed, `SET_POINT` the command; the oscillation is simulated for the last two.
+/// Conformance: I012, I016, I043.
+#[test]
+fn what_the_modes_listen_to() {
+    let with = |mode, damping, motor, command| {
+        let stage = IpcStageConfig { oscillator_damping: damping, ..stage(mode) };
+        response(&config(vec![stage]), 53.0, motor, command)
+    };
+    for mode in [IpcMode::Direct, IpcMode::Indirect] {
+        assert_eq!(with(mode, 0.2, 1.0, 0.0), with(mode, 0.2, 1.0, 5.0), "{mode:?}");
+        assert_eq!(peak(&with(mode, 0.2, 0.0, 5.0)), 0.0, "{mode:?}");
+    }
+    let set_point = |motor, command| with(IpcMode::SetPoint, 0.2, motor, command);
+    assert_eq!(set_point(0.0, 1.0), set_point(5.0, 1.0));
+    assert_eq!(peak(&set_point(5.0, 0.0)), 0.0);
+    assert_eq!(with(IpcMode::Direct, 0.2, 1.0, 1.0), with(IpcMode::Direct, 0.3, 1.0, 1.0));
+    for mode in [IpcMode::Indirect, IpcMode::SetPoint] {
+        assert_ne!(with(mode, 0.2, 1.0, 1.0), with(mode, 0.3, 1.0, 1.0), "{mode:?}");
+    }
 }

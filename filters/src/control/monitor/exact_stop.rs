@@ -59,11 +59,13 @@ impl ExactStopMonitor {
         (self.state, self.moved) = (State::Idle, false);
     }
 
-    /// The path comes to a stop, for this axis at `target_mm`. An axis that has not moved since its last stop, and
-    /// need not, has no new one.
+    /// The path comes to a stop, for this axis at `target_mm`; told at the latest right behind the cycle in which the
+    /// set position got there. An axis that has not moved since its last stop, and need not, has no new one.
     pub fn expect(&mut self, target_mm: f64) {
-        if self.moved || (target_mm - self.last_mm).abs() > Self::REACHED_MM {
+        if (target_mm - self.last_mm).abs() > Self::REACHED_MM {
             self.state = State::Approaching { target_mm };
+        } else if self.moved {
+            self.state = State::Settling { target_mm, cycles: 0 };
         }
     }
 
@@ -135,6 +137,7 @@ mod tests {
         (0..2000).find_map(|k| m.step(1.0, actual_mm(k)).map(|f| (k, f)))
     }
 
+    /// Conformance: P005.
     #[test]
     fn raises_in_the_cycle_the_time_is_over() {
         let (k, fault) = fault_after(&mut monitor(Some(0.2)), |_| 0.94).unwrap();
@@ -145,12 +148,22 @@ mod tests {
         assert_eq!((window_mm, time_s), (0.05, 0.2));
     }
 
+    /// Conformance: P006, P019.
     #[test]
     fn inside_in_time_ends_the_monitoring_of_this_stop() {
         let inside_then_out = |k| if (150..160).contains(&k) { 0.96 } else { 0.5 };
         assert_eq!(fault_after(&mut monitor(Some(0.2)), inside_then_out), None);
         assert_eq!(fault_after(&mut monitor(None), |_| 0.0), None, "0 switches the monitor off");
         assert!(fault_after(&mut monitor(Some(0.149)), inside_then_out).is_some());
+    }
+
+    /// Told before the last step or right behind it: the same cycle.
+    #[test]
+    fn a_stop_told_behind_the_last_step() {
+        let mut m = monitor(Some(0.2));
+        (1..=10).for_each(|k| assert_eq!(m.step(0.1 * f64::from(k), 0.0), None));
+        m.expect(1.0);
+        assert_eq!((1..2000).find(|_| m.step(1.0, 0.94).is_some()), Some(200));
     }
 
     #[test]
@@ -164,6 +177,7 @@ mod tests {
         assert!((0..100).all(|_| m.step(1.0, 5.0).is_none()));
     }
 
+    /// Conformance: P017.
     #[test]
     fn without_a_stop_of_the_path_no_timer() {
         let mut m = monitor(Some(0.001));

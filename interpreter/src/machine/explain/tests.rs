@@ -56,6 +56,7 @@ fn examples_of_parameters_load_without_a_message() {
     }
 }
 
+/// Conformance: F017, F072.
 #[test]
 fn facts_of_a_parameter() {
     let e = explain("p-axis-00223").unwrap();
@@ -80,6 +81,7 @@ fn facts_of_a_parameter() {
     assert_eq!(e.related, ["P-AXIS-00236", "P-AXIS-00532"]);
 }
 
+/// Conformance: A014, A015, V038.
 #[test]
 fn commands_and_words() {
     let guard = explain("#vib  guard on [MODE=2]").unwrap();
