@@ -6,6 +6,7 @@
 
 pub mod args;
 mod order;
+mod own;
 mod program;
 pub mod recording;
 
@@ -57,12 +58,13 @@ pub fn tune(
     } else {
         recording::measured(args, console)?
     };
-    let damping = args.damping.or(measured_damping);
+    // what is judged is what stands in the command to paste
+    let damping = args.damping.or(measured_damping.map(rounded));
     let damping = damping.unwrap_or(VibGuardSettings::default().damping);
     let band = VibrationBand::of(&freqs_hz, damping)
         .ok_or_else(|| Error::Usage("no natural frequency to tune for".to_owned()))?;
     let task = Task {
-        at_hz: args.at.unwrap_or_else(|| median(&freqs_hz)),
+        at_hz: args.at.unwrap_or_else(|| (100.0 * median(&freqs_hz)).round() / 100.0),
         freqs_hz,
         band,
         limit_ratio: args.max_residual / 100.0,
@@ -105,7 +107,7 @@ fn median(values: &[f64]) -> f64 {
 /// The command that switches settings on.
 fn command(settings: &VibGuardSettings, rest: &str) -> String {
     let VibGuardSettings { mode, freq_hz, damping } = settings;
-    format!("#VIB GUARD ON [MODE={mode} FREQ={freq_hz} DAMPING={}{rest}]", rounded(*damping))
+    format!("#VIB GUARD ON [MODE={mode} FREQ={freq_hz} DAMPING={damping}{rest}]")
 }
 
 /// A damping ratio as it is written: nobody measures more digits.
@@ -151,7 +153,7 @@ impl Task {
             "measured  {} Hz, damping {}\n\
              assumed   cycle {} ms; 90 degree corner at F{} without slowing down; residual at most {} %\n\n",
             list(&self.freqs_hz),
-            rounded(self.band.damping),
+            self.band.damping,
             f64::from(self.cycle.us()) / 1000.0,
             self.feed_mm_min,
             100.0 * self.limit_ratio,

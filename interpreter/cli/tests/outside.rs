@@ -405,10 +405,17 @@ fn tune_judges_the_choices_on_a_program() {
     std::fs::write(f.path("corner.nc"), "N10 #VIB GUARD ON [AX_DEV=0.02]\nN20 M30\n").unwrap();
     let (_, out, _) = tune("@corner.nc", "1");
     assert!(out.contains("AX_DEV=0.02 (line 1)") && out.contains(" AX_DEV=0.02]\n"), "{out}");
-    std::fs::write(f.path("corner.nc"), "\nN10 #VIB GUARD ON [MODE=2 FREQ=40]\n").unwrap();
+    // words that are to be chosen give way, and the program stays as it is
+    let program = "\nN10 #VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.02]\n";
+    std::fs::write(f.path("corner.nc"), program).unwrap();
+    let (exit, out, _) = tune("@corner.nc", "1");
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("(line 2) give way") && out.contains(" AX_DEV=0.02]\n"), "{out}");
+    assert_eq!(f.read("corner.nc"), program);
+    std::fs::write(f.path("corner.nc"), "N10 #VIB GUARD ON [MODE=V.P.M]\n").unwrap();
     let (exit, _, err) = tune("@corner.nc", "1");
     assert_eq!(exit, Exit::Usage);
-    assert!(err.contains("line 2") && err.contains("outvotes"), "{err}");
+    assert!(err.contains("line 1") && err.contains("computes"), "{err}");
     // a subroutine that goes on with its own guard shows in the delays
     let (exit, _, err) = tune("@stubborn.nc", "1");
     assert_eq!(exit, Exit::Usage);

@@ -2,11 +2,12 @@
 //!
 //! A choice is put over the axis lists (`vib_guard.*` of every path axis), as if the machine's lists said so. A program
 //! command has priority over the lists key by key: a bare `#VIB GUARD ON` or one with `AX_DEV` alone runs with the
-//! choice and with its own tolerance, but a command that names MODE, FREQ or DAMPING itself outvotes it. Such a program
-//! is refused, because every row of the table would show the program's own settings; and because a subroutine may hide
-//! such a command, the delays that really acted are compared with those of the kernels.
+//! choice and with its own tolerance, but a command that names MODE, FREQ or DAMPING itself would outvote it. Those words
+//! are what is to be chosen: the runs take a copy of the program without them. Because a subroutine may hide such a
+//! command too, the delays that really acted are compared with those of the kernels.
 
 use super::args::TuneArgs;
+use super::own::{Commands, without_choices};
 use super::{Choice, Row, Task, command};
 use crate::console::Console;
 use crate::engine::{Engine, Request};
@@ -14,8 +15,6 @@ use crate::summary::{Collector, State, Summary};
 use crate::table::{Table, number};
 use crate::{Error, Exit, run, simulator};
 use kontur_interpreter::machine::Machine;
-use std::fs::File;
-use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// Deviations are kept to this in mm, as everywhere.
@@ -43,14 +42,14 @@ pub(super) fn answer(
     console: &mut Console,
 ) -> Result<Exit, Error> {
     let own = Commands::of(file)?;
-    if let Some((line, text)) = &own.outvoting {
-        return Err(Error::Usage(format!(
-            "{}, line {line}: `{text}` names MODE, FREQ or DAMPING itself and outvotes every choice; \
-             leave ON and AX_DEV there and take out the rest",
-            file.display()
-        )));
+    let mut request = args.simulation.request(file);
+    // lives until the last run
+    let copy = own.outvoting.map(|_| without_choices(file)).transpose()?;
+    if let Some(copy) = &copy {
+        request.program.clone_from(&copy.program);
+        // what is not beside the copy is beside the original
+        request.path.extend(file.parent().map(Path::to_path_buf));
     }
-    let request = args.simulation.request(file);
     let loaded = simulator::machine(&request);
     let (machine, _) =
         loaded.map_err(|e| run::announce_lists(e, args.simulation.diagnostics, console))?;
@@ -168,77 +167,6 @@ fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
     Ok(())
 }
 
-/// What the program says about the Vibration Guard.
-#[derive(Debug, Default, PartialEq)]
-struct Commands {
-    /// First line that names what is to be chosen, and its text.
-    outvoting: Option<(usize, String)>,
-    /// First line that switches the guard on.
-    on: Option<usize>,
-    /// First line that switches the guard off.
-    off: Option<usize>,
-    /// Line and value of the first `AX_DEV`.
-    tolerance: Option<(usize, String)>,
-}
-
-impl Commands {
-    /// Reads the commands of a program file line by line; those of subroutines show in the delays.
-    fn of(file: &Path) -> Result<Self, Error> {
-        let io = |e| Error::io(file.display().to_string(), e);
-        let mut reader = BufReader::new(File::open(file).map_err(io)?);
-        let mut commands = Self::default();
-        let mut line = Vec::new();
-        for number in 1.. {
-            line.clear();
-            if reader.read_until(b'\n', &mut line).map_err(io)? == 0 {
-                break;
-            }
-            commands.read(number, &String::from_utf8_lossy(&line));
-        }
-        Ok(commands)
-    }
-
-    fn read(&mut self, number: usize, line: &str) {
-        let code = without_comments(line).to_ascii_uppercase();
-        let Some(at) = code.find('#') else { return };
-        let words: Vec<&str> = code[at + 1..]
-            .split(|c: char| c.is_whitespace() || "[],=".contains(c))
-            .filter(|word| !word.is_empty())
-            .collect();
-        let Some(["VIB", "GUARD", rest @ ..]) = words.get(..) else { return };
-        let names = |wanted: &[&str]| rest.iter().any(|word| wanted.contains(word));
-        if self.outvoting.is_none() && names(&["MODE", "FREQ", "DAMPING"]) {
-            self.outvoting = Some((number, line.trim().to_owned()));
-        }
-        if self.on.is_none() && names(&["ON"]) {
-            self.on = Some(number);
-        }
-        if self.off.is_none() && names(&["OFF"]) {
-            self.off = Some(number);
-        }
-        if self.tolerance.is_none() {
-            let mut after = rest.iter().skip_while(|word| **word != "AX_DEV").skip(1);
-            self.tolerance = after.next().map(|value| (number, (*value).to_owned()));
-        }
-    }
-}
-
-/// A line without `( .. )` and what follows `;`.
-fn without_comments(line: &str) -> String {
-    let mut code = String::new();
-    let mut depth = 0_u32;
-    for c in line.chars() {
-        match c {
-            ';' if depth == 0 => break,
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            c if depth == 0 => code.push(c),
-            _ => {}
-        }
-    }
-    code
-}
-
 /// Limits of the machine and how the program is run.
 fn assumed(machine: &Machine, own: &Commands, max_dev_mm: f64) -> String {
     let cycle_ms = f64::from(machine.cycle.us()) / 1000.0;
@@ -269,6 +197,11 @@ fn assumed(machine: &Machine, own: &Commands, max_dev_mm: f64) -> String {
              #VIB GUARD ON [AX_DEV={max_dev_mm}] in it this table shows what the tolerance costs"
         ),
     });
+    if let Some(line) = own.outvoting {
+        lines.push(format!(
+            "          MODE, FREQ and DAMPING of the program's own commands (line {line}) give way to each of them"
+        ));
+    }
     if let Some(line) = own.off {
         lines.push(format!(
             "          line {line} switches the guard off: from there on nothing is damped"
@@ -351,38 +284,6 @@ fn verdict(task: &Task, outcomes: &[Outcome], max_dev_mm: f64, own: &Commands) -
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn commands(text: &str) -> Commands {
-        let mut commands = Commands::default();
-        for (line, number) in text.lines().zip(1..) {
-            commands.read(number, line);
-        }
-        commands
-    }
-
-    #[test]
-    fn commands_of_a_program() {
-        assert_eq!(commands("N10 G1 X1\nN20 M30"), Commands::default());
-        let own = commands("N10 #vib guard on [AX_DEV = 0.01]\nN20 #VIB GUARD OFF");
-        assert_eq!(own.outvoting, None);
-        assert_eq!((own.on, own.off), (Some(1), Some(2)));
-        assert_eq!(own.tolerance, Some((1, "0.01".to_owned())));
-        for line in [
-            "#VIB GUARD ON[MODE=2 FREQ=40]",
-            "N1 #VIB GUARD [DAMPING 0.1]",
-            "#VIB  GUARD [FREQ=6 ,MODE=2]",
-        ] {
-            assert_eq!(commands(line).outvoting, Some((1, line.to_owned())), "{line}");
-        }
-        for line in [
-            "(#VIB GUARD ON [MODE=2])",
-            "; #VIB GUARD [MODE=2]",
-            "#FILTER ON [ORDER=2]",
-            "#VIB GUARD ON (MODE=2)",
-        ] {
-            assert_eq!(commands(line).outvoting, None, "{line}");
-        }
-    }
 
     #[test]
     fn a_choice_stands_over_the_lists_of_every_path_axis() {
