@@ -19,13 +19,13 @@ use crate::machine::{Axis, Machine};
 use crate::record::{CycleRecord, PathRecord};
 use crate::source::Sources;
 use chain::AxisChain;
-use spindle::Spindle;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::limit::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::tolerance::Kernels;
+use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use wait::Wait;
@@ -47,7 +47,9 @@ enum Phase {
     /// At rest until the condition is met.
     Waiting(Wait),
     /// Braking after a fault, until the axes have come to rest.
-    Stopping { settled_cycles: u32 },
+    Stopping {
+        settled_cycles: u32,
+    },
     Done,
 }
 
@@ -453,7 +455,8 @@ impl Simulation {
 
     fn check_time(&mut self) {
         let k = self.planner.setpoint().k;
-        let over = k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping { .. });
+        let over =
+            k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping { .. });
         if over {
             self.diagnostics.push(fault::out_of_time(k, self.cycle, self.max_cycles));
             self.totals.aborted = true;
@@ -468,7 +471,8 @@ fn drivers(machine: &Machine) -> Vec<Driver> {
         let number = axis.gantry_master()?;
         machine.axes.iter().position(|a| a.number() == number)
     };
-    let slaves = machine.gantry_slaves.iter().map(|a| master(a).map_or(Driver::Standing, Driver::Path));
+    let slaves =
+        machine.gantry_slaves.iter().map(|a| master(a).map_or(Driver::Standing, Driver::Path));
     let paths = (0..machine.axes.len()).map(Driver::Path);
     let spindles = (0..machine.spindles.len()).map(Driver::Spindle);
     paths.chain(spindles).chain(slaves).collect()

@@ -82,11 +82,12 @@ pub fn plan(
         for (k, s) in stretches.iter().enumerate() {
             let (from, to) = (speeds[k], speeds[k + 1]);
             let profile = s.slope.plan(from.0, to.0, s.feed, s.length)?;
-            if s.end - s.first > 1 && blocks[s.first].plans_across() {
-                if let Some(worst) = most_exceeded(blocks, feeds, caps, s, &profile) {
-                    knot[worst] = true;
-                    again = true;
-                }
+            if s.end - s.first > 1
+                && blocks[s.first].plans_across()
+                && let Some(worst) = most_exceeded(blocks, feeds, caps, s, &profile)
+            {
+                knot[worst] = true;
+                again = true;
             }
             plan.spans.push(Span {
                 first: s.first,
@@ -132,10 +133,7 @@ fn mark_knots(
 fn stretches(blocks: &[Arc<Queued>], feeds: &[Cap], knot: &[bool]) -> Vec<Stretch> {
     let mut out = Vec::with_capacity(blocks.len());
     let mut first = 0;
-    for end in 1..=blocks.len() {
-        if !knot[end] {
-            continue;
-        }
+    for (end, _) in knot.iter().enumerate().skip(1).filter(|(_, k)| **k) {
         let mut s = Stretch {
             first,
             end,

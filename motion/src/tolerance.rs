@@ -219,7 +219,7 @@ impl Monitor {
             buffer.fill(self, trial, first);
             for k in first..=last {
                 buffer.step(self, trial, k);
-                self.judge(trial, marks, &contour, k, &buffer, &mut findings);
+                Self::judge(trial, marks, &contour, k, &buffer, &mut findings);
             }
             next = last + 1;
         }
@@ -227,7 +227,6 @@ impl Monitor {
     }
 
     fn judge(
-        &self,
         trial: &Trial<'_>,
         marks: &[Mark],
         contour: &Contour,

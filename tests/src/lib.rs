@@ -33,7 +33,11 @@ impl Run {
     }
 
     /// A value of one axis over all cycles.
-    pub fn axis(&self, i: usize, f: impl Fn(&kontur_interpreter::record::AxisRecord) -> f64) -> Vec<f64> {
+    pub fn axis(
+        &self,
+        i: usize,
+        f: impl Fn(&kontur_interpreter::record::AxisRecord) -> f64,
+    ) -> Vec<f64> {
         self.records.iter().map(|r| f(&r.axes[i])).collect()
     }
 

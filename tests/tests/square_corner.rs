@@ -21,7 +21,8 @@ fn three_passes() {
         let lines = line(from)..=line(to);
         run.records.iter().filter(move |r| lines.contains(&r.line))
     };
-    let dev = |r: &kontur_interpreter::record::CycleRecord| largest(&[r.axes[0].set, r.axes[1].set]);
+    let dev =
+        |r: &kontur_interpreter::record::CycleRecord| largest(&[r.axes[0].set, r.axes[1].set]);
     assert!(pass("N30", "N60").map(dev).fold(0.0, f64::max) <= 0.01);
     assert!(pass("N80", "N110").map(dev).fold(0.0, f64::max) > 0.01);
     for r in pass("N130", "N160") {
@@ -84,7 +85,12 @@ fn documented_cycle_counts() {
         );
         let program = format!("%C\n#SLOPE [TYPE={slope}]\nG90 G01 X1 F4000\nY1\nX0\nY0\nM30\n");
         let run = run_on(machine, &program);
-        assert_eq!(run.records.len() - 1, cycles, "{slope}, {us} us, weight {weight}: {:?}", run.diagnostics);
+        assert_eq!(
+            run.records.len() - 1,
+            cycles,
+            "{slope}, {us} us, weight {weight}: {:?}",
+            run.diagnostics
+        );
     }
 }
 

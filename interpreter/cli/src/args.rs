@@ -1,8 +1,8 @@
 //! The command line as clap sees it. Wrong usage ends with exit code 2.
 
 use crate::engine::Request;
-use kontur_interpreter::machine::Override;
 use clap::{Parser, Subcommand, ValueEnum};
+use kontur_interpreter::machine::Override;
 use std::path::PathBuf;
 
 /// Headless NC kernel simulator for the ISG / TwinCAT 3 CNC dialect.

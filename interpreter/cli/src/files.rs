@@ -38,7 +38,8 @@ impl Source for ProgramFile {
 impl Sources for ProgramFiles {
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError> {
         // programs written on Windows name their subroutines with backslashes
-        let wanted = PathBuf::from(if caller.is_some() { name.replace('\\', "/") } else { name.to_owned() });
+        let wanted =
+            PathBuf::from(if caller.is_some() { name.replace('\\', "/") } else { name.to_owned() });
         let beside = caller.and_then(|c| Path::new(c).parent()).map(|p| p.join(&wanted));
         let places = beside
             .into_iter()

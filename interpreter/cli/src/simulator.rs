@@ -51,7 +51,9 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         if !machine.axes.iter().any(|a| a.name().eq_ignore_ascii_case(name)) {
             let known: Vec<&str> = machine.axes.iter().map(|a| a.name()).collect();
             let known = known.join(", ");
-            return Err(OpenError::Usage(format!("--start: no axis `{name}`; the axes are {known}")));
+            return Err(OpenError::Usage(format!(
+                "--start: no axis `{name}`; the axes are {known}"
+            )));
         }
     }
     let skip = request.skip.iter().fold(SkipLevels::NONE, |levels, level| levels.with(*level));

@@ -67,15 +67,13 @@ impl Contour {
         let mut fault = None;
         if let Some(mut before) = self.held.take() {
             let inserted = match self.insertion.take() {
-                Some(insertion) => {
-                    match insertion::between(&mut before, &mut motion, &insertion) {
-                        Ok(inserted) => inserted,
-                        Err(f) => {
-                            fault = Some(f);
-                            None
-                        }
+                Some(insertion) => match insertion::between(&mut before, &mut motion, &insertion) {
+                    Ok(inserted) => inserted,
+                    Err(f) => {
+                        fault = Some(f);
+                        None
                     }
-                }
+                },
                 None => None,
             };
             self.emit(before);

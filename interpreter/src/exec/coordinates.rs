@@ -300,7 +300,6 @@ impl Coordinates {
         let q = self.frame.apply(p);
         std::array::from_fn(|i| q[i] + self.main[i].map_or(0.0, |axis| self.applied[axis]))
     }
-
 }
 
 #[cfg(test)]

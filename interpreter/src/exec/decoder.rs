@@ -2,6 +2,7 @@
 //!
 //! The decoder knows blocks, not files: where the next block comes from is the business of the executor.
 
+use super::calls::ModalCycle;
 use super::contour::Contour;
 use super::coordinates::Coordinates;
 use super::dynamics::{Weights, channel_dynamics};
@@ -11,10 +12,9 @@ use super::options::Options;
 use super::overrides::Overrides;
 use super::program::ProgramInfo;
 use super::shaping::{ShapingState, Worked};
-use super::calls::ModalCycle;
 use super::spindles::Spindle;
-use super::system::Timers;
 use super::step::{Event, Feedback, SourceRef, Sync};
+use super::system::Timers;
 use super::tools::Tools;
 use super::variables::Variables;
 use crate::diag::{Diagnostic, Location};
@@ -276,11 +276,7 @@ impl Decoder {
         }
         let number = machine.axes[axis].number();
         self.dynamics_changed();
-        self.sync(Sync::MachineData {
-            axis: number,
-            key: key.to_owned(),
-            value: value.to_owned(),
-        });
+        self.sync(Sync::MachineData { axis: number, key: key.to_owned(), value: value.to_owned() });
         self.update_shaping(span);
         Ok(())
     }
@@ -320,9 +316,9 @@ impl Decoder {
 
     /// Axis of a name in either case.
     pub(super) fn axis_of_name(&self, name: &str) -> Option<usize> {
-        self.axis_names.iter().position(|n| {
-            n.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name))
-        })
+        self.axis_names
+            .iter()
+            .position(|n| n.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name)))
     }
 
     /// Axis of a name in a `#` command; 20797 if there is none.

@@ -3,7 +3,9 @@
 /// Hint for a G number that is not assigned here.
 pub(super) fn unknown_g(number: u32) -> Option<&'static str> {
     Some(match number {
-        28 | 30 => "reference points of other controls do not exist here; G74 homes, G53 cancels offsets",
+        28 | 30 => {
+            "reference points of other controls do not exist here; G74 homes, G53 cancels offsets"
+        }
         43 | 44 | 49 => "tool length is selected by D here (D0 cancels)",
         7 | 64 => "contouring is G261 with #CONTOUR MODE here",
         15 | 16 => "polar coordinates of other controls do not exist here",

@@ -154,7 +154,8 @@ impl Decoder {
             Act::MirrorAxes => self.mirror_axes(&g, words),
             Act::Rotate => self.rotate(&g, words),
             Act::SoftwareLimits => {
-                let text = format!("G{}: software limits of the program are not simulated", g.row.number);
+                let text =
+                    format!("G{}: software limits of the program are not simulated", g.row.number);
                 self.note_once("G98", Fault::kontur(own::IGNORED, text, g.span));
                 Ok(())
             }

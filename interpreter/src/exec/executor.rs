@@ -146,7 +146,8 @@ impl Executor {
         let index = Arc::clone(&self.files.file(file).index);
         let Some(section) = index.main() else {
             let text = format!("{name} holds no main program");
-            let severity = if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
+            let severity =
+                if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
             self.report(Diagnostic::kontur(own::NO_END, text).severity(severity));
             let refused = severity == Severity::Error;
             self.end(if refused { EndReason::Aborted } else { EndReason::Finished });
@@ -326,7 +327,8 @@ impl Executor {
     pub(super) fn fetch(&mut self, file: usize, at: Position) -> Option<(Arc<Parsed>, Position)> {
         let level = self.levels.last()?;
         let keep = self.levels.len() > 1 || level.frames.iter().any(|f| f.keyword.is_loop());
-        let reading = Reading { keep: keep && !level.declarations, declaration: level.declarations };
+        let reading =
+            Reading { keep: keep && !level.declarations, declaration: level.declarations };
         let mut found = Vec::new();
         let block =
             self.files.block(file, at, reading, &self.parser, &self.decoder.macros, &mut found);
@@ -371,7 +373,8 @@ impl Executor {
             return true;
         };
         let diagnostic = Diagnostic::kontur(own::ENDLESS, text);
-        let location = self.levels.last().map(|l| l.at).and_then(|at| self.place(at, Span::default()));
+        let location =
+            self.levels.last().map(|l| l.at).and_then(|at| self.place(at, Span::default()));
         self.report(match location {
             Some(location) => diagnostic.at(location),
             None => diagnostic,

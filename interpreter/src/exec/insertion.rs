@@ -334,8 +334,7 @@ pub(super) fn cut(
         Path::Line(_) => LinePath::new(from, to, feed_axes).map(Path::Line),
         Path::Arc(arc) => {
             let shape = *arc.shape();
-            let sweep_rad =
-                swept(shape.centre_mm, &from, &to, shape.plane, shape.sweep_rad > 0.0);
+            let sweep_rad = swept(shape.centre_mm, &from, &to, shape.plane, shape.sweep_rad > 0.0);
             ArcPath::new(from, to, ArcShape { sweep_rad, ..shape }, feed_axes).map(Path::Arc)
         }
         // programs hold lines and arcs only

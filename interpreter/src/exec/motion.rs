@@ -132,8 +132,11 @@ impl Decoder {
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
         let start = self.coordinates.target().clone();
-        let targets: smallvec::SmallVec<[(usize, f64); 8]> =
-            words.axes.iter().map(|(axis, value, _)| (*axis, value * self.axis_unit(*axis))).collect();
+        let targets: smallvec::SmallVec<[(usize, f64); 8]> = words
+            .axes
+            .iter()
+            .map(|(axis, value, _)| (*axis, value * self.axis_unit(*axis)))
+            .collect();
         self.coordinates.program(&targets, self.modal.absolute);
         self.check_limits(&start, words, span);
         let path = if is_arc {
@@ -161,8 +164,9 @@ impl Decoder {
         };
         let rapid = feed == Feed::Rapid;
         let full = words.g.iter().any(|g| g.row.act == Act::FullOverride);
-        let moved = (0..path.start().len())
-            .filter(|i| path.start()[*i].to_bits() != path.end()[*i].to_bits() || !path.is_straight());
+        let moved = (0..path.start().len()).filter(|i| {
+            path.start()[*i].to_bits() != path.end()[*i].to_bits() || !path.is_straight()
+        });
         let feed_ratio = if full { 1.0 } else { self.overrides.ratio(rapid, moved) };
         let block = Block {
             seq: 0,
@@ -209,7 +213,8 @@ impl Decoder {
             let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
             let name = self.axis_name(axis).to_owned();
             let number = self.machine.axes[axis].number();
-            let text = format!("axis {name}: target {target} is outside its limits {low} to {high}");
+            let text =
+                format!("axis {name}: target {target} is outside its limits {low} to {high}");
             let mut fault = Fault::vendor(21897, text, at).with(|d| {
                 d.axis(number, name)
                     .value(ValueKind::Current, target * 1e4, "0.1um")
@@ -262,7 +267,8 @@ impl Decoder {
         let mut arc = found.map_err(|e| arc_fault(e, at))?;
         let pitch_word = words.centre[main[2]];
         if let Some((pitch, at)) = pitch_word {
-            let normal = (0..3).find(|i| !image.contains(i)).and_then(|m| self.coordinates.main_axis(m));
+            let normal =
+                (0..3).find(|i| !image.contains(i)).and_then(|m| self.coordinates.main_axis(m));
             let height = normal.map_or(0.0, |axis| end[axis] - start[axis]);
             if pitch == 0.0 || height == 0.0 {
                 if pitch != 0.0 {
@@ -276,7 +282,8 @@ impl Decoder {
         self.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
         self.last_arc.plane = image;
         self.last_arc.shift_mm = arc.shift;
-        self.last_arc.radius_mm = libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
+        self.last_arc.radius_mm =
+            libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
         ArcPath::new(start.clone(), end, shape, &self.machine.channel.feed_axes)
             .map(Path::Arc)
@@ -336,9 +343,8 @@ impl Decoder {
     /// True unless only rotary axes move.
     fn feed_is_linear(&self, path: &Path) -> bool {
         !path.is_straight()
-            || (0..path.start().len()).any(|i| {
-                self.is_linear(i) && path.start()[i].to_bits() != path.end()[i].to_bits()
-            })
+            || (0..path.start().len())
+                .any(|i| self.is_linear(i) && path.start()[i].to_bits() != path.end()[i].to_bits())
     }
 
     /// Unit of an F word with G94 in mm/s.
@@ -385,7 +391,10 @@ fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
             Fault::vendor(20034, text, span).hint("use I, J, K")
         }
         ArcError::RadiusTooSmall { radius, half_chord } => {
-            let text = format!("radius {} is smaller than half the chord, {half_chord:.6} mm", radius.abs());
+            let text = format!(
+                "radius {} is smaller than half the chord, {half_chord:.6} mm",
+                radius.abs()
+            );
             Fault::kontur(own::RADIUS_TOO_SMALL, text, span)
         }
         ArcError::CentreTooFar { shift, limit } => {

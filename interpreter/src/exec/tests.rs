@@ -8,9 +8,7 @@ mod flow;
 mod modes;
 mod shaping;
 
-use super::{
-    EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check,
-};
+use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};
 use crate::diag::Diagnostic;
 use crate::machine::{Machine, Override};
 use crate::source::MemorySources;

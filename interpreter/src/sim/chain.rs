@@ -60,7 +60,10 @@ impl AxisChain {
     ///
     /// # Errors
     /// [`SwitchWhileMoving`] unless [`Self::ready_for`].
-    pub(crate) fn set_kernel(&mut self, kernel: Option<Arc<Kernel>>) -> Result<(), SwitchWhileMoving> {
+    pub(crate) fn set_kernel(
+        &mut self,
+        kernel: Option<Arc<Kernel>>,
+    ) -> Result<(), SwitchWhileMoving> {
         self.shaping.set_kernel(kernel)?;
         let x = self.ipo.back().copied().unwrap_or(self.set);
         self.align(x);

@@ -102,9 +102,7 @@ impl Simulation {
 }
 
 /// Quantity, unit and the parameters of warning and error.
-const fn watched(
-    what: Derivative,
-) -> (&'static str, &'static str, &'static str, &'static str) {
+const fn watched(what: Derivative) -> (&'static str, &'static str, &'static str, &'static str) {
     match what {
         Derivative::Velocity => ("velocity", "mm/s", "P-AXIS-00439", "P-AXIS-00440"),
         Derivative::Acceleration => ("acceleration", "mm/s2", "P-AXIS-00441", "P-AXIS-00442"),
@@ -121,8 +119,9 @@ pub(super) fn plant(error: &PlantError, machine: &Machine, chain: usize) -> Diag
 
 /// A condition that the look-ahead excludes.
 pub(super) fn internal(error: &Infeasible) -> Diagnostic {
-    Diagnostic::kontur(82, format!("look-ahead: {error}"))
-        .hint("this is an error of kontur itself; the program and the machine lists help to find it")
+    Diagnostic::kontur(82, format!("look-ahead: {error}")).hint(
+        "this is an error of kontur itself; the program and the machine lists help to find it",
+    )
 }
 
 /// A kernel that was to be swapped while the axis still moves.
@@ -155,7 +154,8 @@ impl Simulation {
         .value(ValueKind::Current, unkept.deviation_mm, "mm")
         .value(ValueKind::Limit, unkept.tolerance_mm, "mm")
         .hint("axes with unequal filters cannot keep a tolerance; program MODE, FREQ and DAMPING");
-        let source = self.underway.iter().find(|u| u.seq == unkept.seq).map_or(self.current, |u| u.source);
+        let source =
+            self.underway.iter().find(|u| u.seq == unkept.seq).map_or(self.current, |u| u.source);
         d.source = self.locate(source);
         d
     }

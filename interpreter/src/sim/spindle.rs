@@ -68,9 +68,11 @@ impl Spindle {
             if self.speed_deg_s.abs() <= 0.0 && self.positioning.is_none() {
                 let way = (deg - self.position_deg).rem_euclid(360.0);
                 let profile = self.limits.plan(0.0, 0.0, self.v_max_deg_s, way);
-                self.positioning = profile
-                    .ok()
-                    .map(|profile| Positioning { profile, from_deg: self.position_deg, cycles: 0 });
+                self.positioning = profile.ok().map(|profile| Positioning {
+                    profile,
+                    from_deg: self.position_deg,
+                    cycles: 0,
+                });
             }
             if let Some(p) = &mut self.positioning {
                 p.cycles += 1;

@@ -31,7 +31,12 @@ impl Totals {
     }
 
     /// Notes an event that moves nothing; a message of the program comes back as a note for the log.
-    pub(super) fn note(&mut self, event: Event, machine: &Machine, time_s: f64) -> Option<Diagnostic> {
+    pub(super) fn note(
+        &mut self,
+        event: Event,
+        machine: &Machine,
+        time_s: f64,
+    ) -> Option<Diagnostic> {
         let name = match event {
             Event::MFunction { number, .. } => {
                 if machine.channel.m_durations_s.contains_key(&number) {

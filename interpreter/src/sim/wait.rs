@@ -58,10 +58,9 @@ impl Wait {
             chains.iter().enumerate().all(|(i, c)| {
                 c.settled()
                     && match &self.action {
-                        Action::Shaping(setup) => setup
-                            .axes
-                            .get(i)
-                            .is_none_or(|a| c.ready_for(a.kernel.as_deref())),
+                        Action::Shaping(setup) => {
+                            setup.axes.get(i).is_none_or(|a| c.ready_for(a.kernel.as_deref()))
+                        }
                         _ => true,
                     }
             })

@@ -200,7 +200,7 @@ impl PolyPath {
     fn point(&self, piece: usize, x: f64, out: &mut [f64]) {
         for ((o, c), start) in out.iter_mut().zip(&self.pieces[piece]).zip(self.start.iter()) {
             // an axis that does not move keeps its exact bits
-            *o = if c[1..].iter().all(|c| *c == 0.0) && c[0] == *start {
+            *o = if c[1..].iter().all(|c| *c == 0.0) && c[0].to_bits() == start.to_bits() {
                 *start
             } else {
                 value(c, x)

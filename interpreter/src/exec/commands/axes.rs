@@ -156,7 +156,8 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         let text = format!("`{}` is no axis name", name.text);
         return Err(Fault::vendor(20524, text, name.span));
     }
-    let logical = number(decoder, items.get(1), (21251, "the logical axis number is missing"), group.span)?;
+    let logical =
+        number(decoder, items.get(1), (21251, "the logical axis number is missing"), group.span)?;
     let index = number(decoder, items.get(2), (21252, "the axis index is missing"), group.span)?;
     let Some(logical) = crate::exec::expr::whole(logical, 1, 65535) else {
         let text = format!("logical axis number {logical} is outside 1 to 65535");
