@@ -3,7 +3,9 @@
 //! The library opens no file and reads no clock: sources come through a trait, results leave as records.
 
 pub mod diag;
+pub mod exec;
 pub mod machine;
 pub mod record;
+pub mod sim;
 pub mod source;
 pub mod syntax;

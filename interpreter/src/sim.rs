@@ -13,7 +13,7 @@ mod wait;
 
 pub use totals::Totals;
 
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Location};
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
 use crate::machine::{Axis, Machine};
 use crate::record::{CycleRecord, PathRecord};
@@ -415,6 +415,40 @@ impl Simulation {
         for (i, f) in faults {
             self.fault(i, &f);
         }
+    }
+
+    /// `#MACHINE DATA`: the axis concerned gets a new chain at its present position; it is at rest.
+    fn machine_data(&mut self, axis: u32, key: &str, value: &str) {
+        let machine = Arc::make_mut(&mut self.machine);
+        let Some(i) = machine.axes.iter().position(|a| a.number() == axis) else { return };
+        if machine.axes[i].set(key, value).is_err() {
+            // the program was refused by the executor, which checks the same
+            return;
+        }
+        let (mut setups, _) = machine.chains();
+        let x = self.chains[i].set_mm();
+        match AxisChain::new(setups.swap_remove(i), x, self.cycle) {
+            Ok(chain) => {
+                self.chains[i] = chain;
+                let setup = self.executor.shaping().clone();
+                self.swap_kernels(&setup);
+            }
+            Err(e) => self.diagnostics.push(fault::plant(&e, &self.machine, i)),
+        }
+    }
+
+    /// Where a block stands.
+    fn locate(&self, source: SourceRef) -> Option<Location> {
+        let file = self.executor.files().get(source.file as usize)?;
+        Some(Location {
+            file: Arc::clone(file),
+            line: source.line,
+            column: 1,
+            offset: 0,
+            length: 1,
+            block: source.block,
+            text: "".into(),
+        })
     }
 
     fn check_time(&mut self) {

@@ -5,7 +5,8 @@ use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, RapidSlope, StepSlope};
 use kontur_motion::block::{
-    Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance, TransitionJerkMode, VectorLimits,
+    Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance, TransitionJerkMode,
+    VectorLimits,
 };
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
@@ -36,6 +37,7 @@ fn dynamics() -> Arc<ChannelDynamics> {
         limit_tangential_jerk: false,
         transition_jerk: TransitionJerkMode::Coupled,
         curvature_estimate: 0,
+        curve_jerk: CurveJerk::Geometric,
         vector: VectorLimits::default(),
         vector_acc_on_arcs: false,
         transition_velocity_min_mm_s: 0.0,
@@ -78,6 +80,8 @@ fn drive(count: usize, kind: SlopeKind, ax_dev_mm: Option<f64>) -> u64 {
                         slope: Slope { kind, ..Slope::default() },
                         dynamics: Arc::clone(&dynamics),
                         tolerance: Tolerance { ax_dev_mm, acc_fact: 1.0 },
+                        contour: None,
+                        spline: None,
                     });
                 }
                 i += 1;

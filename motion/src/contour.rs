@@ -39,24 +39,52 @@ impl Contour {
     ///
     /// Zero if there is no contour yet.
     pub fn deviation(&self, point: &[f64], from: f64, to: f64, out: &mut [f64]) -> f64 {
-        let mut best = f64::INFINITY;
-        let mut q = AxisVec::zeros(point.len());
-        for (_, queued) in self.between(from, to) {
-            let path = &queued.block.path;
-            path.position(path.nearest(point), &mut q);
-            let d2: f64 = q.iter().zip(point).map(|(q, p)| (p - q) * (p - q)).sum();
-            if d2 < best {
-                best = d2;
-                for ((o, q), p) in out.iter_mut().zip(q.iter()).zip(point) {
-                    *o = p - q;
-                }
+        nearest(self.between(from, to), point, out)
+    }
+
+    /// Largest component of the shortest vector, whichever way a border within `slack` cycles of the two moments is
+    /// counted: a sample that lies on the border of two blocks belongs to both.
+    pub(crate) fn worst_component(&self, point: &[f64], from: f64, to: f64, slack: f64) -> f64 {
+        let count = |t: f64| self.blocks.partition_point(|b| b.0 <= t);
+        let first = |t: f64| count(t).saturating_sub(1);
+        let firsts = first(from - slack)..=first(from + 1e-6);
+        let lasts = count(to - 1e-6).max(1)..=count(to + 1e-6).max(1);
+        let mut vector = AxisVec::zeros(point.len());
+        let mut worst = 0.0;
+        for begin in firsts {
+            for end in lasts.clone() {
+                let blocks = self.blocks.range(begin..end.max(begin + 1).min(self.blocks.len()));
+                nearest(blocks, point, &mut vector);
+                worst = vector.iter().fold(worst, |m: f64, c| m.max(c.abs()));
             }
         }
-        if best.is_finite() {
-            best.sqrt()
-        } else {
-            out.fill(0.0);
-            0.0
+        worst
+    }
+}
+
+/// Shortest vector from the paths of the blocks to a point.
+fn nearest<'a>(
+    blocks: impl Iterator<Item = &'a (f64, Arc<Queued>)>,
+    point: &[f64],
+    out: &mut [f64],
+) -> f64 {
+    let mut best = f64::INFINITY;
+    let mut q = AxisVec::zeros(point.len());
+    for (_, queued) in blocks {
+        let path = &queued.block.path;
+        path.position(path.nearest(point), &mut q);
+        let d2: f64 = q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
+        if d2 < best {
+            best = d2;
+            for ((o, q), p) in out.iter_mut().zip(q.iter()).zip(point) {
+                *o = p - q;
+            }
         }
+    }
+    if best.is_finite() {
+        best.sqrt()
+    } else {
+        out.fill(0.0);
+        0.0
     }
 }

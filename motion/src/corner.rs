@@ -189,8 +189,9 @@ pub fn curvature_step_velocity(
 
 /// P-CHAN-00245: curvature at the joint of two lines, estimated by the circle through the three points.
 ///
-/// `kappa = 2 sin(alpha) / |P2 - P0|`; modes 1 and 3 bound `v^2 kappa` by the acceleration, mode 2 bounds `v^3 kappa^2`
-/// by the geometric jerk (Assumption: the estimator is not published).
+/// `kappa = 2 sin(alpha) / |P2 - P0|`; mode 1 bounds `v^2 kappa` by the acceleration of the axes in the direction of the
+/// curvature, mode 2 bounds `v^3 kappa^2` by their geometric jerk, mode 3 bounds `v^2 kappa` by the weakest axis that moves,
+/// in whatever direction, so that a circle has one speed (source: TF5200, P-CHAN-00245; Assumption: the estimator).
 pub fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b: &Ends) -> f64 {
     let mode = to.dynamics.curvature_estimate;
     if mode == 0 || !from.path.is_straight() || !to.path.is_straight() {
@@ -215,11 +216,19 @@ pub fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b: &Ends
     // the change of direction points along (b - a); its components share the centripetal acceleration
     let jump: AxisVec = (0..n).map(|i| b.tangent_in[i] - a.tangent_out[i]).collect();
     let norm = jump.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let moves = |i: usize| {
+        [jump[i], a.tangent_out[i], b.tangent_in[i]][..if mode == 3 { 3 } else { 1 }]
+            .iter()
+            .any(|c| c.abs() > TANGENT)
+    };
     (0..n)
-        .filter(|&i| jump[i].abs() > TANGENT)
+        .filter(|&i| moves(i))
         .map(|i| {
             let axis = &to.dynamics.axes[i];
             let acc = contour_acceleration(axis, to.slope, is_rapid(to));
+            if mode == 3 {
+                return (acc / kappa).sqrt();
+            }
             let share = jump[i].abs() / norm;
             if mode == 2 && axis.tr_geom_s > 0.0 {
                 libm::cbrt(acc / (axis.tr_geom_s * kappa * kappa * share))
@@ -228,27 +237,6 @@ pub fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b: &Ends
             }
         })
         .fold(f64::INFINITY, f64::min)
-}
-
-/// Velocity at which the changes of direction from the end of `from` to the start of `to`, `length` mm further on, may
-/// fall into one cycle: for every axis `v |u_to - u_from| / T <= w a`, unless they are further apart than `v T`.
-///
-/// For one kink (`length` 0) this is [`kink_velocity`]; on a finely divided arc it tends to `v^2 / r <= w a`.
-pub fn one_cycle_velocity(
-    from: &Block,
-    to: &Block,
-    out: &[f64],
-    into: &[f64],
-    length: f64,
-    cycle: CycleTime,
-    kernel_active: bool,
-) -> f64 {
-    let v = (0..out.len())
-        .map(|i| ((into[i] - out[i]).abs(), i))
-        .filter(|(du, _)| *du > TANGENT)
-        .map(|(du, i)| admissible_jump(from, to, i, cycle, kernel_active) / du)
-        .fold(f64::INFINITY, f64::min);
-    v.max(length / cycle.seconds())
 }
 
 /// Velocity cap at the boundary of two blocks and where it comes from; the path velocities of the blocks are not in it.

@@ -5,7 +5,7 @@
 //! stands in [`crate::corner`].
 
 use crate::axis::{AxisDynamics, AxisVec};
-use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};
+use crate::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind};
 use crate::limit::SpeedLimit;
 use crate::path::{ArcPath, Path};
 use crate::profile::{RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
@@ -72,6 +72,10 @@ impl PathExtremes {
                 }
             }
             Path::Arc(arc) => arc_extremes(arc),
+            Path::Curve(curve) => {
+                let [first, second, third] = curve.extremes().clone();
+                Self { first, second, third }
+            }
         }
     }
 }
@@ -115,17 +119,22 @@ pub fn curve_acceleration(d: &ChannelDynamics, x: &PathExtremes, slope: Slope, r
     weakest(&d.axes, &x.second, |a| contour_acceleration(a, slope, rapid)).sqrt()
 }
 
-/// Velocity limit from the jerk of the contour: `v^3 max|q_i'''| <= a_i / tr_geom_i` (P-AXIS-00199), non-linear slopes.
-pub fn curve_jerk(d: &ChannelDynamics, x: &PathExtremes, slope: Slope, rapid: bool) -> f64 {
-    if slope.kind == SlopeKind::Step {
+/// Velocity limit from the jerk of the contour, non-linear slopes: `v^3 max|q_i'''| <= a_i / t_i`.
+///
+/// `t_i` is the geometric ramp time (P-AXIS-00199) on arcs; on polynomials P-CHAN-00110 selects it.
+pub fn curve_jerk(
+    d: &ChannelDynamics,
+    x: &PathExtremes,
+    slope: Slope,
+    rapid: bool,
+    check: CurveJerk,
+) -> f64 {
+    if slope.kind == SlopeKind::Step || check == CurveJerk::Unlimited {
         return f64::INFINITY;
     }
     libm::cbrt(weakest(&d.axes, &x.third, |a| {
-        if a.tr_geom_s > 0.0 {
-            contour_acceleration(a, slope, rapid) / a.tr_geom_s
-        } else {
-            f64::INFINITY
-        }
+        let ramp = if check == CurveJerk::Ramps { longest_ramp(a, rapid) } else { a.tr_geom_s };
+        if ramp > 0.0 { contour_acceleration(a, slope, rapid) / ramp } else { f64::INFINITY }
     }))
 }
 
@@ -156,8 +165,12 @@ pub fn path_velocity(block: &Block, x: &PathExtremes) -> (f64, SpeedLimit) {
         Feed::Duration(t) => block.path.length() / t * ratio,
         Feed::ShareOfMaximum(share) => weakest(&d.axes, &x.first, |a| a.v_max_mm_s) * share * ratio,
     };
+    let check = match block.path {
+        Path::Curve(_) => d.curve_jerk,
+        _ => CurveJerk::Geometric,
+    };
     let curve = curve_acceleration(d, x, block.slope, rapid)
-        .min(curve_jerk(d, x, block.slope, rapid))
+        .min(curve_jerk(d, x, block.slope, rapid, check))
         .min(vector_curve(d, x));
     let vector = d.vector.vel_mm_s.unwrap_or(f64::INFINITY);
     let mut best = (feed.min(vector), SpeedLimit::Feed);

@@ -9,11 +9,12 @@ use crate::axis::AxisVec;
 use crate::block::Block;
 use crate::brake::Brake;
 use crate::contour::Contour;
-use crate::corner::{one_cycle_velocity, transition};
+use crate::corner::transition;
 use crate::limit::SpeedLimit;
 use crate::lookahead::{Cap, plan};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
+use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment, PathState, Timeline};
 use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept};
 use kontur_filters::time::CycleTime;
@@ -136,40 +137,8 @@ impl Planner {
         };
         self.caps.push_back(cap);
         self.queue.push_back(Arc::clone(&queued));
-        self.cap_short_blocks(&queued);
+        lower_caps(&self.queue, &mut self.caps, self.cycle, self.kernels.any());
         self.last = Some(queued);
-    }
-
-    /// The newest transition together with those before it that fall into the same cycle.
-    fn cap_short_blocks(&mut self, newest: &Queued) {
-        let t = self.cycle.seconds();
-        let last = self.queue.len() - 1;
-        let fastest = newest.velocity.0;
-        let mut length = 0.0;
-        // block `i` lies between transition `i` and the newest one
-        for i in (1..last).rev() {
-            length += self.queue[i].length;
-            if length >= fastest * t {
-                break;
-            }
-            let before = &self.queue[i - 1];
-            let v = one_cycle_velocity(
-                &before.block,
-                &newest.block,
-                &before.ends.tangent_out,
-                &newest.ends.tangent_in,
-                length,
-                self.cycle,
-                self.kernels.any(),
-            );
-            if v < fastest {
-                for cap in self.caps.range_mut(i..=last) {
-                    if v < cap.0 {
-                        *cap = (v, SpeedLimit::Corner);
-                    }
-                }
-            }
-        }
     }
 
     /// The path comes to rest behind the last block pushed.
@@ -265,7 +234,7 @@ impl Planner {
         self.setpoint.limit = self.state.limit;
         self.setpoint.seq = self.state.seq;
         self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
-        self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 1.0);
+        self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
     }
 
     /// Plans what is queued and makes all but the last window final.

@@ -23,6 +23,9 @@ use std::sync::Arc;
 const MARGIN_MM: f64 = 2e-7;
 /// Part of the tolerance by which a correction aims below it, so that the search ends.
 const AIM: f64 = 0.003;
+/// How far behind the kernel a block may have been left and still count as within reach, in cycles: nobody can tell
+/// from a trace on which side of a sample a border lies.
+const BORDER_CYCLES: f64 = 5.0;
 /// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
 const ROUNDS_OF_SPEED: usize = 32;
 /// Rounds of planning after which the tolerance is given up with a message.
@@ -241,9 +244,7 @@ impl Monitor {
         else {
             return;
         };
-        let mut vector = AxisVec::zeros(buffer.set.len());
-        contour.deviation(&buffer.set, from, to, &mut vector);
-        let deviation = vector.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+        let deviation = contour.worst_component(&buffer.set, from, to, BORDER_CYCLES);
         let excess = deviation - (tolerance - MARGIN_MM.min(0.1 * tolerance));
         if excess <= 0.0 {
             return;
@@ -337,7 +338,8 @@ impl Monitor {
             let Some(b) = mark.block else { continue };
             if let Some((excess, tolerance)) = findings.curve[b] {
                 // the deviation on a curve grows with the square of the speed
-                let ratio = (tolerance / (tolerance + excess)).sqrt() * 0.999;
+                let closed = (tolerance / (tolerance + excess)).sqrt() * 0.999;
+                let ratio = if round < ROUNDS_OF_SPEED { closed } else { 0.7 * closed };
                 let queued = &trial.window[b];
                 let now = demands.feed[b].min(queued.velocity.0).min(mark.speed);
                 demands.feed[b] =
@@ -378,7 +380,7 @@ impl Monitor {
     }
 }
 
-/// A tenth of the speed at which a curve alone uses up the tolerance: slower is never needed.
+/// A fiftieth of the speed at which a curve alone uses up the tolerance: slower is never needed.
 fn slowest(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> f64 {
     let variance = (0..queued.ends.tangent_in.len())
         .filter_map(|i| trial.kernels.get(i))
@@ -386,7 +388,7 @@ fn slowest(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> f64 {
         .fold(0.0, f64::max);
     let t = trial.cycle.seconds();
     let bend = queued.bend.max(1e-6);
-    0.1 * (2.0 * tolerance / (variance * t * t * bend)).sqrt()
+    0.02 * (2.0 * tolerance / (variance * t * t * bend)).sqrt()
 }
 
 fn note(slot: &mut Option<(f64, f64)>, excess: f64, tolerance: f64) {
@@ -443,7 +445,7 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
         };
     let now = trial.now as f64;
     let start = trial.timeline.entries().next().map_or(0.0, |e| e.s0);
-    let past = || trial.past.between(now - reach - 1.0, f64::INFINITY);
+    let past = || trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY);
     let mut s = start - past().map(|(_, q)| q.length).sum::<f64>();
     for (cycles, queued) in past() {
         add(*cycles, queued, None, s, queued.velocity.0);

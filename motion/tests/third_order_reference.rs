@@ -1,6 +1,8 @@
-//! Durations against the reference table made with Ruckig 0.19.4 (community version).
+//! Durations against the reference table made with Ruckig 0.19.4 (community version), and against a port of it on
+//! random problems.
 
 use kontur_motion::profile::{MotionState, ThirdOrderLimits, ThirdOrderProfile};
+use rsruckig::prelude::*;
 
 fn state(p_mm: f64, v_mm_s: f64, a_mm_s2: f64) -> MotionState {
     MotionState { p_mm, v_mm_s, a_mm_s2 }
@@ -57,4 +59,58 @@ fn durations_and_end_states_of_the_reference() {
         rows += 1;
     }
     assert_eq!(rows, 39);
+}
+
+#[test]
+fn durations_of_an_independent_implementation() {
+    let mut seed = 5u64;
+    let mut between = |lo: f64, hi: f64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        lo + (hi - lo) * ((seed >> 11) as f64 / (1u64 << 53) as f64)
+    };
+    let mut compared = 0;
+    for i in 0..20_000 {
+        // jerk 1 and velocities of order 1: the reference works with absolute tolerances
+        let limits = ThirdOrderLimits {
+            v_max_mm_s: between(0.2, 2.0),
+            v_min_mm_s: -between(0.2, 2.0),
+            a_max_mm_s2: between(0.1, 2.0),
+            a_min_mm_s2: -between(0.1, 2.0),
+            jerk_mm_s3: 1.0,
+        };
+        let (moving, accelerated) = (i % 3 > 0, i % 3 > 1);
+        let mut random_state = |moving: bool, accelerated: bool| MotionState {
+            p_mm: between(-5.0, 5.0),
+            v_mm_s: if moving { between(limits.v_min_mm_s, limits.v_max_mm_s) } else { 0.0 },
+            a_mm_s2: if accelerated {
+                between(limits.a_min_mm_s2, limits.a_max_mm_s2)
+            } else {
+                0.0
+            },
+        };
+        let (start, target) = (random_state(true, i % 2 > 0), random_state(moving, accelerated));
+        let mut input = InputParameter::<1>::new(None);
+        input.current_position = daov_stack![start.p_mm];
+        input.current_velocity = daov_stack![start.v_mm_s];
+        input.current_acceleration = daov_stack![start.a_mm_s2];
+        input.target_position = daov_stack![target.p_mm];
+        input.target_velocity = daov_stack![target.v_mm_s];
+        input.target_acceleration = daov_stack![target.a_mm_s2];
+        input.max_velocity = daov_stack![limits.v_max_mm_s];
+        input.min_velocity = Some(daov_stack![limits.v_min_mm_s]);
+        input.max_acceleration = daov_stack![limits.a_max_mm_s2];
+        input.min_acceleration = Some(daov_stack![limits.a_min_mm_s2]);
+        input.max_jerk = daov_stack![1.0];
+        let mut reference = Ruckig::<1, ThrowErrorHandler>::new(None, 0.001);
+        let mut trajectory = Trajectory::new(None);
+        let solved = reference.calculate(&input, &mut trajectory);
+        let own = ThirdOrderProfile::fastest(&start, &target, &limits);
+        // targets that cannot be reached inside the limits are refused by both
+        if let (Ok(_), Ok(own)) = (solved, own) {
+            let (own, reference) = (own.duration(), trajectory.get_duration());
+            assert!((own - reference).abs() < 1e-7, "{i}: {own} {reference} {start:?} {target:?}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 17_000, "{compared}");
 }

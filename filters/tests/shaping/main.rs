@@ -1,6 +1,8 @@
 //! Shaping filters and their analysis against reference data, closed forms and the vendor's numbers.
 
 #[cfg(test)]
+mod analysis;
+#[cfg(test)]
 mod chain;
 #[cfg(test)]
 mod corner;

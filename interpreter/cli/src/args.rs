@@ -25,6 +25,10 @@ pub enum Command {
     Diff(DiffArgs),
     /// Run programs and write one self-contained page (.html) or picture (.svg).
     Report(ReportArgs),
+    /// Frequency response, step response, residual vibration or corner of filters, shapers and axes.
+    Response(crate::response::args::ResponseArgs),
+    /// Propose Vibration Guard settings from measured frequencies or recordings, or the order of a filter.
+    Tune(crate::tune::args::TuneArgs),
     /// Explain an error ID, a parameter or a command.
     Explain(ExplainArgs),
 }
@@ -206,7 +210,7 @@ pub struct ExplainArgs {
 }
 
 /// The form only; what the words name is the machine's business.
-fn setting(text: &str) -> Result<String, String> {
+pub(crate) fn setting(text: &str) -> Result<String, String> {
     match Override::parse(text) {
         Ok(_) => Ok(text.to_owned()),
         Err(d) => Err(d.hint.unwrap_or(d.text)),

@@ -12,10 +12,13 @@ pub mod explain;
 pub mod files;
 pub mod render;
 pub mod report;
+pub mod response;
 pub mod run;
 pub mod simulator;
 pub mod summary;
+mod table;
 pub mod trace;
+pub mod tune;
 
 use clap::Parser as _;
 use console::Console;
@@ -97,6 +100,8 @@ pub fn run_with(
         args::Command::Check(a) => check::check(a, engine, console),
         args::Command::Diff(a) => diff::diff(a, engine, console),
         args::Command::Report(a) => report::report(a, engine, console),
+        args::Command::Response(a) => response::response(a, console),
+        args::Command::Tune(a) => tune::tune(a, engine, console),
         args::Command::Explain(a) => explain::explain(a, engine, console),
     };
     console.finish(done)

@@ -5,6 +5,7 @@
 
 mod page;
 mod picture;
+pub(crate) mod plot;
 mod recording;
 mod svg;
 

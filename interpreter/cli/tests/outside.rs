@@ -32,7 +32,7 @@ struct Folder(TempDir);
 impl Folder {
     fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
-        for name in ["corner.nc", "slow.nc", "late.nc", "bad.nc"] {
+        for name in ["corner.nc", "slow.nc", "late.nc", "bad.nc", "stubborn.nc"] {
             std::fs::write(folder.path().join(name), "N10 M30\n").unwrap();
         }
         Self(folder)
@@ -257,10 +257,161 @@ fn explain_knows_ids_and_asks_the_engine() {
     let f = Folder::new();
     let (exit, out, _) = f.call(&["explain", "P-ERR-70082"]);
     assert_eq!(exit, Exit::Finished);
-    assert!(out.contains("70082") && out.contains("reaction  5"), "{out}");
+    assert!(out.contains("70082") && out.contains("class 5"), "{out}");
     let (exit, out, _) = f.call(&["explain", "#VIB", "GUARD"]);
     assert_eq!((exit, out.as_str()), (Exit::Finished, "smooths the setpoints\n"));
     let (exit, _, err) = f.call(&["explain", "nonsense"]);
     assert_eq!(exit, Exit::Usage);
     assert!(err.contains("did you mean #VIB GUARD?"), "{err}");
+}
+
+#[test]
+fn response_writes_tables_and_pictures() {
+    let f = Folder::new();
+    let filter = ["response", "--filter", "LOWPASS", "--prototype", "BUTTERWORTH,bessel"];
+    let words = |rest: &[&'static str]| -> Vec<&'static str> { [&filter[..], rest].concat() };
+    let (exit, out, err) = f.call(&words(&["--order", "4", "--f0", "15", "--range", "15..30"]));
+    assert_eq!((exit, err.as_str()), (Exit::Finished, ""));
+    assert!(out.starts_with("curve,f_hz,magnitude_db,phase_deg,group_delay_ms\n"), "{out}");
+    // -3.01 dB and -180 degrees: a Butterworth filter of order 4 at its corner frequency
+    let butterworth = out.lines().nth(1).unwrap();
+    assert!(
+        butterworth.contains("BUTTERWORTH 4, 15 Hz\",15.000000,-3.010300,-180.000000,"),
+        "{butterworth}"
+    );
+    assert_eq!(out.lines().count(), 1 + 2 * 801);
+    for view in [&["--step"][..], &["--corner", "F1000"], &["-o", "@extra.csv"]] {
+        let first = f.call(&words(&[view, &["-o", "@a.svg", "-o", "@a.csv"]].concat()));
+        assert_eq!(
+            (first.0, first.1.as_str(), first.2.as_str()),
+            (Exit::Finished, "", ""),
+            "{view:?}"
+        );
+        let picture = f.read("a.svg");
+        assert!(picture.starts_with("<svg") && picture.contains("LOWPASS BESSEL 2, 30 Hz"));
+        assert!(f.read("a.csv").starts_with("curve,"));
+        f.call(&words(&[view, &["-o", "@a.svg"]].concat()));
+        assert!(picture == f.read("a.svg"), "{view:?}");
+    }
+}
+
+#[test]
+fn response_of_shapers_and_axes() {
+    let f = Folder::new();
+    // at the set frequency nothing is left; a column per convention
+    let guard = ["response", "--guard", "MODE=2,FREQ=40"];
+    let residual = ["--residual", "--range", "40..80", "--damping", "0.1,0.2"];
+    let (exit, out, _) = f.call(&[&guard[..], &residual].concat());
+    assert_eq!(exit, Exit::Finished);
+    let rows: Vec<&str> = out.lines().collect();
+    assert_eq!(rows.len(), 1 + 2 * 601);
+    assert!(rows[1].ends_with(",0.1,40,40.000000,1.000000,1.000000,0.000000000"), "{}", rows[1]);
+    assert!(rows[601].contains(",80.000000,0.500000,2.000000,"), "{}", rows[601]);
+    // contour error of the mean filter: N(N+2)/(8(N+1)) v T
+    let (_, out, _) = f.call(&["response", "--hsc-mean", "10,50", "--corner", "F1000"]);
+    assert!(out.contains("HSC mean 10,10,1000,0.022727273,0.032141217,5.000000"), "{out}");
+    assert!(out.contains("HSC mean 50,50,1000,0.106209150,"), "{out}");
+    // the lists of the built-in machine switch nothing on; a setting does
+    let (exit, out, err) = f.call(&["response", "--axis", "X", "--step"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(err.contains("no filter") && out.contains("0.000000,1.000000000"), "{err}");
+    let set = ["--set", "X.vib_guard.active=1", "--set", "X.vib_guard.freq=40"];
+    let axis = ["response", "--axis", "X", "--corner", "F4000"];
+    let (_, with_lists, _) = f.call(&[&axis[..], &set].concat());
+    let (_, alone, _) = f.call(&["response", "--guard", "MODE=1,FREQ=40", "--corner", "F4000"]);
+    let numbers = |out: &str| out.lines().nth(1).unwrap().rsplit('"').next().unwrap().to_owned();
+    let numbers = [numbers(&with_lists), numbers(&alone)];
+    assert!(numbers[0].ends_with(numbers[1].trim_start_matches(',')), "{numbers:?}");
+}
+
+#[test]
+fn response_refuses_what_it_cannot_show() {
+    let f = Folder::new();
+    for (words, hint) in [
+        (&["response"][..], "--filter"),
+        (&["response", "--filter", "LOWPAS"], "LOWPASS"),
+        (&["response", "--filter", "LOWPASS", "--order", "0"], "order 0"),
+        (&["response", "--filter", "LOWPASS", "--order", "1.5"], "whole number"),
+        (&["response", "--filter", "LOWPASS", "--f0", "500"], "500 Hz is outside"),
+        (&["response", "--filter", "LOWPASS", "--step", "--corner", "F1000"], "--corner"),
+        (&["response", "--filter", "LOWPASS", "--residual"], "standard filters"),
+        (&["response", "--filter", "HIGHPASS", "--corner", "F1000"], "does not follow"),
+        (&["response", "--filter", "TIME_DELAY", "--time", "9000"], "50663"),
+        (&["response", "--guard", "MODE=5"], "mode 5"),
+        (&["response", "--guard", "DAMPING=1"], "damping 1"),
+        (&["response", "--guard", "HZ=5"], "MODE, FREQ, DAMPING"),
+        (&["response", "--fir", "MEAN"], "50989"),
+        (&["response", "--fir", "HANN,ORDER=4"], "GAUSS"),
+        (&["response", "--axis", "Q"], "X, Y, Z"),
+        (&["response", "--hsc-mean", "10", "-o", "@a.png"], ".svg"),
+        (&["response", "--hsc-mean", "10", "--range", "1..900"], "500 Hz"),
+    ] {
+        let (exit, _, err) = f.call(words);
+        assert_eq!(exit, Exit::Usage, "{words:?}");
+        assert!(err.contains(hint), "{words:?}: {err}");
+    }
+    assert_eq!(f.call(&["response", "--hsc-mean", "10", "-o", "@no/a.csv"]).0, Exit::Io);
+}
+
+#[test]
+fn tune_answers_the_vendors_questions() {
+    let f = Folder::new();
+    let (exit, out, _) = f.call(&["tune", "--freq", "6.9,6.0,5.4"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("proposal  #VIB GUARD ON [MODE=2 FREQ=6."), "{out}");
+    assert!(out.contains("#VIB GUARD ON [MODE=2 FREQ=6 DAMPING=0.1]"), "{out}");
+    let (exit, out, _) = f.call(&["tune", "--order-for", "0.1", "--feed", "F2000"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("[ORDER=23]") && out.contains("[ORDER=22]"), "{out}");
+    for words in [
+        &["tune"][..],
+        &["tune", "--freq", "0"],
+        &["tune", "--freq", "6", "--damping", "1"],
+        &["tune", "--freq", "6", "--order-for", "0.1"],
+        &["tune", "--freq", "6", "--program", "@corner.nc"],
+        &["tune", "--recording", "@corner.nc"],
+    ] {
+        assert_eq!(f.call(words).0, Exit::Usage, "{words:?}");
+    }
+    assert_eq!(f.call(&["tune", "--recording", "@absent.csv"]).0, Exit::Io);
+}
+
+#[test]
+fn tune_judges_the_choices_on_a_program() {
+    let f = Folder::new();
+    let tune = |program: &str, max_dev: &str| {
+        f.call(&["tune", "--freq", "38,42", "--program", program, "--max-dev", max_dev])
+    };
+    let (exit, out, err) = tune("@corner.nc", "1");
+    assert_eq!((exit, err.as_str()), (Exit::Finished, ""));
+    // the limits of the machine and what was assumed
+    assert!(out.contains("machine   xyz, cycle 1 ms") && out.contains("v_max"), "{out}");
+    assert!(out.contains("no AX_DEV in the program"), "{out}");
+    let rows: Vec<&str> = out.lines().skip_while(|l| !l.contains("machining time")).collect();
+    assert!(rows[1].starts_with("off") && rows[1].ends_with("no"), "{out}");
+    let chosen = rows.iter().find_map(|l| l.strip_prefix("choice    ")).unwrap();
+    // the shortest kernel that keeps 5 % has the least to flush at the end of a pass
+    let times: Vec<f64> = rows[2..]
+        .iter()
+        .filter(|row| row.ends_with("yes"))
+        .map(|row| row.split_whitespace().rev().nth(2).unwrap().parse().unwrap())
+        .collect();
+    let least = times.iter().copied().fold(f64::MAX, f64::min);
+    assert!(times.len() > 2 && out.contains(&format!("1 mm: {least:.3} s")), "{out}");
+    assert!(chosen.starts_with("#VIB GUARD ON [MODE="), "{chosen}");
+    let (_, out, _) = tune("@corner.nc", "1e-6");
+    assert!(out.contains("choice    none keeps both"), "{out}");
+    // what the program says itself
+    std::fs::write(f.path("corner.nc"), "N10 #VIB GUARD ON [AX_DEV=0.02]\nN20 M30\n").unwrap();
+    let (_, out, _) = tune("@corner.nc", "1");
+    assert!(out.contains("AX_DEV=0.02 (line 1)") && out.contains(" AX_DEV=0.02]\n"), "{out}");
+    std::fs::write(f.path("corner.nc"), "\nN10 #VIB GUARD ON [MODE=2 FREQ=40]\n").unwrap();
+    let (exit, _, err) = tune("@corner.nc", "1");
+    assert_eq!(exit, Exit::Usage);
+    assert!(err.contains("line 2") && err.contains("outvotes"), "{err}");
+    // a subroutine that goes on with its own guard shows in the delays
+    let (exit, _, err) = tune("@stubborn.nc", "1");
+    assert_eq!(exit, Exit::Usage);
+    assert!(err.contains("another Vibration Guard ran"), "{err}");
+    assert_eq!(tune("@bad.nc", "1").0, Exit::Aborted);
 }

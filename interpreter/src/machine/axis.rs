@@ -1,7 +1,9 @@
 //! One axis of the machine: its parameters and what the planner makes of them.
 
-use super::key::Indices;
+use super::key::{Indices, Key};
 use super::parameters::{Parameters, Setting};
+use super::table::ListKind;
+use super::value;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, RapidSlope, StepSlope};
 
 /// Kind of an axis (P-AXIS-00018).
@@ -218,6 +220,18 @@ impl Axis {
     /// Difference of input and output below which the filters count as settled, in mm (P-AXIS-00351).
     pub fn filter_window_mm(&self) -> f64 {
         self.converted("kenngr.filter_position_window").unwrap_or_default()
+    }
+
+    /// Puts a value over the list, as `#MACHINE DATA` does at run time.
+    ///
+    /// # Errors
+    /// What is wrong with key or value; the axis is unchanged.
+    pub fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
+        let found = Key::parse(key).and_then(|k| k.resolve(ListKind::Axis));
+        let (row, indices) = found.ok_or_else(|| format!("`{key}` is no parameter of an axis"))?;
+        let value = value::read(row.raw, value).map_err(|bad| format!("{key}: {}", bad.reason))?;
+        self.parameters.set(row, indices, value, None);
+        Ok(())
     }
 }
 

@@ -1,6 +1,6 @@
 //! One axis from its interpolated setpoint to its actual position, one cycle at a time.
 
-use crate::machine::setup::ChainSetup;
+use crate::machine::ChainSetup;
 use crate::record::AxisRecord;
 use kontur_filters::control::axis_control::{AxisControl, ControlOutput};
 use kontur_filters::control::fault::Faults;

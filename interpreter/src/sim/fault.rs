@@ -96,7 +96,7 @@ impl Simulation {
         let mut diagnostic = diagnostic.axis(number, name);
         diagnostic.cycle = Some(self.record.k);
         diagnostic.time_s = Some(self.cycle.time_of(self.record.k));
-        diagnostic.source = self.executor.locate(self.current);
+        diagnostic.source = self.locate(self.current);
         diagnostic
     }
 }
@@ -156,7 +156,7 @@ impl Simulation {
         .value(ValueKind::Limit, unkept.tolerance_mm, "mm")
         .hint("axes with unequal filters cannot keep a tolerance; program MODE, FREQ and DAMPING");
         let source = self.underway.iter().find(|u| u.seq == unkept.seq).map_or(self.current, |u| u.source);
-        d.source = self.executor.locate(source);
+        d.source = self.locate(source);
         d
     }
 }

@@ -70,7 +70,7 @@ pub struct Label {
 }
 
 /// Kind of a jump label.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LabelKind {
     /// `N10:`; as a target also `N10`.
     Number(u64),

@@ -148,6 +148,18 @@ impl ArcPath {
         out[b] = -radius * rate * rate * sin + 2.0 * growth * rate * cos;
     }
 
+    /// The part between two path lengths.
+    pub(super) fn section(&self, from: f64, to: f64) -> Self {
+        let mut out = self.clone();
+        self.position(from, &mut out.start);
+        self.position(to, &mut out.end);
+        (out.radius_start, out.start_rad, _) = self.polar(from);
+        (out.radius_end, _, _) = self.polar(to);
+        out.length = to - from;
+        out.shape.sweep_rad *= out.length / self.length;
+        out
+    }
+
     /// Nearest point: for a plane arc the point at the same angle, for a helix refined by Newton from the angles of
     /// every turn (the distance has at most one minimum per turn within half a turn of those angles).
     pub(super) fn nearest(&self, point: &[f64]) -> f64 {

@@ -334,6 +334,8 @@ impl RampLeg {
 
     /// State at `x` in `0..=duration`. The falling ramp is seen from its end, where it is a rising one.
     pub(super) fn at(&self, x: f64) -> State {
+        // the end itself, without the rounding of the differences below
+        let whole = x >= self.duration();
         if x < self.t1 {
             let RampState { s, v, a, j } = self.shape.rise(self.a, self.t1, x);
             return State {
@@ -353,7 +355,7 @@ impl RampLeg {
                 j_mm_s3: 0.0,
             };
         }
-        let left = (self.t2 - (x - self.tc)).max(0.0);
+        let left = if whole { 0.0 } else { (self.t2 - (x - self.tc)).max(0.0) };
         let RampState { s, v, a, j } = self.shape.rise(self.a, self.t2, left);
         State {
             s_mm: self.distance - (self.v_high * left - s),

@@ -219,6 +219,10 @@ impl StepLeg {
     }
 
     pub(super) fn at(&self, mut x: f64) -> State {
+        // the end itself, without the rounding of the differences below
+        if x >= self.duration() {
+            return State { s_mm: self.distance(), v_mm_s: self.v_high, ..State::default() };
+        }
         let mut s = 0.0;
         for p in &self.pieces {
             let duration = p.duration();

@@ -4,7 +4,7 @@
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, RapidSlope, StepSlope};
-use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
+use kontur_motion::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance};
 use kontur_motion::block::{TransitionJerkMode, VectorLimits};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner, Setpoint};
@@ -39,6 +39,7 @@ pub(crate) fn channel(axes: Vec<AxisDynamics>) -> Arc<ChannelDynamics> {
         limit_tangential_jerk: false,
         transition_jerk: TransitionJerkMode::Coupled,
         curvature_estimate: 0,
+        curve_jerk: CurveJerk::Geometric,
         vector: VectorLimits::default(),
         vector_acc_on_arcs: false,
         transition_velocity_min_mm_s: 0.0,
@@ -77,6 +78,8 @@ impl Job {
             slope: self.slope,
             dynamics: Arc::clone(&self.dynamics),
             tolerance: self.tolerance,
+            contour: None,
+            spline: None,
         }
     }
 
@@ -107,7 +110,8 @@ impl Job {
                 Next::Rest => break,
             }
         }
-        assert!(planner.take_unkept().is_empty());
+        let unkept = planner.take_unkept();
+        assert!(unkept.is_empty(), "{unkept:?}");
         out
     }
 }

@@ -2,8 +2,14 @@
 //!
 //! Pass 1 slows down in the corners, pass 2 cuts them, pass 3 is not smoothed. A program whose name holds `slow` has
 //! half the feed in its last edge, `late` starts two cycles later, `bad` is aborted half way.
+//!
+//! Settings `X.vib_guard.*` put a real kernel in the place of the two taps, as an axis list would; a program whose name
+//! holds `stubborn` goes on with its own.
 
 use kontur::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
+use kontur_filters::kernel::{Kernel, Tap};
+use kontur_filters::time::CycleTime;
+use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_interpreter::diag::{Diagnostic, Location, ValueKind};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, PathRecord, SpeedLimit};
 use std::collections::VecDeque;
@@ -22,6 +28,25 @@ struct Square {
     now: CycleRecord,
     messages: Vec<Diagnostic>,
     bad: bool,
+    delay_cycles: f64,
+}
+
+/// The kernel that the settings ask for; without any: two taps, 12 ms apart, what a guard does to a corner.
+fn kernel(settings: &[String]) -> Kernel {
+    let value = |key: &str| {
+        let wanted = format!("X.vib_guard.{key}=");
+        settings.iter().rev().find_map(|s| s.strip_prefix(&wanted)?.parse::<f64>().ok())
+    };
+    let guard = VibGuardSettings {
+        mode: (1..=4).find(|m| value("mode") == Some(f64::from(*m))).unwrap_or(1),
+        freq_hz: value("freq").unwrap_or(30.0),
+        damping: value("damping").unwrap_or(0.1),
+    };
+    match value("active") {
+        None => Kernel::from_taps([0, 12].map(|delay| Tap { delay, weight: 0.5 })).unwrap(),
+        Some(on) if on > 0.0 => guard.kernel(CycleTime::DEFAULT).unwrap(),
+        Some(_) => Kernel::identity(),
+    }
 }
 
 /// Distance from a point to the square's outline, as a vector.
@@ -55,7 +80,7 @@ fn drive(feed: f64, corner: f64, last_feed: f64) -> Vec<(f64, f64)> {
     rows
 }
 
-fn square(slow: bool, late: bool, bad: bool) -> VecDeque<CycleRecord> {
+fn square(slow: bool, late: bool, bad: bool, kernel: &Kernel) -> VecDeque<CycleRecord> {
     let last = if slow { 20.0 } else { 60.0 };
     let mut ipo: Vec<([f64; 2], f64, f64, u32, bool)> = Vec::new();
     ipo.extend((0..if late { 3 } else { 1 }).map(|_| ([0.0; 2], 0.0, 0.0, 0, false)));
@@ -67,7 +92,7 @@ fn square(slow: bool, late: bool, bad: bool) -> VecDeque<CycleRecord> {
             let p = [a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1])];
             ipo.push((p, v, f64::from(pass) * 4.0 + s, line, pass < 2));
         }
-        for _ in 0..30 {
+        for _ in 0..30.max(kernel.length() + 1) {
             let line = 7 + pass * 5;
             ipo.push(([0.0; 2], 0.0, f64::from(pass + 1) * 4.0, line, pass < 2));
         }
@@ -79,9 +104,12 @@ fn square(slow: bool, late: bool, bad: bool) -> VecDeque<CycleRecord> {
     let mut before = [[0.0; 2]; 2];
     let rows = (0..ipo.len()).map(|k| {
         let (p, v, s, line, guard) = ipo[k];
-        let tap = |n: usize, i: usize| if k >= n { ipo[k - n].0[i] } else { 0.0 };
-        // two taps, 12 ms apart: what a guard does to a corner
-        let set = [0, 1].map(|i| if guard { 0.5 * tap(0, i) + 0.5 * tap(12, i) } else { p[i] });
+        let past = |tap: &Tap, i: usize| {
+            let before = k.checked_sub(tap.delay as usize).map_or(0.0, |k| ipo[k].0[i]);
+            tap.weight * before
+        };
+        let shaped = |i: usize| kernel.taps().iter().map(|tap| past(tap, i)).sum::<f64>();
+        let set = [0, 1].map(|i| if guard { shaped(i) } else { p[i] });
         let dev = deviation(set);
         let axes = [0, 1].map(|i| {
             let vel = (set[i] - before[0][i]) / CYCLE_S;
@@ -152,8 +180,12 @@ impl Engine for Synthetic {
                 "-",
             ));
         }
-        let rows = square(slow, late, bad);
-        Ok(Box::new(Square { facts, rows, now: CycleRecord::default(), messages, bad }))
+        let stubborn = name.contains("stubborn");
+        let kernel = kernel(if stubborn { &[] } else { &request.settings });
+        let rows = square(slow, late, bad, &kernel);
+        let delay_cycles = kernel.delay_cycles();
+        let now = CycleRecord::default();
+        Ok(Box::new(Square { facts, rows, now, messages, bad, delay_cycles }))
     }
 
     fn check(
@@ -166,12 +198,13 @@ impl Engine for Synthetic {
         Ok(())
     }
 
-    fn explain(&self, thing: &str) -> Option<String> {
-        (thing == "#VIB GUARD").then(|| "smooths the setpoints".to_owned())
-    }
-
-    fn similar(&self, _thing: &str) -> Vec<String> {
-        vec!["#VIB GUARD".to_owned()]
+    fn explain(&self, thing: &str) -> Result<String, Vec<String>> {
+        match thing {
+            "#VIB GUARD" => Ok("smooths the setpoints".to_owned()),
+            _ => kontur_interpreter::machine::explain::explain(thing)
+                .map(|found| found.to_string())
+                .map_err(|_| vec!["#VIB GUARD".to_owned()]),
+        }
     }
 }
 
@@ -195,7 +228,7 @@ impl Source for Square {
             blocks: 12,
             ideal_duration_s: 0.2,
             not_counted: vec!["M3".to_owned()],
-            filter_delay_cycles: vec![6.0, 6.0],
+            filter_delay_cycles: vec![self.delay_cycles; 2],
         }
     }
 }

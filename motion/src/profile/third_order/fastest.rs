@@ -1,13 +1,13 @@
 //! Step 1: the fastest profile.
 //!
-//! Candidates towards higher positions, in the order they are tried. `a1` is the peak of the acceleration
-//! (phases 1..3), `a2` its lowest value (phases 3..7):
+//! Candidates towards higher positions. `a1` is the peak of the acceleration (phases 1..3), `a2` its lowest value
+//! (phases 3..7):
+//! - `direct`: one bump of acceleration without return, where the others degenerate (`a1 = a2`);
 //! - `velocity_limit`: cruise at the highest velocity; the changes of speed before and after are independent;
+//! - `both_limits`: `a1` and `a2` at their limits for some time, a quadratic for the highest velocity;
 //! - `free`: no limit reached, `a1² - a2²` follows from the change of velocity, `x = a1 - a2` solves a quartic;
-//! - `peak_limit`: `a1` at its limit for some time, `x = a1 - a2` solves a quartic;
-//! - the same for `a2`, by reversing the problem;
-//! - `both_limits`: a quadratic for the highest velocity;
-//! - `direct`: one bump of acceleration without return, where the above degenerate (`x = 0`).
+//! - `one_limit`: `a1` at its limit for some time, `x = a1 - a2` solves a quartic;
+//!   the same for `a2`, by reversing the problem.
 //!
 //! The quartics are those of Ruckig with jerk 1 (Copyright (c) 2021 Lars Berscheid, MIT License, see the notice
 //! in `RUCKIG-LICENSE`).
@@ -78,12 +78,18 @@ impl Search {
     }
 
     fn upwards(&mut self, problem: &Problem, mirrored: bool, first_only: bool) {
-        // cheapest first
-        let _ = (self.velocity_limit(problem, mirrored) && first_only)
-            || (self.both_limits(problem, mirrored) && first_only)
-            || (self.free(problem, mirrored) && first_only)
-            || (self.peak_limit(problem, mirrored, false) && first_only)
-            || self.peak_limit(&problem.reversed(), mirrored, true);
+        let cheapest_first: [fn(&mut Self, &Problem, bool) -> bool; 5] = [
+            Self::velocity_limit,
+            Self::both_limits,
+            Self::free,
+            |search, problem, mirrored| search.one_limit(problem, mirrored, false),
+            |search, problem, mirrored| search.one_limit(&problem.reversed(), mirrored, true),
+        ];
+        for case in cheapest_first {
+            if case(self, problem, mirrored) && first_only {
+                return;
+            }
+        }
     }
 
     fn velocity_limit(&mut self, problem: &Problem, mirrored: bool) -> bool {
@@ -128,7 +134,7 @@ impl Search {
         found
     }
 
-    fn peak_limit(&mut self, problem: &Problem, mirrored: bool, reversed: bool) -> bool {
+    fn one_limit(&mut self, problem: &Problem, mirrored: bool, reversed: bool) -> bool {
         let Problem { distance, v0, a0, ve, ae, a_max: a, a_min, .. } = *problem;
         let (s0, se, s) = (a0 * a0, ae * ae, a * a);
         let c = [

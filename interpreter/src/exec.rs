@@ -1,0 +1,53 @@
+//! From syntax trees to steps for the simulation: what the words mean.
+//!
+//! An executor runs a program block by block and hands out [`Step`]s. It holds modal state, coordinates, variables,
+//! program levels and the words in between; it knows neither time nor speed. Meaning stands in tables, one row per G
+//! function, `#` command and key.
+
+mod angle;
+mod arc;
+mod brackets;
+mod calls;
+mod check;
+mod commands;
+mod contour;
+mod coordinates;
+mod decoder;
+mod dialect;
+mod din;
+mod dynamics;
+mod executor;
+mod expr;
+mod fault;
+mod files;
+mod flow;
+mod frame;
+mod functions;
+mod groups;
+mod index;
+mod insertion;
+mod modal;
+mod modes;
+mod motion;
+mod options;
+mod overrides;
+mod program;
+mod shaping;
+mod spindles;
+mod step;
+mod suggest;
+mod system;
+mod tools;
+mod variables;
+mod words;
+
+pub use check::check;
+pub use executor::Executor;
+pub use options::{Access, External, Options, SkipLevels, Value};
+pub use step::{
+    AxisShaping, EndReason, Event, Feedback, ShapingSettings, ShapingSetup, SourceRef,
+    SpindleMotion, Step, Sync,
+};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,247 @@
+//! Plain-text commands: one row each, found by their words; the longest row wins.
+//!
+//! Source: TF5200 programming manual, list of commands.
+
+mod axes;
+mod contour;
+mod frames;
+mod keys;
+mod messages;
+mod misc;
+mod shaping;
+mod slope;
+
+use super::decoder::Decoder;
+use super::fault::{Fault, Outcome, own};
+use super::suggest;
+use crate::syntax::ast::{Command, Ident, Span};
+pub(super) use keys::{Arguments, Key, Kind, arguments};
+
+/// What a command does.
+enum Act {
+    /// It does something.
+    Run(fn(&mut Decoder, &Call<'_>) -> Outcome<()>),
+    /// It has no influence on set positions of a Cartesian machine.
+    Ignored,
+    /// Switching it off does nothing; on it changes the path and is not simulated.
+    OffOnly,
+    /// It would change the path and is not simulated.
+    Unsupported,
+}
+
+/// One row.
+struct Row {
+    name: &'static str,
+    act: Act,
+}
+
+/// A command with the words that are not part of its name.
+pub(super) struct Call<'c> {
+    pub(super) command: &'c Command,
+    /// Name of the row.
+    pub(super) name: &'static str,
+    /// Words behind the name.
+    pub(super) rest: &'c [Ident],
+}
+
+impl Call<'_> {
+    /// `#NAME`, for messages.
+    pub(super) fn title(&self) -> String {
+        format!("#{}", self.name)
+    }
+
+    pub(super) fn span(&self) -> Span {
+        self.command.span
+    }
+
+    /// 21220 for a word that does not belong here.
+    pub(super) fn unexpected(&self, word: &Ident) -> Box<Fault> {
+        let text = format!("{}: unexpected `{}`", self.title(), word.text);
+        Fault::vendor(21220, text, word.span)
+    }
+
+    /// No further words, neither behind the name nor behind ON and OFF.
+    pub(super) fn no_more_words(&self) -> Outcome<()> {
+        match self.rest.first().or(self.command.tail.first()) {
+            Some(word) => Err(self.unexpected(word)),
+            None => Ok(()),
+        }
+    }
+}
+
+const fn run(name: &'static str, f: fn(&mut Decoder, &Call<'_>) -> Outcome<()>) -> Row {
+    Row { name, act: Act::Run(f) }
+}
+
+const fn ignored(name: &'static str) -> Row {
+    Row { name, act: Act::Ignored }
+}
+
+const fn off_only(name: &'static str) -> Row {
+    Row { name, act: Act::OffOnly }
+}
+
+const fn unsupported(name: &'static str) -> Row {
+    Row { name, act: Act::Unsupported }
+}
+
+/// Every row.
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    // shape of acceleration
+    run("SLOPE", slope::slope),
+    run("SET SLOPE PROFIL", slope::set_slope_profile),
+    // smoothing of set positions
+    run("VIB GUARD", shaping::vib_guard),
+    run("FILTER", shaping::filter),
+    // contour
+    run("CONTOUR MODE", contour::contour_mode),
+    run("HSC", contour::hsc),
+    run("VECTOR LIMIT", contour::vector_limit),
+    run("TRANSVELMIN", contour::transition_velocity),
+    run("OVERRIDE", contour::path_override),
+    // waiting and synchronising
+    run("FLUSH", misc::flush),
+    run("CHANNEL INIT", misc::channel_init),
+    run("TIME", misc::time),
+    run("WAIT", misc::wait),
+    run("TIMER", misc::timer),
+    ignored("SIGNAL"),
+    // messages
+    run("MSG", messages::message),
+    run("ERROR", messages::error),
+    // variables, files, macros
+    run("DELETE", misc::delete),
+    run("INIT MACRO TAB", misc::init_macros),
+    run("FILE NAME", misc::file_name),
+    run("FILENAME", misc::file_name),
+    unsupported("FILE EXIST"),
+    unsupported("FILE RENAME"),
+    unsupported("FILE DELETE"),
+    run("MACHINE DATA", misc::machine_data),
+    // axis exchange
+    run("PUT AX", axes::put),
+    run("CALL AX", axes::call),
+    run("SET AX", axes::set),
+    run("AX REQUEST", axes::call),
+    run("AX RELEASE", axes::put),
+    run("AX DEF", axes::define),
+    unsupported("AX LINK"),
+    unsupported("SET AX LINK"),
+    unsupported("ENABLE AX LINK"),
+    unsupported("GANTRY"),
+    unsupported("GEAR LINK"),
+    // frames
+    run("ROTATION", frames::rotation),
+    run("CS", frames::coordinate_system),
+    run("CS DEF", frames::define_system),
+    run("MCS", frames::machine_coordinates),
+    run("PSET", frames::not_supported_offset),
+    run("PRESET", frames::not_supported_offset),
+    unsupported("SUPPRESS OFFSETS"),
+    unsupported("FGROUP"),
+    off_only("SCALE"),
+    off_only("ACS"),
+    off_only("BCS"),
+    off_only("ECS"),
+    off_only("TRACK CS"),
+    // kinematics
+    run("TRAFO", frames::transformation),
+    run("RTCP", frames::transformation),
+    run("KIN ID", frames::transformation),
+    run("ORI MODE", frames::transformation),
+    off_only("PTP"),
+    off_only("TLC"),
+    off_only("CYL"),
+    off_only("FACE"),
+    off_only("CAX"),
+    off_only("CAXTRACK"),
+    off_only("TANGFEED"),
+    off_only("TURN"),
+    off_only("NIBBLE"),
+    off_only("PUNCH"),
+    off_only("DYNAMIC WEIGHT"),
+    off_only("DYN_WEIGHT"),
+    off_only("FF"),
+    off_only("DIST CTRL"),
+    off_only("OTC"),
+    off_only("LIFT"),
+    unsupported("RT CYCLE"),
+    unsupported("VOLCOMP"),
+    unsupported("OPTIONAL EXECUTION"),
+    unsupported("BACKWARD"),
+    unsupported("SET IPO SOLLPOS"),
+    // cycles
+    run("DISABLE MODAL CYCLE", misc::disable_modal_cycle),
+    run("RETAIN CYCLE CHANGES", misc::retain_cycle_changes),
+    // no influence on set positions
+    ignored("GET CMDPOS"),
+    ignored("GET ACTPOS"),
+    ignored("SINGLE STEP"),
+    ignored("BLOCKSEARCH"),
+    ignored("TOOL"),
+    ignored("EXPL SYN"),
+    ignored("MAIN SPINDLE"),
+    ignored("LOAD CONFIG"),
+    ignored("SAVE CONFIG"),
+    ignored("CLEAR CONFIG"),
+    ignored("CACHE"),
+    ignored("CONTROL AREA"),
+    ignored("DISTANCE PROG START"),
+    ignored("DIST TO GO"),
+    ignored("IDENT"),
+    ignored("COMMAND"),
+    ignored("DRIVE"),
+    ignored("EXPORT VE"),
+    ignored("INIT V"),
+    ignored("LAH"),
+    ignored("DIAGNOSIS"),
+    ignored("SCENE"),
+];
+
+/// The row of a command and how many of its words belong to the name.
+fn find(command: &Command) -> Option<(&'static Row, usize)> {
+    ROWS.iter()
+        .filter_map(|row| {
+            let mut words = command.words.iter();
+            let all = row.name.split(' ').all(|n| words.next().is_some_and(|w| w.is(n)));
+            all.then(|| (row, row.name.split(' ').count()))
+        })
+        .max_by_key(|(_, count)| *count)
+}
+
+/// Name of a command up to its second word, for messages.
+fn unknown(command: &Command) -> Box<Fault> {
+    let name = command.name();
+    let span = match command.words.last() {
+        Some(last) => Span::new(command.span.start as usize, last.span.end() as usize),
+        None => command.span,
+    };
+    let fault = Fault::vendor(20509, format!("unknown command #{name}"), span);
+    match suggest::nearest(&name, ROWS.iter().map(|row| row.name)) {
+        Some(near) => fault.hint(format!("did you mean `#{near}`?")),
+        None => fault,
+    }
+}
+
+impl Decoder {
+    /// Executes a plain-text command.
+    pub(super) fn execute_command(&mut self, command: &Command) -> Outcome<()> {
+        let Some((row, count)) = find(command) else { return Err(unknown(command)) };
+        let call = Call { command, name: row.name, rest: &command.words[count..] };
+        let ignored = || {
+            let text = format!("{} has no effect here", call.title());
+            Fault::kontur(own::IGNORED, text, call.span())
+        };
+        match row.act {
+            Act::Run(f) => f(self, &call),
+            Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
+            Act::OffOnly if command.on == Some(false) => Ok(()),
+            Act::OffOnly => Err(Fault::unsupported(call.title(), call.span())),
+            Act::Ignored => {
+                self.note_once(row.name, ignored());
+                Ok(())
+            }
+        }
+    }
+}

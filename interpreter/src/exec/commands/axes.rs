@@ -1,0 +1,193 @@
+//! Axis exchange within the axes of the machine: `#PUT AX`, `#CALL AX`, `#SET AX`.
+//!
+//! An exchange gives an axis a name and a place among the main axes, or takes both away. It switches a Vibration Guard
+//! off that the program has activated.
+//!
+//! Source: TF5200 programming manual, axis exchange; TF5250 Vibration Guard.
+
+use super::Call;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::step::Sync;
+use crate::syntax::ast::{Group, Item, ItemKind, ItemValue, Span};
+
+/// Options behind name, number and index of an axis.
+const OPTIONS: &[&str] = &["CMDPOS", "ACTPOS", "OFFSETS", "NO_OFFSETS", "ALL"];
+
+/// Places of an axis in the channel.
+const PLACES: u32 = 32;
+
+/// `#PUT AX [X, ..]`, `#PUT AX ALL`: an axis that is not there is legal.
+pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    exchange(decoder, call.span())?;
+    let all = call.rest.iter().chain(&call.command.tail).any(|w| w.is("ALL"));
+    if all {
+        decoder.axis_names.fill(None);
+        for main in 0..3 {
+            decoder.coordinates.set_main_axis(main, None);
+        }
+    } else if let Some(word) = call.rest.first() {
+        return Err(call.unexpected(word));
+    }
+    for item in call.command.groups.iter().flat_map(|g| &g.items) {
+        let ItemKind::Flag(name) = &item.kind else {
+            return Err(Fault::vendor(20797, "an axis name is expected", item.span));
+        };
+        if let Some(axis) = decoder.axis_of_name(&name.text) {
+            release(decoder, axis);
+        }
+    }
+    decoder.names_changed();
+    Ok(())
+}
+
+/// `#CALL AX [FAST] [name, number, index, options]..`.
+pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    exchange(decoder, call.span())?;
+    if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
+        return Err(call.unexpected(word));
+    }
+    take_all(decoder, call)
+}
+
+/// `#SET AX [name, number, index, options]..`: a new set of axes.
+pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    exchange(decoder, call.span())?;
+    if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
+        return Err(call.unexpected(word));
+    }
+    decoder.axis_names.fill(None);
+    for main in 0..3 {
+        decoder.coordinates.set_main_axis(main, None);
+    }
+    take_all(decoder, call)
+}
+
+/// `#AX DEF DEFAULT`: the set of the channel list.
+pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    exchange(decoder, call.span())?;
+    match call.rest {
+        [word] if word.is("DEFAULT") => {
+            for axis in 0..decoder.machine.axes.len() {
+                decoder.axis_names[axis] = Some(decoder.machine.axes[axis].name().to_owned());
+            }
+            for main in 0..3 {
+                let axis = (main < decoder.machine.axes.len()).then_some(main);
+                decoder.coordinates.set_main_axis(main, axis);
+            }
+            decoder.names_changed();
+            Ok(())
+        }
+        _ => take_all(decoder, call),
+    }
+}
+
+/// The path comes to rest; a Vibration Guard of the program ends.
+fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
+    decoder.sync(Sync::FlushWait);
+    if decoder.shaping.guard_on == Some(true) {
+        let text = "the axis exchange switches the Vibration Guard of the program off";
+        let hint = "program #VIB GUARD ON again behind it";
+        decoder.note(Fault::kontur(own::GUARD_EXCHANGED, text, span).hint(hint));
+    }
+    if decoder.shaping.guard_on.take().is_some() {
+        decoder.shaping.ax_dev_mm = None;
+        // what the list says holds again, with the values of the list
+        decoder.shaping.guard = crate::exec::shaping::GuardKeys::default();
+        decoder.update_shaping(span);
+    }
+    Ok(())
+}
+
+fn release(decoder: &mut Decoder, axis: usize) {
+    decoder.axis_names[axis] = None;
+    if let Some(main) = decoder.coordinates.main_index(axis) {
+        decoder.coordinates.set_main_axis(main, None);
+    }
+}
+
+fn take_all(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if call.command.groups.is_empty() {
+        let text = format!("{} needs [name, number, index]", call.title());
+        return Err(Fault::vendor(21220, text, call.span()));
+    }
+    for group in &call.command.groups {
+        // `[[X,1,0][Y,2,1]]` and `[X,1,0][Y,2,1]`
+        let nested: Vec<&Group> = group
+            .items
+            .iter()
+            .filter_map(|item| match &item.kind {
+                ItemKind::Value(ItemValue::List(inner)) => Some(inner),
+                _ => None,
+            })
+            .collect();
+        if nested.is_empty() {
+            take(decoder, group)?;
+        }
+        for inner in nested {
+            take(decoder, inner)?;
+        }
+    }
+    decoder.names_changed();
+    Ok(())
+}
+
+fn number(decoder: &Decoder, item: Option<&Item>, missing: (u32, &str), at: Span) -> Outcome<f64> {
+    match item.map(|i| &i.kind) {
+        Some(ItemKind::Value(ItemValue::Expr(expr))) => decoder.number(expr),
+        _ => Err(Fault::vendor(missing.0, missing.1, item.map_or(at, |i| i.span))),
+    }
+}
+
+/// `[name, number, index, options]`.
+fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
+    let items = &group.items;
+    let name = match items.first().map(|i| (&i.kind, i.span)) {
+        Some((ItemKind::Flag(name), _)) => name.clone(),
+        // `[X 1 2]`: the commas are missing
+        Some((ItemKind::Pair { .. }, span)) => {
+            return Err(Fault::vendor(21251, "a comma is missing behind the axis name", span));
+        }
+        _ => return Err(Fault::vendor(20797, "an axis name is expected", group.span)),
+    };
+    let letters = name.text.to_ascii_uppercase();
+    let first = letters.as_bytes().first().copied().unwrap_or(b' ');
+    if letters.len() > 16 || !b"XYZABCUVWQ".contains(&first) {
+        let text = format!("`{}` is no axis name", name.text);
+        return Err(Fault::vendor(20524, text, name.span));
+    }
+    let logical = number(decoder, items.get(1), (21251, "the logical axis number is missing"), group.span)?;
+    let index = number(decoder, items.get(2), (21252, "the axis index is missing"), group.span)?;
+    let Some(logical) = crate::exec::expr::whole(logical, 1, 65535) else {
+        let text = format!("logical axis number {logical} is outside 1 to 65535");
+        return Err(Fault::vendor(21253, text, group.span));
+    };
+    let Some(index) = crate::exec::expr::whole(index, 0, PLACES - 1) else {
+        let text = format!("axis index {index} is outside 0 to {}", PLACES - 1);
+        return Err(Fault::kontur(own::RANGE, text, group.span));
+    };
+    for item in items.iter().skip(3) {
+        match &item.kind {
+            ItemKind::Flag(word) if OPTIONS.iter().any(|o| word.is(o)) => {}
+            ItemKind::Missing => {}
+            _ => {
+                let text = "unknown offset mode of an axis exchange";
+                return Err(Fault::vendor(20521, text, item.span));
+            }
+        }
+    }
+    let Some(axis) = decoder.machine.axes.iter().position(|a| a.number() == logical) else {
+        let text = format!("no axis has the logical number {logical}");
+        return Err(Fault::vendor(20312, text, group.span));
+    };
+    if let Some(other) = decoder.axis_of_name(&letters).filter(|other| *other != axis) {
+        release(decoder, other);
+    }
+    decoder.axis_names[axis] = Some(letters);
+    if index < 3 {
+        decoder.coordinates.set_main_axis(index as usize, Some(axis));
+    }
+    // weights of feedforward of an exchanged axis return to 100 %
+    decoder.feedforward.weight_ratios[axis] = 1.0;
+    Ok(())
+}

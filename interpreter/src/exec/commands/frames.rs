@@ -1,0 +1,177 @@
+//! `#ROTATION`, `#CS`, `#MCS`, `#TRAFO` and relatives.
+//!
+//! Source: TF5200 programming manual, coordinate systems; P-CHAN-00394 (rotations ZYX).
+
+use super::keys::number;
+use super::{Call, Key, arguments};
+use crate::exec::coordinates::SYSTEMS_MAX;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::frame::Frame;
+use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
+
+/// `#ROTATION ON [ANGLE= CENTER1= CENTER2=]`, `OFF`.
+pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    const KEYS: &[Key] = &[number("ANGLE"), number("CENTER1"), number("CENTER2")];
+    call.no_more_words()?;
+    let keys = arguments(decoder, "#ROTATION", call.command.groups.first(), KEYS);
+    match call.command.on {
+        Some(true) => {
+            let unit = decoder.unit_mm();
+            let value = |name: &str| keys.number(name).map(|(x, _)| x);
+            // offsets of the centre from the origin of the program; 0 if not written
+            let centre = ["CENTER1", "CENTER2"].map(|n| Some(value(n).unwrap_or(0.0) * unit));
+            let main = decoder.modal.plane.main_axes();
+            let deg = value("ANGLE").unwrap_or(0.0);
+            decoder.set_rotation([main[0], main[1]], deg, centre, call.span())
+        }
+        Some(false) => {
+            decoder.coordinates.set_rotation(None);
+            Ok(())
+        }
+        None => Err(Fault::vendor(21220, "#ROTATION needs ON or OFF", call.span())),
+    }
+}
+
+/// Six values `[x, y, z, a, b, c]`, the last ones optional, gaps 0.
+fn system(decoder: &Decoder, group: &Group) -> Outcome<Frame> {
+    let mut values = [0.0; 6];
+    if group.items.len() > values.len() {
+        return Err(Fault::vendor(20675, "up to six values: [x,y,z,a,b,c]", group.span));
+    }
+    for (value, item) in values.iter_mut().zip(&group.items) {
+        match &item.kind {
+            ItemKind::Missing => {}
+            ItemKind::Value(ItemValue::Expr(expr)) => *value = decoder.number(expr)?,
+            _ => return Err(Fault::vendor(20675, "a value is expected", item.span)),
+        }
+    }
+    let unit = decoder.unit_mm();
+    let [x, y, z, a, b, c] = values;
+    Ok(Frame::coordinate_system([x * unit, y * unit, z * unit], [a, b, c]))
+}
+
+/// `[id]`.
+fn id_of(decoder: &Decoder, group: &Group) -> Outcome<u32> {
+    match &group.items[..] {
+        [item] => match &item.kind {
+            ItemKind::Value(ItemValue::Expr(expr)) => {
+                let most = u32::try_from(SYSTEMS_MAX).unwrap_or(u32::MAX);
+                decoder.whole(expr, "the number of a coordinate system", 1, most)
+            }
+            _ => Err(Fault::vendor(20675, "a number is expected", item.span)),
+        },
+        _ => Err(Fault::vendor(20675, "one number is expected", group.span)),
+    }
+}
+
+fn undefined(id: u32, span: Span) -> Box<Fault> {
+    Fault::kontur(own::UNDEFINED, format!("coordinate system {id} is not defined"), span)
+}
+
+/// `#CS ON [..]`, `#CS ON [id]`, `#CS OFF`, `#CS OFF ALL`.
+pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if let Some(word) = call.rest.first() {
+        if word.is("MODE") {
+            return Err(Fault::unsupported("#CS MODE", call.span()));
+        }
+        return Err(call.unexpected(word));
+    }
+    let command = call.command;
+    match (command.on, &command.tail[..], &command.groups[..]) {
+        (Some(false), [], []) => {
+            decoder.coordinates.pop_system();
+            Ok(())
+        }
+        (Some(false), [word], _) if word.is("ALL") => {
+            decoder.coordinates.clear_systems();
+            Ok(())
+        }
+        (Some(true), [], groups) => {
+            if decoder.coordinates.systems() >= SYSTEMS_MAX {
+                let text = format!("more than {SYSTEMS_MAX} coordinate systems are active");
+                return Err(Fault::kontur(own::RANGE, text, call.span()));
+            }
+            let frame = match groups {
+                [] => {
+                    let id = decoder.last_system;
+                    decoder.coordinates.stored_system(id).ok_or_else(|| undefined(id, call.span()))?
+                }
+                // one value alone is the number of a stored system
+                [group] if group.items.len() == 1 => {
+                    let id = id_of(decoder, group)?;
+                    decoder.coordinates.stored_system(id).ok_or_else(|| undefined(id, group.span))?
+                }
+                [group] => system(decoder, group)?,
+                [id, group] => {
+                    let id = id_of(decoder, id)?;
+                    let frame = system(decoder, group)?;
+                    store(decoder, id, frame, call.span())?;
+                    frame
+                }
+                _ => return Err(Fault::vendor(20675, "too many brackets", call.span())),
+            };
+            decoder.coordinates.push_system(frame);
+            Ok(())
+        }
+        (_, [word, ..], _) => Err(call.unexpected(word)),
+        _ => Err(Fault::vendor(20675, "#CS needs ON or OFF", call.span())),
+    }
+}
+
+fn store(decoder: &mut Decoder, id: u32, frame: Frame, span: Span) -> Outcome<()> {
+    let known = decoder.coordinates.stored_system(id).is_some();
+    if !known && decoder.coordinates.stored_systems() >= SYSTEMS_MAX {
+        let text = format!("more than {SYSTEMS_MAX} coordinate systems are stored");
+        return Err(Fault::kontur(own::RANGE, text, span));
+    }
+    decoder.coordinates.store_system(id, frame);
+    decoder.last_system = id;
+    Ok(())
+}
+
+/// `#CS DEF [id][x,y,z,a,b,c]`.
+pub(super) fn define_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    match &call.command.groups[..] {
+        [group] => {
+            let frame = system(decoder, group)?;
+            store(decoder, 1, frame, call.span())
+        }
+        [id, group] => {
+            let id = id_of(decoder, id)?;
+            let frame = system(decoder, group)?;
+            store(decoder, id, frame, call.span())
+        }
+        _ => Err(Fault::vendor(20675, "#CS DEF needs [id][x,y,z,a,b,c]", call.span())),
+    }
+}
+
+/// `#MCS ON|OFF`: nothing to do while no frame is active.
+pub(super) fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    if call.command.on == Some(true) && !decoder.coordinates.frame().is_identity() {
+        let what = "#MCS ON with an active coordinate system, rotation or mirroring";
+        return Err(Fault::unsupported(what, call.span()));
+    }
+    Ok(())
+}
+
+/// `#TRAFO`, `#RTCP`, `#KIN ID`, `#ORI MODE`: kinematics.
+pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if call.command.on == Some(false) {
+        return Ok(());
+    }
+    if decoder.identity_trafo {
+        let text = format!("{} is taken as identity: the axes move as programmed", call.title());
+        decoder.note_once(call.name, Fault::kontur(own::FALLBACK, text, call.span()));
+        return Ok(());
+    }
+    let hint = "--identity-trafo takes transformations as identity";
+    Err(Fault::unsupported(call.title(), call.span()).hint(hint))
+}
+
+/// `#PSET`, `#PRESET` as commands of their own.
+pub(super) fn not_supported_offset(_: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    Err(Fault::unsupported(call.title(), call.span()).hint("G92 shifts the zero point"))
+}

@@ -1,0 +1,144 @@
+//! `#MSG` and `#ERROR`.
+//!
+//! Source: TF5200 programming manual; 21232 for an unknown format.
+
+use super::keys::number;
+use super::{Call, Key, Kind, arguments};
+use crate::diag::{Diagnostic, Id, Severity, ValueKind};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::options::Value;
+use crate::exec::step::Event;
+use crate::syntax::ast::{Expr, ItemKind, ItemValue, Span};
+
+/// Receivers of a message.
+const RECEIVERS: &[&str] = &["ISG_DIAG_BED", "HMI", "PLC", "DIAG", "EVENT_LOGGER"];
+
+/// Modes and destinations; the log is the same for all of them.
+const MODES: &[&str] = &["SYN", "SYN_ACK", "ACK", "SAVE", "EXCLUSIVE", "INFO"];
+
+/// `#MSG [SYN|..] [receiver] ["text", values]`.
+pub(super) fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let mut receiver = RECEIVERS[0].to_owned();
+    let mut save = false;
+    for word in call.rest {
+        if RECEIVERS.iter().any(|r| word.is(r)) {
+            receiver = word.text.to_string();
+        } else if !MODES.iter().any(|m| word.is(m)) {
+            return Err(call.unexpected(word));
+        }
+        save |= word.is("SAVE");
+    }
+    let Some(group) = call.command.groups.last() else {
+        return Err(Fault::vendor(21220, "#MSG needs [\"text\"]", call.span()));
+    };
+    let mut items = Vec::new();
+    for item in &group.items {
+        match &item.kind {
+            ItemKind::Value(ItemValue::Expr(expr)) => items.push(expr),
+            ItemKind::Missing => {}
+            _ => return Err(Fault::vendor(21220, "#MSG: a text or value is expected", item.span)),
+        }
+    }
+    let Some((format, values)) = items.split_first() else {
+        return Err(Fault::vendor(21220, "#MSG needs a text", group.span));
+    };
+    let Value::Text(format_text) = decoder.value(format)? else {
+        return Err(Fault::vendor(21220, "#MSG: the text comes first", format.span));
+    };
+    let text = formatted(decoder, &format_text, format.span, values)?;
+    decoder.event(Event::Message { receiver, text, save });
+    Ok(())
+}
+
+/// Replaces `%d`, `%f`, `%s` by the values in turn.
+fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Outcome<String> {
+    let mut text = String::new();
+    let mut values = values.iter();
+    let mut chars = format.chars();
+    while let Some(c) = chars.next() {
+        if c != '%' {
+            text.push(c);
+            continue;
+        }
+        // width and precision may stand between
+        let mut precision = String::new();
+        let letter = loop {
+            match chars.next() {
+                Some(c) if c.is_ascii_digit() || matches!(c, '.' | '-' | '+') => precision.push(c),
+                other => break other,
+            }
+        };
+        if letter == Some('%') {
+            text.push('%');
+            continue;
+        }
+        let Some(letter @ ('d' | 'D' | 'f' | 'F' | 's' | 'S')) = letter else {
+            let shown = letter.map_or(String::new(), String::from);
+            let message = format!("unknown format %{shown}");
+            return Err(Fault::vendor(21232, message, at).hint("formats are %s, %d and %f"));
+        };
+        let Some(expr) = values.next() else {
+            let message = format!("no value for %{letter}");
+            return Err(Fault::vendor(21220, message, at));
+        };
+        text.push_str(&one(&decoder.value(expr)?, letter, &precision));
+    }
+    if let Some(left) = values.next() {
+        return Err(Fault::vendor(21220, "a value without a format in the text", left.span));
+    }
+    Ok(text)
+}
+
+fn one(value: &Value, letter: char, precision: &str) -> String {
+    let digits = precision.split_once('.').and_then(|(_, d)| d.parse().ok()).unwrap_or(6_usize);
+    match (value, letter.to_ascii_lowercase()) {
+        (Value::Text(text), _) => text.to_string(),
+        (Value::Number(x), 'd') => format!("{:.0}", x.round() + 0.0),
+        (Value::Number(x), 'f') => format!("{x:.*}", digits.min(17)),
+        (Value::Number(x), _) => x.to_string(),
+    }
+}
+
+/// `#ERROR [ID=1..1000 RC=0|2|7 MID= PV1..5= PM1..5= PIV..=]`.
+pub(super) fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    const TEXTS: [&str; 5] = ["PM1", "PM2", "PM3", "PM4", "PM5"];
+    const VALUES: [&str; 5] = ["PV1", "PV2", "PV3", "PV4", "PV5"];
+    const INTEGERS: [&str; 5] = ["PIV1", "PIV2", "PIV3", "PIV4", "PIV5"];
+    call.no_more_words()?;
+    let mut keys = vec![number("ID"), number("RC"), number("MID")];
+    keys.extend(VALUES.map(number));
+    keys.extend(INTEGERS.map(number));
+    keys.extend(TEXTS.map(|name| Key { name, kind: Kind::Text }));
+    let found = arguments(decoder, "#ERROR", call.command.groups.first(), &keys);
+    let Some(id) = found.in_range("ID", 1.0, 1000.0, own::RANGE)? else {
+        return Err(Fault::vendor(21220, "#ERROR needs ID", call.span()));
+    };
+    let id = crate::exec::expr::whole(id, 1, 1000).unwrap_or(1);
+    let rc = found.number("RC").map_or(2.0, |(rc, _)| rc);
+    let severity = match crate::exec::expr::whole(rc, 0, 7) {
+        Some(0) => Severity::Warning,
+        Some(2 | 7) => Severity::Error,
+        _ => {
+            let text = format!("#ERROR: RC={rc}, allowed are 0, 2 and 7");
+            return Err(Fault::kontur(own::RANGE, text, call.span()));
+        }
+    };
+    let texts: Vec<&str> = TEXTS.iter().filter_map(|t| found.word(t).map(|(w, _)| w)).collect();
+    let text = if texts.is_empty() {
+        "message of the program".to_owned()
+    } else {
+        format!("message of the program: {}", texts.join(", "))
+    };
+    let mut diagnostic = Diagnostic::new(Id::Vendor(id), text).severity(severity);
+    for name in VALUES.iter().chain(&INTEGERS) {
+        if let Some((x, _)) = found.number(name) {
+            diagnostic = diagnostic.value(ValueKind::Current, x, "-");
+        }
+    }
+    let fault = Fault::new(diagnostic, call.span());
+    if severity == Severity::Error { Err(fault) } else {
+        decoder.note(fault);
+        Ok(())
+    }
+}

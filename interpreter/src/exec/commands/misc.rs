@@ -1,0 +1,213 @@
+//! Waiting, flushing, timers, files, macros, machine data, modal cycles.
+//!
+//! Source: TF5200 programming manual.
+
+use super::keys::number;
+use super::{Call, Key, Kind, arguments};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::step::Sync;
+use crate::syntax::ast::{ExprKind, ItemKind, ItemValue};
+
+/// `#FLUSH`, `#FLUSH CONTINUE`, `#FLUSH WAIT`.
+pub(super) fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    match call.rest {
+        [] => decoder.sync(Sync::Stop),
+        [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),
+        // no stop while more blocks are known
+        [word] if word.is("CONTINUE") => {}
+        [word, ..] => return Err(call.unexpected(word)),
+    }
+    Ok(())
+}
+
+/// `#CHANNEL INIT [CMDPOS|ACTPOS, axes]`.
+pub(super) fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let Some(group) = call.command.groups.first() else {
+        let text = "#CHANNEL INIT needs [CMDPOS] or [ACTPOS]";
+        return Err(Fault::vendor(21220, text, call.span()));
+    };
+    let mut actual = None;
+    let mut axes = Vec::new();
+    for item in &group.items {
+        match &item.kind {
+            ItemKind::Flag(word) if word.is("CMDPOS") => actual = Some(false),
+            ItemKind::Flag(word) if word.is("ACTPOS") => actual = Some(true),
+            ItemKind::Flag(word) => axes.push(decoder.axis_in_command(word)?),
+            ItemKind::Missing => {}
+            ItemKind::Pair { .. } | ItemKind::Value(_) => {
+                return Err(Fault::vendor(21220, "#CHANNEL INIT: an axis is expected", item.span));
+            }
+        }
+    }
+    match actual {
+        None => {
+            let text = "#CHANNEL INIT needs CMDPOS or ACTPOS";
+            Err(Fault::vendor(21220, text, group.span))
+        }
+        // set positions are what the program already counts with
+        Some(false) => {
+            decoder.sync(Sync::FlushWait);
+            Ok(())
+        }
+        Some(true) => {
+            decoder.take_actual_positions(&axes);
+            Ok(())
+        }
+    }
+}
+
+/// `#TIME t`.
+pub(super) fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    match (&call.command.arguments[..], call.command.groups.first()) {
+        ([expr], None) => {
+            let seconds = decoder.number(expr)?;
+            decoder.dwell_for(seconds, expr.span)
+        }
+        ([], Some(group)) => match &group.items[..] {
+            [item] => match &item.kind {
+                ItemKind::Value(ItemValue::Expr(expr)) => {
+                    let seconds = decoder.number(expr)?;
+                    decoder.dwell_for(seconds, expr.span)
+                }
+                _ => Err(Fault::vendor(21220, "#TIME needs a time in s", item.span)),
+            },
+            _ => Err(Fault::vendor(21220, "#TIME needs one time in s", group.span)),
+        },
+        _ => Err(Fault::vendor(21220, "#TIME needs one time in s", call.span())),
+    }
+}
+
+/// `#WAIT ..`: headless a condition is tested once.
+pub(super) fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    decoder.sync(Sync::FlushWait);
+    match (call.rest, &call.command.arguments[..]) {
+        ([word], [condition]) if word.is("FOR") => {
+            if decoder.condition(condition)? {
+                return Ok(());
+            }
+            let text = "the condition is false and nothing outside can make it true";
+            let fault = Fault::kontur(own::WAIT, text, condition.span);
+            Err(fault.with(|d| d.severity(crate::diag::Severity::Error)))
+        }
+        _ => {
+            let text = format!("{} does not wait: there is nothing to wait for", call.title());
+            decoder.note_once("#WAIT", Fault::kontur(own::WAIT, text, call.span()));
+            Ok(())
+        }
+    }
+}
+
+/// `#TIMER START|READ|CLEAR|STOP [ID=i]`.
+pub(super) fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    const KEYS: &[Key] = &[number("ID")];
+    let keys = arguments(decoder, "#TIMER", call.command.groups.first(), KEYS);
+    let id = keys.in_range("ID", 0.0, 127.0, own::RANGE)?.unwrap_or(0.0);
+    let id = crate::exec::expr::whole(id, 0, 127).unwrap_or(0);
+    match call.rest {
+        [word] if word.is("START") || word.is("CLEAR") => {
+            decoder.timers.start(id, decoder.feedback.time_s);
+            Ok(())
+        }
+        [word] if word.is("READ") || word.is("STOP") => Ok(()),
+        [word, ..] => Err(call.unexpected(word)),
+        [] => Err(Fault::vendor(21220, "#TIMER needs START, READ or CLEAR", call.span())),
+    }
+}
+
+/// `#DELETE V.., V..`.
+pub(super) fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if call.command.arguments.is_empty() {
+        return Err(Fault::vendor(21220, "#DELETE needs variables", call.span()));
+    }
+    for expr in &call.command.arguments {
+        let ExprKind::Place(place) = &expr.kind else {
+            return Err(Fault::vendor(21220, "#DELETE: a variable is expected", expr.span));
+        };
+        let outcome = decoder.delete(place);
+        decoder.keep(outcome);
+    }
+    Ok(())
+}
+
+/// `#INIT MACRO TAB`.
+pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    decoder.macros.clear();
+    decoder.macros_changed = true;
+    Ok(())
+}
+
+/// `#FILE NAME [G80="x.nc" MSG="y"]`.
+pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    for item in call.command.groups.iter().flat_map(|g| &g.items) {
+        let ItemKind::Pair { key, value } = &item.kind else {
+            if matches!(item.kind, ItemKind::Missing) {
+                continue;
+            }
+            return Err(Fault::vendor(21220, "#FILE NAME: KEY=\"file\" is expected", item.span));
+        };
+        let file = match value {
+            ItemValue::Name(name) => name.text.to_string(),
+            ItemValue::Expr(expr) => match decoder.value(expr)? {
+                crate::exec::options::Value::Text(text) => text.to_string(),
+                crate::exec::options::Value::Number(_) => {
+                    return Err(Fault::vendor(21220, "a file name is expected", expr.span));
+                }
+            },
+            ItemValue::List(group) => {
+                return Err(Fault::vendor(21220, "a file name is expected", group.span));
+            }
+        };
+        let number = key.text.strip_prefix('G').and_then(|n| n.parse().ok());
+        match number {
+            Some(n) if crate::exec::groups::is_cycle_call(n) => {
+                decoder.cycle_files.insert(n, file);
+            }
+            // messages go to the log, whatever the name of their file
+            _ if key.is("MSG") => {}
+            _ => {
+                let text = format!("#FILE NAME: unknown key {}", key.text);
+                return Err(Fault::vendor(21220, text, key.span));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// `#MACHINE DATA [SYN] [AX=Z AXPARAM="key value"]`.
+pub(super) fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    const KEYS: &[Key] =
+        &[Key { name: "AX", kind: Kind::Word }, Key { name: "AXPARAM", kind: Kind::Text }];
+    if let Some(word) = call.rest.iter().find(|w| !w.is("SYN")) {
+        return Err(call.unexpected(word));
+    }
+    let keys = arguments(decoder, "#MACHINE DATA", call.command.groups.first(), KEYS);
+    let (Some((axis, at)), Some((parameter, span))) = (keys.word("AX"), keys.word("AXPARAM")) else {
+        let text = "#MACHINE DATA needs AX and AXPARAM";
+        return Err(Fault::vendor(21220, text, call.span()));
+    };
+    let axis = crate::syntax::ast::Ident { text: axis.into(), span: at };
+    let axis = decoder.axis_in_command(&axis)?;
+    let (key, value) = parameter.trim().split_once(char::is_whitespace).ok_or_else(|| {
+        Fault::vendor(21220, "AXPARAM: `key value` is expected", span)
+    })?;
+    decoder.set_machine_data(axis, key, value.trim(), span)
+}
+
+/// `#DISABLE MODAL CYCLE`.
+pub(super) fn disable_modal_cycle(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    decoder.modal_cycle = None;
+    Ok(())
+}
+
+/// `#RETAIN CYCLE CHANGES`.
+pub(super) fn retain_cycle_changes(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    decoder.retain_cycle_changes = true;
+    Ok(())
+}

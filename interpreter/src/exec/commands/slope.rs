@@ -1,0 +1,87 @@
+//! `#SLOPE`, `#SET SLOPE PROFIL`.
+//!
+//! Source: TF5200 programming manual; 21629 for an unknown type.
+
+use super::keys::number;
+use super::{Call, Key, Kind, arguments};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome, own};
+use kontur_motion::block::SlopeKind;
+
+/// Types in the order of P-CHAN-00071.
+const TYPES: [(&str, SlopeKind); 4] = [
+    ("STEP", SlopeKind::Step),
+    ("TRAPEZ", SlopeKind::Trapez),
+    ("SIN2", SlopeKind::Sin2),
+    ("HSC", SlopeKind::Hsc),
+];
+
+fn default(decoder: &mut Decoder) {
+    decoder.modal.slope.kind = decoder.machine.channel.slope;
+    decoder.modal.slope.optimised = false;
+    set_old(decoder, false);
+}
+
+fn set_old(decoder: &mut Decoder, old: bool) {
+    if decoder.modal.old_slope != old {
+        decoder.modal.old_slope = old;
+        decoder.dynamics_changed();
+    }
+}
+
+/// `#SLOPE [TYPE=.. NO_OPT=..]`, `#SLOPE DEFAULT`.
+pub(super) fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    const KEYS: &[Key] = &[Key { name: "TYPE", kind: Kind::Word }, number("NO_OPT")];
+    match call.rest {
+        [] => {}
+        [word] if word.is("DEFAULT") => {
+            default(decoder);
+            return Ok(());
+        }
+        [word, ..] => return Err(call.unexpected(word)),
+    }
+    if call.command.groups.is_empty() {
+        let text = "#SLOPE needs [TYPE=..] or DEFAULT";
+        return Err(Fault::vendor(21220, text, call.span()));
+    }
+    let keys = arguments(decoder, "#SLOPE", call.command.groups.first(), KEYS);
+    if let Some((name, span)) = keys.word("TYPE") {
+        let Some((_, kind)) = TYPES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)) else {
+            let text = format!("unknown slope type {name}");
+            return Err(Fault::vendor(21629, text, span).hint("types are STEP, TRAPEZ, SIN2, HSC"));
+        };
+        decoder.modal.slope.kind = *kind;
+    }
+    if let Some(x) = keys.in_range("NO_OPT", 0.0, 1.0, own::RANGE)? {
+        decoder.modal.slope.optimised = x < 0.5;
+    }
+    set_old(decoder, false);
+    Ok(())
+}
+
+/// `#SET SLOPE PROFIL [n]`; without number as `#SLOPE DEFAULT`.
+pub(super) fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    use crate::syntax::ast::{ItemKind, ItemValue};
+    call.no_more_words()?;
+    let Some(group) = call.command.groups.first() else {
+        default(decoder);
+        return Ok(());
+    };
+    let [item] = &group.items[..] else {
+        return Err(Fault::vendor(21220, "one number is expected: 0 to 3", group.span));
+    };
+    let ItemKind::Value(ItemValue::Expr(expr)) = &item.kind else {
+        return Err(Fault::vendor(21220, "a number is expected: 0 to 3", item.span));
+    };
+    let value = decoder.number(expr)?;
+    let Some(i) = crate::exec::expr::whole(value, 0, 3) else {
+        let text = format!("slope profile {value} does not exist");
+        return Err(Fault::vendor(120178, text, expr.span).with(|d| {
+            use crate::diag::ValueKind::{LowerLimit, UpperLimit, Wrong};
+            d.value(Wrong, value, "-").value(LowerLimit, 0.0, "-").value(UpperLimit, 3.0, "-")
+        }));
+    };
+    decoder.modal.slope.kind = TYPES[i as usize].1;
+    set_old(decoder, true);
+    Ok(())
+}

@@ -1,0 +1,387 @@
+//! State of a program and the execution of one block.
+//!
+//! The decoder knows blocks, not files: where the next block comes from is the business of the executor.
+
+use super::contour::Contour;
+use super::coordinates::Coordinates;
+use super::dynamics::{Weights, channel_dynamics};
+use super::fault::Fault;
+use super::modal::{FeedType, FeedWord, Modal, PathMode, Plane};
+use super::options::Options;
+use super::overrides::Overrides;
+use super::program::ProgramInfo;
+use super::shaping::{ShapingState, Worked};
+use super::calls::ModalCycle;
+use super::spindles::Spindle;
+use super::system::Timers;
+use super::step::{Event, Feedback, SourceRef, Sync};
+use super::tools::Tools;
+use super::variables::Variables;
+use crate::diag::{Diagnostic, Location};
+use crate::machine::{AxisKind, Machine};
+use crate::syntax::ast::{Ident, Span};
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::{ChannelDynamics, VectorLimits};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// Feedforward of the path axes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Feedforward {
+    pub(super) on: bool,
+    pub(super) weight_ratios: AxisVec,
+}
+
+/// The last arc, for system variables.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LastArc {
+    /// Main axes of its plane.
+    pub(super) plane: [usize; 2],
+    /// Centre relative to the start point.
+    pub(super) centre_mm: [f64; 2],
+    /// Shift of the centre by G165.
+    pub(super) shift_mm: [f64; 2],
+    pub(super) radius_mm: f64,
+}
+
+/// State of a running program.
+#[derive(Debug)]
+pub(super) struct Decoder {
+    pub(super) machine: Arc<Machine>,
+    pub(super) identity_trafo: bool,
+    pub(super) modal: Modal,
+    pub(super) coordinates: Coordinates,
+    pub(super) variables: Variables,
+    pub(super) weights: Weights,
+    /// `#VECTOR LIMIT` in force.
+    pub(super) vector: VectorLimits,
+    dynamics: Option<Arc<ChannelDynamics>>,
+    pub(super) overrides: Overrides,
+    pub(super) shaping: ShapingState,
+    pub(super) feedforward: Feedforward,
+    pub(super) spindles: Vec<Spindle>,
+    pub(super) tools: Tools,
+    pub(super) contour: Contour,
+    /// Names of the axes in the program; `None` for an axis that was given away.
+    pub(super) axis_names: Vec<Option<String>>,
+    /// Letters of one-letter axes.
+    letters: [Option<u8>; 26],
+    pub(super) info: ProgramInfo,
+    pub(super) macros: BTreeMap<Box<str>, Box<str>>,
+    /// Subroutines of G80 to G89 and G800 to G839.
+    pub(super) cycle_files: BTreeMap<u32, String>,
+    pub(super) timers: Timers,
+    pub(super) feedback: Feedback,
+    pub(super) last_arc: LastArc,
+    /// Coordinate system stored last.
+    pub(super) last_system: u32,
+    /// A word that only this dialect knows has shown that the program is written for it.
+    pub(super) dialect_seen: bool,
+    /// Cycle that is called behind every motion or block.
+    pub(super) modal_cycle: Option<ModalCycle>,
+    /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
+    pub(super) retain_cycle_changes: bool,
+    /// Names of axes or the table of macros have changed: parsed blocks are out of date.
+    pub(super) names_changed: bool,
+    pub(super) macros_changed: bool,
+    /// Syntax check: blocks with errors are carried out as far as possible.
+    pub(super) checking: bool,
+    /// A motion of the block in work went out.
+    pub(super) moved: bool,
+    /// Place of the block in work.
+    pub(super) source: SourceRef,
+    /// Its first line, for conditions that name an earlier place.
+    pub(super) location: Option<Location>,
+    /// Conditions of the block in work.
+    faults: Vec<Box<Fault>>,
+    /// Conditions without a place in a block.
+    pub(super) unplaced: Vec<Diagnostic>,
+    said: BTreeSet<String>,
+}
+
+impl Decoder {
+    /// The state at the start of a program.
+    pub(super) fn new(machine: Arc<Machine>, options: Options, start: &AxisVec) -> Self {
+        let n = machine.axes.len();
+        let mut spindles: Vec<Spindle> = machine
+            .spindles
+            .iter()
+            .enumerate()
+            .map(|(i, s)| Spindle::new(s.name(), Some(i)))
+            .collect();
+        if spindles.is_empty() {
+            spindles.push(Spindle::new("S", None));
+        }
+        if let Some(main) = machine.channel.main_spindle {
+            if let Some(i) = machine.spindles.iter().position(|s| s.number() == main) {
+                spindles.swap(0, i);
+            }
+        }
+        let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
+        let mut decoder = Self {
+            identity_trafo: options.identity_trafo,
+            modal: Modal::start(machine.channel.slope, machine.channel.constant_ramp_time),
+            coordinates: Coordinates::new(start),
+            variables: Variables::new(options.external),
+            weights: Weights::new(n),
+            vector: VectorLimits::default(),
+            dynamics: None,
+            overrides: Overrides::new(n),
+            shaping: ShapingState::default(),
+            feedforward: Feedforward {
+                on: false,
+                weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
+            },
+            spindles,
+            tools: Tools::default(),
+            contour: Contour::default(),
+            axis_names,
+            letters: [None; 26],
+            info: ProgramInfo::default(),
+            macros: BTreeMap::new(),
+            cycle_files: machine.channel.g8x_programs.clone(),
+            timers: Timers::default(),
+            feedback: Feedback::default(),
+            last_arc: LastArc::default(),
+            last_system: 1,
+            dialect_seen: false,
+            modal_cycle: None,
+            retain_cycle_changes: false,
+            names_changed: false,
+            macros_changed: false,
+            checking: false,
+            moved: false,
+            source: SourceRef::default(),
+            location: None,
+            faults: Vec::new(),
+            unplaced: Vec::new(),
+            said: BTreeSet::new(),
+            machine,
+        };
+        decoder.axis_names_changed();
+        decoder.presets();
+        let Worked { setup, diagnostics } = decoder.shaping.work_out(&decoder.machine);
+        decoder.shaping.setup = setup;
+        decoder.unplaced.extend(diagnostics);
+        decoder
+    }
+
+    /// Start values of the channel list (P-CHAN-00054, 00063, 00099).
+    fn presets(&mut self) {
+        let machine = Arc::clone(&self.machine);
+        let channel = &machine.channel;
+        self.modal.inch = channel.inch;
+        if let Some(v) = channel.feed_mm_s {
+            let value = v * 60.0 / channel.feed_unit_mm_min;
+            let per_minute = FeedType::PerMinute as usize;
+            self.modal.feeds[per_minute] = Some(FeedWord { value, inch: false });
+        }
+        for (group, g) in &channel.g_groups {
+            match (group, g) {
+                (0, 0) => self.modal.path = PathMode::Rapid,
+                (0, 2) => self.modal.path = PathMode::Clockwise,
+                (0, 3) => self.modal.path = PathMode::CounterClockwise,
+                (4, 18) => self.modal.plane = Plane::Zx,
+                (4, 19) => self.modal.plane = Plane::Yz,
+                (12, 70) => self.modal.inch = true,
+                (12, 71) => self.modal.inch = false,
+                (14, 91) => self.modal.absolute = false,
+                (23, 161) => self.modal.centre_absolute = true,
+                (25, 164) => self.modal.centre_correction = false,
+                _ => {}
+            }
+        }
+    }
+
+    /// Adds a condition of the block in work.
+    pub(super) fn note(&mut self, fault: Box<Fault>) {
+        self.faults.push(fault);
+    }
+
+    /// Adds a condition unless one with this key was added before in this program.
+    pub(super) fn note_once(&mut self, key: &str, fault: Box<Fault>) {
+        if self.said.insert(key.to_owned()) {
+            self.faults.push(fault);
+        }
+    }
+
+    /// Forgets that something was said.
+    pub(super) fn unsay(&mut self, key: &str) {
+        self.said.remove(key);
+    }
+
+    pub(super) fn take_faults(&mut self) -> Vec<Box<Fault>> {
+        std::mem::take(&mut self.faults)
+    }
+
+    /// True if the block in work has an error.
+    pub(super) fn failed(&self) -> bool {
+        self.faults.iter().any(|f| f.is_error())
+    }
+
+    /// Takes over an outcome: a fault becomes a condition of the block.
+    pub(super) fn keep<T>(&mut self, outcome: Result<T, Box<Fault>>) -> Option<T> {
+        match outcome {
+            Ok(value) => Some(value),
+            Err(fault) => {
+                self.faults.push(fault);
+                None
+            }
+        }
+    }
+
+    /// An event that acts with the next step.
+    pub(super) fn event(&mut self, event: Event) {
+        self.contour.event(event);
+    }
+
+    /// A step at rest; left out if the block has an error, unless only the syntax is checked.
+    pub(super) fn sync(&mut self, what: Sync) {
+        if self.failed() && !self.checking {
+            return;
+        }
+        let faults = self.contour.sync(what, self.source);
+        self.faults.extend(faults);
+    }
+
+    /// Names of axes have changed.
+    pub(super) fn names_changed(&mut self) {
+        self.axis_names_changed();
+        self.names_changed = true;
+    }
+
+    /// Axes take over where they really are; all of them if none is named.
+    pub(super) fn take_actual_positions(&mut self, axes: &[usize]) {
+        let mut target = self.coordinates.target().clone();
+        for (axis, position) in target.iter_mut().enumerate() {
+            if axes.is_empty() || axes.contains(&axis) {
+                *position = self.feedback.actual_mm.get(axis).copied().unwrap_or(*position);
+            }
+        }
+        self.coordinates.set_target(&target);
+    }
+
+    /// `#MACHINE DATA`: one value of an axis list.
+    pub(super) fn set_machine_data(
+        &mut self,
+        axis: usize,
+        key: &str,
+        value: &str,
+        span: Span,
+    ) -> Result<(), Box<Fault>> {
+        let machine = Arc::make_mut(&mut self.machine);
+        if let Err(reason) = machine.axes[axis].set(key, value) {
+            let text = format!("axis {}: {reason}", machine.axes[axis].name());
+            return Err(Fault::vendor(21220, text, span));
+        }
+        let number = machine.axes[axis].number();
+        self.dynamics_changed();
+        self.sync(Sync::MachineData {
+            axis: number,
+            key: key.to_owned(),
+            value: value.to_owned(),
+        });
+        self.update_shaping(span);
+        Ok(())
+    }
+
+    /// Dynamics in force; rebuilt when something changed.
+    pub(super) fn dynamics(&mut self) -> Arc<ChannelDynamics> {
+        if let Some(dynamics) = &self.dynamics {
+            return Arc::clone(dynamics);
+        }
+        let (dynamics, _) =
+            channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector);
+        let dynamics = Arc::new(dynamics);
+        self.dynamics = Some(Arc::clone(&dynamics));
+        dynamics
+    }
+
+    /// Something the dynamics are made from has changed.
+    pub(super) fn dynamics_changed(&mut self) {
+        self.dynamics = None;
+    }
+
+    /// Names have changed.
+    pub(super) fn axis_names_changed(&mut self) {
+        self.letters = [None; 26];
+        for (i, name) in self.axis_names.iter().enumerate() {
+            if let Some([letter @ b'A'..=b'Z']) = name.as_deref().map(str::as_bytes) {
+                self.letters[usize::from(letter - b'A')] = u8::try_from(i).ok();
+            }
+        }
+    }
+
+    /// Axis of a letter.
+    pub(super) fn axis_of_letter(&self, letter: u8) -> Option<usize> {
+        let i = usize::from(letter.wrapping_sub(b'A'));
+        self.letters.get(i).copied().flatten().map(usize::from)
+    }
+
+    /// Axis of a name in either case.
+    pub(super) fn axis_of_name(&self, name: &str) -> Option<usize> {
+        self.axis_names.iter().position(|n| {
+            n.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name))
+        })
+    }
+
+    /// Axis of a name in a `#` command; 20797 if there is none.
+    pub(super) fn axis_in_command(&self, name: &Ident) -> Result<usize, Box<Fault>> {
+        self.axis_of_name(&name.text).ok_or_else(|| {
+            let text = format!("unknown axis `{}`", name.text);
+            Fault::vendor(20797, text, name.span).hint(self.axis_hint())
+        })
+    }
+
+    /// Which axes there are.
+    pub(super) fn axis_hint(&self) -> String {
+        let names: Vec<&str> = self.axis_names.iter().filter_map(|n| n.as_deref()).collect();
+        format!("axes of the channel: {}", names.join(", "))
+    }
+
+    pub(super) fn axis_name(&self, axis: usize) -> &str {
+        self.axis_names[axis].as_deref().unwrap_or("?")
+    }
+
+    pub(super) fn is_linear(&self, axis: usize) -> bool {
+        self.machine.axes[axis].kind() == AxisKind::Linear
+    }
+
+    /// Millimetres per unit of length in the program.
+    pub(super) fn unit_mm(&self) -> f64 {
+        if self.modal.inch { 25.4 } else { 1.0 }
+    }
+
+    /// Factor from programmed values of an axis to mm (deg).
+    pub(super) fn axis_unit(&self, axis: usize) -> f64 {
+        if self.modal.inch && self.is_linear(axis) { 25.4 } else { 1.0 }
+    }
+
+    /// Unit of tolerance words in mm (P-CHAN-00439).
+    pub(super) fn tolerance_unit_mm(&self) -> f64 {
+        if self.machine.channel.contouring_consider_inch { self.unit_mm() } else { 1.0 }
+    }
+
+    /// Spindle of a name in either case.
+    pub(super) fn spindle_of_name(&self, name: &str) -> Option<usize> {
+        self.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name))
+    }
+
+    /// Names of several characters that the parser has to know.
+    pub(super) fn long_names(&self) -> Vec<String> {
+        let axes = self.axis_names.iter().flatten().cloned();
+        axes.chain(self.spindles.iter().map(|s| s.name.clone())).filter(|n| n.len() > 1).collect()
+    }
+
+    /// Works the shaping out anew; a changed kernel needs the path at rest.
+    pub(super) fn update_shaping(&mut self, span: Span) {
+        let Worked { setup, diagnostics } = self.shaping.work_out(&self.machine);
+        for diagnostic in diagnostics {
+            self.note(Fault::new(diagnostic, span));
+        }
+        if setup != self.shaping.setup {
+            self.shaping.setup = setup.clone();
+            self.sync(Sync::Shaping(Box::new(setup)));
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! Weights, feedforward, tools, rotation and tool radius compensation: words that change how later blocks move.
+
+use super::coordinates::Rotation;
+use super::decoder::Decoder;
+use super::dynamics::{Weight, channel_dynamics};
+use super::fault::{Fault, Outcome, own};
+use super::modal::Compensation;
+use super::step::Event;
+use super::words::{GWord, Placed, Words};
+use crate::diag::ValueKind;
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+
+impl Decoder {
+    /// A weight in percent as a ratio.
+    pub(super) fn weight_ratio(&self, weight: Weight, (percent, span): Placed) -> Outcome<f64> {
+        let may_be_zero = matches!(
+            weight,
+            Weight::RapidVelocity | Weight::Ramp | Weight::RapidRamp | Weight::GeometricRamp
+        );
+        let ok = percent.is_finite() && (percent > 0.0 || (may_be_zero && percent == 0.0));
+        if ok && percent <= 1e6 {
+            return Ok(percent / 100.0);
+        }
+        let text = format!("a weight of {percent} % is not possible");
+        Err(Fault::kontur(own::RANGE, text, span))
+    }
+
+    /// Sets a weight; 50130 if it exceeds what the lists allow.
+    pub(super) fn set_weight(&mut self, weight: Weight, axis: Option<usize>, ratio: f64, span: Span) {
+        let before = self.capped_axes();
+        self.weights.set(weight, axis, ratio);
+        self.dynamics_changed();
+        for axis in self.capped_axes() {
+            if before.contains(&axis) && (ratio - 1.0).abs() < 1e-12 {
+                continue;
+            }
+            let name = self.axis_name(axis).to_owned();
+            let number = self.machine.axes[axis].number();
+            let text = format!(
+                "axis {name}: the weight of {} % exceeds what the axis list allows, it is limited",
+                ratio * 100.0
+            );
+            self.note(Fault::vendor(50130, text, span).with(|d| {
+                d.axis(number, name).value(ValueKind::AxisNumber, number, "-")
+            }));
+        }
+    }
+
+    fn capped_axes(&self) -> Vec<usize> {
+        channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector).1
+    }
+
+    /// G127, G130, G132, G230.
+    pub(super) fn weights_of_axes(
+        &mut self,
+        g: &GWord,
+        weight: Weight,
+        words: &Words<'_>,
+    ) -> Outcome<()> {
+        if words.axes.is_empty() {
+            let text = format!("G{} without axis words", g.row.number);
+            return Err(Fault::vendor(20003, text, g.span));
+        }
+        for (axis, value, span) in &words.axes {
+            let ratio = self.weight_ratio(weight, (*value, *span))?;
+            self.set_weight(weight, Some(*axis), ratio, *span);
+        }
+        Ok(())
+    }
+
+    /// G136: weights of feedforward in percent, limited to 100.
+    pub(super) fn feedforward_weights(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        if words.axes.is_empty() {
+            return Err(Fault::kontur(own::SYNTAX, "G136 without axis words", g.span));
+        }
+        if let Some((_, value, span)) = words.axes.iter().find(|(_, value, _)| *value < 0.0) {
+            let text = format!("feedforward weight {value} % is negative");
+            return Err(Fault::kontur(own::FEEDFORWARD_NEGATIVE, text, *span));
+        }
+        for (axis, value, span) in &words.axes {
+            let percent = self.limited_weight(*value, *span);
+            self.feedforward.weight_ratios[*axis] = percent / 100.0;
+        }
+        self.feedforward_event();
+        Ok(())
+    }
+
+    /// A feedforward weight, above 100 % with K-0020.
+    pub(super) fn limited_weight(&mut self, percent: f64, span: Span) -> f64 {
+        if percent > 100.0 {
+            let text = format!("feedforward weight {percent} % is above 100 %, limited");
+            self.note(Fault::kontur(own::FEEDFORWARD_LIMIT, text, span)
+                .with(|d| d.corrected(100.0)));
+        }
+        percent.min(100.0)
+    }
+
+    pub(super) fn feedforward_event(&mut self) {
+        let event = Event::Feedforward {
+            on: self.feedforward.on,
+            weight_ratios: self.feedforward.weight_ratios.clone(),
+        };
+        self.event(event);
+    }
+
+    /// T.
+    pub(super) fn select_tool(&mut self, number: f64, span: Span) {
+        match super::expr::whole(number, 0, u32::MAX) {
+            Some(number) => {
+                self.tools.tool = number;
+                self.event(Event::Tool { number });
+            }
+            None => {
+                let text = format!("T{number} is no tool number");
+                self.note(Fault::kontur(own::RANGE, text, span));
+            }
+        }
+    }
+
+    /// D: tool data; the length acts on the third main axis of the plane.
+    pub(super) fn select_tool_data(&mut self, number: f64, span: Span) {
+        let Some(number) = super::expr::whole(number, 0, u32::MAX) else {
+            let text = format!("D{number} is no number of tool data");
+            self.note(Fault::kontur(own::RANGE, text, span));
+            return;
+        };
+        self.tools.data = number;
+        self.tools.active = match self.tools.table.get(&number) {
+            Some(tool) => tool.clone(),
+            None => {
+                if number != 0 {
+                    let text = format!("there is no tool data D{number}: length and radius are 0");
+                    let hint = "V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
+                    self.note_once("D", Fault::kontur(own::NO_TOOL, text, span).hint(hint));
+                }
+                super::tools::Tool::default()
+            }
+        };
+        self.tool_offsets();
+    }
+
+    /// Offsets of the selected tool.
+    pub(super) fn tool_offsets(&mut self) {
+        let mut offsets = AxisVec::zeros(self.machine.axes.len());
+        let normal = self.modal.plane.main_axes()[2];
+        if let Some(axis) = self.coordinates.main_axis(normal) {
+            offsets[axis] = self.tools.active.length_mm;
+        }
+        for (axis, value) in &self.tools.active.offsets_mm {
+            offsets[*axis] += value;
+        }
+        self.coordinates.set_tool(offsets);
+    }
+
+    /// Contour rotation about a centre; coordinates that are not given are the present ones.
+    pub(super) fn set_rotation(
+        &mut self,
+        plane: [usize; 2],
+        deg: f64,
+        centre: [Option<f64>; 2],
+        span: Span,
+    ) -> Outcome<()> {
+        if !deg.is_finite() {
+            return Err(Fault::kontur(own::RANGE, "the angle is no number", span));
+        }
+        // the centre is given in the system without rotation
+        self.coordinates.set_rotation(None);
+        let here = |m: usize| {
+            self.coordinates.main_axis(m).map_or(0.0, |axis| self.coordinates.programmed(axis))
+        };
+        let centre = [centre[0].unwrap_or(here(plane[0])), centre[1].unwrap_or(here(plane[1]))];
+        self.coordinates.set_rotation(Some(Rotation { plane, deg, centre }));
+        Ok(())
+    }
+
+    /// G40, G41, G42.
+    pub(super) fn compensation(&mut self, side: Compensation, span: Span) -> Outcome<()> {
+        if side != Compensation::Off {
+            let what = "G41 and G42 (tool radius compensation)";
+            return Err(Fault::unsupported(what, span));
+        }
+        self.modal.compensation = side;
+        Ok(())
+    }
+
+    /// Contouring is not planned yet: corners stay as programmed.
+    pub(super) fn contouring_fallback(&mut self, span: Span) {
+        let text = "polynomial contouring is not simulated: corners stay sharp as programmed";
+        self.note_once("contouring", Fault::kontur(own::FALLBACK, text, span));
+    }
+}

@@ -1,0 +1,102 @@
+//! What a user may say about the execution of a program.
+
+use std::collections::BTreeMap;
+
+/// Active levels of `/` blocks: bit 0 is level 1, bit 9 level 10.
+///
+/// Source: TF5200 skipping of NC blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SkipLevels(u16);
+
+impl SkipLevels {
+    /// No block is skipped.
+    pub const NONE: Self = Self(0);
+    /// Every `/` block is skipped.
+    pub const ALL: Self = Self(0x3FF);
+
+    /// Switches a level from 1 to 10 on; others are ignored.
+    #[must_use]
+    pub const fn with(self, level: u8) -> Self {
+        if level >= 1 && level <= 10 { Self(self.0 | 1 << (level - 1)) } else { self }
+    }
+
+    /// True if blocks of this level are skipped.
+    pub const fn contains(self, level: u8) -> bool {
+        level >= 1 && level <= 10 && self.0 & 1 << (level - 1) != 0
+    }
+}
+
+/// A value of the language.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Every number and truth value.
+    Number(f64),
+    /// A text.
+    Text(Box<str>),
+}
+
+/// Access rights of an external variable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Access {
+    /// Reading and writing.
+    #[default]
+    ReadWrite,
+    /// Reading; a write is 20100.
+    ReadOnly,
+    /// Writing; a read is 20097.
+    WriteOnly,
+}
+
+/// An external variable `V.E.`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct External {
+    /// Value at program start.
+    pub value: Value,
+    /// Access rights.
+    pub access: Access,
+}
+
+/// Options of an execution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Start positions in mm (deg) by axis name; axes not named start at 0.
+    pub start: Vec<(String, f64)>,
+    /// Skip levels.
+    pub skip: SkipLevels,
+    /// Blocks after which a program is stopped (K-0017), default 1e9.
+    pub max_blocks: u64,
+    /// Blocks without motion or dwell after which a program counts as endless (K-0017), default 1e7.
+    pub max_blocks_at_rest: u64,
+    /// Takes `#TRAFO ON` and relatives as identity, with a warning, instead of refusing them.
+    pub identity_trafo: bool,
+    /// External variables by their name behind `V.E.`.
+    pub external: BTreeMap<String, External>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            start: Vec::new(),
+            skip: SkipLevels::NONE,
+            max_blocks: 1_000_000_000,
+            max_blocks_at_rest: 10_000_000,
+            identity_trafo: false,
+            external: BTreeMap::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::SkipLevels;
+
+    #[test]
+    fn levels_are_the_bits_of_the_vendors_mask() {
+        let levels = SkipLevels::NONE.with(1).with(3).with(0).with(11);
+        assert_eq!(
+            (levels.contains(1), levels.contains(2), levels.contains(3)),
+            (true, false, true)
+        );
+        assert!((1..=10).all(|level| SkipLevels::ALL.contains(level)));
+    }
+}

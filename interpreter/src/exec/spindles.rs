@@ -1,0 +1,60 @@
+//! What the program last told the spindles.
+
+use super::step::{Event, SpindleMotion};
+
+/// State of one spindle.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Spindle {
+    pub(super) name: String,
+    /// Index into the spindles of the machine; `None` for a spindle that no list configures.
+    pub(super) index: Option<usize>,
+    /// Speed in rev/min (S word).
+    pub(super) rpm: f64,
+    pub(super) turning: Turning,
+    pub(super) feedforward: bool,
+    /// Weight of feedforward, 0 to 1.
+    pub(super) weight_ratio: f64,
+}
+
+/// M3, M4, M5, M19.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Turning {
+    Stopped,
+    Clockwise,
+    CounterClockwise,
+    Positioned { deg: f64 },
+}
+
+impl Spindle {
+    pub(super) fn new(name: &str, index: Option<usize>) -> Self {
+        Self {
+            name: name.to_owned(),
+            index,
+            rpm: 0.0,
+            turning: Turning::Stopped,
+            feedforward: false,
+            weight_ratio: 1.0,
+        }
+    }
+
+    /// Its state of motion as an event; `None` if the machine has no such spindle.
+    pub(super) fn motion_event(&self) -> Option<Event> {
+        let rpm = self.rpm.abs();
+        let motion = match self.turning {
+            Turning::Stopped => SpindleMotion::Stop,
+            Turning::Clockwise => SpindleMotion::Clockwise { rpm },
+            Turning::CounterClockwise => SpindleMotion::CounterClockwise { rpm },
+            Turning::Positioned { deg } => SpindleMotion::Position { deg },
+        };
+        self.index.map(|spindle| Event::Spindle { spindle, motion })
+    }
+
+    pub(super) fn feedforward_event(&self) -> Option<Event> {
+        let (on, weight_ratio) = (self.feedforward, self.weight_ratio);
+        self.index.map(|spindle| Event::SpindleFeedforward { spindle, on, weight_ratio })
+    }
+
+    pub(super) fn is_turning(&self) -> bool {
+        matches!(self.turning, Turning::Clockwise | Turning::CounterClockwise)
+    }
+}

@@ -1,0 +1,213 @@
+//! What the executor tells the simulation: motions, rests and events, in the order of the program.
+
+use kontur_filters::fir::FirConfig;
+use kontur_filters::hsc::HscConfig;
+use kontur_filters::kernel::Kernel;
+use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::Block;
+use std::sync::Arc;
+
+/// Place of a block in the programs that take part in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SourceRef {
+    /// Index into [`Executor::files`](super::Executor::files).
+    pub file: u32,
+    /// Line in that file, from 1.
+    pub line: u32,
+    /// N number of the block, if it has one.
+    pub block: Option<u64>,
+}
+
+/// One step of the program.
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// A motion for the planner.
+    Motion {
+        /// The motion.
+        block: Block,
+        /// Where it was programmed.
+        source: SourceRef,
+        /// They act in the first cycle of the motion, without a stop.
+        events: Vec<Event>,
+    },
+    /// The path comes to rest behind everything before; then the simulation acts or waits as told and asks for the
+    /// next step.
+    Sync {
+        /// What happens at rest.
+        what: Sync,
+        /// Where it was programmed.
+        source: SourceRef,
+        /// They act when the path has come to rest, before any waiting.
+        events: Vec<Event>,
+    },
+    /// End of the program; no step follows.
+    End {
+        /// Why.
+        reason: EndReason,
+        /// The block that ended it.
+        source: SourceRef,
+        /// They act at the end of the last motion.
+        events: Vec<Event>,
+    },
+}
+
+/// What happens while the path is at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Sync {
+    /// G60, G360: waiting until every axis is in its window (P-AXIS-00236).
+    ExactStop,
+    /// A stop at the end of the block before and nothing else (`#FLUSH`, G115 and similar).
+    Stop,
+    /// G04, `#TIME`: waiting so long, in s.
+    Dwell {
+        /// Time in s, not negative.
+        seconds: f64,
+    },
+    /// `#FLUSH WAIT`, `#CHANNEL INIT`: waiting until the axes have arrived.
+    FlushWait,
+    /// M00, M01; headless the program goes on at once.
+    ProgramStop {
+        /// M01.
+        optional: bool,
+    },
+    /// Settings of the axis filters or the Vibration Guard changed: flush the kernels, then swap them.
+    Shaping(Box<ShapingSetup>),
+    /// The next call of [`Executor::next`](super::Executor::next) needs actual positions of the machine at rest.
+    ReadActual,
+    /// `#MACHINE DATA`: a parameter of an axis list changed.
+    MachineData {
+        /// Logical axis number.
+        axis: u32,
+        /// Key of the list.
+        key: String,
+        /// Value as it would stand in the list.
+        value: String,
+    },
+}
+
+/// Why a program ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EndReason {
+    /// M02, M30 or the end of the text.
+    Finished,
+    /// An error; [`Executor::take_diagnostics`](super::Executor::take_diagnostics) tells which.
+    Aborted,
+}
+
+/// Kernels of all path axes, in channel order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShapingSetup {
+    /// One entry per axis.
+    pub axes: Vec<AxisShaping>,
+}
+
+/// Kernel of one axis.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AxisShaping {
+    /// What the kernel is made from.
+    pub settings: ShapingSettings,
+    /// The kernel; `None` changes nothing.
+    pub kernel: Option<Arc<Kernel>>,
+}
+
+/// Which of the functions that exclude each other fills the kernel slot of an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum ShapingSettings {
+    /// None.
+    #[default]
+    Off,
+    /// Vibration Guard.
+    VibGuard(VibGuardSettings),
+    /// FIR filter.
+    Fir(FirConfig),
+    /// HSC filter (older form).
+    Hsc(HscConfig),
+}
+
+/// Something that acts at a moment of the program without moving the path.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// G135, G136, G137: the whole state, not the change.
+    Feedforward {
+        /// G135 (true) or G137.
+        on: bool,
+        /// Weight of each path axis, 0 to 1 (G136).
+        weight_ratios: AxisVec,
+    },
+    /// `S[G135 G136=80]`: the whole state of one spindle.
+    SpindleFeedforward {
+        /// Index into `Machine::spindles`.
+        spindle: usize,
+        /// On or off.
+        on: bool,
+        /// Weight, 0 to 1.
+        weight_ratio: f64,
+    },
+    /// M3, M4, M5, M19 with the speed or position of one spindle: the whole state.
+    Spindle {
+        /// Index into `Machine::spindles`.
+        spindle: usize,
+        /// What it does.
+        motion: SpindleMotion,
+    },
+    /// An M function without meaning of its own here.
+    MFunction {
+        /// Number, 0 to 65535.
+        number: u32,
+        /// `M200=800`.
+        value: Option<f64>,
+    },
+    /// An H function.
+    HFunction {
+        /// Number, 0 to 65535.
+        number: u32,
+        /// `H5=2`.
+        value: Option<f64>,
+    },
+    /// T: tool selected.
+    Tool {
+        /// Pocket or tool number.
+        number: u32,
+    },
+    /// `#MSG`: text for the log.
+    Message {
+        /// Receiver as written, `ISG_DIAG_BED` if none was.
+        receiver: String,
+        /// Formatted text.
+        text: String,
+        /// `#MSG SAVE`: also for the message file.
+        save: bool,
+    },
+}
+
+/// What a spindle does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpindleMotion {
+    /// M3: clockwise.
+    Clockwise {
+        /// Speed in rev/min, not negative.
+        rpm: f64,
+    },
+    /// M4: counter-clockwise.
+    CounterClockwise {
+        /// Speed in rev/min, not negative.
+        rpm: f64,
+    },
+    /// M5.
+    Stop,
+    /// M19.
+    Position {
+        /// Angle in deg.
+        deg: f64,
+    },
+}
+
+/// What the simulation knows when it asks for the next step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Feedback {
+    /// Actual position of each path axis in mm (deg), in channel order; used after [`Sync::ReadActual`].
+    pub actual_mm: AxisVec,
+    /// Program time in s.
+    pub time_s: f64,
+}

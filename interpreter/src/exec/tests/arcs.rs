@@ -1,0 +1,100 @@
+//! Arcs and helices as paths of the axes.
+
+use super::{assert_end, assert_near, clean, run};
+use kontur_motion::path::{ArcPath, Path};
+use std::f64::consts::{PI, TAU};
+
+#[track_caller]
+fn arc(text: &str) -> ArcPath {
+    let run = clean(&format!("{text}\nM30\n"));
+    match run.blocks().last().map(|b| b.path.clone()) {
+        Some(Path::Arc(arc)) => arc,
+        other => panic!("no arc: {other:?}"),
+    }
+}
+
+#[track_caller]
+fn assert_arc(text: &str, centre: [f64; 2], sweep_rad: f64) {
+    let arc = arc(text);
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
+    let c = arc.shape().centre_mm;
+    assert!(near(c[0], centre[0]) && near(c[1], centre[1]), "{c:?} instead of {centre:?}");
+    assert!(near(arc.shape().sweep_rad, sweep_rad), "{} instead of {sweep_rad}", arc.shape().sweep_rad);
+}
+
+#[test]
+fn centre_relative_and_absolute() {
+    assert_arc("G02 X10 Y0 I5 J0.2 F100", [5.0, 0.2], -(PI + 2.0 * libm::atan(0.04)));
+    assert_arc("G00 X10\nG161 G03 X-10 I0 J0 F100", [0.0, 0.0], PI);
+    assert_arc("G00 X10\nG91 G03 X-20 I-10 F100", [0.0, 0.0], PI);
+    // G165 moves the centre to the bisector
+    assert_arc("G02 X10 Y0 I5.1 J0 F100", [5.0, 0.0], -PI);
+}
+
+#[test]
+fn full_circles_need_no_end_point() {
+    assert_arc("G02 I5 F100", [5.0, 0.0], -TAU);
+    assert_arc("G03 J5 F100", [0.0, 5.0], TAU);
+    assert_arc("G03 X0 Y0 J5 F100", [0.0, 5.0], TAU);
+}
+
+#[test]
+fn the_radius_is_modal() {
+    let h = 8.660254;
+    assert_arc("G02 X10 R10 F100", [5.0, -h], -PI / 3.0);
+    assert_arc("G02 X10 R-10 F100", [5.0, h], -5.0 * PI / 3.0);
+    assert_arc("G03 X10 R=10 F100", [5.0, h], PI / 3.0);
+    assert_arc("G03 X10 R10 F100\nX20", [15.0, h], PI / 3.0);
+    assert_arc("G163=10 G03 X10 F100", [5.0, h], PI / 3.0);
+    assert_arc("R10\nG03 X10 F100", [5.0, h], PI / 3.0);
+}
+
+#[test]
+fn planes_keep_the_sense_of_rotation() {
+    let of = |text: &str| arc(text);
+    let zx = of("G18 G00 Z10\nG03 Z0 X10 K-10 F100");
+    assert_eq!(zx.shape().plane, [2, 0]);
+    assert!((zx.shape().sweep_rad - PI / 2.0).abs() < 1e-12);
+    let yz = of("G19 G00 Y10\nG02 Y0 Z-10 J-10 F100");
+    assert_eq!(yz.shape().plane, [1, 2]);
+    assert!((yz.shape().sweep_rad + PI / 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn helices() {
+    // the vendor's example of a helix of one turn
+    let run = clean("N10 G17 G90 X-10 Y0 Z0 F500 G161\nN20 G03 I0 J0 Z20\nM30\n");
+    assert_near(&run.end, &[-10.0, 0.0, 20.0]);
+    let length = run.blocks()[1].path.length();
+    assert!((length - libm::hypot(TAU * 10.0, 20.0)).abs() < 1e-9);
+    // pitch 4 mm, 20 mm high: five turns
+    assert_arc("G00 X-10\nG161 G03 I0 J0 K4 Z20 F100", [0.0, 0.0], 5.0 * TAU);
+    assert_arc("G00 X-10\nG161 G02 X10 I0 J0 K4 Z10 F100", [0.0, 0.0], -5.0 * PI);
+}
+
+#[test]
+fn mirroring_and_rotation_carry_arcs_along() {
+    assert_arc("G71 G21\nG02 X10 I5 F100", [-5.0, 0.0], PI);
+    let arc = arc("#ROTATION ON [ANGLE=90]\nG02 X10 I5 F100");
+    assert_near(&arc.shape().centre_mm, &[0.0, 5.0]);
+    assert!((arc.shape().sweep_rad + PI).abs() < 1e-12);
+    assert_end("#ROTATION ON [ANGLE=90]\nG02 X10 I5 F100", [0.0, 10.0, 0.0]);
+    // turned by 90 degrees about X the plane X Y becomes X Z
+    let run = clean("#CS ON [0,0,0,90,0,0]\nG03 X10 I5 F100\nM30\n");
+    match &run.blocks()[0].path {
+        Path::Arc(arc) => assert_eq!((arc.shape().plane, arc.shape().sweep_rad < 0.0), ([2, 0], true)),
+        Path::Line(_) => panic!("no arc"),
+    }
+}
+
+#[test]
+fn arcs_that_do_not_exist() {
+    let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
+    assert_eq!(id("G02 X0 Y0 R10 F100"), ["20034"]);
+    assert_eq!(id("G02 X10 R4 F100"), ["K-0010"]);
+    assert_eq!(id("G164 G02 X10 F100"), ["20036"]);
+    assert_eq!(id("G164 G02 X10 I5.1 F100"), ["21758"]);
+    assert_eq!(id("G02 X10 I9 F100"), ["K-0117"]);
+    assert_eq!(id("G02 X9 I5 R5 F100"), ["21024"]);
+    assert_eq!(id("#CS ON [0,0,0,0,30,0]\nG02 X10 I5 F100"), ["K-0019"]);
+}

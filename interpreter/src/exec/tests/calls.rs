@@ -1,0 +1,107 @@
+//! Subroutines, cycles and ends of programs.
+
+use super::{EndReason, Options, Run, assert_end, clean, machine, run, run_with};
+use crate::source::MemorySources;
+
+fn with(main: &str, name: &str, sub: &str) -> Run {
+    let sources = MemorySources::new().with("main.nc", main).with(name, sub);
+    run_with(sources, machine(&[]), Options::default())
+}
+
+#[test]
+fn local_subroutines() {
+    let square = "%L SQUARE\nN10 G91 G01 X1\nN20 Y1\nN30 X-1\nN40 Y-1\nN50 G90\nN60 M17\n%MAIN\nN10 G00 X0 Y0 F2000\nN20 LL SQUARE\nN30 M30\n";
+    let run = clean(square);
+    assert_eq!(run.ends().len(), 4);
+    assert_eq!(run.end, [0.0, 0.0, 0.0]);
+    // words of the block first; M17 may be missing
+    let run = clean("%L UP\nG91 Z1 F100\nG90\n%MAIN\nZ5 F100 LL UP\nM30\n");
+    assert_eq!(run.end, [0.0, 0.0, 6.0]);
+    let run = super::run("%L SIDE\nX1\n%MAIN\nLL SIDES\nM30\n");
+    assert_eq!(run.ids(), ["K-0014"]);
+    assert!(run.diagnostics[0].hint.as_deref().unwrap().contains("SIDE"));
+}
+
+#[test]
+fn global_subroutines() {
+    let run = with("P1=4\nL sub.nc\nX P2 F100\nM30\n", "sub.nc", "P2=P1*2\nM17\n");
+    assert_eq!(run.end, [8.0, 0.0, 0.0]);
+    assert!(run.diagnostics.is_empty());
+    let run = with("L4712\nM30\n", "4712", "X1 F100\nM29\n");
+    assert_eq!(run.end, [1.0, 0.0, 0.0]);
+    let run = with("L ../../x.nc\nM30\n", "y.nc", "");
+    assert_eq!(run.ids(), ["K-0013"]);
+    assert_eq!(run.diagnostics[0].source.as_ref().map(|s| (s.line, s.column)), Some((1, 3)));
+}
+
+#[test]
+fn a_subroutine_that_calls_itself_ends() {
+    let run = run("%L A\nLL A\n%MAIN\nLL A\nM30\n");
+    assert_eq!(run.ids(), ["K-0006"]);
+}
+
+#[test]
+fn local_variables_live_as_long_as_their_level() {
+    let run = run("%L A\n#VAR\nV.L.X = 5\n#ENDVAR\nP1 = V.L.X + V.L.Y\n%MAIN\n#VAR\nV.L.Y = 1\n#ENDVAR\nLL A\nP2 = V.L.X\nM30\n");
+    assert_eq!(super::places(&run.diagnostics), ["K-0012 11:6"]);
+}
+
+#[test]
+fn cycles_have_parameters_of_their_own() {
+    let cycle = "P1 = 99\nG91 X @P1 Y[@P2*2] F100\n$IF V.G.@P[3].VALID\nZ9\n$ENDIF\n";
+    let run = with("P1=1 F100\nL CYCLE [NAME=c.nc @P1=3 @P2=P1+1]\nX P1\nM30\n", "c.nc", cycle);
+    assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
+    // G90 is back, P1 is the caller's
+    assert_eq!(run.end, [1.0, 4.0, 0.0]);
+    let run = with("L CYCLE [NAME=c.nc @P1=3 \\\n; the depth\n @P1=4]\nM30\n", "c.nc", "M17\n");
+    assert_eq!(run.ids(), ["21379"]);
+    let run = with("L CYCLE [NAME=c.nc]\nM30\n", "c.nc", "X @P1 F100\n");
+    assert_eq!(run.ids(), ["K-0012"]);
+}
+
+#[test]
+fn implicit_calls() {
+    let run = with("#FILE NAME [G80=\"c.nc\"]\nG80 [1, , 3]\nM30\n", "c.nc", "X @P1 Z @P3 F100\n$IF V.G.@P[2].VALID == 0\nY1\n$ENDIF\n");
+    assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
+    assert_eq!(run.end, [1.0, 1.0, 3.0]);
+    assert_eq!(super::run("G80 [1]\nM30\n").ids(), ["20131"]);
+}
+
+#[test]
+fn modal_cycles_follow_motions() {
+    let run = with("L CYCLE [NAME=c.nc MODAL_MOVE]\nX1 F100\nP1=1\nX2\n#DISABLE MODAL CYCLE\nX3\nM30\n", "c.nc", "G91 Z1\n");
+    assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
+    assert_eq!(run.end, [3.0, 0.0, 2.0]);
+}
+
+#[test]
+fn ends_of_programs() {
+    assert_eq!(run("X1 F100\n").ids(), ["K-0003"]);
+    assert_eq!(run("X1 F100\n").reason(), EndReason::Finished);
+    assert_end("X1 F100\nM30\nX!! this is not looked at", [1.0, 0.0, 0.0]);
+    assert_eq!(clean("X1 F100\nM29\n").end[0], 1.0);
+    assert_eq!(run("%L A\nM30\n%MAIN\nLL A\nX1 F100\nM30\n").ids(), ["K-0109"]);
+    assert_eq!(run("#FOO\nX1 F100\n").reason(), EndReason::Aborted);
+    assert_eq!(run("").ids(), ["K-0003"]);
+}
+
+#[test]
+fn percent_lines() {
+    let run = run("%MAIN\nX1 F100\n% a remark\nX2\nM30\n");
+    assert_eq!((run.ids(), run.end[0]), (vec!["K-0005".to_owned()], 2.0));
+}
+
+#[test]
+fn open_control_blocks() {
+    assert_eq!(run("$IF 0\nX1\nM30\n").ids(), ["21501"]);
+    assert_eq!(run("%L A\n$IF 0\nX1\n%MAIN\nLL A\nM30\n").ids(), ["21500"]);
+    assert_eq!(run("$IF 1\nM30\n").ids(), ["20375"]);
+    assert_eq!(run("$FOR P1=1,2,1\nM30\n").ids(), ["21501"]);
+    assert_eq!(with("L s.nc\nM30\n", "s.nc", "$WHILE 0\n").ids(), ["21502"]);
+}
+
+#[test]
+fn jumps_stay_within_their_program() {
+    let run = run("%L A\nN5: X1 F100\n%MAIN\nLL A\n$GOTO N5\nM30\n");
+    assert_eq!(super::places(&run.diagnostics), ["K-0015 5:7"]);
+}

@@ -1,0 +1,94 @@
+//! Offsets, dimensions, units and frames.
+
+use super::{assert_end, assert_near, clean, run};
+
+#[test]
+fn zero_offsets() {
+    assert_end("V.G.NP[1].V.X=10\nG90 G54 X0 F100", [10.0, 0.0, 0.0]);
+    assert_end("V.G.NP[1].V.X=10\nG54\nG91 X0 F100", [0.0, 0.0, 0.0]);
+    assert_end("V.G.NP[1].V.X=10\nV.G.NP[9].V.X=3\nG54 X1 F100\nG159=9 X1\n", [4.0, 0.0, 0.0]);
+    assert_end("V.G.NP[2].V.X=7 V.G.NP[2].V.Y=8\nG160=2 Y1\nG01 X1 Y1 F100", [1.0, 9.0, 0.0]);
+    assert_end("V.G.NP[1].V.X=10\nG54 X1 F100\nG53\nX2", [2.0, 0.0, 0.0]);
+}
+
+#[test]
+fn g92_is_absolute_or_added() {
+    assert_end("G92 X10 Y5\nG91 G92 X1\nG90 X0 Y0 F100", [11.0, 5.0, 0.0]);
+    assert_end("G92 X10\nX1 F100\nG92 X0\nX1", [1.0, 0.0, 0.0]);
+    // a block of its own moves nothing
+    assert!(clean("G92 X10 Z30\nM30\n").blocks().is_empty());
+}
+
+#[test]
+fn dimensions() {
+    assert_end("G91 X5 F100\nX5\nG90 X3", [3.0, 0.0, 0.0]);
+    assert_eq!(run("X1 G90 G91 F100\nM30\n").ids(), ["K-0008"]);
+    assert_end("G91 X1 Y2 Z3 F100\nG90 Z10", [1.0, 2.0, 10.0]);
+}
+
+#[test]
+fn inches_scale_lengths_and_feeds() {
+    let run = clean("G70 G01 X1 F60\nG71 Y1\nM30\n");
+    assert_near(&run.end, &[25.4, 1.0, 0.0]);
+    use kontur_motion::block::Feed;
+    assert_eq!(run.blocks()[0].feed, Feed::PathVelocity(25.4));
+    // the feed keeps its velocity
+    assert_eq!(run.blocks()[1].feed, Feed::PathVelocity(25.4));
+}
+
+#[test]
+fn mirroring() {
+    assert_end("G71 G21 X10 Y5 F100", [-10.0, 5.0, 0.0]);
+    assert_end("G71 G22 X10 Y5 F100", [10.0, -5.0, 0.0]);
+    assert_end("G71 G23 X10 Y5 F100", [-10.0, -5.0, 0.0]);
+    assert_end("G71 G23 X10 Y5 F100\nG20 X10", [10.0, -5.0, 0.0]);
+    assert_end("G351 Z-1\nX10 Z5 F100\nG91 Z1", [10.0, 0.0, -6.0]);
+    // offsets are not mirrored
+    assert_end("G71 V.G.NP[1].V.X=100 G54 G21\nX10 F100", [90.0, 0.0, 0.0]);
+    assert_eq!(run("G351 X2\nM30\n").ids(), ["20860"]);
+    assert_eq!(run("G71 G20 X10 G21 F100\nM30\n").ids(), ["20112"]);
+}
+
+#[test]
+fn rotation() {
+    assert_end("#ROTATION ON [ANGLE=90 CENTER1=10 CENTER2=0]\nX20 Y0 F100", [10.0, 10.0, 0.0]);
+    assert_end("G68 R90 X10 Y0\nX20 Y0 F100", [10.0, 10.0, 0.0]);
+    assert_end("G68 R90 X0 Y0\nG91 X5 F100\nG69 X5", [5.0, 5.0, 0.0]);
+    assert_eq!(run("G68 R90 Z5\nM30\n").ids(), ["22156"]);
+    // a change of plane switches it off
+    assert_eq!(run("G68 R90 X0 Y0\nG18\nG01 X10 F100\nM30\n").ids(), ["K-0109"]);
+}
+
+#[test]
+fn coordinate_systems() {
+    assert_end("#CS ON [10,20,30,0,0,90]\nX1 Y0 Z0 F100", [10.0, 21.0, 30.0]);
+    assert_end("#CS DEF [2][10,0,0]\n#CS ON [2]\nX1 F100\n#CS OFF\nX1", [1.0, 0.0, 0.0]);
+    assert_end("#CS ON [10,0,0]\n#CS ON [0,0,0,0,0,90]\nX1 Y0 F100", [10.0, 1.0, 0.0]);
+    assert_end("#CS OFF ALL\n#MCS ON\n#TRAFO OFF\nX1 F100", [1.0, 0.0, 0.0]);
+    // the offset lies outside the system
+    assert_end("V.G.NP[1].V.X=100\nG54\n#CS ON [0,0,0,0,0,90]\nX1 Y0 F100", [100.0, 1.0, 0.0]);
+    assert_eq!(run("#CS ON [3]\nM30\n").ids(), ["K-0012"]);
+    assert_eq!(run("#TRAFO ON\nM30\n").ids(), ["K-0019"]);
+}
+
+#[test]
+fn tool_length_acts_on_the_third_main_axis() {
+    assert_end("V.G.WZ[2].L=50 V.G.WZ[2].R=5\nD2 Z10 F100\nX1", [1.0, 0.0, 60.0]);
+    assert_end("V.G.WZ[2].L=50\nD2 Z10 F100\nD0 Z10", [0.0, 0.0, 10.0]);
+    assert_eq!(run("D3 Z1 F100\nM30\n").ids(), ["K-0114"]);
+}
+
+#[test]
+fn axis_exchange_renames_axes() {
+    assert_end("#PUT AX [X, Z]\n#CALL AX [Q, 1, 0]\nQ5 Y1 F100", [5.0, 1.0, 0.0]);
+    assert_eq!(run("#PUT AX [X]\nX1 F100\nM30\n").ids(), ["20200"]);
+    assert_eq!(run("#CALL AX [1X, 1, 0]\nM30\n").reason(), super::EndReason::Aborted);
+    assert_eq!(run("#CALL AX [Q, 77, 0]\nM30\n").ids(), ["20312"]);
+}
+
+#[test]
+fn software_limits_are_checked() {
+    let run = run("G01 X501 F100\nM30\n");
+    assert_eq!(super::places(&run.diagnostics), ["21897 1:5"]);
+    assert!(run.blocks().is_empty());
+}

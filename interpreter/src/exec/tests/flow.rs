@@ -1,0 +1,166 @@
+//! Expressions, parameters, variables and control blocks.
+
+use super::{assert_end, clean, run, skipping};
+
+/// Text of the single message.
+#[track_caller]
+fn says(program: &str, expected: &str) {
+    let run = clean(&format!("{program}\nM30\n"));
+    assert_eq!(run.messages(), [expected], "{program}");
+}
+
+#[test]
+fn expressions() {
+    assert_end("P1=5 X P1*2 F100", [10.0, 0.0, 0.0]);
+    assert_end("X[-2*[3+4]] F100", [-14.0, 0.0, 0.0]);
+    assert_end("X--40 F100", [40.0, 0.0, 0.0]);
+    assert_end("P1=60 X SIN[P1/2] Y COS[P1] F100", [0.5, 0.5, 0.0]);
+    assert_end("P1=20 P2=P1*2 X P2 F100", [40.0, 0.0, 0.0]);
+    says("#MSG [\"%d %d %d\", 2**3**2, -2**2, 7 MOD 3]", "64 4 1");
+    says("#MSG [\"%f\", ATAN2[1,-1] + ASIN[0.5] + ACOS[0] + ATAN[1]]", "300.000000");
+    says("#MSG [\"%d %d %d\", 6&3, 6|3, 6^3]", "2 7 5");
+    says("#MSG [\"%d %d %d %d\", 1&&0, 1||0, NOT[1], 1 XOR 1]", "0 1 0 0");
+    says("#MSG [\"%f %f\", ROUND[2.5], INT[-2.7]]", "3.000000 -2.000000");
+    says("#MSG [\"%s %d\", \"a\" + \"b\", LEN[\"abc\"]]", "ab 3");
+    says("#MSG [\"%f\", 10/3]", "3.333333");
+}
+
+#[test]
+fn faults_of_expressions() {
+    let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
+    assert_eq!(id("P2=10/COS[90]"), ["20396"]);
+    assert_eq!(id("P2=LOG[0]"), ["20399"]);
+    assert_eq!(id("P2=LN[-1]"), ["20399"]);
+    assert_eq!(id("P2=SQRT[-1]"), ["K-0011"]);
+    assert_eq!(id("P2=P1"), ["K-0012"]);
+    assert_eq!(id("P2=TAN[90]"), ["20396"]);
+    assert_eq!(id("P2=5 MOD 0"), ["20396"]);
+    assert_eq!(id("P2=10**400"), ["K-0009"]);
+    assert_eq!(id("P[1000000000]=1"), ["K-0009"]);
+    assert_eq!(id("P1[2]=1"), ["20921"]);
+    assert_eq!(id("V.A.MENT.X=1"), ["20100"]);
+    assert_eq!(id("V.L.A=1"), ["K-0012"]);
+    assert_eq!(id("P1=V.G.FEDRATE"), ["K-0012"]);
+    assert_eq!(id("P1=V.E.X"), ["K-0012"]);
+}
+
+#[test]
+fn indirect_and_array_parameters() {
+    assert_end("P1=2 P2=7 X PP1 F100", [7.0, 0.0, 0.0]);
+    assert_end("P1=1 P6=4 X P[P1+5] F100", [4.0, 0.0, 0.0]);
+    assert_end(
+        "#VAR\nP7[3]\nV.P.T[2][3] = [1,2,3, \\\n4,5,6]\nV.L.N : UNS08 = 3\n#ENDVAR\nP7[2]=5\nX P7[2] Y V.P.T[1][0] Z V.L.N F100",
+        [5.0, 4.0, 3.0],
+    );
+    let id = |text: &str| run(&format!("#VAR\nV.P.T[2]\nV.L.N : UNS08\n#ENDVAR\n{text}\nM30\n")).ids();
+    assert_eq!(id("V.P.T[2]=1"), ["K-0009"]);
+    assert_eq!(id("V.L.N=256"), ["K-0009"]);
+    assert_eq!(id("V.L.N=255"), [""; 0]);
+}
+
+#[test]
+fn system_variables() {
+    says("V.G.NP[1].V.X=10 G54\nX1 Y2 F500\n#MSG [\"%f %f %f\", V.A.ABS.X, V.A.ABS[1], V.A.ACS.ABS.X]", "1.000000 2.000000 11.000000");
+    says("N40 F1234\n#MSG [\"%f %d %d\", V.G.FEEDRATE, V.G.FEEDRATE_MODE, V.G.BLOCK_NR]", "1234.000000 94 40");
+    says("G70\n#MSG [\"%d\", V.G.MASS_MM]", "1");
+    says("#MSG [\"%f\", V.A.-SWE.X + V.A.+SWE.X]", "0.000000");
+    says("G91 X3 F100\n#MSG [\"%f\", V.A.ACT_POS.X]", "3.000000");
+    says("G02 X10 I5.1 F100\n#MSG [\"%f %f\", V.G.I, V.G.R]", "5.000000 5.000000");
+}
+
+#[test]
+fn reading_the_actual_position_stops_first() {
+    let run = clean("X1 F100\nP1=V.A.ACT_POS.X P2=P1+1\nX P2\nM30\n");
+    assert_eq!(run.syncs(), [&super::Sync::ReadActual]);
+    assert_eq!(run.end, [2.0, 0.0, 0.0]);
+}
+
+#[test]
+fn branches() {
+    let program = |p: &str| {
+        format!("P1={p}\n$IF P1==1\nX1 F100\n$ELSEIF P1==2\nX2 F100\n$IF 1\nY1\n$ENDIF\n$ELSE\nX3 F100\n$ENDIF\nZ1")
+    };
+    assert_end(&program("1"), [1.0, 0.0, 1.0]);
+    assert_end(&program("2"), [2.0, 1.0, 1.0]);
+    assert_end(&program("3"), [3.0, 0.0, 1.0]);
+    // only the taken branch is looked at
+    assert_end("F100\n$IF 0\nX!!\n$ENDIF\nX1", [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn switches() {
+    let program = |value: &str| {
+        format!("F100\n$SWITCH {value}\n$CASE 1\nX1\n$BREAK\n$CASE 2\nX2\n$CASE 3\nY3\n$BREAK\n$DEFAULT\nZ9\n$ENDSWITCH")
+    };
+    assert_end(&program("1.0004"), [1.0, 0.0, 0.0]);
+    assert_end(&program("2"), [2.0, 3.0, 0.0]);
+    assert_end(&program("3"), [0.0, 3.0, 0.0]);
+    assert_end(&program("7"), [0.0, 0.0, 9.0]);
+    assert_end("F100\n$SWITCH P1=INT[2.5]\n$CASE 2\nX P1\n$ENDSWITCH", [2.0, 0.0, 0.0]);
+    assert_end("F100\n$SWITCH -1\n$CASE -1\nX5\n$ENDSWITCH", [5.0, 0.0, 0.0]);
+}
+
+#[test]
+fn loops() {
+    assert_end("P2=0\n$FOR P1=0,4,2\nP2=P2+1\n$ENDFOR\nX P2 F100", [3.0, 0.0, 0.0]);
+    assert_end("P2=0\n$FOR P1=3,1,-1\nP2=P2+P1\n$ENDFOR\nX P2 F100", [6.0, 0.0, 0.0]);
+    assert_end("P2=0\n$FOR P1=2,1,1\nP2=9\n$ENDFOR\nX P2 Y P1 F100", [0.0, 2.0, 0.0]);
+    assert_end("P1=0\n$WHILE P1<5\nP1=P1+1\n$IF P1==3\n$BREAK\n$ENDIF\n$ENDWHILE\nX P1 F100", [3.0, 0.0, 0.0]);
+    assert_end("P1=0 P2=0\n$WHILE P1<5\nP1=P1+1\n$IF P1==3\n$CONTINUE\n$ENDIF\nP2=P2+P1\n$ENDWHILE\nX P2 F100", [12.0, 0.0, 0.0]);
+    assert_end("P1=0\n$DO\nP1=P1+1\n$ENDDO P1<4\nX P1 F100", [4.0, 0.0, 0.0]);
+    assert_end("P1=0\n$DO\nP1=P1+1\n$IF P1==6\n$BREAK\n$ENDIF\n$ENDDO\nX P1 F100", [6.0, 0.0, 0.0]);
+    assert_end("P1=0\n$REPEAT\nP1=P1+1\n$UNTIL P1>=4\nX P1 F100", [4.0, 0.0, 0.0]);
+    assert_end("P3=0\n$FOR P1=1,3,1\n$FOR P2=1,P1,1\nP3=P3+1\n$ENDFOR\n$ENDFOR\nX P3 F100", [6.0, 0.0, 0.0]);
+    assert_end("V.P.I=0\n$FOR V.P.I=1,3,1\n$ENDFOR\nX V.P.I F100", [4.0, 0.0, 0.0]);
+    assert_eq!(run("$FOR COUNT=1,2,1\n$ENDFOR\nM30\n").ids()[0], "20227");
+}
+
+#[test]
+fn jumps() {
+    assert_end("F100\n$GOTO N20\nX1\nN20: Y2", [0.0, 2.0, 0.0]);
+    assert_end("F100 P1=0\n[Again] P1=P1+1\n$IF P1<3 $GOTO [AGAIN]\nX P1", [3.0, 0.0, 0.0]);
+    assert_end("F100\n$FOR P1=1,9,1\n$IF P1==4\n$GOTO [OUT]\n$ENDIF\n$ENDFOR\n[OUT] X P1", [4.0, 0.0, 0.0]);
+    assert_end("F100\nX1 $GOTO N5\nX2\nN5: Y1", [1.0, 1.0, 0.0]);
+    assert_eq!(run("$GOTO N7\nM30\n").ids(), ["K-0015"]);
+    assert_eq!(run("$GOTO N7\n$IF 1\nN7: X1\n$ENDIF\nM30\n").ids(), ["K-0016"]);
+}
+
+#[test]
+fn conditional_interpretation_and_comment_blocks() {
+    assert_end("F100\n#IF 0\nX!!\n#ELSE\nX2\n#ENDIF\nY1", [2.0, 1.0, 0.0]);
+    assert_end("F100\n#IF 1\nX1\n#ELSE\nX!!\n#ENDIF\nY1", [1.0, 1.0, 0.0]);
+    assert_end("F100\n#COMMENT BEGIN\nX9 ???\n#COMMENT END\nY1", [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn skipped_blocks() {
+    let text = "F100\n/X1\n/2 Y1\n/10 N5 Z1\nM30\n";
+    assert_eq!(skipping(text, &[]).end, [1.0, 1.0, 1.0]);
+    assert_eq!(skipping(text, &[1]).end, [0.0, 1.0, 1.0]);
+    assert_eq!(skipping(text, &[2, 10]).end, [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn a_million_passes() {
+    let run = clean("P1=0 P2=0\n$WHILE P1<1000000\nP1=P1+1\n$IF P1 MOD 3 == 0\nP2=P2+1\n$ENDIF\n$ENDWHILE\nX P2/1000 F100\nM30\n");
+    assert!((run.end[0] - 333.333).abs() < 1e-12);
+}
+
+#[test]
+fn loops_without_end_are_stopped() {
+    use super::{Options, machine, run_with};
+    use crate::source::MemorySources;
+    let options = Options { max_blocks_at_rest: 1000, max_blocks: 5000, ..Options::default() };
+    let text = "$DO\nP1=1\n$ENDDO\nM30\n";
+    let run = run_with(MemorySources::new().with("main.nc", text), machine(&[]), options.clone());
+    assert_eq!(run.ids(), ["K-0017"]);
+    let text = "F100\n$DO\nG91 X1\nX-1\n$ENDDO\nM30\n";
+    let run = run_with(MemorySources::new().with("main.nc", text), machine(&[]), options);
+    assert_eq!(run.ids(), ["K-0017"]);
+}
+
+#[test]
+fn macros() {
+    assert_end("\"GO\" = \"X5 Y\"\n\"LEN\" = \"3*2\"\nG01 \"GO\"7 Z[\"LEN\"] F100", [5.0, 7.0, 6.0]);
+    assert_eq!(run("\"A\" = \"\\\"A\\\"\"\n\"A\"\nM30\n").ids()[0], "20734");
+}

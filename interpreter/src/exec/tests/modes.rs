@@ -1,0 +1,209 @@
+//! Feeds, weights, stops, dwells, feedforward, spindles and commands around the motion.
+
+use super::{Sync, clean, run};
+use crate::exec::{Event, SpindleMotion};
+use kontur_motion::block::{Feed, SlopeKind};
+
+fn feeds(text: &str) -> Vec<Feed> {
+    clean(&format!("{text}\nM30\n")).blocks().iter().map(|b| b.feed).collect()
+}
+
+#[test]
+fn feed_types() {
+    assert_eq!(feeds("G01 X1 F600\nX2\nG00 X3"), [Feed::PathVelocity(10.0), Feed::PathVelocity(10.0), Feed::Rapid]);
+    assert_eq!(feeds("G93 F5 G01 X1\nX2"), [Feed::Duration(5.0), Feed::Duration(5.0)]);
+    assert_eq!(feeds("S1200 G95 F1.5 X1"), [Feed::PathVelocity(30.0)]);
+    assert_eq!(feeds("G194 F50 X1"), [Feed::ShareOfMaximum(0.5)]);
+    // each type remembers its F, G93 wants a new one
+    assert_eq!(feeds("F600 X1\nG93 F2 X2\nG94 X3"), [Feed::PathVelocity(10.0), Feed::Duration(2.0), Feed::PathVelocity(10.0)]);
+    let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
+    assert_eq!(id("G01 X10"), ["20008"]);
+    assert_eq!(id("G01 F0 X10"), ["20008"]);
+    assert_eq!(id("G93 F2 X1\nG93 X2"), ["20008"]);
+    assert_eq!(id("G95 F1 X1"), ["60132"]);
+    assert_eq!(id("F100 X10 F200"), ["20175"]);
+    assert_eq!(id("G93 G94 F1"), ["20121"]);
+}
+
+#[test]
+fn end_feeds() {
+    let blocks = clean("G01 X1 F600 E300\nX2 E6000\nX3\nM30\n");
+    let ends: Vec<_> = blocks.blocks().iter().map(|b| b.end_velocity_mm_s).collect();
+    assert_eq!(ends, [Some(5.0), Some(10.0), None]);
+}
+
+#[test]
+fn exact_stops() {
+    let run = clean("G60 X1 F100\nX2\nG360 X3\nX4\nG359 X5\nM30\n");
+    let shape: Vec<_> = run.steps.iter().map(|s| matches!(s, super::Step::Sync { .. })).collect();
+    assert_eq!(shape, [false, true, false, false, true, false, true, false, false]);
+    assert_eq!(super::run("G60\nM30\n").ids(), ["20003"]);
+    assert_eq!(super::run("G60 G360 X1 F100\nM30\n").ids(), ["20117"]);
+}
+
+#[test]
+fn dwells() {
+    let seconds = |text: &str| match clean(&format!("{text}\nM30\n")).syncs()[..] {
+        [Sync::Dwell { seconds }] => *seconds,
+        _ => panic!("no dwell"),
+    };
+    for text in ["G04 X2.5", "G04 2.5", "#TIME 2.5", "P1=2.5\nG04 P1", "P1=2.5\n#TIME P1", "S60\nG04 S2.5"] {
+        assert!((seconds(text) - 2.5).abs() < 1e-12, "{text}");
+    }
+    let of = |text: &str| run(&format!("{text}\nM30\n"));
+    let two = of("G04 X2 Y3");
+    assert_eq!((two.ids(), two.syncs()), (vec!["20685".to_owned()], vec![&Sync::Dwell { seconds: 2.0 }]));
+    assert_eq!(of("G04 -1").ids(), ["20752"]);
+    assert_eq!(of("G04 5000").ids(), ["20752"]);
+    assert_eq!(of("G04 Y2").ids(), ["20014"]);
+    assert_eq!(of("G04 2 X2").ids(), ["20013"]);
+    assert_eq!(of("G04 G01 X2 F100").ids(), ["20108"]);
+}
+
+#[test]
+fn weights_refer_to_the_lists() {
+    let run = clean("G01 X1 F100\nG131=50 G133 200 X2\nG131 = 50 X3\nG130 Y80\nX4\nG231=25 G233=200 G129=10\nG00 X5\nM30\n");
+    let d = |i: usize| run.blocks()[i].dynamics.axes.clone();
+    assert_eq!((d(0)[0].feed.acc_mm_s2, d(0)[0].feed.ramps_s[0]), (3500.0, 0.03));
+    assert_eq!((d(1)[0].feed.acc_mm_s2, d(1)[0].feed.ramps_s[3]), (1750.0, 0.06));
+    assert_eq!(d(2)[0].feed.acc_mm_s2, 1750.0);
+    assert_eq!((d(3)[0].feed.acc_mm_s2, d(3)[1].feed.acc_mm_s2), (1750.0, 2800.0));
+    assert_eq!((d(4)[0].rapid.acc_mm_s2, d(4)[0].rapid.ramp_s, d(4)[0].v_rapid_mm_s), (1000.0, 0.06, 100.0));
+    // blocks without change share one set of limits
+    let run = clean("G01 X1 F100\nX2\nM30\n");
+    assert!(std::sync::Arc::ptr_eq(&run.blocks()[0].dynamics, &run.blocks()[1].dynamics));
+}
+
+#[test]
+fn weights_beyond_the_lists_are_capped() {
+    let run = run("G131=200\nG01 X1 F100\nM30\n");
+    assert_eq!(run.ids(), ["50130"]);
+    assert_eq!(run.blocks()[0].dynamics.axes[0].feed.acc_mm_s2, 6000.0);
+    let run = super::run("G133=0\nG01 X1 F100\nM30\n");
+    assert_eq!(run.ids(), ["50130"]);
+    assert_eq!(run.blocks()[0].dynamics.axes[0].feed.ramps_s, [0.005; 4]);
+    assert_eq!(super::run("G131=-5\nM30\n").ids(), ["K-0009"]);
+}
+
+#[test]
+fn slopes() {
+    let kinds = |text: &str| -> Vec<_> {
+        clean(&format!("F100\n{text}\nM30\n")).blocks().iter().map(|b| b.slope.kind).collect()
+    };
+    assert_eq!(kinds("X1\n#SLOPE [TYPE=STEP]\nX2\n#SLOPE[TYPE SIN2]\nX3\n#SLOPE DEFAULT\nX4"), [SlopeKind::Trapez, SlopeKind::Step, SlopeKind::Sin2, SlopeKind::Trapez]);
+    assert_eq!(kinds("#SET SLOPE PROFIL[3]\nX1\n#SET SLOPE PROFIL\nX2"), [SlopeKind::Hsc, SlopeKind::Trapez]);
+    let run = clean("F100\n#SLOPE [TYPE=HSC NO_OPT=0]\nX1\nM30\n");
+    assert!(run.blocks()[0].slope.optimised);
+    assert_eq!(super::run("#SLOPE [TYPE=FOO]\nM30\n").ids(), ["21629"]);
+    assert_eq!(super::run("#SET SLOPE PROFIL[7]\nM30\n").ids(), ["120178"]);
+    assert_eq!(super::run("#SLOPE [TYP=STEP]\nM30\n").ids(), ["21220"]);
+}
+
+#[test]
+fn feedforward_weights_survive_switching() {
+    let run = clean("F100\nG136 X80\nG137\nG135\nX1\nM30\n");
+    let last = run.events().into_iter().rev().find_map(|e| match e {
+        Event::Feedforward { on, weight_ratios } => Some((*on, weight_ratios.to_vec())),
+        _ => None,
+    });
+    assert_eq!(last, Some((true, vec![0.8, 1.0, 1.0])));
+    // one block; no motion
+    let run = clean("G135 G136 X80 Y95\nM30\n");
+    assert!(run.blocks().is_empty());
+    let id = |text: &str| super::run(&format!("{text}\nM30\n")).ids();
+    assert_eq!(id("G136 X120"), ["K-0020"]);
+    assert_eq!(id("G136 X-1"), ["K-0021"]);
+    assert_eq!(id("G136"), ["K-0002"]);
+    assert_eq!(id("G136 Q5"), ["20200", "K-0002"]);
+    assert_eq!(id("S[G136=80 G136=90]"), ["21738"]);
+    assert_eq!(id("S[G135 M3 REV1000]"), ["K-0108"]);
+    assert_eq!(id("S[FOO]"), ["21867"]);
+}
+
+#[test]
+fn spindles_turn() {
+    let run = clean("M3 S1000\nS[M4 REV500]\nM19\nS[G135 G136=80]\nM5\nM30\n");
+    let motions: Vec<_> = run
+        .events()
+        .into_iter()
+        .filter_map(|e| match e {
+            Event::Spindle { motion, .. } => Some(*motion),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(motions[0], SpindleMotion::Clockwise { rpm: 1000.0 });
+    assert!(motions.contains(&SpindleMotion::CounterClockwise { rpm: 500.0 }));
+    assert_eq!(motions.last(), Some(&SpindleMotion::Stop));
+    assert!(run.events().iter().any(|e| matches!(e, Event::SpindleFeedforward { on: true, weight_ratio, .. } if (weight_ratio - 0.8).abs() < 1e-12)));
+}
+
+#[test]
+fn functions_before_and_behind_the_motion() {
+    let run = clean("X1 F100 M200=800 H5\nM00\nM1\nT5\nM30\n");
+    assert_eq!(run.syncs(), [&Sync::ProgramStop { optional: false }, &Sync::ProgramStop { optional: true }]);
+    let super::Step::Motion { events, .. } = &run.steps[0] else { panic!() };
+    assert_eq!(events[..], [Event::MFunction { number: 200, value: Some(800.0) }, Event::HFunction { number: 5, value: None }]);
+}
+
+#[test]
+fn overrides() {
+    let run = clean("F100\n#OVERRIDE [FEED_FACT=50 RAPID_FACT=20]\nX1\nG00 X2\nX[OVERRIDE FEED_FACT=50]\nG01 X3\nY1\nG166 X4\nM30\n");
+    let ratios: Vec<_> = run.blocks().iter().map(|b| b.feed_ratio).collect();
+    assert_eq!(ratios, [0.5, 0.2, 0.25, 0.5, 1.0]);
+    assert_eq!(super::run("#OVERRIDE [FEED_FACT=300]\nM30\n").ids(), ["K-0009"]);
+}
+
+#[test]
+fn vector_limits() {
+    let run = clean("F100\n#VECTOR LIMIT ON [VEL=12000 ACC=500]\nX1\n#VECTOR LIMIT OFF [VEL]\nX2\n#VECTOR LIMIT OFF\nX3\nM30\n");
+    let limits: Vec<_> = run.blocks().iter().map(|b| (b.dynamics.vector.vel_mm_s, b.dynamics.vector.acc_mm_s2)).collect();
+    assert_eq!(limits, [(Some(200.0), Some(500.0)), (None, Some(500.0)), (None, None)]);
+}
+
+#[test]
+fn flushes_and_waits() {
+    let run = clean("F100\nX1\n#FLUSH\n#FLUSH CONTINUE\n#FLUSH WAIT\n#CHANNEL INIT [CMDPOS]\n#WAIT FOR 1\nM30\n");
+    assert_eq!(run.syncs(), [&Sync::Stop, &Sync::FlushWait, &Sync::FlushWait, &Sync::FlushWait]);
+    assert_eq!(super::run("#WAIT FOR 0\nM30\n").ids(), ["K-0018"]);
+}
+
+#[test]
+fn messages_and_errors_of_the_program() {
+    let run = clean("P1=2\n#MSG [\"run %d, F = %f, %s\", P1, 1.5, \"x\"]\n#MSG SAVE EXCLUSIVE [\"saved\"]\nM30\n");
+    assert_eq!(run.messages(), ["run 2, F = 1.500000, x", "saved"]);
+    let id = |text: &str| super::run(&format!("{text}\nM30\n")).ids();
+    assert_eq!(id("#MSG [\"%x\", 1]"), ["21232"]);
+    assert_eq!(id("#ERROR [ID455 RC2 PV1=5]"), ["455"]);
+    let warned = super::run("#ERROR [ID=7 RC=0]\nM30\n");
+    assert_eq!((warned.ids(), warned.reason()), (vec!["7".to_owned()], super::EndReason::Finished));
+}
+
+#[test]
+fn machine_data() {
+    let run = clean("F100\nX1\n#MACHINE DATA [AX=X AXPARAM=\"getriebe[0].slope_profil.a_beschl 1000\"]\nX2\nM30\n");
+    assert_eq!(run.blocks()[1].dynamics.axes[0].feed.acc_mm_s2, 1000.0);
+    assert!(matches!(run.syncs()[..], [Sync::MachineData { axis: 1, .. }]));
+}
+
+#[test]
+fn chamfers_and_roundings() {
+    let ends = |text: &str| clean(&format!("F100\n{text}\nM30\n")).ends();
+    assert_eq!(ends("X10\nG301 I2\nY10"), [[8.0, 0.0, 0.0], [10.0, 2.0, 0.0], [10.0, 10.0, 0.0]]);
+    let round = ends("X10\nG302 I2\nY10");
+    super::assert_near(&round[0], &[8.0, 0.0, 0.0]);
+    super::assert_near(&round[1], &[10.0, 2.0, 0.0]);
+    // the size is kept; #CHF is the length of the chamfer
+    assert_eq!(ends("X10\nG301 I2\nY10\nG301\nX20").len(), 5);
+    let chf = ends("X10\n#CHF=2\nY10");
+    super::assert_near(&chf[0], &[10.0 - 2.0_f64.sqrt(), 0.0, 0.0]);
+    assert_eq!(ends("X10\nG302 I2\nX20").len(), 2);
+    let id = |text: &str| super::run(&format!("F100\n{text}\nM30\n")).ids();
+    assert_eq!(id("X10\nG301\nY10"), ["20012"]);
+    assert_eq!(id("G301 I2\nY10"), ["20351"]);
+    assert_eq!(id("X10\nG301 I2\n#FLUSH\nY10"), ["20352"]);
+    assert_eq!(id("X10\nG301 I20\nY10"), ["K-0009"]);
+    assert_eq!(id("X10\nG301 I2\nG302 I2\nY10"), ["20701"]);
+    // a rounding between a line and an arc touches both
+    let run = clean("F100\nX10\nG302 I1\nG03 X20 Y10 I0 J10\nM30\n");
+    assert_eq!(run.blocks().len(), 2);
+}

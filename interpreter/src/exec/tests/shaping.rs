@@ -1,0 +1,141 @@
+//! `#VIB GUARD` and `#FILTER`: keys, persistence, conflicts.
+
+use super::{Options, Run, Sync, clean, machine, places, run, run_with};
+use crate::exec::{AxisShaping, ShapingSettings};
+use crate::source::MemorySources;
+
+fn on(text: &str, settings: &[&str]) -> Run {
+    let sources = MemorySources::new().with("main.nc", format!("{text}\nM30\n"));
+    run_with(sources, machine(settings), Options::default())
+}
+
+fn setups(run: &Run) -> Vec<&AxisShaping> {
+    run.syncs()
+        .into_iter()
+        .filter_map(|s| match s {
+            Sync::Shaping(setup) => Some(&setup.axes[0]),
+            _ => None,
+        })
+        .collect()
+}
+
+fn guard(setup: &AxisShaping) -> (u8, f64, f64) {
+    match setup.settings {
+        ShapingSettings::VibGuard(g) => (g.mode, g.freq_hz, g.damping),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn spellings_are_equal() {
+    let of = |text: &str| setups(&clean(&format!("{text}\nM30\n"))).into_iter().cloned().collect::<Vec<_>>();
+    let a = of("#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]");
+    assert_eq!(a, of("#VIB GUARD ON [MODE 2,FREQ 40, AX_DEV=0.01]"));
+    assert_eq!(guard(&a[0]), (2, 40.0, 0.1));
+}
+
+#[test]
+fn keys_persist_but_the_tolerance_does_not() {
+    let run = clean("F100\n#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]\nX1\n#VIB GUARD ON\nX2\n#VIB GUARD OFF\nX3\n#VIB GUARD ON\nX4\nM30\n");
+    let tolerances: Vec<_> = run.blocks().iter().map(|b| b.tolerance.ax_dev_mm).collect();
+    assert_eq!(tolerances, [Some(0.01), None, None, None]);
+    let setups = setups(&run);
+    // a bare ON changes no kernel and needs no stop
+    assert_eq!(setups.len(), 3);
+    assert_eq!((guard(setups[0]), guard(setups[2])), ((2, 40.0, 0.1), (2, 40.0, 0.1)));
+    assert!(setups[1].kernel.is_none());
+}
+
+#[test]
+fn keys_without_on_are_stored() {
+    let run = run("#VIB GUARD [FREQ=6 MODE=2]\n#VIB GUARD ON\nM30\n");
+    assert_eq!(run.ids(), ["K-0103"]);
+    assert_eq!(guard(setups(&run)[0]), (2, 6.0, 0.1));
+}
+
+#[test]
+fn values_out_of_range() {
+    let id = |text: &str| run(&format!("#VIB GUARD ON [{text}]\nM30\n"));
+    let mode = id("MODE=5");
+    assert_eq!(mode.ids(), ["22062"]);
+    let values: Vec<_> = mode.diagnostics[0].values.iter().map(|v| v.value.clone()).collect();
+    assert_eq!(values, [5.0.into(), 1.0.into(), 4.0.into()]);
+    assert_eq!(id("MODE=0").ids(), ["22062"]);
+    assert_eq!(id("DAMPING=1").ids()[0], "50820");
+    assert_eq!(id("FREQ=600").ids()[0], "50820");
+    for text in ["FREQ=0.5", "DAMPING=1.1", "AX_DEV=-1", "ACC_FACT=0.9", "ACC_FACT=11"] {
+        assert_eq!(id(text).ids(), ["K-0034"], "{text}");
+    }
+    assert_eq!(id("FRQ=5").ids(), ["21220"]);
+    assert_eq!(id("MODE=1 MODE=2").ids(), ["K-0007"]);
+}
+
+#[test]
+fn both_families_in_one_program() {
+    let run = run("#FILTER ON [ORDER=5]\nX1 F100\n  #VIB GUARD ON\nM30\n");
+    let last = run.diagnostics.last().unwrap();
+    assert_eq!(places(std::slice::from_ref(last)), ["22060 3:3"]);
+    assert!(last.text.contains("line 1"), "{}", last.text);
+    // OFF forms and subroutines count, a branch never decoded does not
+    assert_eq!(super::run("%L A\n#FILTER OFF\n%MAIN\n#VIB GUARD OFF\nLL A\nM30\n").ids().last().unwrap(), "22060");
+    assert!(clean("$IF 0\n#FILTER ON\n$ENDIF\n#VIB GUARD ON\nM30\n").reason() == super::EndReason::Finished);
+}
+
+#[test]
+fn conflicts_with_the_lists() {
+    let fir = ["Y.filter_fir.type=1", "Y.filter_fir.order=20"];
+    assert_eq!(on("#VIB GUARD ON", &fir).ids(), ["K-0106"]);
+    assert_eq!(on("#FILTER ON [ORDER=20]", &["Y.vib_guard.active=1"]).ids().last().unwrap(), "K-0105");
+    let both = ["X.filter_fir.type=1", "X.filter_fir.order=20", "X.filter_fir.enable=1", "X.vib_guard.active=1"];
+    assert!(on("X1 F100", &both).ids().contains(&"K-0104".to_owned()));
+}
+
+#[test]
+fn lists_activate_the_guard_and_the_program_has_priority() {
+    let all = ["X.vib_guard.active=1", "Y.vib_guard.active=1", "Z.vib_guard.active=1"];
+    let run = on("F100\nX1\n#VIB GUARD OFF\nX2", &all);
+    assert!(run.diagnostics.is_empty());
+    assert!(setups(&run)[0].kernel.is_none());
+    // one axis alone runs out of step
+    assert_eq!(on("X1 F100", &["X.vib_guard.active=1"]).ids(), ["K-0112"]);
+}
+
+#[test]
+fn an_axis_exchange_ends_the_guard_of_the_program() {
+    let run = run("#VIB GUARD ON [MODE=2]\n#PUT AX [Z]\nM30\n");
+    assert_eq!(run.ids(), ["K-0102"]);
+    assert!(setups(&run)[1].kernel.is_none());
+    let all = ["X.vib_guard.active=1", "Y.vib_guard.active=1", "Z.vib_guard.active=1"];
+    let run = on("#VIB GUARD ON [MODE=2]\n#PUT AX [Z]", &all);
+    assert_eq!(guard(setups(&run).last().unwrap()), (1, 30.0, 0.1));
+}
+
+#[test]
+fn filters_need_a_type_in_the_list() {
+    let fir: Vec<String> = ["X", "Y", "Z"].iter().map(|a| format!("{a}.filter_fir.type=1")).collect();
+    let fir: Vec<&str> = fir.iter().map(String::as_str).collect();
+    let run = on("F100\n#FILTER ON [ORDER=20 AX_DEV=0.01]\nX1\n#FILTER ON [ORDER_TIME=40000]\nX2", &fir);
+    assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
+    let lengths: Vec<_> = setups(&run).iter().map(|s| s.kernel.as_ref().unwrap().length()).collect();
+    assert_eq!(lengths, [20, 40]);
+    let tolerances: Vec<_> = run.blocks().iter().map(|b| b.tolerance.ax_dev_mm).collect();
+    assert_eq!(tolerances, [Some(0.01), None]);
+    assert_eq!(on("#FILTER ON [MODE=1]", &fir).ids(), ["22068"]);
+    assert!(on("#FILTER ON", &fir).ids().contains(&"50989".to_owned()));
+    assert_eq!(on("#FILTER ON [SHARE=101]", &fir).ids(), ["K-0033"]);
+    let without = super::run("#FILTER ON [ORDER=20]\nM30\n");
+    assert_eq!(without.ids(), ["K-0109"]);
+}
+
+#[test]
+fn the_older_filter_form() {
+    let hsc: Vec<String> = ["X", "Y", "Z"]
+        .iter()
+        .flat_map(|a| [format!("{a}.filter[0].prototype=HSC"), format!("{a}.filter[0].order=10")])
+        .collect();
+    let hsc: Vec<&str> = hsc.iter().map(String::as_str).collect();
+    let run = on("#FILTER ON[HSC]\n#FILTER ON [HSC ORDER=20]\n#FILTER OFF[HSC]", &hsc);
+    assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
+    let lengths: Vec<_> = setups(&run).iter().map(|s| s.kernel.as_ref().map(|k| k.length())).collect();
+    assert_eq!(lengths, [Some(10), Some(20), None]);
+}

@@ -1,0 +1,366 @@
+//! One block of DIN words: collecting them with their values, left to right.
+//!
+//! Assignments act while the words are collected, so that a value sees the assignments written before it. Everything
+//! else acts afterwards, in the order that [`super::din`] keeps.
+
+use super::decoder::Decoder;
+use super::fault::{Fault, Outcome, own};
+use super::groups::{self, Act, Group, Row, ValueRule};
+use super::options::Value;
+use super::suggest;
+use crate::diag::ValueKind;
+use crate::syntax::ast::{
+    Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Label, Name, Span, Word, WordKind,
+};
+use smallvec::SmallVec;
+
+/// Number and place of a value.
+pub(super) type Placed = (f64, Span);
+
+/// A G function of the block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GWord {
+    pub(super) row: &'static Row,
+    pub(super) value: Option<f64>,
+    pub(super) span: Span,
+}
+
+/// An M or H function of the block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Code {
+    pub(super) number: u32,
+    pub(super) value: Option<f64>,
+    pub(super) span: Span,
+}
+
+/// An implicit subroutine call.
+#[derive(Clone, Debug)]
+pub(super) struct CycleCall {
+    pub(super) number: u32,
+    /// Values in written order; `None` for an empty place.
+    pub(super) values: Vec<Option<Value>>,
+    pub(super) span: Span,
+}
+
+/// The words of one block.
+#[derive(Debug, Default)]
+pub(super) struct Words<'b> {
+    pub(super) g: SmallVec<[GWord; 6]>,
+    /// Axis, value as written, place.
+    pub(super) axes: SmallVec<[(usize, f64, Span); 8]>,
+    /// I, J, K.
+    pub(super) centre: [Option<Placed>; 3],
+    pub(super) radius: Option<Placed>,
+    pub(super) feed: Option<Placed>,
+    pub(super) end_feed: Option<Placed>,
+    /// Spindle and speed.
+    pub(super) speeds: SmallVec<[(usize, f64, Span); 1]>,
+    pub(super) tool: Option<Placed>,
+    pub(super) tool_data: Option<Placed>,
+    pub(super) m: SmallVec<[Code; 4]>,
+    pub(super) h: SmallVec<[Code; 1]>,
+    pub(super) cycle: Option<CycleCall>,
+    pub(super) brackets: SmallVec<[&'b Bracket; 1]>,
+    pub(super) hashes: SmallVec<[(&'b HashWord, Option<f64>, Span); 1]>,
+    pub(super) call: Option<(&'b Call, Span)>,
+    pub(super) goto: Option<&'b Label>,
+}
+
+impl Words<'_> {
+    /// The G function of a group.
+    pub(super) fn group(&self, group: Group) -> Option<&GWord> {
+        self.g.iter().find(|g| g.row.group == group)
+    }
+}
+
+/// Letters I, J, K.
+fn centre_index(letter: u8) -> Option<usize> {
+    (b'I'..=b'K').contains(&letter).then(|| usize::from(letter - b'I'))
+}
+
+impl Decoder {
+    /// Collects the words of a block and carries out its assignments. What cannot be used is reported and left out.
+    pub(super) fn collect<'b>(&mut self, words: &'b [Word]) -> Words<'b> {
+        let mut block = Words::default();
+        for word in words {
+            if let Err(fault) = self.collect_word(word, &mut block) {
+                self.note(fault);
+            }
+        }
+        block
+    }
+
+    fn collect_word<'b>(&mut self, word: &'b Word, block: &mut Words<'b>) -> Outcome<()> {
+        let span = word.span;
+        match &word.kind {
+            WordKind::Address { name, value } => self.address(name, value, span, block),
+            WordKind::G { number, value } => self.g_word(*number, value.as_deref(), span, block),
+            WordKind::M(number, value) => {
+                let code = self.code(number, value.as_deref(), "M", span)?;
+                if block.m.iter().any(|m| m.number == code.number) {
+                    let text = format!("M{} twice in one block", code.number);
+                    self.note(Fault::kontur(own::ODD, text, span).warning());
+                } else {
+                    block.m.push(code);
+                }
+                Ok(())
+            }
+            WordKind::H(number, value) => {
+                let code = self.code(number, value.as_deref(), "H", span)?;
+                block.h.push(code);
+                Ok(())
+            }
+            WordKind::Bracket(bracket) => {
+                block.brackets.push(bracket);
+                Ok(())
+            }
+            WordKind::Assign(assign) => self.assign(assign),
+            WordKind::MacroDefinition(definition) => {
+                self.macros.insert(definition.name.clone(), definition.text.clone());
+                Ok(())
+            }
+            WordKind::MacroUse(name) => {
+                let text = format!("macro \"{name}\" is not defined");
+                let known = self.macros.keys().map(|k| &**k);
+                let fault = Fault::kontur(own::UNDEFINED, text, span);
+                Err(match suggest::hint(name, known) {
+                    Some(hint) => fault.hint(hint),
+                    None => fault,
+                })
+            }
+            WordKind::Hash(hash) => {
+                let value = match &hash.value {
+                    Some(expr) => Some(self.number(expr)?),
+                    None => None,
+                };
+                block.hashes.push((hash, value, span));
+                Ok(())
+            }
+            WordKind::Call(call) => {
+                if block.call.replace((call, span)).is_some() {
+                    let text = "two subroutine calls in one block";
+                    return Err(Fault::vendor(22008, text, span));
+                }
+                Ok(())
+            }
+            WordKind::Goto(label) => {
+                block.goto = Some(label);
+                Ok(())
+            }
+        }
+    }
+
+    fn assign(&mut self, assign: &Assign) -> Outcome<()> {
+        let value = self.value(&assign.value)?;
+        self.write(&assign.target, value, assign.value.span)
+    }
+
+    fn code(
+        &mut self,
+        number: &CodeNumber,
+        value: Option<&Expr>,
+        letter: &str,
+        span: Span,
+    ) -> Outcome<Code> {
+        /// Highest number of M and H functions.
+        const HIGHEST: u32 = 65535;
+        let number = match number {
+            CodeNumber::Literal(n) if *n <= HIGHEST => *n,
+            CodeNumber::Literal(n) => {
+                let text = format!("{letter}{n} is above {letter}{HIGHEST}");
+                return Err(Fault::kontur(own::RANGE, text, span));
+            }
+            CodeNumber::Computed(expr) => self.whole(expr, "the number of a function", 0, HIGHEST)?,
+        };
+        let value = match value {
+            Some(expr) => Some(self.number(expr)?),
+            None => None,
+        };
+        Ok(Code { number, value, span })
+    }
+
+    fn g_word(
+        &mut self,
+        number: u32,
+        value: Option<&GValue>,
+        span: Span,
+        block: &mut Words<'_>,
+    ) -> Outcome<()> {
+        if groups::is_cycle_call(number) {
+            return self.cycle_word(number, value, span, block);
+        }
+        if number > groups::NUMBER_MAX {
+            let text = format!("G{number} is above G{}", groups::NUMBER_MAX);
+            return Err(Fault::vendor(20107, text, span).with(|d| {
+                d.value(ValueKind::Wrong, number, "-").value(ValueKind::UpperLimit, groups::NUMBER_MAX, "-")
+            }));
+        }
+        let Some(row) = groups::row(number) else {
+            let fault = Fault::vendor(20131, format!("unknown G function G{number:02}"), span)
+                .with(|d| d.value(ValueKind::Current, number, "-"));
+            return Err(match super::dialect::unknown_g(number) {
+                Some(hint) => fault.hint(hint),
+                None => fault,
+            });
+        };
+        if let Act::Unsupported(what) = row.act {
+            return Err(Fault::unsupported(format!("G{number:02} ({what})"), span));
+        }
+        let value = match (value, row.value) {
+            (None, ValueRule::Required) => {
+                let text = format!("G{number} needs a value");
+                return Err(Fault::kontur(own::SYNTAX, text, span));
+            }
+            (Some(GValue::Scalar(expr)), ValueRule::Required | ValueRule::Optional) => {
+                Some(self.number(expr)?)
+            }
+            (Some(GValue::Scalar(expr)), ValueRule::Never) => {
+                let text = format!("G{number:02} takes no value");
+                return Err(Fault::kontur(own::SYNTAX, text, expr.span));
+            }
+            (Some(GValue::List(_)), _) => {
+                let text = format!("G{number:02} takes no list");
+                return Err(Fault::kontur(own::SYNTAX, text, span));
+            }
+            (None, _) => None,
+        };
+        if row.group != Group::None {
+            if let Some(first) = block.group(row.group) {
+                return Err(duplicate(first.row, row, span));
+            }
+        }
+        block.g.push(GWord { row, value, span });
+        Ok(())
+    }
+
+    fn cycle_word(
+        &mut self,
+        number: u32,
+        value: Option<&GValue>,
+        span: Span,
+        block: &mut Words<'_>,
+    ) -> Outcome<()> {
+        if !self.cycle_files.contains_key(&number) {
+            let text = format!("G{number}: no subroutine is configured");
+            let hint = "P-CHAN-00160 to 00169 or #FILE NAME [G80=\"file\"] configure one";
+            let fault = Fault::vendor(20131, text, span)
+                .with(|d| d.value(ValueKind::Current, number, "-"));
+            return Err(fault.hint(hint));
+        }
+        let mut values = Vec::new();
+        match value {
+            None => {}
+            Some(GValue::Scalar(expr)) => values.push(Some(self.value(expr)?)),
+            Some(GValue::List(list)) => {
+                for entry in list {
+                    values.push(match entry {
+                        Some(expr) => Some(self.value(expr)?),
+                        None => None,
+                    });
+                }
+            }
+        }
+        if values.len() > 50 {
+            let text = format!("{} values, a call takes up to 50", values.len());
+            return Err(Fault::kontur(own::RANGE, text, span));
+        }
+        if block.cycle.replace(CycleCall { number, values, span }).is_some() {
+            return Err(Fault::vendor(22008, "two implicit calls in one block", span));
+        }
+        Ok(())
+    }
+
+    fn address(
+        &mut self,
+        name: &Name,
+        value: &Expr,
+        span: Span,
+        block: &mut Words<'_>,
+    ) -> Outcome<()> {
+        let axis = match name {
+            Name::Letter(letter) => self.axis_of_letter(*letter),
+            Name::Long(name) => self.axis_of_name(name),
+        };
+        if let Some(axis) = axis {
+            let value = self.number(value)?;
+            if block.axes.iter().any(|(a, _, _)| *a == axis) {
+                let number = self.machine.axes[axis].number();
+                let name = self.axis_name(axis).to_owned();
+                let text = format!("axis {name} twice in one block");
+                return Err(Fault::vendor(20203, text, span)
+                    .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
+            }
+            block.axes.push((axis, value, span));
+            return Ok(());
+        }
+        if let Some(spindle) = self.spindle_of_name(name.as_str()) {
+            let value = self.number(value)?;
+            block.speeds.push((spindle, value, span));
+            return Ok(());
+        }
+        let Some(letter) = name.letter() else { return Err(self.unknown_name(name.as_str(), span)) };
+        let slot = match letter {
+            b'F' => &mut block.feed,
+            b'R' => &mut block.radius,
+            b'E' => &mut block.end_feed,
+            b'T' => &mut block.tool,
+            b'D' => &mut block.tool_data,
+            b'I'..=b'K' => match centre_index(letter) {
+                Some(i) => &mut block.centre[i],
+                None => return Ok(()),
+            },
+            _ => return Err(self.unknown_letter(letter, span)),
+        };
+        let twice = slot.is_some();
+        *slot = Some((self.number(value)?, span));
+        if twice {
+            let text = format!("{} twice in one block", name.as_str());
+            return Err(match letter {
+                b'F' => Fault::vendor(20175, text, span),
+                b'I'..=b'K' => Fault::vendor(20205, text, span),
+                _ => Fault::kontur(own::SYNTAX, text, span),
+            });
+        }
+        Ok(())
+    }
+
+    fn unknown_letter(&self, letter: u8, span: Span) -> Box<Fault> {
+        let name = char::from(letter);
+        match letter {
+            b'O' => Fault::vendor(20191, "the O word does not exist in this dialect", span)
+                .hint("a program begins with %NAME, a subroutine is called by L or LL"),
+            b'S' => Fault::unsupported("S: the machine has no spindle of that name", span),
+            b'A'..=b'C' | b'U'..=b'Z' | b'Q' => self.unknown_axis(&name.to_string(), span),
+            _ => Fault::vendor(20200, format!("{name} is no word of this dialect"), span)
+                .hint(super::dialect::letter(letter)),
+        }
+    }
+
+    fn unknown_name(&self, name: &str, span: Span) -> Box<Fault> {
+        match name.as_bytes().first() {
+            Some(b'R') => {
+                Fault::vendor(20402, format!("unknown radius name {name}"), span).hint("write R=..")
+            }
+            _ => self.unknown_axis(name, span),
+        }
+    }
+
+    pub(super) fn unknown_axis(&self, name: &str, span: Span) -> Box<Fault> {
+        let text = format!("the channel has no axis {name}");
+        Fault::vendor(20200, text, span).hint(self.axis_hint())
+    }
+}
+
+fn duplicate(first: &Row, second: &Row, span: Span) -> Box<Fault> {
+    let text = format!(
+        "G{:02} and G{:02} in one block: both set {}",
+        first.number,
+        second.number,
+        second.group.name()
+    );
+    let fault = match second.group.duplicate_id() {
+        Some(id) => Fault::vendor(id, text, span),
+        None => Fault::kontur(own::DUPLICATE_GROUP, text, span),
+    };
+    fault.with(|d| d.value(ValueKind::Wrong, second.number, "-"))
+}
