@@ -149,7 +149,10 @@ fn unequal_hsc_filters_are_reported() {
     settings.push("Y.filter[0].order=40".to_owned());
     let run = on("%P\n#FILTER ON[HSC]\nG90 G01 X10 F6000\nM30\n", &settings);
     let text: Vec<&str> = run.diagnostics.iter().map(|d| d.text.as_str()).collect();
-    assert!(text.iter().any(|t| t.contains("10") && t.contains("20") && t.contains("ms")), "{text:?}");
+    assert!(
+        text.iter().any(|t| t.contains("10") && t.contains("20") && t.contains("ms")),
+        "{text:?}"
+    );
 }
 
 /// A band stop that overshoots the largest speed by more than 9 %, and the raised threshold. Conformance: A048.

@@ -76,12 +76,20 @@ fn lists_activate_single_axes() {
     let lines = ["G01 X100 Y100 F6000"];
     let run = on(&lines, &strings(&["X.vib_guard.active=1"]));
     assert!(!follows(&run, 0) && follows(&run, 1));
-    let unequal = ["X.vib_guard.active=1", "X.vib_guard.freq=20", "Y.vib_guard.active=1", "Y.vib_guard.freq=40"];
+    let unequal = [
+        "X.vib_guard.active=1",
+        "X.vib_guard.freq=20",
+        "Y.vib_guard.active=1",
+        "Y.vib_guard.freq=40",
+    ];
     let run = on(&lines, &strings(&unequal));
     let of = |f| kernel_delay(1, f, 0.1);
     let text: Vec<&str> = run.diagnostics.iter().map(|d| d.text.as_str()).collect();
     let delays = [format!("{:.1}", of(20.0)), format!("{:.1}", of(40.0))];
-    assert!(text.iter().any(|t| delays.iter().all(|d| t.contains(d.as_str()))), "{delays:?}: {text:?}");
+    assert!(
+        text.iter().any(|t| delays.iter().all(|d| t.contains(d.as_str()))),
+        "{delays:?}: {text:?}"
+    );
     assert!(!run.totals.aborted);
 }
 
@@ -89,7 +97,13 @@ fn lists_activate_single_axes() {
 #[test]
 fn the_command_activates_all_axes() {
     let run = on(
-        &["#VIB GUARD ON [MODE=2 FREQ=40]", "G01 X100 Y100 Z100 F6000", "X0 Y0 Z0", "#VIB GUARD OFF", "X100 Y100 Z100"],
+        &[
+            "#VIB GUARD ON [MODE=2 FREQ=40]",
+            "G01 X100 Y100 Z100 F6000",
+            "X0 Y0 Z0",
+            "#VIB GUARD OFF",
+            "X100 Y100 Z100",
+        ],
         &[],
     );
     assert_eq!(run.diagnostics, []);
@@ -141,7 +155,8 @@ fn the_tolerance_acts_only_where_it_must() {
     let deviation = largest(&plain, |r| r.axes[1].dev);
     assert!(deviation > 0.0 && deviation < 0.05, "{deviation}");
     assert_eq!(with(" AX_DEV=0.05").records, plain.records);
-    let square = |key: &str| on(&[&format!("#VIB GUARD ON [MODE=2 FREQ=40{key}]"), SQUARE], &[]).records;
+    let square =
+        |key: &str| on(&[&format!("#VIB GUARD ON [MODE=2 FREQ=40{key}]"), SQUARE], &[]).records;
     assert_eq!(square(" AX_DEV=0"), square(""));
     assert_ne!(square(" AX_DEV=0.01"), square(""));
     let run = on(&["#VIB GUARD ON [AX_DEV=-0.01]", SQUARE], &[]);
@@ -156,7 +171,8 @@ fn lists_and_program() {
     let run = on(&["#VIB GUARD ON", motion], &listed("mode=3 freq=20"));
     near(delay(&run, 4), kernel_delay(3, 20.0, 0.1));
     let active = listed("active=1 mode=1 freq=30");
-    let run = on(&[motion, "#VIB GUARD ON [MODE=4 FREQ=50]", "X200", "#VIB GUARD OFF", "X300"], &active);
+    let run =
+        on(&[motion, "#VIB GUARD ON [MODE=4 FREQ=50]", "X200", "#VIB GUARD OFF", "X300"], &active);
     near(delay(&run, 3), kernel_delay(1, 30.0, 0.1));
     near(delay(&run, 5), kernel_delay(4, 50.0, 0.1));
     near(delay(&run, 7), 0.0);
@@ -166,7 +182,15 @@ fn lists_and_program() {
 #[test]
 fn switching_between_blocks() {
     let run = on(
-        &["G01 X10 F6000", "#VIB GUARD ON", "X20", "#VIB GUARD ON [FREQ=20]", "X30", "#VIB GUARD OFF", "X40"],
+        &[
+            "G01 X10 F6000",
+            "#VIB GUARD ON",
+            "X20",
+            "#VIB GUARD ON [FREQ=20]",
+            "X30",
+            "#VIB GUARD OFF",
+            "X40",
+        ],
         &[],
     );
     assert_eq!(run.diagnostics, []);
@@ -202,7 +226,8 @@ fn both_commands_in_one_program() {
 /// in another: both act. Conformance: V031, V034, V035, V036, V037.
 #[test]
 fn conflicts_with_lists() {
-    let fir = |axis: &str| ["enable=1", "type=1", "order=20"].map(|e| format!("{axis}.filter_fir.{e}"));
+    let fir =
+        |axis: &str| ["enable=1", "type=1", "order=20"].map(|e| format!("{axis}.filter_fir.{e}"));
     let guard = |axis: &str| format!("{axis}.vib_guard.active=1");
     let motion = "G01 X10 Y10 F6000";
     let with = |fir: &[String], guard: Option<String>, lines: &[&str]| {
@@ -230,7 +255,11 @@ fn axis_exchange() {
     let motion = "G01 X100 F6000";
     let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", motion], &[]);
     assert!(follows(&run, 0) && !run.totals.aborted);
-    assert!(run.diagnostics.iter().any(|d| d.text.contains("Vibration Guard")), "{:?}", run.diagnostics);
+    assert!(
+        run.diagnostics.iter().any(|d| d.text.contains("Vibration Guard")),
+        "{:?}",
+        run.diagnostics
+    );
     let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", "#VIB GUARD ON", motion], &[]);
     near(delay(&run, 6), kernel_delay(1, 30.0, 0.1));
     let run = on(&["#PUT AX [Z]", motion], &listed("active=1"));
@@ -267,8 +296,13 @@ fn keys_of_the_command() {
 fn tolerance_in_inch() {
     let dev = |considered: u32| {
         let setting = format!("channel.contouring_consider_inch={considered}");
-        let lines =
-            ["#VIB GUARD ON [MODE=2 FREQ=40]", "G70", "#VIB GUARD ON [AX_DEV=0.001]", "G71", SQUARE];
+        let lines = [
+            "#VIB GUARD ON [MODE=2 FREQ=40]",
+            "G70",
+            "#VIB GUARD ON [AX_DEV=0.001]",
+            "G71",
+            SQUARE,
+        ];
         let run = on(&lines, &[setting]);
         assert!(!run.totals.aborted, "{:?}", run.diagnostics);
         largest(&run, |r| r.axes[0].dev).max(largest(&run, |r| r.axes[1].dev))
@@ -281,7 +315,8 @@ fn tolerance_in_inch() {
 #[test]
 fn acc_fact() {
     let corner = |weight: u32, acc_fact: u32| {
-        let settings = ["X", "Y"].map(|axis| format!("{axis}.getriebe[0].dynamik.a_trans_weight={weight}"));
+        let settings =
+            ["X", "Y"].map(|axis| format!("{axis}.getriebe[0].dynamik.a_trans_weight={weight}"));
         let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
         let text = program(&[
             "#SLOPE [TYPE=TRAPEZ]",
@@ -300,7 +335,11 @@ fn acc_fact() {
     assert!((three - 0.3).abs() < 0.01, "{three}");
     let (without, ignored) = (corner(0, 1).1, corner(0, 3).1);
     assert_eq!(ignored.records, without.records);
-    assert!(ignored.diagnostics.iter().any(|d| d.text.contains("ACC_FACT")), "{:?}", ignored.diagnostics);
+    assert!(
+        ignored.diagnostics.iter().any(|d| d.text.contains("ACC_FACT")),
+        "{:?}",
+        ignored.diagnostics
+    );
 }
 
 /// The manual's example: with tolerance, without, without guard. Conformance: V002, V054, V055, V057, V058, V059, V060.
@@ -326,7 +365,9 @@ fn the_square_of_the_manual() {
         run.records.iter().filter(move |r| r.block.is_some_and(|n| blocks.contains(&n)))
     };
     let dev = |from: u64| {
-        pass(from).flat_map(|r| [r.axes[0].dev, r.axes[1].dev]).fold(0.0, |m: f64, d| m.max(d.abs()))
+        pass(from)
+            .flat_map(|r| [r.axes[0].dev, r.axes[1].dev])
+            .fold(0.0, |m: f64, d| m.max(d.abs()))
     };
     assert!(dev(40) <= 0.010, "{}", dev(40));
     assert!(dev(90) > 0.010, "{}", dev(90));
@@ -336,14 +377,24 @@ fn the_square_of_the_manual() {
     }
     // mode and frequency of the second pass are those of the first one
     let alone = on(&["#VIB GUARD ON [MODE=2 FREQ=40]", SQUARE], &[]);
-    near(largest(&alone, |r| r.axes[0].dev), pass(90).map(|r| r.axes[0].dev.abs()).fold(0.0, f64::max));
+    near(
+        largest(&alone, |r| r.axes[0].dev),
+        pass(90).map(|r| r.axes[0].dev.abs()).fold(0.0, f64::max),
+    );
 }
 
 /// Conformance: V056.
 #[test]
 fn the_tolerance_holds_for_every_axis() {
     let run = on(
-        &["#VIB GUARD ON [MODE=3 FREQ=30 AX_DEV=0.005]", "G01 X3 F4000", "Y2 Z1", "X1 Z3", "X4 Y4 Z0", "X0 Y0"],
+        &[
+            "#VIB GUARD ON [MODE=3 FREQ=30 AX_DEV=0.005]",
+            "G01 X3 F4000",
+            "Y2 Z1",
+            "X1 Z3",
+            "X4 Y4 Z0",
+            "X0 Y0",
+        ],
         &[],
     );
     assert!(!run.totals.aborted, "{:?}", run.diagnostics);
