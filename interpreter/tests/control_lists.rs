@@ -394,3 +394,22 @@ fn a_time_delay_equalises_dead_times() {
         gap(&format!("{late} {delay}"))
     );
 }
+
+/// PROFIdrive: conventional feedforward at the controller, additive at the drive. Conformance: F019.
+#[test]
+fn both_inputs_of_a_profidrive() {
+    let out = |names: &str| {
+        let input = "X.antr.sercos.mdt[0].nc_ref=S_0_0037";
+        let settings = format!("X.kenngr.antr_typ=3 X.vorsteuer.vorsteuerung={names} {input}");
+        assert_eq!(ids(&settings), [""; 0]);
+        last(&settings, 1.0)
+    };
+    let (conventional, additive) = (out("VEL"), out("ADD_VEL"));
+    near(conventional.feedforward.speed_mm_s, 100.0, 1e-6);
+    near(conventional.feedforward.additive_speed_mm_s, 0.0, 0.0);
+    near(conventional.command_mm_s, 100.0, 1e-6);
+    near(additive.feedforward.speed_mm_s, 0.0, 0.0);
+    near(additive.feedforward.additive_speed_mm_s, 100.0, 1e-6);
+    near(additive.command_mm_s, 0.0, 1e-6);
+    near(additive.lag_mm, 0.0, 1e-6);
+}

@@ -1,7 +1,7 @@
 //! Exact stop and its time limit in runs of programs. The names of the rows are those of the ledger.
 
 use kontur_interpreter::machine::explain::explain;
-use kontur_tests::{Run, programs, run, run_on, sample_machine};
+use kontur_tests::{Run, programs, run};
 
 /// A gain of 10/s: from 100 mm/s it takes half a second into a window of 0.05 mm.
 fn slow(settling_us: i32) -> [String; 6] {
@@ -85,41 +85,4 @@ fn the_sample_program_of_the_exact_stop() {
     let run = run(&text, &settings);
     assert_eq!(run.ids(), [70082], "{:?}", run.diagnostics);
     assert!(run.totals.aborted);
-}
-
-/// A stage that is too strong: the run ends with a message, every number is one. Conformance: I011.
-#[test]
-fn an_unstable_axis_ends_the_run() {
-    let stage = "X.lr_param.improved_position_control.stage[0]";
-    let settings = [
-        format!("{stage}.filter[0].order=3"),
-        format!("{stage}.weight_fact_num=7"),
-        "X.lr_param.improved_position_control.v_add_max_fact=2000".to_owned(),
-    ];
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-    let machine = sample_machine("rack_and_pinion", &settings);
-    let run = run_on(machine, "%P\nG90 G01 X500 F16362\nG04 5\nX0\nG04 20\nM30\n");
-    assert!(run.totals.aborted, "{:?}", run.diagnostics);
-    assert!(run.diagnostics.iter().any(|d| d.is_error()), "{:?}", run.diagnostics);
-    for r in &run.records {
-        let a = &r.axes[0];
-        assert!([a.act, a.load, a.tcp, a.tcp_acc, a.vadd, a.cmd].iter().all(|x| x.is_finite()));
-    }
-}
-
-/// The slave of a gantry pair gets an additive speed of its own by its master's parameters. Conformance: I027.
-#[test]
-fn a_gantry_slave_has_its_additive_speed() {
-    let ipc = "X.lr_param.improved_position_control";
-    let entries = "enable=1 v_add_max_fact=100 stage[0].mode=1 stage[0].filter[0].order=1 \
-                   stage[0].filter[0].fg_f0=20 stage[0].filter[0].q_factor=2";
-    let settings: Vec<String> = entries.split_whitespace().map(|e| format!("{ipc}.{e}")).collect();
-    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-    let run = run_on(sample_machine("gantry", &settings), "%P\nG90 G01 X50 F6000\nM30\n");
-    assert!(!run.totals.aborted, "{:?}", run.diagnostics);
-    let (master, slave) = (run.axis(0, |a| a.vadd), run.axis(3, |a| a.vadd));
-    assert!(slave.iter().any(|v| v.abs() > 0.01));
-    // equal drives: equal speeds
-    assert_eq!(master, slave);
-    assert!(run.axis(1, |a| a.vadd).iter().all(|v| v.abs() <= 0.0));
 }

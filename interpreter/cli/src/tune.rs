@@ -265,6 +265,7 @@ mod tests {
         }
     }
 
+    /// Conformance: V018, V019, V020, V021.
     #[test]
     fn the_vendors_example_gives_mode_2() {
         let task = task(&[6.9, 6.0, 5.4]);

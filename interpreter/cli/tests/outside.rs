@@ -353,6 +353,7 @@ fn response_refuses_what_it_cannot_show() {
     assert_eq!(f.call(&["response", "--hsc-mean", "10", "-o", "@no/a.csv"]).0, Exit::Io);
 }
 
+/// Conformance: A083, V018, V021.
 #[test]
 fn tune_answers_the_vendors_questions() {
     let f = Folder::new();

@@ -1,0 +1,86 @@
+//! Improved Position Control in runs of programs. The names of the rows are those of the ledger.
+
+use kontur_tests::{Run, run_on, sample_machine};
+use std::f64::consts::TAU;
+
+/// A program on a sample machine with settings.
+fn on(machine: &str, settings: &[String], program: &str) -> Run {
+    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    run_on(sample_machine(machine, &settings), program)
+}
+
+/// A stage that is too strong: the run ends with a message, every number is one. Conformance: I011.
+#[test]
+fn an_unstable_axis_ends_the_run() {
+    let stage = "X.lr_param.improved_position_control.stage[0]";
+    let settings = [
+        format!("{stage}.filter[0].order=3"),
+        format!("{stage}.weight_fact_num=7"),
+        "X.lr_param.improved_position_control.v_add_max_fact=2000".to_owned(),
+    ];
+    let program = "%P\nG90 G01 X500 F16362\nG04 5\nX0\nG04 20\nM30\n";
+    let run = on("rack_and_pinion", &settings, program);
+    assert!(run.totals.aborted, "{:?}", run.diagnostics);
+    assert!(run.diagnostics.iter().any(|d| d.is_error()), "{:?}", run.diagnostics);
+    for r in &run.records {
+        let a = &r.axes[0];
+        assert!([a.act, a.load, a.tcp, a.tcp_acc, a.vadd, a.cmd].iter().all(|x| x.is_finite()));
+    }
+}
+
+/// The slave of a gantry pair gets an additive speed of its own by its master's parameters. Conformance: I027.
+#[test]
+fn a_gantry_slave_has_its_additive_speed() {
+    let ipc = "X.lr_param.improved_position_control";
+    let entries = "enable=1 v_add_max_fact=100 stage[0].mode=1 stage[0].filter[0].order=1 \
+                   stage[0].filter[0].fg_f0=20 stage[0].filter[0].q_factor=2";
+    let settings: Vec<String> = entries.split_whitespace().map(|e| format!("{ipc}.{e}")).collect();
+    let run = on("gantry", &settings, "%P\nG90 G01 X50 F6000\nM30\n");
+    assert!(!run.totals.aborted, "{:?}", run.diagnostics);
+    let (master, slave) = (run.axis(0, |a| a.vadd), run.axis(3, |a| a.vadd));
+    assert!(slave.iter().any(|v| v.abs() > 0.01));
+    // equal drives: equal speeds
+    assert_eq!(master, slave);
+    assert!(run.axis(1, |a| a.vadd).iter().all(|v| v.abs() <= 0.0));
+}
+
+/// A bridge whose two drives ring at 53 Hz: master and slave both calm down, by the master's parameters alone.
+/// Conformance: I025.
+#[test]
+fn a_gantry_pair_is_damped() {
+    let ipc = "X.lr_param.improved_position_control";
+    let mut settings = Vec::new();
+    for (name, number) in [("X", 1), ("X2", 4)] {
+        settings.extend([format!("{name}.getriebe[0].kv=3000")]);
+        let plant = "load_encoder=1 plant.model=MODAL plant.kp=200 plant.tn_us=30000 plant.ti_us=500 \
+                     plant.mode[0].f0=53 plant.mode[0].damping=0.01 plant.mode[0].phi_motor=0.2 \
+                     plant.mode[0].phi_load=0.2 plant.mode[0].phi_tcp=0.8 plant.mode[0].phi_dist=0.8 \
+                     plant.disturbance.amplitude=56.9 plant.disturbance.frequency=53 \
+                     plant.disturbance.full_speed=100 ipc.delay_cycles=1";
+        settings.extend(plant.split_whitespace().map(|e| format!("kontur.axis[{number}].{e}")));
+    }
+    let stage = "enable=1 v_add_max_fact=100 stage[0].mode=1 stage[0].filter[0].order=1 \
+                 stage[0].filter[0].fg_f0=53 stage[0].filter[0].q_factor=10 stage[0].weight_fact_num=2";
+    let amplitudes = |settings: &[String]| {
+        let run = on("gantry", settings, "%P\nG135\nG90 G01 X300 F6000\nM30\n");
+        assert!(!run.totals.aborted, "{:?}", run.diagnostics);
+        [0, 3].map(|axis| {
+            // half a second at constant speed: whole periods of 53 Hz within a thousand cycles
+            let acc = &run.axis(axis, |a| a.tcp_acc)[1500..2500];
+            let (mut re, mut im) = (0.0, 0.0);
+            for (i, a) in acc.iter().enumerate() {
+                let phase = TAU * 0.053 * i as f64;
+                re += a * libm::cos(phase);
+                im += a * libm::sin(phase);
+            }
+            2.0 * libm::hypot(re, im) / acc.len() as f64
+        })
+    };
+    let plain = amplitudes(&settings);
+    settings.extend(stage.split_whitespace().map(|e| format!("{ipc}.{e}")));
+    let damped = amplitudes(&settings);
+    for (damped, plain) in damped.into_iter().zip(plain) {
+        assert!(plain > 100.0, "mm/s2: {plain}");
+        assert!(damped < 0.6 * plain, "{damped} of {plain}");
+    }
+}
