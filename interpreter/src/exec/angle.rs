@@ -69,22 +69,13 @@ mod tests {
     fn quarter_turns_and_half_values_are_exact() {
         for turn in -3..=3 {
             let t = 360.0 * f64::from(turn);
-            for (deg, s, c) in [
-                (0.0, 0.0, 1.0),
-                (90.0, 1.0, 0.0),
-                (180.0, 0.0, -1.0),
-                (270.0, -1.0, 0.0),
-            ] {
+            for (deg, s, c) in
+                [(0.0, 0.0, 1.0), (90.0, 1.0, 0.0), (180.0, 0.0, -1.0), (270.0, -1.0, 0.0)]
+            {
                 assert_eq!((sin_deg(t + deg), cos_deg(t + deg)), (s, c), "{deg}");
             }
-            assert_eq!(
-                [30.0, 150.0, 210.0, 330.0].map(|d| sin_deg(t + d)),
-                [0.5, 0.5, -0.5, -0.5]
-            );
-            assert_eq!(
-                [60.0, 120.0, 240.0, 300.0].map(|d| cos_deg(t + d)),
-                [0.5, -0.5, -0.5, 0.5]
-            );
+            assert_eq!([30.0, 150.0, 210.0, 330.0].map(|d| sin_deg(t + d)), [0.5, 0.5, -0.5, -0.5]);
+            assert_eq!([60.0, 120.0, 240.0, 300.0].map(|d| cos_deg(t + d)), [0.5, -0.5, -0.5, 0.5]);
         }
         assert_eq!(cos_deg(1e6 * 360.0 + 90.0), 0.0);
         assert_eq!([45.0, 135.0, -45.0].map(tan_deg), [Some(1.0), Some(-1.0), Some(-1.0)]);

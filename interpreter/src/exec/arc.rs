@@ -87,10 +87,8 @@ pub(super) fn by_radius(
     let height = ((radius.abs() - half_chord).max(0.0) * (radius.abs() + half_chord)).sqrt();
     let side = if counter_clockwise == (radius > 0.0) { height } else { -height };
     let left = [-chord[1] / length, chord[0] / length];
-    let centre = [
-        0.5 * (start[0] + end[0]) + side * left[0],
-        0.5 * (start[1] + end[1]) + side * left[1],
-    ];
+    let centre =
+        [0.5 * (start[0] + end[0]) + side * left[0], 0.5 * (start[1] + end[1]) + side * left[1]];
     let sweep_rad = sweep(sub(start, centre), sub(end, centre), counter_clockwise);
     Ok(Arc { centre, sweep_rad, shift: [0.0; 2] })
 }
@@ -147,7 +145,12 @@ fn corrected(
 }
 
 /// G164: the radii at start and end must agree within the limits.
-fn uncorrected(start: Point, end: Point, centre: Point, limits: &ArcCentre) -> Result<(), ArcError> {
+fn uncorrected(
+    start: Point,
+    end: Point,
+    centre: Point,
+    limits: &ArcCentre,
+) -> Result<(), ArcError> {
     let (from, to) = (norm(sub(start, centre)), norm(sub(end, centre)));
     if from < SAME_MM || to < SAME_MM {
         return Err(ArcError::RadiusZero);
@@ -195,10 +198,7 @@ mod tests {
         assert_arc(arc(-10.0, true), [5.0, -h], 5.0 * FRAC_PI_3);
         // a radius rounded down to the increment is a half circle
         assert_arc(arc(4.99995, true), [5.0, 0.0], PI);
-        assert_eq!(
-            arc(4.0, true),
-            Err(ArcError::RadiusTooSmall { radius: 4.0, half_chord: 5.0 })
-        );
+        assert_eq!(arc(4.0, true), Err(ArcError::RadiusTooSmall { radius: 4.0, half_chord: 5.0 }));
         let full = by_radius([1.0, 1.0], [1.0, 1.0], 10.0, true);
         assert_eq!(full, Err(ArcError::FullCircleWithRadius));
     }
@@ -222,7 +222,9 @@ mod tests {
         assert!((shifted.unwrap().shift[0] + 0.1).abs() < 1e-12);
         // 2.5 mm is beyond 2 mm and beyond 5 % of the radius
         let far = arc([7.5, 0.0]).unwrap_err();
-        assert!(matches!(far, ArcError::CentreTooFar { shift, limit } if (shift - 2.5).abs() < 1e-12 && (limit - 2.0).abs() < 1e-12));
+        assert!(
+            matches!(far, ArcError::CentreTooFar { shift, limit } if (shift - 2.5).abs() < 1e-12 && (limit - 2.0).abs() < 1e-12)
+        );
     }
 
     #[test]

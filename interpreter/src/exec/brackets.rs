@@ -81,7 +81,8 @@ impl Decoder {
                 items.push((self.spindle_item(item)?, item.span));
             }
         }
-        let feedforward = |i: &SpindleItem| matches!(i, SpindleItem::Feedforward(_) | SpindleItem::Weight(_));
+        let feedforward =
+            |i: &SpindleItem| matches!(i, SpindleItem::Feedforward(_) | SpindleItem::Weight(_));
         let some = items.iter().find(|(i, _)| feedforward(i));
         let other = items.iter().find(|(i, _)| !feedforward(i));
         if let (Some(_), Some((_, span))) = (some, other) {

@@ -71,7 +71,9 @@ impl Executor {
         self.decoder.variables.leave_level();
         if let Some(modal) = level.cycle {
             self.decoder.variables.leave_cycle();
-            if !std::mem::take(&mut self.decoder.retain_cycle_changes) && self.decoder.modal != *modal {
+            if !std::mem::take(&mut self.decoder.retain_cycle_changes)
+                && self.decoder.modal != *modal
+            {
                 self.decoder.modal = *modal;
                 self.decoder.dynamics_changed();
             }
@@ -184,10 +186,11 @@ impl Executor {
             let all = level.index.sections.iter().enumerate();
             all.filter(|(_, s)| s.local)
         };
-        let named = |(_, s): &(usize, &super::index::Section)| s.name.as_deref() == Some(&*name.text);
-        let found = subs().find(named).or_else(|| {
-            subs().find(|(_, s)| s.name.as_deref().is_some_and(|n| name.is(n)))
-        });
+        let named =
+            |(_, s): &(usize, &super::index::Section)| s.name.as_deref() == Some(&*name.text);
+        let found = subs()
+            .find(named)
+            .or_else(|| subs().find(|(_, s)| s.name.as_deref().is_some_and(|n| name.is(n))));
         if let Some((section, _)) = found {
             return Some(Target { file: level.file, section });
         }
@@ -303,7 +306,9 @@ impl Executor {
                 Value::Text(text) => Ok(Ident { text, span: expr.span }),
                 Value::Number(_) => Err(Fault::vendor(21220, "a file name is expected", expr.span)),
             },
-            ItemValue::List(group) => Err(Fault::vendor(21220, "a file name is expected", group.span)),
+            ItemValue::List(group) => {
+                Err(Fault::vendor(21220, "a file name is expected", group.span))
+            }
         }
     }
 

@@ -2,8 +2,10 @@
 //!
 //! The decoder knows blocks, not files: where the next block comes from is the business of the executor.
 
+use super::calls::ModalCycle;
 use super::contour::Contour;
 use super::coordinates::Coordinates;
+use super::dialect::Seen;
 use super::dynamics::{Weights, channel_dynamics};
 use super::fault::Fault;
 use super::modal::{FeedType, FeedWord, Modal, PathMode, Plane};
@@ -11,10 +13,9 @@ use super::options::Options;
 use super::overrides::Overrides;
 use super::program::ProgramInfo;
 use super::shaping::{ShapingState, Worked};
-use super::calls::ModalCycle;
 use super::spindles::Spindle;
-use super::system::Timers;
 use super::step::{Event, Feedback, SourceRef, Sync};
+use super::system::Timers;
 use super::tools::Tools;
 use super::variables::Variables;
 use crate::diag::{Diagnostic, Location};
@@ -53,6 +54,8 @@ pub(super) struct Decoder {
     pub(super) coordinates: Coordinates,
     pub(super) variables: Variables,
     pub(super) weights: Weights,
+    /// Members of the feed group (`#FGROUP`).
+    pub(super) feed_axes: Vec<bool>,
     /// `#VECTOR LIMIT` in force.
     pub(super) vector: VectorLimits,
     dynamics: Option<Arc<ChannelDynamics>>,
@@ -75,8 +78,7 @@ pub(super) struct Decoder {
     pub(super) last_arc: LastArc,
     /// Coordinate system stored last.
     pub(super) last_system: u32,
-    /// A word that only this dialect knows has shown that the program is written for it.
-    pub(super) dialect_seen: bool,
+    pub(super) dialect: Seen,
     /// Cycle that is called behind every motion or block.
     pub(super) modal_cycle: Option<ModalCycle>,
     /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
@@ -124,6 +126,7 @@ impl Decoder {
             coordinates: Coordinates::new(start),
             variables: Variables::new(options.external),
             weights: Weights::new(n),
+            feed_axes: machine.channel.feed_axes.clone(),
             vector: VectorLimits::default(),
             dynamics: None,
             overrides: Overrides::new(n),
@@ -144,7 +147,7 @@ impl Decoder {
             feedback: Feedback::default(),
             last_arc: LastArc::default(),
             last_system: 1,
-            dialect_seen: false,
+            dialect: Seen::default(),
             modal_cycle: None,
             retain_cycle_changes: false,
             names_changed: false,
@@ -276,11 +279,7 @@ impl Decoder {
         }
         let number = machine.axes[axis].number();
         self.dynamics_changed();
-        self.sync(Sync::MachineData {
-            axis: number,
-            key: key.to_owned(),
-            value: value.to_owned(),
-        });
+        self.sync(Sync::MachineData { axis: number, key: key.to_owned(), value: value.to_owned() });
         self.update_shaping(span);
         Ok(())
     }
@@ -290,8 +289,9 @@ impl Decoder {
         if let Some(dynamics) = &self.dynamics {
             return Arc::clone(dynamics);
         }
-        let (dynamics, _) =
+        let (mut dynamics, _) =
             channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector);
+        dynamics.feed_axes.clone_from(&self.feed_axes);
         let dynamics = Arc::new(dynamics);
         self.dynamics = Some(Arc::clone(&dynamics));
         dynamics
@@ -320,9 +320,9 @@ impl Decoder {
 
     /// Axis of a name in either case.
     pub(super) fn axis_of_name(&self, name: &str) -> Option<usize> {
-        self.axis_names.iter().position(|n| {
-            n.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name))
-        })
+        self.axis_names
+            .iter()
+            .position(|n| n.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name)))
     }
 
     /// Axis of a name in a `#` command; 20797 if there is none.

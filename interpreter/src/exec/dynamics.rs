@@ -19,8 +19,7 @@ struct AxisWeights {
 }
 
 impl AxisWeights {
-    const ONE: Self =
-        Self { velocity: 1.0, acceleration: 1.0, ramp: 1.0, rapid_acceleration: 1.0 };
+    const ONE: Self = Self { velocity: 1.0, acceleration: 1.0, ramp: 1.0, rapid_acceleration: 1.0 };
 }
 
 /// What a G function of a weight acts on.
@@ -122,7 +121,8 @@ fn weighted(
     // P-CHAN-00001, P-CHAN-00073: selective weights belong to the older command
     let (accelerations, ramps) =
         if modal.old_slope { (channel.acc_selection, channel.ramp_selection) } else { (0, 0) };
-    let acc = |on: u32| if accelerations == 0 || accelerations == on { w.acceleration } else { 1.0 };
+    let acc =
+        |on: u32| if accelerations == 0 || accelerations == on { w.acceleration } else { 1.0 };
     let a_max = d.a_max_mm_s2;
     d.feed.acc_mm_s2 = capped.at_most(d.feed.acc_mm_s2, acc(1), a_cap);
     d.feed.dec_mm_s2 = capped.at_most(d.feed.dec_mm_s2, acc(2), a_cap);

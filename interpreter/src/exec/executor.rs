@@ -146,7 +146,8 @@ impl Executor {
         let index = Arc::clone(&self.files.file(file).index);
         let Some(section) = index.main() else {
             let text = format!("{name} holds no main program");
-            let severity = if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
+            let severity =
+                if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
             self.report(Diagnostic::kontur(own::NO_END, text).severity(severity));
             let refused = severity == Severity::Error;
             self.end(if refused { EndReason::Aborted } else { EndReason::Finished });
@@ -326,7 +327,8 @@ impl Executor {
     pub(super) fn fetch(&mut self, file: usize, at: Position) -> Option<(Arc<Parsed>, Position)> {
         let level = self.levels.last()?;
         let keep = self.levels.len() > 1 || level.frames.iter().any(|f| f.keyword.is_loop());
-        let reading = Reading { keep: keep && !level.declarations, declaration: level.declarations };
+        let reading =
+            Reading { keep: keep && !level.declarations, declaration: level.declarations };
         let mut found = Vec::new();
         let block =
             self.files.block(file, at, reading, &self.parser, &self.decoder.macros, &mut found);
@@ -351,12 +353,12 @@ impl Executor {
     fn wait_for_actual(&mut self, at: Position) {
         self.state = State::WaitsForActual;
         let source = SourceRef { line: at.line, block: None, ..self.decoder.source };
-        let fault = self.decoder.contour.sync(Sync::ReadActual, source);
-        if let Some(fault) = fault {
-            self.position = at;
+        let faults = self.decoder.contour.sync(Sync::ReadActual, source);
+        self.position = at;
+        for fault in faults {
             self.decoder.note(fault);
-            self.settle(false);
         }
+        self.settle(false);
     }
 
     /// False if a limit was reached.
@@ -371,7 +373,8 @@ impl Executor {
             return true;
         };
         let diagnostic = Diagnostic::kontur(own::ENDLESS, text);
-        let location = self.levels.last().map(|l| l.at).and_then(|at| self.place(at, Span::default()));
+        let location =
+            self.levels.last().map(|l| l.at).and_then(|at| self.place(at, Span::default()));
         self.report(match location {
             Some(location) => diagnostic.at(location),
             None => diagnostic,
@@ -414,6 +417,7 @@ impl Executor {
             }
             Body::Command(command) => self.command(command, entry),
             Body::Control(control) => {
+                self.decoder.dialect.own = true;
                 if let Some(entry) = entry {
                     self.control(control, entry);
                 }
@@ -560,7 +564,7 @@ impl Executor {
         self.reason = if aborted { EndReason::Aborted } else { EndReason::Finished };
         let source = self.decoder.source;
         let contour: &mut Contour = &mut self.decoder.contour;
-        if let Some(fault) = contour.end(self.reason, source) {
+        for fault in contour.end(self.reason, source) {
             let Fault { diagnostic, span } = *fault;
             let located = self.here(span);
             self.report(Diagnostic { source: located, ..diagnostic });

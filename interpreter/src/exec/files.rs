@@ -233,8 +233,7 @@ fn needs_actual(block: &Block) -> bool {
             _ => false,
         }),
         Body::Command(command) => {
-            command.is("CHANNEL INIT")
-                && command.groups.iter().any(|g| g.has("ACTPOS"))
+            command.is("CHANNEL INIT") && command.groups.iter().any(|g| g.has("ACTPOS"))
                 || command.arguments.iter().any(expr_needs_actual)
                 || command.groups.iter().any(group_needs_actual)
         }

@@ -10,7 +10,9 @@ use super::index::{EntryId, Keyword};
 use super::options::Value;
 use crate::diag::{Diagnostic, ValueKind};
 use crate::source::Position;
-use crate::syntax::ast::{Body, Control, ControlKind, Expr, Label, LabelKind, Place, PlaceKind, Span};
+use crate::syntax::ast::{
+    Body, Control, ControlKind, Expr, Label, LabelKind, Place, PlaceKind, Span,
+};
 use std::sync::Arc;
 
 /// Values closer than this are equal in `$SWITCH`. Source: TF5200 programming manual.
@@ -165,7 +167,8 @@ impl Executor {
                 self.to_level_end();
                 return Err(self.unclosed(id, span));
             };
-            let (keyword, position) = (level.index.entry(next).keyword, level.index.entry(next).position);
+            let (keyword, position) =
+                (level.index.entry(next).keyword, level.index.entry(next).position);
             let file = level.file;
             let Some((parsed, behind)) = self.fetch(file, position) else { return Ok(()) };
             at = next;
@@ -298,10 +301,8 @@ impl Executor {
                 return Err(fault);
             }
         };
-        let is_counter = matches!(
-            counter.kind,
-            PlaceKind::Parameter { .. } | PlaceKind::Variable(_)
-        );
+        let is_counter =
+            matches!(counter.kind, PlaceKind::Parameter { .. } | PlaceKind::Variable(_));
         if !is_counter {
             self.leave_structure(id);
             let text = "the counter of $FOR is a P parameter or a variable";

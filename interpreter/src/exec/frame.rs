@@ -79,8 +79,7 @@ impl Frame {
     /// indices in cyclic order and whether the sense of rotation is kept.
     pub(super) fn image_of_plane(&self, a: usize, b: usize) -> Option<([usize; 2], bool)> {
         const FLAT: f64 = 1e-12;
-        let normal =
-            (0..3).find(|r| self.m[*r][a].abs() < FLAT && self.m[*r][b].abs() < FLAT)?;
+        let normal = (0..3).find(|r| self.m[*r][a].abs() < FLAT && self.m[*r][b].abs() < FLAT)?;
         let (i, j) = ((normal + 1) % 3, (normal + 2) % 3);
         let determinant = self.m[i][a] * self.m[j][b] - self.m[i][b] * self.m[j][a];
         Some(([i, j], determinant > 0.0))

@@ -169,7 +169,8 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
         let n = decoder.whole(&call.arguments[i], "a count of characters", 0, 4096)?;
         Ok::<usize, Box<Fault>>(n as usize)
     };
-    let joined = |parts: [&[char]; 3]| Value::Text(parts.concat().iter().collect::<String>().into());
+    let joined =
+        |parts: [&[char]; 3]| Value::Text(parts.concat().iter().collect::<String>().into());
     let parsed = |i: usize| -> Outcome<f64> {
         let written: String = text(i)?.iter().collect();
         let number: Option<f64> = written.trim().parse().ok();
@@ -216,7 +217,9 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
             let found = if t.is_empty() { None } else { s.windows(t.len()).position(|w| w == t) };
             Value::Number(found.map_or(0.0, |i| i as f64 + 1.0))
         }
-        Function::IntToStr => Value::Text(format!("{}", decoder.number(&call.arguments[0])?.trunc() + 0.0).into()),
+        Function::IntToStr => {
+            Value::Text(format!("{}", decoder.number(&call.arguments[0])?.trunc() + 0.0).into())
+        }
         Function::RealToStr => {
             let x = as_number(&decoder.value(&call.arguments[0])?, span)?;
             Value::Text(format!("{x:.6}").into())

@@ -358,7 +358,8 @@ impl Builder<'_> {
             self.program_head(raw, head.rest);
             return;
         }
-        let content = first.is_some_and(|b| b != b';') || head.number.is_some() || head.label.is_some();
+        let content =
+            first.is_some_and(|b| b != b';') || head.number.is_some() || head.label.is_some();
         if self.section.is_none() && content {
             self.open_section(None, false, raw.position);
         }
@@ -591,8 +592,7 @@ fn name_of(text: &str) -> Option<&str> {
 fn is_command(rest: &str, first: &str, second: &str) -> bool {
     let behind = &rest[1..];
     let length = behind.bytes().take_while(u8::is_ascii_alphanumeric).count();
-    behind[..length].eq_ignore_ascii_case(first)
-        && word(behind[length..].trim_start()) == second
+    behind[..length].eq_ignore_ascii_case(first) && word(behind[length..].trim_start()) == second
 }
 
 /// True if `$GOTO` stands behind the condition.

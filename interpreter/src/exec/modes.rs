@@ -27,7 +27,13 @@ impl Decoder {
     }
 
     /// Sets a weight; 50130 if it exceeds what the lists allow.
-    pub(super) fn set_weight(&mut self, weight: Weight, axis: Option<usize>, ratio: f64, span: Span) {
+    pub(super) fn set_weight(
+        &mut self,
+        weight: Weight,
+        axis: Option<usize>,
+        ratio: f64,
+        span: Span,
+    ) {
         let before = self.capped_axes();
         self.weights.set(weight, axis, ratio);
         self.dynamics_changed();
@@ -41,9 +47,10 @@ impl Decoder {
                 "axis {name}: the weight of {} % exceeds what the axis list allows, it is limited",
                 ratio * 100.0
             );
-            self.note(Fault::vendor(50130, text, span).with(|d| {
-                d.axis(number, name).value(ValueKind::AxisNumber, number, "-")
-            }));
+            self.note(
+                Fault::vendor(50130, text, span)
+                    .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")),
+            );
         }
     }
 
@@ -90,8 +97,9 @@ impl Decoder {
     pub(super) fn limited_weight(&mut self, percent: f64, span: Span) -> f64 {
         if percent > 100.0 {
             let text = format!("feedforward weight {percent} % is above 100 %, limited");
-            self.note(Fault::kontur(own::FEEDFORWARD_LIMIT, text, span)
-                .with(|d| d.corrected(100.0)));
+            self.note(
+                Fault::kontur(own::FEEDFORWARD_LIMIT, text, span).with(|d| d.corrected(100.0)),
+            );
         }
         percent.min(100.0)
     }
@@ -175,13 +183,13 @@ impl Decoder {
     }
 
     /// G40, G41, G42.
-    pub(super) fn compensation(&mut self, side: Compensation, span: Span) -> Outcome<()> {
-        if side != Compensation::Off {
-            let what = "G41 and G42 (tool radius compensation)";
-            return Err(Fault::unsupported(what, span));
+    pub(super) fn compensation(&mut self, side: Compensation, span: Span) {
+        if side != Compensation::Off && self.tools.active.radius_mm == 0.0 {
+            let text = "the tool has the radius 0: the path is the programmed contour";
+            let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
+            self.note_once("G41", Fault::kontur(own::NO_TOOL, text, span).hint(hint));
         }
         self.modal.compensation = side;
-        Ok(())
     }
 
     /// Contouring is not planned yet: corners stay as programmed.

@@ -6,7 +6,7 @@ use super::decoder::Decoder;
 use super::fault::{Fault, Outcome, own};
 use super::groups::{Act, Group};
 use super::insertion::{Insertion, Kind};
-use super::modal::{FeedType, PathMode};
+use super::modal::{Compensation, FeedType, PathMode};
 use super::step::Sync;
 use super::words::{GWord, Placed, Words};
 use crate::diag::ValueKind;
@@ -132,9 +132,24 @@ impl Decoder {
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
         let start = self.coordinates.target().clone();
-        let targets: smallvec::SmallVec<[(usize, f64); 8]> =
-            words.axes.iter().map(|(axis, value, _)| (*axis, value * self.axis_unit(*axis))).collect();
-        self.coordinates.program(&targets, self.modal.absolute);
+        let targets: smallvec::SmallVec<[(usize, f64); 8]> = words
+            .axes
+            .iter()
+            .map(|(axis, value, _)| (*axis, value * self.axis_unit(*axis)))
+            .collect();
+        let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
+        match suppressed {
+            Some((_, _, at)) if !self.modal.absolute => {
+                let text = "#SUPPRESS OFFSETS acts only with G90";
+                return Err(Fault::vendor(20985, text, *at));
+            }
+            Some((_, _, at)) if !self.coordinates.frame().is_identity() => {
+                let what = "#SUPPRESS OFFSETS in a frame";
+                return Err(Fault::unsupported(what, *at));
+            }
+            Some(_) => self.coordinates.program_without_offsets(&targets),
+            None => self.coordinates.program(&targets, self.modal.absolute),
+        }
         self.check_limits(&start, words, span);
         let path = if is_arc {
             Some(self.arc(&start, words, span)?)
@@ -149,7 +164,7 @@ impl Decoder {
             if let Some((radius, _)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
             }
-            LinePath::new(start, end, &self.machine.channel.feed_axes).map(Path::Line)
+            LinePath::new(start, end, &self.feed_axes).map(Path::Line)
         };
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
@@ -161,8 +176,9 @@ impl Decoder {
         };
         let rapid = feed == Feed::Rapid;
         let full = words.g.iter().any(|g| g.row.act == Act::FullOverride);
-        let moved = (0..path.start().len())
-            .filter(|i| path.start()[*i].to_bits() != path.end()[*i].to_bits() || !path.is_straight());
+        let moved = (0..path.start().len()).filter(|i| {
+            path.start()[*i].to_bits() != path.end()[*i].to_bits() || !path.is_straight()
+        });
         let feed_ratio = if full { 1.0 } else { self.overrides.ratio(rapid, moved) };
         let block = Block {
             seq: 0,
@@ -174,23 +190,51 @@ impl Decoder {
             dynamics: self.dynamics(),
             tolerance: self.shaping.tolerance(),
         };
-        let main = self.modal.plane.main_axes();
-        let axis = |m: usize| self.coordinates.main_axis(m).unwrap_or(usize::MAX);
+        let (plane, compensation) = self.plane_and_compensation(span)?;
         let motion = Motion {
             block,
             source: self.source,
             events: self.contour.take_events(),
-            plane: [axis(main[0]), axis(main[1])],
+            plane,
+            compensation,
+            span,
         };
         // of a block with an error nothing moves
         if self.failed() && !self.checking {
             return Ok(());
         }
         self.moved = true;
-        if let Some(fault) = self.contour.motion(Box::new(motion)) {
+        for fault in self.contour.motion(Box::new(motion)) {
             self.note(fault);
         }
         Ok(())
+    }
+
+    /// Axes of the active plane, and the distance of the tool's centre to the left of the contour.
+    fn plane_and_compensation(&self, span: Span) -> Outcome<([usize; 2], Option<f64>)> {
+        let main = self.modal.plane.main_axes();
+        let image = self.coordinates.frame().image_of_plane(main[0], main[1]);
+        let axis = |m: usize| self.coordinates.main_axis(m);
+        let compensated = self.modal.compensation != Compensation::Off;
+        let (plane, keeps_sense) = match image {
+            Some((image, keeps_sense)) => (image, keeps_sense),
+            None if compensated => {
+                let what = "tool radius compensation in a tilted coordinate system";
+                return Err(Fault::unsupported(what, span));
+            }
+            None => ([main[0], main[1]], true),
+        };
+        let (Some(first), Some(second)) = (axis(plane[0]), axis(plane[1])) else {
+            if compensated {
+                let text = "the plane of the tool radius compensation has no axis in the channel";
+                return Err(Fault::vendor(20200, text, span));
+            }
+            return Ok(([0, 0], None));
+        };
+        let left = (self.modal.compensation == Compensation::Left) == keeps_sense;
+        let radius = self.tools.active.radius_mm;
+        let distance = compensated.then_some(if left { radius } else { -radius });
+        Ok(([first, second], distance))
     }
 
     /// Targets against the software limits (P-AXIS-00177, P-AXIS-00178).
@@ -207,7 +251,8 @@ impl Decoder {
             let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
             let name = self.axis_name(axis).to_owned();
             let number = self.machine.axes[axis].number();
-            let text = format!("axis {name}: target {target} is outside its limits {low} to {high}");
+            let text =
+                format!("axis {name}: target {target} is outside its limits {low} to {high}");
             let mut fault = Fault::vendor(21897, text, at).with(|d| {
                 d.axis(number, name)
                     .value(ValueKind::Current, target * 1e4, "0.1um")
@@ -260,7 +305,8 @@ impl Decoder {
         let mut arc = found.map_err(|e| arc_fault(e, at))?;
         let pitch_word = words.centre[main[2]];
         if let Some((pitch, at)) = pitch_word {
-            let normal = (0..3).find(|i| !image.contains(i)).and_then(|m| self.coordinates.main_axis(m));
+            let normal =
+                (0..3).find(|i| !image.contains(i)).and_then(|m| self.coordinates.main_axis(m));
             let height = normal.map_or(0.0, |axis| end[axis] - start[axis]);
             if pitch == 0.0 || height == 0.0 {
                 if pitch != 0.0 {
@@ -274,9 +320,10 @@ impl Decoder {
         self.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
         self.last_arc.plane = image;
         self.last_arc.shift_mm = arc.shift;
-        self.last_arc.radius_mm = libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
+        self.last_arc.radius_mm =
+            libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
-        ArcPath::new(start.clone(), end, shape, &self.machine.channel.feed_axes)
+        ArcPath::new(start.clone(), end, shape, &self.feed_axes)
             .map(Path::Arc)
             .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))
     }
@@ -334,9 +381,8 @@ impl Decoder {
     /// True unless only rotary axes move.
     fn feed_is_linear(&self, path: &Path) -> bool {
         !path.is_straight()
-            || (0..path.start().len()).any(|i| {
-                self.is_linear(i) && path.start()[i].to_bits() != path.end()[i].to_bits()
-            })
+            || (0..path.start().len())
+                .any(|i| self.is_linear(i) && path.start()[i].to_bits() != path.end()[i].to_bits())
     }
 
     /// Unit of an F word with G94 in mm/s.
@@ -357,14 +403,7 @@ impl Decoder {
     }
 
     /// Chamfer or rounding in front of the next motion.
-    pub(super) fn insert(
-        &mut self,
-        kind: Kind,
-        size_mm: f64,
-        feed_mm_s: Option<f64>,
-        span: Span,
-        _block: Span,
-    ) {
+    pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed_mm_s: Option<f64>, span: Span) {
         let insertion = Insertion { kind, size_mm, feed_mm_s, span };
         if let Some(fault) = self.contour.insert(insertion) {
             self.note(fault);
@@ -383,7 +422,10 @@ fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
             Fault::vendor(20034, text, span).hint("use I, J, K")
         }
         ArcError::RadiusTooSmall { radius, half_chord } => {
-            let text = format!("radius {} is smaller than half the chord, {half_chord:.6} mm", radius.abs());
+            let text = format!(
+                "radius {} is smaller than half the chord, {half_chord:.6} mm",
+                radius.abs()
+            );
             Fault::kontur(own::RADIUS_TOO_SMALL, text, span)
         }
         ArcError::CentreTooFar { shift, limit } => {

@@ -132,7 +132,12 @@ fn centre(d: &Decoder, main: usize) -> Outcome<Value> {
 
 impl Path<'_> {
     /// A position of an axis in the unit of the program.
-    fn position(&self, d: &Decoder, at: usize, f: impl Fn(&Decoder, usize) -> f64) -> Outcome<Value> {
+    fn position(
+        &self,
+        d: &Decoder,
+        at: usize,
+        f: impl Fn(&Decoder, usize) -> f64,
+    ) -> Outcome<Value> {
         let axis = self.axis(d, at)?;
         number(f(d, axis) / d.axis_unit(axis))
     }
@@ -220,10 +225,8 @@ fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
         return Fault::unsupported(format!("variables V.{class}."), span);
     }
     let axis = d.axis_names.iter().flatten().next().map_or("X", String::as_str);
-    let names: Vec<String> = ROWS
-        .iter()
-        .map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S"))
-        .collect();
+    let names: Vec<String> =
+        ROWS.iter().map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S")).collect();
     let fault = Fault::kontur(own::UNDEFINED, format!("unknown variable V.{name}"), span);
     match suggest::nearest(&name, names.iter().map(String::as_str)) {
         Some(near) => fault.hint(format!("did you mean `V.{near}`?")),
@@ -273,7 +276,13 @@ pub(super) fn write(
     Ok(())
 }
 
-fn write_tool(d: &Decoder, path: &Path<'_>, names: &[&str], tool: &mut Tool, x: f64) -> Outcome<()> {
+fn write_tool(
+    d: &Decoder,
+    path: &Path<'_>,
+    names: &[&str],
+    tool: &mut Tool,
+    x: f64,
+) -> Outcome<()> {
     match *names {
         ["R"] => tool.radius_mm = x,
         ["L"] => tool.length_mm = x,
@@ -290,7 +299,8 @@ fn write_tool(d: &Decoder, path: &Path<'_>, names: &[&str], tool: &mut Tool, x: 
 
 /// True if reading this variable needs the machine at rest and its actual positions.
 pub(super) fn needs_actual(segments: &[Segment]) -> bool {
-    let is = |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
+    let is =
+        |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
     is(0, "A") && is(1, "ACT_POS")
 }
 

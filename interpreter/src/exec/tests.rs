@@ -2,15 +2,14 @@
 
 mod arcs;
 mod calls;
+mod compensation;
 mod coordinates;
 mod errors;
 mod flow;
 mod modes;
 mod shaping;
 
-use super::{
-    EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check,
-};
+use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};
 use crate::diag::Diagnostic;
 use crate::machine::{Machine, Override};
 use crate::source::MemorySources;

@@ -40,7 +40,8 @@ enum Type {
 
 impl Type {
     fn from_name(name: &str) -> Option<Self> {
-        let signed = |bits: u32| Self::Integer { low: -(1 << (bits - 1)), high: (1 << (bits - 1)) - 1 };
+        let signed =
+            |bits: u32| Self::Integer { low: -(1 << (bits - 1)), high: (1 << (bits - 1)) - 1 };
         let unsigned = |bits: u32| Self::Integer { low: 0, high: (1 << bits) - 1 };
         Some(match name {
             "BOOLEAN" | "BOOL" => Self::Boolean,
@@ -358,7 +359,12 @@ impl Decoder {
         Ok(name)
     }
 
-    fn parameter_index(&self, index: &ParameterIndex, indirections: u32, span: Span) -> Outcome<u32> {
+    fn parameter_index(
+        &self,
+        index: &ParameterIndex,
+        indirections: u32,
+        span: Span,
+    ) -> Outcome<u32> {
         let checked = |x: f64| {
             whole(x, 1, INDEX_MAX).ok_or_else(|| {
                 let text = format!("P{x} does not exist, indices are 1 to {INDEX_MAX}");
@@ -383,13 +389,11 @@ impl Decoder {
     pub(super) fn read(&self, place: &Place) -> Outcome<Value> {
         let span = place.span;
         match self.resolve(place)? {
-            Target::Parameter(index, subscripts) => {
-                match self.variables.parameters().get(&index) {
-                    Some(variable) => variable.get(&subscripts, span),
-                    None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
-                    None => Err(undefined(&format!("P{index}"), span)),
-                }
-            }
+            Target::Parameter(index, subscripts) => match self.variables.parameters().get(&index) {
+                Some(variable) => variable.get(&subscripts, span),
+                None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
+                None => Err(undefined(&format!("P{index}"), span)),
+            },
             Target::Own(class, name, subscripts) => match self.variables.find(class, &name) {
                 Some(variable) => variable.get(&subscripts, span),
                 None => Err(self.unknown(class, &name, span)),

@@ -170,7 +170,9 @@ impl Decoder {
                 let text = format!("{letter}{n} is above {letter}{HIGHEST}");
                 return Err(Fault::kontur(own::RANGE, text, span));
             }
-            CodeNumber::Computed(expr) => self.whole(expr, "the number of a function", 0, HIGHEST)?,
+            CodeNumber::Computed(expr) => {
+                self.whole(expr, "the number of a function", 0, HIGHEST)?
+            }
         };
         let value = match value {
             Some(expr) => Some(self.number(expr)?),
@@ -192,7 +194,11 @@ impl Decoder {
         if number > groups::NUMBER_MAX {
             let text = format!("G{number} is above G{}", groups::NUMBER_MAX);
             return Err(Fault::vendor(20107, text, span).with(|d| {
-                d.value(ValueKind::Wrong, number, "-").value(ValueKind::UpperLimit, groups::NUMBER_MAX, "-")
+                d.value(ValueKind::Wrong, number, "-").value(
+                    ValueKind::UpperLimit,
+                    groups::NUMBER_MAX,
+                    "-",
+                )
             }));
         }
         let Some(row) = groups::row(number) else {
@@ -243,8 +249,8 @@ impl Decoder {
         if !self.cycle_files.contains_key(&number) {
             let text = format!("G{number}: no subroutine is configured");
             let hint = "P-CHAN-00160 to 00169 or #FILE NAME [G80=\"file\"] configure one";
-            let fault = Fault::vendor(20131, text, span)
-                .with(|d| d.value(ValueKind::Current, number, "-"));
+            let fault =
+                Fault::vendor(20131, text, span).with(|d| d.value(ValueKind::Current, number, "-"));
             return Err(fault.hint(hint));
         }
         let mut values = Vec::new();
@@ -298,7 +304,9 @@ impl Decoder {
             block.speeds.push((spindle, value, span));
             return Ok(());
         }
-        let Some(letter) = name.letter() else { return Err(self.unknown_name(name.as_str(), span)) };
+        let Some(letter) = name.letter() else {
+            return Err(self.unknown_name(name.as_str(), span));
+        };
         let slot = match letter {
             b'F' => &mut block.feed,
             b'R' => &mut block.radius,

@@ -56,7 +56,11 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         if mm < PATH_DEV_MIN_MM {
             let text = format!("PATH_DEV={x} is below the minimum of {PATH_DEV_MIN_MM} mm");
             return Err(Fault::vendor(120129, text, span).with(|d| {
-                d.value(ValueKind::Wrong, mm * 1e4, "0.1um").value(ValueKind::LowerLimit, 1.0, "0.1um")
+                d.value(ValueKind::Wrong, mm * 1e4, "0.1um").value(
+                    ValueKind::LowerLimit,
+                    1.0,
+                    "0.1um",
+                )
             }));
         }
     }
@@ -150,7 +154,9 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     let keys = arguments(decoder, "#VECTOR LIMIT", call.command.groups.first(), KEYS);
     for half in ["FEED", "RAPID"] {
         if let Some(span) = keys.place(half) {
-            let text = format!("#VECTOR LIMIT: the limits act in feed and rapid blocks, {half} is ignored");
+            let text = format!(
+                "#VECTOR LIMIT: the limits act in feed and rapid blocks, {half} is ignored"
+            );
             decoder.note_once("vector half", Fault::kontur(own::FALLBACK, text, span));
         }
     }
@@ -199,7 +205,9 @@ pub(super) fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Out
                 [] => 0.0,
                 [item] => match &item.kind {
                     ItemKind::Value(ItemValue::Expr(expr))
-                    | ItemKind::Pair { value: ItemValue::Expr(expr), .. } => decoder.number(expr)?,
+                    | ItemKind::Pair { value: ItemValue::Expr(expr), .. } => {
+                        decoder.number(expr)?
+                    }
                     _ => return Err(Fault::vendor(21220, "a velocity is expected", item.span)),
                 },
                 _ => return Err(Fault::vendor(21220, "one velocity is expected", group.span)),

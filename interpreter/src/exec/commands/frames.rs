@@ -95,12 +95,18 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
             let frame = match groups {
                 [] => {
                     let id = decoder.last_system;
-                    decoder.coordinates.stored_system(id).ok_or_else(|| undefined(id, call.span()))?
+                    decoder
+                        .coordinates
+                        .stored_system(id)
+                        .ok_or_else(|| undefined(id, call.span()))?
                 }
                 // one value alone is the number of a stored system
                 [group] if group.items.len() == 1 => {
                     let id = id_of(decoder, group)?;
-                    decoder.coordinates.stored_system(id).ok_or_else(|| undefined(id, group.span))?
+                    decoder
+                        .coordinates
+                        .stored_system(id)
+                        .ok_or_else(|| undefined(id, group.span))?
                 }
                 [group] => system(decoder, group)?,
                 [id, group] => {
@@ -169,9 +175,4 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
     }
     let hint = "--identity-trafo takes transformations as identity";
     Err(Fault::unsupported(call.title(), call.span()).hint(hint))
-}
-
-/// `#PSET`, `#PRESET` as commands of their own.
-pub(super) fn not_supported_offset(_: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    Err(Fault::unsupported(call.title(), call.span()).hint("G92 shifts the zero point"))
 }

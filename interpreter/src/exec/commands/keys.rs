@@ -132,10 +132,7 @@ fn pair_of_words(item: &Item, next: Option<&Item>, keys: &[Key]) -> Option<Item>
     };
     keys.iter().find(|k| key.is(k.name) && matches!(k.kind, Kind::Word | Kind::Text))?;
     let value = ItemValue::Name(word.clone());
-    Some(Item {
-        kind: ItemKind::Pair { key: key.clone(), value },
-        span: item.span.to(word.span),
-    })
+    Some(Item { kind: ItemKind::Pair { key: key.clone(), value }, span: item.span.to(word.span) })
 }
 
 fn read(
@@ -156,7 +153,9 @@ fn read(
             // `ID455`: a key and its number written together
             if let Some((name, number)) = ident.split_number() {
                 let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
-                if let Some(key) = key.filter(|k| matches!(k.kind, Kind::Number | Kind::MaybeNumber)) {
+                if let Some(key) =
+                    key.filter(|k| matches!(k.kind, Kind::Number | Kind::MaybeNumber))
+                {
                     return Ok(Some((key.name, Found::Number(number))));
                 }
             }

@@ -137,7 +137,9 @@ pub(super) fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
     }
     let fault = Fault::new(diagnostic, call.span());
-    if severity == Severity::Error { Err(fault) } else {
+    if severity == Severity::Error {
+        Err(fault)
+    } else {
         decoder.note(fault);
         Ok(())
     }

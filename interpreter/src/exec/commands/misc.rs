@@ -186,15 +186,17 @@ pub(super) fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         return Err(call.unexpected(word));
     }
     let keys = arguments(decoder, "#MACHINE DATA", call.command.groups.first(), KEYS);
-    let (Some((axis, at)), Some((parameter, span))) = (keys.word("AX"), keys.word("AXPARAM")) else {
+    let (Some((axis, at)), Some((parameter, span))) = (keys.word("AX"), keys.word("AXPARAM"))
+    else {
         let text = "#MACHINE DATA needs AX and AXPARAM";
         return Err(Fault::vendor(21220, text, call.span()));
     };
     let axis = crate::syntax::ast::Ident { text: axis.into(), span: at };
     let axis = decoder.axis_in_command(&axis)?;
-    let (key, value) = parameter.trim().split_once(char::is_whitespace).ok_or_else(|| {
-        Fault::vendor(21220, "AXPARAM: `key value` is expected", span)
-    })?;
+    let (key, value) = parameter
+        .trim()
+        .split_once(char::is_whitespace)
+        .ok_or_else(|| Fault::vendor(21220, "AXPARAM: `key value` is expected", span))?;
     decoder.set_machine_data(axis, key, value.trim(), span)
 }
 

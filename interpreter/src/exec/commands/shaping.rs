@@ -27,8 +27,11 @@ impl Decoder {
                 );
                 let lines = (place.line, self.source.line);
                 return Err(Fault::vendor(22060, text, span).with(|d| {
-                    d.value(ValueKind::Identification, lines.0, "line")
-                        .value(ValueKind::Identification, lines.1, "line")
+                    d.value(ValueKind::Identification, lines.0, "line").value(
+                        ValueKind::Identification,
+                        lines.1,
+                        "line",
+                    )
                 }));
             }
             Some(_) => {}
@@ -49,9 +52,11 @@ impl Decoder {
         });
         let Some(axis) = conflict else { return Ok(()) };
         let (id, what, parameter) = match family {
-            Family::Filter => {
-                (own::FILTER_WITH_LIST_GUARD, "the list switches the Vibration Guard on", "P-AXIS-00588")
-            }
+            Family::Filter => (
+                own::FILTER_WITH_LIST_GUARD,
+                "the list switches the Vibration Guard on",
+                "P-AXIS-00588",
+            ),
             Family::VibGuard => {
                 (own::GUARD_WITH_LIST_FILTER, "the list configures a filter type", "P-AXIS-00586")
             }
@@ -92,13 +97,8 @@ impl Decoder {
 
 /// `#VIB GUARD [ON|OFF] [MODE= FREQ= DAMPING= AX_DEV= ACC_FACT=]`.
 pub(super) fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] = &[
-        number("MODE"),
-        number("FREQ"),
-        number("DAMPING"),
-        number("AX_DEV"),
-        number("ACC_FACT"),
-    ];
+    const KEYS: &[Key] =
+        &[number("MODE"), number("FREQ"), number("DAMPING"), number("AX_DEV"), number("ACC_FACT")];
     call.no_more_words()?;
     decoder.use_family(Family::VibGuard, call.span())?;
     let keys = arguments(decoder, "#VIB GUARD", call.command.groups.first(), KEYS);
@@ -117,10 +117,19 @@ pub(super) fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some(on) = call.command.on {
         decoder.shaping.guard_on = Some(on);
     } else {
-        let on = |a: &crate::machine::Axis| decoder.shaping.guard_on.unwrap_or(a.flag("vib_guard.active"));
+        let on = |a: &crate::machine::Axis| {
+            decoder.shaping.guard_on.unwrap_or(a.flag("vib_guard.active"))
+        };
         if !decoder.machine.axes.iter().any(on) {
-            realisable(decoder, programmed.mode, programmed.freq_hz, programmed.damping, call.span())?;
-            let text = "the Vibration Guard is off: the values are stored for the next #VIB GUARD ON";
+            realisable(
+                decoder,
+                programmed.mode,
+                programmed.freq_hz,
+                programmed.damping,
+                call.span(),
+            )?;
+            let text =
+                "the Vibration Guard is off: the values are stored for the next #VIB GUARD ON";
             decoder.note(Fault::kontur(own::GUARD_STORED, text, call.span()));
         }
     }
@@ -133,9 +142,11 @@ fn mode(x: f64, span: Span) -> Outcome<u8> {
     whole.and_then(|m| u8::try_from(m).ok()).ok_or_else(|| {
         let text = format!("Vibration Guard mode {x} does not exist, allowed are 1 to 4");
         Fault::vendor(22062, text, span).with(|d| {
-            d.value(ValueKind::Wrong, x, "-")
-                .value(ValueKind::LowerLimit, 1.0, "-")
-                .value(ValueKind::UpperLimit, 4.0, "-")
+            d.value(ValueKind::Wrong, x, "-").value(ValueKind::LowerLimit, 1.0, "-").value(
+                ValueKind::UpperLimit,
+                4.0,
+                "-",
+            )
         })
     })
 }
@@ -184,9 +195,11 @@ pub(super) fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let mut stored = if hsc { decoder.shaping.hsc } else { decoder.shaping.fir };
     filter_keys(&keys, &mut stored)?;
     decoder.tolerances(&keys, own::FILTER_RANGE)?;
-    let configured = decoder.machine.axes.iter().any(|axis| {
-        if hsc { listed_hsc(axis).is_some() } else { listed_fir(axis).is_some() }
-    });
+    let configured = decoder
+        .machine
+        .axes
+        .iter()
+        .any(|axis| if hsc { listed_hsc(axis).is_some() } else { listed_fir(axis).is_some() });
     if !configured {
         let (what, parameter) =
             if hsc { ("an HSC filter", "P-AXIS-00153") } else { ("a filter type", "P-AXIS-00586") };

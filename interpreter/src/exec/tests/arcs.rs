@@ -19,7 +19,11 @@ fn assert_arc(text: &str, centre: [f64; 2], sweep_rad: f64) {
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
     let c = arc.shape().centre_mm;
     assert!(near(c[0], centre[0]) && near(c[1], centre[1]), "{c:?} instead of {centre:?}");
-    assert!(near(arc.shape().sweep_rad, sweep_rad), "{} instead of {sweep_rad}", arc.shape().sweep_rad);
+    assert!(
+        near(arc.shape().sweep_rad, sweep_rad),
+        "{} instead of {sweep_rad}",
+        arc.shape().sweep_rad
+    );
 }
 
 #[test]
@@ -82,7 +86,9 @@ fn mirroring_and_rotation_carry_arcs_along() {
     // turned by 90 degrees about X the plane X Y becomes X Z
     let run = clean("#CS ON [0,0,0,90,0,0]\nG03 X10 I5 F100\nM30\n");
     match &run.blocks()[0].path {
-        Path::Arc(arc) => assert_eq!((arc.shape().plane, arc.shape().sweep_rad < 0.0), ([2, 0], true)),
+        Path::Arc(arc) => {
+            assert_eq!((arc.shape().plane, arc.shape().sweep_rad < 0.0), ([2, 0], true))
+        }
         Path::Line(_) => panic!("no arc"),
     }
 }

@@ -42,7 +42,9 @@ fn a_subroutine_that_calls_itself_ends() {
 
 #[test]
 fn local_variables_live_as_long_as_their_level() {
-    let run = run("%L A\n#VAR\nV.L.X = 5\n#ENDVAR\nP1 = V.L.X + V.L.Y\n%MAIN\n#VAR\nV.L.Y = 1\n#ENDVAR\nLL A\nP2 = V.L.X\nM30\n");
+    let run = run(
+        "%L A\n#VAR\nV.L.X = 5\n#ENDVAR\nP1 = V.L.X + V.L.Y\n%MAIN\n#VAR\nV.L.Y = 1\n#ENDVAR\nLL A\nP2 = V.L.X\nM30\n",
+    );
     assert_eq!(super::places(&run.diagnostics), ["K-0012 11:6"]);
 }
 
@@ -61,7 +63,11 @@ fn cycles_have_parameters_of_their_own() {
 
 #[test]
 fn implicit_calls() {
-    let run = with("#FILE NAME [G80=\"c.nc\"]\nG80 [1, , 3]\nM30\n", "c.nc", "X @P1 Z @P3 F100\n$IF V.G.@P[2].VALID == 0\nY1\n$ENDIF\n");
+    let run = with(
+        "#FILE NAME [G80=\"c.nc\"]\nG80 [1, , 3]\nM30\n",
+        "c.nc",
+        "X @P1 Z @P3 F100\n$IF V.G.@P[2].VALID == 0\nY1\n$ENDIF\n",
+    );
     assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
     assert_eq!(run.end, [1.0, 1.0, 3.0]);
     assert_eq!(super::run("G80 [1]\nM30\n").ids(), ["20131"]);
@@ -69,7 +75,11 @@ fn implicit_calls() {
 
 #[test]
 fn modal_cycles_follow_motions() {
-    let run = with("L CYCLE [NAME=c.nc MODAL_MOVE]\nX1 F100\nP1=1\nX2\n#DISABLE MODAL CYCLE\nX3\nM30\n", "c.nc", "G91 Z1\n");
+    let run = with(
+        "L CYCLE [NAME=c.nc MODAL_MOVE]\nX1 F100\nP1=1\nX2\n#DISABLE MODAL CYCLE\nX3\nM30\n",
+        "c.nc",
+        "G91 Z1\n",
+    );
     assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
     assert_eq!(run.end, [3.0, 0.0, 2.0]);
 }

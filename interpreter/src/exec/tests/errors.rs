@@ -60,8 +60,16 @@ fn the_check_reports_ten_mistakes_in_one_run() {
     let text = "G01 X10\nF100\nG7\n#FOO\nX1 X2\nP1=P2\nG02 X9 I5 R5\nLL NO\n#VIB GUARD ON [MODE=9]\nG70 G71\nR3=5\nG01 X1\nM30\n";
     let found = places(&checked(text));
     let expected = [
-        "20008 1:5", "20131 3:1", "20509 4:1", "20203 5:4", "K-0012 6:4", "21024 7:11", "K-0014 8:4", "22062 9:16",
-        "20118 10:5", "20402 11:1",
+        "20008 1:5",
+        "20131 3:1",
+        "20509 4:1",
+        "20203 5:4",
+        "K-0012 6:4",
+        "21024 7:11",
+        "K-0014 8:4",
+        "22062 9:16",
+        "20118 10:5",
+        "20402 11:1",
     ];
     assert_eq!(found, expected);
 }
@@ -78,7 +86,10 @@ fn the_check_stops_after_twenty_errors() {
 fn the_check_moves_nothing_and_ends() {
     assert!(checked("P1=0\n$WHILE P1<3\nP1=P1+1\nX P1 F100\n$ENDWHILE\n#TIME 5\nM30\n").is_empty());
     // a condition with a fault counts as false
-    assert_eq!(places(&checked("$WHILE P9\nX1\n$ENDWHILE\n$DO\n$ENDDO P9\nM30\n")), ["K-0012 1:8", "K-0012 5:8"]);
+    assert_eq!(
+        places(&checked("$WHILE P9\nX1\n$ENDWHILE\n$DO\n$ENDDO P9\nM30\n")),
+        ["K-0012 1:8", "K-0012 5:8"]
+    );
 }
 
 #[test]
@@ -94,7 +105,11 @@ fn many_brackets_and_long_expressions() {
     assert_eq!(run(&deep).reason(), super::EndReason::Aborted);
     let long = format!("P1=1{}\nM30\n", "+1".repeat(1900));
     let run = run(&long);
-    assert!(run.diagnostics.is_empty() || run.reason() == super::EndReason::Aborted, "{:?}", shown(&run.diagnostics));
+    assert!(
+        run.diagnostics.is_empty() || run.reason() == super::EndReason::Aborted,
+        "{:?}",
+        shown(&run.diagnostics)
+    );
 }
 
 /// The program of the language chapter that uses most words.
@@ -115,5 +130,12 @@ fn squares() {
     assert_near(pass[4], &[0.0, 0.0, 0.0]);
     let length = run.blocks()[5].path.length();
     assert!((length - 21.891830).abs() < 1e-6);
-    assert_eq!(run.messages(), ["run 1 of 3, F = 1000.000000", "run 2 of 3, F = 2000.000000", "run 3 of 3, F = 3000.000000"]);
+    assert_eq!(
+        run.messages(),
+        [
+            "run 1 of 3, F = 1000.000000",
+            "run 2 of 3, F = 2000.000000",
+            "run 3 of 3, F = 3000.000000"
+        ]
+    );
 }

@@ -52,7 +52,8 @@ fn indirect_and_array_parameters() {
         "#VAR\nP7[3]\nV.P.T[2][3] = [1,2,3, \\\n4,5,6]\nV.L.N : UNS08 = 3\n#ENDVAR\nP7[2]=5\nX P7[2] Y V.P.T[1][0] Z V.L.N F100",
         [5.0, 4.0, 3.0],
     );
-    let id = |text: &str| run(&format!("#VAR\nV.P.T[2]\nV.L.N : UNS08\n#ENDVAR\n{text}\nM30\n")).ids();
+    let id =
+        |text: &str| run(&format!("#VAR\nV.P.T[2]\nV.L.N : UNS08\n#ENDVAR\n{text}\nM30\n")).ids();
     assert_eq!(id("V.P.T[2]=1"), ["K-0009"]);
     assert_eq!(id("V.L.N=256"), ["K-0009"]);
     assert_eq!(id("V.L.N=255"), [""; 0]);
@@ -60,8 +61,14 @@ fn indirect_and_array_parameters() {
 
 #[test]
 fn system_variables() {
-    says("V.G.NP[1].V.X=10 G54\nX1 Y2 F500\n#MSG [\"%f %f %f\", V.A.ABS.X, V.A.ABS[1], V.A.ACS.ABS.X]", "1.000000 2.000000 11.000000");
-    says("N40 F1234\n#MSG [\"%f %d %d\", V.G.FEEDRATE, V.G.FEEDRATE_MODE, V.G.BLOCK_NR]", "1234.000000 94 40");
+    says(
+        "V.G.NP[1].V.X=10 G54\nX1 Y2 F500\n#MSG [\"%f %f %f\", V.A.ABS.X, V.A.ABS[1], V.A.ACS.ABS.X]",
+        "1.000000 2.000000 11.000000",
+    );
+    says(
+        "N40 F1234\n#MSG [\"%f %d %d\", V.G.FEEDRATE, V.G.FEEDRATE_MODE, V.G.BLOCK_NR]",
+        "1234.000000 94 40",
+    );
     says("G70\n#MSG [\"%d\", V.G.MASS_MM]", "1");
     says("#MSG [\"%f\", V.A.-SWE.X + V.A.+SWE.X]", "0.000000");
     says("G91 X3 F100\n#MSG [\"%f\", V.A.ACT_POS.X]", "3.000000");
@@ -78,7 +85,9 @@ fn reading_the_actual_position_stops_first() {
 #[test]
 fn branches() {
     let program = |p: &str| {
-        format!("P1={p}\n$IF P1==1\nX1 F100\n$ELSEIF P1==2\nX2 F100\n$IF 1\nY1\n$ENDIF\n$ELSE\nX3 F100\n$ENDIF\nZ1")
+        format!(
+            "P1={p}\n$IF P1==1\nX1 F100\n$ELSEIF P1==2\nX2 F100\n$IF 1\nY1\n$ENDIF\n$ELSE\nX3 F100\n$ENDIF\nZ1"
+        )
     };
     assert_end(&program("1"), [1.0, 0.0, 1.0]);
     assert_end(&program("2"), [2.0, 1.0, 1.0]);
@@ -90,7 +99,9 @@ fn branches() {
 #[test]
 fn switches() {
     let program = |value: &str| {
-        format!("F100\n$SWITCH {value}\n$CASE 1\nX1\n$BREAK\n$CASE 2\nX2\n$CASE 3\nY3\n$BREAK\n$DEFAULT\nZ9\n$ENDSWITCH")
+        format!(
+            "F100\n$SWITCH {value}\n$CASE 1\nX1\n$BREAK\n$CASE 2\nX2\n$CASE 3\nY3\n$BREAK\n$DEFAULT\nZ9\n$ENDSWITCH"
+        )
     };
     assert_end(&program("1.0004"), [1.0, 0.0, 0.0]);
     assert_end(&program("2"), [2.0, 3.0, 0.0]);
@@ -105,12 +116,21 @@ fn loops() {
     assert_end("P2=0\n$FOR P1=0,4,2\nP2=P2+1\n$ENDFOR\nX P2 F100", [3.0, 0.0, 0.0]);
     assert_end("P2=0\n$FOR P1=3,1,-1\nP2=P2+P1\n$ENDFOR\nX P2 F100", [6.0, 0.0, 0.0]);
     assert_end("P2=0\n$FOR P1=2,1,1\nP2=9\n$ENDFOR\nX P2 Y P1 F100", [0.0, 2.0, 0.0]);
-    assert_end("P1=0\n$WHILE P1<5\nP1=P1+1\n$IF P1==3\n$BREAK\n$ENDIF\n$ENDWHILE\nX P1 F100", [3.0, 0.0, 0.0]);
-    assert_end("P1=0 P2=0\n$WHILE P1<5\nP1=P1+1\n$IF P1==3\n$CONTINUE\n$ENDIF\nP2=P2+P1\n$ENDWHILE\nX P2 F100", [12.0, 0.0, 0.0]);
+    assert_end(
+        "P1=0\n$WHILE P1<5\nP1=P1+1\n$IF P1==3\n$BREAK\n$ENDIF\n$ENDWHILE\nX P1 F100",
+        [3.0, 0.0, 0.0],
+    );
+    assert_end(
+        "P1=0 P2=0\n$WHILE P1<5\nP1=P1+1\n$IF P1==3\n$CONTINUE\n$ENDIF\nP2=P2+P1\n$ENDWHILE\nX P2 F100",
+        [12.0, 0.0, 0.0],
+    );
     assert_end("P1=0\n$DO\nP1=P1+1\n$ENDDO P1<4\nX P1 F100", [4.0, 0.0, 0.0]);
     assert_end("P1=0\n$DO\nP1=P1+1\n$IF P1==6\n$BREAK\n$ENDIF\n$ENDDO\nX P1 F100", [6.0, 0.0, 0.0]);
     assert_end("P1=0\n$REPEAT\nP1=P1+1\n$UNTIL P1>=4\nX P1 F100", [4.0, 0.0, 0.0]);
-    assert_end("P3=0\n$FOR P1=1,3,1\n$FOR P2=1,P1,1\nP3=P3+1\n$ENDFOR\n$ENDFOR\nX P3 F100", [6.0, 0.0, 0.0]);
+    assert_end(
+        "P3=0\n$FOR P1=1,3,1\n$FOR P2=1,P1,1\nP3=P3+1\n$ENDFOR\n$ENDFOR\nX P3 F100",
+        [6.0, 0.0, 0.0],
+    );
     assert_end("V.P.I=0\n$FOR V.P.I=1,3,1\n$ENDFOR\nX V.P.I F100", [4.0, 0.0, 0.0]);
     assert_eq!(run("$FOR COUNT=1,2,1\n$ENDFOR\nM30\n").ids()[0], "20227");
 }
@@ -119,7 +139,10 @@ fn loops() {
 fn jumps() {
     assert_end("F100\n$GOTO N20\nX1\nN20: Y2", [0.0, 2.0, 0.0]);
     assert_end("F100 P1=0\n[Again] P1=P1+1\n$IF P1<3 $GOTO [AGAIN]\nX P1", [3.0, 0.0, 0.0]);
-    assert_end("F100\n$FOR P1=1,9,1\n$IF P1==4\n$GOTO [OUT]\n$ENDIF\n$ENDFOR\n[OUT] X P1", [4.0, 0.0, 0.0]);
+    assert_end(
+        "F100\n$FOR P1=1,9,1\n$IF P1==4\n$GOTO [OUT]\n$ENDIF\n$ENDFOR\n[OUT] X P1",
+        [4.0, 0.0, 0.0],
+    );
     assert_end("F100\nX1 $GOTO N5\nX2\nN5: Y1", [1.0, 1.0, 0.0]);
     assert_eq!(run("$GOTO N7\nM30\n").ids(), ["K-0015"]);
     assert_eq!(run("$GOTO N7\n$IF 1\nN7: X1\n$ENDIF\nM30\n").ids(), ["K-0016"]);
@@ -142,7 +165,9 @@ fn skipped_blocks() {
 
 #[test]
 fn a_million_passes() {
-    let run = clean("P1=0 P2=0\n$WHILE P1<1000000\nP1=P1+1\n$IF P1 MOD 3 == 0\nP2=P2+1\n$ENDIF\n$ENDWHILE\nX P2/1000 F100\nM30\n");
+    let run = clean(
+        "P1=0 P2=0\n$WHILE P1<1000000\nP1=P1+1\n$IF P1 MOD 3 == 0\nP2=P2+1\n$ENDIF\n$ENDWHILE\nX P2/1000 F100\nM30\n",
+    );
     assert!((run.end[0] - 333.333).abs() < 1e-12);
 }
 
@@ -161,6 +186,9 @@ fn loops_without_end_are_stopped() {
 
 #[test]
 fn macros() {
-    assert_end("\"GO\" = \"X5 Y\"\n\"LEN\" = \"3*2\"\nG01 \"GO\"7 Z[\"LEN\"] F100", [5.0, 7.0, 6.0]);
+    assert_end(
+        "\"GO\" = \"X5 Y\"\n\"LEN\" = \"3*2\"\nG01 \"GO\"7 Z[\"LEN\"] F100",
+        [5.0, 7.0, 6.0],
+    );
     assert_eq!(run("\"A\" = \"\\\"A\\\"\"\n\"A\"\nM30\n").ids()[0], "20734");
 }

@@ -10,12 +10,18 @@ fn feeds(text: &str) -> Vec<Feed> {
 
 #[test]
 fn feed_types() {
-    assert_eq!(feeds("G01 X1 F600\nX2\nG00 X3"), [Feed::PathVelocity(10.0), Feed::PathVelocity(10.0), Feed::Rapid]);
+    assert_eq!(
+        feeds("G01 X1 F600\nX2\nG00 X3"),
+        [Feed::PathVelocity(10.0), Feed::PathVelocity(10.0), Feed::Rapid]
+    );
     assert_eq!(feeds("G93 F5 G01 X1\nX2"), [Feed::Duration(5.0), Feed::Duration(5.0)]);
     assert_eq!(feeds("S1200 G95 F1.5 X1"), [Feed::PathVelocity(30.0)]);
     assert_eq!(feeds("G194 F50 X1"), [Feed::ShareOfMaximum(0.5)]);
     // each type remembers its F, G93 wants a new one
-    assert_eq!(feeds("F600 X1\nG93 F2 X2\nG94 X3"), [Feed::PathVelocity(10.0), Feed::Duration(2.0), Feed::PathVelocity(10.0)]);
+    assert_eq!(
+        feeds("F600 X1\nG93 F2 X2\nG94 X3"),
+        [Feed::PathVelocity(10.0), Feed::Duration(2.0), Feed::PathVelocity(10.0)]
+    );
     let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
     assert_eq!(id("G01 X10"), ["20008"]);
     assert_eq!(id("G01 F0 X10"), ["20008"]);
@@ -47,12 +53,17 @@ fn dwells() {
         [Sync::Dwell { seconds }] => *seconds,
         _ => panic!("no dwell"),
     };
-    for text in ["G04 X2.5", "G04 2.5", "#TIME 2.5", "P1=2.5\nG04 P1", "P1=2.5\n#TIME P1", "S60\nG04 S2.5"] {
+    for text in
+        ["G04 X2.5", "G04 2.5", "#TIME 2.5", "P1=2.5\nG04 P1", "P1=2.5\n#TIME P1", "S60\nG04 S2.5"]
+    {
         assert!((seconds(text) - 2.5).abs() < 1e-12, "{text}");
     }
     let of = |text: &str| run(&format!("{text}\nM30\n"));
     let two = of("G04 X2 Y3");
-    assert_eq!((two.ids(), two.syncs()), (vec!["20685".to_owned()], vec![&Sync::Dwell { seconds: 2.0 }]));
+    assert_eq!(
+        (two.ids(), two.syncs()),
+        (vec!["20685".to_owned()], vec![&Sync::Dwell { seconds: 2.0 }])
+    );
     assert_eq!(of("G04 -1").ids(), ["20752"]);
     assert_eq!(of("G04 5000").ids(), ["20752"]);
     assert_eq!(of("G04 Y2").ids(), ["20014"]);
@@ -62,13 +73,18 @@ fn dwells() {
 
 #[test]
 fn weights_refer_to_the_lists() {
-    let run = clean("G01 X1 F100\nG131=50 G133 200 X2\nG131 = 50 X3\nG130 Y80\nX4\nG231=25 G233=200 G129=10\nG00 X5\nM30\n");
+    let run = clean(
+        "G01 X1 F100\nG131=50 G133 200 X2\nG131 = 50 X3\nG130 Y80\nX4\nG231=25 G233=200 G129=10\nG00 X5\nM30\n",
+    );
     let d = |i: usize| run.blocks()[i].dynamics.axes.clone();
     assert_eq!((d(0)[0].feed.acc_mm_s2, d(0)[0].feed.ramps_s[0]), (3500.0, 0.03));
     assert_eq!((d(1)[0].feed.acc_mm_s2, d(1)[0].feed.ramps_s[3]), (1750.0, 0.06));
     assert_eq!(d(2)[0].feed.acc_mm_s2, 1750.0);
     assert_eq!((d(3)[0].feed.acc_mm_s2, d(3)[1].feed.acc_mm_s2), (1750.0, 2800.0));
-    assert_eq!((d(4)[0].rapid.acc_mm_s2, d(4)[0].rapid.ramp_s, d(4)[0].v_rapid_mm_s), (1000.0, 0.06, 100.0));
+    assert_eq!(
+        (d(4)[0].rapid.acc_mm_s2, d(4)[0].rapid.ramp_s, d(4)[0].v_rapid_mm_s),
+        (1000.0, 0.06, 100.0)
+    );
     // blocks without change share one set of limits
     let run = clean("G01 X1 F100\nX2\nM30\n");
     assert!(std::sync::Arc::ptr_eq(&run.blocks()[0].dynamics, &run.blocks()[1].dynamics));
@@ -90,8 +106,14 @@ fn slopes() {
     let kinds = |text: &str| -> Vec<_> {
         clean(&format!("F100\n{text}\nM30\n")).blocks().iter().map(|b| b.slope.kind).collect()
     };
-    assert_eq!(kinds("X1\n#SLOPE [TYPE=STEP]\nX2\n#SLOPE[TYPE SIN2]\nX3\n#SLOPE DEFAULT\nX4"), [SlopeKind::Trapez, SlopeKind::Step, SlopeKind::Sin2, SlopeKind::Trapez]);
-    assert_eq!(kinds("#SET SLOPE PROFIL[3]\nX1\n#SET SLOPE PROFIL\nX2"), [SlopeKind::Hsc, SlopeKind::Trapez]);
+    assert_eq!(
+        kinds("X1\n#SLOPE [TYPE=STEP]\nX2\n#SLOPE[TYPE SIN2]\nX3\n#SLOPE DEFAULT\nX4"),
+        [SlopeKind::Trapez, SlopeKind::Step, SlopeKind::Sin2, SlopeKind::Trapez]
+    );
+    assert_eq!(
+        kinds("#SET SLOPE PROFIL[3]\nX1\n#SET SLOPE PROFIL\nX2"),
+        [SlopeKind::Hsc, SlopeKind::Trapez]
+    );
     let run = clean("F100\n#SLOPE [TYPE=HSC NO_OPT=0]\nX1\nM30\n");
     assert!(run.blocks()[0].slope.optimised);
     assert_eq!(super::run("#SLOPE [TYPE=FOO]\nM30\n").ids(), ["21629"]);
@@ -140,14 +162,25 @@ fn spindles_turn() {
 #[test]
 fn functions_before_and_behind_the_motion() {
     let run = clean("X1 F100 M200=800 H5\nM00\nM1\nT5\nM30\n");
-    assert_eq!(run.syncs(), [&Sync::ProgramStop { optional: false }, &Sync::ProgramStop { optional: true }]);
+    assert_eq!(
+        run.syncs(),
+        [&Sync::ProgramStop { optional: false }, &Sync::ProgramStop { optional: true }]
+    );
     let super::Step::Motion { events, .. } = &run.steps[0] else { panic!() };
-    assert_eq!(events[..], [Event::MFunction { number: 200, value: Some(800.0) }, Event::HFunction { number: 5, value: None }]);
+    assert_eq!(
+        events[..],
+        [
+            Event::MFunction { number: 200, value: Some(800.0) },
+            Event::HFunction { number: 5, value: None }
+        ]
+    );
 }
 
 #[test]
 fn overrides() {
-    let run = clean("F100\n#OVERRIDE [FEED_FACT=50 RAPID_FACT=20]\nX1\nG00 X2\nX[OVERRIDE FEED_FACT=50]\nG01 X3\nY1\nG166 X4\nM30\n");
+    let run = clean(
+        "F100\n#OVERRIDE [FEED_FACT=50 RAPID_FACT=20]\nX1\nG00 X2\nX[OVERRIDE FEED_FACT=50]\nG01 X3\nY1\nG166 X4\nM30\n",
+    );
     let ratios: Vec<_> = run.blocks().iter().map(|b| b.feed_ratio).collect();
     assert_eq!(ratios, [0.5, 0.2, 0.25, 0.5, 1.0]);
     assert_eq!(super::run("#OVERRIDE [FEED_FACT=300]\nM30\n").ids(), ["K-0009"]);
@@ -155,21 +188,31 @@ fn overrides() {
 
 #[test]
 fn vector_limits() {
-    let run = clean("F100\n#VECTOR LIMIT ON [VEL=12000 ACC=500]\nX1\n#VECTOR LIMIT OFF [VEL]\nX2\n#VECTOR LIMIT OFF\nX3\nM30\n");
-    let limits: Vec<_> = run.blocks().iter().map(|b| (b.dynamics.vector.vel_mm_s, b.dynamics.vector.acc_mm_s2)).collect();
+    let run = clean(
+        "F100\n#VECTOR LIMIT ON [VEL=12000 ACC=500]\nX1\n#VECTOR LIMIT OFF [VEL]\nX2\n#VECTOR LIMIT OFF\nX3\nM30\n",
+    );
+    let limits: Vec<_> = run
+        .blocks()
+        .iter()
+        .map(|b| (b.dynamics.vector.vel_mm_s, b.dynamics.vector.acc_mm_s2))
+        .collect();
     assert_eq!(limits, [(Some(200.0), Some(500.0)), (None, Some(500.0)), (None, None)]);
 }
 
 #[test]
 fn flushes_and_waits() {
-    let run = clean("F100\nX1\n#FLUSH\n#FLUSH CONTINUE\n#FLUSH WAIT\n#CHANNEL INIT [CMDPOS]\n#WAIT FOR 1\nM30\n");
+    let run = clean(
+        "F100\nX1\n#FLUSH\n#FLUSH CONTINUE\n#FLUSH WAIT\n#CHANNEL INIT [CMDPOS]\n#WAIT FOR 1\nM30\n",
+    );
     assert_eq!(run.syncs(), [&Sync::Stop, &Sync::FlushWait, &Sync::FlushWait, &Sync::FlushWait]);
     assert_eq!(super::run("#WAIT FOR 0\nM30\n").ids(), ["K-0018"]);
 }
 
 #[test]
 fn messages_and_errors_of_the_program() {
-    let run = clean("P1=2\n#MSG [\"run %d, F = %f, %s\", P1, 1.5, \"x\"]\n#MSG SAVE EXCLUSIVE [\"saved\"]\nM30\n");
+    let run = clean(
+        "P1=2\n#MSG [\"run %d, F = %f, %s\", P1, 1.5, \"x\"]\n#MSG SAVE EXCLUSIVE [\"saved\"]\nM30\n",
+    );
     assert_eq!(run.messages(), ["run 2, F = 1.500000, x", "saved"]);
     let id = |text: &str| super::run(&format!("{text}\nM30\n")).ids();
     assert_eq!(id("#MSG [\"%x\", 1]"), ["21232"]);
@@ -180,7 +223,9 @@ fn messages_and_errors_of_the_program() {
 
 #[test]
 fn machine_data() {
-    let run = clean("F100\nX1\n#MACHINE DATA [AX=X AXPARAM=\"getriebe[0].slope_profil.a_beschl 1000\"]\nX2\nM30\n");
+    let run = clean(
+        "F100\nX1\n#MACHINE DATA [AX=X AXPARAM=\"getriebe[0].slope_profil.a_beschl 1000\"]\nX2\nM30\n",
+    );
     assert_eq!(run.blocks()[1].dynamics.axes[0].feed.acc_mm_s2, 1000.0);
     assert!(matches!(run.syncs()[..], [Sync::MachineData { axis: 1, .. }]));
 }

@@ -28,7 +28,9 @@ fn guard(setup: &AxisShaping) -> (u8, f64, f64) {
 
 #[test]
 fn spellings_are_equal() {
-    let of = |text: &str| setups(&clean(&format!("{text}\nM30\n"))).into_iter().cloned().collect::<Vec<_>>();
+    let of = |text: &str| {
+        setups(&clean(&format!("{text}\nM30\n"))).into_iter().cloned().collect::<Vec<_>>()
+    };
     let a = of("#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]");
     assert_eq!(a, of("#VIB GUARD ON [MODE 2,FREQ 40, AX_DEV=0.01]"));
     assert_eq!(guard(&a[0]), (2, 40.0, 0.1));
@@ -36,7 +38,9 @@ fn spellings_are_equal() {
 
 #[test]
 fn keys_persist_but_the_tolerance_does_not() {
-    let run = clean("F100\n#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]\nX1\n#VIB GUARD ON\nX2\n#VIB GUARD OFF\nX3\n#VIB GUARD ON\nX4\nM30\n");
+    let run = clean(
+        "F100\n#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]\nX1\n#VIB GUARD ON\nX2\n#VIB GUARD OFF\nX3\n#VIB GUARD ON\nX4\nM30\n",
+    );
     let tolerances: Vec<_> = run.blocks().iter().map(|b| b.tolerance.ax_dev_mm).collect();
     assert_eq!(tolerances, [Some(0.01), None, None, None]);
     let setups = setups(&run);
@@ -77,16 +81,30 @@ fn both_families_in_one_program() {
     assert_eq!(places(std::slice::from_ref(last)), ["22060 3:3"]);
     assert!(last.text.contains("line 1"), "{}", last.text);
     // OFF forms and subroutines count, a branch never decoded does not
-    assert_eq!(super::run("%L A\n#FILTER OFF\n%MAIN\n#VIB GUARD OFF\nLL A\nM30\n").ids().last().unwrap(), "22060");
-    assert!(clean("$IF 0\n#FILTER ON\n$ENDIF\n#VIB GUARD ON\nM30\n").reason() == super::EndReason::Finished);
+    assert_eq!(
+        super::run("%L A\n#FILTER OFF\n%MAIN\n#VIB GUARD OFF\nLL A\nM30\n").ids().last().unwrap(),
+        "22060"
+    );
+    assert!(
+        clean("$IF 0\n#FILTER ON\n$ENDIF\n#VIB GUARD ON\nM30\n").reason()
+            == super::EndReason::Finished
+    );
 }
 
 #[test]
 fn conflicts_with_the_lists() {
     let fir = ["Y.filter_fir.type=1", "Y.filter_fir.order=20"];
     assert_eq!(on("#VIB GUARD ON", &fir).ids(), ["K-0106"]);
-    assert_eq!(on("#FILTER ON [ORDER=20]", &["Y.vib_guard.active=1"]).ids().last().unwrap(), "K-0105");
-    let both = ["X.filter_fir.type=1", "X.filter_fir.order=20", "X.filter_fir.enable=1", "X.vib_guard.active=1"];
+    assert_eq!(
+        on("#FILTER ON [ORDER=20]", &["Y.vib_guard.active=1"]).ids().last().unwrap(),
+        "K-0105"
+    );
+    let both = [
+        "X.filter_fir.type=1",
+        "X.filter_fir.order=20",
+        "X.filter_fir.enable=1",
+        "X.vib_guard.active=1",
+    ];
     assert!(on("X1 F100", &both).ids().contains(&"K-0104".to_owned()));
 }
 
@@ -112,11 +130,14 @@ fn an_axis_exchange_ends_the_guard_of_the_program() {
 
 #[test]
 fn filters_need_a_type_in_the_list() {
-    let fir: Vec<String> = ["X", "Y", "Z"].iter().map(|a| format!("{a}.filter_fir.type=1")).collect();
+    let fir: Vec<String> =
+        ["X", "Y", "Z"].iter().map(|a| format!("{a}.filter_fir.type=1")).collect();
     let fir: Vec<&str> = fir.iter().map(String::as_str).collect();
-    let run = on("F100\n#FILTER ON [ORDER=20 AX_DEV=0.01]\nX1\n#FILTER ON [ORDER_TIME=40000]\nX2", &fir);
+    let run =
+        on("F100\n#FILTER ON [ORDER=20 AX_DEV=0.01]\nX1\n#FILTER ON [ORDER_TIME=40000]\nX2", &fir);
     assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
-    let lengths: Vec<_> = setups(&run).iter().map(|s| s.kernel.as_ref().unwrap().length()).collect();
+    let lengths: Vec<_> =
+        setups(&run).iter().map(|s| s.kernel.as_ref().unwrap().length()).collect();
     assert_eq!(lengths, [20, 40]);
     let tolerances: Vec<_> = run.blocks().iter().map(|b| b.tolerance.ax_dev_mm).collect();
     assert_eq!(tolerances, [Some(0.01), None]);
@@ -136,6 +157,7 @@ fn the_older_filter_form() {
     let hsc: Vec<&str> = hsc.iter().map(String::as_str).collect();
     let run = on("#FILTER ON[HSC]\n#FILTER ON [HSC ORDER=20]\n#FILTER OFF[HSC]", &hsc);
     assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
-    let lengths: Vec<_> = setups(&run).iter().map(|s| s.kernel.as_ref().map(|k| k.length())).collect();
+    let lengths: Vec<_> =
+        setups(&run).iter().map(|s| s.kernel.as_ref().map(|k| k.length())).collect();
     assert_eq!(lengths, [Some(10), Some(20), None]);
 }
