@@ -233,9 +233,8 @@ impl Decoder {
         };
         match row.act {
             Act::Run(f) => f(self, &call),
-            Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
             Act::OffOnly if command.on == Some(false) => Ok(()),
-            Act::OffOnly => Err(Fault::unsupported(call.title(), call.span())),
+            Act::OffOnly | Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
             Act::Ignored => {
                 self.note_once(row.name, ignored());
                 Ok(())

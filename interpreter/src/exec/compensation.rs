@@ -268,12 +268,11 @@ fn moving_side(path: &Path, plane: [usize; 2]) -> Fallible<Option<Side>> {
     if !moves && path.is_straight() {
         return Ok(None);
     }
-    match Side::of(path, plane) {
-        Some(side) => Ok(Some(side)),
-        None => {
-            let what = "an arc outside the plane with tool radius compensation";
-            Err(Fault::unsupported(what, Span::default()))
-        }
+    if let Some(side) = Side::of(path, plane) {
+        Ok(Some(side))
+    } else {
+        let what = "an arc outside the plane with tool radius compensation";
+        Err(Fault::unsupported(what, Span::default()))
     }
 }
 

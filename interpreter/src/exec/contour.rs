@@ -69,18 +69,18 @@ impl Contour {
     }
 
     /// A motion.
-    pub(super) fn motion(&mut self, mut motion: Box<Motion>) -> Vec<Box<Fault>> {
+    pub(super) fn motion(&mut self, mut motion: Box<Motion>) -> Vec<Fault> {
         let mut faults = Vec::new();
         if let Some(mut before) = self.held.take() {
             let inserted = match self.insertion.take() {
                 Some(insertion) => insertion::between(&mut before, &mut motion, &insertion),
                 None => Ok(None),
             };
-            faults.extend(self.compensate(before));
+            faults.extend(self.compensate(before).map(|f| *f));
             match inserted {
-                Ok(Some(inserted)) => faults.extend(self.compensate(inserted)),
+                Ok(Some(inserted)) => faults.extend(self.compensate(inserted).map(|f| *f)),
                 Ok(None) => {}
-                Err(fault) => faults.push(fault),
+                Err(fault) => faults.push(*fault),
             }
         }
         self.held = Some(motion);
@@ -88,20 +88,22 @@ impl Contour {
     }
 
     /// A step at rest.
-    pub(super) fn sync(&mut self, what: Sync, source: SourceRef) -> Vec<Box<Fault>> {
+    pub(super) fn sync(&mut self, what: Sync, source: SourceRef) -> Vec<Fault> {
         let mut faults = self.flush();
         let events = self.take_events();
         let mut done = Vec::new();
-        faults.extend(self.compensator.sync(Item::Sync { what, source, events }, &mut done).err());
+        faults.extend(
+            self.compensator.sync(Item::Sync { what, source, events }, &mut done).err().map(|f| *f),
+        );
         self.emit(done);
         faults
     }
 
     /// End of the program.
-    pub(super) fn end(&mut self, reason: EndReason, source: SourceRef) -> Vec<Box<Fault>> {
+    pub(super) fn end(&mut self, reason: EndReason, source: SourceRef) -> Vec<Fault> {
         let mut faults = self.flush();
         let mut done = Vec::new();
-        faults.extend(self.compensator.end(&mut done).err());
+        faults.extend(self.compensator.end(&mut done).err().map(|f| *f));
         self.emit(done);
         let events = self.take_events();
         self.queue.push_back(Step::End { reason, source, events });
@@ -109,14 +111,14 @@ impl Contour {
     }
 
     /// The path rests behind the held motion: nothing can be inserted any more.
-    fn flush(&mut self) -> Vec<Box<Fault>> {
+    fn flush(&mut self) -> Vec<Fault> {
         let mut faults = Vec::new();
         if let Some(motion) = self.held.take() {
-            faults.extend(self.compensate(motion));
+            faults.extend(self.compensate(motion).map(|f| *f));
         }
         if let Some(insertion) = self.insertion.take() {
             let text = "the path stops here: no chamfer or rounding is inserted";
-            faults.push(Fault::vendor(20352, text, insertion.span));
+            faults.push(*Fault::vendor(20352, text, insertion.span));
         }
         faults
     }

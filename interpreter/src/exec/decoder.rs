@@ -47,6 +47,7 @@ pub(super) struct LastArc {
 
 /// State of a running program.
 #[derive(Debug)]
+#[allow(clippy::struct_excessive_bools, reason = "independent conditions of the block in work")]
 pub(super) struct Decoder {
     pub(super) machine: Arc<Machine>,
     pub(super) identity_trafo: bool,
@@ -95,7 +96,7 @@ pub(super) struct Decoder {
     /// Its first line, for conditions that name an earlier place.
     pub(super) location: Option<Location>,
     /// Conditions of the block in work.
-    faults: Vec<Box<Fault>>,
+    faults: Vec<Fault>,
     /// Conditions without a place in a block.
     pub(super) unplaced: Vec<Diagnostic>,
     said: BTreeSet<String>,
@@ -114,10 +115,10 @@ impl Decoder {
         if spindles.is_empty() {
             spindles.push(Spindle::new("S", None));
         }
-        if let Some(main) = machine.channel.main_spindle {
-            if let Some(i) = machine.spindles.iter().position(|s| s.number() == main) {
-                spindles.swap(0, i);
-            }
+        if let Some(main) = machine.channel.main_spindle
+            && let Some(i) = machine.spindles.iter().position(|s| s.number() == main)
+        {
+            spindles.swap(0, i);
         }
         let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
         let mut decoder = Self {
@@ -198,13 +199,13 @@ impl Decoder {
 
     /// Adds a condition of the block in work.
     pub(super) fn note(&mut self, fault: Box<Fault>) {
-        self.faults.push(fault);
+        self.faults.push(*fault);
     }
 
     /// Adds a condition unless one with this key was added before in this program.
     pub(super) fn note_once(&mut self, key: &str, fault: Box<Fault>) {
         if self.said.insert(key.to_owned()) {
-            self.faults.push(fault);
+            self.faults.push(*fault);
         }
     }
 
@@ -213,13 +214,13 @@ impl Decoder {
         self.said.remove(key);
     }
 
-    pub(super) fn take_faults(&mut self) -> Vec<Box<Fault>> {
+    pub(super) fn take_faults(&mut self) -> Vec<Fault> {
         std::mem::take(&mut self.faults)
     }
 
     /// True if the block in work has an error.
     pub(super) fn failed(&self) -> bool {
-        self.faults.iter().any(|f| f.is_error())
+        self.faults.iter().any(Fault::is_error)
     }
 
     /// Takes over an outcome: a fault becomes a condition of the block.
@@ -227,7 +228,7 @@ impl Decoder {
         match outcome {
             Ok(value) => Some(value),
             Err(fault) => {
-                self.faults.push(fault);
+                self.faults.push(*fault);
                 None
             }
         }

@@ -10,7 +10,7 @@ pub(super) fn unknown_g(number: u32) -> Option<&'static str> {
         7 | 64 => "contouring is G261 with #CONTOUR MODE here",
         15 | 16 => "polar coordinates of other controls do not exist here",
         50 => "#SCALE scales here",
-        65 | 66 | 67 => "subroutines are called by L, LL and L CYCLE here",
+        65..=67 => "subroutines are called by L, LL and L CYCLE here",
         73 | 76 => "drilling cycles are L CYCLE calls here",
         _ => return None,
     })

@@ -140,7 +140,7 @@ impl Decoder {
                     self.coordinates.select_zero_group(group);
                     Ok(())
                 }
-                Act::ZeroGroupValue => self.zero_group(g).map(|group| {
+                Act::ZeroGroupValue => Self::zero_group(g).map(|group| {
                     self.coordinates.select_zero_group(group);
                 }),
                 Act::Mirror(first, second) => {
@@ -201,7 +201,7 @@ impl Decoder {
         true
     }
 
-    fn zero_group(&self, g: &GWord) -> Outcome<u32> {
+    fn zero_group(g: &GWord) -> Outcome<u32> {
         let value = g.value.unwrap_or_default();
         super::expr::whole(value, 0, 999).ok_or_else(|| {
             let text = format!("zero-offset group {value} does not exist");
@@ -209,7 +209,7 @@ impl Decoder {
         })
     }
 
-    fn needs_axes(&self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+    fn needs_axes(g: &GWord, words: &Words<'_>) -> Outcome<()> {
         if words.axes.is_empty() {
             let text = format!("G{} without axis words", g.row.number);
             return Err(Fault::vendor(20003, text, g.span));
@@ -218,8 +218,8 @@ impl Decoder {
     }
 
     fn zero_group_of_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        self.needs_axes(g, words)?;
-        let group = self.zero_group(g)?;
+        Self::needs_axes(g, words)?;
+        let group = Self::zero_group(g)?;
         // 0 takes the offset of the axis in, 1 leaves it out
         for (axis, value, _) in &words.axes {
             let masked = super::expr::is_true(*value);
@@ -230,7 +230,7 @@ impl Decoder {
 
     /// G92: absolute with G90, added with G91.
     fn preset(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        self.needs_axes(g, words)?;
+        Self::needs_axes(g, words)?;
         for (axis, value, _) in &words.axes {
             let value_mm = value * self.axis_unit(*axis);
             let before = if self.modal.absolute { 0.0 } else { self.coordinates.preset(*axis) };
@@ -253,7 +253,7 @@ impl Decoder {
     }
 
     fn mirror_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        self.needs_axes(g, words)?;
+        Self::needs_axes(g, words)?;
         for (axis, value, span) in &words.axes {
             let mirrored = match value {
                 v if v.total_cmp(&1.0).is_eq() => false,
@@ -348,14 +348,12 @@ impl Decoder {
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
             Act::CentreCorrection(on) => self.modal.centre_correction = on,
             Act::WeightOfAll(weight) => {
-                let ratio = self.weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
+                let ratio = Self::weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
                 self.set_weight(weight, None, ratio, g.span);
             }
-            Act::Feedforward(on) => {
-                if self.feedforward.on != on {
-                    self.feedforward.on = on;
-                    self.feedforward_event();
-                }
+            Act::Feedforward(on) if self.feedforward.on != on => {
+                self.feedforward.on = on;
+                self.feedforward_event();
             }
             Act::StopAtTransitions(stop) => {
                 let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
@@ -452,10 +450,10 @@ impl Decoder {
             return;
         }
         self.spindles[index].rpm = value;
-        if self.spindles[index].is_turning() {
-            if let Some(event) = self.spindles[index].motion_event() {
-                self.event(event);
-            }
+        if self.spindles[index].is_turning()
+            && let Some(event) = self.spindles[index].motion_event()
+        {
+            self.event(event);
         }
         self.spindle_warning(index, span);
     }

@@ -257,10 +257,10 @@ impl Executor {
         }
         let (file, at) = (level.file, level.at);
         let entry = level.index.at(at);
-        if let Some(id) = entry {
-            if self.jump_over(id) {
-                return;
-            }
+        if let Some(id) = entry
+            && self.jump_over(id)
+        {
+            return;
         }
         let Some((parsed, next)) = self.fetch(file, at) else { return };
         if parsed.needs_actual && !actual_known {
@@ -297,7 +297,7 @@ impl Executor {
             Keyword::CommentBegin => {
                 match entry.end.map(|end| level.index.entry(end).position) {
                     Some(end) => self.jump_behind(end),
-                    None => self.to_level_end(),
+                    None => self.skip_to_level_end(),
                 }
                 true
             }
@@ -305,7 +305,7 @@ impl Executor {
             Keyword::ConditionalElse => {
                 match entry.end.map(|end| level.index.entry(end).position) {
                     Some(end) => self.jump_behind(end),
-                    None => self.to_level_end(),
+                    None => self.skip_to_level_end(),
                 }
                 true
             }
@@ -338,7 +338,7 @@ impl Executor {
         match block {
             Ok(Some(block)) => Some(block),
             Ok(None) => {
-                self.to_level_end();
+                self.skip_to_level_end();
                 None
             }
             Err(e) => {
@@ -356,7 +356,7 @@ impl Executor {
         let faults = self.decoder.contour.sync(Sync::ReadActual, source);
         self.position = at;
         for fault in faults {
-            self.decoder.note(fault);
+            self.decoder.note(Box::new(fault));
         }
         self.settle(false);
     }
@@ -460,16 +460,13 @@ impl Executor {
 
     /// `#IF`: the branch that is not taken is not looked at.
     fn conditional(&mut self, command: &Command, id: EntryId) {
-        let condition = match &command.arguments[..] {
-            [condition] => {
-                let outcome = self.decoder.condition(condition);
-                self.decoder.keep(outcome).unwrap_or(false)
-            }
-            _ => {
-                let text = "#IF needs one condition";
-                self.decoder.note(Fault::kontur(own::SYNTAX, text, command.span));
-                false
-            }
+        let condition = if let [condition] = &command.arguments[..] {
+            let outcome = self.decoder.condition(condition);
+            self.decoder.keep(outcome).unwrap_or(false)
+        } else {
+            let text = "#IF needs one condition";
+            self.decoder.note(Fault::kontur(own::SYNTAX, text, command.span));
+            false
         };
         if condition {
             return;
@@ -478,7 +475,7 @@ impl Executor {
         let next = level.index.entry(id).next.map(|next| level.index.entry(next).position);
         match next {
             Some(next) => self.jump_behind(next),
-            None => self.to_level_end(),
+            None => self.skip_to_level_end(),
         }
     }
 
@@ -499,7 +496,7 @@ impl Executor {
         let mut failed = faulty;
         for fault in faults {
             failed |= fault.is_error();
-            let Fault { mut diagnostic, span } = *fault;
+            let Fault { mut diagnostic, span } = fault;
             if diagnostic.source.is_none() {
                 diagnostic.source = self.here(span);
             }
@@ -565,7 +562,7 @@ impl Executor {
         let source = self.decoder.source;
         let contour: &mut Contour = &mut self.decoder.contour;
         for fault in contour.end(self.reason, source) {
-            let Fault { diagnostic, span } = *fault;
+            let Fault { diagnostic, span } = fault;
             let located = self.here(span);
             self.report(Diagnostic { source: located, ..diagnostic });
         }

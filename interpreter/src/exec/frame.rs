@@ -55,8 +55,8 @@ impl Frame {
     /// Mirroring of single axes.
     pub(super) fn mirror(negative: [bool; 3]) -> Self {
         let mut f = Self::IDENTITY;
-        for i in 0..3 {
-            if negative[i] {
+        for (i, negative) in negative.into_iter().enumerate() {
+            if negative {
                 f.m[i][i] = -1.0;
             }
         }

@@ -26,10 +26,10 @@ impl Decoder {
         span: Span,
     ) {
         let path_word = words.group(Group::Path);
-        if let Some(GWord { row, .. }) = path_word {
-            if let Act::Path(mode) = row.act {
-                self.modal.path = mode;
-            }
+        if let Some(GWord { row, .. }) = path_word
+            && let Act::Path(mode) = row.act
+        {
+            self.modal.path = mode;
         }
         if let Some(g) = path_word.filter(|g| g.row.act == Act::Dwell) {
             let outcome = self.dwell(g, words);
@@ -155,11 +155,11 @@ impl Decoder {
             Some(self.arc(&start, words, span)?)
         } else {
             let end = self.coordinates.target().clone();
-            if let Some((_, at)) = words.centre.iter().flatten().next() {
-                if words.group(Group::Insertion).is_none() {
-                    let text = "I, J and K have no meaning in a straight motion";
-                    self.note(Fault::kontur(own::ODD, text, *at).warning());
-                }
+            if let Some((_, at)) = words.centre.iter().flatten().next()
+                && words.group(Group::Insertion).is_none()
+            {
+                let text = "I, J and K have no meaning in a straight motion";
+                self.note(Fault::kontur(own::ODD, text, *at).warning());
             }
             if let Some((radius, _)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
@@ -205,7 +205,7 @@ impl Decoder {
         }
         self.moved = true;
         for fault in self.contour.motion(Box::new(motion)) {
-            self.note(fault);
+            self.note(Box::new(fault));
         }
         Ok(())
     }
@@ -293,13 +293,12 @@ impl Decoder {
             }
             self.modal.radius_mm = Some(radius * self.unit_mm());
         }
-        let found = match (has_centre, self.modal.radius_mm) {
-            (false, Some(radius)) => arc::by_radius(s, e, radius, ccw),
-            _ => {
-                let centre = self.centre(start, main, image, centre_words);
-                let limits = &self.machine.channel.arc_centre;
-                arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
-            }
+        let found = if let (false, Some(radius)) = (has_centre, self.modal.radius_mm) {
+            arc::by_radius(s, e, radius, ccw)
+        } else {
+            let centre = self.centre(start, main, image, centre_words);
+            let limits = &self.machine.channel.arc_centre;
+            arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
         };
         let at = words.radius.or(centre_words[0]).or(centre_words[1]).map_or(span, |(_, at)| at);
         let mut arc = found.map_err(|e| arc_fault(e, at))?;

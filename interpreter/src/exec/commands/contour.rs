@@ -134,12 +134,9 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         flag("FEED"),
         flag("RAPID"),
     ];
-    let on = match call.command.on {
-        Some(on) => on,
-        None => {
-            let text = "#VECTOR LIMIT needs ON or OFF";
-            return Err(Fault::vendor(21220, text, call.span()));
-        }
+    let Some(on) = call.command.on else {
+        let text = "#VECTOR LIMIT needs ON or OFF";
+        return Err(Fault::vendor(21220, text, call.span()));
     };
     let listed = decoder.machine.channel.vector;
     match &call.command.tail[..] {
@@ -197,7 +194,7 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
 /// `#TRANSVELMIN ON [v]`, `OFF`: lower bound of the velocity at kinks in mm/min.
 pub(super) fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let value = match (call.command.on, &call.command.arguments[..], call.command.groups.first()) {
-        (Some(false), _, _) => 0.0,
+        (Some(false), _, _) | (Some(true), [], None) => 0.0,
         (Some(true), [expr], _) => decoder.number(expr)?,
         (Some(true), [], Some(group)) => {
             use crate::syntax::ast::{ItemKind, ItemValue};
@@ -213,7 +210,6 @@ pub(super) fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Out
                 _ => return Err(Fault::vendor(21220, "one velocity is expected", group.span)),
             }
         }
-        (Some(true), [], None) => 0.0,
         _ => return Err(Fault::vendor(21220, "#TRANSVELMIN needs ON or OFF", call.span())),
     };
     if !(0.0..=1e9).contains(&value) {
