@@ -316,7 +316,7 @@ fn corner_arc(
     };
     let shape = ArcShape { plane, centre_mm: corner, sweep_rad };
     let place = |p: Point| {
-        let mut v = before.block.path.end().clone();
+        let mut v = after.block.path.start().clone();
         (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
         v
     };

@@ -5,7 +5,8 @@ use crate::exec::{Event, SpindleMotion};
 use kontur_motion::block::{Feed, SlopeKind};
 
 fn feeds(text: &str) -> Vec<Feed> {
-    clean(&format!("{text}\nM30\n")).blocks().iter().map(|b| b.feed).collect()
+    // G137: the program is written for this dialect
+    clean(&format!("G137\n{text}\nM30\n")).blocks().iter().map(|b| b.feed).collect()
 }
 
 #[test]
@@ -25,15 +26,15 @@ fn feed_types() {
     let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
     assert_eq!(id("G01 X10"), ["20008"]);
     assert_eq!(id("G01 F0 X10"), ["20008"]);
-    assert_eq!(id("G93 F2 X1\nG93 X2"), ["20008"]);
+    assert_eq!(id("G137 G93 F2 X1\nG93 X2"), ["20008"]);
     assert_eq!(id("G95 F1 X1"), ["60132"]);
     assert_eq!(id("F100 X10 F200"), ["20175"]);
-    assert_eq!(id("G93 G94 F1"), ["20121"]);
+    assert_eq!(id("G137 G93 G94 F1"), ["20121"]);
 }
 
 #[test]
 fn end_feeds() {
-    let blocks = clean("G01 X1 F600 E300\nX2 E6000\nX3\nM30\n");
+    let blocks = clean("G137 G01 X1 F600 E300\nX2 E6000\nX3\nM30\n");
     let ends: Vec<_> = blocks.blocks().iter().map(|b| b.end_velocity_mm_s).collect();
     assert_eq!(ends, [Some(5.0), Some(10.0), None]);
 }
