@@ -5,7 +5,9 @@
 //!
 //! The crate knows no NC text, no axis names, no files and no clock. Nothing in it allocates or panics per cycle.
 
+pub mod analysis;
 pub mod cascade;
+pub mod control;
 pub mod fir;
 pub mod hsc;
 pub mod iir;

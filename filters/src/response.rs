@@ -2,7 +2,7 @@
 //!
 //! Nothing here runs in a cycle; tests, plots and the choice of parameters use it.
 
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, Tap};
 use crate::stage::Stage;
 use crate::time::CycleTime;
 use nalgebra::Complex;
@@ -127,10 +127,23 @@ impl Kernel {
         })
     }
 
-    /// The kernel as impulses (time in s, amplitude), for [`residual_vibration_ratio`].
-    pub fn impulses(&self, cycle: CycleTime) -> impl Iterator<Item = (f64, f64)> + '_ {
-        self.taps().iter().map(move |tap| (cycle.time_of(u64::from(tap.delay)), tap.weight))
+    /// The kernel as impulses, for [`residual_vibration_ratio`].
+    pub fn impulses(&self, cycle: CycleTime) -> Vec<Impulse> {
+        let impulse = |tap: &Tap| Impulse {
+            time_s: cycle.time_of(u64::from(tap.delay)),
+            amplitude: tap.weight,
+        };
+        self.taps().iter().map(impulse).collect()
     }
+}
+
+/// One impulse of a shaper in continuous time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impulse {
+    /// Time in s.
+    pub time_s: f64,
+    /// Share of the input.
+    pub amplitude: f64,
 }
 
 /// The first `cycles` outputs after the input of a stage at rest at 0 has jumped to 1. The stage is left moving.
@@ -139,23 +152,21 @@ pub fn step_response(stage: &mut impl Stage, cycles: usize) -> Vec<f64> {
     (0..cycles).map(|_| stage.step(1.0)).collect()
 }
 
-/// Amplitude of a vibration of `freq_hz` (undamped natural frequency) and `damping` after the last of the `impulses`
-/// (time in s, amplitude), as a share of what a single impulse of the same sum at the time of the last leaves behind.
+/// Amplitude of a vibration of `freq_hz` (undamped natural frequency) and `damping` after the last of the `impulses`,
+/// as a share of what a single impulse of the same sum at the time of the last one leaves behind.
 ///
 /// `V = exp(-z w tn) sqrt(C^2 + S^2)` with `C, S = sum A_i exp(z w t_i) cos, sin(w sqrt(1 - z^2) t_i)`.
-pub fn residual_vibration_ratio(
-    impulses: impl Iterator<Item = (f64, f64)> + Clone,
-    freq_hz: f64,
-    damping: f64,
-) -> f64 {
+pub fn residual_vibration_ratio(impulses: &[Impulse], freq_hz: f64, damping: f64) -> f64 {
     let w = 2.0 * PI * freq_hz;
     let damped = w * ((1.0 - damping) * (1.0 + damping)).sqrt();
-    let last = impulses.clone().map(|(time, _)| time).fold(0.0, f64::max);
-    let (cosine, sine) = impulses.fold((0.0, 0.0), |(cosine, sine), (time, amplitude)| {
-        let grown = amplitude * libm::exp(damping * w * (time - last));
-        let (sin, cos) = libm::sincos(damped * time);
-        (cosine + grown * cos, sine + grown * sin)
-    });
+    let last = impulses.iter().map(|impulse| impulse.time_s).fold(0.0, f64::max);
+    let (mut cosine, mut sine) = (0.0, 0.0);
+    for &Impulse { time_s, amplitude } in impulses {
+        let left = amplitude * libm::exp(damping * w * (time_s - last));
+        let (sin, cos) = libm::sincos(damped * time_s);
+        cosine += left * cos;
+        sine += left * sin;
+    }
     libm::hypot(cosine, sine)
 }
 
@@ -180,15 +191,9 @@ impl SensitivityBand {
     ///
     /// The search ends at a tenth and at ten times the set frequency; a residual that stays within the limit up to
     /// there gives that end.
-    pub fn of(
-        impulses: impl Iterator<Item = (f64, f64)> + Clone,
-        set_hz: f64,
-        damping: f64,
-        limit_ratio: f64,
-    ) -> Option<Self> {
-        let within = |ratio: f64| {
-            residual_vibration_ratio(impulses.clone(), ratio * set_hz, damping) <= limit_ratio
-        };
+    pub fn of(impulses: &[Impulse], set_hz: f64, damping: f64, limit_ratio: f64) -> Option<Self> {
+        let within =
+            |ratio: f64| residual_vibration_ratio(impulses, ratio * set_hz, damping) <= limit_ratio;
         within(1.0).then(|| Self {
             set_hz,
             low_hz: set_hz * edge(&within, -0.001, 0.1),

@@ -9,6 +9,7 @@
 
 use crate::issue::{IssueId, OwnId};
 use crate::kernel::{Kernel, Tap};
+use crate::response::Impulse;
 use crate::time::CycleTime;
 use std::f64::consts::PI;
 
@@ -114,12 +115,12 @@ impl VibGuardSettings {
         Ok(kernel)
     }
 
-    /// The impulses (time in s, amplitude) of the ideal shaper, before they are put on the cycle grid; `None` for
+    /// The impulses of the ideal shaper, before they are put on the cycle grid; `None` for
     /// settings that give no kernel in any cycle time.
     ///
     /// `K = exp(-z pi / sqrt(1 - z^2))`, impulses half a damped period `1 / (2 f sqrt(1 - z^2))` apart; modes 1 to 3
     /// the powers of `(1 + K) / (1 + K)`, mode 4 mode 1 and its time reverse in series.
-    pub fn ideal_impulses(&self) -> Option<Vec<(f64, f64)>> {
+    pub fn ideal_impulses(&self) -> Option<Vec<Impulse>> {
         let usable = self.freq_hz.is_finite()
             && self.freq_hz >= 1.0
             && (0.0..=Self::MAX_DAMPING).contains(&self.damping);
@@ -134,7 +135,10 @@ impl VibGuardSettings {
         };
         let half_period_s = 0.5 / (self.freq_hz * root);
         let sum: f64 = amplitudes.iter().sum();
-        let impulse = |(amplitude, i): (f64, u32)| (f64::from(i) * half_period_s, amplitude / sum);
+        let impulse = |(amplitude, i): (f64, u32)| Impulse {
+            time_s: f64::from(i) * half_period_s,
+            amplitude: amplitude / sum,
+        };
         usable.then(|| amplitudes.into_iter().zip(0..).map(impulse).collect())
     }
 

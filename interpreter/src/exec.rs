@@ -12,6 +12,7 @@ mod check;
 mod commands;
 mod compensation;
 mod contour;
+mod contouring;
 mod coordinates;
 mod decoder;
 mod dialect;

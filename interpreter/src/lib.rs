@@ -6,5 +6,6 @@ pub mod diag;
 pub mod exec;
 pub mod machine;
 pub mod record;
+pub mod sim;
 pub mod source;
 pub mod syntax;

@@ -6,12 +6,15 @@ mod axis;
 mod builtin;
 mod chain;
 mod channel;
+pub mod explain;
+pub mod issues;
 pub mod key;
 mod link;
 pub mod lists;
 mod overrides;
 mod parameters;
 mod plausible;
+mod setup;
 pub mod table;
 pub mod value;
 
@@ -20,6 +23,7 @@ pub use channel::{ArcCentre, Channel, LookAhead, OverrideMode, RapidOverride};
 pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
+pub use setup::{ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
 
 use crate::diag::Diagnostic;
 use kontur_filters::time::CycleTime;

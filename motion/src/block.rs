@@ -1,6 +1,8 @@
 //! What the planner is fed with: one programmed motion with everything that limits it.
 
 use crate::axis::AxisDynamics;
+use crate::contouring::ContourSettings;
+use crate::spline::SplineSettings;
 use std::sync::Arc;
 
 /// Shape of the acceleration over time (P-CHAN-00071, `#SLOPE`).
@@ -72,6 +74,19 @@ pub enum TransitionJerkMode {
     DirectJerk,
 }
 
+/// What bounds the axis jerk that comes from the shape of a polynomial (P-CHAN-00110, `CHECK_JERK`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum CurveJerk {
+    /// 0: nothing.
+    Unlimited,
+    /// 1 (default): the geometric ramp time (P-AXIS-00199). Mode 3 adds the kinematic compensation, which does not exist
+    /// here, and is the same.
+    #[default]
+    Geometric,
+    /// 2: the longest ramp time of the slope (P-AXIS-00195..00198).
+    Ramps,
+}
+
 /// Limits and modes of a channel that hold for a run of blocks; shared, replaced when a word changes one of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelDynamics {
@@ -83,8 +98,10 @@ pub struct ChannelDynamics {
     pub limit_tangential_jerk: bool,
     /// P-CHAN-00117.
     pub transition_jerk: TransitionJerkMode,
-    /// P-CHAN-00245: 0 off, 1 acceleration, 2 geometric ramp time, 3 as 1 in space.
+    /// P-CHAN-00245: 0 off, 1 acceleration, 2 geometric ramp time, 3 acceleration, the same in every direction.
     pub curvature_estimate: u8,
+    /// P-CHAN-00110.
+    pub curve_jerk: CurveJerk,
     /// `#VECTOR LIMIT`.
     pub vector: VectorLimits,
     /// P-CHAN-00350: the path acceleration limit also bounds arcs.
@@ -129,4 +146,8 @@ pub struct Block {
     pub dynamics: Arc<ChannelDynamics>,
     /// Tolerance monitoring.
     pub tolerance: Tolerance,
+    /// Contouring at the end of this block (G61, G261), see [`crate::contouring`].
+    pub contour: Option<ContourSettings>,
+    /// Part of a run that becomes a spline (`#HSC ON [BSPLINE]`), see [`crate::spline`].
+    pub spline: Option<SplineSettings>,
 }

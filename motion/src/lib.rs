@@ -5,5 +5,18 @@
 
 pub mod axis;
 pub mod block;
+mod brake;
+pub mod contour;
+pub mod contouring;
+pub mod corner;
 pub mod limit;
+pub mod limits;
+pub mod lookahead;
 pub mod path;
+pub mod planner;
+pub mod profile;
+pub mod queue;
+mod short;
+pub mod spline;
+mod timeline;
+pub mod tolerance;

@@ -5,9 +5,11 @@
 
 mod arc;
 mod line;
+mod poly;
 
 pub use arc::{ArcPath, ArcShape};
 pub use line::LinePath;
+pub use poly::{Coefficients, PolyPath, PolyPiece};
 
 use crate::axis::AxisVec;
 
@@ -18,6 +20,8 @@ pub enum Path {
     Line(LinePath),
     /// Arc in a plane of two axes, the others linear in the angle (helix); several turns are possible.
     Arc(ArcPath),
+    /// Polynomials in all axes: contouring and splines.
+    Curve(PolyPath),
 }
 
 impl Path {
@@ -26,6 +30,7 @@ impl Path {
         match self {
             Self::Line(p) => p.length(),
             Self::Arc(p) => p.length(),
+            Self::Curve(p) => p.length(),
         }
     }
 
@@ -34,6 +39,7 @@ impl Path {
         match self {
             Self::Line(p) => p.position(s, out),
             Self::Arc(p) => p.position(s, out),
+            Self::Curve(p) => p.position(s, out),
         }
     }
 
@@ -42,6 +48,7 @@ impl Path {
         match self {
             Self::Line(p) => out.copy_from_slice(p.direction()),
             Self::Arc(p) => p.tangent(s, out),
+            Self::Curve(p) => p.tangent(s, out),
         }
     }
 
@@ -50,6 +57,7 @@ impl Path {
         match self {
             Self::Line(_) => out.fill(0.0),
             Self::Arc(p) => p.curvature(s, out),
+            Self::Curve(p) => p.curvature(s, out),
         }
     }
 
@@ -58,6 +66,7 @@ impl Path {
         match self {
             Self::Line(p) => p.start(),
             Self::Arc(p) => p.start(),
+            Self::Curve(p) => p.start(),
         }
     }
 
@@ -66,6 +75,7 @@ impl Path {
         match self {
             Self::Line(p) => p.end(),
             Self::Arc(p) => p.end(),
+            Self::Curve(p) => p.end(),
         }
     }
 
@@ -74,11 +84,22 @@ impl Path {
         matches!(self, Self::Line(_))
     }
 
+    /// The part of a line or an arc between two path lengths, with exactly the same direction and curvature; `None` for
+    /// other paths.
+    pub(crate) fn section(&self, from: f64, to: f64) -> Option<Self> {
+        match self {
+            Self::Line(p) => Some(Self::Line(p.section(from, to))),
+            Self::Arc(p) => Some(Self::Arc(p.section(from, to))),
+            Self::Curve(_) => None,
+        }
+    }
+
     /// Path length of the point of the path nearest to `point` (Euclidean over all axes), searched over the whole path.
     pub fn nearest(&self, point: &[f64]) -> f64 {
         match self {
             Self::Line(p) => p.nearest(point),
             Self::Arc(p) => p.nearest(point),
+            Self::Curve(p) => p.nearest(point),
         }
     }
 }

@@ -1,1 +1,139 @@
-//! Helpers shared by the cross-crate tests.
+//! Helpers shared by the cross-crate tests: programs as text, on the built-in machine or a sample machine.
+
+use kontur_interpreter::diag::{Diagnostic, Id};
+use kontur_interpreter::exec::{self, Options};
+use kontur_interpreter::machine::{ListFiles, Machine, Override};
+use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::sim::{Limits, Simulation, Totals};
+use kontur_interpreter::source::MemorySources;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Everything that came out of a run.
+#[derive(Debug)]
+pub struct Run {
+    /// One record per cycle; empty if the program was refused.
+    pub records: Vec<CycleRecord>,
+    /// All messages, those of the machine first.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Totals.
+    pub totals: Totals,
+    /// Cycle time in s.
+    pub cycle_s: f64,
+}
+
+impl Run {
+    /// Vendor numbers of the messages.
+    pub fn ids(&self) -> Vec<u32> {
+        let number = |d: &Diagnostic| match d.id {
+            Id::Vendor(n) => Some(n),
+            Id::Kontur(_) => None,
+        };
+        self.diagnostics.iter().filter_map(number).collect()
+    }
+
+    /// A value of one axis over all cycles.
+    pub fn axis(
+        &self,
+        i: usize,
+        f: impl Fn(&kontur_interpreter::record::AxisRecord) -> f64,
+    ) -> Vec<f64> {
+        self.records.iter().map(|r| f(&r.axes[i])).collect()
+    }
+
+    /// Set positions of the first `n` axes.
+    pub fn set(&self, n: usize) -> Vec<Vec<f64>> {
+        self.records.iter().map(|r| r.axes[..n].iter().map(|a| a.set).collect()).collect()
+    }
+}
+
+/// Folder of the repository's sample programs.
+pub fn programs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../programs")
+}
+
+struct Folder(PathBuf);
+
+impl ListFiles for Folder {
+    fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        Ok(std::fs::read(self.0.join(path)).ok())
+    }
+}
+
+/// The built-in machine with settings (`X.getriebe[0].kv=5000`).
+pub fn machine(settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
+    let overrides: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
+    Machine::builtin(&overrides).unwrap()
+}
+
+/// A machine of `programs/machines` with settings.
+pub fn sample_machine(name: &str, settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
+    let overrides: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
+    let start_up = format!("machines/{name}/hochlauf.lis");
+    Machine::load(&Folder(programs()), &start_up, &overrides).unwrap()
+}
+
+/// Runs a program text on the built-in machine.
+pub fn run(program: &str, settings: &[&str]) -> Run {
+    run_on(machine(settings), program)
+}
+
+/// Runs a program text on a machine, refused by the check first as the command line does it.
+pub fn run_on((machine, mut diagnostics): (Machine, Vec<Diagnostic>), program: &str) -> Run {
+    let machine = Arc::new(machine);
+    let cycle_s = machine.cycle.seconds();
+    let sources = || Box::new(MemorySources::new().with("part.nc", program.as_bytes().to_vec()));
+    let found = exec::check(sources(), "part.nc", Arc::clone(&machine), Options::default());
+    if found.iter().any(Diagnostic::is_error) {
+        diagnostics.extend(found);
+        let totals = Totals { aborted: true, ..Totals::default() };
+        return Run { records: Vec::new(), diagnostics, totals, cycle_s };
+    }
+    let limits = Limits { max_time_s: 1000.0 };
+    let mut simulation =
+        Simulation::new(machine, sources(), "part.nc", Options::default(), &limits).unwrap();
+    let mut records = Vec::new();
+    while let Some(record) = simulation.next_cycle() {
+        records.push(record.clone());
+    }
+    diagnostics.extend(simulation.take_diagnostics());
+    Run { records, diagnostics, totals: simulation.totals(), cycle_s }
+}
+
+/// Shortest vector from a polyline to a point.
+pub fn from_polyline(point: &[f64], polyline: &[Vec<f64>]) -> Vec<f64> {
+    let mut best = (f64::INFINITY, vec![0.0; point.len()]);
+    for w in polyline.windows(2) {
+        let d: Vec<f64> = w[0].iter().zip(&w[1]).map(|(a, b)| b - a).collect();
+        let l2: f64 = d.iter().map(|c| c * c).sum();
+        let dot: f64 = d.iter().zip(point).zip(&w[0]).map(|((d, p), a)| d * (p - a)).sum();
+        let u = if l2 > 0.0 { (dot / l2).clamp(0.0, 1.0) } else { 0.0 };
+        let e: Vec<f64> = (0..point.len()).map(|i| point[i] - w[0][i] - u * d[i]).collect();
+        let n: f64 = e.iter().map(|c| c * c).sum();
+        if n < best.0 {
+            best = (n, e);
+        }
+    }
+    best.1
+}
+
+/// Envelope of a spring-mass model (`f_hz`, `damping`) behind the last change of `u`, driven by `u` held over each cycle.
+pub fn residual_mm(u: &[f64], cycle_s: f64, f_hz: f64, damping: f64) -> f64 {
+    let w = 2.0 * std::f64::consts::PI * f_hz;
+    let wd = w * (1.0 - damping * damping).sqrt();
+    let e = libm::exp(-damping * w * cycle_s);
+    let (s, c) = (libm::sin(wd * cycle_s), libm::cos(wd * cycle_s));
+    let k = damping * w / wd;
+    let (mut y, mut v) = (0.0, 0.0);
+    let mut envelope = 0.0;
+    for n in 1..u.len() {
+        // free vibration of the deviation over one cycle, then the base moves
+        let next = e * ((c + k * s) * y + s / wd * v);
+        v = e * (-s * w * w / wd * y + (c - k * s) * v);
+        y = next - (u[n] - u[n - 1]);
+        if (u[n] - u[n - 1]).abs() > 1e-12 {
+            envelope = libm::hypot(y, (v + damping * w * y) / wd);
+        }
+    }
+    envelope
+}

@@ -197,16 +197,16 @@ mod tests {
     /// The tables of the filter textbooks, four digits.
     #[test]
     fn printed_coefficients() {
-        let printed: [(Prototype, u32, &[(f64, f64)]); 9] = [
+        type Row = (Prototype, u32, &'static [(f64, f64)]);
+        let printed: [Row; 8] = [
             (Bessel, 2, &[(1.3617, 0.6180)]),
             (Bessel, 5, &[(0.6656, 0.0), (1.1402, 0.4128), (0.6216, 0.3245)]),
             (Bessel, 6, &[(1.2217, 0.3887), (0.9686, 0.3505), (0.5131, 0.2756)]),
             (CritDamping, 3, &[(0.5098, 0.0), (1.0197, 0.2599)]),
             (CritDamping, 4, &[(0.8700, 0.1892), (0.8700, 0.1892)]),
             (CritDamping, 6, &[(0.6999, 0.1225), (0.6999, 0.1225), (0.6999, 0.1225)]),
-            (Butterworth, 2, &[(1.4142, 1.0)]),
+            (Butterworth, 4, &[(1.8478, 1.0), (0.7654, 1.0)]),
             (Butterworth, 5, &[(1.0, 0.0), (1.6180, 1.0), (0.6180, 1.0)]),
-            (Butterworth, 6, &[(1.9319, 1.0), (1.4142, 1.0), (0.5176, 1.0)]),
         ];
         for (prototype, order, want) in printed {
             let terms = prototype.terms(order);

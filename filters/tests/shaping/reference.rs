@@ -16,6 +16,11 @@ impl Row {
     pub(crate) fn number(&self, column: &str) -> f64 {
         self.text(column).parse().unwrap_or_else(|_| panic!("{column} of {self:?} is no number"))
     }
+
+    /// The number of a column, `None` if it is empty.
+    pub(crate) fn optional(&self, column: &str) -> Option<f64> {
+        (!self.text(column).is_empty()).then(|| self.number(column))
+    }
 }
 
 /// All rows of `tests/data/<name>.csv`.

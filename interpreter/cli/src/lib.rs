@@ -1,10 +1,108 @@
 //! The `kontur` command line: arguments, files, terminal and pictures.
+//!
+//! One file per subcommand. Each of them is a function of its arguments, an [`engine::Engine`] (what computes) and a
+//! [`console::Console`] (where text goes), so that tests call it without a process and without a terminal.
 
+pub mod args;
+pub mod check;
+pub mod console;
+pub mod diff;
+pub mod engine;
+pub mod explain;
+pub mod files;
+pub mod render;
+pub mod report;
+pub mod response;
+pub mod run;
+pub mod simulator;
+pub mod summary;
+mod table;
+pub mod trace;
+pub mod tune;
+
+use clap::Parser as _;
+use console::Console;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Runs one command; exit codes 0 finished, 1 refused or aborted, 2 wrong usage or lists, 3 input or output failed.
+/// How a command ends; the number is the exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Finished, warnings allowed; for `diff`: equal.
+    Finished = 0,
+    /// The program was refused or aborted by an NC or axis error; for `diff`: different.
+    Aborted = 1,
+    /// Wrong usage or wrong machine lists.
+    Usage = 2,
+    /// Input or output failed.
+    Io = 3,
+}
+
+/// Why a command could not do its work.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// Wrong usage: the message names the option and the choices.
+    #[error("{0}")]
+    Usage(String),
+    /// The machine lists were refused; their diagnostics have been printed.
+    #[error("the machine lists were refused")]
+    Lists,
+    /// A file could not be read or written.
+    #[error("{what}: {source}")]
+    Io {
+        /// The file, and whether it was read or written.
+        what: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+}
+
+impl Error {
+    /// An input or output error that names what was read or written.
+    pub fn io(what: impl Into<String>, source: std::io::Error) -> Self {
+        Self::Io { what: what.into(), source }
+    }
+
+    /// Exit code of this error.
+    pub const fn exit(&self) -> Exit {
+        match self {
+            Self::Usage(_) | Self::Lists => Exit::Usage,
+            Self::Io { .. } => Exit::Io,
+        }
+    }
+}
+
+/// Runs one command on the process' own stdout and stderr.
 pub fn main_with(args: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let _ = args;
-    ExitCode::from(2)
+    let mut console = Console::of_process();
+    ExitCode::from(run_with(args, &mut simulator::Kontur, &mut console) as u8)
+}
+
+/// Runs one command on the given engine and console.
+pub fn run_with(
+    args: impl IntoIterator<Item = OsString>,
+    engine: &mut dyn engine::Engine,
+    console: &mut Console,
+) -> Exit {
+    let args = match args::Args::try_parse_from(args) {
+        Ok(args) => args,
+        Err(e) if e.use_stderr() => {
+            console.error_text(&e.to_string());
+            return Exit::Usage;
+        }
+        Err(help) => {
+            let printed = console.print(&help.to_string()).map(|()| Exit::Finished);
+            return console.finish(printed);
+        }
+    };
+    let done = match &args.command {
+        args::Command::Run(a) => run::run(a, engine, console),
+        args::Command::Check(a) => check::check(a, engine, console),
+        args::Command::Diff(a) => diff::diff(a, engine, console),
+        args::Command::Report(a) => report::report(a, engine, console),
+        args::Command::Response(a) => response::response(a, console),
+        args::Command::Tune(a) => tune::tune(a, engine, console),
+        args::Command::Explain(a) => explain::explain(a, engine, console),
+    };
+    console.finish(done)
 }

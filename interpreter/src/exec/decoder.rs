@@ -4,6 +4,7 @@
 
 use super::calls::ModalCycle;
 use super::contour::Contour;
+use super::contouring::{Contouring, Hsc};
 use super::coordinates::Coordinates;
 use super::dialect::Seen;
 use super::dynamics::{Weights, channel_dynamics};
@@ -66,6 +67,8 @@ pub(super) struct Decoder {
     pub(super) spindles: Vec<Spindle>,
     pub(super) tools: Tools,
     pub(super) contour: Contour,
+    pub(super) contouring: Contouring,
+    pub(super) hsc: Hsc,
     /// Names of the axes in the program; `None` for an axis that was given away.
     pub(super) axis_names: Vec<Option<String>>,
     /// Letters of one-letter axes.
@@ -139,6 +142,8 @@ impl Decoder {
             spindles,
             tools: Tools::default(),
             contour: Contour::default(),
+            contouring: Contouring::default(),
+            hsc: Hsc::default(),
             axis_names,
             letters: [None; 26],
             info: ProgramInfo::default(),

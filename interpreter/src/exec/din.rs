@@ -340,11 +340,8 @@ impl Decoder {
             }
             Act::Contour(on) => {
                 self.modal.contouring = on;
-                if on {
-                    self.contouring_fallback(g.span);
-                }
+                self.modal.exact_stop &= !on;
             }
-            Act::ContourOnce => self.contouring_fallback(g.span),
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
             Act::CentreCorrection(on) => self.modal.centre_correction = on,
             Act::WeightOfAll(weight) => {

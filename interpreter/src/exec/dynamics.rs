@@ -172,6 +172,7 @@ pub(super) fn channel_dynamics(
         curvature_estimate: channel.curvature_estimate,
         vector,
         vector_acc_on_arcs: channel.vector_acc_on_arcs,
+        curve_jerk: channel.curve_jerk,
         transition_velocity_min_mm_s: modal.transition_min_mm_s,
         stop_at_transitions: modal.look_ahead == LookAhead::StopAtTransitions,
     };

@@ -187,10 +187,4 @@ impl Decoder {
         }
         self.modal.compensation = side;
     }
-
-    /// Contouring is not planned yet: corners stay as programmed.
-    pub(super) fn contouring_fallback(&mut self, span: Span) {
-        let text = "polynomial contouring is not simulated: corners stay sharp as programmed";
-        self.note_once("contouring", Fault::kontur(own::FALLBACK, text, span));
-    }
 }

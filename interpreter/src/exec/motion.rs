@@ -180,6 +180,9 @@ impl Decoder {
             path.start()[*i].to_bits() != path.end()[*i].to_bits() || !path.is_straight()
         });
         let feed_ratio = if full { 1.0 } else { self.overrides.ratio(rapid, moved) };
+        let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
+        let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
+        let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
         let block = Block {
             seq: 0,
             path,
@@ -189,6 +192,8 @@ impl Decoder {
             slope: self.modal.slope,
             dynamics: self.dynamics(),
             tolerance: self.shaping.tolerance(),
+            contour: if rounds { Some(self.contouring.settings()) } else { self.hsc.contour() },
+            spline: self.hsc.spline(),
         };
         let (plane, compensation) = self.plane_and_compensation(span)?;
         let motion = Motion {

@@ -46,7 +46,8 @@ impl Side {
                 start_rad: arc.start_angle(),
                 sweep_rad: arc.shape().sweep_rad,
             }),
-            Path::Arc(_) => None,
+            // programs hold lines and arcs only
+            Path::Arc(_) | Path::Curve(_) => None,
         }
     }
 
@@ -234,5 +235,6 @@ pub(super) fn cut(
             let sweep_rad = swept(shape.centre_mm, &from, &to, shape.plane, shape.sweep_rad > 0.0);
             ArcPath::new(from, to, ArcShape { sweep_rad, ..shape }, feed_axes).map(Path::Arc)
         }
+        Path::Curve(_) => None,
     }
 }

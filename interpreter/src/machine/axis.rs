@@ -1,9 +1,9 @@
 //! One axis of the machine: its parameters and what the planner makes of them.
 
-use super::key::Key;
-use super::parameters::Parameters;
+use super::key::{Indices, Key};
+use super::parameters::{Parameters, Setting};
 use super::table::ListKind;
-use super::value::{self, Value};
+use super::value;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, RapidSlope, StepSlope};
 
 /// Kind of an axis (P-AXIS-00018).
@@ -105,6 +105,11 @@ impl Axis {
     /// Text of a key of `kontur.lis` for this axis.
     pub fn own_text(&self, key: &str) -> Option<String> {
         self.own.text(&self.own_key(key))
+    }
+
+    /// Everything that `kontur.lis` sets for this axis.
+    pub(super) fn own_settings(&self) -> impl Iterator<Item = (Indices, &Setting)> {
+        self.own.settings()
     }
 
     fn own_key(&self, key: &str) -> String {
@@ -227,11 +232,6 @@ impl Axis {
         let value = value::read(row.raw, value).map_err(|bad| format!("{key}: {}", bad.reason))?;
         self.parameters.set(row, indices, value, None);
         Ok(())
-    }
-
-    /// A value of the list, with its default.
-    pub fn value(&self, key: &str) -> Option<Value> {
-        self.parameters.raw(key)
     }
 }
 

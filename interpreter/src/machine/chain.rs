@@ -7,7 +7,7 @@ use super::parameters::Parameters;
 use super::plausible;
 use super::table::ListKind;
 use super::{Machine, link};
-use crate::diag::{AxisRef, Diagnostic, Location};
+use crate::diag::{AxisRef, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
 
 /// Name of kontur's own list, beside the start-up list.
@@ -105,6 +105,14 @@ impl Chain<'_> {
             let message = "listen: binary lists are not read, export the lists as ASCII";
             self.diagnostics.push(Diagnostic::kontur(19, message).parameter("P-STUP-00008"));
             return None;
+        }
+        if start_up.number("kanal_anzahl").is_some_and(|n| n > 1.0) {
+            let message = "kanal_anzahl: one channel is simulated, that of sda_mds[0]";
+            let mut diagnostic = Diagnostic::kontur(19, message)
+                .severity(Severity::Warning)
+                .parameter("P-STUP-00001");
+            diagnostic.source = start_up.setting("kanal_anzahl").and_then(|s| s.at.clone());
+            self.diagnostics.push(diagnostic);
         }
         let mut channel = Parameters::new(ListKind::Channel);
         for key in ["default_sda_mds", "sda_mds[0]"] {
@@ -208,6 +216,7 @@ impl Chain<'_> {
         let cycle = cycle.and_then(CycleTime::from_us).unwrap_or(CycleTime::DEFAULT);
         plausible::check(&mut settled.start_up, cycle, None, diagnostics);
         plausible::check(&mut settled.channel, cycle, None, diagnostics);
+        plausible::check_presets(&settled.channel, diagnostics);
         for axis in &mut settled.axes {
             let number = logical_number(&axis.parameters);
             let name = names.name(number).unwrap_or_default().to_owned();

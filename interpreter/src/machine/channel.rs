@@ -2,7 +2,7 @@
 
 use super::axis::integer;
 use super::parameters::Parameters;
-use kontur_motion::block::{SlopeKind, TransitionJerkMode, VectorLimits};
+use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
 use std::collections::BTreeMap;
 
 /// How many blocks the planner looks ahead (P-STUP-00070, P-STUP-00071).
@@ -75,6 +75,8 @@ pub struct Channel {
     pub transition_jerk: TransitionJerkMode,
     /// Extra limit between lines (P-CHAN-00245), 0 to 3.
     pub curvature_estimate: u8,
+    /// Which ramp time bounds the jerk on polynomials (P-CHAN-00110).
+    pub curve_jerk: CurveJerk,
     /// Values of `#VECTOR LIMIT ON` before the program gives others (P-CHAN-00002, 00090, 00208, 00361).
     pub vector: VectorLimits,
     /// The path acceleration limit also bounds arcs (P-CHAN-00350).
@@ -135,6 +137,11 @@ impl Channel {
                 _ => TransitionJerkMode::DirectJerk,
             },
             curvature_estimate: u8::try_from(choice("trans_limit_with_curvature")).unwrap_or(3),
+            curve_jerk: match choice("check_jerk_on_poly_path") {
+                0 => CurveJerk::Unlimited,
+                2 => CurveJerk::Ramps,
+                _ => CurveJerk::Geometric,
+            },
             vector: vector(p),
             vector_acc_on_arcs: p.flag("vector.cir_radial_acc_limit"),
             arc_centre: ArcCentre {

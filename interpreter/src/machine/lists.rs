@@ -152,8 +152,8 @@ impl Reader<'_> {
     fn report_unknown(&mut self) {
         let mut plain: Vec<(String, u32, Location)> = Vec::new();
         for (shape, (count, at)) in std::mem::take(&mut self.unknown) {
-            match table::suggestions(Some(self.kind), &shape).first() {
-                Some(near) if near.len().abs_diff(shape.len()) <= 3 => {
+            match table::misspelt(Some(self.kind), &shape).first() {
+                Some(near) => {
                     let message = format!("unknown element `{shape}`, ignored");
                     let hint = format!("did you mean `{near}`?");
                     self.diagnostics.push(
@@ -163,7 +163,7 @@ impl Reader<'_> {
                             .hint(hint),
                     );
                 }
-                _ => plain.push((shape, count, at)),
+                None => plain.push((shape, count, at)),
             }
         }
         plain.sort_by_key(|(_, _, at)| at.line);

@@ -99,6 +99,11 @@ impl Parameters {
             Default::Number(x) => Some(Value::Number(x)),
             Default::Text(text) => Some(Value::Text(text.to_owned())),
             Default::Of(id) => self.of(table::by_id(id)?, indices),
+            Default::PerIndex(texts) => {
+                let last = row.key.matches('[').count().checked_sub(1)?;
+                let text = texts.get(usize::try_from(*indices.get(last)?).ok()?)?;
+                Some(Value::Text((*text).to_owned()))
+            }
         }
     }
 }

@@ -268,3 +268,17 @@ pub(super) fn check_sampling(
     );
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), Some(axis)));
 }
+
+/// K-0075: every program starts with G137, whatever P-CHAN-00063 presets for the group of the feedforward.
+pub(super) fn check_presets(channel: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
+    let key = "prog_start.g_gruppe[21].nr";
+    let Some(setting) = channel.setting(key) else { return };
+    if integer(setting.value.number()) != Some(135) {
+        return;
+    }
+    let text =
+        format!("{key}: a preset of G135 has no effect, programs start with feedforward off");
+    let hint = "vorsteuer.default_active (P-AXIS-00255) in the axis list keeps feedforward on";
+    let diagnostic = Diagnostic::kontur(75, text).hint(hint);
+    diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
+}

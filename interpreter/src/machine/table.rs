@@ -1,7 +1,7 @@
 //! The one table of list parameters: reader, range check, `explain` and documentation come from its rows.
 //!
 //! A row states what the vendor's manuals state about one parameter, in the units of the lists (0.1 um, us, 0.1 %);
-//! conversion to mm and s happens once, in [`super::axis`] and [`super::channel`].
+//! conversion to mm and s happens once, in [`Axis`](super::Axis) and [`Channel`](super::Channel).
 
 mod axis_control;
 mod axis_drive;
@@ -15,5 +15,6 @@ mod lookup;
 mod row;
 mod start_up;
 
-pub use lookup::{by_id, by_key, rows, suggestions};
+pub(crate) use lookup::edit_distance;
+pub use lookup::{by_id, by_key, misspelt, rows, suggestions};
 pub use row::{Bound, Correction, Default, ListKind, Raw, Reaction, Row};

@@ -106,6 +106,11 @@ fn vendor_defaults_in_mm_and_s() {
     assert!(close(d.step_feed.dec_mm_s2[0], 1000.0) && close(d.step_feed.change_mm_s, 100.0));
     assert!(close(d.a_trans_ratio, 0.0) && close(d.r_trans_ratio, 1.0));
     assert!(close(machine.axis("X").unwrap().a_w_max_mm_s2(), 1000.0));
+    let filter = |k| {
+        let key = format!("lr_param.improved_position_control.stage[1].filter[{k}].type");
+        machine.axis("X").unwrap().text(&key)
+    };
+    assert_eq!((filter(0).as_deref(), filter(1).as_deref()), (Some("BANDPASS"), Some("NO_FILTER")));
     assert!(close(machine.axis("X").unwrap().tr_w_min_s(), 0.01));
     assert!(close(machine.axis("S").unwrap().kv_1_s(), 10.0));
     let c = &machine.channel;
@@ -122,7 +127,7 @@ fn channel_values_are_converted() {
     let mut files = Memory::machine();
     files.add(
         "m/lists/channel.lis",
-        "prog_start.slope.profile SIN2\nprog_start.feedrate 3000\nprog_start.feedrate_factor 0.1\n\
+        "prog_start.slope.profile 2\nprog_start.feedrate 3000\nprog_start.feedrate_factor 0.1\n\
          mode_trans_jerk 2\nvector.velocity 6000\nvector.acceleration 1500\nvector.acc_dec_unit mm_s2\n\
          mittelpkt_diff 100\nm_prozess_zeit[7] 500000\nspindel[0].m3_prozess_zeit 1500000\n\
          prog_start.g_gruppe[14].nr 91\np_param_haltend 1\ng85_prog_file drill.nc\n\
@@ -234,6 +239,7 @@ fn numbers_that_do_not_fit_together() {
     assert_eq!(errors[0].id, Id::Kontur(13));
 }
 
+/// Conformance: F055, F065, F082, F087, F088, V063, V065, V067.
 #[test]
 fn documented_reactions_to_values_out_of_range() {
     // TF5200 diagnosis, plausibility of axis parameters: line of the list, ID, value used
@@ -297,6 +303,7 @@ fn documented_reactions_to_values_out_of_range() {
     }
 }
 
+/// Conformance: A108, F075, F076.
 #[test]
 fn values_with_a_meaning_of_their_own_are_no_faults() {
     let mut files = Memory::machine();
@@ -362,6 +369,25 @@ fn rules_over_several_parameters() {
             && d.rapid.acc_mm_s2 <= 500.0
             && d.step_feed.acc_mm_s2[1] <= 500.0
     );
+}
+
+/// Conformance: F023.
+#[test]
+fn what_has_no_effect_is_said() {
+    let mut files = Memory::machine();
+    files.add("m/lists/channel.lis", "prog_start.g_gruppe[21].nr 135\n");
+    assert_eq!(files.ids(&[]), ["K-0075"]);
+    let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "sda_mds[1] more.lis\n");
+    files.put(
+        "m/hochlauf.lis",
+        &files.0["m/hochlauf.lis"].replace("kanal_anzahl 1", "kanal_anzahl 2"),
+    );
+    let (_, warnings) = files.load(&[]).unwrap();
+    assert_eq!(warnings.iter().map(|d| d.id).collect::<Vec<_>>(), [Id::Kontur(19)]);
+    let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "listen BINAER\n");
+    assert!(files.load(&[]).is_err());
 }
 
 #[test]

@@ -135,7 +135,7 @@ fn integer(raw: Raw, text: &str, names: Option<&[(&str, u32)]>) -> Result<Value,
 /// A value as it stands in a list; reading it again gives the same value.
 pub fn write(raw: Raw, value: &Value) -> String {
     match (value, raw) {
-        (Value::Number(x), Raw::Names(names)) => {
+        (Value::Number(x), Raw::Names(names) | Raw::Flags(names)) => {
             let name = names.iter().find(|(_, n)| f64::from(*n).total_cmp(x).is_eq());
             name.map_or_else(|| x.to_string(), |(name, _)| (*name).to_owned())
         }

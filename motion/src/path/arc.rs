@@ -25,8 +25,9 @@ pub struct ArcPath {
     shape: ArcShape,
     /// Angle of the start point.
     start_rad: f64,
-    /// Correction of the swept angle so that the end is met, below rounding for a full specification.
+    /// Distance of the start point from the centre.
     radius_start: f64,
+    /// Distance of the end point from the centre.
     radius_end: f64,
     /// Slope of the axes outside the plane, per s; zero in the plane.
     linear: AxisVec,
@@ -69,11 +70,11 @@ impl ArcPath {
         Some(Self { start, end, shape, start_rad, radius_start, radius_end, linear, length })
     }
 
-    pub(super) fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.length
     }
 
-    pub(super) fn start(&self) -> &AxisVec {
+    pub(crate) fn start(&self) -> &AxisVec {
         &self.start
     }
 
@@ -94,6 +95,11 @@ impl ArcPath {
     /// Angle in rad at the start.
     pub fn start_angle(&self) -> f64 {
         self.start_rad
+    }
+
+    /// `dq/ds` of the axes outside the plane (constant), zero in the plane.
+    pub(crate) fn tangent_outside_plane(&self, out: &mut [f64]) {
+        out.copy_from_slice(&self.linear);
     }
 
     /// Radius, angle and d(angle)/ds at `s`.
@@ -140,6 +146,18 @@ impl ArcPath {
         let [a, b] = self.shape.plane;
         out[a] = -radius * rate * rate * cos - 2.0 * growth * rate * sin;
         out[b] = -radius * rate * rate * sin + 2.0 * growth * rate * cos;
+    }
+
+    /// The part between two path lengths.
+    pub(super) fn section(&self, from: f64, to: f64) -> Self {
+        let mut out = self.clone();
+        self.position(from, &mut out.start);
+        self.position(to, &mut out.end);
+        (out.radius_start, out.start_rad, _) = self.polar(from);
+        (out.radius_end, _, _) = self.polar(to);
+        out.length = to - from;
+        out.shape.sweep_rad *= out.length / self.length;
+        out
     }
 
     /// Nearest point: for a plane arc the point at the same angle, for a helix refined by Newton from the angles of

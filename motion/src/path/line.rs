@@ -71,6 +71,14 @@ impl LinePath {
         }
     }
 
+    /// The part between two path lengths.
+    pub(super) fn section(&self, from: f64, to: f64) -> Self {
+        let (mut start, mut end) = (self.start.clone(), self.end.clone());
+        self.position(from, &mut start);
+        self.position(to, &mut end);
+        Self { start, end, direction: self.direction.clone(), length: to - from }
+    }
+
     pub(super) fn nearest(&self, point: &[f64]) -> f64 {
         let (mut dot, mut norm) = (0.0, 0.0);
         for ((p, a), d) in point.iter().zip(self.start.iter()).zip(self.direction.iter()) {

@@ -89,7 +89,7 @@ fn mirroring_and_rotation_carry_arcs_along() {
         Path::Arc(arc) => {
             assert_eq!((arc.shape().plane, arc.shape().sweep_rad < 0.0), ([2, 0], true))
         }
-        Path::Line(_) => panic!("no arc"),
+        other => panic!("no arc: {other:?}"),
     }
 }
 

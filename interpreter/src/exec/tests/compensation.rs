@@ -44,7 +44,7 @@ fn arcs_grow_and_shrink() {
         clean(&format!("{TOOL}G41 X0 Y-10\nY0\nG02 X20 Y0 I10 J0\nG01 Y-10\nG40 X0 Y-30\nM30\n"));
     let radius = run.blocks().iter().find_map(|b| match &b.path {
         Path::Arc(arc) => Some(arc.radius()),
-        Path::Line(_) => None,
+        _ => None,
     });
     assert!((radius.unwrap() - 12.0).abs() < 1e-9);
     // inside a full circle
@@ -54,7 +54,7 @@ fn arcs_grow_and_shrink() {
             assert!((arc.radius() - 8.0).abs() < 1e-9);
             assert!((arc.shape().sweep_rad + std::f64::consts::TAU).abs() < 1e-9);
         }
-        Path::Line(_) => panic!("no arc"),
+        other => panic!("no arc: {other:?}"),
     }
 }
 

@@ -17,6 +17,7 @@ fn value(list: &List, key: &str) -> Option<Value> {
     list.entries.iter().find(|e| e.key() == key).map(|e| e.value.clone())
 }
 
+/// Conformance: F073.
 #[test]
 fn a_list_in_the_forms_of_the_manuals() {
     let (list, diagnostics) = read_text(
@@ -46,6 +47,7 @@ fn a_list_in_the_forms_of_the_manuals() {
     }
 }
 
+/// Conformance: F051, F056.
 #[test]
 fn the_listing_of_the_feedforward_manual_loads_without_a_message() {
     let (list, diagnostics) = read_text(
@@ -59,6 +61,7 @@ fn the_listing_of_the_feedforward_manual_loads_without_a_message() {
     assert_eq!(value(&list, "antr.sercos.mdt[0].nc_ref"), Some(Value::Text("S_0_0037".to_owned())));
 }
 
+/// Conformance: A011.
 #[test]
 fn every_rule_has_its_message() {
     let cases: [(&str, &[&str], &str, Option<f64>); 9] = [
@@ -86,6 +89,7 @@ fn every_rule_has_its_message() {
     assert_eq!(value(&list, "final_prog_file"), Some(Value::Text("a b".to_owned())));
 }
 
+/// Conformance: F081.
 #[test]
 fn unknown_keys_are_counted_and_named_once() {
     let mut text = String::new();

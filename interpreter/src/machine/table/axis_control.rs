@@ -9,10 +9,10 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::None).default(1024.0).unit("incr/rev", "incr/rev").source("TF5200 feedforward control"),
     axis("P-AXIS-00099", "getriebe[i].kv", Raw::Uns32, "gain of the P position controller in the CNC (1000 = 10/s); 0 gives 110150")
         .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").below(110150, Correction::Default),
-    axis("P-AXIS-00128", "getriebe[i].multi_gain_n", Raw::Uns32, "denominator, output at 1 m/min or 1000 deg/min")
-        .range(Bound::At(1.0), Bound::None).default(1.0).source("TF5200 Improved Position Control"),
-    axis("P-AXIS-00129", "getriebe[i].multi_gain_z", Raw::Uns32, "numerator of the same")
-        .range(Bound::At(1.0), Bound::None).default(2000.0).unit("bit", "bit").source("TF5200 Improved Position Control"),
+    axis("P-AXIS-00128", "getriebe[i].multi_gain_n", Raw::Uns32, "output at 1 m/min (1000 deg/min), denominator")
+        .range(Bound::At(1.0), Bound::None).default(1.0).drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").source("TF5200 Improved Position Control"),
+    axis("P-AXIS-00129", "getriebe[i].multi_gain_z", Raw::Uns32, "output at 1 m/min (1000 deg/min), numerator")
+        .range(Bound::At(1.0), Bound::None).default(2000.0).unit("bit", "bit").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").source("TF5200 Improved Position Control"),
     axis("P-AXIS-00151", "getriebe[i].pos_einschw_zeit", Raw::Uns32, "old time limit, 0 off; older manual gives ms")
         .range(Bound::At(0.0), Bound::At(4294967.0)).default(1000000.0).unit("us", "us"),
     axis("P-AXIS-00166", "getriebe[i].slep_abw", Raw::Uns32, "remaining deviation of the dropped type 3")
@@ -27,8 +27,6 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("us", "us"),
     axis("P-AXIS-00172", "getriebe[i].slep_ueberw_typ", Raw::Uns32, "lag monitoring: 1 standard, 2 linear, 4 speed-independent, else off")
         .range(Bound::At(0.0), Bound::None).default(0.0),
-    axis("P-AXIS-00176", "", Raw::Boolean, "compute but raise no lag error")
-        .default(0.0).axes("TR"),
     axis("P-AXIS-00233", "getriebe[i].wegaufn", Raw::Uns32, "encoder resolution, path (denominator); 0 gives 110086")
         .range(Bound::At(1.0), Bound::None).default(1.0).unit("0.1um", "0.0001deg").below(110086, Correction::Value(1.0)),
     axis("P-AXIS-00234", "getriebe[i].wegaufz", Raw::Uns32, "encoder resolution, increments (numerator); 0 gives 110386")
@@ -36,13 +34,13 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00236", "getriebe[i].window", Raw::Sgn32, "exact-stop window, also for G60")
         .range(Bound::At(0.0), Bound::None).default(500.0).unit("0.1um", "0.0001deg").source("TF5200 position monitoring"),
     axis("P-AXIS-00245", "getriebe[i].dyn_kv.kv1", Raw::Uns32, "dynamic kv: gain at v1")
-        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s"),
+        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"),
     axis("P-AXIS-00246", "getriebe[i].dyn_kv.v1", Raw::Uns32, "dynamic kv: lower speed")
-        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("um/s", "0.001deg/s"),
+        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("um/s", "0.001deg/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"),
     axis("P-AXIS-00247", "getriebe[i].dyn_kv.kv2", Raw::Uns32, "dynamic kv: gain at v2")
-        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s"),
+        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"),
     axis("P-AXIS-00248", "getriebe[i].dyn_kv.v2", Raw::Uns32, "dynamic kv: upper speed (AXIS prints the key kv2 by mistake)")
-        .range(Bound::BeyondOf("P-AXIS-00246"), Bound::None).default(2000.0).unit("um/s", "0.001deg/s"),
+        .range(Bound::BeyondOf("P-AXIS-00246"), Bound::None).default(2000.0).unit("um/s", "0.001deg/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"),
     axis("P-AXIS-00320", "antr.operation_mode", Raw::Text, "mode of positioning: where the position loop is closed")
         .default_is(Default::Text("DRIVE_DEFAULT")),
     axis("P-AXIS-00395", "getriebe[i].pos_control_deadband", Raw::Uns32, "dead band of the position controller")
@@ -51,7 +49,7 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1%", "0.1%"),
     axis("P-AXIS-00422", "lr_hw[i].encoder_resolution_num", Raw::Uns32, "resolution of the direct measuring system (i = 1), increments")
         .range(Bound::At(1.0), Bound::None).default(1.0).unit("incr", "incr"),
-    axis("P-AXIS-00423", "lr_hw[i].encoder_resolution_denom", Raw::Uns32, "the same, path")
+    axis("P-AXIS-00423", "lr_hw[i].encoder_resolution_denom", Raw::Uns32, "resolution of the direct measuring system (i = 1), path")
         .range(Bound::At(1.0), Bound::None).default(1.0).unit("0.1um", "0.0001deg"),
     axis("P-AXIS-00488", "getriebe[i].pos_lag_mon_error_delay_time", Raw::Uns32, "delay of 70020 in type 4")
         .range(Bound::At(0.0), Bound::At(250000.0)).default(0.0).unit("us", "us"),

@@ -21,7 +21,7 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(1.0), Bound::At(100000000.0)).default(1000.0).unit("mm/s2", "deg/s2"),
     axis("P-AXIS-00011", "getriebe[i].lslope_profil.a_stufe_1", Raw::Uns32, "STEP slope, acceleration below the switching speed")
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00008")).default(1000.0).unit("mm/s2", "deg/s2"),
-    axis("P-AXIS-00012", "getriebe[i].lslope_profil.a_stufe_2", Raw::Uns32, "STEP slope, acceleration above it")
+    axis("P-AXIS-00012", "getriebe[i].lslope_profil.a_stufe_2", Raw::Uns32, "STEP slope, acceleration above the switching speed")
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00008")).default(1000.0).unit("mm/s2", "deg/s2"),
     axis("P-AXIS-00013", "getriebe[i].dynamik.a_trans_weight", Raw::Uns32, "weight of the acceleration allowed at a block transition with a kink, non-linear slope only; 0 or absent = cycle time / ramp time")
         .range(Bound::At(1.0), Bound::At(1000.0)).default(0.0).unit("0.1%", "0.1%").special(0.0),

@@ -6,15 +6,12 @@ use super::row::{Bound, Correction, Default, Raw, Row, axis};
 const AXIS_TYPES: &[(&str, u32)] =
     &[("ACHSTYP_TRANSLATOR", 1), ("ACHSTYP_ROTATOR", 2), ("ACHSTYP_SPINDEL", 4)];
 
-/// Operating modes (P-AXIS-00015) that change what kontur does.
-const AXIS_MODES: &[(&str, u32)] = &[("LINEAR", 1), ("MODULO", 4), ("GANTRY_SLAVE", 0x20000)];
-
 /// The rows.
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00014", "kenngr.abs_pos_gueltig", Raw::Boolean, "1: absolute measuring system, no homing needed")
-        .default(0.0),
-    axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Flags(AXIS_MODES), "operating mode bits (linear, modulo 0x4, gantry slave 0x20000, ...)")
+        .default(0.0).drives("Simulation, SERCOS, CANopen"),
+    axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Uns32, "operating mode, sum of bits: linear 0x1, modulo 0x4, gantry slave 0x20000")
         .default(1.0),
     axis("P-AXIS-00016", "kopf.achs_nr", Raw::Uns16, "logical axis number, unique in the whole system, 0 not allowed; the link between axis list and channel list; changed only by restart")
         .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0),
@@ -24,16 +21,18 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(1.0), Bound::At(32.0)).default(4.0),
     axis("P-AXIS-00070", "kenngr.gantry_ax_nr", Raw::Uns16, "gantry slave: logical number of its master")
         .range(Bound::At(1.0), Bound::None).default(0.0).axes("TR").special(0.0).source("TF5200 gantry"),
-    axis("P-AXIS-00086", "", Raw::Uns32, "stroke of the probe")
+    axis("P-AXIS-00086", "", Raw::Uns32, "stroke of the probe; to be raised for measuring moves, whose distance shrinks by what the feedforward buffer holds")
         .axes("TR").source("TF5200 feedforward control"),
     axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "override ceiling of single axes and spindles")
         .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(110111, Correction::Limit),
+    axis("P-AXIS-00176", "kenngr.suppress_pos_lag_error", Raw::Boolean, "the lag is monitored and traced but raises no error; no document prints the prefix of the key, kenngr., lr_param., getriebe[0]. and none are taken")
+        .default(0.0).axes("TR"),
     axis("P-AXIS-00177", "kenngr.swe_neg", Raw::Sgn32, "negative software limit for setpoints; actuals may pass it by swe_toleranz")
         .default(-100000000.0).unit("0.1um", "0.0001deg").axes("TR"),
     axis("P-AXIS-00178", "kenngr.swe_pos", Raw::Sgn32, "positive software limit")
         .default(100000000.0).unit("0.1um", "0.0001deg").axes("TR"),
     axis("P-AXIS-00179", "kenngr.swe_toleranz", Raw::Uns32, "extra range for actual values")
-        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1um", "0.0001deg").axes("TR"),
+        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1um", "0.0001deg").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").axes("TR"),
     axis("P-AXIS-00297", "kopf.log_achs_name", Raw::Text, "default (alias) name of the axis"),
     axis("P-AXIS-00439", "kenngr.dyn_monitoring_v_warn", Raw::Uns32, "warning when setpoint speed > vb_max by this (50119)")
         .range(Bound::At(0.0), Bound::None).default(50.0).unit("0.1%", "0.1%"),

@@ -2,13 +2,10 @@
 
 use super::row::{Bound, Correction, Default, Raw, Row, chan};
 
-/// Slope types (P-CHAN-00071).
-const SLOPES: &[(&str, u32)] = &[("STEP", 0), ("TRAPEZ", 1), ("SIN2", 2), ("HSC", 3)];
-
 /// The rows.
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    chan("P-CHAN-00001", "prog_start.slope.acceleration", Raw::Sgn16, "0 all, 1 a_beschl, 2 a_brems")
+    chan("P-CHAN-00001", "prog_start.slope.acceleration", Raw::Sgn16, "which accelerations G130 and G131 weight: 0 all, 1 a_beschl, 2 a_brems")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
     chan("P-CHAN-00002", "vector.acceleration", Raw::Real64, "path acceleration limit, unit by P-CHAN-00351, after #VECTOR LIMIT ON")
         .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"),
@@ -21,7 +18,7 @@ pub(super) const ROWS: &[Row] = &[
         .default(0.0),
     chan("P-CHAN-00011", "gruppe[i].achse[j].default_feed_axis", Raw::Boolean, "member of the feed group; none given = the first three main axes")
         .default(0.0),
-    chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC, parsed and ignored (with 00013, 00017, 00018)"),
+    chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC: distance behind the corner; read and ignored"),
     chan("P-CHAN-00019", "syn_chk.errors_total", Raw::Uns16, "syntax check: stop after this many errors (old key syn_chk.fehler_gesamt)")
         .range(Bound::At(0.0), Bound::At(65535.0)).default(0.0),
     chan("P-CHAN-00020", "syn_chk.errors_per_block", Raw::Uns16, "errors per line before going to the next (old key syn_chk.fehler_pro_zeile)")
@@ -47,8 +44,8 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
     chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters survive the start of a program")
         .default(0.0),
-    chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Names(SLOPES), "0 STEP 1 TRAPEZ 2 SIN2 3 HSC")
-        .range(Bound::None, Bound::At(3.0)).default(0.0).outside(70, Correction::Default),
+    chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Sgn16, "slope at program start: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC")
+        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(70, Correction::Default),
     chan("P-CHAN-00073", "prog_start.slope.ramp_time", Raw::Sgn16, "which ramp times G132/G133 weight: 0 all, 1 acc up, 2 acc down, 3 dec up, 4 dec down")
         .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(120178, Correction::Refuse).below(120178, Correction::Refuse),
     chan("P-CHAN-00090", "vector.velocity", Raw::Real64, "path speed limit")
@@ -90,7 +87,7 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
     chan("P-CHAN-00297", "", Raw::Uns32, "join of asynchronous axes with or without exact stop")
         .source("TF5200 programming"),
-    chan("P-CHAN-00349", "prog_start.slope.mode_ramp_time", Raw::Boolean, "0 constant jerk, 1 constant ramp time")
+    chan("P-CHAN-00349", "prog_start.slope.mode_ramp_time", Raw::Boolean, "TRAPEZ and SIN2, not G00: 0 constant jerk, 1 constant ramp time")
         .default(0.0),
     chan("P-CHAN-00350", "vector.cir_radial_acc_limit", Raw::Boolean, "P-CHAN-00002 also limits arcs")
         .default(0.0),
@@ -102,6 +99,9 @@ pub(super) const ROWS: &[Row] = &[
         .default(0.0),
     chan("P-CHAN-00518", "configuration.decoder.msg_to_default", Raw::Word(&["STANDARD", "DISABLED", "WARNING", "ERROR"]), "#MSG to the diagnosis receiver: STANDARD, DISABLED, WARNING (22194), ERROR (22195)")
         .default_is(Default::Text("STANDARD")),
+    chan("P-CHAN-00013", "speed_limit_look_ahead.dist_to_corner", Raw::Real64, "velocity look-ahead for the PLC: distance before the corner; read and ignored"),
+    chan("P-CHAN-00017", "speed_limit_look_ahead.f_enable", Raw::Boolean, "velocity look-ahead for the PLC; read and ignored"),
+    chan("P-CHAN-00018", "speed_limit_look_ahead.f_time", Raw::Real64, "velocity look-ahead for the PLC: time; read and ignored"),
     chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs in the path compound"),
     chan("P-CHAN-00026", "h_prozess_zeit[i]", Raw::Uns32, "duration of H function i, counted with --techno-times")
         .default(0.0).unit("us", "us"),

@@ -13,7 +13,7 @@ pub(super) const ROWS: &[Row] = &[
     own("kontur.axis[i].plant.model", Raw::Word(PLANTS), "drive and mechanics: SIMU the vendor's simulated drive, PT1 first order, TWO_MASS, MODAL rigid body with modes")
         .default_is(Default::Text("SIMU")),
     own("kontur.axis[i].plant.ta_us", Raw::Uns32, "PT1: time constant of the velocity loop")
-        .default(5000.0).unit("us", "us"),
+        .range(Bound::At(1.0), Bound::None).default(5000.0).unit("us", "us").outside(70, Correction::Refuse),
     own("kontur.axis[i].plant.kp", Raw::Real64, "TWO_MASS, MODAL: gain of the velocity loop per unit of mass")
         .range(Bound::Beyond(0.0), Bound::None).default(200.0).unit("1/s", "1/s").outside(70, Correction::Refuse),
     own("kontur.axis[i].plant.tn_us", Raw::Uns32, "TWO_MASS, MODAL: integral time of the velocity loop")

@@ -23,6 +23,9 @@ const FAMILIES: &[&[Row]] = &[
 /// Source: the channel manual's older edition (`syn_chk.fehler_*`); TF5200 Improved Position Control: builds with one
 /// filter per stage write `filter.`, newer ones `filter[k].`.
 const ALIASES: &[(&str, &str)] = &[
+    ("suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
+    ("lr_param.suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
+    ("getriebe[].suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
     ("syn_chk.fehler_gesamt", "syn_chk.errors_total"),
     ("syn_chk.fehler_pro_zeile", "syn_chk.errors_per_block"),
     (
@@ -83,28 +86,30 @@ fn same_shape(key: &str, shape: &str) -> bool {
     }
 }
 
-/// Keys that were probably meant by a key that is not in the table, best first, at most three.
-///
-/// Two wrong letters are forgiven; otherwise keys whose last name is the same are offered (`kv` for `getriebe[i].kv`).
+/// Keys that differ from `shape` by at most two letters, best first.
+pub fn misspelt(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
+    let wanted = shape.to_ascii_lowercase();
+    let mut near: Vec<(usize, &'static str)> =
+        keys(list).filter_map(|key| Some((edit_distance(&plain(key), &wanted, 2)?, key))).collect();
+    near.sort_by_key(|(distance, _)| *distance);
+    near.into_iter().map(|(_, key)| key).collect()
+}
+
+/// Keys that were probably meant, best first, at most three: misspelt ones, otherwise those whose last name is the same
+/// (`getriebe[i].kv` for `kv`).
 pub fn suggestions(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
     let wanted = shape.to_ascii_lowercase();
-    let keys =
-        || rows().filter(|r| list.is_none_or(|l| l == r.list) && !r.key.is_empty()).map(|r| r.key);
-    let mut near: Vec<(usize, &'static str)> = keys()
-        .filter_map(|key| {
-            let plain = plain(key);
-            let distance = edit_distance(&plain, &wanted, 2)?;
-            Some((distance, key))
-        })
-        .collect();
-    near.sort_by_key(|(distance, _)| *distance);
     let last = |s: &str| s.rsplit('.').next().unwrap_or_default().to_owned();
-    let mut found: Vec<&'static str> = near.into_iter().map(|(_, key)| key).collect();
-    if found.is_empty() && !last(&wanted).is_empty() {
-        found = keys().filter(|key| last(&plain(key)) == last(&wanted)).collect();
+    let mut found = misspelt(list, shape);
+    if found.is_empty() && !wanted.is_empty() {
+        found = keys(list).filter(|key| last(&plain(key)) == last(&wanted)).collect();
     }
     found.truncate(3);
     found
+}
+
+fn keys(list: Option<ListKind>) -> impl Iterator<Item = &'static str> {
+    rows().filter(move |r| list.is_none_or(|l| l == r.list) && !r.key.is_empty()).map(|r| r.key)
 }
 
 /// A key of the table in lower case with `[]` for every index.

@@ -151,6 +151,8 @@ pub enum Default {
     Text(&'static str),
     /// The value of another parameter.
     Of(&'static str),
+    /// One text per value of the last index.
+    PerIndex(&'static [&'static str]),
 }
 
 /// One parameter.
@@ -180,6 +182,8 @@ pub struct Row {
     pub unit_rotary: &'static str,
     /// Axis types: letters of `TRS` (translatory, rotary, spindle), empty outside axis lists.
     pub axes: &'static str,
+    /// Drive types the manual names; empty: all. kontur lets every simulated drive use every parameter.
+    pub drives: &'static str,
     /// Reaction below the range.
     pub below: Reaction,
     /// Reaction above the range.
@@ -213,6 +217,7 @@ const fn row(
         unit: "-",
         unit_rotary: "-",
         axes: "",
+        drives: "",
         below: UNDOCUMENTED,
         above: UNDOCUMENTED,
         at_setup: false,
@@ -285,6 +290,12 @@ impl Row {
     /// Axis types.
     pub(super) const fn axes(mut self, axes: &'static str) -> Self {
         self.axes = axes;
+        self
+    }
+
+    /// Drive types.
+    pub(super) const fn drives(mut self, drives: &'static str) -> Self {
+        self.drives = drives;
         self
     }
 

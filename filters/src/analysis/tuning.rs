@@ -1,0 +1,140 @@
+//! Which mode and frequency of the Vibration Guard fit a machine whose natural frequency varies over its workspace.
+//!
+//! The residual vibration is computed, never looked up: the vendor's table of permitted deviations normalises the set
+//! frequency by the real one, its worked example the real one by the set one.
+//!
+//! Source: TF5250 Vibration Guard (choice of the mode from frequencies at several positions).
+
+use super::corner::kernel_error_mm;
+use crate::kernel::Kernel;
+use crate::response::{Impulse, residual_vibration_ratio};
+use crate::time::CycleTime;
+use crate::vib_guard::VibGuardSettings;
+
+/// The vibration of a machine: its natural frequency lies between two values, depending on the position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VibrationBand {
+    /// Lowest real natural frequency in Hz, undamped.
+    pub low_hz: f64,
+    /// Highest real natural frequency in Hz, undamped.
+    pub high_hz: f64,
+    /// Damping ratio, 0 to 1.
+    pub damping: f64,
+}
+
+/// One choice of settings for a band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// The settings.
+    pub settings: VibGuardSettings,
+    /// Largest residual vibration over the band, as a share of what the unshaped setpoint leaves.
+    pub worst_ratio: f64,
+    /// Delay of slow signals in cycles.
+    pub delay_cycles: f64,
+    /// Contour error at a 90 degree corner per mm/s of speed, in mm: the delay-aligned error of each axis.
+    pub corner_error_s: f64,
+}
+
+/// Set frequencies are resolved to this in Hz: nobody measures better, and a program line stays short.
+pub const RESOLUTION_HZ: f64 = 0.01;
+
+/// Real frequencies at which a band is looked at, its ends included.
+const REAL_STEPS: u32 = 200;
+/// Set frequencies at which the best one is looked for before the search is refined.
+const SET_STEPS: u32 = 100;
+/// Bound of the refinement to either side.
+const MOST_FINE_STEPS: u32 = 500;
+
+impl VibrationBand {
+    /// The band of frequencies measured at several positions; `None` without one, and for a frequency that is not
+    /// above 0.
+    pub fn of(freqs_hz: &[f64], damping: f64) -> Option<Self> {
+        let usable = |f: &f64| f.is_finite() && *f > 0.0;
+        let low_hz = freqs_hz.iter().copied().reduce(f64::min)?;
+        let high_hz = freqs_hz.iter().copied().reduce(f64::max)?;
+        freqs_hz.iter().all(usable).then_some(Self { low_hz, high_hz, damping })
+    }
+
+    /// Largest residual vibration that impulses leave at any frequency of the band.
+    pub fn worst_ratio(&self, impulses: &[Impulse]) -> f64 {
+        let at = |f_hz: f64| residual_vibration_ratio(impulses, f_hz, self.damping);
+        let step = (self.high_hz - self.low_hz) / f64::from(REAL_STEPS);
+        if step <= 0.0 {
+            return at(self.high_hz);
+        }
+        let inside = (0..REAL_STEPS).map(|i| at(self.low_hz + f64::from(i) * step));
+        inside.fold(at(self.high_hz), f64::max)
+    }
+
+    /// What settings do to the band; `None` if they give no kernel in this cycle time.
+    pub fn judge(&self, settings: VibGuardSettings, cycle: CycleTime) -> Option<Choice> {
+        let kernel: Kernel = settings.kernel(cycle).ok()?;
+        Some(Choice {
+            settings,
+            worst_ratio: self.worst_ratio(&kernel.impulses(cycle)),
+            delay_cycles: kernel.delay_cycles(),
+            corner_error_s: kernel_error_mm(&kernel, 1.0, cycle),
+        })
+    }
+
+    /// The frequency of a mode that leaves the least at the worst place of the band, in steps of
+    /// [`RESOLUTION_HZ`]; `None` if the mode has no kernel there. The guard is set to the damping of the band.
+    pub fn best(&self, mode: u8, cycle: CycleTime) -> Option<Choice> {
+        let judge = |freq_hz: f64| {
+            self.judge(VibGuardSettings { mode, freq_hz, damping: self.damping }, cycle)
+        };
+        let width = self.high_hz - self.low_hz;
+        let scan = (0..=SET_STEPS)
+            .map(|i| self.low_hz + width * f64::from(i) / f64::from(SET_STEPS))
+            .filter_map(|f| judge(rounded(f, f64::round)));
+        let coarse = scan.reduce(better)?;
+        // the least residual lies between the neighbours of the best of the scan
+        let reach_hz = width / f64::from(SET_STEPS);
+        let near = (1..=MOST_FINE_STEPS)
+            .map(|i| f64::from(i) * RESOLUTION_HZ)
+            .take_while(|offset| *offset < reach_hz + RESOLUTION_HZ)
+            .flat_map(|offset| [-offset, offset])
+            .filter_map(|offset| judge(rounded(coarse.settings.freq_hz + offset, f64::round)));
+        Some(near.fold(coarse, better))
+    }
+
+    /// The highest frequency of a mode that keeps the residual vibration of the whole band within `limit_ratio`, in
+    /// steps of [`RESOLUTION_HZ`]: the shortest kernel that does, hence the least contour error and delay. `None` if
+    /// no frequency does.
+    pub fn fastest(&self, mode: u8, limit_ratio: f64, cycle: CycleTime) -> Option<Choice> {
+        let judge = |freq_hz: f64| {
+            self.judge(VibGuardSettings { mode, freq_hz, damping: self.damping }, cycle)
+                .filter(|choice| choice.worst_ratio <= limit_ratio)
+        };
+        let mut inside = self.best(mode, cycle).filter(|best| best.worst_ratio <= limit_ratio)?;
+        // Outward in steps, then bisection of the step that leaves.
+        let step = (0.01 * inside.settings.freq_hz).max(RESOLUTION_HZ);
+        let mut outside = loop {
+            let next = rounded(inside.settings.freq_hz + step, f64::round);
+            match judge(next) {
+                Some(choice) if next < 10.0 * self.high_hz => inside = choice,
+                _ => break next,
+            }
+        };
+        loop {
+            let middle = rounded(0.5 * (inside.settings.freq_hz + outside), f64::floor);
+            if middle <= inside.settings.freq_hz {
+                return Some(inside);
+            }
+            match judge(middle) {
+                Some(choice) => inside = choice,
+                None => outside = middle,
+            }
+        }
+    }
+}
+
+/// A frequency in steps of [`RESOLUTION_HZ`], at least 1 Hz (P-AXIS-00589).
+fn rounded(freq_hz: f64, how: fn(f64) -> f64) -> f64 {
+    (how(freq_hz / RESOLUTION_HZ + 1e-9) / (1.0 / RESOLUTION_HZ)).max(1.0)
+}
+
+/// The choice that leaves less; of equal ones the earlier.
+fn better(a: Choice, b: Choice) -> Choice {
+    if b.worst_ratio < a.worst_ratio { b } else { a }
+}

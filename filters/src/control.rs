@@ -1,0 +1,26 @@
+//! Everything behind the set position of one axis: feedforward, position controller, drive and mechanics,
+//! Improved Position Control and the monitors of the position controller.
+//!
+//! One call of [`AxisControl::step`] per interpolation cycle; every part is configuration (`…Config`, in mm and s)
+//! apart from its state. The parts know no axis name and no parameter list: a list reader converts vendor integers
+//! into the configuration structs, the cycle loop adds axis and block to a [`Fault`].
+//!
+//! What this room does not do: filter set positions (the shaping room), stop other axes after a fault (the cycle
+//! loop), correct list values that are zero where they may not be (the list reader).
+
+pub mod axis_control;
+pub mod buffer;
+pub mod fault;
+pub mod feedforward;
+pub mod ipc;
+pub mod monitor;
+pub mod plant;
+pub mod position;
+pub mod scaling;
+
+pub use axis_control::{AxisControl, AxisControlConfig, ControlOutput, Encoder};
+pub use fault::{ErrorId, Fault, Faults, Issue, Reaction};
+pub use feedforward::{FeedforwardConfig, FeedforwardMode};
+pub use ipc::{IpcConfig, IpcMode};
+pub use plant::{Plant, PlantConfig, PlantModel};
+pub use position::PositionConfig;

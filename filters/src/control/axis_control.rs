@@ -1,0 +1,377 @@
+//! One axis behind its set position: the parts in their fixed order, once per cycle.
+//!
+//! 1. Actual values of the cycle start.
+//! 2. Setpoint out of the buffer.
+//! 3. Feedforward.
+//! 4. Position controller.
+//! 5. Improved Position Control.
+//! 6. Speed limit.
+//! 7. Monitors.
+//! 8. The plant advances by one cycle.
+
+use super::{
+    buffer::{Setpoint, SetpointBuffer},
+    fault::{Fault, Faults, Issue},
+    feedforward::{AdditiveInputs, Feedforward, FeedforwardConfig, FeedforwardOutput},
+    ipc::{Ipc, IpcConfig, IpcInput},
+    monitor::{
+        ExactStopConfig, ExactStopMonitor, LagMonitor, LagMonitorConfig, SetpointMonitor,
+        SetpointMonitorConfig,
+    },
+    plant::{Plant, PlantConfig, PlantError, PlantInput},
+    position::{PositionConfig, SpeedLimiter},
+    scaling::{SpeedFormat, TorqueFormat},
+};
+use crate::time::CycleTime;
+
+/// Measuring system that closes the position loop.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Encoder {
+    /// Motor encoder (default).
+    #[default]
+    Motor,
+    /// Direct measuring system at the load (`lr_hw[1]`).
+    ///
+    /// Assumption: an axis that has one is controlled by it.
+    Direct,
+}
+
+/// Configuration of everything behind the set position of one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AxisControlConfig {
+    /// Feedforward.
+    pub feedforward: FeedforwardConfig,
+    /// Additive inputs of the drive.
+    pub additive_inputs: AdditiveInputs,
+    /// Delay of the position path in cycles, the same for every axis of a channel
+    /// ([`channel_delay_cycles`](super::buffer::channel_delay_cycles)). Never less than the axis' own feedforward
+    /// needs.
+    pub delay_cycles: usize,
+    /// Position controller.
+    pub position: PositionConfig,
+    /// Measuring system of the position loop.
+    pub encoder: Encoder,
+    /// Improved Position Control.
+    pub ipc: IpcConfig,
+    /// Drive and mechanics.
+    pub plant: PlantConfig,
+    /// Following-error monitoring.
+    pub lag: LagMonitorConfig,
+    /// Exact stop.
+    pub exact_stop: ExactStopConfig,
+    /// Monitoring of the set positions.
+    pub setpoint: SetpointMonitorConfig,
+    /// Format of the speed command, and of the additive speed of Improved Position Control.
+    pub command_format: SpeedFormat,
+    /// Format of the velocity feedforward.
+    pub feedforward_format: SpeedFormat,
+    /// Format of the additive torque.
+    pub torque: TorqueFormat,
+}
+
+impl AxisControlConfig {
+    /// The vendor's defaults for an axis with the given limits of velocity, acceleration and jerk.
+    pub fn new(v_max_mm_s: f64, a_max_mm_s2: f64, j_max_mm_s3: f64) -> Self {
+        Self {
+            feedforward: FeedforwardConfig::default(),
+            additive_inputs: AdditiveInputs { velocity: false, torque: false },
+            delay_cycles: 0,
+            position: PositionConfig { v_max_mm_s, ..PositionConfig::default() },
+            encoder: Encoder::Motor,
+            ipc: IpcConfig::default(),
+            plant: PlantConfig::default(),
+            lag: LagMonitorConfig::default(),
+            exact_stop: ExactStopConfig::default(),
+            setpoint: SetpointMonitorConfig::new(v_max_mm_s, a_max_mm_s2, j_max_mm_s3),
+            command_format: SpeedFormat::default(),
+            feedforward_format: SpeedFormat::default(),
+            torque: TorqueFormat::default(),
+        }
+    }
+
+    /// The configuration with every documented correction, and what was found.
+    pub fn checked(mut self, cycle: CycleTime) -> (Self, Vec<Issue>) {
+        let (feedforward, mut issues) = self.feedforward.checked(cycle, self.additive_inputs);
+        self.feedforward = feedforward;
+        let (plant, found) = self.plant.checked();
+        self.plant = plant;
+        issues.extend(found);
+        issues.extend(self.ipc.check(cycle));
+        if self.feedforward.uses_torque() {
+            issues.extend(self.torque.check(self.setpoint.a_max_mm_s2));
+        }
+        (self, issues)
+    }
+}
+
+/// Values in the drive's format, in counts unless the name says otherwise.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DriveValues {
+    /// Speed command.
+    pub command: f64,
+    /// Velocity feedforward, conventional or additive.
+    pub feedforward: f64,
+    /// Additive speed of Improved Position Control.
+    pub additive_speed: f64,
+    /// Additive torque.
+    pub torque: f64,
+    /// The same in N m (N for a linear motor).
+    pub torque_n_m: f64,
+}
+
+/// What one cycle shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ControlOutput {
+    /// What the position controller got, mm.
+    pub reference_mm: f64,
+    /// Actual position of the motor encoder at the start of the cycle, mm.
+    pub act_mm: f64,
+    /// Position of the load (direct encoder), mm.
+    pub load_mm: f64,
+    /// Reference - actual position, mm.
+    pub lag_mm: f64,
+    /// Feedforward.
+    pub feedforward: FeedforwardOutput,
+    /// Speed command: controller, conventional feedforward and additive speed, limited, mm/s.
+    pub command_mm_s: f64,
+    /// Additive speed of Improved Position Control, mm/s.
+    pub additive_speed_mm_s: f64,
+    /// It is at its limit.
+    pub additive_speed_limited: bool,
+    /// Tool point, mm.
+    pub tcp_mm: f64,
+    /// Acceleration of the tool point (difference of its speed over the last cycle), mm/s2.
+    pub tcp_acc_mm_s2: f64,
+    /// Values in the drive's format.
+    pub drive: DriveValues,
+    /// What the monitors raised.
+    pub faults: Faults,
+}
+
+/// One axis behind its set position.
+#[derive(Clone, Debug)]
+pub struct AxisControl {
+    config: AxisControlConfig,
+    cycle: CycleTime,
+    buffer: SetpointBuffer,
+    feedforward: Feedforward,
+    limiter: SpeedLimiter,
+    ipc: Ipc,
+    plant: Plant,
+    lag: LagMonitor,
+    exact_stop: ExactStopMonitor,
+    setpoint: SetpointMonitor,
+    set_mm: f64,
+    tcp_mm_s: f64,
+    encoder_offset_mm: f64,
+    force_mm_s2: f64,
+    diverged: bool,
+    moving: bool,
+}
+
+impl AxisControl {
+    /// Largest set position in mm: far beyond any machine, and small enough for every difference to stay finite.
+    pub const RANGE_MM: f64 = 1e9;
+    /// Following errors beyond this multiple of the permitted or the theoretical lag belong to no stable loop.
+    const DIVERGED: f64 = 10.0;
+
+    /// An axis after its (checked) configuration, at rest at 0.
+    ///
+    /// # Errors
+    /// [`PlantError`] if the plant is not physical.
+    pub fn new(config: AxisControlConfig, cycle: CycleTime) -> Result<Self, PlantError> {
+        let delay = config.delay_cycles.max(config.feedforward.delay_cycles());
+        let mut control = Self {
+            buffer: SetpointBuffer::new(delay, config.feedforward.shift_cycles),
+            feedforward: Feedforward::new(config.feedforward, cycle),
+            limiter: SpeedLimiter::new(&config.position),
+            ipc: Ipc::new(&config.ipc, config.position.v_max_mm_s, cycle),
+            plant: Plant::new(&config.plant, cycle)?,
+            lag: LagMonitor::new(config.lag, cycle),
+            exact_stop: ExactStopMonitor::new(config.exact_stop, cycle),
+            setpoint: SetpointMonitor::new(config.setpoint, cycle),
+            config,
+            cycle,
+            set_mm: 0.0,
+            tcp_mm_s: 0.0,
+            encoder_offset_mm: 0.0,
+            force_mm_s2: 0.0,
+            diverged: false,
+            moving: false,
+        };
+        control.start(0.0);
+        Ok(control)
+    }
+
+    /// Puts everything at rest at a position; no transient follows.
+    pub fn start(&mut self, position_mm: f64) {
+        self.buffer.start(position_mm);
+        self.feedforward.start();
+        self.limiter = SpeedLimiter::new(&self.config.position);
+        self.ipc.start();
+        self.plant.start(position_mm);
+        self.lag.start(position_mm);
+        self.exact_stop.start(position_mm);
+        self.setpoint.start(position_mm);
+        self.set_mm = position_mm;
+        self.tcp_mm_s = 0.0;
+        self.encoder_offset_mm = 0.0;
+        self.force_mm_s2 = 0.0;
+        self.diverged = false;
+        self.moving = false;
+    }
+
+    /// The configuration in use.
+    pub const fn config(&self) -> &AxisControlConfig {
+        &self.config
+    }
+
+    /// Delay of the position path in cycles.
+    pub const fn delay_cycles(&self) -> usize {
+        self.buffer.delay_cycles()
+    }
+
+    /// Following-error monitor, with lag and permitted lag of the last cycle.
+    pub const fn lag_monitor(&self) -> &LagMonitor {
+        &self.lag
+    }
+
+    /// The plant separates the tool point from the load.
+    pub fn has_tool_point(&self) -> bool {
+        self.plant.has_tool_point()
+    }
+
+    /// The path comes to a stop, for this axis at `target_mm`: the exact-stop timer starts when the set position
+    /// gets there.
+    pub fn expect_stop(&mut self, target_mm: f64) {
+        self.exact_stop.expect(target_mm);
+    }
+
+    /// The actual position is within `window_mm` of the newest set position.
+    pub fn in_position(&self, window_mm: f64) -> bool {
+        (self.set_mm - self.controlled_mm()).abs() <= window_mm
+    }
+
+    /// Error of the measuring system of the position loop, from now on.
+    pub fn set_encoder_offset(&mut self, offset_mm: f64) {
+        self.encoder_offset_mm = offset_mm;
+    }
+
+    /// External force (friction, process) as acceleration of the whole mass, from now on.
+    pub fn set_force(&mut self, force_mm_s2: f64) {
+        self.force_mm_s2 = force_mm_s2;
+    }
+
+    /// Takes new parameters of Improved Position Control.
+    ///
+    /// # Errors
+    /// 70601 while the set position moves; the old parameters stay.
+    pub fn change_ipc(&mut self, ipc: IpcConfig) -> Result<(), Fault> {
+        self.ipc.change(&ipc, self.config.position.v_max_mm_s, self.cycle, self.moving)?;
+        self.config.ipc = ipc;
+        Ok(())
+    }
+
+    /// Position that the controller, the monitors and the exact stop see.
+    fn controlled_mm(&self) -> f64 {
+        let m = self.plant.measured();
+        let true_mm = match self.config.encoder {
+            Encoder::Motor => m.motor_mm,
+            Encoder::Direct => m.load_mm,
+        };
+        true_mm + self.encoder_offset_mm
+    }
+
+    /// One cycle: set position behind filters or Vibration Guard, feedforward gain of this motion
+    /// ([`FeedforwardConfig::gain`]; 0 when off) and whether its slope is jerk-limited.
+    ///
+    /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
+    pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
+        let set_mm = if set_mm.abs() <= Self::RANGE_MM { set_mm } else { self.set_mm };
+        self.moving = (set_mm - self.set_mm).abs() > 0.0;
+        self.set_mm = set_mm;
+        let cycle_s = self.cycle.seconds();
+        let measured = *self.plant.measured();
+        let actual_mm = self.controlled_mm();
+
+        self.buffer.push(Setpoint { position_mm: set_mm, gain, jerk_limited });
+        let reference_mm = self.buffer.reference_mm();
+        let kv = self.config.position.gain_at(self.buffer.reference_step_mm() / cycle_s);
+        let feedforward = self.feedforward.step(&self.buffer.window(), kv);
+        let wanted = kv * (reference_mm - actual_mm) + feedforward.speed_mm_s;
+        let additive = self.ipc.step(&IpcInput {
+            motor_mm_s: measured.motor_mm_s,
+            direct_mm_s: (self.config.encoder == Encoder::Direct).then_some(measured.load_mm_s),
+            command_mm_s: wanted,
+        });
+        let (command_mm_s, speed_fault) = self.limiter.step(wanted + additive.speed_mm_s);
+
+        let mut faults = Faults::default();
+        self.setpoint.step(set_mm).into_iter().for_each(|f| faults.push(f));
+        faults.push(speed_fault);
+        faults.push(self.lag.step(reference_mm, actual_mm, kv));
+        faults.push(self.exact_stop.step(set_mm, actual_mm));
+        faults.push(self.advance(
+            PlantInput {
+                speed_mm_s: command_mm_s + feedforward.additive_speed_mm_s,
+                acc_mm_s2: feedforward.additive_acc_mm_s2,
+                force_mm_s2: self.force_mm_s2,
+                reference_mm,
+            },
+            reference_mm - actual_mm,
+        ));
+
+        let tcp_acc_mm_s2 = (measured.tcp_mm_s - self.tcp_mm_s) / cycle_s;
+        self.tcp_mm_s = measured.tcp_mm_s;
+        let shown_mm = match self.config.encoder {
+            Encoder::Motor => actual_mm,
+            Encoder::Direct => measured.motor_mm,
+        };
+        ControlOutput {
+            reference_mm,
+            act_mm: shown_mm,
+            load_mm: if self.config.encoder == Encoder::Direct {
+                actual_mm
+            } else {
+                measured.load_mm
+            },
+            lag_mm: reference_mm - shown_mm,
+            feedforward,
+            command_mm_s,
+            additive_speed_mm_s: additive.speed_mm_s,
+            additive_speed_limited: additive.limited,
+            tcp_mm: measured.tcp_mm,
+            tcp_acc_mm_s2,
+            drive: self.drive_values(command_mm_s, &feedforward, additive.speed_mm_s),
+            faults,
+        }
+    }
+
+    /// Advances the plant unless it diverged; then it is held where it was last finite.
+    fn advance(&mut self, input: PlantInput, lag_mm: f64) -> Option<Fault> {
+        if self.diverged {
+            return None;
+        }
+        let theoretical = self.config.position.v_max_mm_s / self.config.position.lowest_gain();
+        let limit_mm = Self::DIVERGED * self.config.lag.lag_max_mm.max(theoretical);
+        if lag_mm.abs() <= limit_mm && self.plant.advance(input) {
+            return None;
+        }
+        self.diverged = true;
+        Some(Fault::Unstable { lag_mm, limit_mm })
+    }
+
+    fn drive_values(&self, command: f64, ff: &FeedforwardOutput, additive: f64) -> DriveValues {
+        let cycle_s = self.cycle.seconds();
+        let command_scale = self.config.command_format.counts_per_mm_s(cycle_s);
+        let ff_scale = self.config.feedforward_format.counts_per_mm_s(cycle_s);
+        let torque_n_m = self.config.torque.torque(ff.additive_acc_mm_s2);
+        DriveValues {
+            command: command * command_scale,
+            feedforward: (ff.speed_mm_s + ff.additive_speed_mm_s) * ff_scale,
+            additive_speed: additive * command_scale,
+            torque: self.config.torque.counts(torque_n_m),
+            torque_n_m,
+        }
+    }
+}

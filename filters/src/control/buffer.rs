@@ -1,0 +1,169 @@
+//! The buffer between interpolator and position controller.
+//!
+//! Feedforward looks ahead, so the position path is delayed: by five interpolator cycles, by one with
+//! `feedforward_without_delay` (P-AXIS-00566), by none if no axis of the channel has feedforward. All axes of a
+//! channel get the same delay, whether or not G135 is active: they stay in step, and switching never jumps.
+//!
+//! Source: TF5200 axis parameters, P-AXIS-00566 (five cycles); TF5200 feedforward control (at least one cycle).
+
+use super::feedforward::FeedforwardConfig;
+
+/// One cycle of one axis as it enters the buffer: flags travel with their position, so that a switch acts on the
+/// motion it was programmed for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Setpoint {
+    /// Set position in mm.
+    pub position_mm: f64,
+    /// Feedforward gain 0..=1 ([`FeedforwardConfig::gain`]).
+    pub gain: f64,
+    /// The motion has a jerk-limited slope (TRAPEZ, SIN2, HSC).
+    pub jerk_limited: bool,
+}
+
+/// Delay in cycles that every axis of a channel gets.
+///
+/// The PROFIdrive time offset (P-AXIS-00165) delays the position path further.
+/// Assumption: the largest offset of the channel delays all its axes, for the reason given above.
+pub fn channel_delay_cycles<'a>(axes: impl IntoIterator<Item = &'a FeedforwardConfig>) -> usize {
+    axes.into_iter().map(FeedforwardConfig::delay_cycles).max().unwrap_or(0)
+}
+
+/// Six successive setpoints around the one that feedforward is computed for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// Two and one cycles before, this cycle, one, two and three cycles after; mm.
+    pub positions_mm: [f64; 6],
+    /// Gain of this cycle.
+    pub gain: f64,
+    /// Jerk limitation of this cycle.
+    pub jerk_limited: bool,
+}
+
+/// Ring of setpoints with a fixed delay.
+#[derive(Clone, Debug)]
+pub struct SetpointBuffer {
+    ring: [Setpoint; Self::CAPACITY],
+    newest: usize,
+    delay: usize,
+    shift: usize,
+}
+
+impl SetpointBuffer {
+    /// Base delay 5, time offset 4, two setpoints before the reference, itself; rounded up to a power of two.
+    const CAPACITY: usize = 16;
+    /// Longest delay in cycles.
+    pub const MAX_DELAY: usize = Self::CAPACITY - 3;
+
+    /// A buffer that delays by `delay_cycles`; feedforward is taken `shift_cycles` before its setpoint.
+    /// Both are limited to what the ring holds.
+    pub fn new(delay_cycles: usize, shift_cycles: usize) -> Self {
+        let delay = delay_cycles.min(Self::MAX_DELAY);
+        let ring = [Setpoint::default(); Self::CAPACITY];
+        Self { ring, newest: 0, delay, shift: shift_cycles.min(delay) }
+    }
+
+    /// Delay in cycles.
+    pub const fn delay_cycles(&self) -> usize {
+        self.delay
+    }
+
+    /// Fills the buffer with an axis at rest.
+    pub fn start(&mut self, position_mm: f64) {
+        self.ring = [Setpoint { position_mm, ..Setpoint::default() }; Self::CAPACITY];
+    }
+
+    /// Takes the setpoint of this cycle.
+    pub fn push(&mut self, setpoint: Setpoint) {
+        self.newest = (self.newest + 1) % Self::CAPACITY;
+        self.ring[self.newest] = setpoint;
+    }
+
+    /// Setpoint `age` cycles ago; beyond the newest the newest.
+    fn at(&self, age: usize, ahead: usize) -> &Setpoint {
+        let age = age.saturating_sub(ahead);
+        &self.ring[(self.newest + Self::CAPACITY - age) % Self::CAPACITY]
+    }
+
+    /// Position the controller works on in this cycle, mm.
+    pub fn reference_mm(&self) -> f64 {
+        self.at(self.delay, 0).position_mm
+    }
+
+    /// Speed with which the reference moved in the last cycle, mm per cycle.
+    pub fn reference_step_mm(&self) -> f64 {
+        self.reference_mm() - self.at(self.delay + 1, 0).position_mm
+    }
+
+    /// The setpoints feedforward is computed from.
+    pub fn window(&self) -> Window {
+        let centre = self.delay - self.shift;
+        let here = self.at(centre, 0);
+        Window {
+            positions_mm: [
+                self.at(centre + 2, 0).position_mm,
+                self.at(centre + 1, 0).position_mm,
+                here.position_mm,
+                self.at(centre, 1).position_mm,
+                self.at(centre, 2).position_mm,
+                self.at(centre, 3).position_mm,
+            ],
+            gain: here.gain,
+            jerk_limited: here.jerk_limited,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
+    use super::*;
+    use crate::control::feedforward::FeedforwardMode;
+
+    fn at(position_mm: f64) -> Setpoint {
+        Setpoint { position_mm, gain: position_mm / 100.0, jerk_limited: position_mm > 6.0 }
+    }
+
+    #[test]
+    fn delays_by_its_depth_and_looks_ahead() {
+        for delay in [0, 1, 5] {
+            let mut buffer = SetpointBuffer::new(delay, 0);
+            buffer.start(0.0);
+            for k in 0..40_u32 {
+                buffer.push(at(f64::from(k)));
+                let want = f64::from(k) - delay as f64;
+                assert_eq!(buffer.reference_mm(), want.max(0.0), "delay {delay}, cycle {k}");
+            }
+        }
+        let mut buffer = SetpointBuffer::new(5, 0);
+        (0..20).for_each(|k| buffer.push(at(f64::from(k))));
+        let window = buffer.window();
+        assert_eq!(window.positions_mm, [12.0, 13.0, 14.0, 15.0, 16.0, 17.0]);
+        assert_eq!(
+            (window.gain, window.jerk_limited),
+            (0.14, true),
+            "flags travel with the position"
+        );
+        assert_eq!(buffer.reference_step_mm(), 1.0);
+    }
+
+    #[test]
+    fn time_offset_takes_feedforward_before_its_setpoint() {
+        let mut buffer = SetpointBuffer::new(8, 3);
+        (0..20).for_each(|k| buffer.push(at(f64::from(k))));
+        assert_eq!(buffer.reference_mm(), 11.0);
+        assert_eq!(buffer.window().positions_mm[2], 14.0, "three cycles later than the reference");
+    }
+
+    #[test]
+    fn channel_takes_the_longest_delay() {
+        let off = FeedforwardConfig::default();
+        let on = FeedforwardConfig { mode: FeedforwardMode::VEL, ..off };
+        let short = FeedforwardConfig { without_delay: true, ..on };
+        assert_eq!(channel_delay_cycles([&off, &off]), 0);
+        assert_eq!(channel_delay_cycles([&off, &on, &short]), 5);
+        assert_eq!(channel_delay_cycles([&off, &short]), 1);
+        assert_eq!(channel_delay_cycles([]), 0);
+        assert_eq!(channel_delay_cycles([&on, &FeedforwardConfig { shift_cycles: 3, ..on }]), 8);
+    }
+}

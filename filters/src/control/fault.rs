@@ -1,0 +1,297 @@
+//! Faults of a running axis and issues of its configuration: typed values, no text.
+
+/// Number of a condition: the vendor's own or kontur's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ErrorId {
+    /// A number of the vendor's diagnosis manual.
+    Vendor(u32),
+    /// A condition no vendor number is documented for, printed `K-nnnn`.
+    Kontur(u16),
+}
+
+/// What the control does at once.
+///
+/// Source: TF5200 diagnosis manual, reaction classes; the discriminant is the class as printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Reaction {
+    /// Class 1: none, a warning.
+    None = 1,
+    /// Class 4: feed hold for the whole axis group.
+    FeedHold = 4,
+    /// Class 5: the axis stops abruptly, the others of the group feed hold.
+    AbruptStop = 5,
+    /// Class 6: all axes stop abruptly.
+    AllStop = 6,
+    /// Class 7: the axis stops under control, the others feed hold.
+    ControlledStop = 7,
+    /// Class 8: the axis stops with the position loop opened, the others feed hold.
+    OpenLoopStop = 8,
+}
+
+impl Reaction {
+    /// Class as the manual prints it, 1..=8.
+    pub const fn class(self) -> u8 {
+        self as u8
+    }
+}
+
+/// Which derivative of the setpoint a monitor watched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derivative {
+    /// Velocity in mm/s.
+    Velocity,
+    /// Acceleration in mm/s2.
+    Acceleration,
+    /// Jerk in mm/s3.
+    Jerk,
+}
+
+/// A condition met while the axis runs. Raised once when it begins, not in every cycle it lasts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// 70020: the following error exceeds the permitted lag.
+    FollowingError {
+        /// Following error in mm, signed.
+        lag_mm: f64,
+        /// Permitted magnitude in mm.
+        limit_mm: f64,
+    },
+    /// 70082: the axis did not reach the exact-stop window in time (P-AXIS-00236, P-AXIS-00532).
+    SettlingTimeout {
+        /// Distance to the target in mm, signed.
+        lag_mm: f64,
+        /// Half width of the window in mm.
+        window_mm: f64,
+        /// Permitted time in s.
+        time_s: f64,
+    },
+    /// 70382: speed command of the position controller above the limit (P-AXIS-00407); the limit is output.
+    ControllerSpeed {
+        /// Speed before limiting in mm/s.
+        speed_mm_s: f64,
+        /// Limit in mm/s.
+        limit_mm_s: f64,
+    },
+    /// Setpoint above its warning threshold: 50119 for velocity, for acceleration and jerk K-0060.
+    SetpointWarning {
+        /// What was watched.
+        what: Derivative,
+        /// Magnitude, unit of `what`.
+        value: f64,
+        /// Threshold, unit of `what`.
+        limit: f64,
+    },
+    /// Setpoint above its error threshold: 50118 for velocity, for acceleration and jerk K-0061.
+    SetpointError {
+        /// What was watched.
+        what: Derivative,
+        /// Magnitude, unit of `what`.
+        value: f64,
+        /// Threshold, unit of `what`.
+        limit: f64,
+    },
+    /// 70601: parameters of Improved Position Control changed while the axis moves; the old ones stay.
+    IpcChangedMoving,
+    /// K-0035: the simulated plant diverged; it is held where it was.
+    Unstable {
+        /// Following error in mm, the last finite one.
+        lag_mm: f64,
+        /// Largest following error taken for a stable loop, in mm.
+        limit_mm: f64,
+    },
+}
+
+impl Fault {
+    /// Number of the condition.
+    pub const fn id(&self) -> ErrorId {
+        match self {
+            Self::FollowingError { .. } => ErrorId::Vendor(70020),
+            Self::SettlingTimeout { .. } => ErrorId::Vendor(70082),
+            Self::ControllerSpeed { .. } => ErrorId::Vendor(70382),
+            Self::SetpointWarning { what: Derivative::Velocity, .. } => ErrorId::Vendor(50119),
+            Self::SetpointError { what: Derivative::Velocity, .. } => ErrorId::Vendor(50118),
+            Self::SetpointWarning { .. } => ErrorId::Kontur(60),
+            Self::SetpointError { .. } => ErrorId::Kontur(61),
+            Self::IpcChangedMoving => ErrorId::Vendor(70601),
+            Self::Unstable { .. } => ErrorId::Kontur(35),
+        }
+    }
+
+    /// Reaction of the control.
+    ///
+    /// Source: TF5200 diagnosis manual. 70082: the position monitoring manual stops the axis at once and then the
+    /// others of its path, which is class 5.
+    pub const fn reaction(&self) -> Reaction {
+        match self {
+            Self::SetpointWarning { .. } => Reaction::None,
+            Self::SetpointError { .. } => Reaction::FeedHold,
+            Self::SettlingTimeout { .. } => Reaction::AbruptStop,
+            Self::Unstable { .. } => Reaction::AllStop,
+            Self::ControllerSpeed { .. } | Self::IpcChangedMoving => Reaction::ControlledStop,
+            Self::FollowingError { .. } => Reaction::OpenLoopStop,
+        }
+    }
+}
+
+/// The faults one axis raised in one cycle; no allocation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Faults {
+    items: [Option<Fault>; Self::CAPACITY],
+}
+
+impl Faults {
+    /// One slot per source: three setpoint derivatives, controller speed, lag, exact stop, divergence.
+    const CAPACITY: usize = 7;
+
+    /// Adds a fault; a full list keeps what it has, since every source raises at most one per cycle.
+    pub(crate) fn push(&mut self, fault: Option<Fault>) {
+        if fault.is_some()
+            && let Some(free) = self.items.iter_mut().find(|i| i.is_none())
+        {
+            *free = fault;
+        }
+    }
+
+    /// The faults in the order they were raised.
+    pub fn iter(&self) -> impl Iterator<Item = &Fault> {
+        self.items.iter().flatten()
+    }
+
+    /// Nothing was raised.
+    pub fn is_empty(&self) -> bool {
+        self.items[0].is_none()
+    }
+}
+
+/// What was found (and corrected) in a configuration before the first cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Issue {
+    /// 70349: delay of the velocity feedforward (P-AXIS-00389) of 6 cycles or more; set to 0.
+    VelocityDelay {
+        /// Value found in s.
+        delay_s: f64,
+    },
+    /// 70348: delay of the acceleration (P-AXIS-00390) or jerk feedforward (P-AXIS-00547) of 6 cycles or more; set
+    /// to 0.
+    AccelerationDelay {
+        /// Value found in s.
+        delay_s: f64,
+        /// True for the jerk part.
+        jerk: bool,
+    },
+    /// 70350: the drive has no additive velocity input; that part of the feedforward is off.
+    NoAdditiveVelocity,
+    /// 70351: the drive has no additive torque input; that part of the feedforward is off.
+    NoAdditiveTorque,
+    /// 110624: feedforward without delay (P-AXIS-00566) together with acceleration or jerk; only velocity is kept.
+    WithoutDelayNeedsVelocityOnly,
+    /// K-0023: output bits of P-AXIS-00223 without their activation bits; no effect.
+    OutputWithoutActivation,
+    /// K-0023: `default_active` (P-AXIS-00255) and `global_disable` (P-AXIS-00256) both set; disabled.
+    ActiveAndDisabled,
+    /// K-0024: torque at the largest acceleration above ten times the reference torque: unit of P-AXIS-00391.
+    ImplausibleLoad {
+        /// Torque (N m) or force (N) at the largest acceleration.
+        torque: f64,
+        /// Reference value P-AXIS-00392 in the same unit.
+        reference: f64,
+    },
+    /// 110465: torque scale denominator (P-AXIS-00326) 0: no torque output.
+    TorqueScaleDenominatorZero,
+    /// K-0062: reference torque (P-AXIS-00392) or torque scale numerator (P-AXIS-00325) not positive: no torque
+    /// output.
+    NoTorqueScale,
+    /// 80044: damping of the simulated drive (P-AXIS-00051/00050) of 1 or more; limited to 0.999.
+    SimulationDamping {
+        /// Value found.
+        damping_ratio: f64,
+    },
+    /// 110040: dead time of the simulated drive (P-AXIS-00194) above 5 cycles; limited.
+    DeadTime {
+        /// Value found.
+        cycles: u32,
+    },
+    /// 70600: Improved Position Control enabled in a gantry slave; off there.
+    IpcGantrySlave,
+    /// 70603: weight numerator (P-AXIS-00754) not positive; off for the axis.
+    IpcNumerator {
+        /// Stage, from 0.
+        stage: usize,
+        /// Value found.
+        value: f64,
+    },
+    /// 70604: weight denominator (P-AXIS-00755) not positive; off for the axis.
+    IpcDenominator {
+        /// Stage, from 0.
+        stage: usize,
+        /// Value found.
+        value: f64,
+    },
+    /// K-0025: a parameter of a stage is out of range; off for the axis.
+    IpcRange {
+        /// Stage, from 0.
+        stage: usize,
+        /// The parameter.
+        what: IpcParameter,
+        /// Value found.
+        value: f64,
+    },
+    /// K-0026: enabled, but P-AXIS-00757 limits the output to 0.
+    IpcNoLimit,
+    /// K-0027: weight above 7.0; limited.
+    IpcWeight {
+        /// Stage, from 0.
+        stage: usize,
+        /// Value found.
+        weight: f64,
+    },
+    /// K-0063: the pass bands of two stages overlap; they influence each other.
+    IpcOverlap {
+        /// Stages, from 0.
+        stages: (usize, usize),
+    },
+}
+
+/// A parameter of a stage of Improved Position Control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IpcParameter {
+    /// P-AXIS-00750, 1..=3.
+    Order,
+    /// P-AXIS-00751, above 0, at most 500 Hz and below half the sampling rate.
+    Frequency,
+    /// P-AXIS-00752, 1..=10.
+    Quality,
+    /// P-AXIS-00756 or P-AXIS-00850, between 0 and 1, exclusive.
+    Damping,
+    /// At least one band-pass per stage (P-AXIS-00849).
+    BandPass,
+}
+
+impl Issue {
+    /// Number of the condition.
+    pub const fn id(&self) -> ErrorId {
+        match self {
+            Self::VelocityDelay { .. } => ErrorId::Vendor(70349),
+            Self::AccelerationDelay { .. } => ErrorId::Vendor(70348),
+            Self::NoAdditiveVelocity => ErrorId::Vendor(70350),
+            Self::NoAdditiveTorque => ErrorId::Vendor(70351),
+            Self::WithoutDelayNeedsVelocityOnly => ErrorId::Vendor(110624),
+            Self::OutputWithoutActivation | Self::ActiveAndDisabled => ErrorId::Kontur(23),
+            Self::ImplausibleLoad { .. } => ErrorId::Kontur(24),
+            Self::TorqueScaleDenominatorZero => ErrorId::Vendor(110465),
+            Self::NoTorqueScale => ErrorId::Kontur(62),
+            Self::SimulationDamping { .. } => ErrorId::Vendor(80044),
+            Self::DeadTime { .. } => ErrorId::Vendor(110040),
+            Self::IpcGantrySlave => ErrorId::Vendor(70600),
+            Self::IpcNumerator { .. } => ErrorId::Vendor(70603),
+            Self::IpcDenominator { .. } => ErrorId::Vendor(70604),
+            Self::IpcRange { .. } => ErrorId::Kontur(25),
+            Self::IpcNoLimit => ErrorId::Kontur(26),
+            Self::IpcWeight { .. } => ErrorId::Kontur(27),
+            Self::IpcOverlap { .. } => ErrorId::Kontur(63),
+        }
+    }
+}

@@ -1,0 +1,209 @@
+#![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
+use super::*;
+use crate::control::fault::ErrorId;
+
+const T: CycleTime = CycleTime::DEFAULT;
+
+fn stage(mode: IpcMode) -> IpcStageConfig {
+    IpcStageConfig {
+        mode,
+        weight_num: 2.0,
+        weight_denom: 1.0,
+        filters: vec![IpcFilterConfig {
+            kind: IpcFilterType::BandPass,
+            order: 1,
+            frequency_hz: 53.0,
+            quality: 10.0,
+        }],
+        oscillator_damping: 0.2,
+    }
+}
+
+fn config(stages: Vec<IpcStageConfig>) -> IpcConfig {
+    IpcConfig { enable: true, limit_ratio: 0.1, stages, ..IpcConfig::default() }
+}
+
+fn ids(config: &IpcConfig) -> Vec<ErrorId> {
+    config.check(T).iter().map(Issue::id).collect()
+}
+
+/// Conformance: I026, I035, I037, I041, I043, I046.
+#[test]
+fn errors_switch_the_axis_off_and_warnings_do_not() {
+    use ErrorId::{Kontur, Vendor};
+    let with = |change: fn(&mut IpcStageConfig)| {
+        let mut s = stage(IpcMode::Indirect);
+        change(&mut s);
+        config(vec![s])
+    };
+    let cases: [(&str, IpcConfig, ErrorId, bool); 12] = [
+        ("numerator", with(|s| s.weight_num = 0.0), Vendor(70603), false),
+        ("denominator", with(|s| s.weight_denom = -1.0), Vendor(70604), false),
+        ("order 0", with(|s| s.filters[0].order = 0), Kontur(25), false),
+        ("order 4", with(|s| s.filters[0].order = 4), Kontur(25), false),
+        ("default frequency", with(|s| s.filters[0].frequency_hz = -1.0), Kontur(25), false),
+        ("Nyquist", with(|s| s.filters[0].frequency_hz = 500.0), Kontur(25), false),
+        ("quality", with(|s| s.filters[0].quality = 11.0), Kontur(25), false),
+        ("damping", with(|s| s.oscillator_damping = 1.0), Kontur(25), false),
+        ("no band-pass", with(|s| s.filters[0].kind = IpcFilterType::AllPass), Kontur(25), false),
+        ("weight", with(|s| s.weight_num = 8.0), Kontur(27), true),
+        ("limit", IpcConfig { limit_ratio: 0.0, ..with(|_| ()) }, Kontur(26), true),
+        ("slave", IpcConfig { gantry_slave: true, ..with(|_| ()) }, Vendor(70600), false),
+    ];
+    for (what, config, id, active) in cases {
+        assert_eq!(ids(&config), [id], "{what}");
+        assert_eq!(config.active(T), active, "{what}");
+        assert!(ids(&IpcConfig { enable: false, ..config }).is_empty(), "{what}: silent while off");
+    }
+    assert!(ids(&with(|_| ())).is_empty());
+    let direct = with(|s| {
+        s.mode = IpcMode::Direct;
+        s.oscillator_damping = -1.0;
+    });
+    assert!(direct.active(T), "DIRECT needs no damping");
+    let mut near = stage(IpcMode::Direct);
+    near.filters[0].frequency_hz = 56.0;
+    assert_eq!(ids(&config(vec![stage(IpcMode::Direct), near])), [Kontur(63)]);
+}
+
+/// Amplitude of the additive speed for a cosine of amplitude 1 at 53 Hz in every speed.
+fn amplitude(config: &IpcConfig) -> f64 {
+    let mut ipc = Ipc::new(config, 500.0, T);
+    (0..5000_u32)
+        .map(|k| {
+            let v = libm::cos(std::f64::consts::TAU * 53e-3 * f64::from(k));
+            let input = IpcInput { motor_mm_s: v, direct_mm_s: None, command_mm_s: v };
+            ipc.step(&input).speed_mm_s.abs()
+        })
+        .skip(4000)
+        .fold(0.0, f64::max)
+}
+
+/// Conformance: I041, I044, I047.
+#[test]
+fn weight_and_oscillator_set_the_amplitude() {
+    assert!((amplitude(&config(vec![stage(IpcMode::Direct)])) - 2.0).abs() < 1e-3);
+    assert!((amplitude(&config(vec![stage(IpcMode::Indirect)])) - 2.0 / 0.4).abs() < 5e-3);
+    assert!((amplitude(&config(vec![stage(IpcMode::SetPoint)])) - 2.0 / 0.4).abs() < 5e-3);
+    let heavy = IpcStageConfig { weight_num: 20.0, ..stage(IpcMode::Direct) };
+    assert!((amplitude(&config(vec![heavy])) - 7.0).abs() < 1e-2, "limited to 7.0");
+    assert_eq!(amplitude(&config(vec![stage(IpcMode::NotActive)])), 0.0);
+    let off = IpcConfig { enable: false, ..config(vec![stage(IpcMode::Direct)]) };
+    assert_eq!(amplitude(&off), 0.0);
+    let tight = IpcConfig { limit_ratio: 0.002, ..config(vec![stage(IpcMode::Direct)]) };
+    assert_eq!(amplitude(&tight), 1.0, "0.2 % of 500 mm/s");
+}
+
+/// Conformance: I007.
+#[test]
+fn direct_falls_back_to_the_motor() {
+    let mut ipc =
+        Ipc::new(&IpcConfig { delay_cycles: 0, ..config(vec![stage(IpcMode::Direct)]) }, 500.0, T);
+    let mut other = ipc.clone();
+    let a = ipc.step(&IpcInput { motor_mm_s: 3.0, direct_mm_s: None, command_mm_s: 9.0 });
+    let b = other.step(&IpcInput { motor_mm_s: 0.0, direct_mm_s: Some(3.0), command_mm_s: 0.0 });
+    assert_eq!(a, b);
+    assert!(a.speed_mm_s < 0.0, "counter-movement");
+}
+
+#[test]
+fn delay_shifts_the_output() {
+    let run = |delay_cycles| -> Vec<f64> {
+        let config = IpcConfig { delay_cycles, ..config(vec![stage(IpcMode::Direct)]) };
+        let mut ipc = Ipc::new(&config, 500.0, T);
+        (0..50_u32)
+            .map(|k| {
+                ipc.step(&IpcInput { motor_mm_s: f64::from(k % 7), ..IpcInput::default() })
+                    .speed_mm_s
+            })
+            .collect()
+    };
+    let prompt = run(0);
+    for delay in 1..=5 {
+        assert_eq!(run(delay)[delay..], prompt[..50 - delay]);
+        assert!(run(delay)[..delay].iter().all(|v| *v == 0.0));
+    }
+}
+
+/// Conformance: I024.
+#[test]
+fn parameters_change_at_standstill_only() {
+    let mut ipc = Ipc::new(&config(vec![stage(IpcMode::Direct)]), 500.0, T);
+    let fault = ipc.change(&IpcConfig::default(), 500.0, T, true).unwrap_err();
+    assert_eq!(fault.id(), ErrorId::Vendor(70601));
+    assert_eq!(fault.reaction().class(), 7);
+    assert_eq!(ipc.stages.len(), 1, "the old parameters stay");
+    ipc.change(&IpcConfig::default(), 500.0, T, false).unwrap();
+    assert!(ipc.stages.is_empty());
+}
+
+/// Largest additive speed for cosines of amplitude 1 at `f_hz` in the speed of the motor and in the command.
+fn response(config: &IpcConfig, f_hz: f64, motor: f64, command: f64) -> Vec<f64> {
+    let mut ipc = Ipc::new(config, 500.0, T);
+    let cosine = |k: u32| libm::cos(std::f64::consts::TAU * f_hz * 1e-3 * f64::from(k));
+    let step = |k: u32| {
+        let motor_mm_s = motor * cosine(k);
+        ipc.step(&IpcInput { motor_mm_s, direct_mm_s: None, command_mm_s: command * cosine(k) })
+    };
+    (0..8000).map(step).map(|out| out.speed_mm_s).collect()
+}
+
+fn peak(out: &[f64]) -> f64 {
+    out[6000..].iter().map(|v| v.abs()).fold(0.0, f64::max)
+}
+
+/// Conformance: I015, I042.
+#[test]
+fn amplitude_over_weight_and_damping() {
+    let with = |mode, weight_num, oscillator_damping| {
+        let stage = IpcStageConfig { weight_num, oscillator_damping, ..stage(mode) };
+        peak(&response(&config(vec![stage]), 53.0, 1.0, 1.0))
+    };
+    for mode in [IpcMode::Direct, IpcMode::Indirect, IpcMode::SetPoint] {
+        let one = with(mode, 1.0, 0.2);
+        assert!((with(mode, 0.5, 0.2) / one - 0.5).abs() < 1e-9);
+        assert!((with(mode, 2.0, 0.2) / one - 2.0).abs() < 1e-9);
+        let twice = if mode == IpcMode::Direct { 1.0 } else { 2.0 };
+        assert!((with(mode, 1.0, 0.1) / one - twice).abs() < 1e-3, "1 / (2 D)");
+    }
+}
+
+/// 53 Hz with Q 10: -3 dB 5.3 Hz apart, 11 Hz at least 20 dB below what comes in. Conformance: I009, I033.
+#[test]
+fn a_stage_cuts_its_band_out() {
+    let direct = || config(vec![IpcStageConfig { weight_num: 1.0, ..stage(IpcMode::Direct) }]);
+    let gain = |f_hz| peak(&response(&direct(), f_hz, 1.0, 0.0));
+    assert!(gain(11.0) < 0.1, "{}", gain(11.0));
+    let edge = |mut inside: f64, mut outside: f64| {
+        for _ in 0..20 {
+            let middle = 0.5 * (inside + outside);
+            if gain(middle) > 0.5_f64.sqrt() { inside = middle } else { outside = middle }
+        }
+        inside
+    };
+    let width = edge(53.0, 70.0) - edge(53.0, 40.0);
+    // the bilinear transform narrows the band by 3 % at 53 Hz
+    assert!((width - 5.3).abs() < 0.16, "{width}");
+}
+
+/// DIRECT and INDIRECT take the measured speed, `SET_POINT` the command; the oscillation is simulated for the last two.
+/// Conformance: I012, I016, I043.
+#[test]
+fn what_the_modes_listen_to() {
+    let with = |mode, damping, motor, command| {
+        let stage = IpcStageConfig { oscillator_damping: damping, ..stage(mode) };
+        response(&config(vec![stage]), 53.0, motor, command)
+    };
+    for mode in [IpcMode::Direct, IpcMode::Indirect] {
+        assert_eq!(with(mode, 0.2, 1.0, 0.0), with(mode, 0.2, 1.0, 5.0), "{mode:?}");
+        assert_eq!(peak(&with(mode, 0.2, 0.0, 5.0)), 0.0, "{mode:?}");
+    }
+    let set_point = |motor, command| with(IpcMode::SetPoint, 0.2, motor, command);
+    assert_eq!(set_point(0.0, 1.0), set_point(5.0, 1.0));
+    assert_eq!(peak(&set_point(5.0, 0.0)), 0.0);
+    assert_eq!(with(IpcMode::Direct, 0.2, 1.0, 1.0), with(IpcMode::Direct, 0.3, 1.0, 1.0));
+    for mode in [IpcMode::Indirect, IpcMode::SetPoint] {
+        assert_ne!(with(mode, 0.2, 1.0, 1.0), with(mode, 0.3, 1.0, 1.0), "{mode:?}");
+    }
+}

@@ -1,0 +1,189 @@
+//! Position monitoring: the axis must be inside the exact-stop window in time.
+//!
+//! Source: TF5200 position monitoring. The timer starts (t1) in the cycle in which the set position, behind all
+//! filters, reaches the target of the stop; it ends (t2) when the actual position is inside the window.
+
+use crate::control::fault::Fault;
+use crate::time::CycleTime;
+
+/// Window and time of the exact stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExactStopConfig {
+    /// Half width of the window in mm (P-AXIS-00236), default 0.05; recommended: three times the lag at rest.
+    pub window_mm: f64,
+    /// Time in s to reach it (P-AXIS-00532, if negative P-AXIS-00151), default 1; none: not monitored (value 0).
+    /// Recommended 0.010 to 0.200.
+    pub settling_s: Option<f64>,
+}
+
+impl Default for ExactStopConfig {
+    fn default() -> Self {
+        Self { window_mm: 0.05, settling_s: Some(1.0) }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    /// No stop expected, or the last one is done.
+    Idle,
+    /// The set position is on its way to the target.
+    Approaching { target_mm: f64 },
+    /// The set position is at the target since so many cycles.
+    Settling { target_mm: f64, cycles: u64 },
+}
+
+/// Timer of the exact stop.
+#[derive(Clone, Debug)]
+pub struct ExactStopMonitor {
+    config: ExactStopConfig,
+    cycle: CycleTime,
+    state: State,
+    rest_mm: f64,
+    last_mm: f64,
+    moved: bool,
+}
+
+impl ExactStopMonitor {
+    /// Distance below which a set position has reached its target: half of the vendor's position increment of 0.1 um.
+    /// Recursive filters only approach it.
+    const REACHED_MM: f64 = 0.5e-4;
+
+    /// A monitor at rest.
+    pub fn new(config: ExactStopConfig, cycle: CycleTime) -> Self {
+        Self { config, cycle, state: State::Idle, rest_mm: 0.0, last_mm: 0.0, moved: false }
+    }
+
+    /// Axis at rest at a position.
+    pub fn start(&mut self, position_mm: f64) {
+        (self.rest_mm, self.last_mm) = (position_mm, position_mm);
+        (self.state, self.moved) = (State::Idle, false);
+    }
+
+    /// The path comes to a stop, for this axis at `target_mm`; told at the latest right behind the cycle in which the
+    /// set position got there. An axis that has not moved since its last stop, and need not, has no new one.
+    pub fn expect(&mut self, target_mm: f64) {
+        if (target_mm - self.last_mm).abs() > Self::REACHED_MM {
+            self.state = State::Approaching { target_mm };
+        } else if self.moved {
+            self.state = State::Settling { target_mm, cycles: 0 };
+        }
+    }
+
+    /// One cycle: set position behind the filters, actual position at the start of the cycle.
+    pub fn step(&mut self, set_mm: f64, actual_mm: f64) -> Option<Fault> {
+        self.last_mm = set_mm;
+        self.moved |= (set_mm - self.rest_mm).abs() > Self::REACHED_MM;
+        let at = |target_mm: f64| (set_mm - target_mm).abs() <= Self::REACHED_MM;
+        match self.state {
+            State::Idle => None,
+            State::Approaching { target_mm } => {
+                if at(target_mm) {
+                    self.state = State::Settling { target_mm, cycles: 0 };
+                }
+                None
+            }
+            State::Settling { target_mm, .. } if !at(target_mm) => {
+                self.state = State::Approaching { target_mm };
+                None
+            }
+            State::Settling { target_mm, cycles } => self.settle(target_mm, cycles + 1, actual_mm),
+        }
+    }
+
+    fn settle(&mut self, target_mm: f64, cycles: u64, actual_mm: f64) -> Option<Fault> {
+        let lag_mm = target_mm - actual_mm;
+        let window_mm = self.config.window_mm;
+        let late = self.config.settling_s.filter(|t| self.cycle.time_of(cycles) >= *t - 1e-9);
+        if lag_mm.abs() <= window_mm {
+            self.finish(target_mm);
+            None
+        } else if let Some(time_s) = late {
+            self.finish(target_mm);
+            Some(Fault::SettlingTimeout { lag_mm, window_mm, time_s })
+        } else {
+            self.state = State::Settling { target_mm, cycles };
+            None
+        }
+    }
+
+    fn finish(&mut self, target_mm: f64) {
+        self.state = State::Idle;
+        self.rest_mm = target_mm;
+        self.moved = false;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
+    use super::*;
+    use crate::control::fault::{ErrorId, Reaction};
+
+    fn monitor(settling_s: Option<f64>) -> ExactStopMonitor {
+        let config = ExactStopConfig { window_mm: 0.05, settling_s };
+        let mut m = ExactStopMonitor::new(config, CycleTime::DEFAULT);
+        m.start(0.0);
+        m
+    }
+
+    /// Moves the set position to 1 mm and gives the cycle (after t1) in which a fault appears.
+    fn fault_after(
+        m: &mut ExactStopMonitor,
+        actual_mm: impl Fn(u32) -> f64,
+    ) -> Option<(u32, Fault)> {
+        (1..10).for_each(|k| assert_eq!(m.step(0.1 * f64::from(k), 0.0), None));
+        m.expect(1.0);
+        (0..2000).find_map(|k| m.step(1.0, actual_mm(k)).map(|f| (k, f)))
+    }
+
+    /// Conformance: P005.
+    #[test]
+    fn raises_in_the_cycle_the_time_is_over() {
+        let (k, fault) = fault_after(&mut monitor(Some(0.2)), |_| 0.94).unwrap();
+        assert_eq!(k, 200, "first cycle with (k - k1) T >= t3");
+        assert_eq!((fault.id(), fault.reaction()), (ErrorId::Vendor(70082), Reaction::AbruptStop));
+        let Fault::SettlingTimeout { lag_mm, window_mm, time_s } = fault else { panic!() };
+        assert!((lag_mm - 0.06).abs() < 1e-12);
+        assert_eq!((window_mm, time_s), (0.05, 0.2));
+    }
+
+    /// Conformance: P006, P019.
+    #[test]
+    fn inside_in_time_ends_the_monitoring_of_this_stop() {
+        let inside_then_out = |k| if (150..160).contains(&k) { 0.96 } else { 0.5 };
+        assert_eq!(fault_after(&mut monitor(Some(0.2)), inside_then_out), None);
+        assert_eq!(fault_after(&mut monitor(None), |_| 0.0), None, "0 switches the monitor off");
+        assert!(fault_after(&mut monitor(Some(0.149)), inside_then_out).is_some());
+    }
+
+    /// Told before the last step or right behind it: the same cycle.
+    #[test]
+    fn a_stop_told_behind_the_last_step() {
+        let mut m = monitor(Some(0.2));
+        (1..=10).for_each(|k| assert_eq!(m.step(0.1 * f64::from(k), 0.0), None));
+        m.expect(1.0);
+        assert_eq!((1..2000).find(|_| m.step(1.0, 0.94).is_some()), Some(200));
+    }
+
+    #[test]
+    fn an_axis_that_stands_has_no_stop() {
+        let mut m = monitor(Some(0.01));
+        m.expect(0.0);
+        assert!((0..100).all(|_| m.step(0.0, 1.0).is_none()));
+        // and after a stop of its own it stays quiet while others move
+        assert!(fault_after(&mut m, |_| 1.0).is_none());
+        m.expect(1.0);
+        assert!((0..100).all(|_| m.step(1.0, 5.0).is_none()));
+    }
+
+    /// Conformance: P017.
+    #[test]
+    fn without_a_stop_of_the_path_no_timer() {
+        let mut m = monitor(Some(0.001));
+        assert!((0..100_u32).all(|k| m.step(f64::from(k), 0.0).is_none()));
+        // passing through an expected target does not count
+        m.expect(100.0);
+        assert!((100..200_u32).all(|k| m.step(f64::from(k), 0.0).is_none()));
+    }
+}

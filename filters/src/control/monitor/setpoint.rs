@@ -1,0 +1,185 @@
+//! Monitoring of the set positions behind the axis filters: velocity, acceleration, jerk.
+//!
+//! Threshold = (1 + p/1000) x limit. An overshooting band-stop filter can trip it.
+//!
+//! Source: TF5200 axis parameters, P-AXIS-00439 to 00444; IDs 50118 and 50119 (velocity). No document gives the ID for
+//! acceleration and jerk.
+
+use crate::control::fault::{Derivative, Fault};
+use crate::time::CycleTime;
+
+/// Excess over the limit that is allowed, 1 = 100 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thresholds {
+    /// Up to the warning.
+    pub warn_ratio: f64,
+    /// Up to the error.
+    pub error_ratio: f64,
+}
+
+impl Thresholds {
+    /// Both 0: monitoring off (acceleration and jerk only).
+    fn off(&self) -> bool {
+        self.warn_ratio == 0.0 && self.error_ratio == 0.0
+    }
+}
+
+/// Limits and thresholds of one axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SetpointMonitorConfig {
+    /// Largest velocity in mm/s (P-AXIS-00212), default 200.
+    pub v_max_mm_s: f64,
+    /// Largest acceleration in mm/s2 (P-AXIS-00008).
+    pub a_max_mm_s2: f64,
+    /// Largest jerk in mm/s3: largest acceleration / smallest ramp time (P-AXIS-00201).
+    pub j_max_mm_s3: f64,
+    /// Velocity (P-AXIS-00439, 00440), default 5 and 9 %; cannot be switched off.
+    pub velocity: Thresholds,
+    /// Acceleration (P-AXIS-00441, 00442), default 50 and 100 %.
+    pub acceleration: Thresholds,
+    /// Jerk (P-AXIS-00443, 00444), default off.
+    pub jerk: Thresholds,
+}
+
+impl SetpointMonitorConfig {
+    /// The vendor's thresholds over the limits of an axis.
+    pub fn new(v_max_mm_s: f64, a_max_mm_s2: f64, j_max_mm_s3: f64) -> Self {
+        Self {
+            v_max_mm_s,
+            a_max_mm_s2,
+            j_max_mm_s3,
+            velocity: Thresholds { warn_ratio: 0.05, error_ratio: 0.09 },
+            acceleration: Thresholds { warn_ratio: 0.5, error_ratio: 1.0 },
+            jerk: Thresholds { warn_ratio: 0.0, error_ratio: 0.0 },
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    #[default]
+    Good,
+    Warning,
+    Error,
+}
+
+/// Setpoint monitor with its state.
+#[derive(Clone, Debug)]
+pub struct SetpointMonitor {
+    config: SetpointMonitorConfig,
+    cycle_s: f64,
+    past_mm: [f64; 3],
+    levels: [Level; 3],
+}
+
+impl SetpointMonitor {
+    /// A monitor at rest.
+    pub fn new(config: SetpointMonitorConfig, cycle: CycleTime) -> Self {
+        Self { config, cycle_s: cycle.seconds(), past_mm: [0.0; 3], levels: [Level::Good; 3] }
+    }
+
+    /// Axis at rest at a position.
+    pub fn start(&mut self, position_mm: f64) {
+        self.past_mm = [position_mm; 3];
+        self.levels = [Level::Good; 3];
+    }
+
+    /// One cycle: a fault for every derivative whose level rises.
+    pub fn step(&mut self, set_mm: f64) -> [Option<Fault>; 3] {
+        let [p1, p2, p3] = self.past_mm;
+        let t = self.cycle_s;
+        let (d1, d2, d3) = (set_mm - p1, p1 - p2, p2 - p3);
+        self.past_mm = [set_mm, p1, p2];
+        let c = self.config;
+        let watched = [
+            (Derivative::Velocity, d1 / t, c.v_max_mm_s, Some(c.velocity)),
+            (
+                Derivative::Acceleration,
+                (d1 - d2) / (t * t),
+                c.a_max_mm_s2,
+                Some(c.acceleration).filter(|t| !t.off()),
+            ),
+            (
+                Derivative::Jerk,
+                (d1 - 2.0 * d2 + d3) / (t * t * t),
+                c.j_max_mm_s3,
+                Some(c.jerk).filter(|t| !t.off()),
+            ),
+        ];
+        let mut faults = [None; 3];
+        for (i, (what, value, limit, thresholds)) in watched.into_iter().enumerate() {
+            let Some(thresholds) = thresholds else { continue };
+            let value = value.abs();
+            // sampled differences carry rounding noise: a value at its threshold is not above it
+            let above = |ratio: f64| value > (1.0 + ratio) * limit * (1.0 + 1e-9);
+            let level = match (above(thresholds.error_ratio), above(thresholds.warn_ratio)) {
+                (true, _) => Level::Error,
+                (false, true) => Level::Warning,
+                (false, false) => Level::Good,
+            };
+            let before = std::mem::replace(&mut self.levels[i], level);
+            faults[i] = match level {
+                Level::Error if before < level => {
+                    let limit = (1.0 + thresholds.error_ratio) * limit;
+                    Some(Fault::SetpointError { what, value, limit })
+                }
+                Level::Warning if before < level => {
+                    let limit = (1.0 + thresholds.warn_ratio) * limit;
+                    Some(Fault::SetpointWarning { what, value, limit })
+                }
+                _ => None,
+            };
+        }
+        faults
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
+    use super::*;
+    use crate::control::fault::ErrorId;
+
+    fn ids(config: SetpointMonitorConfig, steps_mm: &[f64]) -> Vec<Vec<ErrorId>> {
+        let mut m = SetpointMonitor::new(config, CycleTime::DEFAULT);
+        m.start(5.0);
+        let mut x = 5.0;
+        steps_mm
+            .iter()
+            .map(|d| {
+                x += d;
+                m.step(x).iter().flatten().map(Fault::id).collect()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn velocity_warns_at_five_percent_and_stops_at_nine() {
+        let config = SetpointMonitorConfig::new(200.0, 1e12, 1e18);
+        let v = [0.200, 0.2099, 0.2101, 0.2105, 0.2181, 0.2185, 0.2, 0.2101];
+        let got = ids(config, &v);
+        let (warning, error) = (vec![ErrorId::Vendor(50119)], vec![ErrorId::Vendor(50118)]);
+        let none = vec![];
+        assert_eq!(
+            got,
+            [&none, &none, &warning, &none, &error, &none, &none, &warning].map(Clone::clone)
+        );
+        assert_eq!(ids(config, &[-0.25]), [error], "either direction");
+    }
+
+    #[test]
+    fn acceleration_and_jerk() {
+        let config = SetpointMonitorConfig::new(1e9, 1000.0, 1e5);
+        // 0.0016 mm in one cycle from rest: 1600 mm/s2 and 1.6e6 mm/s3, jerk is off
+        assert_eq!(ids(config, &[0.0014]), [vec![]]);
+        assert_eq!(ids(config, &[0.0016]), [vec![ErrorId::Kontur(60)]]);
+        assert_eq!(ids(config, &[0.0021]), [vec![ErrorId::Kontur(61)]]);
+        let off = Thresholds { warn_ratio: 0.0, error_ratio: 0.0 };
+        let jerk = Thresholds { warn_ratio: 0.0, error_ratio: 1.0 };
+        let config = SetpointMonitorConfig { acceleration: off, jerk, ..config };
+        assert_eq!(ids(config, &[0.00009, 0.00018]), [vec![], vec![]]);
+        assert_eq!(ids(config, &[0.00011]), [vec![ErrorId::Kontur(60)]]);
+        assert_eq!(ids(config, &[0.00021]), [vec![ErrorId::Kontur(61)]]);
+    }
+}

@@ -1,0 +1,236 @@
+//! The simulated axis: drive and mechanics.
+//!
+//! Every model is linear and advances exactly for inputs held over a step: one matrix product per cycle, four with a
+//! disturbance force. Not modelled: backlash, Coulomb friction, saturation of the current.
+//!
+//! Input is the speed command in mm/s, an additive torque as the acceleration it gives the axis, and a disturbance
+//! force as the acceleration it gives the whole mass.
+
+mod linear;
+mod models;
+
+use super::fault::Issue;
+use crate::time::CycleTime;
+use linear::LinearPlant;
+pub use models::{ModalConfig, Mode, SpeedLoop, TwoMassConfig};
+
+/// Kind and parameters of the simulated axis.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlantModel {
+    /// Actual = set position, one cycle later (P-AXIS-00096 `antr.simu.ist_gleich_soll`).
+    Follow,
+    /// The vendor's simulated drive (drive type 4): velocity loop of second order.
+    ///
+    /// Assumption: `v = u / (1 + 2D s/w0 + s2/w0^2)`; the manual's formula is a picture. The vendor discretises with
+    /// P-AXIS-00239/00238, here with the true cycle.
+    Simulated {
+        /// Damping ratio D, below 1 (P-AXIS-00051/00050), default 0.6.
+        damping_ratio: f64,
+        /// Natural angular frequency w0 in 1/s (P-AXIS-00062/00061), default 100.
+        natural_rad_s: f64,
+    },
+    /// Velocity loop of first order, `dv/dt = (u - v)/Ta`.
+    FirstOrder {
+        /// Time constant Ta in s.
+        time_constant_s: f64,
+    },
+    /// Motor and load, coupled by a damped spring, with velocity and current loop.
+    TwoMass(TwoMassConfig),
+    /// Rigid body with any number of vibration modes, with velocity and current loop.
+    Modal(ModalConfig),
+}
+
+impl PlantModel {
+    /// The vendor's default drive: D = 0.6, w0 = 100 1/s.
+    pub const VENDOR_DEFAULT: Self = Self::Simulated { damping_ratio: 0.6, natural_rad_s: 100.0 };
+}
+
+/// Disturbance force, sinusoidal or constant, that may grow with the speed of the load up to a nominal speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disturbance {
+    /// Amplitude as the acceleration of the whole mass in mm/s2.
+    pub amplitude_mm_s2: f64,
+    /// Frequency in Hz; 0 is a constant force.
+    pub frequency_hz: f64,
+    /// Load speed in mm/s from which the amplitude is full; 0: always full.
+    pub full_speed_mm_s: f64,
+}
+
+/// The simulated axis as configured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlantConfig {
+    /// Drive and mechanics.
+    pub model: PlantModel,
+    /// Dead time of the speed command in cycles, 0..=5 (P-AXIS-00194), default 0.
+    pub dead_time_cycles: usize,
+    /// Disturbance force, none by default.
+    pub disturbance: Option<Disturbance>,
+}
+
+impl Default for PlantConfig {
+    fn default() -> Self {
+        Self { model: PlantModel::VENDOR_DEFAULT, dead_time_cycles: 0, disturbance: None }
+    }
+}
+
+impl PlantConfig {
+    /// Largest dead time in cycles.
+    pub const MAX_DEAD_TIME: usize = 5;
+
+    /// The configuration with the documented corrections: 80044 (damping), 110040 (dead time).
+    pub fn checked(mut self) -> (Self, Vec<Issue>) {
+        let mut issues = Vec::new();
+        if let PlantModel::Simulated { damping_ratio, .. } = &mut self.model
+            && *damping_ratio >= 1.0
+        {
+            issues.push(Issue::SimulationDamping { damping_ratio: *damping_ratio });
+            *damping_ratio = 0.999;
+        }
+        if self.dead_time_cycles > Self::MAX_DEAD_TIME {
+            let cycles = u32::try_from(self.dead_time_cycles).unwrap_or(u32::MAX);
+            issues.push(Issue::DeadTime { cycles });
+            self.dead_time_cycles = Self::MAX_DEAD_TIME;
+        }
+        (self, issues)
+    }
+}
+
+/// A plant whose parameters describe no physical system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PlantError {
+    /// A time constant, frequency, mass ratio or gain that must be positive (and finite) is not.
+    #[error("{0} must be positive and finite")]
+    NotPositive(&'static str),
+    /// A value is not a finite number.
+    #[error("{0} must be finite")]
+    NotFinite(&'static str),
+    /// The exact discretisation has no finite result: the model is far too fast for the cycle.
+    #[error("the model cannot be discretised at this cycle time")]
+    TooStiff,
+}
+
+/// What a cycle puts into the plant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlantInput {
+    /// Speed command in mm/s, additive velocity included.
+    pub speed_mm_s: f64,
+    /// Additive torque as acceleration in mm/s2.
+    pub acc_mm_s2: f64,
+    /// External force as acceleration of the whole mass in mm/s2, beside the configured disturbance.
+    pub force_mm_s2: f64,
+    /// Reference position in mm, for the model without dynamics.
+    pub reference_mm: f64,
+}
+
+/// What can be measured on the plant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Measured {
+    /// Motor encoder in mm of axis travel.
+    pub motor_mm: f64,
+    /// Motor speed in mm/s.
+    pub motor_mm_s: f64,
+    /// Load (direct) encoder in mm.
+    pub load_mm: f64,
+    /// Load speed in mm/s.
+    pub load_mm_s: f64,
+    /// Tool point in mm.
+    pub tcp_mm: f64,
+    /// Speed of the tool point in mm/s.
+    pub tcp_mm_s: f64,
+}
+
+impl Measured {
+    fn rigid(position_mm: f64, speed_mm_s: f64) -> Self {
+        Self {
+            motor_mm: position_mm,
+            motor_mm_s: speed_mm_s,
+            load_mm: position_mm,
+            load_mm_s: speed_mm_s,
+            tcp_mm: position_mm,
+            tcp_mm_s: speed_mm_s,
+        }
+    }
+
+    /// Every value is a number.
+    pub fn is_finite(&self) -> bool {
+        let Self { motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s } = self;
+        [motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s].iter().all(|v| v.is_finite())
+    }
+}
+
+/// The simulated axis with its state.
+#[derive(Clone, Debug)]
+pub struct Plant {
+    dynamics: Dynamics,
+    dead_time: [f64; PlantConfig::MAX_DEAD_TIME + 1],
+    dead_time_cycles: usize,
+    measured: Measured,
+}
+
+#[derive(Clone, Debug)]
+enum Dynamics {
+    Follow { cycle_s: f64 },
+    Linear(Box<LinearPlant>),
+}
+
+impl Plant {
+    /// Builds the discrete model once; nothing of it is computed again per cycle.
+    ///
+    /// # Errors
+    /// [`PlantError`] if a parameter is not physical.
+    pub fn new(config: &PlantConfig, cycle: CycleTime) -> Result<Self, PlantError> {
+        let dynamics = match models::continuous(&config.model)? {
+            None => Dynamics::Follow { cycle_s: cycle.seconds() },
+            Some(model) => {
+                Dynamics::Linear(Box::new(LinearPlant::new(&model, cycle, config.disturbance)?))
+            }
+        };
+        Ok(Self {
+            dynamics,
+            dead_time: [0.0; PlantConfig::MAX_DEAD_TIME + 1],
+            dead_time_cycles: config.dead_time_cycles.min(PlantConfig::MAX_DEAD_TIME),
+            measured: Measured::default(),
+        })
+    }
+
+    /// Puts the plant at rest at a position; no transient follows.
+    pub fn start(&mut self, position_mm: f64) {
+        self.dead_time.fill(0.0);
+        self.measured = Measured::rigid(position_mm, 0.0);
+        if let Dynamics::Linear(linear) = &mut self.dynamics {
+            linear.start(position_mm);
+        }
+    }
+
+    /// The state at the start of the cycle.
+    pub const fn measured(&self) -> &Measured {
+        &self.measured
+    }
+
+    /// The models separate the tool point from the load.
+    pub fn has_tool_point(&self) -> bool {
+        matches!(&self.dynamics, Dynamics::Linear(linear) if linear.has_tool_point())
+    }
+
+    /// Advances by one cycle. False if the state is no longer finite; what was measured last then stays.
+    pub fn advance(&mut self, mut input: PlantInput) -> bool {
+        self.dead_time.rotate_right(1);
+        self.dead_time[0] = input.speed_mm_s;
+        input.speed_mm_s = self.dead_time[self.dead_time_cycles];
+        let measured = match &mut self.dynamics {
+            Dynamics::Follow { cycle_s } => {
+                let before = self.measured.motor_mm;
+                Measured::rigid(input.reference_mm, (input.reference_mm - before) / *cycle_s)
+            }
+            Dynamics::Linear(linear) => linear.advance(&input),
+        };
+        let finite = measured.is_finite();
+        if finite {
+            self.measured = measured;
+        }
+        finite
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,124 @@
+//! The position controller: proportional, with a gain that may depend on speed, and a speed limit.
+//!
+//! Source: TF5200 axis parameters, P-AXIS-00099, 00245 to 00248, 00407.
+
+use super::fault::Fault;
+
+/// Gain that depends on axis speed (P-AXIS-00245 to 00248): linear between the two points, constant outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DynamicKv {
+    /// Lower speed in mm/s (P-AXIS-00246).
+    pub v1_mm_s: f64,
+    /// Gain in 1/s at and below it (P-AXIS-00245).
+    pub kv1_per_s: f64,
+    /// Upper speed in mm/s, above the lower one (P-AXIS-00248).
+    pub v2_mm_s: f64,
+    /// Gain in 1/s at and above it (P-AXIS-00247).
+    pub kv2_per_s: f64,
+}
+
+/// Position controller of one axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PositionConfig {
+    /// Gain in 1/s (P-AXIS-00099 x 0.01), default 10.
+    pub kv_per_s: f64,
+    /// Speed-dependent gain in place of the constant one.
+    pub dynamic_kv: Option<DynamicKv>,
+    /// Largest speed of the axis in mm/s (P-AXIS-00212), default 200.
+    pub v_max_mm_s: f64,
+    /// Excess over it that the command may reach, 1 = 100 % (P-AXIS-00407 / 1000), default 1; 0 switches the limit
+    /// off.
+    pub v_excess_ratio: f64,
+}
+
+impl Default for PositionConfig {
+    fn default() -> Self {
+        Self { kv_per_s: 10.0, dynamic_kv: None, v_max_mm_s: 200.0, v_excess_ratio: 1.0 }
+    }
+}
+
+impl PositionConfig {
+    /// Gain in 1/s at an axis speed.
+    ///
+    /// Assumption: the commanded speed decides, so that a vibrating actual value does not modulate the gain.
+    pub fn gain_at(&self, speed_mm_s: f64) -> f64 {
+        let Some(d) = self.dynamic_kv else { return self.kv_per_s };
+        let share = (speed_mm_s.abs() - d.v1_mm_s) / (d.v2_mm_s - d.v1_mm_s);
+        // a width of 0 gives no number: take the upper gain
+        let share = if share.is_nan() { 1.0 } else { share.clamp(0.0, 1.0) };
+        d.kv1_per_s + share * (d.kv2_per_s - d.kv1_per_s)
+    }
+
+    /// Smallest gain in 1/s that occurs.
+    pub fn lowest_gain(&self) -> f64 {
+        self.dynamic_kv.map_or(self.kv_per_s, |d| d.kv1_per_s.min(d.kv2_per_s))
+    }
+
+    /// Limit of the speed command in mm/s, if there is one.
+    pub fn speed_limit_mm_s(&self) -> Option<f64> {
+        (self.v_excess_ratio > 0.0).then_some(self.v_max_mm_s * (1.0 + self.v_excess_ratio))
+    }
+}
+
+/// Speed limit of the controller: outputs the limit and raises 70382 when an excess begins.
+#[derive(Clone, Copy, Debug)]
+pub struct SpeedLimiter {
+    limit_mm_s: Option<f64>,
+    active: bool,
+}
+
+impl SpeedLimiter {
+    /// A limiter after the configuration.
+    pub fn new(config: &PositionConfig) -> Self {
+        Self { limit_mm_s: config.speed_limit_mm_s(), active: false }
+    }
+
+    /// The limited command and the fault of a beginning excess.
+    pub fn step(&mut self, speed_mm_s: f64) -> (f64, Option<Fault>) {
+        let Some(limit_mm_s) = self.limit_mm_s.filter(|l| speed_mm_s.abs() > *l) else {
+            self.active = false;
+            return (speed_mm_s, None);
+        };
+        let begins = !std::mem::replace(&mut self.active, true);
+        let fault = begins.then_some(Fault::ControllerSpeed { speed_mm_s, limit_mm_s });
+        (limit_mm_s.copysign(speed_mm_s), fault)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
+    use super::*;
+    use crate::control::fault::{ErrorId, Reaction};
+
+    #[test]
+    fn dynamic_gain_is_linear_between_its_points() {
+        let d = DynamicKv { v1_mm_s: 10.0, kv1_per_s: 20.0, v2_mm_s: 110.0, kv2_per_s: 70.0 };
+        let config = PositionConfig { dynamic_kv: Some(d), ..PositionConfig::default() };
+        for (speed, kv) in
+            [(0.0, 20.0), (10.0, 20.0), (60.0, 45.0), (-60.0, 45.0), (110.0, 70.0), (1e6, 70.0)]
+        {
+            assert_eq!(config.gain_at(speed), kv, "at {speed} mm/s");
+        }
+        assert_eq!(PositionConfig::default().gain_at(1e3), 10.0);
+    }
+
+    #[test]
+    fn speed_above_twice_the_maximum_is_limited_and_reported_once() {
+        let mut limiter = SpeedLimiter::new(&PositionConfig::default());
+        assert_eq!(limiter.step(400.0), (400.0, None));
+        let (out, fault) = limiter.step(-500.0);
+        let fault = fault.unwrap();
+        assert_eq!(out, -400.0);
+        assert_eq!(
+            (fault.id(), fault.reaction()),
+            (ErrorId::Vendor(70382), Reaction::ControlledStop)
+        );
+        assert_eq!(limiter.step(-600.0), (-400.0, None));
+        assert_eq!(limiter.step(0.0), (0.0, None));
+        assert!(limiter.step(401.0).1.is_some());
+        let off = PositionConfig { v_excess_ratio: 0.0, ..PositionConfig::default() };
+        assert_eq!(SpeedLimiter::new(&off).step(1e9), (1e9, None));
+    }
+}

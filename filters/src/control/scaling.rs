@@ -1,0 +1,220 @@
+//! Values in the drive's own format: speed counts, torque counts, encoder resolution.
+//!
+//! Source: TF5200 feedforward control 4 and 5; Improved Position Control 4.2.
+
+use super::fault::Issue;
+use std::f64::consts::TAU;
+
+/// Time base of a speed value (P-AXIS-00207).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TimeBase {
+    /// 0: per minute (default).
+    #[default]
+    Minute,
+    /// 1: per second.
+    Second,
+    /// 2: per sampling interval.
+    Cycle,
+}
+
+/// Format of speed values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpeedFormat {
+    /// Digital value at 1 m/min or 1000 deg/min (P-AXIS-00129/00128, default 2000): conventional and simulated drives.
+    Gain(f64),
+    /// Increments per path (P-AXIS-00206/00205, default 1/36): `increments` are output for `path_um` um (or 0.001
+    /// degrees) per time base.
+    Resolution {
+        /// Increments output (P-AXIS-00206).
+        increments: f64,
+        /// Path in um or 0.001 degrees (P-AXIS-00205).
+        path_um: f64,
+        /// Time base (P-AXIS-00207).
+        time_base: TimeBase,
+    },
+}
+
+impl Default for SpeedFormat {
+    fn default() -> Self {
+        Self::Gain(2000.0)
+    }
+}
+
+impl SpeedFormat {
+    /// Counts for 1 mm/s (1 deg/s).
+    pub fn counts_per_mm_s(&self, cycle_s: f64) -> f64 {
+        match *self {
+            // 1 m/min = 1000/60 mm/s
+            Self::Gain(value) => value * 60.0 / 1000.0,
+            Self::Resolution { increments, path_um, time_base } => {
+                let base_s = match time_base {
+                    TimeBase::Minute => 60.0,
+                    TimeBase::Second => 1.0,
+                    TimeBase::Cycle => cycle_s,
+                };
+                1000.0 * base_s * increments / path_um
+            }
+        }
+    }
+}
+
+/// Rotary or linear motor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motor {
+    /// Torque in N m; scaled on the motor side (P-AXIS-00362/00363 or 00511/00512 given).
+    Rotary {
+        /// Travel per revolution of the gear output in mm (P-AXIS-00362/00363 x 1e-4).
+        feed_mm: f64,
+        /// Gear input revolutions per output revolution (P-AXIS-00511/00512).
+        gear_ratio: f64,
+    },
+    /// Force in N.
+    Linear,
+}
+
+/// Torque values: `M = J alpha`, `F = m a` and their scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueFormat {
+    /// Kind of motor.
+    pub motor: Motor,
+    /// Total inertia at the motor shaft in kg m2, or moved mass in kg (P-AXIS-00391), default 1e-6.
+    pub load: f64,
+    /// Stall torque in N m or force in N (P-AXIS-00392), default 1.
+    pub reference: f64,
+    /// Value that is output for the stall torque: numerator (P-AXIS-00325), default 1.
+    pub scale_num: f64,
+    /// Its denominator (P-AXIS-00326), default 1; 0 switches the output off with 110465.
+    pub scale_denom: f64,
+}
+
+impl Default for TorqueFormat {
+    fn default() -> Self {
+        Self { motor: Motor::Linear, load: 1e-6, reference: 1.0, scale_num: 1.0, scale_denom: 1.0 }
+    }
+}
+
+impl TorqueFormat {
+    /// Torque in N m (force in N) for an axis acceleration.
+    pub fn torque(&self, acc_mm_s2: f64) -> f64 {
+        match self.motor {
+            // revolutions per mm of travel, one revolution is 2 pi
+            Motor::Rotary { feed_mm, gear_ratio } => {
+                self.load * (acc_mm_s2 / feed_mm * gear_ratio * TAU)
+            }
+            Motor::Linear => self.load * (acc_mm_s2 / 1000.0),
+        }
+    }
+
+    /// Counts for a torque; 0 if the scale is not defined.
+    pub fn counts(&self, torque: f64) -> f64 {
+        if self.defined() {
+            torque / self.reference * self.scale_num / self.scale_denom
+        } else {
+            0.0
+        }
+    }
+
+    fn defined(&self) -> bool {
+        self.scale_denom > 0.0 && self.reference > 0.0 && self.scale_num > 0.0
+    }
+
+    /// 110465 or K-0062 (no torque output), K-0024 (torque at the largest acceleration above ten times the reference).
+    pub fn check(&self, a_max_mm_s2: f64) -> Vec<Issue> {
+        let torque = self.torque(a_max_mm_s2).abs();
+        let mut issues = Vec::new();
+        let denominator = self.scale_denom > 0.0;
+        if !denominator {
+            issues.push(Issue::TorqueScaleDenominatorZero);
+        } else if !self.defined() {
+            issues.push(Issue::NoTorqueScale);
+        } else if torque > 10.0 * self.reference {
+            issues.push(Issue::ImplausibleLoad { torque, reference: self.reference });
+        }
+        issues
+    }
+}
+
+/// Encoder resolution in increments per 0.1 um: `R = increments i / f`.
+///
+/// `increments_per_rev` per motor revolution (P-AXIS-00092), `feed_mm` per revolution of the gear output, `gear_ratio`
+/// input over output revolutions. Source: P-AXIS-00362.
+pub fn encoder_resolution(increments_per_rev: f64, feed_mm: f64, gear_ratio: f64) -> f64 {
+    increments_per_rev * gear_ratio / (feed_mm * 1e4)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+
+    use super::*;
+    use crate::control::fault::ErrorId;
+
+    const T: f64 = 1e-3;
+
+    fn counts(format: SpeedFormat, speed_mm_s: f64) -> f64 {
+        format.counts_per_mm_s(T) * speed_mm_s
+    }
+
+    fn per_minute(increments: f64, path_um: f64) -> SpeedFormat {
+        SpeedFormat::Resolution { increments, path_um, time_base: TimeBase::Minute }
+    }
+
+    /// Pitch 10 mm, drive unit 1e-4 rpm, without and with a gear of 3.
+    /// Conformance: F052, F053, I048, I049.
+    #[test]
+    fn speed_examples_of_the_manual() {
+        assert!((counts(SpeedFormat::default(), 100.0) - 12_000.0).abs() < 1e-9, "6 m/min");
+        assert!((counts(per_minute(10_000.0, 10_000.0), 100.0) - 6_000_000.0).abs() < 1e-6);
+        let rounded = counts(per_minute(10_000.0, 3_333.0), 100.0);
+        assert!((rounded - 18_001_800.0).abs() < 0.5, "{rounded}");
+        assert!(
+            (counts(per_minute(30_000.0, 10_000.0), 100.0) - 18_000_000.0).abs() < 1e-6,
+            "exact"
+        );
+    }
+
+    /// Conformance: I049.
+    #[test]
+    fn time_bases() {
+        let with = |time_base| SpeedFormat::Resolution { increments: 5.0, path_um: 1.0, time_base };
+        assert!((counts(with(TimeBase::Second), 1.0) - 5_000.0).abs() < 1e-9);
+        assert!((counts(with(TimeBase::Cycle), 1.0) - 5.0).abs() < 1e-12);
+        assert!((counts(with(TimeBase::Minute), 1.0) - 300_000.0).abs() < 1e-9);
+    }
+
+    fn example() -> TorqueFormat {
+        TorqueFormat {
+            motor: Motor::Rotary { feed_mm: 5.0, gear_ratio: 3.0 },
+            load: 0.48e-4,
+            reference: 0.45,
+            scale_num: 500.0,
+            scale_denom: 1.0,
+        }
+    }
+
+    /// Conformance: F059, F060, F064, F066.
+    #[test]
+    fn torque_example_of_the_manual() {
+        let format = example();
+        let torque = format.torque(1000.0);
+        assert!((torque - 0.18096).abs() < 5e-6, "{torque}");
+        assert!((format.counts(torque) - 201.06).abs() < 5e-3);
+        assert!((format.counts(torque) * 1.2 - 241.27).abs() < 5e-3, "weight 12/10");
+        assert!((encoder_resolution(1_048_576.0, 5.0, 3.0) - 62.91).abs() < 5e-3);
+        let linear = TorqueFormat { motor: Motor::Linear, load: 200.0, ..example() };
+        assert!((linear.torque(1000.0) - 200.0).abs() < 1e-12, "F = m a");
+    }
+
+    /// Conformance: F063, F080, F086.
+    #[test]
+    fn undefined_scales_give_no_output() {
+        let ids = |f: TorqueFormat| f.check(1000.0).iter().map(Issue::id).collect::<Vec<_>>();
+        assert!(ids(example()).is_empty());
+        let zero = TorqueFormat { scale_denom: 0.0, ..example() };
+        assert_eq!((ids(zero), zero.counts(1.0)), (vec![ErrorId::Vendor(110465)], 0.0));
+        let zero = TorqueFormat { reference: 0.0, ..example() };
+        assert_eq!((ids(zero), zero.counts(1.0)), (vec![ErrorId::Kontur(62)], 0.0));
+        // the printed load of 0.48 kg m2 must mean kg cm2
+        assert_eq!(ids(TorqueFormat { load: 0.48, ..example() }), [ErrorId::Kontur(24)]);
+    }
+}

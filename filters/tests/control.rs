@@ -1,0 +1,21 @@
+//! The axis behind its set position as a whole: closed loops against closed forms and documented figures.
+
+#![allow(
+    clippy::float_cmp,
+    clippy::unwrap_used,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::approx_constant,
+    reason = "tests: exact values, helpers outside of test functions, cycle numbers from times, measured amplitudes"
+)]
+
+#[path = "control/exact_stop.rs"]
+mod exact_stop;
+#[path = "control/feedforward.rs"]
+mod feedforward;
+#[path = "control/ipc.rs"]
+mod ipc;
+#[path = "control/profile.rs"]
+mod profile;
+#[path = "control/robustness.rs"]
+mod robustness;

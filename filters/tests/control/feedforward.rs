@@ -1,0 +1,227 @@
+//! Lag of a first-order drive with and without feedforward.
+
+use crate::profile::Profile;
+use kontur_filters::control::plant::{PlantConfig, PlantModel};
+use kontur_filters::control::{
+    AxisControl, AxisControlConfig, ControlOutput, FeedforwardConfig, FeedforwardMode as Mode,
+};
+use kontur_filters::time::CycleTime;
+
+fn axis(kv_per_s: f64, ta_s: f64, feedforward: FeedforwardConfig) -> AxisControl {
+    let mut config = AxisControlConfig::new(500.0, 1e6, 1e9);
+    config.position.kv_per_s = kv_per_s;
+    config.plant = PlantConfig {
+        model: PlantModel::FirstOrder { time_constant_s: ta_s },
+        ..PlantConfig::default()
+    };
+    config.feedforward = feedforward;
+    config.additive_inputs.velocity = true;
+    config.additive_inputs.torque = true;
+    let (config, issues) = config.checked(CycleTime::DEFAULT);
+    assert_eq!(issues, []);
+    AxisControl::new(config, CycleTime::DEFAULT).unwrap()
+}
+
+fn fed(mode: Mode, ta_s: f64) -> FeedforwardConfig {
+    FeedforwardConfig { mode, acceleration_quotient: ta_s * 1e6, ..FeedforwardConfig::default() }
+}
+
+/// 100 mm/s, 1000 mm/s2, 20000 mm/s3, constant speed for `hold_s`, mirrored braking.
+fn move_profile(hold_s: f64) -> Profile {
+    Profile::rest().ramp(100.0, 1000.0, 0.05).then(hold_s, 0.0).ramp(-100.0, 1000.0, 0.05)
+}
+
+/// Every cycle whose reference lies in the profile.
+fn run(mut axis: AxisControl, profile: &Profile, gain: f64) -> Vec<ControlOutput> {
+    let delay = axis.delay_cycles();
+    let cycles = (profile.end_s() * 1e3) as usize + 400;
+    let all = (0..cycles + delay).map(|k| axis.step(profile.at(k as f64 * 1e-3), gain, true));
+    let kept: Vec<_> = all.skip(delay).collect();
+    assert!(kept.iter().all(|o| o.faults.is_empty()));
+    assert!((kept[100].reference_mm - profile.at(0.1)).abs() < 1e-12, "aligned with the reference");
+    kept
+}
+
+struct Row {
+    what: &'static str,
+    kv: f64,
+    ta: f64,
+    feedforward: FeedforwardConfig,
+    /// Value and its printed resolution, um: constant speed (last cycle), k = 99 (last sample of constant
+    /// acceleration), largest, smallest lag.
+    columns: [(f64, f64); 4],
+}
+
+/// Conformance: F001, F002, F004, F008, F010, F011, F046, F047, F048.
+#[test]
+fn lag_table() {
+    let row = |what, kv, ta, feedforward, columns| Row { what, kv, ta, feedforward, columns };
+    // digits: three, two, one, none behind the point
+    let (m, c, d, u) = (5e-4, 5e-3, 5e-2, 5e-1);
+    let none = FeedforwardConfig::default();
+    let jerk =
+        FeedforwardConfig { jerk_ratio: 1.0, ..fed(Mode::VEL | Mode::ACC | Mode::JERK, 0.005) };
+    let weighted = FeedforwardConfig { global_ratio: 0.9, ..fed(Mode::VEL, 0.005) };
+    let both = Mode::VEL | Mode::ACC;
+    let rows = [
+        row("none", 50.0, 0.005, none, [(2000.0, m), (1190.7, d), (2000.0, d), (0.0, u)]),
+        row(
+            "VEL",
+            50.0,
+            0.005,
+            fed(Mode::VEL, 0.005),
+            [(0.0, m), (99.25, c), (99.42, c), (-99.42, c)],
+        ),
+        row("VEL+ACC", 50.0, 0.005, fed(both, 0.005), [(0.0, m), (0.0, c), (0.03, c), (-0.03, c)]),
+        // the figures 38.70 and -1.45 belong to the derivatives of the profile itself; third differences of its
+        // samples spread each jump of the jerk over two cycles
+        row(
+            "VEL+ACC+JERK",
+            50.0,
+            0.005,
+            jerk,
+            [(0.0, m), (-1.45, 2.0 * c), (38.70, d), (-38.70, d)],
+        ),
+        row("VEL 0.9", 50.0, 0.005, weighted, [(200.0, m), (208.4, d), (240.9, d), (-40.9, d)]),
+        row("none", 50.0, 0.002, none, [(2000.0, m), (1136.6, d), (2000.0, d), (0.0, u)]),
+        row(
+            "VEL",
+            50.0,
+            0.002,
+            fed(Mode::VEL, 0.002),
+            [(0.0, m), (39.13, c), (39.25, c), (-39.25, c)],
+        ),
+        row("VEL+ACC", 50.0, 0.002, fed(both, 0.002), [(0.0, m), (0.0, c), (0.03, c), (-0.03, c)]),
+        row("none", 10.0, 0.005, none, [(9999.0, d), (2309.2, d), (9999.0, d), (0.0, u)]),
+        row(
+            "VEL",
+            10.0,
+            0.005,
+            fed(Mode::VEL, 0.005),
+            [(0.06, c), (255.6, d), (294.2, d), (-294.1, d)],
+        ),
+        row(
+            "VEL+ACC",
+            10.0,
+            0.005,
+            fed(both, 0.005),
+            [(0.0, m), (-0.04, c), (0.07, c), (-0.07, c)],
+        ),
+    ];
+    for r in rows {
+        let hold = if r.kv == 10.0 { 0.8 } else { 0.4 };
+        let out = run(axis(r.kv, r.ta, r.feedforward), &move_profile(hold), 1.0);
+        let lag = |k: usize| out[k].lag_mm * 1e3;
+        let last = cycles(0.15 + hold) - 1;
+        let all = || out.iter().map(|o| o.lag_mm * 1e3);
+        let got =
+            [lag(last), lag(99), all().fold(f64::MIN, f64::max), all().fold(f64::MAX, f64::min)];
+        for (column, (got, (want, digits))) in got.into_iter().zip(r.columns).enumerate() {
+            assert!(
+                (got - want).abs() <= digits,
+                "Kv {}, Ta {}, {}, column {column}: {got:.4}, table {want}",
+                r.kv,
+                r.ta,
+                r.what
+            );
+        }
+    }
+}
+
+fn cycles(t: f64) -> usize {
+    (t * 1e3).round() as usize
+}
+
+/// Lag in um over a run with constant-speed part of 0.4 s.
+fn lags(feedforward: FeedforwardConfig, gain: f64) -> Vec<f64> {
+    let out = run(axis(50.0, 0.005, feedforward), &move_profile(0.4), gain);
+    out.iter().map(|o| o.lag_mm * 1e3).collect()
+}
+
+/// Lag at constant speed is `(1 - W wv g) v / Kv`.
+/// Conformance: F001, F004, F007, F008, F012, F025.
+#[test]
+fn constant_speed_closed_form() {
+    for (global_ratio, velocity_ratio, gain) in
+        [(1.0, 1.0, 0.8), (0.7, 1.0, 1.0), (1.2, 1.0, 1.0), (0.9, 0.8, 0.5), (1.0, 1.0, 0.0)]
+    {
+        let c = FeedforwardConfig { global_ratio, velocity_ratio, ..fed(Mode::VEL, 0.005) };
+        let want = (1.0 - global_ratio * velocity_ratio * gain) * 2000.0;
+        let got = lags(c, gain)[cycles(0.55) - 1];
+        assert!((got - want).abs() < 1e-3, "{global_ratio} {velocity_ratio} {gain}: {got} {want}");
+    }
+}
+
+/// Constant acceleration long enough for everything else to decay leaves `a Ta / Kv`, or nothing with ACC.
+/// Conformance: F002, F004, F010.
+#[test]
+fn constant_acceleration_closed_form() {
+    let profile = Profile::rest().ramp(400.0, 1000.0, 0.05);
+    for (mode, ta, want) in
+        [(Mode::VEL, 0.005, 100.0), (Mode::VEL, 0.002, 40.0), (Mode::VEL | Mode::ACC, 0.005, 0.0)]
+    {
+        let out = run(axis(50.0, ta, fed(mode, ta)), &profile, 1.0);
+        let got = out[cycles(0.38)].lag_mm * 1e3;
+        assert!((got - want).abs() < 0.01, "{mode:?} {ta}: {got} {want}");
+    }
+}
+
+/// The drive adds the same speed whether it comes through the controller or as additive velocity; an additive torque
+/// of weight 1 is what a matched time constant gives.
+#[test]
+fn additive_variant_moves_the_axis_alike() {
+    let conventional = lags(fed(Mode::VEL | Mode::ACC, 0.005), 1.0);
+    let additive = FeedforwardConfig {
+        mode: Mode::ADD_VEL | Mode::ADD_ACC,
+        acceleration_quotient: 1.0,
+        ..FeedforwardConfig::default()
+    };
+    for (a, b) in conventional.iter().zip(lags(additive, 1.0)) {
+        assert!((a - b).abs() < 1e-6, "{a} {b}");
+    }
+}
+
+/// A weight belongs to the motion it was programmed for, so it waits in the buffer with its setpoint.
+#[test]
+fn weight_travels_through_the_buffer() {
+    let mut axis = axis(50.0, 0.005, fed(Mode::VEL, 0.005));
+    let profile = move_profile(0.4);
+    for k in 0..400_u32 {
+        let gain = if k < 300 { 0.0 } else { 1.0 };
+        let out = axis.step(profile.at(f64::from(k) * 1e-3), gain, true);
+        assert_eq!(out.feedforward.speed_mm_s != 0.0, k >= 305, "cycle {k}");
+    }
+}
+
+/// Values in the drive's format at 100 mm/s and 1 m/s2, the examples of the feedforward manual.
+/// Conformance: F052, F064, F066, I023.
+#[test]
+fn drive_formats() {
+    use kontur_filters::control::scaling::{Motor, SpeedFormat, TimeBase, TorqueFormat};
+    let mut config = AxisControlConfig::new(500.0, 1e6, 1e9);
+    config.position.kv_per_s = 50.0;
+    config.plant.model = PlantModel::FirstOrder { time_constant_s: 0.005 };
+    config.feedforward =
+        FeedforwardConfig { acceleration_quotient: 1.2, ..fed(Mode::VEL | Mode::ADD_ACC, 0.0) };
+    config.feedforward.acceleration_quotient = 1.2;
+    config.additive_inputs.torque = true;
+    config.feedforward_format = SpeedFormat::Resolution {
+        increments: 10_000.0,
+        path_um: 10_000.0,
+        time_base: TimeBase::Minute,
+    };
+    config.torque = TorqueFormat {
+        motor: Motor::Rotary { feed_mm: 5.0, gear_ratio: 3.0 },
+        load: 0.48e-4,
+        reference: 0.45,
+        scale_num: 500.0,
+        scale_denom: 1.0,
+    };
+    let out = run(AxisControl::new(config, CycleTime::DEFAULT).unwrap(), &move_profile(0.4), 1.0);
+    let (accelerating, constant) = (&out[75].drive, &out[cycles(0.5)].drive);
+    assert!((accelerating.torque - 241.27).abs() < 5e-3, "{}", accelerating.torque);
+    assert!((accelerating.torque_n_m - 1.2 * 0.18096).abs() < 1e-5);
+    assert!((constant.feedforward - 6_000_000.0).abs() < 0.01);
+    assert!((constant.command - 12_000.0).abs() < 0.01, "6 m/min");
+    assert!(constant.torque.abs() < 1e-4);
+}

@@ -1,0 +1,473 @@
+//! What the axis filter manual says in words and shows in its figures, as numbers.
+
+use crate::corner::{corner, forward_backward_gap, path};
+use crate::reference::assert_close;
+use kontur_filters::fir::{FirConfig, FirKind};
+use kontur_filters::hsc::{HscConfig, HscKind};
+use kontur_filters::iir::prototype::Prototype;
+use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};
+use kontur_filters::kernel::{Kernel, KernelFilter};
+use kontur_filters::response::{Angle, residual_vibration_ratio, step_response};
+use kontur_filters::stage::Stage;
+use kontur_filters::time::CycleTime;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+const MS: CycleTime = CycleTime::DEFAULT;
+const PROTOTYPES: [Prototype; 3] =
+    [Prototype::CritDamping, Prototype::Bessel, Prototype::Butterworth];
+
+fn filter(kind: FilterKind, prototype: Prototype, order: u32, f_hz: f64, q: f64) -> AxisFilter {
+    let config = FilterConfig { kind, prototype, order, f_hz, q, ..FilterConfig::default() };
+    AxisFilter::design(&config, MS).0.unwrap()
+}
+
+fn low_pass(prototype: Prototype, order: u32, f_hz: f64) -> AxisFilter {
+    filter(FilterKind::LowPass, prototype, order, f_hz, 1.0)
+}
+
+fn band_stop(prototype: Prototype, order: u32, f_hz: f64, q: f64) -> AxisFilter {
+    filter(FilterKind::BandStop, prototype, order, f_hz, q)
+}
+
+fn db(filter: &AxisFilter, f_hz: f64) -> f64 {
+    filter.response(Angle::of(f_hz, MS)).magnitude_db()
+}
+
+/// Largest step response beyond its final value 1, in per cent.
+fn overshoot(mut filter: AxisFilter) -> f64 {
+    100.0 * (step_response(&mut filter, 4000).into_iter().fold(0.0, f64::max) - 1.0)
+}
+
+fn of(kernel: Kernel) -> KernelFilter {
+    KernelFilter::new(Arc::new(kernel), 0.0)
+}
+
+/// The frequency in `from..to` where the filter crosses -3.0103 dB.
+fn edge(filter: &AxisFilter, from: f64, to: f64) -> f64 {
+    let over = |f| db(filter, f) > -3.0103;
+    let (mut a, mut b) = (from, to);
+    assert_ne!(over(a), over(b), "no edge between {from} and {to} Hz");
+    for _ in 0..60 {
+        let middle = 0.5 * (a + b);
+        if over(middle) == over(a) { a = middle } else { b = middle }
+    }
+    a
+}
+
+/// Conformance: A016, A017, A018, A019.
+#[test]
+fn pass_and_stop_ranges() {
+    let rows = [
+        (
+            FilterKind::LowPass,
+            Prototype::CritDamping,
+            4,
+            15.0,
+            &[(7.5, -0.802), (15.0, -3.010), (30.0, -9.823)][..],
+        ),
+        (FilterKind::HighPass, Prototype::CritDamping, 4, 15.0, &[(7.5, -9.797), (150.0, -0.028)]),
+        (FilterKind::BandStop, Prototype::Butterworth, 2, 20.0, &[(10.0, -0.003), (40.0, -0.003)]),
+        (FilterKind::BandPass, Prototype::Butterworth, 2, 20.0, &[(20.0, 0.0), (10.0, -31.16)]),
+    ];
+    for (kind, prototype, order, f_hz, points) in rows {
+        let q = if f_hz > 15.0 { 4.0 } else { 1.0 };
+        for (at, want) in points {
+            let digit = if *want < -31.0 { 5e-3 } else { 5e-4 };
+            assert_close(
+                db(&filter(kind, prototype, order, f_hz, q), *at),
+                *want,
+                digit,
+                &(kind, at),
+            );
+        }
+    }
+    assert!(db(&band_stop(Prototype::Butterworth, 2, 20.0, 4.0), 20.0) < -120.0);
+}
+
+/// Figure 1: order 4, 15 Hz. Conformance: A024.
+#[test]
+fn low_passes_of_order_4() {
+    for (prototype, below, above) in [
+        (Prototype::CritDamping, -0.802, -9.82),
+        (Prototype::Bessel, -0.704, -13.46),
+        (Prototype::Butterworth, -0.017, -24.18),
+    ] {
+        let filter = low_pass(prototype, 4, 15.0);
+        assert_close(db(&filter, 7.5), below, 6e-4, &prototype);
+        assert_close(db(&filter, 30.0), above, 6e-3, &prototype);
+    }
+}
+
+/// Figure 2: CRIT_DAMPING keeps below the step, BESSEL overshoots slightly, BUTTERWORTH considerably and more with
+/// the order. Conformance: A025, A026, A028.
+#[test]
+fn overshoot_in_per_cent() {
+    let bessel = [0.0, 0.438, 0.767, 0.858, 0.802, 0.679];
+    let butterworth = [0.0, 4.334, 8.168, 10.859, 12.795, 14.281];
+    for (order, (bessel, butterworth)) in (1..=6).zip(bessel.into_iter().zip(butterworth)) {
+        assert!(overshoot(low_pass(Prototype::CritDamping, order, 15.0)) <= 1e-10, "{order}");
+        let is = overshoot(low_pass(Prototype::Bessel, order, 15.0)).max(0.0);
+        assert_close(is, bessel, 6e-4, &("BESSEL", order));
+        let is = overshoot(low_pass(Prototype::Butterworth, order, 15.0)).max(0.0);
+        assert_close(is, butterworth, 6e-4, &("BUTTERWORTH", order));
+    }
+}
+
+/// Figure 3: mirrored at the corner frequency, in frequencies that the bilinear transform has warped.
+/// Conformance: A033.
+#[test]
+fn the_high_pass_is_the_mirrored_low_pass() {
+    let warped = |k: f64| libm::atan(k * libm::tan(PI * 15.0 * 0.001)) / (PI * 0.001);
+    for prototype in PROTOTYPES {
+        for order in 1..=6 {
+            let low = low_pass(prototype, order, 15.0);
+            let high = filter(FilterKind::HighPass, prototype, order, 15.0, 1.0);
+            for k in [0.1, 0.5, 1.0, 2.0, 7.0] {
+                assert_close(
+                    db(&high, warped(k)),
+                    db(&low, warped(1.0 / k)),
+                    1e-9,
+                    &(prototype, order, k),
+                );
+            }
+        }
+    }
+    let high = filter(FilterKind::HighPass, Prototype::CritDamping, 4, 15.0, 1.0);
+    assert_close(db(&high, 7.5), -9.797, 5e-4, &"high-pass");
+    assert_close(db(&low_pass(Prototype::CritDamping, 4, 15.0), 30.0), -9.823, 5e-4, &"low-pass");
+}
+
+/// Figure 4. Conformance: A034.
+#[test]
+fn a_high_pass_swings_around_its_final_value() {
+    let mut high = filter(FilterKind::HighPass, Prototype::Butterworth, 4, 15.0, 1.0);
+    let y = step_response(&mut high, 2000);
+    assert_close(y.iter().copied().fold(0.0, f64::min), -0.350, 5e-4, &"below zero");
+    assert!(y.last().unwrap().abs() < 1e-6);
+}
+
+/// Q = f0 / (fo - fu), f0 the geometric mean of the -3 dB points fo and fu.
+/// Conformance: A035, A036, A037, A040, A041.
+#[test]
+fn edges_of_bands() {
+    for (kind, q, low, high) in [
+        (FilterKind::BandPass, 1.0, 12.36, 32.36),
+        (FilterKind::BandPass, 4.0, 17.656, 22.656),
+        (FilterKind::BandStop, 1.0, 12.36, 32.36),
+        (FilterKind::BandStop, 4.0, 17.656, 22.656),
+    ] {
+        let filter = filter(kind, Prototype::Butterworth, 1, 20.0, q);
+        assert_close(db(&filter, low), -3.0103, 0.04, &(kind, q));
+        assert_close(db(&filter, high), -3.0103, 0.04, &(kind, q));
+        let (fu, fo) = (edge(&filter, 1.0, 20.0), edge(&filter, 20.0, 100.0));
+        assert_close((fu * fo).sqrt(), 20.0, 0.02, &(kind, q));
+        assert_close(20.0 / (fo - fu), q, 0.01 * q, &(kind, q));
+    }
+}
+
+/// Conformance: A038, A043.
+#[test]
+fn the_prototype_matters_little_for_bands() {
+    for kind in [FilterKind::BandPass, FilterKind::BandStop] {
+        let first = filter(kind, Prototype::CritDamping, 1, 20.0, 1.0);
+        for prototype in PROTOTYPES {
+            let other = filter(kind, prototype, 1, 20.0, 1.0);
+            for f in [5.0, 12.0, 17.0, 25.0, 60.0] {
+                assert_close(db(&other, f), db(&first, f), 1e-9, &(kind, prototype, f));
+            }
+        }
+    }
+    let at_10_hz = [-5.73, -6.38, -7.85];
+    let overshoots = [18.0, 19.4, 21.5];
+    for (i, prototype) in PROTOTYPES.into_iter().enumerate() {
+        let pass = filter(FilterKind::BandPass, prototype, 2, 20.0, 1.0);
+        assert_close(db(&pass, 10.0), at_10_hz[i], 6e-3, &prototype);
+        assert_close(
+            overshoot(band_stop(prototype, 2, 20.0, 4.0)),
+            overshoots[i],
+            0.06,
+            &prototype,
+        );
+    }
+}
+
+/// Figure 7: the larger Q, the narrower. Conformance: A042.
+#[test]
+fn band_stops_over_quality() {
+    let width = |q| {
+        let stop = band_stop(Prototype::Butterworth, 2, 20.0, q);
+        edge(&stop, 20.01, 100.0) - edge(&stop, 1.0, 19.99)
+    };
+    for q in [1.0, 2.0, 4.0, 10.0] {
+        assert_close(width(q), 20.0 / q, 0.2 / q, &q);
+    }
+}
+
+/// Figure 8: how far X runs beyond the corner, Q 4, BUTTERWORTH: step in per cent, corner at F1000 in mm.
+/// Conformance: A044, A045, A046.
+#[test]
+fn ringing_of_band_stops() {
+    for (order, want) in [(1, 14.0), (2, 21.5), (3, 25.3)] {
+        assert_close(
+            overshoot(band_stop(Prototype::Butterworth, order, 20.0, 4.0)),
+            want,
+            0.06,
+            &order,
+        );
+    }
+    for (f_hz, want) in [(20.0, 0.034), (10.0, 0.068), (5.0, 0.137)] {
+        let stop = band_stop(Prototype::Butterworth, 2, f_hz, 4.0);
+        let points = path(&stop, 1000.0 / 60.0 * 0.001, 2000);
+        let beyond = points.iter().map(|p| p.0).fold(0.0, f64::max);
+        assert_close(beyond, want, 1e-3, &f_hz);
+    }
+}
+
+/// Figure 9 and text: gain 1, falling phase; BESSEL delays evenly. Conformance: A020, A051, A054.
+#[test]
+fn all_passes() {
+    for prototype in PROTOTYPES {
+        for order in 1..=6 {
+            let all = filter(FilterKind::AllPass, prototype, order, 30.0, 1.0);
+            let mut before = 0.0;
+            for tenth in 0..=4999 {
+                let response = all.response(Angle::of(f64::from(tenth) / 10.0, MS));
+                assert_close(response.magnitude(), 1.0, 1e-9, &(prototype, order, tenth));
+                assert!(response.group_delay_cycles() > 0.0, "{prototype:?} {order} {tenth}");
+                let turn = (response.phase_deg() - before + 180.0).rem_euclid(360.0) - 180.0;
+                assert!(tenth == 0 || turn < 0.0, "{prototype:?} {order} {tenth}: {turn}");
+                before = response.phase_deg();
+            }
+        }
+    }
+    let bessel = filter(FilterKind::AllPass, Prototype::Bessel, 4, 30.0, 1.0);
+    assert_close(bessel.delay_cycles(), 39.011, 5e-4, &"at 0 Hz");
+    for tenth in 0..=150 {
+        let delay = bessel.response(Angle::of(f64::from(tenth) / 10.0, MS)).group_delay_cycles();
+        assert_close(delay, 39.011, 0.39, &tenth);
+    }
+}
+
+/// -20 dB per decade and order, half of it on each side of a band. Conformance: A021, A022, A096.
+#[test]
+fn flanks() {
+    for prototype in PROTOTYPES {
+        for order in 1..=6_u32 {
+            let low = low_pass(prototype, order, 0.01);
+            let want = -20.0 * f64::from(order);
+            assert_close(
+                db(&low, 10.0) - db(&low, 1.0),
+                want,
+                0.1 * f64::from(order),
+                &(prototype, order),
+            );
+        }
+        for order in 1..=3_u32 {
+            let want = 20.0 * f64::from(order);
+            let low = filter(FilterKind::BandPass, prototype, order, 0.1, 1.0);
+            assert_close(db(&low, 10.0) - db(&low, 1.0), -want, 0.02 * want, &(prototype, order));
+            let high = filter(FilterKind::BandPass, prototype, order, 100.0, 1.0);
+            assert_close(db(&high, 1.0) - db(&high, 0.1), want, 0.01 * want, &(prototype, order));
+        }
+    }
+    for (kind, order) in [(FilterKind::Pt1, 1), (FilterKind::Pt2, 2)] {
+        let config =
+            FilterConfig { kind, order, time_constant_us: 1_000_000, ..FilterConfig::default() };
+        let lag = AxisFilter::design(&config, MS).0.unwrap();
+        let fall = db(&lag, 50.0) - db(&lag, 5.0);
+        assert_close(fall, -20.0 * f64::from(order), 0.2 * f64::from(order), &kind);
+    }
+}
+
+/// PT1 and PT2 by their time constant: corner of 10 ms, twice -3 dB at that of 5 ms; no overshoot.
+/// Conformance: A021, A022, A057, A060, A061.
+#[test]
+fn lags_by_their_time_constant() {
+    let lag = |kind, time_constant_us| {
+        let config = FilterConfig { kind, order: 1, time_constant_us, ..FilterConfig::default() };
+        AxisFilter::design(&config, MS).0.unwrap()
+    };
+    assert_close(db(&lag(FilterKind::Pt1, 10_000), 15.9155), -3.0103, 1e-3, &"PT1");
+    assert_close(db(&lag(FilterKind::Pt2, 5000), 31.831), -6.0206, 1e-3, &"PT2");
+    for time_constant_us in [1000, 5000, 10_000, 50_000] {
+        assert!(overshoot(lag(FilterKind::Pt1, time_constant_us)) <= 1e-10);
+        assert!(overshoot(lag(FilterKind::Pt2, time_constant_us)) <= 1e-10);
+    }
+}
+
+/// Chapter 4 and figure 16: steepest slope of the step response over 2 pi fg. Conformance: A117, A118.
+#[test]
+fn the_slope_of_the_step_hardly_depends_on_the_order() {
+    let steepest = |order| {
+        let y = step_response(&mut low_pass(Prototype::CritDamping, order, 1.0), 2000);
+        let slopes = y.windows(2).map(|pair| (pair[1] - pair[0]) / 0.001);
+        slopes.fold(y[0] / 0.001, f64::max)
+    };
+    // order 1: the first step covers half a cycle before its sample
+    assert_close(steepest(1), 2.0 * PI, 0.01 * 2.0 * PI, &1);
+    let slopes: Vec<f64> = (2..=6).map(|order| steepest(order) / (2.0 * PI)).collect();
+    assert_close(slopes[0], 0.572, 1e-3, &2);
+    assert_close(slopes[4], 0.501, 1e-3, &6);
+    assert!(slopes.windows(2).all(|pair| pair[1] < pair[0]), "{slopes:?}");
+}
+
+/// Figures 14 and 15: a ramp of N + 1 samples; symmetric about the corner.
+/// Conformance: A076, A078, A082.
+#[test]
+fn the_hsc_mean() {
+    let hsc = HscConfig {
+        kind: HscKind::Mean,
+        order: 10,
+        time_constant_us: 0,
+        f_hz: 30.0,
+        share_ratio: 1.0,
+    };
+    let kernel = hsc.design(MS).0.unwrap();
+    assert_eq!(kernel.taps().len(), 11);
+    assert!(kernel.taps().iter().all(|tap| (tap.weight - 1.0 / 11.0).abs() < 1e-15));
+    assert_close(kernel.response(Angle::of(40.4, MS)).magnitude_db(), -3.0103, 0.02, &"corner");
+    assert!(forward_backward_gap(&of(kernel.clone()), 0.05, 60) < 1e-12);
+    let y = step_response(&mut of(kernel), 20);
+    for (n, y) in y.into_iter().enumerate() {
+        assert_close(y, ((n + 1) as f64 / 11.0).min(1.0), 1e-14, &n);
+    }
+    for (order, want) in [(10, 0.02273), (50, 0.10621), (100, 0.21040)] {
+        let hsc = HscConfig { order, ..hsc };
+        let is = corner(&of(hsc.design(MS).0.unwrap()), 1000.0 / 60.0 * 0.001, 500);
+        assert_close(is.contour_error, want, 5.1e-6, &order);
+    }
+}
+
+/// The three laws: contour error over cycle time, feed and order. Conformance: A079, A080, A081.
+#[test]
+fn double_cycle_feed_or_order_doubles_the_error() {
+    let error = |order, feed: f64, cycle: CycleTime| {
+        let config = FirConfig { order, ..FirConfig::new(FirKind::MovingAverage) };
+        let kernel = config.design(cycle).0.unwrap();
+        corner(&of(kernel), feed / 60.0 * cycle.seconds(), 500).contour_error
+    };
+    let two = CycleTime::from_us(2000).unwrap();
+    assert_close(error(50, 1000.0, two) / error(50, 1000.0, MS), 2.0, 1e-12, &"cycle");
+    assert_close(error(50, 2000.0, MS) / error(50, 1000.0, MS), 2.0, 1e-12, &"feed");
+    assert_close(error(200, 1000.0, MS), 0.41874, 5.1e-6, &"order 200");
+    assert_close(error(200, 1000.0, MS) / error(100, 1000.0, MS), 1.990, 5e-4, &"order");
+}
+
+/// HSC NoVib of 30 Hz: nothing passes at 30 Hz, an undamped mode there is not excited. Conformance: A077.
+#[test]
+fn the_hsc_no_vib() {
+    for f_hz in [10.0, 30.0] {
+        let hsc = HscConfig {
+            kind: HscKind::NoVib,
+            order: 1,
+            time_constant_us: 0,
+            f_hz,
+            share_ratio: 1.0,
+        };
+        let kernel = hsc.design(MS).0.unwrap();
+        assert!(kernel.response(Angle::of(f_hz, MS)).magnitude() < 1e-12, "{f_hz}");
+        assert!(residual_vibration_ratio(&kernel.impulses(MS), f_hz, 0.0) < 1e-12, "{f_hz}");
+        assert_eq!(kernel, kernel.reversed());
+    }
+}
+
+/// Q acts on band-pass and band-stop alone; lags and the time delay have neither frequency nor prototype, their order
+/// only switches them on. Conformance: A010, A055, A059, A064, A086.
+#[test]
+fn keys_without_meaning_change_nothing() {
+    let y = |config: &FilterConfig| {
+        let mut filter = AxisFilter::design(config, MS).0.unwrap();
+        step_response(&mut filter, 200).into_iter().map(f64::to_bits).collect::<Vec<_>>()
+    };
+    let base = FilterConfig { order: 2, time_constant_us: 5000, ..FilterConfig::default() };
+    for kind in [
+        FilterKind::LowPass,
+        FilterKind::HighPass,
+        FilterKind::BandPass,
+        FilterKind::BandStop,
+        FilterKind::AllPass,
+        FilterKind::Pt1,
+        FilterKind::Pt2,
+        FilterKind::TimeDelay,
+    ] {
+        let base = FilterConfig { kind, ..base };
+        let same = |other: &FilterConfig| y(&base) == y(other);
+        let band = matches!(kind, FilterKind::BandPass | FilterKind::BandStop);
+        let lag = matches!(kind, FilterKind::Pt1 | FilterKind::Pt2 | FilterKind::TimeDelay);
+        assert_eq!(same(&FilterConfig { q: 3.0, ..base }), !band, "{kind:?}");
+        assert_eq!(same(&FilterConfig { time_constant_us: 4000, ..base }), !lag, "{kind:?}");
+        assert_eq!(same(&FilterConfig { f_hz: 20.0, ..base }), lag, "{kind:?}");
+        assert_eq!(same(&FilterConfig { prototype: Prototype::Bessel, ..base }), lag, "{kind:?}");
+        assert_eq!(same(&FilterConfig { order: 1, ..base }), lag, "{kind:?}");
+        assert!(!same(&FilterConfig { share_ratio: 0.5, ..base }), "{kind:?}");
+    }
+}
+
+/// A mass on a spring of 20 Hz, damping 0.02, its base moved by what a filter gives; exact for a base that moves at
+/// constant speed within the cycle.
+#[derive(Clone)]
+struct Mode {
+    filter: Option<AxisFilter>,
+    base: f64,
+    deviation: f64,
+    speed: f64,
+}
+
+impl Stage for Mode {
+    fn step(&mut self, x: f64) -> f64 {
+        let (w, z, t) = (2.0 * PI * 20.0, 0.02, 0.001);
+        let damped = w * f64::sqrt(1.0 - z * z);
+        let base = self.filter.as_mut().map_or(x, |filter| filter.step(x));
+        let base_speed = (base - self.base) / t;
+        // relative to the base, whose speed steps at the start of the cycle
+        let (d, v) = (self.deviation, self.speed - base_speed);
+        let (sin, cos) = libm::sincos(damped * t);
+        let decay = libm::exp(-z * w * t);
+        let s = (v + z * w * d) / damped;
+        self.deviation = decay * (d * cos + s * sin);
+        self.speed =
+            decay * (-d * damped * sin + s * damped * cos) - z * w * self.deviation + base_speed;
+        self.base = base;
+        base + self.deviation
+    }
+
+    fn settle(&mut self, x: f64) {
+        if let Some(filter) = &mut self.filter {
+            filter.settle(x);
+        }
+        (self.base, self.deviation, self.speed) = (x, 0.0, 0.0);
+    }
+
+    fn delay_cycles(&self) -> f64 {
+        0.0
+    }
+}
+
+/// A corner that excites a mode of 20 Hz: the band stop's own overshoot is smaller than what it takes away.
+/// Conformance: A047.
+#[test]
+fn a_band_stop_is_better_than_the_resonance() {
+    let error = |filter| {
+        let mode = Mode { filter, base: 0.0, deviation: 0.0, speed: 0.0 };
+        // far enough before the corner for the start to have decayed
+        corner_of(&mode, 1000.0 / 60.0 * 0.001, 4000)
+    };
+    let (plain, stopped) =
+        (error(None), error(Some(band_stop(Prototype::Butterworth, 2, 20.0, 4.0))));
+    // v / w of an almost undamped mode
+    assert_close(plain, 1000.0 / 60.0 / (2.0 * PI * 20.0), 0.1 * plain, &"without");
+    assert!(stopped < 0.8 * plain, "{stopped} of {plain}");
+}
+
+/// Largest distance from the contour behind the corner, where the start no longer rings.
+fn corner_of<S: Stage + Clone>(stage: &S, per_cycle: f64, cycles: u32) -> f64 {
+    let points = path(stage, per_cycle, cycles);
+    let distance = |&(x, y): &(f64, f64)| {
+        let corner = libm::hypot(x, y);
+        let first = if x <= 0.0 { y.abs() } else { corner };
+        let second = if y >= 0.0 { x.abs() } else { corner };
+        first.min(second)
+    };
+    points[cycles as usize - 10..].iter().map(distance).fold(0.0, f64::max)
+}

@@ -1,0 +1,295 @@
+//! The command line as clap sees it. Wrong usage ends with exit code 2.
+
+use crate::engine::Request;
+use clap::{Parser, Subcommand, ValueEnum};
+use kontur_interpreter::machine::Override;
+use std::path::PathBuf;
+
+/// Headless NC kernel simulator for the ISG / TwinCAT 3 CNC dialect.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "kontur", version, arg_required_else_help = true)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The subcommands.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    /// Execute a program: setpoints per axis and cycle, and a summary.
+    Run(RunArgs),
+    /// Parse and decode programs without moving anything; shows every diagnostic.
+    Check(CheckArgs),
+    /// Compare two traces, or a trace and a fresh run; exit code 1 if they differ.
+    Diff(DiffArgs),
+    /// Run programs and write one self-contained page (.html) or picture (.svg).
+    Report(ReportArgs),
+    /// Frequency response, step response, residual vibration or corner of filters, shapers and axes.
+    Response(crate::response::args::ResponseArgs),
+    /// Propose Vibration Guard settings from measured frequencies or recordings, or the order of a filter.
+    Tune(crate::tune::args::TuneArgs),
+    /// Explain an error ID, a parameter or a command.
+    Explain(ExplainArgs),
+}
+
+/// How results are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SummaryForm {
+    /// Readable text.
+    Text,
+    /// One JSON object.
+    Json,
+    /// Nothing.
+    None,
+}
+
+/// How messages are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MessageForm {
+    /// Readable text with the source line.
+    Text,
+    /// One JSON object per line.
+    Json,
+}
+
+/// How a comparison is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum OutputForm {
+    /// Readable text.
+    Text,
+    /// One JSON object.
+    Json,
+}
+
+/// Options that decide what is simulated.
+#[derive(Clone, Debug, clap::Args)]
+pub struct SimulationArgs {
+    /// Machine: a folder with a start-up list, or the list itself [default: the built-in xyz]
+    #[arg(short, long, value_name = "DIR")]
+    pub machine: Option<PathBuf>,
+
+    /// A list parameter in place of the machine's, e.g. `X.getriebe[0].kv=5000` or `channel.key=value`
+    #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = setting)]
+    pub set: Vec<String>,
+
+    /// Folder with global subroutines, searched after the caller's own
+    #[arg(long, value_name = "DIR")]
+    pub path: Vec<PathBuf>,
+
+    /// Cycle time in microseconds in place of the machine's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub cycle_us: Option<u32>,
+
+    /// Start positions in mm (deg), e.g. `X10,Y5`
+    #[arg(long, value_name = "POSITIONS", value_delimiter = ',', value_parser = position)]
+    pub start: Vec<(String, f64)>,
+
+    /// Active skip levels, e.g. `1,3`
+    #[arg(long, value_name = "LEVELS", value_delimiter = ',', value_parser = clap::value_parser!(u8).range(1..=10))]
+    pub skip: Vec<u8>,
+
+    /// Stop after this program time in seconds
+    #[arg(long, value_name = "S", default_value = "86400", value_parser = positive)]
+    pub max_time: f64,
+
+    /// Stop after this number of executed blocks
+    #[arg(long, value_name = "N", default_value_t = 100_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    pub max_blocks: u64,
+
+    /// Refuse list keys that are not modelled
+    #[arg(long)]
+    pub strict: bool,
+
+    /// Form of the messages on stderr
+    #[arg(long, value_enum, default_value_t = MessageForm::Text)]
+    pub diagnostics: MessageForm,
+}
+
+impl SimulationArgs {
+    /// The request for one program.
+    pub fn request(&self, program: impl Into<PathBuf>) -> Request {
+        Request {
+            program: program.into(),
+            machine: self.machine.clone(),
+            settings: self.set.clone(),
+            path: self.path.clone(),
+            cycle_us: self.cycle_us,
+            start: self.start.clone(),
+            skip: self.skip.clone(),
+            max_time_s: self.max_time,
+            max_blocks: self.max_blocks,
+            strict: self.strict,
+        }
+    }
+}
+
+/// `kontur run`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct RunArgs {
+    /// The NC program
+    pub program: PathBuf,
+
+    /// Write a trace; `.parquet` or, with any other name, CSV. May be given several times
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+
+    /// Columns of the trace: groups or names, separated by commas
+    #[arg(long, value_name = "GROUPS|NAMES", default_value = crate::trace::DEFAULT_SIGNALS)]
+    pub signals: String,
+
+    /// Write every N-th cycle only
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    pub decimate: u64,
+
+    /// Form of the summary on stdout
+    #[arg(long, value_enum, default_value_t = SummaryForm::Text)]
+    pub summary: SummaryForm,
+
+    /// What is simulated
+    #[command(flatten)]
+    pub simulation: SimulationArgs,
+}
+
+/// `kontur check`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct CheckArgs {
+    /// The NC programs
+    #[arg(required = true)]
+    pub programs: Vec<PathBuf>,
+
+    /// What is simulated
+    #[command(flatten)]
+    pub simulation: SimulationArgs,
+}
+
+/// `kontur diff`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct DiffArgs {
+    /// A CSV trace, or an NC program to run now
+    pub a: PathBuf,
+
+    /// A CSV trace, or an NC program to run now
+    pub b: PathBuf,
+
+    /// Tolerances by unit
+    #[command(flatten)]
+    pub tolerance: crate::diff::Tolerance,
+
+    /// Form of the result on stdout
+    #[arg(long, value_enum, default_value_t = OutputForm::Text)]
+    pub format: OutputForm,
+
+    /// How a program among the two is run
+    #[command(flatten)]
+    pub simulation: SimulationArgs,
+}
+
+/// `kontur report`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ReportArgs {
+    /// The NC programs; several overlay
+    #[arg(required = true)]
+    pub programs: Vec<PathBuf>,
+
+    /// The page (`.html`) or picture (`.svg`) [default: the first program's name with .html]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// What is simulated
+    #[command(flatten)]
+    pub simulation: SimulationArgs,
+}
+
+/// `kontur explain`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ExplainArgs {
+    /// An error ID (22060, P-ERR-70082, K-0012), a parameter (P-AXIS-00571 or its key) or a command
+    #[arg(required = true)]
+    pub thing: Vec<String>,
+}
+
+/// The form only; what the words name is the machine's business.
+pub(crate) fn setting(text: &str) -> Result<String, String> {
+    match Override::parse(text) {
+        Ok(_) => Ok(text.to_owned()),
+        Err(d) => Err(d.hint.unwrap_or(d.text)),
+    }
+}
+
+/// `X10`, `X=10`, `X1=10`: an axis name that ends in a digit needs the equals sign.
+fn position(text: &str) -> Result<(String, f64), String> {
+    let text = text.trim();
+    let (name, number) = match text.split_once('=') {
+        Some((name, number)) => (name, number),
+        None => text.split_at(text.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(text.len())),
+    };
+    let value: f64 =
+        number.trim().parse().map_err(|_| format!("`{text}`: X10 or X=10 expected"))?;
+    if name.trim().is_empty() || !value.is_finite() {
+        return Err(format!("`{text}`: X10 or X=10 expected"));
+    }
+    Ok((name.trim().to_owned(), value))
+}
+
+/// A finite number above zero.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(v) if v.is_finite() && v > 0.0 => Ok(v),
+        _ => Err("a number above 0 is expected".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(words: &str) -> Result<Args, clap::Error> {
+        Args::try_parse_from(std::iter::once("kontur").chain(words.split_whitespace()))
+    }
+
+    #[test]
+    fn definitions_are_consistent() {
+        use clap::CommandFactory as _;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn run_takes_settings_and_start() {
+        let args = parse(
+            "run part.nc -o a.csv -o b.parquet --set X.getriebe[0].kv=5000 --start X10,Y-5.5,A1=3 \
+             --skip 1,3 --cycle-us 500 --summary json --diagnostics json",
+        )
+        .unwrap();
+        let Command::Run(run) = args.command else { panic!("run expected") };
+        let request = run.simulation.request(&run.program);
+        assert_eq!(run.output.len(), 2);
+        assert_eq!(request.settings, ["X.getriebe[0].kv=5000"]);
+        let start = [("X".to_owned(), 10.0), ("Y".to_owned(), -5.5), ("A1".to_owned(), 3.0)];
+        assert_eq!(request.start, start);
+        assert_eq!(request.skip, [1, 3]);
+        assert_eq!(request.cycle_us, Some(500));
+    }
+
+    #[test]
+    fn wrong_usage_is_refused() {
+        for words in [
+            "run",
+            "run a b",
+            "run a --set Xkv=1",
+            "run a --set X.kv",
+            "run a --set X.=1",
+            "run a --start 10",
+            "run a --start Xnan",
+            "run a --cycle-us 0",
+            "run a --decimate 0",
+            "run a --max-time -1",
+            "run a --max-time inf",
+            "run a --skip 11",
+            "diff a",
+            "frobnicate",
+        ] {
+            assert_eq!(parse(words).unwrap_err().exit_code(), 2, "{words}");
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if somebody watches.
+
+use crate::{Error, Exit};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{IsTerminal, Write};
+use std::time::Duration;
+
+/// Stdout and stderr of one command; tests put buffers in their place.
+pub struct Console {
+    out: Box<dyn Write>,
+    err: Box<dyn Write>,
+    terminal: bool,
+}
+
+impl std::fmt::Debug for Console {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Console").field("terminal", &self.terminal).finish_non_exhaustive()
+    }
+}
+
+impl Console {
+    /// The process' own stdout and stderr; colours and progress if stderr is a terminal.
+    pub fn of_process() -> Self {
+        Self {
+            out: Box::new(std::io::stdout()),
+            err: Box::new(std::io::stderr()),
+            terminal: std::io::stderr().is_terminal(),
+        }
+    }
+
+    /// Any two writers, neither of them a terminal.
+    pub fn new(out: impl Write + 'static, err: impl Write + 'static) -> Self {
+        Self { out: Box::new(out), err: Box::new(err), terminal: false }
+    }
+
+    /// True if stderr is a terminal: colours and a progress bar make sense.
+    pub const fn is_terminal(&self) -> bool {
+        self.terminal
+    }
+
+    /// Writes a result, with a line end if it has none. A closed pipe ends the output silently.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if stdout cannot be written.
+    pub fn print(&mut self, text: &str) -> Result<(), Error> {
+        let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
+        match write!(self.out, "{text}{end}").and_then(|()| self.out.flush()) {
+            Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+            other => other.map_err(|e| Error::io("stdout", e)),
+        }
+    }
+
+    /// Writes a message to stderr, with a line end if it has none.
+    pub fn error_text(&mut self, text: &str) {
+        let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
+        // nobody is left to be told when stderr itself fails
+        let _ = write!(self.err, "{text}{end}").and_then(|()| self.err.flush());
+    }
+
+    /// Turns the result of a command into its exit code and prints its error.
+    pub fn finish(&mut self, done: Result<Exit, Error>) -> Exit {
+        match done {
+            Ok(exit) => exit,
+            Err(e) => {
+                self.error_text(&format!("error: {e}"));
+                e.exit()
+            }
+        }
+    }
+
+    /// A progress display; it stays invisible for the first second and off the terminal.
+    pub fn progress(&self) -> Progress {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
+            bar.set_style(style);
+        }
+        Progress { bar, wanted: self.terminal, shown: false }
+    }
+}
+
+/// What a long run shows on a terminal.
+#[derive(Debug)]
+pub struct Progress {
+    bar: ProgressBar,
+    wanted: bool,
+    shown: bool,
+}
+
+impl Progress {
+    /// Work that is shorter than this needs no display.
+    const QUIET: Duration = Duration::from_secs(1);
+
+    /// Shows where the work stands; the text is made only if it will be seen.
+    pub fn show(&mut self, text: impl FnOnce() -> String) {
+        if !self.wanted || (!self.shown && self.bar.elapsed() < Self::QUIET) {
+            return;
+        }
+        if !self.shown {
+            self.shown = true;
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        self.bar.set_message(text());
+        self.bar.tick();
+    }
+
+    /// Does something else on the terminal (prints a message) while the display steps aside.
+    pub fn suspend<R>(&self, f: impl FnOnce() -> R) -> R {
+        if self.shown { self.bar.suspend(f) } else { f() }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

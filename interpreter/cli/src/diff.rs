@@ -1,0 +1,207 @@
+//! `kontur diff`: two traces, or a trace and a fresh run, row by row.
+//!
+//! Positions may differ by 1e-6 mm, a hundredth of the vendor's increment of 0.1 um; a speed by that divided by 1 ms,
+//! and so on for every further derivative. Neither trace is ever held in memory.
+
+mod compare;
+mod table;
+
+use crate::args::{DiffArgs, OutputForm};
+use crate::console::Console;
+use crate::engine::Engine;
+use crate::{Error, Exit};
+use compare::{Comparison, Difference, Outcome};
+use std::fmt::Write as _;
+use table::Table;
+
+/// Largest differences that count as equal, by unit.
+#[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
+pub struct Tolerance {
+    /// Positions in mm or deg
+    #[arg(long = "tol-mm", value_name = "MM", default_value = "1e-6", value_parser = tolerance)]
+    pub mm: f64,
+    /// Speeds in mm/s or deg/s
+    #[arg(long = "tol-mm-s", value_name = "MM/S", default_value = "1e-3", value_parser = tolerance)]
+    pub mm_s: f64,
+    /// Accelerations in mm/s2 or deg/s2
+    #[arg(long = "tol-mm-s2", value_name = "MM/S2", default_value = "1", value_parser = tolerance)]
+    pub mm_s2: f64,
+    /// Jerks in mm/s3 or deg/s3
+    #[arg(long = "tol-mm-s3", value_name = "MM/S3", default_value = "1000", value_parser = tolerance)]
+    pub mm_s3: f64,
+    /// Everything else: drive counts, Nm
+    #[arg(long = "tol-other", value_name = "X", default_value = "1e-3", value_parser = tolerance)]
+    pub other: f64,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(v) if v >= 0.0 => Ok(v),
+        _ => Err("a number, 0 or more, is expected".to_owned()),
+    }
+}
+
+impl Tolerance {
+    /// How cells of a column are compared; none: as text.
+    fn of(&self, column: &str) -> Option<f64> {
+        let ends = |end: &str| ["mm", "deg"].iter().any(|u| column.ends_with(&format!("{u}{end}")));
+        match column {
+            "t_s" => Some(0.0),
+            "line" | "block" | "file" | "v_limit" => None,
+            _ if ends("_s3") => Some(self.mm_s3),
+            _ if ends("_s2") => Some(self.mm_s2),
+            _ if ends("_s") => Some(self.mm_s),
+            _ if ends("") => Some(self.mm),
+            _ => Some(self.other),
+        }
+    }
+}
+
+/// Compares; exit code 0 if equal, 1 if different.
+///
+/// # Errors
+/// [`Error`] if a trace cannot be read or a program cannot be run.
+pub fn diff(
+    args: &DiffArgs,
+    engine: &mut dyn Engine,
+    console: &mut Console,
+) -> Result<Exit, Error> {
+    let form = args.simulation.diagnostics;
+    // a fresh run gives the columns of the trace that it is compared with
+    let (is_a, is_b) = (table::is_trace(&args.a)?, table::is_trace(&args.b)?);
+    let mut open = |path: &std::path::Path, trace: bool, like: Option<&Table>| {
+        if trace {
+            return Table::read(path);
+        }
+        let source = engine
+            .open(&args.simulation.request(path))
+            .map_err(|e| crate::run::announce_lists(e, form, console))?;
+        Table::run(source, like.map(Table::header))
+    };
+    let (mut a, mut b) = if is_a || !is_b {
+        let a = open(&args.a, is_a, None)?;
+        let b = open(&args.b, is_b, Some(&a))?;
+        (a, b)
+    } else {
+        let b = open(&args.b, is_b, None)?;
+        (open(&args.a, is_a, Some(&b))?, b)
+    };
+    let mut progress = console.progress();
+    let mut comparison = Comparison::new(a.header(), b.header(), args.tolerance);
+    while comparison.next(a.next()?, b.next()?) {
+        if comparison.rows().is_multiple_of(4096) {
+            progress.show(|| format!("{} rows", comparison.rows()));
+        }
+    }
+    drop(progress);
+    for message in a.take_messages().iter().chain(&b.take_messages()) {
+        crate::run::announce(message, form, console);
+    }
+    let outcome = comparison.finish();
+    let names = [args.a.display().to_string(), args.b.display().to_string()];
+    match args.format {
+        OutputForm::Text => console.print(&text(&names, &outcome))?,
+        OutputForm::Json => {
+            let json = serde_json::json!({ "a": names[0], "b": names[1], "result": outcome });
+            console.print(&json.to_string())?;
+        }
+    }
+    Ok(if outcome.equal { Exit::Finished } else { Exit::Aborted })
+}
+
+fn text(names: &[String; 2], outcome: &Outcome) -> String {
+    let mut out = String::new();
+    // writing to a String cannot fail
+    let _ = write_text(&mut out, names, outcome);
+    out
+}
+
+fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::Result {
+    if o.equal {
+        return writeln!(out, "equal: {} rows", o.rows_a);
+    }
+    writeln!(out, "different: {a} (A) and {b} (B)")?;
+    if let Some(first) = &o.first {
+        writeln!(out, "  first  {}", sentence(first))?;
+    }
+    if let Some(worst) = &o.worst {
+        writeln!(out, "  worst  {}", sentence(worst))?;
+    }
+    if o.rows_a != o.rows_b {
+        writeln!(out, "  rows   {} in A, {} in B", o.rows_a, o.rows_b)?;
+    }
+    for (side, columns) in [("A", &o.only_a), ("B", &o.only_b)] {
+        if !columns.is_empty() {
+            writeln!(out, "  only in {side}: {}", columns.join(", "))?;
+        }
+    }
+    match o.shift_cycles {
+        Some(n) if n > 0 => writeln!(out, "  shift  equal if B is taken {n} rows earlier")?,
+        Some(n) => writeln!(out, "  shift  equal if B is taken {} rows later", -n)?,
+        None => {}
+    }
+    if !o.columns.is_empty() {
+        writeln!(out, "  column               rows    largest difference")?;
+    }
+    for c in &o.columns {
+        write!(out, "  {:<18} {:>6}", c.column, c.rows)?;
+        match &c.worst {
+            Some(d) => writeln!(out, "    {} at {}", number(d.size), place(d))?,
+            None => writeln!(out)?,
+        }
+    }
+    Ok(())
+}
+
+fn number(difference: Option<f64>) -> String {
+    difference.map_or_else(|| "-".to_owned(), |d| format!("{d:.3e}"))
+}
+
+fn place(d: &Difference) -> String {
+    let mut out =
+        d.time_s.as_ref().map_or_else(|| format!("row {}", d.row), |t| format!("t = {t} s"));
+    if let Some(line) = &d.line {
+        let _ = write!(out, ", line {line}");
+    }
+    if let Some(block) = d.block.as_ref().filter(|b| !b.is_empty()) {
+        let _ = write!(out, " N{block}");
+    }
+    if let Some(file) = &d.file {
+        let _ = write!(out, " of {file}");
+    }
+    out
+}
+
+fn sentence(d: &Difference) -> String {
+    let mut out = format!("{}: {} is {} in A, {} in B", place(d), d.column, d.a, d.b);
+    if let (Some(difference), Some(tolerance)) = (d.size, d.tolerance) {
+        let _ = write!(out, " (difference {difference:.3e}, tolerance {tolerance:e})");
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_come_from_the_name() {
+        let t = Tolerance { mm: 1.0, mm_s: 2.0, mm_s2: 3.0, mm_s3: 4.0, other: 5.0 };
+        for (column, expected) in [
+            ("X_set_mm", Some(1.0)),
+            ("C_lag_deg", Some(1.0)),
+            ("s_mm", Some(1.0)),
+            ("v_mm_s", Some(2.0)),
+            ("C_vel_deg_s", Some(2.0)),
+            ("X_tcp_acc_mm_s2", Some(3.0)),
+            ("j_mm_s3", Some(4.0)),
+            ("X_torque_nm", Some(5.0)),
+            ("X_cmd_drive", Some(5.0)),
+            ("t_s", Some(0.0)),
+            ("line", None),
+            ("v_limit", None),
+        ] {
+            assert_eq!(t.of(column), expected, "{column}");
+        }
+    }
+}

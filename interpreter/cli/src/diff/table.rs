@@ -1,0 +1,135 @@
+//! Where the rows of a comparison come from: a CSV file, or a run that happens now.
+
+use crate::Error;
+use crate::engine::Source;
+use crate::trace::columns;
+use crate::trace::csv::Rows;
+use csv::ByteRecord;
+use kontur_interpreter::diag::Diagnostic;
+use std::fs::File;
+use std::io::{Cursor, Read as _};
+use std::path::Path;
+
+/// Rows of a fresh run that are formatted at a time.
+const BATCH: usize = 256;
+
+/// Rows with a header, read once from top to bottom.
+pub(super) struct Table {
+    name: String,
+    header: Vec<String>,
+    row: ByteRecord,
+    rows: Origin,
+}
+
+enum Origin {
+    File(Box<csv::Reader<File>>),
+    Run(Box<Fresh>),
+}
+
+struct Fresh {
+    source: Box<dyn Source>,
+    rows: Rows,
+    batch: csv::Reader<Cursor<Vec<u8>>>,
+}
+
+/// True if a file is a trace, false if it is an NC program.
+///
+/// # Errors
+/// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a Parquet trace or a foreign table.
+pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
+    let io = |e| Error::io(path.display().to_string(), e);
+    let mut start = Vec::new();
+    File::open(path).map_err(io)?.take(4).read_to_end(&mut start).map_err(io)?;
+    if start == b"PAR1" {
+        return Err(Error::Usage(format!("{}: diff reads CSV traces", path.display())));
+    }
+    let trace = start == b"t_s,";
+    // an empty or foreign table must not pass for a program that does nothing
+    if !trace && path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
+        return Err(Error::Usage(format!("{}: no trace, it starts without `t_s`", path.display())));
+    }
+    Ok(trace)
+}
+
+impl Table {
+    /// A CSV trace.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if it cannot be read.
+    pub(super) fn read(path: &Path) -> Result<Self, Error> {
+        let name = path.display().to_string();
+        let file = File::open(path).map_err(|e| Error::io(&name, e))?;
+        let mut reader = csv::ReaderBuilder::new().buffer_capacity(1 << 18).from_reader(file);
+        let header = reader.headers().map_err(|e| Error::io(&name, e.into()))?;
+        let header = header.iter().map(str::to_owned).collect();
+        let rows = Origin::File(Box::new(reader));
+        Ok(Self { name, header, row: ByteRecord::new(), rows })
+    }
+
+    /// A run, with the columns named or, without names, those of a trace by default. Columns that the run cannot
+    /// give are left out; the comparison reports them.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if no columns can be chosen.
+    pub(super) fn run(source: Box<dyn Source>, names: Option<&[String]>) -> Result<Self, Error> {
+        let facts = source.facts();
+        let columns = match names {
+            Some(names) => {
+                let all = columns::all(facts).into_iter();
+                all.filter(|c| names.contains(&c.name)).collect()
+            }
+            None => columns::select(columns::DEFAULT_SIGNALS, facts).map_err(Error::Usage)?,
+        };
+        let header = columns.iter().map(|c| c.name.clone()).collect();
+        let name = facts.program.clone();
+        let rows = Rows::new(columns, facts);
+        let batch = reader(Vec::new());
+        let rows = Origin::Run(Box::new(Fresh { source, rows, batch }));
+        Ok(Self { name, header, row: ByteRecord::new(), rows })
+    }
+
+    /// Names of the columns.
+    pub(super) fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// The next row.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the file cannot be read or is no table.
+    pub(super) fn next(&mut self) -> Result<Option<&ByteRecord>, Error> {
+        let found = match &mut self.rows {
+            Origin::File(reader) => reader.read_byte_record(&mut self.row),
+            Origin::Run(fresh) => fresh.read(&mut self.row),
+        };
+        let found = found.map_err(|e| Error::io(&self.name, e.into()))?;
+        Ok(found.then_some(&self.row))
+    }
+
+    /// The messages of a fresh run.
+    pub(super) fn take_messages(&mut self) -> Vec<Diagnostic> {
+        match &mut self.rows {
+            Origin::File(_) => Vec::new(),
+            Origin::Run(fresh) => fresh.source.take_diagnostics(),
+        }
+    }
+}
+
+impl Fresh {
+    fn read(&mut self, row: &mut ByteRecord) -> Result<bool, csv::Error> {
+        if self.batch.read_byte_record(row)? {
+            return Ok(true);
+        }
+        let mut text = Vec::new();
+        for _ in 0..BATCH {
+            let Some(record) = self.source.next_cycle() else { break };
+            self.rows.push_row(&mut text, record);
+        }
+        self.batch = reader(text);
+        self.batch.read_byte_record(row)
+    }
+}
+
+fn reader(text: Vec<u8>) -> csv::Reader<Cursor<Vec<u8>>> {
+    csv::ReaderBuilder::new().has_headers(false).from_reader(Cursor::new(text))
+}

@@ -1,0 +1,142 @@
+//! What computes, as the commands see it: a thin seam between the command line and the simulation.
+//!
+//! The commands know three questions: open a program for a run, check programs, explain a thing. Everything that a
+//! trace, a summary or a report shows comes through [`Source`], one cycle at a time.
+
+use crate::Error;
+use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::record::CycleRecord;
+use std::path::PathBuf;
+
+/// What a user may say about a run, apart from what becomes of its results.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Request {
+    /// The NC program.
+    pub program: PathBuf,
+    /// Folder or start-up list of the machine; none: the built-in `xyz`.
+    pub machine: Option<PathBuf>,
+    /// `AXIS.key=value` or `channel.key=value`, in the order given.
+    pub settings: Vec<String>,
+    /// Folders of global subroutines, in the order of search.
+    pub path: Vec<PathBuf>,
+    /// Cycle time in microseconds in place of the machine's.
+    pub cycle_us: Option<u32>,
+    /// Start positions in mm (deg) by axis name.
+    pub start: Vec<(String, f64)>,
+    /// Active skip levels (`/`, `/1` ... `/9`).
+    pub skip: Vec<u8>,
+    /// Program time in seconds after which a run is stopped.
+    pub max_time_s: f64,
+    /// Number of decoded blocks after which a run is stopped.
+    pub max_blocks: u64,
+    /// Keys of a list that are not modelled are refused.
+    pub strict: bool,
+}
+
+/// What stays the same during a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Facts {
+    /// Name of the program as the user gave it.
+    pub program: String,
+    /// Name of the machine.
+    pub machine: String,
+    /// Cycle time in microseconds.
+    pub cycle_us: u32,
+    /// Path axes in channel order, then spindles: the order of [`CycleRecord::axes`].
+    pub axes: Vec<AxisFacts>,
+    /// Source files that the run may name ([`CycleRecord::file`] is an index); more than one: the trace says which.
+    pub files: Vec<String>,
+}
+
+/// What stays the same for one axis.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AxisFacts {
+    /// Name in the NC program.
+    pub name: String,
+    /// Degrees instead of millimetres.
+    pub rotary: bool,
+    /// A spindle.
+    pub spindle: bool,
+    /// The plant model has a tool point of its own (`X_tcp_mm`).
+    pub modal: bool,
+}
+
+impl AxisFacts {
+    /// `mm`, or `deg` for rotary axes.
+    pub const fn unit(&self) -> &'static str {
+        if self.rotary { "deg" } else { "mm" }
+    }
+}
+
+/// What is known when the last cycle has been computed and what no record holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// The program was refused or stopped by an error.
+    pub aborted: bool,
+    /// Blocks decoded.
+    pub blocks: u64,
+    /// Sum over the motion blocks of path length / programmed feed, in seconds.
+    pub ideal_duration_s: f64,
+    /// What the duration does not contain (M functions without a listed duration, ...).
+    pub not_counted: Vec<String>,
+    /// Largest delay of the filters or the Vibration Guard in cycles, per axis.
+    pub filter_delay_cycles: Vec<f64>,
+}
+
+/// A running program.
+pub trait Source {
+    /// What stays the same.
+    fn facts(&self) -> &Facts;
+    /// Computes the next cycle; none at the end of the program or after an abort.
+    fn next_cycle(&mut self) -> Option<&CycleRecord>;
+    /// The diagnostics raised since the last call, by cycle, then in the order of raising.
+    fn take_diagnostics(&mut self) -> Vec<Diagnostic>;
+    /// Totals; complete once `next_cycle` has returned none.
+    fn totals(&self) -> Totals;
+}
+
+/// Why a program could not be opened.
+#[derive(Debug)]
+pub enum OpenError {
+    /// A setting or option is wrong.
+    Usage(String),
+    /// The machine lists are wrong.
+    Lists(Vec<Diagnostic>),
+    /// A file cannot be read.
+    Io(PathBuf, std::io::Error),
+}
+
+impl From<OpenError> for Error {
+    fn from(e: OpenError) -> Self {
+        match e {
+            OpenError::Usage(text) => Self::Usage(text),
+            OpenError::Lists(_) => Self::Lists,
+            OpenError::Io(path, e) => Self::io(path.display().to_string(), e),
+        }
+    }
+}
+
+/// What computes.
+pub trait Engine {
+    /// Opens a program. A program that is refused opens too: it yields diagnostics, no cycles, and `aborted`.
+    ///
+    /// # Errors
+    /// [`OpenError`] if options, lists or files are wrong.
+    fn open(&mut self, request: &Request) -> Result<Box<dyn Source>, OpenError>;
+
+    /// Decodes a program without moving anything and reports every diagnostic.
+    ///
+    /// # Errors
+    /// [`OpenError`] if options, lists or files are wrong.
+    fn check(
+        &mut self,
+        request: &Request,
+        report: &mut dyn FnMut(Diagnostic),
+    ) -> Result<(), OpenError>;
+
+    /// Meaning, range, default and example of an ID, a parameter or a command.
+    ///
+    /// # Errors
+    /// Words that resemble an unknown one, best first.
+    fn explain(&self, thing: &str) -> Result<String, Vec<String>>;
+}

@@ -1,0 +1,33 @@
+//! `kontur explain`: an error ID, a parameter, a command.
+
+use crate::args::ExplainArgs;
+use crate::console::Console;
+use crate::engine::Engine;
+use crate::{Error, Exit};
+
+/// Explains the thing that the words name together (`#VIB GUARD` is two words to a shell).
+///
+/// # Errors
+/// [`Error::Usage`] if nobody knows it, with words that resemble it.
+pub fn explain(
+    args: &ExplainArgs,
+    engine: &dyn Engine,
+    console: &mut Console,
+) -> Result<Exit, Error> {
+    let thing = args.thing.join(" ");
+    match engine.explain(&thing) {
+        Ok(text) => {
+            console.print(&text)?;
+            Ok(Exit::Finished)
+        }
+        Err(similar) => {
+            let hint = if similar.is_empty() {
+                "an error ID (22060), a parameter (P-AXIS-00571 or its key) or a command is expected"
+                    .to_owned()
+            } else {
+                format!("did you mean {}?", similar.join(", "))
+            };
+            Err(Error::Usage(format!("nothing is known about `{thing}`; {hint}")))
+        }
+    }
+}

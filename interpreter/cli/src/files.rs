@@ -1,0 +1,78 @@
+//! The file system behind the library's two doors: NC programs and parameter lists.
+
+use kontur_interpreter::machine::ListFiles;
+use kontur_interpreter::source::{OpenError, Source, Sources};
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// NC programs in files: relative to the caller, then in the folders given.
+#[derive(Clone, Debug, Default)]
+pub struct ProgramFiles {
+    /// Folders of global subroutines, in the order of search.
+    pub folders: Vec<PathBuf>,
+}
+
+struct ProgramFile {
+    name: Arc<str>,
+    file: File,
+    at: u64,
+}
+
+impl Source for ProgramFile {
+    fn name(&self) -> Arc<str> {
+        Arc::clone(&self.name)
+    }
+
+    fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.at != offset {
+            self.file.seek(SeekFrom::Start(offset))?;
+        }
+        let count = self.file.read(buffer)?;
+        self.at = offset + count as u64;
+        Ok(count)
+    }
+}
+
+impl Sources for ProgramFiles {
+    fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError> {
+        // programs written on Windows name their subroutines with backslashes
+        let wanted =
+            PathBuf::from(if caller.is_some() { name.replace('\\', "/") } else { name.to_owned() });
+        let beside = caller.and_then(|c| Path::new(c).parent()).map(|p| p.join(&wanted));
+        let places = beside
+            .into_iter()
+            .chain(caller.is_none().then(|| wanted.clone()))
+            .chain(self.folders.iter().map(|f| f.join(&wanted)));
+        let mut searched = Vec::new();
+        let mut reason = "no such file".to_owned();
+        for place in places {
+            match File::open(&place) {
+                Ok(file) if place.is_file() => {
+                    let name = place.display().to_string().into();
+                    return Ok(Box::new(ProgramFile { name, file, at: 0 }));
+                }
+                Ok(_) => "not a file".clone_into(&mut reason),
+                Err(e) if e.kind() == io::ErrorKind::NotFound => {}
+                Err(e) => reason = e.to_string(),
+            }
+            searched.push(place.display().to_string());
+        }
+        Err(OpenError { name: name.to_owned(), reason, searched })
+    }
+}
+
+/// Parameter lists in files.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Lists;
+
+impl ListFiles for Lists {
+    fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        match std::fs::read(path) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(e) => Err(e.to_string()),
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! `kontur report`: runs programs and draws them, as one interactive page or one still picture.
+//!
+//! The page holds its own script: a plotting library would weigh more than the data, and none links a point of the
+//! contour to its moment in time.
+
+mod page;
+mod picture;
+pub(crate) mod plot;
+mod recording;
+mod svg;
+
+use crate::args::ReportArgs;
+use crate::console::Console;
+use crate::engine::Engine;
+use crate::summary::{Collector, State, Summary};
+use crate::{Error, Exit};
+use recording::Recording;
+use std::path::{Path, PathBuf};
+
+/// Runs every program and writes the page (`.html`) or the picture (`.svg`). An aborted run is drawn up to its stop.
+///
+/// # Errors
+/// [`Error`] if options, lists or files are wrong, or the output cannot be written.
+pub fn report(
+    args: &ReportArgs,
+    engine: &mut dyn Engine,
+    console: &mut Console,
+) -> Result<Exit, Error> {
+    let output = match (&args.output, args.programs.first()) {
+        (Some(output), _) => output.clone(),
+        (None, Some(program)) => program.with_extension("html"),
+        (None, None) => return Err(Error::Usage("a program is expected".to_owned())),
+    };
+    let draw = drawer(&output)?;
+    crate::run::keep_apart(&args.programs, std::slice::from_ref(&output))?;
+    let mut runs: Vec<(Recording, Summary)> = Vec::new();
+    for program in &args.programs {
+        let form = args.simulation.diagnostics;
+        let mut source = engine
+            .open(&args.simulation.request(program))
+            .map_err(|e| crate::run::announce_lists(e, form, console))?;
+        let mut summary = Collector::new(source.facts());
+        let mut recording = Recording::new(source.facts());
+        crate::run::drive(source.as_mut(), console, form, &mut summary, &mut |record| {
+            recording.add(record);
+            Ok(())
+        })?;
+        runs.push((recording, summary.finish(&source.totals())));
+    }
+    std::fs::write(&output, draw(&runs)).map_err(|e| Error::io(output.display().to_string(), e))?;
+    let aborted = runs.iter().any(|(_, s)| s.state == State::Aborted);
+    Ok(if aborted { Exit::Aborted } else { Exit::Finished })
+}
+
+type Draw = fn(&[(Recording, Summary)]) -> String;
+
+fn drawer(output: &Path) -> Result<Draw, Error> {
+    let is = |end: &str| output.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
+    if is("svg") {
+        Ok(picture::draw)
+    } else if is("html") || is("htm") {
+        Ok(page::draw)
+    } else {
+        let name = PathBuf::from(output).display().to_string();
+        Err(Error::Usage(format!("{name}: a report is a page (.html) or a picture (.svg)")))
+    }
+}

@@ -1,0 +1,329 @@
+//! The still picture: contour, a close look at its worst corner, path speed and deviations over time.
+
+use super::recording::{Kind, Point, Recording, programmed};
+use super::svg::{COLOURS, FAINT, INK, Panel, Stroke, Svg};
+use crate::summary::Summary;
+
+const WIDTH: f64 = 1200.0;
+const LEFT: f64 = 76.0;
+const RIGHT: f64 = 1172.0;
+/// Lines of the program are marked in the time plots up to this many changes.
+const MOST_MARKS: usize = 60;
+/// Deviations below this are rounding.
+const VISIBLE_MM: f64 = 1e-7;
+
+/// What shares a colour: a pass of a single program, or one of several programs.
+struct Group {
+    run: usize,
+    pass: Option<usize>,
+    colour: &'static str,
+    label: String,
+}
+
+/// Draws one or several runs.
+pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
+    let mut svg = Svg::new();
+    let groups = groups(runs);
+    head(&mut svg, runs);
+    let plane = plane(runs);
+    let worst = worst(runs);
+    let has_zoom = worst.is_some_and(|p| p.error > VISIBLE_MM);
+    let contour_width = if has_zoom { 590.0 } else { RIGHT - LEFT };
+    let panel = Panel {
+        left: LEFT,
+        top: 100.0,
+        width: contour_width,
+        height: 450.0,
+        x: extent(runs, plane[0]),
+        y: extent(runs, plane[1]),
+    };
+    let panel = panel.equal_scale();
+    let names = plane.map(|i| axis_label(&runs[0].0, i));
+    contour(&mut svg, &panel, &drawn(runs, false), &groups, plane, "Contour", &names);
+    if let Some(worst) = worst.filter(|_| has_zoom) {
+        let zoom = zoom_panel(&worst, plane, 0.2 * (panel.x.1 - panel.x.0));
+        let (a, b) = (panel.at([zoom.x.0, zoom.y.1]), panel.at([zoom.x.1, zoom.y.0]));
+        let close = drawn(runs, true);
+        contour(&mut svg, &zoom, &close, &groups, plane, "Largest contour error", &names);
+        let size = [(b[0] - a[0]).max(4.0), (b[1] - a[1]).max(4.0)];
+        let lens_style = format!("fill=\"{INK}\" fill-opacity=\"0.05\" stroke=\"{INK}\"");
+        svg.clip(&panel);
+        svg.rect(a, size, &lens_style);
+        svg.end_group();
+    }
+    legend(&mut svg, &groups);
+    let top = 640.0 + 20.0 * (groups.len().div_ceil(2) as f64);
+    times(&mut svg, runs, &groups, top);
+    svg.finish(WIDTH, top + 400.0)
+}
+
+fn head(svg: &mut Svg, runs: &[(Recording, Summary)]) {
+    let title = match runs {
+        [(_, one)] => one.program.clone(),
+        several => {
+            several.iter().map(|(_, s)| s.program.as_str()).collect::<Vec<_>>().join("  ·  ")
+        }
+    };
+    let style = format!("fill=\"{INK}\" font-size=\"20\" font-weight=\"700\"");
+    svg.text([LEFT, 36.0], "start", &style, &title);
+    let mut facts = Vec::new();
+    if let Some((_, s)) = runs.first() {
+        facts.push(format!("machine {}", s.machine));
+        facts.push(format!("cycle {} ms", f64::from(s.cycle_us) / 1000.0));
+    }
+    if let [(_, s)] = runs {
+        facts.push(format!("{:.3} s", s.duration_s));
+        facts.push(format!("path {:.3} mm", s.path_length_mm));
+        if let Some(e) = s.max_contour_error.as_ref().filter(|e| e.mm > VISIBLE_MM) {
+            facts.push(format!("contour error at most {:.4} mm, line {}", e.mm, e.line));
+        }
+    }
+    let style = format!("fill=\"{FAINT}\" font-size=\"13\"");
+    svg.text([LEFT, 58.0], "start", &style, &facts.join("  ·  "));
+}
+
+fn groups(runs: &[(Recording, Summary)]) -> Vec<Group> {
+    let colour = |i: usize| COLOURS[i % COLOURS.len()];
+    match runs {
+        [(run, _)] if run.passes.len() > 1 => (0..run.passes.len())
+            .map(|i| {
+                let p = run.passes[i];
+                let label = format!(
+                    "set, pass {}, lines {} to {}: contour error at most {:.4} mm",
+                    i + 1,
+                    p.first_line,
+                    p.last_line,
+                    p.error_mm
+                );
+                Group { run: 0, pass: Some(i), colour: colour(i), label }
+            })
+            .collect(),
+        _ => runs
+            .iter()
+            .enumerate()
+            .map(|(i, (_, s))| {
+                let error = s.max_contour_error.as_ref().map_or(0.0, |e| e.mm);
+                let name = if runs.len() > 1 { format!("{}, ", s.program) } else { String::new() };
+                let label = format!(
+                    "set, {name}{:.3} s, contour error at most {error:.4} mm",
+                    s.duration_s
+                );
+                Group { run: i, pass: None, colour: colour(i), label }
+            })
+            .collect(),
+    }
+}
+
+/// The two linear axes that move most, in channel order.
+fn plane(runs: &[(Recording, Summary)]) -> [usize; 2] {
+    let mut spans: Vec<(f64, usize)> =
+        (0..3).map(|i| (extent_of(runs, i).map_or(0.0, |e| e.1 - e.0), i)).collect();
+    spans.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let (a, b) = (spans[0].1, spans[1].1);
+    [a.min(b), a.max(b)]
+}
+
+fn axis_label(run: &Recording, i: usize) -> String {
+    let name = run.plane.get(i).and_then(|&a| run.facts.axes.get(a)).map(|a| a.name.as_str());
+    format!("{} in mm", name.unwrap_or("-"))
+}
+
+fn extent_of(runs: &[(Recording, Summary)], axis: usize) -> Option<(f64, f64)> {
+    let values = runs.iter().flat_map(|(r, _)| r.points()).flat_map(|p| [p.ipo[axis], p.set[axis]]);
+    values.filter(|v| v.is_finite()).fold(None, |range, v| {
+        let (low, high) = range.unwrap_or((v, v));
+        Some((f64::min(low, v), f64::max(high, v)))
+    })
+}
+
+/// The range of an axis with some air around it.
+fn extent(runs: &[(Recording, Summary)], axis: usize) -> (f64, f64) {
+    let (low, high) = extent_of(runs, axis).unwrap_or((0.0, 1.0));
+    let air = (0.06 * (high - low)).max(1e-3);
+    (low - air, high + air)
+}
+
+fn worst(runs: &[(Recording, Summary)]) -> Option<Point> {
+    let points = runs.iter().flat_map(|(r, _)| r.points());
+    points.copied().fold(None, |worst: Option<Point>, p| match worst {
+        Some(w) if w.error >= p.error => Some(w),
+        _ => Some(p),
+    })
+}
+
+/// A window around the worst point, three times its error to either side but at most `most` mm.
+fn zoom_panel(worst: &Point, [x, y]: [usize; 2], most: f64) -> Panel {
+    let half = (3.0 * worst.error).min(most);
+    let around = |v: f64| (v - half, v + half);
+    Panel {
+        left: 742.0,
+        top: 100.0,
+        width: RIGHT - 742.0,
+        height: 450.0,
+        x: around(worst.set[x]),
+        y: around(worst.set[y]),
+    }
+    .equal_scale()
+}
+
+/// The points to draw of every run; for a close look only those of which no neighbour was left out.
+fn drawn(runs: &[(Recording, Summary)], close: bool) -> Vec<Vec<Point>> {
+    let points = |r: &Recording| match r.close() {
+        [] => r.points().copied().collect(),
+        _ if !close => r.points().copied().collect(),
+        points => points.to_vec(),
+    };
+    runs.iter().map(|(r, _)| points(r)).collect()
+}
+
+fn contour(
+    svg: &mut Svg,
+    panel: &Panel,
+    runs: &[Vec<Point>],
+    groups: &[Group],
+    plane: [usize; 2],
+    title: &str,
+    names: &[String; 2],
+) {
+    svg.axes(panel, title, &names[0], &names[1]);
+    svg.clip(panel);
+    let wide = Stroke { colour: "#ced4da", width: 5.0, dash: "" };
+    for points in runs {
+        svg.curve(panel, programmed(points, plane).into_iter(), wide);
+    }
+    let mine = |group: &Group, p: &Point| group.pass.is_none_or(|pass| pass == p.pass);
+    for (actual, width, dash) in [(true, 1.0, "3 3"), (false, 1.7, "")] {
+        for group in groups {
+            let points = runs[group.run].iter().filter(|p| mine(group, p));
+            let at = points.map(|p| if actual { p.act } else { p.set });
+            let stroke = Stroke { colour: group.colour, width, dash };
+            svg.curve(panel, at.map(|p| [p[plane[0]], p[plane[1]]]), stroke);
+        }
+    }
+    svg.end_group();
+}
+
+fn legend(svg: &mut Svg, groups: &[Group]) {
+    let style = format!("fill=\"{INK}\"");
+    let mut entries: Vec<(Stroke<'_>, &str)> =
+        vec![(Stroke { colour: "#ced4da", width: 5.0, dash: "" }, "programmed")];
+    let actual = Stroke { colour: INK, width: 1.0, dash: "3 3" };
+    entries.push((actual, "actual position (dashed, colour of its set position)"));
+    for g in groups {
+        entries.push((Stroke { colour: g.colour, width: 2.0, dash: "" }, &g.label));
+    }
+    for (i, (stroke, label)) in entries.into_iter().enumerate() {
+        let x = LEFT + if i % 2 == 0 { 0.0 } else { 560.0 };
+        let y = 605.0 + 20.0 * ((i / 2) as f64);
+        svg.line([x, y - 4.0], [x + 26.0, y - 4.0], stroke);
+        svg.text([x + 34.0, y], "start", &style, label);
+    }
+}
+
+fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f64) {
+    let end = runs.iter().map(|(_, s)| s.duration_s).fold(0.0, f64::max).max(1e-6);
+    let panel = |top: f64, y: (f64, f64)| Panel {
+        left: LEFT,
+        top,
+        width: RIGHT - LEFT,
+        height: 130.0,
+        x: (0.0, end),
+        y,
+    };
+    let range = |kinds: &[Kind]| {
+        let all = runs.iter().flat_map(|(r, _)| {
+            let wanted = r.curves.iter().enumerate().filter(|(_, c)| kinds.contains(&c.kind));
+            wanted.flat_map(|(i, _)| r.buckets.iter().map(move |b| b.range[i]))
+        });
+        let (low, high) = all.fold((0.0, 0.0), |m: (f64, f64), r| (m.0.min(r.0), m.1.max(r.1)));
+        let air = (0.08 * (high - low)).max(1e-6);
+        (if low < 0.0 { low - air } else { low }, high + air)
+    };
+    let speed = panel(top + 20.0, range(&[Kind::Speed]));
+    marks(svg, &speed, runs);
+    svg.axes(&speed, "Path speed", "", "mm/s");
+    svg.clip(&speed);
+    for g in groups {
+        let run = &runs[g.run].0;
+        let stroke = Stroke { colour: g.colour, width: 1.5, dash: "" };
+        svg.curve(&speed, over_time(run, 0, g.pass).into_iter(), stroke);
+    }
+    svg.end_group();
+    // one program: what AX_DEV bounds, axis by axis; several: one curve each
+    let one = runs.len() == 1;
+    let kind = if one { Kind::Deviation } else { Kind::ContourError };
+    let deviation = panel(top + 210.0, range(&[kind]));
+    marks(svg, &deviation, runs);
+    let title = if one { "Deviation from the contour by axis" } else { "Contour error" };
+    svg.axes(&deviation, title, "time in s", "mm");
+    let mut labels = Vec::new();
+    svg.clip(&deviation);
+    for (r, (run, _)) in runs.iter().enumerate() {
+        let curves = run.curves.iter().enumerate().filter(|(_, c)| c.kind == kind);
+        for (n, (i, curve)) in curves.enumerate() {
+            let colour = COLOURS[if one { n + 3 } else { r } % COLOURS.len()];
+            let stroke = Stroke { colour, width: 1.3, dash: "" };
+            svg.curve(&deviation, over_time(run, i, None).into_iter(), stroke);
+            if one {
+                labels.push((colour, curve.name.clone()));
+            }
+        }
+    }
+    svg.end_group();
+    for (i, (colour, name)) in labels.iter().rev().enumerate() {
+        let style = format!("fill=\"{colour}\" font-weight=\"700\"");
+        svg.text([RIGHT - 18.0 * i as f64, deviation.top - 9.0], "end", &style, name);
+    }
+}
+
+/// A curve over time: smallest and largest value per pixel, or of each bucket where there are fewer.
+fn over_time(run: &Recording, curve: usize, pass: Option<usize>) -> Vec<[f64; 2]> {
+    let per_px = (run.buckets.len() as f64 / (RIGHT - LEFT)).max(1.0);
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    let mut pixel = None;
+    for (i, bucket) in run.buckets.iter().enumerate() {
+        if pass.is_some_and(|p| p != bucket.pass) {
+            continue;
+        }
+        let (low, high) = bucket.range[curve];
+        let t = run.seconds(bucket.k);
+        let this = Some(libm::floor(i as f64 / per_px));
+        if this == pixel
+            && let [.., bottom, top] = points.as_mut_slice()
+        {
+            bottom[1] = bottom[1].min(low);
+            top[1] = top[1].max(high);
+        } else {
+            pixel = this;
+            points.extend([[t, low], [t, high]]);
+        }
+    }
+    points
+}
+
+/// Where the line of the program changes, with the line's number where there is room.
+fn marks(svg: &mut Svg, panel: &Panel, runs: &[(Recording, Summary)]) {
+    let [(run, _)] = runs else { return };
+    let mut starts: Vec<(f64, u32)> = Vec::new();
+    for b in &run.buckets {
+        if starts.last().is_none_or(|s| s.1 != b.line) {
+            starts.push((panel.at([run.seconds(b.k), 0.0])[0], b.line));
+        }
+    }
+    if starts.len() > MOST_MARKS {
+        return;
+    }
+    let end = panel.left + panel.width;
+    for (i, &(x, line)) in starts.iter().enumerate() {
+        let next = starts.get(i + 1).map_or(end, |n| n.0);
+        let shade = if i % 2 == 0 { "#f8f9fa" } else { "#ffffff" };
+        let size = [next - x, panel.height];
+        svg.rect([x, panel.top], size, &format!("fill=\"{shade}\""));
+        let text = line.to_string();
+        if line > 0 && next - x > 7.0 * text.len() as f64 + 4.0 {
+            let style = "fill=\"#adb5bd\" font-size=\"10\"";
+            let at = [f64::midpoint(x, next), panel.top + panel.height - 5.0];
+            svg.text(at, "middle", style, &text);
+        }
+    }
+}

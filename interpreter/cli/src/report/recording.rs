@@ -1,0 +1,426 @@
+//! What a picture needs of a run, in bounded memory: one bucket per stretch of cycles, with the smallest and largest
+//! value of every curve and the points that span the contour. Short runs keep every cycle; long ones keep every cycle
+//! around the largest contour error, where one looks closest.
+
+use crate::engine::Facts;
+use kontur_interpreter::record::{CycleRecord, SpeedLimit};
+use std::collections::VecDeque;
+
+/// Buckets of a finished recording are at least half of this many, once a run is longer than that.
+const MOST_BUCKETS: usize = 4000;
+
+/// Cycles before and after the largest contour error of which every one is kept.
+const CLOSE: usize = 256;
+
+/// More passes than this over one contour are drawn as one.
+pub(crate) const MOST_PASSES: usize = 6;
+
+/// The set point that starts a pass is met again within this distance in mm.
+const CLOSED_MM: f64 = 1e-6;
+
+/// One point of the contour: up to three linear axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Point {
+    pub(crate) k: u64,
+    pub(crate) line: u32,
+    pub(crate) pass: usize,
+    pub(crate) error: f64,
+    pub(crate) ipo: [f64; 3],
+    pub(crate) set: [f64; 3],
+    pub(crate) act: [f64; 3],
+}
+
+/// Some consecutive cycles.
+#[derive(Clone, Debug)]
+pub(crate) struct Bucket {
+    pub(crate) k: u64,
+    pub(crate) file: u32,
+    pub(crate) line: u32,
+    pub(crate) block: Option<u64>,
+    pub(crate) pass: usize,
+    pub(crate) limit: SpeedLimit,
+    pub(crate) points: Vec<Point>,
+    /// Smallest and largest value of each curve.
+    pub(crate) range: Vec<(f64, f64)>,
+}
+
+/// One curve over time.
+#[derive(Clone, Debug)]
+pub(crate) struct Curve {
+    pub(crate) name: String,
+    pub(crate) unit: String,
+    pub(crate) kind: Kind,
+    /// Index into [`Facts::axes`]; none for the path.
+    pub(crate) axis: Option<usize>,
+}
+
+/// What a curve shows; curves of one kind share a plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Speed,
+    ContourError,
+    Deviation,
+    Lag,
+    Velocity,
+    Acceleration,
+}
+
+impl Kind {
+    fn of_axis(self, record: &CycleRecord, axis: usize) -> f64 {
+        let Some(a) = record.axes.get(axis) else { return 0.0 };
+        match self {
+            Self::Deviation => a.dev,
+            Self::Lag => a.lag,
+            Self::Velocity => a.vel,
+            Self::Acceleration => a.acc,
+            Self::Speed | Self::ContourError => 0.0,
+        }
+    }
+}
+
+/// One trip around the contour.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Pass {
+    pub(crate) first_line: u32,
+    pub(crate) last_line: u32,
+    /// Largest contour error in mm.
+    pub(crate) error_mm: f64,
+}
+
+/// A run, ready to be drawn.
+#[derive(Clone, Debug)]
+pub(crate) struct Recording {
+    pub(crate) facts: Facts,
+    pub(crate) curves: Vec<Curve>,
+    pub(crate) buckets: Vec<Bucket>,
+    /// Axes that span the contour, as indices into [`Facts::axes`].
+    pub(crate) plane: Vec<usize>,
+    pub(crate) passes: Vec<Pass>,
+    /// Cycles per bucket.
+    pub(crate) width: u64,
+    start: Option<[f64; 3]>,
+    moved: bool,
+    /// The last cycles.
+    recent: VecDeque<Point>,
+    /// Every cycle around the largest contour error.
+    close: Vec<Point>,
+    /// Cycles that are still to come after the largest contour error.
+    close_left: usize,
+    largest: f64,
+}
+
+impl Recording {
+    /// An empty recording.
+    pub(crate) fn new(facts: &Facts) -> Self {
+        let path_axes: Vec<usize> =
+            (0..facts.axes.len()).filter(|&i| !facts.axes[i].spindle).collect();
+        let curve = |name: &str, unit: &str, kind, axis| Curve {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            kind,
+            axis,
+        };
+        let mut curves = vec![
+            curve("path speed", "mm/s", Kind::Speed, None),
+            curve("contour error", "mm", Kind::ContourError, None),
+        ];
+        for (kind, end) in [
+            (Kind::Deviation, ""),
+            (Kind::Lag, ""),
+            (Kind::Velocity, "/s"),
+            (Kind::Acceleration, "/s²"),
+        ] {
+            for &i in &path_axes {
+                let a = &facts.axes[i];
+                curves.push(curve(&a.name, &format!("{}{end}", a.unit()), kind, Some(i)));
+            }
+        }
+        Self {
+            facts: facts.clone(),
+            curves,
+            buckets: Vec::new(),
+            plane: path_axes.into_iter().filter(|&i| !facts.axes[i].rotary).take(3).collect(),
+            passes: Vec::new(),
+            width: 1,
+            start: None,
+            moved: false,
+            recent: VecDeque::new(),
+            close: Vec::new(),
+            close_left: 0,
+            largest: 0.0,
+        }
+    }
+
+    /// Seconds of a cycle count.
+    pub(crate) fn seconds(&self, k: u64) -> f64 {
+        k as f64 * f64::from(self.facts.cycle_us) / 1e6
+    }
+
+    /// Every cycle around the largest contour error; empty if every cycle of the run is kept anyway.
+    pub(crate) fn close(&self) -> &[Point] {
+        if self.width > 1 { &self.close } else { &[] }
+    }
+
+    /// Every point of the contour that is kept, in order.
+    pub(crate) fn points(&self) -> impl Iterator<Item = &Point> {
+        let close = self.close();
+        let from = close.first().map_or(u64::MAX, |p| p.k);
+        let to = close.last().map_or(u64::MAX, |p| p.k);
+        let all = || self.buckets.iter().flat_map(|b| &b.points);
+        let before = all().filter(move |p| p.k < from);
+        before.chain(close).chain(all().filter(move |p| p.k > to))
+    }
+
+    fn look_closely(&mut self, point: Point) {
+        if self.recent.len() >= CLOSE {
+            self.recent.pop_front();
+        }
+        self.recent.push_back(point);
+        if point.error > self.largest {
+            self.largest = point.error;
+            self.close = self.recent.iter().copied().collect();
+            self.close_left = CLOSE;
+        } else if self.close_left > 0 {
+            self.close_left -= 1;
+            self.close.push(point);
+        }
+    }
+
+    /// Adds a cycle.
+    pub(crate) fn add(&mut self, record: &CycleRecord) {
+        let point = self.point(record);
+        self.look_closely(point);
+        let value = |c: &Curve| match (c.kind, c.axis) {
+            (Kind::Speed, _) => record.path.v_mm_s,
+            (Kind::ContourError, _) => record.contour_err_mm,
+            (kind, Some(i)) => kind.of_axis(record, i),
+            (_, None) => 0.0,
+        };
+        let range: Vec<(f64, f64)> = self.curves.iter().map(|c| (value(c), value(c))).collect();
+        let bucket = Bucket {
+            k: record.k,
+            file: record.file,
+            line: record.line,
+            block: record.block,
+            pass: point.pass,
+            limit: record.path.limit,
+            points: vec![point],
+            range,
+        };
+        match self.buckets.last_mut() {
+            Some(last) if last.k / self.width == record.k / self.width => last.merge(bucket),
+            _ => self.buckets.push(bucket),
+        }
+        if self.buckets.len() >= MOST_BUCKETS {
+            self.halve();
+        }
+    }
+
+    fn point(&mut self, record: &CycleRecord) -> Point {
+        let of = |value: fn(&kontur_interpreter::record::AxisRecord) -> f64| {
+            let mut at = [0.0; 3];
+            for (slot, &i) in at.iter_mut().zip(&self.plane) {
+                *slot = record.axes.get(i).map_or(0.0, value);
+            }
+            at
+        };
+        let (ipo, set, act) = (of(|a| a.ipo), of(|a| a.set), of(|a| a.act));
+        let near = |p: [f64; 3]| (0..3).all(|i| (p[i] - ipo[i]).abs() < CLOSED_MM);
+        // a new pass begins when the path, after a trip, leaves a stop at the place where the trip began
+        let start = *self.start.get_or_insert(ipo);
+        let at_start = near(start);
+        let rests = record.path.v_mm_s.abs() < 1e-9;
+        if self.moved && at_start && rests {
+            self.moved = false;
+        } else if !self.moved && !at_start {
+            self.moved = true;
+            self.passes.push(Pass { first_line: record.line, ..Pass::default() });
+        }
+        let pass = self.passes.len().saturating_sub(1);
+        if let Some(pass) = self.passes.last_mut() {
+            if self.moved {
+                pass.last_line = record.line;
+            }
+            pass.error_mm = pass.error_mm.max(record.contour_err_mm);
+        }
+        if self.passes.len() > MOST_PASSES {
+            self.one_pass();
+        }
+        let pass = pass.min(self.passes.len().saturating_sub(1));
+        Point { k: record.k, line: record.line, pass, error: record.contour_err_mm, ipo, set, act }
+    }
+
+    /// Too many passes to tell apart: from here on they are one.
+    fn one_pass(&mut self) {
+        let first = self.passes.first().copied().unwrap_or_default();
+        let last = self.passes.last().copied().unwrap_or_default();
+        let error_mm = self.passes.iter().fold(0.0, |m: f64, p| m.max(p.error_mm));
+        self.passes =
+            vec![Pass { first_line: first.first_line, last_line: last.last_line, error_mm }];
+        for bucket in &mut self.buckets {
+            bucket.pass = 0;
+            bucket.points.iter_mut().for_each(|p| p.pass = 0);
+        }
+        self.recent.iter_mut().chain(&mut self.close).for_each(|p| p.pass = 0);
+        // a start that no path comes back to
+        self.start = Some([f64::INFINITY; 3]);
+        self.moved = true;
+    }
+
+    fn halve(&mut self) {
+        self.width *= 2;
+        let width = self.width;
+        let mut merged: Vec<Bucket> = Vec::with_capacity(MOST_BUCKETS);
+        for bucket in self.buckets.drain(..) {
+            match merged.last_mut() {
+                Some(last) if last.k / width == bucket.k / width => last.merge(bucket),
+                _ => merged.push(bucket),
+            }
+        }
+        self.buckets = merged;
+    }
+}
+
+impl Bucket {
+    fn merge(&mut self, other: Self) {
+        for (a, b) in self.range.iter_mut().zip(other.range) {
+            *a = (a.0.min(b.0), a.1.max(b.1));
+        }
+        self.points.extend(other.points);
+        self.thin();
+    }
+
+    /// Keeps the first point, the outermost ones and the one with the largest error.
+    fn thin(&mut self) {
+        let mut keep = vec![0];
+        let most = |value: &dyn Fn(&Point) -> f64| {
+            let best = |a: &usize, b: &usize| {
+                value(&self.points[*a]).total_cmp(&value(&self.points[*b])).then(b.cmp(a))
+            };
+            (0..self.points.len()).max_by(best).unwrap_or(0)
+        };
+        for axis in 0..3 {
+            keep.push(most(&|p| p.set[axis]));
+            keep.push(most(&|p| -p.set[axis]));
+            keep.push(most(&|p| p.ipo[axis]));
+            keep.push(most(&|p| -p.ipo[axis]));
+        }
+        keep.push(most(&|p| p.error));
+        keep.sort_unstable();
+        keep.dedup();
+        self.points = keep.iter().map(|&i| self.points[i]).collect();
+    }
+}
+
+/// The programmed path in a plane: the interpolated points and, between two samples on different lines of the program,
+/// the corner that both straight ways point to. (No sample needs to lie in a corner that is passed without a stop.)
+pub(crate) fn programmed(points: &[Point], [x, y]: [usize; 2]) -> Vec<[f64; 2]> {
+    let at = |i: usize| [points[i].ipo[x], points[i].ipo[y]];
+    let mut path = Vec::with_capacity(points.len());
+    for i in 0..points.len() {
+        path.push(at(i));
+        let known = i > 0 && i + 2 < points.len();
+        if known && points[i].line != points[i + 1].line && points[i].k + 1 == points[i + 1].k {
+            path.extend(corner(at(i - 1), at(i), at(i + 1), at(i + 2)));
+        }
+    }
+    path
+}
+
+/// Where the ways `a -> b` and `c -> d` meet, if that lies ahead of `b`, before `c`, and no farther than a step.
+fn corner(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Option<[f64; 2]> {
+    let minus = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
+    let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
+    let (u, v, gap) = (minus(b, a), minus(d, c), minus(c, b));
+    let turn = cross(u, v);
+    if turn.abs() < 1e-3 * libm::hypot(u[0], u[1]) * libm::hypot(v[0], v[1]) || turn == 0.0 {
+        return None;
+    }
+    let (ahead, behind) = (cross(gap, v) / turn, -cross(gap, u) / turn);
+    let within = (0.0..=2.0).contains(&ahead) && (0.0..=2.0).contains(&behind);
+    within.then(|| [b[0] + ahead * u[0], b[1] + ahead * u[1]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::AxisFacts;
+    use kontur_interpreter::record::{AxisRecord, PathRecord};
+
+    fn facts() -> Facts {
+        let axis = |name: &str| AxisFacts { name: name.to_owned(), ..AxisFacts::default() };
+        Facts { cycle_us: 1000, axes: vec![axis("X"), axis("Y")], ..Facts::default() }
+    }
+
+    fn record(k: u64, x: f64, y: f64, v: f64) -> CycleRecord {
+        let axis = |p| AxisRecord { ipo: p, set: p, act: p, ..AxisRecord::default() };
+        CycleRecord {
+            k,
+            line: 1,
+            path: PathRecord { v_mm_s: v, ..PathRecord::default() },
+            axes: vec![axis(x), axis(y)],
+            ..CycleRecord::default()
+        }
+    }
+
+    #[test]
+    fn long_runs_keep_their_extremes() {
+        let mut r = Recording::new(&facts());
+        let n = 100_000;
+        for k in 0..n {
+            let mut record = record(k, k as f64 * 1e-3, 0.0, 10.0);
+            if k == 77_777 {
+                record.contour_err_mm = 0.5;
+                record.axes[1].set = -3.0;
+            }
+            r.add(&record);
+        }
+        assert!(r.buckets.len() < MOST_BUCKETS && r.buckets.len() > MOST_BUCKETS / 4);
+        assert!(r.points().count() < 5 * r.buckets.len());
+        // around the largest error nothing is left out
+        assert_eq!(r.close().len(), 2 * CLOSE);
+        let near = r.points().filter(|p| p.k.abs_diff(77_777) < 250).count();
+        assert_eq!(near, 499);
+        let error = r.curves.iter().position(|c| c.kind == Kind::ContourError).unwrap();
+        let most = r.buckets.iter().map(|b| b.range[error].1).fold(0.0, f64::max);
+        assert_eq!(most.to_bits(), 0.5_f64.to_bits());
+        assert!(r.points().any(|p| p.k == 77_777 && p.set[1] < -2.0));
+        assert!(r.points().zip(r.points().skip(1)).all(|(a, b)| a.k < b.k));
+    }
+
+    #[test]
+    fn passes_end_at_a_stop_where_they_began() {
+        let mut r = Recording::new(&facts());
+        let mut k = 0;
+        for _ in 0..3 {
+            for (x, v) in [(0.0, 0.0), (0.5, 5.0), (1.0, 0.0), (0.5, 5.0), (0.0, 0.0)] {
+                r.add(&record(k, x, 0.0, v));
+                k += 1;
+            }
+        }
+        assert_eq!(r.passes.len(), 3);
+        for _ in 0..20 {
+            for (x, v) in [(0.5, 5.0), (0.0, 0.0)] {
+                r.add(&record(k, x, 0.0, v));
+                k += 1;
+            }
+        }
+        assert_eq!(r.passes.len(), 1, "too many to tell apart");
+        assert!(r.points().all(|p| p.pass == 0));
+    }
+
+    #[test]
+    fn corners_between_samples_come_back() {
+        // an L of two edges of 1 mm, sampled every 0.3 mm: no sample in the corner
+        let points: Vec<Point> = (0..7)
+            .map(|k: u32| {
+                let s = f64::from(k) * 0.3;
+                let ipo = if s < 1.0 { [s, 0.0, 0.0] } else { [1.0, s - 1.0, 0.0] };
+                Point { k: u64::from(k), line: 1 + u32::from(s >= 1.0), ipo, ..Point::default() }
+            })
+            .collect();
+        let path = programmed(&points, [0, 1]);
+        assert_eq!(path.len(), 8);
+        assert!(path.iter().any(|p| (p[0] - 1.0).abs() < 1e-12 && p[1].abs() < 1e-12), "{path:?}");
+    }
+}

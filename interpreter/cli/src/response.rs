@@ -1,0 +1,62 @@
+//! `kontur response`: what filters, shapers and whole axis chains do to a signal, as table and picture.
+//!
+//! Four views: frequency response (magnitude, phase, group delay), step response, residual vibration of a machine
+//! driven through a shaper, and the contour at a 90 degree corner.
+//!
+#![doc = include_str!("../docs/figures.md")]
+
+pub mod args;
+mod axis;
+pub mod curve;
+mod describe;
+mod select;
+mod view;
+
+use crate::console::Console;
+use crate::{Error, Exit};
+use args::ResponseArgs;
+use std::path::Path;
+
+/// Computes one view of all curves and writes it: a table on stdout, or to each `-o` a table (`.csv`) or a picture
+/// (`.svg`).
+///
+/// # Errors
+/// [`Error`] if a filter cannot be designed, a view does not suit a curve, or an output cannot be written.
+pub fn response(args: &ResponseArgs, console: &mut Console) -> Result<Exit, Error> {
+    for output in &args.output {
+        kind(output)?;
+    }
+    crate::run::keep_apart(&[], &args.output)?;
+    let (curves, cycle) = select::curves(args, console)?;
+    let view = view::view(args, &curves, cycle)?;
+    if args.output.is_empty() {
+        console.print(&view.table.csv())?;
+    }
+    for output in &args.output {
+        let text = match kind(output)? {
+            Kind::Table => view.table.csv(),
+            Kind::Picture => view.plot.draw(),
+        };
+        std::fs::write(output, text).map_err(|e| Error::io(output.display().to_string(), e))?;
+    }
+    Ok(Exit::Finished)
+}
+
+/// What an output file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Table,
+    Picture,
+}
+
+fn kind(output: &Path) -> Result<Kind, Error> {
+    let is = |end: &str| output.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
+    if is("csv") {
+        Ok(Kind::Table)
+    } else if is("svg") {
+        Ok(Kind::Picture)
+    } else {
+        let name = output.display();
+        Err(Error::Usage(format!("-o {name}: a response is a table (.csv) or a picture (.svg)")))
+    }
+}

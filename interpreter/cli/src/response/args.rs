@@ -1,0 +1,216 @@
+//! The arguments of `kontur response`.
+
+use clap::ArgGroup;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+const EXAMPLES: &str = "\
+Every list of values spans curves, and every repetition adds one; all of them share one picture.
+
+Examples:
+  three prototypes of a low-pass, frequency response on stdout
+    kontur response --filter LOWPASS --prototype CRIT_DAMPING,BESSEL,BUTTERWORTH --order 4 --f0 15
+  their step responses as a picture
+    kontur response --filter LOWPASS --prototype CRIT_DAMPING,BESSEL,BUTTERWORTH --order 4 --f0 15 --step -o step.svg
+  what is left of a vibration when the frequency is wrong, for two dampings of the machine
+    kontur response --guard MODE=2,FREQ=40 --residual --damping 0.05,0.1 -o residual.svg
+  the Vibration Guard modes at a corner
+    kontur response --guard MODE=1,FREQ=10 --guard MODE=2,FREQ=10 --corner F4000 -o corner.svg
+  contour error over the order of the mean filter
+    kontur response --hsc-mean 2..200:2 --corner F1000
+  all that the lists of a machine do to an axis, table and picture
+    kontur response --axis X -m machines/mill -o x.csv -o x.svg";
+
+/// `kontur response`.
+#[derive(Clone, Debug, clap::Args)]
+#[command(
+    after_long_help = EXAMPLES,
+    group(ArgGroup::new("view").args(["step", "residual", "corner"])),
+    group(ArgGroup::new("what").args(["filter", "guard", "fir", "hsc_mean", "hsc_novib", "axis"]).multiple(true).required(true)),
+)]
+pub struct ResponseArgs {
+    /// Standard filters: LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, PT2, `TIME_DELAY`
+    #[arg(long, value_name = "TYPE", value_delimiter = ',', value_parser = filter_type)]
+    pub filter: Vec<String>,
+
+    /// Prototypes of --filter: `CRIT_DAMPING`, BUTTERWORTH, BESSEL
+    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "CRIT_DAMPING", value_parser = prototype)]
+    pub prototype: Vec<String>,
+
+    /// Orders of --filter: `4`, `1,2,3`, `1..6` (P-AXIS-00140)
+    #[arg(long, value_name = "N", default_value = "2")]
+    pub order: Numbers,
+
+    /// Characteristic frequencies of --filter in Hz (P-AXIS-00067)
+    #[arg(long, value_name = "HZ", default_value = "30")]
+    pub f0: Numbers,
+
+    /// Qualities of BANDPASS and BANDSTOP (P-AXIS-00080)
+    #[arg(long, value_name = "Q", default_value = "1")]
+    pub q: Numbers,
+
+    /// Time constants of PT1, PT2 and `TIME_DELAY` in microseconds (P-AXIS-00357)
+    #[arg(long, value_name = "US", default_value = "10000")]
+    pub time: Numbers,
+
+    /// Shares of the signal led through --filter in percent (P-AXIS-00164)
+    #[arg(long, value_name = "PERCENT", default_value = "100")]
+    pub share: Numbers,
+
+    /// Vibration Guard: `MODE=2,FREQ=40,DAMPING=0.1`; what is missing has the default 1, 30, 0.1
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    pub guard: Vec<String>,
+
+    /// FIR filter: MEAN, GAUSS, SINC or DELAY with ORDER or `ORDER_TIME`, SHARE, FCUT, QUALITY: `GAUSS,ORDER=40,QUALITY=0.5`
+    #[arg(long, value_name = "TYPE,KEY=VALUE,..")]
+    pub fir: Vec<String>,
+
+    /// HSC mean filters by their order: `20`, `2..200:2`
+    #[arg(long, value_name = "ORDER")]
+    pub hsc_mean: Option<Numbers>,
+
+    /// HSC `NoVib` filters by the first natural frequency in Hz
+    #[arg(long, value_name = "HZ")]
+    pub hsc_novib: Option<Numbers>,
+
+    /// Axes of the machine: their filters, and the FIR filter or Vibration Guard that their lists switch on
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub axis: Vec<String>,
+
+    /// Step response instead of frequency response
+    #[arg(long)]
+    pub step: bool,
+
+    /// Residual vibration over the real natural frequency instead of frequency response; shapers only
+    #[arg(long)]
+    pub residual: bool,
+
+    /// Contour at a 90 degree corner at this feed in mm/min (`F1000`) instead of frequency response
+    #[arg(long, value_name = "FEED", value_parser = crate::response::args::feed)]
+    pub corner: Option<f64>,
+
+    /// Damping of the vibration for --residual [default: that of the guard, 0.1 for other shapers]
+    #[arg(long, value_name = "RATIO", requires = "residual")]
+    pub damping: Option<Numbers>,
+
+    /// Frequencies in Hz, `1..200` [default: 0.5 Hz to half the sampling frequency; --residual: around the set one]
+    #[arg(long, value_name = "HZ..HZ", value_parser = range, conflicts_with_all = ["step", "corner"])]
+    pub range: Option<(f64, f64)>,
+
+    /// Write a table (`.csv`) or a picture (`.svg`) [default: the table on stdout]. May be given several times
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+
+    /// Machine of --axis: a folder with a start-up list, or the list itself [default: the built-in xyz]
+    #[arg(short, long, value_name = "DIR")]
+    pub machine: Option<PathBuf>,
+
+    /// A list parameter in place of the machine's, e.g. `X.vib_guard.active=1`
+    #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = crate::args::setting, requires = "axis")]
+    pub set: Vec<String>,
+
+    /// Cycle time in microseconds [default: the machine's, without --axis 1000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(100..=20_000))]
+    pub cycle_us: Option<u32>,
+}
+
+/// One or more numbers: `4`, `1,2,5`, `1..6`, `2..200:2`, and any of these separated by commas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbers(pub Vec<f64>);
+
+/// More curves than this are a slip of the hand.
+const MOST_NUMBERS: usize = 1000;
+
+impl FromStr for Numbers {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("`{text}`: 4 or 1,2,5 or 1..6 or 2..200:2 expected");
+        let number = |text: &str| match text.trim().parse::<f64>() {
+            Ok(v) if v.is_finite() => Ok(v),
+            _ => Err(wrong()),
+        };
+        let mut numbers = Vec::new();
+        for part in text.split(',') {
+            let Some((first, rest)) = part.split_once("..") else {
+                numbers.push(number(part)?);
+                continue;
+            };
+            let (last, step) = rest.split_once(':').unwrap_or((rest, "1"));
+            let (first, last, step) = (number(first)?, number(last)?, number(step)?);
+            if !(step > 0.0 && last >= first && (last - first) / step < MOST_NUMBERS as f64) {
+                return Err(wrong());
+            }
+            let steps = (last - first) / step + 1e-9;
+            let indices = (0..=MOST_NUMBERS).map(|i| i as f64).take_while(|i| *i <= steps);
+            numbers.extend(indices.map(|i| first + i * step));
+        }
+        if numbers.len() > MOST_NUMBERS {
+            return Err(format!("more than {MOST_NUMBERS} values"));
+        }
+        Ok(Self(numbers))
+    }
+}
+
+/// `F1000` or `1000`: mm/min, above 0.
+///
+/// # Errors
+/// A text that is neither.
+pub fn feed(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_start_matches(['F', 'f']);
+    match number.parse::<f64>() {
+        Ok(v) if v.is_finite() && v > 0.0 => Ok(v),
+        _ => Err("a feed in mm/min above 0 is expected, e.g. F1000".to_owned()),
+    }
+}
+
+fn range(text: &str) -> Result<(f64, f64), String> {
+    let parsed = text.split_once("..").and_then(|(low, high)| {
+        Some((low.trim().parse::<f64>().ok()?, high.trim().parse::<f64>().ok()?))
+    });
+    match parsed {
+        Some((low, high)) if low > 0.0 && high > low && high.is_finite() => Ok((low, high)),
+        _ => Err("two frequencies above 0 in rising order are expected, e.g. 1..200".to_owned()),
+    }
+}
+
+/// One of the names, whatever its case.
+fn one_of(text: &str, names: &[&str]) -> Result<String, String> {
+    let found = names.iter().find(|name| name.eq_ignore_ascii_case(text.trim()));
+    found.map(|name| (*name).to_owned()).ok_or_else(|| format!("one of {}", names.join(", ")))
+}
+
+fn filter_type(text: &str) -> Result<String, String> {
+    one_of(text, &super::select::FILTER_TYPES.map(|(name, _)| name))
+}
+
+fn prototype(text: &str) -> Result<String, String> {
+    one_of(text, &super::select::PROTOTYPES.map(|(name, _)| name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_and_ranges() {
+        let numbers = |text: &str| text.parse::<Numbers>().map(|n| n.0);
+        assert_eq!(numbers("4").unwrap(), [4.0]);
+        assert_eq!(numbers("1,2, 5").unwrap(), [1.0, 2.0, 5.0]);
+        assert_eq!(numbers("1..3,10..20:5").unwrap(), [1.0, 2.0, 3.0, 10.0, 15.0, 20.0]);
+        assert_eq!(numbers("0.1..0.3:0.1").unwrap().len(), 3);
+        for wrong in ["", "a", "1..", "3..1", "1..2:0", "1..2:-1", "1..1e9", "nan", "1,"] {
+            assert!(numbers(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn feeds_and_frequency_ranges() {
+        assert_eq!((feed("F1000"), feed("2000")), (Ok(1000.0), Ok(2000.0)));
+        assert!(feed("F0").is_err() && feed("fast").is_err());
+        assert_eq!(range("1..200"), Ok((1.0, 200.0)));
+        for wrong in ["1", "0..5", "5..1", "1..inf", "a..b"] {
+            assert!(range(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The shaping chain of an axis as its lists state it.
+
+use super::args::ResponseArgs;
+use super::curve::Curve;
+use crate::console::Console;
+use crate::engine::Request;
+use crate::{Error, args::MessageForm, run, simulator};
+use kontur_filters::shaping::Shaping;
+use kontur_filters::time::CycleTime;
+use kontur_interpreter::machine::Axis;
+use std::sync::Arc;
+
+/// One curve per axis named, and the machine's cycle.
+///
+/// The kernel is the one that is on from program start (`filter_fir.enable`, `vib_guard.active`); an HSC filter waits
+/// for its command and is mentioned only.
+pub(super) fn curves(
+    args: &ResponseArgs,
+    console: &mut Console,
+) -> Result<(Vec<Curve>, CycleTime), Error> {
+    let request = Request {
+        machine: args.machine.clone(),
+        settings: args.set.clone(),
+        cycle_us: args.cycle_us,
+        ..Request::default()
+    };
+    let form = MessageForm::Text;
+    let loaded = simulator::machine(&request);
+    let (machine, mut messages) = loaded.map_err(|e| run::announce_lists(e, form, console))?;
+    let (chains, found) = machine.chains();
+    messages.extend(found);
+    for message in &messages {
+        run::announce(message, form, console);
+    }
+    let mut curves = Vec::new();
+    for name in &args.axis {
+        let mut all = machine.all_axes().zip(&chains);
+        let Some((axis, chain)) = all.find(|(axis, _)| axis.name().eq_ignore_ascii_case(name))
+        else {
+            let known: Vec<&str> = machine.all_axes().map(Axis::name).collect();
+            let known = known.join(", ");
+            return Err(Error::Usage(format!("--axis: no axis `{name}`; the axes are {known}")));
+        };
+        let preset = axis.kernel_preset(machine.cycle);
+        let guard = Some(preset.vib_guard).filter(|guard| guard.active).map(|g| g.settings);
+        let fir = preset.fir.filter(|fir| fir.enable && guard.is_none());
+        // what gives no kernel has been announced with its ID
+        let kernel = match (guard, fir) {
+            (Some(settings), _) => settings.kernel(machine.cycle).ok(),
+            (None, Some(fir)) => fir.config.design(machine.cycle).0,
+            (None, None) => None,
+        };
+        let mut parts = Vec::new();
+        if let Some(settings) = guard.filter(|_| kernel.is_some()) {
+            parts.push(format!("guard mode {} {} Hz", settings.mode, settings.freq_hz));
+        } else if kernel.is_some() {
+            parts.push("FIR filter".to_owned());
+        }
+        if !chain.filters.is_empty() {
+            let count = chain.filters.len();
+            parts.push(format!("{count} standard filter{}", if count > 1 { "s" } else { "" }));
+        }
+        if parts.is_empty() {
+            console.error_text(&format!("note: axis {name}: its lists switch no filter on"));
+            parts.push("no filter".to_owned());
+        }
+        if preset.hsc.is_some() {
+            let text = "its HSC filter waits for #FILTER ON [HSC] and is not shown; see --hsc-mean";
+            console.error_text(&format!("note: axis {name}: {text}"));
+        }
+        let mut shaping = Shaping::new(chain.filters.clone(), 0.0);
+        let guard = guard.filter(|_| kernel.is_some());
+        // a chain that has never moved takes any kernel
+        let taken = shaping.set_kernel(kernel.map(Arc::new));
+        debug_assert!(taken.is_ok());
+        curves.push(Curve {
+            label: format!("{}: {}", axis.name(), parts.join(", ")),
+            shaping,
+            guard,
+            has_filters: !chain.filters.is_empty(),
+            order: None,
+        });
+    }
+    Ok((curves, machine.cycle))
+}

@@ -1,0 +1,19 @@
+//! One curve of a response: a shaping chain with a name.
+
+use kontur_filters::shaping::Shaping;
+use kontur_filters::vib_guard::VibGuardSettings;
+
+/// A filter, a shaper or the chain of an axis.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// Name in table and picture.
+    pub label: String,
+    /// The chain, at rest at 0.
+    pub shaping: Shaping,
+    /// Settings of the Vibration Guard, if the kernel is one.
+    pub guard: Option<VibGuardSettings>,
+    /// The chain holds standard filters beside the kernel.
+    pub has_filters: bool,
+    /// Order of a mean or FIR filter: many of them draw the contour error over it.
+    pub order: Option<f64>,
+}

@@ -1,0 +1,147 @@
+//! Magnitude, phase and group delay over frequency.
+
+use super::{Curve, Error, ResponseArgs, View, cycle_text, labels, spread};
+use crate::report::plot::{Diagram, Line, Plot, Scale, around};
+use crate::table::{Table, number};
+use kontur_filters::response::Angle;
+use kontur_filters::time::CycleTime;
+
+const STEPS: u32 = 800;
+/// Below this in dB the picture ends.
+const FLOOR_DB: f64 = -80.0;
+/// Frequencies with a magnitude above this in dB pass.
+const PASSING_DB: f64 = -12.0;
+/// Magnitudes below this in dB are zeros with a meaningless phase.
+const ZERO_DB: f64 = -200.0;
+
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    f_hz: f64,
+    magnitude_db: f64,
+    phase_deg: f64,
+    delay_ms: f64,
+}
+
+pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> Result<View, Error> {
+    let nyquist_hz = 0.5 / cycle.seconds();
+    let range = args.range.unwrap_or((0.5_f64.min(0.001 * nyquist_hz), nyquist_hz));
+    if range.1 > nyquist_hz {
+        let text =
+            format!("--range: frequencies end at {nyquist_hz} Hz, half the sampling frequency");
+        return Err(Error::Usage(text));
+    }
+    let header = &["curve", "f_hz", "magnitude_db", "phase_deg", "group_delay_ms"];
+    let mut table = Table::new(header);
+    let mut lines = [Vec::new(), Vec::new(), Vec::new()];
+    for (series, curve) in curves.iter().enumerate() {
+        let samples = samples(curve, range, cycle);
+        for s in &samples {
+            table.push(vec![
+                curve.label.clone(),
+                number(s.f_hz, 6),
+                number(s.magnitude_db, 6),
+                number(s.phase_deg, 6),
+                number(s.delay_ms, 6),
+            ]);
+        }
+        let values = [Sample::magnitude, Sample::phase, Sample::delay];
+        for (lines, value) in lines.iter_mut().zip(values) {
+            let points = samples.iter().map(|s| [s.f_hz, value(s)]).collect();
+            lines.push(Line { series: Some(series), points });
+        }
+    }
+    let [magnitude, phase, delay] = lines;
+    let all =
+        |lines: &[Line]| lines.iter().flat_map(|l| &l.points).map(|p| p[1]).collect::<Vec<_>>();
+    let high = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let low = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(-3.0, f64::min);
+    // near a zero the group delay has no bound; the picture shows what the frequencies get that pass
+    let passing = magnitude.iter().zip(&delay).flat_map(|(m, d)| m.points.iter().zip(&d.points));
+    let shown = passing.filter(|(m, _)| m[1] > PASSING_DB).map(|(_, d)| d[1]).chain([0.0]);
+    let shown = around(shown, 0.1);
+    let panel = |title: &str, unit: &'static str, range_y, lines, levels| Diagram {
+        title: title.to_owned(),
+        x: Scale::logarithmic("frequency in Hz", range),
+        y: Scale::linear(unit, range_y),
+        equal: false,
+        lines,
+        levels,
+    };
+    let panels = vec![
+        panel("Magnitude", "dB", (low.max(FLOOR_DB) - 2.0, high + 3.0), magnitude, vec![-3.0103]),
+        panel("Phase", "deg", around(all(&phase).into_iter(), 10.0), phase, Vec::new()),
+        panel("Group delay", "ms", shown, delay, Vec::new()),
+    ];
+    let plot = Plot {
+        title: "Frequency response".to_owned(),
+        subtitle: format!("{}; dashed: -3 dB", cycle_text(cycle)),
+        legend: labels(curves),
+        columns: 1,
+        row_height: 270.0,
+        panels,
+    };
+    Ok(View { table, plot })
+}
+
+impl Sample {
+    fn magnitude(&self) -> f64 {
+        self.magnitude_db
+    }
+
+    fn phase(&self) -> f64 {
+        self.phase_deg
+    }
+
+    fn delay(&self) -> f64 {
+        self.delay_ms
+    }
+}
+
+/// The curve with its phase continued beyond 180 degrees: from one frequency to the next the group delay says by how
+/// many turns.
+fn samples(curve: &Curve, range: (f64, f64), cycle: CycleTime) -> Vec<Sample> {
+    let mut samples: Vec<Sample> = Vec::new();
+    let mut last: Option<Sample> = None;
+    for f_hz in spread(range, STEPS) {
+        let response = curve.shaping.response(Angle::of(f_hz, cycle));
+        let magnitude_db = response.magnitude_db();
+        let zero = magnitude_db < ZERO_DB;
+        let delay_ms =
+            if zero { f64::NAN } else { response.group_delay_cycles() * 1000.0 * cycle.seconds() };
+        let principal = response.phase_deg();
+        let expected = match last {
+            Some(l) => {
+                let mean_ms = f64::midpoint(l.delay_ms, delay_ms);
+                l.phase_deg - 0.36 * mean_ms * (f_hz - l.f_hz)
+            }
+            // from 0 Hz up
+            None => -0.36 * delay_ms * f_hz,
+        };
+        let turns = ((expected - principal) / 360.0).round();
+        let phase_deg = if zero { f64::NAN } else { principal + 360.0 * turns };
+        let sample = Sample { f_hz, magnitude_db, phase_deg, delay_ms };
+        if !zero {
+            last = Some(sample);
+        }
+        samples.push(sample);
+    }
+    anchor(&mut samples);
+    samples
+}
+
+/// A filter that blocks slow signals has no phase to start from at 0 Hz: turns are added so that the phase lies within
+/// 180 degrees of 0 where most of the signal passes.
+fn anchor(samples: &mut [Sample]) {
+    /// A pass band ripples less than this.
+    const RIPPLE_DB: f64 = 0.5;
+    let Some(first) = samples.first().copied() else { return };
+    let most = samples
+        .iter()
+        .fold(first, |most, s| if s.magnitude_db > most.magnitude_db { *s } else { most });
+    if most.magnitude_db > first.magnitude_db + RIPPLE_DB {
+        let turns = (most.phase_deg / 360.0).round();
+        for sample in samples {
+            sample.phase_deg -= 360.0 * turns;
+        }
+    }
+}

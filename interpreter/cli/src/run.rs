@@ -1,0 +1,125 @@
+//! `kontur run`: a program goes in, traces and a summary come out.
+
+use crate::args::{MessageForm, RunArgs, SummaryForm};
+use crate::console::{Console, Progress};
+use crate::engine::{Engine, OpenError, Source};
+use crate::summary::Collector;
+use crate::trace::Trace;
+use crate::{Error, Exit, render};
+use kontur_interpreter::diag::Diagnostic;
+use std::path::{Path, PathBuf};
+
+/// Cycles between two looks at the clock and at new messages.
+const LOOK_EVERY: u64 = 1024;
+
+/// Runs a program.
+///
+/// # Errors
+/// [`Error`] if options, lists or files are wrong, or a trace cannot be written.
+pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Result<Exit, Error> {
+    keep_apart(std::slice::from_ref(&args.program), &args.output)?;
+    let form = args.simulation.diagnostics;
+    let mut source = engine
+        .open(&args.simulation.request(&args.program))
+        .map_err(|e| announce_lists(e, form, console))?;
+    let create = |path| Trace::create(path, &args.signals, args.decimate, source.facts());
+    let mut traces: Vec<Trace> =
+        args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
+    let mut summary = Collector::new(source.facts());
+    let written = drive(source.as_mut(), console, form, &mut summary, &mut |record| {
+        traces.iter_mut().try_for_each(|t| t.write(record))
+    });
+    // every trace is brought to its file even if another one failed
+    let finished: Vec<_> = traces.into_iter().map(|t| t.finish(source.as_ref())).collect();
+    written?;
+    finished.into_iter().collect::<Result<(), _>>()?;
+    let totals = source.totals();
+    let summary = summary.finish(&totals);
+    match args.summary {
+        SummaryForm::Text => console.print(&summary.text())?,
+        SummaryForm::Json => console.print(&summary.json())?,
+        SummaryForm::None => {}
+    }
+    Ok(if totals.aborted { Exit::Aborted } else { Exit::Finished })
+}
+
+/// Refuses to write over the program, or two traces into one file.
+///
+/// # Errors
+/// [`Error::Usage`] that names the file.
+pub fn keep_apart(programs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error> {
+    // a file that does not exist yet has no canonical name, and its given name serves
+    let name = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let mut taken: Vec<PathBuf> = programs.iter().map(|p| name(p)).collect();
+    for output in outputs {
+        let name = name(output);
+        if taken.contains(&name) && !output.starts_with("/dev") {
+            let message = format!("-o {}: the file is used twice", output.display());
+            return Err(Error::Usage(message));
+        }
+        taken.push(name);
+    }
+    Ok(())
+}
+
+/// Drives a source to its end: every record to `take` and to the summary, every message to the console.
+///
+/// # Errors
+/// The first error of `take`; messages raised up to then have been printed.
+pub fn drive(
+    source: &mut dyn Source,
+    console: &mut Console,
+    form: MessageForm,
+    summary: &mut Collector,
+    take: &mut dyn FnMut(&kontur_interpreter::record::CycleRecord) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let mut progress = console.progress();
+    let cycle_s = f64::from(source.facts().cycle_us) / 1e6;
+    let mut result = Ok(());
+    while let Some(record) = source.next_cycle() {
+        summary.add(record);
+        result = take(record);
+        if result.is_err() {
+            break;
+        }
+        if summary.cycles().is_multiple_of(LOOK_EVERY) {
+            let (t, line) = (record.k as f64 * cycle_s, record.line);
+            progress.show(|| format!("t = {t:.1} s, line {line}"));
+            messages(source, console, form, summary, &progress);
+        }
+    }
+    messages(source, console, form, summary, &progress);
+    result
+}
+
+fn messages(
+    source: &mut dyn Source,
+    console: &mut Console,
+    form: MessageForm,
+    summary: &mut Collector,
+    progress: &Progress,
+) {
+    for message in source.take_diagnostics() {
+        summary.message(&message);
+        progress.suspend(|| announce(&message, form, console));
+    }
+}
+
+/// Prints one message to stderr.
+pub fn announce(message: &Diagnostic, form: MessageForm, console: &mut Console) {
+    let text = match form {
+        MessageForm::Text => render::text(message, console.is_terminal()),
+        MessageForm::Json => render::json(message),
+    };
+    console.error_text(&text);
+}
+
+/// Prints the messages of refused lists and turns the rest into an error.
+pub fn announce_lists(e: OpenError, form: MessageForm, console: &mut Console) -> Error {
+    if let OpenError::Lists(messages) = &e {
+        for message in messages {
+            announce(message, form, console);
+        }
+    }
+    e.into()
+}

@@ -1,0 +1,182 @@
+//! The simulation of this workspace behind the commands' questions.
+
+use crate::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
+use crate::files::{Lists, ProgramFiles};
+use kontur_interpreter::diag::{Diagnostic, Id, Severity};
+use kontur_interpreter::exec::{self, Options, SkipLevels};
+use kontur_interpreter::machine::{AxisKind, Machine, Override, explain};
+use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::sim::{Limits, Simulation};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The simulation of this workspace.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Kontur;
+
+/// A machine as a request describes it, with the warnings of its lists.
+///
+/// # Errors
+/// [`OpenError`] if a setting is wrong or the lists are refused.
+pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenError> {
+    let mut overrides = Vec::new();
+    for setting in &request.settings {
+        overrides.push(Override::parse(setting).map_err(|d| OpenError::Lists(vec![*d]))?);
+    }
+    if let Some(us) = request.cycle_us {
+        let text = format!("kontur.cycle_time_us={us}");
+        overrides.push(Override::parse(&text).map_err(|d| OpenError::Lists(vec![*d]))?);
+    }
+    let loaded = match &request.machine {
+        None => Machine::builtin(&overrides),
+        Some(path) => {
+            let start_up = if path.is_dir() { path.join("hochlauf.lis") } else { path.clone() };
+            Machine::load(&Lists, &start_up.to_string_lossy(), &overrides)
+        }
+    };
+    let (machine, messages) = loaded.map_err(OpenError::Lists)?;
+    let unknown = |d: &Diagnostic| d.id == Id::Vendor(1001119);
+    if request.strict && messages.iter().any(unknown) {
+        let refused = messages.into_iter().map(|d| match unknown(&d) {
+            true => d.severity(Severity::Error).hint("--strict refuses keys that are not modelled"),
+            false => d,
+        });
+        return Err(OpenError::Lists(refused.collect()));
+    }
+    Ok((machine, messages))
+}
+
+fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
+    for (name, _) in &request.start {
+        if !machine.axes.iter().any(|a| a.name().eq_ignore_ascii_case(name)) {
+            let known: Vec<&str> = machine.axes.iter().map(|a| a.name()).collect();
+            let known = known.join(", ");
+            return Err(OpenError::Usage(format!(
+                "--start: no axis `{name}`; the axes are {known}"
+            )));
+        }
+    }
+    let skip = request.skip.iter().fold(SkipLevels::NONE, |levels, level| levels.with(*level));
+    Ok(Options {
+        start: request.start.clone(),
+        skip,
+        max_blocks: request.max_blocks,
+        ..Options::default()
+    })
+}
+
+fn sources(request: &Request) -> ProgramFiles {
+    ProgramFiles { folders: request.path.clone() }
+}
+
+/// A program that must be a readable file, or the command fails before it decodes anything.
+fn readable(program: &Path) -> Result<(), OpenError> {
+    let open = std::fs::File::open(program).and_then(|f| {
+        if f.metadata()?.is_dir() { Err(std::io::ErrorKind::IsADirectory.into()) } else { Ok(()) }
+    });
+    open.map_err(|e| OpenError::Io(program.to_path_buf(), e))
+}
+
+fn facts(request: &Request, machine: &Machine, simulation: &Simulation) -> Facts {
+    let axes = machine.all_axes().enumerate().map(|(i, axis)| AxisFacts {
+        name: axis.name().to_owned(),
+        rotary: axis.kind() != AxisKind::Linear,
+        spindle: axis.kind() == AxisKind::Spindle,
+        modal: simulation.has_tool_point(i),
+    });
+    Facts {
+        program: request.program.display().to_string(),
+        machine: machine.name.clone(),
+        cycle_us: machine.cycle.us(),
+        axes: axes.collect(),
+        files: simulation.files().iter().map(ToString::to_string).collect(),
+    }
+}
+
+/// A program that runs, or that was refused before its first cycle.
+struct Run {
+    facts: Facts,
+    simulation: Simulation,
+    messages: Vec<Diagnostic>,
+    refused: bool,
+}
+
+impl Source for Run {
+    fn facts(&self) -> &Facts {
+        &self.facts
+    }
+
+    fn next_cycle(&mut self) -> Option<&CycleRecord> {
+        if self.refused { None } else { self.simulation.next_cycle() }
+    }
+
+    fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
+        let mut found = std::mem::take(&mut self.messages);
+        found.extend(self.simulation.take_diagnostics());
+        found
+    }
+
+    fn totals(&self) -> Totals {
+        let t = self.simulation.totals();
+        Totals {
+            aborted: self.refused || t.aborted,
+            blocks: t.blocks,
+            ideal_duration_s: t.ideal_duration_s,
+            not_counted: t.not_counted,
+            filter_delay_cycles: t.filter_delay_cycles,
+        }
+    }
+}
+
+impl Engine for Kontur {
+    fn open(&mut self, request: &Request) -> Result<Box<dyn Source>, OpenError> {
+        readable(&request.program)?;
+        let (machine, mut messages) = machine(request)?;
+        let options = options(request, &machine)?;
+        let machine = Arc::new(machine);
+        let program = request.program.display().to_string();
+        let limits = Limits { max_time_s: request.max_time_s };
+        let open = |options: Options| {
+            Simulation::new(
+                Arc::clone(&machine),
+                Box::new(sources(request)),
+                &program,
+                options,
+                &limits,
+            )
+        };
+        // what a check can see refuses the program before its first cycle
+        let found = exec::check(
+            Box::new(sources(request)),
+            &program,
+            Arc::clone(&machine),
+            options.clone(),
+        );
+        let refused = found.iter().any(Diagnostic::is_error);
+        if refused {
+            messages.extend(found);
+        }
+        let simulation = open(options).map_err(OpenError::Lists)?;
+        let facts = facts(request, &machine, &simulation);
+        Ok(Box::new(Run { facts, simulation, messages, refused }))
+    }
+
+    fn check(
+        &mut self,
+        request: &Request,
+        report: &mut dyn FnMut(Diagnostic),
+    ) -> Result<(), OpenError> {
+        readable(&request.program)?;
+        let (machine, messages) = machine(request)?;
+        messages.into_iter().for_each(&mut *report);
+        let options = options(request, &machine)?;
+        let program = request.program.display().to_string();
+        let found = exec::check(Box::new(sources(request)), &program, Arc::new(machine), options);
+        found.into_iter().for_each(report);
+        Ok(())
+    }
+
+    fn explain(&self, thing: &str) -> Result<String, Vec<String>> {
+        explain::explain(thing).map(|e| e.to_string())
+    }
+}

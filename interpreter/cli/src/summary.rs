@@ -1,0 +1,304 @@
+//! The summary of a run, accumulated from its records.
+
+use crate::engine::{Facts, Totals};
+use kontur_interpreter::diag::{Diagnostic, Severity};
+use kontur_interpreter::record::{AxisRecord, CycleRecord, SpeedLimit};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// More messages than this are counted and no longer kept: a program may repeat a warning without end.
+const MESSAGES_KEPT: usize = 1000;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum State {
+    /// To the end of the program.
+    Finished,
+    /// Refused, or stopped by an error.
+    Aborted,
+}
+
+/// Largest magnitudes of one axis in mm (deg) and seconds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct AxisSummary {
+    /// Name in the NC program.
+    pub name: String,
+    /// `mm` or `deg`.
+    pub unit: &'static str,
+    /// Velocity of the set position.
+    pub max_vel: f64,
+    /// Acceleration of the set position.
+    pub max_acc: f64,
+    /// Jerk of the set position.
+    pub max_jerk: f64,
+    /// Axis error: delay-aligned set minus ipo.
+    pub max_err: f64,
+    /// Deviation from the contour.
+    pub max_dev: f64,
+    /// Lag: reference minus actual position.
+    pub max_lag: f64,
+    /// Largest delay of filters or Vibration Guard in cycles.
+    pub filter_delay_cycles: f64,
+}
+
+/// Where the contour error was largest.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ContourError {
+    /// Length of the shortest vector from the set point to the contour in mm.
+    pub mm: f64,
+    /// Program time in seconds.
+    pub time_s: f64,
+    /// File.
+    pub file: String,
+    /// Line of the file.
+    pub line: u32,
+    /// N number.
+    pub block: Option<u64>,
+}
+
+/// What a run was like.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Program as the user named it.
+    pub program: String,
+    /// Machine.
+    pub machine: String,
+    /// Cycle time in microseconds.
+    pub cycle_us: u32,
+    /// How it ended.
+    pub state: State,
+    /// Rows of the undecimated trace.
+    pub cycles: u64,
+    /// Program time of the last row in seconds.
+    pub duration_s: f64,
+    /// Path / feed in seconds, without ramps, corners and limits.
+    pub ideal_duration_s: f64,
+    /// What the duration does not contain.
+    pub not_counted: Vec<String>,
+    /// Blocks decoded.
+    pub blocks: u64,
+    /// Length of the path in mm.
+    pub path_length_mm: f64,
+    /// Path axes in channel order, then spindles.
+    pub axes: Vec<AxisSummary>,
+    /// Largest contour error; none if there was no cycle.
+    pub max_contour_error: Option<ContourError>,
+    /// Seconds by what held the speed down.
+    pub time_by_v_limit_s: BTreeMap<&'static str, f64>,
+    /// Messages, the first thousand.
+    pub messages: Vec<Diagnostic>,
+    /// Messages beyond the first thousand.
+    pub messages_omitted: u64,
+}
+
+/// Collects a summary, record by record.
+#[derive(Clone, Debug)]
+pub struct Collector {
+    facts: Facts,
+    axes: Vec<AxisRecord>,
+    last: Option<(u64, f64)>,
+    cycles: u64,
+    worst: (f64, u64, u32, u32, Option<u64>),
+    limits: [u64; SpeedLimit::ALL.len()],
+    messages: Vec<Diagnostic>,
+    omitted: u64,
+}
+
+impl Collector {
+    /// Starts a summary.
+    pub fn new(facts: &Facts) -> Self {
+        Self {
+            facts: facts.clone(),
+            axes: vec![AxisRecord::default(); facts.axes.len()],
+            last: None,
+            cycles: 0,
+            worst: (0.0, 0, 0, 0, None),
+            limits: [0; SpeedLimit::ALL.len()],
+            messages: Vec::new(),
+            omitted: 0,
+        }
+    }
+
+    /// Adds a cycle.
+    pub fn add(&mut self, record: &CycleRecord) {
+        for (most, axis) in self.axes.iter_mut().zip(&record.axes) {
+            most.vel = most.vel.max(axis.vel.abs());
+            most.acc = most.acc.max(axis.acc.abs());
+            most.jerk = most.jerk.max(axis.jerk.abs());
+            most.err = most.err.max(axis.err.abs());
+            most.dev = most.dev.max(axis.dev.abs());
+            most.lag = most.lag.max(axis.lag.abs());
+        }
+        if self.cycles == 0 || record.contour_err_mm > self.worst.0 {
+            let place = (record.contour_err_mm, record.k, record.file, record.line, record.block);
+            self.worst = place;
+        }
+        // row k stands for the time since the row before; the first row is the start itself
+        if let Some((before, _)) = self.last
+            && let Some(i) = SpeedLimit::ALL.iter().position(|l| *l == record.path.limit)
+        {
+            self.limits[i] += record.k.saturating_sub(before);
+        }
+        self.last = Some((record.k, record.path.s_mm));
+        self.cycles += 1;
+    }
+
+    /// Adds a message.
+    pub fn message(&mut self, message: &Diagnostic) {
+        if self.messages.len() < MESSAGES_KEPT {
+            self.messages.push(message.clone());
+        } else {
+            self.omitted += 1;
+        }
+    }
+
+    /// Number of cycles so far.
+    pub const fn cycles(&self) -> u64 {
+        self.cycles
+    }
+
+    /// The summary, with what only the simulation knows.
+    pub fn finish(self, totals: &Totals) -> Summary {
+        let facts = self.facts;
+        let seconds = |cycles: u64| cycles as f64 * f64::from(facts.cycle_us) / 1e6;
+        let (k, path_length_mm) = self.last.unwrap_or_default();
+        let (mm, at, file, line, block) = self.worst;
+        let axes = self.axes.iter().zip(&facts.axes).enumerate();
+        Summary {
+            state: if totals.aborted { State::Aborted } else { State::Finished },
+            cycles: self.cycles,
+            duration_s: seconds(k),
+            ideal_duration_s: totals.ideal_duration_s,
+            not_counted: totals.not_counted.clone(),
+            blocks: totals.blocks,
+            path_length_mm,
+            axes: axes
+                .map(|(i, (most, axis))| AxisSummary {
+                    name: axis.name.clone(),
+                    unit: axis.unit(),
+                    max_vel: most.vel,
+                    max_acc: most.acc,
+                    max_jerk: most.jerk,
+                    max_err: most.err,
+                    max_dev: most.dev,
+                    max_lag: most.lag,
+                    filter_delay_cycles: totals.filter_delay_cycles.get(i).copied().unwrap_or(0.0),
+                })
+                .collect(),
+            max_contour_error: (self.cycles > 0).then(|| ContourError {
+                mm,
+                time_s: seconds(at),
+                file: usize::try_from(file)
+                    .ok()
+                    .and_then(|i| facts.files.get(i).cloned())
+                    .unwrap_or_default(),
+                line,
+                block,
+            }),
+            time_by_v_limit_s: SpeedLimit::ALL
+                .iter()
+                .zip(self.limits)
+                .map(|(limit, cycles)| (limit.name(), seconds(cycles)))
+                .collect(),
+            messages: self.messages,
+            messages_omitted: self.omitted,
+            program: facts.program,
+            machine: facts.machine,
+            cycle_us: facts.cycle_us,
+        }
+    }
+}
+
+fn many(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
+impl Summary {
+    /// One JSON object on one line.
+    pub fn json(&self) -> String {
+        serde_json::to_string(self).unwrap_or_default()
+    }
+
+    /// The readable form.
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        // writing to a String cannot fail
+        let _ = self.write_text(&mut out);
+        out
+    }
+
+    fn write_text(&self, out: &mut String) -> std::fmt::Result {
+        let state = if self.state == State::Finished { "finished" } else { "aborted" };
+        writeln!(out, "{}  {state}", self.program)?;
+        let cycle_ms = f64::from(self.cycle_us) / 1000.0;
+        writeln!(out, "  machine        {}, cycle {cycle_ms} ms", self.machine)?;
+        writeln!(out, "  duration       {:.3} s ({} cycles)", self.duration_s, self.cycles)?;
+        writeln!(out, "  ideal          {:.3} s (path / feed)", self.ideal_duration_s)?;
+        for what in &self.not_counted {
+            writeln!(out, "  not counted    {what}")?;
+        }
+        writeln!(out, "  path           {:.4} mm in {} blocks", self.path_length_mm, self.blocks)?;
+        if let Some(worst) = &self.max_contour_error {
+            let block = worst.block.map_or_else(String::new, |n| format!(", N{n}"));
+            writeln!(
+                out,
+                "  contour error  at most {:.6} mm at t = {:.6} s, line {}{block}",
+                worst.mm, worst.time_s, worst.line
+            )?;
+        }
+        if self.cycles > 0 {
+            self.write_axes(out)?;
+        }
+        if self.duration_s > 0.0 {
+            write!(out, "  speed held by ")?;
+            let mut shares: Vec<_> = self.time_by_v_limit_s.iter().filter(|s| *s.1 > 0.0).collect();
+            shares.sort_by(|a, b| b.1.total_cmp(a.1));
+            for (i, (name, seconds)) in shares.iter().enumerate() {
+                let comma = if i > 0 { ", " } else { "" };
+                write!(out, "{comma}{name} {:.1} %", 100.0 * *seconds / self.duration_s)?;
+            }
+            writeln!(out)?;
+        }
+        let count = |severity| self.messages.iter().filter(|m| m.severity == severity).count();
+        let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
+        if errors + warnings > 0 || self.messages_omitted > 0 {
+            write!(
+                out,
+                "  messages       {}, {}",
+                many(errors, "error"),
+                many(warnings, "warning")
+            )?;
+            if self.messages_omitted > 0 {
+                write!(out, " and {} more", self.messages_omitted)?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+
+    fn write_axes(&self, out: &mut String) -> std::fmt::Result {
+        writeln!(
+            out,
+            "  {:<6} {:>12} {:>12} {:>14} {:>11} {:>11} {:>11} {:>10}",
+            "axis", "|vel| /s", "|acc| /s2", "|jerk| /s3", "|err|", "|dev|", "|lag|", "delay"
+        )?;
+        for a in &self.axes {
+            let delay_ms = a.filter_delay_cycles * f64::from(self.cycle_us) / 1000.0;
+            writeln!(
+                out,
+                "  {:<6} {:>12.4} {:>12.3} {:>14.1} {:>11.6} {:>11.6} {:>11.6} {:>7.2} ms",
+                format!("{} {}", a.name, a.unit),
+                a.max_vel,
+                a.max_acc,
+                a.max_jerk,
+                a.max_err,
+                a.max_dev,
+                a.max_lag,
+                delay_ms
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,261 @@
+//! Which columns a trace has: groups, names, units, and where the value of each stands in a record.
+
+use crate::engine::Facts;
+use kontur_interpreter::record::{AxisRecord, CycleRecord};
+
+/// Groups in the order of the trace; `time` is always there.
+pub const GROUPS: [&str; 10] =
+    ["time", "path", "ipo", "set", "kin", "err", "ctrl", "drive", "axis", "spindle"];
+
+/// Groups of a trace if nothing is said.
+pub const DEFAULT_SIGNALS: &str = "time,path,ipo,set,err,axis";
+
+/// Decimals of positions: 0.1 nm, a thousandth of the vendor's increment of 0.1 um.
+const POSITION_DECIMALS: u8 = 7;
+
+/// What stands in a column.
+#[derive(Clone, Copy, Debug)]
+pub enum Content {
+    /// `k T` in seconds.
+    Time,
+    /// Line of the file.
+    Line,
+    /// N number, empty if none.
+    Block,
+    /// Name of the file.
+    File,
+    /// What held the speed down.
+    Limit,
+    /// A number of the record.
+    Path(fn(&CycleRecord) -> f64),
+    /// A number of one axis.
+    Axis(usize, fn(&AxisRecord) -> f64),
+}
+
+/// One column.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Heading, with the unit at its end.
+    pub name: String,
+    /// Where the value comes from.
+    pub content: Content,
+    /// Digits after the point.
+    pub decimals: u8,
+    /// The group that brings it.
+    pub group: &'static str,
+}
+
+impl Column {
+    /// The value of a numeric column; zero where an axis is missing in the record.
+    pub fn number(&self, record: &CycleRecord) -> Option<f64> {
+        match self.content {
+            Content::Path(f) => Some(f(record)),
+            Content::Axis(i, f) => Some(record.axes.get(i).map_or(0.0, f)),
+            _ => None,
+        }
+    }
+}
+
+/// How the unit of an axis quantity is written behind its name, and its decimals.
+#[derive(Clone, Copy)]
+enum Unit {
+    Length,
+    Speed,
+    Acceleration,
+    Jerk,
+    Drive,
+    Torque,
+}
+
+impl Unit {
+    fn suffix(self, base: &str) -> String {
+        match self {
+            Self::Length => format!("_{base}"),
+            Self::Speed => format!("_{base}_s"),
+            Self::Acceleration => format!("_{base}_s2"),
+            Self::Jerk => format!("_{base}_s3"),
+            Self::Drive => "_drive".to_owned(),
+            Self::Torque => "_nm".to_owned(),
+        }
+    }
+
+    const fn decimals(self) -> u8 {
+        match self {
+            Self::Length => POSITION_DECIMALS,
+            Self::Speed | Self::Torque => 6,
+            Self::Acceleration | Self::Drive => 4,
+            Self::Jerk => 2,
+        }
+    }
+}
+
+/// One quantity of an axis: group, word, unit, value.
+type Quantity = (&'static str, &'static str, Unit, fn(&AxisRecord) -> f64);
+
+/// Every quantity of an axis, in the order of the trace.
+const QUANTITIES: [Quantity; 22] = [
+    ("ipo", "ipo", Unit::Length, |a| a.ipo),
+    ("set", "set", Unit::Length, |a| a.set),
+    ("kin", "vel", Unit::Speed, |a| a.vel),
+    ("kin", "acc", Unit::Acceleration, |a| a.acc),
+    ("kin", "jerk", Unit::Jerk, |a| a.jerk),
+    ("err", "err", Unit::Length, |a| a.err),
+    ("err", "dev", Unit::Length, |a| a.dev),
+    ("ctrl", "ff", Unit::Speed, |a| a.ff),
+    ("ctrl", "cmd", Unit::Speed, |a| a.cmd),
+    ("ctrl", "vadd", Unit::Speed, |a| a.vadd),
+    ("drive", "cmd", Unit::Drive, |a| a.cmd_drive),
+    ("drive", "vff", Unit::Drive, |a| a.vff_drive),
+    ("drive", "vadd", Unit::Drive, |a| a.vadd_drive),
+    ("drive", "torque", Unit::Drive, |a| a.torque_drive),
+    ("drive", "torque", Unit::Torque, |a| a.torque_n_m),
+    ("axis", "ref", Unit::Length, |a| a.reference),
+    ("axis", "act", Unit::Length, |a| a.act),
+    ("axis", "load", Unit::Length, |a| a.load),
+    ("axis", "lag", Unit::Length, |a| a.lag),
+    ("axis", "add", Unit::Length, |a| a.add),
+    ("axis", "tcp", Unit::Length, |a| a.tcp),
+    ("axis", "tcp_acc", Unit::Acceleration, |a| a.tcp_acc),
+];
+
+/// Every column that a run of this machine can have, in the order of the trace.
+pub fn all(facts: &Facts) -> Vec<Column> {
+    let mut columns = vec![
+        fixed("t_s", "time", Content::Time, 6),
+        fixed("line", "time", Content::Line, 0),
+        fixed("block", "time", Content::Block, 0),
+    ];
+    if facts.files.len() > 1 {
+        columns.push(fixed("file", "time", Content::File, 0));
+    }
+    columns.push(fixed("s_mm", "path", Content::Path(|r| r.path.s_mm), POSITION_DECIMALS));
+    columns.push(fixed("v_mm_s", "path", Content::Path(|r| r.path.v_mm_s), Unit::Speed.decimals()));
+    let a = Content::Path(|r| r.path.a_mm_s2);
+    columns.push(fixed("a_mm_s2", "path", a, Unit::Acceleration.decimals()));
+    columns.push(fixed(
+        "j_mm_s3",
+        "path",
+        Content::Path(|r| r.path.j_mm_s3),
+        Unit::Jerk.decimals(),
+    ));
+    columns.push(fixed("v_limit", "path", Content::Limit, 0));
+    for group in ["ipo", "set", "kin", "err", "ctrl", "drive", "axis"] {
+        for (i, axis) in facts.axes.iter().enumerate().filter(|(_, a)| !a.spindle) {
+            columns.extend(quantities(i, axis, |g| g == group));
+        }
+        if group == "err" {
+            let error = Content::Path(|r| r.contour_err_mm);
+            columns.push(fixed("contour_err_mm", "err", error, POSITION_DECIMALS));
+        }
+    }
+    for (i, axis) in facts.axes.iter().enumerate().filter(|(_, a)| a.spindle) {
+        let of_spindle = quantities(i, axis, |g| g != "err");
+        columns.extend(of_spindle.map(|c| Column { group: "spindle", ..c }));
+    }
+    columns
+}
+
+fn fixed(name: &str, group: &'static str, content: Content, decimals: u8) -> Column {
+    Column { name: name.to_owned(), content, decimals, group }
+}
+
+fn quantities<'a>(
+    index: usize,
+    axis: &'a crate::engine::AxisFacts,
+    wanted: impl Fn(&str) -> bool + 'a,
+) -> impl Iterator<Item = Column> + 'a {
+    QUANTITIES.iter().filter(move |q| wanted(q.0) && (axis.modal || !q.1.starts_with("tcp"))).map(
+        move |&(group, word, unit, value)| Column {
+            name: format!("{}_{word}{}", axis.name, unit.suffix(axis.unit())),
+            content: Content::Axis(index, value),
+            decimals: unit.decimals(),
+            group,
+        },
+    )
+}
+
+/// The columns that `signals` asks for: groups or column names separated by commas, in the order of the trace.
+///
+/// # Errors
+/// An unknown word: the message names the choices.
+pub fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, String> {
+    let all = all(facts);
+    let words: Vec<&str> = signals.split(',').map(str::trim).filter(|w| !w.is_empty()).collect();
+    for word in &words {
+        if !GROUPS.contains(word) && !all.iter().any(|c| c.name == *word) {
+            let names: Vec<&str> = all.iter().map(|c| c.name.as_str()).collect();
+            return Err(format!(
+                "--signals: `{word}` is neither a group nor a column\n  groups: {}\n  columns: {}",
+                GROUPS.join(", "),
+                names.join(", ")
+            ));
+        }
+    }
+    let wanted =
+        |c: &Column| c.group == "time" || words.iter().any(|w| *w == c.group || *w == c.name);
+    Ok(all.into_iter().filter(wanted).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::AxisFacts;
+
+    fn facts() -> Facts {
+        let axis = |name: &str, rotary, spindle| AxisFacts {
+            name: name.to_owned(),
+            rotary,
+            spindle,
+            modal: false,
+        };
+        Facts {
+            axes: vec![axis("X", false, false), axis("C", true, false), axis("S", true, true)],
+            files: vec!["part.nc".to_owned()],
+            ..Facts::default()
+        }
+    }
+
+    fn names(signals: &str) -> Vec<String> {
+        select(signals, &facts()).unwrap().into_iter().map(|c| c.name).collect()
+    }
+
+    #[test]
+    fn default_groups_in_trace_order() {
+        assert_eq!(
+            names(DEFAULT_SIGNALS).join(","),
+            "t_s,line,block,s_mm,v_mm_s,a_mm_s2,j_mm_s3,v_limit,X_ipo_mm,C_ipo_deg,X_set_mm,C_set_deg,\
+             X_err_mm,X_dev_mm,C_err_deg,C_dev_deg,contour_err_mm,X_ref_mm,X_act_mm,X_load_mm,X_lag_mm,\
+             X_add_mm,C_ref_deg,C_act_deg,C_load_deg,C_lag_deg,C_add_deg"
+        );
+    }
+
+    #[test]
+    fn groups_and_names_mix_and_time_is_always_there() {
+        assert_eq!(names("X_lag_mm").join(","), "t_s,line,block,X_lag_mm");
+        assert_eq!(
+            names("kin , X_torque_nm,X_cmd_drive").join(","),
+            "t_s,line,block,X_vel_mm_s,X_acc_mm_s2,X_jerk_mm_s3,C_vel_deg_s,C_acc_deg_s2,C_jerk_deg_s3,\
+             X_cmd_drive,X_torque_nm"
+        );
+        assert!(names("spindle").contains(&"S_vel_deg_s".to_owned()));
+        assert!(!names("kin").contains(&"S_vel_deg_s".to_owned()));
+    }
+
+    #[test]
+    fn unknown_word_names_the_choices() {
+        let message = select("ipo,X_foo_mm", &facts()).unwrap_err();
+        assert!(message.contains("`X_foo_mm`") && message.contains("spindle"), "{message}");
+        assert!(message.contains("C_ipo_deg"), "{message}");
+        let modal = select("X_tcp_mm", &facts());
+        assert!(modal.is_err(), "only modal plants have a tool point");
+    }
+
+    #[test]
+    fn names_are_unique() {
+        let mut names: Vec<String> = all(&facts()).into_iter().map(|c| c.name).collect();
+        let n = names.len();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), n);
+    }
+}

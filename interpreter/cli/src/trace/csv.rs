@@ -1,0 +1,206 @@
+//! The CSV writer: one header line, one line per cycle, whole lines only.
+
+use super::columns::{Column, Content};
+use super::fixed::{push_fixed, push_integer, push_seconds};
+use crate::engine::Facts;
+use kontur_interpreter::record::CycleRecord;
+use std::fs::File;
+use std::io::{self, Write};
+
+/// Turns records into lines of CSV.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    columns: Vec<Column>,
+    cycle_us: u64,
+    /// File names, quoted where CSV needs it.
+    files: Vec<String>,
+}
+
+impl Rows {
+    /// Rows with the given columns.
+    pub fn new(columns: Vec<Column>, facts: &Facts) -> Self {
+        let files = facts.files.iter().map(|f| quoted(f)).collect();
+        Self { columns, cycle_us: u64::from(facts.cycle_us), files }
+    }
+
+    /// Appends the header line.
+    pub fn push_header(&self, out: &mut Vec<u8>) {
+        for (i, column) in self.columns.iter().enumerate() {
+            if i > 0 {
+                out.push(b',');
+            }
+            out.extend_from_slice(quoted(&column.name).as_bytes());
+        }
+        out.push(b'\n');
+    }
+
+    /// Appends the line of one record.
+    pub fn push_row(&self, out: &mut Vec<u8>, record: &CycleRecord) {
+        for column in &self.columns {
+            match column.content {
+                Content::Axis(i, value) => {
+                    push_fixed(out, record.axes.get(i).map_or(0.0, value), column.decimals);
+                }
+                Content::Path(value) => push_fixed(out, value(record), column.decimals),
+                Content::Time => push_seconds(out, record.k.saturating_mul(self.cycle_us)),
+                Content::Line => push_integer(out, u64::from(record.line)),
+                Content::Block => {
+                    if let Some(n) = record.block {
+                        push_integer(out, n);
+                    }
+                }
+                Content::File => {
+                    let name = usize::try_from(record.file).ok().and_then(|i| self.files.get(i));
+                    out.extend_from_slice(name.map_or(b"", |n| n.as_bytes()));
+                }
+                Content::Limit => out.extend_from_slice(record.path.limit.name().as_bytes()),
+            }
+            out.push(b',');
+        }
+        if let Some(last) = out.last_mut() {
+            *last = b'\n';
+        }
+    }
+}
+
+/// A cell as CSV wants it: quoted only if it has to be.
+fn quoted(cell: &str) -> String {
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
+}
+
+/// A trace file that holds whole lines at every moment between two writes.
+#[derive(Debug)]
+pub struct CsvWriter {
+    rows: Rows,
+    file: File,
+    buffer: Vec<u8>,
+    written: u64,
+}
+
+impl CsvWriter {
+    /// Lines are handed to the system in pieces of this size; what a kill can lose is at most one piece.
+    const PIECE: usize = 256 * 1024;
+
+    /// Starts a trace with its header.
+    pub fn new(file: File, rows: Rows) -> Self {
+        let mut buffer = Vec::with_capacity(Self::PIECE + 4096);
+        rows.push_header(&mut buffer);
+        Self { rows, file, buffer, written: 0 }
+    }
+
+    /// Adds a record.
+    ///
+    /// # Errors
+    /// The system's, e.g. a full disk; what stands in the file then ends with a whole line.
+    pub fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
+        self.rows.push_row(&mut self.buffer, record);
+        if self.buffer.len() >= Self::PIECE { self.flush() } else { Ok(()) }
+    }
+
+    /// Hands every line to the system.
+    ///
+    /// # Errors
+    /// As [`CsvWriter::write`].
+    pub fn flush(&mut self) -> io::Result<()> {
+        let mut done = 0;
+        let result = loop {
+            match self.file.write(&self.buffer[done..]) {
+                _ if done == self.buffer.len() => break Ok(()),
+                Ok(0) => break Err(io::ErrorKind::WriteZero.into()),
+                Ok(n) => done += n,
+                Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+                Err(e) => break Err(e),
+            }
+        };
+        if result.is_err() {
+            let whole = self.buffer[..done].iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
+            // not every target can be cut (a pipe, a device): there the torn line stays, and the error is reported
+            let _ = self.file.set_len(self.written + whole as u64);
+        }
+        self.written += done as u64;
+        self.buffer.clear();
+        result
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::AxisFacts;
+    use crate::trace::columns;
+    use kontur_interpreter::record::{AxisRecord, PathRecord, SpeedLimit};
+
+    fn facts(files: &[&str]) -> Facts {
+        Facts {
+            cycle_us: 500,
+            axes: vec![AxisFacts { name: "X".to_owned(), ..AxisFacts::default() }],
+            files: files.iter().map(|&f| f.to_owned()).collect(),
+            ..Facts::default()
+        }
+    }
+
+    fn record(k: u64) -> CycleRecord {
+        CycleRecord {
+            k,
+            line: 6,
+            block: (k > 0).then_some(50),
+            file: 1,
+            path: PathRecord {
+                v_mm_s: 66.6666666,
+                limit: SpeedLimit::AxDev,
+                ..PathRecord::default()
+            },
+            axes: vec![AxisRecord { ipo: -0.5, ..AxisRecord::default() }],
+            ..CycleRecord::default()
+        }
+    }
+
+    #[test]
+    fn rows_read_as_plain_csv() {
+        let facts = facts(&["a.nc", "sub, \"old\".nc"]);
+        let rows = Rows::new(columns::select("v_mm_s,v_limit,ipo", &facts).unwrap(), &facts);
+        let mut out = Vec::new();
+        rows.push_header(&mut out);
+        rows.push_row(&mut out, &record(0));
+        rows.push_row(&mut out, &record(3));
+        assert_eq!(
+            String::from_utf8(out).unwrap(),
+            "t_s,line,block,file,v_mm_s,v_limit,X_ipo_mm\n\
+             0.000000,6,,\"sub, \"\"old\"\".nc\",66.666667,ax_dev,-0.5000000\n\
+             0.001500,6,50,\"sub, \"\"old\"\".nc\",66.666667,ax_dev,-0.5000000\n"
+        );
+    }
+
+    #[test]
+    fn long_traces_arrive_complete() {
+        let facts = facts(&["a.nc"]);
+        let rows = Rows::new(columns::select(columns::DEFAULT_SIGNALS, &facts).unwrap(), &facts);
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        let mut writer = CsvWriter::new(File::create(&path).unwrap(), rows);
+        for k in 0..20_000 {
+            writer.write(&record(k)).unwrap();
+        }
+        let before = std::fs::read(&path).unwrap();
+        assert!(!before.is_empty() && before.ends_with(b"\n"), "pieces end with a line");
+        writer.flush().unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(text.lines().count(), 20_001);
+        assert!(text.lines().last().unwrap().starts_with("9.999500,6,50,"));
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_full_disk_is_an_error() {
+        let facts = facts(&["a.nc"]);
+        let rows = Rows::new(columns::select("ipo", &facts).unwrap(), &facts);
+        let file = File::options().write(true).open("/dev/full").unwrap();
+        let mut writer = CsvWriter::new(file, rows);
+        writer.write(&record(0)).unwrap();
+        assert_eq!(writer.flush().unwrap_err().kind(), io::ErrorKind::StorageFull);
+    }
+}

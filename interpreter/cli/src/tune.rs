@@ -1,0 +1,313 @@
+//! `kontur tune`: from what was measured at a machine to the settings that leave its vibration alone.
+//!
+//! Residual vibration is computed for the kernels of the cycle time, never looked up: the vendor's table of permitted
+//! deviations normalises the set frequency by the real one, its worked example the other way round. Both stand in every
+//! answer.
+
+pub mod args;
+mod order;
+mod program;
+pub mod recording;
+
+use crate::console::Console;
+use crate::engine::Engine;
+use crate::table::{Table, number};
+use crate::{Error, Exit, simulator};
+use args::TuneArgs;
+use kontur_filters::analysis::tuning::{Choice, VibrationBand};
+use kontur_filters::time::CycleTime;
+use kontur_filters::vib_guard::VibGuardSettings;
+
+/// What the table of the modes is computed for.
+#[derive(Clone, Debug)]
+struct Task {
+    /// Measured natural frequencies in Hz.
+    freqs_hz: Vec<f64>,
+    band: VibrationBand,
+    /// A set frequency in Hz that is judged beside the best one.
+    at_hz: f64,
+    limit_ratio: f64,
+    feed_mm_min: f64,
+    cycle: CycleTime,
+}
+
+/// One row of the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Row {
+    choice: Choice,
+    /// The frequency was given, not found.
+    given: bool,
+}
+
+/// Answers the question that the arguments ask.
+///
+/// # Errors
+/// [`Error`] if lists or files are wrong, or if nothing can be said about them.
+pub fn tune(
+    args: &TuneArgs,
+    engine: &mut dyn Engine,
+    console: &mut Console,
+) -> Result<Exit, Error> {
+    let cycle = cycle(args, console)?;
+    if let Some(tolerance_mm) = args.order_for {
+        return order::answer(tolerance_mm, args.feed, cycle, console);
+    }
+    let (freqs_hz, measured_damping) = if args.recording.is_empty() {
+        (args.freq.clone(), None)
+    } else {
+        recording::measured(args, console)?
+    };
+    let damping = args.damping.or(measured_damping);
+    let damping = damping.unwrap_or(VibGuardSettings::default().damping);
+    let band = VibrationBand::of(&freqs_hz, damping)
+        .ok_or_else(|| Error::Usage("no natural frequency to tune for".to_owned()))?;
+    let task = Task {
+        at_hz: args.at.unwrap_or_else(|| median(&freqs_hz)),
+        freqs_hz,
+        band,
+        limit_ratio: args.max_residual / 100.0,
+        feed_mm_min: args.feed,
+        cycle,
+    };
+    let rows = task.rows();
+    console.print(&task.text(&rows))?;
+    if let (Some(file), Some(max_dev_mm)) = (&args.program, args.max_dev) {
+        return program::answer(&task, args, file, max_dev_mm, engine, console);
+    }
+    console.print(&task.proposal(&rows))?;
+    Ok(Exit::Finished)
+}
+
+/// The cycle of the machine, if one is named, else that of the option.
+fn cycle(args: &TuneArgs, console: &mut Console) -> Result<CycleTime, Error> {
+    let form = args.simulation.diagnostics;
+    let loaded = simulator::machine(&args.simulation.request(""));
+    let (machine, messages) = loaded.map_err(|e| crate::run::announce_lists(e, form, console))?;
+    // with a program the run repeats them
+    if args.program.is_none() {
+        for message in &messages {
+            crate::run::announce(message, form, console);
+        }
+    }
+    Ok(machine.cycle)
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (low, high) = (sorted.len().saturating_sub(1) / 2, sorted.len() / 2);
+    match (sorted.get(low), sorted.get(high)) {
+        (Some(low), Some(high)) => f64::midpoint(*low, *high),
+        _ => 0.0,
+    }
+}
+
+/// The command that switches settings on.
+fn command(settings: &VibGuardSettings, rest: &str) -> String {
+    let VibGuardSettings { mode, freq_hz, damping } = settings;
+    format!("#VIB GUARD ON [MODE={mode} FREQ={freq_hz} DAMPING={}{rest}]", rounded(*damping))
+}
+
+/// A damping ratio as it is written: nobody measures more digits.
+fn rounded(damping: f64) -> f64 {
+    (damping * 1e4).round() / 1e4
+}
+
+impl Task {
+    /// Every mode at its best frequency and at the given one; modes without a kernel are left out.
+    fn rows(&self) -> Vec<Row> {
+        (1..=4).flat_map(|mode| self.of_mode(mode)).collect()
+    }
+
+    fn of_mode(&self, mode: u8) -> impl Iterator<Item = Row> {
+        let best = self.band.best(mode, self.cycle);
+        let settings = VibGuardSettings { mode, freq_hz: self.at_hz, damping: self.band.damping };
+        let at = self.band.judge(settings, self.cycle);
+        let at = at.filter(|at| {
+            best.is_none_or(|best| (best.settings.freq_hz - at.settings.freq_hz).abs() > 1e-9)
+        });
+        let row = |given| move |choice| Row { choice, given };
+        best.map(row(false)).into_iter().chain(at.map(row(true)))
+    }
+
+    fn keeps(&self, choice: &Choice) -> bool {
+        choice.worst_ratio <= self.limit_ratio
+    }
+
+    fn corner_error_mm(&self, choice: &Choice) -> f64 {
+        choice.corner_error_s * self.feed_mm_min / 60.0
+    }
+
+    /// What was measured, what was assumed, and both tables.
+    fn text(&self, rows: &[Row]) -> String {
+        let list = |values: &[f64]| {
+            values
+                .iter()
+                .map(|f| format!("{}", (f * 1e3).round() / 1e3))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        let mut out = format!(
+            "measured  {} Hz, damping {}\n\
+             assumed   cycle {} ms; 90 degree corner at F{} without slowing down; residual at most {} %\n\n",
+            list(&self.freqs_hz),
+            rounded(self.band.damping),
+            f64::from(self.cycle.us()) / 1000.0,
+            self.feed_mm_min,
+            100.0 * self.limit_ratio,
+        );
+        let mut table = Table::new(&[
+            "mode",
+            "f_set Hz",
+            "",
+            "real/set - 1",
+            "set/real - 1",
+            "worst residual",
+            "contour error",
+            "delay",
+            "command",
+        ]);
+        for Row { choice, given } in rows {
+            let set = choice.settings.freq_hz;
+            let span =
+                |a: f64, b: f64| format!("{:+.1} {:+.1} %", 100.0 * (a - 1.0), 100.0 * (b - 1.0));
+            table.push(vec![
+                choice.settings.mode.to_string(),
+                format!("{set}"),
+                if *given { "given" } else { "best" }.to_owned(),
+                span(self.band.low_hz / set, self.band.high_hz / set),
+                span(set / self.band.high_hz, set / self.band.low_hz),
+                format!(
+                    "{} %{}",
+                    number(100.0 * choice.worst_ratio, 2),
+                    if self.keeps(choice) { "  " } else { " !" }
+                ),
+                format!("{} mm", number(self.corner_error_mm(choice), 5)),
+                format!("{} ms", number(choice.delay_cycles * 1000.0 * self.cycle.seconds(), 2)),
+                command(&choice.settings, ""),
+            ]);
+        }
+        out.push_str(&table.text());
+        out.push('\n');
+        out.push_str(&self.residuals(rows));
+        out
+    }
+
+    /// Residual vibration at each measured frequency.
+    fn residuals(&self, rows: &[Row]) -> String {
+        let mut header = vec!["mode".to_owned(), "f_set Hz".to_owned()];
+        header
+            .extend(self.freqs_hz.iter().map(|f| format!("f_real {} Hz", (f * 1e3).round() / 1e3)));
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        let mut table = Table::new(&header);
+        for Row { choice, .. } in rows {
+            let mut row =
+                vec![choice.settings.mode.to_string(), format!("{}", choice.settings.freq_hz)];
+            row.extend(self.freqs_hz.iter().map(|&real_hz| {
+                let one = VibrationBand { low_hz: real_hz, high_hz: real_hz, ..self.band };
+                let judged = one.judge(choice.settings, self.cycle);
+                judged
+                    .map_or_else(String::new, |c| format!("{} %", number(100.0 * c.worst_ratio, 2)))
+            }));
+            table.push(row);
+        }
+        table.text()
+    }
+
+    /// The mode with the least contour error among those that keep the limit, at its best frequency.
+    fn proposed(&self, rows: &[Row]) -> Option<Choice> {
+        let best = rows.iter().filter(|row| !row.given).map(|row| row.choice);
+        best.filter(|choice| self.keeps(choice))
+            .reduce(|a, b| if b.corner_error_s < a.corner_error_s { b } else { a })
+    }
+
+    fn proposal(&self, rows: &[Row]) -> String {
+        match self.proposed(rows) {
+            Some(choice) => format!(
+                "\nproposal  {}\n          the least contour error among the modes that keep {} %; AX_DEV=.. in the same brackets bounds it\n",
+                command(&choice.settings, ""),
+                100.0 * self.limit_ratio
+            ),
+            None => format!(
+                "\nproposal  none: no mode keeps {} % over {} to {} Hz; settings per position or a larger \
+                 --max-residual are what is left\n",
+                100.0 * self.limit_ratio,
+                self.band.low_hz,
+                self.band.high_hz
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn task(freqs_hz: &[f64]) -> Task {
+        Task {
+            at_hz: median(freqs_hz),
+            freqs_hz: freqs_hz.to_vec(),
+            band: VibrationBand::of(freqs_hz, 0.1).unwrap(),
+            limit_ratio: 0.05,
+            feed_mm_min: 4000.0,
+            cycle: CycleTime::DEFAULT,
+        }
+    }
+
+    #[test]
+    fn medians() {
+        for (values, want) in
+            [(&[6.9, 6.0, 5.4][..], 6.0), (&[4.0, 1.0, 2.0, 3.0], 2.5), (&[7.0], 7.0)]
+        {
+            assert!((median(values) - want).abs() < 1e-12, "{values:?}");
+        }
+    }
+
+    #[test]
+    fn the_vendors_example_gives_mode_2() {
+        let task = task(&[6.9, 6.0, 5.4]);
+        let rows = task.rows();
+        assert_eq!(rows.len(), 8);
+        assert_eq!(task.proposed(&rows).unwrap().settings.mode, 2);
+        let text = task.text(&rows);
+        // residuals of FREQ = 6 at 6.9, 6.0 and 5.4 Hz and both ways to state the deviation
+        for row in ["+15.0", "-10.0", "-13.0", "+11.1"] {
+            assert!(text.contains(row), "{row}: {text}");
+        }
+        let residual = |mode: &str| {
+            let lines = text.lines().skip_while(|l| !l.contains("f_real 6.9 Hz"));
+            let row = lines.filter(|l| l.starts_with(mode)).find(|l| l.contains(" 6 ")).unwrap();
+            let numbers = row.split_whitespace().filter_map(|w| w.parse::<f64>().ok());
+            let numbers: Vec<f64> = numbers.skip(2).collect();
+            [numbers[0], numbers[2]]
+        };
+        for (mode, want) in
+            [("1", [19.3, 13.5]), ("2", [3.7, 1.8]), ("3", [0.7, 0.2]), ("4", [6.6, 4.0])]
+        {
+            let is = residual(mode);
+            assert!(
+                (is[0] - want[0]).abs() < 0.06 && (is[1] - want[1]).abs() < 0.06,
+                "{mode} {is:?}"
+            );
+        }
+        assert!(task.proposal(&rows).contains("#VIB GUARD ON [MODE=2 FREQ="));
+    }
+
+    #[test]
+    fn a_band_too_wide_for_every_mode_gets_no_proposal() {
+        let task = task(&[4.0, 16.0]);
+        let rows = task.rows();
+        assert_eq!(task.proposed(&rows), None);
+        assert!(task.proposal(&rows).contains("none"));
+    }
+
+    #[test]
+    fn corner_errors_are_those_of_the_document() {
+        // 40 Hz at F4000, from the closed forms: 0.204, 0.236, 0.299, 0.204 mm; the grid changes them by 2 %
+        let task = task(&[40.0]);
+        for (row, want) in task.rows().iter().zip([0.20425, 0.23623, 0.29886, 0.20425]) {
+            let is = task.corner_error_mm(&row.choice);
+            assert!((is / want - 1.0).abs() < 0.02, "{is} {want}");
+        }
+    }
+}

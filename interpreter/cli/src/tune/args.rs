@@ -1,0 +1,86 @@
+//! The arguments of `kontur tune`.
+
+use crate::args::SimulationArgs;
+use clap::ArgGroup;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  mode and frequency for a machine whose natural frequency varies over its workspace
+    kontur tune --freq 6.9,6.0,5.4 --damping 0.1
+  the same from acceleration recordings at three positions
+    kontur tune --recording low.csv --recording middle.csv --recording high.csv --column a --rate 2000
+  what each choice costs in the user's own program
+    kontur tune --freq 6.9,6.0,5.4 --program part.nc --max-dev 0.01 -m machines/mill
+  the largest order of an HSC or FIR filter for 0.1 mm at F2000
+    kontur tune --order-for 0.1 --feed F2000";
+
+/// `kontur tune`.
+#[derive(Clone, Debug, clap::Args)]
+#[command(
+    after_long_help = EXAMPLES,
+    group(ArgGroup::new("from").args(["freq", "recording", "order_for"]).required(true)),
+)]
+pub struct TuneArgs {
+    /// Natural frequencies in Hz measured at several positions of the machine
+    #[arg(long, value_name = "HZ,..", value_delimiter = ',', value_parser = above_zero)]
+    pub freq: Vec<f64>,
+
+    /// Acceleration recording of a decaying vibration as CSV with a header line; one per position
+    #[arg(long, value_name = "FILE")]
+    pub recording: Vec<PathBuf>,
+
+    /// Column of the recordings with the acceleration [default: the last one]
+    #[arg(long, value_name = "NAME", requires = "recording")]
+    pub column: Option<String>,
+
+    /// Samples per second of the recordings [default: from their column `t_s`, `time` or `t` in seconds]
+    #[arg(long, value_name = "HZ", requires = "recording", value_parser = above_zero)]
+    pub rate: Option<f64>,
+
+    /// Damping ratio of the vibration [default: that of the recordings, else 0.1]
+    #[arg(long, value_name = "RATIO", value_parser = damping)]
+    pub damping: Option<f64>,
+
+    /// Also judge the modes at this frequency [default: the median of the measured ones]
+    #[arg(long, value_name = "HZ", value_parser = above_zero)]
+    pub at: Option<f64>,
+
+    /// Largest residual vibration that is good enough, in percent
+    #[arg(long, value_name = "PERCENT", default_value = "5", value_parser = above_zero)]
+    pub max_residual: f64,
+
+    /// Feed in mm/min at which a 90 degree corner is judged
+    #[arg(long, value_name = "FEED", default_value = "F1000", value_parser = crate::response::args::feed)]
+    pub feed: f64,
+
+    /// The largest order of a mean or Gauss filter whose contour error at a corner stays within this, in mm
+    #[arg(long, value_name = "MM", value_parser = above_zero, conflicts_with_all = ["program", "damping", "at"])]
+    pub order_for: Option<f64>,
+
+    /// Run this NC program with each choice: deviation from the contour and machining time
+    #[arg(long, value_name = "FILE", requires = "max_dev")]
+    pub program: Option<PathBuf>,
+
+    /// Largest deviation of an axis from the contour in --program, in mm (deg)
+    #[arg(long, value_name = "MM", requires = "program", value_parser = above_zero)]
+    pub max_dev: Option<f64>,
+
+    /// Machine and cycle; what else is simulated in --program
+    #[command(flatten)]
+    pub simulation: SimulationArgs,
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(v) if v.is_finite() && v > 0.0 => Ok(v),
+        _ => Err("a number above 0 is expected".to_owned()),
+    }
+}
+
+fn damping(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(v) if (0.0..=0.99).contains(&v) => Ok(v),
+        _ => Err("a damping ratio from 0 to 0.99 is expected".to_owned()),
+    }
+}

@@ -1,0 +1,417 @@
+//! The command line from outside, on an engine without a simulation: files, forms, exit codes.
+
+#![allow(clippy::unwrap_used, reason = "a test that fails here has failed")]
+
+mod synthetic;
+
+use kontur::console::Console;
+use kontur::{Exit, run_with};
+use std::cell::RefCell;
+use std::ffi::OsString;
+use std::io::Write;
+use std::path::PathBuf;
+use std::rc::Rc;
+use tempfile::TempDir;
+
+#[derive(Clone, Default)]
+struct Buffer(Rc<RefCell<Vec<u8>>>);
+
+impl Write for Buffer {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["corner.nc", "slow.nc", "late.nc", "bad.nc", "stubborn.nc"] {
+            std::fs::write(folder.path().join(name), "N10 M30\n").unwrap();
+        }
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Words that start with `@` are files of the folder.
+    fn call(&self, words: &[&str]) -> (Exit, String, String) {
+        let (out, err) = (Buffer::default(), Buffer::default());
+        let mut console = Console::new(out.clone(), err.clone());
+        let word = |w: &&str| match w.strip_prefix('@') {
+            Some(name) => self.path(name).into_os_string(),
+            None => OsString::from(w),
+        };
+        let args = std::iter::once(OsString::from("kontur")).chain(words.iter().map(word));
+        let exit = run_with(args, &mut synthetic::Synthetic, &mut console);
+        let text = |b: &Buffer| String::from_utf8(b.0.borrow().clone()).unwrap();
+        (exit, text(&out), text(&err))
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).unwrap()
+    }
+}
+
+#[test]
+fn run_writes_trace_and_summary() {
+    let f = Folder::new();
+    let (exit, out, err) = f.call(&["run", "@corner.nc", "-o", "@a.csv", "--summary", "json"]);
+    assert_eq!((exit, err.as_str()), (Exit::Finished, ""));
+    let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(summary["state"], "finished");
+    assert_eq!(summary["cycle_us"], 1000);
+    assert_eq!(summary["blocks"], 12);
+    assert_eq!(summary["path_length_mm"], 12.0);
+    assert_eq!(summary["axes"][0]["filter_delay_cycles"], 6.0);
+    let trace = f.read("a.csv");
+    let rows: Vec<&str> = trace.lines().collect();
+    assert_eq!(summary["cycles"], rows.len() as u64 - 1);
+    // the time of the last row is the duration, and all of it is accounted for
+    let last: f64 = rows.last().unwrap().split(',').next().unwrap().parse().unwrap();
+    let duration = summary["duration_s"].as_f64().unwrap();
+    assert!((last - duration).abs() < 1e-9);
+    let shares = summary["time_by_v_limit_s"].as_object().unwrap();
+    let sum: f64 = shares.values().map(|v| v.as_f64().unwrap()).sum();
+    assert!((sum - duration).abs() < 1e-9);
+    // the largest contour error of the summary stands in the trace, at its time and line
+    let column = |name: &str| rows[0].split(',').position(|n| n == name).unwrap();
+    let cell = |row: &str, name: &str| row.split(',').nth(column(name)).unwrap().to_owned();
+    let most = &summary["max_contour_error"];
+    let row = rows[1..]
+        .iter()
+        .find(|r| cell(r, "t_s") == format!("{:.6}", most["time_s"].as_f64().unwrap()))
+        .unwrap();
+    assert_eq!(cell(row, "contour_err_mm"), format!("{:.7}", most["mm"].as_f64().unwrap()));
+    assert_eq!(cell(row, "line"), most["line"].to_string());
+}
+
+#[test]
+fn same_input_same_bytes() {
+    let f = Folder::new();
+    for name in ["@a.csv", "@a.svg", "@a.html"] {
+        let words: Vec<&str> = if name.ends_with("csv") {
+            vec!["run", "@corner.nc", "-o", name]
+        } else {
+            vec!["report", "@corner.nc", "-o", name]
+        };
+        assert_eq!(f.call(&words).0, Exit::Finished);
+        let first = f.read(&name[1..]);
+        assert_eq!(f.call(&words).0, Exit::Finished);
+        assert!(first == f.read(&name[1..]), "{name}");
+    }
+}
+
+#[test]
+fn decimated_traces_keep_the_rows_they_show() {
+    let f = Folder::new();
+    f.call(&["run", "@corner.nc", "-o", "@all.csv", "--summary", "none"]);
+    f.call(&["run", "@corner.nc", "-o", "@some.csv", "--decimate", "10"]);
+    let all = f.read("all.csv");
+    let every_tenth: Vec<&str> =
+        all.lines().take(1).chain(all.lines().skip(1).step_by(10)).collect();
+    assert_eq!(f.read("some.csv").lines().collect::<Vec<_>>(), every_tenth);
+}
+
+#[test]
+#[cfg(feature = "parquet")]
+fn parquet_and_csv_side_by_side() {
+    let f = Folder::new();
+    let words = ["run", "@bad.nc", "-o", "@a.parquet", "-o", "@a.csv", "--summary", "none"];
+    assert_eq!(f.call(&words).0, Exit::Aborted);
+    let bytes = std::fs::read(f.path("a.parquet")).unwrap();
+    assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"), "complete after an abort");
+    let (exit, _, err) = f.call(&["diff", "@a.parquet", "@a.csv"]);
+    assert_eq!((exit, err.contains("CSV")), (Exit::Usage, true));
+}
+
+#[test]
+fn an_aborted_run_leaves_a_whole_trace() {
+    let f = Folder::new();
+    let (exit, out, err) =
+        f.call(&["run", "@bad.nc", "-o", "@bad.csv", "--summary", "json", "--diagnostics", "json"]);
+    assert_eq!(exit, Exit::Aborted);
+    assert!(out.contains("\"state\":\"aborted\"") && out.contains("20131"), "{out}");
+    let message: serde_json::Value = serde_json::from_str(err.trim()).unwrap();
+    assert_eq!((&message["id"], &message["source"]["line"]), (&20131.into(), &6.into()));
+    let trace = f.read("bad.csv");
+    assert_eq!(trace.lines().count(), 101);
+    assert!(trace.ends_with('\n'));
+    let (exit, _, err) = f.call(&["check", "@bad.nc", "@corner.nc"]);
+    assert_eq!(exit, Exit::Aborted);
+    assert!(err.contains("6 | N60 G777 X0\n  |     ^^^^"), "{err}");
+    assert_eq!(f.call(&["check", "@corner.nc"]).0, Exit::Finished);
+}
+
+#[test]
+fn diff_names_line_and_recognises_a_shift() {
+    let f = Folder::new();
+    for name in ["corner", "slow", "late"] {
+        f.call(&["run", &format!("@{name}.nc"), "-o", &format!("@{name}.csv")]);
+    }
+    let (exit, out, _) = f.call(&["diff", "@corner.csv", "@corner.csv"]);
+    assert_eq!((exit, out.starts_with("equal")), (Exit::Finished, true));
+    let (exit, out, _) = f.call(&["diff", "@corner.csv", "@slow.csv"]);
+    assert_eq!(exit, Exit::Aborted);
+    // the fourth edge of the first pass, line 7, is the first that is slower
+    assert!(out.contains("first  t = 0.086000 s, line 7 N70: s_mm"), "{out}");
+    assert!(out.contains("rows   387 in A, 465 in B"), "{out}");
+    let (exit, out, _) = f.call(&["diff", "@corner.csv", "@late.csv", "--format", "json"]);
+    assert_eq!(exit, Exit::Aborted);
+    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(json["result"]["shift_cycles"], 2);
+    let (exit, out, _) = f.call(&["diff", "@late.csv", "@corner.csv"]);
+    assert_eq!(exit, Exit::Aborted);
+    assert!(out.contains("equal if B is taken 2 rows later"), "{out}");
+}
+
+#[test]
+fn diff_runs_a_program_with_the_columns_of_the_trace() {
+    let f = Folder::new();
+    f.call(&["run", "@corner.nc", "-o", "@a.csv", "--signals", "set,X_lag_mm"]);
+    assert_eq!(f.call(&["diff", "@a.csv", "@corner.nc"]).0, Exit::Finished);
+    assert_eq!(f.call(&["diff", "@corner.nc", "@a.csv"]).0, Exit::Finished);
+    assert_eq!(f.call(&["diff", "@a.csv", "@slow.nc"]).0, Exit::Aborted);
+    assert_eq!(f.call(&["diff", "@corner.nc", "@corner.nc"]).0, Exit::Finished);
+}
+
+#[test]
+fn report_is_one_self_contained_file() {
+    let f = Folder::new();
+    assert_eq!(f.call(&["report", "@corner.nc", "@slow.nc", "-o", "@two.html"]).0, Exit::Finished);
+    let page = f.read("two.html");
+    assert!(!page.contains("http://") && !page.contains("https://"), "works offline");
+    assert!(!page.contains("/*"), "every place of the template is filled");
+    let data = page.split("type=\"application/json\">").nth(1).unwrap().split("</script>").next();
+    let data: serde_json::Value = serde_json::from_str(data.unwrap()).unwrap();
+    assert_eq!(data.as_array().unwrap().len(), 2);
+    assert_eq!(data[0]["k"].as_array().unwrap().len(), 387);
+    assert_eq!(data[0]["passes"], 3);
+    assert_eq!(f.call(&["report", "@corner.nc", "-o", "@a.svg"]).0, Exit::Finished);
+    let svg = f.read("a.svg");
+    assert!(svg.contains("pass 2, lines 9 to 12: contour error at most 0.1800 mm"), "{svg}");
+    assert!(!svg.contains("NaN") && !svg.contains("inf"));
+    let (exit, _, err) = f.call(&["report", "@corner.nc", "-o", "@a.png"]);
+    assert_eq!(exit, Exit::Usage);
+    assert!(err.contains(".html"), "{err}");
+}
+
+#[test]
+fn exit_codes_of_wrong_usage_and_files() {
+    let f = Folder::new();
+    assert_eq!(f.call(&["run", "@absent.nc"]).0, Exit::Io);
+    assert_eq!(f.call(&["run", "@corner.nc", "-o", "@no/such/folder/a.csv"]).0, Exit::Io);
+    assert_eq!(f.call(&["diff", "@absent.csv", "@absent.csv"]).0, Exit::Io);
+    for (name, text, expected) in [
+        ("empty.csv", "", Exit::Usage),
+        ("foreign.csv", "a,b\n1,2\n", Exit::Usage),
+        ("torn.csv", "t_s,line,block\n0.000000,1,10\n0.001000,1", Exit::Io),
+    ] {
+        std::fs::write(f.path(name), text).unwrap();
+        let file = format!("@{name}");
+        assert_eq!(f.call(&["diff", &file, "@corner.nc"]).0, expected, "{name}");
+    }
+    let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "@a.csv", "--signals", "bogus"]);
+    assert_eq!(exit, Exit::Usage);
+    assert!(
+        err.contains("`bogus`") && err.contains("spindle") && err.contains("X_set_mm"),
+        "{err}"
+    );
+    // a slip of the hand must not cost the program
+    for words in [
+        ["run", "@corner.nc", "-o", "@corner.nc"].as_slice(),
+        &["run", "@corner.nc", "-o", "@a.csv", "-o", "@a.csv"],
+        &["run", "@corner.nc", "-o", "@./corner.nc"],
+    ] {
+        assert_eq!(f.call(words).0, Exit::Usage, "{words:?}");
+    }
+    assert_eq!(f.read("corner.nc"), "N10 M30\n");
+    assert_eq!(f.call(&["run"]).0, Exit::Usage);
+    let (exit, out, _) = f.call(&["--help"]);
+    assert_eq!(exit, Exit::Finished);
+    for command in ["run", "check", "diff", "report", "explain"] {
+        assert!(out.contains(command), "{out}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_ends_with_three() {
+    let f = Folder::new();
+    let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "/dev/full", "-o", "@whole.csv"]);
+    assert_eq!(exit, Exit::Io);
+    assert!(err.contains("/dev/full"), "{err}");
+    assert_eq!(f.read("whole.csv").lines().count(), 388, "the other trace is complete");
+}
+
+#[test]
+fn explain_knows_ids_and_asks_the_engine() {
+    let f = Folder::new();
+    let (exit, out, _) = f.call(&["explain", "P-ERR-70082"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("70082") && out.contains("class 5"), "{out}");
+    let (exit, out, _) = f.call(&["explain", "#VIB", "GUARD"]);
+    assert_eq!((exit, out.as_str()), (Exit::Finished, "smooths the setpoints\n"));
+    let (exit, _, err) = f.call(&["explain", "nonsense"]);
+    assert_eq!(exit, Exit::Usage);
+    assert!(err.contains("did you mean #VIB GUARD?"), "{err}");
+}
+
+#[test]
+fn response_writes_tables_and_pictures() {
+    let f = Folder::new();
+    let filter = ["response", "--filter", "LOWPASS", "--prototype", "BUTTERWORTH,bessel"];
+    let words = |rest: &[&'static str]| -> Vec<&'static str> { [&filter[..], rest].concat() };
+    let (exit, out, err) = f.call(&words(&["--order", "4", "--f0", "15", "--range", "15..30"]));
+    assert_eq!((exit, err.as_str()), (Exit::Finished, ""));
+    assert!(out.starts_with("curve,f_hz,magnitude_db,phase_deg,group_delay_ms\n"), "{out}");
+    // -3.01 dB and -180 degrees: a Butterworth filter of order 4 at its corner frequency
+    let butterworth = out.lines().nth(1).unwrap();
+    assert!(
+        butterworth.contains("BUTTERWORTH 4, 15 Hz\",15.000000,-3.010300,-180.000000,"),
+        "{butterworth}"
+    );
+    assert_eq!(out.lines().count(), 1 + 2 * 801);
+    for view in [&["--step"][..], &["--corner", "F1000"], &["-o", "@extra.csv"]] {
+        let first = f.call(&words(&[view, &["-o", "@a.svg", "-o", "@a.csv"]].concat()));
+        assert_eq!(
+            (first.0, first.1.as_str(), first.2.as_str()),
+            (Exit::Finished, "", ""),
+            "{view:?}"
+        );
+        let picture = f.read("a.svg");
+        assert!(picture.starts_with("<svg") && picture.contains("LOWPASS BESSEL 2, 30 Hz"));
+        assert!(f.read("a.csv").starts_with("curve,"));
+        f.call(&words(&[view, &["-o", "@a.svg"]].concat()));
+        assert!(picture == f.read("a.svg"), "{view:?}");
+    }
+}
+
+#[test]
+fn response_of_shapers_and_axes() {
+    let f = Folder::new();
+    // at the set frequency nothing is left; a column per convention
+    let guard = ["response", "--guard", "MODE=2,FREQ=40"];
+    let residual = ["--residual", "--range", "40..80", "--damping", "0.1,0.2"];
+    let (exit, out, _) = f.call(&[&guard[..], &residual].concat());
+    assert_eq!(exit, Exit::Finished);
+    let rows: Vec<&str> = out.lines().collect();
+    assert_eq!(rows.len(), 1 + 2 * 601);
+    assert!(rows[1].ends_with(",0.1,40,40.000000,1.000000,1.000000,0.000000000"), "{}", rows[1]);
+    assert!(rows[601].contains(",80.000000,0.500000,2.000000,"), "{}", rows[601]);
+    // contour error of the mean filter: N(N+2)/(8(N+1)) v T
+    let (_, out, _) = f.call(&["response", "--hsc-mean", "10,50", "--corner", "F1000"]);
+    assert!(out.contains("HSC mean 10,10,1000,0.022727273,0.032141217,5.000000"), "{out}");
+    assert!(out.contains("HSC mean 50,50,1000,0.106209150,"), "{out}");
+    // the lists of the built-in machine switch nothing on; a setting does
+    let (exit, out, err) = f.call(&["response", "--axis", "X", "--step"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(err.contains("no filter") && out.contains("0.000000,1.000000000"), "{err}");
+    let set = ["--set", "X.vib_guard.active=1", "--set", "X.vib_guard.freq=40"];
+    let axis = ["response", "--axis", "X", "--corner", "F4000"];
+    let (_, with_lists, _) = f.call(&[&axis[..], &set].concat());
+    let (_, alone, _) = f.call(&["response", "--guard", "MODE=1,FREQ=40", "--corner", "F4000"]);
+    let numbers = |out: &str| out.lines().nth(1).unwrap().rsplit('"').next().unwrap().to_owned();
+    let numbers = [numbers(&with_lists), numbers(&alone)];
+    assert!(numbers[0].ends_with(numbers[1].trim_start_matches(',')), "{numbers:?}");
+}
+
+#[test]
+fn response_refuses_what_it_cannot_show() {
+    let f = Folder::new();
+    for (words, hint) in [
+        (&["response"][..], "--filter"),
+        (&["response", "--filter", "LOWPAS"], "LOWPASS"),
+        (&["response", "--filter", "LOWPASS", "--order", "0"], "order 0"),
+        (&["response", "--filter", "LOWPASS", "--order", "1.5"], "whole number"),
+        (&["response", "--filter", "LOWPASS", "--f0", "500"], "500 Hz is outside"),
+        (&["response", "--filter", "LOWPASS", "--step", "--corner", "F1000"], "--corner"),
+        (&["response", "--filter", "LOWPASS", "--residual"], "standard filters"),
+        (&["response", "--filter", "HIGHPASS", "--corner", "F1000"], "does not follow"),
+        (&["response", "--filter", "TIME_DELAY", "--time", "9000"], "50663"),
+        (&["response", "--guard", "MODE=5"], "mode 5"),
+        (&["response", "--guard", "DAMPING=1"], "damping 1"),
+        (&["response", "--guard", "HZ=5"], "MODE, FREQ, DAMPING"),
+        (&["response", "--fir", "MEAN"], "50989"),
+        (&["response", "--fir", "HANN,ORDER=4"], "GAUSS"),
+        (&["response", "--axis", "Q"], "X, Y, Z"),
+        (&["response", "--hsc-mean", "10", "-o", "@a.png"], ".svg"),
+        (&["response", "--hsc-mean", "10", "--range", "1..900"], "500 Hz"),
+    ] {
+        let (exit, _, err) = f.call(words);
+        assert_eq!(exit, Exit::Usage, "{words:?}");
+        assert!(err.contains(hint), "{words:?}: {err}");
+    }
+    assert_eq!(f.call(&["response", "--hsc-mean", "10", "-o", "@no/a.csv"]).0, Exit::Io);
+}
+
+#[test]
+fn tune_answers_the_vendors_questions() {
+    let f = Folder::new();
+    let (exit, out, _) = f.call(&["tune", "--freq", "6.9,6.0,5.4"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("proposal  #VIB GUARD ON [MODE=2 FREQ=6."), "{out}");
+    assert!(out.contains("#VIB GUARD ON [MODE=2 FREQ=6 DAMPING=0.1]"), "{out}");
+    let (exit, out, _) = f.call(&["tune", "--order-for", "0.1", "--feed", "F2000"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("[ORDER=23]") && out.contains("[ORDER=22]"), "{out}");
+    for words in [
+        &["tune"][..],
+        &["tune", "--freq", "0"],
+        &["tune", "--freq", "6", "--damping", "1"],
+        &["tune", "--freq", "6", "--order-for", "0.1"],
+        &["tune", "--freq", "6", "--program", "@corner.nc"],
+        &["tune", "--recording", "@corner.nc"],
+    ] {
+        assert_eq!(f.call(words).0, Exit::Usage, "{words:?}");
+    }
+    assert_eq!(f.call(&["tune", "--recording", "@absent.csv"]).0, Exit::Io);
+}
+
+#[test]
+fn tune_judges_the_choices_on_a_program() {
+    let f = Folder::new();
+    let tune = |program: &str, max_dev: &str| {
+        f.call(&["tune", "--freq", "38,42", "--program", program, "--max-dev", max_dev])
+    };
+    let (exit, out, err) = tune("@corner.nc", "1");
+    assert_eq!((exit, err.as_str()), (Exit::Finished, ""));
+    // the limits of the machine and what was assumed
+    assert!(out.contains("machine   xyz, cycle 1 ms") && out.contains("v_max"), "{out}");
+    assert!(out.contains("no AX_DEV in the program"), "{out}");
+    let rows: Vec<&str> = out.lines().skip_while(|l| !l.contains("machining time")).collect();
+    assert!(rows[1].starts_with("off") && rows[1].ends_with("no"), "{out}");
+    let chosen = rows.iter().find_map(|l| l.strip_prefix("choice    ")).unwrap();
+    // the shortest kernel that keeps 5 % has the least to flush at the end of a pass
+    let times: Vec<f64> = rows[2..]
+        .iter()
+        .filter(|row| row.ends_with("yes"))
+        .map(|row| row.split_whitespace().rev().nth(2).unwrap().parse().unwrap())
+        .collect();
+    let least = times.iter().copied().fold(f64::MAX, f64::min);
+    assert!(times.len() > 2 && out.contains(&format!("1 mm: {least:.3} s")), "{out}");
+    assert!(chosen.starts_with("#VIB GUARD ON [MODE="), "{chosen}");
+    let (_, out, _) = tune("@corner.nc", "1e-6");
+    assert!(out.contains("choice    none keeps both"), "{out}");
+    // what the program says itself
+    std::fs::write(f.path("corner.nc"), "N10 #VIB GUARD ON [AX_DEV=0.02]\nN20 M30\n").unwrap();
+    let (_, out, _) = tune("@corner.nc", "1");
+    assert!(out.contains("AX_DEV=0.02 (line 1)") && out.contains(" AX_DEV=0.02]\n"), "{out}");
+    std::fs::write(f.path("corner.nc"), "\nN10 #VIB GUARD ON [MODE=2 FREQ=40]\n").unwrap();
+    let (exit, _, err) = tune("@corner.nc", "1");
+    assert_eq!(exit, Exit::Usage);
+    assert!(err.contains("line 2") && err.contains("outvotes"), "{err}");
+    // a subroutine that goes on with its own guard shows in the delays
+    let (exit, _, err) = tune("@stubborn.nc", "1");
+    assert_eq!(exit, Exit::Usage);
+    assert!(err.contains("another Vibration Guard ran"), "{err}");
+    assert_eq!(tune("@bad.nc", "1").0, Exit::Aborted);
+}

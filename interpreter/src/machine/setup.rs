@@ -1,0 +1,96 @@
+//! From the parameters of a machine to the configuration of what happens to each axis behind the planner.
+//!
+//! Ranges are checked while the lists are loaded; what only shows when several values meet (a filter that cannot be
+//! designed, feedforward to an input that the drive does not have) is found here.
+
+mod control;
+mod filters;
+mod ipc;
+mod plant;
+
+pub(super) use control::has_rotary_motor;
+pub use filters::{FirPreset, KernelPreset, VibGuardPreset};
+pub(super) use ipc::PREFIX as IPC;
+
+use super::{Axis, Machine, issues};
+use crate::diag::Diagnostic;
+use kontur_filters::{
+    control::{AxisControlConfig, IpcConfig, Issue, buffer::channel_delay_cycles},
+    iir::AxisFilter,
+    time::CycleTime,
+};
+
+/// What the chain of one axis is made from.
+#[derive(Clone, Debug)]
+pub struct ChainSetup {
+    /// Standard filters that are on, in their order (`filter[i]`).
+    pub filters: Vec<AxisFilter>,
+    /// Everything behind the set position, corrected; the delay is that of the whole channel.
+    pub control: AxisControlConfig,
+    /// Difference of input and output below which the filters count as settled, in mm (P-AXIS-00351).
+    pub filter_window_mm: f64,
+    /// Exact-stop window in mm (P-AXIS-00236).
+    pub window_mm: f64,
+}
+
+impl Machine {
+    /// The chains of the path axes, then of the spindles, then of the gantry slaves (the order of
+    /// [`all_axes`](Self::all_axes)), and what there is to say about them.
+    ///
+    /// A gantry slave has its own filters and controller and Improved Position Control after its master. All chains
+    /// get the delay of the axis that needs the longest one, so that they stay in step; spindles too, because threads
+    /// tie them to the path.
+    ///
+    /// Diagnostics, always with axis and parameter: 110239, 110500, 110501, 50663 (spindles 60311), 50910, 50911, 50989,
+    /// 110361, K-0033, K-0036 to K-0040 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023, K-0024,
+    /// K-0062, K-0064, K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063 (Improved Position Control);
+    /// K-0070 (numbers that mean nothing).
+    pub fn chains(&self) -> (Vec<ChainSetup>, Vec<Diagnostic>) {
+        let mut diagnostics = Vec::new();
+        let mut chains: Vec<ChainSetup> =
+            self.all_axes().map(|axis| self.chain(axis, &mut diagnostics)).collect();
+        let delay = channel_delay_cycles(chains.iter().map(|chain| &chain.control.feedforward));
+        for chain in &mut chains {
+            chain.control.delay_cycles = delay;
+        }
+        (chains, diagnostics)
+    }
+
+    fn chain(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> ChainSetup {
+        let cascade = filters::cascade(axis, self.cycle, diagnostics);
+        filters::check_kernels(axis, self.cycle, diagnostics);
+        let mut config = control::config(axis, diagnostics);
+        config.ipc = self.ipc(axis, diagnostics);
+        let (control, found) = config.checked(self.cycle);
+        // loading has reported the denominator 0 already, whether or not torque is output
+        let new = |issue: &&Issue| !matches!(issue, Issue::TorqueScaleDenominatorZero);
+        diagnostics
+            .extend(found.iter().filter(new).map(|issue| issues::control(axis, issue, self.cycle)));
+        ChainSetup {
+            filters: cascade.filters,
+            control,
+            filter_window_mm: axis.filter_window_mm(),
+            window_mm: axis.window_mm(),
+        }
+    }
+
+    /// Improved Position Control of an axis; of a gantry slave that of its master, without effect if there is none.
+    fn ipc(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> IpcConfig {
+        let own = ipc::config(axis);
+        let Some(master) = axis.gantry_master() else { return own };
+        if own.enable {
+            diagnostics.push(issues::control(axis, &Issue::IpcGantrySlave, self.cycle));
+        }
+        let master = self.all_axes().find(|other| other.number() == master);
+        master.map(ipc::config).unwrap_or_default()
+    }
+}
+
+impl Axis {
+    /// What the list says about the kernel slot: FIR filter, HSC filter and Vibration Guard.
+    ///
+    /// [`Machine::chains`] reports what is wrong with them.
+    pub fn kernel_preset(&self, cycle: CycleTime) -> KernelPreset {
+        filters::preset(self, cycle)
+    }
+}

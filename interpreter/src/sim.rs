@@ -1,0 +1,479 @@
+//! The cycle loop: program steps into the planner, setpoints through the axes, records out.
+//!
+//! A [`Simulation`] is pulled one cycle at a time. The planner asks for blocks only as far as its look-ahead reaches, so
+//! neither the program nor the trace is ever held as a whole. Where the program needs the path at rest (exact stop,
+//! dwell, a new kernel), the planner runs dry, the loop holds the position until the condition is met, and only then
+//! asks the program for its next step.
+
+mod chain;
+mod fault;
+mod spindle;
+mod totals;
+mod wait;
+
+pub use totals::Totals;
+
+use crate::diag::{Diagnostic, Location};
+use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
+use crate::machine::{Axis, Machine};
+use crate::record::{CycleRecord, PathRecord};
+use crate::source::Sources;
+use chain::AxisChain;
+use kontur_filters::time::CycleTime;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::{Block, SlopeKind};
+use kontur_motion::limit::SpeedLimit;
+use kontur_motion::planner::{Next, Planner};
+use kontur_motion::tolerance::Kernels;
+use spindle::Spindle;
+use std::collections::VecDeque;
+use std::sync::Arc;
+use wait::Wait;
+
+/// Limits of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limits {
+    /// Program time in s after which a run is stopped (K-0017); the message names `--max-time`.
+    pub max_time_s: f64,
+}
+
+/// Where a run stands.
+#[derive(Debug)]
+enum Phase {
+    /// The row of time zero is still to come.
+    Start,
+    /// The planner decides.
+    Running,
+    /// At rest until the condition is met.
+    Waiting(Wait),
+    /// Braking after a fault, until the axes have come to rest.
+    Stopping {
+        settled_cycles: u32,
+    },
+    Done,
+}
+
+/// A block that is somewhere between the program and the machine.
+#[derive(Debug)]
+struct Underway {
+    seq: u64,
+    source: SourceRef,
+    jerk_limited: bool,
+    events: Vec<Event>,
+}
+
+/// Where the setpoint of a chain comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Driver {
+    /// Path axis; gantry slaves follow the path axis that is their master.
+    Path(usize),
+    Spindle(usize),
+    /// A gantry slave whose master is not in the channel.
+    Standing,
+}
+
+/// What follows when the path has come to rest.
+#[derive(Debug)]
+enum After {
+    Sync(Sync),
+    End(EndReason),
+}
+
+/// One channel running one program.
+#[derive(Debug)]
+pub struct Simulation {
+    machine: Arc<Machine>,
+    cycle: CycleTime,
+    executor: Executor,
+    planner: Planner,
+    /// Path axes, spindles, gantry slaves.
+    chains: Vec<AxisChain>,
+    drivers: Vec<Driver>,
+    spindles: Vec<Spindle>,
+    /// Feedforward gain of every chain.
+    gains: Vec<f64>,
+    underway: VecDeque<Underway>,
+    current: SourceRef,
+    jerk_limited: bool,
+    pending: Option<(After, SourceRef, Vec<Event>)>,
+    phase: Phase,
+    record: CycleRecord,
+    set: AxisVec,
+    vector: AxisVec,
+    max_cycles: u64,
+    /// Axes that a fault has stopped, and where.
+    frozen: Vec<Option<f64>>,
+    diagnostics: Vec<Diagnostic>,
+    totals: Totals,
+}
+
+impl Simulation {
+    /// A program on a machine, before its first cycle.
+    ///
+    /// # Errors
+    /// The diagnostics, if the plant of an axis is not physical or a program cannot be opened.
+    pub fn new(
+        machine: Arc<Machine>,
+        sources: Box<dyn Sources>,
+        program: &str,
+        options: Options,
+        limits: &Limits,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let cycle = machine.cycle;
+        let (setups, diagnostics) = machine.chains();
+        let executor = Executor::new(sources, program, Arc::clone(&machine), options);
+        let n = machine.axes.len();
+        let start = executor.start_position();
+        let drivers = drivers(&machine);
+        let mut chains = Vec::with_capacity(setups.len());
+        for (i, setup) in setups.into_iter().enumerate() {
+            let x = match drivers.get(i) {
+                Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
+                _ => 0.0,
+            };
+            match AxisChain::new(setup, x, cycle) {
+                Ok(chain) => chains.push(chain),
+                Err(e) => return Err(vec![fault::plant(&e, &machine, i)]),
+            }
+        }
+        let window = machine.channel.look_ahead.blocks as usize;
+        let spindles = machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
+        let records = chains.iter().map(AxisChain::at_start).collect();
+        let mut simulation = Self {
+            planner: Planner::new(cycle, window, &start[..n]),
+            gains: vec![0.0; chains.len()],
+            totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
+            frozen: vec![None; chains.len()],
+            chains,
+            drivers,
+            spindles,
+            underway: VecDeque::new(),
+            current: SourceRef::default(),
+            jerk_limited: false,
+            pending: None,
+            phase: Phase::Start,
+            record: CycleRecord { axes: records, ..CycleRecord::default() },
+            set: start.clone(),
+            vector: AxisVec::zeros(n),
+            max_cycles: (limits.max_time_s / cycle.seconds()) as u64,
+            diagnostics,
+            machine,
+            cycle,
+            executor,
+        };
+        simulation.feedforward(false, &vec![1.0; n]);
+        for spindle in 0..simulation.spindles.len() {
+            simulation.spindle_feedforward(spindle, false, 1.0);
+        }
+        let setup = simulation.executor.shaping().clone();
+        simulation.swap_kernels(&setup);
+        Ok(simulation)
+    }
+
+    /// The machine.
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// Names of the source files, in the order of [`CycleRecord::file`].
+    pub fn files(&self) -> &[Arc<str>] {
+        self.executor.files()
+    }
+
+    /// True if the plant of a chain (path axes, then spindles) has a tool point of its own.
+    pub fn has_tool_point(&self, chain: usize) -> bool {
+        self.chains.get(chain).is_some_and(AxisChain::has_tool_point)
+    }
+
+    /// Diagnostics since the last call, in the order of raising.
+    pub fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
+        let mut found = std::mem::take(&mut self.diagnostics);
+        found.extend(self.executor.take_diagnostics());
+        found
+    }
+
+    /// What no record holds; complete when there are no more cycles.
+    pub fn totals(&self) -> Totals {
+        Totals { blocks: self.executor.blocks(), ..self.totals.clone() }
+    }
+
+    /// Computes the next cycle; `None` when the program has ended or was stopped and the axes are at rest.
+    pub fn next_cycle(&mut self) -> Option<&CycleRecord> {
+        loop {
+            match &mut self.phase {
+                Phase::Done => return None,
+                Phase::Start => {
+                    self.phase = Phase::Running;
+                    return Some(&self.record);
+                }
+                Phase::Running => match self.planner.advance() {
+                    Ok(Next::Setpoint) => break,
+                    Ok(Next::Input) => self.pull(),
+                    Ok(Next::Rest) => self.at_rest(),
+                    Err(e) => {
+                        self.diagnostics.push(fault::internal(&e));
+                        self.totals.aborted = true;
+                        self.phase = Phase::Done;
+                    }
+                },
+                Phase::Waiting(wait) => {
+                    if wait.is_over(&self.chains[..self.vector.len()]) {
+                        self.go_on();
+                    } else {
+                        wait.count();
+                        self.planner.hold(SpeedLimit::Stop);
+                        break;
+                    }
+                }
+                Phase::Stopping { settled_cycles } => {
+                    let resting = self.planner.brake_is_over()
+                        && self.chains[..self.vector.len()].iter().all(AxisChain::settled);
+                    *settled_cycles = if resting { *settled_cycles + 1 } else { 0 };
+                    if *settled_cycles > fault::CYCLES_AT_REST {
+                        self.phase = Phase::Done;
+                        return None;
+                    }
+                    self.planner.advance_braking();
+                    break;
+                }
+            }
+        }
+        self.through_the_axes();
+        self.check_time();
+        Some(&self.record)
+    }
+
+    /// Takes the next step of the program.
+    fn pull(&mut self) {
+        let feedback = Feedback {
+            actual_mm: self.record.axes.iter().map(|a| a.act).take(self.vector.len()).collect(),
+            time_s: self.cycle.time_of(self.planner.setpoint().k),
+        };
+        match self.executor.next(&feedback) {
+            Step::Motion { block, source, events } => self.motion(block, source, events),
+            Step::Sync { what, source, events } => {
+                self.pending = Some((After::Sync(what), source, events));
+                self.planner.finish();
+            }
+            Step::End { reason, source, events } => {
+                self.pending = Some((After::End(reason), source, events));
+                self.planner.finish();
+            }
+        }
+    }
+
+    fn motion(&mut self, block: Block, source: SourceRef, events: Vec<Event>) {
+        self.totals.count(&block);
+        let jerk_limited = block.slope.kind != SlopeKind::Step;
+        self.underway.push_back(Underway { seq: block.seq, source, jerk_limited, events });
+        self.planner.push(block);
+    }
+
+    /// The path has come to rest behind everything that was pushed.
+    fn at_rest(&mut self) {
+        let Some((after, _, events)) = self.pending.take() else {
+            self.pull();
+            return;
+        };
+        for event in events {
+            self.act(event);
+        }
+        for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
+            if let Driver::Path(p) = driver {
+                chain.expect_stop(self.planner.setpoint().position[*p]);
+            }
+        }
+        self.phase = Phase::Waiting(match after {
+            After::Sync(sync) => Wait::for_sync(sync, self.cycle),
+            After::End(reason) => Wait::for_end(reason),
+        });
+    }
+
+    /// A wait is over: acts and returns to the program.
+    fn go_on(&mut self) {
+        let Phase::Waiting(wait) = std::mem::replace(&mut self.phase, Phase::Running) else {
+            return;
+        };
+        match wait.into_action() {
+            wait::Action::None => {}
+            wait::Action::Shaping(setup) => self.swap_kernels(&setup),
+            wait::Action::MachineData { axis, key, value } => {
+                self.machine_data(axis, &key, &value);
+            }
+            wait::Action::End(reason) => {
+                self.totals.aborted |= reason == EndReason::Aborted;
+                self.phase = Phase::Done;
+            }
+        }
+    }
+
+    fn act(&mut self, event: Event) {
+        match event {
+            Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
+            Event::SpindleFeedforward { spindle, on, weight_ratio } => {
+                self.spindle_feedforward(spindle, on, weight_ratio);
+            }
+            Event::Spindle { spindle, motion } => {
+                if let Some(spindle) = self.spindles.get_mut(spindle) {
+                    spindle.command(motion);
+                }
+            }
+            other => {
+                let time_s = self.cycle.time_of(self.planner.setpoint().k);
+                self.diagnostics.extend(self.totals.note(other, &self.machine, time_s));
+            }
+        }
+    }
+
+    fn feedforward(&mut self, on: bool, weights: &[f64]) {
+        for (i, chain) in self.chains.iter().enumerate() {
+            if let Driver::Path(p) = self.drivers[i] {
+                let weight = weights.get(p).copied().unwrap_or(1.0);
+                self.gains[i] = chain.feedforward_gain(on, weight);
+            }
+        }
+    }
+
+    fn spindle_feedforward(&mut self, spindle: usize, on: bool, weight: f64) {
+        for (i, chain) in self.chains.iter().enumerate() {
+            if self.drivers[i] == Driver::Spindle(spindle) {
+                self.gains[i] = chain.feedforward_gain(on, weight);
+            }
+        }
+    }
+
+    /// Puts new kernels into the path axes; they are flushed.
+    fn swap_kernels(&mut self, setup: &crate::exec::ShapingSetup) {
+        for (chain, axis) in self.chains.iter_mut().zip(&setup.axes) {
+            if chain.set_kernel(axis.kernel.clone()).is_err() {
+                self.diagnostics.push(fault::switch_while_moving());
+            }
+        }
+        let kernels = Kernels::new(setup.axes.iter().map(|a| a.kernel.clone()).collect());
+        let path = &self.chains[..self.vector.len()];
+        let reach = path.iter().map(AxisChain::reach_cycles).max().unwrap_or(0);
+        self.planner.set_kernels(kernels, reach);
+        for (delay, chain) in self.totals.filter_delay_cycles.iter_mut().zip(&self.chains) {
+            *delay = delay.max(chain.delay_cycles());
+        }
+    }
+
+    /// Hands the setpoint of the cycle through every axis and fills the record.
+    fn through_the_axes(&mut self) {
+        let (k, seq) = (self.planner.setpoint().k, self.planner.setpoint().seq);
+        while self.underway.front().is_some_and(|u| u.seq <= seq) {
+            if let Some(block) = self.underway.pop_front() {
+                self.current = block.source;
+                self.jerk_limited = block.jerk_limited;
+                for event in block.events {
+                    self.act(event);
+                }
+            }
+        }
+        let setpoint = self.planner.setpoint();
+        let n = self.vector.len();
+        let mut faults = Vec::new();
+        let spindles: Vec<f64> = self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
+        for (i, chain) in self.chains.iter_mut().enumerate() {
+            let ipo = match (self.frozen[i], self.drivers[i]) {
+                (Some(x), _) => x,
+                (None, Driver::Path(p)) => setpoint.position[p],
+                (None, Driver::Spindle(s)) => spindles[s],
+                (None, Driver::Standing) => chain.set_mm(),
+            };
+            let (record, found) = chain.step(ipo, self.gains[i], self.jerk_limited);
+            self.record.axes[i] = record;
+            faults.extend(found.iter().map(|f| (i, *f)));
+        }
+        let shaped = self.record.axes[..n].iter().any(|a| a.set.to_bits() != a.ipo.to_bits());
+        for (set, axis) in self.set.iter_mut().zip(&self.record.axes) {
+            *set = axis.set;
+        }
+        // on the contour bit for bit: nothing to search
+        self.record.contour_err_mm = if shaped {
+            self.planner.deviation(&self.set, &mut self.vector)
+        } else {
+            self.vector.fill(0.0);
+            0.0
+        };
+        for (axis, dev) in self.record.axes.iter_mut().zip(self.vector.iter()) {
+            axis.dev = *dev;
+        }
+        self.record.k = k;
+        self.record.file = self.current.file;
+        self.record.line = self.current.line;
+        self.record.block = self.current.block;
+        self.record.path = PathRecord {
+            s_mm: setpoint.s_mm,
+            v_mm_s: setpoint.v_mm_s,
+            a_mm_s2: setpoint.a_mm_s2,
+            j_mm_s3: setpoint.j_mm_s3,
+            limit: setpoint.limit,
+        };
+        for unkept in self.planner.take_unkept() {
+            let diagnostic = self.unkept(&unkept);
+            self.diagnostics.push(diagnostic);
+        }
+        for (i, f) in faults {
+            self.fault(i, &f);
+        }
+    }
+
+    /// `#MACHINE DATA`: the axis concerned gets a new chain at its present position; it is at rest.
+    fn machine_data(&mut self, axis: u32, key: &str, value: &str) {
+        let machine = Arc::make_mut(&mut self.machine);
+        let Some(i) = machine.axes.iter().position(|a| a.number() == axis) else { return };
+        if machine.axes[i].set(key, value).is_err() {
+            // the program was refused by the executor, which checks the same
+            return;
+        }
+        let (mut setups, _) = machine.chains();
+        let x = self.chains[i].set_mm();
+        match AxisChain::new(setups.swap_remove(i), x, self.cycle) {
+            Ok(chain) => {
+                self.chains[i] = chain;
+                let setup = self.executor.shaping().clone();
+                self.swap_kernels(&setup);
+            }
+            Err(e) => self.diagnostics.push(fault::plant(&e, &self.machine, i)),
+        }
+    }
+
+    /// Where a block stands.
+    fn locate(&self, source: SourceRef) -> Option<Location> {
+        let file = self.executor.files().get(source.file as usize)?;
+        Some(Location {
+            file: Arc::clone(file),
+            line: source.line,
+            column: 1,
+            offset: 0,
+            length: 1,
+            block: source.block,
+            text: "".into(),
+        })
+    }
+
+    fn check_time(&mut self) {
+        let k = self.planner.setpoint().k;
+        let over =
+            k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping { .. });
+        if over {
+            self.diagnostics.push(fault::out_of_time(k, self.cycle, self.max_cycles));
+            self.totals.aborted = true;
+            self.phase = Phase::Done;
+        }
+    }
+}
+
+/// The driver of every chain, in the order of [`Machine::all_axes`].
+fn drivers(machine: &Machine) -> Vec<Driver> {
+    let master = |axis: &Axis| {
+        let number = axis.gantry_master()?;
+        machine.axes.iter().position(|a| a.number() == number)
+    };
+    let slaves =
+        machine.gantry_slaves.iter().map(|a| master(a).map_or(Driver::Standing, Driver::Path));
+    let paths = (0..machine.axes.len()).map(Driver::Path);
+    let spindles = (0..machine.spindles.len()).map(Driver::Spindle);
+    paths.chain(spindles).chain(slaves).collect()
+}

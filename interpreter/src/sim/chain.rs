@@ -1,0 +1,183 @@
+//! One axis from its interpolated setpoint to its actual position, one cycle at a time.
+
+use crate::machine::ChainSetup;
+use crate::record::AxisRecord;
+use kontur_filters::control::axis_control::{AxisControl, ControlOutput};
+use kontur_filters::control::fault::Faults;
+use kontur_filters::control::plant::PlantError;
+use kontur_filters::kernel::{Kernel, SwitchWhileMoving};
+use kontur_filters::shaping::Shaping;
+use kontur_filters::stage::Stage;
+use kontur_filters::time::CycleTime;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// Shaping and control of one axis with what the trace derives from them.
+#[derive(Debug)]
+pub(crate) struct AxisChain {
+    shaping: Shaping,
+    control: AxisControl,
+    filter_window_mm: f64,
+    window_mm: f64,
+    delay_cycles: f64,
+    /// Interpolated setpoints as far back as the delay reaches, newest last.
+    ipo: VecDeque<f64>,
+    set: f64,
+    vel: f64,
+    acc: f64,
+    cycle: CycleTime,
+}
+
+impl AxisChain {
+    pub(crate) fn new(setup: ChainSetup, x: f64, cycle: CycleTime) -> Result<Self, PlantError> {
+        let mut control = AxisControl::new(setup.control, cycle)?;
+        control.start(x);
+        let mut chain = Self {
+            shaping: Shaping::new(setup.filters, x),
+            control,
+            filter_window_mm: setup.filter_window_mm,
+            window_mm: setup.window_mm,
+            delay_cycles: 0.0,
+            ipo: VecDeque::new(),
+            set: x,
+            vel: 0.0,
+            acc: 0.0,
+            cycle,
+        };
+        chain.align(x);
+        Ok(chain)
+    }
+
+    /// The delay changed: the setpoints that it reaches back to are those of the present standstill.
+    fn align(&mut self, x: f64) {
+        self.delay_cycles = self.shaping.delay_cycles();
+        let length = self.delay_cycles.ceil() as usize + 1;
+        self.ipo.clear();
+        self.ipo.resize(length, x);
+    }
+
+    /// Takes the kernel of FIR, HSC or Vibration Guard.
+    ///
+    /// # Errors
+    /// [`SwitchWhileMoving`] unless [`Self::ready_for`].
+    pub(crate) fn set_kernel(
+        &mut self,
+        kernel: Option<Arc<Kernel>>,
+    ) -> Result<(), SwitchWhileMoving> {
+        self.shaping.set_kernel(kernel)?;
+        let x = self.ipo.back().copied().unwrap_or(self.set);
+        self.align(x);
+        Ok(())
+    }
+
+    /// The kernel can be replaced without a jump.
+    pub(crate) fn ready_for(&self, kernel: Option<&Kernel>) -> bool {
+        self.shaping.ready_for(kernel)
+    }
+
+    /// The set position has arrived at the interpolated one.
+    pub(crate) fn settled(&self) -> bool {
+        self.shaping.settled(self.filter_window_mm)
+    }
+
+    /// The actual position is inside the exact-stop window (P-AXIS-00236).
+    pub(crate) fn in_position(&self) -> bool {
+        self.control.in_position(self.window_mm)
+    }
+
+    /// The path comes to rest with this axis at `target_mm`: the exact-stop timer is armed.
+    pub(crate) fn expect_stop(&mut self, target_mm: f64) {
+        self.control.expect_stop(target_mm);
+    }
+
+    /// Gain of feedforward in the state of G135, G136.
+    pub(crate) fn feedforward_gain(&self, on: bool, weight_ratio: f64) -> f64 {
+        self.control.config().feedforward.gain(on, weight_ratio)
+    }
+
+    /// Mean delay of the shaping in cycles.
+    pub(crate) fn delay_cycles(&self) -> f64 {
+        self.delay_cycles
+    }
+
+    /// Cycles over which a setpoint acts on the set position, for the reach of the contour.
+    pub(crate) fn reach_cycles(&self) -> u32 {
+        let tail = (4.0 * (self.delay_cycles - self.shaping.kernel().delay_cycles())).ceil();
+        self.shaping.flush_cycles() + tail.max(0.0) as u32
+    }
+
+    /// Tool point separate from the load.
+    pub(crate) fn has_tool_point(&self) -> bool {
+        self.control.has_tool_point()
+    }
+
+    /// Set position of the last cycle.
+    pub(crate) fn set_mm(&self) -> f64 {
+        self.set
+    }
+
+    /// One cycle without motion of time: what the trace shows at the start.
+    pub(crate) fn at_start(&self) -> AxisRecord {
+        let x = self.set;
+        AxisRecord {
+            ipo: x,
+            set: x,
+            reference: x,
+            act: x,
+            load: x,
+            tcp: x,
+            ..AxisRecord::default()
+        }
+    }
+
+    /// One cycle.
+    pub(crate) fn step(&mut self, ipo: f64, gain: f64, jerk_limited: bool) -> (AxisRecord, Faults) {
+        self.ipo.push_back(ipo);
+        self.ipo.pop_front();
+        let set = self.shaping.step(ipo);
+        let t = self.cycle.seconds();
+        let vel = (set - self.set) / t;
+        let acc = (vel - self.vel) / t;
+        let jerk = (acc - self.acc) / t;
+        (self.set, self.vel, self.acc) = (set, vel, acc);
+        let out = self.control.step(set, gain, jerk_limited);
+        (self.record(ipo, [set, vel, acc, jerk], &out), out.faults)
+    }
+
+    fn record(&self, ipo: f64, [set, vel, acc, jerk]: [f64; 4], out: &ControlOutput) -> AxisRecord {
+        AxisRecord {
+            ipo,
+            set,
+            vel,
+            acc,
+            jerk,
+            err: set - self.aligned(),
+            dev: 0.0,
+            ff: out.feedforward.speed_mm_s,
+            cmd: out.command_mm_s,
+            vadd: out.additive_speed_mm_s,
+            reference: out.reference_mm,
+            act: out.act_mm,
+            load: out.load_mm,
+            lag: out.lag_mm,
+            add: 0.0,
+            tcp: out.tcp_mm,
+            tcp_acc: out.tcp_acc_mm_s2,
+            cmd_drive: out.drive.command,
+            vff_drive: out.drive.feedforward,
+            vadd_drive: out.drive.additive_speed,
+            torque_drive: out.drive.torque,
+            torque_n_m: out.drive.torque_n_m,
+        }
+    }
+
+    /// Interpolated setpoint of the moment that the mean delay points to, linear between two samples.
+    fn aligned(&self) -> f64 {
+        let last = self.ipo.len() - 1;
+        let whole = self.delay_cycles.floor();
+        let part = self.delay_cycles - whole;
+        let newer = self.ipo[last - (whole as usize).min(last)];
+        let older = self.ipo[last - (whole as usize + usize::from(part > 0.0)).min(last)];
+        if part > 0.0 { newer + part * (older - newer) } else { newer }
+    }
+}

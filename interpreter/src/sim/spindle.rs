@@ -1,0 +1,89 @@
+//! Set position of a spindle: speed ramps and positioning.
+//!
+//! Speed changes use the linear slope of the spindle's list (P-AXIS-00270 = 0). Assumption: other slope types of
+//! spindles are driven with the same acceleration.
+
+use crate::exec::SpindleMotion;
+use kontur_filters::time::CycleTime;
+use kontur_motion::axis::AxisDynamics;
+use kontur_motion::profile::{SlopeLimits, SpanProfile, StepAxis, StepLimits};
+
+/// Positioning after M19: the profile, where it began, cycles since.
+#[derive(Clone, Debug)]
+struct Positioning {
+    profile: SpanProfile,
+    from_deg: f64,
+    cycles: u64,
+}
+
+/// One spindle.
+#[derive(Clone, Debug)]
+pub(super) struct Spindle {
+    limits: SlopeLimits,
+    acc_deg_s2: f64,
+    v_max_deg_s: f64,
+    position_deg: f64,
+    speed_deg_s: f64,
+    wanted: SpindleMotion,
+    positioning: Option<Positioning>,
+}
+
+impl Spindle {
+    pub(super) fn new(dynamics: &AxisDynamics) -> Self {
+        let slope = dynamics.step_feed;
+        let axis = StepAxis {
+            acc_mm_s2: slope.acc_mm_s2,
+            dec_mm_s2: slope.dec_mm_s2,
+            change_mm_s: slope.change_mm_s,
+        };
+        Self {
+            limits: SlopeLimits::Step(StepLimits::from_axes(&[axis])),
+            acc_deg_s2: slope.acc_mm_s2[0].min(slope.dec_mm_s2[0]),
+            v_max_deg_s: dynamics.v_max_mm_s,
+            position_deg: 0.0,
+            speed_deg_s: 0.0,
+            wanted: SpindleMotion::Stop,
+            positioning: None,
+        }
+    }
+
+    pub(super) fn command(&mut self, motion: SpindleMotion) {
+        self.wanted = motion;
+        self.positioning = None;
+    }
+
+    fn target_deg_s(&self) -> f64 {
+        let speed = match self.wanted {
+            SpindleMotion::Clockwise { rpm } => rpm * 6.0,
+            SpindleMotion::CounterClockwise { rpm } => -rpm * 6.0,
+            SpindleMotion::Stop | SpindleMotion::Position { .. } => 0.0,
+        };
+        speed.clamp(-self.v_max_deg_s, self.v_max_deg_s)
+    }
+
+    /// Set position of the next cycle in deg, counted on over the turns.
+    pub(super) fn step(&mut self, cycle: CycleTime) -> f64 {
+        let t = cycle.seconds();
+        if let SpindleMotion::Position { deg } = self.wanted {
+            if self.speed_deg_s.abs() <= 0.0 && self.positioning.is_none() {
+                let way = (deg - self.position_deg).rem_euclid(360.0);
+                let profile = self.limits.plan(0.0, 0.0, self.v_max_deg_s, way);
+                self.positioning = profile.ok().map(|profile| Positioning {
+                    profile,
+                    from_deg: self.position_deg,
+                    cycles: 0,
+                });
+            }
+            if let Some(p) = &mut self.positioning {
+                p.cycles += 1;
+                self.position_deg = p.from_deg + p.profile.at(cycle.time_of(p.cycles)).s_mm;
+                return self.position_deg;
+            }
+        }
+        let step = self.acc_deg_s2 * t;
+        let speed = self.speed_deg_s + (self.target_deg_s() - self.speed_deg_s).clamp(-step, step);
+        self.position_deg += 0.5 * (self.speed_deg_s + speed) * t;
+        self.speed_deg_s = speed;
+        self.position_deg
+    }
+}

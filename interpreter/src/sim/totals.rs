@@ -1,0 +1,63 @@
+//! What a run adds up beside its records.
+
+use crate::diag::{Diagnostic, Severity};
+use crate::exec::Event;
+use crate::machine::Machine;
+use kontur_motion::block::{Block, Feed};
+
+/// What is known when the last cycle has been computed and what no record holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// The program was refused or stopped by an error.
+    pub aborted: bool,
+    /// Blocks executed.
+    pub blocks: u64,
+    /// Sum of path length / programmed feed over the feed blocks in s.
+    pub ideal_duration_s: f64,
+    /// What the duration does not contain (M functions, tool changes, spindle run-up).
+    pub not_counted: Vec<String>,
+    /// Largest mean delay of the shaping of each axis in cycles.
+    pub filter_delay_cycles: Vec<f64>,
+}
+
+impl Totals {
+    /// Adds a motion.
+    pub(super) fn count(&mut self, block: &Block) {
+        self.ideal_duration_s += match block.feed {
+            Feed::PathVelocity(v) => block.path.length() / v,
+            Feed::Duration(t) => t,
+            Feed::Rapid | Feed::ShareOfMaximum(_) => 0.0,
+        };
+    }
+
+    /// Notes an event that moves nothing; a message of the program comes back as a note for the log.
+    pub(super) fn note(
+        &mut self,
+        event: Event,
+        machine: &Machine,
+        time_s: f64,
+    ) -> Option<Diagnostic> {
+        let name = match event {
+            Event::MFunction { number, .. } => {
+                if machine.channel.m_durations_s.contains_key(&number) {
+                    return None;
+                }
+                format!("M{number}")
+            }
+            Event::HFunction { number, .. } => format!("H{number}"),
+            Event::Tool { .. } => "tool change (T)".to_owned(),
+            Event::Message { text, .. } => {
+                let mut message = Diagnostic::kontur(81, text).severity(Severity::Note);
+                message.time_s = Some(time_s);
+                return Some(message);
+            }
+            Event::Feedforward { .. }
+            | Event::SpindleFeedforward { .. }
+            | Event::Spindle { .. } => return None,
+        };
+        if !self.not_counted.contains(&name) {
+            self.not_counted.push(name);
+        }
+        None
+    }
+}

@@ -1,0 +1,86 @@
+//! What the machine waits for while the path is at rest, and what happens then.
+
+use super::chain::AxisChain;
+use crate::exec::{EndReason, ShapingSetup, Sync};
+use kontur_filters::time::CycleTime;
+
+/// What happens when the wait is over.
+#[derive(Debug)]
+pub(super) enum Action {
+    None,
+    Shaping(Box<ShapingSetup>),
+    MachineData { axis: u32, key: String, value: String },
+    End(EndReason),
+}
+
+/// When the wait is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Until {
+    Now,
+    /// Cycles left.
+    Cycles(u64),
+    /// Kernels and filters flushed.
+    Flushed,
+    /// Flushed, and the actual positions in their windows (P-AXIS-00236).
+    InPosition,
+}
+
+/// A wait with what follows it.
+#[derive(Debug)]
+pub(super) struct Wait {
+    until: Until,
+    action: Action,
+}
+
+impl Wait {
+    pub(super) fn for_sync(sync: Sync, cycle: CycleTime) -> Self {
+        let (until, action) = match sync {
+            Sync::ExactStop => (Until::InPosition, Action::None),
+            Sync::Stop | Sync::ProgramStop { .. } => (Until::Now, Action::None),
+            Sync::Dwell { seconds } => {
+                (Until::Cycles((seconds / cycle.seconds()).round() as u64), Action::None)
+            }
+            Sync::FlushWait | Sync::ReadActual => (Until::Flushed, Action::None),
+            Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
+            Sync::MachineData { axis, key, value } => {
+                (Until::Flushed, Action::MachineData { axis, key, value })
+            }
+        };
+        Self { until, action }
+    }
+
+    pub(super) fn for_end(reason: EndReason) -> Self {
+        Self { until: Until::Flushed, action: Action::End(reason) }
+    }
+
+    pub(super) fn is_over(&self, chains: &[AxisChain]) -> bool {
+        let flushed = || {
+            chains.iter().enumerate().all(|(i, c)| {
+                c.settled()
+                    && match &self.action {
+                        Action::Shaping(setup) => {
+                            setup.axes.get(i).is_none_or(|a| c.ready_for(a.kernel.as_deref()))
+                        }
+                        _ => true,
+                    }
+            })
+        };
+        match self.until {
+            Until::Now | Until::Cycles(0) => true,
+            Until::Cycles(_) => false,
+            Until::Flushed => flushed(),
+            Until::InPosition => flushed() && chains.iter().all(AxisChain::in_position),
+        }
+    }
+
+    /// One cycle goes by.
+    pub(super) fn count(&mut self) {
+        if let Until::Cycles(n) = &mut self.until {
+            *n = n.saturating_sub(1);
+        }
+    }
+
+    pub(super) fn into_action(self) -> Action {
+        self.action
+    }
+}

@@ -1,0 +1,396 @@
+//! Feedforward, position control and Improved Position Control from the lists to what the axis does.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+
+use kontur_filters::control::{AxisControl, ControlOutput, Fault};
+use kontur_filters::shaping::Shaping;
+use kontur_filters::stage::Stage;
+use kontur_filters::time::CycleTime;
+use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::machine::table::ListKind;
+use kontur_interpreter::machine::{Machine, Override, lists};
+
+const MS: CycleTime = CycleTime::DEFAULT;
+const IPC: &str = "X.lr_param.improved_position_control";
+
+/// The built-in machine with settings, and everything said about it.
+fn machine(settings: &[String]) -> (Machine, Vec<Diagnostic>) {
+    let settings: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
+    let (machine, mut found) = Machine::builtin(&settings).unwrap();
+    found.extend(machine.chains().1);
+    (machine, found)
+}
+
+fn split(settings: &str) -> Vec<String> {
+    settings.split_whitespace().map(str::to_owned).collect()
+}
+
+fn ids(settings: &str) -> Vec<String> {
+    machine(&split(settings)).1.iter().map(|d| d.id.to_string()).collect()
+}
+
+/// Axis X of the machine with settings; whatever is said about it is asserted elsewhere.
+fn axis(settings: &str) -> AxisControl {
+    let (machine, _) = machine(&split(settings));
+    AxisControl::new(machine.chains().0.swap_remove(0).control, MS).unwrap()
+}
+
+/// 100 mm/s reached with 1000 mm/s2, held; mm in cycle `k`.
+fn ramp(k: u32) -> f64 {
+    let t = f64::from(k) * 1e-3;
+    if t < 0.1 { 500.0 * t * t } else { 5.0 + 100.0 * (t - 0.1) }
+}
+
+/// A second of the ramp under G135 (gain 1) or with another gain.
+fn drive(settings: &str, gain: f64) -> Vec<ControlOutput> {
+    let mut axis = axis(settings);
+    (0..1000).map(|k| axis.step(ramp(k), gain, true)).collect()
+}
+
+fn last(settings: &str, gain: f64) -> ControlOutput {
+    *drive(settings, gain).last().unwrap()
+}
+
+fn near(is: f64, want: f64, tolerance: f64) {
+    assert!((is - want).abs() <= tolerance, "{is} is not {want} +- {tolerance}");
+}
+
+/// A stage of X that works, and more settings.
+fn stage(more: &str) -> String {
+    format!(
+        "{IPC}.enable=1 {IPC}.v_add_max_fact=100 {IPC}.stage[0].mode=1 {IPC}.stage[0].filter[0].order=1 \
+         {IPC}.stage[0].filter[0].fg_f0=53 {IPC}.stage[0].filter[0].q_factor=10 {more}"
+    )
+}
+
+/// P-AXIS-00223 allows, the program selects; P-AXIS-00255 selects always. Conformance: F001, F005, F006, F008, F078.
+#[test]
+fn feedforward_of_an_axis() {
+    let mode = |names: &str| format!("X.vorsteuer.vorsteuerung={names}");
+    near(last(&mode("NONE"), 1.0).lag_mm, 2.0, 1e-6);
+    near(last(&mode("VEL"), 0.0).lag_mm, 2.0, 1e-6);
+    near(last(&mode("VEL"), 1.0).lag_mm, 0.0, 1e-6);
+    let weighted = format!("{} X.vorsteuer.vs_v_faktor=9 X.vorsteuer.vs_v_nenner=10", mode("VEL"));
+    near(last(&weighted, 1.0).lag_mm, 0.2, 1e-6);
+    // acceleration and jerk alone: nothing at constant speed, something while accelerating
+    for names in ["ACC", "JERK", "VEL|JERK", "3"] {
+        let settings = format!("{} X.vorsteuer.vs_a_faktor=5000", mode(names));
+        assert_eq!(ids(&settings), [""; 0], "{names}");
+        let fed: Vec<f64> =
+            drive(&settings, 1.0).iter().map(|o| o.feedforward.speed_mm_s).collect();
+        let highest = fed.iter().copied().fold(0.0, f64::max);
+        match names {
+            // a Ta
+            "ACC" => {
+                near(fed[50], 5.0, 1e-6);
+                near(fed[999], 0.0, 1e-6);
+            }
+            "JERK" => {
+                assert!(highest > 0.0);
+                near(fed[999], 0.0, 1e-6);
+            }
+            _ => near(fed[999], 100.0, 1e-6),
+        }
+    }
+    let (machine, _) = machine(&split("X.vorsteuer.default_active=1"));
+    let feedforward = machine.chains().0.swap_remove(0).control.feedforward;
+    near(feedforward.gain(false, 1.0), 1.0, 0.0);
+}
+
+/// Notation of the flags: names, numbers. Conformance: F049, F057, F073.
+#[test]
+fn feedforward_flags() {
+    let mode = |text: &str| {
+        let (machine, _) = machine(&[
+            format!("X.vorsteuer.vorsteuerung={text}"),
+            "kontur.axis[1].additive.velocity=1".to_owned(),
+            "kontur.axis[1].additive.torque=1".to_owned(),
+        ]);
+        machine.chains().0.swap_remove(0).control.feedforward.mode
+    };
+    assert_eq!(mode("VEL | ACC"), mode("3"));
+    assert_eq!(mode("VEL | ACC"), mode("0x3"));
+    assert_eq!(mode("0x101"), mode("ADD_VEL"));
+    assert_eq!(mode("0x202"), mode("ADD_ACC"));
+    assert_eq!(mode("ADD_VEL | ADD_ACC"), mode("0x303"));
+    assert_ne!(mode("VEL"), mode("ADD_VEL"));
+}
+
+/// Velocity-only weight, and a weight above 1 that leads. Conformance: F007, F012.
+#[test]
+fn weights_of_feedforward() {
+    let over = last("X.vorsteuer.vs_v_faktor=12 X.vorsteuer.vs_v_nenner=10", 1.0);
+    near(over.lag_mm, -0.4, 1e-6);
+    let settings = |weights: &str| {
+        format!("X.vorsteuer.vorsteuerung=3 X.vorsteuer.vs_a_faktor=5000 {weights}")
+    };
+    let fed = |weights: &str, k: usize| drive(&settings(weights), 1.0)[k].feedforward.speed_mm_s;
+    let fewer = "X.vorsteuer.feedforward_v_add_num=8 X.vorsteuer.feedforward_v_add_denom=10";
+    // constant speed: the velocity part alone
+    near(fed(fewer, 999), 0.8 * fed("", 999), 1e-9);
+    // accelerating: the acceleration part, 5 mm/s, is left as it is
+    near(fed("", 50) - fed(fewer, 50), 0.2 * (fed("", 50) - 5.0), 1e-9);
+}
+
+/// Additive variant: nothing at the controller, both parts behind the global weight. Conformance: F015, F016.
+#[test]
+fn additive_feedforward() {
+    let inputs = "kontur.axis[1].additive.velocity=1 kontur.axis[1].additive.torque=1";
+    let settings = |more: &str| format!("X.vorsteuer.vorsteuerung=0x303 {inputs} {more}");
+    let whole = drive(&settings(""), 1.0);
+    let half = drive(&settings("X.vorsteuer.vs_v_nenner=2"), 1.0);
+    for (whole, half) in whole.iter().zip(&half) {
+        let (whole, half) = (whole.feedforward, half.feedforward);
+        assert_eq!(whole.speed_mm_s.to_bits(), 0);
+        near(half.additive_speed_mm_s, 0.5 * whole.additive_speed_mm_s, 1e-9);
+        near(half.additive_acc_mm_s2, 0.5 * whole.additive_acc_mm_s2, 1e-9);
+    }
+    near(whole[999].feedforward.additive_speed_mm_s, 100.0, 1e-6);
+    near(whole[50].feedforward.additive_acc_mm_s2, 1000.0, 1e-6);
+}
+
+/// Feedforward delays the position path by five cycles, used or not. Conformance: F043.
+#[test]
+fn the_buffer_of_feedforward() {
+    for gain in [0.0, 1.0] {
+        let (with, without) = (
+            drive("X.vorsteuer.vorsteuerung=VEL", gain),
+            drive(
+                "X.vorsteuer.vorsteuerung=NONE Y.vorsteuer.vorsteuerung=NONE \
+                 Z.vorsteuer.vorsteuerung=NONE S.vorsteuer.vorsteuerung=NONE",
+                gain,
+            ),
+        );
+        for k in 5..1000 {
+            assert_eq!(with[k].reference_mm.to_bits(), without[k - 5].reference_mm.to_bits());
+        }
+    }
+}
+
+/// PROFIdrive takes the feedforward before its setpoint (P-AXIS-00165). Conformance: F018, F070.
+#[test]
+fn shift_of_profidrive() {
+    let begins = |settings: &str| {
+        let out = drive(settings, 1.0);
+        let fed = out.iter().position(|o| o.feedforward.speed_mm_s > 50.0).unwrap();
+        let moved = out.iter().position(|o| o.reference_mm > ramp(50)).unwrap();
+        moved - fed
+    };
+    let profidrive = |shift: u32| format!("X.kenngr.antr_typ=3 X.vorsteuer.shift_time={shift}");
+    let of_0 = begins(&profidrive(0));
+    assert_eq!(begins(&profidrive(2)), of_0 + 2);
+    assert_eq!(begins("X.kenngr.antr_typ=3"), of_0 + 3, "the default");
+    assert_eq!(begins("X.vorsteuer.shift_time=2"), of_0, "no PROFIdrive");
+    assert_eq!(ids(&profidrive(5)), ["K-0070"]);
+}
+
+/// What is out of range, and the values used. Conformance: F055, F065, F079, F080, F082, F086, F087, F088.
+#[test]
+fn corrections_of_feedforward() {
+    let torque = "X.vorsteuer.vorsteuerung=ADD_ACC kontur.axis[1].additive.torque=1";
+    for (settings, id) in [
+        ("X.vorsteuer.velocity_delay_time=5999".to_owned(), ""),
+        ("X.vorsteuer.velocity_delay_time=6000".to_owned(), "70349"),
+        ("X.vorsteuer.acceleration_delay_time=5999".to_owned(), ""),
+        ("X.vorsteuer.acceleration_delay_time=6000".to_owned(), "70348"),
+        ("X.vorsteuer.jerk_fact_denom=0".to_owned(), "110473"),
+        ("X.getriebe[0].gear_fact_denom=0".to_owned(), "110579"),
+        ("X.getriebe[0].gear_fact_num=0".to_owned(), "K-0070"),
+        (format!("{torque} X.antr.torque_scale_denom=0"), "110465"),
+        (format!("{torque} X.antr.torque_scale_num=0"), "K-0070"),
+        (format!("{torque} X.antr.acc_reference_value=0"), "K-0062"),
+    ] {
+        assert_eq!(ids(&settings).join(" "), id, "{settings}");
+        let used = drive(&settings, 1.0)[50];
+        assert!(used.drive.torque.is_finite() && used.drive.torque_n_m.is_finite(), "{settings}");
+        if ["110465", "K-0062"].contains(&id) {
+            assert_eq!(used.drive.torque.to_bits(), 0, "{settings}: no torque output");
+        }
+    }
+}
+
+/// Modes by name and number; stages beyond the third and the spelling of the text. Conformance: I002, I005, I036.
+#[test]
+fn keys_of_the_stages() {
+    let ipc = |more: &str| {
+        let (machine, found) = machine(&split(&stage(more)));
+        assert_eq!(found, []);
+        machine.chains().0.swap_remove(0).control.ipc
+    };
+    let mode = |mode: &str| {
+        ipc(&format!("{IPC}.stage[0].filter[0].damping=0.2 {IPC}.stage[0].mode={mode}"))
+    };
+    for (number, name) in
+        [("0", "NOT_ACTIVE"), ("1", "DIRECT"), ("2", "INDIRECT"), ("3", "SET_POINT")]
+    {
+        assert_eq!(mode(number), mode(name));
+    }
+    assert_ne!(mode("1"), mode("2"));
+    let three: String = (1..3)
+        .map(|i| {
+            let stage = format!("{IPC}.stage[{i}]");
+            format!(
+                "{stage}.mode=DIRECT {stage}.filter[0].order=1 {stage}.filter[0].fg_f0={} \
+                 {stage}.filter[0].q_factor=5 ",
+                100 * i
+            )
+        })
+        .collect();
+    assert_eq!(ipc(&three).stages.len(), 3);
+    let said = |key: &str| {
+        let mut found = Vec::new();
+        let text = format!("lr_param.improved_position_control.{key}\n");
+        lists::read(ListKind::Axis, "x.lis", text.as_bytes(), &mut found);
+        assert_eq!(found[0].id.to_string(), "1001119");
+        found[0].hint.clone().unwrap_or_default()
+    };
+    said("stage[3].mode 1");
+    assert!(said("stages[0].mode 1").contains("stage[i].mode"), "{}", said("stages[0].mode 1"));
+}
+
+/// Ranges of a stage. Conformance: I037, I038, I040, I041, I043, I046.
+#[test]
+fn ranges_of_the_stages() {
+    let filter = format!("{IPC}.stage[0].filter[0]");
+    let indirect = format!("{IPC}.stage[0].mode=2 {filter}.damping");
+    for (more, id) in [
+        (format!("{filter}.order=3"), ""),
+        (format!("{filter}.order=4"), "K-0025"),
+        (format!("{filter}.order=0"), "K-0025"),
+        (format!("{filter}.q_factor=1"), ""),
+        (format!("{filter}.q_factor=10.1"), "K-0025"),
+        (format!("{filter}.fg_f0=500 kontur.cycle_time_us=500"), ""),
+        (format!("{filter}.fg_f0=500.1 kontur.cycle_time_us=500"), "K-0025"),
+        (format!("{indirect}=0.999"), ""),
+        (format!("{indirect}=1"), "K-0025"),
+        (format!("{filter}.damping=1"), ""),
+        (format!("{IPC}.stage[0].weight_fact_num=20"), "K-0027"),
+        (format!("{IPC}.stage[0].weight_fact_num=0"), "70603"),
+        (format!("{IPC}.stage[0].weight_fact_denom=0"), "70604"),
+        (format!("{IPC}.v_add_max_fact=0"), "K-0026"),
+    ] {
+        assert_eq!(ids(&stage(&more)).join(" "), id, "{more}");
+    }
+}
+
+/// Of X alone; limit P-AXIS-00757 of P-AXIS-00212; disabled, the axis is one without. Conformance: I003, I044, I045, I047.
+#[test]
+fn limit_and_switch_of_the_additive_speed() {
+    let (machine, _) = machine(&split(&stage("")));
+    let enabled: Vec<bool> = machine.chains().0.iter().map(|c| c.control.ipc.enable).collect();
+    assert_eq!(enabled, [true, false, false, false]);
+    // a vibration of the set position that the stage answers at its limit: 1 % of 500 mm/s
+    let swing = |settings: &str| {
+        let mut axis = axis(settings);
+        let at = |k: u32| 0.5 * libm::sin(std::f64::consts::TAU * 53e-3 * f64::from(k));
+        (0..1000).map(|k| axis.step(at(k), 0.0, true)).collect::<Vec<_>>()
+    };
+    let slow = "X.getriebe[0].dynamik.vb_max=500000 X.getriebe[0].vb_eilgang=500000";
+    let limited = swing(&format!("{slow} {}", stage(&format!("{IPC}.v_add_max_fact=10"))));
+    let highest = limited.iter().map(|o| o.additive_speed_mm_s.abs()).fold(0.0, f64::max);
+    near(highest, 5.0, 0.0);
+    let said: Vec<&Fault> = limited.iter().flat_map(|o| o.faults.iter()).collect();
+    let plain = swing(slow);
+    let same: Vec<&Fault> = plain.iter().flat_map(|o| o.faults.iter()).collect();
+    assert_eq!(said.len(), same.len(), "nothing is said about the limit");
+    let off = swing(&format!("{slow} {}", stage(&format!("{IPC}.enable=0"))));
+    assert_eq!(off, plain);
+    let none = swing(&format!("{slow} {}", stage(&format!("{IPC}.v_add_max_fact=0"))));
+    assert!(none.iter().all(|o| o.additive_speed_mm_s.abs() <= 0.0));
+}
+
+/// P-AXIS-00532 decides; 0 switches off, below 0 the older P-AXIS-00151 decides.
+/// Conformance: P003, P005, P006, P007, P019, P020, P021.
+#[test]
+fn settling_time_of_the_lists() {
+    let slow = "X.getriebe[0].kv=1000 X.getriebe[0].window=500 X.vorsteuer.vorsteuerung=NONE \
+                Y.vorsteuer.vorsteuerung=NONE Z.vorsteuer.vorsteuerung=NONE S.vorsteuer.vorsteuerung=NONE";
+    // cycle of 70082 behind the stop after 100 mm/s
+    let late = |settings: &str| {
+        let mut axis = axis(&format!("{slow} {settings}"));
+        let at = |k: u32| 0.1 * f64::from(k.min(2000));
+        (0..4000).find_map(|k| {
+            if k == 2000 {
+                axis.expect_stop(at(2000));
+            }
+            let faults = axis.step(at(k), 0.0, true).faults;
+            let late = faults.iter().any(|f| matches!(f, Fault::SettlingTimeout { .. }));
+            late.then(|| k - 2000)
+        })
+    };
+    let (new, old) = ("X.getriebe[0].position_settling_time", "X.getriebe[0].pos_einschw_zeit");
+    assert_eq!(late(&format!("{new}=200000")), Some(200));
+    assert_eq!(late(&format!("{new}=400000")), Some(400));
+    assert_eq!(late(&format!("{new}=600000")), None);
+    assert_eq!(late(&format!("{new}=0")), None);
+    assert_eq!(late(&format!("{new}=-1 {old}=200000")), Some(200));
+    assert_eq!(late(&format!("{new}=400000 {old}=200000")), Some(400));
+    assert_eq!(late(&format!("{new}=600000 Y.getriebe[0].position_settling_time=10000")), None);
+}
+
+/// Additive speed of a bus drive in the drive's format, and with the sampling interval as time base.
+/// Conformance: I022, I023, I050.
+#[test]
+fn drive_format_of_the_additive_speed() {
+    let sercos = "X.kenngr.antr_typ=2 X.antr.v_reso_num=7 X.antr.v_reso_denom=3";
+    let out = |settings: &str| {
+        let mut axis = axis(&stage(settings));
+        let at = |k: u32| 0.1 * libm::sin(std::f64::consts::TAU * 53e-3 * f64::from(k));
+        let out: Vec<_> = (0..200).map(|k| axis.step(at(k), 0.0, true)).collect();
+        assert!(out.iter().any(|o| o.additive_speed_mm_s.abs() > 0.1));
+        out
+    };
+    for o in out(sercos) {
+        let um_min = o.additive_speed_mm_s * 1000.0 * 60.0;
+        near(o.drive.additive_speed, um_min * 7.0 / 3.0, 1e-9 * um_min.abs());
+    }
+    // the drive of the CNC's position control: P-AXIS-00129 / 00128 at 1 m/min
+    for o in out("X.getriebe[0].multi_gain_z=3000 X.getriebe[0].multi_gain_n=2") {
+        let m_min = o.command_mm_s * 0.06;
+        near(o.drive.command, m_min * 1500.0, 1e-9 * (m_min * 1500.0).abs());
+        near(o.drive.additive_speed, o.additive_speed_mm_s * 0.06 * 1500.0, 1e-9);
+    }
+    let counts = |cycle_us: u32| {
+        let settings = format!("{sercos} X.antr.v_time_base=2 kontur.cycle_time_us={cycle_us}");
+        let (machine, _) = machine(&split(&settings));
+        let format = machine.chains().0.swap_remove(0).control.command_format;
+        format.counts_per_mm_s(machine.cycle.seconds())
+    };
+    near(counts(2000), 2.0 * counts(1000), 1e-12);
+    near(counts(1000), 7.0 / 3.0, 1e-12);
+}
+
+/// A drive three cycles late beside one without dead time, fed forward with next to no gain: with a time delay of three
+/// cycles in the other axis a diagonal is as straight as with equal axes. Conformance: A066.
+#[test]
+fn a_time_delay_equalises_dead_times() {
+    let gap = |settings: &str| {
+        let equal = "X.getriebe[0].kv=10 Y.getriebe[0].kv=10";
+        let (machine, _) = machine(&split(&format!("{equal} {settings}")));
+        let chains = machine.chains().0;
+        let mut axes: Vec<(Shaping, AxisControl)> = chains
+            .into_iter()
+            .take(2)
+            .map(|c| (Shaping::new(c.filters, 0.0), AxisControl::new(c.control, MS).unwrap()))
+            .collect();
+        let mut worst: f64 = 0.0;
+        for k in 0..400 {
+            let mut act = [0.0; 2];
+            for (act, (shaping, control)) in act.iter_mut().zip(&mut axes) {
+                *act = control.step(shaping.step(ramp(k)), 1.0, true).act_mm;
+            }
+            worst = worst.max((act[0] - act[1]).abs() / std::f64::consts::SQRT_2);
+        }
+        worst
+    };
+    let late = "Y.antr.simu.totzeit=3";
+    let delay = "X.filter[0].enable=1 X.filter[0].type=TIME_DELAY X.filter[0].order=1 X.filter[0].time_constant=3000";
+    assert!(gap("") <= 0.0);
+    // three cycles at 100 mm/s, seen across the diagonal
+    near(gap(late), 0.3 / std::f64::consts::SQRT_2, 0.03);
+    assert!(
+        gap(&format!("{late} {delay}")) < 0.25 * gap(late),
+        "{}",
+        gap(&format!("{late} {delay}"))
+    );
+}

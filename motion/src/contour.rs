@@ -1,0 +1,90 @@
+//! The programmed contour that is still within reach of the filters, and the distance of a set point from it.
+
+use crate::axis::AxisVec;
+use crate::queue::Queued;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// Blocks with the moment, in cycles, at which the interpolator entered them.
+#[derive(Clone, Debug, Default)]
+pub struct Contour {
+    blocks: VecDeque<(f64, Arc<Queued>)>,
+}
+
+impl Contour {
+    /// Adds the block that is entered at `cycles` (not before the moments added so far).
+    pub(crate) fn enter(&mut self, cycles: f64, block: Arc<Queued>) {
+        self.blocks.push_back((cycles, block));
+    }
+
+    /// Forgets blocks that were left before `cycles`.
+    pub(crate) fn forget_before(&mut self, cycles: f64) {
+        while self.blocks.len() > 1 && self.blocks[1].0 < cycles {
+            self.blocks.pop_front();
+        }
+    }
+
+    /// Blocks that were being interpolated at some time in `from..=to` (cycles), with the time of entry.
+    pub(crate) fn between(
+        &self,
+        from: f64,
+        to: f64,
+    ) -> impl DoubleEndedIterator<Item = &(f64, Arc<Queued>)> {
+        let first = self.blocks.partition_point(|b| b.0 <= from).saturating_sub(1);
+        let last = self.blocks.partition_point(|b| b.0 <= to).max(first);
+        self.blocks.range(first..last)
+    }
+
+    /// Components of the shortest vector from the contour between two moments to `point`; returns its length.
+    ///
+    /// Zero if there is no contour yet.
+    pub fn deviation(&self, point: &[f64], from: f64, to: f64, out: &mut [f64]) -> f64 {
+        nearest(self.between(from, to), point, out)
+    }
+
+    /// Largest component of the shortest vector, whichever way a border within `slack` cycles of the two moments is
+    /// counted: a sample that lies on the border of two blocks belongs to both.
+    pub(crate) fn worst_component(&self, point: &[f64], from: f64, to: f64, slack: f64) -> f64 {
+        let count = |t: f64| self.blocks.partition_point(|b| b.0 <= t);
+        let first = |t: f64| count(t).saturating_sub(1);
+        let firsts = first(from - slack)..=first(from + 1e-6);
+        let lasts = count(to - 1e-6).max(1)..=count(to + 1e-6).max(1);
+        let mut vector = AxisVec::zeros(point.len());
+        let mut worst = 0.0;
+        for begin in firsts {
+            for end in lasts.clone() {
+                let blocks = self.blocks.range(begin..end.max(begin + 1).min(self.blocks.len()));
+                nearest(blocks, point, &mut vector);
+                worst = vector.iter().fold(worst, |m: f64, c| m.max(c.abs()));
+            }
+        }
+        worst
+    }
+}
+
+/// Shortest vector from the paths of the blocks to a point.
+fn nearest<'a>(
+    blocks: impl Iterator<Item = &'a (f64, Arc<Queued>)>,
+    point: &[f64],
+    out: &mut [f64],
+) -> f64 {
+    let mut best = f64::INFINITY;
+    let mut q = AxisVec::zeros(point.len());
+    for (_, queued) in blocks {
+        let path = &queued.block.path;
+        path.position(path.nearest(point), &mut q);
+        let d2: f64 = q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
+        if d2 < best {
+            best = d2;
+            for ((o, q), p) in out.iter_mut().zip(q.iter()).zip(point) {
+                *o = p - q;
+            }
+        }
+    }
+    if best.is_finite() {
+        best.sqrt()
+    } else {
+        out.fill(0.0);
+        0.0
+    }
+}

@@ -1,0 +1,251 @@
+//! What one block allows: path velocity and path slope, derived from the axes that move in it.
+//!
+//! On a path with one profile `s(t)` every axis follows `q_i(s)`: its velocity is `v |q_i'|`, its acceleration
+//! `|a q_i' + v^2 q_i''|`. Every limit below is a named function of the block alone; what happens between blocks
+//! stands in [`crate::corner`].
+
+use crate::axis::{AxisDynamics, AxisVec};
+use crate::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind};
+use crate::limit::SpeedLimit;
+use crate::path::{ArcPath, Path};
+use crate::profile::{RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
+use kontur_filters::time::CycleTime;
+use smallvec::SmallVec;
+
+/// Largest absolute values of the path derivatives of every axis over one block.
+#[derive(Clone, Debug)]
+pub struct PathExtremes {
+    /// `max |q_i'|`.
+    pub first: AxisVec,
+    /// `max |q_i''|` in 1/mm.
+    pub second: AxisVec,
+    /// `max |q_i'''|` in 1/mm2.
+    pub third: AxisVec,
+}
+
+/// Largest derivatives over the angular range that an arc really travels: 1 where the axis direction lies inside the
+/// range, else the larger end value.
+fn arc_extremes(arc: &ArcPath) -> PathExtremes {
+    let n = arc.start().len();
+    let [a, b] = arc.shape().plane;
+    let sweep = arc.shape().sweep_rad;
+    let rate = sweep.abs() / arc.length();
+    let radius = arc.radius();
+    let (from, to) = if sweep > 0.0 {
+        (arc.start_angle(), arc.start_angle() + sweep)
+    } else {
+        (arc.start_angle() + sweep, arc.start_angle())
+    };
+    // max |cos(x + shift)| for x in from..to; |cos| is 1 at multiples of pi
+    let largest = |shift: f64| -> f64 {
+        let (lo, hi) = ((from + shift) / std::f64::consts::PI, (to + shift) / std::f64::consts::PI);
+        if hi.floor() >= lo.ceil() {
+            1.0
+        } else {
+            libm::cos(from + shift).abs().max(libm::cos(to + shift).abs())
+        }
+    };
+    let (cos, sin) = (largest(0.0), largest(-std::f64::consts::FRAC_PI_2));
+    let mut first = AxisVec::zeros(n);
+    arc.tangent_outside_plane(&mut first);
+    for v in first.iter_mut() {
+        *v = v.abs();
+    }
+    let (mut second, mut third) = (AxisVec::zeros(n), AxisVec::zeros(n));
+    let (v1, v2, v3) = (radius * rate, radius * rate * rate, radius * rate * rate * rate);
+    (first[a], first[b]) = (v1 * sin, v1 * cos);
+    (second[a], second[b]) = (v2 * cos, v2 * sin);
+    (third[a], third[b]) = (v3 * sin, v3 * cos);
+    PathExtremes { first, second, third }
+}
+
+impl PathExtremes {
+    /// The extremes of a path.
+    pub fn of(path: &Path) -> Self {
+        match path {
+            Path::Line(line) => {
+                let n = line.direction().len();
+                Self {
+                    first: line.direction().iter().map(|u| u.abs()).collect(),
+                    second: AxisVec::zeros(n),
+                    third: AxisVec::zeros(n),
+                }
+            }
+            Path::Arc(arc) => arc_extremes(arc),
+            Path::Curve(curve) => {
+                let [first, second, third] = curve.extremes().clone();
+                Self { first, second, third }
+            }
+        }
+    }
+}
+
+/// `min_i limit_i / share_i` over the axes that move.
+fn weakest(axes: &[AxisDynamics], share: &[f64], limit: impl Fn(&AxisDynamics) -> f64) -> f64 {
+    axes.iter()
+        .zip(share)
+        .filter(|(_, u)| **u > 0.0)
+        .map(|(a, u)| limit(a) / u)
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Acceleration that an axis may use for curvature and kinks: the smaller of its acceleration and deceleration in the
+/// active mode (Assumption: the documents tie it to G00 or feed, not to one of the two directions).
+pub fn contour_acceleration(axis: &AxisDynamics, slope: Slope, rapid: bool) -> f64 {
+    match (slope.kind, rapid) {
+        (SlopeKind::Step, false) => axis.step_feed.acc_mm_s2[0].min(axis.step_feed.dec_mm_s2[0]),
+        (SlopeKind::Step, true) => axis.step_rapid.acc_mm_s2[0].min(axis.step_rapid.dec_mm_s2[0]),
+        (_, false) => axis.feed.acc_mm_s2.min(axis.feed.dec_mm_s2),
+        (_, true) => axis.rapid.acc_mm_s2,
+    }
+}
+
+/// Longest ramp time of an axis in the active mode, in s.
+pub fn longest_ramp(axis: &AxisDynamics, rapid: bool) -> f64 {
+    if rapid { axis.rapid.ramp_s } else { axis.feed.ramps_s.into_iter().fold(0.0, f64::max) }
+}
+
+/// Velocity limit of the axes on a path (P-AXIS-00212; P-AXIS-00209 in rapid).
+pub fn axis_velocity(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> f64 {
+    weakest(
+        &d.axes,
+        &x.first,
+        |a| if rapid { a.v_rapid_mm_s.min(a.v_max_mm_s) } else { a.v_max_mm_s },
+    )
+}
+
+/// Velocity limit from centripetal acceleration: `v^2 max|q_i''| <= a_i`.
+pub fn curve_acceleration(d: &ChannelDynamics, x: &PathExtremes, slope: Slope, rapid: bool) -> f64 {
+    weakest(&d.axes, &x.second, |a| contour_acceleration(a, slope, rapid)).sqrt()
+}
+
+/// Velocity limit from the jerk of the contour, non-linear slopes: `v^3 max|q_i'''| <= a_i / t_i`.
+///
+/// `t_i` is the geometric ramp time (P-AXIS-00199) on arcs; on polynomials P-CHAN-00110 selects it.
+pub fn curve_jerk(
+    d: &ChannelDynamics,
+    x: &PathExtremes,
+    slope: Slope,
+    rapid: bool,
+    check: CurveJerk,
+) -> f64 {
+    if slope.kind == SlopeKind::Step || check == CurveJerk::Unlimited {
+        return f64::INFINITY;
+    }
+    libm::cbrt(weakest(&d.axes, &x.third, |a| {
+        let ramp = if check == CurveJerk::Ramps { longest_ramp(a, rapid) } else { a.tr_geom_s };
+        if ramp > 0.0 { contour_acceleration(a, slope, rapid) / ramp } else { f64::INFINITY }
+    }))
+}
+
+/// Velocity limits of `#VECTOR LIMIT` on a curved path.
+fn vector_curve(d: &ChannelDynamics, x: &PathExtremes) -> f64 {
+    let norm = |v: &AxisVec| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let (k2, k3) = (norm(&x.second), norm(&x.third));
+    if k2 <= 0.0 {
+        return f64::INFINITY;
+    }
+    let mut acc = d.vector.radial_acc_mm_s2.unwrap_or(f64::INFINITY);
+    if d.vector_acc_on_arcs {
+        acc = acc.min(d.vector.acc_mm_s2.unwrap_or(f64::INFINITY));
+    }
+    let jerk = d.vector.radial_jerk_mm_s3.unwrap_or(f64::INFINITY);
+    (acc / k2).sqrt().min(libm::cbrt(jerk / k3))
+}
+
+/// Path velocity of a block and what it comes from.
+pub fn path_velocity(block: &Block, x: &PathExtremes) -> (f64, SpeedLimit) {
+    let d = &block.dynamics;
+    let rapid = block.feed == Feed::Rapid;
+    let axis = axis_velocity(d, x, rapid);
+    let ratio = block.feed_ratio;
+    let feed = match block.feed {
+        Feed::Rapid => axis * ratio.min(1.0),
+        Feed::PathVelocity(v) => v * ratio,
+        Feed::Duration(t) => block.path.length() / t * ratio,
+        Feed::ShareOfMaximum(share) => weakest(&d.axes, &x.first, |a| a.v_max_mm_s) * share * ratio,
+    };
+    let check = match block.path {
+        Path::Curve(_) => d.curve_jerk,
+        _ => CurveJerk::Geometric,
+    };
+    let curve = curve_acceleration(d, x, block.slope, rapid)
+        .min(curve_jerk(d, x, block.slope, rapid, check))
+        .min(vector_curve(d, x));
+    let vector = d.vector.vel_mm_s.unwrap_or(f64::INFINITY);
+    let mut best = (feed.min(vector), SpeedLimit::Feed);
+    if axis < best.0 || block.feed == Feed::Rapid && axis <= best.0 {
+        best = (axis, SpeedLimit::Axis);
+    }
+    if curve < best.0 {
+        best = (curve, SpeedLimit::Curve);
+    }
+    best
+}
+
+/// Path slope of a block: accelerations and ramp times that no axis exceeds.
+///
+/// The weakest axis rules acceleration; ramps combine through the axis jerk `a_i / t_i` (Assumption: then no axis
+/// exceeds its own jerk and none is slower than needed). A ramp below the cycle time is no ramp.
+pub fn path_slope(block: &Block, x: &PathExtremes, cycle: CycleTime) -> SlopeLimits {
+    let rapid = block.feed == Feed::Rapid;
+    let d = &block.dynamics;
+    if block.slope.kind == SlopeKind::Step {
+        return SlopeLimits::Step(step_slope(d, x, rapid));
+    }
+    let vector = &d.vector;
+    let acc_of = |a: &AxisDynamics| if rapid { a.rapid.acc_mm_s2 } else { a.feed.acc_mm_s2 };
+    let dec_of = |a: &AxisDynamics| if rapid { a.rapid.acc_mm_s2 } else { a.feed.dec_mm_s2 };
+    let acc = weakest(&d.axes, &x.first, acc_of).min(vector.acc_mm_s2.unwrap_or(f64::INFINITY));
+    let dec = weakest(&d.axes, &x.first, dec_of).min(vector.dec_mm_s2.unwrap_or(f64::INFINITY));
+    let ramp = |k: usize| -> f64 {
+        let path = if k < 2 { acc } else { dec };
+        let jerk = weakest(&d.axes, &x.first, |a| {
+            let t = if rapid {
+                a.rapid.ramp_s
+            } else if block.slope.kind == SlopeKind::Hsc {
+                longest_ramp(a, false)
+            } else {
+                a.feed.ramps_s[k]
+            };
+            if t < cycle.seconds() {
+                f64::INFINITY
+            } else {
+                (if k < 2 { acc_of(a) } else { dec_of(a) }) / t
+            }
+        });
+        path / jerk.min(vector.jerk_mm_s3.unwrap_or(f64::INFINITY))
+    };
+    let shape =
+        if block.slope.kind == SlopeKind::Sin2 { RampShape::Sin2 } else { RampShape::Trapez };
+    let constant_ramp_time = block.slope.constant_ramp_time && !rapid;
+    let ramps = [ramp(0), ramp(1), ramp(2), ramp(3)];
+    SlopeLimits::Ramped(RampedLimits::new(shape, constant_ramp_time, acc, dec, ramps))
+}
+
+/// Two-stage slope of a path: the path value is the minimum over the axes, so there is one break point per axis.
+fn step_slope(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> StepLimits {
+    let mut axes: SmallVec<[StepAxis; 9]> = d
+        .axes
+        .iter()
+        .zip(x.first.iter())
+        .filter(|(_, u)| **u > 0.0)
+        .map(|(axis, u)| {
+            let s = if rapid { axis.step_rapid } else { axis.step_feed };
+            StepAxis {
+                acc_mm_s2: s.acc_mm_s2.map(|a| a / u),
+                dec_mm_s2: s.dec_mm_s2.map(|a| a / u),
+                change_mm_s: s.change_mm_s / u,
+            }
+        })
+        .collect();
+    let vector = &d.vector;
+    if vector.acc_mm_s2.is_some() || vector.dec_mm_s2.is_some() {
+        axes.push(StepAxis {
+            acc_mm_s2: [vector.acc_mm_s2.unwrap_or(f64::INFINITY); 2],
+            dec_mm_s2: [vector.dec_mm_s2.unwrap_or(f64::INFINITY); 2],
+            change_mm_s: f64::INFINITY,
+        });
+    }
+    StepLimits::from_axes(&axes)
+}

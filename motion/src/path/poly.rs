@@ -1,0 +1,470 @@
+//! Curve of piecewise polynomials of degree five or less per axis, parameterised by path length.
+//!
+//! A piece runs over its own parameter `x` in `0..=1`. Its arc length over the feed axes is integrated by Gauss with
+//! five points on sub-intervals that are halved until the whole and the two halves agree; `s` is turned into `x` by
+//! Newton on the table of sub-intervals.
+
+use crate::axis::AxisVec;
+use smallvec::SmallVec;
+
+/// Coefficients of one axis over one piece, lowest power first.
+pub type Coefficients = [f64; 6];
+
+/// One polynomial per axis, in channel order.
+pub type PolyPiece = SmallVec<[Coefficients; 4]>;
+
+/// Agreement of the integral over a sub-interval with that over its halves, relative to the length of the curve.
+const SPLIT: f64 = 1e-13;
+/// Depth of halving at which the speed of the parameter has to be smooth enough.
+const DEPTH: u32 = 12;
+/// Samples per sub-interval in the search for the extremes and for the nearest point.
+const SAMPLES: usize = 8;
+
+/// Gauss-Legendre on `-1..=1`: nodes and weights of five points.
+#[rustfmt::skip]
+const GAUSS: [(f64, f64); 5] = [
+    (0.0, 0.568_888_888_888_888_9),
+    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+];
+
+/// Sub-interval of a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Cell {
+    piece: u32,
+    from: f64,
+    to: f64,
+    /// Path length at `from`.
+    s: f64,
+}
+
+/// Derivatives of all axes by path length at one point.
+#[derive(Clone, Debug)]
+struct Derivatives {
+    first: AxisVec,
+    second: AxisVec,
+    third: AxisVec,
+}
+
+/// A curve of polynomials, `s` measured over the feed axes (over all axes if none of them moves).
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolyPath {
+    start: AxisVec,
+    end: AxisVec,
+    pieces: Vec<PolyPiece>,
+    /// Axes over which the path length is measured.
+    measured: SmallVec<[bool; 8]>,
+    cells: Vec<Cell>,
+    length: f64,
+    /// Largest absolute derivatives by `s`, see [`Self::extremes`].
+    extremes: [AxisVec; 3],
+}
+
+fn value(c: &Coefficients, x: f64) -> f64 {
+    c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5]))))
+}
+
+fn slope(c: &Coefficients, x: f64) -> f64 {
+    c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5])))
+}
+
+fn bend(c: &Coefficients, x: f64) -> f64 {
+    2.0 * c[2] + x * (6.0 * c[3] + x * (12.0 * c[4] + x * 20.0 * c[5]))
+}
+
+fn twist(c: &Coefficients, x: f64) -> f64 {
+    6.0 * c[3] + x * (24.0 * c[4] + x * 60.0 * c[5])
+}
+
+impl PolyPath {
+    /// A curve through the pieces in order; `None` if it has no length or is not finite.
+    ///
+    /// `start` and `end` are met exactly; the pieces are expected to begin and end there up to rounding.
+    pub fn new(
+        start: AxisVec,
+        end: AxisVec,
+        pieces: Vec<PolyPiece>,
+        feed_axes: &[bool],
+    ) -> Option<Self> {
+        let moves = |i: usize| pieces.iter().any(|p| p[i][1..].iter().any(|c| *c != 0.0));
+        let feed = |i: usize| feed_axes.get(i).copied().unwrap_or(true);
+        let n = start.len();
+        let any = (0..n).any(|i| feed(i) && moves(i));
+        let measured = (0..n).map(|i| !any || feed(i)).collect();
+        let mut path = Self {
+            start,
+            end,
+            pieces,
+            measured,
+            cells: Vec::new(),
+            length: 0.0,
+            extremes: [AxisVec::zeros(n), AxisVec::zeros(n), AxisVec::zeros(n)],
+        };
+        let coarse: f64 = (0..path.pieces.len()).map(|p| path.gauss(p, 0.0, 1.0)).sum();
+        if !(coarse.is_finite() && coarse > 0.0) {
+            return None;
+        }
+        for p in 0..path.pieces.len() {
+            path.subdivide(p, 0.0, 1.0, coarse, 0);
+        }
+        path.find_extremes();
+        Some(path)
+    }
+
+    /// Speed of the parameter over the measured axes.
+    fn rate(&self, piece: usize, x: f64) -> f64 {
+        let axes = self.pieces[piece].iter().zip(&self.measured);
+        axes.filter(|(_, m)| **m)
+            .map(|(c, _)| {
+                let d = slope(c, x);
+                d * d
+            })
+            .sum::<f64>()
+            .sqrt()
+    }
+
+    fn gauss(&self, piece: usize, from: f64, to: f64) -> f64 {
+        let (mid, half) = (0.5 * (from + to), 0.5 * (to - from));
+        half * GAUSS.iter().map(|(x, w)| w * self.rate(piece, mid + half * x)).sum::<f64>()
+    }
+
+    fn subdivide(&mut self, piece: usize, from: f64, to: f64, scale: f64, depth: u32) {
+        let mid = 0.5 * (from + to);
+        let whole = self.gauss(piece, from, to);
+        let halves = self.gauss(piece, from, mid) + self.gauss(piece, mid, to);
+        if depth < DEPTH && (whole - halves).abs() > SPLIT * scale {
+            self.subdivide(piece, from, mid, scale, depth + 1);
+            self.subdivide(piece, mid, to, scale, depth + 1);
+        } else {
+            self.cells.push(Cell { piece: piece as u32, from, to, s: self.length });
+            self.length += whole;
+        }
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        self.length
+    }
+
+    pub(super) fn start(&self) -> &AxisVec {
+        &self.start
+    }
+
+    pub(super) fn end(&self) -> &AxisVec {
+        &self.end
+    }
+
+    /// Piece and parameter at `s`.
+    fn locate(&self, s: f64) -> (usize, f64) {
+        let s = s.clamp(0.0, self.length);
+        let i = self.cells.partition_point(|c| c.s <= s).saturating_sub(1);
+        let cell = self.cells[i];
+        let until = self.cells.get(i + 1).map_or(self.length, |c| c.s);
+        let piece = cell.piece as usize;
+        let want = s - cell.s;
+        let whole = until - cell.s;
+        let (mut low, mut high) = (cell.from, cell.to);
+        let mut x = low + (high - low) * if whole > 0.0 { want / whole } else { 0.0 };
+        for _ in 0..50 {
+            let miss = self.gauss(piece, cell.from, x) - want;
+            if miss.abs() <= 1e-15 * self.length {
+                break;
+            }
+            if miss > 0.0 {
+                high = x;
+            } else {
+                low = x;
+            }
+            let newton = x - miss / self.rate(piece, x);
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - x).abs() <= 1e-16 {
+                break;
+            }
+            x = next;
+        }
+        (piece, x.clamp(cell.from, cell.to))
+    }
+
+    pub(super) fn position(&self, s: f64, out: &mut [f64]) {
+        if s <= 0.0 {
+            out.copy_from_slice(&self.start);
+        } else if s >= self.length {
+            out.copy_from_slice(&self.end);
+        } else {
+            let (piece, x) = self.locate(s);
+            self.point(piece, x, out);
+        }
+    }
+
+    fn point(&self, piece: usize, x: f64, out: &mut [f64]) {
+        for ((o, c), start) in out.iter_mut().zip(&self.pieces[piece]).zip(self.start.iter()) {
+            // an axis that does not move keeps its exact bits
+            *o = if c[1..].iter().all(|c| *c == 0.0) && c[0] == *start {
+                *start
+            } else {
+                value(c, x)
+            };
+        }
+    }
+
+    /// `q'`, `q''`, `q'''` by path length, from the derivatives by the parameter and those of its speed.
+    fn derivatives(&self, piece: usize, x: f64) -> Derivatives {
+        let axes = &self.pieces[piece];
+        let (mut dot12, mut dot22, mut dot13) = (0.0, 0.0, 0.0);
+        let mut rate2 = 0.0;
+        for (c, _) in axes.iter().zip(&self.measured).filter(|(_, m)| **m) {
+            let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
+            rate2 += d1 * d1;
+            dot12 += d1 * d2;
+            dot22 += d2 * d2;
+            dot13 += d1 * d3;
+        }
+        let rate = rate2.sqrt();
+        let growth = dot12 / rate;
+        let growth2 = (dot22 + dot13 - growth * growth) / rate;
+        let n = axes.len();
+        let mut out = Derivatives {
+            first: AxisVec::zeros(n),
+            second: AxisVec::zeros(n),
+            third: AxisVec::zeros(n),
+        };
+        for (i, c) in axes.iter().enumerate() {
+            let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
+            let first = d1 / rate;
+            let second = (d2 - first * growth) / rate2;
+            out.first[i] = first;
+            out.second[i] = second;
+            out.third[i] = ((d3 - first * growth2) / rate2 - 3.0 * second * growth / rate) / rate;
+        }
+        out
+    }
+
+    pub(super) fn tangent(&self, s: f64, out: &mut [f64]) {
+        let (piece, x) = self.locate(s);
+        out.copy_from_slice(&self.derivatives(piece, x).first);
+    }
+
+    pub(super) fn curvature(&self, s: f64, out: &mut [f64]) {
+        let (piece, x) = self.locate(s);
+        out.copy_from_slice(&self.derivatives(piece, x).second);
+    }
+
+    /// Largest `|q'|`, `|q''|` in 1/mm and `|q'''|` in 1/mm2 of every axis over the curve.
+    pub(crate) fn extremes(&self) -> &[AxisVec; 3] {
+        &self.extremes
+    }
+
+    /// Samples every sub-interval and refines each local maximum that could be the greatest one by golden section.
+    fn find_extremes(&mut self) {
+        let n = self.start.len();
+        for cell in self.cells.clone() {
+            let piece = cell.piece as usize;
+            let at = |k: usize| cell.from + (cell.to - cell.from) * k as f64 / SAMPLES as f64;
+            let samples: SmallVec<[Derivatives; SAMPLES + 1]> =
+                (0..=SAMPLES).map(|k| self.derivatives(piece, at(k))).collect();
+            for order in 0..3 {
+                for i in 0..n {
+                    let get = |d: &Derivatives| [&d.first, &d.second, &d.third][order][i].abs();
+                    for k in 0..=SAMPLES {
+                        let here = get(&samples[k]);
+                        self.extremes[order][i] = self.extremes[order][i].max(here);
+                        let (low, high) = (k.saturating_sub(1), (k + 1).min(SAMPLES));
+                        let (before, behind) = (get(&samples[low]), get(&samples[high]));
+                        // the vertex of a parabola through three samples is at most this much higher
+                        let mid = k.clamp(1, SAMPLES - 1);
+                        let [l, m, r] = [mid - 1, mid, mid + 1].map(|k| get(&samples[k]));
+                        let bound = here + (2.0 * m - l - r).abs();
+                        if here < before || here < behind || bound <= self.extremes[order][i] {
+                            continue;
+                        }
+                        let peak = golden(at(low), at(high), |x| get(&self.derivatives(piece, x)));
+                        self.extremes[order][i] = self.extremes[order][i].max(peak);
+                    }
+                }
+            }
+        }
+    }
+
+    pub(super) fn nearest(&self, point: &[f64]) -> f64 {
+        let n = point.len();
+        let mut q = AxisVec::zeros(n);
+        let mut distance = |piece: usize, x: f64| -> f64 {
+            self.point(piece, x, &mut q);
+            q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
+        };
+        let mut best = (f64::INFINITY, 0, 0.0, 0.0);
+        for (i, cell) in self.cells.iter().enumerate() {
+            let step = (cell.to - cell.from) / SAMPLES as f64;
+            for k in 0..=SAMPLES {
+                let x = cell.from + step * k as f64;
+                let d = distance(cell.piece as usize, x);
+                if d < best.0 {
+                    best = (d, i, x, step);
+                }
+            }
+        }
+        let (_, i, x, step) = best;
+        let cell = self.cells[i];
+        let piece = cell.piece as usize;
+        let near = (x - step).max(cell.from);
+        let far = (x + step).min(cell.to);
+        let x = self.closest(piece, point, near, far);
+        cell.s + self.gauss(piece, cell.from, x)
+    }
+
+    /// Zero of the derivative of the squared distance between two parameters, by bisection and Newton.
+    fn closest(&self, piece: usize, point: &[f64], low: f64, high: f64) -> f64 {
+        let slopes = |x: f64| -> (f64, f64) {
+            let (mut first, mut second) = (0.0, 0.0);
+            for (c, p) in self.pieces[piece].iter().zip(point) {
+                let (d0, d1, d2) = (value(c, x) - p, slope(c, x), bend(c, x));
+                first += d0 * d1;
+                second += d1 * d1 + d0 * d2;
+            }
+            (first, second)
+        };
+        if slopes(low).0 >= 0.0 {
+            return low;
+        }
+        if slopes(high).0 <= 0.0 {
+            return high;
+        }
+        let (mut low, mut high) = (low, high);
+        let mut x = 0.5 * (low + high);
+        for _ in 0..60 {
+            let (first, second) = slopes(x);
+            if first > 0.0 {
+                high = x;
+            } else {
+                low = x;
+            }
+            let newton = x - first / second;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - x).abs() <= 1e-15 {
+                return next;
+            }
+            x = next;
+        }
+        x
+    }
+}
+
+/// Largest value of a function with one maximum between two points.
+fn golden(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    const RATIO: f64 = 0.618_033_988_749_894_9;
+    let (mut a, mut b) = (high - RATIO * (high - low), low + RATIO * (high - low));
+    let (mut fa, mut fb) = (f(a), f(b));
+    // the value is flat at the maximum: half the digits of x give all digits of it
+    for _ in 0..36 {
+        if fa > fb {
+            (high, b, fb) = (b, a, fa);
+            a = high - RATIO * (high - low);
+            fa = f(a);
+        } else {
+            (low, a, fa) = (a, b, fb);
+            b = low + RATIO * (high - low);
+            fb = f(b);
+        }
+    }
+    fa.max(fb)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `x` runs as `3 u`, `y` as `u^2 - u^5`, slaved `z` as `7 u^3`.
+    fn sample() -> PolyPath {
+        let x = [10.0, 3.0, 0.0, 0.0, 0.0, 0.0];
+        let y = [5.0, 0.0, 1.0, 0.0, 0.0, -1.0];
+        let z = [1.0, 0.0, 0.0, 7.0, 0.0, 0.0];
+        PolyPath::new(
+            AxisVec::from_slice(&[10.0, 5.0, 1.0]),
+            AxisVec::from_slice(&[13.0, 5.0, 8.0]),
+            vec![PolyPiece::from_slice(&[x, y, z])],
+            &[true, true, false],
+        )
+        .unwrap()
+    }
+
+    /// Simpson with 200 000 intervals, error far below 1e-12.
+    fn simpson(path: &PolyPath, to: f64) -> f64 {
+        let n = 200_000;
+        let h = to / f64::from(n);
+        let f = |k: i32| path.rate(0, h * f64::from(k));
+        let inner: f64 = (1..n).map(|k| f(k) * if k % 2 == 1 { 4.0 } else { 2.0 }).sum();
+        h / 3.0 * (f(0) + inner + f(n))
+    }
+
+    #[test]
+    fn length_and_position_agree_with_a_fine_integration() {
+        let path = sample();
+        assert!((path.length() - simpson(&path, 1.0)).abs() < 1e-11);
+        let mut q = [0.0; 3];
+        for u in [0.1, 0.35, 0.5, 0.77, 0.99] {
+            path.position(simpson(&path, u), &mut q);
+            assert!((q[0] - 10.0 - 3.0 * u).abs() < 1e-9, "{u}: {q:?}");
+            assert!((q[2] - 1.0 - 7.0 * u * u * u).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        let path = sample();
+        let h = 1e-4;
+        let third = |s: f64| {
+            let (piece, x) = path.locate(s);
+            path.derivatives(piece, x).third
+        };
+        for s in [0.3, 1.1, 2.0, 2.9] {
+            let (mut t, mut c) = ([0.0; 3], [0.0; 3]);
+            path.tangent(s, &mut t);
+            path.curvature(s, &mut c);
+            let at = |s: f64, f: &dyn Fn(f64, &mut [f64])| {
+                let mut q = [0.0; 3];
+                f(s, &mut q);
+                q
+            };
+            let position = |s: f64, q: &mut [f64]| path.position(s, q);
+            let tangent = |s: f64, q: &mut [f64]| path.tangent(s, q);
+            let curvature = |s: f64, q: &mut [f64]| path.curvature(s, q);
+            for i in 0..3 {
+                let d =
+                    |f: &dyn Fn(f64, &mut [f64])| (at(s + h, f)[i] - at(s - h, f)[i]) / (2.0 * h);
+                assert!((d(&position) - t[i]).abs() < 1e-6);
+                assert!((d(&tangent) - c[i]).abs() < 1e-6);
+                assert!((d(&curvature) - third(s)[i]).abs() < 1e-5 * (1.0 + third(s)[i].abs()));
+            }
+            assert!((libm::hypot(t[0], t[1]) - 1.0).abs() < 1e-14, "feed axes have unit speed");
+        }
+    }
+
+    #[test]
+    fn ends_are_exact_and_the_nearest_point_is_found() {
+        let path = sample();
+        let mut q = [0.0; 3];
+        path.position(0.0, &mut q);
+        assert_eq!(q[..], path.start()[..]);
+        path.position(path.length(), &mut q);
+        assert_eq!(q[..], path.end()[..]);
+        for s in [0.0, 0.4, 1.7, path.length()] {
+            path.position(s, &mut q);
+            assert!((path.nearest(&q) - s).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn no_sample_exceeds_the_extremes() {
+        let path = sample();
+        for k in 0..=10_000 {
+            let (piece, x) = path.locate(path.length() * f64::from(k) / 10_000.0);
+            let d = path.derivatives(piece, x);
+            for i in 0..3 {
+                for (value, limit) in [&d.first, &d.second, &d.third].iter().zip(path.extremes()) {
+                    assert!(value[i].abs() <= limit[i] * (1.0 + 1e-12) + 1e-15);
+                }
+            }
+        }
+    }
+}

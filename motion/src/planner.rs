@@ -1,0 +1,369 @@
+//! Blocks in, one setpoint per cycle out.
+//!
+//! Up to two windows of blocks are collected (P-STUP-00071 gives the size of one); then [`crate::lookahead`] plans all
+//! of them with a stop at the end of what is known, and all but the last window becomes final. So every block that is
+//! executed had at least one window of look-ahead behind it, and planning costs a constant number of closed forms per
+//! block. What is final lies on a [`crate::timeline`] that is sampled cycle by cycle.
+
+use crate::axis::AxisVec;
+use crate::block::Block;
+use crate::brake::Brake;
+use crate::contour::Contour;
+use crate::corner::transition;
+use crate::limit::SpeedLimit;
+use crate::lookahead::{Cap, plan};
+use crate::profile::Infeasible;
+use crate::queue::Queued;
+use crate::short::lower_caps;
+use crate::timeline::{Entry, Moment, PathState, Timeline};
+use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept};
+use kontur_filters::time::CycleTime;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// One cycle of the path.
+#[derive(Clone, Debug, Default)]
+pub struct Setpoint {
+    /// Cycle count since the start of the program.
+    pub k: u64,
+    /// Position of every axis.
+    pub position: AxisVec,
+    /// Path length since the start of the program in mm.
+    pub s_mm: f64,
+    /// Path velocity in mm/s.
+    pub v_mm_s: f64,
+    /// Path acceleration in mm/s2.
+    pub a_mm_s2: f64,
+    /// Path jerk in mm/s3.
+    pub j_mm_s3: f64,
+    /// What holds the speed down.
+    pub limit: SpeedLimit,
+    /// Number of the block in which the setpoint lies.
+    pub seq: u64,
+}
+
+/// What the planner can do next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Next {
+    /// A setpoint was produced, see [`Planner::setpoint`].
+    Setpoint,
+    /// More blocks, or [`Planner::finish`], are needed first.
+    Input,
+    /// At rest at the end of everything that was pushed before [`Planner::finish`].
+    Rest,
+}
+
+/// Look-ahead and interpolation of one channel.
+#[derive(Debug)]
+pub struct Planner {
+    cycle: CycleTime,
+    window: usize,
+    queue: VecDeque<Arc<Queued>>,
+    /// Caps between the queued blocks; entry `i` stands before block `i`.
+    caps: VecDeque<Cap>,
+    last: Option<Arc<Queued>>,
+    finishing: bool,
+    timeline: Timeline,
+    /// Where the next span begins.
+    cursor: Moment,
+    /// Speed there, and what holds it down.
+    speed: Cap,
+    /// Path length there.
+    travelled: f64,
+    setpoint: Setpoint,
+    state: PathState,
+    kernels: Kernels,
+    monitor: Monitor,
+    contour: Contour,
+    reach_cycles: u32,
+    unkept: Vec<Unkept>,
+    brake: Option<Brake>,
+}
+
+impl Planner {
+    /// A planner at rest at `start`, with a look-ahead of `window` blocks (P-STUP-00071, 10..=10000).
+    pub fn new(cycle: CycleTime, window: usize, start: &[f64]) -> Self {
+        let position = AxisVec::from_slice(start);
+        Self {
+            cycle,
+            window: window.max(1),
+            queue: VecDeque::new(),
+            caps: VecDeque::new(),
+            last: None,
+            finishing: false,
+            timeline: Timeline::default(),
+            cursor: Moment::default(),
+            speed: (0.0, SpeedLimit::Stop),
+            travelled: 0.0,
+            setpoint: Setpoint { position: position.clone(), ..Setpoint::default() },
+            state: PathState { position, ..PathState::default() },
+            kernels: Kernels::default(),
+            monitor: Monitor::default(),
+            contour: Contour::default(),
+            reach_cycles: 0,
+            unkept: Vec::new(),
+            brake: None,
+        }
+    }
+
+    /// The current setpoint.
+    pub fn setpoint(&self) -> &Setpoint {
+        &self.setpoint
+    }
+
+    /// Sets the kernel of every axis, for corners (ACC_FACT) and tolerance monitoring; only at rest.
+    ///
+    /// `reach_cycles` is how far back the contour is kept for [`Planner::deviation`].
+    pub fn set_kernels(&mut self, kernels: Kernels, reach_cycles: u32) {
+        self.reach_cycles = reach_cycles.max(kernels.length());
+        self.monitor.rest(&self.setpoint.position, self.setpoint.s_mm, kernels.length());
+        self.kernels = kernels;
+    }
+
+    /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.
+    pub fn push(&mut self, block: Block) {
+        self.finishing = false;
+        let queued = Arc::new(Queued::new(block, self.cycle));
+        let cap = match &self.last {
+            Some(last) => transition(
+                &last.block,
+                &queued.block,
+                &last.ends,
+                &queued.ends,
+                self.cycle,
+                self.kernels.any(),
+            ),
+            None => (0.0, SpeedLimit::Stop),
+        };
+        self.caps.push_back(cap);
+        self.queue.push_back(Arc::clone(&queued));
+        lower_caps(&self.queue, &mut self.caps, self.cycle, self.kernels.any());
+        self.last = Some(queued);
+    }
+
+    /// The path comes to rest behind the last block pushed.
+    pub fn finish(&mut self) {
+        self.finishing = true;
+    }
+
+    /// Produces the next setpoint if it can.
+    ///
+    /// # Errors
+    /// [`Infeasible`] is an internal error: the passes exclude it.
+    pub fn advance(&mut self) -> Result<Next, Infeasible> {
+        loop {
+            let k = self.setpoint.k + 1;
+            if self.timeline.advance(k, self.cycle, &mut self.state) {
+                self.output(k);
+                return Ok(Next::Setpoint);
+            }
+            if self.queue.is_empty() && self.speed.0 <= 0.0 {
+                return Ok(if self.finishing { Next::Rest } else { Next::Input });
+            }
+            if !self.finishing && self.queue.len() < 2 * self.window {
+                return Ok(Next::Input);
+            }
+            self.extend()?;
+        }
+    }
+
+    /// One more cycle at the current position; only at rest.
+    pub fn hold(&mut self, limit: SpeedLimit) {
+        self.setpoint.k += 1;
+        self.cursor = Moment::tick(self.setpoint.k);
+        (self.setpoint.v_mm_s, self.setpoint.a_mm_s2, self.setpoint.j_mm_s3) = (0.0, 0.0, 0.0);
+        self.setpoint.limit = limit;
+        self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
+    }
+
+    /// Emergency braking from here on (P-AXIS-00003): [`Self::advance_braking`] takes the place of [`Self::advance`].
+    pub fn brake(&mut self) {
+        let mut path: Vec<(f64, Arc<Queued>)> = Vec::new();
+        for entry in self.timeline.entries() {
+            for (queued, s_end) in &entry.blocks {
+                path.push((entry.s0 + s_end - queued.length, Arc::clone(queued)));
+            }
+        }
+        let mut s = self.travelled;
+        for queued in &self.queue {
+            path.push((s, Arc::clone(queued)));
+            s += queued.length;
+        }
+        self.brake = Some(Brake::new(path, self.setpoint.s_mm, self.setpoint.v_mm_s));
+    }
+
+    /// The braking has come to rest.
+    pub fn brake_is_over(&self) -> bool {
+        self.brake.as_ref().is_none_or(Brake::is_over)
+    }
+
+    /// One cycle of braking, or of standstill behind it.
+    pub fn advance_braking(&mut self) {
+        let Some(brake) = self.brake.as_mut().filter(|b| !b.is_over()) else {
+            self.hold(SpeedLimit::Stop);
+            return;
+        };
+        self.setpoint.k += 1;
+        if let Some(seq) = brake.step(self.cycle.seconds(), &mut self.setpoint.position) {
+            self.setpoint.seq = seq;
+        }
+        self.setpoint.s_mm = brake.s;
+        self.setpoint.a_mm_s2 = if brake.v > 0.0 { -brake.dec } else { 0.0 };
+        (self.setpoint.v_mm_s, self.setpoint.j_mm_s3) = (brake.v, 0.0);
+        self.setpoint.limit = SpeedLimit::Stop;
+    }
+
+    /// Components of the shortest vector from the contour within reach of the filters to `point`; returns its length.
+    pub fn deviation(&self, point: &[f64], out: &mut [f64]) -> f64 {
+        let now = self.setpoint.k as f64;
+        self.contour.deviation(point, now - f64::from(self.reach_cycles), now, out)
+    }
+
+    /// Blocks whose tolerance could not be kept since the last call.
+    pub fn take_unkept(&mut self) -> Vec<Unkept> {
+        std::mem::take(&mut self.unkept)
+    }
+
+    fn output(&mut self, k: u64) {
+        self.setpoint.k = k;
+        self.setpoint.position.copy_from_slice(&self.state.position);
+        self.setpoint.s_mm = self.state.s;
+        self.setpoint.v_mm_s = self.state.v;
+        self.setpoint.a_mm_s2 = self.state.a;
+        self.setpoint.j_mm_s3 = self.state.j;
+        self.setpoint.limit = self.state.limit;
+        self.setpoint.seq = self.state.seq;
+        self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
+        self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
+    }
+
+    /// Plans what is queued and makes all but the last window final.
+    fn extend(&mut self) -> Result<(), Infeasible> {
+        let window: Vec<Arc<Queued>> = self.queue.iter().cloned().collect();
+        let n = window.len();
+        let start = if self.speed.0 > 0.0 {
+            self.cursor
+        } else {
+            Moment::tick(self.cursor.origin.max(self.setpoint.k))
+        };
+        let end = if self.finishing { SpeedLimit::Stop } else { SpeedLimit::Lookahead };
+        let monitored =
+            self.kernels.any() && window.iter().any(|q| q.block.tolerance.ax_dev_mm.is_some());
+        let mut demands = Demands::none(n);
+        let mut forced = vec![false; n + 1];
+        let mut round = 0;
+        loop {
+            let entries = self.place(&window, &demands, &forced, start, end)?;
+            if monitored {
+                let mut trial = Timeline::default();
+                entries.iter().cloned().for_each(|e| trial.push(e));
+                let verdict = self.monitor.examine(
+                    &Trial {
+                        timeline: &trial,
+                        window: &window,
+                        past: &self.contour,
+                        kernels: &self.kernels,
+                        cycle: self.cycle,
+                        now: self.setpoint.k,
+                    },
+                    round,
+                    &mut demands,
+                );
+                round += 1;
+                match verdict {
+                    Some(Ok(())) => continue,
+                    Some(Err(unkept)) => self.unkept.push(unkept),
+                    None => {}
+                }
+            }
+            let Some(count) = self.final_entries(&entries, n) else {
+                // one span over more than a window: it is cut where the last window begins
+                forced[n - self.window] = true;
+                continue;
+            };
+            self.commit(entries, count, &demands);
+            return Ok(());
+        }
+    }
+
+    /// Plans the window and places the spans on the time axis.
+    fn place(
+        &self,
+        window: &[Arc<Queued>],
+        demands: &Demands,
+        forced: &[bool],
+        start: Moment,
+        end: SpeedLimit,
+    ) -> Result<Vec<Entry>, Infeasible> {
+        let lower = |cap: Cap, demand: f64| {
+            if demand < cap.0 { (demand, SpeedLimit::AxDev) } else { cap }
+        };
+        let n = window.len();
+        let feeds: Vec<Cap> = window
+            .iter()
+            .enumerate()
+            .map(|(i, q)| {
+                let floor = if i == 0 { self.speed.0 } else { 0.0 };
+                lower(q.velocity, demands.feed[i].max(floor))
+            })
+            .collect();
+        let caps: Vec<Cap> = (0..=n)
+            .map(|i| lower(self.caps.get(i).copied().unwrap_or((0.0, end)), demands.cap[i]))
+            .collect();
+        let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
+        let plan = plan(window, &feeds, &caps, &forced, self.speed, end)?;
+        let mut at = start;
+        let mut s = self.travelled;
+        let mut entries = Vec::with_capacity(plan.spans.len());
+        for span in &plan.spans {
+            let stop = demands.stop[span.end];
+            let stops = stop.is_some() || (span.end == n && self.finishing);
+            let entry = Entry::new(at, s, span, window, stops);
+            at = match stop {
+                Some(dwell) => Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell)),
+                None => entry.end,
+            };
+            s += span.profile.length();
+            entries.push(entry);
+        }
+        Ok(entries)
+    }
+
+    /// How many entries become final; `None` if the first one already reaches into the last window.
+    fn final_entries(&self, entries: &[Entry], n: usize) -> Option<usize> {
+        if self.finishing {
+            return Some(entries.len());
+        }
+        let limit = n.saturating_sub(self.window);
+        let mut blocks = 0;
+        let count = entries
+            .iter()
+            .take_while(|e| {
+                blocks += e.blocks.len();
+                blocks <= limit
+            })
+            .count();
+        (count > 0).then_some(count)
+    }
+
+    fn commit(&mut self, entries: Vec<Entry>, count: usize, demands: &Demands) {
+        let mut blocks = 0;
+        for entry in entries.into_iter().take(count) {
+            for (cycles, queued) in entry.entries(self.cycle) {
+                self.contour.enter(cycles, Arc::clone(queued));
+            }
+            blocks += entry.blocks.len();
+            self.travelled = entry.s0 + entry.profile.length();
+            self.speed = (entry.profile.at(entry.profile.duration()).v_mm_s, entry.why_down);
+            self.cursor = entry.end;
+            if entry.stops {
+                let dwell = u64::from(demands.stop[blocks].unwrap_or(0));
+                self.cursor = Moment::tick(entry.end.next_tick(self.cycle) + dwell);
+                self.speed = (0.0, entry.why_down);
+            }
+            self.timeline.push(entry);
+        }
+        self.queue.drain(..blocks);
+        self.caps.drain(..blocks);
+    }
+}

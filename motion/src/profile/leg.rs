@@ -1,0 +1,389 @@
+//! One change of speed of a TRAPEZ or SIN2 slope: acceleration rises, stays, falls back to zero.
+//!
+//! A leg always runs from the lower to the higher velocity. A braking leg is its mirror in time, so the
+//! same formulas serve both; only ramp times and plateau differ.
+
+use super::ramp::{RampShape, RampState};
+use super::roots::{increasing_root, monotone_cubic};
+use super::span::State;
+
+/// Ramp times below this count as a step of acceleration; the parameter lists have whole microseconds.
+const SHORTEST_RAMP_S: f64 = 1e-9;
+
+/// Limits of a leg with everything that depends on them alone.
+///
+/// Symbols: plateau `a`, ramp times `t1` (rise) and `t2` (fall), `Δ` gain of velocity. `a (t1 + t2)/2` is
+/// the least gain that reaches the plateau; below it a leg is *short*.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct LegLimits {
+    shape: RampShape,
+    constant_ramp_time: bool,
+    a: f64,
+    t1: f64,
+    t2: f64,
+    /// `t1 + t2`.
+    ramps: f64,
+    /// `a (k1 t1² + t1 t2/2 + k2 t2²)`: distance from rest of the leg that just reaches the plateau.
+    shoulder: f64,
+    /// `a c (t1² - t2²)`, the part of a full leg that vanishes for equal ramps.
+    skew: f64,
+    /// Least gain of velocity that reaches the plateau.
+    gain_full: f64,
+    /// `1/a` and `1/gain_full`: divisions are what these formulas would wait for.
+    per_a: f64,
+    per_gain_full: f64,
+}
+
+impl LegLimits {
+    pub(super) fn new(
+        shape: RampShape,
+        constant_ramp_time: bool,
+        a: f64,
+        rise_s: f64,
+        fall_s: f64,
+    ) -> Self {
+        debug_assert!(a > 0.0 && a.is_finite());
+        let ramp = |t: f64| if t >= SHORTEST_RAMP_S { t } else { 0.0 };
+        let (t1, t2) = (ramp(rise_s), ramp(fall_s));
+        let k1 = shape.rise_factor();
+        let k2 = 0.5 - k1;
+        // c = 1/24 (TRAPEZ), 1/8 - 1/π² (SIN2): both are k1 - 1/8
+        let c = k1 - 0.125;
+        Self {
+            shape,
+            constant_ramp_time,
+            a,
+            t1,
+            t2,
+            ramps: t1 + t2,
+            shoulder: a * (k1 * t1 * t1 + 0.5 * t1 * t2 + k2 * t2 * t2),
+            skew: a * c * (t1 - t2) * (t1 + t2),
+            gain_full: 0.5 * a * (t1 + t2),
+            per_a: 1.0 / a,
+            per_gain_full: 2.0 / (a * (t1 + t2)),
+        }
+    }
+
+    /// The smaller plateau with ramps of the smaller jerk.
+    pub(super) fn weaker(&self, other: &Self) -> Self {
+        let a = self.a.min(other.a);
+        let ramp = |mine: f64, theirs: f64| a * (mine / self.a).max(theirs / other.a);
+        let (rise, fall) = (ramp(self.t1, other.t1), ramp(self.t2, other.t2));
+        Self::new(self.shape, self.constant_ramp_time, a, rise, fall)
+    }
+
+    /// True if plateau and ramps differ by at most `ratio`.
+    pub(super) fn nearly_equals(&self, other: &Self, ratio: f64) -> bool {
+        let near = |x: f64, y: f64| (x - y).abs() <= ratio * x.max(y);
+        self.shape == other.shape
+            && self.constant_ramp_time == other.constant_ramp_time
+            && near(self.a, other.a)
+            && near(self.t1, other.t1)
+            && near(self.t2, other.t2)
+    }
+
+    /// Distance of the leg from `v` to `v + gain`.
+    pub(super) fn distance(&self, v: f64, gain: f64) -> f64 {
+        if gain >= self.gain_full {
+            let plateau = gain * self.per_a;
+            v * (plateau + 0.5 * self.ramps) + 0.5 * gain * (plateau + self.t2) + self.skew
+        } else if gain <= 0.0 {
+            0.0
+        } else {
+            let ratio = gain * self.per_gain_full;
+            if self.constant_ramp_time {
+                v * self.ramps + self.shoulder * ratio
+            } else {
+                ratio.sqrt() * (v * self.ramps + self.shoulder * ratio)
+            }
+        }
+    }
+
+    /// [`Self::distance`] and its derivative by the gain; for a short leg of constant jerk `gain > 0`.
+    fn distance_and_slope(&self, v: f64, gain: f64) -> (f64, f64) {
+        if gain >= self.gain_full {
+            (self.distance(v, gain), (v + gain) * self.per_a + 0.5 * self.t2)
+        } else {
+            let ratio = gain * self.per_gain_full;
+            let root = ratio.sqrt();
+            let (linear, cubic) = (v * self.ramps, self.shoulder * ratio);
+            (root * (linear + cubic), 0.5 * self.per_gain_full * (linear + 3.0 * cubic) / root)
+        }
+    }
+
+    /// Duration of a leg with this gain.
+    pub(super) fn duration(&self, gain: f64) -> f64 {
+        if gain >= self.gain_full {
+            gain / self.a + 0.5 * self.ramps
+        } else if gain <= 0.0 {
+            0.0
+        } else if self.constant_ramp_time {
+            self.ramps
+        } else {
+            (gain / self.gain_full).sqrt() * self.ramps
+        }
+    }
+
+    /// Largest gain of velocity from `v` within `length`.
+    pub(super) fn reach(&self, v: f64, length: f64) -> f64 {
+        let to_plateau = v * self.ramps + self.shoulder;
+        if length >= to_plateau {
+            self.quadratic(v, 0.0).root(length).max(self.gain_full)
+        } else if length <= 0.0 {
+            0.0
+        } else if self.constant_ramp_time {
+            self.quadratic_short(v, 0.0).root(length).max(0.0)
+        } else {
+            let root = monotone_cubic(self.shoulder, v * self.ramps, length);
+            self.gain_full * root * root
+        }
+    }
+
+    /// Distance of a full leg from `v` to `v + gain + x` as a polynomial in `x`.
+    fn quadratic(&self, v: f64, gain: f64) -> Quadratic {
+        let plateau = gain * self.per_a;
+        Quadratic {
+            c2: 0.5 / self.a,
+            c1: (v + gain) / self.a + 0.5 * self.t2,
+            c0: v * (plateau + 0.5 * self.ramps) + 0.5 * gain * (plateau + self.t2) + self.skew,
+        }
+    }
+
+    /// As [`Self::quadratic`] for a short leg of constant ramp time.
+    fn quadratic_short(&self, v: f64, gain: f64) -> Quadratic {
+        let c1 = self.shoulder / self.gain_full;
+        Quadratic { c2: 0.0, c1, c0: v * self.ramps + c1 * gain }
+    }
+}
+
+/// `c2 x² + c1 x + c0` with `c2, c1 >= 0`.
+#[derive(Clone, Copy, Debug)]
+struct Quadratic {
+    c2: f64,
+    c1: f64,
+    c0: f64,
+}
+
+impl Quadratic {
+    fn plus(self, other: Self) -> Self {
+        Self { c2: self.c2 + other.c2, c1: self.c1 + other.c1, c0: self.c0 + other.c0 }
+    }
+
+    /// The root of `... = value` on the increasing branch; negative values of it come out as 0.
+    fn root(self, value: f64) -> f64 {
+        let d = value - self.c0;
+        if d <= 0.0 {
+            0.0
+        } else {
+            2.0 * d / (self.c1 + (self.c1 * self.c1 + 4.0 * self.c2 * d).sqrt())
+        }
+    }
+}
+
+/// The two legs of a span that meet at the peak velocity.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LegPair<'a> {
+    pub(super) up: &'a LegLimits,
+    pub(super) down: &'a LegLimits,
+    pub(super) v0: f64,
+    pub(super) ve: f64,
+}
+
+impl LegPair<'_> {
+    /// Gains of both legs for the peak that uses up `length`, where the peak lies between `max(v0, ve)`, which
+    /// needs only `least`, and `v_max`, which needs `most`.
+    ///
+    /// With constant ramp time the distance jumps when a leg appears; a length inside the jump gives the
+    /// lower peak and the rest is cruised.
+    pub(super) fn gains(&self, v_max: f64, length: f64, least: f64, most: f64) -> (f64, f64) {
+        let Self { up, down, v0, ve } = *self;
+        let top = v0.max(ve);
+        let (up_base, down_base) = (top - v0, top - ve);
+        let distance = |x: f64| up.distance(v0, up_base + x) + down.distance(ve, down_base + x);
+
+        // narrow to the interval in which neither leg changes between short and full
+        let (up_knee, down_knee) = (up.gain_full - up_base, down.gain_full - down_base);
+        let (mut lo, mut hi) = (0.0, v_max - top);
+        let (mut at_lo, mut at_hi) = (least, most);
+        for knee in [up_knee.min(down_knee), up_knee.max(down_knee)] {
+            if knee > lo && knee < hi {
+                let at_knee = distance(knee);
+                if at_knee <= length {
+                    (lo, at_lo) = (knee, at_knee);
+                } else {
+                    (hi, at_hi) = (knee, at_knee);
+                }
+            }
+        }
+        let (up_full, down_full) = (lo >= up_knee, lo >= down_knee);
+
+        if up.constant_ramp_time || (up_full && down_full) {
+            let part = |leg: &LegLimits, full: bool, v: f64, gain: f64| {
+                if full { leg.quadratic(v, gain) } else { leg.quadratic_short(v, gain) }
+            };
+            let sum = part(up, up_full, v0, up_base).plus(part(down, down_full, ve, down_base));
+            let x = sum.root(length).clamp(lo, hi);
+            (up_base + x, down_base + x)
+        } else if !up_full && (down_full || v0 >= ve) {
+            let bracket = [(up_base + lo, at_lo), (up_base + hi, at_hi)];
+            let gain = short_gain(up, v0, down, ve, !down_full, bracket, length);
+            (gain, (v0 - ve) + gain)
+        } else {
+            let bracket = [(down_base + lo, at_lo), (down_base + hi, at_hi)];
+            let gain = short_gain(down, ve, up, v0, !up_full, bracket, length);
+            ((ve - v0) + gain, gain)
+        }
+    }
+}
+
+/// Gain of a short leg of constant jerk from `v`, such that it and the other leg from `w` use up `length`.
+///
+/// Unknown is `λ`, the ratio of the short leg's ramp times to the full ones: gain `g λ²`, distance a cubic in
+/// `λ`. The total is increasing and convex in `λ` (the other leg too is convex in it, given `w <= v` if it is
+/// short), so Newton converges from any start. `bracket`: least and largest gain with the total at both.
+fn short_gain(
+    leg: &LegLimits,
+    v: f64,
+    other: &LegLimits,
+    w: f64,
+    other_short: bool,
+    bracket: [(f64, f64); 2],
+    length: f64,
+) -> f64 {
+    let linear = v * leg.ramps;
+    let cubic = leg.shoulder;
+    let full = leg.gain_full;
+    let offset = v - w;
+    if other_short && offset <= 0.0 {
+        // equal end velocities: both legs shrink in proportion
+        let k = (full / other.gain_full).sqrt();
+        let c3 = cubic + other.shoulder * k * k * k;
+        let root = monotone_cubic(c3, v * (leg.ramps + other.ramps * k), length);
+        return full * root * root;
+    }
+    let [(lo, at_lo), (hi, at_hi)] = bracket;
+    let (lo, hi) = ((lo / full).sqrt(), (hi / full).sqrt());
+    // start from a cubic through both ends with the true slope at λ = 0
+    let c3 = (at_hi - at_lo - linear * (hi - lo)) / (hi * hi * hi - lo * lo * lo);
+    let guess = monotone_cubic(c3, linear, length - at_lo + lo * (linear + c3 * lo * lo));
+    let root = increasing_root(lo, hi, guess, 1e-10, |x| {
+        let gain = full * x * x;
+        let (other, slope) = other.distance_and_slope(w, offset + gain);
+        let value = x * (linear + cubic * x * x) + other - length;
+        (value, linear + 3.0 * cubic * x * x + 2.0 * full * x * slope)
+    });
+    full * root * root
+}
+
+/// A leg with its times fixed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RampLeg {
+    shape: RampShape,
+    v_low: f64,
+    v_high: f64,
+    a: f64,
+    t1: f64,
+    tc: f64,
+    t2: f64,
+    distance: f64,
+}
+
+impl RampLeg {
+    /// The leg from `v` to `v + gain` over `distance` (that of the limits), its time scaled by `stretch` (close
+    /// to 1): velocities stay, distance scales with time.
+    pub(super) fn new(limits: &LegLimits, v: f64, gain: f64, distance: f64, stretch: f64) -> Self {
+        let (plateau, ramp, tc) = if gain >= limits.gain_full {
+            (limits.a, 1.0, gain / limits.a - 0.5 * limits.ramps)
+        } else if gain <= 0.0 {
+            (0.0, 0.0, 0.0)
+        } else if limits.constant_ramp_time {
+            (limits.a * gain / limits.gain_full, 1.0, 0.0)
+        } else {
+            let ratio = (gain / limits.gain_full).sqrt();
+            (limits.a * ratio, ratio, 0.0)
+        };
+        Self {
+            shape: limits.shape,
+            v_low: v,
+            v_high: v + gain,
+            a: plateau / stretch,
+            t1: limits.t1 * ramp * stretch,
+            tc: tc.max(0.0) * stretch,
+            t2: limits.t2 * ramp * stretch,
+            distance: distance * stretch,
+        }
+    }
+
+    pub(super) fn times(&self) -> [f64; 3] {
+        [self.t1, self.tc, self.t2]
+    }
+
+    pub(super) fn duration(&self) -> f64 {
+        self.t1 + self.tc + self.t2
+    }
+
+    pub(super) fn distance(&self) -> f64 {
+        self.distance
+    }
+
+    /// Distance and velocity at the end of the rising ramp.
+    fn shoulder(&self) -> (f64, f64) {
+        let k1 = self.shape.rise_factor();
+        (self.t1 * (self.v_low + k1 * self.a * self.t1), self.v_low + 0.5 * self.a * self.t1)
+    }
+
+    /// State at `x` in `0..=duration`. The falling ramp is seen from its end, where it is a rising one.
+    pub(super) fn at(&self, x: f64) -> State {
+        // the end itself, without the rounding of the differences below
+        let whole = x >= self.duration();
+        if x < self.t1 {
+            let RampState { s, v, a, j } = self.shape.rise(self.a, self.t1, x);
+            return State {
+                s_mm: self.v_low * x + s,
+                v_mm_s: self.v_low + v,
+                a_mm_s2: a,
+                j_mm_s3: j,
+            };
+        }
+        let x = x - self.t1;
+        if x < self.tc {
+            let (s, v) = self.shoulder();
+            return State {
+                s_mm: s + x * (v + 0.5 * self.a * x),
+                v_mm_s: v + self.a * x,
+                a_mm_s2: self.a,
+                j_mm_s3: 0.0,
+            };
+        }
+        let left = if whole { 0.0 } else { (self.t2 - (x - self.tc)).max(0.0) };
+        let RampState { s, v, a, j } = self.shape.rise(self.a, self.t2, left);
+        State {
+            s_mm: self.distance - (self.v_high * left - s),
+            v_mm_s: (self.v_high - v).max(self.v_low),
+            a_mm_s2: if self.t2 > 0.0 { a } else { 0.0 },
+            j_mm_s3: -j,
+        }
+    }
+
+    /// Time at which `s` in `0..=distance` is passed.
+    pub(super) fn time_at(&self, s: f64) -> f64 {
+        let (s1, v1) = self.shoulder();
+        if s <= s1 {
+            return increasing_root(0.0, self.t1, self.t1, 1e-15, |x| {
+                let r = self.shape.rise(self.a, self.t1, x);
+                (self.v_low * x + r.s - s, self.v_low + r.v)
+            });
+        }
+        let s2 = s1 + self.tc * (v1 + 0.5 * self.a * self.tc);
+        if s <= s2 {
+            let d = s - s1;
+            return self.t1 + (2.0 * d / (v1 + (v1 * v1 + 2.0 * self.a * d).sqrt())).min(self.tc);
+        }
+        let to_go = (self.distance - s).max(0.0);
+        let left = increasing_root(0.0, self.t2, to_go / self.v_high, 1e-15, |x| {
+            let r = self.shape.rise(self.a, self.t2, x);
+            (self.v_high * x - r.s - to_go, self.v_high - r.v)
+        });
+        self.duration() - left
+    }
+}

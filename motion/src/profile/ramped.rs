@@ -1,0 +1,91 @@
+//! TRAPEZ and SIN2: acceleration that builds up and falls in ramps.
+
+use super::leg::{LegLimits, LegPair, RampLeg};
+use super::ramp::RampShape;
+use super::slope::Infeasible;
+use super::span::{Leg, Span, SpanProfile};
+
+/// Path limits of a non-linear slope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RampedLimits {
+    up: LegLimits,
+    down: LegLimits,
+}
+
+impl RampedLimits {
+    /// Limits referred to the path.
+    ///
+    /// `acc_mm_s2`, `dec_mm_s2`: plateaus, positive. `ramps_s`: `t1..t4`, the times in which acceleration
+    /// builds up and falls and deceleration builds up and falls; below one nanosecond they are a step.
+    /// `constant_ramp_time` (P-CHAN-00349 = 1): a speed change too small for the plateau keeps its ramp
+    /// times and lowers the plateau; otherwise it keeps the jerk and shortens the ramps.
+    ///
+    /// Source: TF5200, P-CHAN-00071, P-CHAN-00349, P-AXIS-00001, 00002, 00195..00198.
+    pub fn new(
+        shape: RampShape,
+        constant_ramp_time: bool,
+        acc_mm_s2: f64,
+        dec_mm_s2: f64,
+        ramps_s: [f64; 4],
+    ) -> Self {
+        let [t1, t2, t3, t4] = ramps_s;
+        Self {
+            up: LegLimits::new(shape, constant_ramp_time, acc_mm_s2, t1, t2),
+            // braking is the mirror image in time: its last ramp comes first
+            down: LegLimits::new(shape, constant_ramp_time, dec_mm_s2, t4, t3),
+        }
+    }
+
+    pub(super) fn combine(
+        &self,
+        other: &Self,
+        f: impl Fn(&LegLimits, &LegLimits) -> LegLimits,
+    ) -> Self {
+        Self { up: f(&self.up, &other.up), down: f(&self.down, &other.down) }
+    }
+
+    pub(super) fn all(&self, other: &Self, f: impl Fn(&LegLimits, &LegLimits) -> bool) -> bool {
+        f(&self.up, &other.up) && f(&self.down, &other.down)
+    }
+
+    pub(super) fn up(&self) -> &LegLimits {
+        &self.up
+    }
+
+    pub(super) fn down(&self) -> &LegLimits {
+        &self.down
+    }
+
+    pub(super) fn plan(
+        &self,
+        v0: f64,
+        ve: f64,
+        vf: f64,
+        length: f64,
+    ) -> Result<SpanProfile, Infeasible> {
+        let top = v0.max(ve);
+        let distances = |up_gain: f64, down_gain: f64| {
+            (self.up.distance(v0, up_gain), self.down.distance(ve, down_gain))
+        };
+        let (needed_up, needed_down) = distances(top - v0, top - ve);
+        let vf = vf.max(top);
+        Infeasible::check(needed_up + needed_down, length, vf)?;
+        let mut gains = (vf - v0, vf - ve);
+        let mut parts = distances(gains.0, gains.1);
+        let mut peak = vf;
+        let at_feed = parts.0 + parts.1 <= length;
+        if !at_feed {
+            let pair = LegPair { up: &self.up, down: &self.down, v0, ve };
+            gains = pair.gains(vf, length, needed_up + needed_down, parts.0 + parts.1);
+            parts = distances(gains.0, gains.1);
+            peak = (v0 + gains.0).clamp(top, vf);
+        }
+        let span = Span { length, v0, ve, peak, at_feed };
+        Ok(SpanProfile::assemble(span, parts.0 + parts.1, |stretch| {
+            (
+                Leg::Ramp(RampLeg::new(&self.up, v0, gains.0, parts.0, stretch)),
+                Leg::Ramp(RampLeg::new(&self.down, ve, gains.1, parts.1, stretch)),
+            )
+        }))
+    }
+}

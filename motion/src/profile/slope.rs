@@ -1,0 +1,119 @@
+//! Limits of the path speed over one span and the questions of the look-ahead.
+
+use super::ramped::RampedLimits;
+use super::span::SpanProfile;
+use super::step::StepLimits;
+
+/// The boundary velocities of a span do not fit its length; the look-ahead has to lower one of them.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("speed change needs {needed_mm} mm, the span has {length_mm} mm")]
+pub struct Infeasible {
+    /// Length of the span in mm.
+    pub length_mm: f64,
+    /// Length the change between the boundary velocities needs in mm; infinite if no speed is allowed.
+    pub needed_mm: f64,
+}
+
+/// How far (relative) the boundary velocities may miss the length before a plan is refused.
+pub(super) const LENGTH_SLACK: f64 = 1e-9;
+
+impl Infeasible {
+    pub(super) fn check(needed: f64, length: f64, v_max: f64) -> Result<(), Self> {
+        let stuck = length > 0.0 && v_max <= 0.0;
+        // written so that NaN is refused
+        if !stuck && needed <= length * (1.0 + LENGTH_SLACK) {
+            Ok(())
+        } else {
+            let needed_mm = if stuck { f64::INFINITY } else { needed };
+            Err(Self { length_mm: length, needed_mm })
+        }
+    }
+}
+
+/// Path limits of one span: how its velocity may change.
+///
+/// All velocities are `>= 0` in mm/s (deg/s), lengths in mm (deg).
+#[derive(Clone, Debug, PartialEq)]
+pub enum SlopeLimits {
+    /// STEP: acceleration jumps, levels by velocity.
+    Step(StepLimits),
+    /// TRAPEZ and SIN2: acceleration changes in ramps.
+    Ramped(RampedLimits),
+}
+
+impl SlopeLimits {
+    /// Length of the speed-up from `v0` to `v1 >= v0`.
+    pub fn up_distance(&self, v0: f64, v1: f64) -> f64 {
+        match self {
+            Self::Step(l) => l.up().distance(v0, v1),
+            Self::Ramped(l) => l.up().distance(v0, v1 - v0),
+        }
+    }
+
+    /// Length of the braking from `v1` to `ve <= v1`.
+    pub fn down_distance(&self, v1: f64, ve: f64) -> f64 {
+        match self {
+            Self::Step(l) => l.down().distance(ve, v1),
+            Self::Ramped(l) => l.down().distance(ve, v1 - ve),
+        }
+    }
+
+    /// Duration in s of the speed-up from `v0` to `v1 >= v0`.
+    pub fn up_time(&self, v0: f64, v1: f64) -> f64 {
+        match self {
+            Self::Step(l) => l.up().duration(v0, v1),
+            Self::Ramped(l) => l.up().duration(v1 - v0),
+        }
+    }
+
+    /// Duration in s of the braking from `v1` to `ve <= v1`.
+    pub fn down_time(&self, v1: f64, ve: f64) -> f64 {
+        match self {
+            Self::Step(l) => l.down().duration(ve, v1),
+            Self::Ramped(l) => l.down().duration(v1 - ve),
+        }
+    }
+
+    /// Largest velocity that a speed-up from `v0` reaches within `length`.
+    ///
+    /// With constant ramp time any speed-up takes at least both ramps; on a shorter length the answer is `v0`.
+    pub fn reach_up(&self, v0: f64, length: f64) -> f64 {
+        match self {
+            Self::Step(l) => l.up().reach(v0, length),
+            Self::Ramped(l) => add_rounding_down(v0, l.up().reach(v0, length)),
+        }
+    }
+
+    /// Largest velocity from which braking to `ve` fits into `length`.
+    ///
+    /// Grows with `length`, but with ramps not always with `ve`: acceleration has to be zero at `ve`, so braking
+    /// to a crawl can take longer than braking to rest. Lowering one boundary velocity of a plan can make its
+    /// neighbours infeasible; both passes of the look-ahead have to run again.
+    pub fn reach_down(&self, ve: f64, length: f64) -> f64 {
+        match self {
+            Self::Step(l) => l.down().reach(ve, length),
+            Self::Ramped(l) => add_rounding_down(ve, l.down().reach(ve, length)),
+        }
+    }
+
+    /// The whole span: from `v0` to a peak of at most `vf`, then to `ve`, over exactly `length`.
+    ///
+    /// A `vf` below `max(v0, ve)` counts as that maximum. Where the boundary velocities miss the length by
+    /// rounding (relative 1e-9 at most), the times of the profile are compressed by that ratio: velocities stay
+    /// as given, acceleration exceeds its limit by the same ratio.
+    ///
+    /// # Errors
+    /// [`Infeasible`] if the change from `v0` to `ve` alone needs more than `length`, or no speed is allowed.
+    pub fn plan(&self, v0: f64, ve: f64, vf: f64, length: f64) -> Result<SpanProfile, Infeasible> {
+        match self {
+            Self::Step(l) => l.plan(v0, ve, vf, length),
+            Self::Ramped(l) => l.plan(v0, ve, vf, length),
+        }
+    }
+}
+
+/// `v + gain`, never rounded up: at high speed one unit in the last place may cost more than the length.
+pub(super) fn add_rounding_down(v: f64, gain: f64) -> f64 {
+    let sum = v + gain;
+    if sum - v > gain { sum.next_down().max(v) } else { sum }
+}

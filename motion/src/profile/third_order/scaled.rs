@@ -1,0 +1,97 @@
+//! The problem in units in which the jerk is 1 and the states are of order 1.
+
+use super::profile::{MotionState, ThirdOrderLimits};
+
+/// Units of time and length: `jerk · time³ = length`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Units {
+    pub(super) time: f64,
+    pub(super) velocity: f64,
+    pub(super) acceleration: f64,
+    pub(super) length: f64,
+}
+
+impl Units {
+    /// The time in which the jerk alone makes the largest of all given differences; `None` if there is none.
+    pub(super) fn of(start: &MotionState, end: &MotionState, jerk: f64) -> Option<Self> {
+        let distance = (end.p_mm - start.p_mm).abs();
+        let velocity = start.v_mm_s.abs().max(end.v_mm_s.abs());
+        let acceleration = start.a_mm_s2.abs().max(end.a_mm_s2.abs());
+        let time =
+            libm::cbrt(distance / jerk).max((velocity / jerk).sqrt()).max(acceleration / jerk);
+        (time > 0.0).then_some(Self {
+            time,
+            velocity: jerk * time * time,
+            acceleration: jerk * time,
+            length: jerk * time * time * time,
+        })
+    }
+}
+
+/// Displacement, boundary states and limits with jerk 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Problem {
+    pub(super) distance: f64,
+    pub(super) v0: f64,
+    pub(super) a0: f64,
+    pub(super) ve: f64,
+    pub(super) ae: f64,
+    pub(super) v_max: f64,
+    pub(super) v_min: f64,
+    pub(super) a_max: f64,
+    pub(super) a_min: f64,
+    /// Rounding of the displacement, from the size of the positions.
+    pub(super) distance_rounding: f64,
+}
+
+impl Problem {
+    pub(super) fn new(
+        start: &MotionState,
+        end: &MotionState,
+        limits: &ThirdOrderLimits,
+        units: &Units,
+    ) -> Self {
+        let size = start.p_mm.abs().max(end.p_mm.abs());
+        Self {
+            distance: (end.p_mm - start.p_mm) / units.length,
+            v0: start.v_mm_s / units.velocity,
+            a0: start.a_mm_s2 / units.acceleration,
+            ve: end.v_mm_s / units.velocity,
+            ae: end.a_mm_s2 / units.acceleration,
+            v_max: limits.v_max_mm_s / units.velocity,
+            v_min: limits.v_min_mm_s / units.velocity,
+            a_max: limits.a_max_mm_s2 / units.acceleration,
+            a_min: limits.a_min_mm_s2 / units.acceleration,
+            distance_rounding: 4.0 * f64::EPSILON * size / units.length,
+        }
+    }
+
+    /// The mirror image: positions change sign.
+    pub(super) fn mirrored(&self) -> Self {
+        Self {
+            distance: -self.distance,
+            v0: -self.v0,
+            a0: -self.a0,
+            ve: -self.ve,
+            ae: -self.ae,
+            v_max: -self.v_min,
+            v_min: -self.v_max,
+            a_max: -self.a_min,
+            a_min: -self.a_max,
+            ..*self
+        }
+    }
+
+    /// The same motion run backwards and mirrored: displacement, velocities and jerks keep their sign.
+    pub(super) fn reversed(&self) -> Self {
+        Self {
+            v0: self.ve,
+            a0: -self.ae,
+            ve: self.v0,
+            ae: -self.a0,
+            a_max: -self.a_min,
+            a_min: -self.a_max,
+            ..*self
+        }
+    }
+}

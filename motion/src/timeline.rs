@@ -1,0 +1,230 @@
+//! Spans on the time axis: where the path is in cycle `k`.
+//!
+//! The profiles are continuous; a motion starts on a cycle tick, its setpoint `j` is the profile at `j T`, counted with
+//! an integer. Span and block borders fall inside cycles; the rest of the cycle is spent in the next span. The last
+//! cycle of a motion is its exact end.
+
+use crate::axis::AxisVec;
+use crate::limit::SpeedLimit;
+use crate::lookahead::Span;
+use crate::profile::SpanProfile;
+use crate::queue::Queued;
+use kontur_filters::time::CycleTime;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// A moment: seconds after a cycle tick, the seconds kept as a sum with its rounding error.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Moment {
+    pub(crate) origin: u64,
+    after_s: f64,
+    error_s: f64,
+}
+
+impl Moment {
+    pub(crate) fn tick(origin: u64) -> Self {
+        Self { origin, ..Self::default() }
+    }
+
+    /// Neumaier sum, so that a motion of a million spans keeps its ticks.
+    pub(crate) fn plus(mut self, s: f64) -> Self {
+        let sum = self.after_s + s;
+        self.error_s +=
+            if self.after_s >= s { (self.after_s - sum) + s } else { (s - sum) + self.after_s };
+        self.after_s = sum;
+        self
+    }
+
+    pub(crate) fn seconds(self) -> f64 {
+        self.after_s + self.error_s
+    }
+
+    /// In cycles since the start of the program.
+    pub(crate) fn cycles(self, cycle: CycleTime) -> f64 {
+        self.origin as f64 + self.seconds() / cycle.seconds()
+    }
+
+    /// First tick that is not before this moment: `ceil(D / T - 1e-9)`.
+    pub(crate) fn next_tick(self, cycle: CycleTime) -> u64 {
+        self.origin + (self.seconds() / cycle.seconds() - 1e-9).ceil().max(0.0) as u64
+    }
+}
+
+/// A span placed in time.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub(crate) start: Moment,
+    pub(crate) end: Moment,
+    /// Path length of the program at the start of the span.
+    pub(crate) s0: f64,
+    pub(crate) profile: SpanProfile,
+    pub(crate) why_up: SpeedLimit,
+    pub(crate) why_down: SpeedLimit,
+    /// Blocks with the path length inside the span at their end.
+    pub(crate) blocks: smallvec::SmallVec<[(Arc<Queued>, f64); 1]>,
+    /// The motion ends here, at its next tick.
+    pub(crate) stops: bool,
+}
+
+/// State of the path in one cycle.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PathState {
+    /// Position of every axis.
+    pub(crate) position: AxisVec,
+    /// Path length since the start of the program in mm.
+    pub(crate) s: f64,
+    /// Path velocity in mm/s.
+    pub(crate) v: f64,
+    /// Path acceleration in mm/s2.
+    pub(crate) a: f64,
+    /// Path jerk in mm/s3.
+    pub(crate) j: f64,
+    /// What holds the speed down.
+    pub(crate) limit: SpeedLimit,
+    /// Number of the block.
+    pub(crate) seq: u64,
+}
+
+impl Entry {
+    pub(crate) fn new(
+        start: Moment,
+        s0: f64,
+        span: &Span,
+        window: &[Arc<Queued>],
+        stops: bool,
+    ) -> Self {
+        let mut at = 0.0;
+        let blocks = window[span.first..span.end]
+            .iter()
+            .map(|q| {
+                at += q.length;
+                (Arc::clone(q), at)
+            })
+            .collect();
+        let end = start.plus(span.profile.duration());
+        let profile = span.profile.clone();
+        Self {
+            start,
+            end,
+            s0,
+            profile,
+            why_up: span.why_up,
+            why_down: span.why_down,
+            blocks,
+            stops,
+        }
+    }
+
+    /// State at `k` cycles; exact at the end of a motion.
+    fn state(&self, k: u64, cycle: CycleTime, out: &mut PathState) {
+        // before the start (a dwell in front of it) the path rests at its beginning
+        let t =
+            (cycle.time_of(k.saturating_sub(self.start.origin)) - self.start.seconds()).max(0.0);
+        let over = self.stops && k >= self.end.next_tick(cycle);
+        let state = self.profile.at(if over { self.profile.duration() } else { t });
+        let i = self.blocks.partition_point(|b| b.1 <= state.s_mm).min(self.blocks.len() - 1);
+        let (queued, s_end) = &self.blocks[i];
+        let path = &queued.block.path;
+        if over {
+            out.position.copy_from_slice(path.end());
+            (out.v, out.a, out.j) = (0.0, 0.0, 0.0);
+            out.limit = self.why_down;
+        } else {
+            path.position(state.s_mm - (s_end - queued.length), &mut out.position);
+            (out.v, out.a, out.j) = (state.v_mm_s, state.a_mm_s2, state.j_mm_s3);
+            out.limit = if state.a_mm_s2 > 0.0 {
+                self.why_up
+            } else if state.a_mm_s2 < 0.0 {
+                self.why_down
+            } else if state.v_mm_s >= queued.velocity.0 * (1.0 - 1e-9) {
+                queued.velocity.1
+            } else {
+                self.why_down
+            };
+        }
+        out.s = self.s0 + state.s_mm;
+        out.seq = queued.block.seq;
+    }
+
+    /// Moments at which the blocks of the span are entered, in cycles.
+    pub(crate) fn entries(&self, cycle: CycleTime) -> impl Iterator<Item = (f64, &Arc<Queued>)> {
+        self.blocks.iter().map(move |(q, s_end)| {
+            let s = s_end - q.length;
+            let t = if s <= 0.0 { 0.0 } else { self.profile.time_at(s) };
+            (self.start.cycles(cycle) + t / cycle.seconds(), q)
+        })
+    }
+}
+
+/// Consecutive spans, read in order of time.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Timeline {
+    entries: VecDeque<Entry>,
+}
+
+impl Timeline {
+    pub(crate) fn push(&mut self, entry: Entry) {
+        self.entries.push_back(entry);
+    }
+
+    pub(crate) fn entries(&self) -> impl Iterator<Item = &Entry> {
+        self.entries.iter()
+    }
+
+    /// Path states of rising cycles; a cycle behind the end of a motion rests at its end until the next one starts.
+    pub(crate) fn reader(&self) -> Reader<'_> {
+        Reader { timeline: self, at: 0 }
+    }
+
+    /// Drops what lies before cycle `k` and fills `out`; false if `k` lies behind the last span.
+    pub(crate) fn advance(&mut self, k: u64, cycle: CycleTime, out: &mut PathState) -> bool {
+        while let Some(front) = self.entries.front() {
+            let resting = front.stops && self.entries.get(1).is_some_and(|e| k <= e.start.origin);
+            if resting || front.covers(k, cycle) {
+                front.state(k, cycle, out);
+                return true;
+            }
+            if self.entries.len() == 1 && front.stops {
+                return false;
+            }
+            self.entries.pop_front();
+        }
+        false
+    }
+}
+
+impl Entry {
+    fn covers(&self, k: u64, cycle: CycleTime) -> bool {
+        if self.stops {
+            k <= self.end.next_tick(cycle)
+        } else {
+            cycle.time_of(k.saturating_sub(self.start.origin)) < self.end.seconds()
+        }
+    }
+}
+
+/// See [`Timeline::reader`].
+#[derive(Debug)]
+pub(crate) struct Reader<'a> {
+    timeline: &'a Timeline,
+    at: usize,
+}
+
+impl Reader<'_> {
+    /// State in cycle `k`; cycles before the first or behind the last span rest at its end.
+    pub(crate) fn state(&mut self, k: u64, cycle: CycleTime, out: &mut PathState) {
+        let entries = &self.timeline.entries;
+        let started = |e: &Entry| {
+            k >= e.start.origin && cycle.time_of(k - e.start.origin) >= e.start.seconds()
+        };
+        while self.at > 0 && !started(&entries[self.at]) {
+            self.at -= 1;
+        }
+        while entries.get(self.at + 1).is_some_and(started) {
+            self.at += 1;
+        }
+        if let Some(e) = entries.get(self.at) {
+            e.state(k, cycle, out);
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Machines and programs for the planner's tests.
+#![allow(dead_code, reason = "every test file uses its own part")]
+
+use kontur_filters::kernel::Kernel;
+use kontur_filters::time::CycleTime;
+use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, RapidSlope, StepSlope};
+use kontur_motion::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance};
+use kontur_motion::block::{TransitionJerkMode, VectorLimits};
+use kontur_motion::path::{LinePath, Path};
+use kontur_motion::planner::{Next, Planner, Setpoint};
+use kontur_motion::tolerance::Kernels;
+use std::sync::Arc;
+
+/// Axis of the vendor's defaults: 1000 mm/s2, ramps of 50 ms; 1 m/s.
+pub(crate) fn axis(weight: f64) -> AxisDynamics {
+    let step = StepSlope { acc_mm_s2: [1000.0; 2], dec_mm_s2: [1000.0; 2], change_mm_s: 100.0 };
+    AxisDynamics {
+        v_max_mm_s: 1000.0,
+        v_rapid_mm_s: 1000.0,
+        a_max_mm_s2: 1000.0,
+        a_emergency_mm_s2: 1000.0,
+        tr_geom_s: 0.01,
+        feed: FeedSlope { acc_mm_s2: 1000.0, dec_mm_s2: 1000.0, ramps_s: [0.05; 4] },
+        rapid: RapidSlope { acc_mm_s2: 1000.0, ramp_s: 0.01 },
+        step_feed: step,
+        step_rapid: step,
+        a_trans_ratio: weight,
+        r_trans_ratio: 1.0,
+        j_trans_kink_mm_s3: 0.0,
+        j_trans_tangential_mm_s3: 0.0,
+    }
+}
+
+pub(crate) fn channel(axes: Vec<AxisDynamics>) -> Arc<ChannelDynamics> {
+    let feed_axes = vec![true; axes.len()];
+    Arc::new(ChannelDynamics {
+        axes,
+        feed_axes,
+        limit_tangential_jerk: false,
+        transition_jerk: TransitionJerkMode::Coupled,
+        curvature_estimate: 0,
+        curve_jerk: CurveJerk::Geometric,
+        vector: VectorLimits::default(),
+        vector_acc_on_arcs: false,
+        transition_velocity_min_mm_s: 0.0,
+        stop_at_transitions: false,
+    })
+}
+
+pub(crate) struct Job {
+    pub(crate) dynamics: Arc<ChannelDynamics>,
+    pub(crate) slope: Slope,
+    pub(crate) cycle_us: u32,
+    pub(crate) tolerance: Tolerance,
+    pub(crate) kernel: Option<Kernel>,
+    pub(crate) window: usize,
+}
+
+impl Job {
+    pub(crate) fn new(weight: f64, kind: SlopeKind) -> Self {
+        Self {
+            dynamics: channel(vec![axis(weight); 2]),
+            slope: Slope { kind, ..Slope::default() },
+            cycle_us: 1000,
+            tolerance: Tolerance::default(),
+            kernel: None,
+            window: 120,
+        }
+    }
+
+    pub(crate) fn block(&self, seq: u64, path: Path, feed_mm_s: f64) -> Block {
+        Block {
+            seq,
+            path,
+            feed: Feed::PathVelocity(feed_mm_s),
+            feed_ratio: 1.0,
+            end_velocity_mm_s: None,
+            slope: self.slope,
+            dynamics: Arc::clone(&self.dynamics),
+            tolerance: self.tolerance,
+            contour: None,
+            spline: None,
+        }
+    }
+
+    /// Drives a polyline; the feeds are cycled.
+    pub(crate) fn drive(&self, points: &[&[f64]], feeds_mm_s: &[f64]) -> Vec<Setpoint> {
+        let blocks = points.windows(2).enumerate().filter_map(|(i, w)| {
+            let line = LinePath::new(AxisVec::from_slice(w[0]), AxisVec::from_slice(w[1]), &[])?;
+            Some(self.block(i as u64, Path::Line(line), feeds_mm_s[i % feeds_mm_s.len()]))
+        });
+        self.run(points[0], blocks)
+    }
+
+    /// Setpoints from the start to rest, the kernel's length of standstill behind them.
+    pub(crate) fn run(&self, start: &[f64], blocks: impl Iterator<Item = Block>) -> Vec<Setpoint> {
+        let cycle = CycleTime::from_us(self.cycle_us).unwrap();
+        let mut planner = Planner::new(cycle, self.window, start);
+        let kernel = self.kernel.clone().map(Arc::new);
+        planner.set_kernels(Kernels::new(vec![kernel; start.len()]), 0);
+        let mut blocks = blocks;
+        let mut out = vec![planner.setpoint().clone()];
+        loop {
+            match planner.advance().unwrap() {
+                Next::Setpoint => out.push(planner.setpoint().clone()),
+                Next::Input => match blocks.next() {
+                    Some(b) => planner.push(b),
+                    None => planner.finish(),
+                },
+                Next::Rest => break,
+            }
+        }
+        let unkept = planner.take_unkept();
+        assert!(unkept.is_empty(), "{unkept:?}");
+        out
+    }
+}
+
+/// Set points of a run: each axis through the kernel, flushed at the end.
+pub(crate) fn filtered(out: &[Setpoint], kernel: &Kernel) -> Vec<Vec<f64>> {
+    let length = kernel.length() as usize;
+    let at = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
+    (0..out.len() + length)
+        .map(|k| {
+            (0..out[0].position.len())
+                .map(|i| {
+                    let x = at(k, i);
+                    let y: f64 = kernel
+                        .taps()
+                        .iter()
+                        .map(|t| t.weight * (at(k.saturating_sub(t.delay as usize), i) - x))
+                        .sum();
+                    x + y
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// Largest axis component of the shortest vector from a polyline to a point.
+pub(crate) fn deviation(point: &[f64], polyline: &[&[f64]]) -> f64 {
+    let mut best = (f64::INFINITY, 0.0);
+    for w in polyline.windows(2) {
+        let d: Vec<f64> = w[0].iter().zip(w[1]).map(|(a, b)| b - a).collect();
+        let l2: f64 = d.iter().map(|c| c * c).sum();
+        if l2 <= 0.0 {
+            continue;
+        }
+        let dot: f64 = d.iter().zip(point).zip(w[0]).map(|((d, p), a)| d * (p - a)).sum();
+        let u = (dot / l2).clamp(0.0, 1.0);
+        let e: Vec<f64> = (0..d.len()).map(|i| point[i] - w[0][i] - u * d[i]).collect();
+        let n: f64 = e.iter().map(|c| c * c).sum();
+        if n < best.0 {
+            best = (n, e.iter().fold(0.0, |m: f64, c| m.max(c.abs())));
+        }
+    }
+    best.1
+}

@@ -1,0 +1,459 @@
+//! Polynomial contouring: the curve against its closed forms, its neighbours, and what a larger tolerance may not do.
+
+mod common;
+
+use common::{Job, axis, channel};
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
+use kontur_motion::block::{Block, CurveJerk, Feed, Tolerance};
+use kontur_motion::contouring::{ContourMode, ContourSettings, Contouring, NoContour, Notice};
+use kontur_motion::limits::{PathExtremes, path_velocity};
+use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use std::sync::Arc;
+
+fn line(from: &[f64], to: &[f64]) -> Path {
+    let (from, to) = (AxisVec::from_slice(from), AxisVec::from_slice(to));
+    Path::Line(LinePath::new(from, to, &[]).unwrap())
+}
+
+fn arc(from: &[f64], to: &[f64], centre_mm: [f64; 2], sweep_rad: f64) -> Path {
+    let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad };
+    let (from, to) = (AxisVec::from_slice(from), AxisVec::from_slice(to));
+    Path::Arc(ArcPath::new(from, to, shape, &[]).unwrap())
+}
+
+fn dev(path_dev_mm: f64) -> ContourSettings {
+    ContourSettings { mode: ContourMode::Dev { path_dev_mm }, ..ContourSettings::default() }
+}
+
+/// Two lines of 100 mm that turn by `degrees`, the corner at the origin, in the plane from the x axis.
+fn corner(degrees: f64) -> [Path; 2] {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    [line(&[-100.0, 0.0], &[0.0, 0.0]), line(&[0.0, 0.0], &[100.0 * cos, 100.0 * sin])]
+}
+
+fn contoured(
+    job: &Job,
+    settings: ContourSettings,
+    paths: impl IntoIterator<Item = Path>,
+) -> (Vec<Block>, Vec<Notice>) {
+    let mut stage = Contouring::new();
+    let mut out = Vec::new();
+    for (i, path) in paths.into_iter().enumerate() {
+        let contour = Some(settings);
+        out.extend(stage.push(Block { contour, ..job.block(i as u64, path, 1000.0) }));
+    }
+    out.extend(stage.flush());
+    (out, stage.take_notices())
+}
+
+fn is_curve(block: &Block) -> bool {
+    matches!(block.path, Path::Curve(_))
+}
+
+fn curves(blocks: &[Block]) -> Vec<&Block> {
+    blocks.iter().filter(|b| is_curve(b)).collect()
+}
+
+fn at(path: &Path, s: f64) -> AxisVec {
+    let mut q = path.start().clone();
+    path.position(s, &mut q);
+    q
+}
+
+fn tangent(path: &Path, s: f64) -> AxisVec {
+    let mut q = path.start().clone();
+    path.tangent(s, &mut q);
+    q
+}
+
+fn curvature(path: &Path, s: f64) -> AxisVec {
+    let mut q = path.start().clone();
+    path.curvature(s, &mut q);
+    q
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+fn apart(p: &[f64], q: &[f64]) -> f64 {
+    let d: Vec<f64> = p.iter().zip(q).map(|(a, b)| a - b).collect();
+    norm(&d)
+}
+
+/// Every block starts where the one before ends, with its direction and its curvature.
+fn assert_smooth(blocks: &[Block]) {
+    for w in blocks.windows(2) {
+        let (a, b) = (&w[0].path, &w[1].path);
+        assert!(apart(a.end(), b.start()) < 1e-12, "gap {}", apart(a.end(), b.start()));
+        let l = a.length();
+        assert!(apart(&tangent(a, l), &tangent(b, 0.0)) < 1e-9);
+        assert!(apart(&curvature(a, l), &curvature(b, 0.0)) < 1e-7);
+    }
+}
+
+/// Corner distance, curve length, largest curvature, sqrt(1000 / curvature) for a deviation of 1 mm; from the closed
+/// form of the curve and its numerical integration.
+#[test]
+fn curve_between_two_lines() {
+    let job = Job::new(1.0, Trapez);
+    for (degrees, d, length, kappa, v) in [
+        (30.0, 10.303209, 20.246846, 0.040386, 157.3571),
+        (45.0, 6.968336, 13.396370, 0.096510, 101.7922),
+        (60.0, 5.333333, 9.944651, 0.187500, 73.0297),
+        (90.0, 3.771236, 6.454244, 0.562500, 42.1637),
+        (120.0, 3.079201, 4.705465, 1.687500, 24.3432),
+        (150.0, 2.760736, 3.729552, 7.834614, 11.2977),
+    ] {
+        let (blocks, notices) = contoured(&job, dev(1.0), corner(degrees));
+        assert_eq!(notices.len(), 1, "only that nothing follows the last block");
+        assert_eq!(notices[0], Notice { seq: 1, reason: NoContour::NothingFollows });
+        assert_smooth(&blocks);
+        let parts = curves(&blocks);
+        let (first, last) = (parts[0], parts[parts.len() - 1]);
+        assert!((norm(first.path.start()) - d).abs() < 1e-6, "{degrees}");
+        assert!((norm(last.path.end()) - d).abs() < 1e-6);
+        assert!(norm(&curvature(&first.path, 0.0)) < 1e-12);
+        assert!(norm(&curvature(&last.path, last.path.length())) < 1e-12);
+        let total: f64 = parts.iter().map(|b| b.path.length()).sum();
+        assert!((total - length).abs() < 1e-6, "{degrees}: {total}");
+        let (mut nearest, mut bend) = (f64::INFINITY, 0.0_f64);
+        for b in &parts {
+            for k in 0..=1000 {
+                let s = b.path.length() * f64::from(k) / 1000.0;
+                nearest = nearest.min(norm(&at(&b.path, s)));
+                bend = bend.max(norm(&curvature(&b.path, s)));
+            }
+            assert_eq!(b.seq, 0, "the curve belongs to the block before it");
+        }
+        assert!((nearest - 1.0).abs() < 1e-9, "{degrees}: {nearest}");
+        assert!((bend - kappa).abs() < 1e-6 * kappa.max(1.0), "{degrees}: {bend}");
+        assert!(((1000.0 / bend).sqrt() - v).abs() < 2e-4, "{degrees}");
+    }
+}
+
+/// Axis-parallel corner: min(48.004, 66.153) mm/s with 1000 mm/s2 and a geometric ramp of 10 ms.
+#[test]
+fn speed_on_the_curve() {
+    let job = Job::new(1.0, Trapez);
+    let slowest = |settings: ContourSettings, job: &Job| -> f64 {
+        let (blocks, _) = contoured(job, settings, corner(90.0));
+        curves(&blocks)
+            .iter()
+            .map(|b| path_velocity(b, &PathExtremes::of(&b.path)).0)
+            .fold(f64::INFINITY, f64::min)
+    };
+    assert!((slowest(dev(1.0), &job) - 48.004).abs() < 5e-4);
+    let mut x = PathExtremes {
+        first: AxisVec::zeros(2),
+        second: AxisVec::zeros(2),
+        third: AxisVec::zeros(2),
+    };
+    let (blocks, _) =
+        contoured(&job, ContourSettings { constant_velocity: true, ..dev(1.0) }, corner(90.0));
+    let parts = curves(&blocks);
+    assert_eq!(parts.len(), 1, "CONST_VEL: one block, one speed");
+    x.clone_from(&PathExtremes::of(&parts[0].path));
+    assert!((x.second[0] - 0.433952).abs() < 5e-7 && (x.second[1] - 0.433952).abs() < 5e-7);
+    assert!((x.third[0] - 0.345424).abs() < 5e-7 && (x.third[1] - 0.345424).abs() < 5e-7);
+    // a geometric ramp of 100 ms: (1000 / 0.1 / 0.345424)^(1/3); CHECK_JERK=2: ramps of 50 ms; 0: no jerk limit
+    let mut slow = axis(1.0);
+    slow.tr_geom_s = 0.1;
+    let job = Job { dynamics: channel(vec![slow; 2]), ..Job::new(1.0, Trapez) };
+    let jerk = |a: f64, t: f64| libm::cbrt(a / t / 0.345424);
+    assert!((slowest(dev(1.0), &job) - jerk(1000.0, 0.1)).abs() < 1e-3);
+    let checked = |check| ContourSettings { curve_jerk: Some(check), ..dev(1.0) };
+    assert!((slowest(checked(CurveJerk::Ramps), &job) - jerk(1000.0, 0.05)).abs() < 1e-3);
+    assert!((slowest(checked(CurveJerk::Unlimited), &job) - 48.004).abs() < 5e-4);
+}
+
+#[test]
+fn distances_are_limited_to_half_of_what_may_go() {
+    let job = Job::new(1.0, Trapez);
+    let short = || [line(&[-4.0, 0.0], &[0.0, 0.0]), line(&[0.0, 0.0], &[0.0, 10.0])];
+    let ends = |settings: ContourSettings| {
+        let (blocks, _) = contoured(&job, settings, short());
+        assert_smooth(&blocks);
+        let parts = curves(&blocks);
+        (-parts[0].path.start()[0], parts[parts.len() - 1].path.end()[1])
+    };
+    let dist = |pre_mm, post_mm| ContourSettings {
+        mode: ContourMode::Dist { pre_mm, post_mm },
+        ..ContourSettings::default()
+    };
+    // a deviation of 1 mm would need 3.77 mm: both distances are limited alike
+    let close = |a: (f64, f64), b: (f64, f64)| {
+        assert!((a.0 - b.0).abs() < 1e-12 && (a.1 - b.1).abs() < 1e-12, "{a:?} {b:?}");
+    };
+    close(ends(dev(1.0)), (2.0, 2.0));
+    close(ends(ContourSettings { remain_ratio: 0.1, ..dev(1.0) }), (1.8, 1.8));
+    close(ends(dist(1.0, 1.0)), (1.0, 1.0));
+    close(ends(dist(3.0, 3.0)), (2.0, 2.0));
+    // unequal ones: only the one that is too long
+    close(ends(dist(3.0, 4.0)), (2.0, 4.0));
+    close(ends(dist(0.5, 1.5)), (0.5, 1.5));
+    let ptp = ContourMode::Ptp { path_dev_mm: 0.1, path_dist_mm: 1.0 };
+    close(
+        ends(ContourSettings { mode: ptp, ..ContourSettings::default() }),
+        (0.8 * 2.0_f64.sqrt() / 3.0, 0.8 * 2.0_f64.sqrt() / 3.0),
+    );
+}
+
+/// A block between two curves that use up both halves disappears; the path stays continuous.
+#[test]
+fn a_block_may_be_used_up() {
+    let job = Job::new(1.0, Trapez);
+    let points: [&[f64]; 5] =
+        [&[0.0, 0.0], &[10.0, 0.0], &[10.0, 1.0], &[20.0, 1.0], &[20.0, 20.0]];
+    let (blocks, _) = contoured(&job, dev(5.0), points.windows(2).map(|w| line(w[0], w[1])));
+    assert_smooth(&blocks);
+    assert!(blocks.iter().all(|b| b.seq != 1 || is_curve(b)));
+    assert_eq!(blocks[0].path.start()[..], [0.0, 0.0]);
+    assert_eq!(blocks[blocks.len() - 1].path.end()[..], [20.0, 20.0]);
+}
+
+#[test]
+fn arcs_as_neighbours() {
+    let job = Job::new(1.0, Trapez);
+    let right = std::f64::consts::FRAC_PI_2;
+    // a line into a quarter circle with a corner of 90 deg, then another quarter, sharp again, then a line
+    let paths = || {
+        [
+            line(&[-20.0, 0.0], &[0.0, 0.0]),
+            arc(&[0.0, 0.0], &[10.0, 10.0], [10.0, 0.0], -right),
+            arc(&[10.0, 10.0], &[20.0, 20.0], [10.0, 20.0], right),
+            line(&[20.0, 20.0], &[20.0, 0.0]),
+        ]
+    };
+    // the second and third meet tangentially: that corner stays
+    for eps in [0.01, 0.1, 0.5] {
+        let (blocks, notices) = contoured(&job, dev(eps), paths());
+        assert_eq!(
+            notices.iter().map(|n| n.reason).collect::<Vec<_>>(),
+            [NoContour::NotPossible, NoContour::NothingFollows],
+            "the last corner reverses"
+        );
+        let parts = curves(&blocks);
+        let near = |p: &[f64]| {
+            let to = |path: &Path| apart(&at(path, path.nearest(p)), p);
+            paths().iter().map(to).fold(f64::INFINITY, f64::min)
+        };
+        let mut cut = f64::INFINITY;
+        for b in &parts {
+            for k in 0..=200 {
+                let p = at(&b.path, b.path.length() * f64::from(k) / 200.0);
+                assert!(near(&p) <= eps * (1.0 + 1e-9));
+                cut = cut.min(norm(&p));
+            }
+        }
+        assert!((cut - eps).abs() < 0.02 * eps, "the tolerance is used: {cut}");
+        assert_smooth(&blocks[..=parts.len() + 1]);
+    }
+    // arc to arc with a corner
+    let (blocks, _) = contoured(
+        &job,
+        dev(0.2),
+        [
+            arc(&[0.0, 0.0], &[10.0, 10.0], [10.0, 0.0], -right),
+            arc(&[10.0, 10.0], &[20.0, 20.0], [20.0, 10.0], -right),
+        ],
+    );
+    assert!(!curves(&blocks).is_empty());
+    assert_smooth(&blocks);
+}
+
+/// POS: through the interim point, also without leaving the first block before its end.
+#[test]
+fn interim_point() {
+    let job = Job::new(1.0, Trapez);
+    for (pre_mm, post_mm) in [(3.0, 3.0), (2.0, 4.0), (0.0, 3.0)] {
+        let point_mm = [Some(0.5), Some(-0.25), None];
+        let mode = ContourMode::Pos { pre_mm, post_mm, point_mm };
+        let settings = ContourSettings { mode, ..ContourSettings::default() };
+        let (blocks, _) = contoured(&job, settings, corner(90.0));
+        assert_smooth(&blocks);
+        let nearest = curves(&blocks)
+            .iter()
+            .map(|b| apart(&at(&b.path, b.path.nearest(&[0.5, -0.25])), &[0.5, -0.25]))
+            .fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-9, "{nearest}");
+    }
+}
+
+/// RELEVANT_PATH: short blocks between two long ones are bridged within PATH_DEV (TF5200, example of ID 120216).
+#[test]
+fn short_blocks_are_bridged() {
+    let job = Job::new(1.0, Trapez);
+    let points: [&[f64]; 4] = [&[0.0, 0.0], &[99.999, 0.001], &[100.0, 0.0], &[100.0, 100.0]];
+    let paths = || points.windows(2).map(|w| line(w[0], w[1]));
+    let (blocks, notices) =
+        contoured(&job, ContourSettings { relevant_path_mm: 0.1, ..dev(1.0) }, paths());
+    assert_smooth(&blocks);
+    assert!(!curves(&blocks).is_empty());
+    assert!(blocks.iter().all(|b| b.seq != 1));
+    assert_eq!(notices.len(), 1);
+    // without it the corner distance is half of 0.0014 mm
+    let (blocks, _) = contoured(&job, dev(1.0), paths());
+    assert_smooth(&blocks);
+    assert!(norm(&tangent(&blocks[1].path, 0.0)) > 0.9);
+    let start = curves(&blocks)[0].path.start().clone();
+    assert!(apart(&start, &[99.999, 0.001]) < 0.001);
+}
+
+#[test]
+fn what_cannot_be_contoured_says_so() {
+    let job = Job::new(1.0, Trapez);
+    let reason = |settings: ContourSettings, paths: Vec<Path>| {
+        let count = paths.len();
+        let (blocks, notices) = contoured(&job, settings, paths);
+        assert_eq!(blocks.len(), count, "the corner stays");
+        (notices[0].id(), notices[0].reason)
+    };
+    let right = || corner(90.0).to_vec();
+    assert_eq!(reason(dev(5e-5), right()).0, Some(120_129));
+    let mode = ContourMode::Dist { pre_mm: 0.0, post_mm: 1.0 };
+    assert_eq!(reason(ContourSettings { mode, ..dev(1.0) }, right()).0, Some(120_131));
+    assert_eq!(reason(dev(1.0), corner(180.0).to_vec()).0, Some(120_207));
+    let tiny = vec![line(&[0.0, 0.0], &[1e-4, 0.0]), line(&[1e-4, 0.0], &[1e-4, 1.0])];
+    assert_eq!(reason(dev(1.0), tiny).0, Some(120_216));
+    let bounded = ContourSettings { max_angle_deg: 60.0, ..dev(1.0) };
+    assert!(matches!(
+        reason(bounded, right()).1,
+        NoContour::AngleAboveMaximum { angle_deg } if (angle_deg - 90.0).abs() < 1e-9
+    ));
+    // DIST_SOFT is contoured, but not as asked for
+    let mode = ContourMode::DistSoft { path_dist_mm: 2.0 };
+    let (blocks, notices) = contoured(&job, ContourSettings { mode, ..dev(1.0) }, right());
+    assert_eq!(notices[0].reason, NoContour::ModeReplaced);
+    assert!((norm(curves(&blocks)[0].path.start()) - 2.0).abs() < 1e-12);
+}
+
+/// Exact stop, speed words and tolerances of the neighbours.
+#[test]
+fn words_of_the_neighbours() {
+    let job = Job::new(1.0, Trapez);
+    let [a, b] = corner(90.0);
+    let mut stage = Contouring::new();
+    let tolerance = |ax_dev_mm| Tolerance { ax_dev_mm, acc_fact: 1.0 };
+    let first = Block {
+        contour: Some(dev(1.0)),
+        feed: Feed::Duration(2.0),
+        tolerance: tolerance(Some(0.02)),
+        ..job.block(4, a.clone(), 0.0)
+    };
+    let second = Block {
+        feed_ratio: 0.5,
+        tolerance: tolerance(Some(0.01)),
+        ..job.block(5, b.clone(), 60.0)
+    };
+    let mut out: Vec<Block> = stage.push(first).collect();
+    out.extend(stage.push(second));
+    out.extend(stage.flush());
+    assert!(stage.take_notices().is_empty(), "the last block does not ask for contouring");
+    assert_eq!(out[0].feed, Feed::PathVelocity(50.0), "G93: the speed of the whole block");
+    for curve in curves(&out) {
+        assert_eq!((curve.feed, curve.feed_ratio), (Feed::PathVelocity(60.0), 0.5));
+        assert_eq!(curve.tolerance.ax_dev_mm, Some(0.01));
+        assert!(curve.contour.is_none());
+    }
+    // E: speed at the end of the block, which lies inside the curve
+    let e = Block {
+        contour: Some(dev(1.0)),
+        end_velocity_mm_s: Some(5.0),
+        ..job.block(0, a.clone(), 60.0)
+    };
+    let mut out: Vec<Block> = stage.push(e).collect();
+    out.extend(stage.push(job.block(1, b.clone(), 60.0)));
+    assert!(curves(&out).iter().all(|c| c.feed == Feed::PathVelocity(5.0)));
+    out.extend(stage.flush());
+    // a block without the word keeps its corner
+    out.extend(stage.push(job.block(0, a, 60.0)));
+    let plain: Vec<Block> = stage.push(job.block(1, b, 60.0)).collect();
+    assert!(!is_curve(&plain[0]) && apart(plain[0].path.end(), &[0.0, 0.0]) < 1e-15);
+}
+
+/// Slaved axes are rounded with the same polynomial; TRACK_DEV bounds them.
+#[test]
+fn slaved_axes() {
+    let mut dynamics = (*channel(vec![axis(1.0); 3])).clone();
+    dynamics.feed_axes = vec![true, true, false];
+    let job = Job { dynamics: Arc::new(dynamics), ..Job::new(1.0, Trapez) };
+    let mask = [true, true, false];
+    let path = |from: &[f64], to: &[f64]| {
+        let (from, to) = (AxisVec::from_slice(from), AxisVec::from_slice(to));
+        Path::Line(LinePath::new(from, to, &mask).unwrap())
+    };
+    let paths = || {
+        [path(&[-20.0, 0.0, 0.0], &[0.0, 0.0, 40.0]), path(&[0.0, 0.0, 40.0], &[0.0, 20.0, 0.0])]
+    };
+    let (blocks, _) = contoured(&job, dev(1.0), paths());
+    assert_smooth(&blocks);
+    // C turns from +2 to -2 deg/mm: its deviation is 3/16 d * 4
+    let (blocks, _) = contoured(&job, ContourSettings { track_dev_deg: 0.3, ..dev(1.0) }, paths());
+    assert_smooth(&blocks);
+    let d = -curves(&blocks)[0].path.start()[0];
+    assert!((d - 0.4).abs() < 1e-9, "{d}");
+    // one block without feed axes: no curve
+    let (_, notices) = contoured(
+        &job,
+        dev(1.0),
+        [path(&[-20.0, 0.0, 0.0], &[0.0; 3]), path(&[0.0; 3], &[0.0, 0.0, 90.0])],
+    );
+    assert_eq!(notices[0].reason, NoContour::NotPossible);
+}
+
+/// Peaks of the second and third differences of the setpoints.
+fn peaks(
+    job: &Job,
+    settings: Option<ContourSettings>,
+    points: &[&[f64]],
+    feed: f64,
+) -> (usize, f64, f64) {
+    let mut stage = Contouring::new();
+    let mut blocks = Vec::new();
+    for (i, w) in points.windows(2).enumerate() {
+        let block = job.block(i as u64, line(w[0], w[1]), feed);
+        blocks.extend(stage.push(Block { contour: settings, ..block }));
+    }
+    blocks.extend(stage.flush());
+    let out = job.run(points[0], blocks.into_iter());
+    let t = f64::from(job.cycle_us) * 1e-6;
+    let p = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
+    let (mut acc, mut jerk) = (0.0_f64, 0.0_f64);
+    for k in 0..out.len() {
+        for i in 0..2 {
+            let a = |k: usize| (p(k + 2, i) - 2.0 * p(k + 1, i) + p(k, i)) / (t * t);
+            acc = acc.max(a(k).abs());
+            jerk = jerk.max((a(k + 1) - a(k)).abs() / t);
+        }
+    }
+    (out.len() - 1, acc, jerk)
+}
+
+/// A larger tolerance never costs time where the speed is planned across block limits, and no axis is loaded beyond
+/// what the curve (`a`, `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together.
+#[test]
+fn a_larger_tolerance_costs_nothing() {
+    let shapes: [&[&[f64]]; 3] = [
+        &[&[0.0, 0.0], &[30.0, 0.0], &[30.0, 30.0], &[0.0, 30.0], &[0.0, 0.0]],
+        &[&[0.0, 0.0], &[20.0, 0.0], &[3.0, 5.0], &[25.0, 9.0], &[40.0, 3.0]],
+        &[&[0.0, 0.0], &[5.0, 1.0], &[10.0, 0.0], &[15.0, 3.0], &[15.0, 8.0], &[8.0, 12.0]],
+    ];
+    for kind in [Trapez, Sin2, Hsc, Step] {
+        let step = kind == Step;
+        let (acc, jerk) = if step { (2000.0, 2e6) } else { (1500.0, 100_000.0 + 20_000.0 * 1.571) };
+        for points in shapes {
+            let mut job = Job::new(0.0, kind);
+            job.slope.optimised = !step;
+            let mut last = peaks(&job, Some(dev(0.001)), points, 100.0);
+            for eps in [0.01, 0.05, 0.2, 1.0] {
+                let now = peaks(&job, Some(dev(eps)), points, 100.0);
+                assert!(now.0 <= last.0, "{kind:?} {eps}: {now:?} after {last:?}");
+                assert!(now.1 <= last.1.max(acc), "{kind:?} {eps}: {now:?} after {last:?}");
+                assert!(now.2 <= last.2.max(jerk), "{kind:?} {eps}: {now:?} after {last:?}");
+                last = now;
+            }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Velocity limits against worked numbers: kinks (P-AXIS-00013), arcs, oblique lines.
+
+mod common;
+
+use common::{Job, axis, channel};
+use kontur_filters::time::CycleTime;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SlopeKind::{Step, Trapez};
+use kontur_motion::block::{Block, SlopeKind, TransitionJerkMode};
+use kontur_motion::corner::{Ends, transition};
+use kontur_motion::limit::SpeedLimit;
+use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::queue::Queued;
+use std::f64::consts::PI;
+
+const CYCLE: CycleTime = CycleTime::DEFAULT;
+
+fn line(from: &[f64], to: &[f64]) -> Path {
+    Path::Line(LinePath::new(AxisVec::from_slice(from), AxisVec::from_slice(to), &[]).unwrap())
+}
+
+/// Velocity in mm/min at the kink between a leg along X and one turned by `degrees`.
+fn kink(weight: f64, cycle_us: u32, degrees: f64, kind: SlopeKind) -> f64 {
+    let job = Job::new(weight, kind);
+    let turned = [1.0 + libm::cos(degrees.to_radians()), libm::sin(degrees.to_radians())];
+    let a = job.block(0, line(&[0.0, 0.0], &[1.0, 0.0]), 1e6);
+    let b = job.block(1, line(&[1.0, 0.0], &turned), 1e6);
+    let cycle = CycleTime::from_us(cycle_us).unwrap();
+    transition(&a, &b, &Ends::of(&a), &Ends::of(&b), cycle, false).0 * 60.0
+}
+
+/// Table of kink velocities: a = 1000 mm/s2, ramps of 50 ms, first leg along X.
+#[test]
+fn kink_table() {
+    let angles = [5.0, 15.0, 45.0, 90.0, 135.0];
+    for (cycle_us, weight, row) in [
+        (1000, 0.0, [13.768, 4.636, 1.697, 1.200, 0.703]),
+        (1000, 0.1, [68.842, 23.182, 8.485, 6.000, 3.515]),
+        (1000, 1.0, [688.423, 231.822, 84.853, 60.000, 35.147]),
+        (2000, 0.0, [55.074, 18.546, 6.788, 4.800, 2.812]),
+        (2000, 1.0, [1376.846, 463.644, 169.706, 120.000, 70.294]),
+    ] {
+        for (degrees, want) in angles.iter().zip(row) {
+            let got = kink(weight, cycle_us, *degrees, Trapez);
+            assert!(
+                (got - want).abs() < 6e-4,
+                "{cycle_us} us, weight {weight}, {degrees} deg: {got}"
+            );
+        }
+    }
+    assert_eq!(kink(1.0, 1000, 180.0, Trapez), 0.0);
+    // STEP has no weight: the acceleration itself
+    assert!((kink(0.0, 1000, 90.0, Step) - 60.0).abs() < 1e-9);
+}
+
+/// P-CHAN-00117 = 2: the jerk at the kink, capped at `a / T`.
+#[test]
+fn direct_jerk_at_kinks() {
+    let mut job = Job::new(1.0, Trapez);
+    let mut d = (*job.dynamics).clone();
+    d.transition_jerk = TransitionJerkMode::DirectJerk;
+    for (jerk, want) in [(100_000.0, 0.1), (1e9, 1.0)] {
+        d.axes.iter_mut().for_each(|a| a.j_trans_kink_mm_s3 = jerk);
+        job.dynamics = std::sync::Arc::new(d.clone());
+        let a = job.block(0, line(&[0.0, 0.0], &[1.0, 0.0]), 1e6);
+        let b = job.block(1, line(&[1.0, 0.0], &[1.0, 1.0]), 1e6);
+        let v = transition(&a, &b, &Ends::of(&a), &Ends::of(&b), CYCLE, false).0;
+        assert!((v - want).abs() < 1e-12, "{jerk}: {v}");
+    }
+}
+
+fn arc(job: &Job, radius: f64, sweep_rad: f64) -> Block {
+    let end = [radius * (libm::cos(sweep_rad) - 1.0), radius * libm::sin(sweep_rad)];
+    let shape = ArcShape { plane: [0, 1], centre_mm: [-radius, 0.0], sweep_rad };
+    let path = ArcPath::new(AxisVec::zeros(2), AxisVec::from_slice(&end), shape, &[]).unwrap();
+    job.block(0, Path::Arc(path), 1e6)
+}
+
+/// Full circles at a = 1000 mm/s2, tr_geom = 10 ms.
+#[test]
+fn circle_table() {
+    let job = Job::new(1.0, Trapez);
+    for (radius, want) in
+        [(0.5, 22.361), (1.0, 31.623), (5.0, 70.711), (10.0, 100.0), (50.0, 223.607)]
+    {
+        let queued = Queued::new(arc(&job, radius, 2.0 * PI), CYCLE);
+        assert!((queued.velocity.0 - want).abs() < 6e-4, "r {radius}: {:?}", queued.velocity);
+        assert_eq!(queued.velocity.1, SpeedLimit::Curve);
+    }
+    // below r = a tr_geom^2 = 0.1 mm the geometric ramp time rules: v^3 / r^2 = a / tr_geom
+    let queued = Queued::new(arc(&job, 0.05, 2.0 * PI), CYCLE);
+    assert!((queued.velocity.0 - libm::cbrt(1e5 * 0.0025)).abs() < 1e-9);
+}
+
+/// Line to arc with P-CHAN-00009: the step of curvature, weights 0, 100 and 1000.
+#[test]
+fn tangential_transition_table() {
+    for (radius, weight, want) in [
+        (10.0, 0.0, 14.142),
+        (10.0, 0.1, 31.623),
+        (10.0, 1.0, 100.0),
+        (1.0, 0.0, 4.472),
+        (1.0, 0.1, 10.0),
+        (1.0, 1.0, 31.623),
+    ] {
+        let mut a = axis(1.0);
+        a.r_trans_ratio = weight;
+        let mut d = (*channel(vec![a; 2])).clone();
+        d.limit_tangential_jerk = true;
+        d.transition_jerk = TransitionJerkMode::Independent;
+        let job = Job { dynamics: std::sync::Arc::new(d), ..Job::new(1.0, Trapez) };
+        let before = job.block(0, line(&[0.0, -5.0], &[0.0, 0.0]), 1e6);
+        let behind = arc(&job, radius, PI);
+        let v = transition(&before, &behind, &Ends::of(&before), &Ends::of(&behind), CYCLE, false);
+        assert!((v.0 - want).abs() < 6e-4, "r {radius}, weight {weight}: {v:?}");
+    }
+}
+
+/// Oblique lines: X 500 mm/s, 2000 mm/s2, 40 ms; Y 300 mm/s, 800 mm/s2, 100 ms.
+#[test]
+fn oblique_lines() {
+    let with = |v, a, t| {
+        let mut x = axis(1.0);
+        x.v_max_mm_s = v;
+        (x.feed.acc_mm_s2, x.feed.dec_mm_s2, x.feed.ramps_s) = (a, a, [t; 4]);
+        x
+    };
+    let dynamics = channel(vec![with(500.0, 2000.0, 0.04), with(300.0, 800.0, 0.1)]);
+    let job = Job { dynamics, ..Job::new(1.0, Trapez) };
+    for (end, velocity, duration) in
+        [([30.0, 40.0], 375.0, 0.558257569495), ([96.0, 28.0], 520.8333333, 0.668916667)]
+    {
+        let fast = Queued::new(job.block(0, line(&[0.0, 0.0], &end), 1e6), CYCLE);
+        assert!((fast.velocity.0 - velocity).abs() < 1e-6);
+        let queued = Queued::new(job.block(0, line(&[0.0, 0.0], &end), 200.0), CYCLE);
+        let profile = queued.slope.plan(0.0, 0.0, queued.velocity.0, queued.length).unwrap();
+        assert!((profile.duration() - duration).abs() < 1e-9, "{}", profile.duration());
+    }
+}

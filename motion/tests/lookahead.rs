@@ -1,0 +1,74 @@
+//! Look-ahead against worked numbers (TF5200 limits, closed forms of the slopes; computed independently).
+
+mod common;
+
+use common::Job;
+use kontur_motion::block::SlopeKind::{Sin2, Step, Trapez};
+
+const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];
+
+/// Square of 1 mm at F4000: cycles from rest to rest and speed at the corners.
+#[test]
+fn square_takes_the_documented_number_of_cycles() {
+    for (kind, cycle_us, weight, cycles) in [
+        (Trapez, 1000, 0.0, 468),
+        (Sin2, 1000, 0.0, 468),
+        (Trapez, 1000, 0.1, 467),
+        (Trapez, 1000, 1.0, 455),
+        (Sin2, 1000, 1.0, 455),
+        (Step, 1000, 0.0, 248),
+        (Trapez, 2000, 0.0, 234),
+        (Trapez, 2000, 1.0, 221),
+        (Step, 2000, 1.0, 121),
+    ] {
+        let job = Job { cycle_us, ..Job::new(weight, kind) };
+        let out = job.drive(&SQUARE, &[4000.0 / 60.0]);
+        assert_eq!(out.len() - 1, cycles, "{kind:?} {cycle_us} us, weight {weight}");
+        assert_eq!(out.last().unwrap().position[..], [0.0, 0.0]);
+    }
+}
+
+fn collinear(lengths: &[f64]) -> Vec<[f64; 2]> {
+    let mut x = 0.0;
+    let mut points = vec![[0.0, 0.0]];
+    for l in lengths {
+        x += l;
+        points.push([x, 0.0]);
+    }
+    points
+}
+
+fn cycles(job: &Job, lengths: &[f64], feeds: &[f64]) -> usize {
+    let points = collinear(lengths);
+    let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+    job.drive(&points, feeds).len() - 1
+}
+
+/// Five collinear blocks with a slow one in the middle: 0.414 s (STEP), 0.556692341 s (TRAPEZ).
+#[test]
+fn slow_block_between_fast_ones() {
+    let (lengths, feeds) = ([10.0, 0.5, 0.5, 2.0, 10.0], [100.0, 100.0, 20.0, 100.0, 100.0]);
+    assert_eq!(cycles(&Job::new(0.0, Step), &lengths, &feeds), 414);
+    let job = Job { cycle_us: 100, ..Job::new(0.0, Trapez) };
+    // blocks of equal feed are joined: 10 + 0.5 mm before, 2 + 10 mm behind the slow block, so it is not slower than
+    // the 0.556692341 s of separate blocks
+    assert!(cycles(&job, &lengths, &feeds) <= 5567);
+}
+
+/// Twenty blocks of 0.5 mm at F6000 are one span: 0.256155281 s instead of 0.458220217 s.
+#[test]
+fn collinear_blocks_are_one_span() {
+    let job = Job { cycle_us: 100, ..Job::new(0.0, Trapez) };
+    assert_eq!(cycles(&job, &[0.5; 20], &[100.0]), 2562);
+    assert_eq!(cycles(&Job::new(0.0, Step), &[0.5; 20], &[100.0]), 200);
+}
+
+/// The T3 and N3 profiles on the time grid: 116.960710 ms are 117 cycles.
+#[test]
+fn samples_of_a_short_block() {
+    for (kind, at30) in [(Trapez, 0.089997076), (Sin2, 0.081004566)] {
+        let out = Job::new(0.0, kind).drive(&[&[0.0, 0.0], &[1.0, 0.0]], &[4000.0 / 60.0]);
+        assert_eq!(out.len() - 1, 117);
+        assert!((out[30].position[0] - at30).abs() < 1e-8, "{kind:?}: {}", out[30].position[0]);
+    }
+}

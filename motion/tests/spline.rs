@@ -1,0 +1,223 @@
+//! B-spline through short blocks: tolerance, smoothness, ends, ripple.
+
+mod common;
+
+use common::{Job, axis, channel, deviation};
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SlopeKind::{Hsc, Trapez};
+use kontur_motion::block::{Block, ChannelDynamics};
+use kontur_motion::path::{LinePath, Path};
+use kontur_motion::planner::Setpoint;
+use kontur_motion::spline::{SplineSettings, Splining};
+use std::sync::Arc;
+
+fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) -> Vec<Block> {
+    let mut stage = Splining::new();
+    let mut out = Vec::new();
+    for (i, w) in points.windows(2).enumerate() {
+        let (from, to) = (AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]));
+        let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
+        let block = Block { spline: Some(settings), ..job.block(i as u64, path, feed) };
+        out.extend(stage.push(block));
+        assert!(out.len() + 4 > i, "the buffer is bounded");
+    }
+    out.extend(stage.flush());
+    assert_eq!(out.len() + 1, points.len());
+    assert!(out.iter().enumerate().all(|(i, b)| b.seq == i as u64), "every block survives");
+    out
+}
+
+fn vector(path: &Path, f: impl Fn(&Path, &mut [f64])) -> Vec<f64> {
+    let mut v = path.start().to_vec();
+    f(path, &mut v);
+    v
+}
+
+fn apart(p: &[f64], q: &[f64]) -> f64 {
+    p.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
+/// Largest gaps in position, tangent and curvature between neighbours.
+fn gaps(blocks: &[Block]) -> [f64; 3] {
+    let mut worst = [0.0_f64; 3];
+    for w in blocks.windows(2) {
+        let (a, b) = (&w[0].path, &w[1].path);
+        let l = a.length();
+        worst[0] = worst[0].max(apart(a.end(), b.start()));
+        let (t, u) = (vector(a, |p, v| p.tangent(l, v)), vector(b, |p, v| p.tangent(0.0, v)));
+        worst[1] = worst[1].max(apart(&t, &u));
+        let (t, u) = (vector(a, |p, v| p.curvature(l, v)), vector(b, |p, v| p.curvature(0.0, v)));
+        worst[2] = worst[2].max(apart(&t, &u) / (1.0 + apart(&t, &[0.0; 8][..t.len()])));
+    }
+    worst
+}
+
+/// Largest component of the deviation of the spline from the polygon, and of a corner from the spline.
+fn strays(blocks: &[Block], points: &[Vec<f64>]) -> (f64, f64) {
+    let polygon: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+    let mut out = 0.0_f64;
+    let mut samples = Vec::new();
+    for b in blocks {
+        for k in 0..=20 {
+            let q = vector(&b.path, |p, v| p.position(p.length() * f64::from(k) / 20.0, v));
+            out = out.max(deviation(&q, &polygon));
+            samples.push(q);
+        }
+    }
+    let views: Vec<&[f64]> = samples.iter().map(|p| &p[..]).collect();
+    (out, points.iter().map(|p| deviation(p, &views)).fold(0.0, f64::max))
+}
+
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// A polygon with edges between 0.01 and 5 mm and any corner but a reversal.
+fn rough(seed: u64, count: usize) -> Vec<Vec<f64>> {
+    let mut seed = seed;
+    let (mut heading, mut p) = (0.0, [0.0, 0.0]);
+    let mut points = vec![p.to_vec()];
+    for _ in 0..count {
+        let l = libm::exp(libm::log(0.01) + random(&mut seed) * libm::log(500.0));
+        let (sin, cos) = libm::sincos(heading);
+        p = [p[0] + l * cos, p[1] + l * sin];
+        points.push(p.to_vec());
+        let turn = random(&mut seed) - 0.5;
+        heading += 5.8 * turn * turn * turn * 4.0;
+    }
+    points
+}
+
+#[test]
+fn the_tolerance_is_kept_and_the_curve_is_smooth() {
+    let job = Job::new(1.0, Hsc);
+    for seed in 0..40 {
+        let points = rough(seed, 60);
+        for path_dev_mm in [0.001, 0.02, 0.2] {
+            let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+            let blocks = splined(&job, settings, &points, 50.0);
+            let (out, missed) = strays(&blocks, &points);
+            assert!(out <= path_dev_mm * (1.0 + 1e-9), "{seed}: {out}");
+            assert!(missed <= path_dev_mm * (1.0 + 1e-2) + 1e-9, "{seed}: {missed}");
+            let [position, tangent, curvature] = gaps(&blocks);
+            assert!(position < 1e-11 && tangent < 1e-9, "{seed}: {position} {tangent}");
+            assert!(curvature < 1e-6, "{seed}: {curvature}");
+            // the ends are exact, with the direction of the polygon
+            assert_eq!(blocks[0].path.start()[..], points[0][..]);
+            let last = &blocks[blocks.len() - 1].path;
+            assert_eq!(last.end()[..], points[points.len() - 1][..]);
+        }
+    }
+}
+
+/// A right angle between long edges: the deviation is used, the spline is on the polygon elsewhere.
+#[test]
+fn a_coarse_corner_uses_the_tolerance() {
+    let job = Job::new(1.0, Hsc);
+    let points = [vec![0.0, 0.0], vec![30.0, 0.0], vec![30.0, 30.0]];
+    let blocks = splined(&job, SplineSettings::default(), &points, 50.0);
+    let corner = blocks[0].path.end();
+    assert!((apart(corner, &points[1]) - 0.2).abs() < 1e-12);
+    let mid = vector(&blocks[0].path, |p, v| p.position(15.0, v));
+    assert!(mid[1].abs() < 1e-12);
+}
+
+#[test]
+fn where_the_spline_ends() {
+    let job = Job::new(1.0, Hsc);
+    let points = [vec![0.0, 0.0], vec![1.0, 0.0], vec![2.0, 0.1], vec![2.2, 1.0], vec![2.3, 2.0]];
+    let kink = |settings: SplineSettings| gaps(&splined(&job, settings, &points, 50.0))[1];
+    assert!(kink(SplineSettings::default()) < 1e-9);
+    let base = SplineSettings::default();
+    assert!(kink(SplineSettings { max_angle_deg: 60.0, ..base }) > 0.5);
+    assert!(kink(SplineSettings { max_angle_deg: 80.0, ..base }) < 1e-9);
+    assert!(kink(SplineSettings { off_at_path_dev: true, path_dev_mm: 0.05, ..base }) > 0.5);
+    // a long block stays a line
+    let blocks = splined(&job, SplineSettings { max_length_mm: 0.95, ..base }, &points, 50.0);
+    assert!(blocks[0].path.is_straight() && blocks[1].path.is_straight());
+}
+
+/// Slaved axes share the spline; `TRACK_DEV` bounds them.
+#[test]
+fn slaved_axes() {
+    let mut dynamics = (*channel(vec![axis(1.0); 3])).clone();
+    dynamics.feed_axes = vec![true, true, false];
+    let job = Job { dynamics: Arc::new(dynamics), ..Job::new(1.0, Hsc) };
+    let points: Vec<Vec<f64>> = (0..40)
+        .map(|k| {
+            let x = f64::from(k);
+            vec![x, libm::sin(0.3 * x), if k % 10 < 5 { 3.0 * x } else { 100.0 - x }]
+        })
+        .collect();
+    for track_dev_deg in [0.5, 0.05] {
+        let settings = SplineSettings { track_dev_deg, ..SplineSettings::default() };
+        let blocks = splined(&job, settings, &points, 50.0);
+        // the programmed angle at the same place of the polygon in X
+        for b in &blocks {
+            for k in 0..=10 {
+                let q = vector(&b.path, |p, v| p.position(p.length() * f64::from(k) / 10.0, v));
+                let i = (q[0].floor() as usize).min(points.len() - 2);
+                let want = points[i][2] + (q[0] - points[i][0]) * (points[i + 1][2] - points[i][2]);
+                assert!((q[2] - want).abs() <= 1.001 * track_dev_deg, "{} {want}", q[2]);
+            }
+        }
+        assert!(gaps(&blocks)[1] < 1e-8);
+    }
+}
+
+fn circle(chord: f64) -> Vec<Vec<f64>> {
+    let n = libm::round(2.0 * std::f64::consts::PI * 10.0 / chord);
+    (0..=2 * n as usize)
+        .map(|k| {
+            let (sin, cos) = libm::sincos(2.0 * std::f64::consts::PI * k as f64 / n);
+            vec![10.0 * cos, 10.0 * sin]
+        })
+        .collect()
+}
+
+/// Relative spread of the path speed away from start and stop.
+fn ripple(out: &[Setpoint]) -> f64 {
+    let middle = &out[out.len() / 5..4 * out.len() / 5];
+    let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
+    for s in middle {
+        low = low.min(s.v_mm_s);
+        high = high.max(s.v_mm_s);
+    }
+    (high - low) / high
+}
+
+/// A polygonised circle of 10 mm: with the spline the speed is even, at half the admissible speed and at its limit.
+#[test]
+fn ripple_on_a_circle_with_the_spline() {
+    for kind in [Hsc, Trapez] {
+        let job = Job::new(1.0, kind);
+        for chord in [0.05, 0.1, 0.2, 0.5, 1.0, 2.0] {
+            let points = circle(chord);
+            for feed in [50.0, 100.0] {
+                let blocks = splined(&job, SplineSettings::default(), &points, feed);
+                let out = job.run(&points[0], blocks.into_iter());
+                let r = ripple(&out);
+                println!("{kind:?} chord {chord} F {feed}: ripple {:.4} %", 100.0 * r);
+                assert!(r < 0.01, "{kind:?} chord {chord} F {feed}: {r}");
+            }
+        }
+    }
+}
+
+/// The same with P-CHAN-00245 alone, up to chords of one cycle: the estimated curvature replaces the kinks.
+#[test]
+fn ripple_on_a_circle_with_estimated_curvature() {
+    for kind in [Hsc, Trapez] {
+        let mut dynamics: ChannelDynamics = (*channel(vec![axis(1.0); 2])).clone();
+        dynamics.curvature_estimate = 3;
+        let job = Job { dynamics: Arc::new(dynamics), ..Job::new(1.0, kind) };
+        for (chord, feed) in [(0.05, 50.0), (0.1, 50.0), (0.2, 50.0), (0.05, 500.0), (0.1, 500.0)] {
+            let points = circle(chord);
+            let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+            let r = ripple(&job.drive(&views, &[feed]));
+            println!("{kind:?} chord {chord} F {feed}: ripple {:.4} %", 100.0 * r);
+            assert!(r < 0.01, "{kind:?} chord {chord} F {feed}: {r}");
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! `AX_DEV`: the filtered setpoints never leave the contour by more than the tolerance, and no time is wasted.
+//!
+//! The deviation is measured here on its own, from setpoints, kernel taps and the corners of the program.
+
+mod common;
+
+use common::{Job, axis, channel, deviation, filtered};
+use kontur_filters::time::CycleTime;
+use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
+use kontur_motion::block::Tolerance;
+use kontur_motion::path::{LinePath, Path};
+
+const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];
+
+fn guarded(mut job: Job, mode: u8, freq_hz: f64, damping: f64, ax_dev: Option<f64>) -> Job {
+    let cycle = CycleTime::from_us(job.cycle_us).unwrap();
+    job.kernel = Some(VibGuardSettings { mode, freq_hz, damping }.kernel(cycle).unwrap());
+    job.tolerance = Tolerance { ax_dev_mm: ax_dev, acc_fact: 1.0 };
+    job
+}
+
+/// Largest deviation, from the edges anywhere or from those that the kernel reaches, and the number of cycles.
+fn worst(job: &Job, points: &[&[f64]], feed: f64) -> (f64, usize) {
+    let out = job.drive(points, &[feed]);
+    let kernel = job.kernel.as_ref().unwrap();
+    let (last, reach) = (out.len() - 1, kernel.length() as usize);
+    let edge = |k: usize| out[k.min(last)].seq as usize;
+    let dev = |(k, p): (usize, &Vec<f64>)| {
+        let reached = &points[edge(k.saturating_sub(reach).max(1))..=edge(k.max(1)) + 1];
+        deviation(p, points).min(deviation(p, reached))
+    };
+    (filtered(&out, kernel).iter().enumerate().map(dev).fold(0.0, f64::max), last)
+}
+
+#[test]
+fn square_keeps_the_tolerance_in_every_mode() {
+    for mode in 1..=4 {
+        for freq in [20.0, 40.0, 80.0] {
+            for cycle_us in [500, 1000, 2000] {
+                for kind in [Trapez, Sin2, Hsc, Step] {
+                    let job = Job { cycle_us, ..Job::new(1.0, kind) };
+                    let job = guarded(job, mode, freq, 0.1, Some(0.01));
+                    let (dev, cycles) = worst(&job, &SQUARE, 4000.0 / 60.0);
+                    println!(
+                        "mode {mode} {freq} Hz {cycle_us} us {kind:?}: {dev:.7} {}",
+                        cycles as f64 * f64::from(cycle_us) * 1e-6
+                    );
+                    assert!(dev <= 0.01, "mode {mode} {freq} Hz {cycle_us} us {kind:?}: {dev}");
+                }
+            }
+        }
+    }
+}
+
+/// A fast machine: 4 m/s2 with ramps of 20 ms needs dwell where the kernel is long.
+#[test]
+fn square_on_a_fast_machine() {
+    for mode in 1..=4 {
+        for freq in [20.0, 40.0, 80.0] {
+            let mut fast = axis(1.0);
+            fast.feed.acc_mm_s2 = 4000.0;
+            fast.feed.dec_mm_s2 = 4000.0;
+            fast.feed.ramps_s = [0.02; 4];
+            let job = Job { dynamics: channel(vec![fast; 2]), ..Job::new(1.0, Trapez) };
+            let free = worst(&guarded(job, mode, freq, 0.1, None), &SQUARE, 4000.0 / 60.0);
+            let job = Job { dynamics: channel(vec![fast; 2]), ..Job::new(1.0, Trapez) };
+            let kept = worst(&guarded(job, mode, freq, 0.1, Some(0.01)), &SQUARE, 4000.0 / 60.0);
+            println!("mode {mode} {freq} Hz: free {free:?} kept {kept:?}");
+            assert!(kept.0 <= 0.01);
+        }
+    }
+}
+
+/// A small deterministic generator: reproducible without a dependency.
+struct Lcg(u64);
+
+impl Lcg {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+    fn log(&mut self, low: f64, high: f64) -> f64 {
+        low * libm::pow(high / low, self.next())
+    }
+}
+
+#[test]
+fn random_polygons_keep_the_tolerance() {
+    let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(60);
+    let seed: u64 = std::env::var("SEED").ok().and_then(|c| c.parse().ok()).unwrap_or(1);
+    let mut r = Lcg(seed);
+    for case in 0..count {
+        let scale = [0.02, 0.3, 2.0, 15.0][(r.next() * 4.0) as usize];
+        let n = 2 + (r.next() * 12.0) as usize;
+        let mut points = vec![[0.0; 3]];
+        for i in 0..n {
+            let mut p = points[i];
+            for c in &mut p {
+                *c += (r.next() + r.next() + r.next() - 1.5) * 2.0 * scale;
+                *c = (*c * 1e4).round() / 1e4;
+            }
+            points.push(p);
+        }
+        let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        let kind = [Trapez, Sin2, Hsc][(r.next() * 3.0) as usize];
+        let cycle_us = [500, 1000, 2000][(r.next() * 3.0) as usize];
+        let tol = r.log(1e-3, 1e-1);
+        let (freq, damping) = (r.log(5.0, 150.0), r.next() * 0.3);
+        let mode = 1 + (r.next() * 4.0) as u8;
+        let feed = 5.0 + r.next() * 195.0;
+        let mut fast = axis(1.0);
+        fast.feed.acc_mm_s2 = r.log(500.0, 8000.0);
+        fast.feed.dec_mm_s2 = r.log(500.0, 8000.0);
+        fast.feed.ramps_s = [r.log(0.005, 0.1); 4];
+        let job = Job { cycle_us, dynamics: channel(vec![fast; 3]), ..Job::new(1.0, kind) };
+        let job = guarded(job, mode, freq, damping, Some(tol));
+        let (dev, _) = worst(&job, &points, feed);
+        assert!(
+            dev <= tol,
+            "case {case}: {dev} > {tol} {kind:?} mode {mode} {freq} Hz z {damping} {cycle_us} us feed {feed} {points:?}"
+        );
+    }
+}
+
+/// Least number of cycles with one speed for all corners that keeps the tolerance, by brute force.
+fn best_uniform(job: &Job, points: &[&[f64]], feed: f64, tol: f64) -> Option<usize> {
+    let kernel = job.kernel.clone().unwrap();
+    let drive = |v: f64| {
+        let blocks: Vec<_> = points
+            .windows(2)
+            .enumerate()
+            .map(|(i, w)| {
+                let line = LinePath::new(AxisVec::from_slice(w[0]), AxisVec::from_slice(w[1]), &[]);
+                let mut block = job.block(i as u64, Path::Line(line.unwrap()), feed);
+                block.end_velocity_mm_s = Some(v);
+                block.tolerance = Tolerance::default();
+                block
+            })
+            .collect();
+        let out = job.run(points[0], blocks.into_iter());
+        let keeps = filtered(&out, &kernel).iter().all(|p| deviation(p, points) <= tol);
+        keeps.then_some(out.len() - 1)
+    };
+    (0..400).filter_map(|i| drive(0.02 * f64::from(i))).min()
+}
+
+#[test]
+fn no_slower_than_the_best_uniform_corner_speed() {
+    let zigzag: Vec<[f64; 2]> =
+        (0..12).map(|i| [f64::from(i) * 1.5, f64::from(i % 3) * 0.8]).collect();
+    let zigzag: Vec<&[f64]> = zigzag.iter().map(|p| &p[..]).collect();
+    for points in [&SQUARE[..], &zigzag] {
+        for (mode, freq) in [(1, 40.0), (2, 40.0), (2, 60.0), (3, 60.0), (4, 30.0), (1, 20.0)] {
+            for ramp in [0.02, 0.05] {
+                let mut fast = axis(1.0);
+                fast.feed.acc_mm_s2 = 3000.0;
+                fast.feed.dec_mm_s2 = 3000.0;
+                fast.feed.ramps_s = [ramp; 4];
+                let job = Job { dynamics: channel(vec![fast; 2]), ..Job::new(1.0, Trapez) };
+                let job = guarded(job, mode, freq, 0.1, Some(0.01));
+                let (dev, cycles) = worst(&job, points, 4000.0 / 60.0);
+                assert!(dev <= 0.01);
+                let best = best_uniform(&job, points, 4000.0 / 60.0, 0.01);
+                println!("mode {mode} {freq} Hz ramp {ramp}: {cycles}, uniform {best:?}");
+                if let Some(best) = best {
+                    assert!(cycles as f64 <= 1.05 * best as f64, "{cycles} against {best}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The main job: the square program end to end, judged from its trace and its geometry alone.
+
+use kontur_tests::{from_polyline, machine, programs, residual_mm, run, run_on};
+
+fn square() -> Vec<Vec<f64>> {
+    [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]].map(|p| p.to_vec()).to_vec()
+}
+
+fn largest(point: &[f64]) -> f64 {
+    from_polyline(point, &square()).iter().fold(0.0, |m, c| m.max(c.abs()))
+}
+
+/// First pass within AX_DEV, second pass outside, third pass `set` = `ipo` bit for bit; no jump between the passes.
+#[test]
+fn three_passes() {
+    let text = std::fs::read_to_string(programs().join("square_corner.nc")).unwrap();
+    let line = |n: &str| text.lines().position(|l| l.starts_with(n)).unwrap() as u32 + 1;
+    let run = run(&text, &[]);
+    assert!(!run.totals.aborted, "{:?}", run.diagnostics);
+    let pass = |from: &str, to: &str| {
+        let lines = line(from)..=line(to);
+        run.records.iter().filter(move |r| lines.contains(&r.line))
+    };
+    let dev =
+        |r: &kontur_interpreter::record::CycleRecord| largest(&[r.axes[0].set, r.axes[1].set]);
+    assert!(pass("N30", "N60").map(dev).fold(0.0, f64::max) <= 0.01);
+    assert!(pass("N80", "N110").map(dev).fold(0.0, f64::max) > 0.01);
+    for r in pass("N130", "N160") {
+        for a in &r.axes[..2] {
+            assert_eq!(a.set.to_bits(), a.ipo.to_bits());
+            assert_eq!(a.dev, 0.0);
+        }
+    }
+    // kontur's own columns are the geometry's
+    for r in &run.records {
+        let e = from_polyline(&[r.axes[0].set, r.axes[1].set], &square());
+        assert!((r.contour_err_mm - libm::hypot(e[0], e[1])).abs() < 1e-9, "{r:?}");
+    }
+    for axis in 0..2 {
+        let step = |f: &dyn Fn(&kontur_interpreter::record::AxisRecord) -> f64| {
+            run.axis(axis, f).windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
+        };
+        assert!(step(&|a| a.set) <= step(&|a| a.ipo) + 1e-12);
+    }
+}
+
+/// AX_DEV in every mode, at several frequencies and cycle times.
+#[test]
+fn tolerance_in_every_mode() {
+    for mode in 1..=4 {
+        for freq in [20, 40, 80] {
+            for us in [500, 1000, 2000] {
+                let program = format!(
+                    "%C\nN10 G90 G01 F4000\n#VIB GUARD ON [MODE={mode} FREQ={freq} AX_DEV=0.01]\nX1\nY1\nX0\nY0\nM30\n"
+                );
+                let run = run(&program, &[&format!("kontur.cycle_time_us={us}")]);
+                let worst = run.set(2).iter().map(|p| largest(p)).fold(0.0, f64::max);
+                assert!(worst <= 0.01, "mode {mode}, {freq} Hz, {us} us: {worst} mm");
+                assert_eq!(run.set(2).last().unwrap()[..], [0.0, 0.0]);
+            }
+        }
+    }
+}
+
+/// Durations of the square on an axis with the vendor's defaults (1000 mm/s2, 50 ms; T = 1 and 2 ms).
+#[test]
+fn documented_cycle_counts() {
+    for (slope, us, weight, cycles) in [
+        ("TRAPEZ", 1000, 0, 468),
+        ("SIN2", 1000, 0, 468),
+        ("TRAPEZ", 1000, 100, 467),
+        ("TRAPEZ", 1000, 1000, 455),
+        ("STEP", 1000, 0, 248),
+        ("TRAPEZ", 2000, 0, 234),
+        ("TRAPEZ", 2000, 1000, 221),
+        ("STEP", 2000, 0, 121),
+    ] {
+        let machine = kontur_tests::sample_machine(
+            "vendor_defaults",
+            &[
+                &format!("kontur.cycle_time_us={us}"),
+                &format!("X.getriebe[0].dynamik.a_trans_weight={weight}"),
+                &format!("Y.getriebe[0].dynamik.a_trans_weight={weight}"),
+            ],
+        );
+        let program = format!("%C\n#SLOPE [TYPE={slope}]\nG90 G01 X1 F4000\nY1\nX0\nY0\nM30\n");
+        let run = run_on(machine, &program);
+        assert_eq!(
+            run.records.len() - 1,
+            cycles,
+            "{slope}, {us} us, weight {weight}: {:?}",
+            run.diagnostics
+        );
+    }
+}
+
+/// A plant at the set frequency keeps less than 0.1 % of the vibration of the unguarded run.
+#[test]
+fn residual_vibration() {
+    for mode in 1..=4 {
+        for freq in [7.3, 20.0, 40.0, 60.0] {
+            let end = |guard: &str| {
+                let run = run(&format!("%R\nG90 G01 F9000\n{guard}\nX40\nM30\n"), &[]);
+                let set = run.axis(0, |a| a.set);
+                assert_eq!(*set.last().unwrap(), 40.0);
+                residual_mm(&set, run.cycle_s, freq, 0.1)
+            };
+            let on = end(&format!("#VIB GUARD ON [MODE={mode} FREQ={freq} DAMPING=0.1]"));
+            let off = end("#VIB GUARD OFF");
+            assert!(on < 1e-3 * off.max(1e-3), "mode {mode}, {freq} Hz: {on} of {off} mm");
+        }
+    }
+}
+
+/// The same simulation again, and after another program, gives the same bits.
+#[test]
+fn same_bits_again() {
+    let text = std::fs::read_to_string(programs().join("square_corner.nc")).unwrap();
+    let first = run(&text, &[]);
+    let other = run("%O\nG90 G01 X50 Y-20 F3000\nG02 X10 Y0 R40\nM30\n", &[]);
+    assert!(!other.records.is_empty());
+    assert_eq!(first.records, run(&text, &[]).records);
+    // a value from the list and the same value from a setting
+    let (plain, _) = machine(&[]);
+    let kv = plain.axes[0].raw("getriebe[0].kv").unwrap();
+    let set = run(&text, &[&format!("X.getriebe[0].kv={kv}")]);
+    assert_eq!(first.records, set.records);
+}
