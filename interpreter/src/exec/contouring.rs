@@ -1,6 +1,6 @@
 //! Rounding of corners and smoothing of short blocks: what the program has set for the stages in front of the planner.
 //!
-//! Source: TF5200 programming manual, #CONTOUR MODE, #HSC. Assumption: AUTO_OFF_G60 is what happens anyway, a stop ends
+//! Source: TF5200 programming manual, #CONTOUR MODE, #HSC. Assumption: `AUTO_OFF_G60` is what happens anyway, a stop ends
 //! the spline.
 
 use kontur_motion::contouring::{ContourMode, ContourSettings};

@@ -338,6 +338,7 @@ impl Coordinates {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
     use super::{Coordinates, Rotation};
     use kontur_motion::axis::AxisVec;

@@ -153,7 +153,7 @@ impl Path<'_> {
                 Fault::vendor(21947, text, self.span).hint(d.axis_hint())
             });
         }
-        let high = u32::try_from(d.machine.axes.len() - 1).unwrap_or(0);
+        let high = u32::try_from(d.machine.axes.len().saturating_sub(1)).unwrap_or(0);
         let index = self.index(d, at - 1, high)? as usize;
         Ok(index)
     }

@@ -1,6 +1,7 @@
 //! Offsets, dimensions, units and frames.
 
 use super::{assert_end, assert_near, clean, run};
+use kontur_motion::block::Feed;
 
 #[test]
 fn zero_offsets() {
@@ -34,7 +35,6 @@ fn dimensions() {
 fn inches_scale_lengths_and_feeds() {
     let run = clean("G70 G01 X1 F60\nG71 Y1\nM30\n");
     assert_near(&run.end, &[25.4, 1.0, 0.0]);
-    use kontur_motion::block::Feed;
     assert_eq!(run.blocks()[0].feed, Feed::PathVelocity(25.4));
     // the feed keeps its velocity
     assert_eq!(run.blocks()[1].feed, Feed::PathVelocity(25.4));
