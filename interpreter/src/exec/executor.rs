@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// Errors after which a check stops. Source: P-CHAN-00019 is the vendor's counterpart.
 const ERRORS_MAX: usize = 20;
 
-/// Diagnostics of one run that are kept apart from errors; a program that has more is cut short there.
+/// Diagnostics of one run; further ones are reported only if they are errors.
 const DIAGNOSTICS_MAX: usize = 1000;
 
 /// One program level.
@@ -541,7 +541,10 @@ impl Executor {
             Some(l) => (diagnostic.id, Arc::clone(&l.file), l.column, l.offset),
             None => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
         };
-        if !self.reported.insert(key) || self.reported.len() > DIAGNOSTICS_MAX + ERRORS_MAX {
+        // a program with a remark in every line must not fill the memory
+        let full = self.reported.len() >= DIAGNOSTICS_MAX;
+        let known = if full { self.reported.contains(&key) } else { !self.reported.insert(key) };
+        if known || (full && !diagnostic.is_error()) {
             return;
         }
         if let Some(location) = &mut diagnostic.source {
