@@ -10,7 +10,9 @@ mod brackets;
 mod calls;
 mod check;
 mod commands;
+mod compensation;
 mod contour;
+mod contouring;
 mod coordinates;
 mod decoder;
 mod dialect;
@@ -31,6 +33,7 @@ mod modes;
 mod motion;
 mod options;
 mod overrides;
+mod planar;
 mod program;
 mod shaping;
 mod spindles;
@@ -50,4 +53,5 @@ pub use step::{
 };
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "programmed positions are exact")]
 mod tests;

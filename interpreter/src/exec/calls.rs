@@ -271,13 +271,14 @@ impl Executor {
                 },
                 ItemKind::Pair { key, value } if key.text.starts_with('@') => {
                     match self.cycle_value(value) {
-                        Ok(value) => match passed.insert(key.text[1..].into(), value) {
-                            None => Ok(()),
-                            Some(_) => {
+                        Ok(value) => {
+                            if passed.insert(key.text[1..].into(), value).is_none() {
+                                Ok(())
+                            } else {
                                 let text = format!("{} twice", key.text);
                                 Err(Fault::vendor(21379, text, key.span))
                             }
-                        },
+                        }
                         Err(fault) => Err(fault),
                     }
                 }

@@ -136,10 +136,7 @@ const ROWS: &[Row] = &[
     run("CS", frames::coordinate_system),
     run("CS DEF", frames::define_system),
     run("MCS", frames::machine_coordinates),
-    run("PSET", frames::not_supported_offset),
-    run("PRESET", frames::not_supported_offset),
-    unsupported("SUPPRESS OFFSETS"),
-    unsupported("FGROUP"),
+    run("FGROUP", axes::feed_group),
     off_only("SCALE"),
     off_only("ACS"),
     off_only("BCS"),
@@ -227,6 +224,7 @@ fn unknown(command: &Command) -> Box<Fault> {
 impl Decoder {
     /// Executes a plain-text command.
     pub(super) fn execute_command(&mut self, command: &Command) -> Outcome<()> {
+        self.dialect.own = true;
         let Some((row, count)) = find(command) else { return Err(unknown(command)) };
         let call = Call { command, name: row.name, rest: &command.words[count..] };
         let ignored = || {
@@ -235,9 +233,8 @@ impl Decoder {
         };
         match row.act {
             Act::Run(f) => f(self, &call),
-            Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
             Act::OffOnly if command.on == Some(false) => Ok(()),
-            Act::OffOnly => Err(Fault::unsupported(call.title(), call.span())),
+            Act::OffOnly | Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
             Act::Ignored => {
                 self.note_once(row.name, ignored());
                 Ok(())

@@ -1,5 +1,6 @@
 //! From programmed motions to steps: holds a motion back until the next one is known, where something may come between.
 
+use super::compensation::{Compensator, Item};
 use super::fault::Fault;
 use super::insertion::{self, Insertion};
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
@@ -13,8 +14,12 @@ pub(super) struct Motion {
     pub(super) block: Block,
     pub(super) source: SourceRef,
     pub(super) events: Vec<Event>,
-    /// Main axes of the plane that was active, as axis indices.
+    /// Axes of the plane that was active.
     pub(super) plane: [usize; 2],
+    /// Distance of the tool's centre to the left of the contour, `None` without compensation.
+    pub(super) compensation: Option<f64>,
+    /// The block, for conditions.
+    pub(super) span: Span,
 }
 
 /// Motions and events on their way to the simulation.
@@ -24,6 +29,7 @@ pub(super) struct Contour {
     events: Vec<Event>,
     held: Option<Box<Motion>>,
     insertion: Option<Insertion>,
+    compensator: Compensator,
     blocks: u64,
 }
 
@@ -63,60 +69,78 @@ impl Contour {
     }
 
     /// A motion.
-    pub(super) fn motion(&mut self, mut motion: Box<Motion>) -> Option<Box<Fault>> {
-        let mut fault = None;
+    pub(super) fn motion(&mut self, mut motion: Box<Motion>) -> Vec<Fault> {
+        let mut faults = Vec::new();
         if let Some(mut before) = self.held.take() {
             let inserted = match self.insertion.take() {
-                Some(insertion) => match insertion::between(&mut before, &mut motion, &insertion) {
-                    Ok(inserted) => inserted,
-                    Err(f) => {
-                        fault = Some(f);
-                        None
-                    }
-                },
-                None => None,
+                Some(insertion) => insertion::between(&mut before, &mut motion, &insertion),
+                None => Ok(None),
             };
-            self.emit(before);
-            if let Some(inserted) = inserted {
-                self.emit(inserted);
+            faults.extend(self.compensate(before).map(|f| *f));
+            match inserted {
+                Ok(Some(inserted)) => faults.extend(self.compensate(inserted).map(|f| *f)),
+                Ok(None) => {}
+                Err(fault) => faults.push(*fault),
             }
         }
         self.held = Some(motion);
-        fault
+        faults
     }
 
     /// A step at rest.
-    pub(super) fn sync(&mut self, what: Sync, source: SourceRef) -> Option<Box<Fault>> {
-        let fault = self.flush();
+    pub(super) fn sync(&mut self, what: Sync, source: SourceRef) -> Vec<Fault> {
+        let mut faults = self.flush();
         let events = self.take_events();
-        self.queue.push_back(Step::Sync { what, source, events });
-        fault
+        let mut done = Vec::new();
+        faults.extend(
+            self.compensator.sync(Item::Sync { what, source, events }, &mut done).err().map(|f| *f),
+        );
+        self.emit(done);
+        faults
     }
 
     /// End of the program.
-    pub(super) fn end(&mut self, reason: EndReason, source: SourceRef) -> Option<Box<Fault>> {
-        let fault = self.flush();
+    pub(super) fn end(&mut self, reason: EndReason, source: SourceRef) -> Vec<Fault> {
+        let mut faults = self.flush();
+        let mut done = Vec::new();
+        faults.extend(self.compensator.end(&mut done).err().map(|f| *f));
+        self.emit(done);
         let events = self.take_events();
         self.queue.push_back(Step::End { reason, source, events });
-        fault
+        faults
     }
 
     /// The path rests behind the held motion: nothing can be inserted any more.
-    fn flush(&mut self) -> Option<Box<Fault>> {
+    fn flush(&mut self) -> Vec<Fault> {
+        let mut faults = Vec::new();
         if let Some(motion) = self.held.take() {
-            self.emit(motion);
+            faults.extend(self.compensate(motion).map(|f| *f));
         }
-        self.insertion.take().map(|insertion: Insertion| {
+        if let Some(insertion) = self.insertion.take() {
             let text = "the path stops here: no chamfer or rounding is inserted";
-            let span: Span = insertion.span;
-            Fault::vendor(20352, text, span)
-        })
+            faults.push(*Fault::vendor(20352, text, insertion.span));
+        }
+        faults
     }
 
-    fn emit(&mut self, motion: Box<Motion>) {
-        let Motion { mut block, source, events, .. } = *motion;
-        block.seq = self.blocks;
-        self.blocks += 1;
-        self.queue.push_back(Step::Motion { block, source, events });
+    fn compensate(&mut self, motion: Box<Motion>) -> Option<Box<Fault>> {
+        let mut done = Vec::new();
+        let fault = self.compensator.motion(motion, &mut done).err();
+        self.emit(done);
+        fault
+    }
+
+    fn emit(&mut self, items: Vec<Item>) {
+        for item in items {
+            self.queue.push_back(match item {
+                Item::Motion(motion) => {
+                    let Motion { mut block, source, events, .. } = *motion;
+                    block.seq = self.blocks;
+                    self.blocks += 1;
+                    Step::Motion { block, source, events }
+                }
+                Item::Sync { what, source, events } => Step::Sync { what, source, events },
+            });
+        }
     }
 }

@@ -9,7 +9,7 @@
 
 use super::frame::Frame;
 use kontur_motion::axis::AxisVec;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Contour rotation (G68, `#ROTATION`).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,10 +37,14 @@ pub(super) struct Coordinates {
     word: AxisVec,
     /// First, second and third main axis.
     main: [Option<usize>; 3],
-    /// Zero-offset group of each axis, 0 = none (G53).
-    zero_group: Vec<u32>,
+    /// Active zero-offset group, 0 = none (G53).
+    zero_group: u32,
     zero_table: BTreeMap<u32, AxisVec>,
+    /// Axes whose entry of a group is left out (G160).
+    zero_masked: BTreeSet<(u32, usize)>,
     preset: AxisVec,
+    /// Position presets (`#PSET`).
+    position_preset: AxisVec,
     tool: AxisVec,
     mirrored: Vec<bool>,
     rotation: Option<Rotation>,
@@ -59,9 +63,11 @@ impl Coordinates {
             applied: AxisVec::zeros(n),
             word: start.clone(),
             main,
-            zero_group: vec![0; n],
+            zero_group: 0,
             zero_table: BTreeMap::new(),
+            zero_masked: BTreeSet::new(),
             preset: AxisVec::zeros(n),
+            position_preset: AxisVec::zeros(n),
             tool: AxisVec::zeros(n),
             mirrored: vec![false; n],
             rotation: None,
@@ -108,13 +114,15 @@ impl Coordinates {
 
     /// Offset that an absolute word of this axis would take over.
     pub(super) fn active_offset(&self, axis: usize) -> f64 {
-        self.zero_offset(axis) + self.preset[axis] + self.tool[axis]
+        self.zero_offset(axis) + self.preset[axis] + self.position_preset[axis] + self.tool[axis]
     }
 
     /// Active zero offset.
     pub(super) fn zero_offset(&self, axis: usize) -> f64 {
-        let group = self.zero_group[axis];
-        self.zero_table.get(&group).map_or(0.0, |offsets| offsets[axis])
+        if self.zero_masked.contains(&(self.zero_group, axis)) {
+            return 0.0;
+        }
+        self.zero_entry(self.zero_group, axis)
     }
 
     /// Entry of the zero-offset table.
@@ -129,12 +137,39 @@ impl Coordinates {
 
     /// G53 (group 0), G54 to G59, G159.
     pub(super) fn select_zero_group(&mut self, group: u32) {
-        self.zero_group.fill(group);
+        self.zero_group = group;
     }
 
-    /// G160.
-    pub(super) fn select_zero_group_of(&mut self, axis: usize, group: u32) {
-        self.zero_group[axis] = group;
+    /// G160: leaves the entry of an axis out of a group, or takes it in again.
+    pub(super) fn mask_zero_entry(&mut self, group: u32, axis: usize, masked: bool) {
+        if masked {
+            self.zero_masked.insert((group, axis));
+        } else {
+            self.zero_masked.remove(&(group, axis));
+        }
+    }
+
+    /// `#PSET`: where the axis stands has this coordinate from now on; `None` (`#PRESET`) takes that back. The axis does
+    /// not move.
+    pub(super) fn preset_position(&mut self, axis: usize, value_mm: Option<f64>) {
+        let before = self.position_preset[axis];
+        let after = match value_mm {
+            Some(value) => before + (self.target[axis] - self.applied[axis]) - value,
+            None => 0.0,
+        };
+        self.position_preset[axis] = after;
+        self.applied[axis] += after - before;
+        self.recompute_program();
+    }
+
+    /// `#SUPPRESS OFFSETS`: targets of axes without offsets.
+    pub(super) fn program_without_offsets(&mut self, words: &[(usize, f64)]) {
+        for &(axis, value) in words {
+            self.word[axis] = value;
+            self.target[axis] = value;
+            self.applied[axis] = self.active_offset(axis);
+        }
+        self.recompute_program();
     }
 
     /// G92 offset.
@@ -303,6 +338,7 @@ impl Coordinates {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
     use super::{Coordinates, Rotation};
     use kontur_motion::axis::AxisVec;

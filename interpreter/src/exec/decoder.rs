@@ -4,7 +4,9 @@
 
 use super::calls::ModalCycle;
 use super::contour::Contour;
+use super::contouring::{Contouring, Hsc};
 use super::coordinates::Coordinates;
+use super::dialect::Seen;
 use super::dynamics::{Weights, channel_dynamics};
 use super::fault::Fault;
 use super::modal::{FeedType, FeedWord, Modal, PathMode, Plane};
@@ -46,6 +48,7 @@ pub(super) struct LastArc {
 
 /// State of a running program.
 #[derive(Debug)]
+#[allow(clippy::struct_excessive_bools, reason = "independent conditions of the block in work")]
 pub(super) struct Decoder {
     pub(super) machine: Arc<Machine>,
     pub(super) identity_trafo: bool,
@@ -53,6 +56,8 @@ pub(super) struct Decoder {
     pub(super) coordinates: Coordinates,
     pub(super) variables: Variables,
     pub(super) weights: Weights,
+    /// Members of the feed group (`#FGROUP`).
+    pub(super) feed_axes: Vec<bool>,
     /// `#VECTOR LIMIT` in force.
     pub(super) vector: VectorLimits,
     dynamics: Option<Arc<ChannelDynamics>>,
@@ -62,6 +67,8 @@ pub(super) struct Decoder {
     pub(super) spindles: Vec<Spindle>,
     pub(super) tools: Tools,
     pub(super) contour: Contour,
+    pub(super) contouring: Contouring,
+    pub(super) hsc: Hsc,
     /// Names of the axes in the program; `None` for an axis that was given away.
     pub(super) axis_names: Vec<Option<String>>,
     /// Letters of one-letter axes.
@@ -75,8 +82,7 @@ pub(super) struct Decoder {
     pub(super) last_arc: LastArc,
     /// Coordinate system stored last.
     pub(super) last_system: u32,
-    /// A word that only this dialect knows has shown that the program is written for it.
-    pub(super) dialect_seen: bool,
+    pub(super) dialect: Seen,
     /// Cycle that is called behind every motion or block.
     pub(super) modal_cycle: Option<ModalCycle>,
     /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
@@ -93,7 +99,7 @@ pub(super) struct Decoder {
     /// Its first line, for conditions that name an earlier place.
     pub(super) location: Option<Location>,
     /// Conditions of the block in work.
-    faults: Vec<Box<Fault>>,
+    faults: Vec<Fault>,
     /// Conditions without a place in a block.
     pub(super) unplaced: Vec<Diagnostic>,
     said: BTreeSet<String>,
@@ -112,10 +118,10 @@ impl Decoder {
         if spindles.is_empty() {
             spindles.push(Spindle::new("S", None));
         }
-        if let Some(main) = machine.channel.main_spindle {
-            if let Some(i) = machine.spindles.iter().position(|s| s.number() == main) {
-                spindles.swap(0, i);
-            }
+        if let Some(main) = machine.channel.main_spindle
+            && let Some(i) = machine.spindles.iter().position(|s| s.number() == main)
+        {
+            spindles.swap(0, i);
         }
         let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
         let mut decoder = Self {
@@ -124,6 +130,7 @@ impl Decoder {
             coordinates: Coordinates::new(start),
             variables: Variables::new(options.external),
             weights: Weights::new(n),
+            feed_axes: machine.channel.feed_axes.clone(),
             vector: VectorLimits::default(),
             dynamics: None,
             overrides: Overrides::new(n),
@@ -135,6 +142,8 @@ impl Decoder {
             spindles,
             tools: Tools::default(),
             contour: Contour::default(),
+            contouring: Contouring::default(),
+            hsc: Hsc::default(),
             axis_names,
             letters: [None; 26],
             info: ProgramInfo::default(),
@@ -144,7 +153,7 @@ impl Decoder {
             feedback: Feedback::default(),
             last_arc: LastArc::default(),
             last_system: 1,
-            dialect_seen: false,
+            dialect: Seen::default(),
             modal_cycle: None,
             retain_cycle_changes: false,
             names_changed: false,
@@ -195,13 +204,13 @@ impl Decoder {
 
     /// Adds a condition of the block in work.
     pub(super) fn note(&mut self, fault: Box<Fault>) {
-        self.faults.push(fault);
+        self.faults.push(*fault);
     }
 
     /// Adds a condition unless one with this key was added before in this program.
     pub(super) fn note_once(&mut self, key: &str, fault: Box<Fault>) {
         if self.said.insert(key.to_owned()) {
-            self.faults.push(fault);
+            self.faults.push(*fault);
         }
     }
 
@@ -210,13 +219,13 @@ impl Decoder {
         self.said.remove(key);
     }
 
-    pub(super) fn take_faults(&mut self) -> Vec<Box<Fault>> {
+    pub(super) fn take_faults(&mut self) -> Vec<Fault> {
         std::mem::take(&mut self.faults)
     }
 
     /// True if the block in work has an error.
     pub(super) fn failed(&self) -> bool {
-        self.faults.iter().any(|f| f.is_error())
+        self.faults.iter().any(Fault::is_error)
     }
 
     /// Takes over an outcome: a fault becomes a condition of the block.
@@ -224,7 +233,7 @@ impl Decoder {
         match outcome {
             Ok(value) => Some(value),
             Err(fault) => {
-                self.faults.push(fault);
+                self.faults.push(*fault);
                 None
             }
         }
@@ -286,8 +295,9 @@ impl Decoder {
         if let Some(dynamics) = &self.dynamics {
             return Arc::clone(dynamics);
         }
-        let (dynamics, _) =
+        let (mut dynamics, _) =
             channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector);
+        dynamics.feed_axes.clone_from(&self.feed_axes);
         let dynamics = Arc::new(dynamics);
         self.dynamics = Some(Arc::clone(&dynamics));
         dynamics

@@ -10,8 +10,32 @@ pub(super) fn unknown_g(number: u32) -> Option<&'static str> {
         7 | 64 => "contouring is G261 with #CONTOUR MODE here",
         15 | 16 => "polar coordinates of other controls do not exist here",
         50 => "#SCALE scales here",
-        65 | 66 | 67 => "subroutines are called by L, LL and L CYCLE here",
+        65..=67 => "subroutines are called by L, LL and L CYCLE here",
         73 | 76 => "drilling cycles are L CYCLE calls here",
+        _ => return None,
+    })
+}
+
+/// What tells that a program is written for this dialect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Seen {
+    /// G22, G23, G351, G70 or G71: G20 and G21 are meant as they are.
+    pub(super) unit_or_mirror: bool,
+    /// `#` commands, `$` statements or G numbers from 127 on.
+    pub(super) own: bool,
+}
+
+/// Meaning here of a G function that other dialects know with another one.
+pub(super) fn g_function(number: u32) -> Option<&'static str> {
+    Some(match number {
+        20 => "G20 switches mirroring off in this dialect; inch is G70",
+        21 => "G21 mirrors about Y in this dialect (X changes its sign); metric is G71",
+        61 => {
+            "G61 rounds the corner at the end of the block in this dialect; an exact stop is G60 or G360"
+        }
+        93 => {
+            "F is the time of the block in seconds after G93 in this dialect, not its inverse per minute"
+        }
         _ => return None,
     })
 }

@@ -7,11 +7,11 @@ use super::decoder::Decoder;
 use super::fault::{Fault, Outcome, own};
 use super::groups::{self, Act, Group};
 use super::insertion::Kind;
-use super::modal::{FeedType, FeedWord, LookAhead, Plane};
+use super::modal::{Compensation, FeedType, FeedWord, LookAhead, Plane};
 use super::spindles::Turning;
 use super::step::{Event, Sync};
 use super::words::{Code, CycleCall, GWord, Placed, Words};
-use crate::diag::{Severity, ValueKind};
+use crate::diag::ValueKind;
 use crate::syntax::ast::{Call, Label, Span, Word};
 
 /// What follows a block.
@@ -58,7 +58,8 @@ impl Decoder {
         self.planes_and_units(&words);
         let takes_axes = self.axis_functions(&words);
         self.tools_and_offsets(&words, takes_axes);
-        self.feeds_and_modes(&words, takes_axes, span);
+        let preset = self.position_presets(&words);
+        self.feeds_and_modes(&words, takes_axes);
         // behind G04 the S word is a number of revolutions
         if words.group(Group::Path).is_none_or(|g| g.row.act != Act::Dwell) {
             for (i, speed, span) in &words.speeds {
@@ -70,7 +71,9 @@ impl Decoder {
             let outcome = self.bracket(bracket);
             self.keep(outcome);
         }
-        self.motion_or_dwell(&words, takes_axes, span);
+        if !preset {
+            self.motion_or_dwell(&words, takes_axes, span);
+        }
         self.functions_after(&words)
     }
 
@@ -86,6 +89,11 @@ impl Decoder {
     }
 
     fn set_plane(&mut self, plane: Plane, span: Span) {
+        if plane != self.modal.plane && self.modal.compensation != Compensation::Off {
+            let text = "the plane cannot be changed while tool radius compensation is active";
+            self.note(Fault::vendor(20133, text, span));
+            return;
+        }
         if plane != self.modal.plane && self.coordinates.rotation().is_some() {
             let text = "the change of plane switches the contour rotation off";
             self.note(Fault::kontur(own::ODD, text, span).warning());
@@ -132,7 +140,7 @@ impl Decoder {
                     self.coordinates.select_zero_group(group);
                     Ok(())
                 }
-                Act::ZeroGroupValue => self.zero_group(g).map(|group| {
+                Act::ZeroGroupValue => Self::zero_group(g).map(|group| {
                     self.coordinates.select_zero_group(group);
                 }),
                 Act::Mirror(first, second) => {
@@ -164,7 +172,36 @@ impl Decoder {
         self.keep(outcome);
     }
 
-    fn zero_group(&self, g: &GWord) -> Outcome<u32> {
+    /// `#PSET X10`, `#PRESET X0`, `#PRESET`: true if the axis words of the block belong to one of them.
+    fn position_presets(&mut self, words: &Words<'_>) -> bool {
+        let named = |h: &str| words.hashes.iter().find(|(hash, _, _)| &*hash.name == h);
+        let (sets, at) = match (named("PSET"), named("PRESET")) {
+            (Some((_, _, at)), _) => (true, *at),
+            (None, Some((_, _, at))) => (false, *at),
+            (None, None) => return false,
+        };
+        let conflicts =
+            !self.coordinates.frame().is_identity() || self.modal.compensation != Compensation::Off;
+        if conflicts {
+            let text = "#PSET and #PRESET do not go with mirroring, rotation, #CS or tool radius compensation";
+            self.note(Fault::kontur(own::SYNTAX, text, at));
+            return true;
+        }
+        for (axis, value, _) in &words.axes {
+            let value = sets.then(|| value * self.axis_unit(*axis));
+            self.coordinates.preset_position(*axis, value);
+        }
+        if words.axes.is_empty() && !sets {
+            for axis in 0..self.machine.axes.len() {
+                self.coordinates.preset_position(axis, None);
+            }
+        } else if words.axes.is_empty() {
+            self.note(Fault::kontur(own::SYNTAX, "#PSET without axis words", at));
+        }
+        true
+    }
+
+    fn zero_group(g: &GWord) -> Outcome<u32> {
         let value = g.value.unwrap_or_default();
         super::expr::whole(value, 0, 999).ok_or_else(|| {
             let text = format!("zero-offset group {value} does not exist");
@@ -172,7 +209,7 @@ impl Decoder {
         })
     }
 
-    fn needs_axes(&self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+    fn needs_axes(g: &GWord, words: &Words<'_>) -> Outcome<()> {
         if words.axes.is_empty() {
             let text = format!("G{} without axis words", g.row.number);
             return Err(Fault::vendor(20003, text, g.span));
@@ -181,18 +218,19 @@ impl Decoder {
     }
 
     fn zero_group_of_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        self.needs_axes(g, words)?;
-        let group = self.zero_group(g)?;
+        Self::needs_axes(g, words)?;
+        let group = Self::zero_group(g)?;
+        // 0 takes the offset of the axis in, 1 leaves it out
         for (axis, value, _) in &words.axes {
-            let on = super::expr::is_true(*value);
-            self.coordinates.select_zero_group_of(*axis, if on { group } else { 0 });
+            let masked = super::expr::is_true(*value);
+            self.coordinates.mask_zero_entry(group, *axis, masked);
         }
         Ok(())
     }
 
     /// G92: absolute with G90, added with G91.
     fn preset(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        self.needs_axes(g, words)?;
+        Self::needs_axes(g, words)?;
         for (axis, value, _) in &words.axes {
             let value_mm = value * self.axis_unit(*axis);
             let before = if self.modal.absolute { 0.0 } else { self.coordinates.preset(*axis) };
@@ -215,7 +253,7 @@ impl Decoder {
     }
 
     fn mirror_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        self.needs_axes(g, words)?;
+        Self::needs_axes(g, words)?;
         for (axis, value, span) in &words.axes {
             let mirrored = match value {
                 v if v.total_cmp(&1.0).is_eq() => false,
@@ -252,7 +290,7 @@ impl Decoder {
         self.set_rotation(plane, deg, centre, g.span)
     }
 
-    fn feeds_and_modes(&mut self, words: &Words<'_>, takes_axes: Option<GWord>, span: Span) {
+    fn feeds_and_modes(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {
         for g in &words.g {
             if let Act::FeedType(feed_type) = g.row.act {
                 self.modal.feed_type = feed_type;
@@ -278,7 +316,7 @@ impl Decoder {
             };
             self.keep(outcome);
         }
-        self.insertions(words, span);
+        self.insertions(words);
     }
 
     fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
@@ -302,22 +340,17 @@ impl Decoder {
             }
             Act::Contour(on) => {
                 self.modal.contouring = on;
-                if on {
-                    self.contouring_fallback(g.span);
-                }
+                self.modal.exact_stop &= !on;
             }
-            Act::ContourOnce => self.contouring_fallback(g.span),
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
             Act::CentreCorrection(on) => self.modal.centre_correction = on,
             Act::WeightOfAll(weight) => {
-                let ratio = self.weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
+                let ratio = Self::weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
                 self.set_weight(weight, None, ratio, g.span);
             }
-            Act::Feedforward(on) => {
-                if self.feedforward.on != on {
-                    self.feedforward.on = on;
-                    self.feedforward_event();
-                }
+            Act::Feedforward(on) if self.feedforward.on != on => {
+                self.feedforward.on = on;
+                self.feedforward_event();
             }
             Act::StopAtTransitions(stop) => {
                 let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
@@ -336,7 +369,7 @@ impl Decoder {
                 let text = "G115: single functions of the look-ahead cannot be switched off";
                 self.note_once("G115", Fault::kontur(own::IGNORED, text, g.span));
             }
-            Act::Compensation(side) => return self.compensation(side, g.span),
+            Act::Compensation(side) => self.compensation(side, g.span),
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.unit_mm();
                 self.modal.radius_mm = Some(radius);
@@ -354,7 +387,7 @@ impl Decoder {
         Ok(())
     }
 
-    fn insertions(&mut self, words: &Words<'_>, span: Span) {
+    fn insertions(&mut self, words: &Words<'_>) {
         let mut request = None;
         for g in &words.g {
             let kind = match g.row.act {
@@ -381,6 +414,7 @@ impl Decoder {
                     feed = value.map(|v| (v, *span));
                     continue;
                 }
+                "PSET" | "PRESET" | "SUPPRESS OFFSETS" => continue,
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,
@@ -399,7 +433,7 @@ impl Decoder {
         }
         if let Some((kind, size, at)) = request {
             let feed_mm_s = feed.map(|(f, _)| f * self.feed_unit_mm_s());
-            self.insert(kind, size, feed_mm_s, at, span);
+            self.insert(kind, size, feed_mm_s, at);
         } else if let Some((_, at)) = feed {
             let text = "#FRC without chamfer or rounding has no effect";
             self.note(Fault::kontur(own::ODD, text, at).warning());
@@ -413,10 +447,10 @@ impl Decoder {
             return;
         }
         self.spindles[index].rpm = value;
-        if self.spindles[index].is_turning() {
-            if let Some(event) = self.spindles[index].motion_event() {
-                self.event(event);
-            }
+        if self.spindles[index].is_turning()
+            && let Some(event) = self.spindles[index].motion_event()
+        {
+            self.event(event);
         }
         self.spindle_warning(index, span);
     }
@@ -501,24 +535,28 @@ impl Decoder {
         }
     }
 
-    /// G21 and G20 look like inch and metric of other dialects.
+    /// Words that other dialects give another meaning: once per program and word.
     fn dialect_guard(&mut self, words: &Words<'_>) {
         for g in &words.g {
             match g.row.number {
-                22 | 23 | 70 | 71 | 351 => self.dialect_seen = true,
-                20 | 21 if !self.dialect_seen => {
-                    let text = if g.row.number == 21 {
-                        "G21 mirrors about Y in this dialect; metric is G71"
-                    } else {
-                        "G20 switches mirroring off in this dialect; inch is G70"
-                    };
-                    let key = format!("dialect G{}", g.row.number);
-                    let hint = "if mirroring is meant, write G71 (mm) or G70 (inch) before it";
-                    let fault = Fault::kontur(own::DIALECT, text, g.span).hint(hint);
-                    self.note_once(&key, fault.with(|d| d.severity(Severity::Warning)));
-                }
+                22 | 23 | 70 | 71 | 351 => self.dialect.unit_or_mirror = true,
+                n if n >= 127 => self.dialect.own = true,
                 _ => {}
             }
+            let known = if matches!(g.row.number, 20 | 21) {
+                self.dialect.unit_or_mirror
+            } else {
+                self.dialect.own
+            };
+            if let (false, Some(text)) = (known, super::dialect::g_function(g.row.number)) {
+                let key = format!("dialect G{}", g.row.number);
+                self.note_once(&key, Fault::kontur(own::DIALECT, text, g.span));
+            }
+        }
+        if let (false, Some((_, span))) = (self.dialect.own, words.end_feed) {
+            let text =
+                "E is the feed at the end of the block in this dialect, not an extruder axis";
+            self.note_once("dialect E", Fault::kontur(own::DIALECT, text, span));
         }
     }
 }

@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// Errors after which a check stops. Source: P-CHAN-00019 is the vendor's counterpart.
 const ERRORS_MAX: usize = 20;
 
-/// Diagnostics of one run that are kept apart from errors; a program that has more is cut short there.
+/// Diagnostics of one run; further ones are reported only if they are errors.
 const DIAGNOSTICS_MAX: usize = 1000;
 
 /// One program level.
@@ -257,10 +257,10 @@ impl Executor {
         }
         let (file, at) = (level.file, level.at);
         let entry = level.index.at(at);
-        if let Some(id) = entry {
-            if self.jump_over(id) {
-                return;
-            }
+        if let Some(id) = entry
+            && self.jump_over(id)
+        {
+            return;
         }
         let Some((parsed, next)) = self.fetch(file, at) else { return };
         if parsed.needs_actual && !actual_known {
@@ -297,7 +297,7 @@ impl Executor {
             Keyword::CommentBegin => {
                 match entry.end.map(|end| level.index.entry(end).position) {
                     Some(end) => self.jump_behind(end),
-                    None => self.to_level_end(),
+                    None => self.skip_to_level_end(),
                 }
                 true
             }
@@ -305,7 +305,7 @@ impl Executor {
             Keyword::ConditionalElse => {
                 match entry.end.map(|end| level.index.entry(end).position) {
                     Some(end) => self.jump_behind(end),
-                    None => self.to_level_end(),
+                    None => self.skip_to_level_end(),
                 }
                 true
             }
@@ -338,7 +338,7 @@ impl Executor {
         match block {
             Ok(Some(block)) => Some(block),
             Ok(None) => {
-                self.to_level_end();
+                self.skip_to_level_end();
                 None
             }
             Err(e) => {
@@ -353,12 +353,12 @@ impl Executor {
     fn wait_for_actual(&mut self, at: Position) {
         self.state = State::WaitsForActual;
         let source = SourceRef { line: at.line, block: None, ..self.decoder.source };
-        let fault = self.decoder.contour.sync(Sync::ReadActual, source);
-        if let Some(fault) = fault {
-            self.position = at;
-            self.decoder.note(fault);
-            self.settle(false);
+        let faults = self.decoder.contour.sync(Sync::ReadActual, source);
+        self.position = at;
+        for fault in faults {
+            self.decoder.note(Box::new(fault));
         }
+        self.settle(false);
     }
 
     /// False if a limit was reached.
@@ -417,6 +417,7 @@ impl Executor {
             }
             Body::Command(command) => self.command(command, entry),
             Body::Control(control) => {
+                self.decoder.dialect.own = true;
                 if let Some(entry) = entry {
                     self.control(control, entry);
                 }
@@ -459,16 +460,13 @@ impl Executor {
 
     /// `#IF`: the branch that is not taken is not looked at.
     fn conditional(&mut self, command: &Command, id: EntryId) {
-        let condition = match &command.arguments[..] {
-            [condition] => {
-                let outcome = self.decoder.condition(condition);
-                self.decoder.keep(outcome).unwrap_or(false)
-            }
-            _ => {
-                let text = "#IF needs one condition";
-                self.decoder.note(Fault::kontur(own::SYNTAX, text, command.span));
-                false
-            }
+        let condition = if let [condition] = &command.arguments[..] {
+            let outcome = self.decoder.condition(condition);
+            self.decoder.keep(outcome).unwrap_or(false)
+        } else {
+            let text = "#IF needs one condition";
+            self.decoder.note(Fault::kontur(own::SYNTAX, text, command.span));
+            false
         };
         if condition {
             return;
@@ -477,7 +475,7 @@ impl Executor {
         let next = level.index.entry(id).next.map(|next| level.index.entry(next).position);
         match next {
             Some(next) => self.jump_behind(next),
-            None => self.to_level_end(),
+            None => self.skip_to_level_end(),
         }
     }
 
@@ -498,7 +496,7 @@ impl Executor {
         let mut failed = faulty;
         for fault in faults {
             failed |= fault.is_error();
-            let Fault { mut diagnostic, span } = *fault;
+            let Fault { mut diagnostic, span } = fault;
             if diagnostic.source.is_none() {
                 diagnostic.source = self.here(span);
             }
@@ -543,7 +541,10 @@ impl Executor {
             Some(l) => (diagnostic.id, Arc::clone(&l.file), l.column, l.offset),
             None => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
         };
-        if !self.reported.insert(key) || self.reported.len() > DIAGNOSTICS_MAX + ERRORS_MAX {
+        // a program with a remark in every line must not fill the memory
+        let full = self.reported.len() >= DIAGNOSTICS_MAX;
+        let known = if full { self.reported.contains(&key) } else { !self.reported.insert(key) };
+        if known || (full && !diagnostic.is_error()) {
             return;
         }
         if let Some(location) = &mut diagnostic.source {
@@ -563,8 +564,8 @@ impl Executor {
         self.reason = if aborted { EndReason::Aborted } else { EndReason::Finished };
         let source = self.decoder.source;
         let contour: &mut Contour = &mut self.decoder.contour;
-        if let Some(fault) = contour.end(self.reason, source) {
-            let Fault { diagnostic, span } = *fault;
+        for fault in contour.end(self.reason, source) {
+            let Fault { diagnostic, span } = fault;
             let located = self.here(span);
             self.report(Diagnostic { source: located, ..diagnostic });
         }

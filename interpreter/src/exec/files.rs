@@ -51,7 +51,7 @@ pub(super) struct Reading {
 /// All files of a run.
 #[derive(Debug)]
 pub(super) struct Files {
-    files: Vec<ProgramFile>,
+    open: Vec<ProgramFile>,
     names: Vec<Arc<str>>,
     cached: usize,
     /// File of a name as written in a program of a file.
@@ -67,7 +67,7 @@ pub(super) enum FileError {
 
 impl Files {
     pub(super) fn new() -> Self {
-        Self { files: Vec::new(), names: Vec::new(), cached: 0, resolved: BTreeMap::new() }
+        Self { open: Vec::new(), names: Vec::new(), cached: 0, resolved: BTreeMap::new() }
     }
 
     pub(super) fn names(&self) -> &[Arc<str>] {
@@ -75,7 +75,7 @@ impl Files {
     }
 
     pub(super) fn file(&self, file: usize) -> &ProgramFile {
-        &self.files[file]
+        &self.open[file]
     }
 
     /// The file of a name as written in `caller`; what is wrong with the structure of a new one comes beside.
@@ -86,26 +86,24 @@ impl Files {
         caller: Option<usize>,
         skip: SkipLevels,
     ) -> Result<(usize, Vec<Diagnostic>), FileError> {
-        if let Some(caller) = caller {
-            if let Some(file) = self.resolved.get(&(caller, Box::from(name))) {
-                return Ok((*file, Vec::new()));
-            }
+        if let Some(caller) = caller
+            && let Some(file) = self.resolved.get(&(caller, Box::from(name)))
+        {
+            return Ok((*file, Vec::new()));
         }
         let caller_name = caller.map(|c| Arc::clone(&self.names[c]));
         let source = sources.open(name, caller_name.as_deref()).map_err(FileError::Open)?;
         let full = source.name();
         let known = self.names.iter().position(|n| *n == full);
-        let (file, diagnostics) = match known {
-            Some(file) => (file, Vec::new()),
-            None => {
-                let mut reader = BlockReader::new(source);
-                let (index, diagnostics) =
-                    build(&mut reader, &full, skip).map_err(FileError::Read)?;
-                let index = Arc::new(index);
-                self.names.push(Arc::clone(&full));
-                self.files.push(ProgramFile { name: full, reader, index, cache: BTreeMap::new() });
-                (self.files.len() - 1, diagnostics)
-            }
+        let (file, diagnostics) = if let Some(file) = known {
+            (file, Vec::new())
+        } else {
+            let mut reader = BlockReader::new(source);
+            let (index, diagnostics) = build(&mut reader, &full, skip).map_err(FileError::Read)?;
+            let index = Arc::new(index);
+            self.names.push(Arc::clone(&full));
+            self.open.push(ProgramFile { name: full, reader, index, cache: BTreeMap::new() });
+            (self.open.len() - 1, diagnostics)
         };
         if let Some(caller) = caller {
             self.resolved.insert((caller, Box::from(name)), file);
@@ -115,7 +113,7 @@ impl Files {
 
     /// Forgets parsed blocks: names or macros have changed.
     pub(super) fn forget(&mut self) {
-        for file in &mut self.files {
+        for file in &mut self.open {
             file.cache.clear();
         }
         self.cached = 0;
@@ -138,11 +136,11 @@ impl Files {
         table: &Macros,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> io::Result<Option<(Arc<Parsed>, Position)>> {
-        let ProgramFile { name, reader, cache, .. } = &mut self.files[file];
-        if reading.keep {
-            if let Some(found) = cache.get(&position.offset) {
-                return Ok(Some(found.clone()));
-            }
+        let ProgramFile { name, reader, cache, .. } = &mut self.open[file];
+        if reading.keep
+            && let Some(found) = cache.get(&position.offset)
+        {
+            return Ok(Some(found.clone()));
         }
         reader.seek(position);
         let Some(raw) = reader.next_block()? else { return Ok(None) };
@@ -166,7 +164,7 @@ impl Files {
         span: Span,
         table: &Macros,
     ) -> Option<Location> {
-        let ProgramFile { name, reader, .. } = &mut self.files[file];
+        let ProgramFile { name, reader, .. } = &mut self.open[file];
         reader.seek(position);
         let raw = reader.next_block().ok()??;
         let lookup = |name: &str| table.get(name).map(|text| &**text);

@@ -39,7 +39,12 @@ impl Executor {
     pub(super) fn control(&mut self, control: &Control, id: EntryId) {
         let span = control.span;
         let outcome = match &control.kind {
-            ControlKind::If { condition, goto: Some(label) } => self.if_goto(condition, label),
+            ControlKind::If { condition, goto: Some(label) } => {
+                if self.test(condition) {
+                    self.goto(label);
+                }
+                Ok(())
+            }
             ControlKind::If { condition, goto: None } => self.if_block(condition, id, span),
             ControlKind::ElseIf(_) | ControlKind::Else => {
                 self.leave_structure(id);
@@ -62,7 +67,10 @@ impl Executor {
                 Ok(())
             }
             ControlKind::Do | ControlKind::Repeat => self.open_loop(id, span),
-            ControlKind::EndDo(condition) => self.end_do(condition.as_ref(), id),
+            ControlKind::EndDo(condition) => {
+                self.end_do(condition.as_ref(), id);
+                Ok(())
+            }
             ControlKind::Until(condition) => self.until(condition, id),
             ControlKind::Break => self.break_out(span),
             ControlKind::Continue => self.go_on(span),
@@ -92,7 +100,7 @@ impl Executor {
         }
     }
 
-    pub(super) fn to_level_end(&mut self) {
+    pub(super) fn skip_to_level_end(&mut self) {
         if let Some(level) = self.levels.last_mut() {
             level.at = Position { offset: level.end.max(level.at.offset), line: level.at.line };
             level.end = level.end.min(level.at.offset);
@@ -143,13 +151,6 @@ impl Executor {
         })
     }
 
-    fn if_goto(&mut self, condition: &Expr, label: &Label) -> Outcome<()> {
-        if self.test(condition) {
-            self.goto(label);
-        }
-        Ok(())
-    }
-
     fn if_block(&mut self, condition: &Expr, id: EntryId, span: Span) -> Outcome<()> {
         if self.test(condition) {
             self.push_frame(id, None);
@@ -164,7 +165,7 @@ impl Executor {
         loop {
             let Some(level) = self.levels.last() else { return Ok(()) };
             let Some(next) = level.index.entry(at).next else {
-                self.to_level_end();
+                self.skip_to_level_end();
                 return Err(self.unclosed(id, span));
             };
             let (keyword, position) =
@@ -209,7 +210,7 @@ impl Executor {
         self.pop_frame_of(id);
         match self.position_of(end) {
             Some(end) => self.jump_behind(end),
-            None => self.to_level_end(),
+            None => self.skip_to_level_end(),
         }
     }
 
@@ -235,7 +236,7 @@ impl Executor {
         let Some(level) = self.levels.last() else { return Ok(()) };
         let (file, index) = (level.file, Arc::clone(&level.index));
         if index.entry(id).end.is_none() {
-            self.to_level_end();
+            self.skip_to_level_end();
             return Err(self.unclosed(id, span));
         }
         let mut default = None;
@@ -284,7 +285,7 @@ impl Executor {
     ) -> Outcome<()> {
         let closed = self.levels.last().is_some_and(|l| l.index.entry(id).end.is_some());
         if !closed {
-            self.to_level_end();
+            self.skip_to_level_end();
             return Err(self.unclosed(id, span));
         }
         let bounds = (|| {
@@ -360,10 +361,10 @@ impl Executor {
             self.pop_frame_of(id);
             self.jump_to(position);
         } else {
-            if let (Some(level), Some(open)) = (self.levels.last_mut(), open) {
-                if let Some(depth) = level.frames.iter().rposition(|f| f.open == open) {
-                    level.frames.truncate(depth + 1);
-                }
+            if let (Some(level), Some(open)) = (self.levels.last_mut(), open)
+                && let Some(depth) = level.frames.iter().rposition(|f| f.open == open)
+            {
+                level.frames.truncate(depth + 1);
             }
             self.jump_behind(position);
         }
@@ -372,7 +373,7 @@ impl Executor {
     fn while_loop(&mut self, condition: &Expr, id: EntryId, span: Span) -> Outcome<()> {
         let end = self.levels.last().and_then(|l| l.index.entry(id).end);
         if end.is_none() {
-            self.to_level_end();
+            self.skip_to_level_end();
             return Err(self.unclosed(id, span));
         }
         if self.test(condition) {
@@ -386,7 +387,7 @@ impl Executor {
     fn open_loop(&mut self, id: EntryId, span: Span) -> Outcome<()> {
         let end = self.levels.last().and_then(|l| l.index.entry(id).end);
         if end.is_none() {
-            self.to_level_end();
+            self.skip_to_level_end();
             return Err(self.unclosed(id, span));
         }
         self.push_frame(id, None);
@@ -394,13 +395,12 @@ impl Executor {
     }
 
     /// Repeats while the condition is true, without one for ever.
-    fn end_do(&mut self, condition: Option<&Expr>, id: EntryId) -> Outcome<()> {
+    fn end_do(&mut self, condition: Option<&Expr>, id: EntryId) {
         if condition.is_none_or(|c| self.test(c)) {
             self.repeat(id, false);
         } else {
             self.pop_frame_of(id);
         }
-        Ok(())
     }
 
     /// Repeats until the condition is true.
@@ -422,15 +422,12 @@ impl Executor {
     }
 
     fn break_out(&mut self, span: Span) -> Outcome<()> {
-        match self.innermost(|k| k.is_loop() || k == Keyword::Switch) {
-            Some(open) => {
-                self.leave_structure(open);
-                Ok(())
-            }
-            None => {
-                let text = "$BREAK outside loops and $SWITCH";
-                Err(Fault::kontur(own::SYNTAX, text, span))
-            }
+        if let Some(open) = self.innermost(|k| k.is_loop() || k == Keyword::Switch) {
+            self.leave_structure(open);
+            Ok(())
+        } else {
+            let text = "$BREAK outside loops and $SWITCH";
+            Err(Fault::kontur(own::SYNTAX, text, span))
         }
     }
 
@@ -465,15 +462,12 @@ impl Executor {
             None => Some(0),
             Some(parent) => level.frames.iter().rposition(|f| f.open == parent).map(|d| d + 1),
         };
-        match depth {
-            Some(depth) => {
-                level.frames.truncate(depth);
-                level.at = place.position;
-            }
-            None => {
-                let text = format!("label {shown} stands inside a control block");
-                self.decoder.note(Fault::kontur(own::LABEL_INTO, text, label.span));
-            }
+        if let Some(depth) = depth {
+            level.frames.truncate(depth);
+            level.at = place.position;
+        } else {
+            let text = format!("label {shown} stands inside a control block");
+            self.decoder.note(Fault::kontur(own::LABEL_INTO, text, label.span));
         }
     }
 }

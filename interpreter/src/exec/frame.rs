@@ -55,8 +55,8 @@ impl Frame {
     /// Mirroring of single axes.
     pub(super) fn mirror(negative: [bool; 3]) -> Self {
         let mut f = Self::IDENTITY;
-        for i in 0..3 {
-            if negative[i] {
+        for (i, negative) in negative.into_iter().enumerate() {
+            if negative {
                 f.m[i][i] = -1.0;
             }
         }
@@ -87,6 +87,7 @@ impl Frame {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
     use super::Frame;
 

@@ -15,6 +15,9 @@ use std::sync::Arc;
 /// Deepest nesting of control statements. Assumption: the vendor prints no number for 20211.
 const NESTING_MAX: usize = 64;
 
+/// Mistakes of structure that are reported for one file.
+const DIAGNOSTICS_MAX: usize = 100;
+
 /// What begins a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Keyword {
@@ -388,6 +391,9 @@ impl Builder<'_> {
     }
 
     fn report(&mut self, raw: &RawBlock<'_>, at: usize, length: usize, diagnostic: Diagnostic) {
+        if self.diagnostics.len() >= DIAGNOSTICS_MAX {
+            return;
+        }
         let location = raw.locate(self.file, Span::new(at, at + length));
         self.diagnostics.push(diagnostic.at(location));
     }

@@ -13,7 +13,7 @@ use kontur_motion::axis::AxisVec;
 
 impl Decoder {
     /// A weight in percent as a ratio.
-    pub(super) fn weight_ratio(&self, weight: Weight, (percent, span): Placed) -> Outcome<f64> {
+    pub(super) fn weight_ratio(weight: Weight, (percent, span): Placed) -> Outcome<f64> {
         let may_be_zero = matches!(
             weight,
             Weight::RapidVelocity | Weight::Ramp | Weight::RapidRamp | Weight::GeometricRamp
@@ -70,7 +70,7 @@ impl Decoder {
             return Err(Fault::vendor(20003, text, g.span));
         }
         for (axis, value, span) in &words.axes {
-            let ratio = self.weight_ratio(weight, (*value, *span))?;
+            let ratio = Self::weight_ratio(weight, (*value, *span))?;
             self.set_weight(weight, Some(*axis), ratio, *span);
         }
         Ok(())
@@ -114,15 +114,12 @@ impl Decoder {
 
     /// T.
     pub(super) fn select_tool(&mut self, number: f64, span: Span) {
-        match super::expr::whole(number, 0, u32::MAX) {
-            Some(number) => {
-                self.tools.tool = number;
-                self.event(Event::Tool { number });
-            }
-            None => {
-                let text = format!("T{number} is no tool number");
-                self.note(Fault::kontur(own::RANGE, text, span));
-            }
+        if let Some(number) = super::expr::whole(number, 0, u32::MAX) {
+            self.tools.tool = number;
+            self.event(Event::Tool { number });
+        } else {
+            let text = format!("T{number} is no tool number");
+            self.note(Fault::kontur(own::RANGE, text, span));
         }
     }
 
@@ -134,16 +131,15 @@ impl Decoder {
             return;
         };
         self.tools.data = number;
-        self.tools.active = match self.tools.table.get(&number) {
-            Some(tool) => tool.clone(),
-            None => {
-                if number != 0 {
-                    let text = format!("there is no tool data D{number}: length and radius are 0");
-                    let hint = "V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
-                    self.note_once("D", Fault::kontur(own::NO_TOOL, text, span).hint(hint));
-                }
-                super::tools::Tool::default()
+        self.tools.active = if let Some(tool) = self.tools.table.get(&number) {
+            tool.clone()
+        } else {
+            if number != 0 {
+                let text = format!("there is no tool data D{number}: length and radius are 0");
+                let hint = "V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
+                self.note_once("D", Fault::kontur(own::NO_TOOL, text, span).hint(hint));
             }
+            super::tools::Tool::default()
         };
         self.tool_offsets();
     }
@@ -183,18 +179,12 @@ impl Decoder {
     }
 
     /// G40, G41, G42.
-    pub(super) fn compensation(&mut self, side: Compensation, span: Span) -> Outcome<()> {
-        if side != Compensation::Off {
-            let what = "G41 and G42 (tool radius compensation)";
-            return Err(Fault::unsupported(what, span));
+    pub(super) fn compensation(&mut self, side: Compensation, span: Span) {
+        if side != Compensation::Off && self.tools.active.radius_mm == 0.0 {
+            let text = "the tool has the radius 0: the path is the programmed contour";
+            let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
+            self.note_once("G41", Fault::kontur(own::NO_TOOL, text, span).hint(hint));
         }
         self.modal.compensation = side;
-        Ok(())
-    }
-
-    /// Contouring is not planned yet: corners stay as programmed.
-    pub(super) fn contouring_fallback(&mut self, span: Span) {
-        let text = "polynomial contouring is not simulated: corners stay sharp as programmed";
-        self.note_once("contouring", Fault::kontur(own::FALLBACK, text, span));
     }
 }

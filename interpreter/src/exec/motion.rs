@@ -6,7 +6,7 @@ use super::decoder::Decoder;
 use super::fault::{Fault, Outcome, own};
 use super::groups::{Act, Group};
 use super::insertion::{Insertion, Kind};
-use super::modal::{FeedType, PathMode};
+use super::modal::{Compensation, FeedType, PathMode};
 use super::step::Sync;
 use super::words::{GWord, Placed, Words};
 use crate::diag::ValueKind;
@@ -26,10 +26,10 @@ impl Decoder {
         span: Span,
     ) {
         let path_word = words.group(Group::Path);
-        if let Some(GWord { row, .. }) = path_word {
-            if let Act::Path(mode) = row.act {
-                self.modal.path = mode;
-            }
+        if let Some(GWord { row, .. }) = path_word
+            && let Act::Path(mode) = row.act
+        {
+            self.modal.path = mode;
         }
         if let Some(g) = path_word.filter(|g| g.row.act == Act::Dwell) {
             let outcome = self.dwell(g, words);
@@ -137,22 +137,34 @@ impl Decoder {
             .iter()
             .map(|(axis, value, _)| (*axis, value * self.axis_unit(*axis)))
             .collect();
-        self.coordinates.program(&targets, self.modal.absolute);
+        let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
+        match suppressed {
+            Some((_, _, at)) if !self.modal.absolute => {
+                let text = "#SUPPRESS OFFSETS acts only with G90";
+                return Err(Fault::vendor(20985, text, *at));
+            }
+            Some((_, _, at)) if !self.coordinates.frame().is_identity() => {
+                let what = "#SUPPRESS OFFSETS in a frame";
+                return Err(Fault::unsupported(what, *at));
+            }
+            Some(_) => self.coordinates.program_without_offsets(&targets),
+            None => self.coordinates.program(&targets, self.modal.absolute),
+        }
         self.check_limits(&start, words, span);
         let path = if is_arc {
             Some(self.arc(&start, words, span)?)
         } else {
             let end = self.coordinates.target().clone();
-            if let Some((_, at)) = words.centre.iter().flatten().next() {
-                if words.group(Group::Insertion).is_none() {
-                    let text = "I, J and K have no meaning in a straight motion";
-                    self.note(Fault::kontur(own::ODD, text, *at).warning());
-                }
+            if let Some((_, at)) = words.centre.iter().flatten().next()
+                && words.group(Group::Insertion).is_none()
+            {
+                let text = "I, J and K have no meaning in a straight motion";
+                self.note(Fault::kontur(own::ODD, text, *at).warning());
             }
             if let Some((radius, _)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
             }
-            LinePath::new(start, end, &self.machine.channel.feed_axes).map(Path::Line)
+            LinePath::new(start, end, &self.feed_axes).map(Path::Line)
         };
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
@@ -168,6 +180,9 @@ impl Decoder {
             path.start()[*i].to_bits() != path.end()[*i].to_bits() || !path.is_straight()
         });
         let feed_ratio = if full { 1.0 } else { self.overrides.ratio(rapid, moved) };
+        let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
+        let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
+        let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
         let block = Block {
             seq: 0,
             path,
@@ -177,26 +192,54 @@ impl Decoder {
             slope: self.modal.slope,
             dynamics: self.dynamics(),
             tolerance: self.shaping.tolerance(),
-            contour: None,
-            spline: None,
+            contour: if rounds { Some(self.contouring.settings()) } else { self.hsc.contour() },
+            spline: self.hsc.spline(),
         };
-        let main = self.modal.plane.main_axes();
-        let axis = |m: usize| self.coordinates.main_axis(m).unwrap_or(usize::MAX);
+        let (plane, compensation) = self.plane_and_compensation(span)?;
         let motion = Motion {
             block,
             source: self.source,
             events: self.contour.take_events(),
-            plane: [axis(main[0]), axis(main[1])],
+            plane,
+            compensation,
+            span,
         };
         // of a block with an error nothing moves
         if self.failed() && !self.checking {
             return Ok(());
         }
         self.moved = true;
-        if let Some(fault) = self.contour.motion(Box::new(motion)) {
-            self.note(fault);
+        for fault in self.contour.motion(Box::new(motion)) {
+            self.note(Box::new(fault));
         }
         Ok(())
+    }
+
+    /// Axes of the active plane, and the distance of the tool's centre to the left of the contour.
+    fn plane_and_compensation(&self, span: Span) -> Outcome<([usize; 2], Option<f64>)> {
+        let main = self.modal.plane.main_axes();
+        let image = self.coordinates.frame().image_of_plane(main[0], main[1]);
+        let axis = |m: usize| self.coordinates.main_axis(m);
+        let compensated = self.modal.compensation != Compensation::Off;
+        let (plane, keeps_sense) = match image {
+            Some((image, keeps_sense)) => (image, keeps_sense),
+            None if compensated => {
+                let what = "tool radius compensation in a tilted coordinate system";
+                return Err(Fault::unsupported(what, span));
+            }
+            None => ([main[0], main[1]], true),
+        };
+        let (Some(first), Some(second)) = (axis(plane[0]), axis(plane[1])) else {
+            if compensated {
+                let text = "the plane of the tool radius compensation has no axis in the channel";
+                return Err(Fault::vendor(20200, text, span));
+            }
+            return Ok(([0, 0], None));
+        };
+        let left = (self.modal.compensation == Compensation::Left) == keeps_sense;
+        let radius = self.tools.active.radius_mm;
+        let distance = compensated.then_some(if left { radius } else { -radius });
+        Ok(([first, second], distance))
     }
 
     /// Targets against the software limits (P-AXIS-00177, P-AXIS-00178).
@@ -255,13 +298,12 @@ impl Decoder {
             }
             self.modal.radius_mm = Some(radius * self.unit_mm());
         }
-        let found = match (has_centre, self.modal.radius_mm) {
-            (false, Some(radius)) => arc::by_radius(s, e, radius, ccw),
-            _ => {
-                let centre = self.centre(start, main, image, centre_words);
-                let limits = &self.machine.channel.arc_centre;
-                arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
-            }
+        let found = if let (false, Some(radius)) = (has_centre, self.modal.radius_mm) {
+            arc::by_radius(s, e, radius, ccw)
+        } else {
+            let centre = self.centre(start, main, image, centre_words);
+            let limits = &self.machine.channel.arc_centre;
+            arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
         };
         let at = words.radius.or(centre_words[0]).or(centre_words[1]).map_or(span, |(_, at)| at);
         let mut arc = found.map_err(|e| arc_fault(e, at))?;
@@ -285,7 +327,7 @@ impl Decoder {
         self.last_arc.radius_mm =
             libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
-        ArcPath::new(start.clone(), end, shape, &self.machine.channel.feed_axes)
+        ArcPath::new(start.clone(), end, shape, &self.feed_axes)
             .map(Path::Arc)
             .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))
     }
@@ -365,14 +407,7 @@ impl Decoder {
     }
 
     /// Chamfer or rounding in front of the next motion.
-    pub(super) fn insert(
-        &mut self,
-        kind: Kind,
-        size_mm: f64,
-        feed_mm_s: Option<f64>,
-        span: Span,
-        _block: Span,
-    ) {
+    pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed_mm_s: Option<f64>, span: Span) {
         let insertion = Insertion { kind, size_mm, feed_mm_s, span };
         if let Some(fault) = self.contour.insert(insertion) {
             self.note(fault);

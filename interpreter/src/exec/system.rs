@@ -27,14 +27,17 @@ struct Path<'a> {
     span: Span,
 }
 
+#[allow(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
 fn number(x: f64) -> Outcome<Value> {
     Ok(Value::Number(x))
 }
 
+#[allow(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
 fn truth(b: bool) -> Outcome<Value> {
     Ok(Value::truth(b))
 }
 
+#[allow(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
 fn text(s: &str) -> Outcome<Value> {
     Ok(Value::Text(s.into()))
 }
@@ -150,7 +153,7 @@ impl Path<'_> {
                 Fault::vendor(21947, text, self.span).hint(d.axis_hint())
             });
         }
-        let high = u32::try_from(d.machine.axes.len() - 1).unwrap_or(0);
+        let high = u32::try_from(d.machine.axes.len().saturating_sub(1)).unwrap_or(0);
         let index = self.index(d, at - 1, high)? as usize;
         Ok(index)
     }
@@ -180,12 +183,11 @@ impl Path<'_> {
     /// `V.G.@P[i].VALID`.
     fn passed(&self, d: &Decoder) -> Outcome<Value> {
         let name = format!("P{}", self.index(d, 1, 200)?);
-        match d.variables.passed(&name) {
-            Some(passed) => truth(passed),
-            None => {
-                let text = "V.G.@P[i].VALID is known only inside a cycle";
-                Err(Fault::vendor(21544, text, self.span))
-            }
+        if let Some(passed) = d.variables.passed(&name) {
+            truth(passed)
+        } else {
+            let text = "V.G.@P[i].VALID is known only inside a cycle";
+            Err(Fault::vendor(21544, text, self.span))
         }
     }
 }

@@ -2,10 +2,13 @@
 
 mod arcs;
 mod calls;
+mod compensation;
 mod coordinates;
 mod errors;
+mod first_cases;
 mod flow;
 mod modes;
+mod random;
 mod shaping;
 
 use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};

@@ -230,10 +230,10 @@ impl Decoder {
             }
             (None, _) => None,
         };
-        if row.group != Group::None {
-            if let Some(first) = block.group(row.group) {
-                return Err(duplicate(first.row, row, span));
-            }
+        if row.group != Group::None
+            && let Some(first) = block.group(row.group)
+        {
+            return Err(duplicate(first.row, row, span));
         }
         block.g.push(GWord { row, value, span });
         Ok(())

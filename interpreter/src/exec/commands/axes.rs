@@ -19,7 +19,7 @@ const PLACES: u32 = 32;
 
 /// `#PUT AX [X, ..]`, `#PUT AX ALL`: an axis that is not there is legal.
 pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    exchange(decoder, call.span())?;
+    exchange(decoder, call.span());
     let all = call.rest.iter().chain(&call.command.tail).any(|w| w.is("ALL"));
     if all {
         decoder.axis_names.fill(None);
@@ -43,7 +43,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// `#CALL AX [FAST] [name, number, index, options]..`.
 pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    exchange(decoder, call.span())?;
+    exchange(decoder, call.span());
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
@@ -52,7 +52,7 @@ pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// `#SET AX [name, number, index, options]..`: a new set of axes.
 pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    exchange(decoder, call.span())?;
+    exchange(decoder, call.span());
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
@@ -65,7 +65,7 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// `#AX DEF DEFAULT`: the set of the channel list.
 pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    exchange(decoder, call.span())?;
+    exchange(decoder, call.span());
     match call.rest {
         [word] if word.is("DEFAULT") => {
             for axis in 0..decoder.machine.axes.len() {
@@ -82,8 +82,32 @@ pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
 }
 
+/// `#FGROUP [X, Y]`: the axes that the feed refers to; without a bracket those of the channel list.
+pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if call.rest.iter().any(|w| w.is("ROT") || w.is("WAXIS")) {
+        return Err(Fault::unsupported("#FGROUP ROT and #FGROUP WAXIS", call.span()));
+    }
+    call.no_more_words()?;
+    let mut members = vec![false; decoder.machine.axes.len()];
+    let Some(group) = call.command.groups.first() else {
+        decoder.feed_axes = decoder.machine.channel.feed_axes.clone();
+        decoder.dynamics_changed();
+        return Ok(());
+    };
+    for item in &group.items {
+        match &item.kind {
+            ItemKind::Flag(name) => members[decoder.axis_in_command(name)?] = true,
+            ItemKind::Missing => {}
+            _ => return Err(Fault::vendor(20797, "an axis name is expected", item.span)),
+        }
+    }
+    decoder.feed_axes = members;
+    decoder.dynamics_changed();
+    Ok(())
+}
+
 /// The path comes to rest; a Vibration Guard of the program ends.
-fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
+fn exchange(decoder: &mut Decoder, span: Span) {
     decoder.sync(Sync::FlushWait);
     if decoder.shaping.guard_on == Some(true) {
         let text = "the axis exchange switches the Vibration Guard of the program off";
@@ -96,7 +120,6 @@ fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
         decoder.shaping.guard = crate::exec::shaping::GuardKeys::default();
         decoder.update_shaping(span);
     }
-    Ok(())
 }
 
 fn release(decoder: &mut Decoder, axis: usize) {

@@ -6,15 +6,29 @@
 use super::keys::{flag, number};
 use super::{Call, Key, Kind, arguments};
 use crate::diag::ValueKind;
+use crate::exec::contouring::{Contouring, Mode};
 use crate::exec::decoder::Decoder;
+use crate::exec::expr::is_true;
 use crate::exec::fault::{Fault, Outcome, own};
-use kontur_motion::block::VectorLimits;
+use crate::syntax::ast::{Group, ItemKind, ItemValue};
+use kontur_motion::block::{CurveJerk, VectorLimits};
 
 const fn maybe(name: &'static str) -> Key {
     Key { name, kind: Kind::MaybeNumber }
 }
 
-/// `#CONTOUR MODE [ON|OFF] [DEV .. ]`.
+/// Modes that take a word.
+const MODES: &[(&str, Mode)] = &[
+    ("DEV", Mode::Dev),
+    ("AUTO_DEV", Mode::Dev),
+    ("DIST", Mode::Dist),
+    ("POS", Mode::Pos),
+    ("PTP", Mode::Ptp),
+    ("DIST_SOFT", Mode::DistSoft),
+    ("DIST_MASTER", Mode::DistMaster),
+];
+
+/// `#CONTOUR MODE [ON|OFF] [DEV .. ]`: a key that is not written keeps its value.
 pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     /// Smallest `PATH_DEV` in mm: one increment of the language.
     const PATH_DEV_MIN_MM: f64 = 1e-4;
@@ -50,9 +64,15 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         flag("POST_ACTION"),
     ];
     call.no_more_words()?;
-    let keys = arguments(decoder, "#CONTOUR MODE", call.command.groups.first(), KEYS);
+    let unit = decoder.tolerance_unit_mm();
+    let mut settings = decoder.contouring;
+    let group = points(decoder, call.command.groups.first(), &mut settings)?;
+    let keys = arguments(decoder, "#CONTOUR MODE", group.as_ref(), KEYS);
+    if let Some(span) = keys.place("AUTO_VEL").or(keys.place("SYM_DIST")) {
+        return Err(Fault::unsupported("#CONTOUR MODE [AUTO_VEL] and [SYM_DIST]", span));
+    }
     if let Some((x, span)) = keys.number("PATH_DEV") {
-        let mm = x * decoder.tolerance_unit_mm();
+        let mm = x * unit;
         if mm < PATH_DEV_MIN_MM {
             let text = format!("PATH_DEV={x} is below the minimum of {PATH_DEV_MIN_MM} mm");
             return Err(Fault::vendor(120129, text, span).with(|d| {
@@ -64,27 +84,89 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
             }));
         }
     }
-    for mode in ["DIST_SOFT", "DIST_MASTER", "POS", "PTP", "AUTO_VEL"] {
-        if let Some(span) = keys.place(mode) {
-            return Err(Fault::unsupported(format!("#CONTOUR MODE [{mode}]"), span));
-        }
+    if let Some((_, mode)) = MODES.iter().find(|(name, _)| keys.has(name)) {
+        settings.mode = *mode;
     }
+    let length = |name: &str, low: f64| {
+        let x = keys.in_range(name, low, f64::MAX, own::RANGE)?;
+        Ok::<Option<f64>, Box<Fault>>(x.map(|x| x * unit))
+    };
+    let set = |slot: &mut f64, new: Option<f64>| *slot = new.unwrap_or(*slot);
+    set(&mut settings.path_dev_mm, length("PATH_DEV", 0.0)?);
+    set(&mut settings.pre_mm, length("PRE_DIST", 0.0)?);
+    set(&mut settings.post_mm, length("POST_DIST", 0.0)?);
+    set(&mut settings.path_dist_mm, length("PATH_DIST", -1.0)?);
+    let common = &mut settings.common;
+    set(&mut common.relevant_path_mm, length("RELEVANT_PATH", 0.0)?);
+    set(&mut common.track_dev_deg, keys.in_range("TRACK_DEV", 0.0, 1e6, own::RANGE)?);
+    set(&mut common.relevant_track_deg, keys.in_range("RELEVANT_TRACK", 0.0, 1e6, own::RANGE)?);
+    let remain = keys.in_range("REMAIN_PART", 0.0, 100.0, own::RANGE)?;
+    set(&mut common.remain_ratio, remain.map(|p| p / 100.0));
+    set(&mut common.max_angle_deg, keys.in_range("MAX_ANGLE", 0.0, 180.0, own::RANGE)?);
+    if keys.has("CONST_VEL") {
+        common.constant_velocity = keys.number("CONST_VEL").is_none_or(|(x, _)| is_true(x));
+    }
+    if keys.has("CHECK_JERK") {
+        let mode = keys.in_range("CHECK_JERK", 0.0, 3.0, own::RANGE)?.unwrap_or(1.0);
+        common.curve_jerk = Some(match crate::exec::expr::whole(mode, 0, 3) {
+            Some(0) => CurveJerk::Unlimited,
+            Some(2) => CurveJerk::Ramps,
+            _ => CurveJerk::Geometric,
+        });
+    }
+    decoder.contouring = settings;
     for action in ["PRE_ACTION", "POST_ACTION"] {
         if let Some(span) = keys.place(action) {
             let text = format!("{action}: functions act at the corner here");
             decoder.note_once(action, Fault::kontur(own::FALLBACK, text, span));
         }
     }
-    match call.command.on {
-        Some(true) => {
-            decoder.modal.contouring = true;
-            decoder.modal.exact_stop = false;
-            decoder.contouring_fallback(call.span());
+    let soft = matches!(settings.mode, Mode::DistSoft | Mode::DistMaster);
+    for key in ["MERGE", "TRACK_DIST", "ACC_MAX", "ACC_MIN", "RAMP_TIME", "DIST_WEIGHT"] {
+        if let Some(span) = keys.place(key) {
+            let text = format!("#CONTOUR MODE: {key} has no effect");
+            decoder.note_once(key, Fault::kontur(own::FALLBACK, text, span));
         }
-        Some(false) => decoder.modal.contouring = false,
-        None => {}
+    }
+    if soft {
+        let text = "#CONTOUR MODE: the curve of this mode is not published, corners are rounded as with PTP";
+        decoder.note_once("DIST_SOFT", Fault::kontur(own::FALLBACK, text, call.span()));
+    }
+    if let Some(on) = call.command.on {
+        decoder.modal.contouring = on;
+        decoder.modal.exact_stop &= !on;
     }
     Ok(())
+}
+
+/// Takes the coordinates of an interim point out of the bracket; the rest is keys.
+fn points(
+    decoder: &Decoder,
+    group: Option<&Group>,
+    settings: &mut Contouring,
+) -> Outcome<Option<Group>> {
+    let Some(group) = group else { return Ok(None) };
+    let mut rest = Group { items: Vec::new(), span: group.span };
+    for item in &group.items {
+        let point = match &item.kind {
+            ItemKind::Pair { key, value: ItemValue::Expr(expr) } => {
+                let axis = decoder.axis_of_name(&key.text);
+                axis.filter(|axis| *axis < 3).map(|axis| (axis, expr))
+            }
+            _ => None,
+        };
+        let Some((axis, expr)) = point else {
+            rest.items.push(item.clone());
+            continue;
+        };
+        if !decoder.coordinates.frame().is_identity() {
+            let what = "an interim point of #CONTOUR MODE in a frame";
+            return Err(Fault::unsupported(what, item.span));
+        }
+        let value = decoder.number(expr)? * decoder.axis_unit(axis);
+        settings.point_mm[axis] = Some(value + decoder.coordinates.active_offset(axis));
+    }
+    Ok(Some(rest))
 }
 
 /// `#HSC [ON|OFF] [BSPLINE ..]`, `#HSC [..] [OPMODE= CONTERROR=]`.
@@ -104,20 +186,46 @@ pub(super) fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         number("CONTERROR"),
     ];
     call.no_more_words()?;
+    let unit = decoder.tolerance_unit_mm();
     let keys = arguments(decoder, "#HSC", call.command.groups.first(), KEYS);
-    keys.in_range("PATH_DEV", 0.0, f64::MAX, own::RANGE)?;
-    keys.in_range("CONTERROR", 0.0, f64::MAX, own::RANGE)?;
-    keys.in_range("OPMODE", 1.0, 2.0, own::RANGE)?;
-    if call.command.on == Some(true) {
-        let within = match keys.number("PATH_DEV").or(keys.number("CONTERROR")) {
-            Some((x, _)) => format!("{x} mm"),
-            None => "PATH_DEV".to_owned(),
-        };
-        let text = format!(
-            "#HSC: short blocks are not smoothed, the polygon is driven as programmed (the control's path differs by at most {within})"
-        );
-        decoder.note_once("#HSC", Fault::kontur(own::FALLBACK, text, call.span()));
+    let mut hsc = decoder.hsc;
+    if let Some((mode, span)) = keys.number("OPMODE") {
+        match crate::exec::expr::whole(mode, 1, 2) {
+            Some(1) => hsc.rounds_corners = true,
+            Some(_) => return Err(Fault::unsupported("#HSC [OPMODE=2]", span)),
+            None => {
+                let text = format!("OPMODE={mode}, allowed are 1 and 2");
+                return Err(Fault::kontur(own::RANGE, text, span));
+            }
+        }
     }
+    if keys.has("BSPLINE") {
+        hsc.rounds_corners = false;
+    }
+    let set = |slot: &mut f64, new: Option<f64>| *slot = new.unwrap_or(*slot);
+    let length = |name: &str| {
+        let x = keys.in_range(name, 0.0, f64::MAX, own::RANGE)?;
+        Ok::<Option<f64>, Box<Fault>>(x.map(|x| x * unit))
+    };
+    set(&mut hsc.spline.path_dev_mm, length("PATH_DEV")?);
+    set(&mut hsc.spline.track_dev_deg, keys.in_range("TRACK_DEV", 0.0, 1e6, own::RANGE)?);
+    set(&mut hsc.spline.max_length_mm, length("MAX_PATH_LENGTH")?);
+    set(&mut hsc.spline.max_angle_deg, keys.in_range("MAX_ANGLE", 0.0, 180.0, own::RANGE)?);
+    set(&mut hsc.contour_error_mm, length("CONTERROR")?);
+    let switch = |name: &str, slot: &mut bool| {
+        if keys.has(name) {
+            *slot = keys.number(name).is_none_or(|(x, _)| is_true(x));
+        }
+    };
+    switch("AUTO_OFF_PATH", &mut hsc.spline.off_at_path_dev);
+    switch("AUTO_OFF_TRACK", &mut hsc.spline.off_at_track_dev);
+    switch("AUTO_OFF_G00", &mut hsc.spline.off_at_rapid);
+    if let Some(span) = keys.place("MERGE") {
+        let text = "#HSC: MERGE has no effect";
+        decoder.note_once("HSC MERGE", Fault::kontur(own::FALLBACK, text, span));
+    }
+    hsc.on = call.command.on.unwrap_or(hsc.on);
+    decoder.hsc = hsc;
     Ok(())
 }
 
@@ -134,12 +242,9 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         flag("FEED"),
         flag("RAPID"),
     ];
-    let on = match call.command.on {
-        Some(on) => on,
-        None => {
-            let text = "#VECTOR LIMIT needs ON or OFF";
-            return Err(Fault::vendor(21220, text, call.span()));
-        }
+    let Some(on) = call.command.on else {
+        let text = "#VECTOR LIMIT needs ON or OFF";
+        return Err(Fault::vendor(21220, text, call.span()));
     };
     let listed = decoder.machine.channel.vector;
     match &call.command.tail[..] {
@@ -197,23 +302,17 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
 /// `#TRANSVELMIN ON [v]`, `OFF`: lower bound of the velocity at kinks in mm/min.
 pub(super) fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let value = match (call.command.on, &call.command.arguments[..], call.command.groups.first()) {
-        (Some(false), _, _) => 0.0,
+        (Some(false), _, _) | (Some(true), [], None) => 0.0,
         (Some(true), [expr], _) => decoder.number(expr)?,
-        (Some(true), [], Some(group)) => {
-            use crate::syntax::ast::{ItemKind, ItemValue};
-            match &group.items[..] {
-                [] => 0.0,
-                [item] => match &item.kind {
-                    ItemKind::Value(ItemValue::Expr(expr))
-                    | ItemKind::Pair { value: ItemValue::Expr(expr), .. } => {
-                        decoder.number(expr)?
-                    }
-                    _ => return Err(Fault::vendor(21220, "a velocity is expected", item.span)),
-                },
-                _ => return Err(Fault::vendor(21220, "one velocity is expected", group.span)),
-            }
-        }
-        (Some(true), [], None) => 0.0,
+        (Some(true), [], Some(group)) => match &group.items[..] {
+            [] => 0.0,
+            [item] => match &item.kind {
+                ItemKind::Value(ItemValue::Expr(expr))
+                | ItemKind::Pair { value: ItemValue::Expr(expr), .. } => decoder.number(expr)?,
+                _ => return Err(Fault::vendor(21220, "a velocity is expected", item.span)),
+            },
+            _ => return Err(Fault::vendor(21220, "one velocity is expected", group.span)),
+        },
         _ => return Err(Fault::vendor(21220, "#TRANSVELMIN needs ON or OFF", call.span())),
     };
     if !(0.0..=1e9).contains(&value) {

@@ -176,8 +176,3 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
     let hint = "--identity-trafo takes transformations as identity";
     Err(Fault::unsupported(call.title(), call.span()).hint(hint))
 }
-
-/// `#PSET`, `#PRESET` as commands of their own.
-pub(super) fn not_supported_offset(_: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    Err(Fault::unsupported(call.title(), call.span()).hint("G92 shifts the zero point"))
-}

@@ -170,8 +170,7 @@ fn read(
                     Found::Number(decoder.number(e)?)
                 }
                 (Kind::Word | Kind::Text, ItemValue::Name(word)) => Found::Word(word.text.clone()),
-                (Kind::Text, ItemValue::Expr(e)) => Found::Word(text(decoder, e)?),
-                (Kind::Word, ItemValue::Expr(e)) => Found::Word(text(decoder, e)?),
+                (Kind::Text | Kind::Word, ItemValue::Expr(e)) => Found::Word(text(decoder, e)?),
                 _ => return Err(incomplete(title, key, item.span)),
             };
             Ok(Some((key.name, found)))

@@ -87,9 +87,9 @@ fn mirroring_and_rotation_carry_arcs_along() {
     let run = clean("#CS ON [0,0,0,90,0,0]\nG03 X10 I5 F100\nM30\n");
     match &run.blocks()[0].path {
         Path::Arc(arc) => {
-            assert_eq!((arc.shape().plane, arc.shape().sweep_rad < 0.0), ([2, 0], true))
+            assert_eq!((arc.shape().plane, arc.shape().sweep_rad < 0.0), ([2, 0], true));
         }
-        Path::Line(_) => panic!("no arc"),
+        other => panic!("no arc: {other:?}"),
     }
 }
 

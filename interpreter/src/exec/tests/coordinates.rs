@@ -1,13 +1,18 @@
 //! Offsets, dimensions, units and frames.
 
 use super::{assert_end, assert_near, clean, run};
+use kontur_motion::block::Feed;
 
 #[test]
 fn zero_offsets() {
     assert_end("V.G.NP[1].V.X=10\nG90 G54 X0 F100", [10.0, 0.0, 0.0]);
     assert_end("V.G.NP[1].V.X=10\nG54\nG91 X0 F100", [0.0, 0.0, 0.0]);
     assert_end("V.G.NP[1].V.X=10\nV.G.NP[9].V.X=3\nG54 X1 F100\nG159=9 X1\n", [4.0, 0.0, 0.0]);
-    assert_end("V.G.NP[2].V.X=7 V.G.NP[2].V.Y=8\nG160=2 Y1\nG01 X1 Y1 F100", [1.0, 9.0, 0.0]);
+    // 1 leaves the offset of the axis out
+    assert_end(
+        "V.G.NP[2].V.X=7 V.G.NP[2].V.Y=8\nG160=2 X1 Y0\nG55 G01 X1 Y1 F100",
+        [1.0, 9.0, 0.0],
+    );
     assert_end("V.G.NP[1].V.X=10\nG54 X1 F100\nG53\nX2", [2.0, 0.0, 0.0]);
 }
 
@@ -30,7 +35,6 @@ fn dimensions() {
 fn inches_scale_lengths_and_feeds() {
     let run = clean("G70 G01 X1 F60\nG71 Y1\nM30\n");
     assert_near(&run.end, &[25.4, 1.0, 0.0]);
-    use kontur_motion::block::Feed;
     assert_eq!(run.blocks()[0].feed, Feed::PathVelocity(25.4));
     // the feed keeps its velocity
     assert_eq!(run.blocks()[1].feed, Feed::PathVelocity(25.4));
@@ -69,6 +73,24 @@ fn coordinate_systems() {
     assert_end("V.G.NP[1].V.X=100\nG54\n#CS ON [0,0,0,0,0,90]\nX1 Y0 F100", [100.0, 1.0, 0.0]);
     assert_eq!(run("#CS ON [3]\nM30\n").ids(), ["K-0012"]);
     assert_eq!(run("#TRAFO ON\nM30\n").ids(), ["K-0019"]);
+}
+
+#[test]
+fn position_presets_and_suppressed_offsets() {
+    // the vendor's examples
+    assert_end("X50 Y10 F100\n#PSET X20 Y20\nX10\n#PRESET X10\nX30\n#PRESET\n", [30.0, 10.0, 0.0]);
+    assert_end("X50 F100\n#PSET X20\nX10", [40.0, 0.0, 0.0]);
+    let offsets = "V.G.NP[1].V.X=11\nV.G.NP[1].V.Y=22\nG54\nG92 X10 Y20\nX100 Y150 F100\n";
+    assert_end(offsets, [121.0, 192.0, 0.0]);
+    assert_end(&format!("{offsets}#SUPPRESS OFFSETS X50 Y100"), [50.0, 100.0, 0.0]);
+    assert_eq!(run("G91 #SUPPRESS OFFSETS X50 F100\nM30\n").ids(), ["20985"]);
+}
+
+#[test]
+fn the_feed_group() {
+    let run = clean("#FGROUP [X]\nG01 X3 Y4 F100\n#FGROUP\nX6 Y8\nM30\n");
+    let lengths: Vec<f64> = run.blocks().iter().map(|b| b.path.length()).collect();
+    assert_near(&lengths, &[3.0, 5.0]);
 }
 
 #[test]

@@ -76,7 +76,8 @@ fn the_check_reports_ten_mistakes_in_one_run() {
 
 #[test]
 fn the_check_stops_after_twenty_errors() {
-    let text = (0..40).map(|i| format!("N{i} #FOO\n")).collect::<String>() + "M30\n";
+    let text: Vec<String> = (0..40).map(|i| format!("N{i} #FOO")).collect();
+    let text = text.join("\n");
     let found = checked(&text);
     assert_eq!(found.iter().filter(|d| d.is_error()).count(), 20);
     assert_eq!(found.last().map(|d| d.id.to_string()).as_deref(), Some("K-0116"));

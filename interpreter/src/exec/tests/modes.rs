@@ -5,7 +5,8 @@ use crate::exec::{Event, SpindleMotion};
 use kontur_motion::block::{Feed, SlopeKind};
 
 fn feeds(text: &str) -> Vec<Feed> {
-    clean(&format!("{text}\nM30\n")).blocks().iter().map(|b| b.feed).collect()
+    // G137: the program is written for this dialect
+    clean(&format!("G137\n{text}\nM30\n")).blocks().iter().map(|b| b.feed).collect()
 }
 
 #[test]
@@ -25,15 +26,15 @@ fn feed_types() {
     let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
     assert_eq!(id("G01 X10"), ["20008"]);
     assert_eq!(id("G01 F0 X10"), ["20008"]);
-    assert_eq!(id("G93 F2 X1\nG93 X2"), ["20008"]);
+    assert_eq!(id("G137 G93 F2 X1\nG93 X2"), ["20008"]);
     assert_eq!(id("G95 F1 X1"), ["60132"]);
     assert_eq!(id("F100 X10 F200"), ["20175"]);
-    assert_eq!(id("G93 G94 F1"), ["20121"]);
+    assert_eq!(id("G137 G93 G94 F1"), ["20121"]);
 }
 
 #[test]
 fn end_feeds() {
-    let blocks = clean("G01 X1 F600 E300\nX2 E6000\nX3\nM30\n");
+    let blocks = clean("G137 G01 X1 F600 E300\nX2 E6000\nX3\nM30\n");
     let ends: Vec<_> = blocks.blocks().iter().map(|b| b.end_velocity_mm_s).collect();
     assert_eq!(ends, [Some(5.0), Some(10.0), None]);
 }
@@ -251,4 +252,43 @@ fn chamfers_and_roundings() {
     // a rounding between a line and an arc touches both
     let run = clean("F100\nX10\nG302 I1\nG03 X20 Y10 I0 J10\nM30\n");
     assert_eq!(run.blocks().len(), 2);
+}
+
+#[test]
+fn contouring_settings_reach_the_blocks() {
+    use kontur_motion::contouring::ContourMode;
+    let modes = |text: &str| -> Vec<_> {
+        let run = clean(&format!("G137 F100\n{text}\n#CONTOUR MODE OFF\nM30\n"));
+        run.blocks().iter().map(|b| b.contour.map(|c| c.mode)).collect()
+    };
+    let dev = |path_dev_mm| Some(ContourMode::Dev { path_dev_mm });
+    assert_eq!(modes("X1\nG61 X2\nX3"), [None, dev(1.0), None]);
+    assert_eq!(modes("#CONTOUR MODE ON [DEV PATH_DEV=0.08]\nX1\nG260\nX2"), [dev(0.08), None]);
+    // neither ON nor OFF: parameters only
+    assert_eq!(modes("#CONTOUR MODE [DEV, PATH_DEV=5]\nX1\nG261\nX2"), [None, dev(5.0)]);
+    let dist = Some(ContourMode::Dist { pre_mm: 2.0, post_mm: 1.0 });
+    assert_eq!(modes("#CONTOUR MODE ON [DIST PRE_DIST 2]\nX1"), [dist]);
+    // an exact stop has nothing to round
+    assert_eq!(modes("G261\nG60 X1\nX2"), [None, dev(1.0)]);
+    let run = clean(
+        "F100\n#CONTOUR MODE [CONST_VEL=1 REMAIN_PART=20 RELEVANT_PATH=0.5]\nG261 X1\nG260\nM30\n",
+    );
+    let settings = run.blocks()[0].contour.unwrap();
+    assert!(settings.constant_velocity);
+    super::assert_near(&[settings.remain_ratio, settings.relevant_path_mm], &[0.2, 0.5]);
+    let id = |text: &str| super::run(&format!("{text}\nM30\n")).ids();
+    assert_eq!(id("#CONTOUR MODE ON [PATH_DEV=0.00001]"), ["120129"]);
+    assert_eq!(id("#CONTOUR MODE ON"), ["120206"]);
+    assert_eq!(id("#CONTOUR MODE [AUTO_VEL]"), ["K-0019"]);
+}
+
+#[test]
+fn splines_through_short_blocks() {
+    let run = clean(
+        "F100\n#HSC [BSPLINE PATH_DEV 0.2 TRACK_DEV 0.2 MAX_ANGLE 179]\nX1\n#HSC ON\nX2\n#HSC OFF\nX3\nM30\n",
+    );
+    let splines: Vec<_> = run.blocks().iter().map(|b| b.spline.map(|s| s.path_dev_mm)).collect();
+    assert_eq!(splines, [None, Some(0.2), None]);
+    let run = clean("F100\n#HSC ON [OPMODE=1 CONTERROR=0.05]\nX1\n#HSC OFF\nX2\nM30\n");
+    assert!(run.blocks()[0].contour.is_some() && run.blocks()[1].contour.is_none());
 }
