@@ -7,6 +7,7 @@
 
 mod chain;
 mod fault;
+mod smoothing;
 mod spindle;
 mod totals;
 mod wait;
@@ -25,6 +26,7 @@ use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::limit::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::tolerance::Kernels;
+use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -85,6 +87,7 @@ pub struct Simulation {
     machine: Arc<Machine>,
     cycle: CycleTime,
     executor: Executor,
+    smoothing: Smoothing,
     planner: Planner,
     /// Path axes, spindles, gantry slaves.
     chains: Vec<AxisChain>,
@@ -140,6 +143,7 @@ impl Simulation {
         let spindles = machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
         let records = chains.iter().map(AxisChain::at_start).collect();
         let mut simulation = Self {
+            smoothing: Smoothing::default(),
             planner: Planner::new(cycle, window, &start[..n]),
             gains: vec![0.0; chains.len()],
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
@@ -253,11 +257,11 @@ impl Simulation {
             Step::Motion { block, source, events } => self.motion(block, source, events),
             Step::Sync { what, source, events } => {
                 self.pending = Some((After::Sync(what), source, events));
-                self.planner.finish();
+                self.path_stops();
             }
             Step::End { reason, source, events } => {
                 self.pending = Some((After::End(reason), source, events));
-                self.planner.finish();
+                self.path_stops();
             }
         }
     }
@@ -266,7 +270,15 @@ impl Simulation {
         self.totals.count(&block);
         let jerk_limited = block.slope.kind != SlopeKind::Step;
         self.underway.push_back(Underway { seq: block.seq, source, jerk_limited, events });
-        self.planner.push(block);
+        self.smoothing.push(block, &mut self.planner);
+        self.not_contoured();
+    }
+
+    /// The path stops behind the last motion.
+    fn path_stops(&mut self) {
+        self.smoothing.flush(&mut self.planner);
+        self.not_contoured();
+        self.planner.finish();
     }
 
     /// The path has come to rest behind everything that was pushed.

@@ -9,6 +9,7 @@ use crate::machine::Machine;
 use kontur_filters::control::fault::{Derivative, ErrorId, Fault, Reaction};
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
+use kontur_motion::contouring::NoContour;
 use kontur_motion::profile::Infeasible;
 use kontur_motion::tolerance::Unkept;
 
@@ -158,5 +159,36 @@ impl Simulation {
             self.underway.iter().find(|u| u.seq == unkept.seq).map_or(self.current, |u| u.source);
         d.source = self.locate(source);
         d
+    }
+
+    /// Reports the corners that were not contoured as asked for, each place once.
+    pub(super) fn not_contoured(&mut self) {
+        for notice in self.smoothing.take_notices() {
+            let text = match notice.reason {
+                NoContour::BlockTooShort => "a block is too short for contouring",
+                NoContour::DeviationTooSmall { .. } => "PATH_DEV is below the minimum",
+                NoContour::DistanceTooSmall { .. } => "a corner distance is below the minimum",
+                NoContour::NotPossible => "contouring is not possible at the end of this block",
+                NoContour::FeedGroup => "the feed group changes behind this block",
+                // at a stop there is no corner to round; MAX_ANGLE asks for it; the executor tells about the mode
+                NoContour::NothingFollows
+                | NoContour::AngleAboveMaximum { .. }
+                | NoContour::ModeReplaced => continue,
+            };
+            let Some(id) = notice.id() else { continue };
+            let source = self
+                .underway
+                .iter()
+                .find(|u| u.seq == notice.seq)
+                .map_or(self.current, |u| u.source);
+            if self.smoothing.is_new(id, source) {
+                // Assumption: the run goes on, with the corner as programmed, where the control would abort
+                let mut d =
+                    Diagnostic::vendor(id, format!("{text}: the corner stays as programmed"))
+                        .severity(crate::diag::Severity::Warning);
+                d.source = self.locate(source);
+                self.diagnostics.push(d);
+            }
+        }
     }
 }

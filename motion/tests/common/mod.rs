@@ -1,5 +1,9 @@
 //! Machines and programs for the planner's tests.
-#![allow(dead_code, clippy::unwrap_used, reason = "a helper of tests, every file uses its own part")]
+#![allow(
+    dead_code,
+    clippy::unwrap_used,
+    reason = "a helper of tests, every file uses its own part"
+)]
 
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;

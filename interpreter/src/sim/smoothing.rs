@@ -1,0 +1,50 @@
+//! Between program and planner: short blocks become splines, corners become curves.
+
+use crate::exec::SourceRef;
+use kontur_motion::block::Block;
+use kontur_motion::contouring::{Contouring, Notice};
+use kontur_motion::planner::Planner;
+use kontur_motion::spline::Splining;
+use std::collections::BTreeSet;
+
+/// The two stages in their order.
+#[derive(Debug, Default)]
+pub(super) struct Smoothing {
+    splining: Splining,
+    contouring: Contouring,
+    /// Places of the messages given: number, file, line.
+    said: BTreeSet<(u32, u32, u32)>,
+}
+
+impl Smoothing {
+    /// Takes a programmed motion; what is final goes to the planner.
+    pub(super) fn push(&mut self, block: Block, planner: &mut Planner) {
+        for block in self.splining.push(block) {
+            for block in self.contouring.push(block) {
+                planner.push(block);
+            }
+        }
+    }
+
+    /// The path stops behind the last motion: everything goes to the planner.
+    pub(super) fn flush(&mut self, planner: &mut Planner) {
+        for block in self.splining.flush() {
+            for block in self.contouring.push(block) {
+                planner.push(block);
+            }
+        }
+        for block in self.contouring.flush() {
+            planner.push(block);
+        }
+    }
+
+    /// Corners that were not contoured as asked for, since the last call.
+    pub(super) fn take_notices(&mut self) -> Vec<Notice> {
+        self.contouring.take_notices()
+    }
+
+    /// True for the first message with this number about a place.
+    pub(super) fn is_new(&mut self, id: u32, source: SourceRef) -> bool {
+        self.said.insert((id, source.file, source.line))
+    }
+}
