@@ -420,7 +420,9 @@ impl Builder<'_> {
         let local = behind
             .strip_prefix(['L', 'l'])
             .filter(|name| name.starts_with([' ', '\t']))
-            .map(str::trim_start);
+            .map(str::trim_start)
+            // without a name it is a main program called L
+            .filter(|name| name_of(name).is_some());
         let next = Position { offset: raw.position.offset, line: raw.position.line };
         if let Some(name) = local {
             self.close(raw.position.offset);
