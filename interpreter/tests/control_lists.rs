@@ -226,17 +226,17 @@ fn keys_of_the_stages() {
         assert_eq!(mode(number), mode(name));
     }
     assert_ne!(mode("1"), mode("2"));
-    let three: String = (1..3)
+    let three: Vec<String> = (1..3)
         .map(|i| {
             let stage = format!("{IPC}.stage[{i}]");
             format!(
                 "{stage}.mode=DIRECT {stage}.filter[0].order=1 {stage}.filter[0].fg_f0={} \
-                 {stage}.filter[0].q_factor=5 ",
+                 {stage}.filter[0].q_factor=5",
                 100 * i
             )
         })
         .collect();
-    assert_eq!(ipc(&three).stages.len(), 3);
+    assert_eq!(ipc(&three.join(" ")).stages.len(), 3);
     let said = |key: &str| {
         let mut found = Vec::new();
         let text = format!("lr_param.improved_position_control.{key}\n");

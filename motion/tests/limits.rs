@@ -1,5 +1,11 @@
 //! Velocity limits against worked numbers: kinks (P-AXIS-00013), arcs, oblique lines.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "helpers of tests; exact values are meant"
+)]
+
 mod common;
 
 use common::{Job, axis, channel};

@@ -1,5 +1,7 @@
 //! B-spline through short blocks: tolerance, smoothness, ends, ripple.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
 mod common;
 
 use common::{Job, axis, channel, deviation};

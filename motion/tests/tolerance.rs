@@ -2,6 +2,8 @@
 //!
 //! The deviation is measured here on its own, from setpoints, kernel taps and the corners of the program.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
+
 mod common;
 
 use common::{Job, axis, channel, deviation, filtered};

@@ -4,7 +4,7 @@ use crate::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals
 use crate::files::{Lists, ProgramFiles};
 use kontur_interpreter::diag::{Diagnostic, Id, Severity};
 use kontur_interpreter::exec::{self, Options, SkipLevels};
-use kontur_interpreter::machine::{AxisKind, Machine, Override, explain};
+use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override, explain};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::sim::{Limits, Simulation};
 use std::path::Path;
@@ -37,9 +37,12 @@ pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenErro
     let (machine, messages) = loaded.map_err(OpenError::Lists)?;
     let unknown = |d: &Diagnostic| d.id == Id::Vendor(1001119);
     if request.strict && messages.iter().any(unknown) {
-        let refused = messages.into_iter().map(|d| match unknown(&d) {
-            true => d.severity(Severity::Error).hint("--strict refuses keys that are not modelled"),
-            false => d,
+        let refused = messages.into_iter().map(|d| {
+            if unknown(&d) {
+                d.severity(Severity::Error).hint("--strict refuses keys that are not modelled")
+            } else {
+                d
+            }
         });
         return Err(OpenError::Lists(refused.collect()));
     }
@@ -49,7 +52,7 @@ pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenErro
 fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
     for (name, _) in &request.start {
         if !machine.axes.iter().any(|a| a.name().eq_ignore_ascii_case(name)) {
-            let known: Vec<&str> = machine.axes.iter().map(|a| a.name()).collect();
+            let known: Vec<&str> = machine.axes.iter().map(Axis::name).collect();
             let known = known.join(", ");
             return Err(OpenError::Usage(format!(
                 "--start: no axis `{name}`; the axes are {known}"

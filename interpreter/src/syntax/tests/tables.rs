@@ -114,13 +114,13 @@ fn program_heads() {
         ("%MAIN", false, Some("MAIN"), "MAIN"),
         ("% name (x)", false, Some("name"), "name"),
         ("% tool 5, \"x\"", false, Some("tool"), "tool 5, \"x\""),
+        ("%L", false, Some("L"), "L"),
         ("%", false, None, ""),
     ] {
         let Body::ProgramHead(head) = accepted(line).body else { panic!("{line}") };
         let found = (head.local, head.name.as_ref().map(|n| &*n.text), &*head.text);
         assert_eq!(found, (local, name, text), "{line}");
     }
-    assert_eq!(refused("%L"), [("K-0005".to_owned(), 1)]);
 }
 
 #[test]
