@@ -24,6 +24,13 @@ impl Contour {
         }
     }
 
+    /// Forgets blocks that were to be entered at `cycles` or later.
+    pub(crate) fn forget_from(&mut self, cycles: f64) {
+        while self.blocks.back().is_some_and(|b| b.0 >= cycles) {
+            self.blocks.pop_back();
+        }
+    }
+
     /// Blocks that were being interpolated at some time in `from..=to` (cycles), with the time of entry.
     pub(crate) fn between(
         &self,

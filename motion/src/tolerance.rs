@@ -88,6 +88,14 @@ impl Demands {
             tried: vec![None; blocks + 1],
         }
     }
+
+    /// Takes back what is asked of the first blocks: the path is too fast there already.
+    pub(crate) fn release(&mut self, blocks: usize) {
+        let n = self.feed.len().min(blocks);
+        self.feed[..n].fill(f64::INFINITY);
+        self.cap[..=n].fill(f64::INFINITY);
+        self.stop[..=n].fill(None);
+    }
 }
 
 /// Raw setpoints of the last cycles.
@@ -149,14 +157,14 @@ impl Monitor {
         }
     }
 
-    /// Examines a plan. `None`: it keeps the tolerance. Otherwise the demands are tightened, or, after too many rounds,
-    /// what could not be kept comes back.
+    /// Examines a plan. `None`: it keeps the tolerance. Otherwise the demands are tightened (`Ok`), or, after too many
+    /// rounds, given up (`Err`); the largest excess comes back.
     pub(crate) fn examine(
         &self,
         trial: &Trial<'_>,
         round: usize,
         demands: &mut Demands,
-    ) -> Option<Result<(), Unkept>> {
+    ) -> Option<Result<Unkept, Unkept>> {
         let marks = marks(trial);
         // after many rounds every corner and curve in reach counts as a cause
         let share = if round < ROUNDS_OF_SPEED { 0.5 } else { 0.0 };
@@ -166,7 +174,7 @@ impl Monitor {
             return Some(Err(worst));
         }
         self.tighten(trial, &marks, &findings, round, demands);
-        Some(Ok(()))
+        Some(Ok(worst))
     }
 
     fn position(&self, k: u64, reader: &mut Reader<'_>, trial: &Trial<'_>, state: &mut PathState) {
@@ -413,7 +421,8 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
     let mut out: Vec<Mark> = Vec::with_capacity(trial.window.len() + 8);
     let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>| {
         let (mut jump, mut axis) = (0.0, 0);
-        if let Some(before) = out.last() {
+        // the rest of a block goes on without a corner
+        if let Some(before) = out.last().filter(|_| queued.offset <= 0.0) {
             let (a, b) = (&before.queued.ends.tangent_out, &queued.ends.tangent_in);
             for i in 0..a.len() {
                 let du = (b[i] - a[i]).abs();

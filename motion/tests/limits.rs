@@ -42,7 +42,10 @@ fn kink_table() {
     ] {
         for (degrees, want) in angles.iter().zip(row) {
             let got = kink(weight, cycle_us, *degrees, Trapez);
-            assert!((got - want).abs() < 6e-4, "{cycle_us} us, weight {weight}, {degrees} deg: {got}");
+            assert!(
+                (got - want).abs() < 6e-4,
+                "{cycle_us} us, weight {weight}, {degrees} deg: {got}"
+            );
         }
     }
     assert_eq!(kink(1.0, 1000, 180.0, Trapez), 0.0);
@@ -69,8 +72,7 @@ fn direct_jerk_at_kinks() {
 fn arc(job: &Job, radius: f64, sweep_rad: f64) -> Block {
     let end = [radius * (libm::cos(sweep_rad) - 1.0), radius * libm::sin(sweep_rad)];
     let shape = ArcShape { plane: [0, 1], centre_mm: [-radius, 0.0], sweep_rad };
-    let path =
-        ArcPath::new(AxisVec::zeros(2), AxisVec::from_slice(&end), shape, &[]).unwrap();
+    let path = ArcPath::new(AxisVec::zeros(2), AxisVec::from_slice(&end), shape, &[]).unwrap();
     job.block(0, Path::Arc(path), 1e6)
 }
 
