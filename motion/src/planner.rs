@@ -83,6 +83,9 @@ pub struct Planner {
     reach_cycles: u32,
     unkept: Vec<Unkept>,
     brake: Option<Brake>,
+    /// Rest of the last plan, from the cursor to rest; and whether the tolerance was examined on it.
+    reserve: VecDeque<Entry>,
+    reserve_is_examined: bool,
     /// Override and feedhold in effect, and those asked for.
     active: Realtime,
     wanted: Realtime,
@@ -118,6 +121,8 @@ impl Planner {
             reach_cycles: 0,
             unkept: Vec::new(),
             brake: None,
+            reserve: VecDeque::new(),
+            reserve_is_examined: true,
             active: Realtime::default(),
             wanted: Realtime::default(),
         }
@@ -350,6 +355,9 @@ impl Planner {
         loop {
             let entries = match self.place(&window, &demands, &forced, start, end) {
                 Ok(entries) => entries,
+                Err(e) if self.reserve_is_examined || worst.is_none() => {
+                    return self.fall_back().ok_or(e);
+                }
                 // after a change of speed the path may be too fast for what the monitor asks of the next blocks
                 Err(_) if worst.is_some() && released < n => {
                     released = (2 * released).clamp(1, n);
@@ -455,9 +463,29 @@ impl Planner {
         (count > 0).then_some(count)
     }
 
-    fn commit(&mut self, entries: Vec<Entry>, count: usize, demands: &Demands) {
+    /// Makes the next span of the last plan final, because there is no new plan from where it starts.
+    ///
+    /// New blocks can make the window infeasible: with ramps, braking to the crawl that they ask for may be longer than
+    /// braking to the rest that was planned, and runs of blocks are joined anew from the cursor on.
+    fn fall_back(&mut self) -> Option<()> {
+        let mut entry = self.reserve.pop_front()?;
+        entry.stops |= self.reserve.is_empty();
+        let blocks = entry.blocks.len();
+        entry.caps = self.caps.drain(..blocks).collect();
+        self.queue.drain(..blocks);
+        self.append(entry, 0);
+        if let Some(next) = self.reserve.front() {
+            // a dwell in between
+            self.cursor = next.start;
+        }
+        Some(())
+    }
+
+    fn commit(&mut self, mut entries: Vec<Entry>, count: usize, demands: &Demands) {
         let mut blocks = 0;
-        for mut entry in entries.into_iter().take(count) {
+        self.reserve = entries.split_off(count).into();
+        self.reserve_is_examined = true;
+        for mut entry in entries {
             blocks += entry.blocks.len();
             entry.caps = self.caps.drain(..entry.blocks.len()).collect();
             self.append(entry, demands.stop[blocks].unwrap_or(0));

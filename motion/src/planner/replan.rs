@@ -23,6 +23,7 @@ use crate::profile::{Infeasible, SlopeLimits};
 use crate::queue::Queued;
 use crate::realtime::feedhold_slope;
 use crate::timeline::{Entry, Moment};
+use crate::tolerance::Demands;
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
 
@@ -52,16 +53,16 @@ enum Aim {
     Stay,
     /// Acceleration to zero at once.
     Settle,
-    /// On to a velocity in the direction of the present acceleration.
-    Change(f64),
-    /// Acceleration to zero if it is positive, then braking.
+    /// Up to a velocity, out of a positive acceleration.
+    Rise(f64),
+    /// Down to a velocity; a positive acceleration is brought to zero first.
     Brake(f64),
 }
 
 impl Planner {
     /// Brings the demanded override and feedhold into effect.
     pub(super) fn replan(&mut self) -> Result<(), Infeasible> {
-        if self.speed.0 > 0.0 {
+        while self.speed.0 > 0.0 {
             self.extend(true)?;
         }
         self.active = self.wanted;
@@ -77,8 +78,7 @@ impl Planner {
             if let Some(leg) = leg {
                 old.truncate(i);
                 old.into_iter().for_each(|e| self.timeline.push(e));
-                self.install(&spot, leg, rest);
-                return Ok(());
+                return self.install(&spot, leg, rest);
             }
         }
         // not reached: the old plan ends at rest
@@ -160,12 +160,12 @@ impl Planner {
             if spot.v <= target { &[Aim::Stay] } else { &[Aim::Brake(target)] }
         } else if spot.a > 0.0 {
             if settled <= target {
-                &[Aim::Change(target), Aim::Settle]
+                &[Aim::Rise(target), Aim::Settle]
             } else {
                 &[Aim::Brake(target)]
             }
         } else if settled >= target {
-            &[Aim::Change(target)]
+            &[Aim::Brake(target)]
         } else {
             &[Aim::Settle]
         };
@@ -177,11 +177,11 @@ impl Planner {
         &self,
         aim: Aim,
         spot: &Spot,
-        slope: &SlopeLimits,
+        first: &SlopeLimits,
         rest: &Ahead,
         old: &[Entry],
     ) -> Option<Leg> {
-        let mut slope = slope.clone();
+        let mut slope = first.clone();
         // boundaries crossed, by their distance
         let mut crossed: SmallVec<[f64; 8]> = SmallVec::new();
         let mut reach = rest.first()?.0.length;
@@ -206,11 +206,15 @@ impl Planner {
             }
         };
         let v_end = leg.last().map_or(spot.v, |c| c.end().v_mm_s);
-        let falls = match aim {
-            Aim::Brake(_) => true,
-            Aim::Change(target) => target < spot.v,
-            Aim::Stay | Aim::Settle => false,
-        };
+        let falls = matches!(aim, Aim::Brake(_));
+        if falls {
+            // into a slower block
+            let crossed = rest[1..=crossed.len()].iter().map(|(q, _)| q.velocity.0);
+            let slowest = crossed.fold(f64::INFINITY, f64::min);
+            if slowest < v_end * (1.0 - SLACK) {
+                return self.fit(Aim::Brake(slowest), spot, first, rest, old);
+            }
+        }
         let kept = if falls {
             let not_faster =
                 |s: f64, v: f64| v <= speed_at(old, spot.s + s) * (1.0 + SLACK) + SLACK;
@@ -231,7 +235,7 @@ impl Planner {
     }
 
     /// Puts a leg on the timeline and what lies behind it into the queue.
-    fn install(&mut self, spot: &Spot, leg: Leg, mut rest: Ahead) {
+    fn install(&mut self, spot: &Spot, leg: Leg, mut rest: Ahead) -> Result<(), Infeasible> {
         self.contour.forget_from(spot.moment.cycles(self.cycle) - SLACK);
         self.cursor = spot.moment;
         self.travelled = spot.s;
@@ -255,6 +259,15 @@ impl Planner {
         }
         let (queue, caps): (Vec<_>, Vec<_>) = rest.into_iter().unzip();
         (self.queue, self.caps) = (queue.into(), caps.into());
+        self.reserve.clear();
+        if self.speed.0 > 0.0 {
+            let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
+            let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
+            let (none, free) = (Demands::none(window.len()), vec![false; window.len() + 1]);
+            self.reserve = self.place(&window, &none, &free, self.cursor, SpeedLimit::Stop)?.into();
+            self.reserve_is_examined = false;
+        }
+        Ok(())
     }
 }
 
@@ -278,7 +291,8 @@ fn courses(aim: Aim, spot: &Spot, slope: &SlopeLimits) -> Option<Leg> {
     Some(match aim {
         Aim::Stay => Leg::new(),
         Aim::Settle => smallvec![Course::Change(slope.change(v, a, settled)?)],
-        Aim::Change(target) => smallvec![Course::Change(slope.change(v, a, target)?)],
+        Aim::Rise(target) => smallvec![Course::Change(slope.change(v, a, target)?)],
+        Aim::Brake(target) if a < 0.0 => smallvec![Course::Change(slope.change(v, a, target)?)],
         Aim::Brake(target) => {
             let mut leg = Leg::new();
             if a > 0.0 && settled > v {
@@ -314,8 +328,7 @@ fn speed_at(old: &[Entry], s: f64) -> f64 {
 fn goes_on(rest: &Ahead, v: f64) -> bool {
     let (mut blocks, mut caps, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
     for (queued, cap) in rest.iter().take_while(|(q, _)| q.velocity.0 > 0.0) {
-        let (feed, why) = queued.velocity;
-        feeds.push((if blocks.is_empty() { feed.max(v) } else { feed }, why));
+        feeds.push(queued.velocity);
         blocks.push(Arc::clone(queued));
         caps.push(*cap);
     }

@@ -50,7 +50,8 @@ impl SpeedChange {
         let Ramps { plateau, build, reduce } = limits;
         let (gain, a0) = (sign * (target - v), sign * a);
         let settling = 0.5 * a0 * a0 * reduce;
-        let fits = a0 >= 0.0
+        let fits = target >= 0.0
+            && a0 >= 0.0
             && a0 <= plateau * (1.0 + SLACK)
             && gain >= settling - SLACK * (settling + gain.abs());
         if !fits || gain <= 0.0 {
