@@ -9,6 +9,7 @@ mod brake;
 pub mod contour;
 pub mod corner;
 mod course;
+pub mod independent;
 pub mod limit;
 pub mod limits;
 pub mod lookahead;

@@ -8,6 +8,7 @@ use crate::axis::AxisVec;
 use crate::course::Course;
 use crate::limit::SpeedLimit;
 use crate::lookahead::{Cap, Span};
+use crate::profile::State;
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
@@ -67,6 +68,8 @@ pub(crate) struct Entry {
     pub(crate) caps: SmallVec<[Cap; 1]>,
     /// The motion ends here, at its next tick.
     pub(crate) stops: bool,
+    /// Time in s since the start from which on another entry takes over.
+    cut_s: Option<f64>,
 }
 
 /// State of the path in one cycle.
@@ -128,7 +131,24 @@ impl Entry {
             blocks,
             caps: SmallVec::new(),
             stops,
+            cut_s: None,
         }
+    }
+
+    /// State at the end.
+    pub(crate) fn last(&self) -> State {
+        self.cut_s.map_or_else(|| self.profile.end(), |t| self.profile.at(t))
+    }
+
+    /// Ends the entry in cycle `k`.
+    pub(crate) fn cut(&mut self, k: u64, cycle: CycleTime) {
+        let t = self.seconds_at(k, cycle);
+        let s = self.profile.at(t).s_mm;
+        let inside = self.blocks.iter().take_while(|(q, s_end)| s_end - q.length < s).count();
+        self.blocks.truncate(inside.max(1));
+        self.caps.truncate(inside.max(1));
+        (self.cut_s, self.stops) = (Some(t), false);
+        self.end = self.start.plus(t);
     }
 
     /// The motion or the dwell of this entry is over in cycle `k`.
@@ -136,7 +156,9 @@ impl Entry {
         if self.stops {
             k >= self.end.next_tick(cycle)
         } else {
-            k >= self.start.origin && self.seconds_at(k, cycle) >= self.profile.duration()
+            k >= self.start.origin
+                && self.seconds_at(k, cycle)
+                    >= self.cut_s.unwrap_or_else(|| self.profile.duration())
         }
     }
 

@@ -480,3 +480,21 @@ fn tolerance_with_events() {
     }
     assert!(worst <= 0.01, "{worst}");
 }
+
+/// A feedhold at any time of the motion is at rest within the braking time from the feed: 0.15 s, and what is left of
+/// the ramp down to zero acceleration.
+#[test]
+fn feedhold_is_prompt_at_any_time() {
+    for kind in [Step, Trapez, Sin2, Hsc] {
+        for at in 1..1099_u64 {
+            let out = straight(
+                &Job::new(0.0, kind),
+                &[(at, Event::Hold(Active)), (at + 600, Event::Release)],
+            );
+            let rest = out.iter().find(|p| p.k > at && p.v_mm_s == 0.0).unwrap().k;
+            assert!(rest - at <= 250, "{kind:?} {at}: {rest}");
+            let end = out.last().unwrap();
+            assert_eq!(end.position[0], 100.0, "{kind:?} {at}");
+        }
+    }
+}

@@ -2,8 +2,8 @@
 //!
 //! A change of the commanded speed is carried out from the present state, in three steps:
 //! 1. the old plan is completed to rest over everything that is known: it is the way out that always exists;
-//! 2. at the present cycle, or failing that at the earliest following end of a span, a *leg* brings the path from its
-//!    velocity and acceleration to the new velocity with acceleration zero. It uses the limits of the block, weakened by
+//! 2. at the present cycle, or failing that 1, 2, 4, ... cycles later in the same span or at the end of a span, a *leg*
+//!    brings the path from its velocity and acceleration to the new velocity with acceleration zero. It uses the limits of the block, weakened by
 //!    those of every block it crosses. A leg that brakes is taken only if it is nowhere faster than the old plan, one
 //!    that speeds up only if no cap or block velocity is exceeded, and both only if the look-ahead finds a plan behind;
 //! 3. what lies behind the leg goes back into the queue, the block in which it ends as its remainder.
@@ -72,13 +72,22 @@ impl Planner {
         let ahead = self.ahead(&old[over..]);
         for i in over..=old.len() {
             let spot = self.spot(&old, over, i);
-            let rest = self.behind(&ahead, spot.s);
-            let leg =
-                if spot.v > 0.0 { self.leg(&spot, &rest, &old[over..]) } else { Some(Leg::new()) };
-            if let Some(leg) = leg {
+            if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..]) {
                 old.truncate(i);
                 old.into_iter().for_each(|e| self.timeline.push(e));
                 return self.install(&spot, leg, rest);
+            }
+            // inside the entry of the present cycle: ever later
+            let mut later = 1;
+            while i == over && spot.v > 0.0 && !old[i].is_over(k + later, cycle) {
+                let spot = self.inside(&old[i], k + later);
+                if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..]) {
+                    old.truncate(i + 1);
+                    old[i].cut(k + later, cycle);
+                    old.into_iter().for_each(|e| self.timeline.push(e));
+                    return self.install(&spot, leg, rest);
+                }
+                later *= 2;
             }
         }
         // not reached: the old plan ends at rest
@@ -120,24 +129,42 @@ impl Planner {
     fn spot(&self, old: &[Entry], over: usize, i: usize) -> Spot {
         let next = old.get(i);
         if let Some(entry) = next.filter(|_| i == over) {
-            let t = entry.seconds_at(self.setpoint.k, self.cycle);
-            let state = entry.profile.at(t);
-            return Spot {
-                moment: if t > 0.0 { Moment::tick(self.setpoint.k) } else { entry.start },
-                s: entry.s0 + state.s_mm,
-                v: state.v_mm_s,
-                a: state.a_mm_s2,
-                why: self.state.limit,
-            };
+            return self.inside(entry, self.setpoint.k);
         }
         let before = i.checked_sub(1).and_then(|i| old.get(i)).filter(|e| !e.stops);
+        let last = before.map(Entry::last).unwrap_or_default();
         Spot {
             moment: next.map_or(self.cursor, |e| e.start),
             s: next.map_or(self.travelled, |e| e.s0),
-            v: before.map_or(0.0, |e| e.profile.end().v_mm_s),
-            a: 0.0,
+            v: last.v_mm_s,
+            a: last.a_mm_s2,
             why: before.map_or(SpeedLimit::Stop, |e| e.why_down),
         }
+    }
+
+    /// Inside an entry, or at its start if it lies ahead.
+    fn inside(&self, entry: &Entry, k: u64) -> Spot {
+        let t = entry.seconds_at(k, self.cycle);
+        let state = entry.profile.at(t);
+        Spot {
+            moment: if t > 0.0 { Moment::tick(k) } else { entry.start },
+            s: entry.s0 + state.s_mm,
+            v: state.v_mm_s,
+            a: state.a_mm_s2,
+            why: self.state.limit,
+        }
+    }
+
+    /// The leg from a spot with everything behind the spot; `None` if the old plan has to go on.
+    fn leg_from(
+        &self,
+        spot: &Spot,
+        ahead: &[(f64, Arc<Queued>, Cap)],
+        old: &[Entry],
+    ) -> Option<(Leg, Ahead)> {
+        let rest = self.behind(ahead, spot.s);
+        let leg = if spot.v > 0.0 { self.leg(spot, &rest, old)? } else { Leg::new() };
+        Some((leg, rest))
     }
 
     /// Slope of a block while the speed changes.
