@@ -10,6 +10,7 @@ use crate::limits::PathSpeeds;
 use crate::path::{LinePath, Path};
 use crate::profile::{Infeasible, SlopeLimits, State};
 use crate::queue::Queued;
+use crate::timeline::Moment;
 use kontur_filters::time::CycleTime;
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
@@ -97,7 +98,7 @@ impl IndependentMove {
     /// Cycles from the start until the axis is at rest.
     pub fn cycles(&self) -> u64 {
         let end = self.parts.last().map_or(0.0, |(start, _, c)| start + c.duration());
-        (end / self.cycle.seconds() - 1e-9).ceil().max(0.0) as u64
+        Moment::default().plus(end).next_tick(self.cycle)
     }
 
     /// State `k` cycles after the start; exactly the target from [`Self::cycles`] on, unless it was stopped before.

@@ -133,7 +133,7 @@ impl Planner {
         &self.setpoint
     }
 
-    /// Sets the kernel of every axis, for corners (ACC_FACT) and tolerance monitoring; only at rest.
+    /// Sets the kernel of every axis, for corners (`ACC_FACT`) and tolerance monitoring; only at rest.
     ///
     /// `reach_cycles` is how far back the contour is kept for [`Planner::deviation`].
     pub fn set_kernels(&mut self, kernels: Kernels, reach_cycles: u32) {
@@ -254,7 +254,7 @@ impl Planner {
                 self.hold(if hold { SpeedLimit::Stop } else { SpeedLimit::Feed });
                 return Ok(Next::Setpoint);
             }
-            self.extend(false)?;
+            self.extend()?;
         }
     }
 
@@ -328,8 +328,8 @@ impl Planner {
         self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 1.0);
     }
 
-    /// Plans what is queued and makes all but the last window final; everything, if `all`.
-    fn extend(&mut self, all: bool) -> Result<(), Infeasible> {
+    /// Plans what is queued and makes all but the last window final.
+    fn extend(&mut self) -> Result<(), Infeasible> {
         let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
         let window: Vec<Arc<Queued>> = self.queue.iter().take_while(free).cloned().collect();
         let n = window.len();
@@ -342,7 +342,7 @@ impl Planner {
         };
         let end = if barred {
             SpeedLimit::Feed
-        } else if self.finishing || all {
+        } else if self.finishing {
             SpeedLimit::Stop
         } else {
             SpeedLimit::Lookahead

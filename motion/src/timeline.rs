@@ -229,6 +229,11 @@ impl Timeline {
         self.entries.iter()
     }
 
+    /// Replaces all entries.
+    pub(crate) fn put(&mut self, entries: Vec<Entry>) {
+        self.entries = entries.into();
+    }
+
     /// Takes all entries out.
     pub(crate) fn take(&mut self) -> VecDeque<Entry> {
         std::mem::take(&mut self.entries)

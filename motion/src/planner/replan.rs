@@ -1,19 +1,20 @@
 //! Override and feedhold on a running path.
 //!
 //! A change of the commanded speed is carried out from the present state, in three steps:
-//! 1. the old plan is completed to rest over everything that is known: it is the way out that always exists;
+//! 1. the old plan is kept up to the rest at its end: it is the way out that always exists;
 //! 2. at the present cycle, or failing that 1, 2, 4, ... cycles later in the same span or at the end of a span, a *leg*
-//!    brings the path from its velocity and acceleration to the new velocity with acceleration zero. It uses the limits of the block, weakened by
-//!    those of every block it crosses. A leg that brakes is taken only if it is nowhere faster than the old plan, one
-//!    that speeds up only if no cap or block velocity is exceeded, and both only if the look-ahead finds a plan behind;
+//!    brings the path from its velocity and acceleration to the new velocity with acceleration zero. It uses the limits
+//!    of the block, weakened by those of every block it crosses. A leg that brakes is taken only if it is nowhere faster
+//!    than the old plan, one that speeds up only if no cap or block velocity is exceeded, and both only if the
+//!    look-ahead finds a plan behind;
 //! 3. what lies behind the leg goes back into the queue, the block in which it ends as its remainder.
 //!
 //! So every state that is output still has a stop in front of it. Until its leg begins the path follows the old plan:
 //! close in front of a slower place, where the path is braking already, a change takes effect behind that place.
 //!
-//! Tolerance monitoring examines what is planned behind the leg, with the setpoints already output and the leg itself
-//! in reach of the kernel. What falls on the leg is measured but cannot be lowered any more; where it blames a boundary
-//! that the path is already too fast for, the block is reported as not kept. A leg that ends at rest is not examined.
+//! Tolerance monitoring (`AX_DEV`) examines what is planned behind the leg, with all setpoints before it in reach of the
+//! kernel. The leg itself is not examined: it is slower than the old plan that was. A boundary behind it that asks for
+//! less speed than can be reached any more is reported as not kept, if it really exceeds the tolerance.
 
 use super::Planner;
 use crate::course::Course;
@@ -62,9 +63,7 @@ enum Aim {
 impl Planner {
     /// Brings the demanded override and feedhold into effect.
     pub(super) fn replan(&mut self) -> Result<(), Infeasible> {
-        while self.speed.0 > 0.0 {
-            self.extend(true)?;
-        }
+        while self.fall_back().is_some() {}
         self.active = self.wanted;
         let (k, cycle) = (self.setpoint.k, self.cycle);
         let mut old: Vec<Entry> = self.timeline.take().into();
@@ -74,8 +73,7 @@ impl Planner {
             let spot = self.spot(&old, over, i);
             if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..]) {
                 old.truncate(i);
-                old.into_iter().for_each(|e| self.timeline.push(e));
-                return self.install(&spot, leg, rest);
+                return self.install(&spot, old, leg, rest);
             }
             // inside the entry of the present cycle: ever later
             let mut later = 1;
@@ -84,14 +82,13 @@ impl Planner {
                 if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..]) {
                     old.truncate(i + 1);
                     old[i].cut(k + later, cycle);
-                    old.into_iter().for_each(|e| self.timeline.push(e));
-                    return self.install(&spot, leg, rest);
+                    return self.install(&spot, old, leg, rest);
                 }
                 later *= 2;
             }
         }
-        // not reached: the old plan ends at rest
-        old.into_iter().for_each(|e| self.timeline.push(e));
+        // not reached: the old plan ends at rest, where every leg fits
+        self.timeline.put(old);
         Ok(())
     }
 
@@ -115,14 +112,6 @@ impl Planner {
             s += queued.length;
         }
         out
-    }
-
-    /// What of it lies behind path length `s`.
-    fn behind(&self, ahead: &[(f64, Arc<Queued>, Cap)], s: f64) -> Ahead {
-        let first = ahead.partition_point(|b| b.0 <= s).max(1) - 1;
-        let rest = ahead[first.min(ahead.len())..].iter().map(|(_, q, cap)| (Arc::clone(q), *cap));
-        let into = ahead.get(first).map_or(0.0, |b| s - b.0);
-        cut(rest.collect(), into)
     }
 
     /// The present state (`i` = the entry of the present cycle), or the end of the entry before `i`.
@@ -162,7 +151,7 @@ impl Planner {
         ahead: &[(f64, Arc<Queued>, Cap)],
         old: &[Entry],
     ) -> Option<(Leg, Ahead)> {
-        let rest = self.behind(ahead, spot.s);
+        let rest = behind(ahead, spot.s);
         let leg = if spot.v > 0.0 { self.leg(spot, &rest, old)? } else { Leg::new() };
         Some((leg, rest))
     }
@@ -176,7 +165,7 @@ impl Planner {
     }
 
     /// The leg from a spot that moves; `None` if the old plan has to go on.
-    fn leg(&self, spot: &Spot, rest: &Ahead, old: &[Entry]) -> Option<Leg> {
+    fn leg(&self, spot: &Spot, rest: &[(Arc<Queued>, Cap)], old: &[Entry]) -> Option<Leg> {
         let first = &rest.first()?.0;
         let target = if self.active.hold.is_some() { 0.0 } else { first.velocity.0 };
         let slope = self.slope_of(first);
@@ -205,7 +194,7 @@ impl Planner {
         aim: Aim,
         spot: &Spot,
         first: &SlopeLimits,
-        rest: &Ahead,
+        rest: &[(Arc<Queued>, Cap)],
         old: &[Entry],
     ) -> Option<Leg> {
         let mut slope = first.clone();
@@ -215,22 +204,17 @@ impl Planner {
         let leg = loop {
             let leg = courses(aim, spot, &slope)?;
             let length: f64 = leg.iter().map(Course::length).sum();
-            let before = crossed.len();
-            while length > reach {
-                let Some((queued, _)) = rest.get(crossed.len() + 1) else {
-                    return None;
-                };
-                let own = self.slope_of(queued);
-                if !slope.is_like(&own) {
-                    return None;
-                }
-                slope = slope.weaker(&own);
-                crossed.push(reach);
-                reach += queued.length;
-            }
-            if crossed.len() == before {
+            if length <= reach {
                 break leg;
             }
+            let (queued, _) = rest.get(crossed.len() + 1)?;
+            let own = self.slope_of(queued);
+            if !slope.is_like(&own) {
+                return None;
+            }
+            slope = slope.weaker(&own);
+            crossed.push(reach);
+            reach += queued.length;
         };
         let v_end = leg.last().map_or(spot.v, |c| c.end().v_mm_s);
         let falls = matches!(aim, Aim::Brake(_));
@@ -258,11 +242,18 @@ impl Planner {
             })
         };
         let length = leg.iter().map(Course::length).sum();
-        (kept && (v_end <= 0.0 || goes_on(&cut(rest.clone(), length), v_end))).then_some(leg)
+        (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
-    /// Puts a leg on the timeline and what lies behind it into the queue.
-    fn install(&mut self, spot: &Spot, leg: Leg, mut rest: Ahead) -> Result<(), Infeasible> {
+    /// Puts what is kept and a leg on the timeline and what lies behind it into the queue.
+    fn install(
+        &mut self,
+        spot: &Spot,
+        kept: Vec<Entry>,
+        leg: Leg,
+        mut rest: Ahead,
+    ) -> Result<(), Infeasible> {
+        self.timeline.put(kept);
         self.contour.forget_from(spot.moment.cycles(self.cycle) - SLACK);
         self.cursor = spot.moment;
         self.travelled = spot.s;
@@ -296,6 +287,14 @@ impl Planner {
         }
         Ok(())
     }
+}
+
+/// What of it lies behind path length `s` of the program.
+fn behind(ahead: &[(f64, Arc<Queued>, Cap)], s: f64) -> Ahead {
+    let first = ahead.partition_point(|b| b.0 <= s).max(1) - 1;
+    let rest = ahead[first.min(ahead.len())..].iter().map(|(_, q, cap)| (Arc::clone(q), *cap));
+    let into = ahead.get(first).map_or(0.0, |b| s - b.0);
+    cut(rest.collect(), into)
 }
 
 /// What lies behind `s` mm.
@@ -352,7 +351,7 @@ fn speed_at(old: &[Entry], s: f64) -> f64 {
 }
 
 /// The look-ahead finds a plan that starts with `v`.
-fn goes_on(rest: &Ahead, v: f64) -> bool {
+fn goes_on(rest: &[(Arc<Queued>, Cap)], v: f64) -> bool {
     let (mut blocks, mut caps, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
     for (queued, cap) in rest.iter().take_while(|(q, _)| q.velocity.0 > 0.0) {
         feeds.push(queued.velocity);
