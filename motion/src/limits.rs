@@ -190,7 +190,12 @@ impl PathSpeeds {
         }
     }
 
-    /// Velocity in mm/s that no override exceeds.
+    /// Velocity in mm/s that no override (at most 200 %) exceeds.
+    pub fn fastest(&self) -> f64 {
+        self.highest().min(2.0 * self.programmed_mm_s)
+    }
+
+    /// Velocity in mm/s that limits allow.
     pub fn highest(&self) -> f64 {
         self.axis_mm_s.min(self.curve_mm_s).min(self.vector_mm_s)
     }

@@ -196,7 +196,7 @@ impl Planner {
     fn cap_short_blocks(&mut self, newest: &Queued) {
         let t = self.cycle.seconds();
         let last = self.queue.len() - 1;
-        let fastest = newest.speeds.highest();
+        let fastest = newest.speeds.fastest();
         let mut length = 0.0;
         // block `i` lies between transition `i` and the newest one
         for i in (1..last).rev() {
@@ -232,7 +232,7 @@ impl Planner {
     /// Produces the next setpoint if it can.
     ///
     /// # Errors
-    /// [`Infeasible`] is an internal error: the passes exclude it.
+    /// [`Infeasible`] is an internal error: the passes exclude it, and where they do not the last plan goes on.
     pub fn advance(&mut self) -> Result<Next, Infeasible> {
         if self.wanted != self.active {
             self.replan()?;
