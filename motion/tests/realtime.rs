@@ -488,6 +488,68 @@ fn tolerance_with_events() {
     assert!(worst <= 0.01, "{worst}");
 }
 
+/// Largest component of the shortest vector from the slot of [`tolerance_with_events_on_arcs`] to a point.
+fn off_the_slot(p: &[f64]) -> f64 {
+    let (x, y) = (p[0], p[1]);
+    let foot = |x: f64, y: f64| [x.clamp(0.0, 8.0), y];
+    let along = y.clamp(0.0, 6.0);
+    let mut feet = vec![foot(x, 0.0), foot(x, 6.0), [0.0, along]];
+    // half circle to the right of (8, 3)
+    if x > 8.0 {
+        let r = libm::hypot(x - 8.0, y - 3.0);
+        feet.push([8.0 + 3.0 * (x - 8.0) / r, 3.0 + 3.0 * (y - 3.0) / r]);
+    }
+    let size = |q: &[f64; 2]| libm::hypot(x - q[0], y - q[1]);
+    let nearest = feet.iter().min_by(|a, b| size(a).total_cmp(&size(b))).unwrap();
+    (x - nearest[0]).abs().max((y - nearest[1]).abs())
+}
+
+/// `AX_DEV` on a slot of lines, a half circle and two corners, each piece cut into several blocks: the rest of an arc
+/// that a change of speed divides bends like the whole and has no corner of its own.
+#[test]
+fn tolerance_with_events_on_arcs() {
+    const TOLERANCE: f64 = 0.01;
+    let mut worst: f64 = 0.0;
+    for kind in [Trapez, Sin2, Hsc, Step] {
+        for at in (5..1100_u64).step_by(91) {
+            for event in [Event::Override(0.3), Event::Override(1.7), Event::Hold(Active)] {
+                let mut job = Job::new(1.0, kind);
+                let cycle = CycleTime::from_us(job.cycle_us).unwrap();
+                let guard = VibGuardSettings { mode: 2, freq_hz: 40.0, damping: 0.1 };
+                job.kernel = Some(guard.kernel(cycle).unwrap());
+                job.tolerance = Tolerance { ax_dev_mm: Some(TOLERANCE), acc_fact: 1.0 };
+                let angle = |k: u32| std::f64::consts::FRAC_PI_6 * (f64::from(k) - 3.0);
+                let on_arc = |a: f64| {
+                    AxisVec::from_slice(&[8.0 + 3.0 * libm::cos(a), 3.0 + 3.0 * libm::sin(a)])
+                };
+                let mut blocks = vec![
+                    line(&job, 0, &[0.0, 0.0], &[5.0, 0.0], 60.0),
+                    line(&job, 1, &[5.0, 0.0], &on_arc(angle(0)), 60.0),
+                ];
+                for k in [0_u32, 2, 3] {
+                    let (from, to) = (angle(k), angle([2, 3, 3, 6][k as usize]));
+                    let shape =
+                        ArcShape { plane: [0, 1], centre_mm: [8.0, 3.0], sweep_rad: to - from };
+                    let arc = ArcPath::new(on_arc(from), on_arc(to), shape, &[]).unwrap();
+                    blocks.push(job.block(blocks.len() as u64, Path::Arc(arc), 60.0));
+                }
+                blocks.push(line(&job, 5, &on_arc(angle(6)), &[0.0, 6.0], 60.0));
+                blocks.push(line(&job, 6, &[0.0, 6.0], &[0.0, 0.0], 60.0));
+                let events =
+                    [(at, event), (at + 250, Event::Release), (at + 290, Event::Override(1.0))];
+                let out = drive(&job, &[0.0, 0.0], blocks, &events).unwrap();
+                assert_eq!(out.last().unwrap().position[..], [0.0, 0.0]);
+                for (k, p) in filtered(&out, job.kernel.as_ref().unwrap()).iter().enumerate() {
+                    let off = off_the_slot(p);
+                    worst = worst.max(off);
+                    assert!(off <= TOLERANCE, "{kind:?} {at} {event:?} cycle {k}: {off}");
+                }
+            }
+        }
+    }
+    assert!(worst > 0.9 * TOLERANCE, "the tolerance is not used: {worst}");
+}
+
 /// A feedhold at any time of the motion is at rest within the braking time from the feed: 0.15 s, and what is left of
 /// the ramp down to zero acceleration.
 #[test]
