@@ -419,6 +419,27 @@ fn random_programs_with_random_events() {
     assert_eq!(failed, 0);
 }
 
+/// A circle of 10 mm in chords of 0.05 mm, entered into the queue at 5 % and driven at 200 %: two of its kinks fall into
+/// one cycle then, and `v^2 / r <= a` holds as for the circle (100 mm/s; a kink alone would allow 200 mm/s).
+#[test]
+fn fast_override_over_short_blocks_that_were_read_at_a_slow_one() {
+    for kind in [Step, Hsc] {
+        let job = Job { window: 1300, ..Job::new(1.0, kind) };
+        let at = |k: u32| {
+            let (sin, cos) = libm::sincos(0.005 * f64::from(k));
+            [10.0 * cos, 10.0 * sin]
+        };
+        let blocks =
+            (0..1200).map(|k| line(&job, u64::from(k), &at(k), &at(k + 1), 80.0)).collect();
+        let events = [(0, Event::Override(0.05)), (200, Event::Override(2.0))];
+        let out = drive(&job, &at(0), blocks, &events).unwrap();
+        let fastest = out.iter().map(|p| p.v_mm_s).fold(0.0, f64::max);
+        // up and down again within a chord in any direction: v^2 = 100^2 + sqrt(2) 1000 * 0.05
+        assert!((99.0..=100.36).contains(&fastest), "{kind:?}: {fastest}");
+        assert_eq!(out.last().unwrap().position[..], at(1200));
+    }
+}
+
 /// Setting what is set already changes no bit.
 #[test]
 fn override_of_100_percent_again_changes_nothing() {
