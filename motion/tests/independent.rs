@@ -1,5 +1,11 @@
 //! Independent axes against the closed forms of the slopes.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "helpers of tests; exact values are meant"
+)]
+
 mod common;
 
 use common::axis;

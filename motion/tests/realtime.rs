@@ -1,5 +1,11 @@
 //! Override and feedhold: closed forms, and properties over random programs with events at random cycles.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "helpers of tests; exact values are meant"
+)]
+
 mod common;
 
 use common::{Job, axis, channel, deviation, filtered};
@@ -383,10 +389,10 @@ impl Case {
             match event {
                 Event::Hold(_) => held = held.or(Some(*k)),
                 Event::Release => {
-                    if let Some(from) = held.take() {
-                        if !stopped_by(from, *k) {
-                            return Err(format!("feedhold of {from} moves at {k}"));
-                        }
+                    if let Some(from) = held.take()
+                        && !stopped_by(from, *k)
+                    {
+                        return Err(format!("feedhold of {from} moves at {k}"));
                     }
                 }
                 _ => {}
