@@ -3,7 +3,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, RapidSlope, StepSlope};
+use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 use kontur_motion::block::{
     Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance, TransitionJerkMode,
     VectorLimits,
@@ -24,6 +24,7 @@ fn dynamics() -> Arc<ChannelDynamics> {
         tr_geom_s: 0.01,
         feed: FeedSlope { acc_mm_s2: 4000.0, dec_mm_s2: 4000.0, ramps_s: [0.02; 4] },
         rapid: RapidSlope { acc_mm_s2: 5000.0, ramp_s: 0.02 },
+        feedhold: FeedholdSlope { step_dec_mm_s2: 5000.0, dec_mm_s2: 5000.0, ramp_s: 0.02 },
         step_feed: step,
         step_rapid: step,
         a_trans_ratio: 1.0,

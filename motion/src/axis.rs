@@ -70,6 +70,17 @@ pub struct StepSlope {
     pub change_mm_s: f64,
 }
 
+/// Braking of one axis in a feedhold on its own parameters (P-CHAN-00097 = 1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FeedholdSlope {
+    /// Deceleration of the linear slope in mm/s2 (P-AXIS-00024).
+    pub step_dec_mm_s2: f64,
+    /// Deceleration of the non-linear slopes in mm/s2 (P-AXIS-00053).
+    pub dec_mm_s2: f64,
+    /// Ramp time of the non-linear slopes in s (P-AXIS-00081).
+    pub ramp_s: f64,
+}
+
 /// Dynamic limits of one axis, converted to mm (deg) and s, weights G127..G134, G23x already applied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisDynamics {
@@ -91,6 +102,8 @@ pub struct AxisDynamics {
     pub step_feed: StepSlope,
     /// Linear slope in rapid blocks (P-AXIS-00005, 00006, 00280, 00281, 00211).
     pub step_rapid: StepSlope,
+    /// Feedhold on its own parameters.
+    pub feedhold: FeedholdSlope,
     /// Weight of the acceleration allowed at a kink, 0..1; 0 means cycle time / ramp time (P-AXIS-00013).
     pub a_trans_ratio: f64,
     /// Weight of the jerk allowed at tangential transitions, 0..1 (P-AXIS-00154).

@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// Braking with constant deceleration from the present speed, on the path that is already known.
 #[derive(Clone, Debug)]
 pub(crate) struct Brake {
-    /// Blocks from the present one on, with the path length of the program at their start.
+    /// Blocks from the present one on, with the path length of the program at the start of the whole block.
     path: Vec<(f64, Arc<Queued>)>,
     pub(crate) s: f64,
     pub(crate) v: f64,
@@ -48,7 +48,7 @@ impl Brake {
         let i = self.path.partition_point(|(start, _)| *start <= self.s).checked_sub(1)?;
         let (start, queued) = &self.path[i];
         queued.block.path.position(self.s - start, position);
-        if i + 1 == self.path.len() && self.s >= start + queued.length {
+        if i + 1 == self.path.len() && self.s >= start + queued.offset + queued.length {
             self.v = 0.0;
         }
         Some(queued.block.seq)

@@ -5,33 +5,46 @@ use crate::queue::Queued;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Blocks with the moment, in cycles, at which the interpolator entered them.
+/// Blocks as the interpolator entered them. One that a change of speed divides is entered once more for its rest.
 #[derive(Clone, Debug, Default)]
 pub struct Contour {
-    blocks: VecDeque<(f64, Arc<Queued>)>,
+    blocks: VecDeque<Passed>,
+}
+
+/// A block with the moment and the place of its entry.
+#[derive(Clone, Debug)]
+pub(crate) struct Passed {
+    /// Moment in cycles.
+    pub(crate) cycles: f64,
+    /// Path length of the program in mm.
+    pub(crate) s_mm: f64,
+    pub(crate) queued: Arc<Queued>,
 }
 
 impl Contour {
-    /// Adds the block that is entered at `cycles` (not before the moments added so far).
-    pub(crate) fn enter(&mut self, cycles: f64, block: Arc<Queued>) {
-        self.blocks.push_back((cycles, block));
+    /// Adds the block that is entered at `cycles` (not before the moments added so far) and at path length `s_mm`.
+    pub(crate) fn enter(&mut self, cycles: f64, s_mm: f64, queued: Arc<Queued>) {
+        self.blocks.push_back(Passed { cycles, s_mm, queued });
     }
 
     /// Forgets blocks that were left before `cycles`.
     pub(crate) fn forget_before(&mut self, cycles: f64) {
-        while self.blocks.len() > 1 && self.blocks[1].0 < cycles {
+        while self.blocks.len() > 1 && self.blocks[1].cycles < cycles {
             self.blocks.pop_front();
         }
     }
 
-    /// Blocks that were being interpolated at some time in `from..=to` (cycles), with the time of entry.
-    pub(crate) fn between(
-        &self,
-        from: f64,
-        to: f64,
-    ) -> impl DoubleEndedIterator<Item = &(f64, Arc<Queued>)> {
-        let first = self.blocks.partition_point(|b| b.0 <= from).saturating_sub(1);
-        let last = self.blocks.partition_point(|b| b.0 <= to).max(first);
+    /// Forgets blocks that were to be entered at `cycles` or later.
+    pub(crate) fn forget_from(&mut self, cycles: f64) {
+        while self.blocks.back().is_some_and(|b| b.cycles >= cycles) {
+            self.blocks.pop_back();
+        }
+    }
+
+    /// Blocks that were being interpolated at some time in `from..=to` (cycles).
+    pub(crate) fn between(&self, from: f64, to: f64) -> impl Iterator<Item = &Passed> {
+        let first = self.blocks.partition_point(|b| b.cycles <= from).saturating_sub(1);
+        let last = self.blocks.partition_point(|b| b.cycles <= to).max(first);
         self.blocks.range(first..last)
     }
 
@@ -45,7 +58,7 @@ impl Contour {
     /// Largest component of the shortest vector, whichever way a border within `slack` cycles of the two moments is
     /// counted: a sample that lies on the border of two blocks belongs to both.
     pub(crate) fn worst_component(&self, point: &[f64], from: f64, to: f64, slack: f64) -> f64 {
-        let count = |t: f64| self.blocks.partition_point(|b| b.0 <= t);
+        let count = |t: f64| self.blocks.partition_point(|b| b.cycles <= t);
         let first = |t: f64| count(t).saturating_sub(1);
         let firsts = first(from - slack)..=first(from + 1e-6);
         let lasts = count(to - 1e-6).max(1)..=count(to + 1e-6).max(1);
@@ -63,15 +76,11 @@ impl Contour {
 }
 
 /// Shortest vector from the paths of the blocks to a point.
-fn nearest<'a>(
-    blocks: impl Iterator<Item = &'a (f64, Arc<Queued>)>,
-    point: &[f64],
-    out: &mut [f64],
-) -> f64 {
+fn nearest<'a>(blocks: impl Iterator<Item = &'a Passed>, point: &[f64], out: &mut [f64]) -> f64 {
     let mut best = f64::INFINITY;
     let mut q = AxisVec::zeros(point.len());
-    for (_, queued) in blocks {
-        let path = &queued.block.path;
+    for passed in blocks {
+        let path = &passed.queued.block.path;
         path.position(path.nearest(point), &mut q);
         let d2: f64 = q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
         if d2 < best {

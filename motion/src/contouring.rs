@@ -9,7 +9,7 @@ mod blend;
 
 use crate::axis::AxisVec;
 use crate::block::{Block, ChannelDynamics, CurveJerk, Feed};
-use crate::limits::{PathExtremes, path_velocity};
+use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::{Path, PolyPath, PolyPiece};
 use blend::{Blend, End};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -325,7 +325,8 @@ impl Contouring {
         for piece in curve.blend.pieces(parts) {
             let Some(path) = poly(vec![piece.clone()], &feed_axes) else { continue };
             block.path = Path::Curve(path);
-            let v = path_velocity(&block, &PathExtremes::of(&block.path)).0;
+            let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
+            let v = speeds.limited(speeds.programmed_mm_s).0;
             let same =
                 settings.constant_velocity || speed.is_some_and(|w: f64| (v - w).abs() <= 1e-9 * w);
             if !same && !group.is_empty() {

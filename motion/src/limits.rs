@@ -81,7 +81,11 @@ impl PathExtremes {
 }
 
 /// `min_i limit_i / share_i` over the axes that move.
-fn weakest(axes: &[AxisDynamics], share: &[f64], limit: impl Fn(&AxisDynamics) -> f64) -> f64 {
+pub(crate) fn weakest(
+    axes: &[AxisDynamics],
+    share: &[f64],
+    limit: impl Fn(&AxisDynamics) -> f64,
+) -> f64 {
     axes.iter()
         .zip(share)
         .filter(|(_, u)| **u > 0.0)
@@ -153,34 +157,73 @@ fn vector_curve(d: &ChannelDynamics, x: &PathExtremes) -> f64 {
     (acc / k2).sqrt().min(libm::cbrt(jerk / k3))
 }
 
-/// Path velocity of a block and what it comes from.
-pub fn path_velocity(block: &Block, x: &PathExtremes) -> (f64, SpeedLimit) {
-    let d = &block.dynamics;
-    let rapid = block.feed == Feed::Rapid;
-    let axis = axis_velocity(d, x, rapid);
-    let ratio = block.feed_ratio;
-    let feed = match block.feed {
-        Feed::Rapid => axis * ratio.min(1.0),
-        Feed::PathVelocity(v) => v * ratio,
-        Feed::Duration(t) => block.path.length() / t * ratio,
-        Feed::ShareOfMaximum(share) => weakest(&d.axes, &x.first, |a| a.v_max_mm_s) * share * ratio,
-    };
-    let check = match block.path {
-        Path::Curve(_) => d.curve_jerk,
-        _ => CurveJerk::Geometric,
-    };
-    let curve = curve_acceleration(d, x, block.slope, rapid)
-        .min(curve_jerk(d, x, block.slope, rapid, check))
-        .min(vector_curve(d, x));
-    let vector = d.vector.vel_mm_s.unwrap_or(f64::INFINITY);
-    let mut best = (feed.min(vector), SpeedLimit::Feed);
-    if axis < best.0 || block.feed == Feed::Rapid && axis <= best.0 {
-        best = (axis, SpeedLimit::Axis);
+/// Path velocities of a block before the real-time override: what is commanded and what is allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSpeeds {
+    /// Programmed velocity in mm/s, weights of the program included; rapid: that of the axes.
+    pub programmed_mm_s: f64,
+    /// Velocity limit of the axes in mm/s.
+    pub axis_mm_s: f64,
+    /// Velocity limit of the curvature in mm/s.
+    pub curve_mm_s: f64,
+    /// Velocity limit of `#VECTOR LIMIT` in mm/s, infinite without one.
+    pub vector_mm_s: f64,
+    /// G00.
+    pub rapid: bool,
+}
+
+impl PathSpeeds {
+    /// The speeds of a block.
+    pub fn of(block: &Block, x: &PathExtremes) -> Self {
+        let d = &block.dynamics;
+        let rapid = block.feed == Feed::Rapid;
+        let axis = axis_velocity(d, x, rapid);
+        let ratio = block.feed_ratio;
+        let programmed = match block.feed {
+            Feed::Rapid => axis * ratio.min(1.0),
+            Feed::PathVelocity(v) => v * ratio,
+            Feed::Duration(t) => block.path.length() / t * ratio,
+            Feed::ShareOfMaximum(share) => {
+                weakest(&d.axes, &x.first, |a| a.v_max_mm_s) * share * ratio
+            }
+        };
+        let check = match block.path {
+            Path::Curve(_) => d.curve_jerk,
+            _ => CurveJerk::Geometric,
+        };
+        let curve = curve_acceleration(d, x, block.slope, rapid)
+            .min(curve_jerk(d, x, block.slope, rapid, check))
+            .min(vector_curve(d, x));
+        Self {
+            programmed_mm_s: programmed,
+            axis_mm_s: axis,
+            curve_mm_s: curve,
+            vector_mm_s: d.vector.vel_mm_s.unwrap_or(f64::INFINITY),
+            rapid,
+        }
     }
-    if curve < best.0 {
-        best = (curve, SpeedLimit::Curve);
+
+    /// Velocity in mm/s that no override (at most 200 %) exceeds.
+    pub fn fastest(&self) -> f64 {
+        self.highest().min(2.0 * self.programmed_mm_s)
     }
-    best
+
+    /// Velocity in mm/s that limits allow.
+    pub fn highest(&self) -> f64 {
+        self.axis_mm_s.min(self.curve_mm_s).min(self.vector_mm_s)
+    }
+
+    /// Velocity in mm/s with `commanded` in place of the programmed one, and what it comes from.
+    pub fn limited(&self, commanded: f64) -> (f64, SpeedLimit) {
+        let mut best = (commanded.min(self.vector_mm_s), SpeedLimit::Feed);
+        if self.axis_mm_s < best.0 || self.rapid && self.axis_mm_s <= best.0 {
+            best = (self.axis_mm_s, SpeedLimit::Axis);
+        }
+        if self.curve_mm_s < best.0 {
+            best = (self.curve_mm_s, SpeedLimit::Curve);
+        }
+        best
+    }
 }
 
 /// Path slope of a block: accelerations and ramp times that no axis exceeds.

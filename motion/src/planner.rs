@@ -4,6 +4,11 @@
 //! of them with a stop at the end of what is known, and all but the last window becomes final. So every block that is
 //! executed had at least one window of look-ahead behind it, and planning costs a constant number of closed forms per
 //! block. What is final lies on a [`crate::timeline`] that is sampled cycle by cycle.
+//!
+//! Override and feedhold take back what is final from the next cycle on, bring the speed to its new value and have the
+//! rest planned again, see `replan`.
+
+mod replan;
 
 use crate::axis::AxisVec;
 use crate::block::Block;
@@ -14,6 +19,7 @@ use crate::limit::SpeedLimit;
 use crate::lookahead::{Cap, plan};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
+use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
 use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment, PathState, Timeline};
 use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept};
@@ -78,6 +84,19 @@ pub struct Planner {
     reach_cycles: u32,
     unkept: Vec<Unkept>,
     brake: Option<Brake>,
+    /// Rest of the last plan, from the cursor to rest; and whether the tolerance was examined on it.
+    reserve: VecDeque<Entry>,
+    reserve_is_examined: bool,
+    /// Override and feedhold in effect, and those asked for.
+    active: Realtime,
+    wanted: Realtime,
+}
+
+/// What acts on the path from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+struct Realtime {
+    ratios: Override,
+    hold: Option<FeedholdBraking>,
 }
 
 impl Planner {
@@ -103,6 +122,10 @@ impl Planner {
             reach_cycles: 0,
             unkept: Vec::new(),
             brake: None,
+            reserve: VecDeque::new(),
+            reserve_is_examined: true,
+            active: Realtime::default(),
+            wanted: Realtime::default(),
         }
     }
 
@@ -111,7 +134,7 @@ impl Planner {
         &self.setpoint
     }
 
-    /// Sets the kernel of every axis, for corners (ACC_FACT) and tolerance monitoring; only at rest.
+    /// Sets the kernel of every axis, for corners (`ACC_FACT`) and tolerance monitoring; only at rest.
     ///
     /// `reach_cycles` is how far back the contour is kept for [`Planner::deviation`].
     pub fn set_kernels(&mut self, kernels: Kernels, reach_cycles: u32) {
@@ -120,10 +143,39 @@ impl Planner {
         self.kernels = kernels;
     }
 
+    /// Sets what the override is a percentage of (P-CHAN-00066), from the next cycle on.
+    pub fn set_override_mode(&mut self, mode: OverrideMode) {
+        self.wanted.ratios.mode = mode;
+    }
+
+    /// Sets the real-time override, from the next cycle on; setpoints already output stay.
+    ///
+    /// Feed and rapid blocks that are ahead, known or not, run at the new ratio; acceleration stays continuous with
+    /// jerk-limited slopes. 0 brings the path to a standstill in front of, or in, the next block of that kind; time goes
+    /// on, [`Self::advance`] produces setpoints at rest. Overrides of the program are in [`Block::feed_ratio`].
+    pub fn set_override(&mut self, ratios: OverrideRatios) {
+        self.wanted.ratios.ratios = ratios.clamped();
+    }
+
+    /// Feedhold on or off, from the next cycle on.
+    ///
+    /// On: the path brakes on its contour to a standstill and stays there; time goes on, [`Self::advance`] produces
+    /// setpoints at rest. Off: it goes on, also out of the braking. `braking` is P-CHAN-00097. Dwells and waits of the
+    /// program are the caller's.
+    pub fn feedhold(&mut self, on: bool, braking: FeedholdBraking) {
+        self.wanted.hold = on.then_some(braking);
+    }
+
+    /// At rest although there is something to do: by feedhold or override 0.
+    pub fn is_held(&self) -> bool {
+        let barred = self.queue.front().is_some_and(|q| q.velocity.0 <= 0.0);
+        self.speed.0 <= 0.0 && (self.active.hold.is_some() || barred)
+    }
+
     /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.
     pub fn push(&mut self, block: Block) {
         self.finishing = false;
-        let queued = Arc::new(Queued::new(block, self.cycle));
+        let queued = Arc::new(Queued::new(block, self.cycle)).rated(&self.active.ratios);
         let cap = match &self.last {
             Some(last) => transition(
                 &last.block,
@@ -149,8 +201,11 @@ impl Planner {
     /// Produces the next setpoint if it can.
     ///
     /// # Errors
-    /// [`Infeasible`] is an internal error: the passes exclude it.
+    /// [`Infeasible`] is an internal error: the passes exclude it, and where they do not the last plan goes on.
     pub fn advance(&mut self) -> Result<Next, Infeasible> {
+        if self.wanted != self.active {
+            self.replan()?;
+        }
         loop {
             let k = self.setpoint.k + 1;
             if self.timeline.advance(k, self.cycle, &mut self.state) {
@@ -163,6 +218,11 @@ impl Planner {
             if !self.finishing && self.queue.len() < 2 * self.window {
                 return Ok(Next::Input);
             }
+            if self.is_held() {
+                let hold = self.active.hold.is_some();
+                self.hold(if hold { SpeedLimit::Stop } else { SpeedLimit::Feed });
+                return Ok(Next::Setpoint);
+            }
             self.extend()?;
         }
     }
@@ -170,7 +230,7 @@ impl Planner {
     /// One more cycle at the current position; only at rest.
     pub fn hold(&mut self, limit: SpeedLimit) {
         self.setpoint.k += 1;
-        self.cursor = Moment::tick(self.setpoint.k);
+        self.cursor = Moment::tick(self.cursor.origin.max(self.setpoint.k));
         (self.setpoint.v_mm_s, self.setpoint.a_mm_s2, self.setpoint.j_mm_s3) = (0.0, 0.0, 0.0);
         self.setpoint.limit = limit;
         self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
@@ -181,12 +241,12 @@ impl Planner {
         let mut path: Vec<(f64, Arc<Queued>)> = Vec::new();
         for entry in self.timeline.entries() {
             for (queued, s_end) in &entry.blocks {
-                path.push((entry.s0 + s_end - queued.length, Arc::clone(queued)));
+                path.push((entry.s0 + s_end - queued.length - queued.offset, Arc::clone(queued)));
             }
         }
         let mut s = self.travelled;
         for queued in &self.queue {
-            path.push((s, Arc::clone(queued)));
+            path.push((s - queued.offset, Arc::clone(queued)));
             s += queued.length;
         }
         self.brake = Some(Brake::new(path, self.setpoint.s_mm, self.setpoint.v_mm_s));
@@ -239,21 +299,42 @@ impl Planner {
 
     /// Plans what is queued and makes all but the last window final.
     fn extend(&mut self) -> Result<(), Infeasible> {
-        let window: Vec<Arc<Queued>> = self.queue.iter().cloned().collect();
+        let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
+        let window: Vec<Arc<Queued>> = self.queue.iter().take_while(free).cloned().collect();
         let n = window.len();
+        // a block without speed ends the path in front of it
+        let barred = n < self.queue.len();
         let start = if self.speed.0 > 0.0 {
             self.cursor
         } else {
             Moment::tick(self.cursor.origin.max(self.setpoint.k))
         };
-        let end = if self.finishing { SpeedLimit::Stop } else { SpeedLimit::Lookahead };
+        let end = if barred {
+            SpeedLimit::Feed
+        } else if self.finishing {
+            SpeedLimit::Stop
+        } else {
+            SpeedLimit::Lookahead
+        };
         let monitored =
             self.kernels.any() && window.iter().any(|q| q.block.tolerance.ax_dev_mm.is_some());
         let mut demands = Demands::none(n);
         let mut forced = vec![false; n + 1];
-        let mut round = 0;
+        let (mut round, mut released, mut worst) = (0, 0, None);
         loop {
-            let entries = self.place(&window, &demands, &forced, start, end)?;
+            let entries = match self.place(&window, &demands, &forced, start, end) {
+                Ok(entries) => entries,
+                Err(e) if self.reserve_is_examined || worst.is_none() => {
+                    return self.fall_back().ok_or(e);
+                }
+                // after a change of speed the path may be too fast for what the monitor asks of the next blocks
+                Err(_) if worst.is_some() && released < n => {
+                    released = (2 * released).clamp(1, n);
+                    demands.release(released);
+                    continue;
+                }
+                Err(e) => return Err(e),
+            };
             if monitored {
                 let mut trial = Timeline::default();
                 entries.iter().cloned().for_each(|e| trial.push(e));
@@ -271,12 +352,17 @@ impl Planner {
                 );
                 round += 1;
                 match verdict {
-                    Some(Ok(())) => continue,
+                    Some(Ok(found)) => {
+                        demands.release(released);
+                        worst = Some(found);
+                        continue;
+                    }
                     Some(Err(unkept)) => self.unkept.push(unkept),
                     None => {}
                 }
             }
-            let Some(count) = self.final_entries(&entries, n) else {
+            let rests = end != SpeedLimit::Lookahead;
+            let Some(count) = self.final_entries(&entries, n, rests) else {
                 // one span over more than a window: it is cut where the last window begins
                 forced[n - self.window] = true;
                 continue;
@@ -317,7 +403,7 @@ impl Planner {
         let mut entries = Vec::with_capacity(plan.spans.len());
         for span in &plan.spans {
             let stop = demands.stop[span.end];
-            let stops = stop.is_some() || (span.end == n && self.finishing);
+            let stops = stop.is_some() || (span.end == n && end != SpeedLimit::Lookahead);
             let entry = Entry::new(at, s, span, window, stops);
             at = match stop {
                 Some(dwell) => Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell)),
@@ -330,8 +416,8 @@ impl Planner {
     }
 
     /// How many entries become final; `None` if the first one already reaches into the last window.
-    fn final_entries(&self, entries: &[Entry], n: usize) -> Option<usize> {
-        if self.finishing {
+    fn final_entries(&self, entries: &[Entry], n: usize, rests: bool) -> Option<usize> {
+        if rests {
             return Some(entries.len());
         }
         let limit = n.saturating_sub(self.window);
@@ -346,24 +432,48 @@ impl Planner {
         (count > 0).then_some(count)
     }
 
-    fn commit(&mut self, entries: Vec<Entry>, count: usize, demands: &Demands) {
+    /// Makes the next span of the last plan final, because there is no new plan from where it starts.
+    ///
+    /// New blocks can make the window infeasible: with ramps, braking to the crawl that they ask for may be longer than
+    /// braking to the rest that was planned, and runs of blocks are joined anew from the cursor on.
+    fn fall_back(&mut self) -> Option<()> {
+        let mut entry = self.reserve.pop_front()?;
+        entry.stops |= self.reserve.is_empty();
+        let blocks = entry.blocks.len();
+        entry.caps = self.caps.drain(..blocks).collect();
+        self.queue.drain(..blocks);
+        self.append(entry, 0);
+        if let Some(next) = self.reserve.front() {
+            // a dwell in between
+            self.cursor = next.start;
+        }
+        Some(())
+    }
+
+    fn commit(&mut self, mut entries: Vec<Entry>, count: usize, demands: &Demands) {
         let mut blocks = 0;
-        for entry in entries.into_iter().take(count) {
-            for (cycles, queued) in entry.entries(self.cycle) {
-                self.contour.enter(cycles, Arc::clone(queued));
-            }
+        self.reserve = entries.split_off(count).into();
+        self.reserve_is_examined = true;
+        for mut entry in entries {
             blocks += entry.blocks.len();
-            self.travelled = entry.s0 + entry.profile.length();
-            self.speed = (entry.profile.at(entry.profile.duration()).v_mm_s, entry.why_down);
-            self.cursor = entry.end;
-            if entry.stops {
-                let dwell = u64::from(demands.stop[blocks].unwrap_or(0));
-                self.cursor = Moment::tick(entry.end.next_tick(self.cycle) + dwell);
-                self.speed = (0.0, entry.why_down);
-            }
-            self.timeline.push(entry);
+            entry.caps = self.caps.drain(..entry.blocks.len()).collect();
+            self.append(entry, demands.stop[blocks].unwrap_or(0));
         }
         self.queue.drain(..blocks);
-        self.caps.drain(..blocks);
+    }
+
+    /// Puts an entry behind the others on the timeline; what follows a stop starts after `dwell` cycles.
+    fn append(&mut self, entry: Entry, dwell: u32) {
+        for (cycles, s, queued) in entry.entries(self.cycle) {
+            self.contour.enter(cycles, s, Arc::clone(queued));
+        }
+        self.travelled = entry.s0 + entry.profile.length();
+        self.speed = (entry.profile.end().v_mm_s, entry.why_down);
+        self.cursor = entry.end;
+        if entry.stops {
+            self.cursor = Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell));
+            self.speed = (0.0, entry.why_down);
+        }
+        self.timeline.push(entry);
     }
 }

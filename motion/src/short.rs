@@ -33,7 +33,9 @@ pub(crate) fn lower_caps(
         }
         distance += inner.length;
         let apart = distance / cycle.seconds();
-        let fastest = caps[newest].0.min(caps[first].0).min(to.velocity.0).min(inner.velocity.0);
+        // an override may come later
+        let fastest = to.speeds.fastest().min(inner.speeds.fastest());
+        let fastest = fastest.min(caps[newest].0).min(caps[first].0);
         if apart >= fastest {
             return;
         }

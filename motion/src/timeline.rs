@@ -5,11 +5,13 @@
 //! cycle of a motion is its exact end.
 
 use crate::axis::AxisVec;
+use crate::course::Course;
 use crate::limit::SpeedLimit;
-use crate::lookahead::Span;
-use crate::profile::SpanProfile;
+use crate::lookahead::{Cap, Span};
+use crate::profile::State;
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
+use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -57,13 +59,17 @@ pub(crate) struct Entry {
     pub(crate) end: Moment,
     /// Path length of the program at the start of the span.
     pub(crate) s0: f64,
-    pub(crate) profile: SpanProfile,
+    pub(crate) profile: Course,
     pub(crate) why_up: SpeedLimit,
     pub(crate) why_down: SpeedLimit,
-    /// Blocks with the path length inside the span at their end.
-    pub(crate) blocks: smallvec::SmallVec<[(Arc<Queued>, f64); 1]>,
+    /// Blocks with the path length inside the span at their end; the last one may reach beyond the span.
+    pub(crate) blocks: SmallVec<[(Arc<Queued>, f64); 1]>,
+    /// Caps at the starts of the blocks, once the entry is final.
+    pub(crate) caps: SmallVec<[Cap; 1]>,
     /// The motion ends here, at its next tick.
     pub(crate) stops: bool,
+    /// Time in s since the start from which on another entry takes over.
+    cut_s: Option<f64>,
 }
 
 /// State of the path in one cycle.
@@ -93,44 +99,96 @@ impl Entry {
         window: &[Arc<Queued>],
         stops: bool,
     ) -> Self {
+        let why = (span.why_up, span.why_down);
+        let blocks = &window[span.first..span.end];
+        Self::along(start, s0, Course::Span(span.profile.clone()), why, blocks, stops)
+    }
+
+    /// A course along blocks; `why` holds the speed down while accelerating and while braking.
+    pub(crate) fn along(
+        start: Moment,
+        s0: f64,
+        profile: Course,
+        why: (SpeedLimit, SpeedLimit),
+        blocks: &[Arc<Queued>],
+        stops: bool,
+    ) -> Self {
         let mut at = 0.0;
-        let blocks = window[span.first..span.end]
+        let blocks = blocks
             .iter()
             .map(|q| {
                 at += q.length;
                 (Arc::clone(q), at)
             })
             .collect();
-        let end = start.plus(span.profile.duration());
-        let profile = span.profile.clone();
         Self {
             start,
-            end,
+            end: start.plus(profile.duration()),
             s0,
             profile,
-            why_up: span.why_up,
-            why_down: span.why_down,
+            why_up: why.0,
+            why_down: why.1,
             blocks,
+            caps: SmallVec::new(),
             stops,
+            cut_s: None,
         }
+    }
+
+    /// State at the end.
+    pub(crate) fn last(&self) -> State {
+        self.cut_s.map_or_else(|| self.profile.end(), |t| self.profile.at(t))
+    }
+
+    /// Ends the entry in cycle `k`.
+    pub(crate) fn cut(&mut self, k: u64, cycle: CycleTime) {
+        let t = self.seconds_at(k, cycle);
+        let s = self.profile.at(t).s_mm;
+        let inside = self.blocks.iter().take_while(|(q, s_end)| s_end - q.length < s).count();
+        self.blocks.truncate(inside.max(1));
+        self.caps.truncate(inside.max(1));
+        (self.cut_s, self.stops) = (Some(t), false);
+        self.end = self.start.plus(t);
+    }
+
+    /// The motion or the dwell of this entry is over in cycle `k`.
+    pub(crate) fn is_over(&self, k: u64, cycle: CycleTime) -> bool {
+        if self.stops {
+            k >= self.end.next_tick(cycle)
+        } else {
+            k >= self.start.origin
+                && self.seconds_at(k, cycle)
+                    >= self.cut_s.unwrap_or_else(|| self.profile.duration())
+        }
+    }
+
+    /// Time since the start in cycle `k`; 0 before it (a dwell in front of it).
+    pub(crate) fn seconds_at(&self, k: u64, cycle: CycleTime) -> f64 {
+        (cycle.time_of(k.saturating_sub(self.start.origin)) - self.start.seconds()).max(0.0)
     }
 
     /// State at `k` cycles; exact at the end of a motion.
     fn state(&self, k: u64, cycle: CycleTime, out: &mut PathState) {
-        // before the start (a dwell in front of it) the path rests at its beginning
-        let t =
-            (cycle.time_of(k.saturating_sub(self.start.origin)) - self.start.seconds()).max(0.0);
+        // before the start the path rests at its beginning
+        let t = self.seconds_at(k, cycle);
         let over = self.stops && k >= self.end.next_tick(cycle);
         let state = self.profile.at(if over { self.profile.duration() } else { t });
         let i = self.blocks.partition_point(|b| b.1 <= state.s_mm).min(self.blocks.len() - 1);
         let (queued, s_end) = &self.blocks[i];
         let path = &queued.block.path;
         if over {
-            out.position.copy_from_slice(path.end());
+            if *s_end > self.profile.length() {
+                path.position(
+                    queued.offset + state.s_mm - (s_end - queued.length),
+                    &mut out.position,
+                );
+            } else {
+                out.position.copy_from_slice(path.end());
+            }
             (out.v, out.a, out.j) = (0.0, 0.0, 0.0);
             out.limit = self.why_down;
         } else {
-            path.position(state.s_mm - (s_end - queued.length), &mut out.position);
+            path.position(queued.offset + state.s_mm - (s_end - queued.length), &mut out.position);
             (out.v, out.a, out.j) = (state.v_mm_s, state.a_mm_s2, state.j_mm_s3);
             out.limit = if state.a_mm_s2 > 0.0 {
                 self.why_up
@@ -146,12 +204,15 @@ impl Entry {
         out.seq = queued.block.seq;
     }
 
-    /// Moments at which the blocks of the span are entered, in cycles.
-    pub(crate) fn entries(&self, cycle: CycleTime) -> impl Iterator<Item = (f64, &Arc<Queued>)> {
+    /// Moments in cycles and path lengths of the program at which the blocks of the span are entered.
+    pub(crate) fn entries(
+        &self,
+        cycle: CycleTime,
+    ) -> impl Iterator<Item = (f64, f64, &Arc<Queued>)> {
         self.blocks.iter().map(move |(q, s_end)| {
             let s = s_end - q.length;
             let t = if s <= 0.0 { 0.0 } else { self.profile.time_at(s) };
-            (self.start.cycles(cycle) + t / cycle.seconds(), q)
+            (self.start.cycles(cycle) + t / cycle.seconds(), self.s0 + s, q)
         })
     }
 }
@@ -169,6 +230,16 @@ impl Timeline {
 
     pub(crate) fn entries(&self) -> impl Iterator<Item = &Entry> {
         self.entries.iter()
+    }
+
+    /// Replaces all entries.
+    pub(crate) fn put(&mut self, entries: Vec<Entry>) {
+        self.entries = entries.into();
+    }
+
+    /// Takes all entries out.
+    pub(crate) fn take(&mut self) -> VecDeque<Entry> {
+        std::mem::take(&mut self.entries)
     }
 
     /// Path states of rising cycles; a cycle behind the end of a motion rests at its end until the next one starts.

@@ -26,6 +26,8 @@ const AIM: f64 = 0.003;
 /// How far behind the kernel a block may have been left and still count as within reach, in cycles: nobody can tell
 /// from a trace on which side of a sample a border lies.
 const BORDER_CYCLES: f64 = 5.0;
+/// Entries whose blocks begin closer together than this, in mm of path length, belong to the same block.
+const SAME_START_MM: f64 = 1e-9;
 /// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
 const ROUNDS_OF_SPEED: usize = 32;
 /// Rounds of planning after which the tolerance is given up with a message.
@@ -90,6 +92,14 @@ impl Demands {
             feed: vec![f64::INFINITY; blocks],
             tried: vec![None; blocks + 1],
         }
+    }
+
+    /// Takes back what is asked of the first blocks: the path is too fast there already.
+    pub(crate) fn release(&mut self, blocks: usize) {
+        let n = self.feed.len().min(blocks);
+        self.feed[..n].fill(f64::INFINITY);
+        self.cap[..=n].fill(f64::INFINITY);
+        self.stop[..=n].fill(None);
     }
 }
 
@@ -156,14 +166,14 @@ impl Monitor {
         }
     }
 
-    /// Examines a plan. `None`: it keeps the tolerance. Otherwise the demands are tightened, or, after too many rounds,
-    /// what could not be kept comes back.
+    /// Examines a plan. `None`: it keeps the tolerance. Otherwise the demands are tightened (`Ok`), or, after too many
+    /// rounds, given up (`Err`); the largest excess comes back.
     pub(crate) fn examine(
         &self,
         trial: &Trial<'_>,
         round: usize,
         demands: &mut Demands,
-    ) -> Option<Result<(), Unkept>> {
+    ) -> Option<Result<Unkept, Unkept>> {
         let marks = marks(trial);
         // after many rounds every corner and curve in reach counts as a cause
         let share = if round < ROUNDS_OF_SPEED { 0.5 } else { 0.0 };
@@ -173,7 +183,7 @@ impl Monitor {
             return Some(Err(worst));
         }
         self.tighten(trial, &marks, &findings, round, demands);
-        Some(Ok(()))
+        Some(Ok(worst))
     }
 
     fn position(&self, k: u64, reader: &mut Reader<'_>, trial: &Trial<'_>, state: &mut PathState) {
@@ -238,7 +248,7 @@ impl Monitor {
         let (from, to) = (k as f64 - reach, k as f64);
         let Some(tolerance) = contour
             .between(from, to)
-            .filter_map(|(_, q)| q.block.tolerance.ax_dev_mm)
+            .filter_map(|p| p.queued.block.tolerance.ax_dev_mm)
             .min_by(f64::total_cmp)
         else {
             return;
@@ -416,7 +426,7 @@ fn speed_at(trial: &Trial<'_>, boundary: usize) -> f64 {
 fn contour(marks: &[Mark]) -> Contour {
     let mut contour = Contour::default();
     for m in marks {
-        contour.enter(m.cycles, Arc::clone(&m.queued));
+        contour.enter(m.cycles, m.s_mm, Arc::clone(&m.queued));
     }
     contour
 }
@@ -425,37 +435,34 @@ fn contour(marks: &[Mark]) -> Contour {
 fn marks(trial: &Trial<'_>) -> Vec<Mark> {
     let reach = f64::from(trial.kernels.length());
     let mut out: Vec<Mark> = Vec::with_capacity(trial.window.len() + 8);
-    let mut add =
-        |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s_mm: f64, speed: f64| {
-            let (mut jump, mut axis) = (0.0, 0);
-            if let Some(before) = out.last() {
-                let (a, b) = (&before.queued.ends.tangent_out, &queued.ends.tangent_in);
-                for i in 0..a.len() {
-                    let du = (b[i] - a[i]).abs();
-                    if du > jump && trial.kernels.get(i).is_some() {
-                        (jump, axis) = (du, i);
-                    }
+    let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s: f64, speed: f64| {
+        let (mut jump, mut axis) = (0.0, 0);
+        // the rest of a block goes on without a corner
+        let start = s - queued.offset;
+        let goes_on = |m: &Mark| (m.s_mm - m.queued.offset - start).abs() < SAME_START_MM;
+        if let Some(before) = out.last().filter(|m| !goes_on(m)) {
+            let (a, b) = (&before.queued.ends.tangent_out, &queued.ends.tangent_in);
+            for i in 0..a.len() {
+                let du = (b[i] - a[i]).abs();
+                if du > jump && trial.kernels.get(i).is_some() {
+                    (jump, axis) = (du, i);
                 }
             }
-            let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
-            let boundary = block.filter(|b| *b > 0);
-            let queued = Arc::clone(queued);
-            out.push(Mark { cycles, boundary, block, queued, s_mm, speed, jump, axis });
-        };
+        }
+        let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
+        let boundary = block.filter(|b| *b > 0);
+        let queued = Arc::clone(queued);
+        out.push(Mark { cycles, boundary, block, queued, s_mm: s, speed, jump, axis });
+    };
     let now = trial.now as f64;
-    let start = trial.timeline.entries().next().map_or(0.0, |e| e.s0);
-    let past = || trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY);
-    let mut s = start - past().map(|(_, q)| q.length).sum::<f64>();
-    for (cycles, queued) in past() {
-        add(*cycles, queued, None, s, queued.velocity.0);
-        s += queued.length;
+    for passed in trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY) {
+        let queued = &passed.queued;
+        add(passed.cycles, queued, None, passed.s_mm, queued.velocity.0);
     }
     let mut index = 0;
     for entry in trial.timeline.entries() {
-        let mut s = entry.s0;
-        for (cycles, queued) in entry.entries(trial.cycle) {
+        for (cycles, s, queued) in entry.entries(trial.cycle) {
             add(cycles, queued, Some(index), s, entry.profile.peak());
-            s += queued.length;
             index += 1;
         }
     }

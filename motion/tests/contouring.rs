@@ -9,7 +9,7 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, CurveJerk, Feed, Tolerance};
 use kontur_motion::contouring::{ContourMode, ContourSettings, Contouring, NoContour, Notice};
-use kontur_motion::limits::{PathExtremes, path_velocity};
+use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use std::sync::Arc;
 
@@ -143,7 +143,8 @@ fn speed_on_the_curve() {
         let (blocks, _) = contoured(job, settings, corner(90.0));
         curves(&blocks)
             .iter()
-            .map(|b| path_velocity(b, &PathExtremes::of(&b.path)).0)
+            .map(|b| PathSpeeds::of(b, &PathExtremes::of(&b.path)))
+            .map(|speeds| speeds.limited(speeds.programmed_mm_s).0)
             .fold(f64::INFINITY, f64::min)
     };
     assert!((slowest(dev(1.0), &job) - 48.004).abs() < 5e-4);

@@ -4,7 +4,7 @@ use super::key::{Indices, Key};
 use super::parameters::{Parameters, Setting};
 use super::table::ListKind;
 use super::value;
-use kontur_motion::axis::{AxisDynamics, FeedSlope, RapidSlope, StepSlope};
+use kontur_motion::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 
 /// Kind of an axis (P-AXIS-00018).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,6 +144,16 @@ impl Axis {
                 change_mm_s: self.stage(&format!("lslope_profil.{change}")),
             }
         };
+        let rapid = RapidSlope {
+            acc_mm_s2: self.stage("slope_profil.a_grenz"),
+            ramp_s: self.stage("slope_profil.tr_grenz"),
+        };
+        let step_rapid = step(
+            ["a_grenz_stufe_1", "a_grenz_stufe_2"],
+            ["d_grenz_stufe_1", "d_grenz_stufe_2"],
+            "vb_grenz_stufe_1_2",
+        );
+        let rapid_step = step_rapid.acc_mm_s2;
         AxisDynamics {
             v_max_mm_s: self.stage("dynamik.vb_max"),
             v_rapid_mm_s: self.stage("vb_eilgang"),
@@ -156,16 +166,15 @@ impl Axis {
                 ramps_s: ["tr_beschl_zu", "tr_beschl_ab", "tr_brems_zu", "tr_brems_ab"]
                     .map(|key| self.stage(&format!("slope_profil.{key}"))),
             },
-            rapid: RapidSlope {
-                acc_mm_s2: self.stage("slope_profil.a_grenz"),
-                ramp_s: self.stage("slope_profil.tr_grenz"),
-            },
+            rapid,
             step_feed: step(["a_stufe_1", "a_stufe_2"], ["d_stufe_1", "d_stufe_2"], "vb_stufe_1_2"),
-            step_rapid: step(
-                ["a_grenz_stufe_1", "a_grenz_stufe_2"],
-                ["d_grenz_stufe_1", "d_grenz_stufe_2"],
-                "vb_grenz_stufe_1_2",
-            ),
+            step_rapid,
+            feedhold: FeedholdSlope {
+                step_dec_mm_s2: self
+                    .stage_or("lslope_profil.a_feedh", rapid_step[0].min(rapid_step[1])),
+                dec_mm_s2: self.stage_or("slope_profil.a_feedh", rapid.acc_mm_s2),
+                ramp_s: self.stage_or("slope_profil.tr_feedh", rapid.ramp_s),
+            },
             a_trans_ratio: self.stage("dynamik.a_trans_weight"),
             r_trans_ratio: self.stage("dynamik.r_trans_weight"),
             j_trans_kink_mm_s3: self.stage("dynamik.j_trans_c0"),
@@ -188,15 +197,6 @@ impl Axis {
     /// Shortest ramp time in s (P-AXIS-00201): with `a_max` the jerk limit of the monitor.
     pub fn tr_min_s(&self) -> f64 {
         self.stage("dynamik.tr_min")
-    }
-
-    /// Deceleration and ramp time of a feed hold on its own parameters (P-AXIS-00053, P-AXIS-00081), in mm/s2 and s.
-    pub fn feed_hold(&self) -> (f64, f64) {
-        let rapid = self.dynamics().rapid;
-        (
-            self.stage_or("slope_profil.a_feedh", rapid.acc_mm_s2),
-            self.stage_or("slope_profil.tr_feedh", rapid.ramp_s),
-        )
     }
 
     /// Gain of the position controller in 1/s (P-AXIS-00099).

@@ -6,6 +6,7 @@
 
 use crate::axis::AxisVec;
 use smallvec::SmallVec;
+use std::sync::Arc;
 
 /// Coefficients of one axis over one piece, lowest power first.
 pub type Coefficients = [f64; 6];
@@ -53,10 +54,11 @@ struct Derivatives {
 pub struct PolyPath {
     start: AxisVec,
     end: AxisVec,
-    pieces: Vec<PolyPiece>,
+    /// Shared, like the cells: the rest of a block is a copy of it.
+    pieces: Arc<[PolyPiece]>,
     /// Axes over which the path length is measured.
     measured: SmallVec<[bool; 8]>,
-    cells: Vec<Cell>,
+    cells: Arc<[Cell]>,
     length: f64,
     /// Largest absolute derivatives by `s`, see [`Self::extremes`].
     extremes: [AxisVec; 3],
@@ -96,9 +98,9 @@ impl PolyPath {
         let mut path = Self {
             start,
             end,
-            pieces,
+            pieces: pieces.into(),
             measured,
-            cells: Vec::new(),
+            cells: Arc::from([]),
             length: 0.0,
             extremes: [AxisVec::zeros(n), AxisVec::zeros(n), AxisVec::zeros(n)],
         };
@@ -106,9 +108,11 @@ impl PolyPath {
         if !(coarse.is_finite() && coarse > 0.0) {
             return None;
         }
+        let mut cells = Vec::new();
         for p in 0..path.pieces.len() {
-            path.subdivide(p, 0.0, 1.0, coarse, 0);
+            path.subdivide(p, (0.0, 1.0), coarse, 0, &mut cells);
         }
+        path.cells = cells.into();
         path.find_extremes();
         Some(path)
     }
@@ -130,15 +134,22 @@ impl PolyPath {
         half * GAUSS.iter().map(|(x, w)| w * self.rate(piece, mid + half * x)).sum::<f64>()
     }
 
-    fn subdivide(&mut self, piece: usize, from: f64, to: f64, scale: f64, depth: u32) {
+    fn subdivide(
+        &mut self,
+        piece: usize,
+        (from, to): (f64, f64),
+        scale: f64,
+        depth: u32,
+        cells: &mut Vec<Cell>,
+    ) {
         let mid = 0.5 * (from + to);
         let whole = self.gauss(piece, from, to);
         let halves = self.gauss(piece, from, mid) + self.gauss(piece, mid, to);
         if depth < DEPTH && (whole - halves).abs() > SPLIT * scale {
-            self.subdivide(piece, from, mid, scale, depth + 1);
-            self.subdivide(piece, mid, to, scale, depth + 1);
+            self.subdivide(piece, (from, mid), scale, depth + 1, cells);
+            self.subdivide(piece, (mid, to), scale, depth + 1, cells);
         } else {
-            self.cells.push(Cell { piece: piece as u32, from, to, s: self.length });
+            cells.push(Cell { piece: piece as u32, from, to, s: self.length });
             self.length += whole;
         }
     }
@@ -258,7 +269,7 @@ impl PolyPath {
     /// Samples every sub-interval and refines each local maximum that could be the greatest one by golden section.
     fn find_extremes(&mut self) {
         let n = self.start.len();
-        for cell in self.cells.clone() {
+        for cell in self.cells.clone().iter() {
             let piece = cell.piece as usize;
             let at = |k: usize| cell.from + (cell.to - cell.from) * k as f64 / SAMPLES as f64;
             let samples: SmallVec<[Derivatives; SAMPLES + 1]> =

@@ -64,6 +64,20 @@ impl LegLimits {
         }
     }
 
+    pub(super) fn plateau(&self) -> f64 {
+        self.a
+    }
+
+    /// Times of the rise to the plateau and of the fall.
+    pub(super) fn ramps_s(&self) -> [f64; 2] {
+        [self.t1, self.t2]
+    }
+
+    /// The same shape with another plateau and one time for both ramps.
+    pub(super) fn with(&self, a: f64, ramp_s: f64) -> Self {
+        Self::new(self.shape, self.constant_ramp_time, a, ramp_s, ramp_s)
+    }
+
     /// The smaller plateau with ramps of the smaller jerk.
     pub(super) fn weaker(&self, other: &Self) -> Self {
         let a = self.a.min(other.a);

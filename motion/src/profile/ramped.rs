@@ -36,6 +36,10 @@ impl RampedLimits {
         }
     }
 
+    pub(super) fn with_braking(&self, dec_mm_s2: f64, ramp_s: f64) -> Self {
+        Self { up: self.up, down: self.down.with(dec_mm_s2, ramp_s) }
+    }
+
     pub(super) fn combine(
         &self,
         other: &Self,

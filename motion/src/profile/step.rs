@@ -36,6 +36,12 @@ impl StepLimits {
         }
     }
 
+    /// One deceleration at every velocity in place of the levels.
+    pub(super) fn with_braking(limits: &Self, dec_mm_s2: f64) -> Self {
+        let down = Levels(SmallVec::from_elem(Level { from: 0.0, a: dec_mm_s2 }, 1));
+        Self { up: limits.up.clone(), down }
+    }
+
     /// The smaller value of both at every velocity.
     pub(super) fn weaker(a: &Self, b: &Self) -> Self {
         Self { up: a.up.weaker(&b.up), down: a.down.weaker(&b.down) }

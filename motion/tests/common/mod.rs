@@ -7,7 +7,7 @@
 
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
-use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, RapidSlope, StepSlope};
+use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 use kontur_motion::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance};
 use kontur_motion::block::{TransitionJerkMode, VectorLimits};
 use kontur_motion::path::{LinePath, Path};
@@ -26,6 +26,7 @@ pub(crate) fn axis(weight: f64) -> AxisDynamics {
         tr_geom_s: 0.01,
         feed: FeedSlope { acc_mm_s2: 1000.0, dec_mm_s2: 1000.0, ramps_s: [0.05; 4] },
         rapid: RapidSlope { acc_mm_s2: 1000.0, ramp_s: 0.01 },
+        feedhold: FeedholdSlope { step_dec_mm_s2: 2000.0, dec_mm_s2: 2000.0, ramp_s: 0.02 },
         step_feed: step,
         step_rapid: step,
         a_trans_ratio: weight,

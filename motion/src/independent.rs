@@ -1,0 +1,213 @@
+//! An independent axis: one axis on its own timeline, from rest to rest, with the legs of the path.
+//!
+//! When the next block may start (`INDP_SYN`, `INDP_ASYN`, `#WAIT INDP`) is the caller's.
+
+use crate::axis::{AxisDynamics, AxisVec, StepSlope};
+use crate::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance};
+use crate::block::{TransitionJerkMode, VectorLimits};
+use crate::course::Course;
+use crate::limits::PathSpeeds;
+use crate::path::{LinePath, Path};
+use crate::profile::{Infeasible, SlopeLimits, State};
+use crate::queue::Queued;
+use crate::timeline::Moment;
+use kontur_filters::time::CycleTime;
+use smallvec::{SmallVec, smallvec};
+use std::sync::Arc;
+
+/// Speed of an independent axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum IndependentSpeed {
+    /// `G00`: the rapid velocity of the axis.
+    Rapid,
+    /// `G01` with `FEED`, in mm/s (deg/s); the velocity limit of the axis (P-AXIS-00212) wins.
+    Feed(f64),
+    /// `G01` with `FEED_MAX_WEIGHT`, 1.0 = velocity limit of the axis.
+    ShareOfMaximum(f64),
+    /// `G01` with `TIME`: duration in s from rest to rest; as fast as the limits allow if that is not possible.
+    ///
+    /// Assumption: the time includes speeding up and braking, so that axes with the same time arrive together.
+    Time(f64),
+}
+
+/// State of an independent axis in one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct IndependentState {
+    /// Position in mm (deg).
+    pub position_mm: f64,
+    /// Velocity in mm/s, with sign.
+    pub v_mm_s: f64,
+    /// Acceleration in mm/s2, with sign.
+    pub a_mm_s2: f64,
+}
+
+/// A motion of one axis from rest to rest.
+#[derive(Clone, Debug)]
+pub struct IndependentMove {
+    cycle: CycleTime,
+    from_mm: f64,
+    to_mm: f64,
+    /// `None` if there is nothing to do.
+    slope: Option<SlopeLimits>,
+    /// Courses in order with the time in s at their start and the distance there.
+    parts: SmallVec<[(f64, f64, Course); 1]>,
+    stopped: bool,
+}
+
+impl IndependentMove {
+    /// A motion to an absolute target with the slope of P-AXIS-00270; HSC counts as TRAPEZ.
+    ///
+    /// `axis` holds the limits of the lists without the weights of G130..G133, which do not act on independent axes.
+    /// STEP brakes with the deceleration of stage 1 at every speed (Source: TF5200, P-AXIS-00282, 00283).
+    ///
+    /// # Errors
+    /// [`Infeasible`] if the speed is not positive.
+    pub fn new(
+        from_mm: f64,
+        to_mm: f64,
+        speed: IndependentSpeed,
+        kind: SlopeKind,
+        axis: &AxisDynamics,
+        cycle: CycleTime,
+    ) -> Result<Self, Infeasible> {
+        let line = LinePath::new(one(from_mm), one(to_mm), &[]);
+        let Some(queued) = line.map(|l| Queued::new(block(l, speed, kind, *axis), cycle)) else {
+            let parts = SmallVec::new();
+            return Ok(Self { cycle, from_mm, to_mm, slope: None, parts, stopped: false });
+        };
+        let PathSpeeds { programmed_mm_s, axis_mm_s, .. } = queued.speeds;
+        let (slope, length) = (queued.slope, queued.length);
+        let plan = |v: f64| slope.plan(0.0, 0.0, v, length);
+        let mut profile = plan(programmed_mm_s.min(axis_mm_s))?;
+        if let IndependentSpeed::Time(time) = speed {
+            // the duration falls with the velocity; at `length / time` it is too long
+            let (mut low, mut high) = (length / time, axis_mm_s);
+            profile = plan(high)?;
+            if profile.duration() < time {
+                for _ in 0..100 {
+                    let middle = 0.5 * (low + high);
+                    profile = plan(middle)?;
+                    *(if profile.duration() > time { &mut low } else { &mut high }) = middle;
+                }
+            }
+        }
+        let parts = smallvec![(0.0, 0.0, Course::Span(profile))];
+        Ok(Self { cycle, from_mm, to_mm, slope: Some(slope), parts, stopped: false })
+    }
+
+    /// Cycles from the start until the axis is at rest.
+    pub fn cycles(&self) -> u64 {
+        let end = self.parts.last().map_or(0.0, |(start, _, c)| start + c.duration());
+        Moment::default().plus(end).next_tick(self.cycle)
+    }
+
+    /// State `k` cycles after the start; exactly the target from [`Self::cycles`] on, unless it was stopped before.
+    pub fn state(&self, k: u64) -> IndependentState {
+        let over = k >= self.cycles();
+        if over && !self.stopped {
+            return IndependentState { position_mm: self.to_mm, ..IndependentState::default() };
+        }
+        let State { s_mm, v_mm_s, a_mm_s2, .. } = self.distance(k);
+        let sign = if self.to_mm < self.from_mm { -1.0 } else { 1.0 };
+        IndependentState {
+            position_mm: self.from_mm + sign * s_mm,
+            v_mm_s: if over { 0.0 } else { sign * v_mm_s },
+            a_mm_s2: if over { 0.0 } else { sign * a_mm_s2 },
+        }
+    }
+
+    /// Brakes from cycle `k` on, wherever that ends; states up to `k` stay.
+    ///
+    /// A positive acceleration is brought to zero first. Where SIN2 is about to reach its speed, a stop takes effect
+    /// when it has reached it, because only then the acceleration can be zero without more speed.
+    ///
+    /// # Errors
+    /// [`Infeasible`] is an internal error.
+    pub fn stop(&mut self, k: u64) -> Result<(), Infeasible> {
+        let (Some(slope), Some((start, s0, Course::Span(span)))) =
+            (self.slope.clone(), self.parts.first().cloned())
+        else {
+            return Ok(());
+        };
+        let t = self.cycle.time_of(k);
+        let state = span.at(t);
+        // at rest already, or braking for the target
+        if self.stopped || k >= self.cycles() || state.a_mm_s2 < 0.0 {
+            return Ok(());
+        }
+        if k == 0 {
+            (self.to_mm, self.slope) = (self.from_mm, None);
+            self.parts.clear();
+            return Ok(());
+        }
+        let mut at = (t, state.s_mm);
+        let mut v = state.v_mm_s;
+        let mut parts = smallvec![(start, s0, Course::Span(span.clone()))];
+        let settled = slope.settled(v, state.a_mm_s2);
+        if settled > v {
+            if settled > span.peak() * (1.0 + 1e-9) {
+                let up = span.segments()[..3].iter().sum();
+                (at, v) = ((up, span.at(up).s_mm), span.peak());
+            } else if let Some(change) = slope.change(v, state.a_mm_s2, settled) {
+                let next = (at.0 + change.duration(), at.1 + change.length());
+                parts.push((at.0, at.1, Course::Change(change)));
+                (at, v) = (next, settled);
+            }
+        }
+        let braking = slope.plan(v, 0.0, v, slope.down_distance(v, 0.0))?;
+        parts.push((at.0, at.1, Course::Span(braking)));
+        (self.parts, self.stopped) = (parts, true);
+        Ok(())
+    }
+
+    fn distance(&self, k: u64) -> State {
+        let t = self.cycle.time_of(k);
+        let i = self.parts.partition_point(|p| p.0 <= t).max(1) - 1;
+        self.parts.get(i).map_or_else(State::default, |(start, s0, course)| {
+            let state = course.at(t - start);
+            State { s_mm: s0 + state.s_mm, ..state }
+        })
+    }
+}
+
+fn one(value: f64) -> AxisVec {
+    AxisVec::from_slice(&[value])
+}
+
+/// The block of a channel with this axis alone.
+fn block(line: LinePath, speed: IndependentSpeed, kind: SlopeKind, axis: AxisDynamics) -> Block {
+    let stage_1 = |s: StepSlope| StepSlope { dec_mm_s2: [s.dec_mm_s2[0]; 2], ..s };
+    let axis = AxisDynamics {
+        step_feed: stage_1(axis.step_feed),
+        step_rapid: stage_1(axis.step_rapid),
+        ..axis
+    };
+    Block {
+        seq: 0,
+        path: Path::Line(line),
+        feed: match speed {
+            IndependentSpeed::Rapid => Feed::Rapid,
+            IndependentSpeed::Feed(v) => Feed::PathVelocity(v),
+            IndependentSpeed::ShareOfMaximum(share) => Feed::ShareOfMaximum(share),
+            IndependentSpeed::Time(t) => Feed::Duration(t),
+        },
+        feed_ratio: 1.0,
+        end_velocity_mm_s: None,
+        slope: Slope { kind, ..Slope::default() },
+        dynamics: Arc::new(ChannelDynamics {
+            axes: vec![axis],
+            feed_axes: vec![true],
+            limit_tangential_jerk: false,
+            transition_jerk: TransitionJerkMode::default(),
+            curvature_estimate: 0,
+            curve_jerk: CurveJerk::default(),
+            vector: VectorLimits::default(),
+            vector_acc_on_arcs: false,
+            transition_velocity_min_mm_s: 0.0,
+            stop_at_transitions: false,
+        }),
+        tolerance: Tolerance::default(),
+        contour: None,
+        spline: None,
+    }
+}

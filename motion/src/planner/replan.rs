@@ -1,0 +1,365 @@
+//! Override and feedhold on a running path.
+//!
+//! A change of the commanded speed is carried out from the present state, in three steps:
+//! 1. the old plan is kept up to the rest at its end: it is the way out that always exists;
+//! 2. at the present cycle, or failing that 1, 2, 4, ... cycles later in the same span or at the end of a span, a *leg*
+//!    brings the path from its velocity and acceleration to the new velocity with acceleration zero. It uses the limits
+//!    of the block, weakened by those of every block it crosses. A leg that brakes is taken only if it is nowhere faster
+//!    than the old plan, one that speeds up only if no cap or block velocity is exceeded, and both only if the
+//!    look-ahead finds a plan behind;
+//! 3. what lies behind the leg goes back into the queue, the block in which it ends as its remainder.
+//!
+//! So every state that is output still has a stop in front of it. Until its leg begins the path follows the old plan:
+//! close in front of a slower place, where the path is braking already, a change takes effect behind that place.
+//!
+//! Tolerance monitoring (`AX_DEV`) examines what is planned behind the leg, with all setpoints before it in reach of the
+//! kernel. The leg itself is not examined: it is slower than the old plan that was. A boundary behind it that asks for
+//! less speed than can be reached any more is reported as not kept, if it really exceeds the tolerance.
+
+use super::Planner;
+use crate::course::Course;
+use crate::limit::SpeedLimit;
+use crate::lookahead::{Cap, plan};
+use crate::profile::{Infeasible, SlopeLimits};
+use crate::queue::Queued;
+use crate::realtime::feedhold_slope;
+use crate::timeline::{Entry, Moment};
+use crate::tolerance::Demands;
+use smallvec::{SmallVec, smallvec};
+use std::sync::Arc;
+
+/// Relative slack of comparisons of velocities.
+const SLACK: f64 = 1e-9;
+
+/// Blocks ahead with the caps at their starts.
+type Ahead = Vec<(Arc<Queued>, Cap)>;
+/// One or two courses in a row.
+type Leg = SmallVec<[Course; 2]>;
+
+/// Where a leg may begin.
+#[derive(Clone, Copy, Debug)]
+struct Spot {
+    moment: Moment,
+    /// Path length of the program in mm.
+    s: f64,
+    v: f64,
+    a: f64,
+    why: SpeedLimit,
+}
+
+/// What a leg does.
+#[derive(Clone, Copy, Debug)]
+enum Aim {
+    /// Nothing: acceleration is zero and the velocity not too high.
+    Stay,
+    /// Acceleration to zero at once.
+    Settle,
+    /// Up to a velocity, out of a positive acceleration.
+    Rise(f64),
+    /// Down to a velocity; a positive acceleration is brought to zero first.
+    Brake(f64),
+}
+
+impl Planner {
+    /// Brings the demanded override and feedhold into effect.
+    pub(super) fn replan(&mut self) -> Result<(), Infeasible> {
+        while self.fall_back().is_some() {}
+        self.active = self.wanted;
+        let (k, cycle) = (self.setpoint.k, self.cycle);
+        let mut old: Vec<Entry> = self.timeline.take().into();
+        let over = old.iter().take_while(|e| e.is_over(k, cycle)).count();
+        let ahead = self.ahead(&old[over..]);
+        for i in over..=old.len() {
+            let spot = self.spot(&old, over, i);
+            if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..]) {
+                old.truncate(i);
+                return self.install(&spot, old, leg, rest);
+            }
+            // inside the entry of the present cycle: ever later
+            let mut later = 1;
+            while i == over && spot.v > 0.0 && !old[i].is_over(k + later, cycle) {
+                let spot = self.inside(&old[i], k + later);
+                if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..]) {
+                    old.truncate(i + 1);
+                    old[i].cut(k + later, cycle);
+                    return self.install(&spot, old, leg, rest);
+                }
+                later *= 2;
+            }
+        }
+        // not reached: the old plan ends at rest, where every leg fits
+        self.timeline.put(old);
+        Ok(())
+    }
+
+    /// Everything known from the entry of the present cycle on, with the path length at which it starts.
+    fn ahead(&self, old: &[Entry]) -> Vec<(f64, Arc<Queued>, Cap)> {
+        let mut out: Vec<(f64, Arc<Queued>, Cap)> = Vec::new();
+        let mut add = |s: f64, queued: &Arc<Queued>, cap: Cap| {
+            // the rest of a block that is listed already
+            if queued.offset <= 0.0 || out.is_empty() {
+                out.push((s, queued.rated(&self.active.ratios), cap));
+            }
+        };
+        for entry in old {
+            for ((queued, s_end), cap) in entry.blocks.iter().zip(&entry.caps) {
+                add(entry.s0 + (s_end - queued.length), queued, *cap);
+            }
+        }
+        let mut s = self.travelled;
+        for (queued, cap) in self.queue.iter().zip(&self.caps) {
+            add(s, queued, *cap);
+            s += queued.length;
+        }
+        out
+    }
+
+    /// The present state (`i` = the entry of the present cycle), or the end of the entry before `i`.
+    fn spot(&self, old: &[Entry], over: usize, i: usize) -> Spot {
+        let next = old.get(i);
+        if let Some(entry) = next.filter(|_| i == over) {
+            return self.inside(entry, self.setpoint.k);
+        }
+        let before = i.checked_sub(1).and_then(|i| old.get(i)).filter(|e| !e.stops);
+        let last = before.map(Entry::last).unwrap_or_default();
+        Spot {
+            moment: next.map_or(self.cursor, |e| e.start),
+            s: next.map_or(self.travelled, |e| e.s0),
+            v: last.v_mm_s,
+            a: last.a_mm_s2,
+            why: before.map_or(SpeedLimit::Stop, |e| e.why_down),
+        }
+    }
+
+    /// Inside an entry, or at its start if it lies ahead.
+    fn inside(&self, entry: &Entry, k: u64) -> Spot {
+        let t = entry.seconds_at(k, self.cycle);
+        let state = entry.profile.at(t);
+        Spot {
+            moment: if t > 0.0 { Moment::tick(k) } else { entry.start },
+            s: entry.s0 + state.s_mm,
+            v: state.v_mm_s,
+            a: state.a_mm_s2,
+            why: self.state.limit,
+        }
+    }
+
+    /// The leg from a spot with everything behind the spot; `None` if the old plan has to go on.
+    fn leg_from(
+        &self,
+        spot: &Spot,
+        ahead: &[(f64, Arc<Queued>, Cap)],
+        old: &[Entry],
+    ) -> Option<(Leg, Ahead)> {
+        let rest = behind(ahead, spot.s);
+        let leg = if spot.v > 0.0 { self.leg(spot, &rest, old)? } else { Leg::new() };
+        Some((leg, rest))
+    }
+
+    /// Slope of a block while the speed changes.
+    fn slope_of(&self, queued: &Queued) -> SlopeLimits {
+        match self.active.hold {
+            Some(braking) => feedhold_slope(queued, braking, self.cycle),
+            None => queued.slope.clone(),
+        }
+    }
+
+    /// The leg from a spot that moves; `None` if the old plan has to go on.
+    fn leg(&self, spot: &Spot, rest: &[(Arc<Queued>, Cap)], old: &[Entry]) -> Option<Leg> {
+        let first = &rest.first()?.0;
+        let target = if self.active.hold.is_some() { 0.0 } else { first.velocity.0 };
+        let slope = self.slope_of(first);
+        let settled = slope.settled(spot.v, spot.a);
+        let steady = (settled - spot.v).abs() <= 1e-12 * spot.v;
+        let spot = Spot { a: if steady { 0.0 } else { spot.a }, ..*spot };
+        let aims: &[Aim] = if steady {
+            if spot.v <= target { &[Aim::Stay] } else { &[Aim::Brake(target)] }
+        } else if spot.a > 0.0 {
+            if settled <= target {
+                &[Aim::Rise(target), Aim::Settle]
+            } else {
+                &[Aim::Brake(target)]
+            }
+        } else if settled >= target {
+            &[Aim::Brake(target)]
+        } else {
+            &[Aim::Settle]
+        };
+        aims.iter().find_map(|aim| self.fit(*aim, &spot, &slope, rest, old))
+    }
+
+    /// The leg for one aim, with the weakest limits of the blocks it crosses.
+    fn fit(
+        &self,
+        aim: Aim,
+        spot: &Spot,
+        first: &SlopeLimits,
+        rest: &[(Arc<Queued>, Cap)],
+        old: &[Entry],
+    ) -> Option<Leg> {
+        let mut slope = first.clone();
+        // boundaries crossed, by their distance
+        let mut crossed: SmallVec<[f64; 8]> = SmallVec::new();
+        let mut reach = rest.first()?.0.length;
+        let leg = loop {
+            let leg = courses(aim, spot, &slope)?;
+            let length: f64 = leg.iter().map(Course::length).sum();
+            if length <= reach {
+                break leg;
+            }
+            let (queued, _) = rest.get(crossed.len() + 1)?;
+            let own = self.slope_of(queued);
+            if !slope.is_like(&own) {
+                return None;
+            }
+            slope = slope.weaker(&own);
+            crossed.push(reach);
+            reach += queued.length;
+        };
+        let v_end = leg.last().map_or(spot.v, |c| c.end().v_mm_s);
+        let falls = matches!(aim, Aim::Brake(_));
+        if falls {
+            // into a slower block
+            let crossed = rest[1..=crossed.len()].iter().map(|(q, _)| q.velocity.0);
+            let slowest = crossed.fold(f64::INFINITY, f64::min);
+            if slowest < v_end * (1.0 - SLACK) {
+                return self.fit(Aim::Brake(slowest), spot, first, rest, old);
+            }
+        }
+        let kept = if falls {
+            let not_faster =
+                |s: f64, v: f64| v <= speed_at(old, spot.s + s) * (1.0 + SLACK) + SLACK;
+            let mut s = 0.0;
+            crossed.iter().all(|s| not_faster(*s, speed_in(&leg, *s)))
+                && leg.iter().all(|c| {
+                    s += c.length();
+                    not_faster(s, c.end().v_mm_s)
+                })
+        } else {
+            crossed.iter().zip(&rest[1..]).all(|(s, (queued, cap))| {
+                let v = speed_in(&leg, *s);
+                v <= cap.0 * (1.0 + SLACK) && v.max(v_end) <= queued.velocity.0 * (1.0 + SLACK)
+            })
+        };
+        let length = leg.iter().map(Course::length).sum();
+        (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
+    }
+
+    /// Puts what is kept and a leg on the timeline and what lies behind it into the queue.
+    fn install(
+        &mut self,
+        spot: &Spot,
+        kept: Vec<Entry>,
+        leg: Leg,
+        mut rest: Ahead,
+    ) -> Result<(), Infeasible> {
+        self.timeline.put(kept);
+        self.contour.forget_from(spot.moment.cycles(self.cycle) - SLACK);
+        self.cursor = spot.moment;
+        self.travelled = spot.s;
+        self.speed = (spot.v, spot.why);
+        let why = if self.active.hold.is_some() { SpeedLimit::Stop } else { SpeedLimit::Feed };
+        for course in leg {
+            let length = course.length();
+            let mut from = 0.0;
+            let along = rest.iter().take_while(|(queued, _)| {
+                let inside = from < length;
+                from += queued.length;
+                inside
+            });
+            let (blocks, caps): (Vec<_>, Vec<_>) = along.cloned().unzip();
+            let stops = course.end().v_mm_s <= 0.0;
+            let mut entry =
+                Entry::along(self.cursor, self.travelled, course, (why, why), &blocks, stops);
+            entry.caps = caps.into();
+            self.append(entry, 0);
+            rest = cut(rest, length);
+        }
+        let (queue, caps): (Vec<_>, Vec<_>) = rest.into_iter().unzip();
+        (self.queue, self.caps) = (queue.into(), caps.into());
+        self.reserve.clear();
+        if self.speed.0 > 0.0 {
+            let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
+            let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
+            let (none, free) = (Demands::none(window.len()), vec![false; window.len() + 1]);
+            self.reserve = self.place(&window, &none, &free, self.cursor, SpeedLimit::Stop)?.into();
+            self.reserve_is_examined = false;
+        }
+        Ok(())
+    }
+}
+
+/// What of it lies behind path length `s` of the program.
+fn behind(ahead: &[(f64, Arc<Queued>, Cap)], s: f64) -> Ahead {
+    let first = ahead.partition_point(|b| b.0 <= s).max(1) - 1;
+    let rest = ahead[first.min(ahead.len())..].iter().map(|(_, q, cap)| (Arc::clone(q), *cap));
+    let into = ahead.get(first).map_or(0.0, |b| s - b.0);
+    cut(rest.collect(), into)
+}
+
+/// What lies behind `s` mm.
+fn cut(mut blocks: Ahead, mut s: f64) -> Ahead {
+    let mut gone = 0;
+    while gone < blocks.len() && s >= blocks[gone].0.length {
+        s -= blocks[gone].0.length;
+        gone += 1;
+    }
+    blocks.drain(..gone);
+    if let Some((first, _)) = blocks.first_mut() {
+        *first = first.remainder(s);
+    }
+    blocks
+}
+
+fn courses(aim: Aim, spot: &Spot, slope: &SlopeLimits) -> Option<Leg> {
+    let (v, a) = (spot.v, spot.a);
+    let settled = slope.settled(v, a);
+    Some(match aim {
+        Aim::Stay => Leg::new(),
+        Aim::Settle => smallvec![Course::Change(slope.change(v, a, settled)?)],
+        Aim::Rise(target) => smallvec![Course::Change(slope.change(v, a, target)?)],
+        Aim::Brake(target) if a < 0.0 => smallvec![Course::Change(slope.change(v, a, target)?)],
+        Aim::Brake(target) => {
+            let mut leg = Leg::new();
+            if a > 0.0 && settled > v {
+                leg.push(Course::Change(slope.change(v, a, settled)?));
+            }
+            let length = slope.down_distance(settled, target);
+            leg.push(Course::Span(slope.plan(settled, target, settled, length).ok()?));
+            leg
+        }
+    })
+}
+
+/// Velocity of a leg after `s` mm.
+fn speed_in(leg: &[Course], mut s: f64) -> f64 {
+    let mut v = 0.0;
+    for course in leg {
+        v = course.at(course.time_at(s)).v_mm_s;
+        if s <= course.length() {
+            break;
+        }
+        s -= course.length();
+    }
+    v
+}
+
+/// Velocity of the old plan at a path length of the program.
+fn speed_at(old: &[Entry], s: f64) -> f64 {
+    let i = old.partition_point(|e| e.s0 <= s).max(1) - 1;
+    old.get(i).map_or(0.0, |e| e.profile.at(e.profile.time_at(s - e.s0)).v_mm_s)
+}
+
+/// The look-ahead finds a plan that starts with `v`.
+fn goes_on(rest: &[(Arc<Queued>, Cap)], v: f64) -> bool {
+    let (mut blocks, mut caps, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
+    for (queued, cap) in rest.iter().take_while(|(q, _)| q.velocity.0 > 0.0) {
+        feeds.push(queued.velocity);
+        blocks.push(Arc::clone(queued));
+        caps.push(*cap);
+    }
+    caps.push((0.0, SpeedLimit::Stop));
+    let free = vec![false; caps.len()];
+    !blocks.is_empty()
+        && plan(&blocks, &feeds, &caps, &free, (v, SpeedLimit::Feed), SpeedLimit::Stop).is_ok()
+}

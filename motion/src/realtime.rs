@@ -1,0 +1,159 @@
+//! What acts on a running path from outside: override and feedhold.
+//!
+//! They are applied at the next cycle; see [`crate::planner`] for how the path gets there.
+
+use crate::block::Block;
+use crate::limit::SpeedLimit;
+use crate::limits::{PathExtremes, PathSpeeds, weakest};
+use crate::profile::SlopeLimits;
+use crate::queue::Queued;
+use kontur_filters::time::CycleTime;
+
+/// Real-time override, 1.0 = 100 %, range 0..=2 (values outside are clamped, NaN is 0).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OverrideRatios {
+    /// Feed blocks.
+    pub feed: f64,
+    /// Rapid blocks (G00). Whether they have an override of their own is for the caller (P-CHAN-00181).
+    pub rapid: f64,
+}
+
+impl Default for OverrideRatios {
+    fn default() -> Self {
+        Self { feed: 1.0, rapid: 1.0 }
+    }
+}
+
+impl OverrideRatios {
+    pub(crate) fn clamped(self) -> Self {
+        let clamp = |r: f64| if r.is_nan() { 0.0 } else { r.clamp(0.0, 2.0) };
+        Self { feed: clamp(self.feed), rapid: clamp(self.rapid) }
+    }
+}
+
+/// What the override is a percentage of (P-CHAN-00066).
+///
+/// `v_max` is the least of the limits by axes, curvature and `#VECTOR LIMIT`. No mode exceeds it, also not above 100 %
+/// (Assumption: the formula of mode 0 read literally would drive axes beyond their velocity limit).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum OverrideMode {
+    /// 0: of what the path would reach, `min(v_prog, v_max) * override`.
+    #[default]
+    OfReached,
+    /// 1: of the programmed velocity, `min(v_prog * override, v_max)`.
+    OfProgrammed,
+    /// 2: as 0, but as 1 while a function that reduces the velocity is active.
+    ///
+    /// Assumption: that function is a velocity of `#VECTOR LIMIT`, the only one that this crate knows.
+    OfProgrammedWhileReduced,
+}
+
+/// Which deceleration a feedhold uses (P-CHAN-00097).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum FeedholdBraking {
+    /// 0: that of the active slope.
+    #[default]
+    Active,
+    /// 1: the feedhold parameters (P-AXIS-00024; P-AXIS-00053 and P-AXIS-00081).
+    Own,
+}
+
+/// The override with its mode.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub(crate) struct Override {
+    pub(crate) ratios: OverrideRatios,
+    pub(crate) mode: OverrideMode,
+}
+
+impl Override {
+    /// Path velocity of a block in mm/s, and what it comes from.
+    pub(crate) fn velocity(&self, speeds: &PathSpeeds) -> (f64, SpeedLimit) {
+        let ratio = if speeds.rapid { self.ratios.rapid } else { self.ratios.feed };
+        let of_programmed = match self.mode {
+            OverrideMode::OfReached => false,
+            OverrideMode::OfProgrammed => true,
+            OverrideMode::OfProgrammedWhileReduced => speeds.vector_mm_s.is_finite(),
+        };
+        let programmed = speeds.programmed_mm_s;
+        // from 100 % on both modes are the same, because `v_max` bounds the result
+        let commanded = if of_programmed || ratio >= 1.0 {
+            programmed * ratio
+        } else {
+            programmed.min(speeds.highest()) * ratio
+        };
+        speeds.limited(commanded)
+    }
+}
+
+/// Slope of a block with the braking of a feedhold.
+pub(crate) fn feedhold_slope(
+    queued: &Queued,
+    braking: FeedholdBraking,
+    cycle: CycleTime,
+) -> SlopeLimits {
+    if braking == FeedholdBraking::Active {
+        return queued.slope.clone();
+    }
+    let block: &Block = &queued.block;
+    let share = PathExtremes::of(&block.path).first;
+    let axes = &block.dynamics.axes;
+    let limit = block.dynamics.vector;
+    let vector_dec = limit.dec_mm_s2.unwrap_or(f64::INFINITY);
+    if matches!(queued.slope, SlopeLimits::Step(_)) {
+        let dec = weakest(axes, &share, |a| a.feedhold.step_dec_mm_s2).min(vector_dec);
+        return queued.slope.with_braking(dec, 0.0);
+    }
+    let dec = weakest(axes, &share, |a| a.feedhold.dec_mm_s2).min(vector_dec);
+    let jerk = weakest(axes, &share, |a| {
+        let ramp = a.feedhold.ramp_s;
+        if ramp < cycle.seconds() { f64::INFINITY } else { a.feedhold.dec_mm_s2 / ramp }
+    });
+    queued.slope.with_braking(dec, dec / jerk.min(limit.jerk_mm_s3.unwrap_or(f64::INFINITY)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn velocity(mode: OverrideMode, ratio: f64, speeds: &PathSpeeds) -> f64 {
+        let ratios = OverrideRatios { feed: ratio, rapid: 1.0 };
+        Override { ratios, mode }.velocity(speeds).0
+    }
+
+    /// 200 mm/s programmed, 100 allowed: 50 % are 50 of what is reached and 100 of what is programmed.
+    #[test]
+    fn modes_of_p_chan_00066() {
+        use OverrideMode::{OfProgrammed, OfProgrammedWhileReduced, OfReached};
+        let slow_axis = PathSpeeds {
+            programmed_mm_s: 200.0,
+            axis_mm_s: 100.0,
+            curve_mm_s: f64::INFINITY,
+            vector_mm_s: f64::INFINITY,
+            rapid: false,
+        };
+        let reduced = PathSpeeds { axis_mm_s: 1000.0, vector_mm_s: 100.0, ..slow_axis };
+        let table = [
+            (OfReached, &slow_axis, 0.5, 50.0),
+            (OfProgrammed, &slow_axis, 0.5, 100.0),
+            (OfProgrammed, &slow_axis, 0.25, 50.0),
+            (OfProgrammedWhileReduced, &slow_axis, 0.5, 50.0),
+            (OfProgrammedWhileReduced, &reduced, 0.5, 100.0),
+            (OfReached, &reduced, 0.5, 50.0),
+            (OfReached, &slow_axis, 2.0, 100.0),
+            (OfProgrammed, &reduced, 2.0, 100.0),
+            (OfReached, &slow_axis, 0.0, 0.0),
+        ];
+        for (mode, speeds, ratio, want) in table {
+            let v = velocity(mode, ratio, speeds);
+            assert!((v - want).abs() < 1e-12, "{mode:?} {ratio}: {v}");
+        }
+    }
+
+    #[test]
+    fn ratios_stay_in_range() {
+        let wild = OverrideRatios { feed: f64::NAN, rapid: 7.0 }.clamped();
+        assert_eq!(wild, OverrideRatios { feed: 0.0, rapid: 2.0 });
+        let low = OverrideRatios { feed: -1.0, rapid: 0.3 }.clamped();
+        assert_eq!(low, OverrideRatios { feed: 0.0, rapid: 0.3 });
+    }
+}
