@@ -272,7 +272,7 @@ fn torque_listing_of_the_manual() {
     assert_eq!(c.feedforward.mode, FeedforwardMode::ADD_ACC);
     let (c, _, found) = with_listing(&load("4.8e-5"));
     assert_eq!(ids(&found), ["70351"]);
-    assert_eq!(found[0].severity, Severity::Error);
+    assert_eq!(found[0].severity, Severity::Warning);
     assert!(c.feedforward.mode.is_empty());
     // its last page writes the gear ratio with the keys of older builds
     let old = "getriebe[].incr_per_rev 1048576\ngetriebe[].wegaufz 3 #gearbox ratio\n\
@@ -410,7 +410,7 @@ fn presets_of_the_kernel_slot() {
             "X.vib_guard.mode=3",
             "X.vib_guard.freq=21.5",
             "X.vib_guard.damping=0.05",
-            "Y.filter_fir.type=GAUSS",
+            "Y.filter_fir.type=2",
             "Y.filter_fir.order=20",
             "Y.filter_fir.quality=0.5",
             "Y.filter_fir.share=80",
