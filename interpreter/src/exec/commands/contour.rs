@@ -87,6 +87,22 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     if let Some((_, mode)) = MODES.iter().find(|(name, _)| keys.has(name)) {
         settings.mode = *mode;
     }
+    // POS alone allows a distance of 0
+    for key in ["PRE_DIST", "POST_DIST"] {
+        if let Some((x, span)) = keys.number(key)
+            && settings.mode != Mode::Pos
+            && x * unit < PATH_DEV_MIN_MM
+        {
+            let text = format!("{key}={x} is below the minimum of {PATH_DEV_MIN_MM} mm");
+            return Err(Fault::vendor(120131, text, span).with(|d| {
+                d.value(ValueKind::Wrong, x * unit * 1e4, "0.1um").value(
+                    ValueKind::LowerLimit,
+                    1.0,
+                    "0.1um",
+                )
+            }));
+        }
+    }
     let length = |name: &str, low: f64| {
         let x = keys.in_range(name, low, f64::MAX, own::RANGE)?;
         Ok::<Option<f64>, Box<Fault>>(x.map(|x| x * unit))
