@@ -16,6 +16,7 @@ pub mod path;
 pub mod planner;
 pub mod profile;
 pub mod queue;
+mod ride;
 mod short;
 pub mod spline;
 mod timeline;

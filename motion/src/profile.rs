@@ -9,6 +9,7 @@
 //!
 //! Nothing here knows axes or geometry: limits arrive already referred to the path.
 
+mod chain;
 mod join;
 mod leg;
 mod ramp;
@@ -19,8 +20,10 @@ mod span;
 mod step;
 mod third_order;
 
+pub(crate) use chain::{Chain, Phase};
 pub use ramp::RampShape;
 pub use ramped::RampedLimits;
+pub(crate) use ramped::Rates;
 pub use slope::{Infeasible, SlopeLimits};
 pub use span::{SpanProfile, State};
 pub use step::{StepAxis, StepLimits};
