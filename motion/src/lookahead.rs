@@ -17,7 +17,7 @@
 use crate::limit::SpeedLimit;
 use crate::profile::{Infeasible, Rates, SlopeLimits, SpanProfile};
 use crate::queue::Queued;
-use crate::ride::{Cell, ride};
+use crate::ride::{Cell, has_hill, ride};
 use std::sync::Arc;
 
 /// Relative difference of path acceleration up to which blocks of one run are planned as one span with the smaller
@@ -154,7 +154,7 @@ fn rates(block: &Queued) -> Option<Rates> {
     }
 }
 
-/// Boundaries at which the fastest speed without a jerk limit has a local minimum: there the acceleration passes
+/// Boundaries at which the fastest speed without a jerk limit has a local minimum worth the name: there the acceleration passes
 /// through zero in any case, so they are knots that cost nothing.
 fn minima(
     blocks: &[Arc<Queued>],
@@ -178,6 +178,10 @@ fn minima(
     for i in 0..n {
         square[i + 1] = square[i + 1].min(square[i] + gain(i, true));
     }
+    let own_hill = |i: usize| {
+        let v = square[i].max(square[i + 1]).sqrt();
+        rates(&blocks[i]).is_some_and(|r| has_hill(blocks[i].length, v, &r))
+    };
     (0..=n)
         .map(|i| {
             i > 0
@@ -186,8 +190,8 @@ fn minima(
                 && blocks[i].plans_across()
                 && rates(&blocks[i]).is_some()
                 && square[i] >= own[i]
-                && square[i] <= square[i - 1]
-                && square[i] <= square[i + 1]
+                && (square[i] <= square[i - 1] || own_hill(i - 1))
+                && (square[i] <= square[i + 1] || own_hill(i))
         })
         .collect()
 }

@@ -98,13 +98,22 @@ pub(crate) fn ride(cells: &[Cell], v0: f64, v1: f64) -> Option<Chain> {
     let longest = cells.iter().flat_map(|c| c.rates.ramps).fold(0.0, f64::max);
     let dt = (longest / STEPS_PER_RAMP).max(SHORTEST_STEP_S);
     let cells = &blocks(cells, dt)[..];
-    let rise = Rise { cells, dt }.run(v0)?;
-    let backwards = mirror(cells);
-    let fall = Rise { cells: &backwards, dt }.run(v1)?;
-    let fall: Vec<Phase> = fall.iter().rev().map(|p| reversed(p, length)).collect();
+    let mirrored = &mirror(cells)[..];
+    let forward = Rise { cells, dt }.run(v0)?;
+    let backward = Rise { cells: mirrored, dt }.run(v1)?;
+    let turn = |list: &[Phase]| list.iter().rev().map(|p| reversed(p, length)).collect::<Vec<_>>();
+    // joined from either end, so that a reversed contour takes the same time
+    let there = join(cells, forward.clone(), turn(&backward), v0);
+    let back = join(mirrored, backward, turn(&forward), v1).map(|out| turn(&out));
+    let time = |list: &Vec<Phase>| list.iter().map(|p| p.t).sum::<f64>();
+    let best = [there, back].into_iter().flatten().min_by(|a, b| time(a).total_cmp(&time(b)))?;
+    Some(Chain::new(best, length))
+}
+
+fn join(cells: &[Block], rise: Vec<Phase>, fall: Vec<Phase>, v0: f64) -> Option<Vec<Phase>> {
     let mut join = Join { cells, rise, fall, out: Vec::new() };
     join.run(v0)?;
-    Some(Chain::new(join.out, length))
+    Some(join.out)
 }
 
 /// The blocks seen from the end: braking becomes accelerating.
@@ -270,12 +279,9 @@ impl Rise<'_> {
         if reached <= limit * (1.0 + SLACK) || is_drop(limit, v) {
             return true;
         }
-        // short blocks: no hills between their ends
         let whole = cell.end - c.checked_sub(1).map_or(0.0, |b| self.cells[b].end);
         let Block { acc, dec, jerks: [.., j3, j4], .. } = *cell;
-        let jerk = cell.least_jerk();
-        let time = whole / limit;
-        if (jerk * time * time / 16.0).min(acc.min(dec) * time / 4.0) < HILL * limit {
+        if !is_hill(whole, limit, acc.min(dec), cell.least_jerk()) {
             return false;
         }
         let ramps = dec / j3 + dec / j4;
@@ -309,6 +315,19 @@ fn coincide(a: &Phase, b: &Phase) -> bool {
     (a.s - b.s).abs() <= 1e-12 * b.s
         && (a.v - b.v).abs() <= SLACK * b.v
         && (a.a - b.a).abs() <= 1e-6
+}
+
+/// True if between two ends passed at `v` with acceleration zero a speed-up and a slow-down are worth the name.
+fn is_hill(length: f64, v: f64, acc: f64, jerk: f64) -> bool {
+    let time = length / v;
+    (jerk * time * time / 16.0).min(acc * time / 4.0) >= HILL * v
+}
+
+/// As [`is_hill`], for a block with these rates.
+pub(crate) fn has_hill(length: f64, v: f64, rates: &Rates) -> bool {
+    let Rates { acc, dec, ramps } = *rates;
+    let least = acc.min(dec);
+    is_hill(length, v, least, least / ramps.into_iter().fold(SHORTEST_STEP_S, f64::max))
 }
 
 /// True if a limit is below the present speed: the fall towards it is none of the rise's business.

@@ -192,7 +192,8 @@ fn ripple(out: &[Setpoint]) -> f64 {
 fn ripple_on_a_circle_with_the_spline() {
     for kind in [Hsc, Trapez] {
         // 120 chords of 0.05 mm are shorter than the braking distance from 100 mm/s (7.5 mm)
-        let job = Job { window: 400, ..Job::new(1.0, kind) };
+        let mut job = Job { window: 400, ..Job::new(1.0, kind) };
+        job.slope.optimised = kind == Trapez;
         for chord in [0.05, 0.1, 0.2, 0.5, 1.0, 2.0] {
             let points = circle(chord);
             for feed in [50.0, 100.0] {
@@ -212,7 +213,8 @@ fn ripple_on_a_circle_with_estimated_curvature() {
     for kind in [Hsc, Trapez] {
         let mut dynamics: ChannelDynamics = (*channel(vec![axis(1.0); 2])).clone();
         dynamics.curvature_estimate = 3;
-        let job = Job { dynamics: Arc::new(dynamics), window: 400, ..Job::new(1.0, kind) };
+        let mut job = Job { dynamics: Arc::new(dynamics), window: 400, ..Job::new(1.0, kind) };
+        job.slope.optimised = kind == Trapez;
         for (chord, feed) in [(0.05, 50.0), (0.1, 50.0), (0.2, 50.0), (0.05, 500.0), (0.1, 500.0)] {
             let points = circle(chord);
             let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
