@@ -21,3 +21,5 @@ mod short;
 pub mod spline;
 mod timeline;
 pub mod tolerance;
+#[cfg(test)]
+mod work;

@@ -93,6 +93,8 @@ pub fn plan(
                 spans.push(same);
                 continue;
             }
+            #[cfg(test)]
+            crate::work::add();
             let mut profile = s.slope.plan(from.0, to.0, s.feed, s.length)?;
             if s.end - s.first > 1 && blocks[s.first].plans_across() {
                 if let Some(worst) = most_exceeded(blocks, feeds, caps, s, &profile) {

@@ -78,6 +78,8 @@ pub struct Planner {
     reach_cycles: u32,
     unkept: Vec<Unkept>,
     brake: Option<Brake>,
+    /// What the last plan holds behind the part that is final: a way from there to rest.
+    reserve: Vec<Entry>,
 }
 
 impl Planner {
@@ -103,6 +105,7 @@ impl Planner {
             reach_cycles: 0,
             unkept: Vec::new(),
             brake: None,
+            reserve: Vec::new(),
         }
     }
 
@@ -253,7 +256,10 @@ impl Planner {
         let mut forced = vec![false; n + 1];
         let mut round = 0;
         loop {
-            let entries = self.place(&window, &demands, &forced, start, end)?;
+            let entries = match self.place(&window, &demands, &forced, start, end) {
+                Ok(entries) => entries,
+                Err(error) => return self.follow_reserve(error),
+            };
             if monitored {
                 let mut trial = Timeline::default();
                 entries.iter().cloned().for_each(|e| trial.push(e));
@@ -284,6 +290,18 @@ impl Planner {
             self.commit(entries, count, &demands);
             return Ok(());
         }
+    }
+
+    /// The knots of a longer window need not be those of the last one, so a speed that is final may be too high for the
+    /// first of them. The last plan has a way from there; it is followed up to its next knot.
+    fn follow_reserve(&mut self, error: Infeasible) -> Result<(), Infeasible> {
+        let entries = std::mem::take(&mut self.reserve);
+        if entries.is_empty() {
+            return Err(error);
+        }
+        let demands = Demands::none(self.queue.len());
+        self.commit(entries, 1, &demands);
+        Ok(())
     }
 
     /// Plans the window and places the spans on the time axis.
@@ -348,7 +366,9 @@ impl Planner {
 
     fn commit(&mut self, entries: Vec<Entry>, count: usize, demands: &Demands) {
         let mut blocks = 0;
-        for entry in entries.into_iter().take(count) {
+        let mut entries = entries;
+        self.reserve = entries.split_off(count);
+        for entry in entries {
             for (cycles, queued) in entry.entries(self.cycle) {
                 self.contour.enter(cycles, Arc::clone(queued));
             }

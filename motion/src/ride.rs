@@ -229,6 +229,8 @@ impl Rise<'_> {
     /// True if the step to acceleration `next`, and the ramp to zero behind it, stay below the limits ahead. A limit
     /// below the present speed cuts the rise and is none of its business.
     fn is_safe(&self, mut c: usize, s: f64, v: f64, a: f64, next: f64) -> bool {
+        #[cfg(test)]
+        crate::work::add();
         let (mut phase, mut next) = (Phase { s, v, a, j: 0.0, t: self.dt }, next);
         loop {
             phase.j = (next - phase.a) / self.dt;
@@ -435,6 +437,8 @@ impl Join<'_> {
     /// The fastest third-order profile between two states, if it keeps every limit; `free`: up to the highest limit of
     /// the blocks it passes, else not above the lowest one.
     fn between(&self, from: &Phase, to: &Phase, free: bool) -> Option<Vec<Phase>> {
+        #[cfg(test)]
+        crate::work::add();
         if to.s <= from.s {
             return None;
         }

@@ -240,3 +240,22 @@ fn more_lookahead_and_a_second_run() {
         }
     }
 }
+
+/// With a short window the knots of one plan are not those of the next; these programs end in a plan that is out of
+/// reach from the speed that is already final, and go on with the one before.
+#[test]
+fn a_final_speed_is_never_too_high() {
+    let mut r = Lcg(77);
+    for program in 0..364 {
+        let paths = contour(&mut r, 120);
+        let axes = vec![limits(&mut r), limits(&mut r)];
+        let feed = r.range(20.0, 1000.0);
+        if [167, 203, 363].contains(&program) {
+            let job = Job { window: 10, ..job(axes, kinds()[5]) };
+            let out = run(&job, &paths, feed);
+            let (v, a, low) = load(&job, &out);
+            assert!(v <= 1.0 + 1e-6 && a <= 3.0 && low >= 0.0, "{program}: {v} {a} {low}");
+            assert_eq!(out[out.len() - 1].position[..], paths[119].end()[..]);
+        }
+    }
+}
