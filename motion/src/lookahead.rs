@@ -96,15 +96,16 @@ pub fn plan(
             #[cfg(test)]
             crate::work::add();
             let mut profile = s.slope.plan(from.0, to.0, s.feed, s.length)?;
-            if s.end - s.first > 1 && blocks[s.first].plans_across() {
-                if let Some(worst) = most_exceeded(blocks, feeds, caps, s, &profile) {
-                    let cells = cells(blocks, feeds, caps, s.first, s.end);
-                    if let Some(chain) = cells.and_then(|c| ride(&c, from.0, to.0)) {
-                        profile = SpanProfile::from_chain(chain);
-                    } else {
-                        knot[worst] = true;
-                        again = true;
-                    }
+            if s.end - s.first > 1
+                && blocks[s.first].plans_across()
+                && let Some(worst) = most_exceeded(blocks, feeds, caps, s, &profile)
+            {
+                let cells = cells(blocks, feeds, caps, s.first, s.end);
+                if let Some(chain) = cells.and_then(|c| ride(&c, from.0, to.0)) {
+                    profile = SpanProfile::from_chain(chain);
+                } else {
+                    knot[worst] = true;
+                    again = true;
                 }
             }
             spans.push(Span {
@@ -257,10 +258,7 @@ fn mark_knots(
 fn stretches(blocks: &[Arc<Queued>], feeds: &[Cap], knot: &[bool]) -> Vec<Stretch> {
     let mut out = Vec::with_capacity(blocks.len());
     let mut first = 0;
-    for end in 1..=blocks.len() {
-        if !knot[end] {
-            continue;
-        }
+    for (end, _) in knot.iter().enumerate().skip(1).filter(|(_, k)| **k) {
         let mut s = Stretch {
             first,
             end,

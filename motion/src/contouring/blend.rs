@@ -137,8 +137,11 @@ mod tests {
         let d = 2.0;
         let (a, b) = (end(-d, 0.0, [1.0, 0.0]), end(0.0, d, [0.0, 1.0]));
         let blend = Blend::new(&a, &b, d, d, |_| None);
-        assert_eq!(blend.halves[0][0], [-d, d, 0.0, -0.25 * d, d / 16.0, 0.0]);
-        assert_eq!(blend.halves[0][1], [0.0, 0.0, 0.0, 0.25 * d, -d / 16.0, 0.0]);
+        let want =
+            [[-d, d, 0.0, -0.25 * d, d / 16.0, 0.0], [0.0, 0.0, 0.0, 0.25 * d, -d / 16.0, 0.0]];
+        for (axis, want) in blend.halves[0].iter().zip(want) {
+            assert!(axis.iter().zip(want).all(|(c, w)| (c - w).abs() < 1e-15));
+        }
         let m = blend.interim();
         assert!((m[0] + 0.1875 * d).abs() < 1e-15 && (m[1] - 0.1875 * d).abs() < 1e-15);
     }

@@ -67,7 +67,7 @@ pub struct SpanProfile(Shape);
 
 #[derive(Clone, Debug, PartialEq)]
 enum Shape {
-    Legs(Legs),
+    Legs(Box<Legs>),
     Chain(Chain),
 }
 
@@ -98,7 +98,7 @@ impl SpanProfile {
         distance: f64,
         legs: impl FnOnce(f64) -> (Leg, Leg),
     ) -> Self {
-        Self(Shape::Legs(Legs::assemble(length, peak, at_feed, distance, legs)))
+        Self(Shape::Legs(Box::new(Legs::assemble(length, peak, at_feed, distance, legs))))
     }
 
     /// A chain of phases of constant jerk.
