@@ -6,6 +6,7 @@
 use crate::Error;
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::record::CycleRecord;
+pub use kontur_interpreter::sim::Totals;
 use std::path::PathBuf;
 
 /// What a user may say about a run, apart from what becomes of its results.
@@ -66,21 +67,6 @@ impl AxisFacts {
     pub const fn unit(&self) -> &'static str {
         if self.rotary { "deg" } else { "mm" }
     }
-}
-
-/// What is known when the last cycle has been computed and what no record holds.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Totals {
-    /// The program was refused or stopped by an error.
-    pub aborted: bool,
-    /// Blocks decoded.
-    pub blocks: u64,
-    /// Sum over the motion blocks of path length / programmed feed, in seconds.
-    pub ideal_duration_s: f64,
-    /// What the duration does not contain (M functions without a listed duration, ...).
-    pub not_counted: Vec<String>,
-    /// Largest delay of the filters or the Vibration Guard in cycles, per axis.
-    pub filter_delay_cycles: Vec<f64>,
 }
 
 /// A running program.

@@ -120,14 +120,8 @@ impl Source for Run {
     }
 
     fn totals(&self) -> Totals {
-        let t = self.simulation.totals();
-        Totals {
-            aborted: self.refused || t.aborted,
-            blocks: t.blocks,
-            ideal_duration_s: t.ideal_duration_s,
-            not_counted: t.not_counted,
-            filter_delay_cycles: t.filter_delay_cycles,
-        }
+        let totals = self.simulation.totals();
+        Totals { aborted: self.refused || totals.aborted, ..totals }
     }
 }
 
