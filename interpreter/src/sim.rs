@@ -7,24 +7,29 @@
 
 mod chain;
 mod fault;
+mod inputs;
 mod smoothing;
 mod spindle;
 mod totals;
 mod wait;
 
+pub use inputs::{Change, Changes, Signal};
 pub use totals::Totals;
 
 use crate::diag::{Diagnostic, Location};
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
-use crate::machine::{Axis, Machine};
+use crate::machine::{self, Axis, Machine};
 use crate::record::{CycleRecord, PathRecord};
 use crate::source::Sources;
 use chain::AxisChain;
+use inputs::Inputs;
+use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::limit::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
+use kontur_motion::realtime::{FeedholdBraking, OverrideMode};
 use kontur_motion::tolerance::Kernels;
 use smoothing::Smoothing;
 use spindle::Spindle;
@@ -93,6 +98,7 @@ pub struct Simulation {
     chains: Vec<AxisChain>,
     drivers: Vec<Driver>,
     spindles: Vec<Spindle>,
+    inputs: Inputs,
     /// Feedforward gain of every chain.
     gains: Vec<f64>,
     underway: VecDeque<Underway>,
@@ -134,7 +140,7 @@ impl Simulation {
                 Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
                 _ => 0.0,
             };
-            match AxisChain::new(setup, x, cycle) {
+            match AxisChain::new(setup, x, AxisInputs::default(), cycle) {
                 Ok(chain) => chains.push(chain),
                 Err(e) => return Err(vec![fault::plant(&e, &machine, i)]),
             }
@@ -148,6 +154,7 @@ impl Simulation {
             gains: vec![0.0; chains.len()],
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
             frozen: vec![None; chains.len()],
+            inputs: Inputs::none(chains.len()),
             chains,
             drivers,
             spindles,
@@ -165,6 +172,11 @@ impl Simulation {
             cycle,
             executor,
         };
+        simulation.planner.set_override_mode(match simulation.machine.channel.override_mode {
+            machine::OverrideMode::Result => OverrideMode::OfReached,
+            machine::OverrideMode::Programmed => OverrideMode::OfProgrammed,
+            machine::OverrideMode::ProgrammedWhileReduced => OverrideMode::OfProgrammedWhileReduced,
+        });
         simulation.feedforward(false, &vec![1.0; n]);
         for spindle in 0..simulation.spindles.len() {
             simulation.spindle_feedforward(spindle, false, 1.0);
@@ -172,6 +184,17 @@ impl Simulation {
         let setup = simulation.executor.shaping().clone();
         simulation.swap_kernels(&setup);
         Ok(simulation)
+    }
+
+    /// Connects the real-time inputs, before the first cycle.
+    ///
+    /// Changes come in the order of time. An error among them ends the run, [`Totals::input_failed`] tells so.
+    #[must_use]
+    pub fn with_inputs(mut self, changes: Changes) -> Self {
+        if let Err(failure) = self.inputs.connect(changes) {
+            self.input_fails(failure);
+        }
+        self
     }
 
     /// The machine.
@@ -208,10 +231,14 @@ impl Simulation {
                 Phase::Done => return None,
                 Phase::Start => {
                     self.phase = Phase::Running;
+                    self.take_inputs(0);
                     return Some(&self.record);
                 }
                 Phase::Running => match self.planner.advance() {
-                    Ok(Next::Setpoint) => break,
+                    Ok(Next::Setpoint) => {
+                        self.count_hold();
+                        break;
+                    }
                     Ok(Next::Input) => self.pull(),
                     Ok(Next::Rest) => self.at_rest(),
                     Err(e) => {
@@ -245,6 +272,46 @@ impl Simulation {
         self.through_the_axes();
         self.check_time();
         Some(&self.record)
+    }
+
+    /// Takes over the inputs that are due in cycle `k`: the axes see them at once, the path bends behind the cycle.
+    fn take_inputs(&mut self, k: u64) {
+        let time_s = self.cycle.time_of(k);
+        match self.inputs.take_due(time_s, &self.machine, &mut self.diagnostics) {
+            Ok(false) => return,
+            Ok(true) => {}
+            Err(failure) => self.input_fails(failure),
+        }
+        for (chain, inputs) in self.chains.iter_mut().zip(&self.inputs.axes) {
+            chain.set_inputs(*inputs);
+        }
+        let channel = &self.machine.channel;
+        self.planner.set_override(self.inputs.ratios(channel.rapid_override));
+        let own = channel.own_feed_hold;
+        let braking = if own { FeedholdBraking::Own } else { FeedholdBraking::Active };
+        self.planner.feedhold(self.inputs.feedhold, braking);
+    }
+
+    fn input_fails(&mut self, failure: Diagnostic) {
+        self.diagnostics.push(failure);
+        (self.totals.aborted, self.totals.input_failed) = (true, true);
+        self.phase = Phase::Done;
+    }
+
+    /// Counts the cycles in which feedhold or override 0 keeps the path at rest; a hold without end ends the run.
+    fn count_hold(&mut self) {
+        let setpoint = self.planner.setpoint();
+        let stands = setpoint.s_mm.to_bits() == self.record.path.s_mm.to_bits();
+        if !stands || !self.planner.is_held() {
+            return;
+        }
+        self.totals.held_cycles += 1;
+        if self.inputs.is_over() {
+            let failure = fault::held(setpoint.k, self.cycle, self.inputs.feedhold);
+            self.diagnostics.push(failure);
+            self.totals.aborted = true;
+            self.phase = Phase::Done;
+        }
     }
 
     /// Takes the next step of the program.
@@ -382,6 +449,7 @@ impl Simulation {
                 }
             }
         }
+        self.take_inputs(k);
         let setpoint = self.planner.setpoint();
         let n = self.vector.len();
         let mut faults = Vec::new();
@@ -441,7 +509,7 @@ impl Simulation {
         }
         let (mut setups, _) = machine.chains();
         let x = self.chains[i].set_mm();
-        match AxisChain::new(setups.swap_remove(i), x, self.cycle) {
+        match AxisChain::new(setups.swap_remove(i), x, self.inputs.axes[i], self.cycle) {
             Ok(chain) => {
                 self.chains[i] = chain;
                 let setup = self.executor.shaping().clone();

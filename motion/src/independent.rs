@@ -192,6 +192,7 @@ fn block(line: LinePath, speed: IndependentSpeed, kind: SlopeKind, axis: AxisDyn
             IndependentSpeed::Time(t) => Feed::Duration(t),
         },
         feed_ratio: 1.0,
+        full_override: false,
         end_velocity_mm_s: None,
         slope: Slope { kind, ..Slope::default() },
         dynamics: Arc::new(ChannelDynamics {

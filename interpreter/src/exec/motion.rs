@@ -188,6 +188,7 @@ impl Decoder {
             path,
             feed,
             feed_ratio,
+            full_override: full,
             end_velocity_mm_s,
             slope: self.modal.slope,
             dynamics: self.dynamics(),

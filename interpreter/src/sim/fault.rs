@@ -142,6 +142,18 @@ pub(super) fn out_of_time(k: u64, cycle: CycleTime, max_cycles: u64) -> Diagnost
     d
 }
 
+/// Nothing will ever release the path.
+pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
+    let (what, release) =
+        if feedhold { ("feedhold", "feedhold 0") } else { ("override 0", "an override") };
+    let text =
+        format!("the path is held by {what} and no later input releases it: the run was stopped");
+    let mut d = Diagnostic::kontur(83, text).hint(format!("give {release} a later time stamp"));
+    d.cycle = Some(k);
+    d.time_s = Some(cycle.time_of(k));
+    d
+}
+
 impl Simulation {
     /// The tolerance of a block could not be kept.
     pub(super) fn unkept(&self, unkept: &Unkept) -> Diagnostic {
