@@ -7,6 +7,7 @@
 
 mod chain;
 mod fault;
+mod independent;
 mod inputs;
 mod smoothing;
 mod spindle;
@@ -22,6 +23,7 @@ use crate::machine::{self, Axis, Machine};
 use crate::record::{CycleRecord, PathRecord};
 use crate::source::Sources;
 use chain::AxisChain;
+use independent::IndependentAxes;
 use inputs::Inputs;
 use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::time::CycleTime;
@@ -99,6 +101,7 @@ pub struct Simulation {
     drivers: Vec<Driver>,
     spindles: Vec<Spindle>,
     inputs: Inputs,
+    independent: IndependentAxes,
     /// Feedforward gain of every chain.
     gains: Vec<f64>,
     underway: VecDeque<Underway>,
@@ -155,6 +158,7 @@ impl Simulation {
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
             frozen: vec![None; chains.len()],
             inputs: Inputs::none(chains.len()),
+            independent: IndependentAxes::new(n),
             chains,
             drivers,
             spindles,
@@ -248,7 +252,7 @@ impl Simulation {
                     }
                 },
                 Phase::Waiting(wait) => {
-                    if wait.is_over(&self.chains[..self.vector.len()]) {
+                    if wait.is_over(&self.chains[..self.vector.len()], &self.independent) {
                         self.go_on();
                     } else {
                         wait.count();
@@ -258,6 +262,7 @@ impl Simulation {
                 }
                 Phase::Stopping { settled_cycles } => {
                     let resting = self.planner.brake_is_over()
+                        && !self.independent.any_moving()
                         && self.chains[..self.vector.len()].iter().all(AxisChain::settled);
                     *settled_cycles = if resting { *settled_cycles + 1 } else { 0 };
                     if *settled_cycles > fault::CYCLES_AT_REST {
@@ -354,12 +359,16 @@ impl Simulation {
             self.pull();
             return;
         };
+        let k = self.planner.setpoint().k;
         for event in events {
-            self.act(event);
+            self.act(event, k);
         }
         for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
-            if let Driver::Path(p) = driver {
-                chain.expect_stop(self.planner.setpoint().position[*p]);
+            if let Driver::Path(p) = *driver
+                && !self.independent.is_moving(p)
+            {
+                let way_mm = self.independent.done_mm(p);
+                chain.expect_stop(self.planner.setpoint().position[p] + way_mm);
             }
         }
         self.phase = Phase::Waiting(match after {
@@ -386,8 +395,16 @@ impl Simulation {
         }
     }
 
-    fn act(&mut self, event: Event) {
+    /// Something happens in cycle `k`.
+    fn act(&mut self, event: Event, k: u64) {
         match event {
+            Event::Independent { axis, motion } => {
+                let dynamics = self.machine.axes[axis].dynamics();
+                let started = self.independent.start(axis, k, motion, &dynamics, self.cycle);
+                if let Err(e) = started {
+                    self.diagnostics.push(fault::internal(&e));
+                }
+            }
             Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
             Event::SpindleFeedforward { spindle, on, weight_ratio } => {
                 self.spindle_feedforward(spindle, on, weight_ratio);
@@ -444,8 +461,9 @@ impl Simulation {
             if let Some(block) = self.underway.pop_front() {
                 self.current = block.source;
                 self.jerk_limited = block.jerk_limited;
+                // the block began after the cycle before
                 for event in block.events {
-                    self.act(event);
+                    self.act(event, k.saturating_sub(1));
                 }
             }
         }
@@ -453,11 +471,13 @@ impl Simulation {
         let setpoint = self.planner.setpoint();
         let n = self.vector.len();
         let mut faults = Vec::new();
+        let positions: AxisVec =
+            (0..n).map(|p| setpoint.position[p] + self.independent.way_mm(p, k)).collect();
         let spindles: Vec<f64> = self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
         for (i, chain) in self.chains.iter_mut().enumerate() {
             let ipo = match (self.frozen[i], self.drivers[i]) {
                 (Some(x), _) => x,
-                (None, Driver::Path(p)) => setpoint.position[p],
+                (None, Driver::Path(p)) => positions[p],
                 (None, Driver::Spindle(s)) => spindles[s],
                 (None, Driver::Standing) => chain.set_mm(),
             };
@@ -466,8 +486,16 @@ impl Simulation {
             faults.extend(found.iter().map(|f| (i, *f)));
         }
         let shaped = self.record.axes[..n].iter().any(|a| a.set.to_bits() != a.ipo.to_bits());
-        for (set, axis) in self.set.iter_mut().zip(&self.record.axes) {
-            *set = axis.set;
+        // what is measured against the contour: the set position without the ways of independent axes; while one of them
+        // moves, it does not count
+        for (p, set) in self.set.iter_mut().enumerate() {
+            let alone = self.independent.is_moving(p) || !self.chains[p].settled();
+            let way_mm = self.independent.done_mm(p);
+            *set = if self.independent.is_moving(p) || (way_mm.abs() > 0.0 && alone) {
+                setpoint.position[p]
+            } else {
+                self.record.axes[p].set - way_mm
+            };
         }
         // on the contour bit for bit: nothing to search
         self.record.contour_err_mm = if shaped {

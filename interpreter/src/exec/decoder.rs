@@ -9,6 +9,7 @@ use super::coordinates::Coordinates;
 use super::dialect::Seen;
 use super::dynamics::{Weights, channel_dynamics};
 use super::fault::Fault;
+use super::independent::Independent;
 use super::modal::{FeedType, FeedWord, Modal, PathMode, Plane};
 use super::options::Options;
 use super::overrides::Overrides;
@@ -62,6 +63,7 @@ pub(super) struct Decoder {
     pub(super) vector: VectorLimits,
     dynamics: Option<Arc<ChannelDynamics>>,
     pub(super) overrides: Overrides,
+    pub(super) independent: Independent,
     pub(super) shaping: ShapingState,
     pub(super) feedforward: Feedforward,
     pub(super) spindles: Vec<Spindle>,
@@ -134,6 +136,7 @@ impl Decoder {
             vector: VectorLimits::default(),
             dynamics: None,
             overrides: Overrides::new(n),
+            independent: Independent::new(n),
             shaping: ShapingState::default(),
             feedforward: Feedforward {
                 on: false,
@@ -248,6 +251,9 @@ impl Decoder {
     pub(super) fn sync(&mut self, what: Sync) {
         if self.failed() && !self.checking {
             return;
+        }
+        if matches!(what, Sync::FlushWait) {
+            self.independent.all_arrived();
         }
         let faults = self.contour.sync(what, self.source);
         self.faults.extend(faults);

@@ -37,6 +37,9 @@ impl Simulation {
         }
         if !matches!(self.phase, Phase::Stopping { .. }) {
             self.planner.brake();
+            if let Err(e) = self.independent.stop(self.record.k) {
+                self.diagnostics.push(internal(&e));
+            }
             self.phase = Phase::Stopping { settled_cycles: 0 };
         }
     }

@@ -57,6 +57,7 @@ impl Totals {
             }
             Event::Feedforward { .. }
             | Event::SpindleFeedforward { .. }
+            | Event::Independent { .. }
             | Event::Spindle { .. } => return None,
         };
         if !self.not_counted.contains(&name) {
