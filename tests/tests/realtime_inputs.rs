@@ -326,3 +326,73 @@ fn inputs_last_over_machine_data() {
     }
     assert_eq!(run.ids(), [0; 0]);
 }
+
+/// The command line on a sample program and its file: exit code, summary, messages.
+fn command(words: &[&str]) -> (kontur::Exit, String, String) {
+    use std::{cell::RefCell, io::Write, rc::Rc};
+    #[derive(Clone, Default)]
+    struct Text(Rc<RefCell<Vec<u8>>>);
+    impl Write for Text {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            self.0.borrow_mut().extend_from_slice(bytes);
+            Ok(bytes.len())
+        }
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+    let (out, err) = (Text::default(), Text::default());
+    let mut console = kontur::console::Console::new(out.clone(), err.clone());
+    let args = ["kontur"].iter().chain(words).map(std::ffi::OsString::from);
+    let exit = kontur::run_with(args, &mut kontur::simulator::Kontur, &mut console);
+    let text = |t: &Text| String::from_utf8(t.0.borrow().clone()).unwrap();
+    (exit, text(&out), text(&err))
+}
+
+/// 3500 mm/s2: at 50 mm/s from 0.4143 s on; held from the tick behind 0.8143 s to 1.2 s.
+#[test]
+fn sample_of_feedhold_and_override() {
+    let file = |name: &str| kontur_tests::programs().join(name).display().to_string();
+    let (program, csv) = (file("feedhold_and_override.nc"), file("feedhold_and_override.csv"));
+    let (exit, summary, _) = command(&["run", &program, "--input", &csv, "--summary", "json"]);
+    assert_eq!(exit, kontur::Exit::Finished);
+    assert!(summary.contains("\"held_s\":0.385,"), "{summary}");
+    let (_, text, _) = command(&["run", &program, "--input", &csv]);
+    assert!(text.contains("held           0.385 s"), "{text}");
+    // what is wrong with a file refuses run and check; a file that is not there is no mistake in one
+    for verb in ["run", "check"] {
+        let (exit, _, messages) = command(&[verb, &program, "--input", &program]);
+        assert_eq!(exit, kontur::Exit::Usage);
+        assert!(messages.contains("K-0076") && messages.contains("t_s"), "{messages}");
+        let (exit, _, _) = command(&[verb, &program, "--input", "no_such_file.csv"]);
+        assert_eq!(exit, kontur::Exit::Io);
+    }
+    let (exit, _, messages) = command(&["run", &program, "--input", &csv, "-o", &csv]);
+    assert_eq!(exit, kontur::Exit::Usage, "{messages}");
+}
+
+/// The three closed forms that the program's head states.
+#[test]
+fn sample_of_inputs_of_axes() {
+    let text = std::fs::read_to_string(kontur_tests::programs().join("inputs_of_axes.nc")).unwrap();
+    let filter = "X.lr_param.add_interface.filter[0]";
+    let settings = [
+        "X.lr_param.add_interface.enable=1",
+        &format!("{filter}.enable=1"),
+        &format!("{filter}.time_constant=20000"),
+    ];
+    let inputs = [
+        (0.1, "X_add_mm", 0.1),
+        (0.2, "Y_force_mm_s2", -1000.0),
+        (0.3, "Z_encoder_offset_mm", 0.05),
+    ];
+    let run = run_with_inputs(machine(&settings), &text, &inputs);
+    let [x, y, z] = [0, 1, 2].map(|axis| run.records.last().unwrap().axes[axis]);
+    // 900 ms are 45 time constants
+    near(x.add, 0.1);
+    near(x.act, 0.1);
+    near(y.lag, 0.1);
+    near(z.act, 0.0);
+    near(z.load, -0.05);
+    assert_eq!(run.diagnostics, []);
+}
