@@ -228,3 +228,41 @@ fn ripple_on_a_circle_with_estimated_curvature() {
         }
     }
 }
+
+/// Peaks of the second and third differences of the setpoints, and the cycles.
+fn peaks(out: &[Setpoint]) -> (usize, f64, f64) {
+    let t = 1e-3;
+    let p = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
+    let (mut acc, mut jerk) = (0.0_f64, 0.0_f64);
+    for k in 0..out.len() {
+        for i in 0..2 {
+            let second = |k: usize| p(k + 2, i) - 2.0 * p(k + 1, i) + p(k, i);
+            acc = acc.max(second(k).abs() / (t * t));
+            jerk = jerk.max((second(k + 1) - second(k)).abs() / (t * t * t));
+        }
+    }
+    (out.len(), acc, jerk)
+}
+
+/// A larger `PATH_DEV` never lengthens the run, and no axis is loaded beyond what the shape of the curve (`a`,
+/// `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together.
+#[test]
+fn a_larger_tolerance_costs_nothing() {
+    for kind in [Hsc, Trapez] {
+        let mut job = Job { window: 400, ..Job::new(1.0, kind) };
+        job.slope.optimised = kind == Trapez;
+        for seed in 0..8 {
+            let points = rough(seed, 60);
+            let mut last = (usize::MAX, 0.0, 0.0);
+            for path_dev_mm in [1e-4, 1e-3, 0.01, 0.05, 0.2] {
+                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+                let blocks = splined(&job, settings, &points, 100.0);
+                let now = peaks(&job.run(&points[0], blocks.into_iter()));
+                println!("{kind:?} {seed} {path_dev_mm}: {now:?}");
+                assert!(now.0 <= last.0, "{kind:?} {seed} {path_dev_mm}: {now:?} after {last:?}");
+                assert!(now.1 <= 2000.0 * (1.0 + 1e-6), "{kind:?} {seed} {path_dev_mm}: {now:?}");
+                last = now;
+            }
+        }
+    }
+}
