@@ -295,14 +295,16 @@ fn encoder_offset() {
 }
 
 /// Friction (a force) or a measuring fault (an encoder offset) raises 70082 in a program that runs without them. The
-/// force keeps the axis 0.1 mm away; the encoder slips by 0.2 mm every 20 ms, of which `exp(-1)` are left each time.
+/// force keeps the axis 0.1 mm away; the encoder slips back by 0.2 mm every 20 ms, of which `exp(-1)` are left each time.
 /// Conformance: P004.
 #[test]
 fn disturbed_axis_misses_the_exact_stop() {
     let program = "%P\nG90 G01 G60 X10 F6000\nG01 X20\nM30\n";
     let run = |inputs: &[(f64, &str, f64)]| run_with_inputs(machine(&[]), program, inputs);
-    let slips: Vec<(f64, &str, f64)> =
-        (0..100).map(f64::from).map(|n| (0.1 + 0.02 * n, "X_encoder_offset_mm", 0.2 * n)).collect();
+    let slips: Vec<(f64, &str, f64)> = (0..100)
+        .map(f64::from)
+        .map(|n| (0.1 + 0.02 * n, "X_encoder_offset_mm", -0.2 * n))
+        .collect();
     assert_eq!(run(&[]).ids(), [0; 0]);
     for inputs in [vec![(0.0, "X_force_mm_s2", -1000.0)], slips] {
         let run = run(&inputs);
