@@ -196,7 +196,7 @@ impl Simulation {
     #[must_use]
     pub fn with_inputs(mut self, changes: Changes) -> Self {
         if let Err(failure) = self.inputs.connect(changes) {
-            self.input_fails(failure);
+            self.input_fails(*failure);
         }
         self
     }
@@ -285,7 +285,7 @@ impl Simulation {
         match self.inputs.take_due(time_s, &self.machine, &mut self.diagnostics) {
             Ok(false) => return,
             Ok(true) => {}
-            Err(failure) => self.input_fails(failure),
+            Err(failure) => self.input_fails(*failure),
         }
         for (chain, inputs) in self.chains.iter_mut().zip(&self.inputs.axes) {
             chain.set_inputs(*inputs);

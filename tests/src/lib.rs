@@ -91,7 +91,7 @@ pub fn run_with_inputs(
 ) -> Run {
     let signals = Signal::all(&machine);
     let signal = |name: &str| signals.iter().find(|(n, _)| n == name).unwrap().1;
-    let changes: Vec<Result<Change, Diagnostic>> =
+    let changes: Vec<Result<Change, Box<Diagnostic>>> =
         inputs.iter().map(|(t, name, x)| Ok(Change::new(*t, signal(name), *x).unwrap())).collect();
     let machine = Arc::new(machine);
     let cycle_s = machine.cycle.seconds();

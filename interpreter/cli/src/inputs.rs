@@ -50,10 +50,10 @@ impl Problem {
         }
     }
 
-    fn diagnostic(self, name: &str) -> Diagnostic {
+    fn diagnostic(self, name: &str) -> Box<Diagnostic> {
         match self {
-            Self::Wrong(diagnostic) => *diagnostic,
-            Self::Io(e) => Diagnostic::kontur(76, format!("{name}: {e}")),
+            Self::Wrong(diagnostic) => diagnostic,
+            Self::Io(e) => Box::new(Diagnostic::kontur(76, format!("{name}: {e}"))),
         }
     }
 }
@@ -240,7 +240,7 @@ struct Merged {
 }
 
 impl Iterator for Merged {
-    type Item = Result<Change, Diagnostic>;
+    type Item = Result<Change, Box<Diagnostic>>;
 
     fn next(&mut self) -> Option<Self::Item> {
         let mut first: Option<(f64, usize)> = None;

@@ -132,7 +132,7 @@ impl Change {
 }
 
 /// Changes in the order of time; an error ends the run.
-pub type Changes = Box<dyn Iterator<Item = Result<Change, Diagnostic>>>;
+pub type Changes = Box<dyn Iterator<Item = Result<Change, Box<Diagnostic>>>>;
 
 /// The values in force and those to come.
 pub(super) struct Inputs {
@@ -166,12 +166,12 @@ impl Inputs {
     }
 
     /// Takes the source of the changes.
-    pub(super) fn connect(&mut self, changes: Changes) -> Result<(), Diagnostic> {
+    pub(super) fn connect(&mut self, changes: Changes) -> Result<(), Box<Diagnostic>> {
         self.changes = changes;
         self.fetch()
     }
 
-    fn fetch(&mut self) -> Result<(), Diagnostic> {
+    fn fetch(&mut self) -> Result<(), Box<Diagnostic>> {
         self.next = None;
         self.next = self.changes.next().transpose()?;
         Ok(())
@@ -191,7 +191,7 @@ impl Inputs {
         time_s: f64,
         machine: &Machine,
         notes: &mut Vec<Diagnostic>,
-    ) -> Result<bool, Diagnostic> {
+    ) -> Result<bool, Box<Diagnostic>> {
         // a billionth of a cycle: times are decimal numbers, cycles binary ones
         let late = time_s + 1e-9 * machine.cycle.seconds();
         let mut any = false;
