@@ -46,6 +46,11 @@ pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenErro
         });
         return Err(OpenError::Lists(refused.collect()));
     }
+    // a filter or a controller that the list describes and that cannot be: the axis would move without it
+    let chains = machine.chains().1;
+    if chains.iter().any(Diagnostic::is_error) {
+        return Err(OpenError::Lists(messages.into_iter().chain(chains).collect()));
+    }
     Ok((machine, messages))
 }
 
@@ -115,7 +120,10 @@ impl Source for Run {
 
     fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = std::mem::take(&mut self.messages);
-        found.extend(self.simulation.take_diagnostics());
+        // of a refused program the check has said everything
+        if !self.refused {
+            found.extend(self.simulation.take_diagnostics());
+        }
         found
     }
 
@@ -151,6 +159,7 @@ impl Engine for Kontur {
         );
         let refused = found.iter().any(Diagnostic::is_error);
         if refused {
+            messages.extend(machine.chains().1);
             messages.extend(found);
         }
         let simulation = open(options).map_err(OpenError::Lists)?;
@@ -165,7 +174,7 @@ impl Engine for Kontur {
     ) -> Result<(), OpenError> {
         readable(&request.program)?;
         let (machine, messages) = machine(request)?;
-        messages.into_iter().for_each(&mut *report);
+        messages.into_iter().chain(machine.chains().1).for_each(&mut *report);
         let options = options(request, &machine)?;
         let program = request.program.display().to_string();
         let found = exec::check(Box::new(sources(request)), &program, Arc::new(machine), options);
