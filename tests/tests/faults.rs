@@ -255,10 +255,7 @@ fn complete() -> Result<(), Failed> {
     Ok(())
 }
 
-fn table(
-    named: &BTreeMap<String, BTreeSet<String>>,
-    open: &BTreeMap<String, String>,
-) -> String {
+fn table(named: &BTreeMap<String, BTreeSet<String>>, open: &BTreeMap<String, String>) -> String {
     let of = |e: &&Entry| named.contains_key(&e.id.to_string());
     let covered = ENTRIES.iter().filter(of).count();
     let mut text = format!(

@@ -56,7 +56,8 @@ fn refused(text: &str, options: &[&str]) -> Vec<String> {
 #[test]
 fn loops_without_motion_end() {
     let limit = ["--max-blocks", "2000"];
-    for text in ["$WHILE 1\n$ENDWHILE\nM30\n", "N1: P1=1\n$GOTO N1\nM30\n", "$DO\n$ENDDO 1\nM30\n"] {
+    for text in ["$WHILE 1\n$ENDWHILE\nM30\n", "N1: P1=1\n$GOTO N1\nM30\n", "$DO\n$ENDDO 1\nM30\n"]
+    {
         let said = refused(text, &limit);
         assert!(said.len() == 1 && said[0].starts_with("K-0017 "), "{text}: {said:?}");
     }
@@ -78,9 +79,8 @@ fn calls_and_macros_that_reach_themselves() {
     let said = refused("\"A\" = \"\\\"B\\\"\" \"B\" = \"\\\"A\\\"\"\nF1000 \"A\"\nM30\n", &[]);
     assert_eq!(said, ["20734 2:7"]);
     // every step doubles: the text is cut where blocks end
-    let doubling: String = (0..15)
-        .map(|i| format!("\"M{}\" = \"\\\"M{i}\\\" \\\"M{i}\\\"\"\n", i + 1))
-        .collect();
+    let doubling: String =
+        (0..15).map(|i| format!("\"M{}\" = \"\\\"M{i}\\\" \\\"M{i}\\\"\"\n", i + 1)).collect();
     let said = refused(&format!("\"M0\" = \"F1\"\n{doubling}\"M15\"\nM30\n"), &[]);
     assert!(said[0].starts_with("20301 17:"), "{said:?}");
 }
@@ -92,7 +92,9 @@ fn deep_brackets() {
     let said = refused(&nested(2000), &[]);
     assert!(said.len() == 2 && said[0].starts_with("20301 1:") || said.len() == 1, "{said:?}");
     assert!(said.iter().any(|s| s.starts_with("K-0006 1:")), "{said:?}");
-    for open in ["X[", "P1=SIN[", "#VIB GUARD ON [", "L CYCLE [", "G80 [", "S[", "#VAR\nV.P.A[", "("] {
+    for open in
+        ["X[", "P1=SIN[", "#VIB GUARD ON [", "L CYCLE [", "G80 [", "S[", "#VAR\nV.P.A[", "("]
+    {
         let text = format!("{}\nM30\n", open.repeat(10_000 / open.len()));
         let (_, said, _) = call("check", &text, &[]);
         assert!(said.len() < 25, "{open}: {said:?}");
@@ -147,7 +149,9 @@ fn parameters_out_of_all_bounds() {
 
 #[test]
 fn names_of_subroutines_that_lead_elsewhere() {
-    for (name, column) in [("../../x.nc", 3), ("..\\..\\x.nc", 3), ("/x/y.nc", 3), (".", 3), ("..", 3)] {
+    for (name, column) in
+        [("../../x.nc", 3), ("..\\..\\x.nc", 3), ("/x/y.nc", 3), (".", 3), ("..", 3)]
+    {
         let said = refused(&format!("L {name}\nM30\n"), &[]);
         assert_eq!(said, [format!("K-0013 1:{column}")], "{name}");
     }

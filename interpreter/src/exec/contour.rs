@@ -73,10 +73,8 @@ impl Contour {
         let mut faults = Vec::new();
         if let Some(mut before) = self.held.take() {
             let inserted = match self.insertion.take() {
-                Some(insertion) => {
-                    insertion::between(&mut before, &mut motion, &insertion)
-                        .map_err(|fault| fault.in_block(insertion.source))
-                }
+                Some(insertion) => insertion::between(&mut before, &mut motion, &insertion)
+                    .map_err(|fault| fault.in_block(insertion.source)),
                 None => Ok(None),
             };
             faults.extend(self.compensate(before).map(|f| *f));

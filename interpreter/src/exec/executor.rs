@@ -366,7 +366,8 @@ impl Executor {
 
     fn wait_for_actual(&mut self, at: Position) {
         self.state = State::WaitsForActual;
-        let file = self.levels.last().map_or(self.decoder.source.file, |level| file_number(level.file));
+        let file =
+            self.levels.last().map_or(self.decoder.source.file, |level| file_number(level.file));
         let source = SourceRef { file, line: at.line, offset: at.offset, block: None };
         self.decoder.source = source;
         let faults = self.decoder.contour.sync(Sync::ReadActual, source);

@@ -306,8 +306,9 @@ fn undefined(what: &str, span: Span) -> Box<Fault> {
 
 /// `G04 P500` of other controls is a value read from P500 here.
 fn undefined_parameter(index: u32, span: Span) -> Box<Fault> {
-    undefined(&format!("P{index}"), span)
-        .hint(format!("P is a parameter in this dialect, not an address: P{index}=5 assigns a value"))
+    undefined(&format!("P{index}"), span).hint(format!(
+        "P is a parameter in this dialect, not an address: P{index}=5 assigns a value"
+    ))
 }
 
 impl Decoder {
