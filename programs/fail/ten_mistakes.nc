@@ -11,5 +11,5 @@ N80 Y P9                     ; never assigned: K-0012
 N90 G02 X9 I5 R5             ; centre and radius: 21024
 N100 LL CORNER               ; no such subroutine: K-0014
 N110 #VIB GUARD ON [MODE=9]  ; modes are 1 to 4: 22062
-N120 X1 {                    ; not a character of the language: K-0001
+N120 G01 X1 {                ; not a character of the language: K-0001
 N130 M30

@@ -75,7 +75,7 @@ fn programs_that_must_fail() {
         "21024 11:15",
         "K-0014 12:9",
         "22062 13:21",
-        "K-0001 14:9",
+        "K-0001 14:13",
     ];
     assert_eq!(places, expected);
     let ids: Vec<Id> = run(&text("fail/syntax.nc"), &[]).diagnostics.iter().map(|d| d.id).collect();

@@ -48,22 +48,37 @@ fn environment(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-/// Samples, smallest programs of the messages, and lines that bring rare functions together.
-fn corpus() -> Vec<String> {
-    let suite = Path::new(env!("CARGO_MANIFEST_DIR")).join("suite/faults");
-    let mut texts = Vec::new();
-    for folder in [programs(), programs().join("fail"), suite] {
-        let mut files: Vec<_> =
-            std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-        files.sort();
-        for file in files.iter().filter(|f| f.extension().is_some_and(|e| e == "nc")) {
-            let text = String::from_utf8_lossy(&std::fs::read(file).unwrap()).into_owned();
-            if text.len() < LONGEST {
-                texts.push(text);
-            }
-        }
+/// Programs that run, and programs that are refused.
+struct Corpus {
+    good: Vec<Vec<String>>,
+    bad: Vec<Vec<String>>,
+}
+
+impl Corpus {
+    /// Three of four are good.
+    fn pick<'a>(&'a self, random: &mut Random) -> &'a [String] {
+        let list = if random.below(4) == 0 { &self.bad } else { &self.good };
+        random.pick(list)
     }
-    texts.extend(
+}
+
+fn texts(folder: &Path) -> Vec<String> {
+    let mut files: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    let programs = files.iter().filter(|f| f.extension().is_some_and(|e| e == "nc"));
+    let texts = programs.map(|f| String::from_utf8_lossy(&std::fs::read(f).unwrap()).into_owned());
+    texts.filter(|text| text.len() < LONGEST).collect()
+}
+
+/// Samples and lines that bring rare functions together; the smallest programs of the messages.
+fn corpus() -> Corpus {
+    let suite = Path::new(env!("CARGO_MANIFEST_DIR")).join("suite/faults");
+    let mut bad = texts(&suite);
+    bad.extend(texts(&programs().join("fail")));
+    assert!(bad.len() > 100);
+    let mut good = texts(&programs());
+    good.extend(
         [
             include_str!("../../interpreter/tests/data/squares.nc"),
             "V.G.WZ[1].R=2\nD1 G41 G01 X10 F6000\nX30 Y5\nG03 X30 Y25 J10\nX10\nG40 X0 Y0\nM30\n",
@@ -77,8 +92,8 @@ fn corpus() -> Vec<String> {
         ]
         .map(str::to_owned),
     );
-    assert!(texts.len() > 100);
-    texts
+    let split = |texts: &[String]| texts.iter().map(|text| tokens(text)).collect();
+    Corpus { good: split(&good), bad: split(&bad) }
 }
 
 /// Words and numbers, runs of blanks, single characters.
@@ -140,9 +155,9 @@ fn is_number(token: &str) -> bool {
 }
 
 /// One program of the corpus, damaged.
-fn damaged(random: &mut Random, corpus: &[Vec<String>]) -> String {
-    let mut program = random.pick(corpus).clone();
-    for _ in 0..=random.below(6) {
+fn damaged(random: &mut Random, corpus: &Corpus) -> String {
+    let mut program = corpus.pick(random).to_vec();
+    for _ in 0..=random.below(4) {
         if program.is_empty() {
             break;
         }
@@ -168,12 +183,12 @@ fn damaged(random: &mut Random, corpus: &[Vec<String>]) -> String {
                 }
             }
             6 => {
-                let donor = random.pick(corpus);
+                let donor = corpus.pick(random);
                 program[at] = random.pick(donor).clone();
             }
             7 => {
                 // some lines of another program
-                let donor = random.pick(corpus).concat();
+                let donor = corpus.pick(random).concat();
                 let lines: Vec<&str> = donor.lines().collect();
                 let first = random.below(lines.len());
                 let some = lines[first..].iter().take(1 + random.below(4));
@@ -272,7 +287,7 @@ fn exercise(text: &str, machine: &Arc<Machine>) -> bool {
 #[test]
 fn damaged_programs_end() {
     let (count, seed) = (environment("COUNT", COUNT), environment("SEED", 1));
-    let corpus: Vec<Vec<String>> = corpus().iter().map(|text| tokens(text)).collect();
+    let corpus = corpus();
     let filters = "X.filter[0].enable=1 X.filter[0].order=2 X.filter[0].fg_f0=30";
     let filters: Vec<&str> = filters.split(' ').collect();
     let machines = [
@@ -298,7 +313,7 @@ fn damaged_programs_end() {
         }
     }
     // damage leaves enough programs that run
-    assert!(moved > count / 4, "{moved} of {count}");
+    assert!(moved > count / 5, "{moved} of {count}");
 }
 
 /// Settings of the command line are text of the user too.
