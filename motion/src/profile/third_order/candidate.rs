@@ -33,7 +33,7 @@ pub(super) fn ramped(a: f64, change: f64) -> f64 {
 }
 
 /// Displacement from velocity `v`, acceleration `a` over the phases `t`, the first of up to seven.
-pub(super) fn displacement(mut v: f64, mut a: f64, t: &[f64]) -> f64 {
+pub(super) fn displacement<const N: usize>(mut v: f64, mut a: f64, t: &[f64; N]) -> f64 {
     let mut s = 0.0;
     for (t, j) in t.iter().zip(UP_DOWN_DOWN_UP) {
         s += t * (v + t * (0.5 * a + t * j * SIXTH));

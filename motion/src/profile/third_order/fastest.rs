@@ -77,7 +77,7 @@ impl FastestChange {
         let (p, sign) = if gain < straight { (mirror, -1.0) } else { (problem, 1.0) };
         let square = bump_square(p);
         let t = bump(p, square, square.max(0.0).sqrt());
-        let distance = sign * displacement(p.v0, p.a0, &t[..3]);
+        let distance = sign * displacement(p.v0, p.a0, &t);
         let through_zero = 0.5 * (a0 * a0.abs() + ae * ae.abs());
         let rounding = 1e-9 * (through_zero.abs() + straight.abs());
         let (low, high) = (straight.min(through_zero), straight.max(through_zero));
@@ -93,14 +93,14 @@ fn bump_square(problem: &Problem) -> f64 {
 }
 
 /// Acceleration goes up to a peak and down to its final value.
-fn bump(problem: &Problem, square: f64, peak: f64) -> [f64; 7] {
+fn bump(problem: &Problem, square: f64, peak: f64) -> [f64; 3] {
     let Problem { a0, ae, a_max, .. } = *problem;
     if peak > a_max {
-        [a_max - a0, (square - a_max * a_max) / a_max, a_max - ae, 0.0, 0.0, 0.0, 0.0]
+        [a_max - a0, (square - a_max * a_max) / a_max, a_max - ae]
     } else {
         let least = a0.max(ae);
         let peak = if (peak - least).abs() <= 1e-12 { least } else { peak };
-        [peak - a0, 0.0, peak - ae, 0.0, 0.0, 0.0, 0.0]
+        [peak - a0, 0.0, peak - ae]
     }
 }
 
@@ -203,7 +203,8 @@ impl Search {
         let square = bump_square(problem);
         let root = square.max(0.0).sqrt();
         for peak in [root, -root] {
-            self.offer(problem, bump(problem, square, peak), mirrored, false);
+            let [up, hold, down] = bump(problem, square, peak);
+            self.offer(problem, [up, hold, down, 0.0, 0.0, 0.0, 0.0], mirrored, false);
         }
     }
 }

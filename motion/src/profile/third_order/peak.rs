@@ -85,7 +85,8 @@ impl Peak {
         allowed.then_some(Self { distance, v_max, lowest, up, down })
     }
 
-    /// Phases of the profile with the wanted displacement; `None` if it is below what the lowest peak gives.
+    /// Phases of the profile with the wanted displacement, which is not below that of the fastest change of velocity;
+    /// `None` if it is below what the lowest peak gives.
     pub(super) fn times(&self) -> Option<[f64; 7]> {
         let Self { up, down, .. } = self;
         let missing = |v: f64| self.distance - up.displacement(v) - down.displacement(v);
@@ -94,7 +95,9 @@ impl Peak {
         if cruise >= 0.0 {
             return (hi > 0.0).then(|| self.cruise(cruise));
         }
-        if missing(lo) < 0.0 {
+        // otherwise the lowest peak belongs to the fastest change of velocity, with which the caller has compared
+        let compare = up.a0 < 0.0 || down.a0 < 0.0;
+        if compare && missing(lo) < 0.0 {
             return None;
         }
         let plateaus = [up.plateau_velocity(), down.plateau_velocity()];
