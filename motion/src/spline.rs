@@ -10,10 +10,14 @@
 //! and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline touches the polygon before and behind it (P-CHAN-00129
 //! = 0), or the spline ends there (`AUTO_OFF_PATH`). At its ends the spline meets the polygon with its direction and
 //! without curvature. Position, tangent and curvature are continuous everywhere else.
+//!
+//! An edge becomes several blocks with the number of the programmed one where its parts allow different speeds.
+
+mod pace;
 
 use crate::axis::AxisVec;
 use crate::block::{Block, Feed};
-use crate::path::{Path, PolyPath, PolyPiece};
+use crate::path::{Path, PolyPath, PolyPiece, piece};
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 
@@ -138,12 +142,13 @@ impl Splining {
     fn put_out(&mut self, to_end: bool) {
         let single = self.from_start && to_end && self.run.len() == 1;
         let edge = &self.run[self.done];
-        let curve = if single { None } else { self.curve(to_end) };
-        let mut block = edge.block.clone();
-        if let Some(curve) = curve {
-            block.path = Path::Curve(curve);
+        let curves = if single { Vec::new() } else { self.curves(to_end) };
+        let whole = edge.block.clone();
+        if curves.is_empty() {
+            self.ready.push(whole);
+        } else {
+            self.ready.extend(along(&whole, curves));
         }
-        self.ready.push(block);
         self.done += 1;
         if self.done > BEHIND {
             self.run.pop_front();
@@ -152,24 +157,52 @@ impl Splining {
         }
     }
 
-    /// The spline over the next edge.
-    fn curve(&self, to_end: bool) -> Option<PolyPath> {
+    /// The spline over the next edge, in one part or several.
+    fn curves(&self, to_end: bool) -> Vec<PolyPath> {
         let polygon = ControlPolygon::around(&self.run, self.done, self.from_start, to_end);
         let pieces: Vec<PolyPiece> =
             (polygon.first..polygon.last).map(|j| polygon.piece(j)).collect();
-        let last = self.done + 1 == self.run.len();
-        let start = if self.from_start && self.done == 0 {
-            self.run[0].start().clone()
+        let edge = &self.run[self.done];
+        let behind = self.run.get(self.done + 1);
+        let mut start = if self.from_start && self.done == 0 {
+            edge.start().clone()
         } else {
             polygon.joint(polygon.first)
         };
-        let end = if to_end && last {
-            self.run[self.done].block.path.end().clone()
+        let end = if to_end && behind.is_none() {
+            edge.block.path.end().clone()
         } else {
             polygon.joint(polygon.last)
         };
-        PolyPath::new(start, end, pieces, &self.run[self.done].block.dynamics.feed_axes)
+        let mut groups = pace::groups(&edge.block, pieces).into_iter();
+        let mut out = Vec::with_capacity(groups.len());
+        while let Some(pieces) = groups.next() {
+            let here = match pieces.last() {
+                Some(last) if groups.len() > 0 => piece::point(last, 1.0),
+                _ => end.clone(),
+            };
+            let from = std::mem::replace(&mut start, here.clone());
+            out.extend(PolyPath::new(from, here, pieces, &edge.block.dynamics.feed_axes));
+        }
+        out
     }
+}
+
+/// A block along several curves: the same speed, and the words for its end at the last one.
+fn along(block: &Block, curves: Vec<PolyPath>) -> impl Iterator<Item = Block> + '_ {
+    let last = curves.len() - 1;
+    let length: f64 = curves.iter().map(PolyPath::length).sum();
+    let feed = match block.feed {
+        Feed::Duration(t) if last > 0 => Feed::PathVelocity(length / t),
+        feed => feed,
+    };
+    curves.into_iter().enumerate().map(move |(i, curve)| {
+        let mut part = Block { path: Path::Curve(curve), feed, ..block.clone() };
+        if i < last {
+            (part.end_velocity_mm_s, part.contour) = (None, None);
+        }
+        part
+    })
 }
 
 impl Edge {

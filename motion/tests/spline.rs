@@ -21,11 +21,15 @@ fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) 
         let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
         let block = Block { spline: Some(settings), ..job.block(i as u64, path, feed) };
         out.extend(stage.push(block));
-        assert!(out.len() + 4 > i, "the buffer is bounded");
+        assert!(
+            out.last().map_or(0, |b: &Block| b.seq as usize + 1) + 3 > i,
+            "the buffer is bounded"
+        );
     }
     out.extend(stage.flush());
-    assert_eq!(out.len() + 1, points.len());
-    assert!(out.iter().enumerate().all(|(i, b)| b.seq == i as u64), "every block survives");
+    let mut numbers: Vec<u64> = out.iter().map(|b| b.seq).collect();
+    numbers.dedup();
+    assert!(numbers.into_iter().eq(0..points.len() as u64 - 1), "every block survives");
     out
 }
 
@@ -49,7 +53,10 @@ fn gaps(blocks: &[Block]) -> [f64; 3] {
         let (t, u) = (vector(a, |p, v| p.tangent(l, v)), vector(b, |p, v| p.tangent(0.0, v)));
         worst[1] = worst[1].max(apart(&t, &u));
         let (t, u) = (vector(a, |p, v| p.curvature(l, v)), vector(b, |p, v| p.curvature(0.0, v)));
-        worst[2] = worst[2].max(apart(&t, &u) / (1.0 + apart(&t, &[0.0; 8][..t.len()])));
+        // parts of one edge lie on the same polynomials
+        if w[0].seq != w[1].seq {
+            worst[2] = worst[2].max(apart(&t, &u) / (1.0 + apart(&t, &[0.0; 8][..t.len()])));
+        }
     }
     worst
 }
@@ -91,6 +98,21 @@ fn rough(seed: u64, count: usize) -> Vec<Vec<f64>> {
     points
 }
 
+/// As [`rough`], with edges of 0.1 to 5 mm that turn by at most 35 degrees.
+fn gentle(seed: u64, count: usize) -> Vec<Vec<f64>> {
+    let mut seed = seed;
+    let (mut heading, mut p) = (0.0, [0.0, 0.0]);
+    let mut points = vec![p.to_vec()];
+    for _ in 0..count {
+        let l = 0.1 * libm::pow(50.0, random(&mut seed));
+        let (sin, cos) = libm::sincos(heading);
+        p = [p[0] + l * cos, p[1] + l * sin];
+        points.push(p.to_vec());
+        heading += 1.2 * (random(&mut seed) - 0.5);
+    }
+    points
+}
+
 #[test]
 fn the_tolerance_is_kept_and_the_curve_is_smooth() {
     let job = Job::new(1.0, Hsc);
@@ -119,9 +141,12 @@ fn a_coarse_corner_uses_the_tolerance() {
     let job = Job::new(1.0, Hsc);
     let points = [vec![0.0, 0.0], vec![30.0, 0.0], vec![30.0, 30.0]];
     let blocks = splined(&job, SplineSettings::default(), &points, 50.0);
-    let corner = blocks[0].path.end();
+    let first: Vec<&Block> = blocks.iter().filter(|b| b.seq == 0).collect();
+    let corner = first[first.len() - 1].path.end();
     assert!((apart(corner, &points[1]) - 0.2).abs() < 1e-12);
-    let mid = vector(&blocks[0].path, |p, v| p.position(15.0, v));
+    // straight and fast up to the curve, which has a speed of its own
+    assert!(first.len() > 1);
+    let mid = vector(&first[0].path, |p, v| p.position(15.0, v));
     assert!(mid[1].abs() < 1e-12);
 }
 
@@ -245,23 +270,29 @@ fn peaks(out: &[Setpoint]) -> (usize, f64, f64) {
 }
 
 /// A larger `PATH_DEV` never lengthens the run, and no axis is loaded beyond what the shape of the curve (`a`,
-/// `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together.
+/// `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together. `COUNT` raises the number of polygons.
 #[test]
 fn a_larger_tolerance_costs_nothing() {
+    let count = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(2);
     for kind in [Hsc, Trapez] {
         let mut job = Job { window: 400, ..Job::new(1.0, kind) };
         job.slope.optimised = kind == Trapez;
-        for seed in 0..8 {
-            let points = rough(seed, 60);
-            let mut last = (usize::MAX, 0.0, 0.0);
-            for path_dev_mm in [1e-4, 1e-3, 0.01, 0.05, 0.2] {
-                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-                let blocks = splined(&job, settings, &points, 100.0);
-                let now = peaks(&job.run(&points[0], blocks.into_iter()));
-                println!("{kind:?} {seed} {path_dev_mm}: {now:?}");
-                assert!(now.0 <= last.0, "{kind:?} {seed} {path_dev_mm}: {now:?} after {last:?}");
-                assert!(now.1 <= 2000.0 * (1.0 + 1e-6), "{kind:?} {seed} {path_dev_mm}: {now:?}");
-                last = now;
+        for polygon in [rough, gentle] {
+            for seed in 0..count {
+                let points = polygon(seed, 60);
+                let mut last = usize::MAX;
+                for path_dev_mm in [1e-4, 1e-3, 0.01, 0.05, 0.2] {
+                    let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+                    let blocks = splined(&job, settings, &points, 100.0);
+                    let now = peaks(&job.run(&points[0], blocks.into_iter()));
+                    println!("{kind:?} {seed} {path_dev_mm}: {now:?}");
+                    assert!(now.0 <= last, "{kind:?} {seed} {path_dev_mm}: {now:?} after {last}");
+                    assert!(
+                        now.1 <= 2000.0 * (1.0 + 1e-6),
+                        "{kind:?} {seed} {path_dev_mm}: {now:?}"
+                    );
+                    last = now.0;
+                }
             }
         }
     }
