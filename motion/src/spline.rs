@@ -141,13 +141,23 @@ impl Splining {
     /// Puts out the piece of the next edge.
     fn put_out(&mut self, to_end: bool) {
         let single = self.from_start && to_end && self.run.len() == 1;
-        let edge = &self.run[self.done];
         let curves = if single { Vec::new() } else { self.curves(to_end) };
-        let whole = edge.block.clone();
+        let block = &self.run[self.done].block;
         if curves.is_empty() {
-            self.ready.push(whole);
-        } else {
-            self.ready.extend(along(&whole, curves));
+            self.ready.push(block.clone());
+        }
+        let whole: f64 = curves.iter().map(PolyPath::length).sum();
+        let parts = curves.len();
+        for (i, curve) in curves.into_iter().enumerate() {
+            let mut part = block.clone();
+            if let Feed::Duration(t) = block.feed {
+                part.feed = Feed::Duration(t * curve.length() / whole);
+            }
+            if i + 1 < parts {
+                (part.end_velocity_mm_s, part.contour) = (None, None);
+            }
+            part.path = Path::Curve(curve);
+            self.ready.push(part);
         }
         self.done += 1;
         if self.done > BEHIND {
@@ -157,24 +167,29 @@ impl Splining {
         }
     }
 
-    /// The spline over the next edge, in one part or several.
+    /// The spline over the next edge: one curve, or one for each part with a speed of its own.
     fn curves(&self, to_end: bool) -> Vec<PolyPath> {
         let polygon = ControlPolygon::around(&self.run, self.done, self.from_start, to_end);
         let pieces: Vec<PolyPiece> =
             (polygon.first..polygon.last).map(|j| polygon.piece(j)).collect();
-        let edge = &self.run[self.done];
-        let behind = self.run.get(self.done + 1);
+        let block = &self.run[self.done].block;
         let mut start = if self.from_start && self.done == 0 {
-            edge.start().clone()
+            block.path.start().clone()
         } else {
             polygon.joint(polygon.first)
         };
-        let end = if to_end && behind.is_none() {
-            edge.block.path.end().clone()
+        let end = if to_end && self.done + 1 == self.run.len() {
+            block.path.end().clone()
         } else {
             polygon.joint(polygon.last)
         };
-        let mut groups = pace::groups(&edge.block, pieces).into_iter();
+        // a stop at every transition (G116) means those of the program
+        let groups = if block.dynamics.stop_at_transitions {
+            vec![pieces]
+        } else {
+            pace::groups(block, pieces)
+        };
+        let mut groups = groups.into_iter();
         let mut out = Vec::with_capacity(groups.len());
         while let Some(pieces) = groups.next() {
             let here = match pieces.last() {
@@ -182,27 +197,10 @@ impl Splining {
                 _ => end.clone(),
             };
             let from = std::mem::replace(&mut start, here.clone());
-            out.extend(PolyPath::new(from, here, pieces, &edge.block.dynamics.feed_axes));
+            out.extend(PolyPath::new(from, here, pieces, &block.dynamics.feed_axes));
         }
         out
     }
-}
-
-/// A block along several curves: the same speed, and the words for its end at the last one.
-fn along(block: &Block, curves: Vec<PolyPath>) -> impl Iterator<Item = Block> + '_ {
-    let last = curves.len() - 1;
-    let length: f64 = curves.iter().map(PolyPath::length).sum();
-    let feed = match block.feed {
-        Feed::Duration(t) if last > 0 => Feed::PathVelocity(length / t),
-        feed => feed,
-    };
-    curves.into_iter().enumerate().map(move |(i, curve)| {
-        let mut part = Block { path: Path::Curve(curve), feed, ..block.clone() };
-        if i < last {
-            (part.end_velocity_mm_s, part.contour) = (None, None);
-        }
-        part
-    })
 }
 
 impl Edge {
