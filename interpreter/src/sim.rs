@@ -26,6 +26,7 @@ use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::limit::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::tolerance::Kernels;
+use smallvec::SmallVec;
 use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
@@ -385,7 +386,8 @@ impl Simulation {
         let setpoint = self.planner.setpoint();
         let n = self.vector.len();
         let mut faults = Vec::new();
-        let spindles: Vec<f64> = self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
+        let spindles: SmallVec<[f64; 4]> =
+            self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
         for (i, chain) in self.chains.iter_mut().enumerate() {
             let ipo = match (self.frozen[i], self.drivers[i]) {
                 (Some(x), _) => x,

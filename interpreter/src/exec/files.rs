@@ -11,6 +11,7 @@ use crate::syntax::ast::{
     Span, WordKind,
 };
 use crate::syntax::macros;
+use smallvec::{SmallVec, smallvec};
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::Arc;
@@ -281,7 +282,7 @@ fn place_needs_actual(place: &Place) -> bool {
 
 /// Without recursion along chains of operators.
 fn expr_needs_actual(expr: &Expr) -> bool {
-    let mut open = vec![expr];
+    let mut open: SmallVec<[&Expr; 8]> = smallvec![expr];
     while let Some(expr) = open.pop() {
         match &expr.kind {
             ExprKind::Place(place) if place_needs_actual(place) => return true,

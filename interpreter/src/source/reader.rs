@@ -111,12 +111,13 @@ impl BlockReader {
         let bytes = &self.window[line.range.clone()];
         let continued = bytes.trim_ascii_end().last() == Some(&b'\\');
         let plain = !continued && line.cut == 0 && bytes.len() <= BLOCK_LENGTH_MAX as usize;
-        if !plain || std::str::from_utf8(bytes).is_err() {
+        let ascii = bytes.is_ascii();
+        if !plain || (!ascii && std::str::from_utf8(bytes).is_err()) {
             return self.assemble(position, line).map(Some);
         }
-        // Validated twice only in the type system: the borrow of the window has to begin behind the other path.
+        // The borrow of the window has to begin behind the other path: valid text is looked at once more.
         let text = std::str::from_utf8(&self.window[line.range]).unwrap_or_default();
-        let characters = if text.is_ascii() { text.len() } else { text.chars().count() };
+        let characters = if ascii { text.len() } else { text.chars().count() };
         let characters = u32::try_from(characters).unwrap_or(u32::MAX);
         Ok(Some(RawBlock { text, position, characters, pieces: &[] }))
     }
