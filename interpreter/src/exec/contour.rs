@@ -45,10 +45,10 @@ impl Contour {
             return self.end.take().map(|end| *end);
         };
         Some(match item {
-            Item::Motion(motion) => {
-                let Motion { mut block, source, events, .. } = *motion;
-                block.seq = self.blocks;
+            Item::Motion(mut motion) => {
+                motion.block.seq = self.blocks;
                 self.blocks += 1;
+                let Motion { block, source, events, .. } = *motion;
                 Step::Motion { block, source, events }
             }
             Item::Sync { what, source, events } => Step::Sync { what, source, events },

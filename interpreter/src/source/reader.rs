@@ -122,6 +122,26 @@ impl BlockReader {
         Ok(Some(RawBlock { text, position, characters, pieces: &[] }))
     }
 
+    /// Goes over lines for as long as `skip` accepts them and the window holds them as a whole. They have to be blocks of
+    /// their own.
+    pub(crate) fn skip_lines(&mut self, skip: impl Fn(&[u8]) -> bool) {
+        loop {
+            let rest = &self.window[self.at..self.filled];
+            let Some(length) = line_end(rest) else { return };
+            let end = match &rest[length..] {
+                [b'\r', b'\n', ..] => 2,
+                // LF may follow
+                [b'\r'] => return,
+                _ => 1,
+            };
+            if !skip(&rest[..length]) {
+                return;
+            }
+            self.at += length + end;
+            self.line = self.line.saturating_add(1);
+        }
+    }
+
     /// A block in Latin-1, of several lines or too long.
     fn assemble(&mut self, position: Position, first: Line) -> io::Result<RawBlock<'_>> {
         self.text.clear();
