@@ -245,7 +245,7 @@ impl Coordinates {
 
     /// Takes over positions of the axes as they are (`#CHANNEL INIT`).
     pub(super) fn set_target(&mut self, target: &AxisVec) {
-        self.target = target.clone();
+        self.target.clone_from(target);
         self.recompute_program();
     }
 
