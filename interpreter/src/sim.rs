@@ -33,6 +33,7 @@ use kontur_motion::limit::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::realtime::{FeedholdBraking, OverrideMode};
 use kontur_motion::tolerance::Kernels;
+use smallvec::SmallVec;
 use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
@@ -484,7 +485,8 @@ impl Simulation {
         let mut faults = Vec::new();
         let positions: AxisVec =
             (0..n).map(|p| setpoint.position[p] + self.independent.way_mm(p, k)).collect();
-        let spindles: Vec<f64> = self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
+        let spindles: SmallVec<[f64; 4]> =
+            self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
         for (i, chain) in self.chains.iter_mut().enumerate() {
             let ipo = match (self.frozen[i], self.drivers[i]) {
                 (Some(x), _) => x,

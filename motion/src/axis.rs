@@ -4,8 +4,20 @@ use smallvec::SmallVec;
 use std::ops::{Deref, DerefMut};
 
 /// One value per axis of the channel, in channel order; up to eight without allocation.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct AxisVec(SmallVec<[f64; 8]>);
+
+impl Clone for AxisVec {
+    /// By bytes; the derived one goes value by value.
+    fn clone(&self) -> Self {
+        Self(SmallVec::from_slice(&self.0))
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.0.clear();
+        self.0.extend_from_slice(&other.0);
+    }
+}
 
 impl AxisVec {
     /// `n` zeros.

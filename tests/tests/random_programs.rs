@@ -272,7 +272,7 @@ fn exercise(text: &str, machine: &Arc<Machine>) -> bool {
         assert_eq!(record.k, cycles);
         cycles += 1;
         assert!(cycles as f64 * machine.cycle.seconds() < TIME_S + 20.0, "the run does not end");
-        if cycles % 1024 == 0 {
+        if cycles.is_multiple_of(1024) {
             said.extend(simulation.take_diagnostics());
         }
     }

@@ -302,6 +302,7 @@ impl AxisControl {
     /// ([`FeedforwardConfig::gain`]; 0 when off) and whether its slope is jerk-limited.
     ///
     /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
+    #[inline] // the output is large: used where it is made
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
         let set_mm = if set_mm.abs() <= Self::RANGE_MM { set_mm } else { self.set_mm };
         let position_mm = set_mm + self.inputs.additional_mm;

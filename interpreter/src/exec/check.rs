@@ -19,7 +19,7 @@ pub fn check(
     let mut executor = Executor::with_mode(sources, program, machine, options, true);
     let mut feedback = Feedback::default();
     loop {
-        feedback.actual_mm = executor.target().clone();
+        feedback.actual_mm.clone_from(executor.target());
         if let Step::End { .. } = executor.next(&feedback) {
             return executor.take_diagnostics();
         }

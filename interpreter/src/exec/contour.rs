@@ -25,7 +25,12 @@ pub(super) struct Motion {
 /// Motions and events on their way to the simulation.
 #[derive(Debug, Default)]
 pub(super) struct Contour {
-    queue: VecDeque<Step>,
+    /// Steps in their order, still without the numbers of their blocks.
+    queue: VecDeque<Item>,
+    /// The end, behind the queue.
+    end: Option<Box<Step>>,
+    /// What the compensator has just completed.
+    done: Vec<Item>,
     events: Vec<Event>,
     held: Option<Box<Motion>>,
     insertion: Option<Insertion>,
@@ -36,7 +41,18 @@ pub(super) struct Contour {
 impl Contour {
     /// The next step.
     pub(super) fn pop(&mut self) -> Option<Step> {
-        self.queue.pop_front()
+        let Some(item) = self.queue.pop_front() else {
+            return self.end.take().map(|end| *end);
+        };
+        Some(match item {
+            Item::Motion(mut motion) => {
+                motion.block.seq = self.blocks;
+                self.blocks += 1;
+                let Motion { block, source, events, .. } = *motion;
+                Step::Motion { block, source, events }
+            }
+            Item::Sync { what, source, events } => Step::Sync { what, source, events },
+        })
     }
 
     pub(super) fn event(&mut self, event: Event) {
@@ -92,22 +108,19 @@ impl Contour {
     pub(super) fn sync(&mut self, what: Sync, source: SourceRef) -> Vec<Fault> {
         let mut faults = self.flush();
         let events = self.take_events();
-        let mut done = Vec::new();
-        faults.extend(
-            self.compensator.sync(Item::Sync { what, source, events }, &mut done).err().map(|f| *f),
-        );
-        self.emit(done);
+        let item = Item::Sync { what, source, events };
+        faults.extend(self.compensator.sync(item, &mut self.done).err().map(|f| *f));
+        self.queue.extend(self.done.drain(..));
         faults
     }
 
     /// End of the program.
     pub(super) fn end(&mut self, reason: EndReason, source: SourceRef) -> Vec<Fault> {
         let mut faults = self.flush();
-        let mut done = Vec::new();
-        faults.extend(self.compensator.end(&mut done).err().map(|f| *f));
-        self.emit(done);
+        faults.extend(self.compensator.end(&mut self.done).err().map(|f| *f));
+        self.queue.extend(self.done.drain(..));
         let events = self.take_events();
-        self.queue.push_back(Step::End { reason, source, events });
+        self.end = Some(Box::new(Step::End { reason, source, events }));
         faults
     }
 
@@ -126,23 +139,8 @@ impl Contour {
     }
 
     fn compensate(&mut self, motion: Box<Motion>) -> Option<Box<Fault>> {
-        let mut done = Vec::new();
-        let fault = self.compensator.motion(motion, &mut done).err();
-        self.emit(done);
+        let fault = self.compensator.motion(motion, &mut self.done).err();
+        self.queue.extend(self.done.drain(..));
         fault
-    }
-
-    fn emit(&mut self, items: Vec<Item>) {
-        for item in items {
-            self.queue.push_back(match item {
-                Item::Motion(motion) => {
-                    let Motion { mut block, source, events, .. } = *motion;
-                    block.seq = self.blocks;
-                    self.blocks += 1;
-                    Step::Motion { block, source, events }
-                }
-                Item::Sync { what, source, events } => Step::Sync { what, source, events },
-            });
-        }
     }
 }

@@ -245,7 +245,7 @@ impl Coordinates {
 
     /// Takes over positions of the axes as they are (`#CHANNEL INIT`).
     pub(super) fn set_target(&mut self, target: &AxisVec) {
-        self.target = target.clone();
+        self.target.clone_from(target);
         self.recompute_program();
     }
 
@@ -285,6 +285,7 @@ impl Coordinates {
     /// Takes over the words of a block in mm (deg); the new targets stand in [`target`](Self::target).
     pub(super) fn program(&mut self, words: &[(usize, f64)], absolute: bool) {
         let mut framed = [false; 3];
+        let identity = self.frame.is_identity();
         for &(axis, value) in words {
             self.word[axis] = value;
             if absolute {
@@ -292,9 +293,9 @@ impl Coordinates {
             } else {
                 self.program[axis] += value;
             }
-            match self.main_index(axis) {
-                Some(main) if !self.frame.is_identity() => framed[main] = true,
-                _ => self.program_plain(axis, value, absolute),
+            match if identity { None } else { self.main_index(axis) } {
+                Some(main) => framed[main] = true,
+                None => self.program_plain(axis, value, absolute),
             }
         }
         if framed.contains(&true) {

@@ -53,7 +53,8 @@ fn m_kind(number: u32) -> MKind {
 impl Decoder {
     /// Executes a block of words.
     pub(super) fn execute_words<'b>(&mut self, written: &'b [Word], span: Span) -> After<'b> {
-        let words = self.collect(written);
+        let mut words = Words::default();
+        self.collect(written, &mut words);
         self.dialect_guard(&words);
         self.planes_and_units(&words);
         let takes_axes = self.axis_functions(&words);

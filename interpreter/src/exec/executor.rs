@@ -5,7 +5,7 @@ use super::decoder::Decoder;
 use super::dialect;
 use super::din::After;
 use super::fault::{Fault, own};
-use super::files::{FileError, Files, Parsed, Reading};
+use super::files::{Fetched, FileError, Files, Parsed, Reading};
 use super::flow::Frame;
 use super::index::{EntryId, Index, Keyword};
 use super::modal::Modal;
@@ -338,7 +338,7 @@ impl Executor {
     }
 
     /// The block at a place; reading errors end the program.
-    pub(super) fn fetch(&mut self, file: usize, at: Position) -> Option<(Arc<Parsed>, Position)> {
+    pub(super) fn fetch(&mut self, file: usize, at: Position) -> Option<(Fetched, Position)> {
         let level = self.levels.last()?;
         let keep = self.levels.len() > 1 || level.frames.iter().any(|f| f.keyword.is_loop());
         let reading =

@@ -11,8 +11,10 @@ use crate::syntax::ast::{
     Span, WordKind,
 };
 use crate::syntax::macros;
+use smallvec::{SmallVec, smallvec};
 use std::collections::BTreeMap;
 use std::io;
+use std::ops::Deref;
 use std::sync::Arc;
 
 /// Blocks of all files that are kept parsed; those beyond are parsed again on every pass.
@@ -26,6 +28,26 @@ pub(super) struct Parsed {
     pub(super) needs_actual: bool,
     /// Its text has an error.
     pub(super) faulty: bool,
+}
+
+/// A block to be executed.
+#[derive(Debug)]
+pub(super) enum Fetched {
+    /// It runs again: its file keeps it too.
+    Kept(Arc<Parsed>),
+    /// It is parsed for this once.
+    Once(Parsed),
+}
+
+impl Deref for Fetched {
+    type Target = Parsed;
+
+    fn deref(&self) -> &Parsed {
+        match self {
+            Self::Kept(parsed) => parsed,
+            Self::Once(parsed) => parsed,
+        }
+    }
 }
 
 /// One file.
@@ -135,12 +157,12 @@ impl Files {
         parser: &Parser,
         table: &Macros,
         diagnostics: &mut Vec<Diagnostic>,
-    ) -> io::Result<Option<(Arc<Parsed>, Position)>> {
+    ) -> io::Result<Option<(Fetched, Position)>> {
         let ProgramFile { name, reader, cache, .. } = &mut self.open[file];
         if reading.keep
-            && let Some(found) = cache.get(&position.offset)
+            && let Some((parsed, next)) = cache.get(&position.offset)
         {
-            return Ok(Some(found.clone()));
+            return Ok(Some((Fetched::Kept(Arc::clone(parsed)), *next)));
         }
         reader.seek(position);
         let Some(raw) = reader.next_block()? else { return Ok(None) };
@@ -148,12 +170,14 @@ impl Files {
         let block = parse(&raw, name, reading.declaration, parser, table, diagnostics);
         let faulty = diagnostics[before..].iter().any(Diagnostic::is_error);
         let next = reader.position();
-        let parsed = Arc::new(Parsed { needs_actual: needs_actual(&block), block, faulty });
-        if reading.keep && self.cached < CACHED_MAX {
-            cache.insert(position.offset, (Arc::clone(&parsed), next));
-            self.cached += 1;
+        let parsed = Parsed { needs_actual: needs_actual(&block), block, faulty };
+        if !reading.keep || self.cached >= CACHED_MAX {
+            return Ok(Some((Fetched::Once(parsed), next)));
         }
-        Ok(Some((parsed, next)))
+        let parsed = Arc::new(parsed);
+        cache.insert(position.offset, (Arc::clone(&parsed), next));
+        self.cached += 1;
+        Ok(Some((Fetched::Kept(parsed), next)))
     }
 
     /// Place of all of the block at a position.
@@ -291,7 +315,10 @@ fn place_needs_actual(place: &Place) -> bool {
 
 /// Without recursion along chains of operators.
 fn expr_needs_actual(expr: &Expr) -> bool {
-    let mut open = vec![expr];
+    if matches!(expr.kind, ExprKind::Number(_)) {
+        return false;
+    }
+    let mut open: SmallVec<[&Expr; 8]> = smallvec![expr];
     while let Some(expr) = open.pop() {
         match &expr.kind {
             ExprKind::Place(place) if place_needs_actual(place) => return true,

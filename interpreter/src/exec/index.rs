@@ -244,7 +244,10 @@ fn head(text: &str) -> Head<'_> {
             }
         }
     }
-    if let (true, Some(end)) = (label.is_none() && rest.starts_with('['), rest.find(']')) {
+    if label.is_none()
+        && rest.starts_with('[')
+        && let Some(end) = rest.find(']')
+    {
         let name = rest[1..end].trim();
         if !name.is_empty() {
             label_at = text.len() - rest.len();
@@ -296,6 +299,19 @@ fn ends_program(text: &str) -> bool {
     })
 }
 
+/// True for most lines of a long program, inside a section: a block number or none, then a word, no continuation, and
+/// no `M` that could end the program.
+fn says_nothing(line: &[u8]) -> bool {
+    let mut rest = line;
+    if let [b'N' | b'n', behind @ ..] = line {
+        let digits = behind.iter().take_while(|b| b.is_ascii_digit()).count();
+        let blanks = behind[digits..].iter().take_while(|b| matches!(b, b' ' | b'\t')).count();
+        rest = if digits > 0 { &behind[digits + blanks..] } else { &[] };
+    }
+    rest.first().is_some_and(u8::is_ascii_alphabetic)
+        && memchr::memchr3(b'M', b'm', b'\\', rest).is_none()
+}
+
 /// The pass.
 struct Builder<'a> {
     file: &'a Arc<str>,
@@ -338,12 +354,14 @@ pub(super) fn build(
         diagnostics: Vec::new(),
     };
     reader.seek(Position::START);
-    let mut position = reader.position();
-    while let Some(raw) = reader.next_block()? {
+    loop {
+        if builder.section.is_some() && builder.comment.is_none() {
+            reader.skip_lines(says_nothing);
+        }
+        let Some(raw) = reader.next_block()? else { break };
         builder.block(&raw, skip);
-        position = reader.position();
     }
-    builder.close(position.offset);
+    builder.close(reader.position().offset);
     builder.decide_remarks();
     Ok((builder.index, builder.diagnostics))
 }
@@ -623,7 +641,7 @@ fn contains_goto(rest: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Index, Keyword, build};
+    use super::{Index, Keyword, build, says_nothing};
     use crate::exec::options::SkipLevels;
     use crate::source::{BlockReader, MemorySources, Sources};
     use std::sync::Arc;
@@ -683,6 +701,54 @@ mod tests {
         assert_eq!(index("$WHILE P1\n$IF P2\n$ENDWHILE\n").1, ["K-0002 3"]);
         let deep = "$IF 1\n".repeat(65);
         assert_eq!(index(&deep).1, ["20211 65"]);
+    }
+
+    #[test]
+    fn lines_that_say_nothing_are_words() {
+        for line in ["X1 Y2", "N10X1", "n5 \tG01 F100 ; feed", "L sub.nc", "x1.5 (a)"] {
+            assert!(says_nothing(line.as_bytes()), "{line}");
+        }
+        for line in [
+            "",
+            " X1",
+            "N",
+            "N10",
+            "N10:",
+            "N10 :X1",
+            "N10[A] X1",
+            "[A]",
+            "N[1]",
+            "/X1",
+            "%L A",
+            "$IF 1",
+            "#IF 1",
+            "N1 #IF 1",
+            "(c) $IF 1",
+            ";",
+            "M30",
+            "X1 m02",
+            "X1 \\",
+            "\"A\"",
+            "N 1:",
+        ] {
+            assert!(!says_nothing(line.as_bytes()), "{line}");
+        }
+    }
+
+    /// The same structure, whether or not plain lines were read as blocks.
+    #[test]
+    fn lines_gone_over_are_counted() {
+        let plain = "X1 Y2\r\nN5 X3\nX4\rG01 X5 (M)\nX6 \\\n%L X\nX7\0X8\n";
+        let text = format!("%A\n{plain}N7: X1\n$IF P1\n{plain}$ENDIF\nM30\n%L B\n{plain}");
+        let (i, d) = index(&text);
+        assert_eq!(d, ["K-0109 22"]);
+        let lines: Vec<_> = i.entries.iter().map(|e| e.position.line).collect();
+        assert_eq!(lines, [11, 20]);
+        let offsets: Vec<_> = i.entries.iter().map(|e| e.position.offset).collect();
+        let place = |word: &str| text.find(word).unwrap() as u64;
+        assert_eq!(offsets, [place("$IF"), place("$ENDIF")]);
+        assert_eq!(i.sections[0].end, place("%L B"));
+        assert_eq!(i.sections[1].end, text.len() as u64);
     }
 
     #[test]

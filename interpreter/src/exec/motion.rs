@@ -184,34 +184,34 @@ impl Decoder {
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
-        let block = Block {
-            seq: 0,
-            path,
-            feed,
-            feed_ratio,
-            full_override: full,
-            end_velocity_mm_s,
-            slope: self.modal.slope,
-            dynamics: self.dynamics(),
-            tolerance: self.shaping.tolerance(),
-            contour: if rounds { Some(self.contouring.settings()) } else { self.hsc.contour() },
-            spline: self.hsc.spline(),
-        };
         let (plane, compensation) = self.plane_and_compensation(span)?;
-        let motion = Motion {
-            block,
+        // a large thing: made where it stays
+        let motion = Box::new(Motion {
+            block: Block {
+                seq: 0,
+                path,
+                feed,
+                feed_ratio,
+                full_override: full,
+                end_velocity_mm_s,
+                slope: self.modal.slope,
+                dynamics: self.dynamics(),
+                tolerance: self.shaping.tolerance(),
+                contour: if rounds { Some(self.contouring.settings()) } else { self.hsc.contour() },
+                spline: self.hsc.spline(),
+            },
             source: self.source,
             events: self.contour.take_events(),
             plane,
             compensation,
             span,
-        };
+        });
         // of a block with an error nothing moves
         if self.failed() && !self.checking {
             return Ok(());
         }
         self.moved = true;
-        for fault in self.contour.motion(Box::new(motion)) {
+        for fault in self.contour.motion(motion) {
             self.note(Box::new(fault));
         }
         Ok(())

@@ -80,14 +80,12 @@ fn centre_index(letter: u8) -> Option<usize> {
 
 impl Decoder {
     /// Collects the words of a block and carries out its assignments. What cannot be used is reported and left out.
-    pub(super) fn collect<'b>(&mut self, words: &'b [Word]) -> Words<'b> {
-        let mut block = Words::default();
+    pub(super) fn collect<'b>(&mut self, words: &'b [Word], block: &mut Words<'b>) {
         for word in words {
-            if let Err(fault) = self.collect_word(word, &mut block) {
+            if let Err(fault) = self.collect_word(word, block) {
                 self.note(fault);
             }
         }
-        block
     }
 
     fn collect_word<'b>(&mut self, word: &'b Word, block: &mut Words<'b>) -> Outcome<()> {

@@ -25,6 +25,8 @@ pub struct Axis {
     kind: AxisKind,
     parameters: Parameters,
     own: Parameters,
+    /// Worked out when the parameters change: every motion asks for them.
+    software_limits_mm: Option<(f64, f64)>,
 }
 
 /// Gear stage that is used; the others are stored only.
@@ -38,7 +40,9 @@ impl Axis {
         own: Parameters,
     ) -> Self {
         let number = logical_number(&parameters);
-        Self { name, number, kind, parameters, own }
+        let mut axis = Self { name, number, kind, parameters, own, software_limits_mm: None };
+        axis.software_limits_mm = axis.listed_software_limits_mm();
+        axis
     }
 
     /// Name in the NC program (P-CHAN-00006, P-CHAN-00007).
@@ -206,6 +210,10 @@ impl Axis {
 
     /// Software limits in mm (P-AXIS-00177, P-AXIS-00178); `None` for spindles and modulo axes.
     pub fn software_limits_mm(&self) -> Option<(f64, f64)> {
+        self.software_limits_mm
+    }
+
+    fn listed_software_limits_mm(&self) -> Option<(f64, f64)> {
         if self.kind == AxisKind::Spindle || self.is_modulo() {
             return None;
         }
@@ -231,6 +239,7 @@ impl Axis {
         let (row, indices) = found.ok_or_else(|| format!("`{key}` is no parameter of an axis"))?;
         let value = value::read(row.raw, value).map_err(|bad| format!("{key}: {}", bad.reason))?;
         self.parameters.set(row, indices, value, None);
+        self.software_limits_mm = self.listed_software_limits_mm();
         Ok(())
     }
 }

@@ -111,14 +111,35 @@ impl BlockReader {
         let bytes = &self.window[line.range.clone()];
         let continued = bytes.trim_ascii_end().last() == Some(&b'\\');
         let plain = !continued && line.cut == 0 && bytes.len() <= BLOCK_LENGTH_MAX as usize;
-        if !plain || std::str::from_utf8(bytes).is_err() {
+        let ascii = bytes.is_ascii();
+        if !plain || (!ascii && std::str::from_utf8(bytes).is_err()) {
             return self.assemble(position, line).map(Some);
         }
-        // Validated twice only in the type system: the borrow of the window has to begin behind the other path.
+        // The borrow of the window has to begin behind the other path: valid text is looked at once more.
         let text = std::str::from_utf8(&self.window[line.range]).unwrap_or_default();
-        let characters = if text.is_ascii() { text.len() } else { text.chars().count() };
+        let characters = if ascii { text.len() } else { text.chars().count() };
         let characters = u32::try_from(characters).unwrap_or(u32::MAX);
         Ok(Some(RawBlock { text, position, characters, pieces: &[] }))
+    }
+
+    /// Goes over lines for as long as `skip` accepts them and the window holds them as a whole. They have to be blocks of
+    /// their own.
+    pub(crate) fn skip_lines(&mut self, skip: impl Fn(&[u8]) -> bool) {
+        loop {
+            let rest = &self.window[self.at..self.filled];
+            let Some(length) = line_end(rest) else { return };
+            let end = match &rest[length..] {
+                [b'\r', b'\n', ..] => 2,
+                // LF may follow
+                [b'\r'] => return,
+                _ => 1,
+            };
+            if !skip(&rest[..length]) {
+                return;
+            }
+            self.at += length + end;
+            self.line = self.line.saturating_add(1);
+        }
     }
 
     /// A block in Latin-1, of several lines or too long.

@@ -11,38 +11,34 @@ const EXACT_MAX: u64 = 1 << 53;
 ///
 /// `None` if there is no number, or one of so many digits that the short way is not exact.
 pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
-    let mut mantissa = 0_u64;
-    let mut i = 0;
-    while let Some(digit) = digit(bytes, i) {
-        mantissa = mantissa * 10 + digit;
-        i += 1;
-        if i > 17 {
-            return None;
-        }
+    let mut mantissa = 0;
+    let whole = digits(bytes, &mut mantissa);
+    let (mut decimals, mut length) = (0, whole);
+    if let Some([b'.', behind @ ..]) = bytes.get(whole..) {
+        decimals = digits(behind, &mut mantissa);
+        length += 1 + decimals;
     }
-    let mut digits = i;
-    let mut decimals = 0;
-    if bytes.get(i) == Some(&b'.') {
-        i += 1;
-        while let Some(digit) = digit(bytes, i) {
-            mantissa = mantissa * 10 + digit;
-            decimals += 1;
-            i += 1;
-            if decimals > 15 || digits + decimals > 17 {
-                return None;
-            }
-        }
-        digits += decimals;
-    }
-    if digits == 0 || mantissa > EXACT_MAX {
+    let count = whole + decimals;
+    if count == 0 || count > 17 || decimals >= POWERS.len() || mantissa > EXACT_MAX {
         return None;
     }
     // Both operands are exact, so the quotient is the correctly rounded value of the decimal.
-    Some((mantissa as f64 / POWERS[decimals], i))
+    Some((mantissa as f64 / POWERS[decimals], length))
 }
 
-fn digit(bytes: &[u8], i: usize) -> Option<u64> {
-    bytes.get(i).map(|b| b.wrapping_sub(b'0')).filter(|d| *d < 10).map(u64::from)
+/// Appends the digits at the beginning of `bytes` to a number and tells how many they are; from 20 digits on the number is
+/// not theirs.
+fn digits(bytes: &[u8], number: &mut u64) -> usize {
+    let mut count = 0;
+    for byte in bytes {
+        let digit = byte.wrapping_sub(b'0');
+        if digit > 9 {
+            break;
+        }
+        *number = number.wrapping_mul(10).wrapping_add(u64::from(digit));
+        count += 1;
+    }
+    count
 }
 
 /// Value of a text that the grammar knows to be a number; `None` if it is beyond the range of `f64`.

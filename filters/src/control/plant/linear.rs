@@ -108,8 +108,12 @@ impl LinearPlant {
         self.input[0] = input.speed_mm_s;
         self.input[1] = input.acc_mm_s2;
         self.input[2] = force_mm_s2;
-        self.next.gemv(1.0, &self.phi, &self.state, 0.0);
-        self.next.gemv(1.0, &self.gamma, &self.input, 1.0);
+        // plain loops: matrices this small are faster than the library's dispatch. A sum begins with -0, so that the
+        // first product is kept with its sign
+        self.next.fill(-0.0);
+        let next = self.next.as_mut_slice();
+        add_product(next, &self.phi, self.state.as_slice());
+        add_product(next, &self.gamma, self.input.as_slice());
         std::mem::swap(&mut self.state, &mut self.next);
         self.base_mm += self.state[0];
         self.state[0] = 0.0;
@@ -120,7 +124,7 @@ impl LinearPlant {
 
     /// A function of the state; no allocation.
     fn value(&self, row: &RowDVector<f64>) -> f64 {
-        row.iter().zip(self.state.iter()).map(|(c, s)| c * s).sum()
+        row.as_slice().iter().zip(self.state.as_slice()).map(|(c, s)| c * s).sum()
     }
 
     fn measured(&self) -> Measured {
@@ -134,6 +138,15 @@ impl LinearPlant {
             load_mm_s: of(load_v),
             tcp_mm: self.base_mm + of(tcp),
             tcp_mm_s: of(tcp_v),
+        }
+    }
+}
+
+/// Adds the product of a matrix and a vector, column by column.
+fn add_product(sum: &mut [f64], matrix: &DMatrix<f64>, vector: &[f64]) {
+    for (column, x) in matrix.as_slice().chunks_exact(sum.len()).zip(vector) {
+        for (sum, c) in sum.iter_mut().zip(column) {
+            *sum += c * x;
         }
     }
 }

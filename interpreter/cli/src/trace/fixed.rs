@@ -27,15 +27,27 @@ const EXACT_BELOW: f64 = 4_503_599_627_370_496.0;
 /// Zero has no sign. A value that is not finite leaves nothing: an empty cell reads as "not a number" everywhere and
 /// keeps the columns in place.
 pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u8) {
-    let Some(&power) = POWERS.get(usize::from(decimals)) else {
-        return push_slow(out, value, decimals);
-    };
-    let scale = power as f64;
+    // with the number of decimals known, divisions become multiplications and loops straight lines
+    match decimals {
+        0 => push::<0>(out, value),
+        1 => push::<1>(out, value),
+        2 => push::<2>(out, value),
+        3 => push::<3>(out, value),
+        4 => push::<4>(out, value),
+        5 => push::<5>(out, value),
+        6 => push::<6>(out, value),
+        7 => push::<7>(out, value),
+        _ => push_slow(out, value, decimals),
+    }
+}
+
+fn push<const DECIMALS: usize>(out: &mut Vec<u8>, value: f64) {
+    let scale = POWERS[DECIMALS] as f64;
     let product = value * scale;
     if product.abs() < EXACT_BELOW {
-        push_scaled(out, round_product(value, scale, product), usize::from(decimals), power);
+        push_scaled::<DECIMALS>(out, round_product(value, scale, product));
     } else if value.is_finite() {
-        push_slow(out, value, decimals);
+        push_slow(out, value, DECIMALS as u8);
     }
 }
 
@@ -56,14 +68,35 @@ fn round_product(value: f64, scale: f64, product: f64) -> i64 {
     if away { whole + if product < 0.0 { -1 } else { 1 } } else { whole }
 }
 
-/// Appends `scaled / 10^decimals`.
-fn push_scaled(out: &mut Vec<u8>, scaled: i64, decimals: usize, power: u64) {
+/// Room for the digits of a number, which end at [`END`], and as much again behind them.
+type Digits = [u8; 2 * END];
+
+/// Longest number: 20 digits of an integer, or 16 with sign and point.
+const END: usize = 24;
+
+/// Appends the digits from `at` to [`END`]. A copy of fixed length is a few instructions, one of any length a call.
+fn push_digits(out: &mut Vec<u8>, text: &Digits, at: usize) {
+    let length = out.len() + END - at;
+    out.extend_from_slice(&text[at..at + END]);
+    out.truncate(length);
+}
+
+/// Appends `scaled / 10^DECIMALS`.
+fn push_scaled<const DECIMALS: usize>(out: &mut Vec<u8>, scaled: i64) {
     let magnitude = scaled.unsigned_abs();
-    let mut text = [b'0'; 24];
-    let mut at = text.len();
-    let (whole, part) = (magnitude / power, magnitude % power);
-    if decimals > 0 {
-        at = put_digits(&mut text, at, part, decimals);
+    let (whole, mut part) = (magnitude / POWERS[DECIMALS], magnitude % POWERS[DECIMALS]);
+    let mut text: Digits = [b'0'; 2 * END];
+    let mut at = END;
+    for _ in 0..DECIMALS / 2 {
+        at -= 2;
+        text[at..at + 2].copy_from_slice(&PAIRS[(part % 100) as usize]);
+        part /= 100;
+    }
+    if DECIMALS % 2 == 1 {
+        at -= 1;
+        text[at] = b'0' + part as u8;
+    }
+    if DECIMALS > 0 {
         at -= 1;
         text[at] = b'.';
     }
@@ -72,12 +105,11 @@ fn push_scaled(out: &mut Vec<u8>, scaled: i64, decimals: usize, power: u64) {
         at -= 1;
         text[at] = b'-';
     }
-    out.extend_from_slice(&text[at..]);
+    push_digits(out, &text, at);
 }
 
-#[allow(clippy::cast_possible_truncation, reason = "digits")]
 /// Writes the digits of `n`, at least `width`, so that they end before `at`; gives back where they start.
-fn put_digits(text: &mut [u8; 24], mut at: usize, mut n: u64, width: usize) -> usize {
+fn put_digits(text: &mut Digits, mut at: usize, mut n: u64, width: usize) -> usize {
     let end = at;
     while n >= 10 {
         at -= 2;
@@ -102,18 +134,18 @@ fn push_slow(out: &mut Vec<u8>, value: f64, decimals: u8) {
 
 /// Appends an unsigned integer.
 pub fn push_integer(out: &mut Vec<u8>, n: u64) {
-    let mut text = [b'0'; 24];
-    let at = put_digits(&mut text, 24, n, 1);
-    out.extend_from_slice(&text[at..]);
+    let mut text: Digits = [b'0'; 2 * END];
+    let at = put_digits(&mut text, END, n, 1);
+    push_digits(out, &text, at);
 }
 
 /// Appends microseconds as seconds with six decimals, exactly.
 pub fn push_seconds(out: &mut Vec<u8>, micros: u64) {
     push_integer(out, micros / 1_000_000);
-    let mut text = [b'0'; 24];
-    let at = put_digits(&mut text, 24, micros % 1_000_000, 6);
+    let mut text: Digits = [b'0'; 2 * END];
+    let at = put_digits(&mut text, END, micros % 1_000_000, 6);
     out.push(b'.');
-    out.extend_from_slice(&text[at..]);
+    push_digits(out, &text, at);
 }
 
 #[cfg(test)]
