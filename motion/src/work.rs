@@ -88,7 +88,11 @@ mod tests {
                         feed_ratio: 1.0,
                         full_override: false,
                         end_velocity_mm_s: None,
-                        slope: Slope { kind, ..Slope::default() },
+                        slope: Slope {
+                            kind,
+                            optimised: kind == SlopeKind::Sin2,
+                            ..Slope::default()
+                        },
                         dynamics: Arc::clone(&dynamics),
                         tolerance: Tolerance::default(),
                         contour: None,
@@ -103,7 +107,7 @@ mod tests {
 
     #[test]
     fn many_short_blocks_cost_the_same_per_block_as_few() {
-        for kind in [SlopeKind::Step, SlopeKind::Trapez, SlopeKind::Hsc] {
+        for kind in [SlopeKind::Step, SlopeKind::Trapez, SlopeKind::Hsc, SlopeKind::Sin2] {
             let (few, many) = (cost(1_000, kind), cost(150_000, kind));
             println!("{kind:?}: {few:.2} and {many:.2} evaluations per block");
             assert!(many <= 1.15 * few, "{kind:?}: {many} after {few}");
