@@ -49,9 +49,7 @@ enum Phase {
     /// At rest until the condition is met.
     Waiting(Wait),
     /// Braking after a fault, until the axes have come to rest.
-    Stopping {
-        settled_cycles: u32,
-    },
+    Stopping(fault::Stopping),
     Done,
 }
 
@@ -229,11 +227,12 @@ impl Simulation {
                         break;
                     }
                 }
-                Phase::Stopping { settled_cycles } => {
-                    let resting = self.planner.brake_is_over()
-                        && self.chains[..self.vector.len()].iter().all(AxisChain::settled);
-                    *settled_cycles = if resting { *settled_cycles + 1 } else { 0 };
-                    if *settled_cycles > fault::CYCLES_AT_REST {
+                Phase::Stopping(stopping) => {
+                    let path = &self.chains[..self.vector.len()];
+                    let set_rests =
+                        self.planner.brake_is_over() && path.iter().all(AxisChain::settled);
+                    let axes_stand = path.iter().all(AxisChain::stands);
+                    if stopping.is_over(set_rests, axes_stand, self.cycle) {
                         self.phase = Phase::Done;
                         return None;
                     }
@@ -338,11 +337,21 @@ impl Simulation {
     }
 
     fn feedforward(&mut self, on: bool, weights: &[f64]) {
+        let mut changed = None;
         for (i, chain) in self.chains.iter().enumerate() {
             if let Driver::Path(p) = self.drivers[i] {
                 let weight = weights.get(p).copied().unwrap_or(1.0);
-                self.gains[i] = chain.feedforward_gain(on, weight);
+                let gain = chain.feedforward_gain(on, weight);
+                let jump = (gain - self.gains[i]) * self.record.axes[i].vel;
+                if jump.abs() > 0.0 && changed.is_none() {
+                    changed = Some((i, jump));
+                }
+                self.gains[i] = gain;
             }
+        }
+        if let Some((chain, jump_mm_s)) = changed {
+            let diagnostic = self.switched_moving(chain, jump_mm_s);
+            self.diagnostics.push(diagnostic);
         }
     }
 
@@ -468,7 +477,7 @@ impl Simulation {
     fn check_time(&mut self) {
         let k = self.planner.setpoint().k;
         let over =
-            k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping { .. });
+            k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping(_));
         if over {
             self.diagnostics.push(fault::out_of_time(k, self.cycle, self.max_cycles));
             self.totals.aborted = true;

@@ -1,7 +1,8 @@
 //! What goes wrong while the machine runs: messages and reactions.
 //!
 //! Reaction classes (TF5200 diagnosis manual): 1 a message; 4, 6, 7, 8 and 5 end the program - the axis concerned stops
-//! where it is (5, 6, 8) or with the others (4, 7), the others brake along the path with P-AXIS-00003.
+//! where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7), the others brake along the path with
+//! P-AXIS-00003. The run goes on until the axes themselves stand.
 
 use super::{Phase, Simulation};
 use crate::diag::{Diagnostic, ValueKind};
@@ -15,10 +16,36 @@ use kontur_motion::tolerance::Unkept;
 
 /// Cycles of standstill shown behind the stop of a fault.
 pub(super) const CYCLES_AT_REST: u32 = 5;
+/// Longest time behind the stop of the set positions that is waited for axes that do not come to rest.
+const LONGEST_COASTING_S: f64 = 2.0;
+
+/// How far the stop of a fault has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Stopping {
+    settled_cycles: u32,
+    coasting_cycles: u32,
+}
+
+impl Stopping {
+    /// One cycle: the set positions rest, the axes stand. True at the end of the run.
+    pub(super) fn is_over(&mut self, set_rests: bool, axes_stand: bool, cycle: CycleTime) -> bool {
+        self.coasting_cycles = if set_rests { self.coasting_cycles + 1 } else { 0 };
+        let longest = LONGEST_COASTING_S / cycle.seconds();
+        let rests = set_rests && (axes_stand || f64::from(self.coasting_cycles) > longest);
+        self.settled_cycles = if rests { self.settled_cycles + 1 } else { 0 };
+        self.settled_cycles > CYCLES_AT_REST
+    }
+}
 
 impl Simulation {
     /// A fault of one axis: message, and from class 4 on the end of the run.
     pub(super) fn fault(&mut self, chain: usize, fault: &Fault) {
+        // the abrupt end of a set position is what a reaction asked for
+        let of_set_position =
+            matches!(fault, Fault::SetpointWarning { .. } | Fault::SetpointError { .. });
+        if self.frozen[chain].is_some() && of_set_position {
+            return;
+        }
         let diagnostic = self.describe(chain, fault);
         self.diagnostics.push(diagnostic);
         let reaction = fault.reaction();
@@ -35,10 +62,31 @@ impl Simulation {
             let here = self.record.axes[i].ipo;
             self.frozen[i].get_or_insert(here);
         }
-        if !matches!(self.phase, Phase::Stopping { .. }) {
-            self.planner.brake();
-            self.phase = Phase::Stopping { settled_cycles: 0 };
+        if reaction == Reaction::OpenLoopStop {
+            self.chains[chain].open_loop();
         }
+        if !matches!(self.phase, Phase::Stopping(_)) {
+            self.planner.brake();
+            self.phase = Phase::Stopping(Stopping::default());
+        }
+    }
+
+    /// Feedforward of a moving axis was switched or weighted (K-0022): its share of the speed command steps.
+    pub(super) fn switched_moving(&self, chain: usize, jump_mm_s: f64) -> Diagnostic {
+        let axis = self.machine.all_axes().nth(chain);
+        let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
+        let text = format!(
+            "feedforward of axis {name} steps by {:.3} mm/s: it was switched or weighted in motion",
+            jump_mm_s.abs()
+        );
+        let mut diagnostic = Diagnostic::kontur(22, text)
+            .value(ValueKind::Current, jump_mm_s, "mm/s")
+            .axis(number, name)
+            .hint("write G135, G136 or G137 at standstill, or G60 in the block before");
+        diagnostic.cycle = Some(self.record.k);
+        diagnostic.time_s = Some(self.cycle.time_of(self.record.k));
+        diagnostic.source = self.locate(self.current);
+        diagnostic
     }
 
     fn describe(&self, chain: usize, fault: &Fault) -> Diagnostic {
