@@ -337,13 +337,15 @@ impl Simulation {
     }
 
     fn feedforward(&mut self, on: bool, weights: &[f64]) {
+        // behind an exact stop nothing steps
+        let moving = self.record.path.v_mm_s > 1e-9;
         let mut changed = None;
         for (i, chain) in self.chains.iter().enumerate() {
             if let Driver::Path(p) = self.drivers[i] {
                 let weight = weights.get(p).copied().unwrap_or(1.0);
                 let gain = chain.feedforward_gain(on, weight);
                 let jump = (gain - self.gains[i]) * self.record.axes[i].vel;
-                if jump.abs() > 0.0 && changed.is_none() {
+                if moving && jump.abs() > 0.0 && changed.is_none() {
                     changed = Some((i, jump));
                 }
                 self.gains[i] = gain;

@@ -215,11 +215,11 @@ fn figures_of_the_sample_program() {
         settings.extend(more.iter().map(|s| format!("X.vorsteuer.{s}")));
         let run = run(&text, &settings.iter().map(String::as_str).collect::<Vec<_>>());
         assert!(!run.totals.aborted, "{:?}", run.diagnostics);
-        // N50 goes back to 0 under G135: the lag in the direction of travel, until the buffer is empty behind it
+        // N50 goes back to 0 under G135, with the dwell behind it: the lag in the direction of travel
         let of = |r: &&kontur_interpreter::record::CycleRecord| r.block == Some(50);
         let first = run.records.iter().position(|r| of(&r)).unwrap();
         let last = run.records.iter().rposition(|r| of(&r)).unwrap();
-        let lag: Vec<f64> = run.records[first..last + 150].iter().map(|r| -r.axes[0].lag).collect();
+        let lag: Vec<f64> = run.records[first..=last].iter().map(|r| -r.axes[0].lag).collect();
         let plateau = lag[(last - first) / 2];
         let most = lag.iter().copied().fold(f64::MIN, f64::max);
         let least = lag.iter().copied().fold(f64::MAX, f64::min);

@@ -178,9 +178,13 @@ fn drawn(name: &str) -> Vec<Curve> {
         if curves.last().is_none_or(|(last, _)| *last != curve) {
             curves.push((curve, Vec::new()));
         }
+        let number = |cell: &str| match cell {
+            "finished" => Some(1.0),
+            "aborted" => Some(0.0),
+            _ => cell.parse().ok(),
+        };
         let cells = names.iter().zip(&record);
-        let row =
-            cells.filter_map(|(name, cell)| Some((name.clone(), cell.parse().ok()?))).collect();
+        let row = cells.filter_map(|(name, cell)| Some((name.clone(), number(cell)?))).collect();
         curves.last_mut().unwrap().1.push(row);
     }
     curves.into_iter().map(|(_, curve)| curve).collect()
@@ -210,7 +214,8 @@ fn lag_without_and_with_feedforward() {
         near(column(curve, "X_lag_mm")[500], want, 1e-3);
     }
     let lowest = |curve: &Curve| column(curve, "X_act_mm").into_iter().fold(f64::MAX, f64::min);
-    assert!(lowest(&weights[2]) < -0.1 && lowest(&weights[0]) > -0.01, "{}", lowest(&weights[2]));
+    let beyond: Vec<f64> = weights.iter().map(|c| -lowest(c)).collect();
+    assert!(beyond[0] < 0.1 && beyond[1] < 0.3 && beyond[2] > 0.3, "past the target: {beyond:?}");
 }
 
 /// Conformance: I029, I030, I031.
@@ -238,8 +243,8 @@ fn spectra_of_improved_position_control() {
 fn weights_of_improved_position_control() {
     let key = "X.lr_param.improved_position_control.stage";
     for (name, stage, signal, least, of_best) in [
-        ("ipc_weight_direct", 0, "X_tcp_acc_mm_s2@50..56@0.756..1.934", 305.0, 8.0..=12.0),
-        ("ipc_weight_indirect", 1, "X_tcp_acc_mm_s2@9.5..12.5@2.09..3.09", 259.0, 4.0..=4.0),
+        ("ipc_weight_direct", 0, "X_tcp_acc_mm_s2@50..56@0.761..1.939", 305.0, 8.0..=12.0),
+        ("ipc_weight_indirect", 1, "X_tcp_acc_mm_s2@9.5..12.5@2.095..3.095", 259.0, 4.0..=4.0),
     ] {
         let rows = drawn(name).swap_remove(0);
         let best = rows.iter().min_by(|a, b| a[signal].total_cmp(&b[signal])).unwrap();
@@ -250,7 +255,7 @@ fn weights_of_improved_position_control() {
         assert!(first[signal] > best[signal] && last[signal] > best[signal], "{name}");
     }
     let modes = drawn("ipc_modes").swap_remove(0);
-    let amplitude = |mode: usize| modes[mode]["X_tcp_acc_mm_s2@9.5..12.5@2.09..3.09"];
+    let amplitude = |mode: usize| modes[mode]["X_tcp_acc_mm_s2@9.5..12.5@2.095..3.095"];
     near(amplitude(0), 520.0, 8.0);
     near(amplitude(3), 63.0, 8.0);
     assert!(amplitude(3) < amplitude(2) && amplitude(3) < amplitude(1));
@@ -265,8 +270,7 @@ fn a_higher_kv_by_improved_position_control() {
         let runs = rows.iter().filter(|r| {
             (r["X.lr_param.improved_position_control.enable"] - enable).abs() <= 0.0
         });
-        // an aborted run has the lag at its end: far beyond that of one that finished
-        let stable = runs.filter(|r| r["X_lag_max_mm"] < 5.0);
+        let stable = runs.filter(|r| r["state"] > 0.5);
         stable.map(|r| r["X.getriebe[0].kv"] / 100.0).fold(0.0, f64::max)
     };
     near(largest(0.0), 299.0, 11.0);

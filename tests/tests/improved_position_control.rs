@@ -22,6 +22,9 @@ fn an_unstable_axis_ends_the_run() {
     let run = on("rack_and_pinion", &settings, program);
     assert!(run.totals.aborted, "{:?}", run.diagnostics);
     assert!(run.diagnostics.iter().any(|d| d.is_error()), "{:?}", run.diagnostics);
+    let mut ids: Vec<_> = run.diagnostics.iter().map(|d| d.id).collect();
+    ids.dedup();
+    assert_eq!(ids.len(), run.diagnostics.len(), "each error once: {:?}", run.diagnostics);
     assert!(run.records.len() < 20_000, "stopped, not run to the end: {}", run.records.len());
     for r in &run.records {
         let a = &r.axes[0];
@@ -115,7 +118,7 @@ fn the_sample_program_of_the_manuals_example() {
         let setting = format!("X.lr_param.improved_position_control.enable={enable}");
         let run = on("rack_and_pinion", &[setting], &text);
         assert!(!run.totals.aborted && run.diagnostics.is_empty(), "{:?}", run.diagnostics);
-        [amplitude(&run, 756..1934, 53.0, 3.0), amplitude(&run, 2090..3090, 11.0, 1.5)]
+        [amplitude(&run, 761..1939, 53.0, 3.0), amplitude(&run, 2095..3095, 11.0, 1.5)]
     };
     let (off, on) = (shown(0), shown(1));
     for (is, want) in off.iter().chain(&on).zip([810.0, 520.0, 365.0, 270.0]) {

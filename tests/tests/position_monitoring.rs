@@ -141,11 +141,13 @@ fn following_error_of_type_4() {
     let frozen = run.records[at].axes[0].ipo;
     let stopping = &run.records[at + 1..];
     assert!(stopping.iter().all(|r| (r.axes[0].set - frozen).abs() <= 0.0 && r.axes[0].cmd.abs() <= 0.0));
-    // v' = -v / Ta from the speed it had: Ta v is all that it still moves
-    let act = |k: usize| run.records[k].axes[0].act;
-    let speed = (act(at + 1) - act(at)) / run.cycle_s;
-    let end = run.records.last().unwrap().axes[0].act;
-    assert!(end - act(at + 1) < 0.005 * speed + 1e-6, "{} beyond", end - act(at + 1));
+    // v' = -v / Ta: each step is exp(-T / Ta) of the one before
+    let act: Vec<f64> = run.records[at + 1..].iter().map(|r| r.axes[0].act).collect();
+    let steps: Vec<f64> = act.windows(2).map(|w| w[1] - w[0]).collect();
+    for w in steps.windows(2) {
+        assert!((w[1] - w[0] * libm::exp(-1.0 / 5.0)).abs() < 1e-12, "{w:?}");
+    }
+    assert!(steps[0] > 1e-3 && *steps.last().unwrap() < 1e-4, "until it stands");
     // Y: braking with the limits of the path, not frozen
     let y: Vec<f64> = stopping.iter().map(|r| r.axes[1].set).collect();
     assert!(y[0] > run.records[at].axes[1].set && y.windows(2).all(|w| w[1] >= w[0]));
@@ -163,7 +165,8 @@ fn following_error_of_type_2() {
         let (run, at) = lag_monitor(2, &["slep_max=500", "slep_min=20000", &dynamics]);
         at.map(|at| (run.records[at].path.a_mm_s2, at))
     };
-    let (a, plain) = at(0).unwrap();
+    // a hundredth of room: at constant speed the lag is v / Kv itself
+    let (a, plain) = at(10).unwrap();
     assert!(a < 0.0, "it brakes: {a}");
     let (_, doubled) = at(512).unwrap();
     assert!(doubled > plain, "{doubled} {plain}");
@@ -173,33 +176,33 @@ fn following_error_of_type_2() {
 /// Type 1: s = q (s + |dx|) with q = slep_dyn / 1024 over the commanded movement, between slep_min and slep_max.
 #[test]
 fn following_error_of_type_1() {
-    let (run, at) = lag_monitor(1, &["slep_max=100000", "slep_min=500", "slep_dyn=900"]);
+    let (run, at) = lag_monitor(1, &["slep_max=100000", "slep_min=2000", "slep_dyn=900"]);
     let reference = run.axis(0, |a| a.reference);
     let q = 900.0 / 1024.0;
     let mut s = 0.0;
     let first = (1..run.records.len()).find(|&k| {
         s = q * (s + (reference[k] - reference[k - 1]).abs());
-        run.records[k].axes[0].lag.abs() > s.clamp(0.05, 10.0)
+        run.records[k].axes[0].lag.abs() > s.clamp(0.2, 10.0)
     });
     assert_eq!(at, first);
     assert!(at.is_some());
     // 1000 permits q / (1 - q) = 41.7 times the movement of a cycle: 4.2 mm at 100 mm/s
-    assert_eq!(lag_monitor(1, &["slep_max=100000", "slep_min=500", "slep_dyn=1000"]).1, None);
+    assert_eq!(lag_monitor(1, &["slep_max=100000", "slep_min=2000", "slep_dyn=1000"]).1, None);
 }
 
-/// Feedforward of 120 % commands 120 mm/s more than P-AXIS-00407 leaves above the axis' maximum: the limit is output, the
-/// axis brakes under control (class 7).
+/// Feedforward of 120 % commands more at the end of the ramp than P-AXIS-00407 leaves above the axis' maximum: the limit
+/// is output, the axis brakes under control (class 7).
 #[test]
 fn speed_command_above_its_limit() {
     let run = run(
-        "%P\nG135\nG90 G00 X400 Y100\nM30\n",
-        &["X.vorsteuer.vs_v_faktor=12", "X.vorsteuer.vs_v_nenner=10", "X.lr_param.dyn_monitoring_v_err=50"],
+        "%P\nG135\nG90 G00 X450 Y100\nM30\n",
+        &["X.vorsteuer.vs_v_faktor=12", "X.vorsteuer.vs_v_nenner=10", "X.lr_param.dyn_monitoring_v_err=1"],
     );
     assert_eq!(run.ids(), [70382], "{:?}", run.diagnostics);
     assert!(run.totals.aborted);
-    let limit = 1000.0 * 1.05;
+    let limit = 1000.0 * 1.001;
     assert!(run.axis(0, |a| a.cmd).iter().all(|v| v.abs() <= limit + 1e-9));
     // under control: braking along the path, no step
     assert!(run.axis(0, |a| a.acc).iter().all(|a| a.abs() < 6000.0 * 1.001));
-    assert!(run.records.last().unwrap().axes[0].ipo < 400.0);
+    assert!(run.records.last().unwrap().axes[0].ipo < 450.0);
 }

@@ -39,7 +39,7 @@ pub fn report(
     }
     let draw = drawer(&output)?;
     let mut runs: Vec<(Recording, Summary)> = Vec::new();
-    for (label, request) in requests(args)? {
+    for (program, values, request) in requests(args)? {
         let form = args.simulation.diagnostics;
         let mut source = engine
             .open(&request)
@@ -52,15 +52,16 @@ pub fn report(
         })?;
         let summary = summary.finish(&source.totals());
         // runs of one program are told apart by what they vary
-        runs.push((recording, Summary { program: label, ..summary }));
+        let program = if values.is_empty() { program } else { format!("{program}, {values}") };
+        runs.push((recording, Summary { program, ..summary }));
     }
     std::fs::write(&output, draw(&runs)).map_err(|e| Error::io(output.display().to_string(), e))?;
     let aborted = runs.iter().any(|(_, s)| s.state == State::Aborted);
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
 }
 
-/// What is to be run, and under which name it is shown: every program under every combination of `--vary`.
-fn requests(args: &ReportArgs) -> Result<Vec<(String, Request)>, Error> {
+/// Every program under every combination of `--vary`: the program, the values, and what is to be run.
+fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request)>, Error> {
     let combinations = combinations(&args.vary)?;
     let mut all = Vec::new();
     for program in &args.programs {
@@ -69,9 +70,8 @@ fn requests(args: &ReportArgs) -> Result<Vec<(String, Request)>, Error> {
             request.settings.extend(settings(&args.vary, combination));
             let names = args.vary.iter().zip(combination);
             let values = names.map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
-            let label: Vec<String> =
-                std::iter::once(program.display().to_string()).chain(values).collect();
-            all.push((label.join(", "), request));
+            let values = values.collect::<Vec<_>>().join(", ");
+            all.push((program.display().to_string(), values, request));
         }
     }
     Ok(all)

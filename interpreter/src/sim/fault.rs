@@ -20,13 +20,24 @@ pub(super) const CYCLES_AT_REST: u32 = 5;
 const LONGEST_COASTING_S: f64 = 2.0;
 
 /// How far the stop of a fault has come.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Stopping {
     settled_cycles: u32,
     coasting_cycles: u32,
+    /// What was told already: an axis that swings meets its limits again and again.
+    told: Vec<(usize, ErrorId)>,
 }
 
 impl Stopping {
+    /// The axis has not said this since the stop began.
+    fn is_new(&mut self, chain: usize, id: ErrorId) -> bool {
+        let new = !self.told.contains(&(chain, id));
+        if new {
+            self.told.push((chain, id));
+        }
+        new
+    }
+
     /// One cycle: the set positions rest, the axes stand. True at the end of the run.
     pub(super) fn is_over(&mut self, set_rests: bool, axes_stand: bool, cycle: CycleTime) -> bool {
         self.coasting_cycles = if set_rests { self.coasting_cycles + 1 } else { 0 };
@@ -44,6 +55,11 @@ impl Simulation {
         let of_set_position =
             matches!(fault, Fault::SetpointWarning { .. } | Fault::SetpointError { .. });
         if self.frozen[chain].is_some() && of_set_position {
+            return;
+        }
+        if let Phase::Stopping(stopping) = &mut self.phase
+            && !stopping.is_new(chain, fault.id())
+        {
             return;
         }
         let diagnostic = self.describe(chain, fault);
@@ -67,7 +83,8 @@ impl Simulation {
         }
         if !matches!(self.phase, Phase::Stopping(_)) {
             self.planner.brake();
-            self.phase = Phase::Stopping(Stopping::default());
+            let told = vec![(chain, fault.id())];
+            self.phase = Phase::Stopping(Stopping { told, ..Stopping::default() });
         }
     }
 
@@ -117,7 +134,8 @@ impl Simulation {
             ))
             .value(ValueKind::Current, speed_mm_s, "mm/s")
             .value(ValueKind::Limit, limit_mm_s, "mm/s")
-            .parameter("P-AXIS-00407"),
+            .parameter("P-AXIS-00407")
+            .hint("an axis that swings up: lower the gain kv or the weights of Improved Position Control"),
             Fault::SetpointWarning { what, value, limit } => {
                 let (quantity, unit, parameter, _) = watched(what);
                 base(format!("{quantity} of the set position {value:.3} {unit} exceeds {limit:.3} {unit}, axis {name}"))

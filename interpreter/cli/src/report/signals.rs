@@ -45,7 +45,13 @@ pub(super) fn report(
     }
     let form = args.simulation.diagnostics;
     let (mut runs, mut aborted) = (Vec::new(), false);
-    for (label, request) in requests(args)? {
+    for (program, values, request) in requests(args)? {
+        // the headline names a single program
+        let label = match (args.programs.len(), values.is_empty()) {
+            (_, true) => program,
+            (1, false) => values,
+            (_, false) => format!("{program}, {values}"),
+        };
         let mut source =
             engine.open(&request).map_err(|e| crate::run::announce_lists(e, form, console))?;
         let mut summary = Collector::new(source.facts());
@@ -78,6 +84,9 @@ impl Recorded {
         let mut columns = select(names, facts).map_err(Error::Usage)?;
         // time, line, block and words are no curves
         columns.retain(|c| c.group != "time" && c.decimals > 0);
+        // in the order in which they were asked for
+        let words: Vec<&str> = names.split(',').map(str::trim).collect();
+        columns.sort_by_key(|c| words.iter().position(|w| *w == c.name || *w == c.group));
         if columns.is_empty() || columns.len() > MOST_SIGNALS {
             let text = format!("--signals: {} columns, 1 to {MOST_SIGNALS} are drawn", columns.len());
             return Err(Error::Usage(text));

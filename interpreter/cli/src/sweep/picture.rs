@@ -61,7 +61,10 @@ pub(super) fn draw(
         }
         name
     });
-    let legend = legend.collect();
+    let mut legend: Vec<String> = legend.collect();
+    if legend.iter().all(String::is_empty) {
+        legend.clear();
+    }
     let shown = |name: &&String| {
         if args.columns.is_empty() {
             USUAL.contains(&name.as_str()) || args.amplitude.iter().any(|a| a.text == **name)
