@@ -478,8 +478,7 @@ impl Simulation {
 
     fn check_time(&mut self) {
         let k = self.planner.setpoint().k;
-        let over =
-            k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping(_));
+        let over = k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping(_));
         if over {
             self.diagnostics.push(fault::out_of_time(k, self.cycle, self.max_cycles));
             self.totals.aborted = true;

@@ -389,7 +389,8 @@ fn additive_speed_and_the_place_of_the_loop() {
     }
     // simulated and analogue drives take speed commands only
     for drive in [1, 4, 6] {
-        let settings = format!("X.kenngr.antr_typ={drive} X.antr.operation_mode=DRIVE_POSITION_CONTROL");
+        let settings =
+            format!("X.kenngr.antr_typ={drive} X.antr.operation_mode=DRIVE_POSITION_CONTROL");
         assert_eq!(ids(&stage(&settings)), [""; 0], "{settings}");
     }
 }

@@ -187,9 +187,13 @@ fn the_sample_program_of_the_spindles() {
     let run = run_on(sample_machine("two_spindles", &[]), &text);
     assert!(!run.totals.aborted && run.diagnostics.is_empty(), "{:?}", run.diagnostics);
     // ten cycles before each change
-    for (k, s, s2) in
-        [(990, 120.0, 120.0), (1490, 0.0, 120.0), (1990, 0.0, 12.0), (2490, 24.0, 12.0), (2990, 120.0, 120.0)]
-    {
+    for (k, s, s2) in [
+        (990, 120.0, 120.0),
+        (1490, 0.0, 120.0),
+        (1990, 0.0, 12.0),
+        (2490, 24.0, 12.0),
+        (2990, 120.0, 120.0),
+    ] {
         let lag = |axis: usize| run.records[k].axes[axis].lag;
         assert!((lag(3) - s).abs() < 1e-6, "S in cycle {k}: {}", lag(3));
         assert!((lag(4) - s2).abs() < 1e-6, "S2 in cycle {k}: {}", lag(4));

@@ -200,7 +200,8 @@ fn column(curve: &Curve, name: &str) -> Vec<f64> {
 fn lag_without_and_with_feedforward() {
     let curves = drawn("lag");
     assert_eq!(curves.len(), 3);
-    let most = |curve: &Curve| column(curve, "X_lag_mm").iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let most =
+        |curve: &Curve| column(curve, "X_lag_mm").iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     near(most(&curves[0]), 2.0, 1e-3);
     // a ramp of 30 ms up to 3.4 m/s2 and down again: less than the a Ta / Kv = 0.34 mm of a long one
     let peak = most(&curves[1]);
@@ -234,7 +235,11 @@ fn spectra_of_improved_position_control() {
     }
     let over_time = drawn("ipc");
     assert!(column(&over_time[0], "X_vadd_mm_s").iter().all(|v| v.abs() <= 0.0));
-    near(column(&over_time[1], "X_vadd_mm_s").into_iter().fold(0.0, |m: f64, v| m.max(v.abs())), 10.3, 0.1);
+    near(
+        column(&over_time[1], "X_vadd_mm_s").into_iter().fold(0.0, |m: f64, v| m.max(v.abs())),
+        10.3,
+        0.1,
+    );
 }
 
 /// Raise the weight: better, then worse again; the least lies inside, where the table of the experiment has it.
@@ -267,9 +272,9 @@ fn weights_of_improved_position_control() {
 fn a_higher_kv_by_improved_position_control() {
     let rows = drawn("ipc_kv").swap_remove(0);
     let largest = |enable: f64| {
-        let runs = rows.iter().filter(|r| {
-            (r["X.lr_param.improved_position_control.enable"] - enable).abs() <= 0.0
-        });
+        let runs = rows
+            .iter()
+            .filter(|r| (r["X.lr_param.improved_position_control.enable"] - enable).abs() <= 0.0);
         let stable = runs.filter(|r| r["state"] > 0.5);
         stable.map(|r| r["X.getriebe[0].kv"] / 100.0).fold(0.0, f64::max)
     };

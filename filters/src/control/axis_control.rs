@@ -318,8 +318,7 @@ impl AxisControl {
         let position = &self.config.position;
         let reference_step_mm = self.buffer.reference_step_mm();
         let kv = position.gain_at(reference_step_mm / cycle_s);
-        let error_mm =
-            position.error_mm(reference_mm - actual_mm, reference_step_mm.abs() <= 0.0);
+        let error_mm = position.error_mm(reference_mm - actual_mm, reference_step_mm.abs() <= 0.0);
         let mut feedforward = self.feedforward.step(&self.buffer.window(), kv);
         let mut wanted = kv * error_mm + feedforward.speed_mm_s;
         let mut additive = self.ipc.step(&IpcInput {

@@ -114,11 +114,8 @@ pub trait Engine: Sync {
     ///
     /// # Errors
     /// [`OpenError`] if options, lists or files are wrong.
-    fn check(
-        &self,
-        request: &Request,
-        report: &mut dyn FnMut(Diagnostic),
-    ) -> Result<(), OpenError>;
+    fn check(&self, request: &Request, report: &mut dyn FnMut(Diagnostic))
+    -> Result<(), OpenError>;
 
     /// Meaning, range, default and example of an ID, a parameter or a command.
     ///

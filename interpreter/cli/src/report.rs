@@ -41,9 +41,8 @@ pub fn report(
     let mut runs: Vec<(Recording, Summary)> = Vec::new();
     for (program, values, request) in requests(args)? {
         let form = args.simulation.diagnostics;
-        let mut source = engine
-            .open(&request)
-            .map_err(|e| crate::run::announce_lists(e, form, console))?;
+        let mut source =
+            engine.open(&request).map_err(|e| crate::run::announce_lists(e, form, console))?;
         let mut summary = Collector::new(source.facts());
         let mut recording = Recording::new(source.facts());
         crate::run::drive(source.as_mut(), console, form, &mut summary, &mut |record| {

@@ -20,9 +20,8 @@ impl Spectrum {
     pub(crate) fn of(samples: &[f64], cycle_s: f64) -> Self {
         let n = samples.len().max(1);
         let mean = samples.iter().sum::<f64>() / n as f64;
-        let window = |i: usize| {
-            0.5 - 0.5 * libm::cos(std::f64::consts::TAU * (i as f64 + 0.5) / n as f64)
-        };
+        let window =
+            |i: usize| 0.5 - 0.5 * libm::cos(std::f64::consts::TAU * (i as f64 + 0.5) / n as f64);
         let length = (PADDING * n).next_power_of_two();
         let mut padded: Vec<f64> =
             samples.iter().enumerate().map(|(i, x)| (x - mean) * window(i)).collect();
@@ -56,9 +55,8 @@ mod tests {
 
     #[test]
     fn sines_keep_their_amplitudes() {
-        let wave = |f_hz: f64, k: u32| {
-            libm::sin(std::f64::consts::TAU * f_hz * 1e-3 * f64::from(k))
-        };
+        let wave =
+            |f_hz: f64, k: u32| libm::sin(std::f64::consts::TAU * f_hz * 1e-3 * f64::from(k));
         let samples: Vec<f64> =
             (0..1178).map(|k| 4.0 + 0.81 * wave(53.1, k) + 0.02 * wave(11.0, k)).collect();
         let spectrum = Spectrum::of(&samples, 1e-3);

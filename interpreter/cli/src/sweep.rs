@@ -167,7 +167,8 @@ fn one(args: &SweepArgs, request: &Request, engine: &dyn Engine) -> Result<Outco
     messages.extend(source.take_diagnostics());
     messages.iter().for_each(|m| summary.message(m));
     let amplitudes = wanted.iter().map(|(amplitude, _, samples)| {
-        let whole = amplitude.window_s.is_none_or(|(_, end)| summary.cycles() as f64 * cycle_s > end);
+        let whole =
+            amplitude.window_s.is_none_or(|(_, end)| summary.cycles() as f64 * cycle_s > end);
         let peak = Spectrum::of(samples, cycle_s).peak(amplitude.band_hz).filter(|_| whole);
         peak.map_or(f64::NAN, |p| p[1])
     });

@@ -21,7 +21,9 @@ impl FromStr for Vary {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (key, list) = text.split_once('=').ok_or("KEY=VALUES expected, e.g. X.getriebe[0].kv=1000..5000:500")?;
+        let (key, list) = text
+            .split_once('=')
+            .ok_or("KEY=VALUES expected, e.g. X.getriebe[0].kv=1000..5000:500")?;
         let mut values = Vec::new();
         for part in list.split(',') {
             if part.contains("..") {

@@ -450,8 +450,16 @@ fn sweep_has_a_row_for_every_combination() {
         // what `run` says of the same settings
         let settings = [0, 1].map(|i| format!("{}={}", &header[i], &row[i]));
         let (_, out, _) = f.call(&[
-            "run", "@corner.nc", "--summary", "json", "--set", "X.vib_guard.active=1", "--set",
-            &settings[0], "--set", &settings[1],
+            "run",
+            "@corner.nc",
+            "--summary",
+            "json",
+            "--set",
+            "X.vib_guard.active=1",
+            "--set",
+            &settings[0],
+            "--set",
+            &settings[1],
         ]);
         let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
         let number = |name: &str| cell(row, name).parse::<f64>().unwrap();
@@ -503,8 +511,18 @@ fn sweep_of_aborted_runs_and_wrong_words() {
 fn report_draws_signals_and_variants() {
     let f = Folder::new();
     let words = |name: &'static str| {
-        ["report", "@corner.nc", "--vary", "X.vib_guard.mode=1,4", "--signals", "X_set_mm,X_vel_mm_s",
-         "--window", "0.01..0.05", "-o", name]
+        [
+            "report",
+            "@corner.nc",
+            "--vary",
+            "X.vib_guard.mode=1,4",
+            "--signals",
+            "X_set_mm,X_vel_mm_s",
+            "--window",
+            "0.01..0.05",
+            "-o",
+            name,
+        ]
     };
     assert_eq!(f.call(&words("@a.svg")).0, Exit::Finished);
     let picture = f.read("a.svg");

@@ -62,7 +62,8 @@ pub(super) fn report(
                 return Ok(());
             }
             if run.times.len() >= MOST_SAMPLES {
-                let text = format!("--signals: more than {MOST_SAMPLES} cycles; --window shows a part");
+                let text =
+                    format!("--signals: more than {MOST_SAMPLES} cycles; --window shows a part");
                 return Err(Error::Usage(text));
             }
             run.times.push(t_s);
@@ -88,7 +89,8 @@ impl Recorded {
         let words: Vec<&str> = names.split(',').map(str::trim).collect();
         columns.sort_by_key(|c| words.iter().position(|w| *w == c.name || *w == c.group));
         if columns.is_empty() || columns.len() > MOST_SIGNALS {
-            let text = format!("--signals: {} columns, 1 to {MOST_SIGNALS} are drawn", columns.len());
+            let text =
+                format!("--signals: {} columns, 1 to {MOST_SIGNALS} are drawn", columns.len());
             return Err(Error::Usage(text));
         }
         Ok(Self {
@@ -119,17 +121,23 @@ fn plot(args: &ReportArgs, runs: &[Recorded]) -> Plot {
         );
         panels.push(panel(&column.name, "time in s", time, runs, over_time));
         if let Some(band) = args.spectrum {
-            let over_frequency = |r: &Recorded| {
-                (i < r.samples.len()).then(|| r.spectrum(i).lines(band).collect())
-            };
+            let over_frequency =
+                |r: &Recorded| (i < r.samples.len()).then(|| r.spectrum(i).lines(band).collect());
             let title = format!("Amplitude of {}", column.name);
             panels.push(panel(&title, "frequency in Hz", band, runs, over_frequency));
         }
     }
     let few = args.spectrum.is_none() && panels.len() > 3;
     Plot {
-        title: args.programs.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join("  \u{b7}  "),
-        subtitle: args.window.map_or_else(String::new, |(from, to)| format!("from {from} s to {to} s")),
+        title: args
+            .programs
+            .iter()
+            .map(|p| p.display().to_string())
+            .collect::<Vec<_>>()
+            .join("  \u{b7}  "),
+        subtitle: args
+            .window
+            .map_or_else(String::new, |(from, to)| format!("from {from} s to {to} s")),
         legend: runs.iter().map(|r| r.label.clone()).collect(),
         columns: if few { 2 } else { 1 },
         row_height: 300.0,

@@ -71,7 +71,9 @@ impl FromStr for Amplitude {
         let (signal, band) = (parts.next().unwrap_or_default(), parts.next().unwrap_or_default());
         let window_s = parts.next().map(span).transpose()?;
         if signal.is_empty() || band.is_empty() || parts.next().is_some() {
-            return Err(format!("`{text}`: X_tcp_acc_mm_s2@50..56 or X_tcp_acc_mm_s2@50..56@1..2 expected"));
+            return Err(format!(
+                "`{text}`: X_tcp_acc_mm_s2@50..56 or X_tcp_acc_mm_s2@50..56@1..2 expected"
+            ));
         }
         Ok(Self {
             text: text.to_owned(),
@@ -95,7 +97,11 @@ impl Amplitude {
         found.ok_or_else(|| {
             let names: Vec<&str> =
                 columns.iter().filter(|c| is_number(c)).map(|c| c.name.as_str()).collect();
-            format!("--amplitude: `{}` is no column with numbers; they are {}", self.signal, names.join(", "))
+            format!(
+                "--amplitude: `{}` is no column with numbers; they are {}",
+                self.signal,
+                names.join(", ")
+            )
         })
     }
 }
@@ -130,7 +136,8 @@ mod tests {
         assert!(!a.holds(0.6999) && a.holds(0.7) && a.holds(1.8999) && !a.holds(1.9));
         let whole: Amplitude = "X_lag_mm@0..5".parse().unwrap();
         assert!(whole.holds(0.0) && whole.holds(1e6));
-        for wrong in ["X_lag_mm", "X_lag_mm@50", "@1..2", "X@2..1", "X@1..2@3", "X@1..2@3..4@5..6"] {
+        for wrong in ["X_lag_mm", "X_lag_mm@50", "@1..2", "X@2..1", "X@1..2@3", "X@1..2@3..4@5..6"]
+        {
             assert!(wrong.parse::<Amplitude>().is_err(), "{wrong}");
         }
     }

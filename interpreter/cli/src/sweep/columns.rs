@@ -58,8 +58,10 @@ pub(super) fn rows(
     outcomes: &[Outcome],
 ) -> Result<Rows, Error> {
     let results: Vec<Vec<(String, Cell)>> = outcomes.iter().map(|o| results(args, o)).collect();
-    let names: Vec<&String> =
-        results.first().map(|first| first.iter().map(|(name, _)| name).collect()).unwrap_or_default();
+    let names: Vec<&String> = results
+        .first()
+        .map(|first| first.iter().map(|(name, _)| name).collect())
+        .unwrap_or_default();
     if let Some(unknown) = args.columns.iter().find(|wanted| !names.contains(wanted)) {
         let known: Vec<&str> = names.iter().map(|n| n.as_str()).collect();
         let text = format!("--columns: `{unknown}` is no result; they are {}", known.join(", "));

@@ -36,8 +36,8 @@ pub(super) fn write(path: &Path, rows: &Rows) -> io::Result<()> {
     }
     let schema = Type::group_type_builder("sweep").with_fields(fields).build().map_err(to_io)?;
     let file = File::create(path)?;
-    let mut writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties))
-        .map_err(to_io)?;
+    let mut writer =
+        SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties)).map_err(to_io)?;
     let mut group = writer.next_row_group().map_err(to_io)?;
     for i in 0..rows.header.len() {
         let missing = || io::Error::other("fewer columns than the schema");
@@ -79,7 +79,11 @@ mod tests {
             header: ["X.a", "state", "t"].map(str::to_owned).to_vec(),
             cells: vec![
                 vec![Cell::Number(1.5, 1), Cell::Word("finished".to_owned()), Cell::Number(0.1, 2)],
-                vec![Cell::Number(2.0, 1), Cell::Word("aborted".to_owned()), Cell::Number(f64::NAN, 2)],
+                vec![
+                    Cell::Number(2.0, 1),
+                    Cell::Word("aborted".to_owned()),
+                    Cell::Number(f64::NAN, 2),
+                ],
             ],
         };
         let folder = tempfile::tempdir().unwrap();

@@ -53,7 +53,8 @@ pub(super) fn draw(
     }
     let finished = |row: usize| outcomes[row].summary.state == State::Finished;
     let legend = series.iter().map(|s| {
-        let names = others.iter().zip(s.rest).map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
+        let names =
+            others.iter().zip(s.rest).map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
         let mut name = names.collect::<Vec<_>>().join(", ");
         if let Some(end) = end(s, finished) {
             let comma = if name.is_empty() { "" } else { ": " };
@@ -72,35 +73,37 @@ pub(super) fn draw(
             args.columns.contains(name)
         }
     };
-    let panels = rows.header.iter().enumerate().filter(|(_, name)| shown(name)).map(|(column, name)| {
-        let lines: Vec<Line> = series
-            .iter()
-            .enumerate()
-            .map(|(number, s)| {
-                let value = |row: usize| {
-                    let cell = rows.cells[row][column].number();
-                    // what an aborted run reached is no result
-                    cell.filter(|_| finished(row)).unwrap_or(f64::NAN)
-                };
-                let points = s.points.iter().map(|&(x, row)| [x, value(row)]).collect();
-                Line { series: Some(number), points }
-            })
-            .collect();
-        let x = around(values.iter().copied(), 1e-9);
-        let y = around(lines.iter().flat_map(|l| &l.points).map(|p| p[1]).chain([0.0]), 1e-9);
-        Diagram {
-            title: name.clone(),
-            x: Scale::linear("", x),
-            y: Scale::linear("", y),
-            equal: false,
-            lines,
-            levels: Vec::new(),
-        }
-    });
+    let panels =
+        rows.header.iter().enumerate().filter(|(_, name)| shown(name)).map(|(column, name)| {
+            let lines: Vec<Line> = series
+                .iter()
+                .enumerate()
+                .map(|(number, s)| {
+                    let value = |row: usize| {
+                        let cell = rows.cells[row][column].number();
+                        // what an aborted run reached is no result
+                        cell.filter(|_| finished(row)).unwrap_or(f64::NAN)
+                    };
+                    let points = s.points.iter().map(|&(x, row)| [x, value(row)]).collect();
+                    Line { series: Some(number), points }
+                })
+                .collect();
+            let x = around(values.iter().copied(), 1e-9);
+            let y = around(lines.iter().flat_map(|l| &l.points).map(|p| p[1]).chain([0.0]), 1e-9);
+            Diagram {
+                title: name.clone(),
+                x: Scale::linear("", x),
+                y: Scale::linear("", y),
+                equal: false,
+                lines,
+                levels: Vec::new(),
+            }
+        });
     let panels = panels.collect();
     let summary = outcomes.first().map(|o| &o.summary);
     let plot = Plot {
-        title: summary.map_or_else(String::new, |s| format!("{}, machine {}", s.program, s.machine)),
+        title: summary
+            .map_or_else(String::new, |s| format!("{}, machine {}", s.program, s.machine)),
         subtitle: format!("over {}; {} runs", first.key, outcomes.len()),
         legend,
         columns: 1,
