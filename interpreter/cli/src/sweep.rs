@@ -165,7 +165,9 @@ fn one(args: &SweepArgs, request: &Request, engine: &dyn Engine) -> Result<Outco
         }
     }
     messages.extend(source.take_diagnostics());
-    messages.iter().for_each(|m| summary.message(m));
+    for message in &messages {
+        summary.message(message);
+    }
     let amplitudes = wanted.iter().map(|(amplitude, _, samples)| {
         let whole =
             amplitude.window_s.is_none_or(|(_, end)| summary.cycles() as f64 * cycle_s > end);
