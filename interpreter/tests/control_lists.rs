@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
-use kontur_filters::control::{AxisControl, ControlOutput, Fault};
+use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput, Fault};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
@@ -403,7 +403,7 @@ fn dead_band_of_the_controller() {
     let command = |settings: &str, offset_mm: f64| {
         let mut axis = axis(settings);
         axis.step(0.0, 0.0, true);
-        axis.set_encoder_offset(offset_mm);
+        axis.set_inputs(AxisInputs { encoder_offset_mm: offset_mm, ..AxisInputs::default() });
         axis.step(0.0, 0.0, true).command_mm_s
     };
     // Kv 50/s

@@ -79,6 +79,12 @@ pub struct SimulationArgs {
     #[arg(long, value_name = "DIR")]
     pub path: Vec<PathBuf>,
 
+    /// Real-time inputs: CSV with the columns `t_s` and signals (`override_percent`, `rapid_override_percent`,
+    /// `feedhold`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value holds until the next time stamp. May be
+    /// given several times
+    #[arg(long, value_name = "FILE")]
+    pub input: Vec<PathBuf>,
+
     /// Cycle time in microseconds in place of the machine's
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub cycle_us: Option<u32>,
@@ -103,6 +109,14 @@ pub struct SimulationArgs {
     #[arg(long)]
     pub strict: bool,
 
+    /// Take kinematic transformations (#TRAFO, #RTCP, #KIN ID) as identity, with a warning
+    #[arg(long)]
+    pub identity_trafo: bool,
+
+    /// Value of an external variable at program start, e.g. `Speed=1200` for V.E.Speed
+    #[arg(long, value_name = "NAME=VALUE", value_parser = external)]
+    pub external: Vec<(String, String)>,
+
     /// Form of the messages on stderr
     #[arg(long, value_enum, default_value_t = MessageForm::Text)]
     pub diagnostics: MessageForm,
@@ -116,12 +130,15 @@ impl SimulationArgs {
             machine: self.machine.clone(),
             settings: self.set.clone(),
             path: self.path.clone(),
+            inputs: self.input.clone(),
             cycle_us: self.cycle_us,
             start: self.start.clone(),
             skip: self.skip.clone(),
             max_time_s: self.max_time,
             max_blocks: self.max_blocks,
             strict: self.strict,
+            identity_trafo: self.identity_trafo,
+            external: self.external.clone(),
         }
     }
 }
@@ -233,6 +250,16 @@ pub(crate) fn setting(text: &str) -> Result<String, String> {
     match Override::parse(text) {
         Ok(_) => Ok(text.to_owned()),
         Err(d) => Err(d.hint.unwrap_or(d.text)),
+    }
+}
+
+/// `NAME=VALUE`.
+fn external(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.to_owned()))
+        }
+        _ => Err("NAME=VALUE is expected".to_owned()),
     }
 }
 

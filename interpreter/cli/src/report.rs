@@ -33,7 +33,9 @@ pub fn report(
         (None, Some(program)) => program.with_extension("html"),
         (None, None) => return Err(Error::Usage("a program is expected".to_owned())),
     };
-    crate::run::keep_apart(&args.programs, std::slice::from_ref(&output))?;
+    let mut read = args.programs.clone();
+    read.extend_from_slice(&args.simulation.input);
+    crate::run::keep_apart(&read, std::slice::from_ref(&output))?;
     if let Some(names) = &args.signals {
         return signals::report(args, names, &output, engine, console);
     }

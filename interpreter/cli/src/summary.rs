@@ -1,11 +1,15 @@
 //! The summary of a run, accumulated from its records.
 
+mod ripple;
+
 use crate::engine::{Facts, Totals};
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, SpeedLimit};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+
+pub use ripple::SpeedRipple;
 
 /// More messages than this are counted and no longer kept: a program may repeat a warning without end.
 const MESSAGES_KEPT: usize = 1000;
@@ -75,12 +79,16 @@ pub struct Summary {
     pub duration_s: f64,
     /// Path / feed in seconds, without ramps, corners and limits.
     pub ideal_duration_s: f64,
+    /// Time in seconds for which feedhold or override 0 kept the path at rest.
+    pub held_s: f64,
     /// What the duration does not contain.
     pub not_counted: Vec<String>,
     /// Blocks decoded.
     pub blocks: u64,
     /// Length of the path in mm.
     pub path_length_mm: f64,
+    /// Deepest dip of the path speed between two rests; none if it never dipped.
+    pub speed_ripple: Option<SpeedRipple>,
     /// Path axes in channel order, then spindles.
     pub axes: Vec<AxisSummary>,
     /// Largest contour error; none if there was no cycle.
@@ -102,6 +110,7 @@ pub struct Collector {
     cycles: u64,
     worst: (f64, u64, u32, u32, Option<u64>),
     limits: [u64; SpeedLimit::ALL.len()],
+    ripple: ripple::Collector,
     messages: Vec<Diagnostic>,
     omitted: u64,
 }
@@ -116,6 +125,7 @@ impl Collector {
             cycles: 0,
             worst: (0.0, 0, 0, 0, None),
             limits: [0; SpeedLimit::ALL.len()],
+            ripple: ripple::Collector::default(),
             messages: Vec::new(),
             omitted: 0,
         }
@@ -141,6 +151,7 @@ impl Collector {
         {
             self.limits[i] += record.k.saturating_sub(before);
         }
+        self.ripple.add(record);
         self.last = Some((record.k, record.path.s_mm));
         self.cycles += 1;
     }
@@ -171,9 +182,11 @@ impl Collector {
             cycles: self.cycles,
             duration_s: seconds(k),
             ideal_duration_s: totals.ideal_duration_s,
+            held_s: seconds(totals.held_cycles),
             not_counted: totals.not_counted.clone(),
             blocks: totals.blocks,
             path_length_mm,
+            speed_ripple: self.ripple.finish(facts.cycle_us),
             axes: axes
                 .map(|(i, (most, axis))| AxisSummary {
                     name: axis.name.clone(),
@@ -236,10 +249,21 @@ impl Summary {
         writeln!(out, "  machine        {}, cycle {cycle_ms} ms", self.machine)?;
         writeln!(out, "  duration       {:.3} s ({} cycles)", self.duration_s, self.cycles)?;
         writeln!(out, "  ideal          {:.3} s (path / feed)", self.ideal_duration_s)?;
+        if self.held_s > 0.0 {
+            writeln!(out, "  held           {:.3} s (feedhold or override 0)", self.held_s)?;
+        }
         for what in &self.not_counted {
             writeln!(out, "  not counted    {what}")?;
         }
         writeln!(out, "  path           {:.4} mm in {} blocks", self.path_length_mm, self.blocks)?;
+        if let Some(ripple) = &self.speed_ripple {
+            let (low, high, line) = (ripple.v_min_mm_s, ripple.v_max_mm_s, ripple.line);
+            let percent = 100.0 * ripple.ratio;
+            writeln!(
+                out,
+                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at line {line}"
+            )?;
+        }
         if let Some(worst) = &self.max_contour_error {
             let block = worst.block.map_or_else(String::new, |n| format!(", N{n}"));
             writeln!(

@@ -164,10 +164,11 @@ impl Decoder {
             if let Some((radius, _)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
             }
-            LinePath::new(start, end, &self.feed_axes).map(Path::Line)
+            LinePath::new(self.on_path(&start), self.on_path(&end), &self.feed_axes).map(Path::Line)
         };
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
+        self.join_for(&path);
         let at = words.axes.first().map_or(span, |(_, _, at)| *at);
         let feed = self.feed_of(&path, at)?;
         let end_velocity_mm_s = match words.end_feed {
@@ -188,6 +189,7 @@ impl Decoder {
             path,
             feed,
             feed_ratio,
+            full_override: full,
             end_velocity_mm_s,
             slope: self.modal.slope,
             dynamics: self.dynamics(),
@@ -249,27 +251,31 @@ impl Decoder {
             if target.to_bits() == start[axis].to_bits() {
                 continue;
             }
-            let Some((low, high)) = self.machine.axes[axis].software_limits_mm() else { continue };
-            if (low..=high).contains(&target) {
-                continue;
-            }
             let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
-            let name = self.axis_name(axis).to_owned();
-            let number = self.machine.axes[axis].number();
-            let text =
-                format!("axis {name}: target {target} is outside its limits {low} to {high}");
-            let mut fault = Fault::vendor(21897, text, at).with(|d| {
-                d.axis(number, name)
-                    .value(ValueKind::Current, target * 1e4, "0.1um")
-                    .value(ValueKind::LowerLimit, low * 1e4, "0.1um")
-                    .value(ValueKind::UpperLimit, high * 1e4, "0.1um")
-                    .parameter("P-AXIS-00177")
-            });
-            if self.machine.axes[axis].text("kenngr.swe_behaviour").as_deref() == Some("WARNING") {
-                fault = fault.warning();
-            }
-            self.note(fault);
+            self.check_limit(axis, target, at);
         }
+    }
+
+    /// 21897 for a target outside the software limits of its axis.
+    pub(super) fn check_limit(&mut self, axis: usize, target: f64, at: Span) {
+        let Some((low, high)) = self.machine.axes[axis].software_limits_mm() else { return };
+        if (low..=high).contains(&target) {
+            return;
+        }
+        let name = self.axis_name(axis).to_owned();
+        let number = self.machine.axes[axis].number();
+        let text = format!("axis {name}: target {target} is outside its limits {low} to {high}");
+        let mut fault = Fault::vendor(21897, text, at).with(|d| {
+            d.axis(number, name)
+                .value(ValueKind::Current, target * 1e4, "0.1um")
+                .value(ValueKind::LowerLimit, low * 1e4, "0.1um")
+                .value(ValueKind::UpperLimit, high * 1e4, "0.1um")
+                .parameter("P-AXIS-00177")
+        });
+        if self.machine.axes[axis].text("kenngr.swe_behaviour").as_deref() == Some("WARNING") {
+            fault = fault.warning();
+        }
+        self.note(fault);
     }
 
     fn arc(&mut self, start: &AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
@@ -305,7 +311,9 @@ impl Decoder {
             let limits = &self.machine.channel.arc_centre;
             arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
         };
-        let at = words.radius.or(centre_words[0]).or(centre_words[1]).map_or(span, |(_, at)| at);
+        let at = words.radius.or(centre_words[0]).or(centre_words[1]);
+        let g = words.group(Group::Path).map_or(span, |g| g.span);
+        let at = at.map_or(g, |(_, at)| at);
         let mut arc = found.map_err(|e| arc_fault(e, at))?;
         let pitch_word = words.centre[main[2]];
         if let Some((pitch, at)) = pitch_word {
@@ -326,10 +334,17 @@ impl Decoder {
         self.last_arc.shift_mm = arc.shift;
         self.last_arc.radius_mm =
             libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
-        let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
-        ArcPath::new(start.clone(), end, shape, &self.feed_axes)
+        let way = &self.independent.way;
+        let centre_mm = [arc.centre[0] - way[plane[0]], arc.centre[1] - way[plane[1]]];
+        let shape = ArcShape { plane, centre_mm, sweep_rad: arc.sweep_rad };
+        ArcPath::new(self.on_path(start), self.on_path(&end), shape, &self.feed_axes)
             .map(Path::Arc)
             .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))
+    }
+
+    /// Position of the axes without the ways that they have gone as independent axes.
+    fn on_path(&self, position: &AxisVec) -> AxisVec {
+        position.iter().zip(self.independent.way.iter()).map(|(x, way)| x - way).collect()
     }
 
     /// Centre in the coordinates of the axes.
@@ -408,7 +423,7 @@ impl Decoder {
 
     /// Chamfer or rounding in front of the next motion.
     pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed_mm_s: Option<f64>, span: Span) {
-        let insertion = Insertion { kind, size_mm, feed_mm_s, span };
+        let insertion = Insertion { kind, size_mm, feed_mm_s, span, source: self.source };
         if let Some(fault) = self.contour.insert(insertion) {
             self.note(fault);
         }
