@@ -229,6 +229,7 @@ impl Source for Square {
             ideal_duration_s: 0.2,
             not_counted: vec!["M3".to_owned()],
             filter_delay_cycles: vec![self.delay_cycles; 2],
+            ..Totals::default()
         }
     }
 }
