@@ -23,4 +23,4 @@ pub use fault::{ErrorId, Fault, Faults, Issue, Reaction};
 pub use feedforward::{FeedforwardConfig, FeedforwardMode};
 pub use ipc::{IpcConfig, IpcMode};
 pub use plant::{Plant, PlantConfig, PlantModel};
-pub use position::PositionConfig;
+pub use position::{PositionConfig, PositionLoop};

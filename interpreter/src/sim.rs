@@ -57,9 +57,7 @@ enum Phase {
     /// At rest until the condition is met.
     Waiting(Wait),
     /// Braking after a fault, until the axes have come to rest.
-    Stopping {
-        settled_cycles: u32,
-    },
+    Stopping(fault::Stopping),
     Done,
 }
 
@@ -264,12 +262,13 @@ impl Simulation {
                         break;
                     }
                 }
-                Phase::Stopping { settled_cycles } => {
-                    let resting = self.planner.brake_is_over()
+                Phase::Stopping(stopping) => {
+                    let path = &self.chains[..self.vector.len()];
+                    let set_rests = self.planner.brake_is_over()
                         && !self.independent.any_moving()
-                        && self.chains[..self.vector.len()].iter().all(AxisChain::settled);
-                    *settled_cycles = if resting { *settled_cycles + 1 } else { 0 };
-                    if *settled_cycles > fault::CYCLES_AT_REST {
+                        && path.iter().all(AxisChain::settled);
+                    let axes_stand = path.iter().all(AxisChain::stands);
+                    if stopping.is_over(set_rests, axes_stand, self.cycle) {
                         self.phase = Phase::Done;
                         return None;
                     }
@@ -562,8 +561,7 @@ impl Simulation {
 
     fn check_time(&mut self) {
         let k = self.planner.setpoint().k;
-        let over =
-            k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping { .. });
+        let over = k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping(_));
         if over {
             let mut late = fault::out_of_time(k, self.cycle, self.max_cycles);
             let waits = matches!(self.phase, Phase::Waiting(_));

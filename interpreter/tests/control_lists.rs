@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
-use kontur_filters::control::{AxisControl, ControlOutput, Fault};
+use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput, Fault};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
@@ -332,7 +332,8 @@ fn settling_time_of_the_lists() {
 /// Conformance: I022, I023, I050.
 #[test]
 fn drive_format_of_the_additive_speed() {
-    let sercos = "X.kenngr.antr_typ=2 X.antr.v_reso_num=7 X.antr.v_reso_denom=3";
+    let sercos = "X.kenngr.antr_typ=2 X.antr.v_reso_num=7 X.antr.v_reso_denom=3 \
+                  X.antr.sercos.mdt[0].nc_ref=S_0_0037";
     let out = |settings: &str| {
         let mut axis = axis(&stage(settings));
         let at = |k: u32| 0.1 * libm::sin(std::f64::consts::TAU * 53e-3 * f64::from(k));
@@ -358,6 +359,65 @@ fn drive_format_of_the_additive_speed() {
     };
     near(counts(2000), 2.0 * counts(1000), 1e-12);
     near(counts(1000), 7.0 / 3.0, 1e-12);
+}
+
+/// P-AXIS-00320: a drive that closes the loop itself takes the additive speed through its process data, in their
+/// format, or not at all; with the loop in the control it needs no such input. Conformance: I020, I021.
+#[test]
+fn additive_speed_and_the_place_of_the_loop() {
+    let input = "X.antr.sercos.mdt[0].nc_ref=S_0_0037";
+    let cnc = "X.antr.operation_mode=CNC_POSITION_CONTROL";
+    let swinging = |settings: &str| {
+        let mut axis = axis(&stage(settings));
+        let at = |k: u32| 0.1 * libm::sin(std::f64::consts::TAU * 53e-3 * f64::from(k));
+        let out: Vec<_> = (0..200).map(|k| axis.step(at(k), 0.0, true)).collect();
+        out.iter().map(|o| o.additive_speed_mm_s.abs()).fold(0.0, f64::max)
+    };
+    for drive in [2, 3, 8] {
+        let sercos = format!("X.kenngr.antr_typ={drive}");
+        let without = format!("{sercos} X.antr.operation_mode=DRIVE_POSITION_CONTROL");
+        for settings in [&sercos, &without] {
+            assert_eq!(ids(&stage(settings)), ["K-0066"], "{settings}");
+            near(swinging(settings), 0.0, 0.0);
+        }
+        for settings in [format!("{sercos} {input}"), format!("{sercos} {cnc}")] {
+            assert_eq!(ids(&stage(&settings)), [""; 0], "{settings}");
+            assert!(swinging(&settings) > 0.1, "{settings}");
+        }
+        // the message is about Improved Position Control, not about every such drive
+        assert_eq!(ids(&sercos), [""; 0]);
+    }
+    // simulated and analogue drives take speed commands only
+    for drive in [1, 4, 6] {
+        let settings =
+            format!("X.kenngr.antr_typ={drive} X.antr.operation_mode=DRIVE_POSITION_CONTROL");
+        assert_eq!(ids(&stage(&settings)), [""; 0], "{settings}");
+    }
+}
+
+/// P-AXIS-00395: an axis that is pushed aside at rest gets no command inside the dead band; at most the window, and not
+/// with a loop closed in the drive.
+#[test]
+fn dead_band_of_the_controller() {
+    let ten_um = "X.getriebe[0].pos_control_deadband=100 X.getriebe[0].window=500";
+    let command = |settings: &str, offset_mm: f64| {
+        let mut axis = axis(settings);
+        axis.step(0.0, 0.0, true);
+        axis.set_inputs(AxisInputs { encoder_offset_mm: offset_mm, ..AxisInputs::default() });
+        axis.step(0.0, 0.0, true).command_mm_s
+    };
+    // Kv 50/s
+    near(command("", 0.005), -0.25, 1e-12);
+    near(command(ten_um, 0.005), 0.0, 0.0);
+    near(command(ten_um, -0.009), 0.0, 0.0);
+    near(command(ten_um, 0.011), -0.55, 1e-12);
+    let in_drive = format!("{ten_um} X.kenngr.antr_typ=2");
+    near(command(&in_drive, 0.005), -0.25, 1e-12);
+    // beyond the window: 110528, and the window is the dead band
+    let wide = "X.getriebe[0].pos_control_deadband=1000 X.getriebe[0].window=500";
+    assert_eq!(ids(wide), ["110528"]);
+    near(command(wide, 0.049), 0.0, 0.0);
+    near(command(wide, 0.051), -2.55, 1e-12);
 }
 
 /// A drive three cycles late beside one without dead time, fed forward with next to no gain: with a time delay of three

@@ -1,6 +1,7 @@
 //! Feedforward of axes and spindles in runs of programs. The names of the rows are those of the ledger.
 
-use kontur_tests::{Run, run, run_on, sample_machine};
+use kontur_interpreter::diag::Id;
+use kontur_tests::{Run, programs, run, run_on, sample_machine};
 
 /// Lag in per cent of what it is without feedforward (speed / Kv, Kv 50/s), in the middle of the motion of a line.
 fn percent(run: &Run, line: u32, axis: usize) -> f64 {
@@ -176,4 +177,93 @@ fn feedforward_of_spindles_stands_alone() {
     let at = found.source.as_ref().unwrap();
     assert_eq!(at.line, 2);
     assert!(run.records.is_empty() && at.length > 0, "{found:?}");
+}
+
+/// The speed at which a spindle falls behind, turns and comes back: what every form leaves of v / Kv = 6000 / 50 deg.
+/// Conformance: F035, F036, F037, F038, F039.
+#[test]
+fn the_sample_program_of_the_spindles() {
+    let text = std::fs::read_to_string(programs().join("spindle_feedforward.nc")).unwrap();
+    let run = run_on(sample_machine("two_spindles", &[]), &text);
+    assert!(!run.totals.aborted && run.diagnostics.is_empty(), "{:?}", run.diagnostics);
+    // ten cycles before each change
+    for (k, s, s2) in [
+        (990, 120.0, 120.0),
+        (1490, 0.0, 120.0),
+        (1990, 0.0, 12.0),
+        (2490, 24.0, 12.0),
+        (2990, 120.0, 120.0),
+    ] {
+        let lag = |axis: usize| run.records[k].axes[axis].lag;
+        assert!((lag(3) - s).abs() < 1e-6, "S in cycle {k}: {}", lag(3));
+        assert!((lag(4) - s2).abs() < 1e-6, "S2 in cycle {k}: {}", lag(4));
+    }
+    let last = run.records.last().unwrap();
+    assert!(last.axes[3].vel.abs() < 1e-9 && last.axes[4].vel.abs() < 1e-9, "M5");
+}
+
+/// The three figures of the manual and the wrong weight on the sample program, with the dynamics for which the lag has
+/// closed forms: 100 mm/s, 1000 mm/s2, ramps of 50 ms, Kv 50/s, Ta 5 ms. Conformance: F007, F046, F047, F048.
+#[test]
+fn figures_of_the_sample_program() {
+    let text = std::fs::read_to_string(programs().join("feedforward_lag.nc")).unwrap();
+    let lags = |more: &[&str]| {
+        let mut settings: Vec<String> = ["a_beschl=1000", "a_brems=1000"]
+            .iter()
+            .map(|s| format!("X.getriebe[0].slope_profil.{s}"))
+            .collect();
+        for ramp in ["tr_beschl_zu", "tr_beschl_ab", "tr_brems_zu", "tr_brems_ab"] {
+            settings.push(format!("X.getriebe[0].slope_profil.{ramp}=50000"));
+        }
+        settings.push("X.vorsteuer.vs_a_faktor=5000".to_owned());
+        settings.extend(more.iter().map(|s| format!("X.vorsteuer.{s}")));
+        let run = run(&text, &settings.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(!run.totals.aborted, "{:?}", run.diagnostics);
+        // N50 goes back to 0 under G135, with the dwell behind it: the lag in the direction of travel
+        let of = |r: &&kontur_interpreter::record::CycleRecord| r.block == Some(50);
+        let first = run.records.iter().position(|r| of(&r)).unwrap();
+        let last = run.records.iter().rposition(|r| of(&r)).unwrap();
+        let lag: Vec<f64> = run.records[first..=last].iter().map(|r| -r.axes[0].lag).collect();
+        let plateau = lag[(last - first) / 2];
+        let most = lag.iter().copied().fold(f64::MIN, f64::max);
+        let least = lag.iter().copied().fold(f64::MAX, f64::min);
+        (plateau, most, least)
+    };
+    let near = |is: f64, want: f64, tolerance: f64| {
+        assert!((is - want).abs() < tolerance, "{is} is not {want}");
+    };
+    // figure 3: behind over the whole motion
+    let (plateau, most, least) = lags(&["vorsteuerung=NONE"]);
+    near(plateau, 2.0, 1e-5);
+    near(most, 2.0, 1e-3);
+    assert!(least > -1e-6, "{least}");
+    // figure 4: nothing at constant speed, a Ta / Kv = 0.1 mm while it accelerates (0.09942 after 100 ms)
+    let (plateau, most, least) = lags(&["vorsteuerung=VEL"]);
+    near(plateau, 0.0, 1e-6);
+    near(most, 0.09942, 5e-6);
+    near(least, -0.09942, 5e-6);
+    // figure 5: next to nothing
+    let (plateau, most, least) = lags(&["vorsteuerung=VEL|ACC"]);
+    near(plateau, 0.0, 1e-6);
+    assert!(most < 5e-5 && least > -5e-5, "{most} {least}");
+    // a weight of 1.2 leads by a fifth of v / Kv and overshoots the target by as much before it comes back
+    let (plateau, _, least) = lags(&["vorsteuerung=VEL", "vs_v_faktor=12", "vs_v_nenner=10"]);
+    near(plateau, -0.4, 1e-5);
+    assert!(least < -0.4, "{least}");
+}
+
+/// G135 between blocks that run on steps the speed command of the moving axis; behind an exact stop it does not.
+#[test]
+fn switching_in_motion_is_told() {
+    let switched = |first: &str| {
+        let run = run(&program(&[first, "G135", "G01 X100 F6000"]), &[]);
+        let found = run.diagnostics.iter().find(|d| d.id == Id::Kontur(22)).cloned();
+        (found, run.diagnostics.len())
+    };
+    let (found, count) = switched("G90 G01 X50 F6000");
+    let found = found.unwrap();
+    assert_eq!(count, 1, "once");
+    assert!(!found.is_error(), "{}", found.text);
+    assert_eq!(switched("G90 G60 G01 X50 F6000"), (None, 0));
+    assert_eq!(switched("G04 0.1"), (None, 0));
 }

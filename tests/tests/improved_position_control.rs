@@ -1,6 +1,6 @@
 //! Improved Position Control in runs of programs. The names of the rows are those of the ledger.
 
-use kontur_tests::{Run, run_on, sample_machine};
+use kontur_tests::{Run, programs, run_on, sample_machine};
 use std::f64::consts::TAU;
 
 /// A program on a sample machine with settings.
@@ -22,6 +22,10 @@ fn an_unstable_axis_ends_the_run() {
     let run = on("rack_and_pinion", &settings, program);
     assert!(run.totals.aborted, "{:?}", run.diagnostics);
     assert!(run.diagnostics.iter().any(|d| d.is_error()), "{:?}", run.diagnostics);
+    let mut ids: Vec<_> = run.diagnostics.iter().map(|d| d.id).collect();
+    ids.dedup();
+    assert_eq!(ids.len(), run.diagnostics.len(), "each error once: {:?}", run.diagnostics);
+    assert!(run.records.len() < 20_000, "stopped, not run to the end: {}", run.records.len());
     for r in &run.records {
         let a = &r.axes[0];
         assert!([a.act, a.load, a.tcp, a.tcp_acc, a.vadd, a.cmd].iter().all(|x| x.is_finite()));
@@ -82,5 +86,65 @@ fn a_gantry_pair_is_damped() {
     for (damped, plain) in damped.into_iter().zip(plain) {
         assert!(plain > 100.0, "mm/s2: {plain}");
         assert!(damped < 0.6 * plain, "{damped} of {plain}");
+    }
+}
+
+fn sample(name: &str) -> String {
+    std::fs::read_to_string(programs().join(name)).unwrap()
+}
+
+/// The sample program shows what its first lines say, and at least the reductions of the manual: 0.81 to 0.40 m/s2,
+/// 0.52 to 0.28 m/s2. Conformance: I029, I030, I031.
+#[test]
+fn the_sample_program_of_the_manuals_example() {
+    let text = sample("ipc_rack_and_pinion.nc");
+    // largest amplitude in mm/s2 under a Hann window, on lines 0.25 Hz apart
+    let amplitude = |run: &Run, cycles: std::ops::Range<usize>, f_hz: f64, width_hz: f64| {
+        let acc = &run.axis(0, |a| a.tcp_acc)[cycles];
+        let window = |i: usize| 0.5 - 0.5 * libm::cos(TAU * i as f64 / acc.len() as f64);
+        let lines = (width_hz * 4.0) as i32;
+        let line = |step: i32| {
+            let f = f_hz + 0.25 * f64::from(step);
+            let (mut re, mut im) = (0.0, 0.0);
+            for (i, a) in acc.iter().enumerate() {
+                re += a * window(i) * libm::cos(TAU * f * 1e-3 * i as f64);
+                im += a * window(i) * libm::sin(TAU * f * 1e-3 * i as f64);
+            }
+            4.0 * libm::hypot(re, im) / acc.len() as f64
+        };
+        (-lines..=lines).map(line).fold(0.0, f64::max)
+    };
+    let shown = |enable: u32| {
+        let setting = format!("X.lr_param.improved_position_control.enable={enable}");
+        let run = on("rack_and_pinion", &[setting], &text);
+        assert!(!run.totals.aborted && run.diagnostics.is_empty(), "{:?}", run.diagnostics);
+        [amplitude(&run, 761..1939, 53.0, 3.0), amplitude(&run, 2095..3095, 11.0, 1.5)]
+    };
+    let (off, on) = (shown(0), shown(1));
+    for (is, want) in off.iter().chain(&on).zip([810.0, 520.0, 365.0, 270.0]) {
+        assert!((is / want - 1.0).abs() < 0.01, "{is} mm/s2, expected {want}");
+    }
+    assert!(on[0] <= 0.40 / 0.81 * off[0] && on[1] <= 0.28 / 0.52 * off[1], "{off:?} {on:?}");
+}
+
+/// A bridge: the second drive takes the set positions of the first, v / Kv behind with a gain of its own, and none of
+/// it is left under G135.
+#[test]
+fn the_sample_program_of_the_gantry() {
+    let text = sample("gantry.nc");
+    for (kv, second) in [(5000, 2.0), (4000, 2.5)] {
+        let run = on("gantry", &[format!("X2.getriebe[0].kv={kv}")], &text);
+        assert!(!run.totals.aborted && run.diagnostics.is_empty(), "{:?}", run.diagnostics);
+        assert!(run.records.iter().all(|r| r.axes[3].set.to_bits() == r.axes[0].set.to_bits()));
+        let lags = |block: u64| {
+            let all: Vec<_> = run.records.iter().filter(|r| r.block == Some(block)).collect();
+            let r = all[all.len() * 3 / 4];
+            [r.axes[0].lag.abs(), r.axes[3].lag.abs()]
+        };
+        for (block, want) in [(20, [2.0, second]), (40, [0.0, 0.0])] {
+            for (is, want) in lags(block).into_iter().zip(want) {
+                assert!((is - want).abs() < 1e-5, "Kv {kv}, N{block}: {is}, expected {want}");
+            }
+        }
     }
 }

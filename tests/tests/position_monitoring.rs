@@ -52,11 +52,12 @@ fn the_time_limit_decides() {
     assert!(!run.totals.aborted);
 }
 
-/// G60 waits for the window, with the time monitoring on and off. Conformance: P015, P019.
+/// G60 and the modal G360 wait for the window, with the time monitoring on and off. Conformance: P015, P019.
 #[test]
 fn g60_waits_for_the_window() {
-    for settling_us in [600_000, 0] {
-        let run = stop("%P\nG90 G60 G01 X100 F6000\nG01 Y10\nM30\n", settling_us);
+    for (exact_stop, settling_us) in [("G60", 600_000), ("G60", 0), ("G360", 0)] {
+        let program = format!("%P\nG90 {exact_stop} G01 X100 F6000\nG01 Y10\nM30\n");
+        let run = stop(&program, settling_us);
         assert_eq!(run.ids(), [0; 0], "{settling_us}: {:?}", run.diagnostics);
         let begins = run.records.iter().position(|r| r.axes[1].ipo.abs() > 0.0).unwrap();
         let stands = run.axis(0, |a| a.ipo).iter().position(|x| *x >= 100.0).unwrap();
@@ -85,4 +86,131 @@ fn the_sample_program_of_the_exact_stop() {
     let run = run(&text, &settings);
     assert_eq!(run.ids(), [70082], "{:?}", run.diagnostics);
     assert!(run.totals.aborted);
+}
+
+/// Both stops of the program that a user runs: 0.6 s are enough, 0.2 s are not. Conformance: P005, P006, P007, P015.
+#[test]
+fn the_program_of_the_timeout() {
+    let text = std::fs::read_to_string(programs().join("exact_stop_timeout.nc")).unwrap();
+    let run = run(&text, &[]);
+    assert!(run.totals.aborted);
+    assert_eq!(run.ids(), [70082], "{:?}", run.diagnostics);
+    let at = |axis: usize, x: f64| {
+        run.axis(axis, |a| a.set).iter().position(|s| (s - x).abs() <= 0.0).unwrap()
+    };
+    // an abrupt stop would need ln(10 / 0.05) / Kv = 530 ms; braking with 3500 mm/s2 shortens it
+    let begins = run.axis(1, |a| a.ipo).iter().position(|y| *y > 0.0).unwrap();
+    let waited = begins - at(0, 100.0);
+    assert!((470..=530).contains(&waited), "{waited} ms");
+    let message = run.diagnostics.iter().find(|d| d.is_error()).unwrap();
+    let raised = usize::try_from(message.cycle.unwrap()).unwrap();
+    let back = raised - 200;
+    assert!(run.records[back - 1].axes[0].set > 0.0 && run.records[back].axes[0].set.abs() <= 0.0);
+    assert!(run.records.iter().all(|r| r.block != Some(100)), "nothing follows");
+    // the trace goes on until the axis itself stands
+    let [.., before, last] = run.records.as_slice() else { panic!("an empty trace") };
+    assert!((last.axes[0].act - before.axes[0].act).abs() < 1.1e-4, "0.1 mm/s");
+    assert!(last.axes[0].lag.abs() < 0.02, "{}", last.axes[0].lag);
+}
+
+/// A run with one lag monitor on X, and the cycle of its error.
+fn lag_monitor(kind: u32, settings: &[&str]) -> (Run, Option<usize>) {
+    let mut all: Vec<String> = settings.iter().map(|s| format!("X.getriebe[0].{s}")).collect();
+    all.push(format!("X.getriebe[0].slep_ueberw_typ={kind}"));
+    let run = run(
+        "%P\nG90 G01 X100 Y40 F6000\nX0 Y0\nM30\n",
+        &all.iter().map(String::as_str).collect::<Vec<_>>(),
+    );
+    let error = run.diagnostics.iter().find(|d| d.is_error());
+    let at = error.map(|d| usize::try_from(d.cycle.unwrap()).unwrap());
+    if at.is_some() {
+        assert_eq!(run.ids(), [70020], "the reaction raises nothing more: {:?}", run.diagnostics);
+    }
+    (run, at)
+}
+
+/// Type 4: the limit itself decides. Reaction class 8: the set position is frozen and the loop opened, so that the drive
+/// stops within its own time constant; the rest of the group brakes along the path.
+#[test]
+fn following_error_of_type_4() {
+    let (run, at) = lag_monitor(4, &["slep_max=1000", "slep_min=1000"]);
+    let at = at.unwrap();
+    let first = run.axis(0, |a| a.lag).iter().position(|lag| lag.abs() > 0.1).unwrap();
+    assert_eq!(at, first);
+    assert!(run.totals.aborted);
+    let frozen = run.records[at].axes[0].ipo;
+    let stopping = &run.records[at + 1..];
+    assert!(
+        stopping
+            .iter()
+            .all(|r| (r.axes[0].set - frozen).abs() <= 0.0 && r.axes[0].cmd.abs() <= 0.0)
+    );
+    // v' = -v / Ta: each step is exp(-T / Ta) of the one before
+    let act: Vec<f64> = run.records[at + 1..].iter().map(|r| r.axes[0].act).collect();
+    let steps: Vec<f64> = act.windows(2).map(|w| w[1] - w[0]).collect();
+    for w in steps.windows(2) {
+        assert!((w[1] - w[0] * libm::exp(-1.0 / 5.0)).abs() < 1e-12, "{w:?}");
+    }
+    assert!(steps[0] > 1e-3 && *steps.last().unwrap() < 1e-4, "until it stands");
+    // Y: braking with the limits of the path, not frozen
+    let y: Vec<f64> = stopping.iter().map(|r| r.axes[1].set).collect();
+    assert!(y[0] > run.records[at].axes[1].set && y.windows(2).all(|w| w[1] >= w[0]));
+    assert!(run.records.last().unwrap().axes[1].vel.abs() <= 0.0);
+    // suppressed or wide enough: nothing
+    assert_eq!(lag_monitor(4, &["slep_max=25000", "slep_min=25000"]).1, None);
+}
+
+/// Type 2: the theoretical lag v / Kv times 1024 / (1024 - slep_dyn). While the axis accelerates its lag stays below
+/// v / Kv; while it brakes it is above, the more the slower the axis is.
+#[test]
+fn following_error_of_type_2() {
+    let at = |dynamics: u32| {
+        let dynamics = format!("slep_dyn={dynamics}");
+        let (run, at) = lag_monitor(2, &["slep_max=500", "slep_min=20000", &dynamics]);
+        at.map(|at| (run.records[at].path.a_mm_s2, at))
+    };
+    // a hundredth of room: at constant speed the lag is v / Kv itself
+    let (a, plain) = at(10).unwrap();
+    assert!(a < 0.0, "it brakes: {a}");
+    let (_, doubled) = at(512).unwrap();
+    assert!(doubled > plain, "{doubled} {plain}");
+    assert_eq!(at(1024), None, "off");
+}
+
+/// Type 1: s = q (s + |dx|) with q = slep_dyn / 1024 over the commanded movement, between slep_min and slep_max.
+#[test]
+fn following_error_of_type_1() {
+    let (run, at) = lag_monitor(1, &["slep_max=100000", "slep_min=2000", "slep_dyn=900"]);
+    let reference = run.axis(0, |a| a.reference);
+    let q = 900.0 / 1024.0;
+    let mut s = 0.0;
+    let first = (1..run.records.len()).find(|&k| {
+        s = q * (s + (reference[k] - reference[k - 1]).abs());
+        run.records[k].axes[0].lag.abs() > s.clamp(0.2, 10.0)
+    });
+    assert_eq!(at, first);
+    assert!(at.is_some());
+    // 1000 permits q / (1 - q) = 41.7 times the movement of a cycle: 4.2 mm at 100 mm/s
+    assert_eq!(lag_monitor(1, &["slep_max=100000", "slep_min=10000", "slep_dyn=1000"]).1, None);
+}
+
+/// Feedforward of 120 % commands more at the end of the ramp than P-AXIS-00407 leaves above the axis' maximum: the limit
+/// is output, the axis brakes under control (class 7).
+#[test]
+fn speed_command_above_its_limit() {
+    let run = run(
+        "%P\nG135\nG90 G00 X450 Y100\nM30\n",
+        &[
+            "X.vorsteuer.vs_v_faktor=12",
+            "X.vorsteuer.vs_v_nenner=10",
+            "X.lr_param.dyn_monitoring_v_err=1",
+        ],
+    );
+    assert_eq!(run.ids(), [70382], "{:?}", run.diagnostics);
+    assert!(run.totals.aborted);
+    let limit = 1000.0 * 1.001;
+    assert!(run.axis(0, |a| a.cmd).iter().all(|v| v.abs() <= limit + 1e-9));
+    // under control: braking along the path, no step
+    assert!(run.axis(0, |a| a.acc).iter().all(|a| a.abs() < 6000.0 * 1.001));
+    assert!(run.records.last().unwrap().axes[0].ipo < 450.0);
 }

@@ -13,13 +13,13 @@ use super::{
     buffer::{Setpoint, SetpointBuffer},
     fault::{Fault, Faults, Issue},
     feedforward::{AdditiveInputs, Feedforward, FeedforwardConfig, FeedforwardOutput},
-    ipc::{Ipc, IpcConfig, IpcInput},
+    ipc::{Ipc, IpcConfig, IpcInput, IpcOutput},
     monitor::{
         ExactStopConfig, ExactStopMonitor, LagMonitor, LagMonitorConfig, SetpointMonitor,
         SetpointMonitorConfig,
     },
     plant::{Plant, PlantConfig, PlantError, PlantInput},
-    position::{PositionConfig, SpeedLimiter},
+    position::{PositionConfig, PositionLoop, SpeedLimiter},
     scaling::{SpeedFormat, TorqueFormat},
 };
 use crate::time::CycleTime;
@@ -111,6 +111,11 @@ impl AxisControlConfig {
         self.plant = plant;
         issues.extend(found);
         issues.extend(self.ipc.check(cycle));
+        let in_drive = self.position.closed_in == PositionLoop::Drive;
+        if self.ipc.enable && in_drive && !self.additive_inputs.velocity {
+            issues.push(Issue::IpcNoInput);
+            self.ipc.enable = false;
+        }
         if self.feedforward.uses_torque() {
             issues.extend(self.torque.check(self.setpoint.a_max_mm_s2));
         }
@@ -182,6 +187,7 @@ pub struct AxisControl {
     inputs: AxisInputs,
     diverged: bool,
     moving: bool,
+    open: bool,
 }
 
 impl AxisControl {
@@ -213,6 +219,7 @@ impl AxisControl {
             inputs: AxisInputs::default(),
             diverged: false,
             moving: false,
+            open: false,
         };
         control.start(0.0);
         Ok(control)
@@ -240,6 +247,7 @@ impl AxisControl {
         self.inputs = inputs;
         self.diverged = false;
         self.moving = false;
+        self.open = false;
     }
 
     /// The configuration in use.
@@ -271,6 +279,17 @@ impl AxisControl {
     /// The actual position is within `window_mm` of the newest set position.
     pub fn in_position(&self, window_mm: f64) -> bool {
         (self.position_mm - self.controlled_mm()).abs() <= window_mm
+    }
+
+    /// Opens the position loop until the next start: the drive gets the speed 0, whatever the set position does (reaction
+    /// class 8). The monitors, which watch a closed loop, have nothing to say any more.
+    pub fn open_loop(&mut self) {
+        self.open = true;
+    }
+
+    /// The motor is slower than `speed_mm_s`, or its plant is held after it diverged.
+    pub fn stands(&self, speed_mm_s: f64) -> bool {
+        self.diverged || self.plant.measured().motor_mm_s.abs() <= speed_mm_s
     }
 
     /// What acts from outside, from now on.
@@ -314,14 +333,22 @@ impl AxisControl {
 
         self.buffer.push(Setpoint { position_mm, gain, jerk_limited });
         let reference_mm = self.buffer.reference_mm();
-        let kv = self.config.position.gain_at(self.buffer.reference_step_mm() / cycle_s);
-        let feedforward = self.feedforward.step(&self.buffer.window(), kv);
-        let wanted = kv * (reference_mm - actual_mm) + feedforward.speed_mm_s;
-        let additive = self.ipc.step(&IpcInput {
+        let position = &self.config.position;
+        let reference_step_mm = self.buffer.reference_step_mm();
+        let kv = position.gain_at(reference_step_mm / cycle_s);
+        let error_mm = position.error_mm(reference_mm - actual_mm, reference_step_mm.abs() <= 0.0);
+        let mut feedforward = self.feedforward.step(&self.buffer.window(), kv);
+        let mut wanted = kv * error_mm + feedforward.speed_mm_s;
+        let mut additive = self.ipc.step(&IpcInput {
             motor_mm_s: measured.motor_mm_s,
             direct_mm_s: (self.config.encoder == Encoder::Direct).then_some(measured.load_mm_s),
             command_mm_s: wanted,
         });
+        if self.open {
+            feedforward = FeedforwardOutput::default();
+            wanted = 0.0;
+            additive = IpcOutput::default();
+        }
         let (command_mm_s, speed_fault) = self.limiter.step(wanted + additive.speed_mm_s);
 
         let mut faults = Faults::default();
@@ -338,6 +365,9 @@ impl AxisControl {
             },
             reference_mm - actual_mm,
         ));
+        if self.open {
+            faults = Faults::default();
+        }
 
         let tcp_acc_mm_s2 = (measured.tcp_mm_s - self.tcp_mm_s) / cycle_s;
         self.tcp_mm_s = measured.tcp_mm_s;

@@ -239,6 +239,9 @@ pub enum Issue {
         /// Value found.
         value: f64,
     },
+    /// K-0066: enabled with the position loop in a drive that takes no additive velocity (P-AXIS-00320); off for the
+    /// axis.
+    IpcNoInput,
     /// K-0026: enabled, but P-AXIS-00757 limits the output to 0.
     IpcNoLimit,
     /// K-0027: weight above 7.0; limited.
@@ -289,6 +292,7 @@ impl Issue {
             Self::IpcNumerator { .. } => ErrorId::Vendor(70603),
             Self::IpcDenominator { .. } => ErrorId::Vendor(70604),
             Self::IpcRange { .. } => ErrorId::Kontur(25),
+            Self::IpcNoInput => ErrorId::Kontur(66),
             Self::IpcNoLimit => ErrorId::Kontur(26),
             Self::IpcWeight { .. } => ErrorId::Kontur(27),
             Self::IpcOverlap { .. } => ErrorId::Kontur(63),

@@ -1,6 +1,6 @@
-//! The position controller: proportional, with a gain that may depend on speed, and a speed limit.
+//! The position controller: proportional, with a gain that may depend on speed, a dead band and a speed limit.
 //!
-//! Source: TF5200 axis parameters, P-AXIS-00099, 00245 to 00248, 00407.
+//! Source: TF5200 axis parameters, P-AXIS-00099, 00245 to 00248, 00320, 00395, 00407.
 
 use super::fault::Fault;
 
@@ -17,6 +17,20 @@ pub struct DynamicKv {
     pub kv2_per_s: f64,
 }
 
+/// Where the position loop is closed (P-AXIS-00320).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PositionLoop {
+    /// In the control (default).
+    #[default]
+    Cnc,
+    /// In the drive, which takes set positions.
+    ///
+    /// Assumption: the drive has the same proportional law with the gain of the list (a SERCOS drive that is fed
+    /// forward by the control needs it in S-0-0104 anyway). What watches or shapes the output of the control's own
+    /// controller does not act: dead band, speed limit.
+    Drive,
+}
+
 /// Position controller of one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PositionConfig {
@@ -29,11 +43,23 @@ pub struct PositionConfig {
     /// Excess over it that the command may reach, 1 = 100 % (P-AXIS-00407 / 1000), default 1; 0 switches the limit
     /// off.
     pub v_excess_ratio: f64,
+    /// Following error in mm below which an axis at rest gets no command (P-AXIS-00395), default 0: always a command.
+    /// At most the exact-stop window (110528, corrected by the list reader).
+    pub dead_band_mm: f64,
+    /// Where the loop is closed (P-AXIS-00320), default in the control.
+    pub closed_in: PositionLoop,
 }
 
 impl Default for PositionConfig {
     fn default() -> Self {
-        Self { kv_per_s: 10.0, dynamic_kv: None, v_max_mm_s: 200.0, v_excess_ratio: 1.0 }
+        Self {
+            kv_per_s: 10.0,
+            dynamic_kv: None,
+            v_max_mm_s: 200.0,
+            v_excess_ratio: 1.0,
+            dead_band_mm: 0.0,
+            closed_in: PositionLoop::Cnc,
+        }
     }
 }
 
@@ -54,9 +80,20 @@ impl PositionConfig {
         self.dynamic_kv.map_or(self.kv_per_s, |d| d.kv1_per_s.min(d.kv2_per_s))
     }
 
-    /// Limit of the speed command in mm/s, if there is one.
+    /// The following error as the controller sees it: nothing inside the dead band while the reference rests.
+    ///
+    /// Source: P-AXIS-00395 keeps the controller from giving out small commands at standstill; effective with position
+    /// control in the CNC only.
+    pub fn error_mm(&self, lag_mm: f64, reference_rests: bool) -> f64 {
+        let inside = lag_mm.abs() < self.dead_band_mm;
+        let quiet = inside && reference_rests && self.closed_in == PositionLoop::Cnc;
+        if quiet { 0.0 } else { lag_mm }
+    }
+
+    /// Limit of the speed command in mm/s, if the control has one: a drive that closes the loop limits its own.
     pub fn speed_limit_mm_s(&self) -> Option<f64> {
-        (self.v_excess_ratio > 0.0).then_some(self.v_max_mm_s * (1.0 + self.v_excess_ratio))
+        let limited = self.v_excess_ratio > 0.0 && self.closed_in == PositionLoop::Cnc;
+        limited.then_some(self.v_max_mm_s * (1.0 + self.v_excess_ratio))
     }
 }
 
@@ -120,5 +157,25 @@ mod tests {
         assert!(limiter.step(401.0).1.is_some());
         let off = PositionConfig { v_excess_ratio: 0.0, ..PositionConfig::default() };
         assert_eq!(SpeedLimiter::new(&off).step(1e9), (1e9, None));
+        let in_drive =
+            PositionConfig { closed_in: PositionLoop::Drive, ..PositionConfig::default() };
+        assert_eq!(SpeedLimiter::new(&in_drive).step(1e9), (1e9, None));
+    }
+
+    #[test]
+    fn dead_band_acts_at_rest_and_in_the_cnc_only() {
+        let config = PositionConfig { dead_band_mm: 0.01, ..PositionConfig::default() };
+        for (lag, rests, error) in [
+            (0.0099, true, 0.0),
+            (-0.0099, true, 0.0),
+            (0.01, true, 0.01),
+            (-0.02, true, -0.02),
+            (0.0099, false, 0.0099),
+        ] {
+            assert_eq!(config.error_mm(lag, rests), error, "{lag} {rests}");
+        }
+        let drive = PositionConfig { closed_in: PositionLoop::Drive, ..config };
+        assert_eq!(drive.error_mm(0.005, true), 0.005);
+        assert_eq!(PositionConfig::default().error_mm(1e-12, true), 1e-12, "off by default");
     }
 }

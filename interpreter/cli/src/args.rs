@@ -27,6 +27,8 @@ pub enum Command {
     Report(ReportArgs),
     /// Frequency response, step response, residual vibration or corner of filters, shapers and axes.
     Response(crate::response::args::ResponseArgs),
+    /// Run a program under every combination of parameters, on all cores; one row per run.
+    Sweep(crate::sweep::args::SweepArgs),
     /// Propose Vibration Guard settings from measured frequencies or recordings, or the order of a filter.
     Tune(crate::tune::args::TuneArgs),
     /// Explain an error ID, a parameter or a command.
@@ -209,9 +211,26 @@ pub struct ReportArgs {
     #[arg(required = true)]
     pub programs: Vec<PathBuf>,
 
-    /// The page (`.html`) or picture (`.svg`) [default: the first program's name with .html]
+    /// The page (`.html`), picture (`.svg`) or, with --signals, table (`.csv`) [default: the first program's name with
+    /// .html]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+
+    /// Run every program with each of these values of a list parameter, as in `sweep`. May be given several times
+    #[arg(long, value_name = "KEY=VALUES")]
+    pub vary: Vec<crate::vary::Vary>,
+
+    /// Draw these columns of the trace over time in place of contour and speed: names or groups, separated by commas
+    #[arg(long, value_name = "GROUPS|NAMES")]
+    pub signals: Option<String>,
+
+    /// Draw the amplitude of each of them over these frequencies in Hz as well, e.g. `2..80`
+    #[arg(long, value_name = "HZ..HZ", requires = "signals", value_parser = crate::sweep::args::span)]
+    pub spectrum: Option<(f64, f64)>,
+
+    /// Part of the run in s that --signals shows, e.g. `0.7..1.9`
+    #[arg(long, value_name = "S..S", requires = "signals", value_parser = crate::sweep::args::span)]
+    pub window: Option<(f64, f64)>,
 
     /// What is simulated
     #[command(flatten)]

@@ -111,23 +111,20 @@ impl From<OpenError> for Error {
     }
 }
 
-/// What computes.
-pub trait Engine {
+/// What computes. It keeps nothing between two questions, so that a sweep asks from every core at once.
+pub trait Engine: Sync {
     /// Opens a program. A program that is refused opens too: it yields diagnostics, no cycles, and `aborted`.
     ///
     /// # Errors
     /// [`OpenError`] if options, lists or files are wrong.
-    fn open(&mut self, request: &Request) -> Result<Box<dyn Source>, OpenError>;
+    fn open(&self, request: &Request) -> Result<Box<dyn Source>, OpenError>;
 
     /// Decodes a program without moving anything and reports every diagnostic.
     ///
     /// # Errors
     /// [`OpenError`] if options, lists or files are wrong.
-    fn check(
-        &mut self,
-        request: &Request,
-        report: &mut dyn FnMut(Diagnostic),
-    ) -> Result<(), OpenError>;
+    fn check(&self, request: &Request, report: &mut dyn FnMut(Diagnostic))
+    -> Result<(), OpenError>;
 
     /// Meaning, range, default and example of an ID, a parameter or a command.
     ///

@@ -16,10 +16,13 @@ pub mod report;
 pub mod response;
 pub mod run;
 pub mod simulator;
+mod spectrum;
 pub mod summary;
+pub mod sweep;
 mod table;
 pub mod trace;
 pub mod tune;
+pub mod vary;
 
 use clap::Parser as _;
 use console::Console;
@@ -105,6 +108,7 @@ pub fn run_with(
         args::Command::Diff(a) => diff::diff(a, engine, console),
         args::Command::Report(a) => report::report(a, engine, console),
         args::Command::Response(a) => response::response(a, console),
+        args::Command::Sweep(a) => sweep::sweep(a, engine, console),
         args::Command::Tune(a) => tune::tune(a, engine, console),
         args::Command::Explain(a) => explain::explain(a, engine, console),
     };

@@ -1,18 +1,20 @@
 //! `kontur report`: runs programs and draws them, as one interactive page or one still picture.
 //!
 //! The page holds its own script: a plotting library would weigh more than the data, and none links a point of the
-//! contour to its moment in time.
+//! contour to its moment in time. With `--signals` the picture shows columns of the trace over time, and their spectra.
 
 mod page;
 mod picture;
 pub(crate) mod plot;
 mod recording;
+mod signals;
 mod svg;
 
 use crate::args::ReportArgs;
 use crate::console::Console;
-use crate::engine::Engine;
+use crate::engine::{Engine, Request};
 use crate::summary::{Collector, State, Summary};
+use crate::vary::{combinations, settings};
 use crate::{Error, Exit};
 use recording::Recording;
 use std::path::{Path, PathBuf};
@@ -31,27 +33,49 @@ pub fn report(
         (None, Some(program)) => program.with_extension("html"),
         (None, None) => return Err(Error::Usage("a program is expected".to_owned())),
     };
-    let draw = drawer(&output)?;
     let mut read = args.programs.clone();
     read.extend_from_slice(&args.simulation.input);
     crate::run::keep_apart(&read, std::slice::from_ref(&output))?;
+    if let Some(names) = &args.signals {
+        return signals::report(args, names, &output, engine, console);
+    }
+    let draw = drawer(&output)?;
     let mut runs: Vec<(Recording, Summary)> = Vec::new();
-    for program in &args.programs {
+    for (program, values, request) in requests(args)? {
         let form = args.simulation.diagnostics;
-        let mut source = engine
-            .open(&args.simulation.request(program))
-            .map_err(|e| crate::run::announce_lists(e, form, console))?;
+        let mut source =
+            engine.open(&request).map_err(|e| crate::run::announce_lists(e, form, console))?;
         let mut summary = Collector::new(source.facts());
         let mut recording = Recording::new(source.facts());
         crate::run::drive(source.as_mut(), console, form, &mut summary, &mut |record| {
             recording.add(record);
             Ok(())
         })?;
-        runs.push((recording, summary.finish(&source.totals())));
+        let summary = summary.finish(&source.totals());
+        // runs of one program are told apart by what they vary
+        let program = if values.is_empty() { program } else { format!("{program}, {values}") };
+        runs.push((recording, Summary { program, ..summary }));
     }
     std::fs::write(&output, draw(&runs)).map_err(|e| Error::io(output.display().to_string(), e))?;
     let aborted = runs.iter().any(|(_, s)| s.state == State::Aborted);
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
+}
+
+/// Every program under every combination of `--vary`: the program, the values, and what is to be run.
+fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request)>, Error> {
+    let combinations = combinations(&args.vary)?;
+    let mut all = Vec::new();
+    for program in &args.programs {
+        for combination in &combinations {
+            let mut request = args.simulation.request(program);
+            request.settings.extend(settings(&args.vary, combination));
+            let names = args.vary.iter().zip(combination);
+            let values = names.map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
+            let values = values.collect::<Vec<_>>().join(", ");
+            all.push((program.display().to_string(), values, request));
+        }
+    }
+    Ok(all)
 }
 
 type Draw = fn(&[(Recording, Summary)]) -> String;

@@ -145,7 +145,7 @@ impl Source for Run {
 }
 
 impl Engine for Kontur {
-    fn open(&mut self, request: &Request) -> Result<Box<dyn Source>, OpenError> {
+    fn open(&self, request: &Request) -> Result<Box<dyn Source>, OpenError> {
         readable(&request.program)?;
         let (machine, mut messages) = machine(request)?;
         let options = options(request, &machine)?;
@@ -180,7 +180,7 @@ impl Engine for Kontur {
     }
 
     fn check(
-        &mut self,
+        &self,
         request: &Request,
         report: &mut dyn FnMut(Diagnostic),
     ) -> Result<(), OpenError> {

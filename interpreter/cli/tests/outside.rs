@@ -237,7 +237,7 @@ fn exit_codes_of_wrong_usage_and_files() {
     assert_eq!(f.call(&["run"]).0, Exit::Usage);
     let (exit, out, _) = f.call(&["--help"]);
     assert_eq!(exit, Exit::Finished);
-    for command in ["run", "check", "diff", "report", "explain"] {
+    for command in ["run", "check", "diff", "report", "sweep", "explain"] {
         assert!(out.contains(command), "{out}");
     }
 }
@@ -422,4 +422,131 @@ fn tune_judges_the_choices_on_a_program() {
     assert_eq!(exit, Exit::Usage);
     assert!(err.contains("another Vibration Guard ran"), "{err}");
     assert_eq!(tune("@bad.nc", "1").0, Exit::Aborted);
+}
+
+/// One row per combination in their order, the same from the same input, whatever core was first.
+#[test]
+fn sweep_has_a_row_for_every_combination() {
+    let f = Folder::new();
+    let words = |name: &'static str| {
+        let vary = ["--vary", "X.vib_guard.mode=1..3", "--vary", "X.vib_guard.freq=20,40"];
+        let more = ["--set", "X.vib_guard.active=1", "--amplitude", "X_vel_mm_s@1..100"];
+        [&["sweep", "@corner.nc", "-o", name][..], &vary, &more].concat()
+    };
+    let (exit, out, err) = f.call(&words("@a.csv"));
+    assert_eq!((exit, out.as_str(), err.as_str()), (Exit::Finished, "", ""));
+    let first = f.read("a.csv");
+    let mut reader = csv::Reader::from_reader(first.as_bytes());
+    let header = reader.headers().unwrap().clone();
+    let cell = |row: &csv::StringRecord, name: &str| {
+        row[header.iter().position(|h| h == name).unwrap()].to_owned()
+    };
+    let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+    let varied = rows.iter().map(|r| format!("{} {}", &r[0], &r[1])).collect::<Vec<_>>();
+    assert_eq!(varied, ["1 20", "1 40", "2 20", "2 40", "3 20", "3 40"]);
+    assert_eq!((&header[0], &header[1]), ("X.vib_guard.mode", "X.vib_guard.freq"));
+    for row in &rows {
+        assert_eq!((cell(row, "state"), cell(row, "error")), ("finished".into(), String::new()));
+        // what `run` says of the same settings
+        let settings = [0, 1].map(|i| format!("{}={}", &header[i], &row[i]));
+        let (_, out, _) = f.call(&[
+            "run",
+            "@corner.nc",
+            "--summary",
+            "json",
+            "--set",
+            "X.vib_guard.active=1",
+            "--set",
+            &settings[0],
+            "--set",
+            &settings[1],
+        ]);
+        let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
+        let number = |name: &str| cell(row, name).parse::<f64>().unwrap();
+        let near = |a: f64, b: &serde_json::Value| (a - b.as_f64().unwrap()).abs() < 1e-6;
+        assert!(near(number("duration_s"), &summary["duration_s"]));
+        assert!(near(number("contour_err_mm"), &summary["max_contour_error"]["mm"]));
+        assert!(near(number("X_vel_max_mm_s"), &summary["axes"][0]["max_vel"]));
+        assert!(number("X_vel_mm_s@1..100") > 0.0);
+    }
+    assert_eq!(f.call(&words("@a.csv")).0, Exit::Finished);
+    assert_eq!(f.read("a.csv"), first);
+    assert_eq!(f.call(&words("@a.svg")).0, Exit::Finished);
+    let picture = f.read("a.svg");
+    assert!(picture.contains("freq = 40") && picture.contains(">duration_s<"), "{picture}");
+    #[cfg(feature = "parquet")]
+    {
+        assert_eq!(f.call(&words("@a.parquet")).0, Exit::Finished);
+        assert!(std::fs::read(f.path("a.parquet")).unwrap().ends_with(b"PAR1"));
+    }
+}
+
+/// Runs that an error ends have their rows; only if no run finishes, neither does the command.
+#[test]
+fn sweep_of_aborted_runs_and_wrong_words() {
+    let f = Folder::new();
+    let vary = "X.vib_guard.mode=1,2";
+    let (exit, out, _) = f.call(&["sweep", "@bad.nc", "--vary", vary, "--columns", "cycles"]);
+    assert_eq!(exit, Exit::Aborted);
+    let rows: Vec<&str> = out.lines().collect();
+    assert_eq!(rows[0], "X.vib_guard.mode,state,error,warnings,cycles");
+    assert!(rows[1].starts_with("1,aborted,20131,0,") && rows.len() == 3, "{out}");
+    for words in [
+        &["sweep", "@corner.nc"][..],
+        &["sweep", "@corner.nc", "--vary", "X.vib_guard.mode"],
+        &["sweep", "@corner.nc", "--vary", "X.vib_guard.mode=3..1"],
+        &["sweep", "@corner.nc", "--vary", vary, "--columns", "bogus"],
+        &["sweep", "@corner.nc", "--vary", vary, "--amplitude", "X_bogus_mm@1..2"],
+        &["sweep", "@corner.nc", "--vary", vary, "--amplitude", "v_limit@1..2"],
+        &["sweep", "@corner.nc", "--vary", "X.a.b=ON,OFF", "-o", "@a.svg"],
+        &["sweep", "@corner.nc", "--vary", vary, "-o", "@corner.nc"],
+    ] {
+        assert_eq!(f.call(words).0, Exit::Usage, "{words:?}");
+    }
+    assert_eq!(f.call(&["sweep", "@absent.nc", "--vary", vary]).0, Exit::Io);
+}
+
+/// Columns over time, and the variants of one program in one picture.
+#[test]
+fn report_draws_signals_and_variants() {
+    let f = Folder::new();
+    let words = |name: &'static str| {
+        [
+            "report",
+            "@corner.nc",
+            "--vary",
+            "X.vib_guard.mode=1,4",
+            "--signals",
+            "X_set_mm,X_vel_mm_s",
+            "--window",
+            "0.01..0.05",
+            "-o",
+            name,
+        ]
+    };
+    assert_eq!(f.call(&words("@a.svg")).0, Exit::Finished);
+    let picture = f.read("a.svg");
+    for name in [">X_set_mm<", ">X_vel_mm_s<", "mode = 1", "mode = 4"] {
+        assert!(picture.contains(name), "{name}");
+    }
+    assert_eq!(f.call(&words("@a.csv")).0, Exit::Finished);
+    let table = f.read("a.csv");
+    let rows: Vec<&str> = table.lines().collect();
+    assert_eq!(rows[0], "curve,t_s,X_set_mm,X_vel_mm_s");
+    assert_eq!(rows.len(), 1 + 2 * 40, "40 cycles of either");
+    let spectrum = [&words("@s.csv")[..], &["--spectrum", "0..100"]].concat();
+    assert_eq!(f.call(&spectrum).0, Exit::Finished);
+    assert!(f.read("s.csv").starts_with("curve,f_hz,X_set_mm,X_vel_mm_s\n"));
+    for wrong in [
+        &["report", "@corner.nc", "--signals", "bogus", "-o", "@b.svg"][..],
+        &["report", "@corner.nc", "--signals", "time", "-o", "@b.svg"],
+        &["report", "@corner.nc", "--signals", "X_set_mm", "-o", "@b.html"],
+        &["report", "@corner.nc", "--spectrum", "0..100", "-o", "@b.svg"],
+    ] {
+        assert_eq!(f.call(wrong).0, Exit::Usage, "{wrong:?}");
+    }
+    // without --signals the contours overlay
+    let contours = ["report", "@corner.nc", "--vary", "X.vib_guard.mode=1,4", "-o", "@c.svg"];
+    assert_eq!(f.call(&contours).0, Exit::Finished);
+    assert!(f.read("c.svg").contains("mode = 4"));
 }

@@ -303,6 +303,7 @@ pub const ENTRIES: &[Entry] = &[
     row(Kontur(63), "K-IPC-OVERLAP", Warning, 1, 1, 2, "pass bands of two stages of Improved Position Control overlap", "their dampings influence each other"),
     row(Kontur(64), "K-FF-RESOLUTION", Warning, 1, 1, 2, "encoder resolution beside a feed constant, without effect", "P-AXIS-00233, P-AXIS-00234 are 1 where P-AXIS-00362, P-AXIS-00363 are used"),
     row(Kontur(65), "K-FF-INCREMENTS", Warning, 1, 1, 2, "increments per revolution without a feed constant, without effect", "P-AXIS-00092 needs P-AXIS-00362, P-AXIS-00363 and P-AXIS-00511, P-AXIS-00512"),
+    row(Kontur(66), "K-IPC-LOOP", Warning, 1, 1, 2, "Improved Position Control without a way into the position loop, off for the axis", "a drive that closes the loop needs the additive velocity in its process data; P-AXIS-00320"),
     row(Kontur(70), "K-LIST-RANGE", Warning, 1, 1, 2, "list parameter outside its range, corrected", "the vendor's ID for this parameter is not known"),
     row(Kontur(71), "K-LIST-ENTRY", Warning, 1, 1, 2, "line of a list that is no entry, ignored", "no key or no value"),
     row(Kontur(72), "K-LIST-END", Note, 1, 1, 2, "end mark in a list, the rest is not read", "a line with END or Ende only"),

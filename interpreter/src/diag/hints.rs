@@ -207,6 +207,7 @@ const HINTS: &[(Id, &str)] = &[
     (Kontur(63), "raise the quality or move the frequencies apart"),
     (Kontur(64), "set P-AXIS-00233 and P-AXIS-00234 to 1"),
     (Kontur(65), "write P-AXIS-00362, P-AXIS-00363 and P-AXIS-00511, P-AXIS-00512"),
+    (Kontur(66), "name S_0_0037 in antr.sercos.mdt[i].nc_ref, or antr.operation_mode CNC_POSITION_CONTROL"),
     (Kontur(70), "kontur explain tells the range of the parameter"),
     (Kontur(71), "an entry is a key, at least one blank and a value; comments start with #"),
     (Kontur(73), "write AXIS.key=value, channel.key=value or kontur.key=value"),

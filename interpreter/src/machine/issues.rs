@@ -306,6 +306,13 @@ pub fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnostic {
         )
         .value(ValueKind::Wrong, value, "-"),
         Issue::IpcRange { stage, what, value } => ipc_range(axis, id, stage, what, value, cycle),
+        Issue::IpcNoInput => about(
+            &format!("{IPC}.enable"),
+            "Improved Position Control while the drive closes the position loop (P-AXIS-00320) and takes no additive \
+             velocity",
+            ipc_off,
+        )
+        .hint("name S_0_0037 in antr.sercos.mdt[i].nc_ref, or antr.operation_mode CNC_POSITION_CONTROL"),
         Issue::IpcNoLimit => about(
             &format!("{IPC}.v_add_max_fact"),
             "Improved Position Control with the limit 0 of its additive speed",

@@ -45,8 +45,8 @@ impl Machine {
     ///
     /// Diagnostics, always with axis and parameter: 110239, 110500, 110501, 50663 (spindles 60311), 50910, 50911, 50989,
     /// 110361, K-0033, K-0036 to K-0041 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023, K-0024,
-    /// K-0062, K-0064, K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063 (Improved Position Control);
-    /// K-0070 (numbers that mean nothing).
+    /// K-0062, K-0064, K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063, K-0066 (Improved Position
+    /// Control); K-0070 (numbers that mean nothing).
     pub fn chains(&self) -> (Vec<ChainSetup>, Vec<Diagnostic>) {
         let mut diagnostics = Vec::new();
         let mut chains: Vec<ChainSetup> =

@@ -12,6 +12,9 @@ use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+/// Speed of the motor in mm/s (deg/s) below which an axis stands.
+const STANDSTILL_MM_S: f64 = 0.1;
+
 /// Shaping and control of one axis with what the trace derives from them.
 #[derive(Debug)]
 pub(crate) struct AxisChain {
@@ -102,6 +105,16 @@ impl AxisChain {
     /// The actual position is inside the exact-stop window (P-AXIS-00236).
     pub(crate) fn in_position(&self) -> bool {
         self.control.in_position(self.window_mm)
+    }
+
+    /// Opens the position loop: reaction class 8.
+    pub(crate) fn open_loop(&mut self) {
+        self.control.open_loop();
+    }
+
+    /// The axis itself stands, not only its set position.
+    pub(crate) fn stands(&self) -> bool {
+        self.control.stands(STANDSTILL_MM_S)
     }
 
     /// The path comes to rest with this axis at `target_mm`: the exact-stop timer is armed.

@@ -1,7 +1,8 @@
 //! What goes wrong while the machine runs: messages and reactions.
 //!
 //! Reaction classes (TF5200 diagnosis manual): 1 a message; 4, 6, 7, 8 and 5 end the program - the axis concerned stops
-//! where it is (5, 6, 8) or with the others (4, 7), the others brake along the path with P-AXIS-00003.
+//! where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7), the others brake along the path with
+//! P-AXIS-00003. The run goes on until the axes themselves stand.
 
 use super::{Phase, Simulation};
 use crate::diag::{Diagnostic, ValueKind};
@@ -15,10 +16,52 @@ use kontur_motion::tolerance::Unkept;
 
 /// Cycles of standstill shown behind the stop of a fault.
 pub(super) const CYCLES_AT_REST: u32 = 5;
+/// Longest time behind the stop of the set positions that is waited for axes that do not come to rest.
+const LONGEST_COASTING_S: f64 = 2.0;
+
+/// How far the stop of a fault has come.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Stopping {
+    settled_cycles: u32,
+    coasting_cycles: u32,
+    /// What was told already: an axis that swings meets its limits again and again.
+    told: Vec<(usize, ErrorId)>,
+}
+
+impl Stopping {
+    /// The axis has not said this since the stop began.
+    fn is_new(&mut self, chain: usize, id: ErrorId) -> bool {
+        let new = !self.told.contains(&(chain, id));
+        if new {
+            self.told.push((chain, id));
+        }
+        new
+    }
+
+    /// One cycle: the set positions rest, the axes stand. True at the end of the run.
+    pub(super) fn is_over(&mut self, set_rests: bool, axes_stand: bool, cycle: CycleTime) -> bool {
+        self.coasting_cycles = if set_rests { self.coasting_cycles + 1 } else { 0 };
+        let longest = LONGEST_COASTING_S / cycle.seconds();
+        let rests = set_rests && (axes_stand || f64::from(self.coasting_cycles) > longest);
+        self.settled_cycles = if rests { self.settled_cycles + 1 } else { 0 };
+        self.settled_cycles > CYCLES_AT_REST
+    }
+}
 
 impl Simulation {
     /// A fault of one axis: message, and from class 4 on the end of the run.
     pub(super) fn fault(&mut self, chain: usize, fault: &Fault) {
+        // the abrupt end of a set position is what a reaction asked for
+        let of_set_position =
+            matches!(fault, Fault::SetpointWarning { .. } | Fault::SetpointError { .. });
+        if self.frozen[chain].is_some() && of_set_position {
+            return;
+        }
+        if let Phase::Stopping(stopping) = &mut self.phase
+            && !stopping.is_new(chain, fault.id())
+        {
+            return;
+        }
         let diagnostic = self.describe(chain, fault);
         self.diagnostics.push(diagnostic);
         let reaction = fault.reaction();
@@ -35,12 +78,16 @@ impl Simulation {
             let here = self.record.axes[i].ipo;
             self.frozen[i].get_or_insert(here);
         }
-        if !matches!(self.phase, Phase::Stopping { .. }) {
+        if reaction == Reaction::OpenLoopStop {
+            self.chains[chain].open_loop();
+        }
+        if !matches!(self.phase, Phase::Stopping(_)) {
             self.planner.brake();
             if let Err(e) = self.independent.stop(self.record.k) {
                 self.diagnostics.push(internal(&e));
             }
-            self.phase = Phase::Stopping { settled_cycles: 0 };
+            let told = vec![(chain, fault.id())];
+            self.phase = Phase::Stopping(Stopping { told, ..Stopping::default() });
         }
     }
 
@@ -76,7 +123,8 @@ impl Simulation {
             ))
             .value(ValueKind::Current, speed_mm_s, "mm/s")
             .value(ValueKind::Limit, limit_mm_s, "mm/s")
-            .parameter("P-AXIS-00407"),
+            .parameter("P-AXIS-00407")
+            .hint("an axis that swings up: lower the gain kv or the weights of Improved Position Control"),
             Fault::SetpointWarning { what, value, limit } => {
                 let (quantity, unit, parameter, _) = watched(what);
                 base(format!("{quantity} of the set position {value:.3} {unit} exceeds {limit:.3} {unit}, axis {name}"))

@@ -148,7 +148,7 @@ fn square(slow: bool, late: bool, bad: bool, kernel: &Kernel) -> VecDeque<CycleR
 }
 
 impl Engine for Synthetic {
-    fn open(&mut self, request: &Request) -> Result<Box<dyn Source>, OpenError> {
+    fn open(&self, request: &Request) -> Result<Box<dyn Source>, OpenError> {
         if let Err(e) = std::fs::metadata(&request.program) {
             return Err(OpenError::Io(request.program.clone(), e));
         }
@@ -189,7 +189,7 @@ impl Engine for Synthetic {
     }
 
     fn check(
-        &mut self,
+        &self,
         request: &Request,
         report: &mut dyn FnMut(Diagnostic),
     ) -> Result<(), OpenError> {

@@ -5,7 +5,7 @@ use crate::diag::{Diagnostic, Severity};
 use crate::machine::axis::{AxisKind, integer};
 use crate::machine::{Axis, issues};
 use kontur_filters::control::{
-    AxisControlConfig, Encoder, FeedforwardConfig, FeedforwardMode, PositionConfig,
+    AxisControlConfig, Encoder, FeedforwardConfig, FeedforwardMode, PositionConfig, PositionLoop,
     feedforward::AdditiveInputs,
     monitor::{
         ExactStopConfig, LagMonitorConfig, LagMonitorType, SetpointMonitorConfig, Thresholds,
@@ -174,6 +174,22 @@ fn additive_inputs(
     }
 }
 
+/// Where the position loop is closed (P-AXIS-00320).
+///
+/// A simulated or analogue drive takes speed commands only. Assumption: the list names no telegram of set positions
+/// (PROFIdrive, CANopen), so `operation_mode` decides for them as the manual says it does for SERCOS, and
+/// `DRIVE_DEFAULT` means what the commissioning manual prints as the usual case of each bus.
+fn position_loop(axis: &Axis) -> PositionLoop {
+    let usual = match integer(axis.raw("kenngr.antr_typ")) {
+        Some(2 | 3 | 8) => PositionLoop::Drive,
+        _ => return PositionLoop::Cnc,
+    };
+    match axis.text("antr.operation_mode").as_deref() {
+        Some("CNC_POSITION_CONTROL") => PositionLoop::Cnc,
+        _ => usual,
+    }
+}
+
 /// Assumption: the gain depends on speed if its two values differ; the manual names no switch.
 fn position(axis: &Axis, v_max_mm_s: f64) -> PositionConfig {
     let dynamic = |key: &str| converted(axis, &format!("getriebe[0].dyn_kv.{key}"));
@@ -188,6 +204,8 @@ fn position(axis: &Axis, v_max_mm_s: f64) -> PositionConfig {
         dynamic_kv: Some(dynamic_kv).filter(|d| (d.kv1_per_s - d.kv2_per_s).abs() > 0.0),
         v_max_mm_s,
         v_excess_ratio: converted(axis, "lr_param.dyn_monitoring_v_err"),
+        dead_band_mm: converted(axis, "getriebe[0].pos_control_deadband"),
+        closed_in: position_loop(axis),
     }
 }
 

@@ -2,6 +2,10 @@
 
 use super::row::{Bound, Correction, Default, Raw, Row, axis};
 
+/// Names of P-AXIS-00320.
+const OPERATION_MODES: &[&str] =
+    &["DRIVE_DEFAULT", "DRIVE_POSITION_CONTROL", "CNC_POSITION_CONTROL"];
+
 /// The rows.
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
@@ -41,9 +45,9 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"),
     axis("P-AXIS-00248", "getriebe[i].dyn_kv.v2", Raw::Uns32, "dynamic kv: upper speed (AXIS prints the key kv2 by mistake)")
         .range(Bound::BeyondOf("P-AXIS-00246"), Bound::None).default(2000.0).unit("um/s", "0.001deg/s").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive"),
-    axis("P-AXIS-00320", "antr.operation_mode", Raw::Text, "mode of positioning: where the position loop is closed")
-        .default_is(Default::Text("DRIVE_DEFAULT")),
-    axis("P-AXIS-00395", "getriebe[i].pos_control_deadband", Raw::Uns32, "dead band of the position controller")
+    axis("P-AXIS-00320", "antr.operation_mode", Raw::Word(OPERATION_MODES), "where the position loop is closed")
+        .default_is(Default::Text("DRIVE_DEFAULT")).drives("SERCOS").source("TwinCAT 3 CNC axis commissioning"),
+    axis("P-AXIS-00395", "getriebe[i].pos_control_deadband", Raw::Uns32, "lag below which an axis at rest gets no command")
         .range(Bound::None, Bound::Of("P-AXIS-00236")).default(0.0).unit("0.1um", "0.0001deg").above(110528, Correction::Limit).source("TF5200 diagnosis"),
     axis("P-AXIS-00407", "lr_param.dyn_monitoring_v_err", Raw::Uns32, "speed excess allowed in the controller (70382); 0 = off")
         .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1%", "0.1%"),

@@ -1,0 +1,193 @@
+//! Columns of the trace over time, and their spectra: one panel each, one curve per run.
+
+use super::plot::{Diagram, Line, Plot, Scale, around};
+use super::requests;
+use crate::args::ReportArgs;
+use crate::console::Console;
+use crate::engine::{Engine, Facts};
+use crate::spectrum::{MOST_SAMPLES, Spectrum};
+use crate::summary::Collector;
+use crate::table::{Table, number};
+use crate::trace::columns::{Column, select};
+use crate::{Error, Exit};
+use std::path::Path;
+
+/// Panels beyond these make no picture.
+const MOST_SIGNALS: usize = 12;
+
+/// The wanted columns of one run.
+struct Recorded {
+    label: String,
+    cycle_s: f64,
+    columns: Vec<Column>,
+    /// Time of each sample in s.
+    times: Vec<f64>,
+    /// Samples of each column.
+    samples: Vec<Vec<f64>>,
+}
+
+/// Runs everything and writes the picture (`.svg`), or its numbers (`.csv`): of the spectra if there are any.
+///
+/// # Errors
+/// [`Error`] if options, lists or files are wrong, or the output cannot be written.
+pub(super) fn report(
+    args: &ReportArgs,
+    names: &str,
+    output: &Path,
+    engine: &mut dyn Engine,
+    console: &mut Console,
+) -> Result<Exit, Error> {
+    let is = |end: &str| output.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
+    if !is("svg") && !is("csv") {
+        let name = output.display();
+        let text = format!("{name}: --signals give a picture (.svg) or a table (.csv)");
+        return Err(Error::Usage(text));
+    }
+    let form = args.simulation.diagnostics;
+    let (mut runs, mut aborted) = (Vec::new(), false);
+    for (program, values, request) in requests(args)? {
+        // the headline names a single program
+        let label = match (args.programs.len(), values.is_empty()) {
+            (_, true) => program,
+            (1, false) => values,
+            (_, false) => format!("{program}, {values}"),
+        };
+        let mut source =
+            engine.open(&request).map_err(|e| crate::run::announce_lists(e, form, console))?;
+        let mut summary = Collector::new(source.facts());
+        let mut run = Recorded::new(label, names, source.facts())?;
+        crate::run::drive(source.as_mut(), console, form, &mut summary, &mut |record| {
+            let t_s = record.k as f64 * run.cycle_s;
+            if args.window.is_some_and(|(from, to)| !(from..to).contains(&t_s)) {
+                return Ok(());
+            }
+            if run.times.len() >= MOST_SAMPLES {
+                let text =
+                    format!("--signals: more than {MOST_SAMPLES} cycles; --window shows a part");
+                return Err(Error::Usage(text));
+            }
+            run.times.push(t_s);
+            for (samples, column) in run.samples.iter_mut().zip(&run.columns) {
+                samples.push(column.number(record).unwrap_or_default());
+            }
+            Ok(())
+        })?;
+        aborted |= source.totals().aborted;
+        runs.push(run);
+    }
+    let text = if is("csv") { table(args, &runs).csv() } else { plot(args, &runs).draw() };
+    std::fs::write(output, text).map_err(|e| Error::io(output.display().to_string(), e))?;
+    Ok(if aborted { Exit::Aborted } else { Exit::Finished })
+}
+
+impl Recorded {
+    fn new(label: String, names: &str, facts: &Facts) -> Result<Self, Error> {
+        let mut columns = select(names, facts).map_err(Error::Usage)?;
+        // time, line, block and words are no curves
+        columns.retain(|c| c.group != "time" && c.decimals > 0);
+        // in the order in which they were asked for
+        let words: Vec<&str> = names.split(',').map(str::trim).collect();
+        columns.sort_by_key(|c| words.iter().position(|w| *w == c.name || *w == c.group));
+        if columns.is_empty() || columns.len() > MOST_SIGNALS {
+            let text =
+                format!("--signals: {} columns, 1 to {MOST_SIGNALS} are drawn", columns.len());
+            return Err(Error::Usage(text));
+        }
+        Ok(Self {
+            label,
+            cycle_s: f64::from(facts.cycle_us) / 1e6,
+            samples: vec![Vec::new(); columns.len()],
+            times: Vec::new(),
+            columns,
+        })
+    }
+
+    fn spectrum(&self, column: usize) -> Spectrum {
+        Spectrum::of(&self.samples[column], self.cycle_s)
+    }
+}
+
+fn plot(args: &ReportArgs, runs: &[Recorded]) -> Plot {
+    let columns = runs.first().map(|r| r.columns.as_slice()).unwrap_or_default();
+    let times = || runs.iter().flat_map(|r| r.times.first().into_iter().chain(r.times.last()));
+    let mut panels = Vec::new();
+    for (i, column) in columns.iter().enumerate() {
+        let over_time = |r: &Recorded| {
+            r.samples.get(i).map(|s| r.times.iter().zip(s).map(|(t, y)| [*t, *y]).collect())
+        };
+        let time = (
+            times().copied().fold(f64::INFINITY, f64::min),
+            times().copied().fold(f64::NEG_INFINITY, f64::max),
+        );
+        panels.push(panel(&column.name, "time in s", time, runs, over_time));
+        if let Some(band) = args.spectrum {
+            let over_frequency =
+                |r: &Recorded| (i < r.samples.len()).then(|| r.spectrum(i).lines(band).collect());
+            let title = format!("Amplitude of {}", column.name);
+            panels.push(panel(&title, "frequency in Hz", band, runs, over_frequency));
+        }
+    }
+    let few = args.spectrum.is_none() && panels.len() > 3;
+    Plot {
+        title: args
+            .programs
+            .iter()
+            .map(|p| p.display().to_string())
+            .collect::<Vec<_>>()
+            .join("  \u{b7}  "),
+        subtitle: args
+            .window
+            .map_or_else(String::new, |(from, to)| format!("from {from} s to {to} s")),
+        legend: runs.iter().map(|r| r.label.clone()).collect(),
+        columns: if few { 2 } else { 1 },
+        row_height: 300.0,
+        panels,
+    }
+}
+
+fn panel(
+    title: &str,
+    x_label: &'static str,
+    x: (f64, f64),
+    runs: &[Recorded],
+    points: impl Fn(&Recorded) -> Option<Vec<[f64; 2]>>,
+) -> Diagram {
+    let line = |(series, r)| Some(Line { series: Some(series), points: points(r)? });
+    let lines: Vec<Line> = runs.iter().enumerate().filter_map(line).collect();
+    let y = around(lines.iter().flat_map(|l| &l.points).map(|p| p[1]).chain([0.0]), 1e-6);
+    Diagram {
+        title: title.to_owned(),
+        x: Scale::linear(x_label, x),
+        y: Scale::linear("", y),
+        equal: false,
+        lines,
+        levels: Vec::new(),
+    }
+}
+
+/// The numbers of the picture: the spectra if there are any, else the curves over time.
+fn table(args: &ReportArgs, runs: &[Recorded]) -> Table {
+    let columns = runs.first().map(|r| r.columns.as_slice()).unwrap_or_default();
+    let first = if args.spectrum.is_some() { "f_hz" } else { "t_s" };
+    let header: Vec<&str> =
+        ["curve", first].into_iter().chain(columns.iter().map(|c| c.name.as_str())).collect();
+    let mut table = Table::new(&header);
+    for r in runs {
+        let mut row = |x: f64, values: Vec<String>| {
+            table.push([r.label.clone(), number(x, 6)].into_iter().chain(values).collect());
+        };
+        let Some(band) = args.spectrum else {
+            for (k, t) in r.times.iter().enumerate() {
+                let value = |(s, c): (&Vec<f64>, &Column)| number(s[k], usize::from(c.decimals));
+                row(*t, r.samples.iter().zip(columns).map(value).collect());
+            }
+            continue;
+        };
+        let spectra: Vec<Vec<[f64; 2]>> =
+            (0..r.samples.len()).map(|i| r.spectrum(i).lines(band).collect()).collect();
+        for (line, [f_hz, _]) in spectra.first().into_iter().flatten().enumerate() {
+            row(*f_hz, spectra.iter().map(|s| number(s[line][1], 9)).collect());
+        }
+    }
+    table
+}

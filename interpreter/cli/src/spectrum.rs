@@ -1,0 +1,72 @@
+//! Amplitudes of the vibrations in a recorded signal.
+
+use realfft::RealFftPlanner;
+
+/// Longest record, in samples: a quarter of an hour at 1 ms.
+pub(crate) const MOST_SAMPLES: usize = 1_000_000;
+/// Lines per resolution of the record, so that a peak between two lines keeps its height.
+const PADDING: usize = 8;
+
+/// Single-sided amplitude spectrum under a Hann window: a sine of amplitude 1 that lasts the whole record has the height
+/// 1. The mean of the record is taken out before.
+#[derive(Clone, Debug)]
+pub(crate) struct Spectrum {
+    step_hz: f64,
+    amplitudes: Vec<f64>,
+}
+
+impl Spectrum {
+    /// The spectrum of samples taken every `cycle_s` seconds.
+    pub(crate) fn of(samples: &[f64], cycle_s: f64) -> Self {
+        let n = samples.len().max(1);
+        let mean = samples.iter().sum::<f64>() / n as f64;
+        let window =
+            |i: usize| 0.5 - 0.5 * libm::cos(std::f64::consts::TAU * (i as f64 + 0.5) / n as f64);
+        let length = (PADDING * n).next_power_of_two();
+        let mut padded: Vec<f64> =
+            samples.iter().enumerate().map(|(i, x)| (x - mean) * window(i)).collect();
+        padded.resize(length, 0.0);
+        let transform = RealFftPlanner::new().plan_fft_forward(length);
+        let mut values = transform.make_output_vec();
+        // both buffers have the lengths that the plan asks for
+        let done = transform.process(&mut padded, &mut values);
+        debug_assert!(done.is_ok());
+        let scale = 2.0 / (0.5 * n as f64);
+        let amplitudes = values.iter().map(|v| scale * libm::hypot(v.re, v.im)).collect();
+        Self { step_hz: 1.0 / (cycle_s * length as f64), amplitudes }
+    }
+
+    /// Frequency in Hz and amplitude of every line between two frequencies.
+    pub(crate) fn lines(&self, (low_hz, high_hz): (f64, f64)) -> impl Iterator<Item = [f64; 2]> {
+        let line = |(i, a): (usize, &f64)| [i as f64 * self.step_hz, *a];
+        let all = self.amplitudes.iter().enumerate().map(line);
+        all.skip_while(move |l| l[0] < low_hz).take_while(move |l| l[0] <= high_hz)
+    }
+
+    /// The highest line between two frequencies: frequency in Hz and amplitude.
+    pub(crate) fn peak(&self, band_hz: (f64, f64)) -> Option<[f64; 2]> {
+        self.lines(band_hz).max_by(|a, b| a[1].total_cmp(&b[1]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sines_keep_their_amplitudes() {
+        let wave =
+            |f_hz: f64, k: u32| libm::sin(std::f64::consts::TAU * f_hz * 1e-3 * f64::from(k));
+        let samples: Vec<f64> =
+            (0..1178).map(|k| 4.0 + 0.81 * wave(53.1, k) + 0.02 * wave(11.0, k)).collect();
+        let spectrum = Spectrum::of(&samples, 1e-3);
+        let [f, a] = spectrum.peak((50.0, 56.0)).unwrap();
+        assert!((f - 53.1).abs() < 0.1 && (a - 0.81).abs() < 1e-3, "{f} {a}");
+        let [f, a] = spectrum.peak((9.5, 12.5)).unwrap();
+        assert!((f - 11.0).abs() < 0.1 && (a - 0.02).abs() < 1e-3, "{f} {a}");
+        // the mean is no vibration, and nothing is found where nothing is
+        assert!(spectrum.peak((0.0, 5.0)).unwrap()[1] < 1e-3);
+        assert!(spectrum.peak((200.0, 300.0)).unwrap()[1] < 1e-4);
+        assert_eq!(spectrum.peak((600.0, 700.0)), None);
+    }
+}

@@ -1,0 +1,127 @@
+//! The picture of a sweep: results over the first parameter, one curve for each combination of the others.
+
+use super::args::SweepArgs;
+use super::{Outcome, Rows};
+use crate::Error;
+use crate::report::plot::{Diagram, Line, Plot, Scale, around};
+use crate::summary::State;
+
+/// Shown if no results are named.
+const USUAL: [&str; 2] = ["duration_s", "contour_err_mm"];
+/// Curves beyond these cannot be told apart.
+const MOST_CURVES: usize = 18;
+
+/// A combination of all parameters but the first.
+struct Series<'a> {
+    rest: &'a [usize],
+    /// Value of the first parameter, and the row, in rising order of the value.
+    points: Vec<(f64, usize)>,
+}
+
+/// Draws the results.
+///
+/// # Errors
+/// [`Error::Usage`] if the first parameter takes words, or if there are too many curves.
+pub(super) fn draw(
+    args: &SweepArgs,
+    combinations: &[Vec<usize>],
+    outcomes: &[Outcome],
+    rows: &Rows,
+) -> Result<String, Error> {
+    let (first, others) = args
+        .vary
+        .split_first()
+        .ok_or_else(|| Error::Usage("--vary names what the picture goes over".to_owned()))?;
+    let values = first.numbers().ok_or_else(|| {
+        Error::Usage(format!("--vary {}: a picture needs numbers to go over", first.key))
+    })?;
+    let mut series: Vec<Series<'_>> = Vec::new();
+    for (row, combination) in combinations.iter().enumerate() {
+        let (&i, rest) = combination.split_first().unwrap_or((&0, &[]));
+        let point = (values[i], row);
+        match series.iter_mut().find(|s| s.rest == rest) {
+            Some(s) => s.points.push(point),
+            None => series.push(Series { rest, points: vec![point] }),
+        }
+    }
+    if series.len() > MOST_CURVES {
+        let text = format!("--vary: {} curves in a picture, at most {MOST_CURVES}", series.len());
+        return Err(Error::Usage(text));
+    }
+    for s in &mut series {
+        s.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    let finished = |row: usize| outcomes[row].summary.state == State::Finished;
+    let legend = series.iter().map(|s| {
+        let names =
+            others.iter().zip(s.rest).map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
+        let mut name = names.collect::<Vec<_>>().join(", ");
+        if let Some(end) = end(s, finished) {
+            let comma = if name.is_empty() { "" } else { ": " };
+            name = format!("{name}{comma}{end}");
+        }
+        name
+    });
+    let mut legend: Vec<String> = legend.collect();
+    if legend.iter().all(String::is_empty) {
+        legend.clear();
+    }
+    let shown = |name: &&String| {
+        if args.columns.is_empty() {
+            USUAL.contains(&name.as_str()) || args.amplitude.iter().any(|a| a.text == **name)
+        } else {
+            args.columns.contains(name)
+        }
+    };
+    let panels =
+        rows.header.iter().enumerate().filter(|(_, name)| shown(name)).map(|(column, name)| {
+            let lines: Vec<Line> = series
+                .iter()
+                .enumerate()
+                .map(|(number, s)| {
+                    let value = |row: usize| {
+                        let cell = rows.cells[row][column].number();
+                        // what an aborted run reached is no result
+                        cell.filter(|_| finished(row)).unwrap_or(f64::NAN)
+                    };
+                    let points = s.points.iter().map(|&(x, row)| [x, value(row)]).collect();
+                    Line { series: Some(number), points }
+                })
+                .collect();
+            let x = around(values.iter().copied(), 1e-9);
+            let y = around(lines.iter().flat_map(|l| &l.points).map(|p| p[1]).chain([0.0]), 1e-9);
+            Diagram {
+                title: name.clone(),
+                x: Scale::linear("", x),
+                y: Scale::linear("", y),
+                equal: false,
+                lines,
+                levels: Vec::new(),
+            }
+        });
+    let panels = panels.collect();
+    let summary = outcomes.first().map(|o| &o.summary);
+    let plot = Plot {
+        title: summary
+            .map_or_else(String::new, |s| format!("{}, machine {}", s.program, s.machine)),
+        subtitle: format!("over {}; {} runs", first.key, outcomes.len()),
+        legend,
+        columns: 1,
+        row_height: 340.0,
+        panels,
+    };
+    Ok(plot.draw())
+}
+
+/// Up to where the runs of a series finish, if some do not.
+fn end(series: &Series<'_>, finished: impl Fn(usize) -> bool) -> Option<String> {
+    let aborted = series.points.iter().find(|p| !finished(p.1))?;
+    let last = series.points.iter().rev().find(|p| finished(p.1));
+    Some(match last {
+        None => "every run aborted".to_owned(),
+        Some(last) if last.0 < aborted.0 => {
+            format!("finished up to {}, aborted from {} on", last.0, aborted.0)
+        }
+        Some(last) => format!("finished up to {}, some runs below aborted", last.0),
+    })
+}

@@ -1,0 +1,114 @@
+//! Parameters that take several values, and all combinations of them.
+
+use crate::Error;
+use crate::args::setting;
+use crate::response::args::Numbers;
+use std::str::FromStr;
+
+/// More combinations than this are a slip of the hand.
+const MOST_COMBINATIONS: usize = 100_000;
+
+/// One list parameter and its values: `X.getriebe[0].kv=2000..60000:1000`, `X.vorsteuer.vorsteuerung=NONE,VEL,VEL|ACC`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vary {
+    /// What `--set` calls it.
+    pub key: String,
+    /// Its values as they stand in a list.
+    pub values: Vec<String>,
+}
+
+impl FromStr for Vary {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (key, list) = text
+            .split_once('=')
+            .ok_or("KEY=VALUES expected, e.g. X.getriebe[0].kv=1000..5000:500")?;
+        let mut values = Vec::new();
+        for part in list.split(',') {
+            if part.contains("..") {
+                let numbers: Numbers = part.parse()?;
+                values.extend(numbers.0.into_iter().map(plain));
+            } else {
+                values.push(part.trim().to_owned());
+            }
+        }
+        let vary = Self { key: key.trim().to_owned(), values };
+        for value in &vary.values {
+            setting(&format!("{}={value}", vary.key))?;
+        }
+        Ok(vary)
+    }
+}
+
+/// A number without the digits that steps leave behind: 0.3, not 0.30000000000000004.
+fn plain(value: f64) -> String {
+    let text = format!("{value:.9}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+impl Vary {
+    /// The last part of the key, where it says enough: `kv`, `enable`.
+    pub(crate) fn short(&self) -> &str {
+        self.key.rsplit('.').next().unwrap_or(&self.key)
+    }
+
+    /// The values as numbers, if all of them are.
+    pub(crate) fn numbers(&self) -> Option<Vec<f64>> {
+        self.values.iter().map(|v| v.parse().ok()).collect()
+    }
+}
+
+/// Every combination of values, the last parameter changing fastest: for each an index into the values of each parameter.
+///
+/// # Errors
+/// [`Error::Usage`] for too many of them.
+pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
+    let count = vary.iter().try_fold(1_usize, |n, v| n.checked_mul(v.values.len()));
+    if count.is_none_or(|n| n > MOST_COMBINATIONS) {
+        let text = format!("--vary: more than {MOST_COMBINATIONS} combinations");
+        return Err(Error::Usage(text));
+    }
+    let mut all = vec![Vec::new()];
+    for v in vary {
+        let longer = |one: &Vec<usize>| {
+            let one = one.clone();
+            (0..v.values.len()).map(move |i| one.iter().copied().chain([i]).collect())
+        };
+        all = all.iter().flat_map(longer).collect();
+    }
+    Ok(all)
+}
+
+/// The settings of one combination, as `--set` takes them.
+pub(crate) fn settings(vary: &[Vary], combination: &[usize]) -> Vec<String> {
+    vary.iter().zip(combination).map(|(v, &i)| format!("{}={}", v.key, v.values[i])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_ranges_numbers_and_words() {
+        let values = |text: &str| text.parse::<Vary>().unwrap().values;
+        assert_eq!(values("X.a=1..3"), ["1", "2", "3"]);
+        assert_eq!(values("X.a=0.1..0.3:0.1,7"), ["0.1", "0.2", "0.3", "7"]);
+        assert_eq!(values("X.v=NONE,VEL, VEL|ACC"), ["NONE", "VEL", "VEL|ACC"]);
+        for wrong in ["X.a", "a=1", "X.=1", "X.a=3..1", "X.a=1..2:0"] {
+            assert!(wrong.parse::<Vary>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_last_parameter_changes_fastest() {
+        let vary: Vec<Vary> =
+            ["X.a=1,2", "Y.b=5..7"].iter().map(|text| text.parse().unwrap()).collect();
+        let all = combinations(&vary).unwrap();
+        assert_eq!(all.len(), 6);
+        assert_eq!(settings(&vary, &all[1]), ["X.a=1", "Y.b=6"]);
+        assert_eq!(settings(&vary, &all[5]), ["X.a=2", "Y.b=7"]);
+        let many: Vec<Vary> = vec!["X.a=1..900".parse().unwrap(); 2];
+        assert!(combinations(&many).is_err());
+    }
+}
