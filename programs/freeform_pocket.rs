@@ -24,12 +24,15 @@ fn main() -> std::io::Result<()> {
     writeln!(out, "#SLOPE [TYPE=HSC]")?;
     writeln!(out, "G01 F4800")?;
     let mut phi = 0.0;
-    while phi < 2.0 * PI * TURNS {
+    loop {
         // the wall runs at an angle to the circle of its radius
         let slope = (radius(phi + 1e-6) - radius(phi)) / 1e-6;
         phi += CHORD_MM / libm::hypot(radius(phi), slope);
         let (x, y) = (radius(phi) * libm::cos(phi) - radius(0.0), radius(phi) * libm::sin(phi));
         writeln!(out, "X{x:.4} Y{y:.4} Z{:.4}", -phi / (2.0 * PI))?;
+        if phi >= 2.0 * PI * TURNS {
+            break;
+        }
     }
     writeln!(out, "M30")?;
     out.flush()

@@ -27,11 +27,14 @@ fn main() -> std::io::Result<()> {
     writeln!(out, "#SLOPE [TYPE=HSC]")?;
     writeln!(out, "G01 F9000")?;
     let mut phi = 0.0;
-    while radius(phi) < LAST_RADIUS_MM {
+    loop {
         // a chord of angle p deviates by r p^2 / 8
         phi += (8.0 * CHORD_ERROR_MM / radius(phi)).sqrt();
         let (x, y) = (radius(phi) * libm::cos(phi) - radius(0.0), radius(phi) * libm::sin(phi));
         writeln!(out, "X{x:.4} Y{y:.4}")?;
+        if radius(phi) >= LAST_RADIUS_MM {
+            break;
+        }
     }
     writeln!(out, "M30")?;
     out.flush()
