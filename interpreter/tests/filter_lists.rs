@@ -132,9 +132,9 @@ fn additional(entries: &str) -> (Option<AxisFilter>, Vec<String>, bool) {
 fn listings_of_the_additional_interface() {
     let listing = |lines: &str| {
         let prefix = "lr_param.add_interface";
-        let lines: Vec<String> =
+        let keys: Vec<String> =
             lines.split(';').map(|l| format!("{prefix}.{}", l.trim())).collect();
-        let text = lines.join("\n");
+        let text = keys.join("\n");
         let text = text.replacen("lr_param", "Lr_param", 1);
         assert_eq!(said(&text), [], "{lines}");
         let entries: Vec<String> =
