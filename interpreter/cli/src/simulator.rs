@@ -115,7 +115,10 @@ impl Source for Run {
 
     fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = std::mem::take(&mut self.messages);
-        found.extend(self.simulation.take_diagnostics());
+        // the check has told everything about a refused program
+        if !self.refused {
+            found.extend(self.simulation.take_diagnostics());
+        }
         found
     }
 
@@ -150,9 +153,9 @@ impl Engine for Kontur {
             options.clone(),
         );
         let refused = found.iter().any(Diagnostic::is_error);
-        if refused {
-            messages.extend(found);
-        }
+        // parts that do not run are looked at by the check alone
+        let unreached = |d: &Diagnostic| d.id == exec::UNREACHED;
+        messages.extend(found.into_iter().filter(|d| refused || unreached(d)));
         let simulation = open(options).map_err(OpenError::Lists)?;
         let facts = facts(request, &machine, &simulation);
         Ok(Box::new(Run { facts, simulation, messages, refused }))

@@ -10,6 +10,7 @@ use super::index::{EntryId, Index, Keyword};
 use super::modal::Modal;
 use super::options::{Options, SkipLevels};
 use super::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
+use super::unreached::Reached;
 use crate::diag::{Diagnostic, Id, Location, Severity};
 use crate::machine::Machine;
 use crate::source::{Position, Sources};
@@ -55,7 +56,7 @@ enum State {
 pub struct Executor {
     pub(super) decoder: Decoder,
     pub(super) sources: Box<dyn Sources>,
-    parser: Parser,
+    pub(super) parser: Parser,
     pub(super) files: Files,
     pub(super) levels: Vec<Level>,
     pub(super) skip: SkipLevels,
@@ -70,6 +71,10 @@ pub struct Executor {
     max_blocks_at_rest: u64,
     /// Place of the block in work.
     pub(super) position: Position,
+    /// What was executed, while checking.
+    pub(super) reached: Reached,
+    /// The program of P-CHAN-00252 has been called.
+    pub(super) end_program_called: bool,
     reason: EndReason,
 }
 
@@ -126,6 +131,8 @@ impl Executor {
             max_blocks,
             max_blocks_at_rest,
             position: Position::START,
+            reached: Reached::default(),
+            end_program_called: false,
             reason: EndReason::Finished,
         };
         diagnostics.append(&mut executor.decoder.unplaced);
@@ -157,6 +164,12 @@ impl Executor {
         info.main_program = index.sections[section].name.clone().unwrap_or_else(|| Arc::from(""));
         info.main_file = name;
         self.push_level(file, section, None);
+        self.position = index.sections[section].start;
+        self.decoder.source.file = file_number(file);
+        if let Some(name) = self.decoder.machine.channel.start_program.clone() {
+            self.call_of_list(&name, "P-CHAN-00119", Span::default());
+            self.settle(false);
+        }
         if self.errors > 0 && !self.decoder.checking {
             self.end(EndReason::Aborted);
         }
@@ -271,6 +284,9 @@ impl Executor {
             return;
         }
         self.position = at;
+        if self.decoder.checking {
+            self.reached.add(file, at, next);
+        }
         self.source_of(file, at, &parsed);
         if let Some(level) = self.levels.last_mut() {
             level.at = next;
@@ -352,7 +368,10 @@ impl Executor {
 
     fn wait_for_actual(&mut self, at: Position) {
         self.state = State::WaitsForActual;
-        let source = SourceRef { line: at.line, block: None, ..self.decoder.source };
+        let file =
+            self.levels.last().map_or(self.decoder.source.file, |level| file_number(level.file));
+        let source = SourceRef { file, line: at.line, offset: at.offset, block: None };
+        self.decoder.source = source;
         let faults = self.decoder.contour.sync(Sync::ReadActual, source);
         self.position = at;
         for fault in faults {
@@ -392,8 +411,8 @@ impl Executor {
                 self.decoder.keep(outcome).map(u64::from)
             }
         };
-        let file = u32::try_from(file).unwrap_or(u32::MAX);
-        self.decoder.source = SourceRef { file, line: at.line, block };
+        let file = file_number(file);
+        self.decoder.source = SourceRef { file, line: at.line, offset: at.offset, block };
         self.decoder.location = None;
         self.decoder.info.offset = at.offset;
         if let Some(block) = block {
@@ -484,6 +503,7 @@ impl Executor {
             After::Next => {}
             After::Call(call, span) => self.call(call, span),
             After::Cycle(call) => self.implicit_call(&call),
+            After::ToolChange(span) => self.tool_change(span),
             After::Goto(label) => self.goto(label),
             After::Return => self.return_from_level(),
             After::End => self.program_end(),
@@ -491,15 +511,12 @@ impl Executor {
     }
 
     /// Reports the conditions of the block; an error ends the program.
-    fn settle(&mut self, faulty: bool) {
+    pub(super) fn settle(&mut self, faulty: bool) {
         let faults = self.decoder.take_faults();
         let mut failed = faulty;
         for fault in faults {
             failed |= fault.is_error();
-            let Fault { mut diagnostic, span } = fault;
-            if diagnostic.source.is_none() {
-                diagnostic.source = self.here(span);
-            }
+            let diagnostic = self.placed(fault);
             self.report(diagnostic);
         }
         if self.decoder.checking {
@@ -517,22 +534,39 @@ impl Executor {
         }
     }
 
-    /// Place of a span of the block in work.
-    pub(super) fn here(&mut self, span: Span) -> Option<Location> {
-        self.place(self.position, span)
+    /// The diagnostic of a fault with its place.
+    fn placed(&mut self, fault: Fault) -> Diagnostic {
+        let Fault { mut diagnostic, span, origin } = fault;
+        if diagnostic.source.is_none() {
+            diagnostic.source = match origin {
+                Some(block) => self.place_in(block, span),
+                None => self.here(span),
+            };
+        }
+        diagnostic
     }
 
-    /// Place of a span of a block of the present file.
-    pub(super) fn place(&mut self, position: Position, span: Span) -> Option<Location> {
-        let file = self.levels.last().map_or(self.decoder.source.file as usize, |l| l.file);
+    /// Place of a span of the block in work, also if it has left its level or entered another.
+    pub(super) fn here(&mut self, span: Span) -> Option<Location> {
+        let Position { offset, line } = self.position;
+        self.place_in(SourceRef { line, offset, ..self.decoder.source }, span)
+    }
+
+    fn place_in(&mut self, block: SourceRef, span: Span) -> Option<Location> {
+        let file = block.file as usize;
         if file >= self.files.names().len() {
             return None;
         }
+        let position = Position { offset: block.offset, line: block.line };
         let mut location = self.files.locate(file, position, span, &self.decoder.macros)?;
-        if position == self.position {
-            location.block = self.decoder.source.block;
-        }
+        location.block = block.block;
         Some(location)
+    }
+
+    /// Place of a span of a block of the present level.
+    pub(super) fn place(&mut self, position: Position, span: Span) -> Option<Location> {
+        let file = self.levels.last()?.file;
+        self.files.locate(file, position, span, &self.decoder.macros)
     }
 
     /// Adds a diagnostic, once per place.
@@ -564,10 +598,11 @@ impl Executor {
         self.reason = if aborted { EndReason::Aborted } else { EndReason::Finished };
         let source = self.decoder.source;
         let contour: &mut Contour = &mut self.decoder.contour;
-        for fault in contour.end(self.reason, source) {
-            let Fault { diagnostic, span } = fault;
-            let located = self.here(span);
-            self.report(Diagnostic { source: located, ..diagnostic });
+        let mut faults = contour.end(self.reason, source);
+        faults.extend(self.decoder.limits_of_compensated().into_iter().map(|f| *f));
+        for fault in faults {
+            let diagnostic = self.placed(fault);
+            self.report(diagnostic);
         }
     }
 
@@ -575,6 +610,11 @@ impl Executor {
     pub(super) fn has_ended(&self) -> bool {
         self.state == State::Ended
     }
+}
+
+/// A file as [`SourceRef`] names it.
+fn file_number(file: usize) -> u32 {
+    u32::try_from(file).unwrap_or(u32::MAX)
 }
 
 /// Start positions by axis name.

@@ -1,5 +1,6 @@
 //! Conditions met while a block is executed, with their place in the block.
 
+use super::step::SourceRef;
 use crate::diag::{Diagnostic, Severity};
 use crate::syntax::ast::Span;
 
@@ -8,6 +9,8 @@ use crate::syntax::ast::Span;
 pub(super) struct Fault {
     pub(super) diagnostic: Diagnostic,
     pub(super) span: Span,
+    /// Block of the span, if it is an earlier one than that in work.
+    pub(super) origin: Option<SourceRef>,
 }
 
 /// Result of something that may end in a fault.
@@ -15,7 +18,7 @@ pub(super) type Outcome<T> = Result<T, Box<Fault>>;
 
 impl Fault {
     pub(super) fn new(diagnostic: Diagnostic, span: Span) -> Box<Self> {
-        Box::new(Self { diagnostic, span })
+        Box::new(Self { diagnostic, span, origin: None })
     }
 
     /// A condition with a vendor number.
@@ -36,6 +39,12 @@ impl Fault {
     /// Changes the diagnostic.
     pub(super) fn with(mut self: Box<Self>, f: impl FnOnce(Diagnostic) -> Diagnostic) -> Box<Self> {
         self.diagnostic = f(self.diagnostic);
+        self
+    }
+
+    /// The span belongs to this block, unless another one was named.
+    pub(super) fn in_block(mut self: Box<Self>, source: SourceRef) -> Box<Self> {
+        self.origin = self.origin.or(Some(source));
         self
     }
 
@@ -108,6 +117,10 @@ pub(super) mod own {
     pub(in crate::exec) const COMPENSATION: u16 = 115;
     /// Start, end and centre of an arc do not fit (G165).
     pub(in crate::exec) const ARC_CENTRE: u16 = 117;
+    /// A compensated tool cuts its own contour at a bottleneck.
+    pub(in crate::exec) const BOTTLENECK: u16 = 119;
+    /// Syntax error in a part of the program that does not run.
+    pub(in crate::exec) const UNREACHED: u16 = 118;
     /// The program has more errors than are reported.
     pub(in crate::exec) const TOO_MANY: u16 = 116;
 }

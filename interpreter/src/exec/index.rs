@@ -348,6 +348,7 @@ impl Builder<'_> {
         let first = head.rest.bytes().next();
         if let Some(open) = self.comment {
             if first == Some(b'#') && is_command(head.rest, "COMMENT", "END") {
+                self.alone(raw, head.rest, 20569);
                 let id = self.push(raw.position, Keyword::CommentEnd);
                 self.index.entries[open as usize].end = Some(id);
                 self.comment = None;
@@ -484,6 +485,7 @@ impl Builder<'_> {
         let name = word(&head.rest[1..]);
         match name.as_str() {
             "COMMENT" if is_command(head.rest, "COMMENT", "BEGIN") => {
+                self.alone(raw, head.rest, 20566);
                 self.comment = Some(self.push(raw.position, Keyword::CommentBegin));
             }
             "IF" => {
@@ -513,6 +515,18 @@ impl Builder<'_> {
                 }
             }
             _ => {}
+        }
+    }
+
+    /// `#COMMENT BEGIN` and `END` stand alone in their blocks.
+    fn alone(&mut self, raw: &RawBlock<'_>, command: &str, id: u32) {
+        let two_words = command[1..].trim_start_matches(|c: char| c.is_ascii_alphanumeric());
+        let behind = two_words.trim_start().trim_start_matches(|c: char| c.is_ascii_alphanumeric());
+        let behind = blank(behind);
+        if !behind.is_empty() && !behind.starts_with(';') {
+            let text = "#COMMENT BEGIN and #COMMENT END stand alone in their blocks";
+            let at = raw.text.len() - behind.len();
+            self.report(raw, at, behind.trim_end().len(), Diagnostic::vendor(id, text));
         }
     }
 
