@@ -137,13 +137,24 @@ impl Splining {
     /// Puts out the piece of the next edge.
     fn put_out(&mut self, to_end: bool) {
         let single = self.from_start && to_end && self.run.len() == 1;
-        let edge = &self.run[self.done];
-        let curve = if single { None } else { self.curve(to_end) };
-        let mut block = edge.block.clone();
-        if let Some(curve) = curve {
-            block.path = Path::Curve(curve);
+        let curves = if single { Vec::new() } else { self.curves(to_end) };
+        let block = &self.run[self.done].block;
+        if curves.is_empty() {
+            self.ready.push(block.clone());
         }
-        self.ready.push(block);
+        let whole: f64 = curves.iter().map(Path::length).sum();
+        let parts = curves.len();
+        for (i, curve) in curves.into_iter().enumerate() {
+            let mut part = block.clone();
+            if let Feed::Duration(t) = block.feed {
+                part.feed = Feed::Duration(t * curve.length() / whole);
+            }
+            if i + 1 < parts {
+                part.end_velocity_mm_s = None;
+            }
+            part.path = curve;
+            self.ready.push(part);
+        }
         self.done += 1;
         if self.done > BEHIND {
             self.run.pop_front();
@@ -152,23 +163,34 @@ impl Splining {
         }
     }
 
-    /// The spline over the next edge.
-    fn curve(&self, to_end: bool) -> Option<PolyPath> {
+    /// The spline over the next edge: one curve, or one for each piece where a corner is refined, so that the bend of
+    /// the corner slows down nothing but the corner.
+    fn curves(&self, to_end: bool) -> Vec<Path> {
         let polygon = ControlPolygon::around(&self.run, self.done, self.from_start, to_end);
-        let pieces: Vec<PolyPiece> =
-            (polygon.first..polygon.last).map(|j| polygon.piece(j)).collect();
+        let edge = &self.run[self.done].block;
         let last = self.done + 1 == self.run.len();
-        let start = if self.from_start && self.done == 0 {
-            self.run[0].start().clone()
-        } else {
-            polygon.joint(polygon.first)
+        let joint = |j: usize| {
+            if j == polygon.first && self.from_start && self.done == 0 {
+                edge.path.start().clone()
+            } else if j == polygon.last && to_end && last {
+                edge.path.end().clone()
+            } else {
+                polygon.joint(j)
+            }
         };
-        let end = if to_end && last {
-            self.run[self.done].block.path.end().clone()
-        } else {
-            polygon.joint(polygon.last)
-        };
-        PolyPath::new(start, end, pieces, &self.run[self.done].block.dynamics.feed_axes)
+        // a stop at every transition (G116) means those of the program
+        let all = polygon.last.saturating_sub(polygon.first).max(1);
+        let step = if edge.dynamics.stop_at_transitions { all } else { 1 };
+        let mut out = Vec::new();
+        for begin in (polygon.first..polygon.last).step_by(step) {
+            let pieces: Vec<PolyPiece> = (begin..begin + step).map(|j| polygon.piece(j)).collect();
+            let (start, end) = (joint(begin), joint(begin + step));
+            match PolyPath::new(start, end, pieces, &edge.dynamics.feed_axes) {
+                Some(curve) => out.push(Path::Curve(curve)),
+                None => return Vec::new(),
+            }
+        }
+        out
     }
 }
 

@@ -86,6 +86,11 @@ impl LegLimits {
         Self::new(self.shape, self.constant_ramp_time, a, rise, fall)
     }
 
+    /// Shape, plateau, first and second ramp time, if a short leg keeps the jerk.
+    pub(super) fn scalable(&self) -> Option<(RampShape, f64, [f64; 2])> {
+        (!self.constant_ramp_time).then_some((self.shape, self.a, self.ramps_s()))
+    }
+
     /// True if plateau and ramps differ by at most `ratio`.
     pub(super) fn nearly_equals(&self, other: &Self, ratio: f64) -> bool {
         let near = |x: f64, y: f64| (x - y).abs() <= ratio * x.max(y);

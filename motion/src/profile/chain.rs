@@ -1,0 +1,202 @@
+//! A speed over path length as a chain of phases, each with one ramp of the acceleration.
+
+use super::ramp::{RampShape, RampState};
+use super::span::State;
+use smallvec::SmallVec;
+use std::f64::consts::FRAC_1_PI;
+
+/// A phase in which the acceleration runs along one ramp, or stays, from its state at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Phase {
+    /// Path length at the start in mm.
+    pub(crate) s: f64,
+    /// Velocity there in mm/s.
+    pub(crate) v: f64,
+    /// Acceleration there in mm/s2.
+    pub(crate) a: f64,
+    /// Jerk in mm/s3; of a sine-square ramp the mean one.
+    pub(crate) j: f64,
+    /// Duration in s.
+    pub(crate) t: f64,
+    /// The sine-square ramp of which this is a part; `None`: the jerk is constant.
+    sine: Option<Sine>,
+}
+
+/// Where a phase lies on a sine-square ramp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Sine {
+    /// Time of the ramp before the start of the phase in s.
+    skip: f64,
+    /// Duration of the ramp in s.
+    whole: f64,
+}
+
+impl Phase {
+    /// A state, as a phase without duration.
+    pub(crate) fn state(s: f64, v: f64, a: f64) -> Self {
+        Self { s, v, a, j: 0.0, t: 0.0, sine: None }
+    }
+
+    /// From a state along a whole ramp of this (mean) jerk.
+    pub(crate) fn ramp(self, shape: RampShape, j: f64, t: f64) -> Self {
+        let curved = shape == RampShape::Sin2 && j != 0.0 && t > 0.0;
+        Self { j, t, sine: curved.then_some(Sine { skip: 0.0, whole: t }), ..self }
+    }
+
+    /// The state `t` s after the start, as the start of a phase without duration.
+    pub(crate) fn after(&self, t: f64) -> Self {
+        let Self { s, v, a, j, .. } = *self;
+        let Some(sine) = self.sine else {
+            let distance = t * (v + t * (0.5 * a + t * j / 6.0));
+            return Self::state(s + distance, v + t * (a + 0.5 * t * j), a + t * j);
+        };
+        let (from, to) = (self.on_ramp(sine, 0.0), self.on_ramp(sine, t));
+        let base = a - from.a;
+        let distance = t * (v - from.v + 0.5 * t * base) + (to.s - from.s);
+        Self::state(s + distance, v + t * base + (to.v - from.v), base + to.a)
+    }
+
+    fn on_ramp(&self, sine: Sine, t: f64) -> RampState {
+        let x = (sine.skip + t).clamp(0.0, sine.whole);
+        RampShape::Sin2.rise(self.j * sine.whole, sine.whole, x)
+    }
+
+    pub(crate) fn end(&self) -> Self {
+        self.after(self.t)
+    }
+
+    /// The first `t` s of the phase.
+    pub(crate) fn until(self, t: f64) -> Self {
+        Self { t, ..self }
+    }
+
+    /// What is left of the phase `t` s after its start.
+    pub(crate) fn rest(&self, t: f64) -> Self {
+        let sine = self.sine.map(|s| Sine { skip: s.skip + t, ..s });
+        Self { j: self.j, t: self.t - t, sine, ..self.after(t) }
+    }
+
+    /// The phase run backwards from the other end of `length` mm.
+    pub(crate) fn reversed(&self, length: f64) -> Self {
+        let end = self.end();
+        let sine = self.sine.map(|s| Sine { skip: s.whole - s.skip - self.t, ..s });
+        Self { s: length - end.s, v: end.v, a: -end.a, sine, ..*self }
+    }
+
+    /// Jerk in mm/s3 `t` s after the start.
+    fn jerk_after(&self, t: f64) -> f64 {
+        self.sine.map_or(self.j, |sine| self.on_ramp(sine, t).j)
+    }
+
+    /// Time in `0..=t` at which `s` is reached; the velocity must not be negative.
+    pub(crate) fn time_at(&self, s: f64) -> f64 {
+        let want = s - self.s;
+        if want <= 0.0 {
+            return 0.0;
+        }
+        let whole = self.end().s - self.s;
+        if want >= whole {
+            return self.t;
+        }
+        let (mut low, mut high) = (0.0, self.t);
+        let mut t = self.t * want / whole;
+        for _ in 0..60 {
+            let at = self.after(t);
+            let miss = at.s - self.s - want;
+            if miss > 0.0 {
+                high = t;
+            } else {
+                low = t;
+            }
+            let newton = t - miss / at.v;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - t).abs() <= 1e-16 * self.t {
+                return next;
+            }
+            t = next;
+        }
+        t
+    }
+
+    /// Velocity where the acceleration passes through zero inside the phase.
+    fn at_turn(&self) -> Option<f64> {
+        let turn = match self.sine {
+            None => -self.a / self.j,
+            Some(sine) => {
+                // a + da (sin2(z) - sin2(z of the start)) = 0
+                let ratio = (self.on_ramp(sine, 0.0).a - self.a) / (self.j * sine.whole);
+                2.0 * sine.whole * FRAC_1_PI * libm::asin(ratio.max(0.0).sqrt()) - sine.skip
+            }
+        };
+        (turn > 0.0 && turn < self.t).then(|| self.after(turn).v)
+    }
+
+    /// Highest velocity of the phase.
+    pub(crate) fn peak(&self) -> f64 {
+        let ends = self.v.max(self.end().v);
+        self.at_turn().map_or(ends, |v| ends.max(v))
+    }
+
+    /// Lowest velocity of the phase.
+    pub(crate) fn lowest(&self) -> f64 {
+        let ends = self.v.min(self.end().v);
+        self.at_turn().map_or(ends, |v| ends.min(v))
+    }
+}
+
+/// Phases in order with the times at which they start.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Chain {
+    phases: Vec<(f64, Phase)>,
+    duration: f64,
+    length: f64,
+}
+
+impl Chain {
+    pub(crate) fn new(phases: impl IntoIterator<Item = Phase>, length: f64) -> Self {
+        let mut duration = 0.0;
+        let mut timed = Vec::new();
+        for phase in phases {
+            timed.push((duration, phase));
+            duration += phase.t;
+        }
+        Self { phases: timed, duration, length }
+    }
+
+    pub(super) fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        self.length
+    }
+
+    pub(super) fn at(&self, t: f64) -> State {
+        let i = self.phases.partition_point(|p| p.0 <= t).saturating_sub(1);
+        let Some((start, phase)) = self.phases.get(i) else { return State::default() };
+        let t = (t - start).clamp(0.0, phase.t);
+        let now = phase.after(t);
+        // rounding at a stop
+        let v_mm_s = now.v.max(0.0);
+        State { s_mm: now.s, v_mm_s, a_mm_s2: now.a, j_mm_s3: phase.jerk_after(t) }
+    }
+
+    pub(super) fn time_at(&self, s: f64) -> f64 {
+        let i = self.phases.partition_point(|p| p.1.s <= s).saturating_sub(1);
+        self.phases.get(i).map_or(0.0, |(start, phase)| start + phase.time_at(s))
+    }
+
+    pub(super) fn times(&self) -> SmallVec<[f64; 8]> {
+        self.phases.iter().map(|p| p.1.t).collect()
+    }
+
+    pub(super) fn peak(&self) -> f64 {
+        self.phases.iter().map(|p| p.1.peak()).fold(0.0, f64::max)
+    }
+
+    pub(super) fn highest_between(&self, from: f64, to: f64) -> f64 {
+        let first = self.phases.partition_point(|p| p.1.s <= from).saturating_sub(1);
+        let last = self.phases.partition_point(|p| p.1.s < to);
+        self.phases[first..last].iter().map(|p| p.1.peak()).fold(0.0, f64::max)
+    }
+}
