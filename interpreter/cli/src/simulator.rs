@@ -46,6 +46,11 @@ pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenErro
         });
         return Err(OpenError::Lists(refused.collect()));
     }
+    // a filter or a controller that the list describes and that cannot be: the axis would move without it
+    let chains = machine.chains().1;
+    if chains.iter().any(Diagnostic::is_error) {
+        return Err(OpenError::Lists(messages.into_iter().chain(chains).collect()));
+    }
     Ok((machine, messages))
 }
 
@@ -115,7 +120,7 @@ impl Source for Run {
 
     fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = std::mem::take(&mut self.messages);
-        // the check has told everything about a refused program
+        // of a refused program the check has said everything
         if !self.refused {
             found.extend(self.simulation.take_diagnostics());
         }
@@ -153,6 +158,9 @@ impl Engine for Kontur {
             options.clone(),
         );
         let refused = found.iter().any(Diagnostic::is_error);
+        if refused {
+            messages.extend(machine.chains().1);
+        }
         // parts that do not run are looked at by the check alone
         let unreached = |d: &Diagnostic| d.id == exec::UNREACHED;
         messages.extend(found.into_iter().filter(|d| refused || unreached(d)));
@@ -168,7 +176,7 @@ impl Engine for Kontur {
     ) -> Result<(), OpenError> {
         readable(&request.program)?;
         let (machine, messages) = machine(request)?;
-        messages.into_iter().for_each(&mut *report);
+        messages.into_iter().chain(machine.chains().1).for_each(&mut *report);
         let options = options(request, &machine)?;
         let program = request.program.display().to_string();
         let found = exec::check(Box::new(sources(request)), &program, Arc::new(machine), options);

@@ -119,7 +119,7 @@ impl Compensator {
             return self.select(motion, None, out);
         }
         if !matches!(side, Side::Line { .. }) {
-            return Err(circular(motion.span));
+            return Err(circular(&motion));
         }
         let at = active.finish(out)?;
         self.select(motion, Some(at), out)
@@ -131,9 +131,12 @@ impl Compensator {
             out.push(item);
             return Ok(());
         };
-        if let Item::Sync { what: Sync::Stop | Sync::FlushWait | Sync::ReadActual, .. } = item {
+        if let Item::Sync {
+            what: Sync::Stop | Sync::FlushWait | Sync::ReadActual, source, ..
+        } = item
+        {
             let text = "the channel cannot be flushed while tool radius compensation is active";
-            return Err(Fault::vendor(20651, text, Span::default()));
+            return Err(Fault::vendor(20651, text, Span::default()).in_block(source));
         }
         active.hold(item, Span::default())
     }
@@ -186,7 +189,7 @@ impl Compensator {
         } else if let Side::Line { from, .. } = side {
             (from, true)
         } else {
-            return Err(circular(motion.span));
+            return Err(circular(&motion));
         };
         let mut watch = Watch::default();
         if !approach {
@@ -250,7 +253,6 @@ impl Active {
             let last = Element { motion, side, start, approach: false };
             Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
         };
-        let span = motion.span;
         let corner = side.start_point();
         let after = above(corner, side.tangent(false), distance);
         if last.approach {
@@ -264,8 +266,8 @@ impl Active {
         let smooth = turn.abs() < 1e-9 && dot(u, w) > 0.0;
         let outside = !smooth && (turn * distance < 0.0 || (turn.abs() < 1e-9 && dot(u, w) < 0.0));
         if !smooth && !outside {
-            let at =
-                inner_corner(&last.side, &side, corner, distance).ok_or_else(|| too_tight(span))?;
+            let at = inner_corner(&last.side, &side, corner, distance)
+                .ok_or_else(|| too_tight(&motion))?;
             last.emit(at, plane, distance, out)?;
             emit_between(between, at, plane, out);
             return Ok(active(at, motion));
@@ -378,7 +380,7 @@ impl Element {
             Side::Line { .. } => {
                 let along = dot(sub(end, start), side.tangent(false));
                 if along < 0.0 && !approach {
-                    return Err(too_tight(motion.span).in_block(source));
+                    return Err(too_tight(&motion));
                 }
                 line(&motion, plane, start, end)
             }
@@ -394,7 +396,7 @@ impl Element {
                 }
                 let sweep_rad = trimmed(&side, start, end);
                 if sweep_rad * side_sweep(&side) <= 0.0 {
-                    return Err(too_tight(motion.span).in_block(source));
+                    return Err(too_tight(&motion));
                 }
                 let shape = ArcShape { plane, centre_mm: *centre, sweep_rad };
                 let (from, to) = ends(&motion, plane, start, end);
@@ -524,13 +526,13 @@ fn trimmed(side: &Side, start: Point, end: Point) -> f64 {
     sweep_rad - at_start + at_end
 }
 
-fn circular(span: Span) -> Box<Fault> {
+fn circular(motion: &Motion) -> Box<Fault> {
     let text =
         "tool radius compensation is selected, changed and cancelled in straight motions only";
-    Fault::vendor(90008, text, span)
+    Fault::vendor(90008, text, motion.span).in_block(motion.source)
 }
 
-fn too_tight(span: Span) -> Box<Fault> {
+fn too_tight(motion: &Motion) -> Box<Fault> {
     let text = "the contour is too tight for the radius of the tool";
-    Fault::kontur(own::COMPENSATION, text, span)
+    Fault::kontur(own::COMPENSATION, text, motion.span).in_block(motion.source)
 }

@@ -41,7 +41,7 @@ pub(super) struct Compensated {
 
 impl Motion {
     /// Takes the path over into the coordinates of the tilt.
-    fn to_local(&mut self) {
+    fn enter_tilt(&mut self) {
         let Some(tilt) = &self.tilt else { return };
         if std::mem::replace(&mut self.local, true) {
             return;
@@ -61,7 +61,7 @@ impl Motion {
     }
 
     /// Takes the path back into the coordinates of the machine.
-    fn to_machine(&mut self) {
+    fn leave_tilt(&mut self) {
         let Some(tilt) = self.tilt.filter(|_| std::mem::take(&mut self.local)) else { return };
         let (start, end) = (self.block.path.start(), self.block.path.end());
         let (start, end) = (tilt.position(start), tilt.position(end));
@@ -156,8 +156,8 @@ impl Contour {
         if let Some(mut before) = self.held.take() {
             let inserted = match self.insertion.take() {
                 Some(insertion) => {
-                    before.to_local();
-                    motion.to_local();
+                    before.enter_tilt();
+                    motion.enter_tilt();
                     insertion::between(&mut before, &mut motion, &insertion)
                         .map_err(|f| f.in_block(insertion.source))
                 }
@@ -218,7 +218,7 @@ impl Contour {
 
     fn compensate(&mut self, mut motion: Box<Motion>) -> Option<Box<Fault>> {
         if motion.compensation.is_some() || self.compensator.is_active() {
-            motion.to_local();
+            motion.enter_tilt();
         }
         let mut done = Vec::new();
         let fault = self.compensator.motion(motion, &mut done).err();
@@ -230,7 +230,7 @@ impl Contour {
         for item in items {
             self.queue.push_back(match item {
                 Item::Motion(mut motion) => {
-                    motion.to_machine();
+                    motion.leave_tilt();
                     if motion.compensation.is_some()
                         && let Some((low, high)) = motion.block.path.extent()
                     {

@@ -19,7 +19,7 @@ use super::step::{Event, Feedback, SourceRef, Sync};
 use super::system::Timers;
 use super::tools::Tools;
 use super::variables::Variables;
-use crate::diag::{Diagnostic, Location};
+use crate::diag::{Diagnostic, Id, Location};
 use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::{Ident, Span};
 use kontur_motion::axis::AxisVec;
@@ -178,7 +178,9 @@ impl Decoder {
         decoder.presets();
         let Worked { setup, diagnostics } = decoder.shaping.work_out(&decoder.machine);
         decoder.shaping.setup = setup;
-        decoder.unplaced.extend(diagnostics);
+        // what the lists say about single filters is told, with its place, when the chains are set up
+        let of_several = [own::LIST_FIR_AND_GUARD, own::UNEQUAL_KERNELS].map(Id::Kontur);
+        decoder.unplaced.extend(diagnostics.into_iter().filter(|d| of_several.contains(&d.id)));
         decoder
     }
 
@@ -283,9 +285,8 @@ impl Decoder {
         }
         let faults = self.contour.sync(what, self.source);
         self.faults.extend(faults);
-        for fault in self.limits_of_compensated() {
-            self.note(fault);
-        }
+        let outside = self.limits_of_compensated();
+        self.faults.extend(outside);
     }
 
     /// Names of axes have changed.

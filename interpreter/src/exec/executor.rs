@@ -2,6 +2,7 @@
 
 use super::contour::Contour;
 use super::decoder::Decoder;
+use super::dialect;
 use super::din::After;
 use super::fault::{Fault, own};
 use super::files::{FileError, Files, Parsed, Reading};
@@ -41,6 +42,8 @@ pub(super) struct Level {
     pub(super) cycle: Option<Box<Modal>>,
     /// Between `#VAR` and `#ENDVAR`.
     pub(super) declarations: bool,
+    /// A control block without its end took the rest of the text.
+    pub(super) cut: bool,
 }
 
 /// Where the execution stands.
@@ -235,6 +238,17 @@ impl Executor {
         self.files.names()
     }
 
+    /// Place of a block whose step was handed out; its text is read again.
+    pub fn locate(&mut self, source: SourceRef) -> Option<Location> {
+        if source.line == 0 {
+            return None;
+        }
+        let position = Position { offset: source.offset, line: source.line };
+        let mut location = self.files.locate_block(source.file as usize, position)?;
+        location.block = source.block;
+        Some(location)
+    }
+
     /// Kernels in force; before the first step those of the axis lists.
     pub fn shaping(&self) -> &ShapingSetup {
         &self.decoder.shaping.setup
@@ -327,7 +341,7 @@ impl Executor {
             }
             Keyword::Remark => {
                 let at = entry.position;
-                if let Some(location) = self.place(at, Span::new(0, 1)) {
+                if let Some(location) = self.place(at, entry.span) {
                     let text = "a % block inside a program is taken as a remark";
                     let d = Diagnostic::kontur(own::PERCENT, text).severity(Severity::Warning);
                     self.report(d.at(location));
@@ -569,11 +583,13 @@ impl Executor {
         self.files.locate(file, position, span, &self.decoder.macros)
     }
 
-    /// Adds a diagnostic, once per place.
+    /// Adds a diagnostic, once per place; words of other dialects once per program.
     pub(super) fn report(&mut self, mut diagnostic: Diagnostic) {
         let key = match &diagnostic.source {
-            Some(l) => (diagnostic.id, Arc::clone(&l.file), l.column, l.offset),
-            None => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
+            Some(l) if !dialect::is_foreign_word(diagnostic.id) => {
+                (diagnostic.id, Arc::clone(&l.file), l.column, l.offset)
+            }
+            _ => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
         };
         // a program with a remark in every line must not fill the memory
         let full = self.reported.len() >= DIAGNOSTICS_MAX;
@@ -599,7 +615,7 @@ impl Executor {
         let source = self.decoder.source;
         let contour: &mut Contour = &mut self.decoder.contour;
         let mut faults = contour.end(self.reason, source);
-        faults.extend(self.decoder.limits_of_compensated().into_iter().map(|f| *f));
+        faults.extend(self.decoder.limits_of_compensated());
         for fault in faults {
             let diagnostic = self.placed(fault);
             self.report(diagnostic);

@@ -132,8 +132,9 @@ fn tangent_arc(a: &Side, b: &Side, turn: f64, r: f64) -> Option<([f64; 2], [f64;
         .min_by(|x, y| norm(sub(x.2, corner)).total_cmp(&norm(sub(y.2, corner))))
 }
 
-/// True if no axis outside the plane moves.
+/// True if no axis outside the plane moves, but for rounding in a coordinate system that is turned in space.
 fn stays_in(path: &Path, plane: [usize; 2]) -> bool {
+    const ROUNDING_MM: f64 = 1e-9;
     let (start, end) = (path.start(), path.end());
-    (0..start.len()).all(|i| plane.contains(&i) || start[i].to_bits() == end[i].to_bits())
+    (0..start.len()).all(|i| plane.contains(&i) || (end[i] - start[i]).abs() < ROUNDING_MM)
 }

@@ -224,7 +224,7 @@ impl Decoder {
             self.note(Box::new(fault));
         }
         for fault in self.limits_of_compensated() {
-            self.note(fault);
+            self.note(Box::new(fault));
         }
         Ok(())
     }
@@ -289,12 +289,12 @@ impl Decoder {
     }
 
     /// Compensated motions against the software limits.
-    pub(super) fn limits_of_compensated(&mut self) -> Vec<Box<Fault>> {
+    pub(super) fn limits_of_compensated(&mut self) -> Vec<Fault> {
         let mut faults = Vec::new();
         for (low, high, source, span) in self.contour.take_driven() {
             for axis in 0..low.len() {
                 let fault = self.outside_limits(axis, low[axis], high[axis], None, span);
-                faults.extend(fault.map(|f| f.in_block(source)));
+                faults.extend(fault.map(|f| *f.in_block(source)));
             }
         }
         faults
@@ -373,7 +373,9 @@ impl Decoder {
             let limits = &self.machine.channel.arc_centre;
             arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
         };
-        let at = words.radius.or(centre_words[0]).or(centre_words[1]).map_or(span, |(_, at)| at);
+        let at = words.radius.or(centre_words[0]).or(centre_words[1]);
+        let g = words.group(Group::Path).map_or(span, |g| g.span);
+        let at = at.map_or(g, |(_, at)| at);
         let mut arc = found.map_err(|e| arc_fault(e, at))?;
         let pitch_word = words.centre[main[2]];
         if let Some((pitch, at)) = pitch_word {

@@ -163,7 +163,9 @@ fn silence_around(index: &Index, at: Position) -> Option<u64> {
 /// As a warning that says where it is wrong.
 fn unreached(diagnostic: Diagnostic) -> Diagnostic {
     let text = format!("in a part that does not run: {} ({})", diagnostic.text, diagnostic.id);
-    Diagnostic { id: UNREACHED, text, ..diagnostic }.severity(Severity::Warning)
+    let usual = || "no run comes here; the control looks at control statements only".to_owned();
+    let hint = diagnostic.hint.or_else(|| Some(usual()));
+    Diagnostic { id: UNREACHED, text, hint, ..diagnostic }.severity(Severity::Warning)
 }
 
 #[cfg(test)]

@@ -217,7 +217,21 @@ impl Decoder {
                 None => fault,
             });
         };
+        if self.machine.channel.several_dimensions
+            && let Act::Absolute(absolute) = row.act
+        {
+            if block.dimensions.is_empty() {
+                block.dimensions.push((0, self.modal.absolute));
+            }
+            block.dimensions.push((block.axes.len(), absolute));
+        } else if row.group != Group::None
+            && let Some(first) = block.group(row.group)
+        {
+            return Err(duplicate(first.row, row, span));
+        }
         if let Act::Unsupported(what) = row.act {
+            // it takes its axis words and the place of its group all the same
+            block.g.push(GWord { row, value: None, span });
             return Err(Fault::unsupported(format!("G{number:02} ({what})"), span));
         }
         let value = match (value, row.value) {
@@ -238,18 +252,6 @@ impl Decoder {
             }
             (None, _) => None,
         };
-        if self.machine.channel.several_dimensions
-            && let Act::Absolute(absolute) = row.act
-        {
-            if block.dimensions.is_empty() {
-                block.dimensions.push((0, self.modal.absolute));
-            }
-            block.dimensions.push((block.axes.len(), absolute));
-        } else if row.group != Group::None
-            && let Some(first) = block.group(row.group)
-        {
-            return Err(duplicate(first.row, row, span));
-        }
         block.g.push(GWord { row, value, span });
         Ok(())
     }
