@@ -49,7 +49,10 @@ pub(super) fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     };
     let text = formatted(decoder, &format_text, format.span, values)?;
     if receiver.eq_ignore_ascii_case(RECEIVERS[0]) && !save {
-        let discarded = |id| Fault::vendor(id, format!("message discarded: {text}"), call.span());
+        let discarded = |id| {
+            let hint = "the channel list discards messages to ISG_DIAG_BED; name another receiver";
+            Fault::vendor(id, format!("message discarded: {text}"), call.span()).hint(hint)
+        };
         match decoder.machine.channel.diagnosis_messages {
             DiagnosisMessages::Standard => {}
             DiagnosisMessages::Disabled => return Ok(()),
