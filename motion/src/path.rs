@@ -5,12 +5,14 @@
 
 mod arc;
 mod line;
+pub(crate) mod piece;
 mod poly;
 mod tilted;
 
 pub use arc::{ArcPath, ArcShape};
 pub use line::LinePath;
-pub use poly::{Coefficients, PolyPath, PolyPiece};
+pub use piece::{Coefficients, PolyPiece};
+pub use poly::PolyPath;
 pub use tilted::{Tilt, TiltedArc};
 
 use crate::axis::AxisVec;

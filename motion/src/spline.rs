@@ -10,10 +10,14 @@
 //! and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline touches the polygon before and behind it (P-CHAN-00129
 //! = 0), or the spline ends there (`AUTO_OFF_PATH`). At its ends the spline meets the polygon with its direction and
 //! without curvature. Position, tangent and curvature are continuous everywhere else.
+//!
+//! An edge becomes several blocks with the number of the programmed one where its parts allow different speeds.
+
+mod pace;
 
 use crate::axis::AxisVec;
 use crate::block::{Block, Feed};
-use crate::path::{Path, PolyPath, PolyPiece};
+use crate::path::{Path, PolyPath, PolyPiece, piece};
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 
@@ -142,7 +146,7 @@ impl Splining {
         if curves.is_empty() {
             self.ready.push(block.clone());
         }
-        let whole: f64 = curves.iter().map(Path::length).sum();
+        let whole: f64 = curves.iter().map(PolyPath::length).sum();
         let parts = curves.len();
         for (i, curve) in curves.into_iter().enumerate() {
             let mut part = block.clone();
@@ -150,9 +154,9 @@ impl Splining {
                 part.feed = Feed::Duration(t * curve.length() / whole);
             }
             if i + 1 < parts {
-                part.end_velocity_mm_s = None;
+                (part.end_velocity_mm_s, part.contour) = (None, None);
             }
-            part.path = curve;
+            part.path = Path::Curve(curve);
             self.ready.push(part);
         }
         self.done += 1;
@@ -163,32 +167,37 @@ impl Splining {
         }
     }
 
-    /// The spline over the next edge: one curve, or one for each piece where a corner is refined, so that the bend of
-    /// the corner slows down nothing but the corner.
-    fn curves(&self, to_end: bool) -> Vec<Path> {
+    /// The spline over the next edge: one curve, or one for each part with a speed of its own.
+    fn curves(&self, to_end: bool) -> Vec<PolyPath> {
         let polygon = ControlPolygon::around(&self.run, self.done, self.from_start, to_end);
-        let edge = &self.run[self.done].block;
-        let last = self.done + 1 == self.run.len();
-        let joint = |j: usize| {
-            if j == polygon.first && self.from_start && self.done == 0 {
-                edge.path.start().clone()
-            } else if j == polygon.last && to_end && last {
-                edge.path.end().clone()
-            } else {
-                polygon.joint(j)
-            }
+        let pieces: Vec<PolyPiece> =
+            (polygon.first..polygon.last).map(|j| polygon.piece(j)).collect();
+        let block = &self.run[self.done].block;
+        let mut start = if self.from_start && self.done == 0 {
+            block.path.start().clone()
+        } else {
+            polygon.joint(polygon.first)
+        };
+        let end = if to_end && self.done + 1 == self.run.len() {
+            block.path.end().clone()
+        } else {
+            polygon.joint(polygon.last)
         };
         // a stop at every transition (G116) means those of the program
-        let all = polygon.last.saturating_sub(polygon.first).max(1);
-        let step = if edge.dynamics.stop_at_transitions { all } else { 1 };
-        let mut out = Vec::new();
-        for begin in (polygon.first..polygon.last).step_by(step) {
-            let pieces: Vec<PolyPiece> = (begin..begin + step).map(|j| polygon.piece(j)).collect();
-            let (start, end) = (joint(begin), joint(begin + step));
-            match PolyPath::new(start, end, pieces, &edge.dynamics.feed_axes) {
-                Some(curve) => out.push(Path::Curve(curve)),
-                None => return Vec::new(),
-            }
+        let groups = if block.dynamics.stop_at_transitions {
+            vec![pieces]
+        } else {
+            pace::groups(block, pieces)
+        };
+        let mut groups = groups.into_iter();
+        let mut out = Vec::with_capacity(groups.len());
+        while let Some(pieces) = groups.next() {
+            let here = match pieces.last() {
+                Some(last) if groups.len() > 0 => piece::point(last, 1.0),
+                _ => end.clone(),
+            };
+            let from = std::mem::replace(&mut start, here.clone());
+            out.extend(PolyPath::new(from, here, pieces, &block.dynamics.feed_axes));
         }
         out
     }

@@ -1,5 +1,7 @@
 //! What holds for every program: random contours, blocks and limits.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
 mod common;
 
 use common::{Job, axis, channel};
@@ -96,8 +98,8 @@ fn load(job: &Job, out: &[Setpoint]) -> (f64, f64, f64) {
     let t = f64::from(job.cycle_us) * 1e-6;
     let p = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
     let (mut v, mut a, mut low) = (0.0_f64, 0.0_f64, f64::INFINITY);
-    for k in 0..out.len() {
-        low = low.min(out[k].v_mm_s);
+    for (k, now) in out.iter().enumerate() {
+        low = low.min(now.v_mm_s);
         for (i, axis) in job.dynamics.axes.iter().enumerate() {
             v = v.max((p(k + 1, i) - p(k, i)).abs() / t / axis.v_max_mm_s);
             let d2 = (p(k + 2, i) - 2.0 * p(k + 1, i) + p(k, i)).abs() / (t * t);

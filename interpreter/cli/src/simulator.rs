@@ -3,7 +3,7 @@
 use crate::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
 use crate::files::{Lists, ProgramFiles};
 use kontur_interpreter::diag::{Diagnostic, Id, Severity};
-use kontur_interpreter::exec::{self, Options, SkipLevels};
+use kontur_interpreter::exec::{self, Access, External, Options, SkipLevels, Value};
 use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override, explain};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::sim::{Limits, Simulation};
@@ -69,8 +69,18 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         start: request.start.clone(),
         skip,
         max_blocks: request.max_blocks,
+        identity_trafo: request.identity_trafo,
+        external: request.external.iter().map(external).collect(),
         ..Options::default()
     })
+}
+
+fn external((name, value): &(String, String)) -> (String, External) {
+    let value = match value.trim().parse::<f64>() {
+        Ok(x) if x.is_finite() => Value::Number(x),
+        _ => Value::Text(value.as_str().into()),
+    };
+    (name.clone(), External { value, access: Access::ReadWrite })
 }
 
 fn sources(request: &Request) -> ProgramFiles {
