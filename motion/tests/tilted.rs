@@ -1,5 +1,7 @@
 //! Arcs askew to the axes, against rotations written out by hand and against dense samples.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
 use kontur_motion::axis::AxisVec;
 use kontur_motion::limits::PathExtremes;
 use kontur_motion::path::{ArcPath, ArcShape, Path, Tilt, TiltedArc};
