@@ -169,6 +169,27 @@ fn permitted(
 }
 
 impl FilterEntry {
+    /// The filter of the additional interface of an axis, `None` if it is off.
+    ///
+    /// For PT1 and PT2 the order is a switch only: the default 2 is no mistake in a list that names a type only.
+    /// Source: P-AXIS-00735 to P-AXIS-00742.
+    pub fn additional(&self, cycle: CycleTime) -> (Option<AxisFilter>, Vec<FilterIssue>) {
+        if !self.enable {
+            return (None, Vec::new());
+        }
+        let (ListedPrototype::Standard(prototype), Some(ListedType::Standard(kind))) =
+            (self.prototype, self.listed_type)
+        else {
+            return (None, vec![FilterIssue::HscOnInterface]);
+        };
+        let order = match kind {
+            FilterKind::Pt1 => self.order.min(1),
+            FilterKind::Pt2 => 2 * self.order.min(1),
+            _ => self.order,
+        };
+        AxisFilter::design(&FilterConfig { order, ..self.standard(kind, prototype) }, cycle)
+    }
+
     fn hsc(&self, kind: HscKind) -> HscConfig {
         let Self { order, time_constant_us, f_hz, share_ratio, .. } = *self;
         HscConfig { kind, order, time_constant_us, f_hz, share_ratio }

@@ -18,7 +18,7 @@ pub mod plant;
 pub mod position;
 pub mod scaling;
 
-pub use axis_control::{AxisControl, AxisControlConfig, ControlOutput, Encoder};
+pub use axis_control::{AxisControl, AxisControlConfig, AxisInputs, ControlOutput, Encoder};
 pub use fault::{ErrorId, Fault, Faults, Issue, Reaction};
 pub use feedforward::{FeedforwardConfig, FeedforwardMode};
 pub use ipc::{IpcConfig, IpcMode};

@@ -29,6 +29,8 @@ pub enum OwnId {
     HscPrototype,
     /// HSC filters do not exist for spindles.
     HscOnSpindle,
+    /// The additional interface has no HSC filters.
+    HscOnInterface,
 }
 
 /// What a condition does to the filter.
@@ -58,6 +60,8 @@ pub enum FilterIssue {
     HscPrototype,
     /// HSC filters do not exist for spindles.
     HscOnSpindle,
+    /// The additional interface has standard filters only. Source: TF5200 axis filters.
+    HscOnInterface,
     /// 50663: time constant outside its range. Source: P-AXIS-00357.
     TimeConstant {
         /// The time constant in us.
@@ -142,6 +146,7 @@ impl FilterIssue {
             Self::RemovesConstantPart => IssueId::Own(OwnId::RemovesConstantPart),
             Self::HscPrototype => IssueId::Own(OwnId::HscPrototype),
             Self::HscOnSpindle => IssueId::Own(OwnId::HscOnSpindle),
+            Self::HscOnInterface => IssueId::Own(OwnId::HscOnInterface),
         }
     }
 

@@ -27,6 +27,7 @@ mod flow;
 mod frame;
 mod functions;
 mod groups;
+mod independent;
 mod index;
 mod insertion;
 mod modal;
@@ -50,8 +51,8 @@ pub use check::{UNREACHED, check};
 pub use executor::Executor;
 pub use options::{Access, External, Options, SkipLevels, Value};
 pub use step::{
-    AxisShaping, EndReason, Event, Feedback, ShapingSettings, ShapingSetup, SourceRef,
-    SpindleMotion, Step, Sync,
+    AxisShaping, EndReason, Event, Feedback, IndependentMotion, ShapingSettings, ShapingSetup,
+    SourceRef, SpindleMotion, Step, Sync,
 };
 
 #[cfg(test)]

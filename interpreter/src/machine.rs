@@ -23,7 +23,7 @@ pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, OverrideMode
 pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
-pub use setup::{ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
+pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
 
 use crate::diag::Diagnostic;
 use kontur_filters::time::CycleTime;

@@ -7,24 +7,31 @@
 
 mod chain;
 mod fault;
+mod independent;
+mod inputs;
 mod smoothing;
 mod spindle;
 mod totals;
 mod wait;
 
+pub use inputs::{Change, Changes, Signal};
 pub use totals::Totals;
 
 use crate::diag::Diagnostic;
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
-use crate::machine::{Axis, Machine};
+use crate::machine::{self, Axis, Machine};
 use crate::record::{CycleRecord, PathRecord};
 use crate::source::Sources;
 use chain::AxisChain;
+use independent::IndependentAxes;
+use inputs::Inputs;
+use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::limit::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
+use kontur_motion::realtime::{FeedholdBraking, OverrideMode};
 use kontur_motion::tolerance::Kernels;
 use smoothing::Smoothing;
 use spindle::Spindle;
@@ -93,6 +100,8 @@ pub struct Simulation {
     chains: Vec<AxisChain>,
     drivers: Vec<Driver>,
     spindles: Vec<Spindle>,
+    inputs: Inputs,
+    independent: IndependentAxes,
     /// Feedforward gain of every chain.
     gains: Vec<f64>,
     underway: VecDeque<Underway>,
@@ -136,7 +145,7 @@ impl Simulation {
                 Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
                 _ => 0.0,
             };
-            match AxisChain::new(setup, x, cycle) {
+            match AxisChain::new(setup, x, AxisInputs::default(), cycle) {
                 Ok(chain) => chains.push(chain),
                 Err(e) => return Err(vec![fault::plant(&e, &machine, i)]),
             }
@@ -150,6 +159,8 @@ impl Simulation {
             gains: vec![0.0; chains.len()],
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
             frozen: vec![None; chains.len()],
+            inputs: Inputs::none(chains.len()),
+            independent: IndependentAxes::new(n),
             chains,
             drivers,
             spindles,
@@ -168,6 +179,11 @@ impl Simulation {
             cycle,
             executor,
         };
+        simulation.planner.set_override_mode(match simulation.machine.channel.override_mode {
+            machine::OverrideMode::Result => OverrideMode::OfReached,
+            machine::OverrideMode::Programmed => OverrideMode::OfProgrammed,
+            machine::OverrideMode::ProgrammedWhileReduced => OverrideMode::OfProgrammedWhileReduced,
+        });
         simulation.feedforward(false, &vec![1.0; n]);
         for spindle in 0..simulation.spindles.len() {
             simulation.spindle_feedforward(spindle, false, 1.0);
@@ -175,6 +191,17 @@ impl Simulation {
         let setup = simulation.executor.shaping().clone();
         simulation.swap_kernels(&setup);
         Ok(simulation)
+    }
+
+    /// Connects the real-time inputs, before the first cycle.
+    ///
+    /// Changes come in the order of time. An error among them ends the run, [`Totals::input_failed`] tells so.
+    #[must_use]
+    pub fn with_inputs(mut self, changes: Changes) -> Self {
+        if let Err(failure) = self.inputs.connect(changes) {
+            self.input_fails(*failure);
+        }
+        self
     }
 
     /// The machine.
@@ -211,10 +238,14 @@ impl Simulation {
                 Phase::Done => return None,
                 Phase::Start => {
                     self.phase = Phase::Running;
+                    self.take_inputs(0);
                     return Some(&self.record);
                 }
                 Phase::Running => match self.planner.advance() {
-                    Ok(Next::Setpoint) => break,
+                    Ok(Next::Setpoint) => {
+                        self.count_hold();
+                        break;
+                    }
                     Ok(Next::Input) => self.pull(),
                     Ok(Next::Rest) => self.at_rest(),
                     Err(e) => {
@@ -224,7 +255,7 @@ impl Simulation {
                     }
                 },
                 Phase::Waiting(wait) => {
-                    if wait.is_over(&self.chains[..self.vector.len()]) {
+                    if wait.is_over(&self.chains[..self.vector.len()], &self.independent) {
                         self.go_on();
                     } else {
                         wait.count();
@@ -234,6 +265,7 @@ impl Simulation {
                 }
                 Phase::Stopping { settled_cycles } => {
                     let resting = self.planner.brake_is_over()
+                        && !self.independent.any_moving()
                         && self.chains[..self.vector.len()].iter().all(AxisChain::settled);
                     *settled_cycles = if resting { *settled_cycles + 1 } else { 0 };
                     if *settled_cycles > fault::CYCLES_AT_REST {
@@ -248,6 +280,46 @@ impl Simulation {
         self.through_the_axes();
         self.check_time();
         Some(&self.record)
+    }
+
+    /// Takes over the inputs that are due in cycle `k`: the axes see them at once, the path bends behind the cycle.
+    fn take_inputs(&mut self, k: u64) {
+        let time_s = self.cycle.time_of(k);
+        match self.inputs.take_due(time_s, &self.machine, &mut self.diagnostics) {
+            Ok(false) => return,
+            Ok(true) => {}
+            Err(failure) => self.input_fails(*failure),
+        }
+        for (chain, inputs) in self.chains.iter_mut().zip(&self.inputs.axes) {
+            chain.set_inputs(*inputs);
+        }
+        let channel = &self.machine.channel;
+        self.planner.set_override(self.inputs.ratios(channel.rapid_override));
+        let own = channel.own_feed_hold;
+        let braking = if own { FeedholdBraking::Own } else { FeedholdBraking::Active };
+        self.planner.feedhold(self.inputs.feedhold, braking);
+    }
+
+    fn input_fails(&mut self, failure: Diagnostic) {
+        self.diagnostics.push(failure);
+        (self.totals.aborted, self.totals.input_failed) = (true, true);
+        self.phase = Phase::Done;
+    }
+
+    /// Counts the cycles in which feedhold or override 0 keeps the path at rest; a hold without end ends the run.
+    fn count_hold(&mut self) {
+        let setpoint = self.planner.setpoint();
+        let stands = setpoint.s_mm.to_bits() == self.record.path.s_mm.to_bits();
+        if !stands || !self.planner.is_held() {
+            return;
+        }
+        self.totals.held_cycles += 1;
+        if self.inputs.is_over() {
+            let failure = fault::held(setpoint.k, self.cycle, self.inputs.feedhold);
+            self.diagnostics.push(failure);
+            self.totals.aborted = true;
+            self.phase = Phase::Done;
+        }
     }
 
     /// Takes the next step of the program.
@@ -291,12 +363,16 @@ impl Simulation {
             return;
         };
         self.waits_at = source;
+        let k = self.planner.setpoint().k;
         for event in events {
-            self.act(event);
+            self.act(event, k);
         }
         for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
-            if let Driver::Path(p) = driver {
-                chain.expect_stop(self.planner.setpoint().position[*p]);
+            if let Driver::Path(p) = *driver
+                && !self.independent.is_moving(p)
+            {
+                let way_mm = self.independent.done_mm(p);
+                chain.expect_stop(self.planner.setpoint().position[p] + way_mm);
             }
         }
         self.phase = Phase::Waiting(match after {
@@ -323,8 +399,16 @@ impl Simulation {
         }
     }
 
-    fn act(&mut self, event: Event) {
+    /// Something happens in cycle `k`.
+    fn act(&mut self, event: Event, k: u64) {
         match event {
+            Event::Independent { axis, motion } => {
+                let dynamics = self.machine.axes[axis].dynamics();
+                let started = self.independent.start(axis, k, motion, &dynamics, self.cycle);
+                if let Err(e) = started {
+                    self.diagnostics.push(fault::internal(&e));
+                }
+            }
             Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
             Event::SpindleFeedforward { spindle, on, weight_ratio } => {
                 self.spindle_feedforward(spindle, on, weight_ratio);
@@ -388,19 +472,23 @@ impl Simulation {
             if let Some(block) = self.underway.pop_front() {
                 self.current = block.source;
                 self.jerk_limited = block.jerk_limited;
+                // the block began after the cycle before
                 for event in block.events {
-                    self.act(event);
+                    self.act(event, k.saturating_sub(1));
                 }
             }
         }
+        self.take_inputs(k);
         let setpoint = self.planner.setpoint();
         let n = self.vector.len();
         let mut faults = Vec::new();
+        let positions: AxisVec =
+            (0..n).map(|p| setpoint.position[p] + self.independent.way_mm(p, k)).collect();
         let spindles: Vec<f64> = self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
         for (i, chain) in self.chains.iter_mut().enumerate() {
             let ipo = match (self.frozen[i], self.drivers[i]) {
                 (Some(x), _) => x,
-                (None, Driver::Path(p)) => setpoint.position[p],
+                (None, Driver::Path(p)) => positions[p],
                 (None, Driver::Spindle(s)) => spindles[s],
                 (None, Driver::Standing) => chain.set_mm(),
             };
@@ -409,8 +497,16 @@ impl Simulation {
             faults.extend(found.iter().map(|f| (i, *f)));
         }
         let shaped = self.record.axes[..n].iter().any(|a| a.set.to_bits() != a.ipo.to_bits());
-        for (set, axis) in self.set.iter_mut().zip(&self.record.axes) {
-            *set = axis.set;
+        // what is measured against the contour: the set position without the ways of independent axes; while one of them
+        // moves, it does not count
+        for (p, set) in self.set.iter_mut().enumerate() {
+            let alone = self.independent.is_moving(p) || !self.chains[p].settled();
+            let way_mm = self.independent.done_mm(p);
+            *set = if self.independent.is_moving(p) || (way_mm.abs() > 0.0 && alone) {
+                setpoint.position[p]
+            } else {
+                self.record.axes[p].set - way_mm
+            };
         }
         // on the contour bit for bit: nothing to search
         self.record.contour_err_mm = if shaped {
@@ -452,7 +548,7 @@ impl Simulation {
         }
         let (mut setups, _) = machine.chains();
         let x = self.chains[i].set_mm();
-        match AxisChain::new(setups.swap_remove(i), x, self.cycle) {
+        match AxisChain::new(setups.swap_remove(i), x, self.inputs.axes[i], self.cycle) {
             Ok(chain) => {
                 self.chains[i] = chain;
                 let setup = self.executor.shaping().clone();

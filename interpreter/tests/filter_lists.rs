@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 use kontur_filters::hsc::HscKind;
+use kontur_filters::iir::AxisFilter;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::response::Angle;
 use kontur_filters::shaping::Shaping;
@@ -67,7 +68,7 @@ fn said(text: &str) -> Vec<Diagnostic> {
 }
 
 /// The listings of the manual for one axis.
-/// Conformance: A031, A049, A055, A059.
+/// Conformance: A031, A049, A055, A057, A059, A060.
 #[test]
 fn listings_of_the_axis_filter_manual() {
     let (shaping, ids) =
@@ -108,6 +109,101 @@ fn a_filter_acts_on_its_axis() {
     let mut rotary = set("Z", "enable=1 order=4");
     rotary.push("Z.kenngr.achs_typ=ACHSTYP_ROTATOR".to_owned());
     assert_eq!(counts(&rotary), [0, 0, 1, 0]);
+}
+
+/// The filter of the additional interface of X from `lr_param.add_interface` lines, the IDs of what reading and setting up
+/// says, and whether there is an interface.
+fn additional(entries: &str) -> (Option<AxisFilter>, Vec<String>, bool) {
+    let prefix = "X.lr_param.add_interface";
+    let settings: Vec<String> =
+        entries.split_whitespace().map(|e| format!("{prefix}.{e}")).collect();
+    let (machine, found) = machine(&settings.iter().map(String::as_str).collect::<Vec<_>>());
+    let interface = machine.chains().0.swap_remove(0).additional;
+    let ids = found.iter().map(|d| d.id.to_string()).collect();
+    let is_on = interface.is_some();
+    (interface.and_then(|i| i.filter), ids, is_on)
+}
+
+/// The listings of the manual for the additional interface: they load as printed, also with `Lr_param`, and give the
+/// frequencies: -3 dB of the low-pass at 8 Hz; edges of the band stop `17 (sqrt(1 + 1/4Q^2) +- 1/2Q)`, `Q` = 1.8; PT1 and
+/// PT2 at their `1 / 2 pi tau`; the delay.
+/// Conformance: A012, A032, A050, A057, A060, A065.
+#[test]
+fn listings_of_the_additional_interface() {
+    let listing = |lines: &str| {
+        let prefix = "lr_param.add_interface";
+        let text: String = lines.split(';').map(|l| format!("{prefix}.{}\n", l.trim())).collect();
+        let text = text.replacen("lr_param", "Lr_param", 1);
+        assert_eq!(said(&text), [], "{lines}");
+        let entries: Vec<String> =
+            lines.split(';').map(|l| l.trim().replacen(' ', "=", 1)).collect();
+        let (filter, ids, _) = additional(&entries.join(" "));
+        assert_eq!(ids, none(), "{lines}");
+        filter.unwrap()
+    };
+    let db = |filter: &AxisFilter, f: f64| filter.response(Angle::of(f, MS)).magnitude_db();
+    let common = "enable 1; filter[0].enable 1; filter[0].share_percent 100";
+    let low = listing(&format!(
+        "{common}; filter[0].order 3; filter[0].prototype BUTTERWORTH; filter[0].type LOWPASS; filter[0].fg_f0 8"
+    ));
+    assert!((db(&low, 8.0) + 3.0103).abs() < 1e-4);
+    let stop = listing(&format!(
+        "{common}; filter[0].order 3; filter[0].prototype BUTTERWORTH; filter[0].type BANDSTOP; filter[0].fg_f0 17; \
+         filter[0].guete 1.8"
+    ));
+    assert!(db(&stop, 17.0) < -120.0);
+    for edge in [12.920, 22.365] {
+        assert!((db(&stop, edge) + 3.0103).abs() < 0.06, "{edge}: {}", db(&stop, edge));
+    }
+    let pt1 = listing(&format!(
+        "{common}; filter[0].order 1; filter[0].type PT1; filter[0].time_constant 10000"
+    ));
+    assert!((db(&pt1, 15.9155) + 3.0103).abs() < 1e-3);
+    let pt2 = listing(&format!(
+        "{common}; filter[0].order 2; filter[0].type PT2; filter[0].time_constant 5000"
+    ));
+    assert!((db(&pt2, 31.831) + 6.0206).abs() < 1e-3);
+    let mut delay = listing(&format!(
+        "{common}; filter[0].order 1; filter[0].type TIME_DELAY; filter[0].time_constant 2000"
+    ));
+    let out: Vec<f64> = [1.0, 2.0, 3.0, 4.0].map(|x| delay.step(x)).to_vec();
+    assert_eq!(out, [0.0, 0.0, 1.0, 2.0]);
+    // one filter only
+    let found = said("lr_param.add_interface.filter[1].order 1\n");
+    assert_eq!(found[0].id.to_string(), "1001119");
+}
+
+/// Switches, defaults and what is not allowed: the interface and its filter have a switch each, the filter needs an order;
+/// for PT1, PT2 and `TIME_DELAY` any order switches on; HSC is refused; the defaults PT2 and 0 us are out of range.
+/// Conformance: A089, A107, A109, A116.
+#[test]
+fn filter_of_the_additional_interface() {
+    let on = "enable=1 filter[0].enable=1";
+    let pt2 = "filter[0].time_constant=5000";
+    // entries, ID, whether there is an interface, whether it has a filter
+    let cases = [
+        (String::new(), "", false, false),
+        (format!("filter[0].enable=1 {pt2}"), "", false, false),
+        (format!("enable=1 {pt2}"), "", true, false),
+        (format!("{on} {pt2}"), "", true, true),
+        (format!("{on} {pt2} filter[0].order=0"), "", true, false),
+        (format!("{on} {pt2} filter[0].order=1"), "", true, true),
+        (format!("{on} {pt2} filter[0].type=PT1"), "", true, true),
+        (format!("{on} {pt2} filter[0].type=PT1 filter[0].order=7"), "", true, true),
+        (format!("{on} {pt2} filter[0].type=TIME_DELAY filter[0].order=4"), "", true, true),
+        (format!("{on} filter[0].type=LOWPASS filter[0].order=7"), "50911", true, true),
+        (on.to_owned(), "50663", true, false),
+        (format!("{on} filter[0].type=HSC_MEAN"), "K-0041", true, false),
+        (format!("{on} filter[0].type=12"), "K-0041", true, false),
+        (format!("{on} {pt2} filter[0].prototype=HSC"), "K-0041", true, false),
+        (format!("{on} filter[0].type=HSC_SINE"), "110239", true, false),
+        (format!("{on} filter[0].type=HSC_GAUSS"), "110239", true, false),
+    ];
+    for (entries, id, interface, filtered) in cases {
+        let (filter, ids, is_on) = additional(&entries);
+        assert_eq!(ids.join(" "), id, "{entries}");
+        assert_eq!((is_on, filter.is_some()), (interface, filtered), "{entries}");
+    }
 }
 
 /// Up to three filters in series. Conformance: A011.

@@ -77,6 +77,7 @@ fn drive(count: usize, kind: SlopeKind, ax_dev_mm: Option<f64>) -> u64 {
                         path: Path::Line(line),
                         feed: Feed::PathVelocity(100.0),
                         feed_ratio: 1.0,
+                        full_override: false,
                         end_velocity_mm_s: None,
                         slope: Slope { kind, ..Slope::default() },
                         dynamics: Arc::clone(&dynamics),

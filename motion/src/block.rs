@@ -138,6 +138,8 @@ pub struct Block {
     pub feed: Feed,
     /// Override and path weights on the programmed feed, 1.0 = 100 %.
     pub feed_ratio: f64,
+    /// The real-time override does not act on this block (G166); feedhold does.
+    pub full_override: bool,
     /// Path velocity wanted at the end of the block in mm/s (E word).
     pub end_velocity_mm_s: Option<f64>,
     /// Slope.

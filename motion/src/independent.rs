@@ -55,7 +55,7 @@ pub struct IndependentMove {
 }
 
 impl IndependentMove {
-    /// A motion to an absolute target with the slope of P-AXIS-00270; HSC counts as TRAPEZ.
+    /// A motion to an absolute target; HSC counts as TRAPEZ.
     ///
     /// `axis` holds the limits of the lists without the weights of G130..G133, which do not act on independent axes.
     /// STEP brakes with the deceleration of stage 1 at every speed (Source: TF5200, P-AXIS-00282, 00283).
@@ -192,6 +192,7 @@ fn block(line: LinePath, speed: IndependentSpeed, kind: SlopeKind, axis: AxisDyn
             IndependentSpeed::Time(t) => Feed::Duration(t),
         },
         feed_ratio: 1.0,
+        full_override: false,
         end_velocity_mm_s: None,
         slope: Slope { kind, ..Slope::default() },
         dynamics: Arc::new(ChannelDynamics {

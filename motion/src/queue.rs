@@ -49,7 +49,11 @@ impl Queued {
 
     /// The block under a real-time override.
     pub(crate) fn rated(self: &Arc<Self>, ratios: &Override) -> Arc<Self> {
-        let velocity = ratios.velocity(&self.speeds);
+        let velocity = if self.block.full_override {
+            self.speeds.limited(self.speeds.programmed_mm_s)
+        } else {
+            ratios.velocity(&self.speeds)
+        };
         if velocity == self.velocity {
             Arc::clone(self)
         } else {

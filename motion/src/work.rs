@@ -86,6 +86,7 @@ mod tests {
                         path: Path::Line(line),
                         feed: Feed::PathVelocity(150.0),
                         feed_ratio: 1.0,
+                        full_override: false,
                         end_velocity_mm_s: None,
                         slope: Slope { kind, ..Slope::default() },
                         dynamics: Arc::clone(&dynamics),

@@ -4,7 +4,7 @@ use kontur_interpreter::diag::{Diagnostic, Id};
 use kontur_interpreter::exec::{self, Options};
 use kontur_interpreter::machine::{ListFiles, Machine, Override};
 use kontur_interpreter::record::CycleRecord;
-use kontur_interpreter::sim::{Limits, Simulation, Totals};
+use kontur_interpreter::sim::{Change, Limits, Signal, Simulation, Totals};
 use kontur_interpreter::source::MemorySources;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -79,7 +79,20 @@ pub fn run(program: &str, settings: &[&str]) -> Run {
 }
 
 /// Runs a program text on a machine, refused by the check first as the command line does it.
-pub fn run_on((machine, mut diagnostics): (Machine, Vec<Diagnostic>), program: &str) -> Run {
+pub fn run_on(machine: (Machine, Vec<Diagnostic>), program: &str) -> Run {
+    run_with_inputs(machine, program, &[])
+}
+
+/// Runs a program text under real-time inputs: time in s, name of the signal, value.
+pub fn run_with_inputs(
+    (machine, mut diagnostics): (Machine, Vec<Diagnostic>),
+    program: &str,
+    inputs: &[(f64, &str, f64)],
+) -> Run {
+    let signals = Signal::all(&machine);
+    let signal = |name: &str| signals.iter().find(|(n, _)| n == name).unwrap().1;
+    let changes: Vec<Result<Change, Box<Diagnostic>>> =
+        inputs.iter().map(|(t, name, x)| Ok(Change::new(*t, signal(name), *x).unwrap())).collect();
     let machine = Arc::new(machine);
     let cycle_s = machine.cycle.seconds();
     let sources = || Box::new(MemorySources::new().with("part.nc", program.as_bytes().to_vec()));
@@ -90,8 +103,9 @@ pub fn run_on((machine, mut diagnostics): (Machine, Vec<Diagnostic>), program: &
         return Run { records: Vec::new(), diagnostics, totals, cycle_s };
     }
     let limits = Limits { max_time_s: 1000.0 };
-    let mut simulation =
+    let simulation =
         Simulation::new(machine, sources(), "part.nc", Options::default(), &limits).unwrap();
+    let mut simulation = simulation.with_inputs(Box::new(changes.into_iter()));
     let mut records = Vec::new();
     while let Some(record) = simulation.next_cycle() {
         records.push(record.clone());

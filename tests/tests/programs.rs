@@ -9,7 +9,15 @@ fn text(name: &str) -> String {
 
 #[test]
 fn sample_programs_run_clean() {
-    for name in ["square_corner", "feedforward_lag", "arc_and_helix", "parametric_pocket"] {
+    for name in [
+        "square_corner",
+        "feedforward_lag",
+        "arc_and_helix",
+        "parametric_pocket",
+        "independent_axes",
+        "inputs_of_axes",
+        "feedhold_and_override",
+    ] {
         let run = run(&text(&format!("{name}.nc")), &[]);
         assert!(!run.totals.aborted, "{name}: {:?}", run.diagnostics);
         assert!(run.ids().is_empty(), "{name}: {:?}", run.diagnostics);

@@ -36,6 +36,20 @@ pub enum Encoder {
     Direct,
 }
 
+/// What acts on an axis from outside; nothing by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxisInputs {
+    /// Position of the additional interface behind its filter in mm, added to the set position.
+    ///
+    /// The controller and its feedforward get the sum; the monitors of the set position and of the exact stop look at
+    /// the programmed part (Assumption: the documents name the interface only).
+    pub additional_mm: f64,
+    /// External force (friction, process) as acceleration of the whole mass in mm/s2.
+    pub force_mm_s2: f64,
+    /// Error of the measuring system of the position loop in mm.
+    pub encoder_offset_mm: f64,
+}
+
 /// Configuration of everything behind the set position of one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisControlConfig {
@@ -163,8 +177,9 @@ pub struct AxisControl {
     setpoint: SetpointMonitor,
     set_mm: f64,
     tcp_mm_s: f64,
-    encoder_offset_mm: f64,
-    force_mm_s2: f64,
+    /// Set position with the additional one.
+    position_mm: f64,
+    inputs: AxisInputs,
     diverged: bool,
     moving: bool,
 }
@@ -194,8 +209,8 @@ impl AxisControl {
             cycle,
             set_mm: 0.0,
             tcp_mm_s: 0.0,
-            encoder_offset_mm: 0.0,
-            force_mm_s2: 0.0,
+            position_mm: 0.0,
+            inputs: AxisInputs::default(),
             diverged: false,
             moving: false,
         };
@@ -203,20 +218,26 @@ impl AxisControl {
         Ok(control)
     }
 
-    /// Puts everything at rest at a position; no transient follows.
+    /// Puts everything at rest at a position, without inputs from outside; no transient follows.
     pub fn start(&mut self, position_mm: f64) {
+        self.start_with(position_mm, AxisInputs::default());
+    }
+
+    /// Puts everything at rest at a set position under lasting inputs; only a force has a transient.
+    pub fn start_with(&mut self, set_mm: f64, inputs: AxisInputs) {
+        let position_mm = set_mm + inputs.additional_mm;
         self.buffer.start(position_mm);
         self.feedforward.start();
         self.limiter = SpeedLimiter::new(&self.config.position);
         self.ipc.start();
-        self.plant.start(position_mm);
+        self.plant.start(position_mm - inputs.encoder_offset_mm);
         self.lag.start(position_mm);
-        self.exact_stop.start(position_mm);
-        self.setpoint.start(position_mm);
-        self.set_mm = position_mm;
+        self.exact_stop.start(set_mm);
+        self.setpoint.start(set_mm);
+        self.set_mm = set_mm;
+        self.position_mm = position_mm;
         self.tcp_mm_s = 0.0;
-        self.encoder_offset_mm = 0.0;
-        self.force_mm_s2 = 0.0;
+        self.inputs = inputs;
         self.diverged = false;
         self.moving = false;
     }
@@ -249,17 +270,12 @@ impl AxisControl {
 
     /// The actual position is within `window_mm` of the newest set position.
     pub fn in_position(&self, window_mm: f64) -> bool {
-        (self.set_mm - self.controlled_mm()).abs() <= window_mm
+        (self.position_mm - self.controlled_mm()).abs() <= window_mm
     }
 
-    /// Error of the measuring system of the position loop, from now on.
-    pub fn set_encoder_offset(&mut self, offset_mm: f64) {
-        self.encoder_offset_mm = offset_mm;
-    }
-
-    /// External force (friction, process) as acceleration of the whole mass, from now on.
-    pub fn set_force(&mut self, force_mm_s2: f64) {
-        self.force_mm_s2 = force_mm_s2;
+    /// What acts from outside, from now on.
+    pub fn set_inputs(&mut self, inputs: AxisInputs) {
+        self.inputs = inputs;
     }
 
     /// Takes new parameters of Improved Position Control.
@@ -279,7 +295,7 @@ impl AxisControl {
             Encoder::Motor => m.motor_mm,
             Encoder::Direct => m.load_mm,
         };
-        true_mm + self.encoder_offset_mm
+        true_mm + self.inputs.encoder_offset_mm
     }
 
     /// One cycle: set position behind filters or Vibration Guard, feedforward gain of this motion
@@ -288,13 +304,14 @@ impl AxisControl {
     /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
         let set_mm = if set_mm.abs() <= Self::RANGE_MM { set_mm } else { self.set_mm };
-        self.moving = (set_mm - self.set_mm).abs() > 0.0;
-        self.set_mm = set_mm;
+        let position_mm = set_mm + self.inputs.additional_mm;
+        self.moving = (position_mm - self.position_mm).abs() > 0.0;
+        (self.set_mm, self.position_mm) = (set_mm, position_mm);
         let cycle_s = self.cycle.seconds();
         let measured = *self.plant.measured();
         let actual_mm = self.controlled_mm();
 
-        self.buffer.push(Setpoint { position_mm: set_mm, gain, jerk_limited });
+        self.buffer.push(Setpoint { position_mm, gain, jerk_limited });
         let reference_mm = self.buffer.reference_mm();
         let kv = self.config.position.gain_at(self.buffer.reference_step_mm() / cycle_s);
         let feedforward = self.feedforward.step(&self.buffer.window(), kv);
@@ -310,12 +327,12 @@ impl AxisControl {
         self.setpoint.step(set_mm).into_iter().for_each(|f| faults.push(f));
         faults.push(speed_fault);
         faults.push(self.lag.step(reference_mm, actual_mm, kv));
-        faults.push(self.exact_stop.step(set_mm, actual_mm));
+        faults.push(self.exact_stop.step(set_mm, actual_mm - self.inputs.additional_mm));
         faults.push(self.advance(
             PlantInput {
                 speed_mm_s: command_mm_s + feedforward.additive_speed_mm_s,
                 acc_mm_s2: feedforward.additive_acc_mm_s2,
-                force_mm_s2: self.force_mm_s2,
+                force_mm_s2: self.inputs.force_mm_s2,
                 reference_mm,
             },
             reference_mm - actual_mm,

@@ -4,7 +4,7 @@ use crate::profile::Profile;
 use kontur_filters::control::monitor::ExactStopConfig;
 use kontur_filters::control::plant::PlantModel;
 use kontur_filters::control::{
-    AxisControl, AxisControlConfig, ErrorId, Fault, FeedforwardConfig, FeedforwardMode,
+    AxisControl, AxisControlConfig, AxisInputs, ErrorId, Fault, FeedforwardConfig, FeedforwardMode,
 };
 use kontur_filters::time::CycleTime;
 
@@ -100,6 +100,10 @@ fn feedforward_settles_soon() {
     assert_eq!(ids, []);
 }
 
+fn force(force_mm_s2: f64) -> AxisInputs {
+    AxisInputs { force_mm_s2, ..AxisInputs::default() }
+}
+
 /// Friction and a measuring fault raise 70082 in an unchanged program.
 /// Conformance: P004.
 #[test]
@@ -118,7 +122,7 @@ fn disturbed_axis_misses_the_window() {
     };
     assert_eq!(disturbed(|_| ()), []);
     // F Ta / Kv = 0.1 mm of standing lag
-    assert_eq!(disturbed(|a| a.set_force(-1000.0)), [ErrorId::Vendor(70082)]);
+    assert_eq!(disturbed(|a| a.set_inputs(force(-1000.0))), [ErrorId::Vendor(70082)]);
     let mut axis = axis(50.0, 0.005, 0.2);
     (0..2000).for_each(|k| assert!(axis.step(abrupt(k), 0.0, false).faults.is_empty()));
     axis.expect_stop(abrupt(2000));
@@ -126,7 +130,8 @@ fn disturbed_axis_misses_the_window() {
         .flat_map(|k| {
             // an encoder that slips by 0.1 mm every 20 ms never lets the axis in
             if k % 20 == 0 {
-                axis.set_encoder_offset(0.2 * f64::from(k / 20));
+                let encoder_offset_mm = 0.2 * f64::from(k / 20);
+                axis.set_inputs(AxisInputs { encoder_offset_mm, ..AxisInputs::default() });
             }
             axis.step(abrupt(k), 0.0, false).faults.iter().map(Fault::id).collect::<Vec<_>>()
         })

@@ -5,8 +5,8 @@ use kontur_filters::control::ipc::{
 };
 use kontur_filters::control::plant::{ModalConfig, PlantModel, SpeedLoop, TwoMassConfig};
 use kontur_filters::control::{
-    AxisControl, AxisControlConfig, ControlOutput, Encoder, ErrorId, Fault, FeedforwardConfig,
-    FeedforwardMode,
+    AxisControl, AxisControlConfig, AxisInputs, ControlOutput, Encoder, ErrorId, Fault,
+    FeedforwardConfig, FeedforwardMode,
 };
 use kontur_filters::time::CycleTime;
 use proptest::prelude::*;
@@ -181,7 +181,7 @@ fn encoder_of_the_position_loop() {
         config.position.kv_per_s = 3.0;
         let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
         axis.start(1.0);
-        axis.set_force(force);
+        axis.set_inputs(AxisInputs { force_mm_s2: force, ..AxisInputs::default() });
         let out = (0..20_000).map(|_| axis.step(1.0, 0.0, false)).last().unwrap();
         assert!((out.act_mm - motor_mm).abs() < 1e-6, "{encoder:?} {} {motor_mm}", out.act_mm);
         assert!((out.load_mm - load_mm).abs() < 1e-6, "{encoder:?} {} {load_mm}", out.load_mm);

@@ -77,6 +77,12 @@ pub struct SimulationArgs {
     #[arg(long, value_name = "DIR")]
     pub path: Vec<PathBuf>,
 
+    /// Real-time inputs: CSV with the columns `t_s` and signals (`override_percent`, `rapid_override_percent`,
+    /// `feedhold`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value holds until the next time stamp. May be
+    /// given several times
+    #[arg(long, value_name = "FILE")]
+    pub input: Vec<PathBuf>,
+
     /// Cycle time in microseconds in place of the machine's
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub cycle_us: Option<u32>,
@@ -122,6 +128,7 @@ impl SimulationArgs {
             machine: self.machine.clone(),
             settings: self.set.clone(),
             path: self.path.clone(),
+            inputs: self.input.clone(),
             cycle_us: self.cycle_us,
             start: self.start.clone(),
             skip: self.skip.clone(),

@@ -20,6 +20,8 @@ pub struct Request {
     pub settings: Vec<String>,
     /// Folders of global subroutines, in the order of search.
     pub path: Vec<PathBuf>,
+    /// Files of real-time inputs.
+    pub inputs: Vec<PathBuf>,
     /// Cycle time in microseconds in place of the machine's.
     pub cycle_us: Option<u32>,
     /// Start positions in mm (deg) by axis name.
@@ -92,6 +94,8 @@ pub enum OpenError {
     Usage(String),
     /// The machine lists are wrong.
     Lists(Vec<Diagnostic>),
+    /// A file of real-time inputs is wrong.
+    Inputs(Vec<Diagnostic>),
     /// A file cannot be read.
     Io(PathBuf, std::io::Error),
 }
@@ -101,6 +105,7 @@ impl From<OpenError> for Error {
         match e {
             OpenError::Usage(text) => Self::Usage(text),
             OpenError::Lists(_) => Self::Lists,
+            OpenError::Inputs(_) => Self::Inputs,
             OpenError::Io(path, e) => Self::io(path.display().to_string(), e),
         }
     }

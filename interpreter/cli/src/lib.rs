@@ -10,6 +10,7 @@ pub mod diff;
 pub mod engine;
 pub mod explain;
 pub mod files;
+pub mod inputs;
 pub mod render;
 pub mod report;
 pub mod response;
@@ -47,6 +48,9 @@ pub enum Error {
     /// The machine lists were refused; their diagnostics have been printed.
     #[error("the machine lists were refused")]
     Lists,
+    /// A file of real-time inputs is wrong; its diagnostics have been printed.
+    #[error("the file of real-time inputs was refused")]
+    Inputs,
     /// A file could not be read or written.
     #[error("{what}: {source}")]
     Io {
@@ -66,7 +70,7 @@ impl Error {
     /// Exit code of this error.
     pub const fn exit(&self) -> Exit {
         match self {
-            Self::Usage(_) | Self::Lists => Exit::Usage,
+            Self::Usage(_) | Self::Lists | Self::Inputs => Exit::Usage,
             Self::Io { .. } => Exit::Io,
         }
     }

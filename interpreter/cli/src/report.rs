@@ -32,7 +32,9 @@ pub fn report(
         (None, None) => return Err(Error::Usage("a program is expected".to_owned())),
     };
     let draw = drawer(&output)?;
-    crate::run::keep_apart(&args.programs, std::slice::from_ref(&output))?;
+    let mut read = args.programs.clone();
+    read.extend_from_slice(&args.simulation.input);
+    crate::run::keep_apart(&read, std::slice::from_ref(&output))?;
     let mut runs: Vec<(Recording, Summary)> = Vec::new();
     for program in &args.programs {
         let form = args.simulation.diagnostics;

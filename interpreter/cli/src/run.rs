@@ -2,7 +2,7 @@
 
 use crate::args::{MessageForm, RunArgs, SummaryForm};
 use crate::console::{Console, Progress};
-use crate::engine::{Engine, OpenError, Source};
+use crate::engine::{Engine, OpenError, Source, Totals};
 use crate::summary::Collector;
 use crate::trace::Trace;
 use crate::{Error, Exit, render};
@@ -17,7 +17,9 @@ const LOOK_EVERY: u64 = 1024;
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or a trace cannot be written.
 pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Result<Exit, Error> {
-    keep_apart(std::slice::from_ref(&args.program), &args.output)?;
+    let mut read = vec![args.program.clone()];
+    read.extend_from_slice(&args.simulation.input);
+    keep_apart(&read, &args.output)?;
     let form = args.simulation.diagnostics;
     let mut source = engine
         .open(&args.simulation.request(&args.program))
@@ -40,10 +42,14 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
         SummaryForm::Json => console.print(&summary.json())?,
         SummaryForm::None => {}
     }
-    Ok(if totals.aborted { Exit::Aborted } else { Exit::Finished })
+    Ok(match totals {
+        Totals { input_failed: true, .. } => Exit::Io,
+        Totals { aborted: true, .. } => Exit::Aborted,
+        _ => Exit::Finished,
+    })
 }
 
-/// Refuses to write over the program, or two traces into one file.
+/// Refuses to write over what is read, or two traces into one file.
 ///
 /// # Errors
 /// [`Error::Usage`] that names the file.
@@ -114,9 +120,9 @@ pub fn announce(message: &Diagnostic, form: MessageForm, console: &mut Console) 
     console.error_text(&text);
 }
 
-/// Prints the messages of refused lists and turns the rest into an error.
+/// Prints the messages of refused lists or inputs and turns the rest into an error.
 pub fn announce_lists(e: OpenError, form: MessageForm, console: &mut Console) -> Error {
-    if let OpenError::Lists(messages) = &e {
+    if let OpenError::Lists(messages) | OpenError::Inputs(messages) = &e {
         for message in messages {
             announce(message, form, console);
         }

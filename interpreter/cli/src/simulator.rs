@@ -2,6 +2,7 @@
 
 use crate::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
 use crate::files::{Lists, ProgramFiles};
+use crate::inputs;
 use kontur_interpreter::diag::{Diagnostic, Id, Severity};
 use kontur_interpreter::exec::{self, Access, External, Options, SkipLevels, Value};
 use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override, explain};
@@ -174,7 +175,8 @@ impl Engine for Kontur {
         // parts that do not run are looked at by the check alone
         let unreached = |d: &Diagnostic| d.id == exec::UNREACHED;
         messages.extend(found.into_iter().filter(|d| refused || unreached(d)));
-        let simulation = open(options).map_err(OpenError::Lists)?;
+        let changes = inputs::open(&request.inputs, &machine)?;
+        let simulation = open(options).map_err(OpenError::Lists)?.with_inputs(changes);
         let facts = facts(request, &machine, &simulation);
         Ok(Box::new(Run { facts, simulation, messages, refused }))
     }
@@ -188,6 +190,8 @@ impl Engine for Kontur {
         let (machine, messages) = machine(request)?;
         messages.into_iter().chain(machine.chains().1).for_each(&mut *report);
         let options = options(request, &machine)?;
+        // a mistake in the inputs comes back here
+        drop(inputs::open(&request.inputs, &machine)?);
         let program = request.program.display().to_string();
         let found = exec::check(Box::new(sources(request)), &program, Arc::new(machine), options);
         found.into_iter().for_each(report);

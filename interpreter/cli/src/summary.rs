@@ -79,6 +79,8 @@ pub struct Summary {
     pub duration_s: f64,
     /// Path / feed in seconds, without ramps, corners and limits.
     pub ideal_duration_s: f64,
+    /// Time in seconds for which feedhold or override 0 kept the path at rest.
+    pub held_s: f64,
     /// What the duration does not contain.
     pub not_counted: Vec<String>,
     /// Blocks decoded.
@@ -180,6 +182,7 @@ impl Collector {
             cycles: self.cycles,
             duration_s: seconds(k),
             ideal_duration_s: totals.ideal_duration_s,
+            held_s: seconds(totals.held_cycles),
             not_counted: totals.not_counted.clone(),
             blocks: totals.blocks,
             path_length_mm,
@@ -246,6 +249,9 @@ impl Summary {
         writeln!(out, "  machine        {}, cycle {cycle_ms} ms", self.machine)?;
         writeln!(out, "  duration       {:.3} s ({} cycles)", self.duration_s, self.cycles)?;
         writeln!(out, "  ideal          {:.3} s (path / feed)", self.ideal_duration_s)?;
+        if self.held_s > 0.0 {
+            writeln!(out, "  held           {:.3} s (feedhold or override 0)", self.held_s)?;
+        }
         for what in &self.not_counted {
             writeln!(out, "  not counted    {what}")?;
         }

@@ -1,4 +1,4 @@
-//! Axis and spindle commands in brackets: `X[OVERRIDE ..]`, `S[M3 REV1000]`, `S[G135 G136=80]`.
+//! Axis and spindle commands in brackets: `X[OVERRIDE ..]`, `X[INDP_SYN ..]`, `S[M3 REV1000]`, `S[G135 G136=80]`.
 //!
 //! Source: TF5200 programming manual; TF5200 feedforward control (spindles); 21738, 21867.
 
@@ -39,6 +39,11 @@ impl Decoder {
                 let rest = Group { items: rest.to_vec(), span: group.span };
                 let title = format!("{}[OVERRIDE]", self.axis_name(axis));
                 self.set_overrides(Some(axis), Some(&rest), &title, group.span)
+            }
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest))
+                if word.is("INDP_SYN") || word.is("INDP_ASYN") =>
+            {
+                self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
             }
             Some((Item { kind: ItemKind::Flag(word), span }, _)) => {
                 let name = self.axis_name(axis);

@@ -16,6 +16,7 @@ use super::fault::{Fault, Outcome, own};
 use super::suggest;
 use crate::syntax::ast::{Command, Ident, Span};
 pub(super) use keys::{Arguments, Key, Kind, arguments};
+pub(super) use slope::{slope_of_number, slope_type};
 
 /// What a command does.
 enum Act {

@@ -9,6 +9,7 @@ use super::coordinates::Coordinates;
 use super::dialect::Seen;
 use super::dynamics::{Weights, channel_dynamics};
 use super::fault::{Fault, own};
+use super::independent::Independent;
 use super::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane};
 use super::options::Options;
 use super::overrides::Overrides;
@@ -65,6 +66,7 @@ pub(super) struct Decoder {
     /// Dynamics in feed and in rapid blocks; the same while the limits are.
     dynamics: [Option<Arc<ChannelDynamics>>; 2],
     pub(super) overrides: Overrides,
+    pub(super) independent: Independent,
     pub(super) shaping: ShapingState,
     pub(super) feedforward: Feedforward,
     pub(super) spindles: Vec<Spindle>,
@@ -140,6 +142,7 @@ impl Decoder {
             vector: [VectorLimits::default(); 2],
             dynamics: [None, None],
             overrides: Overrides::new(n),
+            independent: Independent::new(n),
             shaping: ShapingState::default(),
             feedforward: Feedforward {
                 on: false,
@@ -282,6 +285,9 @@ impl Decoder {
     pub(super) fn sync(&mut self, what: Sync) {
         if self.failed() && !self.checking {
             return;
+        }
+        if matches!(what, Sync::FlushWait) {
+            self.independent.all_arrived();
         }
         let faults = self.contour.sync(what, self.source);
         self.faults.extend(faults);

@@ -78,6 +78,7 @@ impl Decoder {
         if !preset {
             self.motion_or_dwell(&words, takes_axes, span);
         }
+        self.join_synchronous();
         self.functions_after(&words)
     }
 

@@ -169,7 +169,7 @@ impl Decoder {
             if let Some((radius, _)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
             }
-            LinePath::new(start, end, &self.feed_axes).map(Path::Line)
+            LinePath::new(self.on_path(&start), self.on_path(&end), &self.feed_axes).map(Path::Line)
         };
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
@@ -177,6 +177,7 @@ impl Decoder {
         if self.modal.compensation == Compensation::Off {
             self.check_limits(&path, words, span);
         }
+        self.join_for(&path);
         let at = words.axes.first().map_or(span, |(_, _, at)| *at);
         let feed = self.feed_of(&path, at)?;
         let end_velocity_mm_s = match words.end_feed {
@@ -197,6 +198,7 @@ impl Decoder {
             path,
             feed,
             feed_ratio,
+            full_override: full,
             end_velocity_mm_s,
             slope: self.modal.slope,
             dynamics: self.dynamics(rapid),
@@ -272,8 +274,9 @@ impl Decoder {
             let text = "a coordinate system turned in space needs three main axes";
             return Err(Fault::vendor(20200, text, span));
         };
-        let t_mm = self.coordinates.to_machine([0.0; 3]);
-        Ok(Some(Tilt { axes: [x, y, z], m: frame.m, t_mm }))
+        let (axes, origin) = ([x, y, z], self.coordinates.to_machine([0.0; 3]));
+        let t_mm = std::array::from_fn(|i| origin[i] - self.independent.way[axes[i]]);
+        Ok(Some(Tilt { axes, m: frame.m, t_mm }))
     }
 
     /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round.
@@ -312,15 +315,38 @@ impl Decoder {
         if low.to_bits() == high.to_bits() {
             return None;
         }
-        let (least, most) = self.limits_mm[axis]?;
+        let limits @ (least, most) = self.limits_mm[axis]?;
         let outside = |x: f64| !(least..=most).contains(&x);
+        // the path leaves out what the axis has gone as an independent axis
+        let way = self.independent.way[axis];
+        let (low, high) = (low + way, high + way);
         // the end of the block is what the program says
-        let (what, x) = match end.filter(|end| outside(*end)) {
+        let (what, x) = match end.map(|end| end + way).filter(|end| outside(*end)) {
             Some(end) => ("target", end),
             None if outside(low) => ("lowest position", low),
             None if outside(high) => ("highest position", high),
             None => return None,
         };
+        Some(self.limit_fault(axis, what, x, limits, span))
+    }
+
+    /// 21897 for a target outside the software limits of its axis.
+    pub(super) fn check_limit(&mut self, axis: usize, target: f64, at: Span) {
+        let Some(limits @ (low, high)) = self.limits_mm[axis] else { return };
+        if !(low..=high).contains(&target) {
+            let fault = self.limit_fault(axis, "target", target, limits, at);
+            self.note(fault);
+        }
+    }
+
+    fn limit_fault(
+        &self,
+        axis: usize,
+        what: &str,
+        x: f64,
+        (least, most): (f64, f64),
+        span: Span,
+    ) -> Box<Fault> {
         let name = self.axis_name(axis).to_owned();
         let number = self.machine.axes[axis].number();
         let text = format!("axis {name}: {what} {x} is outside its limits {least} to {most}");
@@ -332,11 +358,17 @@ impl Decoder {
                 .parameter("P-AXIS-00177")
         });
         let behaviour = self.machine.axes[axis].text("kenngr.swe_behaviour");
-        Some(if behaviour.as_deref() == Some("WARNING") { fault.warning() } else { fault })
+        if behaviour.as_deref() == Some("WARNING") { fault.warning() } else { fault }
+    }
+
+    /// Position of the axes without the ways that they have gone as independent axes.
+    fn on_path(&self, position: &AxisVec) -> AxisVec {
+        position.iter().zip(self.independent.way.iter()).map(|(x, way)| x - way).collect()
     }
 
     fn arc(&mut self, from: &AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
-        let target = self.coordinates.target().clone();
+        let from = &self.on_path(from);
+        let target = self.on_path(self.coordinates.target());
         let main = self.modal.plane.main_axes();
         let tilt = self.tilt(span)?;
         let image = self.coordinates.frame().image_of_plane(main[0], main[1]);
@@ -427,7 +459,10 @@ impl Decoder {
         (p[main[0]], p[main[1]]) = (value(words[0]), value(words[1]));
         if self.modal.centre_absolute {
             let q = self.coordinates.to_machine(p);
-            return [q[image[0]], q[image[1]]];
+            let way = |m: usize| {
+                self.coordinates.main_axis(m).map_or(0.0, |axis| self.independent.way[axis])
+            };
+            return [q[image[0]] - way(image[0]), q[image[1]] - way(image[1])];
         }
         let d = self.coordinates.frame().direction(p);
         [from(image[0]) + d[image[0]], from(image[1]) + d[image[1]]]

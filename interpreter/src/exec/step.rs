@@ -5,7 +5,8 @@ use kontur_filters::hsc::HscConfig;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::Block;
+use kontur_motion::block::{Block, SlopeKind};
+use kontur_motion::independent::IndependentSpeed;
 use std::sync::Arc;
 
 /// Place of a block in the programs that take part in a run.
@@ -69,6 +70,11 @@ pub enum Sync {
     },
     /// `#FLUSH WAIT`, `#CHANNEL INIT`: waiting until the axes have arrived.
     FlushWait,
+    /// `INDP_SYN`, `#WAIT INDP`: waiting until the set positions of these independent axes have arrived.
+    Independent {
+        /// Path axes, in channel order.
+        axes: Vec<usize>,
+    },
     /// M00, M01; headless the program goes on at once.
     ProgramStop {
         /// M01.
@@ -154,6 +160,13 @@ pub enum Event {
         /// What it does.
         motion: SpindleMotion,
     },
+    /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`: an axis starts a motion of its own, beside the path.
+    Independent {
+        /// Path axis.
+        axis: usize,
+        /// What it does.
+        motion: IndependentMotion,
+    },
     /// An M function without meaning of its own here.
     MFunction {
         /// Number, 0 to 65535.
@@ -182,6 +195,22 @@ pub enum Event {
         /// `#MSG SAVE`: also for the message file.
         save: bool,
     },
+}
+
+/// Motion of an independent axis from rest to rest.
+///
+/// The motions of the path do not contain it: their coordinates of the axis are less by the ways of its independent
+/// motions so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IndependentMotion {
+    /// Where the axis stands, in mm (deg).
+    pub from_mm: f64,
+    /// Target in mm (deg).
+    pub to_mm: f64,
+    /// How fast.
+    pub speed: IndependentSpeed,
+    /// Shape of the acceleration.
+    pub slope: SlopeKind,
 }
 
 /// What a spindle does.

@@ -52,6 +52,7 @@ pub fn filter_id(id: IssueId) -> Id {
             OwnId::RemovesConstantPart => 38,
             OwnId::HscPrototype => 39,
             OwnId::HscOnSpindle => 40,
+            OwnId::HscOnInterface => 41,
         }),
     }
 }
@@ -99,6 +100,8 @@ pub fn filter(axis: &Axis, prefix: &str, issue: &FilterIssue) -> Diagnostic {
                 .hint("prototype HSC goes with type HSC_MEAN (8) or 12")
         }
         FilterIssue::HscOnSpindle => about("prototype", "HSC filter of a spindle"),
+        FilterIssue::HscOnInterface => about("type", "HSC filter of the additional interface")
+            .hint("the additional interface has the types LOWPASS to PT1, PT2 and TIME_DELAY"),
         FilterIssue::TimeConstant { time_constant_us, min_us, max_us } => about(
             "time_constant",
             &format!("filter time constant {time_constant_us} us, {min_us} to {max_us} us are allowed"),

@@ -9,7 +9,7 @@ mod ipc;
 mod plant;
 
 pub(super) use control::has_rotary_motor;
-pub use filters::{FirPreset, KernelPreset, VibGuardPreset};
+pub use filters::{AdditionalInterface, FirPreset, KernelPreset, VibGuardPreset};
 pub(super) use ipc::PREFIX as IPC;
 
 use super::{Axis, Machine, issues};
@@ -25,6 +25,8 @@ use kontur_filters::{
 pub struct ChainSetup {
     /// Standard filters that are on, in their order (`filter[i]`).
     pub filters: Vec<AxisFilter>,
+    /// Additional interface, `None` if it is off.
+    pub additional: Option<AdditionalInterface>,
     /// Everything behind the set position, corrected; the delay is that of the whole channel.
     pub control: AxisControlConfig,
     /// Difference of input and output below which the filters count as settled, in mm (P-AXIS-00351).
@@ -42,7 +44,7 @@ impl Machine {
     /// tie them to the path.
     ///
     /// Diagnostics, always with axis and parameter: 110239, 110500, 110501, 50663 (spindles 60311), 50910, 50911, 50989,
-    /// 110361, K-0033, K-0036 to K-0040 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023, K-0024,
+    /// 110361, K-0033, K-0036 to K-0041 (filters); 50820 (Vibration Guard of the list); 70350, 70351, K-0023, K-0024,
     /// K-0062, K-0064, K-0065 (feedforward); 70600, 70603, 70604, K-0025 to K-0027, K-0063 (Improved Position Control);
     /// K-0070 (numbers that mean nothing).
     pub fn chains(&self) -> (Vec<ChainSetup>, Vec<Diagnostic>) {
@@ -68,6 +70,7 @@ impl Machine {
             .extend(found.iter().filter(new).map(|issue| issues::control(axis, issue, self.cycle)));
         ChainSetup {
             filters: cascade.filters,
+            additional: filters::additional(axis, self.cycle, diagnostics),
             control,
             filter_window_mm: axis.filter_window_mm(),
             window_mm: axis.window_mm(),

@@ -1,8 +1,8 @@
 //! One axis from its interpolated setpoint to its actual position, one cycle at a time.
 
-use crate::machine::ChainSetup;
+use crate::machine::{AdditionalInterface, ChainSetup};
 use crate::record::AxisRecord;
-use kontur_filters::control::axis_control::{AxisControl, ControlOutput};
+use kontur_filters::control::axis_control::{AxisControl, AxisInputs, ControlOutput};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::kernel::{Kernel, SwitchWhileMoving};
@@ -17,6 +17,8 @@ use std::sync::Arc;
 pub(crate) struct AxisChain {
     shaping: Shaping,
     control: AxisControl,
+    additional: Option<AdditionalInterface>,
+    inputs: AxisInputs,
     filter_window_mm: f64,
     window_mm: f64,
     delay_cycles: f64,
@@ -29,12 +31,29 @@ pub(crate) struct AxisChain {
 }
 
 impl AxisChain {
-    pub(crate) fn new(setup: ChainSetup, x: f64, cycle: CycleTime) -> Result<Self, PlantError> {
+    /// A chain at rest at a set position, under inputs that last.
+    pub(crate) fn new(
+        setup: ChainSetup,
+        x: f64,
+        inputs: AxisInputs,
+        cycle: CycleTime,
+    ) -> Result<Self, PlantError> {
         let mut control = AxisControl::new(setup.control, cycle)?;
-        control.start(x);
+        let mut additional = setup.additional;
+        let additional_mm = match &mut additional {
+            None => 0.0,
+            Some(AdditionalInterface { filter: None }) => inputs.additional_mm,
+            Some(AdditionalInterface { filter: Some(filter) }) => {
+                filter.settle(inputs.additional_mm);
+                inputs.additional_mm
+            }
+        };
+        control.start_with(x, AxisInputs { additional_mm, ..inputs });
         let mut chain = Self {
             shaping: Shaping::new(setup.filters, x),
             control,
+            additional,
+            inputs,
             filter_window_mm: setup.filter_window_mm,
             window_mm: setup.window_mm,
             delay_cycles: 0.0,
@@ -130,6 +149,21 @@ impl AxisChain {
         }
     }
 
+    /// What acts from outside, from now on; the additional position in front of its filter.
+    pub(crate) fn set_inputs(&mut self, inputs: AxisInputs) {
+        self.inputs = inputs;
+    }
+
+    /// The additional position of this cycle; nothing if the interface is off.
+    fn additional_mm(&mut self) -> f64 {
+        let x = self.inputs.additional_mm;
+        match &mut self.additional {
+            None => 0.0,
+            Some(AdditionalInterface { filter: None }) => x,
+            Some(AdditionalInterface { filter: Some(filter) }) => filter.step(x),
+        }
+    }
+
     /// One cycle.
     pub(crate) fn step(&mut self, ipo: f64, gain: f64, jerk_limited: bool) -> (AxisRecord, Faults) {
         self.ipo.push_back(ipo);
@@ -140,8 +174,11 @@ impl AxisChain {
         let acc = (vel - self.vel) / t;
         let jerk = (acc - self.acc) / t;
         (self.set, self.vel, self.acc) = (set, vel, acc);
+        let additional_mm = self.additional_mm();
+        self.control.set_inputs(AxisInputs { additional_mm, ..self.inputs });
         let out = self.control.step(set, gain, jerk_limited);
-        (self.record(ipo, [set, vel, acc, jerk], &out), out.faults)
+        let record = self.record(ipo, [set, vel, acc, jerk], &out);
+        (AxisRecord { add: additional_mm, ..record }, out.faults)
     }
 
     fn record(&self, ipo: f64, [set, vel, acc, jerk]: [f64; 4], out: &ControlOutput) -> AxisRecord {

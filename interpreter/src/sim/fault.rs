@@ -37,6 +37,9 @@ impl Simulation {
         }
         if !matches!(self.phase, Phase::Stopping { .. }) {
             self.planner.brake();
+            if let Err(e) = self.independent.stop(self.record.k) {
+                self.diagnostics.push(internal(&e));
+            }
             self.phase = Phase::Stopping { settled_cycles: 0 };
         }
     }
@@ -141,6 +144,18 @@ pub(super) fn out_of_time(k: u64, cycle: CycleTime, max_cycles: u64) -> Diagnost
         format!("program time exceeds {} s: the run was stopped", cycle.time_of(max_cycles)),
     )
     .hint("raise the limit with --max-time");
+    d.cycle = Some(k);
+    d.time_s = Some(cycle.time_of(k));
+    d
+}
+
+/// Nothing will ever release the path.
+pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
+    let (what, release) =
+        if feedhold { ("feedhold", "feedhold 0") } else { ("override 0", "an override") };
+    let text =
+        format!("the path is held by {what} and no later input releases it: the run was stopped");
+    let mut d = Diagnostic::kontur(83, text).hint(format!("give {release} a later time stamp"));
     d.cycle = Some(k);
     d.time_s = Some(cycle.time_of(k));
     d

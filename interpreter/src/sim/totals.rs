@@ -10,6 +10,10 @@ use kontur_motion::block::{Block, Feed};
 pub struct Totals {
     /// The program was refused or stopped by an error.
     pub aborted: bool,
+    /// The source of the real-time inputs failed.
+    pub input_failed: bool,
+    /// Cycles in which feedhold or override 0 kept the path at rest.
+    pub held_cycles: u64,
     /// Blocks executed.
     pub blocks: u64,
     /// Sum of path length / programmed feed over the feed blocks in s.
@@ -53,6 +57,7 @@ impl Totals {
             }
             Event::Feedforward { .. }
             | Event::SpindleFeedforward { .. }
+            | Event::Independent { .. }
             | Event::Spindle { .. } => return None,
         };
         if !self.not_counted.contains(&name) {

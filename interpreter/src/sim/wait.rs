@@ -1,6 +1,7 @@
 //! What the machine waits for while the path is at rest, and what happens then.
 
 use super::chain::AxisChain;
+use super::independent::IndependentAxes;
 use crate::exec::{EndReason, ShapingSetup, Sync};
 use kontur_filters::time::CycleTime;
 
@@ -14,13 +15,15 @@ pub(super) enum Action {
 }
 
 /// When the wait is over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 enum Until {
     Now,
     /// Cycles left.
     Cycles(u64),
-    /// Kernels and filters flushed.
+    /// Independent axes at their targets, kernels and filters flushed.
     Flushed,
+    /// These independent axes at their targets, flushed.
+    Arrived(Vec<usize>),
     /// Flushed, and the actual positions in their windows (P-AXIS-00236).
     InPosition,
 }
@@ -40,6 +43,7 @@ impl Wait {
             Sync::Dwell { seconds } => {
                 (Until::Cycles((seconds / cycle.seconds()).round() as u64), Action::None)
             }
+            Sync::Independent { axes } => (Until::Arrived(axes), Action::None),
             Sync::FlushWait | Sync::ReadActual => (Until::Flushed, Action::None),
             Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
             Sync::MachineData { axis, key, value } => {
@@ -53,23 +57,28 @@ impl Wait {
         Self { until: Until::Flushed, action: Action::End(reason) }
     }
 
-    pub(super) fn is_over(&self, chains: &[AxisChain]) -> bool {
-        let flushed = || {
-            chains.iter().enumerate().all(|(i, c)| {
-                c.settled()
-                    && match &self.action {
-                        Action::Shaping(setup) => {
-                            setup.axes.get(i).is_none_or(|a| c.ready_for(a.kernel.as_deref()))
-                        }
-                        _ => true,
-                    }
-            })
+    /// `chains`: those of the path axes.
+    pub(super) fn is_over(&self, chains: &[AxisChain], independent: &IndependentAxes) -> bool {
+        let ready = |i: usize, chain: &AxisChain| match &self.action {
+            Action::Shaping(setup) => {
+                setup.axes.get(i).is_none_or(|a| chain.ready_for(a.kernel.as_deref()))
+            }
+            _ => true,
         };
-        match self.until {
+        let flushed = |(i, c): (usize, &AxisChain)| c.settled() && ready(i, c);
+        match &self.until {
             Until::Now | Until::Cycles(0) => true,
             Until::Cycles(_) => false,
-            Until::Flushed => flushed(),
-            Until::InPosition => flushed() && chains.iter().all(AxisChain::in_position),
+            Until::Flushed => !independent.any_moving() && chains.iter().enumerate().all(flushed),
+            Until::Arrived(axes) => axes.iter().all(|axis| {
+                !independent.is_moving(*axis) && chains.get(*axis).is_none_or(AxisChain::settled)
+            }),
+            // axes on their way alone have no exact stop here
+            Until::InPosition => chains
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| !independent.is_moving(*i))
+                .all(|(i, c)| flushed((i, c)) && c.in_position()),
         }
     }
 

@@ -79,6 +79,7 @@ impl Job {
             path,
             feed: Feed::PathVelocity(feed_mm_s),
             feed_ratio: 1.0,
+            full_override: false,
             end_velocity_mm_s: None,
             slope: self.slope,
             dynamics: Arc::clone(&self.dynamics),

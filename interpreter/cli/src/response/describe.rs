@@ -10,6 +10,7 @@ pub(super) fn issue(issue: &FilterIssue) -> String {
         FilterIssue::HscNotFirst => "the HSC filter must be filter[0]".to_owned(),
         FilterIssue::HscPrototype => "HSC types and the prototype HSC go together".to_owned(),
         FilterIssue::HscOnSpindle => "spindles have no HSC filter".to_owned(),
+        FilterIssue::HscOnInterface => "the additional interface has no HSC filter".to_owned(),
         FilterIssue::TimeConstant { time_constant_us, min_us, max_us } => {
             format!("time constant {time_constant_us} us is outside {min_us} to {max_us} us")
         }

@@ -80,8 +80,18 @@ pub(super) fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
 }
 
-/// `#WAIT ..`: headless a condition is tested once.
+/// `#WAIT INDP ..` joins independent axes; of `#WAIT ..` else, headless a condition is tested once.
 pub(super) fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if let [word, more @ ..] = call.rest
+        && word.is("INDP")
+    {
+        let all = match (more, &call.command.tail[..]) {
+            ([], []) => false,
+            ([all], []) | ([], [all]) if all.is("ALL") => true,
+            ([other, ..], _) | ([], [other, ..]) => return Err(call.unexpected(other)),
+        };
+        return decoder.wait_for_independent(all, &call.command.groups, call.span());
+    }
     decoder.sync(Sync::FlushWait);
     match (call.rest, &call.command.arguments[..]) {
         ([word], [condition]) if word.is("FOR") => {

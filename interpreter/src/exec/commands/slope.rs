@@ -16,6 +16,16 @@ const TYPES: [(&str, SlopeKind); 4] = [
     ("HSC", SlopeKind::Hsc),
 ];
 
+/// Slope type of a word.
+pub(in crate::exec) fn slope_type(name: &str) -> Option<SlopeKind> {
+    TYPES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind)
+}
+
+/// Slope type of a number, as in P-CHAN-00071.
+pub(in crate::exec) fn slope_of_number(number: u32) -> Option<SlopeKind> {
+    TYPES.get(number as usize).map(|(_, kind)| *kind)
+}
+
 fn default(decoder: &mut Decoder) {
     decoder.modal.slope.kind = decoder.machine.channel.slope;
     decoder.modal.slope.optimised = false;
@@ -46,11 +56,11 @@ pub(super) fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     let keys = arguments(decoder, "#SLOPE", call.command.groups.first(), KEYS);
     if let Some((name, span)) = keys.word("TYPE") {
-        let Some((_, kind)) = TYPES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)) else {
+        let Some(kind) = slope_type(name) else {
             let text = format!("unknown slope type {name}");
             return Err(Fault::vendor(21629, text, span).hint("types are STEP, TRAPEZ, SIN2, HSC"));
         };
-        decoder.modal.slope.kind = *kind;
+        decoder.modal.slope.kind = kind;
     }
     if let Some(x) = keys.in_range("NO_OPT", 0.0, 1.0, own::RANGE)? {
         decoder.modal.slope.optimised = x < 0.5;

@@ -57,6 +57,11 @@ const COMMANDS: &[Command] = &[
         "limits speed and acceleration along the path", "a key without value takes the configured limit; FEED, RAPID: for these blocks alone", "", "#VECTOR LIMIT ON [ACC=2000]", &["P-CHAN-00002", "P-CHAN-00090", "P-CHAN-00208", "P-CHAN-00361", "P-CHAN-00351"]),
     row(&["#TRANSVELMIN"], "#TRANSVELMIN ON|OFF", "least speed at block transitions", "", "", "#TRANSVELMIN ON", &["P-AXIS-00013"]),
     row(&["#OVERRIDE"], "#OVERRIDE [FEED_FACT=.. RAPID_FACT=..]", "multiplies F and the rapid speed", "FEED_FACT, RAPID_FACT 0.1..200 %", "", "#OVERRIDE [FEED_FACT=50]", &["P-CHAN-00066", "P-CHAN-00181", "G166"]),
+    row(&["INDP_SYN", "INDP_ASYN"], "X[INDP_SYN|INDP_ASYN G90|G91 G00|G01 FEED=..|TIME=..|FEED_MAX_WEIGHT=.. POS=.. SLOPE_TYPE=..]",
+        "moves one axis beside the path on a profile of its own; with INDP_SYN the next block begins when it has arrived, with INDP_ASYN it goes on over several blocks",
+        "FEED in the unit of F; TIME in s from rest to rest; FEED_MAX_WEIGHT above 0 to 100 % of P-AXIS-00212; SLOPE_TYPE STEP, TRAPEZ, SIN2, default P-CHAN-00071",
+        "no offsets, no weights of G130 to G133, no override. A path that moves the axis waits for it", "X[INDP_ASYN G90 G01 FEED=1000 POS=50]", &["21068", "#WAIT", "P-AXIS-00212", "P-CHAN-00071"]),
+    row(&["#WAIT"], "#WAIT INDP [X, Y]   #WAIT INDP ALL   #WAIT FOR condition", "the path stops until these independent axes have arrived; of conditions: tested once", "", "", "#WAIT INDP [X]", &["INDP_ASYN", "K-0018"]),
     row(&["#TIME"], "#TIME t", "dwell of t seconds, as G04", "", "", "#TIME 2.5", &["G04", "20752"]),
     row(&["#FLUSH"], "#FLUSH [CONTINUE|WAIT]", "stops at the end of the block before it; CONTINUE only if no more blocks are known", "", "", "#FLUSH WAIT", &[]),
     row(&["#CHANNEL INIT"], "#CHANNEL INIT [CMDPOS|ACTPOS]", "the programmed position becomes the command or actual position", "", "", "#CHANNEL INIT [CMDPOS]", &[]),
@@ -92,7 +97,7 @@ const COMMANDS: &[Command] = &[
     row(&["G136"], "G136 X.. Y..", "weights of the feedforward in percent, axis by axis; modal", "0..100 %, 100 at program start; more is limited (K-0020), below 0 refused (K-0021)", "axes that are not named keep their weight; the axis words of the block are weights, not positions. Spindles: S[G135 G136=80]", "G135 G136 X80 Y95", &["G135", "K-0020", "K-0021", "21738", "P-AXIS-00228"]),
     row(&["G161", "G162"], "G161   G162", "I, J, K absolute, relative to the start point", "", "", "G162", &["G02"]),
     row(&["G164", "G165"], "G164   G165", "centre correction of arcs off, on", "", "", "G165", &["21758", "P-CHAN-00059", "P-CHAN-00060", "P-CHAN-00171", "P-CHAN-00172"]),
-    row(&["G166"], "G166", "override 100 % for this block", "", "", "G01 G166 X10", &["#OVERRIDE"]),
+    row(&["G166"], "G166", "override 100 % for this block, of the program and of the real-time inputs", "", "", "G01 G166 X10", &["#OVERRIDE"]),
     row(&["M02", "M30", "M2"], "M30", "end of the program", "", "", "M30", &["K-0003"]),
 ];
 

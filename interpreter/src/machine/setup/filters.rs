@@ -8,6 +8,7 @@ use kontur_filters::{
     cascade::{Cascade, FilterEntry, ListedPrototype, ListedType},
     fir::{FirConfig, FirKind},
     hsc::HscConfig,
+    iir::AxisFilter,
     time::CycleTime,
     vib_guard::VibGuardSettings,
 };
@@ -30,6 +31,14 @@ pub struct FirPreset {
     pub config: FirConfig,
 }
 
+/// The additional interface of an axis (`lr_param.add_interface`): a position from outside that is added behind the axis
+/// filters.
+#[derive(Clone, Debug)]
+pub struct AdditionalInterface {
+    /// Filter that the position passes, if it is on.
+    pub filter: Option<AxisFilter>,
+}
+
 /// What the list says about the kernel slot of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KernelPreset {
@@ -45,7 +54,7 @@ pub struct KernelPreset {
 pub(super) fn cascade(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagnostic>) -> Cascade {
     let mut entries = Vec::new();
     for index in 0..3 {
-        entries.push(entry(axis, index, diagnostics));
+        entries.push(entry(axis, &format!("filter[{index}]"), diagnostics));
     }
     let cascade = Cascade::design(&entries, axis.kind() == AxisKind::Spindle, cycle);
     diagnostics.extend(
@@ -57,17 +66,38 @@ pub(super) fn cascade(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagn
     cascade
 }
 
-/// `filter[index]` of the list; what no entry of the list can mean leaves it off.
-fn entry(axis: &Axis, index: usize, diagnostics: &mut Vec<Diagnostic>) -> FilterEntry {
-    let key = |name: &str| format!("filter[{index}].{name}");
+/// Keys of the filter of the additional interface.
+const ADDITIONAL: &str = "lr_param.add_interface.filter[0]";
+
+/// The additional interface of an axis, `None` if the list leaves it off.
+pub(super) fn additional(
+    axis: &Axis,
+    cycle: CycleTime,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<AdditionalInterface> {
+    if !axis.flag("lr_param.add_interface.enable") {
+        return None;
+    }
+    let (filter, issues) = entry(axis, ADDITIONAL, diagnostics).additional(cycle);
+    diagnostics.extend(issues.iter().map(|issue| issues::filter(axis, ADDITIONAL, issue)));
+    Some(AdditionalInterface { filter })
+}
+
+/// The filter whose keys begin with `prefix`; what no entry of the list can mean leaves it off.
+fn entry(axis: &Axis, prefix: &str, diagnostics: &mut Vec<Diagnostic>) -> FilterEntry {
+    let key = |name: &str| format!("{prefix}.{name}");
     let mut enable = axis.flag(&key("enable"));
-    // an unset type is no low-pass: with the prototype HSC it means the mean
-    let number = axis.parameters().setting(&key("type")).and_then(|s| integer(s.value.number()));
+    // `filter[i]` without a type is no low-pass: with the prototype HSC it means the mean
+    let value = match axis.parameters().setting(&key("type")) {
+        None if prefix != ADDITIONAL => None,
+        _ => axis.raw(&key("type")),
+    };
+    let number = integer(value);
     let listed_type = match number.map(ListedType::from_number) {
         None => None,
         Some(Ok(listed)) => Some(listed),
         Some(Err(issue)) => {
-            diagnostics.push(issues::filter(axis, &format!("filter[{index}]"), &issue));
+            diagnostics.push(issues::filter(axis, prefix, &issue));
             enable = false;
             None
         }

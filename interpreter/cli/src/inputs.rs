@@ -1,0 +1,343 @@
+//! `--input FILE`: real-time inputs of a run from time-stamped files.
+//!
+//! CSV with a header `t_s,<signal>,...` and rows whose times rise; a value holds until the next one of its column, an
+//! empty cell changes nothing. Every file is read through once before the run, so that a mistake at its end refuses the
+//! run before its first cycle; then it is read again, line by line, as the run goes on.
+
+use crate::engine::OpenError;
+use kontur_interpreter::diag::{Diagnostic, Location};
+use kontur_interpreter::machine::Machine;
+use kontur_interpreter::sim::{Change, Changes, Signal};
+use std::collections::VecDeque;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Bytes of a line; a longer one is no line of numbers.
+const LINE_MAX: u64 = 65_536;
+
+/// Changes of all files in the order of time.
+///
+/// # Errors
+/// [`OpenError`] if a file cannot be read or says something wrong, or if a signal stands in two columns.
+pub fn open(paths: &[PathBuf], machine: &Machine) -> Result<Changes, OpenError> {
+    let mut files = Vec::new();
+    let mut taken = Vec::new();
+    for path in paths {
+        let mut found = InputFile::open(path, machine, &taken).map_err(|p| p.open_error(path))?;
+        while found.next_row().map_err(|p| p.open_error(path))? {
+            found.changes.clear();
+        }
+        taken.extend(found.columns);
+        let again = InputFile::open(path, machine, &[]).map_err(|p| p.open_error(path))?;
+        files.push(again);
+    }
+    Ok(Box::new(Merged { files }))
+}
+
+/// What can go wrong with a file.
+enum Problem {
+    Wrong(Box<Diagnostic>),
+    Io(io::Error),
+}
+
+impl Problem {
+    fn open_error(self, path: &Path) -> OpenError {
+        match self {
+            Self::Wrong(diagnostic) => OpenError::Inputs(vec![*diagnostic]),
+            Self::Io(e) => OpenError::Io(path.to_owned(), e),
+        }
+    }
+
+    fn diagnostic(self, name: &str) -> Box<Diagnostic> {
+        match self {
+            Self::Wrong(diagnostic) => diagnostic,
+            Self::Io(e) => Box::new(Diagnostic::kontur(76, format!("{name}: {e}"))),
+        }
+    }
+}
+
+/// One file, read line by line.
+struct InputFile {
+    name: Arc<str>,
+    reader: BufReader<File>,
+    /// Signal of every column behind the time.
+    columns: Vec<Signal>,
+    line: u32,
+    /// Bytes in front of the line in work, and up to its end.
+    offset: u64,
+    end: u64,
+    text: Arc<str>,
+    time_s: Option<f64>,
+    /// Of the row read last.
+    changes: VecDeque<Change>,
+}
+
+impl InputFile {
+    /// Reads the header. `taken`: signals that other files have.
+    fn open(path: &Path, machine: &Machine, taken: &[Signal]) -> Result<Self, Problem> {
+        let file = File::open(path).map_err(Problem::Io)?;
+        if !file.metadata().map_err(Problem::Io)?.is_file() {
+            let text = "not a regular file: it is read twice";
+            return Err(Problem::Io(io::Error::new(io::ErrorKind::InvalidInput, text)));
+        }
+        let mut input = Self {
+            name: path.display().to_string().into(),
+            reader: BufReader::new(file),
+            columns: Vec::new(),
+            line: 0,
+            offset: 0,
+            end: 0,
+            text: "".into(),
+            time_s: None,
+            changes: VecDeque::new(),
+        };
+        input.next_line()?;
+        input.header(machine, taken)?;
+        Ok(input)
+    }
+
+    fn header(&mut self, machine: &Machine, taken: &[Signal]) -> Result<(), Problem> {
+        let all = Signal::all(machine);
+        let text = Arc::clone(&self.text);
+        for (i, (at, name)) in fields(&text).enumerate() {
+            let known = all.iter().find(|(n, _)| n.eq_ignore_ascii_case(name));
+            match known {
+                _ if i == 0 && name == "t_s" => {}
+                _ if i == 0 => return Err(self.wrong(at, name, "the first column is t_s")),
+                None => {
+                    let names: Vec<&str> = all.iter().map(|(n, _)| n.as_str()).collect();
+                    let hint = format!("signals of this machine: {}", names.join(", "));
+                    let text = format!("`{name}` is no signal");
+                    return Err(self.wrong(at, name, &text).hint(hint));
+                }
+                Some((_, s)) if taken.contains(s) || self.columns.contains(s) => {
+                    return Err(self.wrong(at, name, &format!("{name} stands in two columns")));
+                }
+                Some((_, signal)) => self.columns.push(*signal),
+            }
+        }
+        if self.columns.is_empty() {
+            return Err(self.wrong(0, &text, "a header `t_s,<signal>,...` is expected"));
+        }
+        Ok(())
+    }
+
+    /// Takes the next line; false at the end of the file.
+    fn next_line(&mut self) -> Result<bool, Problem> {
+        self.offset = self.end;
+        let mut bytes = Vec::new();
+        let read = Read::by_ref(&mut self.reader)
+            .take(LINE_MAX)
+            .read_until(b'\n', &mut bytes)
+            .map_err(Problem::Io)?;
+        self.line += 1;
+        self.end += read as u64;
+        let text = String::from_utf8_lossy(&bytes);
+        // a byte order mark in front of the header
+        self.text = text.trim_start_matches('\u{feff}').trim_end_matches(['\r', '\n']).into();
+        if read as u64 == LINE_MAX {
+            self.text = self.text.chars().take(80).collect::<String>().into();
+            return Err(self.wrong(0, "", "the line is too long"));
+        }
+        Ok(read > 0)
+    }
+
+    /// Reads the next row into [`Self::changes`]; false at the end of the file.
+    fn next_row(&mut self) -> Result<bool, Problem> {
+        loop {
+            if !self.next_line()? {
+                return Ok(false);
+            }
+            if !self.text.trim().is_empty() {
+                break;
+            }
+        }
+        let text = Arc::clone(&self.text);
+        let mut count = 0;
+        for (i, (at, field)) in fields(&text).enumerate() {
+            count = i;
+            if i == 0 {
+                let time_s = self.number(at, field)?;
+                let rises = self.time_s.is_none_or(|before| time_s > before);
+                if time_s < 0.0 || !rises {
+                    return Err(self.wrong(at, field, "the time does not rise, or is below 0"));
+                }
+                self.time_s = Some(time_s);
+                continue;
+            }
+            let Some(signal) = self.columns.get(i - 1).copied() else { continue };
+            if field.is_empty() {
+                continue;
+            }
+            let value = self.number(at, field)?;
+            let change = Change::new(self.time_s.unwrap_or_default(), signal, value)
+                .map_err(|reason| self.wrong(at, field, &reason))?;
+            self.changes.push_back(change);
+        }
+        if count != self.columns.len() {
+            let text = format!("{} columns, the header has {}", count + 1, self.columns.len() + 1);
+            return Err(self.wrong(0, &self.text, &text));
+        }
+        Ok(true)
+    }
+
+    fn number(&self, at: usize, field: &str) -> Result<f64, Problem> {
+        let number = field.parse::<f64>().ok().filter(|x| x.is_finite());
+        number.ok_or_else(|| self.wrong(at, field, &format!("`{field}` is no number")))
+    }
+
+    /// A mistake in the line in work, `at` characters from its start.
+    fn wrong(&self, at: usize, marked: &str, text: &str) -> Problem {
+        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let diagnostic = Diagnostic::kontur(76, text).at(Location {
+            file: Arc::clone(&self.name),
+            line: self.line,
+            column: count(at + 1),
+            offset: self.offset,
+            length: count(marked.chars().count().max(1)),
+            block: None,
+            text: Arc::clone(&self.text),
+        });
+        Problem::Wrong(Box::new(diagnostic))
+    }
+
+    /// Time of the next change; `None` at the end of the file.
+    fn peek(&mut self) -> Result<Option<f64>, Problem> {
+        while self.changes.is_empty() {
+            if !self.next_row()? {
+                return Ok(None);
+            }
+        }
+        Ok(self.changes.front().map(Change::time_s))
+    }
+}
+
+impl Problem {
+    fn hint(self, hint: String) -> Self {
+        match self {
+            Self::Wrong(diagnostic) => Self::Wrong(Box::new(diagnostic.hint(hint))),
+            Self::Io(e) => Self::Io(e),
+        }
+    }
+}
+
+/// Fields of a line without the blanks around them, with the characters in front of each.
+fn fields(line: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut at = 0;
+    line.split(',').map(move |field| {
+        let blanks = field.chars().take_while(|c| c.is_whitespace()).count();
+        let start = at + blanks;
+        at += field.chars().count() + 1;
+        (start, field.trim())
+    })
+}
+
+/// Several files as one.
+struct Merged {
+    files: Vec<InputFile>,
+}
+
+impl Iterator for Merged {
+    type Item = Result<Change, Box<Diagnostic>>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let mut first: Option<(f64, usize)> = None;
+        for (i, file) in self.files.iter_mut().enumerate() {
+            match file.peek() {
+                Ok(Some(time_s)) if first.is_none_or(|(t, _)| time_s < t) => {
+                    first = Some((time_s, i));
+                }
+                Ok(_) => {}
+                Err(problem) => return Some(Err(problem.diagnostic(&file.name))),
+            }
+        }
+        let (_, i) = first?;
+        self.files[i].changes.pop_front().map(Ok)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write as _;
+
+    fn file(text: &str) -> tempfile::NamedTempFile {
+        let mut file = tempfile::NamedTempFile::new().unwrap();
+        file.write_all(text.as_bytes()).unwrap();
+        file
+    }
+
+    fn changes(texts: &[&str]) -> Result<Vec<Change>, OpenError> {
+        let files: Vec<_> = texts.iter().map(|t| file(t)).collect();
+        let paths: Vec<PathBuf> = files.iter().map(|f| f.path().to_owned()).collect();
+        let machine = Machine::builtin(&[]).unwrap().0;
+        Ok(open(&paths, &machine)?.map(Result::unwrap).collect())
+    }
+
+    fn change(time_s: f64, signal: Signal, value: f64) -> Change {
+        Change::new(time_s, signal, value).unwrap()
+    }
+
+    #[test]
+    fn rows_become_changes() {
+        let text =
+            "\u{feff}t_s, override_percent,feedhold,y_add_mm\r\n0,50,0,\r\n\r\n0.25,,1,-1.5e-1\r\n";
+        let expected = [
+            change(0.0, Signal::Override, 50.0),
+            change(0.0, Signal::Feedhold, 0.0),
+            change(0.25, Signal::Feedhold, 1.0),
+            change(0.25, Signal::Additional(1), -0.15),
+        ];
+        assert_eq!(changes(&[text]).unwrap(), expected);
+        assert_eq!(changes(&["t_s,feedhold\n"]).unwrap(), []);
+    }
+
+    #[test]
+    fn files_are_merged_by_time() {
+        let (a, b) = ("t_s,feedhold\n0.1,1\n0.3,0\n", "t_s,X_force_mm_s2\n0.2,5\n");
+        let expected = [
+            change(0.1, Signal::Feedhold, 1.0),
+            change(0.2, Signal::Force(0), 5.0),
+            change(0.3, Signal::Feedhold, 0.0),
+        ];
+        assert_eq!(changes(&[a, b]).unwrap(), expected);
+        assert_eq!(changes(&[b, a]).unwrap(), expected);
+    }
+
+    /// Line and column of the first mistake.
+    #[test]
+    fn mistakes_have_a_place() {
+        for (text, line, column, marked) in [
+            ("", 1, 1, 1),
+            ("t_s\n0\n", 1, 1, 3),
+            ("time,feedhold\n", 1, 1, 4),
+            ("t_s,feedhold, X_foo_mm\n", 1, 15, 8),
+            ("t_s,feedhold,feedhold\n", 1, 14, 8),
+            ("t_s,feedhold\n0,1\n0,0\n", 3, 1, 1),
+            ("t_s,feedhold\n-1,1\n", 2, 1, 2),
+            ("t_s,feedhold\nnan,1\n", 2, 1, 3),
+            ("t_s,feedhold\n0,  yes\n", 2, 5, 3),
+            ("t_s,feedhold\n0,0.5\n", 2, 3, 3),
+            ("t_s,override_percent\n0,201\n", 2, 3, 3),
+            ("t_s,feedhold\n0,1,1\n", 2, 1, 5),
+            ("t_s,feedhold\n0\n", 2, 1, 1),
+        ] {
+            let Err(OpenError::Inputs(found)) = changes(&[text]) else { panic!("{text:?}") };
+            let place = found[0].source.as_ref().unwrap();
+            assert_eq!(
+                (place.line, place.column, place.length),
+                (line, column, marked),
+                "{text:?}"
+            );
+            assert_eq!(found[0].id.to_string(), "K-0076");
+        }
+        let twice = changes(&["t_s,feedhold\n", "t_s,feedhold\n"]);
+        assert!(matches!(twice, Err(OpenError::Inputs(_))));
+        let long = format!("t_s,feedhold\n0,{}\n", "1".repeat(70_000));
+        assert!(matches!(changes(&[&long]), Err(OpenError::Inputs(_))));
+        let machine = Machine::builtin(&[]).unwrap().0;
+        assert!(matches!(open(&["/nowhere.csv".into()], &machine), Err(OpenError::Io(..))));
+    }
+}

@@ -1,0 +1,233 @@
+//! Real-time inputs of a run: override, feedhold, and what acts on single axes from outside.
+//!
+//! A value holds until the next one of its signal. It acts on an axis from the first cycle on that is not earlier than
+//! its time; the path follows its contour unchanged up to that cycle and bends from there.
+
+use crate::diag::Diagnostic;
+use crate::machine::{Axis, AxisKind, Machine, RapidOverride};
+use kontur_filters::control::axis_control::AxisInputs;
+use kontur_filters::control::plant::PlantModel;
+use kontur_motion::realtime::OverrideRatios;
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// One input of a run. Axes are numbered as in [`Machine::all_axes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Signal {
+    /// `override_percent`: real-time override of feed blocks, 0 to 200 %, default 100; of rapid blocks too unless
+    /// P-CHAN-00181 says otherwise. What it is a percentage of is P-CHAN-00066.
+    Override,
+    /// `rapid_override_percent`: real-time override of rapid blocks (P-CHAN-00181), 0 to 200 %, default 100.
+    RapidOverride,
+    /// `feedhold`: 1 holds the path, 0 lets it go on; default 0. How it brakes is P-CHAN-00097.
+    ///
+    /// Assumption: dwells, waits and independent axes go on under feedhold; it holds the path.
+    Feedhold,
+    /// `X_add_mm`: position of the additional interface of an axis in mm (deg), in front of its filter.
+    Additional(usize),
+    /// `X_force_mm_s2`: external force on an axis as acceleration of the whole mass in mm/s2 (deg/s2).
+    Force(usize),
+    /// `X_encoder_offset_mm`: error of the measuring system of the position loop in mm (deg).
+    EncoderOffset(usize),
+}
+
+impl Signal {
+    /// Every signal of a machine with its name.
+    pub fn all(machine: &Machine) -> Vec<(String, Self)> {
+        let mut all = vec![
+            ("override_percent".to_owned(), Self::Override),
+            ("rapid_override_percent".to_owned(), Self::RapidOverride),
+            ("feedhold".to_owned(), Self::Feedhold),
+        ];
+        for (i, axis) in machine.all_axes().enumerate() {
+            let unit = if axis.kind() == AxisKind::Linear { "mm" } else { "deg" };
+            let name = axis.name();
+            all.push((format!("{name}_add_{unit}"), Self::Additional(i)));
+            all.push((format!("{name}_force_{unit}_s2"), Self::Force(i)));
+            all.push((format!("{name}_encoder_offset_{unit}"), Self::EncoderOffset(i)));
+        }
+        all
+    }
+
+    /// Smallest and largest value.
+    pub const fn range(self) -> (f64, f64) {
+        match self {
+            Self::Override | Self::RapidOverride => (0.0, 200.0),
+            Self::Feedhold => (0.0, 1.0),
+            Self::Additional(_) | Self::EncoderOffset(_) => (-1e6, 1e6),
+            Self::Force(_) => (-1e9, 1e9),
+        }
+    }
+
+    /// Why the signal changes nothing on this machine.
+    fn without_effect(self, machine: &Machine) -> Option<Diagnostic> {
+        let warning = |text: String| Diagnostic::kontur(77, text);
+        match self {
+            Self::RapidOverride if machine.channel.rapid_override == RapidOverride::NotUsed => {
+                let text = "rapid override without effect: one override acts on feed and rapid";
+                let hint = "set channel.g00_override_mode to ACTIVE or MINIMUM_OF_G0_G1";
+                Some(warning(text.to_owned()).parameter("P-CHAN-00181").hint(hint))
+            }
+            Self::Additional(i) => {
+                let of = |axis: &Axis| {
+                    let name = axis.name();
+                    let text = format!(
+                        "the additional interface of axis {name} is off: its input has no effect"
+                    );
+                    let hint = format!("set {name}.lr_param.add_interface.enable=1");
+                    warning(text).axis(axis.number(), name).hint(hint)
+                };
+                let on = |a: &&Axis| !a.flag("lr_param.add_interface.enable");
+                machine.all_axes().nth(i).filter(on).map(of)
+            }
+            Self::Force(i) => {
+                let chain = machine.chains().0.into_iter().nth(i)?;
+                let axis = machine.all_axes().nth(i)?;
+                (chain.control.plant.model == PlantModel::Follow).then(|| {
+                    let name = axis.name();
+                    let text =
+                        format!("axis {name} follows its set position: a force has no effect");
+                    warning(text).axis(axis.number(), name).parameter("P-AXIS-00096")
+                })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A new value of a signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    time_s: f64,
+    signal: Signal,
+    value: f64,
+}
+
+impl Change {
+    /// A value from a program time in s on.
+    ///
+    /// # Errors
+    /// What is wrong with the value; feedhold is 0 or 1.
+    pub fn new(time_s: f64, signal: Signal, value: f64) -> Result<Self, String> {
+        let (low, high) = signal.range();
+        let whole = signal != Signal::Feedhold || value.fract().abs() <= 0.0;
+        if whole && (low..=high).contains(&value) {
+            Ok(Self { time_s, signal, value })
+        } else if signal == Signal::Feedhold {
+            Err(format!("{value}, 0 or 1 is expected"))
+        } else {
+            Err(format!("{value}, allowed are {low} to {high}"))
+        }
+    }
+
+    /// Program time in s from which the value holds.
+    pub const fn time_s(&self) -> f64 {
+        self.time_s
+    }
+
+    /// The signal.
+    pub const fn signal(&self) -> Signal {
+        self.signal
+    }
+}
+
+/// Changes in the order of time; an error ends the run.
+pub type Changes = Box<dyn Iterator<Item = Result<Change, Box<Diagnostic>>>>;
+
+/// The values in force and those to come.
+pub(super) struct Inputs {
+    changes: Changes,
+    next: Option<Change>,
+    feed_ratio: f64,
+    rapid_ratio: f64,
+    pub(super) feedhold: bool,
+    pub(super) axes: Vec<AxisInputs>,
+    seen: BTreeSet<Signal>,
+}
+
+impl fmt::Debug for Inputs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Inputs").field("next", &self.next).finish_non_exhaustive()
+    }
+}
+
+impl Inputs {
+    /// No input at all for so many axes.
+    pub(super) fn none(axes: usize) -> Self {
+        Self {
+            changes: Box::new(std::iter::empty()),
+            next: None,
+            feed_ratio: 1.0,
+            rapid_ratio: 1.0,
+            feedhold: false,
+            axes: vec![AxisInputs::default(); axes],
+            seen: BTreeSet::new(),
+        }
+    }
+
+    /// Takes the source of the changes.
+    pub(super) fn connect(&mut self, changes: Changes) -> Result<(), Box<Diagnostic>> {
+        self.changes = changes;
+        self.fetch()
+    }
+
+    fn fetch(&mut self) -> Result<(), Box<Diagnostic>> {
+        self.next = None;
+        self.next = self.changes.next().transpose()?;
+        Ok(())
+    }
+
+    /// No value will ever change any more.
+    pub(super) const fn is_over(&self) -> bool {
+        self.next.is_none()
+    }
+
+    /// Takes over what is due at a time; true if there was something.
+    ///
+    /// # Errors
+    /// What the source of the changes says; the values stay.
+    pub(super) fn take_due(
+        &mut self,
+        time_s: f64,
+        machine: &Machine,
+        notes: &mut Vec<Diagnostic>,
+    ) -> Result<bool, Box<Diagnostic>> {
+        // a billionth of a cycle: times are decimal numbers, cycles binary ones
+        let late = time_s + 1e-9 * machine.cycle.seconds();
+        let mut any = false;
+        while let Some(Change { signal, value, .. }) = self.next.filter(|c| c.time_s <= late) {
+            any = true;
+            if self.seen.insert(signal) {
+                notes.extend(signal.without_effect(machine));
+            }
+            match signal {
+                Signal::Override => self.feed_ratio = value / 100.0,
+                Signal::RapidOverride => self.rapid_ratio = value / 100.0,
+                Signal::Feedhold => self.feedhold = value > 0.0,
+                Signal::Additional(i) => self.axis(i).additional_mm = value,
+                Signal::Force(i) => self.axis(i).force_mm_s2 = value,
+                Signal::EncoderOffset(i) => self.axis(i).encoder_offset_mm = value,
+            }
+            self.fetch()?;
+        }
+        Ok(any)
+    }
+
+    fn axis(&mut self, i: usize) -> &mut AxisInputs {
+        if i >= self.axes.len() {
+            self.axes.resize(i + 1, AxisInputs::default());
+        }
+        &mut self.axes[i]
+    }
+
+    /// Overrides of feed and rapid blocks (P-CHAN-00181).
+    pub(super) fn ratios(&self, mode: RapidOverride) -> OverrideRatios {
+        let (feed, own) = (self.feed_ratio, self.rapid_ratio);
+        let rapid = match mode {
+            RapidOverride::NotUsed => feed,
+            RapidOverride::Minimum => feed.min(own),
+            RapidOverride::Active => own,
+        };
+        OverrideRatios { feed, rapid }
+    }
+}

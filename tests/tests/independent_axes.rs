@@ -1,0 +1,229 @@
+//! Independent axes in runs of programs: own timelines beside the path, joins, errors.
+
+use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::machine::Machine;
+use kontur_tests::{Run, machine, run, run_on, run_with_inputs};
+
+/// The built-in machine with 1000 mm/s2 in every stage of the linear slope of X, Y, Z, and the linear slope as default.
+fn linear(more: &[&str]) -> (Machine, Vec<Diagnostic>) {
+    let mut settings = vec!["channel.prog_start.slope.profile=0".to_owned()];
+    for axis in ["X", "Y", "Z"] {
+        for stage in ["a_stufe_1", "a_stufe_2", "a_grenz_stufe_1", "a_grenz_stufe_2"] {
+            settings.push(format!("{axis}.getriebe[0].lslope_profil.{stage}=1000"));
+        }
+    }
+    settings.extend(more.iter().map(ToString::to_string));
+    machine(&settings.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+fn go(program: &str) -> Run {
+    let run = run_on(linear(&[]), &format!("%P\n{program}\nM30\n"));
+    assert_eq!(run.diagnostics, [], "{program}");
+    run
+}
+
+fn ipo(run: &Run, axis: usize) -> Vec<f64> {
+    run.axis(axis, |a| a.ipo)
+}
+
+fn at(run: &Run, axis: usize, time_s: f64) -> f64 {
+    ipo(run, axis)[(time_s / run.cycle_s).round() as usize]
+}
+
+/// First time at which an axis has been away from and is at a position.
+fn arrival_s(run: &Run, axis: usize, target: f64) -> f64 {
+    let values = ipo(run, axis);
+    let k = (1..values.len())
+        .find(|k| (values[*k] - target).abs() < 1e-9 && (values[k - 1] - target).abs() >= 1e-9);
+    k.map_or(f64::INFINITY, |k| k as f64 * run.cycle_s)
+}
+
+fn near(a: f64, b: f64) {
+    assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
+}
+
+fn largest_step(run: &Run, axis: usize) -> f64 {
+    ipo(run, axis).windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
+}
+
+/// 100 mm at 100 mm/s take 1.1 s, however the speed is written; the path begins only then. 10 mm take 0.2 s.
+#[test]
+fn synchronous() {
+    for words in [
+        "G90 G01 FEED=6000 POS=100",
+        "G91 G01 FEED 6000 POS 100 SLOPE_TYPE=STEP",
+        "G01 TIME=1.1 POS=100 SLOPE_PROFIL=0",
+        "G01 FEED_MAX_WEIGHT=10 POS=100",
+    ] {
+        let run = go(&format!("X[INDP_SYN {words}]\nG90 G01 Y10 F6000"));
+        near(at(&run, 0, 0.1), 5.0);
+        near(arrival_s(&run, 0, 100.0), 1.1);
+        near(at(&run, 1, 1.1), 0.0);
+        near(arrival_s(&run, 1, 10.0), 1.3);
+    }
+    // rapid: 1000 mm/s are not reached, 100 mm take 2 sqrt(0.1) s
+    let run = go("X[INDP_SYN G00 POS=100]");
+    near(at(&run, 0, 0.1), 5.0);
+    near(arrival_s(&run, 0, 100.0), 0.633);
+}
+
+/// With the ramps of the list, 30 ms, and 3500 mm/s2: `100 / 100 + 2 sqrt(100 / j)`, `j = 3500 / 0.03`, is less than full
+/// acceleration.
+#[test]
+fn slope_of_its_own() {
+    let run = go("X[INDP_SYN G90 G01 FEED=6000 POS=100 SLOPE_TYPE=TRAPEZ]");
+    let change_s = 2.0 * (100.0 * 0.03 / 3500.0_f64).sqrt();
+    let cycles = ((1.0 + change_s) / run.cycle_s).ceil();
+    near(arrival_s(&run, 0, 100.0), cycles * run.cycle_s);
+    near(at(&run, 0, 0.5), 100.0 * (0.5 - change_s / 2.0));
+}
+
+/// Path and axis begin together; the next block waits for the later one.
+#[test]
+fn synchronous_beside_a_path() {
+    let run = go("G90 G01 Y100 F6000 X[INDP_SYN G91 G01 TIME=2 POS=-50]\nY110");
+    near(at(&run, 1, 0.1), 5.0);
+    assert!(at(&run, 0, 0.002) < 0.0);
+    near(arrival_s(&run, 1, 100.0), 1.1);
+    near(arrival_s(&run, 0, -50.0), 2.0);
+    near(at(&run, 1, 2.0), 100.0);
+    near(arrival_s(&run, 1, 110.0), 2.2);
+}
+
+/// 20 mm at 10 mm/s take 2.01 s while the path goes on through two blocks without a stop; then it waits.
+#[test]
+fn asynchronous() {
+    for wait in ["#WAIT INDP [X]", "#WAIT INDP ALL", "#WAIT INDP[X, Y]"] {
+        let run = go(&format!(
+            "X[INDP_ASYN G90 G01 FEED=600 POS=20]\nG90 G01 Y50 F6000\nY100\n{wait}\nY0"
+        ));
+        near(at(&run, 0, 1.0), 9.95);
+        near(arrival_s(&run, 1, 100.0), 1.1);
+        near(arrival_s(&run, 0, 20.0), 2.01);
+        near(at(&run, 1, 2.01), 100.0);
+        near(arrival_s(&run, 1, 0.0), 3.11);
+        near(run.records.last().unwrap().axes[0].ipo, 20.0);
+    }
+}
+
+/// A path that moves the axis, a second motion of it, and the end of the program wait for it.
+#[test]
+fn implicit_joins() {
+    let run = go("X[INDP_ASYN G90 G01 FEED=600 POS=20]\nG90 G01 Y50 F6000\nX30");
+    near(arrival_s(&run, 0, 20.0), 2.01);
+    near(arrival_s(&run, 0, 30.0), 2.21);
+    assert!(largest_step(&run, 0) < 0.1 + 1e-9);
+    let run = go("X[INDP_ASYN G01 FEED=600 POS=20]\nX[INDP_ASYN G01 FEED=6000 POS=30]");
+    near(arrival_s(&run, 0, 20.0), 2.01);
+    near(arrival_s(&run, 0, 30.0), 2.21);
+    let run = go("X[INDP_ASYN G01 FEED=600 POS=20]\nG90 G01 Y10 F6000");
+    near(run.records.last().unwrap().axes[0].ipo, 20.0);
+}
+
+/// What the axis has gone alone is in the coordinates: lines and arcs go on from there; offsets do not act on it.
+#[test]
+fn coordinates_go_on() {
+    let run = go(
+        "X[INDP_SYN G90 G01 FEED=6000 POS=20]\nG90 G01 X30 Y10 F6000\nX20 Y0\nG02 X40 Y0 I10 J0\nG91 G01 X-5",
+    );
+    let arc = run.records.iter().filter(|r| r.line == 5);
+    let radius = arc.map(|r| libm::hypot(r.axes[0].ipo - 30.0, r.axes[1].ipo));
+    assert!(radius.clone().count() > 100 && radius.into_iter().all(|r| (r - 10.0).abs() < 1e-9));
+    near(run.records.last().unwrap().axes[0].ipo, 35.0);
+    assert!(largest_step(&run, 0) < 0.1 + 1e-9);
+    let run = go("V.G.NP[1].V.X=7\nG54\nX[INDP_SYN G90 G01 FEED=6000 POS=20]\nG90 G01 X1 F6000");
+    near(arrival_s(&run, 0, 20.0), 0.3);
+    near(run.records.last().unwrap().axes[0].ipo, 8.0);
+}
+
+/// The path does not know about the motion: it gives the same setpoints bit for bit, also through rounded corners.
+#[test]
+fn the_path_is_the_same() {
+    let path =
+        "G90 G01 X10 F3000\nG261\n#CONTOUR MODE [DEV PATH_DEV=0.1]\nY10\nX0\nG02 Y0 J-5\nG01 X30\n";
+    let plain = run(&format!("%P\n{path}M30\n"), &[]);
+    let with = run(&format!("%P\nZ[INDP_ASYN G01 FEED=500 POS=-3]\n{path}M30\n"), &[]);
+    let bits = |run: &Run| -> Vec<[u64; 2]> {
+        run.records.iter().map(|r| [r.axes[0].ipo.to_bits(), r.axes[1].ipo.to_bits()]).collect()
+    };
+    let (a, b) = (bits(&plain), bits(&with));
+    assert!(a.len() <= b.len() && a.len() > 500);
+    assert_eq!(a[..], b[..a.len()]);
+    near(with.records.last().unwrap().axes[2].ipo, -3.0);
+    let error = |run: &Run| run.records.iter().map(|r| r.contour_err_mm).fold(0.0, f64::max);
+    near(error(&with), error(&plain));
+}
+
+/// A filter delays the axis; that is no deviation from the contour of the path, and joins wait for its end.
+#[test]
+fn filtered() {
+    let delay = [
+        "X.filter[0].enable=1",
+        "X.filter[0].order=1",
+        "X.filter[0].type=TIME_DELAY",
+        "X.filter[0].time_constant=5000",
+    ];
+    let program =
+        "%P\nX[INDP_ASYN G90 G01 FEED=600 POS=20]\nG90 G01 Y50 F6000\n#WAIT INDP ALL\nY0\nM30\n";
+    let run = run_on(linear(&delay), program);
+    let set = run.axis(0, |a| a.set);
+    assert!(ipo(&run, 0).iter().zip(&set[5..]).all(|(a, b)| a.to_bits() == b.to_bits()));
+    assert!(run.records.iter().all(|r| r.contour_err_mm <= 1e-12));
+    near(arrival_s(&run, 0, 20.0), 2.01);
+    near(arrival_s(&run, 1, 0.0), 2.015 + 0.6);
+}
+
+/// Feedhold holds the path, not an independent axis.
+#[test]
+fn under_feedhold() {
+    let program = "%P\nG90 G01 Y100 F6000 X[INDP_ASYN G01 FEED=600 POS=20]\nM30\n";
+    let inputs = [(0.5, "feedhold", 1.0), (3.0, "feedhold", 0.0)];
+    let run = run_with_inputs(linear(&[]), program, &inputs);
+    near(at(&run, 1, 2.9), 50.0);
+    near(arrival_s(&run, 0, 20.0), 2.01);
+    near(arrival_s(&run, 1, 100.0), 3.6);
+}
+
+/// An error of another axis stops an independent axis on its own way, inside its limits.
+#[test]
+fn stopped_by_an_error() {
+    let settings = ["Y.getriebe[0].slep_ueberw_typ=4", "Y.getriebe[0].slep_max=1000"];
+    let program = "%P\nG90 G01 Y100 F6000 X[INDP_ASYN G01 FEED=6000 POS=200]\nM30\n";
+    let run = run_on(linear(&settings), program);
+    assert_eq!(run.ids(), [70020]);
+    let x = ipo(&run, 0);
+    assert!(x.last().unwrap() < &100.0);
+    let n = x.len();
+    assert!((x[n - 1] - x[n - 2]).abs() <= 0.0, "at rest");
+    assert!(x.windows(3).all(|w| (w[2] - 2.0 * w[1] + w[0]).abs() <= 1000.0 * 1e-6 * 1.001));
+}
+
+#[test]
+fn mistakes() {
+    for (block, id) in [
+        ("X[INDP_SYN]", "21068"),
+        ("X[INDP_SYN G90 G01 FEED=100]", "21068"),
+        ("X[INDP_SYN G90 POS=1]", "21068"),
+        ("X[INDP_SYN G00 FEED=100 POS=1]", "21068"),
+        ("X[INDP_SYN G01 FEED=100 TIME=1 POS=1]", "21068"),
+        ("X[INDP_SYN G01 FEED=0 POS=1]", "21068"),
+        ("X[INDP_SYN G01 FEED_MAX_WEIGHT=101 POS=1]", "21068"),
+        ("X[INDP_SYN G02 FEED=100 POS=1]", "21068"),
+        ("X[INDP_SYN G01 FEED=100 POS=1 SLOPE_TYPE=FOO]", "21068"),
+        ("X[INDP_SYN G01 FEED=100 POS=1 FOO=3]", "21068"),
+        ("X[INDP_SYN G01 FEED=100 POS=1 DRY_RUN]", "K-0019"),
+        ("X[INDP_SYN G01 FEED=100 POS=600]", "21897"),
+        ("#WAIT INDP", "21220"),
+        ("#WAIT INDP [K]", "20797"),
+        ("#WAIT INDP SOME", "21220"),
+    ] {
+        let run = run(&format!("%P\n{block}\nM30\n"), &[]);
+        let ids: Vec<String> = run.diagnostics.iter().map(|d| d.id.to_string()).collect();
+        assert_eq!(ids, [id], "{block}");
+        assert_eq!(run.diagnostics[0].source.as_ref().unwrap().line, 2, "{block}");
+        assert!(run.totals.aborted && run.records.is_empty());
+    }
+    // functions alone are legal
+    let run = run("%P\nX[INDP_SYN M200 H5]\nM30\n", &[]);
+    assert!(!run.totals.aborted && run.totals.not_counted.len() == 2);
+}
