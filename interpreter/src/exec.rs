@@ -6,6 +6,7 @@
 
 mod angle;
 mod arc;
+mod bottleneck;
 mod brackets;
 mod calls;
 mod check;
@@ -42,10 +43,11 @@ mod step;
 mod suggest;
 mod system;
 mod tools;
+mod unreached;
 mod variables;
 mod words;
 
-pub use check::check;
+pub use check::{UNREACHED, check};
 pub use executor::Executor;
 pub use options::{Access, External, Options, SkipLevels, Value};
 pub use step::{

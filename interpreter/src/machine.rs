@@ -19,7 +19,7 @@ pub mod table;
 pub mod value;
 
 pub use axis::{Axis, AxisKind};
-pub use channel::{ArcCentre, Channel, LookAhead, OverrideMode, RapidOverride};
+pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, OverrideMode, RapidOverride};
 pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};

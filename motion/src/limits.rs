@@ -7,7 +7,7 @@
 use crate::axis::{AxisDynamics, AxisVec};
 use crate::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind};
 use crate::limit::SpeedLimit;
-use crate::path::{ArcPath, Path};
+use crate::path::{ArcPath, Path, TiltedArc};
 use crate::profile::{RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
 use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
@@ -23,29 +23,52 @@ pub struct PathExtremes {
     pub third: AxisVec,
 }
 
-/// Largest derivatives over the angular range that an arc really travels: 1 where the axis direction lies inside the
-/// range, else the larger end value.
+/// `max |cos(x - phase)|` over the angles that an arc really travels: 1 where a multiple of pi lies among them, else the
+/// larger end value.
+fn largest_cos(arc: &ArcPath, phase: f64) -> f64 {
+    let (from, to) = swept(arc);
+    let (lo, hi) = ((from - phase) / std::f64::consts::PI, (to - phase) / std::f64::consts::PI);
+    if hi.floor() >= lo.ceil() {
+        1.0
+    } else {
+        libm::cos(from - phase).abs().max(libm::cos(to - phase).abs())
+    }
+}
+
+/// Angles of an arc, the smaller one first.
+fn swept(arc: &ArcPath) -> (f64, f64) {
+    let (start, sweep) = (arc.start_angle(), arc.shape().sweep_rad);
+    if sweep > 0.0 { (start, start + sweep) } else { (start + sweep, start) }
+}
+
+/// Largest derivatives of an arc askew to the axes. Those of its three axes are bounds: what comes from the circle and
+/// what comes from the height of a helix are added.
+fn tilted_extremes(tilted: &TiltedArc) -> PathExtremes {
+    let arc = tilted.arc();
+    let mut extremes = arc_extremes(arc);
+    let rate = arc.shape().sweep_rad.abs() / arc.length();
+    for axis in tilted.tilt().axes {
+        let ([first, second], drift) = tilted.shares(axis);
+        let amplitude = arc.radius() * libm::hypot(first, second);
+        let phase = libm::atan2(second, first);
+        // position amplitude cos(angle - phase), slope its sine
+        let cos = amplitude * largest_cos(arc, phase);
+        let sin = amplitude * largest_cos(arc, phase + std::f64::consts::FRAC_PI_2);
+        extremes.first[axis] = sin * rate + drift.abs();
+        extremes.second[axis] = cos * rate * rate;
+        extremes.third[axis] = sin * rate * rate * rate;
+    }
+    extremes
+}
+
+/// Largest derivatives over the angular range that an arc really travels.
 fn arc_extremes(arc: &ArcPath) -> PathExtremes {
     let n = arc.start().len();
     let [a, b] = arc.shape().plane;
     let sweep = arc.shape().sweep_rad;
     let rate = sweep.abs() / arc.length();
     let radius = arc.radius();
-    let (from, to) = if sweep > 0.0 {
-        (arc.start_angle(), arc.start_angle() + sweep)
-    } else {
-        (arc.start_angle() + sweep, arc.start_angle())
-    };
-    // max |cos(x + shift)| for x in from..to; |cos| is 1 at multiples of pi
-    let largest = |shift: f64| -> f64 {
-        let (lo, hi) = ((from + shift) / std::f64::consts::PI, (to + shift) / std::f64::consts::PI);
-        if hi.floor() >= lo.ceil() {
-            1.0
-        } else {
-            libm::cos(from + shift).abs().max(libm::cos(to + shift).abs())
-        }
-    };
-    let (cos, sin) = (largest(0.0), largest(-std::f64::consts::FRAC_PI_2));
+    let (cos, sin) = (largest_cos(arc, 0.0), largest_cos(arc, std::f64::consts::FRAC_PI_2));
     let mut first = AxisVec::zeros(n);
     arc.tangent_outside_plane(&mut first);
     for v in first.iter_mut() {
@@ -72,6 +95,7 @@ impl PathExtremes {
                 }
             }
             Path::Arc(arc) => arc_extremes(arc),
+            Path::Tilted(tilted) => tilted_extremes(tilted),
             Path::Curve(curve) => {
                 let [first, second, third] = curve.extremes().clone();
                 Self { first, second, third }

@@ -7,11 +7,13 @@ mod arc;
 mod line;
 pub(crate) mod piece;
 mod poly;
+mod tilted;
 
 pub use arc::{ArcPath, ArcShape};
 pub use line::LinePath;
 pub use piece::{Coefficients, PolyPiece};
 pub use poly::PolyPath;
+pub use tilted::{Tilt, TiltedArc};
 
 use crate::axis::AxisVec;
 
@@ -22,6 +24,8 @@ pub enum Path {
     Line(LinePath),
     /// Arc in a plane of two axes, the others linear in the angle (helix); several turns are possible.
     Arc(ArcPath),
+    /// Arc in a plane that lies askew to the axes.
+    Tilted(Box<TiltedArc>),
     /// Polynomials in all axes: contouring and splines.
     Curve(PolyPath),
 }
@@ -32,6 +36,7 @@ impl Path {
         match self {
             Self::Line(p) => p.length(),
             Self::Arc(p) => p.length(),
+            Self::Tilted(p) => p.arc().length(),
             Self::Curve(p) => p.length(),
         }
     }
@@ -41,6 +46,7 @@ impl Path {
         match self {
             Self::Line(p) => p.position(s, out),
             Self::Arc(p) => p.position(s, out),
+            Self::Tilted(p) => p.position(s, out),
             Self::Curve(p) => p.position(s, out),
         }
     }
@@ -50,6 +56,7 @@ impl Path {
         match self {
             Self::Line(p) => out.copy_from_slice(p.direction()),
             Self::Arc(p) => p.tangent(s, out),
+            Self::Tilted(p) => p.tangent(s, out),
             Self::Curve(p) => p.tangent(s, out),
         }
     }
@@ -59,6 +66,7 @@ impl Path {
         match self {
             Self::Line(_) => out.fill(0.0),
             Self::Arc(p) => p.curvature(s, out),
+            Self::Tilted(p) => p.curvature(s, out),
             Self::Curve(p) => p.curvature(s, out),
         }
     }
@@ -68,6 +76,7 @@ impl Path {
         match self {
             Self::Line(p) => p.start(),
             Self::Arc(p) => p.start(),
+            Self::Tilted(p) => p.start(),
             Self::Curve(p) => p.start(),
         }
     }
@@ -77,6 +86,7 @@ impl Path {
         match self {
             Self::Line(p) => p.end(),
             Self::Arc(p) => p.end(),
+            Self::Tilted(p) => p.end(),
             Self::Curve(p) => p.end(),
         }
     }
@@ -92,8 +102,44 @@ impl Path {
         match self {
             Self::Line(p) => Some(Self::Line(p.section(from, to))),
             Self::Arc(p) => Some(Self::Arc(p.section(from, to))),
+            Self::Tilted(p) => Some(Self::Tilted(Box::new(p.section(from, to)))),
             Self::Curve(_) => None,
         }
+    }
+
+    /// Lowest and highest position of every axis on a line or an arc; `None` for other paths.
+    pub fn extent(&self) -> Option<(AxisVec, AxisVec)> {
+        let (mut low, mut high) = (self.start().clone(), self.start().clone());
+        let mut take = |axis: usize, x: f64| {
+            low[axis] = low[axis].min(x);
+            high[axis] = high[axis].max(x);
+        };
+        for (axis, x) in self.end().iter().enumerate() {
+            take(axis, *x);
+        }
+        let mut at = self.start().clone();
+        let mut turning = |axis: usize, arc: &ArcPath, shares: [f64; 2], drift: f64| {
+            for s in arc.turning_points(shares, drift).into_iter().flatten() {
+                self.position(s, &mut at);
+                take(axis, at[axis]);
+            }
+        };
+        match self {
+            Self::Line(_) => {}
+            Self::Arc(arc) => {
+                let [a, b] = arc.shape().plane;
+                turning(a, arc, [1.0, 0.0], 0.0);
+                turning(b, arc, [0.0, 1.0], 0.0);
+            }
+            Self::Tilted(tilted) => {
+                for axis in tilted.tilt().axes {
+                    let (shares, drift) = tilted.shares(axis);
+                    turning(axis, tilted.arc(), shares, drift);
+                }
+            }
+            Self::Curve(_) => return None,
+        }
+        Some((low, high))
     }
 
     /// Path length of the point of the path nearest to `point` (Euclidean over all axes), searched over the whole path.
@@ -101,6 +147,7 @@ impl Path {
         match self {
             Self::Line(p) => p.nearest(point),
             Self::Arc(p) => p.nearest(point),
+            Self::Tilted(p) => p.nearest(point),
             Self::Curve(p) => p.nearest(point),
         }
     }

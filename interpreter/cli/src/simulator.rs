@@ -171,8 +171,10 @@ impl Engine for Kontur {
         let refused = found.iter().any(Diagnostic::is_error);
         if refused {
             messages.extend(machine.chains().1);
-            messages.extend(found);
         }
+        // parts that do not run are looked at by the check alone
+        let unreached = |d: &Diagnostic| d.id == exec::UNREACHED;
+        messages.extend(found.into_iter().filter(|d| refused || unreached(d)));
         let changes = inputs::open(&request.inputs, &machine)?;
         let simulation = open(options).map_err(OpenError::Lists)?.with_inputs(changes);
         let facts = facts(request, &machine, &simulation);

@@ -161,7 +161,7 @@ pub const ENTRIES: &[Entry] = &[
     row(Vendor(22145), "", Error, 3, 3, 1, "key twice (#DIAGNOSIS)", ""),
     row(Vendor(22151), "", Error, 2, 3, 1, "wrong character in an implicit call", "G80 [..]"),
     row(Vendor(22156), "", Error, 2, 3, 1, "axis outside the plane of a contour rotation", "G68 with the third main axis"),
-    row(Vendor(22194), "", Error, 2, 3, 1, "#MSG to the diagnosis receiver is suppressed, warning", "P-CHAN-00518"),
+    row(Vendor(22194), "", Warning, 1, 1, 1, "#MSG to the diagnosis receiver is suppressed, warning", "P-CHAN-00518"),
     row(Vendor(22195), "", Error, 2, 3, 1, "#MSG to the diagnosis receiver is suppressed, error", "P-CHAN-00518"),
     row(Vendor(22253), "", Error, 2, 3, 1, "#CANG together with an end point", ""),
     row(Vendor(50118), "", Error, 4, 6, 0, "axis speed above the limit", "> vb_max·(1+P-AXIS-00440/1000), default +9 %"),
@@ -333,6 +333,8 @@ pub const ENTRIES: &[Entry] = &[
     row(Kontur(115), "K-COMPENSATION", Error, 2, 3, 1, "tool radius compensation not possible", "contour too tight for the tool, or a word that does not go with it"),
     row(Kontur(116), "K-TOO-MANY", Note, 1, 1, 1, "more errors than are reported", ""),
     row(Kontur(117), "K-ARC-CENTRE", Error, 2, 3, 1, "start, end and centre of an arc do not fit", "G165; P-CHAN-00059, P-CHAN-00060"),
+    row(Kontur(118), "K-UNREACHED", Warning, 1, 3, 1, "syntax error in a part of the program that does not run", "branch not taken, block jumped over, subroutine not called"),
+    row(Kontur(119), "K-BOTTLENECK", Warning, 1, 3, 1, "a compensated tool cuts its own contour at a bottleneck", "gap narrower than the tool, loop over several blocks"),
 ];
 
 #[cfg(test)]

@@ -11,9 +11,6 @@ const SAME_MM: f64 = 5e-5;
 /// By how much half a chord may exceed a radius that was rounded to the smallest increment.
 const RADIUS_ROUNDING_MM: f64 = 1e-4;
 
-/// Largest shift of an arc's centre if the list names none. Source: P-CHAN-00059, default 20000 (0.1 um).
-const SHIFT_MM: f64 = 2.0;
-
 /// A point in the plane, first and second axis in mm.
 pub(super) type Point = [f64; 2];
 
@@ -83,8 +80,11 @@ pub(super) fn by_radius(
     if half_chord - radius.abs() > RADIUS_ROUNDING_MM {
         return Err(ArcError::RadiusTooSmall { radius, half_chord });
     }
+    // rounding of a half circle, for instance of a turned one, would move its centre by the root of it
+    let above = (radius.abs() - half_chord).max(0.0);
+    let above = if above < 1e-14 * radius.abs() { 0.0 } else { above };
     // (R - d/2) (R + d/2) instead of R^2 - d^2/4: no cancellation near the half circle
-    let height = ((radius.abs() - half_chord).max(0.0) * (radius.abs() + half_chord)).sqrt();
+    let height = (above * (radius.abs() + half_chord)).sqrt();
     let side = if counter_clockwise == (radius > 0.0) { height } else { -height };
     let left = [-chord[1] / length, chord[0] / length];
     let centre =
@@ -137,7 +137,7 @@ fn corrected(
     let centre = [centre[0] + shift[0], centre[1] + shift[1]];
     let radius = norm(sub(start, centre));
     // both limits must be exceeded: the larger one rules
-    let limit = limits.shift_mm.unwrap_or(SHIFT_MM).max(limits.shift_ratio * radius);
+    let limit = limits.shift_mm.max(limits.shift_ratio * radius);
     if distance.abs() > limit {
         return Err(ArcError::CentreTooFar { shift: distance.abs(), limit });
     }
@@ -176,7 +176,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
     const LIMITS: ArcCentre = ArcCentre {
-        shift_mm: None,
+        shift_mm: 2.0,
         shift_ratio: 0.05,
         radius_difference_mm: 0.005,
         radius_difference_ratio: 0.001,

@@ -95,11 +95,33 @@ impl Executor {
             self.pop_level();
             return;
         }
-        if self.levels.last().is_some_and(|level| !level.cut) {
+        let cut = self.levels.last().is_some_and(|level| level.cut);
+        if !cut && !self.end_program_called {
             let text = "the main program ends without M30 or M02";
             let mut diagnostic = Diagnostic::kontur(own::NO_END, text);
             diagnostic.source = self.here(Span::default());
             self.report(diagnostic);
+        }
+        self.decoder.moved = false;
+        self.finish();
+        self.settle(false);
+    }
+
+    /// The main program is over: the program of P-CHAN-00252 runs, once, before the end.
+    fn finish(&mut self) {
+        if let (Some(name), false) =
+            (self.decoder.machine.channel.end_program.clone(), self.end_program_called)
+        {
+            self.end_program_called = true;
+            while self.levels.len() > 1 {
+                self.pop_level();
+            }
+            if let Some(main) = self.levels.last_mut() {
+                main.frames.clear();
+            }
+            self.skip_to_level_end();
+            self.call_of_list(&name, "P-CHAN-00252", Span::default());
+            return;
         }
         self.contouring_at_end();
         self.end(EndReason::Finished);
@@ -146,8 +168,7 @@ impl Executor {
             let fault = Fault::kontur(own::ODD, text, Span::default()).warning();
             self.decoder.note(fault);
         }
-        self.contouring_at_end();
-        self.end(EndReason::Finished);
+        self.finish();
     }
 
     /// M17, M29; at the main level the end of the program.
@@ -156,8 +177,7 @@ impl Executor {
         if self.levels.len() > 1 {
             self.pop_level();
         } else {
-            self.contouring_at_end();
-            self.end(EndReason::Finished);
+            self.finish();
         }
     }
 
@@ -334,6 +354,22 @@ impl Executor {
             .collect();
         let name = Ident { text: file.into(), span: call.span };
         self.call_named(&name, false, Some(passed));
+    }
+
+    /// A global subroutine that a parameter names.
+    pub(super) fn call_of_list(&mut self, file: &str, parameter: &'static str, span: Span) {
+        let levels = self.levels.len();
+        self.call_named(&Ident { text: file.into(), span }, false, None);
+        if self.levels.len() == levels {
+            self.decoder.amend(|d| d.parameter(parameter));
+        }
+    }
+
+    /// M06 with a program of its own.
+    pub(super) fn tool_change(&mut self, span: Span) {
+        if let Some(file) = self.decoder.tool_change_file.clone() {
+            self.call_of_list(&file, "P-CHAN-00118", span);
+        }
     }
 
     /// The modal cycle behind a block; not inside cycles.

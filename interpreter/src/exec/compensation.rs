@@ -1,20 +1,26 @@
 //! Tool radius compensation: the path of the tool's centre at the distance of its radius from the contour.
 //!
-//! Outer corners are rounded by arcs about the corner, inner corners are the intersection of the parallels. The first
-//! line behind G41 or G42 leads to the point perpendicular above the beginning of the next element, the first line
-//! behind G40 leads back to the contour.
+//! Outer corners are rounded by arcs about the corner (G26) or go round by lines (G25), inner corners are the
+//! intersection of the parallels. The first line behind G41 or G42 leads to the point perpendicular above the beginning
+//! of the next element, the first line behind G40 leads back to the contour. With G237 a line perpendicular to the
+//! contour does both, and the contour may begin and end with arcs.
 //!
-//! Source: TF5200 programming manual, tool radius compensation (G26, G40 to G42, G139); 90008, 90031, 20651.
+//! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G139, G237); generation of
+//! compensation blocks; 90008, 90031, 20651. A program starts with G26, while the control starts with G25: arcs keep the
+//! distance to the contour, and a note says so. Derived: the lines of G25 from the numbers of inserted blocks that the
+//! manual lists by angle.
 //! Assumption: the approach for every angle between approach and first element.
 
 use super::arc::Point;
-use super::contour::Motion;
+use super::bottleneck::{Cut, Watch};
+use super::contour::{Compensated, Motion};
 use super::fault::{Fault, own};
 use super::planar::{Curve, Side, cross, dot, intersections, norm, sub};
 use super::step::{Event, SourceRef, Sync};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path, Tilt};
+use smallvec::SmallVec;
 use std::f64::consts::{PI, TAU};
 
 /// Steps between two motions that a corner may wait for.
@@ -43,16 +49,24 @@ struct Element {
 struct Active {
     /// Distance to the left of the contour, negative to the right.
     distance: f64,
+    /// G237.
+    perpendicular: bool,
     plane: [usize; 2],
+    tilt: Option<Tilt>,
     last: Element,
     between: Vec<Item>,
+    watch: Watch,
 }
 
 /// The stage.
 #[derive(Debug, Default)]
 pub(super) struct Compensator {
     active: Option<Box<Active>>,
-    span: Span,
+    /// The last motion.
+    source: SourceRef,
+    /// The first bottleneck, until it is told.
+    cut: Option<Cut>,
+    told: bool,
 }
 
 type Fallible<T> = Result<T, Box<Fault>>;
@@ -60,21 +74,50 @@ type Fallible<T> = Result<T, Box<Fault>>;
 impl Compensator {
     /// A motion with its compensation; what is complete goes to `out`.
     pub(super) fn motion(&mut self, motion: Box<Motion>, out: &mut Vec<Item>) -> Fallible<()> {
-        self.span = motion.span;
+        self.source = motion.source;
+        self.next(motion, out).map_err(|f| f.in_block(self.source))
+    }
+
+    /// True between G41 or G42 and the motion behind G40.
+    pub(super) fn is_active(&self) -> bool {
+        self.active.is_some()
+    }
+
+    /// The first bottleneck of the program, once.
+    pub(super) fn take_cut(&mut self) -> Option<Cut> {
+        let cut = self.cut.take();
+        self.told |= cut.is_some();
+        cut
+    }
+
+    fn next(&mut self, motion: Box<Motion>, out: &mut Vec<Item>) -> Fallible<()> {
         let Some(active) = self.active.take() else {
             return self.select(motion, None, out);
         };
-        let plane = active.plane;
-        let Some(side) = moving_side(&motion.block.path, plane)? else {
+        if active.tilt != motion.tilt {
+            let what = "a change of the coordinate system during tool radius compensation";
+            return Err(Fault::unsupported(what, motion.span));
+        }
+        let Some(side) = moving_side(&motion, active.plane)? else {
             return self.outside_plane(active, motion);
         };
-        let same = motion.compensation.is_some_and(|d| d.to_bits() == active.distance.to_bits());
+        let same = motion
+            .compensation
+            .is_some_and(|c| c.distance_mm.to_bits() == active.distance.to_bits());
         if same {
-            let next = active.join(motion, side, out)?;
+            let mut found = None;
+            let next = active.join(motion, side, out, &mut found)?;
             self.active = Some(Box::new(next));
+            if !self.told {
+                self.cut = found;
+            }
             return Ok(());
         }
         // another side or radius, or none: a line leads there
+        if active.perpendicular || motion.compensation.is_some_and(|c| c.perpendicular) {
+            active.return_to_contour(out)?;
+            return self.select(motion, None, out);
+        }
         if !matches!(side, Side::Line { .. }) {
             return Err(circular(&motion));
         }
@@ -95,13 +138,13 @@ impl Compensator {
             let text = "the channel cannot be flushed while tool radius compensation is active";
             return Err(Fault::vendor(20651, text, Span::default()).in_block(source));
         }
-        active.hold(item, self.span)
+        active.hold(item, Span::default())
     }
 
     /// The program ends: the last element ends perpendicular above its end.
     pub(super) fn end(&mut self, out: &mut Vec<Item>) -> Fallible<()> {
         match self.active.take() {
-            Some(active) => active.finish(out).map(|_| ()),
+            Some(active) => active.finish(out).map(|_| ()).map_err(|f| f.in_block(self.source)),
             None => Ok(()),
         }
     }
@@ -122,18 +165,40 @@ impl Compensator {
                 None => return Ok(()),
             }
         }
-        let Some(distance) = motion.compensation else {
+        let Some(Compensated { distance_mm: distance, perpendicular, .. }) = motion.compensation
+        else {
             out.push(Item::Motion(motion));
             return Ok(());
         };
-        let Some(side) = moving_side(&motion.block.path, plane)? else {
+        let Some(side) = moving_side(&motion, plane)? else {
             // the approach is still to come
             out.push(Item::Motion(motion));
             return Ok(());
         };
-        let Side::Line { from, .. } = side else { return Err(circular(&motion)) };
-        let last = Element { motion, side, start: from, approach: true };
-        self.active = Some(Box::new(Active { distance, plane, last, between: Vec::new() }));
+        let tilt = motion.tilt;
+        let (start, approach) = if perpendicular {
+            let from = side.start_point();
+            let start = above(from, side.tangent(false), distance);
+            if let Some(mut there) =
+                straight(&motion, motion.block.path.start(), plane, from, start)
+            {
+                there.events = std::mem::take(&mut motion.events);
+                out.push(Item::Motion(there));
+            }
+            (start, false)
+        } else if let Side::Line { from, .. } = side {
+            (from, true)
+        } else {
+            return Err(circular(&motion));
+        };
+        let mut watch = Watch::default();
+        if !approach {
+            watch.contour(side, motion.source, distance.abs());
+        }
+        let last = Element { motion, side, start, approach };
+        let between = Vec::new();
+        let active = Active { distance, perpendicular, plane, tilt, last, between, watch };
+        self.active = Some(Box::new(active));
         Ok(())
     }
 
@@ -157,52 +222,147 @@ impl Active {
         Ok(())
     }
 
-    /// Completes the last element at the corner to the next one.
-    fn join(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
-        let Self { distance, plane, last, between } = self;
-        let (span, source) = (motion.span, motion.source);
+    /// Completes the last element at the corner to the next one; a bottleneck on the way is left in `cut`.
+    fn join(
+        mut self,
+        motion: Box<Motion>,
+        side: Side,
+        out: &mut Vec<Item>,
+        cut: &mut Option<Cut>,
+    ) -> Fallible<Self> {
+        let (radius, plane, approach) = (self.distance.abs(), self.plane, self.last.approach);
+        let mut watch = std::mem::take(&mut self.watch);
+        *cut = watch.contour(side, motion.source, radius);
+        let done = out.len();
+        let mut next = self.corner(motion, side, out)?;
+        // the line that leads to the contour is free
+        for item in out[done..].iter().filter(|_| !approach) {
+            if let Item::Motion(motion) = item
+                && let Some(side) = Side::of(&motion.block.path, plane)
+            {
+                *cut = cut.or(watch.way(side, motion.source, radius));
+            }
+        }
+        next.watch = watch;
+        Ok(next)
+    }
+
+    fn corner(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
+        let Self { distance, perpendicular, plane, tilt, last, between, watch } = self;
+        let active = |start: Point, motion: Box<Motion>| {
+            let last = Element { motion, side, start, approach: false };
+            Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
+        };
         let corner = side.start_point();
         let after = above(corner, side.tangent(false), distance);
         if last.approach {
-            let at = after;
-            last.emit(at, plane, distance, out)?;
-            emit_between(between, at, plane, out);
-            let last = Element { motion, side, start: at, approach: false };
-            return Ok(Self { distance, plane, last, between: Vec::new() });
+            last.emit(after, plane, distance, out)?;
+            emit_between(between, after, plane, out);
+            return Ok(active(after, motion));
         }
         let (u, w) = (last.side.tangent(true), side.tangent(false));
         let before = above(corner, u, distance);
         let turn = cross(u, w);
         let smooth = turn.abs() < 1e-9 && dot(u, w) > 0.0;
-        let start = if smooth {
-            last.emit(before, plane, distance, out)?;
-            emit_between(between, before, plane, out);
-            before
-        } else if turn * distance < 0.0 || (turn.abs() < 1e-9 && dot(u, w) < 0.0) {
-            let template = last.motion.clone();
-            last.emit(before, plane, distance, out)?;
-            emit_between(between, before, plane, out);
-            out.extend(corner_arc(&template, &motion, plane, corner, before, after, distance));
-            after
-        } else {
+        let outside = !smooth && (turn * distance < 0.0 || (turn.abs() < 1e-9 && dot(u, w) < 0.0));
+        if !smooth && !outside {
             let at = inner_corner(&last.side, &side, corner, distance)
-                .ok_or_else(|| too_tight(span, source))?;
+                .ok_or_else(|| too_tight(&motion))?;
             last.emit(at, plane, distance, out)?;
             emit_between(between, at, plane, out);
-            at
+            return Ok(active(at, motion));
+        }
+        let by_lines = outside && motion.compensation.is_some_and(|c| c.straight_corners);
+        let mut points = if by_lines {
+            straight_corner(u, w, before, after, distance.abs())
+        } else {
+            SmallVec::from_slice(&[before])
         };
-        let last = Element { motion, side, start, approach: false };
-        Ok(Self { distance, plane, last, between: Vec::new() })
+        // a line is prolonged, behind an arc its tangent is inserted
+        let first = points[0];
+        let end = if matches!(last.side, Side::Line { .. }) { first } else { before };
+        let template = outside.then(|| last.motion.clone());
+        last.emit(end, plane, distance, out)?;
+        emit_between(between, end, plane, out);
+        let Some(template) = template else { return Ok(active(end, motion)) };
+        let start = if by_lines {
+            if !matches!(side, Side::Line { .. }) {
+                points.push(after);
+            }
+            let mut from = end;
+            for to in points {
+                let line = straight(&template, motion.block.path.start(), plane, from, to);
+                out.extend(line.map(Item::Motion));
+                from = to;
+            }
+            from
+        } else {
+            out.extend(corner_arc(&template, &motion, plane, corner, before, after, distance));
+            after
+        };
+        Ok(active(start, motion))
     }
 
     /// Completes the last element perpendicular above its end and tells where that is.
     fn finish(self, out: &mut Vec<Item>) -> Fallible<Point> {
-        let Self { distance, plane, last, between } = self;
+        let Self { distance, plane, last, between, .. } = self;
         let at = above(last.side.end_point(), last.side.tangent(true), distance);
         last.emit(at, plane, distance, out)?;
         emit_between(between, at, plane, out);
         Ok(at)
     }
+
+    /// As [`finish`](Self::finish), and perpendicular back to the contour (G237).
+    fn return_to_contour(self, out: &mut Vec<Item>) -> Fallible<()> {
+        let (plane, template) = (self.plane, self.last.motion.clone());
+        let end = self.last.motion.block.path.end();
+        let to = [end[plane[0]], end[plane[1]]];
+        let at = self.finish(out)?;
+        let line = straight(&template, template.block.path.end(), plane, at, to);
+        out.extend(line.map(Item::Motion));
+        Ok(())
+    }
+}
+
+/// Points of an outer corner between prolonged tangents: their intersection up to a quarter turn, beyond it two points
+/// at the radius from the ends of the parallels.
+fn straight_corner(
+    u: Point,
+    w: Point,
+    before: Point,
+    after: Point,
+    radius: f64,
+) -> SmallVec<[Point; 3]> {
+    let cos = dot(u, w);
+    if cos > -1e-12 {
+        // radius * tan(half of the angle)
+        let d = radius * cross(u, w).abs() / (1.0 + cos);
+        return SmallVec::from_slice(&[[before[0] + d * u[0], before[1] + d * u[1]]]);
+    }
+    SmallVec::from_slice(&[
+        [before[0] + radius * u[0], before[1] + radius * u[1]],
+        [after[0] - radius * w[0], after[1] - radius * w[1]],
+    ])
+}
+
+/// A line that compensation inserts, with the other axes where `at` has them.
+fn straight(
+    template: &Motion,
+    at: &AxisVec,
+    plane: [usize; 2],
+    from: Point,
+    to: Point,
+) -> Option<Box<Motion>> {
+    let place = |p: Point| {
+        let mut v = at.clone();
+        (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
+        v
+    };
+    let path = LinePath::new(place(from), place(to), &template.block.dynamics.feed_axes)?;
+    let mut motion = template.clone();
+    motion.block.path = Path::Line(path);
+    motion.events.clear();
+    Some(Box::new(motion))
 }
 
 impl Element {
@@ -215,11 +375,12 @@ impl Element {
         out: &mut Vec<Item>,
     ) -> Fallible<()> {
         let Self { mut motion, side, start, approach } = self;
+        let source = motion.source;
         let path = match &side {
             Side::Line { .. } => {
                 let along = dot(sub(end, start), side.tangent(false));
                 if along < 0.0 && !approach {
-                    return Err(too_tight(motion.span, motion.source));
+                    return Err(too_tight(&motion));
                 }
                 line(&motion, plane, start, end)
             }
@@ -231,12 +392,11 @@ impl Element {
                         "tool radius {} mm is too large for an arc of radius {radius} mm",
                         distance.abs()
                     );
-                    let fault = Fault::vendor(90031, text, motion.span);
-                    return Err(fault.in_block(motion.source));
+                    return Err(Fault::vendor(90031, text, motion.span).in_block(source));
                 }
                 let sweep_rad = trimmed(&side, start, end);
                 if sweep_rad * side_sweep(&side) <= 0.0 {
-                    return Err(too_tight(motion.span, motion.source));
+                    return Err(too_tight(&motion));
                 }
                 let shape = ArcShape { plane, centre_mm: *centre, sweep_rad };
                 let (from, to) = ends(&motion, plane, start, end);
@@ -266,8 +426,9 @@ fn line(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> Option<
     LinePath::new(from, to, &motion.block.dynamics.feed_axes).map(Path::Line)
 }
 
-/// The part of a path within the plane; `None` if it does not move there.
-fn moving_side(path: &Path, plane: [usize; 2]) -> Fallible<Option<Side>> {
+/// The part of a motion within the plane; `None` if it does not move there.
+fn moving_side(motion: &Motion, plane: [usize; 2]) -> Fallible<Option<Side>> {
+    let path = &motion.block.path;
     let moves = plane.iter().any(|i| path.start()[*i].to_bits() != path.end()[*i].to_bits());
     if !moves && path.is_straight() {
         return Ok(None);
@@ -276,7 +437,7 @@ fn moving_side(path: &Path, plane: [usize; 2]) -> Fallible<Option<Side>> {
         Ok(Some(side))
     } else {
         let what = "an arc outside the plane with tool radius compensation";
-        Err(Fault::unsupported(what, Span::default()))
+        Err(Fault::unsupported(what, motion.span))
     }
 }
 
@@ -371,7 +532,7 @@ fn circular(motion: &Motion) -> Box<Fault> {
     Fault::vendor(90008, text, motion.span).in_block(motion.source)
 }
 
-fn too_tight(span: Span, source: SourceRef) -> Box<Fault> {
+fn too_tight(motion: &Motion) -> Box<Fault> {
     let text = "the contour is too tight for the radius of the tool";
-    Fault::kontur(own::COMPENSATION, text, span).in_block(source)
+    Fault::kontur(own::COMPENSATION, text, motion.span).in_block(motion.source)
 }

@@ -1,11 +1,14 @@
 //! From programmed motions to steps: holds a motion back until the next one is known, where something may come between.
 
+use super::bottleneck::Cut;
 use super::compensation::{Compensator, Item};
-use super::fault::Fault;
+use super::fault::{Fault, own};
 use super::insertion::{self, Insertion};
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
 use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Block;
+use kontur_motion::path::{LinePath, Path, Tilt, TiltedArc};
 use std::collections::VecDeque;
 
 /// A programmed motion; the number of its block is given when it becomes a step.
@@ -14,13 +17,91 @@ pub(super) struct Motion {
     pub(super) block: Block,
     pub(super) source: SourceRef,
     pub(super) events: Vec<Event>,
-    /// Axes of the plane that was active.
+    /// Axes of the plane that was active; with a tilt, axes of its coordinates.
     pub(super) plane: [usize; 2],
-    /// Distance of the tool's centre to the left of the contour, `None` without compensation.
-    pub(super) compensation: Option<f64>,
+    /// Coordinate system, if the plane lies askew to the axes.
+    pub(super) tilt: Option<Tilt>,
+    /// The path is in the coordinates of the tilt.
+    pub(super) local: bool,
+    pub(super) compensation: Option<Compensated>,
     /// The block, for conditions.
     pub(super) span: Span,
 }
+
+/// Tool radius compensation of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Compensated {
+    /// Distance of the tool's centre to the left of the contour.
+    pub(super) distance_mm: f64,
+    /// Outer corners by lines (G25) instead of arcs (G26).
+    pub(super) straight_corners: bool,
+    /// Selection and deselection perpendicular to the contour (G237).
+    pub(super) perpendicular: bool,
+}
+
+impl Motion {
+    /// Takes the path over into the coordinates of the tilt.
+    fn enter_tilt(&mut self) {
+        let Some(tilt) = &self.tilt else { return };
+        if std::mem::replace(&mut self.local, true) {
+            return;
+        }
+        let path = match &self.block.path {
+            Path::Line(_) => {
+                let (start, end) = local_ends(tilt, self.block.path.start(), self.block.path.end());
+                LinePath::new(start, end, &self.block.dynamics.feed_axes).map(Path::Line)
+            }
+            Path::Tilted(tilted) => Some(Path::Arc(tilted.arc().clone())),
+            Path::Arc(_) | Path::Curve(_) => None,
+        };
+        match path {
+            Some(path) => self.block.path = path,
+            None => self.local = false,
+        }
+    }
+
+    /// Takes the path back into the coordinates of the machine.
+    fn leave_tilt(&mut self) {
+        let Some(tilt) = self.tilt.filter(|_| std::mem::take(&mut self.local)) else { return };
+        let (start, end) = (self.block.path.start(), self.block.path.end());
+        let (start, end) = (tilt.position(start), tilt.position(end));
+        let path = match &self.block.path {
+            Path::Arc(arc) => {
+                Some(Path::Tilted(Box::new(TiltedArc::new(arc.clone(), tilt, start, end))))
+            }
+            _ => LinePath::new(start, end, &self.block.dynamics.feed_axes).map(Path::Line),
+        };
+        if let Some(path) = path {
+            self.block.path = path;
+        }
+    }
+}
+
+/// Ends of a path in the coordinates of a tilt. What differs by rounding alone is made equal, so that an axis of the
+/// system that stands still does so exactly.
+pub(super) fn local_ends(tilt: &Tilt, start: &[f64], end: &[f64]) -> (AxisVec, AxisVec) {
+    const ROUNDING_MM: f64 = 1e-9;
+    let (start, mut end) = (tilt.local(start), tilt.local(end));
+    for axis in tilt.axes {
+        if (end[axis] - start[axis]).abs() < ROUNDING_MM {
+            end[axis] = start[axis];
+        }
+    }
+    (start, end)
+}
+
+/// K-0119.
+fn bottleneck(cut: &Cut) -> Box<Fault> {
+    let text = format!(
+        "the tool cuts the contour of line {}: its centre comes as near as {:.4} mm",
+        cut.contour.line, cut.distance_mm
+    );
+    let hint = "the control drives such bottlenecks unnoticed; a smaller tool fits";
+    Fault::kontur(own::BOTTLENECK, text, Span::default()).hint(hint).in_block(cut.tool)
+}
+
+/// Extent of a path whose ends the program does not know: lowest and highest positions, block.
+pub(super) type Driven = (AxisVec, AxisVec, SourceRef, Span);
 
 /// Motions and events on their way to the simulation.
 #[derive(Debug, Default)]
@@ -35,6 +116,7 @@ pub(super) struct Contour {
     held: Option<Box<Motion>>,
     insertion: Option<Insertion>,
     compensator: Compensator,
+    driven: Vec<Driven>,
     blocks: u64,
 }
 
@@ -89,8 +171,12 @@ impl Contour {
         let mut faults = Vec::new();
         if let Some(mut before) = self.held.take() {
             let inserted = match self.insertion.take() {
-                Some(insertion) => insertion::between(&mut before, &mut motion, &insertion)
-                    .map_err(|fault| fault.in_block(insertion.source)),
+                Some(insertion) => {
+                    before.enter_tilt();
+                    motion.enter_tilt();
+                    insertion::between(&mut before, &mut motion, &insertion)
+                        .map_err(|f| f.in_block(insertion.source))
+                }
                 None => Ok(None),
             };
             faults.extend(self.compensate(before).map(|f| *f));
@@ -110,7 +196,7 @@ impl Contour {
         let events = self.take_events();
         let item = Item::Sync { what, source, events };
         faults.extend(self.compensator.sync(item, &mut self.done).err().map(|f| *f));
-        self.queue.extend(self.done.drain(..));
+        self.emit();
         faults
     }
 
@@ -118,7 +204,7 @@ impl Contour {
     pub(super) fn end(&mut self, reason: EndReason, source: SourceRef) -> Vec<Fault> {
         let mut faults = self.flush();
         faults.extend(self.compensator.end(&mut self.done).err().map(|f| *f));
-        self.queue.extend(self.done.drain(..));
+        self.emit();
         let events = self.take_events();
         self.end = Some(Box::new(Step::End { reason, source, events }));
         faults
@@ -138,9 +224,32 @@ impl Contour {
         faults
     }
 
-    fn compensate(&mut self, motion: Box<Motion>) -> Option<Box<Fault>> {
+    /// Extents of compensated motions since the last call.
+    pub(super) fn take_driven(&mut self) -> Vec<Driven> {
+        std::mem::take(&mut self.driven)
+    }
+
+    fn compensate(&mut self, mut motion: Box<Motion>) -> Option<Box<Fault>> {
+        if motion.compensation.is_some() || self.compensator.is_active() {
+            motion.enter_tilt();
+        }
         let fault = self.compensator.motion(motion, &mut self.done).err();
+        self.emit();
+        fault.or_else(|| self.compensator.take_cut().map(|cut| bottleneck(&cut)))
+    }
+
+    /// What is done goes on its way, in the coordinates of the machine.
+    fn emit(&mut self) {
+        for item in &mut self.done {
+            if let Item::Motion(motion) = item {
+                motion.leave_tilt();
+                if motion.compensation.is_some()
+                    && let Some((low, high)) = motion.block.path.extent()
+                {
+                    self.driven.push((low, high, motion.source, motion.span));
+                }
+            }
+        }
         self.queue.extend(self.done.drain(..));
-        fault
     }
 }

@@ -21,6 +21,15 @@ pub(super) struct Rotation {
     pub(super) centre: [f64; 2],
 }
 
+/// A coordinate word in mm (deg).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Target {
+    pub(super) axis: usize,
+    pub(super) value: f64,
+    /// G90; otherwise an increment (G91).
+    pub(super) absolute: bool,
+}
+
 /// Coordinate systems that can be stored. Source: TF5200, #CS DEF.
 pub(super) const SYSTEMS_MAX: usize = 5;
 
@@ -163,8 +172,8 @@ impl Coordinates {
     }
 
     /// `#SUPPRESS OFFSETS`: targets of axes without offsets.
-    pub(super) fn program_without_offsets(&mut self, words: &[(usize, f64)]) {
-        for &(axis, value) in words {
+    pub(super) fn program_without_offsets(&mut self, words: &[Target]) {
+        for &Target { axis, value, .. } in words {
             self.word[axis] = value;
             self.target[axis] = value;
             self.applied[axis] = self.active_offset(axis);
@@ -282,11 +291,11 @@ impl Coordinates {
         }
     }
 
-    /// Takes over the words of a block in mm (deg); the new targets stand in [`target`](Self::target).
-    pub(super) fn program(&mut self, words: &[(usize, f64)], absolute: bool) {
-        let mut framed = [false; 3];
+    /// Takes over the words of a block; the new targets stand in [`target`](Self::target).
+    pub(super) fn program(&mut self, words: &[Target]) {
+        let mut framed = [None; 3];
         let identity = self.frame.is_identity();
-        for &(axis, value) in words {
+        for &Target { axis, value, absolute } in words {
             self.word[axis] = value;
             if absolute {
                 self.program[axis] = value;
@@ -294,12 +303,12 @@ impl Coordinates {
                 self.program[axis] += value;
             }
             match if identity { None } else { self.main_index(axis) } {
-                Some(main) => framed[main] = true,
+                Some(main) => framed[main] = Some(absolute),
                 None => self.program_plain(axis, value, absolute),
             }
         }
-        if framed.contains(&true) {
-            self.program_in_frame(framed, absolute);
+        if framed.iter().any(Option::is_some) {
+            self.program_in_frame(framed);
         }
     }
 
@@ -313,17 +322,19 @@ impl Coordinates {
         }
     }
 
-    /// Targets of the programmed main axes, and of those that the frame couples with them.
-    fn program_in_frame(&mut self, programmed: [bool; 3], absolute: bool) {
+    /// Targets of the programmed main axes (`Some(absolute)`), and of those that the frame couples with them.
+    fn program_in_frame(&mut self, programmed: [Option<bool>; 3]) {
         let p = self.main.map(|m| m.map_or(0.0, |axis| self.program[axis]));
         let q = self.frame.apply(p);
         let coupled: [bool; 3] =
             std::array::from_fn(|i| (0..3).any(|j| i != j && self.frame.m[i][j] != 0.0));
-        let couples = (0..3).any(|i| programmed[i] && coupled[i]);
+        let coupling = || (0..3).filter(|i| coupled[*i]).filter_map(|i| programmed[i]);
+        let (couples, absolute) =
+            (coupling().next().is_some(), coupling().any(|absolute| absolute));
         for main in 0..3 {
-            let affected = programmed[main] || (couples && coupled[main]);
+            let affected = programmed[main].is_some() || (couples && coupled[main]);
             if let (Some(axis), true) = (self.main[main], affected) {
-                if absolute {
+                if programmed[main].unwrap_or(absolute) {
                     self.applied[axis] = self.active_offset(axis);
                 }
                 self.target[axis] = q[main] + self.applied[axis];
@@ -341,8 +352,12 @@ impl Coordinates {
 #[cfg(test)]
 #[allow(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
-    use super::{Coordinates, Rotation};
+    use super::{Coordinates, Rotation, Target};
     use kontur_motion::axis::AxisVec;
+
+    fn word(axis: usize, value: f64, absolute: bool) -> Target {
+        Target { axis, value, absolute }
+    }
 
     fn at(positions: &[f64]) -> Coordinates {
         Coordinates::new(&AxisVec::from_slice(positions))
@@ -354,11 +369,11 @@ mod tests {
         c.set_zero_entry(1, 0, 10.0);
         c.set_zero_entry(1, 1, 5.0);
         c.select_zero_group(1);
-        c.program(&[(0, 0.0)], false);
+        c.program(&[word(0, 0.0, false)]);
         assert_eq!(c.target()[..], [0.0, 0.0, 0.0]);
-        c.program(&[(0, 0.0)], true);
+        c.program(&[word(0, 0.0, true)]);
         assert_eq!(c.target()[..], [10.0, 0.0, 0.0]);
-        c.program(&[(1, 1.0)], false);
+        c.program(&[word(1, 1.0, false)]);
         assert_eq!(c.target()[..], [10.0, 1.0, 0.0]);
         assert_eq!((c.programmed(0), c.programmed(1)), (0.0, 1.0));
     }
@@ -368,9 +383,9 @@ mod tests {
         let mut c = at(&[5.0, 0.0, 0.0]);
         c.set_mirrored(0, true);
         assert_eq!(c.programmed(0), -5.0);
-        c.program(&[(0, 10.0)], true);
+        c.program(&[word(0, 10.0, true)]);
         assert_eq!(c.target()[0], -10.0);
-        c.program(&[(0, 1.0)], false);
+        c.program(&[word(0, 1.0, false)]);
         assert_eq!(c.target()[0], -11.0);
     }
 
@@ -380,7 +395,7 @@ mod tests {
         c.set_zero_entry(1, 0, 100.0);
         c.select_zero_group(1);
         c.set_rotation(Some(Rotation { plane: [0, 1], deg: 90.0, centre: [0.0, 0.0] }));
-        c.program(&[(0, 10.0)], true);
+        c.program(&[word(0, 10.0, true)]);
         assert_eq!(c.target()[..], [100.0, 10.0, 0.0]);
         c.set_rotation(None);
         assert_eq!((c.programmed(0), c.programmed(1)), (0.0, 10.0));

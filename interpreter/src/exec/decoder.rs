@@ -10,7 +10,7 @@ use super::dialect::Seen;
 use super::dynamics::{Weights, channel_dynamics};
 use super::fault::{Fault, own};
 use super::independent::Independent;
-use super::modal::{FeedType, FeedWord, Modal, PathMode, Plane};
+use super::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane};
 use super::options::Options;
 use super::overrides::Overrides;
 use super::program::ProgramInfo;
@@ -21,7 +21,7 @@ use super::system::Timers;
 use super::tools::Tools;
 use super::variables::Variables;
 use crate::diag::{Diagnostic, Id, Location};
-use crate::machine::{AxisKind, Machine};
+use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::{Ident, Span};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{ChannelDynamics, VectorLimits};
@@ -57,11 +57,14 @@ pub(super) struct Decoder {
     pub(super) coordinates: Coordinates,
     pub(super) variables: Variables,
     pub(super) weights: Weights,
+    /// Software limits of the axes (G98, G99), `None` for an axis without.
+    pub(super) limits_mm: Vec<Option<(f64, f64)>>,
     /// Members of the feed group (`#FGROUP`).
     pub(super) feed_axes: Vec<bool>,
-    /// `#VECTOR LIMIT` in force.
-    pub(super) vector: VectorLimits,
-    dynamics: Option<Arc<ChannelDynamics>>,
+    /// `#VECTOR LIMIT` in force in feed and in rapid blocks.
+    pub(super) vector: [VectorLimits; 2],
+    /// Dynamics in feed and in rapid blocks; the same while the limits are.
+    dynamics: [Option<Arc<ChannelDynamics>>; 2],
     pub(super) overrides: Overrides,
     pub(super) independent: Independent,
     pub(super) shaping: ShapingState,
@@ -79,6 +82,8 @@ pub(super) struct Decoder {
     pub(super) macros: BTreeMap<Box<str>, Box<str>>,
     /// Subroutines of G80 to G89 and G800 to G839.
     pub(super) cycle_files: BTreeMap<u32, String>,
+    /// Subroutine of M06.
+    pub(super) tool_change_file: Option<String>,
     pub(super) timers: Timers,
     pub(super) feedback: Feedback,
     pub(super) last_arc: LastArc,
@@ -132,9 +137,10 @@ impl Decoder {
             coordinates: Coordinates::new(start),
             variables: Variables::new(options.external),
             weights: Weights::new(n),
+            limits_mm: machine.axes.iter().map(Axis::software_limits_mm).collect(),
             feed_axes: machine.channel.feed_axes.clone(),
-            vector: VectorLimits::default(),
-            dynamics: None,
+            vector: [VectorLimits::default(); 2],
+            dynamics: [None, None],
             overrides: Overrides::new(n),
             independent: Independent::new(n),
             shaping: ShapingState::default(),
@@ -152,6 +158,7 @@ impl Decoder {
             info: ProgramInfo::default(),
             macros: BTreeMap::new(),
             cycle_files: machine.channel.g8x_programs.clone(),
+            tool_change_file: machine.channel.tool_change_program.clone(),
             timers: Timers::default(),
             feedback: Feedback::default(),
             last_arc: LastArc::default(),
@@ -197,12 +204,29 @@ impl Decoder {
                 (0, 3) => self.modal.path = PathMode::CounterClockwise,
                 (4, 18) => self.modal.plane = Plane::Zx,
                 (4, 19) => self.modal.plane = Plane::Yz,
+                (6, 25) => self.modal.corners = Corners::Straight,
+                (6, 26) => self.modal.corners = Corners::Round,
                 (12, 70) => self.modal.inch = true,
                 (12, 71) => self.modal.inch = false,
                 (14, 91) => self.modal.absolute = false,
+                (22, 237) => self.modal.perpendicular_selection = true,
                 (23, 161) => self.modal.centre_absolute = true,
                 (25, 164) => self.modal.centre_correction = false,
-                _ => {}
+                // start values of the language; feedforward has a warning of its own
+                (0, 1)
+                | (4, 17)
+                | (8, 52)
+                | (14, 90)
+                | (22, 139)
+                | (23, 162)
+                | (25, 165)
+                | (32, 140)
+                | (21, _) => {}
+                (group, g) => {
+                    let text = format!("prog_start.g_gruppe[{group}].nr {g} is not simulated");
+                    let d = Diagnostic::kontur(own::FALLBACK, text).parameter("P-CHAN-00063");
+                    self.unplaced.push(d);
+                }
             }
         }
     }
@@ -226,6 +250,14 @@ impl Decoder {
 
     pub(super) fn take_faults(&mut self) -> Vec<Fault> {
         std::mem::take(&mut self.faults)
+    }
+
+    /// Adds to the condition noted last.
+    pub(super) fn amend(&mut self, f: impl FnOnce(Diagnostic) -> Diagnostic) {
+        if let Some(fault) = self.faults.pop() {
+            let diagnostic = f(fault.diagnostic);
+            self.faults.push(Fault { diagnostic, ..fault });
+        }
     }
 
     /// True if the block in work has an error.
@@ -259,6 +291,8 @@ impl Decoder {
         }
         let faults = self.contour.sync(what, self.source);
         self.faults.extend(faults);
+        let outside = self.limits_of_compensated();
+        self.faults.extend(outside);
     }
 
     /// Names of axes have changed.
@@ -298,22 +332,23 @@ impl Decoder {
         Ok(())
     }
 
-    /// Dynamics in force; rebuilt when something changed.
-    pub(super) fn dynamics(&mut self) -> Arc<ChannelDynamics> {
-        if let Some(dynamics) = &self.dynamics {
+    /// Dynamics in force in feed or rapid blocks; rebuilt when something changed.
+    pub(super) fn dynamics(&mut self, rapid: bool) -> Arc<ChannelDynamics> {
+        let mode = usize::from(rapid && self.vector[0] != self.vector[1]);
+        if let Some(dynamics) = &self.dynamics[mode] {
             return Arc::clone(dynamics);
         }
         let (mut dynamics, _) =
-            channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector);
+            channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector[mode]);
         dynamics.feed_axes.clone_from(&self.feed_axes);
         let dynamics = Arc::new(dynamics);
-        self.dynamics = Some(Arc::clone(&dynamics));
+        self.dynamics[mode] = Some(Arc::clone(&dynamics));
         dynamics
     }
 
     /// Something the dynamics are made from has changed.
     pub(super) fn dynamics_changed(&mut self) {
-        self.dynamics = None;
+        self.dynamics = [None, None];
     }
 
     /// Names have changed.

@@ -20,6 +20,8 @@ pub(super) enum After<'b> {
     Next,
     Call(&'b Call, Span),
     Cycle(CycleCall),
+    /// M06 with a program of its own.
+    ToolChange(Span),
     Goto(&'b Label),
     /// M17, M29.
     Return,
@@ -36,6 +38,7 @@ enum MKind {
     End,
     Return,
     Spindle,
+    ToolChange,
 }
 
 fn m_kind(number: u32) -> MKind {
@@ -46,6 +49,7 @@ fn m_kind(number: u32) -> MKind {
         17 | 29 => MKind::Return,
         3 | 4 | 19 => MKind::Spindle,
         5 => MKind::After,
+        6 => MKind::ToolChange,
         _ => MKind::Before,
     }
 }
@@ -85,6 +89,8 @@ impl Decoder {
                 Act::Plane(plane) => self.set_plane(plane, g.span),
                 Act::Inch(inch) => self.modal.inch = inch,
                 Act::Absolute(absolute) => self.modal.absolute = absolute,
+                // before G41 in the same block
+                Act::Corners(corners) => self.modal.corners = corners,
                 _ => {}
             }
         }
@@ -163,12 +169,7 @@ impl Decoder {
             Act::Preset => self.preset(&g, words),
             Act::MirrorAxes => self.mirror_axes(&g, words),
             Act::Rotate => self.rotate(&g, words),
-            Act::SoftwareLimits => {
-                let text =
-                    format!("G{}: software limits of the program are not simulated", g.row.number);
-                self.note_once("G98", Fault::kontur(own::IGNORED, text, g.span));
-                Ok(())
-            }
+            Act::SoftwareLimits(positive) => self.software_limits(&g, words, positive),
             _ => Ok(()),
         };
         self.keep(outcome);
@@ -201,6 +202,23 @@ impl Decoder {
             self.note(Fault::kontur(own::SYNTAX, "#PSET without axis words", at));
         }
         true
+    }
+
+    /// G98, G99: until the end of the program.
+    fn software_limits(&mut self, g: &GWord, words: &Words<'_>, positive: bool) -> Outcome<()> {
+        Self::needs_axes(g, words)?;
+        for (axis, value, span) in &words.axes {
+            let value_mm = value * self.axis_unit(*axis);
+            match &mut self.limits_mm[*axis] {
+                Some((_, high)) if positive => *high = value_mm,
+                Some((low, _)) => *low = value_mm,
+                None => {
+                    let text = format!("axis {} has no software limits", self.axis_name(*axis));
+                    self.note(Fault::kontur(own::IGNORED, text, *span));
+                }
+            }
+        }
+        Ok(())
     }
 
     fn zero_group(g: &GWord) -> Outcome<u32> {
@@ -372,6 +390,7 @@ impl Decoder {
                 self.note_once("G115", Fault::kontur(own::IGNORED, text, g.span));
             }
             Act::Compensation(side) => self.compensation(side, g.span),
+            Act::PerpendicularSelection(on) => self.modal.perpendicular_selection = on,
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.unit_mm();
                 self.modal.radius_mm = Some(radius);
@@ -468,6 +487,7 @@ impl Decoder {
         for m in &words.m {
             match m_kind(m.number) {
                 MKind::Before => self.m_function(m),
+                MKind::ToolChange if self.tool_change_file.is_none() => self.m_function(m),
                 MKind::Spindle => self.turn_main_spindle(m),
                 _ => {}
             }
@@ -525,11 +545,22 @@ impl Decoder {
         if !matches!(after, After::Next) {
             return after;
         }
+        let tool_change = words
+            .m
+            .iter()
+            .find(|m| m_kind(m.number) == MKind::ToolChange && self.tool_change_file.is_some());
+        if let (Some(m), true) = (tool_change, words.call.is_some() || words.cycle.is_some()) {
+            let text = "M06 calls a subroutine: a second call in its block";
+            self.note(Fault::vendor(22008, text, m.span));
+        }
         if let Some((call, span)) = words.call {
             return After::Call(call, span);
         }
         if let Some(cycle) = &words.cycle {
             return After::Cycle(cycle.clone());
+        }
+        if let Some(m) = tool_change {
+            return After::ToolChange(m.span);
         }
         match words.goto {
             Some(label) => After::Goto(label),

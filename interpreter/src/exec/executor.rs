@@ -11,6 +11,7 @@ use super::index::{EntryId, Index, Keyword};
 use super::modal::Modal;
 use super::options::{Options, SkipLevels};
 use super::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
+use super::unreached::Reached;
 use crate::diag::{Diagnostic, Id, Location, Severity};
 use crate::machine::Machine;
 use crate::source::{Position, Sources};
@@ -58,7 +59,7 @@ enum State {
 pub struct Executor {
     pub(super) decoder: Decoder,
     pub(super) sources: Box<dyn Sources>,
-    parser: Parser,
+    pub(super) parser: Parser,
     pub(super) files: Files,
     pub(super) levels: Vec<Level>,
     pub(super) skip: SkipLevels,
@@ -73,6 +74,10 @@ pub struct Executor {
     max_blocks_at_rest: u64,
     /// Place of the block in work.
     pub(super) position: Position,
+    /// What was executed, while checking.
+    pub(super) reached: Reached,
+    /// The program of P-CHAN-00252 has been called.
+    pub(super) end_program_called: bool,
     reason: EndReason,
 }
 
@@ -129,6 +134,8 @@ impl Executor {
             max_blocks,
             max_blocks_at_rest,
             position: Position::START,
+            reached: Reached::default(),
+            end_program_called: false,
             reason: EndReason::Finished,
         };
         diagnostics.append(&mut executor.decoder.unplaced);
@@ -160,6 +167,12 @@ impl Executor {
         info.main_program = index.sections[section].name.clone().unwrap_or_else(|| Arc::from(""));
         info.main_file = name;
         self.push_level(file, section, None);
+        self.position = index.sections[section].start;
+        self.decoder.source.file = file_number(file);
+        if let Some(name) = self.decoder.machine.channel.start_program.clone() {
+            self.call_of_list(&name, "P-CHAN-00119", Span::default());
+            self.settle(false);
+        }
         if self.errors > 0 && !self.decoder.checking {
             self.end(EndReason::Aborted);
         }
@@ -285,6 +298,9 @@ impl Executor {
             return;
         }
         self.position = at;
+        if self.decoder.checking {
+            self.reached.add(file, at, next);
+        }
         self.source_of(file, at, &parsed);
         if let Some(level) = self.levels.last_mut() {
             level.at = next;
@@ -501,6 +517,7 @@ impl Executor {
             After::Next => {}
             After::Call(call, span) => self.call(call, span),
             After::Cycle(call) => self.implicit_call(&call),
+            After::ToolChange(span) => self.tool_change(span),
             After::Goto(label) => self.goto(label),
             After::Return => self.return_from_level(),
             After::End => self.program_end(),
@@ -508,7 +525,7 @@ impl Executor {
     }
 
     /// Reports the conditions of the block; an error ends the program.
-    fn settle(&mut self, faulty: bool) {
+    pub(super) fn settle(&mut self, faulty: bool) {
         let faults = self.decoder.take_faults();
         let mut failed = faulty;
         for fault in faults {
@@ -597,7 +614,9 @@ impl Executor {
         self.reason = if aborted { EndReason::Aborted } else { EndReason::Finished };
         let source = self.decoder.source;
         let contour: &mut Contour = &mut self.decoder.contour;
-        for fault in contour.end(self.reason, source) {
+        let mut faults = contour.end(self.reason, source);
+        faults.extend(self.decoder.limits_of_compensated());
+        for fault in faults {
             let diagnostic = self.placed(fault);
             self.report(diagnostic);
         }

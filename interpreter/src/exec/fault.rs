@@ -42,9 +42,9 @@ impl Fault {
         self
     }
 
-    /// The span belongs to this block.
+    /// The span belongs to this block, unless another one was named.
     pub(super) fn in_block(mut self: Box<Self>, source: SourceRef) -> Box<Self> {
-        self.origin = Some(source);
+        self.origin = self.origin.or(Some(source));
         self
     }
 
@@ -117,6 +117,10 @@ pub(super) mod own {
     pub(in crate::exec) const COMPENSATION: u16 = 115;
     /// Start, end and centre of an arc do not fit (G165).
     pub(in crate::exec) const ARC_CENTRE: u16 = 117;
+    /// A compensated tool cuts its own contour at a bottleneck.
+    pub(in crate::exec) const BOTTLENECK: u16 = 119;
+    /// Syntax error in a part of the program that does not run.
+    pub(in crate::exec) const UNREACHED: u16 = 118;
     /// The program has more errors than are reported.
     pub(in crate::exec) const TOO_MANY: u16 = 116;
 }

@@ -70,6 +70,16 @@ pub(super) struct Reading {
     pub(super) declaration: bool,
 }
 
+/// How a block that is not executed is to be looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Look {
+    /// Not at all.
+    Pass,
+    Block,
+    /// Between `#VAR` and `#ENDVAR`.
+    Declaration,
+}
+
 /// All files of a run.
 #[derive(Debug)]
 pub(super) struct Files {
@@ -178,6 +188,40 @@ impl Files {
         cache.insert(position.offset, (Arc::clone(&parsed), next));
         self.cached += 1;
         Ok(Some((Fetched::Kept(parsed), next)))
+    }
+
+    /// The syntax of a block that is not executed, and the place of the next one. A diagnostic is marked if it concerns
+    /// block number or control statement.
+    pub(super) fn look(
+        &mut self,
+        file: usize,
+        position: Position,
+        look: Look,
+        parser: &Parser,
+        table: &Macros,
+        found: &mut Vec<(Diagnostic, bool)>,
+    ) -> io::Result<Option<(Block, Position)>> {
+        let ProgramFile { name, reader, .. } = &mut self.open[file];
+        reader.seek(position);
+        let Some(raw) = reader.next_block()? else { return Ok(None) };
+        let mut block = Block::default();
+        if look != Look::Pass {
+            let (mut structure, mut all) = (Vec::new(), Vec::new());
+            parser.inactive(&raw, name, &mut structure);
+            block = parse(&raw, name, look == Look::Declaration, parser, table, &mut all);
+            let same = |d: &Diagnostic| {
+                structure.iter().any(|s| {
+                    s.id == d.id
+                        && s.source.as_ref().map(|l| l.offset)
+                            == d.source.as_ref().map(|l| l.offset)
+                })
+            };
+            found.extend(all.into_iter().map(|d| {
+                let is_structure = same(&d);
+                (d, is_structure)
+            }));
+        }
+        Ok(Some((block, reader.position())))
     }
 
     /// Place of all of the block at a position.

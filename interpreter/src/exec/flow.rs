@@ -306,6 +306,11 @@ impl Executor {
                 return Err(fault);
             }
         };
+        if matches!(&counter.kind, PlaceKind::Variable(name) if name.is_empty()) {
+            // told while the block was read
+            self.leave_structure(id);
+            return Ok(());
+        }
         let is_counter =
             matches!(counter.kind, PlaceKind::Parameter { .. } | PlaceKind::Variable(_));
         if !is_counter {

@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, list of G functions; diagnosis manual for the IDs of double programming.
 
 use super::dynamics::Weight;
-use super::modal::{Compensation, FeedType, PathMode, Plane};
+use super::modal::{Compensation, Corners, FeedType, PathMode, Plane};
 
 /// Group: two functions of one group in a block are an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -115,13 +115,17 @@ pub(super) enum Act {
     ZeroGroupAxes,
     /// G92.
     Preset,
-    /// G98, G99.
-    SoftwareLimits,
+    /// G98 (false), G99 (true): negative and positive software limit.
+    SoftwareLimits(bool),
     ExactStopOnce,
     ExactStop(bool),
     ContourOnce,
     Contour(bool),
     Compensation(Compensation),
+    /// G25, G26.
+    Corners(Corners),
+    /// G237 (true), G139.
+    PerpendicularSelection(bool),
     CentreAbsolute(bool),
     CentreCorrection(bool),
     /// G163.
@@ -210,8 +214,8 @@ const ROWS: &[Row] = &[
     g(21, Group::Mirror, Act::Mirror(true, false)),
     g(22, Group::Mirror, Act::Mirror(false, true)),
     g(23, Group::Mirror, Act::Mirror(true, true)),
-    g(25, Group::CompensationTransition, Act::Unsupported("straight transitions of tool radius compensation")),
-    g(26, Group::CompensationTransition, Act::Nothing),
+    g(25, Group::CompensationTransition, Act::Corners(Corners::Straight)),
+    g(26, Group::CompensationTransition, Act::Corners(Corners::Round)),
     g(33, Group::Path, Act::Unsupported(THREADS)),
     g(40, Group::Compensation, Act::Compensation(Compensation::Off)),
     g(41, Group::Compensation, Act::Compensation(Compensation::Left)),
@@ -242,8 +246,8 @@ const ROWS: &[Row] = &[
     g(95, Group::FeedType, Act::FeedType(FeedType::PerRevolution)),
     g(96, Group::SpindleMode, Act::Unsupported(TURNING)),
     g(97, Group::SpindleMode, Act::Nothing),
-    g(98, Group::None, Act::SoftwareLimits),
-    g(99, Group::None, Act::SoftwareLimits),
+    g(98, Group::None, Act::SoftwareLimits(false)),
+    g(99, Group::None, Act::SoftwareLimits(true)),
     g(100, Group::Measuring, Act::Unsupported(MEASURING)),
     g(101, Group::Measuring, Act::Unsupported(MEASURING)),
     g(102, Group::Measuring, Act::Unsupported(MEASURING)),
@@ -266,7 +270,7 @@ const ROWS: &[Row] = &[
     g(136, Group::None, Act::FeedforwardWeights),
     g(137, Group::None, Act::Feedforward(false)),
     g(138, Group::CompensationSelection, Act::Unsupported("direct selection of tool radius compensation")),
-    g(139, Group::CompensationSelection, Act::Nothing),
+    g(139, Group::CompensationSelection, Act::PerpendicularSelection(false)),
     g(140, Group::Masking, Act::Nothing),
     g(141, Group::Masking, Act::Ignored("contour masking is not simulated")),
     g(150, Group::Splines, Act::Nothing),
@@ -289,7 +293,7 @@ const ROWS: &[Row] = &[
     v(231, Group::None, Act::WeightOfAll(Weight::RapidAcceleration)),
     v(233, Group::None, Act::WeightOfAll(Weight::RapidRamp)),
     g(236, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
-    g(237, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
+    g(237, Group::CompensationSelection, Act::PerpendicularSelection(true)),
     g(238, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
     g(239, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
     g(260, Group::Transition, Act::Contour(false)),
@@ -333,7 +337,7 @@ pub(super) fn takes_axes(row: &Row) -> bool {
         row.act,
         Act::Dwell
             | Act::Preset
-            | Act::SoftwareLimits
+            | Act::SoftwareLimits(_)
             | Act::ZeroGroupAxes
             | Act::WeightOfAxes(_)
             | Act::FeedforwardWeights

@@ -6,6 +6,7 @@
 //!
 //! Source: TF5200 programming manual, independent axes; 21068.
 
+use super::coordinates::Target;
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::step::{Event, IndependentMotion, Sync};
@@ -92,7 +93,7 @@ impl Decoder {
         let way = position * self.axis_unit(axis);
         let target = if relative { start[axis] + way } else { way };
         // the offsets of the program do not act on independent axes
-        self.coordinates.program_without_offsets(&[(axis, target)]);
+        self.coordinates.program_without_offsets(&[Target { axis, value: target, absolute: true }]);
         self.check_limit(axis, target, at);
         self.independent.way[axis] += target - start[axis];
         let slope = words.slope.unwrap_or(self.machine.channel.slope);
@@ -223,6 +224,7 @@ impl Decoder {
         }
         let plane = match path {
             Path::Arc(arc) => arc.shape().plane.to_vec(),
+            Path::Tilted(tilted) => tilted.tilt().axes.to_vec(),
             Path::Line(_) | Path::Curve(_) => Vec::new(),
         };
         let moves = |axis: &usize| {

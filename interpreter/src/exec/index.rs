@@ -372,6 +372,7 @@ impl Builder<'_> {
         let first = head.rest.bytes().next();
         if let Some(open) = self.comment {
             if first == Some(b'#') && is_command(head.rest, "COMMENT", "END") {
+                self.alone(raw, &head, 20569);
                 let id = self.push(raw.position, head.at, Keyword::CommentEnd);
                 self.index.entries[open as usize].end = Some(id);
                 self.comment = None;
@@ -508,12 +509,7 @@ impl Builder<'_> {
         let name = word(&head.rest[1..]);
         match name.as_str() {
             "COMMENT" if is_command(head.rest, "COMMENT", "BEGIN") => {
-                let behind = head.rest[1 + name.len()..].trim_start();
-                if !matches!(blank(&behind["BEGIN".len()..]).bytes().next(), None | Some(b';')) {
-                    let text = "#COMMENT BEGIN does not stand alone in its block";
-                    let d = Diagnostic::vendor(20566, text);
-                    self.report(raw, head.at, head.rest.trim_end().len(), d);
-                }
+                self.alone(raw, head, 20566);
                 self.comment = Some(self.push(raw.position, head.at, Keyword::CommentBegin));
             }
             "IF" => {
@@ -543,6 +539,21 @@ impl Builder<'_> {
                 }
             }
             _ => {}
+        }
+    }
+
+    /// `#COMMENT BEGIN` and `#COMMENT END` stand alone in their blocks.
+    fn alone(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, id: u32) {
+        let word = |text: &str| {
+            text.trim_start_matches(|c: char| c.is_ascii_alphanumeric()).trim_start().len()
+        };
+        let second = &head.rest[head.rest.len() - word(&head.rest[1..])..];
+        let behind = blank(&second[second.len() - word(second)..]);
+        if !behind.is_empty() && !behind.starts_with(';') {
+            let name = if id == 20566 { "BEGIN" } else { "END" };
+            let text = format!("#COMMENT {name} does not stand alone in its block");
+            let d = Diagnostic::vendor(id, text);
+            self.report(raw, head.at, head.rest.trim_end().len(), d);
         }
     }
 

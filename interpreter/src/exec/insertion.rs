@@ -41,6 +41,10 @@ pub(super) fn between(
 ) -> Outcome<Option<Box<Motion>>> {
     let span = insertion.span;
     let plane = before.plane;
+    if before.tilt != after.tilt {
+        let what = "a chamfer or rounding between two coordinate systems";
+        return Err(Fault::unsupported(what, span));
+    }
     let flat = |m: &Motion| stays_in(&m.block.path, plane).then(|| Side::of(&m.block.path, plane));
     let (Some(Some(a)), Some(Some(b))) = (flat(before), flat(after)) else {
         let what = "a chamfer or rounding between motions outside the active plane";
@@ -128,8 +132,9 @@ fn tangent_arc(a: &Side, b: &Side, turn: f64, r: f64) -> Option<([f64; 2], [f64;
         .min_by(|x, y| norm(sub(x.2, corner)).total_cmp(&norm(sub(y.2, corner))))
 }
 
-/// True if no axis outside the plane moves.
+/// True if no axis outside the plane moves, but for rounding in a coordinate system that is turned in space.
 fn stays_in(path: &Path, plane: [usize; 2]) -> bool {
+    const ROUNDING_MM: f64 = 1e-9;
     let (start, end) = (path.start(), path.end());
-    (0..start.len()).all(|i| plane.contains(&i) || start[i].to_bits() == end[i].to_bits())
+    (0..start.len()).all(|i| plane.contains(&i) || (end[i] - start[i]).abs() < ROUNDING_MM)
 }

@@ -76,6 +76,15 @@ pub(super) enum Compensation {
     Right,
 }
 
+/// G25, G26.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Corners {
+    /// Neither was programmed: as [`Round`](Self::Round).
+    Unsaid,
+    Straight,
+    Round,
+}
+
 /// Everything that G words and F, R, I keep.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a group of two words")]
@@ -100,6 +109,10 @@ pub(super) struct Modal {
     pub(super) old_slope: bool,
     pub(super) look_ahead: LookAhead,
     pub(super) compensation: Compensation,
+    /// Outer corners of tool radius compensation.
+    pub(super) corners: Corners,
+    /// G237.
+    pub(super) perpendicular_selection: bool,
     /// I of G301/G302 in mm.
     pub(super) insertion_mm: Option<f64>,
     /// Transition velocity of `#TRANSVELMIN` in mm/s.
@@ -129,6 +142,8 @@ impl Modal {
             old_slope: false,
             look_ahead: LookAhead::Complete,
             compensation: Compensation::Off,
+            corners: Corners::Unsaid,
+            perpendicular_selection: false,
             insertion_mm: None,
             transition_min_mm_s: 0.0,
         }

@@ -4,7 +4,7 @@ use super::coordinates::Rotation;
 use super::decoder::Decoder;
 use super::dynamics::{Weight, channel_dynamics};
 use super::fault::{Fault, Outcome, own};
-use super::modal::Compensation;
+use super::modal::{Compensation, Corners};
 use super::step::Event;
 use super::words::{GWord, Placed, Words};
 use crate::diag::ValueKind;
@@ -55,7 +55,7 @@ impl Decoder {
     }
 
     fn capped_axes(&self) -> Vec<usize> {
-        channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector).1
+        channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector[0]).1
     }
 
     /// G127, G130, G132, G230.
@@ -184,6 +184,11 @@ impl Decoder {
             let text = "the tool has the radius 0: the path is the programmed contour";
             let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
             self.note_once("G41", Fault::kontur(own::NO_TOOL, text, span).hint(hint));
+        }
+        if side != Compensation::Off && self.modal.corners == Corners::Unsaid {
+            let text = "outer corners are rounded (G26); the control starts with lines (G25)";
+            let hint = "write G25 or G26 before G41 and G42";
+            self.note_once("G26", Fault::kontur(own::ODD, text, span).hint(hint));
         }
         self.modal.compensation = side;
     }

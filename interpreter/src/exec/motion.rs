@@ -1,19 +1,20 @@
 //! The motion of a block: target, path, feed and limits; or the dwell.
 
 use super::arc::{self, ArcError};
-use super::contour::Motion;
+use super::contour::{Compensated, Motion, local_ends};
+use super::coordinates::Target;
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome, own};
 use super::groups::{Act, Group};
 use super::insertion::{Insertion, Kind};
-use super::modal::{Compensation, FeedType, PathMode};
+use super::modal::{Compensation, Corners, FeedType, PathMode};
 use super::step::Sync;
 use super::words::{GWord, Placed, Words};
 use crate::diag::ValueKind;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path, Tilt, TiltedArc};
 
 /// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
 const DWELL_MAX_S: f64 = 4294.967295;
@@ -132,14 +133,19 @@ impl Decoder {
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
         let start = self.coordinates.target().clone();
-        let targets: smallvec::SmallVec<[(usize, f64); 8]> = words
+        let targets: smallvec::SmallVec<[Target; 8]> = words
             .axes
             .iter()
-            .map(|(axis, value, _)| (*axis, value * self.axis_unit(*axis)))
+            .enumerate()
+            .map(|(i, (axis, value, _))| Target {
+                axis: *axis,
+                value: value * self.axis_unit(*axis),
+                absolute: words.is_absolute(i, self.modal.absolute),
+            })
             .collect();
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
         match suppressed {
-            Some((_, _, at)) if !self.modal.absolute => {
+            Some((_, _, at)) if targets.iter().any(|t| !t.absolute) => {
                 let text = "#SUPPRESS OFFSETS acts only with G90";
                 return Err(Fault::vendor(20985, text, *at));
             }
@@ -148,9 +154,8 @@ impl Decoder {
                 return Err(Fault::unsupported(what, *at));
             }
             Some(_) => self.coordinates.program_without_offsets(&targets),
-            None => self.coordinates.program(&targets, self.modal.absolute),
+            None => self.coordinates.program(&targets),
         }
-        self.check_limits(&start, words, span);
         let path = if is_arc {
             Some(self.arc(&start, words, span)?)
         } else {
@@ -168,6 +173,10 @@ impl Decoder {
         };
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
+        // a compensated path is known later
+        if self.modal.compensation == Compensation::Off {
+            self.check_limits(&path, words, span);
+        }
         self.join_for(&path);
         let at = words.axes.first().map_or(span, |(_, _, at)| *at);
         let feed = self.feed_of(&path, at)?;
@@ -177,14 +186,18 @@ impl Decoder {
         };
         let rapid = feed == Feed::Rapid;
         let full = words.g.iter().any(|g| g.row.act == Act::FullOverride);
-        let moved = (0..path.start().len()).filter(|i| {
-            path.start()[*i].to_bits() != path.end()[*i].to_bits() || !path.is_straight()
-        });
+        let (low, high) =
+            path.extent().unwrap_or_else(|| (path.start().clone(), path.end().clone()));
+        let moved = (0..low.len()).filter(|i| low[*i].to_bits() != high[*i].to_bits());
         let feed_ratio = if full { 1.0 } else { self.overrides.ratio(rapid, moved) };
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
-        let (plane, compensation) = self.plane_and_compensation(span)?;
+        let (plane, tilt, compensation) = self.plane_and_compensation(span)?;
+        // of a block with an error nothing moves; what was said before it is still said
+        if self.failed() && !self.checking {
+            return Ok(());
+        }
         // a large thing: made where it stays
         let motion = Box::new(Motion {
             block: Block {
@@ -195,7 +208,7 @@ impl Decoder {
                 full_override: full,
                 end_velocity_mm_s,
                 slope: self.modal.slope,
-                dynamics: self.dynamics(),
+                dynamics: self.dynamics(rapid),
                 tolerance: self.shaping.tolerance(),
                 contour: if rounds { Some(self.contouring.settings()) } else { self.hsc.contour() },
                 spline: self.hsc.spline(),
@@ -203,87 +216,168 @@ impl Decoder {
             source: self.source,
             events: self.contour.take_events(),
             plane,
+            tilt,
+            local: false,
             compensation,
             span,
         });
-        // of a block with an error nothing moves
-        if self.failed() && !self.checking {
-            return Ok(());
-        }
         self.moved = true;
         for fault in self.contour.motion(motion) {
+            self.note(Box::new(fault));
+        }
+        for fault in self.limits_of_compensated() {
             self.note(Box::new(fault));
         }
         Ok(())
     }
 
-    /// Axes of the active plane, and the distance of the tool's centre to the left of the contour.
-    fn plane_and_compensation(&self, span: Span) -> Outcome<([usize; 2], Option<f64>)> {
+    /// Axes of the active plane, its coordinate system if it lies askew to the axes, and the compensation.
+    fn plane_and_compensation(
+        &self,
+        span: Span,
+    ) -> Outcome<([usize; 2], Option<Tilt>, Option<Compensated>)> {
         let main = self.modal.plane.main_axes();
-        let image = self.coordinates.frame().image_of_plane(main[0], main[1]);
+        let frame = self.coordinates.frame();
         let axis = |m: usize| self.coordinates.main_axis(m);
         let compensated = self.modal.compensation != Compensation::Off;
-        let (plane, keeps_sense) = match image {
-            Some((image, keeps_sense)) => (image, keeps_sense),
-            None if compensated => {
-                let what = "tool radius compensation in a tilted coordinate system";
-                return Err(Fault::unsupported(what, span));
-            }
-            None => ([main[0], main[1]], true),
+        let tilt = self.tilt(span)?;
+        let (plane, keeps_sense) = match frame.image_of_plane(main[0], main[1]) {
+            Some(image) if tilt.is_none() => image,
+            _ => ([main[0], main[1]], true),
         };
         let (Some(first), Some(second)) = (axis(plane[0]), axis(plane[1])) else {
             if compensated {
                 let text = "the plane of the tool radius compensation has no axis in the channel";
                 return Err(Fault::vendor(20200, text, span));
             }
-            return Ok(([0, 0], None));
+            return Ok(([0, 0], tilt, None));
         };
         let left = (self.modal.compensation == Compensation::Left) == keeps_sense;
         let radius = self.tools.active.radius_mm;
-        let distance = compensated.then_some(if left { radius } else { -radius });
-        Ok(([first, second], distance))
+        let compensation = compensated.then_some(Compensated {
+            distance_mm: if left { radius } else { -radius },
+            straight_corners: self.modal.corners == Corners::Straight,
+            perpendicular: self.modal.perpendicular_selection,
+        });
+        Ok(([first, second], tilt, compensation))
     }
 
-    /// Targets against the software limits (P-AXIS-00177, P-AXIS-00178).
-    fn check_limits(&mut self, start: &AxisVec, words: &Words<'_>, span: Span) {
-        for axis in 0..start.len() {
-            let target = self.coordinates.target()[axis];
-            if target.to_bits() == start[axis].to_bits() {
-                continue;
-            }
-            let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
-            self.check_limit(axis, target, at);
+    /// The frame, if the active plane lies askew to the axes in it.
+    fn tilt(&self, span: Span) -> Outcome<Option<Tilt>> {
+        let main = self.modal.plane.main_axes();
+        let frame = self.coordinates.frame();
+        if frame.image_of_plane(main[0], main[1]).is_some() {
+            return Ok(None);
         }
+        let axis = |m: usize| self.coordinates.main_axis(m);
+        let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
+            let text = "a coordinate system turned in space needs three main axes";
+            return Err(Fault::vendor(20200, text, span));
+        };
+        let (axes, origin) = ([x, y, z], self.coordinates.to_machine([0.0; 3]));
+        let t_mm = std::array::from_fn(|i| origin[i] - self.independent.way[axes[i]]);
+        Ok(Some(Tilt { axes, m: frame.m, t_mm }))
+    }
+
+    /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round.
+    fn check_limits(&mut self, path: &Path, words: &Words<'_>, span: Span) {
+        let Some((low, high)) = path.extent() else { return };
+        for axis in 0..low.len() {
+            let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
+            let end = path.end()[axis];
+            if let Some(fault) = self.outside_limits(axis, low[axis], high[axis], Some(end), at) {
+                self.note(fault);
+            }
+        }
+    }
+
+    /// Compensated motions against the software limits.
+    pub(super) fn limits_of_compensated(&mut self) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        for (low, high, source, span) in self.contour.take_driven() {
+            for axis in 0..low.len() {
+                let fault = self.outside_limits(axis, low[axis], high[axis], None, span);
+                faults.extend(fault.map(|f| *f.in_block(source)));
+            }
+        }
+        faults
+    }
+
+    /// 21897 for an axis that moves between `low` and `high` and leaves its limits.
+    fn outside_limits(
+        &self,
+        axis: usize,
+        low: f64,
+        high: f64,
+        end: Option<f64>,
+        span: Span,
+    ) -> Option<Box<Fault>> {
+        if low.to_bits() == high.to_bits() {
+            return None;
+        }
+        let limits @ (least, most) = self.limits_mm[axis]?;
+        let outside = |x: f64| !(least..=most).contains(&x);
+        // the path leaves out what the axis has gone as an independent axis
+        let way = self.independent.way[axis];
+        let (low, high) = (low + way, high + way);
+        // the end of the block is what the program says
+        let (what, x) = match end.map(|end| end + way).filter(|end| outside(*end)) {
+            Some(end) => ("target", end),
+            None if outside(low) => ("lowest position", low),
+            None if outside(high) => ("highest position", high),
+            None => return None,
+        };
+        Some(self.limit_fault(axis, what, x, limits, span))
     }
 
     /// 21897 for a target outside the software limits of its axis.
     pub(super) fn check_limit(&mut self, axis: usize, target: f64, at: Span) {
-        let Some((low, high)) = self.machine.axes[axis].software_limits_mm() else { return };
-        if (low..=high).contains(&target) {
-            return;
+        let Some(limits @ (low, high)) = self.limits_mm[axis] else { return };
+        if !(low..=high).contains(&target) {
+            let fault = self.limit_fault(axis, "target", target, limits, at);
+            self.note(fault);
         }
-        let name = self.axis_name(axis).to_owned();
-        let number = self.machine.axes[axis].number();
-        let text = format!("axis {name}: target {target} is outside its limits {low} to {high}");
-        let mut fault = Fault::vendor(21897, text, at).with(|d| {
-            d.axis(number, name)
-                .value(ValueKind::Current, target * 1e4, "0.1um")
-                .value(ValueKind::LowerLimit, low * 1e4, "0.1um")
-                .value(ValueKind::UpperLimit, high * 1e4, "0.1um")
-                .parameter("P-AXIS-00177")
-        });
-        if self.machine.axes[axis].text("kenngr.swe_behaviour").as_deref() == Some("WARNING") {
-            fault = fault.warning();
-        }
-        self.note(fault);
     }
 
-    fn arc(&mut self, start: &AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
-        let end = self.coordinates.target().clone();
+    fn limit_fault(
+        &self,
+        axis: usize,
+        what: &str,
+        x: f64,
+        (least, most): (f64, f64),
+        span: Span,
+    ) -> Box<Fault> {
+        let name = self.axis_name(axis).to_owned();
+        let number = self.machine.axes[axis].number();
+        let text = format!("axis {name}: {what} {x} is outside its limits {least} to {most}");
+        let fault = Fault::vendor(21897, text, span).with(|d| {
+            d.axis(number, name)
+                .value(ValueKind::Current, x * 1e4, "0.1um")
+                .value(ValueKind::LowerLimit, least * 1e4, "0.1um")
+                .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
+                .parameter("P-AXIS-00177")
+        });
+        let behaviour = self.machine.axes[axis].text("kenngr.swe_behaviour");
+        if behaviour.as_deref() == Some("WARNING") { fault.warning() } else { fault }
+    }
+
+    /// Position of the axes without the ways that they have gone as independent axes.
+    fn on_path(&self, position: &AxisVec) -> AxisVec {
+        position.iter().zip(self.independent.way.iter()).map(|(x, way)| x - way).collect()
+    }
+
+    fn arc(&mut self, from: &AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
+        let from = &self.on_path(from);
+        let target = self.on_path(self.coordinates.target());
         let main = self.modal.plane.main_axes();
+        let tilt = self.tilt(span)?;
         let image = self.coordinates.frame().image_of_plane(main[0], main[1]);
-        let Some((image, keeps_sense)) = image else {
-            return Err(Fault::unsupported("an arc in a tilted coordinate system", span));
+        // askew to the axes the arc is one of the coordinate system
+        let (image, keeps_sense) =
+            image.filter(|_| tilt.is_none()).unwrap_or(([main[0], main[1]], true));
+        let (start, end) = match &tilt {
+            Some(tilt) => local_ends(tilt, from, &target),
+            None => (from.clone(), target.clone()),
         };
         let axis = |m: usize| {
             self.coordinates.main_axis(m).ok_or_else(|| {
@@ -293,7 +387,7 @@ impl Decoder {
         };
         let plane = [axis(image[0])?, axis(image[1])?];
         let in_plane = |p: &AxisVec| [p[plane[0]], p[plane[1]]];
-        let (s, e) = (in_plane(start), in_plane(&end));
+        let (s, e) = (in_plane(&start), in_plane(&end));
         let ccw = (self.modal.path == PathMode::CounterClockwise) == keeps_sense;
         let centre_words = [words.centre[main[0]], words.centre[main[1]]];
         let has_centre = centre_words.iter().any(Option::is_some);
@@ -307,7 +401,7 @@ impl Decoder {
         let found = if let (false, Some(radius)) = (has_centre, self.modal.radius_mm) {
             arc::by_radius(s, e, radius, ccw)
         } else {
-            let centre = self.centre(start, main, image, centre_words);
+            let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
             let limits = &self.machine.channel.arc_centre;
             arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
         };
@@ -334,36 +428,43 @@ impl Decoder {
         self.last_arc.shift_mm = arc.shift;
         self.last_arc.radius_mm =
             libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
-        let way = &self.independent.way;
-        let centre_mm = [arc.centre[0] - way[plane[0]], arc.centre[1] - way[plane[1]]];
-        let shape = ArcShape { plane, centre_mm, sweep_rad: arc.sweep_rad };
-        ArcPath::new(self.on_path(start), self.on_path(&end), shape, &self.feed_axes)
-            .map(Path::Arc)
-            .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))
+        let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
+        let arc = ArcPath::new(start, end, shape, &self.feed_axes)
+            .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))?;
+        Ok(match tilt {
+            Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, tilt, from.clone(), target))),
+            None => Path::Arc(arc),
+        })
     }
 
-    /// Position of the axes without the ways that they have gone as independent axes.
-    fn on_path(&self, position: &AxisVec) -> AxisVec {
-        position.iter().zip(self.independent.way.iter()).map(|(x, way)| x - way).collect()
-    }
-
-    /// Centre in the coordinates of the axes.
+    /// Centre in the coordinates of the axes, or of the program if the plane lies askew to them.
     fn centre(
         &self,
         start: &AxisVec,
         main: [usize; 3],
         image: [usize; 2],
+        tilted: bool,
         words: [Option<Placed>; 2],
     ) -> [f64; 2] {
         let value = |w: Option<Placed>| w.map_or(0.0, |(v, _)| v * self.unit_mm());
+        let from = |m: usize| self.coordinates.main_axis(m).map_or(0.0, |axis| start[axis]);
+        if tilted {
+            let c = words.map(value);
+            if self.modal.centre_absolute {
+                return c;
+            }
+            return [from(image[0]) + c[0], from(image[1]) + c[1]];
+        }
         let mut p = [0.0; 3];
         (p[main[0]], p[main[1]]) = (value(words[0]), value(words[1]));
         if self.modal.centre_absolute {
             let q = self.coordinates.to_machine(p);
-            return [q[image[0]], q[image[1]]];
+            let way = |m: usize| {
+                self.coordinates.main_axis(m).map_or(0.0, |axis| self.independent.way[axis])
+            };
+            return [q[image[0]] - way(image[0]), q[image[1]] - way(image[1])];
         }
         let d = self.coordinates.frame().direction(p);
-        let from = |m: usize| self.coordinates.main_axis(m).map_or(0.0, |axis| start[axis]);
         [from(image[0]) + d[image[0]], from(image[1]) + d[image[1]]]
     }
 

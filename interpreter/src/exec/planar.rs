@@ -47,7 +47,7 @@ impl Side {
                 sweep_rad: arc.shape().sweep_rad,
             }),
             // programs hold lines and arcs only
-            Path::Arc(_) | Path::Curve(_) => None,
+            Path::Arc(_) | Path::Tilted(_) | Path::Curve(_) => None,
         }
     }
 
@@ -235,6 +235,6 @@ pub(super) fn cut(
             let sweep_rad = swept(shape.centre_mm, &from, &to, shape.plane, shape.sweep_rad > 0.0);
             ArcPath::new(from, to, ArcShape { sweep_rad, ..shape }, feed_axes).map(Path::Arc)
         }
-        Path::Curve(_) => None,
+        Path::Tilted(_) | Path::Curve(_) => None,
     }
 }

@@ -52,10 +52,10 @@ const ROWS: &[Row] = &[
     Row { name: &["A", "ACT_POS", "*"], read: |d, p| p.position(d, 2, |d, a| d.feedback.actual_mm.get(a).copied().unwrap_or_else(|| d.coordinates.target()[a])) },
     Row { name: &["A", "ACS", "ABS", "*"], read: |d, p| p.position(d, 3, |d, a| d.coordinates.target()[a]) },
     Row { name: &["A", "BZP", "*"], read: |d, p| p.position(d, 2, |d, a| d.coordinates.preset(a)) },
-    Row { name: &["A", "-SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limits(d, a).0) },
-    Row { name: &["A", "+SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limits(d, a).1) },
-    Row { name: &["A", "-SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limits(d, a).0) },
-    Row { name: &["A", "+SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limits(d, a).1) },
+    Row { name: &["A", "-SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.limits_mm[a]).0) },
+    Row { name: &["A", "+SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.limits_mm[a]).1) },
+    Row { name: &["A", "-SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).0) },
+    Row { name: &["A", "+SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).1) },
     Row { name: &["A", "REF", "*"], read: |d, p| { p.axis(d, 2)?; number(0.0) } },
     Row { name: &["A", "MODE", "*"], read: |d, p| { let a = p.axis(d, 2)?; number(d.machine.axes[a].raw("kenngr.achs_mode").unwrap_or(1.0)) } },
     Row { name: &["A", "MODULO_VALUE", "*"], read: |d, p| { let a = p.axis(d, 2)?; number(if d.machine.axes[a].is_modulo() { 360.0 } else { 0.0 }) } },
@@ -115,8 +115,8 @@ const ROWS: &[Row] = &[
     } },
 ];
 
-fn limits(d: &Decoder, axis: usize) -> (f64, f64) {
-    d.machine.axes[axis].software_limits_mm().unwrap_or((-1e9, 1e9))
+fn limit(software_limits_mm: Option<(f64, f64)>) -> (f64, f64) {
+    software_limits_mm.unwrap_or((-1e9, 1e9))
 }
 
 fn offset(tool: &Tool, axis: usize) -> f64 {

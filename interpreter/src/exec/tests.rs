@@ -7,6 +7,7 @@ mod coordinates;
 mod errors;
 mod first_cases;
 mod flow;
+mod frames;
 mod modes;
 mod random;
 mod shaping;

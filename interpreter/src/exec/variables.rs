@@ -399,6 +399,10 @@ impl Decoder {
             Target::Parameter(index, subscripts) => match self.variables.parameters().get(&index) {
                 Some(variable) => variable.get(&subscripts, span),
                 None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
+                None if self.machine.channel.keep_p_parameters => {
+                    let hint = "P-CHAN-00067 keeps parameters of earlier programs; here none ran";
+                    Err(undefined_parameter(index, span).hint(hint))
+                }
                 None => Err(undefined_parameter(index, span)),
             },
             Target::Own(class, name, subscripts) => match self.variables.find(class, &name) {

@@ -48,6 +48,8 @@ pub(super) struct Words<'b> {
     pub(super) g: SmallVec<[GWord; 6]>,
     /// Axis, value as written, place.
     pub(super) axes: SmallVec<[(usize, f64, Span); 8]>,
+    /// G90 and G91 that act from their place on (P-CHAN-00116): number of axis words before, and whether absolute.
+    pub(super) dimensions: SmallVec<[(usize, bool); 2]>,
     /// I, J, K.
     pub(super) centre: [Option<Placed>; 3],
     pub(super) radius: Option<Placed>,
@@ -67,6 +69,12 @@ pub(super) struct Words<'b> {
 }
 
 impl Words<'_> {
+    /// True if the axis word in place `i` is absolute; `modal` is the dimension that the block leaves behind.
+    pub(super) fn is_absolute(&self, i: usize, modal: bool) -> bool {
+        let last = self.dimensions.iter().rfind(|(place, _)| *place <= i);
+        last.map_or(modal, |(_, absolute)| *absolute)
+    }
+
     /// The G function of a group.
     pub(super) fn group(&self, group: Group) -> Option<&GWord> {
         self.g.iter().find(|g| g.row.group == group)
@@ -207,7 +215,14 @@ impl Decoder {
                 None => fault,
             });
         };
-        if row.group != Group::None
+        if self.machine.channel.several_dimensions
+            && let Act::Absolute(absolute) = row.act
+        {
+            if block.dimensions.is_empty() {
+                block.dimensions.push((0, self.modal.absolute));
+            }
+            block.dimensions.push((block.axes.len(), absolute));
+        } else if row.group != Group::None
             && let Some(first) = block.group(row.group)
         {
             return Err(duplicate(first.row, row, span));

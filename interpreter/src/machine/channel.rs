@@ -36,11 +36,25 @@ pub enum RapidOverride {
     Active,
 }
 
+/// What becomes of a message to the diagnosis receiver (P-CHAN-00518).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum DiagnosisMessages {
+    /// It is written.
+    #[default]
+    Standard,
+    /// It is discarded.
+    Disabled,
+    /// It is discarded with the warning 22194.
+    Warning,
+    /// It is discarded with the error 22195.
+    Error,
+}
+
 /// Limits of arcs whose centre and end do not fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcCentre {
-    /// G165: largest shift of the centre in mm (P-CHAN-00059), `None` = not limited.
-    pub shift_mm: Option<f64>,
+    /// G165: largest shift of the centre in mm (P-CHAN-00059), default 2.
+    pub shift_mm: f64,
     /// G165: the same relative to the radius (P-CHAN-00060), default 0.05.
     pub shift_ratio: f64,
     /// G164: largest difference of start and end radius in mm (P-CHAN-00171), default 0.005.
@@ -93,6 +107,8 @@ pub struct Channel {
     pub exact_stop_after_g00: bool,
     /// Feed hold uses its own parameters (P-CHAN-00097).
     pub own_feed_hold: bool,
+    /// Several G90 and G91 in a block, each acting from its place on (P-CHAN-00116).
+    pub several_dimensions: bool,
     /// P parameters survive program start (P-CHAN-00067).
     pub keep_p_parameters: bool,
     /// What the override multiplies (P-CHAN-00066).
@@ -107,6 +123,14 @@ pub struct Channel {
     pub h_durations_s: BTreeMap<u32, f64>,
     /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169), by G number.
     pub g8x_programs: BTreeMap<u32, String>,
+    /// Messages to the diagnosis receiver (P-CHAN-00518).
+    pub diagnosis_messages: DiagnosisMessages,
+    /// Subroutine called at the start of every program (P-CHAN-00119).
+    pub start_program: Option<String>,
+    /// Subroutine called before the end of every program (P-CHAN-00252).
+    pub end_program: Option<String>,
+    /// Subroutine called by M06 (P-CHAN-00118); `None`: M06 is a function like any other.
+    pub tool_change_program: Option<String>,
     /// Logical number of the main spindle (P-CHAN-00051), `None`: the first one.
     pub main_spindle: Option<u32>,
     parameters: Parameters,
@@ -116,6 +140,7 @@ pub struct Channel {
 impl Channel {
     pub(super) fn new(parameters: Parameters, start_up: Parameters, feed_axes: Vec<bool>) -> Self {
         let p = &parameters;
+        let program = |key: &str| p.text(key).filter(|name| !name.is_empty());
         let choice = |key: &str| integer(p.number(key)).unwrap_or_default();
         let table = |array: &str, last: &str| -> BTreeMap<u32, f64> {
             let rows = p.settings().filter(|(_, s)| s.row.key == format!("{array}[i]{last}"));
@@ -145,7 +170,7 @@ impl Channel {
             vector: vector(p),
             vector_acc_on_arcs: p.flag("vector.cir_radial_acc_limit"),
             arc_centre: ArcCentre {
-                shift_mm: p.converted("mittelpkt_diff"),
+                shift_mm: p.converted("mittelpkt_diff").unwrap_or_default(),
                 shift_ratio: p.converted("mittelpkt_faktor").unwrap_or_default(),
                 radius_difference_mm: p.converted("max_radius_diff_circle").unwrap_or_default(),
                 radius_difference_ratio: p
@@ -157,6 +182,7 @@ impl Channel {
             contouring_consider_inch: p.flag("contouring_consider_inch"),
             exact_stop_after_g00: p.flag("exact_stop_after_g00"),
             own_feed_hold: p.flag("use_drive_curr_limit"),
+            several_dimensions: p.flag("multi_dimension_in_block"),
             keep_p_parameters: p.flag("p_param_haltend"),
             override_mode: match choice("override_weight_prog_feed") {
                 0 => OverrideMode::Result,
@@ -177,6 +203,15 @@ impl Channel {
             g8x_programs: (80..90)
                 .filter_map(|g| Some((g, p.text(&format!("g{g}_prog_file"))?)))
                 .collect(),
+            diagnosis_messages: match p.text("configuration.decoder.msg_to_default").as_deref() {
+                Some("DISABLED") => DiagnosisMessages::Disabled,
+                Some("WARNING") => DiagnosisMessages::Warning,
+                Some("ERROR") => DiagnosisMessages::Error,
+                _ => DiagnosisMessages::Standard,
+            },
+            start_program: program("start_init_prog_file"),
+            end_program: program("final_prog_file"),
+            tool_change_program: program("m6_prog_file"),
             main_spindle: Some(choice("main_spindle_ax_nr")).filter(|n| *n != 0),
             parameters,
             start_up,

@@ -118,7 +118,7 @@ fn vendor_defaults_in_mm_and_s() {
     assert_eq!(c.transition_jerk, TransitionJerkMode::Coupled);
     assert_eq!(c.feed_axes, [true, true]);
     assert!(close(c.feed_unit_mm_min, 1.0) && close(c.arc_centre.radius_difference_mm, 0.005));
-    assert!(close(c.arc_centre.shift_ratio, 0.05) && c.arc_centre.shift_mm.is_none());
+    assert!(close(c.arc_centre.shift_ratio, 0.05) && close(c.arc_centre.shift_mm, 2.0));
     assert!(close(c.arc_centre.radius_difference_ratio, 0.001));
 }
 
@@ -145,7 +145,7 @@ fn channel_values_are_converted() {
     assert_eq!(c.transition_jerk, TransitionJerkMode::DirectJerk);
     assert!(close(c.feed_mm_s.unwrap(), 50.0) && close(c.feed_unit_mm_min, 1000.0));
     assert!(close(c.vector.vel_mm_s.unwrap(), 100.0) && close(c.vector.acc_mm_s2.unwrap(), 1500.0));
-    assert!(close(c.arc_centre.shift_mm.unwrap(), 0.01));
+    assert!(close(c.arc_centre.shift_mm, 0.01));
     assert!(close(c.m_durations_s[&7], 0.5) && close(c.spindle_duration_s(0, "m3"), 1.5));
     assert_eq!((c.g_groups[&14], c.g8x_programs[&85].as_str()), (91, "drill.nc"));
     assert!(c.keep_p_parameters);

@@ -38,6 +38,9 @@ fn longest(path: &Path, settings: &ContourSettings) -> f64 {
     let half = 0.5 * (1.0 - settings.remain_ratio.clamp(0.0, 1.0)) * path.length();
     match path {
         Path::Arc(arc) => half.min(path.length() * FRAC_PI_2 / arc.shape().sweep_rad.abs()),
+        Path::Tilted(tilted) => {
+            half.min(path.length() * FRAC_PI_2 / tilted.arc().shape().sweep_rad.abs())
+        }
         _ => half,
     }
 }

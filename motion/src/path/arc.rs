@@ -148,6 +148,36 @@ impl ArcPath {
         out[b] = -radius * rate * rate * sin + 2.0 * growth * rate * cos;
     }
 
+    /// Path lengths at which an axis turns round that has these shares in the first and second direction of the plane
+    /// and moves by `drift` mm per mm besides: of each kind of turn the first and the last one, since a helix shifts
+    /// them evenly.
+    pub(super) fn turning_points(&self, [first, second]: [f64; 2], drift: f64) -> [Option<f64>; 4] {
+        let sweep = self.shape.sweep_rad;
+        let amplitude = self.radius() * libm::hypot(first, second);
+        // derivative by the angle: -amplitude sin(angle - phase) + drift
+        let drift = drift * self.length / sweep;
+        let m = drift / amplitude;
+        if amplitude <= 0.0 || m.abs() >= 1.0 {
+            return [None; 4];
+        }
+        let phase = libm::atan2(second, first);
+        let turn = 2.0 * std::f64::consts::PI;
+        let mut found = [None; 4];
+        for (k, angle) in [phase + libm::asin(m), phase + std::f64::consts::PI - libm::asin(m)]
+            .into_iter()
+            .enumerate()
+        {
+            let delta = (angle - self.start_rad) * sweep.signum();
+            let near = delta - turn * libm::floor(delta / turn);
+            if near <= sweep.abs() {
+                let far = near + turn * libm::floor((sweep.abs() - near) / turn);
+                found[2 * k] = Some(near / sweep.abs() * self.length);
+                found[2 * k + 1] = Some(far / sweep.abs() * self.length);
+            }
+        }
+        found
+    }
+
     /// The part between two path lengths.
     pub(super) fn section(&self, from: f64, to: f64) -> Self {
         let mut out = self.clone();

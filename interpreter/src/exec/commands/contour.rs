@@ -245,7 +245,9 @@ pub(super) fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-/// `#VECTOR LIMIT ON [..]`, `ON ALL`, `OFF [VEL]`, `OFF`.
+/// `#VECTOR LIMIT ON [..]`, `ON ALL`, `OFF [VEL]`, `OFF`. FEED or RAPID restrict what is said to these blocks.
+///
+/// Assumption: the meaning of FEED and RAPID, from their names; without them, or with both, all blocks are meant.
 pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     const KEYS: &[Key] = &[
         maybe("VEL"),
@@ -266,23 +268,20 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     match &call.command.tail[..] {
         [] => {}
         [word] if word.is("ALL") => {
-            decoder.vector = if on { listed } else { VectorLimits::default() };
+            decoder.vector = [if on { listed } else { VectorLimits::default() }; 2];
             decoder.dynamics_changed();
             return Ok(());
         }
         [word, ..] => return Err(call.unexpected(word)),
     }
     let keys = arguments(decoder, "#VECTOR LIMIT", call.command.groups.first(), KEYS);
-    for half in ["FEED", "RAPID"] {
-        if let Some(span) = keys.place(half) {
-            let text = format!(
-                "#VECTOR LIMIT: the limits act in feed and rapid blocks, {half} is ignored"
-            );
-            decoder.note_once("vector half", Fault::kontur(own::FALLBACK, text, span));
+    let named = [keys.has("FEED"), keys.has("RAPID")];
+    let meant = if named == [false, false] { [true, true] } else { named };
+    let limits = keys.count() - named.iter().filter(|n| **n).count();
+    if !on && limits == 0 {
+        for (vector, _) in decoder.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
+            *vector = VectorLimits::default();
         }
-    }
-    if !on && call.command.groups.is_empty() {
-        decoder.vector = VectorLimits::default();
         decoder.dynamics_changed();
         return Ok(());
     }
@@ -297,20 +296,22 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
             None => Ok(keys.has(name).then_some(listed)),
         }
     };
-    let mut v = decoder.vector;
-    let set = |slot: &mut Option<f64>, new: Option<Option<f64>>| {
-        if let Some(new) = new {
-            *slot = new;
-        }
-    };
-    set(&mut v.vel_mm_s, value("VEL", unit / 60.0, listed.vel_mm_s)?);
-    set(&mut v.acc_mm_s2, value("ACC", unit, listed.acc_mm_s2)?);
-    set(&mut v.dec_mm_s2, value("DEC", unit, listed.dec_mm_s2)?);
-    set(&mut v.jerk_mm_s3, value("JERK", unit, listed.jerk_mm_s3)?);
-    set(&mut v.radial_acc_mm_s2, value("RADIAL_ACC", unit, listed.radial_acc_mm_s2)?);
-    set(&mut v.radial_jerk_mm_s3, value("RADIAL_JERK", unit, listed.radial_jerk_mm_s3)?);
-    set(&mut v.trans_acc_mm_s2, value("TRANS_ACC", unit, listed.trans_acc_mm_s2)?);
-    decoder.vector = v;
+    let vel = value("VEL", unit / 60.0, listed.vel_mm_s)?;
+    let acc = value("ACC", unit, listed.acc_mm_s2)?;
+    let dec = value("DEC", unit, listed.dec_mm_s2)?;
+    let jerk = value("JERK", unit, listed.jerk_mm_s3)?;
+    let radial_acc = value("RADIAL_ACC", unit, listed.radial_acc_mm_s2)?;
+    let radial_jerk = value("RADIAL_JERK", unit, listed.radial_jerk_mm_s3)?;
+    let trans_acc = value("TRANS_ACC", unit, listed.trans_acc_mm_s2)?;
+    for (v, _) in decoder.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
+        v.vel_mm_s = vel.unwrap_or(v.vel_mm_s);
+        v.acc_mm_s2 = acc.unwrap_or(v.acc_mm_s2);
+        v.dec_mm_s2 = dec.unwrap_or(v.dec_mm_s2);
+        v.jerk_mm_s3 = jerk.unwrap_or(v.jerk_mm_s3);
+        v.radial_acc_mm_s2 = radial_acc.unwrap_or(v.radial_acc_mm_s2);
+        v.radial_jerk_mm_s3 = radial_jerk.unwrap_or(v.radial_jerk_mm_s3);
+        v.trans_acc_mm_s2 = trans_acc.unwrap_or(v.trans_acc_mm_s2);
+    }
     decoder.dynamics_changed();
     Ok(())
 }

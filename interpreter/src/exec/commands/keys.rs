@@ -72,6 +72,11 @@ impl Arguments {
         self.found.iter().find(|(n, _, _)| *n == name).map(|(_, _, span)| *span)
     }
 
+    /// How many keys are written.
+    pub(in crate::exec) fn count(&self) -> usize {
+        self.found.len()
+    }
+
     /// True if the key is written.
     pub(in crate::exec) fn has(&self, name: &str) -> bool {
         self.place(name).is_some()
@@ -114,8 +119,8 @@ pub(in crate::exec) fn arguments(
         let item = pair.as_ref().unwrap_or(item);
         match read(decoder, title, item, keys) {
             Ok(None) => {}
-            Ok(Some((name, found))) if arguments.has(name) => {
-                let text = format!("{title}: {name} twice ({found:?} is left out)");
+            Ok(Some((name, _))) if arguments.has(name) => {
+                let text = format!("{title}: {name} twice, the second one is left out");
                 decoder.note(Fault::kontur(own::DUPLICATE_KEY, text, item.span));
             }
             Ok(Some((name, found))) => arguments.found.push((name, found, item.span)),

@@ -9,6 +9,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome, own};
 use crate::exec::options::Value;
 use crate::exec::step::Event;
+use crate::machine::DiagnosisMessages;
 use crate::syntax::ast::{Expr, ItemKind, ItemValue, Span};
 
 /// Receivers of a message.
@@ -47,6 +48,24 @@ pub(super) fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::vendor(21220, "#MSG: the text comes first", format.span));
     };
     let text = formatted(decoder, &format_text, format.span, values)?;
+    if receiver.eq_ignore_ascii_case(RECEIVERS[0]) && !save {
+        let discarded = |id| {
+            let hint = "the channel list discards messages to ISG_DIAG_BED; name another receiver";
+            Fault::vendor(id, format!("message discarded: {text}"), call.span()).hint(hint)
+        };
+        match decoder.machine.channel.diagnosis_messages {
+            DiagnosisMessages::Standard => {}
+            DiagnosisMessages::Disabled => return Ok(()),
+            DiagnosisMessages::Warning => {
+                let fault = discarded(22194).warning().with(|d| d.parameter("P-CHAN-00518"));
+                decoder.note(fault);
+                return Ok(());
+            }
+            DiagnosisMessages::Error => {
+                return Err(discarded(22195).with(|d| d.parameter("P-CHAN-00518")));
+            }
+        }
+    }
     decoder.event(Event::Message { receiver, text, save });
     Ok(())
 }

@@ -150,7 +150,7 @@ pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()>
     Ok(())
 }
 
-/// `#FILE NAME [G80="x.nc" MSG="y"]`.
+/// `#FILE NAME [G80="x.nc" M6="z.nc" MSG="y"]`.
 pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     for item in call.command.groups.iter().flat_map(|g| &g.items) {
@@ -177,6 +177,7 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             Some(n) if crate::exec::groups::is_cycle_call(n) => {
                 decoder.cycle_files.insert(n, file);
             }
+            _ if key.is("M6") || key.is("M06") => decoder.tool_change_file = Some(file),
             // messages go to the log, whatever the name of their file
             _ if key.is("MSG") => {}
             _ => {

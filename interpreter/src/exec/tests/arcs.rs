@@ -102,5 +102,71 @@ fn arcs_that_do_not_exist() {
     assert_eq!(id("G164 G02 X10 I5.1 F100"), ["21758"]);
     assert_eq!(id("G02 X10 I9 F100"), ["K-0117"]);
     assert_eq!(id("G02 X9 I5 R5 F100"), ["21024"]);
-    assert_eq!(id("#CS ON [0,0,0,0,30,0]\nG02 X10 I5 F100"), ["K-0019"]);
+}
+
+#[test]
+fn arcs_in_a_tilted_coordinate_system() {
+    // turned by 30 degrees about Y: X = x cos + z sin, Z = z cos - x sin
+    let (s, c) = (0.5, 0.75_f64.sqrt());
+    let at = |path: &Path, share: f64| {
+        let mut q = [0.0; 3];
+        path.position(share * path.length(), &mut q);
+        q
+    };
+    let run = clean("#CS ON [1,2,3,0,30,0]\nG00 X0 Y0 Z0\nG02 X10 I5 F100\nM30\n");
+    let path = &run.blocks()[1].path;
+    assert!((path.length() - 5.0 * PI).abs() < 1e-9);
+    assert_near(&at(path, 0.5), &[1.0 + 5.0 * c, 7.0, 3.0 - 5.0 * s]);
+    assert_near(&run.end, &[1.0 + 10.0 * c, 2.0, 3.0 - 10.0 * s]);
+    // by radius, with absolute centre, mirrored and as helices: the same point half way
+    let middle = |text: &str| {
+        let run = clean(&format!("#CS ON [0,0,0,0,30,0]\n{text}\nM30\n"));
+        at(&run.blocks().last().unwrap().path, 0.5)
+    };
+    assert_near(&middle("G02 X10 R5 F100"), &[5.0 * c, 5.0, -5.0 * s]);
+    assert_near(&middle("G161 G02 X10 I5 J0 F100"), &[5.0 * c, 5.0, -5.0 * s]);
+    assert_near(&middle("G03 X10 I5 F100"), &[5.0 * c, -5.0, -5.0 * s]);
+    assert_near(&middle("G02 I5 F100"), &[10.0 * c, 0.0, -10.0 * s]);
+    assert_near(&middle("G02 X10 Z4 I5 F100"), &[5.0 * c + 2.0 * s, 5.0, 2.0 * c - 5.0 * s]);
+    // two turns and a half of pitch 4
+    assert_near(&middle("G02 X10 Z10 I5 K4 F100"), &[5.0 * c + 5.0 * s, 5.0, 5.0 * c - 5.0 * s]);
+    assert_near(&middle("G91 G02 X10 I5 F100"), &[5.0 * c, 5.0, -5.0 * s]);
+    assert_near(&middle("G71 G21\nG02 X10 I5 F100"), &[-5.0 * c, 5.0, 5.0 * s]);
+    assert_near(&middle("#ROTATION ON [ANGLE=90]\nG02 X10 I5 F100"), &[-5.0 * c, 5.0, 5.0 * s]);
+    // in the plane that stays flat, the arc is an arc of the axes
+    let flat = clean("#CS ON [0,0,0,0,30,0]\nG18 G02 X10 I5 F100\nM30\n");
+    assert!(matches!(flat.blocks()[0].path, Path::Arc(_)));
+    // all three angles: R = Rz(20) Ry(30) Rx(40), the second column is the image of y
+    let (sx, cx) = libm::sincos(40.0_f64.to_radians());
+    let (sz, cz) = libm::sincos(20.0_f64.to_radians());
+    let run = clean("#CS ON [0,0,0,40,30,20]\nG02 X10 I5 F100\nM30\n");
+    let (x, y) = ([cz * c, sz * c, -s], [cz * s * sx - sz * cx, sz * s * sx + cz * cx, c * sx]);
+    let expected: Vec<f64> = (0..3).map(|i| 5.0 * x[i] + 5.0 * y[i]).collect();
+    assert_near(&at(&run.blocks()[0].path, 0.5), &expected);
+}
+
+#[test]
+fn software_limits_hold_along_arcs() {
+    let ids = |settings: &[&str], text: &str| {
+        let sources = crate::source::MemorySources::new().with("main.nc", text);
+        super::run_with(sources, super::machine(settings), super::Options::default())
+    };
+    // the upper half circle reaches Y 10, the lower one Y -10
+    let high = ["Y.kenngr.swe_pos=95000", "Y.kenngr.swe_neg=-100500"];
+    let run = ids(&high, "G00 X10\nG03 X-10 I-10 F100\nM30\n");
+    assert_eq!(super::places(&run.diagnostics), ["21897 2:1"]);
+    assert!(run.diagnostics[0].text.contains("highest position 10"), "{:?}", run.diagnostics);
+    assert!(ids(&high, "G00 X10\nG02 X-10 I-10 F100\nM30\n").diagnostics.is_empty());
+    // a quarter that does not reach the top, and helices
+    assert!(ids(&high, "G00 X10\nG03 X8 Y6 I-10 F100\nM30\n").diagnostics.is_empty());
+    assert_eq!(ids(&high, "G00 X10\nG03 Z5 I-10 K1 F100\nM30\n").ids(), ["21897"]);
+    // turned by 30 degrees about X the top of the half circle lies at Y 10 cos 30 = 8.66
+    let turned = "#CS ON [0,0,0,30,0,0]\nG00 X10\nG03 X-10 I-10 F100\nM30\n";
+    assert!(ids(&high, turned).diagnostics.is_empty());
+    assert_eq!(ids(&["Y.kenngr.swe_pos=86000"], turned).ids(), ["21897"]);
+    // with compensation the centre of the tool counts: radius 10 - 2 inside, 10 + 2 outside
+    let inside = "V.G.WZ_AKT.R=2\nG26 G41 G01 X10 Y0 F100\nG03 X-10 I-10\nG40 G01 X0\nM30\n";
+    assert!(ids(&high, inside).diagnostics.is_empty());
+    let outside = inside.replace("G41", "G42");
+    assert_eq!(super::places(&ids(&high, &outside).diagnostics), ["21897 3:1"]);
 }

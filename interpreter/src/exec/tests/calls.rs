@@ -1,6 +1,6 @@
 //! Subroutines, cycles and ends of programs.
 
-use super::{EndReason, Options, Run, assert_end, clean, machine, run, run_with};
+use super::{EndReason, Event, Options, Run, assert_end, clean, machine, run, run_with};
 use crate::source::MemorySources;
 
 fn with(main: &str, name: &str, sub: &str) -> Run {
@@ -114,4 +114,73 @@ fn open_control_blocks() {
 fn jumps_stay_within_their_program() {
     let run = run("%L A\nN5: X1 F100\n%MAIN\nLL A\n$GOTO N5\nM30\n");
     assert_eq!(super::places(&run.diagnostics), ["K-0015 5:7"]);
+}
+
+fn listed(settings: &[&str], files: &[(&str, &str)]) -> Run {
+    let sources = files.iter().fold(MemorySources::new(), |s, (name, text)| s.with(name, *text));
+    run_with(sources, machine(settings), Options::default())
+}
+
+#[test]
+fn a_program_of_the_list_runs_before_every_program() {
+    let main = ("main.nc", "X P1 F100\nM30\n");
+    let start = ["channel.start_init_prog_file=init.nc"];
+    let run = listed(&start, &[main, ("init.nc", "P1=7 G91 Z1 F50\nM17\n")]);
+    assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
+    // its modal state goes on: G91 holds in the main program
+    assert_eq!(run.ends(), [[0.0, 0.0, 1.0], [7.0, 0.0, 1.0]]);
+    let run = listed(&start, &[main]);
+    assert_eq!((run.ids(), run.blocks().len()), (vec!["K-0013".to_owned()], 0));
+    assert_eq!(run.diagnostics[0].parameter, Some("P-CHAN-00119"));
+}
+
+#[test]
+fn a_program_of_the_list_runs_before_every_end() {
+    let end = ["channel.final_prog_file=final.nc"];
+    let last = ("final.nc", "G90 Z9 F50\n");
+    let ends = |main: &str| listed(&end, &[("main.nc", main), last]).ends();
+    assert_eq!(ends("X1 F100\nM30\n"), [[1.0, 0.0, 0.0], [1.0, 0.0, 9.0]]);
+    assert_eq!(ends("X1 F100\nM29\n").len(), 2);
+    assert_eq!(
+        ends("%L A\nX2 F100 M30\n%MAIN\nLL A\nX3\nM30\n"),
+        [[2.0, 0.0, 0.0], [2.0, 0.0, 9.0]]
+    );
+    // without M30 it runs too, and the missing end is told once
+    let run = listed(&end, &[("main.nc", "$IF 1\nX1 F100\n$ENDIF\n"), last]);
+    assert_eq!((run.ids(), run.ends().len()), (vec!["K-0003".to_owned()], 2));
+    // an M30 of its own ends it
+    let run = listed(&end, &[("main.nc", "X1 F100\nM30\n"), ("final.nc", "Z9\nM30\nZ10\n")]);
+    assert_eq!((run.ids(), run.end), (vec!["K-0109".to_owned()], vec![1.0, 0.0, 9.0]));
+    let run = listed(&end, &[("main.nc", "X1 F100\nM30\n")]);
+    assert_eq!((run.ids(), run.reason()), (vec!["K-0013".to_owned()], EndReason::Aborted));
+    assert_eq!(run.diagnostics[0].parameter, Some("P-CHAN-00252"));
+}
+
+#[test]
+fn m06_calls_the_tool_change_program_at_the_end_of_its_block() {
+    let change = ["channel.m6_prog_file=change.nc"];
+    let sub = ("change.nc", "Z50 F200\nM17\n");
+    let run = listed(&change, &[("main.nc", "X5 M6 T3 F100\nY1\nM30\n"), sub]);
+    assert_eq!(run.ends(), [[5.0, 0.0, 0.0], [5.0, 0.0, 50.0], [5.0, 1.0, 50.0]]);
+    assert!(!run.events().iter().any(|e| matches!(e, Event::MFunction { number: 6, .. })));
+    // the program may name another one
+    let main = ("main.nc", "#FILE NAME [M6=\"other.nc\"]\nM06\nM30\n");
+    let run = listed(&change, &[main, sub, ("other.nc", "Z3 F100\n")]);
+    assert_eq!(run.end[2], 3.0);
+    let run = listed(&[], &[("main.nc", "M6\nM30\n")]);
+    assert!(run.events().iter().any(|e| matches!(e, Event::MFunction { number: 6, .. })));
+    let run = listed(&change, &[("main.nc", "M6 LL A\nM30\n"), sub]);
+    assert_eq!(super::places(&run.diagnostics)[0], "22008 1:1");
+}
+
+#[test]
+fn conditions_of_a_block_that_changes_the_level_stand_in_its_file() {
+    let place = |run: &Run| {
+        let place = run.diagnostics[0].source.as_ref().unwrap();
+        (place.file.to_string(), place.line)
+    };
+    let run = with("X1 F100\nI5 L sub.nc\nM30\n", "sub.nc", "Y1\n\n\nI5 M17\n");
+    assert_eq!(run.ids(), ["K-0109", "K-0109"]);
+    assert_eq!(place(&run), ("main.nc".to_owned(), 2));
+    assert_eq!(run.diagnostics[1].source.as_ref().map(|s| (&*s.file, s.line)), Some(("sub.nc", 4)));
 }

@@ -3,7 +3,7 @@
 use super::{assert_near, clean, run};
 use kontur_motion::path::Path;
 
-const TOOL: &str = "V.G.WZ[1].R=2\nD1 F100\n";
+const TOOL: &str = "V.G.WZ[1].R=2\nG26 D1 F100\n";
 
 fn ends(text: &str) -> Vec<Vec<f64>> {
     clean(&format!("{TOOL}{text}\nM30\n")).ends()
@@ -69,7 +69,7 @@ fn other_axes_move_at_the_corner() {
 #[test]
 fn a_change_of_side_crosses_the_contour() {
     // the vendor's example, radius 2
-    let text = "V.G.WZ_AKT.R=2\nG01 Y10 F100 G41\nX20 Y25\nX40 G42\nX60 Y10\nX0 Y0 G40\nM30\n";
+    let text = "V.G.WZ_AKT.R=2\nG26 G01 Y10 F100 G41\nX20 Y25\nX40 G42\nX60 Y10\nX0 Y0 G40\nM30\n";
     let run = clean(text);
     let e = run.ends();
     assert_near(e.last().unwrap(), &[0.0, 0.0, 0.0]);
@@ -89,7 +89,7 @@ fn contours_that_are_too_tight() {
     assert_eq!(id("G41 X10\nG18\nX20"), ["20133"]);
     assert_eq!(id("G41 X10\nX20\n#FLUSH WAIT\nX30\nG40 Y5"), ["20651"]);
     assert_eq!(id("G41 X10 G42"), ["20114"]);
-    assert_eq!(run("G41 X10 F100\nX20\nG40 X30\nM30\n").ids(), ["K-0114"]);
+    assert_eq!(run("G26 G41 X10 F100\nX20\nG40 X30\nM30\n").ids(), ["K-0114"]);
 }
 
 #[test]
@@ -97,4 +97,157 @@ fn mirroring_keeps_the_tool_on_its_side_of_the_programmed_contour() {
     let e = ends("G71 G21 G41 X10 Y0\nX20\nG40 X30");
     // the contour runs to -X, the tool stays above it
     assert_near(&e[0][..2], &[-10.0, 2.0]);
+}
+
+#[track_caller]
+fn assert_ends(text: &str, expected: &[[f64; 2]]) {
+    let e = ends(text);
+    assert_eq!(e.len(), expected.len(), "{e:?}");
+    for (e, x) in e.iter().zip(expected) {
+        assert_near(&e[..2], x);
+    }
+}
+
+#[test]
+fn outer_corners_by_lines() {
+    // up to a quarter turn the parallels are prolonged to their intersection
+    let square = [[-2.0, -10.0], [-2.0, 2.0], [12.0, 2.0], [12.0, -20.0], [0.0, -30.0]];
+    assert_ends("G25 G41 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30", &square);
+    // an eighth of a turn: prolonged by r tan(22.5 degrees)
+    let d = 2.0 * (2.0_f64.sqrt() - 1.0);
+    let h = 2.0_f64.sqrt();
+    let eighth = [[-2.0, -10.0], [-2.0, d], [10.0 - h, 10.0 + h], [10.0, 30.0]];
+    assert_ends("G25 G41 X0 Y-10\nY0\nX10 Y10\nG40 Y30", &eighth);
+    // beyond a quarter turn a line between points at the distance r: here back along the same line
+    let back = [[-2.0, -10.0], [-2.0, 2.0], [2.0, 2.0], [2.0, -10.0], [30.0, -10.0]];
+    assert_ends("G25 G41 X0 Y-10\nY0\nY-10\nG40 X30", &back);
+    // to an arc: the line is prolonged, then the tangent of the arc
+    let arc = [[-2.0, -10.0], [-2.0, 2.0], [0.0, 2.0], [12.0, -10.0], [30.0, -10.0]];
+    assert_ends("G25 G41 X0 Y-10\nY0\nG02 X10 Y-10 J-10\nG01 G40 X30", &arc);
+    // from arc to arc: two tangents
+    let arcs = [[-22.0, -20.0], [0.0, 2.0], [2.0, 2.0], [2.0, 0.0], [20.0, -18.0], [40.0, -20.0]];
+    let text = "G25 G41 X-20 Y-20\nG02 X0 Y0 I20\nG03 X20 Y-20 I20\nG01 G40 X40";
+    assert_ends(text, &arcs);
+}
+
+#[test]
+fn without_a_word_corners_are_round_and_a_note_says_so() {
+    let run = run("V.G.WZ_AKT.R=2\nG41 X0 Y-10 F100\nY0\nX10\nG40 Y-20\nM30\n");
+    assert_eq!(super::places(&run.diagnostics), ["K-0109 2:1"]);
+    assert!(run.blocks().iter().any(|b| matches!(b.path, Path::Arc(_))));
+    let straight = super::machine(&["channel.prog_start.g_gruppe[6].nr=25"]);
+    let text = "V.G.WZ_AKT.R=2\nG41 X0 Y-10 F100\nY0\nX10\nG40 Y-20\nM30\n";
+    let sources = crate::source::MemorySources::new().with("main.nc", text);
+    let run = super::run_with(sources, straight, super::Options::default());
+    assert!(run.diagnostics.is_empty() && run.blocks().iter().all(|b| b.path.is_straight()));
+    let wrong = super::machine(&["channel.prog_start.g_gruppe[8].nr=51"]);
+    let sources = crate::source::MemorySources::new().with("main.nc", "M30\n");
+    let run = super::run_with(sources, wrong, super::Options::default());
+    assert_eq!(
+        (run.ids(), run.diagnostics[0].parameter),
+        (vec!["K-0111".to_owned()], Some("P-CHAN-00063"))
+    );
+}
+
+#[test]
+fn perpendicular_selection() {
+    // the vendor's example of G237: radius 5 to the right, the contour begins and ends with arcs
+    let text = "G26 G00 X0 Y0 Z0 G17\nX10 Y10\nV.G.WZ_AKT.R=5\nG237\nG42\nG03 X60 Y60 J50 F1000\nG01 Y100\nG03 X10 Y150 J50\nG40\nG00 X0 Y0\nM30\n";
+    let run = clean(text);
+    // the corner to the second arc (centre 60, 150) is an inner one: line X65 meets the circle of radius 55
+    let corner = 150.0 - (55.0_f64 * 55.0 - 25.0).sqrt();
+    let expected = [
+        [10.0, 10.0],
+        [10.0, 5.0],
+        [65.0, 60.0],
+        [65.0, corner],
+        [5.0, 150.0],
+        [10.0, 150.0],
+        [0.0, 0.0],
+    ];
+    let e = run.ends();
+    assert_eq!(e.len(), expected.len(), "{e:?}");
+    for (e, x) in e.iter().zip(expected) {
+        assert_near(&e[..2], &x);
+    }
+}
+
+#[test]
+fn compensation_in_a_tilted_plane() {
+    // the square of outer corners, turned by 30 degrees about Y: X = x cos, Z = -x sin
+    let e = ends("#CS ON [0,0,0,0,30,0]\nG41 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30");
+    let (s, c) = (0.5, 0.75_f64.sqrt());
+    let flat = [
+        [-2.0, -10.0],
+        [-2.0, 0.0],
+        [0.0, 2.0],
+        [10.0, 2.0],
+        [12.0, 0.0],
+        [12.0, -20.0],
+        [0.0, -30.0],
+    ];
+    assert_eq!(e.len(), flat.len(), "{e:?}");
+    for (e, [x, y]) in e.iter().zip(flat) {
+        assert_near(e, &[x * c, y, -x * s]);
+    }
+    let id = |text: &str| run(&format!("{TOOL}{text}\nM30\n")).ids();
+    assert_eq!(id("#CS ON [0,0,0,0,30,0]\nG41 X10\nX20\n#CS OFF\nX30"), ["K-0019"]);
+}
+
+#[test]
+fn errors_stand_at_the_block_that_does_not_fit() {
+    let places = |text: &str| super::places(&run(&format!("{TOOL}{text}\nM30\n")).diagnostics);
+    // the arc of line 5 is too small, which is known at line 6
+    assert_eq!(places("G42 Y-10\nY0\nG02 X2 I1\nG40 G01 Y-30"), ["90031 5:1"]);
+    assert_eq!(places("G42 X0 Y-10\nY0\nX1\nY-10\nG40 X5"), ["K-0115 5:1"]);
+}
+
+#[test]
+fn full_circles_inside_and_outside() {
+    let circle = |text: &str| {
+        let run = clean(&format!("{TOOL}{text}\nM30\n"));
+        let arcs = run.blocks().into_iter().filter_map(|b| match &b.path {
+            Path::Arc(arc) => Some((arc.radius(), arc.shape().sweep_rad)),
+            _ => None,
+        });
+        arcs.collect::<Vec<_>>()
+    };
+    let turn = std::f64::consts::TAU;
+    for (text, radius, sweep) in [
+        ("G41 X10 Y0\nG03 I-10\nG40 G01 X0", 8.0, turn),
+        ("G42 X10 Y0\nG03 I-10\nG40 G01 X30", 12.0, turn),
+        ("G41 X10 Y0\nG02 I-10\nG40 G01 X30", 12.0, -turn),
+    ] {
+        let found = circle(text);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!((found[0].0 - radius).abs() < 1e-9 && (found[0].1 - sweep).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn bottlenecks_between_elements_that_are_far_apart_are_told() {
+    // a pocket behind a neck from X20 to X20 + width, which a tool of radius 2 passes down and up again
+    let slot = |width: f64| {
+        let right = 20.0 + width;
+        format!(
+            "{TOOL}G41 X-5 Y20\nX20\nY12\nX15\nY4\nX{}\nY12\nX{right}\nY20\nX50\nG40 Y30\nM30\n",
+            right + 5.0
+        )
+    };
+    let run = run(&slot(3.0));
+    assert_eq!(run.ids(), ["K-0119"], "{:?}", super::shown(&run.diagnostics));
+    let told = &run.diagnostics[0];
+    assert!(!told.is_error() && told.text.contains("line 10") && told.text.contains("1.0000 mm"));
+    assert_eq!(told.source.as_ref().map(|s| s.line), Some(5));
+    assert!(super::run(&slot(5.0)).diagnostics.is_empty());
+}
+
+#[test]
+fn contouring_may_be_switched_between_compensated_blocks() {
+    let text = "G42 X0 Y-10\nY0\nG261\nX10\n#CONTOUR MODE OFF\nY-20\nG40 X0 Y-30";
+    let run = clean(&format!("{TOOL}{text}\nM30\n"));
+    let rounds: Vec<_> = run.blocks().iter().map(|b| b.contour.is_some()).collect();
+    assert_eq!(rounds, [false, false, true, false, false]);
+    // the path is that without contouring
+    assert_eq!(run.ends(), ends("G42 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30"));
 }

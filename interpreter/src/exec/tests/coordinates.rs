@@ -114,3 +114,28 @@ fn software_limits_are_checked() {
     assert_eq!(super::places(&run.diagnostics), ["21897 1:5"]);
     assert!(run.blocks().is_empty());
 }
+
+#[test]
+fn several_dimensions_in_a_block_act_from_their_place_on() {
+    // P-CHAN-00116: the examples of the vendor's page
+    let sources = |text: &str| crate::source::MemorySources::new().with("main.nc", text);
+    let several = || super::machine(&["channel.multi_dimension_in_block=1"]);
+    let text = "X1 Y1 Z1 F100\nG90 X10 Y20 G91 Z30\nX15 G90 Y25 Z15\nG91 X10 G90 Z30 G91 Y5\nX20 Z30 G90 Y40\nG90 G91 Z30\nX0 Y0\nM30\n";
+    let run = super::run_with(sources(text), several(), super::Options::default());
+    assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
+    let expected = [
+        [1.0, 1.0, 1.0],
+        [10.0, 20.0, 31.0],
+        [25.0, 25.0, 15.0],
+        [35.0, 30.0, 30.0],
+        [55.0, 40.0, 60.0],
+        [55.0, 40.0, 90.0],
+    ];
+    // the last block moves nothing: G91 has stayed
+    assert_eq!(run.ends(), expected);
+    // turned by 90 degrees: X is absolute, Y an increment
+    let text = "#ROTATION ON [ANGLE=90]\nX5 Y1 F100\nG90 X10 G91 Y2\nM30\n";
+    let run = super::run_with(sources(text), several(), super::Options::default());
+    super::assert_near(&run.end, &[-3.0, 10.0, 0.0]);
+    assert_eq!(super::run("G90 X1 G91 Y1 F100\nM30\n").ids(), ["K-0008"]);
+}

@@ -4,8 +4,8 @@ use super::{assert_near, checked, clean, places, run};
 
 #[test]
 fn words_that_are_only_ignored_warn_once() {
-    let run = run("G08 X1 F100\nG08 X2\n#TOOL DATA\n#LAH [1]\nM30\n");
-    assert_eq!(run.ids(), ["K-0100", "K-0100", "K-0100"]);
+    let run = run("G08 X1 F100\nG08 X2\n#TOOL DATA\n#LAH [1]\n#INIT V.E.\n#TLC ON\nM30\n");
+    assert_eq!(run.ids(), ["K-0100"; 5]);
     assert_eq!(run.end[0], 2.0);
 }
 
@@ -72,6 +72,32 @@ fn squares() {
             "run 3 of 3, F = 3000.000000"
         ]
     );
+}
+
+#[test]
+fn what_does_not_run_is_checked_for_its_syntax() {
+    // block numbers and control statements as errors, the rest as warnings; #IF and #COMMENT are left alone
+    let text = "$IF 0\nX!\n$IF (\nX1\n$ENDIF\n$ELSE\nX1 F100\n$ENDIF\n$FOR P1=2,1,1\nG01 X[1\n$ENDFOR\n$SWITCH 1\n$CASE 2\n#VAR\nV.P.A : UNS32 = 5\n V.P.B :: 4\n#ENDVAR\n$ENDSWITCH\n$GOTO N7\nY?\nN7: X2\n#IF 0\nX!\n#ENDIF\n#COMMENT BEGIN\nX!\n#COMMENT END\nM30\nX!\n";
+    let found = checked(text);
+    let lines: Vec<_> = found
+        .iter()
+        .map(|d| (d.id.to_string(), d.source.as_ref().map_or(0, |s| s.line), d.is_error()))
+        .collect();
+    let mut unreached: Vec<_> =
+        lines.iter().filter(|(id, _, _)| id == "K-0118").map(|(_, l, _)| *l).collect();
+    unreached.dedup();
+    assert_eq!(unreached, [2, 10, 16, 20], "{lines:?}");
+    assert!(
+        lines.iter().any(|(id, line, error)| id != "K-0118" && *line == 3 && *error),
+        "{lines:?}"
+    );
+    assert_eq!(lines.iter().filter(|(_, _, error)| *error).count(), 1, "{lines:?}");
+    // a subroutine that nobody calls
+    let found = checked("%L A\nX!\n%MAIN\nX1 F100\nM30\n");
+    assert!(places(&found)[0].starts_with("K-0118 2:") && found.iter().all(|d| !d.is_error()));
+    // taken in one pass, left out in another: looked at once
+    let text = "$FOR P1=1,2,1\n$IF P1==1\nX P1 F100\n$ELSE\nY1\n$ENDIF\n$ENDFOR\nM30\n";
+    assert!(checked(text).is_empty());
 }
 
 /// Access rights of external variables: 20097 and 20100.

@@ -192,3 +192,13 @@ fn macros() {
     );
     assert_eq!(run("\"A\" = \"\\\"A\\\"\"\n\"A\"\nM30\n").ids()[0], "20734");
 }
+
+#[test]
+fn parameters_of_earlier_programs_do_not_exist() {
+    // P-CHAN-00067: every run is the first program
+    let sources = crate::source::MemorySources::new().with("main.nc", "X P1 F100\nM30\n");
+    let machine = super::machine(&["channel.p_param_haltend=1"]);
+    let run = super::run_with(sources, machine, super::Options::default());
+    assert_eq!(run.ids(), ["K-0012"]);
+    assert!(run.diagnostics[0].hint.as_deref().is_some_and(|h| h.contains("P-CHAN-00067")));
+}

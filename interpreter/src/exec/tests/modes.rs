@@ -201,6 +201,54 @@ fn vector_limits() {
 }
 
 #[test]
+fn vector_limits_of_feed_or_rapid_blocks_alone() {
+    let run = clean(
+        "F100\n#VECTOR LIMIT ON [VEL=600 FEED]\n#VECTOR LIMIT ON [VEL=1200 ACC=5 RAPID]\nX1\nG00 X2\n#VECTOR LIMIT OFF [VEL RAPID]\nX3\n#VECTOR LIMIT OFF [FEED]\nG01 X4\n#VECTOR LIMIT ON [VEL=60 FEED RAPID]\nX5\nG00 X6\nM30\n",
+    );
+    let limits: Vec<_> = run
+        .blocks()
+        .iter()
+        .map(|b| (b.dynamics.vector.vel_mm_s, b.dynamics.vector.acc_mm_s2))
+        .collect();
+    let expected = [
+        (Some(10.0), None),
+        (Some(20.0), Some(5.0)),
+        (None, Some(5.0)),
+        (None, None),
+        (Some(1.0), None),
+        (Some(1.0), Some(5.0)),
+    ];
+    assert_eq!(limits, expected);
+}
+
+#[test]
+fn software_limits_of_the_program() {
+    let run = run("G98 X-5 Y-3\nG99 X5\nX5 Y-3 F100\nY-4\nM30\n");
+    assert_eq!(super::places(&run.diagnostics), ["21897 4:1"]);
+    let run = super::run("G99 X5\n#MSG [\"%f %f\", V.A.+SWE.X, V.A.+SWE_MDS.X]\nX6 F100\nM30\n");
+    assert_eq!(run.messages(), ["5.000000 500.000000"]);
+    assert_eq!(run.ids(), ["21897"]);
+    assert_eq!(super::run("G98\nM30\n").ids(), ["20003"]);
+}
+
+#[test]
+fn messages_to_the_diagnosis_receiver() {
+    let with = |value: &str| {
+        let text = "#MSG [\"a\"]\n#MSG PLC [\"b\"]\nM30\n";
+        let setting = format!("channel.configuration.decoder.msg_to_default={value}");
+        let sources = crate::source::MemorySources::new().with("main.nc", text);
+        super::run_with(sources, super::machine(&[&setting]), super::Options::default())
+    };
+    assert_eq!(with("STANDARD").messages(), ["a", "b"]);
+    let run = with("DISABLED");
+    assert_eq!((run.messages(), run.diagnostics.len()), (vec!["b"], 0));
+    let run = with("WARNING");
+    assert_eq!((run.messages(), run.ids()), (vec!["b"], vec!["22194".to_owned()]));
+    assert!(!run.diagnostics[0].is_error());
+    assert_eq!(with("ERROR").ids(), ["22195"]);
+}
+
+#[test]
 fn flushes_and_waits() {
     let run = clean(
         "F100\nX1\n#FLUSH\n#FLUSH CONTINUE\n#FLUSH WAIT\n#CHANNEL INIT [CMDPOS]\n#WAIT FOR 1\nM30\n",

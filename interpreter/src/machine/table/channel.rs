@@ -34,7 +34,7 @@ pub(super) const ROWS: &[Row] = &[
     chan("P-CHAN-00054", "mass_einh", Raw::Uns08, "0 mm, 1 inch for all linear axes")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0),
     chan("P-CHAN-00059", "mittelpkt_diff", Raw::Uns32, "G165: largest centre shift, absolute")
-        .unit("0.0001mm", "0.0001mm").source("TF5200 programming"),
+        .default(20000.0).unit("0.0001mm", "0.0001mm").source("TF5200 programming"),
     chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: largest centre shift relative to the radius")
         .default(50.0).unit("0.1%", "0.1%"),
     chan("P-CHAN-00062", "", Raw::Uns32, "not found in any public document; read and ignored"),
@@ -58,7 +58,8 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::Beyond(0.0), Bound::None).default(100.0).special(-1.0).outside(70, Correction::Default),
     chan("P-CHAN-00110", "check_jerk_on_poly_path", Raw::Uns32, "jerk check in polynomials")
         .range(Bound::At(0.0), Bound::At(3.0)).default(1.0),
-    chan("P-CHAN-00116", "", Raw::Uns32, "several G90/G91 per block, effective from their place"),
+    chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, effective from their place")
+        .default(0.0),
     chan("P-CHAN-00117", "mode_trans_jerk", Raw::Uns32, "0: 00013 not below 00154, 1: independent weights, 2: P-AXIS-00339/340 act")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
     chan("P-CHAN-00118", "m6_prog_file", Raw::Text, "global subroutine called by M06"),

@@ -1,0 +1,84 @@
+//! Mirroring, rotation and coordinate systems carry a whole path along: arcs, helices, chamfers and compensation.
+
+use super::clean;
+
+/// Points of every motion of a program.
+fn points(text: &str) -> Vec<[f64; 3]> {
+    let run = clean(text);
+    let mut points = Vec::new();
+    for block in run.blocks() {
+        for share in [0.0, 0.2, 0.5, 0.9, 1.0] {
+            let mut q = [0.0; 3];
+            block.path.position(share * block.path.length(), &mut q);
+            points.push(q);
+        }
+    }
+    points
+}
+
+const PROGRAMS: &[&str] = &[
+    "X5 Y2\nG02 X15 Y2 I5\nG03 X15 Y12 R5 Z4\nG02 I3 J1\nG161 G03 X10 Y20 Z9 I12.5 J16 K2\n",
+    "X10\nG301 I2\nY10\nG302 I1\nG02 X20 Y10 I5 J-5\nG301\nG01 Y-5\nZ-5\nX0",
+    "V.G.WZ_AKT.R=2\nG26 G41 X0 Y-10\nY0\nX10\nG02 X20 Y-10 J-10\nG01 Z3\nG03 X30 Y-20 I10\nG01 Y-30\nX5\nG40 X0 Y-40",
+    "V.G.WZ_AKT.R=1.5\nG25 G42 X0 Y-10\nY0\nX10\nG02 X20 Y-10 J-10\nG03 X30 Y-20 I10\nG01 Y-5\nX45\nG40 X50 Y-40",
+    "V.G.WZ_AKT.R=2\nG237 G26 G42 G03 X20 Y20 J20\nG01 X-20\nG40 X0 Y0",
+];
+
+#[track_caller]
+fn assert_carried(frame: &str, image: impl Fn([f64; 3]) -> [f64; 3]) {
+    for text in PROGRAMS {
+        let plain = points(&format!("F1000 G00 X0 Y0 Z0\nG01 {text}\nM30\n"));
+        let framed = points(&format!("{frame}\nF1000 G00 X0 Y0 Z0\nG01 {text}\nM30\n"));
+        // the way to the origin of the frame may be a motion of its own
+        let framed = &framed[framed.len() - plain.len()..];
+        for (p, q) in plain.iter().zip(framed) {
+            let expected = image(*p);
+            let near = expected.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-9);
+            assert!(near, "{frame}: {text}: {p:?} at {q:?} instead of {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn mirroring() {
+    assert_carried("G71 G21", |[x, y, z]| [-x, y, z]);
+    assert_carried("G71 G22", |[x, y, z]| [x, -y, z]);
+    assert_carried("G71 G23", |[x, y, z]| [-x, -y, z]);
+}
+
+#[test]
+fn rotation_in_the_plane() {
+    let (s, c) = libm::sincos(37.0_f64.to_radians());
+    let turned = |[x, y, z]: [f64; 3]| [c * x - s * y, s * x + c * y, z];
+    assert_carried("#ROTATION ON [ANGLE=37]", turned);
+    assert_carried("G68 R37 X0 Y0", turned);
+    // mirrored behind the rotation
+    assert_carried("G71 G21\n#ROTATION ON [ANGLE=37]", |p| {
+        let [x, y, z] = turned(p);
+        [-x, y, z]
+    });
+}
+
+#[test]
+fn coordinate_systems_turned_in_space() {
+    let deg = |d: f64| libm::sincos(d.to_radians());
+    let about_x = |(s, c): (f64, f64), [x, y, z]: [f64; 3]| [x, c * y - s * z, s * y + c * z];
+    let about_y = |(s, c): (f64, f64), [x, y, z]: [f64; 3]| [c * x + s * z, y, c * z - s * x];
+    let about_z = |(s, c): (f64, f64), [x, y, z]: [f64; 3]| [c * x - s * y, s * x + c * y, z];
+    let shifted = |[x, y, z]: [f64; 3]| [x + 5.0, y - 6.0, z + 7.0];
+    assert_carried("#CS ON [5,-6,7,0,0,30]", |p| shifted(about_z(deg(30.0), p)));
+    assert_carried("#CS ON [5,-6,7,25,0,0]", |p| shifted(about_x(deg(25.0), p)));
+    assert_carried("#CS ON [5,-6,7,0,-65,0]", |p| shifted(about_y(deg(-65.0), p)));
+    let all = |p| shifted(about_z(deg(30.0), about_y(deg(-65.0), about_x(deg(25.0), p))));
+    assert_carried("#CS ON [5,-6,7,25,-65,30]", all);
+    assert_carried("#CS ON [5,-6,7,25,-65,30]\nG71 G21", |[x, y, z]| all([-x, y, z]));
+    assert_carried("#CS ON [5,-6,7,25,-65,0]\n#CS ON [0,0,0,10,0,40]", |p| {
+        let inner = about_z(deg(40.0), about_x(deg(10.0), p));
+        shifted(about_y(deg(-65.0), about_x(deg(25.0), inner)))
+    });
+    // a zero offset lies outside the frame
+    assert_carried("V.G.NP[1].V.X=3\nV.G.NP[1].V.Z=2\nG54\n#CS ON [5,-6,7,25,-65,30]", |p| {
+        let [x, y, z] = all(p);
+        [x + 3.0, y, z + 2.0]
+    });
+}

@@ -1,0 +1,15 @@
+; check: exit 0
+; warning K-0119 at 6:1
+V.G.WZ_AKT.R=2 G26 F1000
+G41 X-5 Y20
+X20
+Y12
+X15
+Y4
+X28
+Y12
+X23
+Y20
+X50
+G40 Y30
+M30
