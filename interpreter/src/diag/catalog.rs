@@ -308,6 +308,7 @@ pub const ENTRIES: &[Entry] = &[
     row(Kontur(73), "K-SETTING", Error, 3, 3, 0, "setting names no axis, parameter or value", "--set TARGET.key=value"),
     row(Kontur(74), "K-LIST-COUNT", Warning, 1, 1, 2, "more entries than the list's own count, ignored", "zahl_mds, achs_anzahl, spdl_anzahl"),
     row(Kontur(75), "K-LIST-NOEFFECT", Warning, 1, 1, 2, "list value without effect", "P-CHAN-00063 presets G135"),
+    row(Kontur(76), "K-LIST-ADVICE", Note, 1, 1, 2, "list value outside what the documents recommend", "a recommendation: nothing is changed"),
     row(Kontur(80), "K-AX-DEV", Warning, 1, 1, 1, "tolerance AX_DEV could not be kept", "axes with unequal kernels, or a corner that is final already"),
     row(Kontur(81), "K-MSG", Note, 1, 1, 1, "message of the program (#MSG)", ""),
     row(Kontur(82), "K-INTERNAL", Error, 6, 8, 0, "internal error of kontur", ""),
