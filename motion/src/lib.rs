@@ -19,7 +19,10 @@ pub mod planner;
 pub mod profile;
 pub mod queue;
 pub mod realtime;
+mod ride;
 mod short;
 pub mod spline;
 mod timeline;
 pub mod tolerance;
+#[cfg(test)]
+mod work;

@@ -4,18 +4,20 @@
 //! 1. *caps* (caller): the velocity that each boundary allows for itself, see [`crate::corner`];
 //! 2. *knots*: boundaries where the acceleration is zero. STEP: every boundary (its acceleration may jump anyway).
 //!    TRAPEZ and SIN2: every boundary except those inside a run of blocks with equal feed, (nearly) equal slope and no
-//!    binding cap - such a run is one span. HSC and `NO_OPT=0`: as few as possible, see 5;
+//!    binding cap - such a run is one span. HSC and `NO_OPT=0`: the local minima of the speed, unless they are so close
+//!    to each other that a stop of the acceleration costs speed;
 //! 3. *backward pass*: no knot is faster than what can still be braked to the next one, so the window ends at rest;
 //! 4. *forward pass*: no knot is faster than what can be reached from the one before;
-//! 5. *check* (HSC, `NO_OPT=0`): in every span the boundary that is exceeded most becomes a knot, and 3 to 5 are
-//!    repeated; every round adds a knot, so it ends.
+//! 5. *check* (HSC, `NO_OPT=0`): a span that exceeds a limit inside is planned along its limits, see [`crate::ride`]; where
+//!    that is refused, the boundary that is exceeded most becomes a knot, and 3 to 5 are repeated.
 //!
 //! Guarantee: every span is feasible, and by induction a stop is possible from every state that is ever output, because
 //! the passes only lower velocities and `reach_down` is monotone.
 
 use crate::limit::SpeedLimit;
-use crate::profile::{Infeasible, SlopeLimits, SpanProfile};
+use crate::profile::{Infeasible, Rates, SlopeLimits, SpanProfile};
 use crate::queue::Queued;
+use crate::ride::{Cell, has_hill, ride};
 use std::sync::Arc;
 
 /// Relative difference of path acceleration up to which blocks of one run are planned as one span with the smaller
@@ -74,22 +76,39 @@ pub fn plan(
     let mut knot = vec![false; n + 1];
     (knot[0], knot[n]) = (true, true);
     mark_knots(blocks, feeds, caps, forced, &mut knot);
+    let mut soft = minima(blocks, feeds, caps, v_start.0, &knot);
+    let mut known: Vec<Span> = Vec::new();
     loop {
-        let stretches = stretches(blocks, feeds, &knot);
+        let all: Vec<bool> = knot.iter().zip(&soft).map(|(k, s)| *k || *s).collect();
+        let stretches = stretches(blocks, feeds, &all);
         let speeds = passes(&stretches, feeds, caps, v_start, end);
-        let mut plan = Plan { spans: Vec::with_capacity(stretches.len()) };
+        if drop_lowered(&stretches, &speeds, feeds, caps, &knot, &mut soft) {
+            continue;
+        }
+        let mut spans: Vec<Span> = Vec::with_capacity(stretches.len());
         let mut again = false;
         for (k, s) in stretches.iter().enumerate() {
             let (from, to) = (speeds[k], speeds[k + 1]);
-            let profile = s.slope.plan(from.0, to.0, s.feed, s.length)?;
+            if let Some(same) = unchanged(&known, s, from.0, to.0) {
+                spans.push(same);
+                continue;
+            }
+            #[cfg(test)]
+            crate::work::add();
+            let mut profile = s.slope.plan(from.0, to.0, s.feed, s.length)?;
             if s.end - s.first > 1
                 && blocks[s.first].plans_across()
                 && let Some(worst) = most_exceeded(blocks, feeds, caps, s, &profile)
             {
-                knot[worst] = true;
-                again = true;
+                let cells = cells(blocks, feeds, caps, s.first, s.end);
+                if let Some(chain) = cells.and_then(|c| ride(&c, from.0, to.0)) {
+                    profile = SpanProfile::from_chain(chain);
+                } else {
+                    knot[worst] = true;
+                    again = true;
+                }
             }
-            plan.spans.push(Span {
+            spans.push(Span {
                 first: s.first,
                 end: s.end,
                 profile,
@@ -98,9 +117,115 @@ pub fn plan(
             });
         }
         if !again {
-            return Ok(plan);
+            return Ok(Plan { spans });
+        }
+        known = spans;
+    }
+}
+
+/// The span of the last round, if neither its ends nor its speeds have changed.
+fn unchanged(known: &[Span], s: &Stretch, v0: f64, v1: f64) -> Option<Span> {
+    let span = &known[known.binary_search_by_key(&s.first, |span| span.first).ok()?];
+    let ends = (span.profile.at(0.0).v_mm_s, span.profile.at(span.profile.duration()).v_mm_s);
+    let same =
+        span.end == s.end && ends.0.to_bits() == v0.to_bits() && ends.1.to_bits() == v1.to_bits();
+    same.then(|| span.clone())
+}
+
+/// Limits of the blocks of a stretch; `None` if a slope does not have ramps of constant jerk.
+fn cells(
+    blocks: &[Arc<Queued>],
+    feeds: &[Cap],
+    caps: &[Cap],
+    first: usize,
+    end: usize,
+) -> Option<Vec<Cell>> {
+    let mut at = 0.0;
+    (first..end)
+        .map(|i| {
+            at += blocks[i].length;
+            let cap = if i + 1 < end { caps[i + 1].0 } else { f64::INFINITY };
+            Some(Cell { end: at, v: feeds[i].0, cap, rates: rates(&blocks[i])? })
+        })
+        .collect()
+}
+
+fn rates(block: &Queued) -> Option<Rates> {
+    match &block.slope {
+        SlopeLimits::Ramped(limits) => limits.rates(),
+        SlopeLimits::Step(_) => None,
+    }
+}
+
+/// Boundaries at which the fastest speed without a jerk limit has a local minimum worth the name: there the acceleration passes
+/// through zero in any case, so they are knots that cost nothing.
+fn minima(
+    blocks: &[Arc<Queued>],
+    feeds: &[Cap],
+    caps: &[Cap],
+    v_start: f64,
+    knot: &[bool],
+) -> Vec<bool> {
+    let n = blocks.len();
+    let cap = |i: usize| caps[i].0.min(feeds[i - 1].0).min(feeds[i].0);
+    let mut square: Vec<f64> = (1..n).map(|i| cap(i) * cap(i)).collect();
+    square.insert(0, v_start * v_start);
+    square.push(0.0);
+    let own = square.clone();
+    let gain = |i: usize, up: bool| {
+        rates(&blocks[i]).map_or(0.0, |r| 2.0 * blocks[i].length * if up { r.acc } else { r.dec })
+    };
+    for i in (0..n).rev() {
+        square[i] = square[i].min(square[i + 1] + gain(i, false));
+    }
+    for i in 0..n {
+        square[i + 1] = square[i + 1].min(square[i] + gain(i, true));
+    }
+    let own_hill = |i: usize| {
+        let v = square[i].max(square[i + 1]).sqrt();
+        rates(&blocks[i]).is_some_and(|r| has_hill(blocks[i].length, v, &r))
+    };
+    (0..=n)
+        .map(|i| {
+            i > 0
+                && i < n
+                && !knot[i]
+                && blocks[i].plans_across()
+                && rates(&blocks[i]).is_some()
+                && square[i] >= own[i]
+                && (square[i] <= square[i - 1] || own_hill(i - 1))
+                && (square[i] <= square[i + 1] || own_hill(i))
+        })
+        .collect()
+}
+
+/// Drops the minima at which acceleration zero would cost speed; true if there were any.
+fn drop_lowered(
+    stretches: &[Stretch],
+    speeds: &[Cap],
+    feeds: &[Cap],
+    caps: &[Cap],
+    knot: &[bool],
+    soft: &mut [bool],
+) -> bool {
+    let mut any = false;
+    // from the speed at the start, which is final, the first one may be out of reach
+    if let [first, second, ..] = stretches {
+        let (v0, v1) = (speeds[0].0, speeds[1].0);
+        if soft[second.first] && first.slope.down_distance(v0.max(v1), v1) > first.length {
+            soft[second.first] = false;
+            any = true;
         }
     }
+    for (s, v) in stretches.iter().zip(speeds).skip(1) {
+        let b = s.first;
+        let cap = caps[b].0.min(feeds[b - 1].0).min(feeds[b].0);
+        if soft[b] && !knot[b] && v.0 < cap * (1.0 - 1e-9) {
+            soft[b] = false;
+            any = true;
+        }
+    }
+    any
 }
 
 fn mark_knots(

@@ -11,6 +11,7 @@
 //!
 //! Nothing here knows axes or geometry: limits arrive already referred to the path.
 
+mod chain;
 mod join;
 mod leg;
 mod ramp;
@@ -22,8 +23,10 @@ mod speed_change;
 mod step;
 mod third_order;
 
+pub(crate) use chain::{Chain, Phase};
 pub use ramp::RampShape;
 pub use ramped::RampedLimits;
+pub(crate) use ramped::Rates;
 pub use slope::{Infeasible, SlopeLimits};
 pub use span::{SpanProfile, State};
 pub(crate) use speed_change::SpeedChange;

@@ -4,7 +4,9 @@
 
 mod common;
 
-use common::{Job, axis, channel};
+use common::{Job, axis, channel, deviation, filtered};
+use kontur_filters::time::CycleTime;
+use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, CurveJerk, Feed, Tolerance};
@@ -458,5 +460,35 @@ fn a_larger_tolerance_costs_nothing() {
                 last = now;
             }
         }
+    }
+}
+
+/// `AX_DEV` holds on curves as it does on arcs: the filtered setpoints stay within it of the contoured path.
+#[test]
+fn tolerance_monitoring_on_curves() {
+    let points: [&[f64]; 5] =
+        [&[0.0, 0.0], &[10.0, 0.0], &[10.0, 10.0], &[0.0, 10.0], &[0.0, 20.0]];
+    for kind in [Trapez, Hsc] {
+        let guard = VibGuardSettings { mode: 2, freq_hz: 20.0, damping: 0.05 };
+        let mut job = Job::new(1.0, kind);
+        job.kernel = Some(guard.kernel(CycleTime::DEFAULT).unwrap());
+        let mut worst = [0.0; 2];
+        for (tolerance, worst) in [None, Some(0.01)].into_iter().zip(&mut worst) {
+            job.tolerance = Tolerance { ax_dev_mm: tolerance, acc_fact: 1.0 };
+            let paths = points.windows(2).map(|w| line(w[0], w[1]));
+            let (blocks, _) = contoured(&job, dev(1.0), paths);
+            let mut polygon = Vec::new();
+            for b in &blocks {
+                let l = b.path.length();
+                polygon.extend((0..400).map(|k| at(&b.path, l * f64::from(k) / 400.0)));
+            }
+            polygon.push(blocks[blocks.len() - 1].path.end().clone());
+            let views: Vec<&[f64]> = polygon.iter().map(|p| &p[..]).collect();
+            let out = job.run(points[0], blocks.into_iter());
+            let set = filtered(&out, job.kernel.as_ref().unwrap());
+            *worst = set.iter().step_by(5).map(|p| deviation(p, &views)).fold(0.0, f64::max);
+        }
+        assert!(worst[0] > 0.02, "{kind:?}: the filter cuts the curves: {worst:?}");
+        assert!(worst[1] <= 0.01 + 1e-4, "{kind:?}: {worst:?}");
     }
 }

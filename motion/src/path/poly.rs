@@ -6,6 +6,7 @@
 
 use crate::axis::AxisVec;
 use smallvec::SmallVec;
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// Coefficients of one axis over one piece, lowest power first.
@@ -34,7 +35,7 @@ const GAUSS: [(f64, f64); 5] = [
 /// Sub-interval of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cell {
-    piece: u32,
+    piece: usize,
     from: f64,
     to: f64,
     /// Path length at `from`.
@@ -149,7 +150,7 @@ impl PolyPath {
             self.subdivide(piece, (from, mid), scale, depth + 1, cells);
             self.subdivide(piece, (mid, to), scale, depth + 1, cells);
         } else {
-            cells.push(Cell { piece: piece as u32, from, to, s: self.length });
+            cells.push(Cell { piece, from, to, s: self.length });
             self.length += whole;
         }
     }
@@ -172,7 +173,7 @@ impl PolyPath {
         let i = self.cells.partition_point(|c| c.s <= s).saturating_sub(1);
         let cell = self.cells[i];
         let until = self.cells.get(i + 1).map_or(self.length, |c| c.s);
-        let piece = cell.piece as usize;
+        let piece = cell.piece;
         let want = s - cell.s;
         let whole = until - cell.s;
         let (mut low, mut high) = (cell.from, cell.to);
@@ -270,7 +271,7 @@ impl PolyPath {
     fn find_extremes(&mut self) {
         let n = self.start.len();
         for cell in self.cells.clone().iter() {
-            let piece = cell.piece as usize;
+            let piece = cell.piece;
             let at = |k: usize| cell.from + (cell.to - cell.from) * k as f64 / SAMPLES as f64;
             let samples: SmallVec<[Derivatives; SAMPLES + 1]> =
                 (0..=SAMPLES).map(|k| self.derivatives(piece, at(k))).collect();
@@ -304,24 +305,35 @@ impl PolyPath {
             self.point(piece, x, &mut q);
             q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
         };
-        let mut best = (f64::INFINITY, 0, 0.0, 0.0);
+        let step = |cell: &Cell| (cell.to - cell.from) / SAMPLES as f64;
+        let mut best = (f64::INFINITY, 0, 0.0);
         for (i, cell) in self.cells.iter().enumerate() {
-            let step = (cell.to - cell.from) / SAMPLES as f64;
             for k in 0..=SAMPLES {
-                let x = cell.from + step * k as f64;
-                let d = distance(cell.piece as usize, x);
+                let x = cell.from + step(cell) * k as f64;
+                let d = distance(cell.piece, x);
                 if d < best.0 {
-                    best = (d, i, x, step);
+                    best = (d, i, x);
                 }
             }
         }
-        let (_, i, x, step) = best;
-        let cell = self.cells[i];
-        let piece = cell.piece as usize;
-        let near = (x - step).max(cell.from);
-        let far = (x + step).min(cell.to);
-        let x = self.closest(piece, point, near, far);
-        cell.s + self.gauss(piece, cell.from, x)
+        // a sample at the border of a sub-interval may have the nearest point in the next one
+        let (_, i, x) = best;
+        let mut nearest = (f64::INFINITY, 0.0);
+        for j in i.saturating_sub(1)..(i + 2).min(self.cells.len()) {
+            let cell = &self.cells[j];
+            let step = step(cell);
+            let (low, high) = match j.cmp(&i) {
+                Ordering::Less => (cell.to - step, cell.to),
+                Ordering::Equal => ((x - step).max(cell.from), (x + step).min(cell.to)),
+                Ordering::Greater => (cell.from, cell.from + step),
+            };
+            let x = self.closest(cell.piece, point, low, high);
+            let d = distance(cell.piece, x);
+            if d < nearest.0 {
+                nearest = (d, cell.s + self.gauss(cell.piece, cell.from, x));
+            }
+        }
+        nearest.1
     }
 
     /// Zero of the derivative of the squared distance between two parameters, by bisection and Newton.
@@ -459,9 +471,10 @@ mod tests {
         assert_eq!(q[..], path.start()[..]);
         path.position(path.length(), &mut q);
         assert_eq!(q[..], path.end()[..]);
-        for s in [0.0, 0.4, 1.7, path.length()] {
+        for k in 0..=1000 {
+            let s = path.length() * f64::from(k) / 1000.0;
             path.position(s, &mut q);
-            assert!((path.nearest(&q) - s).abs() < 1e-9);
+            assert!((path.nearest(&q) - s).abs() < 1e-9, "{s}");
         }
     }
 

@@ -86,6 +86,12 @@ impl LegLimits {
         Self::new(self.shape, self.constant_ramp_time, a, rise, fall)
     }
 
+    /// Plateau, first and second ramp time, if the jerk is constant.
+    pub(super) fn trapez(&self) -> Option<(f64, f64, f64)> {
+        (self.shape == RampShape::Trapez && !self.constant_ramp_time)
+            .then_some((self.a, self.t1, self.t2))
+    }
+
     /// True if plateau and ramps differ by at most `ratio`.
     pub(super) fn nearly_equals(&self, other: &Self, ratio: f64) -> bool {
         let near = |x: f64, y: f64| (x - y).abs() <= ratio * x.max(y);

@@ -12,6 +12,17 @@ pub struct RampedLimits {
     down: LegLimits,
 }
 
+/// The numbers of a TRAPEZ slope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rates {
+    /// Acceleration in mm/s2.
+    pub(crate) acc: f64,
+    /// Deceleration in mm/s2, positive.
+    pub(crate) dec: f64,
+    /// Ramp times `t1..t4` in s.
+    pub(crate) ramps: [f64; 4],
+}
+
 impl RampedLimits {
     /// Limits referred to the path.
     ///
@@ -38,6 +49,13 @@ impl RampedLimits {
 
     pub(super) fn with_braking(&self, dec_mm_s2: f64, ramp_s: f64) -> Self {
         Self { up: self.up, down: self.down.with(dec_mm_s2, ramp_s) }
+    }
+
+    /// Plateaus and ramp times, if the ramps are those of TRAPEZ.
+    pub(crate) fn rates(&self) -> Option<Rates> {
+        let (acc, t1, t2) = self.up.trapez()?;
+        let (dec, t4, t3) = self.down.trapez()?;
+        Some(Rates { acc, dec, ramps: [t1, t2, t3, t4] })
     }
 
     pub(super) fn combine(

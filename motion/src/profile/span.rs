@@ -1,5 +1,6 @@
 //! The planned speed over one span.
 
+use super::chain::Chain;
 use super::leg::RampLeg;
 use super::step::StepLeg;
 use smallvec::SmallVec;
@@ -71,9 +72,19 @@ pub(super) struct Span {
     pub(super) at_feed: bool,
 }
 
-/// Speed-up, cruise and braking over one span; acceleration is zero at start, peak and end (except STEP).
+/// The speed over one span; acceleration is zero at start and end (except STEP).
 #[derive(Clone, Debug, PartialEq)]
-pub struct SpanProfile {
+pub struct SpanProfile(Shape);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Shape {
+    Legs(Box<Legs>),
+    Chain(Chain),
+}
+
+/// Speed-up, cruise and braking.
+#[derive(Clone, Debug, PartialEq)]
+struct Legs {
     up: Leg,
     /// Braking, seen backwards from the end of the span.
     down: Leg,
@@ -87,15 +98,94 @@ pub struct SpanProfile {
 }
 
 impl SpanProfile {
-    /// Puts the legs together such that they cover the length exactly.
-    ///
-    /// `distance` is that of both legs unstretched. What is missing is cruised at the peak; a rounding error of
-    /// the peak, or legs slightly too long, are taken out by stretching time.
+    /// Puts two legs together, see [`Legs::assemble`].
     pub(super) fn assemble(
         span: Span,
         distance: f64,
         legs: impl FnOnce(f64) -> (Leg, Leg),
     ) -> Self {
+        Self(Shape::Legs(Box::new(Legs::assemble(span, distance, legs))))
+    }
+
+    /// A chain of phases of constant jerk.
+    pub(crate) fn from_chain(chain: Chain) -> Self {
+        Self(Shape::Chain(chain))
+    }
+
+    /// Duration in s.
+    pub fn duration(&self) -> f64 {
+        match &self.0 {
+            Shape::Legs(p) => p.duration(),
+            Shape::Chain(p) => p.duration(),
+        }
+    }
+
+    /// Length in mm.
+    pub fn length(&self) -> f64 {
+        match &self.0 {
+            Shape::Legs(p) => p.length,
+            Shape::Chain(p) => p.length(),
+        }
+    }
+
+    /// Highest velocity in mm/s.
+    pub fn peak(&self) -> f64 {
+        match &self.0 {
+            Shape::Legs(p) => p.peak,
+            Shape::Chain(p) => p.peak(),
+        }
+    }
+
+    /// Highest velocity in mm/s between two path lengths.
+    pub fn highest_between(&self, from_mm: f64, to_mm: f64) -> f64 {
+        match &self.0 {
+            Shape::Legs(p) => p.highest_between(from_mm, to_mm),
+            Shape::Chain(p) => p.highest_between(from_mm, to_mm),
+        }
+    }
+
+    /// The lower one of the velocities at the ends in mm/s.
+    pub fn lowest(&self) -> f64 {
+        match &self.0 {
+            Shape::Legs(p) => p.v_start.min(p.v_end),
+            Shape::Chain(p) => p.at(0.0).v_mm_s.min(p.at(p.duration()).v_mm_s),
+        }
+    }
+
+    /// Durations of the segments in s, in the order of time.
+    ///
+    /// TRAPEZ and SIN2: the seven segments I..VII. STEP: one per acceleration level from the lowest, cruise, one
+    /// per deceleration level from the highest. A speed that follows varying limits: one per phase of constant jerk.
+    pub fn segments(&self) -> SmallVec<[f64; 8]> {
+        match &self.0 {
+            Shape::Legs(p) => p.segments(),
+            Shape::Chain(p) => p.times(),
+        }
+    }
+
+    /// State at time `t` in s since the start; before the start and after the end the state of that end.
+    pub fn at(&self, t: f64) -> State {
+        match &self.0 {
+            Shape::Legs(p) => p.at(t),
+            Shape::Chain(p) => p.at(t),
+        }
+    }
+
+    /// Time in s at which path length `s_mm` is reached; the inverse of [`Self::at`], not decreasing.
+    pub fn time_at(&self, s_mm: f64) -> f64 {
+        match &self.0 {
+            Shape::Legs(p) => p.time_at(s_mm),
+            Shape::Chain(p) => p.time_at(s_mm),
+        }
+    }
+}
+
+impl Legs {
+    /// Puts the legs together such that they cover the length exactly.
+    ///
+    /// `distance` is that of both legs unstretched. What is missing is cruised at the peak; a rounding error of
+    /// the peak, or legs slightly too long, are taken out by stretching time.
+    fn assemble(span: Span, distance: f64, legs: impl FnOnce(f64) -> (Leg, Leg)) -> Self {
         let Span { length, v0, ve, peak, at_feed } = span;
         let rest = length - distance;
         let rounding = rest < 0.0 || (!at_feed && rest <= 1e-12 * length);
@@ -121,22 +211,12 @@ impl SpanProfile {
     }
 
     /// Duration in s.
-    pub fn duration(&self) -> f64 {
+    fn duration(&self) -> f64 {
         self.up_s + self.cruise_s + self.down_s
     }
 
-    /// Length in mm.
-    pub fn length(&self) -> f64 {
-        self.length
-    }
-
-    /// Highest velocity in mm/s.
-    pub fn peak(&self) -> f64 {
-        self.peak
-    }
-
     /// Highest velocity in mm/s between two path lengths.
-    pub fn highest_between(&self, from_mm: f64, to_mm: f64) -> f64 {
+    fn highest_between(&self, from_mm: f64, to_mm: f64) -> f64 {
         let top = self.up.distance();
         if from_mm < self.length - self.down.distance() && to_mm > top {
             return self.peak;
@@ -145,16 +225,11 @@ impl SpanProfile {
         self.at(self.time_at(at)).v_mm_s
     }
 
-    /// Lowest velocity in mm/s: that of one of the ends.
-    pub fn lowest(&self) -> f64 {
-        self.v_start.min(self.v_end)
-    }
-
     /// Durations of the segments in s, in the order of time.
     ///
     /// TRAPEZ and SIN2: the seven segments I..VII. STEP: one per acceleration level from the lowest, cruise, one
     /// per deceleration level from the highest.
-    pub fn segments(&self) -> SmallVec<[f64; 8]> {
+    fn segments(&self) -> SmallVec<[f64; 8]> {
         let mut all = SmallVec::from_slice(&self.up.times());
         all.push(self.cruise_s);
         all.extend(self.down.times().into_iter().rev());
@@ -162,7 +237,7 @@ impl SpanProfile {
     }
 
     /// State at time `t` in s since the start; before the start and after the end the state of that end.
-    pub fn at(&self, t: f64) -> State {
+    fn at(&self, t: f64) -> State {
         let t = t.clamp(0.0, self.duration());
         let mut state = if t < self.up_s {
             self.up.at(t)
@@ -182,7 +257,7 @@ impl SpanProfile {
     }
 
     /// Time in s at which path length `s_mm` is reached; the inverse of [`Self::at`], not decreasing.
-    pub fn time_at(&self, s_mm: f64) -> f64 {
+    fn time_at(&self, s_mm: f64) -> f64 {
         if s_mm <= 0.0 {
             return 0.0;
         }

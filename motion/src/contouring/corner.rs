@@ -1,0 +1,293 @@
+//! One corner: how large the curve may be.
+
+use super::blend::{self, Blend, End};
+use super::{ContourMode, ContourSettings, Held, NoContour, is_feed};
+use crate::axis::AxisVec;
+use crate::block::Block;
+use crate::path::Path;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Least tolerance and least corner distance in mm: the resolution of the vendor's lengths.
+const SMALLEST_MM: f64 = 1e-4;
+/// Direction changes below this are rounding of the program's numbers, as at kinks.
+const TANGENT: f64 = 1e-9;
+
+/// A curve that fits.
+pub(super) struct Curve {
+    pub(super) blend: Blend,
+    pub(super) pre_mm: f64,
+    pub(super) post_mm: f64,
+}
+
+/// Lengths that bound the curve at one corner.
+#[derive(Clone, Copy)]
+struct Bounds {
+    pre: f64,
+    post: f64,
+    /// Largest distance of the interim point from the corner.
+    dev: Option<f64>,
+    /// Both distances stay equal when one of them is limited.
+    symmetric: bool,
+    point: [Option<f64>; 3],
+    passes_point: bool,
+}
+
+/// Largest corner distance of a block: half of what does not have to remain, on arcs at most a quarter turn
+/// (source: TF5200, maximum corner distance).
+fn longest(path: &Path, settings: &ContourSettings) -> f64 {
+    let half = 0.5 * (1.0 - settings.remain_ratio.clamp(0.0, 1.0)) * path.length();
+    match path {
+        Path::Arc(arc) => half.min(path.length() * FRAC_PI_2 / arc.shape().sweep_rad.abs()),
+        _ => half,
+    }
+}
+
+/// The curve at the corner between two blocks; `None` if there is no corner.
+pub(super) fn curve(
+    held: &Held,
+    skipped: &[Block],
+    to: &Block,
+    settings: &ContourSettings,
+) -> Result<Option<Curve>, NoContour> {
+    let from = &held.block;
+    if from.dynamics.feed_axes != to.dynamics.feed_axes {
+        return Err(NoContour::FeedGroup);
+    }
+    if [from, to].iter().any(|b| matches!(b.path, Path::Curve(_))) {
+        return Err(NoContour::NotPossible);
+    }
+    let corner = Corner::new(from, skipped, to, settings);
+    if corner.mixed {
+        return Err(NoContour::NotPossible);
+    }
+    if skipped.is_empty() && corner.jump <= TANGENT {
+        return Ok(None);
+    }
+    if corner.angle_rad >= PI - 1e-6 {
+        return Err(NoContour::NotPossible);
+    }
+    let angle_deg = corner.angle_rad.to_degrees();
+    if angle_deg > settings.max_angle_deg {
+        return Err(NoContour::AngleAboveMaximum { angle_deg });
+    }
+    let bounds = bounds(settings)?;
+    corner.fit(bounds).map(Some).ok_or(NoContour::BlockTooShort)
+}
+
+fn bounds(settings: &ContourSettings) -> Result<Bounds, NoContour> {
+    let free = Bounds {
+        pre: f64::INFINITY,
+        post: f64::INFINITY,
+        dev: None,
+        symmetric: true,
+        point: [None; 3],
+        passes_point: false,
+    };
+    let deviation = |value_mm: f64| {
+        // written so that NaN is refused
+        if value_mm >= SMALLEST_MM {
+            Ok(value_mm)
+        } else {
+            Err(NoContour::DeviationTooSmall { value_mm, least_mm: SMALLEST_MM })
+        }
+    };
+    let distance = |value_mm: f64, least_mm: f64| {
+        if value_mm >= least_mm {
+            Ok(value_mm)
+        } else {
+            Err(NoContour::DistanceTooSmall { value_mm, least_mm })
+        }
+    };
+    let within = |dev: f64, dist: f64| Bounds { pre: dist, post: dist, dev: Some(dev), ..free };
+    match settings.mode {
+        ContourMode::Dev { path_dev_mm } => {
+            Ok(Bounds { dev: Some(deviation(path_dev_mm)?), ..free })
+        }
+        ContourMode::Dist { pre_mm, post_mm } => {
+            let (pre, post) = (distance(pre_mm, SMALLEST_MM)?, distance(post_mm, SMALLEST_MM)?);
+            Ok(Bounds { pre, post, symmetric: pre.to_bits() == post.to_bits(), ..free })
+        }
+        ContourMode::Pos { pre_mm, post_mm, point_mm } => {
+            let (pre, post) = (distance(pre_mm, 0.0)?, distance(post_mm, 0.0)?);
+            Ok(Bounds { pre, post, symmetric: false, point: point_mm, passes_point: true, ..free })
+        }
+        ContourMode::Ptp { path_dev_mm, path_dist_mm } => {
+            Ok(within(deviation(path_dev_mm)?, distance(path_dist_mm, SMALLEST_MM)?))
+        }
+        ContourMode::DistSoft { path_dist_mm } | ContourMode::DistMaster { path_dist_mm } => {
+            let dist = if path_dist_mm < 0.0 {
+                f64::INFINITY
+            } else {
+                distance(path_dist_mm, SMALLEST_MM)?
+            };
+            Ok(within(1.0, dist))
+        }
+    }
+}
+
+/// The two blocks at a corner.
+struct Corner<'a> {
+    from: &'a Path,
+    to: &'a Path,
+    skipped: &'a [Block],
+    /// Axes over which lengths are measured.
+    measured: Vec<bool>,
+    /// Only one of the blocks moves measured axes.
+    mixed: bool,
+    /// Largest change of direction of an axis.
+    jump: f64,
+    angle_rad: f64,
+    /// Largest corner distances of both blocks.
+    longest: (f64, f64),
+    /// Largest deviation of the axes outside the feed group.
+    track_dev: Option<f64>,
+}
+
+impl<'a> Corner<'a> {
+    fn new(
+        from: &'a Block,
+        skipped: &'a [Block],
+        to: &'a Block,
+        settings: &ContourSettings,
+    ) -> Self {
+        let n = from.path.start().len();
+        let (mut a, mut b) = (AxisVec::zeros(n), AxisVec::zeros(n));
+        from.path.tangent(from.path.length(), &mut a);
+        to.path.tangent(0.0, &mut b);
+        let feed: Vec<bool> = (0..n).map(|i| is_feed(from, i)).collect();
+        let square = |v: &[f64], mask: &[bool]| -> f64 {
+            v.iter().zip(mask).filter(|(_, m)| **m).map(|(c, _)| c * c).sum()
+        };
+        let moves = [square(&a, &feed) > 0.0, square(&b, &feed) > 0.0];
+        let mixed = moves[0] != moves[1];
+        let measured = if moves[0] { feed } else { vec![true; n] };
+        let jumps: Vec<f64> = (0..n).map(|i| b[i] - a[i]).collect();
+        let sum: Vec<f64> = (0..n).map(|i| b[i] + a[i]).collect();
+        let half = libm::atan2(square(&jumps, &measured).sqrt(), square(&sum, &measured).sqrt());
+        Self {
+            from: &from.path,
+            to: &to.path,
+            skipped,
+            mixed,
+            jump: jumps.iter().fold(0.0, |m: f64, j| m.max(j.abs())),
+            angle_rad: 2.0 * half,
+            longest: (longest(&from.path, settings), longest(&to.path, settings)),
+            track_dev: (settings.track_dev_deg > 0.0).then_some(settings.track_dev_deg),
+            measured,
+        }
+    }
+
+    fn distance(&self, p: &[f64], q: &[f64]) -> f64 {
+        let d2 = |((p, q), _): ((&f64, &f64), &bool)| (p - q) * (p - q);
+        p.iter().zip(q).zip(&self.measured).filter(|(_, m)| **m).map(d2).sum::<f64>().sqrt()
+    }
+
+    /// The largest curve within the bounds.
+    fn fit(&self, bounds: Bounds) -> Option<Curve> {
+        let mut pre = bounds.pre.min(self.longest.0);
+        let mut post = bounds.post.min(self.longest.1);
+        if bounds.symmetric {
+            (pre, post) = (pre.min(post), pre.min(post));
+        }
+        if bounds.passes_point {
+            return self.through_point(pre, post, &bounds.point);
+        }
+        if let Some(dev) = bounds.dev.filter(|_| self.is_plain()) {
+            // eps = 3/8 d sin(theta / 2)
+            let d = 8.0 * dev / (3.0 * libm::sin(0.5 * self.angle_rad));
+            (pre, post) = (pre.min(d), post.min(d));
+        }
+        let try_at = |ratio: f64| {
+            let (pre, post) = (pre * ratio, post * ratio);
+            let curve = self.at(pre, post);
+            self.keeps(&curve, bounds.dev).then_some(curve)
+        };
+        let mut best = try_at(1.0);
+        if best.is_none() {
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..50 {
+                let mid = 0.5 * (low + high);
+                if let Some(curve) = try_at(mid) {
+                    low = mid;
+                    best = Some(curve);
+                } else {
+                    high = mid;
+                }
+            }
+        }
+        best.filter(|c| c.pre_mm >= SMALLEST_MM && c.post_mm >= SMALLEST_MM)
+    }
+
+    /// Two lines that meet.
+    fn is_plain(&self) -> bool {
+        self.skipped.is_empty() && self.from.is_straight() && self.to.is_straight()
+    }
+
+    fn at(&self, pre: f64, post: f64) -> Curve {
+        let a = End::of(self.from, self.from.length() - pre);
+        let b = End::of(self.to, post);
+        // blocks that are bridged belong to both halves alike
+        let bridged = 0.5 * self.skipped.iter().map(|b| b.path.length()).sum::<f64>();
+        let blend = Blend::new(&a, &b, pre + bridged, post + bridged, |_| None);
+        Curve { blend, pre_mm: pre, post_mm: post }
+    }
+
+    fn through_point(&self, pre: f64, post: f64, point: &[Option<f64>; 3]) -> Option<Curve> {
+        let a = End::of(self.from, self.from.length() - pre);
+        let b = End::of(self.to, post);
+        let corner = self.from.end();
+        let interim = |i: usize| (i < 3).then(|| point[i].unwrap_or(corner[i]));
+        let middle: AxisVec = (0..corner.len()).map(|i| interim(i).unwrap_or(corner[i])).collect();
+        let (to, behind) = (self.distance(&a.point, &middle), self.distance(&middle, &b.point));
+        if to <= 0.0 || behind <= 0.0 {
+            return None;
+        }
+        let blend = Blend::new(&a, &b, to, behind, interim);
+        Some(Curve { blend, pre_mm: pre, post_mm: post })
+    }
+
+    /// True if a curve keeps the deviations.
+    fn keeps(&self, curve: &Curve, dev: Option<f64>) -> bool {
+        const SLACK: f64 = 1.0 + 1e-12;
+        let interim = curve.blend.interim();
+        if let Some(track) = self.track_dev {
+            let corner = self.from.end();
+            let off = |i: usize| (interim[i] - corner[i]).abs() > track * SLACK;
+            if (0..corner.len()).any(|i| !self.measured[i] && off(i)) {
+                return false;
+            }
+        }
+        let Some(dev) = dev else { return true };
+        if self.skipped.is_empty() && self.distance(&interim, self.from.end()) > dev * SLACK {
+            return false;
+        }
+        if self.is_plain() {
+            return true;
+        }
+        // the corners that are cut, from the curve; and the curve, from the contour
+        let samples: Vec<AxisVec> = curve
+            .blend
+            .halves
+            .iter()
+            .flat_map(|half| (0..=16).map(|k| blend::point(half, f64::from(k) / 16.0)))
+            .collect();
+        let near =
+            |p: &[f64]| samples.iter().map(|q| self.distance(p, q)).fold(f64::INFINITY, f64::min);
+        let cut = !self.skipped.is_empty()
+            && (self.skipped.iter().map(|b| b.path.end()).chain([self.from.end()]))
+                .any(|p| near(p) > dev * SLACK);
+        let strays = samples.iter().any(|p| {
+            let paths =
+                [self.from, self.to].into_iter().chain(self.skipped.iter().map(|b| &b.path));
+            paths
+                .map(|path| {
+                    let mut q = AxisVec::zeros(p.len());
+                    path.position(path.nearest(p), &mut q);
+                    self.distance(p, &q)
+                })
+                .fold(f64::INFINITY, f64::min)
+                > dev * SLACK
+        });
+        !cut && !strays
+    }
+}

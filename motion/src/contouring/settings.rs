@@ -1,0 +1,147 @@
+//! Parameters of contouring, and why it was not possible.
+
+use crate::block::CurveJerk;
+
+/// Which points of the blocks the curve connects.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ContourMode {
+    /// DEV: the interim point is at most this far from the corner.
+    Dev {
+        /// `PATH_DEV` in mm, default 1.
+        path_dev_mm: f64,
+    },
+    /// DIST: the curve begins and ends at given distances from the corner.
+    Dist {
+        /// `PRE_DIST` in mm, default 1.
+        pre_mm: f64,
+        /// `POST_DIST` in mm, default 1.
+        post_mm: f64,
+    },
+    /// POS: the curve passes through a given point.
+    Pos {
+        /// `PRE_DIST` in mm, default 1, 0 is allowed.
+        pre_mm: f64,
+        /// `POST_DIST` in mm, default 1, 0 is allowed.
+        post_mm: f64,
+        /// Coordinates in the three main axes (the first three of the channel); the corner's where not given.
+        point_mm: [Option<f64>; 3],
+    },
+    /// PTP: as DEV, the corner distance bounded as well. Assumption: the documents describe the task of this mode but not
+    /// its curve.
+    Ptp {
+        /// `PATH_DEV` in mm, default 1.
+        path_dev_mm: f64,
+        /// `PATH_DIST` in mm, default 1.
+        path_dist_mm: f64,
+    },
+    /// `DIST_SOFT`; not published, falls back to [`Self::Ptp`] with `PATH_DEV` 1 mm and a notice.
+    DistSoft {
+        /// `PATH_DIST` in mm, default 1; negative: not bounded.
+        path_dist_mm: f64,
+    },
+    /// `DIST_MASTER`; falls back as [`Self::DistSoft`].
+    DistMaster {
+        /// `PATH_DIST` in mm, default 1; negative: not bounded.
+        path_dist_mm: f64,
+    },
+}
+
+impl Default for ContourMode {
+    fn default() -> Self {
+        Self::Dev { path_dev_mm: 1.0 }
+    }
+}
+
+/// Parameters of `#CONTOUR MODE`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContourSettings {
+    /// Mode with its lengths.
+    pub mode: ContourMode,
+    /// `RELEVANT_PATH` in mm, default 0: shorter blocks are bridged.
+    pub relevant_path_mm: f64,
+    /// `TRACK_DEV` in deg, default 0 = not monitored: deviation of the axes outside the feed group.
+    pub track_dev_deg: f64,
+    /// `RELEVANT_TRACK` in deg, default 0: a block that moves such an axis further is relevant.
+    pub relevant_track_deg: f64,
+    /// `REMAIN_PART` as a ratio 0..1, default 0: part of each block that stays.
+    pub remain_ratio: f64,
+    /// `MAX_ANGLE` in deg, default 180: corners that turn by more stay.
+    pub max_angle_deg: f64,
+    /// `CONST_VEL`, default off: one speed over the whole curve.
+    pub constant_velocity: bool,
+    /// `CHECK_JERK`; `None`: as P-CHAN-00110.
+    pub curve_jerk: Option<CurveJerk>,
+}
+
+impl Default for ContourSettings {
+    fn default() -> Self {
+        Self {
+            mode: ContourMode::default(),
+            relevant_path_mm: 0.0,
+            track_dev_deg: 0.0,
+            relevant_track_deg: 0.0,
+            remain_ratio: 0.0,
+            max_angle_deg: 180.0,
+            constant_velocity: false,
+            curve_jerk: None,
+        }
+    }
+}
+
+/// Why a corner was not contoured as asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoContour {
+    /// 120216: a block is too short.
+    BlockTooShort,
+    /// 120129: `PATH_DEV` is below the minimum.
+    DeviationTooSmall {
+        /// `PATH_DEV` in mm.
+        value_mm: f64,
+        /// Minimum in mm.
+        least_mm: f64,
+    },
+    /// 120131: a corner distance is below the minimum.
+    DistanceTooSmall {
+        /// Distance in mm.
+        value_mm: f64,
+        /// Minimum in mm.
+        least_mm: f64,
+    },
+    /// 120207: the path reverses, or only one of the blocks moves axes of the feed group.
+    NotPossible,
+    /// 120566: the feed group differs between the blocks.
+    FeedGroup,
+    /// 120206 at the end of a program: no block follows before the path stops.
+    NothingFollows,
+    /// The corner turns by more than `MAX_ANGLE`.
+    AngleAboveMaximum {
+        /// Angle of the corner in deg.
+        angle_deg: f64,
+    },
+    /// The mode is not available; the corner was contoured as DEV.
+    ModeReplaced,
+}
+
+/// A corner that was not contoured as asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Notice {
+    /// Number of the block before the corner.
+    pub seq: u64,
+    /// What was in the way.
+    pub reason: NoContour,
+}
+
+impl Notice {
+    /// The vendor's message number, if there is one.
+    pub fn id(&self) -> Option<u32> {
+        match self.reason {
+            NoContour::BlockTooShort => Some(120_216),
+            NoContour::DeviationTooSmall { .. } => Some(120_129),
+            NoContour::DistanceTooSmall { .. } => Some(120_131),
+            NoContour::NotPossible => Some(120_207),
+            NoContour::FeedGroup => Some(120_566),
+            NoContour::NothingFollows => Some(120_206),
+            NoContour::AngleAboveMaximum { .. } | NoContour::ModeReplaced => None,
+        }
+    }
+}

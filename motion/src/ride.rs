@@ -1,0 +1,219 @@
+//! The speed over a stretch of blocks whose limits vary: along the limits where they change slowly, below them where
+//! acceleration or jerk do not allow more.
+//!
+//! 1. *rise*: from the start, as fast as the blocks allow, never reducing the speed: in steps of constant jerk, each with
+//!    the largest acceleration from which the ramp down to zero still stays below every limit ahead. Where a limit drops
+//!    the speed is cut, its acceleration zero.
+//! 2. *fall*: the same from the end, backwards.
+//! 3. *join*: the lower one of both is the speed. Where it changes from rise to fall the acceleration would jump, so there
+//!    the fastest third-order profile connects a state before with one behind, as close to each other as the limits
+//!    allow. At a local minimum both are at the limit with zero acceleration and meet by themselves.
+//!
+//! Nothing is promised before it has been measured: every connection is checked against every limit it passes, and a
+//! stretch for which no connection fits is refused; the caller then stops accelerating at its boundaries.
+
+mod join;
+mod rise;
+
+use crate::profile::{Chain, Phase, Rates};
+use join::join;
+use rise::Rise;
+
+/// Steps per longest ramp.
+const STEPS_PER_RAMP: f64 = 8.0;
+/// Shortest step in s; ramps below it are taken as one step.
+const SHORTEST_STEP_S: f64 = 1e-4;
+/// Blocks ahead and behind that a step is thought to run through at most.
+const REACH: usize = 64;
+/// Relative slack of a limit: rounding.
+const SLACK: f64 = 1e-9;
+/// Relative gain of speed from which on a hill between two equal limits at the ends of a block is driven.
+const HILL: f64 = 0.005;
+
+/// One block of a stretch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cell {
+    /// Path length at its end, from the start of the stretch.
+    pub(crate) end: f64,
+    /// Velocity limit inside.
+    pub(crate) v: f64,
+    /// Velocity limit at its end.
+    pub(crate) cap: f64,
+    /// Acceleration and ramps.
+    pub(crate) rates: Rates,
+}
+
+/// Block of a stretch with the jerks that hold for a step that touches it.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    end: f64,
+    v: f64,
+    cap: f64,
+    acc: f64,
+    dec: f64,
+    /// Acceleration builds up, falls, deceleration builds up, falls.
+    jerks: [f64; 4],
+}
+
+impl Block {
+    fn least_jerk(&self) -> f64 {
+        self.jerks.into_iter().fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// A step may run through several blocks: its jerk is the least one of them.
+fn blocks(cells: &[Cell], dt: f64) -> Vec<Block> {
+    let own = |r: &Rates| {
+        let [t1, t2, t3, t4] = r.ramps.map(|t| t.max(dt));
+        [r.acc / t1, r.acc / t2, r.dec / t3, r.dec / t4]
+    };
+    let mut out: Vec<Block> = cells
+        .iter()
+        .map(|c| {
+            let Rates { acc, dec, .. } = c.rates;
+            Block { end: c.end, v: c.v, cap: c.cap, acc, dec, jerks: own(&c.rates) }
+        })
+        .collect();
+    for (i, cell) in cells.iter().enumerate() {
+        // blocks that begin within a step behind the end of this one
+        let near = |k: &usize| cells[k - 1].end <= cell.end + cell.v * dt;
+        for k in (i + 1..cells.len()).take(REACH).take_while(near) {
+            for (far, j) in [(i, k), (k, i)] {
+                let jerks = own(&cells[j].rates);
+                for (mine, theirs) in out[far].jerks.iter_mut().zip(jerks) {
+                    *mine = mine.min(theirs);
+                }
+            }
+        }
+    }
+    out
+}
+
+/// The fastest speed found from `v0` to `v1`, acceleration zero at both ends; `None` if the limits leave no way.
+pub(crate) fn ride(cells: &[Cell], v0: f64, v1: f64) -> Option<Chain> {
+    let length = cells.last()?.end;
+    let longest = cells.iter().flat_map(|c| c.rates.ramps).fold(0.0, f64::max);
+    let dt = (longest / STEPS_PER_RAMP).max(SHORTEST_STEP_S);
+    let cells = &blocks(cells, dt)[..];
+    let mirrored = &mirror(cells)[..];
+    let forward = Rise { cells, dt }.run(v0)?;
+    let backward = Rise { cells: mirrored, dt }.run(v1)?;
+    let turn = |list: &[Phase]| list.iter().rev().map(|p| reversed(p, length)).collect::<Vec<_>>();
+    // joined from either end, so that a reversed contour takes the same time
+    let there = join(cells, forward.clone(), turn(&backward), v0);
+    let back = join(mirrored, backward, turn(&forward), v1).map(|out| turn(&out));
+    let time = |list: &Vec<Phase>| list.iter().map(|p| p.t).sum::<f64>();
+    let best = [there, back].into_iter().flatten().min_by(|a, b| time(a).total_cmp(&time(b)))?;
+    Some(Chain::new(best, length))
+}
+
+/// The blocks seen from the end: braking becomes accelerating.
+fn mirror(cells: &[Block]) -> Vec<Block> {
+    let length = cells.last().map_or(0.0, |c| c.end);
+    (0..cells.len())
+        .rev()
+        .map(|i| {
+            let Block { v, acc, dec, jerks: [j1, j2, j3, j4], .. } = cells[i];
+            let before = i.checked_sub(1).map(|b| cells[b]);
+            Block {
+                end: length - before.map_or(0.0, |b| b.end),
+                v,
+                cap: before.map_or(f64::INFINITY, |b| b.cap),
+                acc: dec,
+                dec: acc,
+                jerks: [j4, j3, j2, j1],
+            }
+        })
+        .collect()
+}
+
+/// A phase run backwards from the other end.
+fn reversed(p: &Phase, length: f64) -> Phase {
+    let end = p.end();
+    Phase { s: length - end.s, v: end.v, a: -end.a, ..*p }
+}
+
+/// True if between two ends passed at `v` with acceleration zero a speed-up and a slow-down are worth the name.
+fn is_hill(length: f64, v: f64, acc: f64, jerk: f64) -> bool {
+    let time = length / v;
+    (jerk * time * time / 16.0).min(acc * time / 4.0) >= HILL * v
+}
+
+/// As [`is_hill`], for a block with these rates.
+pub(crate) fn has_hill(length: f64, v: f64, rates: &Rates) -> bool {
+    let Rates { acc, dec, ramps } = *rates;
+    let least = acc.min(dec);
+    is_hill(length, v, least, least / ramps.into_iter().fold(SHORTEST_STEP_S, f64::max))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::profile::SpanProfile;
+
+    fn random(seed: &mut u64) -> f64 {
+        *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (*seed >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Blocks with limits that vary slowly, with noise, dips and blocks of other lengths.
+    fn cells(seed: u64, ramp: f64) -> Vec<Cell> {
+        let mut seed = seed;
+        let r = &mut seed;
+        let (waves, depth, noise) = (0.1 + random(r), 60.0 * random(r), 0.2 * random(r));
+        let mut end = 0.0;
+        (0..150)
+            .map(|i| {
+                end += if random(r) < 0.05 { 5.0 * random(r) + 0.01 } else { 0.2 };
+                let smooth = 80.0 + depth * libm::sin(waves * end);
+                let cap = smooth * (1.0 - noise * random(r));
+                let ramps = [ramp, ramp, ramp, ramp];
+                let acc = 3000.0 + 1000.0 * libm::sin(0.3 * end);
+                let cap = if i == 149 { f64::INFINITY } else { cap };
+                Cell { end, v: 150.0, cap, rates: Rates { acc, dec: acc, ramps } }
+            })
+            .collect()
+    }
+
+    /// Every phase is continuous and keeps velocity, acceleration and jerk of the blocks it lies in.
+    #[test]
+    fn a_ride_keeps_every_limit() {
+        let mut found = 0;
+        for seed in 0..60 {
+            for ramp in [0.02, 0.005] {
+                let cells = cells(seed, ramp);
+                let Some(chain) = ride(&cells, 0.0, 0.0) else { continue };
+                found += 1;
+                let length = cells[cells.len() - 1].end;
+                let profile = SpanProfile::from_chain(chain);
+                let n = 10_000;
+                let dt = profile.duration() / f64::from(n);
+                let mut before = profile.at(0.0);
+                assert!(before.v_mm_s.abs() < 1e-12);
+                for k in 1..=n {
+                    let now = profile.at(dt * f64::from(k));
+                    let i = cells.partition_point(|c| c.end < now.s_mm).min(cells.len() - 1);
+                    let near = &cells[i.saturating_sub(1)..(i + 2).min(cells.len())];
+                    let most = |f: &dyn Fn(&Cell) -> f64| near.iter().map(f).fold(0.0, f64::max);
+                    let acc = most(&|c| c.rates.acc);
+                    let jerk = most(&|c| c.rates.acc / ramp);
+                    assert!(now.v_mm_s <= 150.0 * (1.0 + 1e-8), "{seed}: {now:?}");
+                    assert!(now.a_mm_s2.abs() <= acc * 1.01, "{seed}: {now:?} {acc}");
+                    assert!(now.j_mm_s3.abs() <= jerk * (1.0 + 1e-6), "{seed}: {now:?} {jerk}");
+                    let da = (now.a_mm_s2 - before.a_mm_s2).abs();
+                    assert!(da <= jerk * dt * 1.01 + 1e-3, "{seed}: jump {before:?} {now:?}");
+                    let dv = now.v_mm_s - before.v_mm_s;
+                    let mean = 0.5 * (now.a_mm_s2 + before.a_mm_s2);
+                    assert!((dv - mean * dt).abs() <= jerk * dt * dt + 2e-4, "{seed}: {now:?}");
+                    before = now;
+                }
+                assert!((before.s_mm - length).abs() < 1e-9 && before.v_mm_s.abs() < 1e-6);
+                for cell in &cells {
+                    let v = profile.at(profile.time_at(cell.end)).v_mm_s;
+                    assert!(v <= cell.cap * (1.0 + 2e-6), "{seed}: {v} {cell:?}");
+                }
+            }
+        }
+        assert!(found > 90, "{found} of 120");
+    }
+}

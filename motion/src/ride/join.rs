@@ -1,0 +1,212 @@
+//! The lower one of rise and fall, connected where the one changes to the other.
+
+use super::{Block, SLACK};
+use crate::profile::{MotionState, Phase, ThirdOrderLimits, ThirdOrderProfile};
+
+/// Relative excess of the rise over the fall from which on they cross: both may miss a limit they run along by less.
+const CROSSING: f64 = 1e-3;
+/// Widths, in phases on either side, at which a connection is tried.
+const WIDTHS: [usize; 16] = [0, 1, 2, 3, 4, 6, 8, 11, 15, 20, 27, 36, 48, 64, 96, 128];
+
+/// The speed from `v0` along the rise and the fall; `None` if no connection fits.
+pub(super) fn join(
+    cells: &[Block],
+    rise: Vec<Phase>,
+    fall: Vec<Phase>,
+    v0: f64,
+) -> Option<Vec<Phase>> {
+    let mut join = Join { cells, rise, fall, out: Vec::new() };
+    join.run(v0)?;
+    Some(join.out)
+}
+
+struct Join<'a> {
+    cells: &'a [Block],
+    rise: Vec<Phase>,
+    fall: Vec<Phase>,
+    out: Vec<Phase>,
+}
+
+impl Join<'_> {
+    fn run(&mut self, v0: f64) -> Option<()> {
+        let length = self.cells.last()?.end;
+        // the block in which the rise gets above the fall next; inside a block between two limits both may bulge
+        let (mut r, mut c) = (0, 0);
+        for _ in 0..=4 * self.cells.len() {
+            while let Some(cell) = self.cells.get(c) {
+                let rise = speed_at(&self.rise, cell.end, length);
+                let limit = cell.cap.min(self.cells.get(c + 1).map_or(f64::INFINITY, |n| n.v));
+                let fall = speed_at(&self.fall, cell.end, length);
+                if rise > fall * (1.0 + CROSSING) || rise > limit * (1.0 + 2.0 * SLACK) {
+                    break;
+                }
+                c += 1;
+            }
+            // on the rise up to where it does
+            let quiet = c.checked_sub(1).map_or(0.0, |c| self.cells[c].end) * (1.0 - 1e-12);
+            while let Some(next) = self.rise.get(r) {
+                let end = next.end();
+                let crosses = || {
+                    c < self.cells.len()
+                        && end.v > speed_at(&self.fall, end.s, length) * (1.0 + SLACK)
+                };
+                if end.s > quiet && crosses() {
+                    break;
+                }
+                self.out.push(*next);
+                r += 1;
+            }
+            let here = self.out.last().map_or(start(v0), Phase::end);
+            let (to, cut) = self.connect(here, v0)?;
+            // on the fall, until it is cut
+            self.out.extend_from_slice(&self.fall[to..cut]);
+            if cut == self.fall.len() {
+                return Some(());
+            }
+            // both are cut at the same place
+            let at = self.fall[cut - 1].end();
+            r = self.rise.partition_point(|p| p.s < at.s - 1e-12 * length);
+            c = self.cells.partition_point(|cell| cell.end <= at.s + 1e-12 * length);
+            let next = self.rise.get(r)?;
+            if (next.v - at.v).abs() > 1e-6 * at.v + 1e-9 || next.a > 1e-6 {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Replaces the end of what has been put out by a connection to the fall; returns the phases of the fall behind it
+    /// up to where it is cut.
+    fn connect(&mut self, here: Phase, v0: f64) -> Option<(usize, usize)> {
+        let slack = 1e-12 * self.cells.last()?.end;
+        let ahead = self.fall.partition_point(|p| p.s <= here.s + slack).max(1);
+        let is_cut = |k: usize| {
+            let (before, behind) = (self.fall[k - 1].end(), &self.fall[k]);
+            behind.v > before.v * (1.0 + SLACK) + 1e-12
+        };
+        let cut = (ahead..self.fall.len()).find(|k| is_cut(*k)).unwrap_or(self.fall.len());
+        // as close as possible, both sides alike first
+        for width in WIDTHS {
+            let other = WIDTHS.into_iter().take_while(|w| *w < width);
+            let pairs = [(width, width)].into_iter();
+            for (back, ahead_by) in pairs.chain(other.flat_map(|w| [(w, width), (width, w)])) {
+                if back > self.out.len() && back > 1 && self.out.len() < back / 2 {
+                    continue;
+                }
+                let keep = self.out.len() - back.min(self.out.len());
+                let from = match self.out.get(keep) {
+                    Some(p) => Phase { t: 0.0, j: 0.0, ..*p },
+                    None => self.out.last().map_or(start(v0), Phase::end),
+                };
+                let to = (ahead + ahead_by).min(cut);
+                let target = if to < cut { self.fall[to] } else { self.fall[cut - 1].end() };
+                let phases = if coincide(&from, &target) {
+                    Some(Vec::new())
+                } else {
+                    let free = self.between(&from, &target, true);
+                    free.or_else(|| self.between(&from, &target, false))
+                };
+                if let Some(phases) = phases {
+                    self.out.truncate(keep);
+                    self.out.extend(phases);
+                    return Some((to, cut));
+                }
+            }
+        }
+        None
+    }
+
+    /// The fastest third-order profile between two states, if it keeps every limit; `free`: up to the highest limit of
+    /// the blocks it passes, else not above the lowest one.
+    fn between(&self, from: &Phase, to: &Phase, free: bool) -> Option<Vec<Phase>> {
+        #[cfg(test)]
+        crate::work::add();
+        if to.s <= from.s {
+            return None;
+        }
+        let first = self.cells.partition_point(|c| c.end <= from.s).min(self.cells.len() - 1);
+        let last = self.cells.partition_point(|c| c.end < to.s).min(self.cells.len() - 1);
+        let (mut acc, mut dec, mut jerk, mut v) =
+            (f64::INFINITY, f64::INFINITY, f64::INFINITY, 0.0_f64);
+        let mut lowest = f64::INFINITY;
+        for (i, cell) in self.cells[first..=last].iter().enumerate() {
+            lowest =
+                lowest.min(cell.v).min(if first + i < last { cell.cap } else { f64::INFINITY });
+            acc = acc.min(cell.acc);
+            dec = dec.min(cell.dec);
+            jerk = jerk.min(cell.least_jerk());
+            v = v.max(cell.v);
+        }
+        if !free {
+            let flat = |v: f64, a: f64| v + 0.5 * a.max(0.0) * a / jerk;
+            v = lowest.max(flat(from.v, from.a)).max(flat(to.v, -to.a));
+        }
+        let limits = ThirdOrderLimits {
+            v_max_mm_s: v * (1.0 + SLACK),
+            v_min_mm_s: 0.0,
+            a_max_mm_s2: acc.max(from.a).max(to.a) * (1.0 + 1e-12),
+            a_min_mm_s2: -dec.max(-from.a).max(-to.a) * (1.0 + 1e-12),
+            jerk_mm_s3: jerk,
+        };
+        let state = |p: &Phase| MotionState { p_mm: p.s, v_mm_s: p.v, a_mm_s2: p.a };
+        let profile = ThirdOrderProfile::fastest(&state(from), &state(to), &limits);
+        let profile = profile.ok()?;
+        let mut at = *from;
+        let mut phases = Vec::with_capacity(7);
+        for (t, j) in profile.phases() {
+            let phase = Phase { j, t, ..at };
+            phases.push(phase);
+            at = phase.end();
+        }
+        let mut c = first;
+        for phase in &phases {
+            let end = phase.end();
+            if end.v < -1e-9 {
+                return None;
+            }
+            // the highest speed in every block it passes, and at the boundaries
+            let mut part = *phase;
+            loop {
+                let cell = &self.cells[c];
+                let inside = end.s < cell.end || c == last;
+                let t = if inside { part.t } else { part.time_at(cell.end) };
+                let piece = Phase { t, ..part };
+                let (a0, a1) = (piece.a, piece.end().a);
+                if piece.peak() > cell.v * (1.0 + SLACK)
+                    || a0.max(a1) > cell.acc * (1.0 + 1e-6)
+                    || a0.min(a1) < -cell.dec * (1.0 + 1e-6)
+                {
+                    return None;
+                }
+                if inside {
+                    break;
+                }
+                let here = piece.end();
+                if here.v > cell.cap * (1.0 + SLACK) {
+                    return None;
+                }
+                part = Phase { t: part.t - t, j: part.j, ..here };
+                c += 1;
+            }
+        }
+        Some(phases)
+    }
+}
+
+/// True if two states are the same up to rounding.
+fn coincide(a: &Phase, b: &Phase) -> bool {
+    (a.s - b.s).abs() <= 1e-12 * b.s
+        && (a.v - b.v).abs() <= SLACK * b.v
+        && (a.a - b.a).abs() <= 1e-6
+}
+
+/// Speed of a list of phases at `s`, before a cut there.
+fn speed_at(list: &[Phase], s: f64, length: f64) -> f64 {
+    let s = s - 1e-12 * length;
+    let i = list.partition_point(|p| p.s <= s).saturating_sub(1);
+    list.get(i).map_or(f64::INFINITY, |p| p.after(p.time_at(s)).v)
+}
+
+fn start(v: f64) -> Phase {
+    Phase { s: 0.0, v, a: 0.0, j: 0.0, t: 0.0 }
+}

@@ -1,0 +1,111 @@
+//! Counts the closed forms of the look-ahead, so that a test can judge its cost without a clock.
+
+use std::cell::Cell;
+
+thread_local! {
+    static COUNT: Cell<u64> = const { Cell::new(0) };
+}
+
+/// One evaluation.
+pub(crate) fn add() {
+    COUNT.with(|c| c.set(c.get() + 1));
+}
+
+/// Evaluations since the last call.
+fn take() -> u64 {
+    COUNT.with(|c| c.replace(0))
+}
+
+mod tests {
+    use super::take;
+    use crate::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
+    use crate::block::{
+        Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance, TransitionJerkMode,
+        VectorLimits,
+    };
+    use crate::path::{LinePath, Path};
+    use crate::planner::{Next, Planner};
+    use kontur_filters::time::CycleTime;
+    use std::sync::Arc;
+
+    fn dynamics() -> Arc<ChannelDynamics> {
+        let step = StepSlope { acc_mm_s2: [4000.0; 2], dec_mm_s2: [4000.0; 2], change_mm_s: 100.0 };
+        let axis = AxisDynamics {
+            v_max_mm_s: 1000.0,
+            v_rapid_mm_s: 1000.0,
+            a_max_mm_s2: 6000.0,
+            a_emergency_mm_s2: 6000.0,
+            tr_geom_s: 0.01,
+            feed: FeedSlope { acc_mm_s2: 4000.0, dec_mm_s2: 4000.0, ramps_s: [0.02; 4] },
+            rapid: RapidSlope { acc_mm_s2: 5000.0, ramp_s: 0.02 },
+            feedhold: FeedholdSlope { step_dec_mm_s2: 5000.0, dec_mm_s2: 5000.0, ramp_s: 0.02 },
+            step_feed: step,
+            step_rapid: step,
+            a_trans_ratio: 1.0,
+            r_trans_ratio: 1.0,
+            j_trans_kink_mm_s3: 0.0,
+            j_trans_tangential_mm_s3: 0.0,
+        };
+        Arc::new(ChannelDynamics {
+            axes: vec![axis; 3],
+            feed_axes: vec![true; 3],
+            limit_tangential_jerk: false,
+            transition_jerk: TransitionJerkMode::Coupled,
+            curvature_estimate: 0,
+            curve_jerk: CurveJerk::Geometric,
+            vector: VectorLimits::default(),
+            vector_acc_on_arcs: false,
+            transition_velocity_min_mm_s: 0.0,
+            stop_at_transitions: false,
+        })
+    }
+
+    /// Rows of 50 mm over a wavy surface in steps of 0.2 mm.
+    fn point(i: usize) -> AxisVec {
+        let (row, column) = (i / 250, i % 250);
+        let along = if row % 2 == 0 { column } else { 249 - column } as f64 * 0.2;
+        let across = (row % 100) as f64 * 0.3;
+        let z = 2.0 * libm::sin(along * 0.3) * libm::cos(across * 0.2);
+        AxisVec::from_slice(&[along, across, z])
+    }
+
+    /// Evaluations per block.
+    fn cost(count: usize, kind: SlopeKind) -> f64 {
+        let dynamics = dynamics();
+        let mut planner = Planner::new(CycleTime::DEFAULT, 120, &point(0));
+        let mut i = 0;
+        take();
+        loop {
+            match planner.advance().unwrap() {
+                Next::Setpoint => {}
+                Next::Input if i < count => {
+                    let line = LinePath::new(point(i), point(i + 1), &[]).unwrap();
+                    i += 1;
+                    planner.push(Block {
+                        seq: i as u64,
+                        path: Path::Line(line),
+                        feed: Feed::PathVelocity(150.0),
+                        feed_ratio: 1.0,
+                        end_velocity_mm_s: None,
+                        slope: Slope { kind, ..Slope::default() },
+                        dynamics: Arc::clone(&dynamics),
+                        tolerance: Tolerance::default(),
+                        contour: None,
+                        spline: None,
+                    });
+                }
+                Next::Input => planner.finish(),
+                Next::Rest => return take() as f64 / count as f64,
+            }
+        }
+    }
+
+    #[test]
+    fn many_short_blocks_cost_the_same_per_block_as_few() {
+        for kind in [SlopeKind::Step, SlopeKind::Trapez, SlopeKind::Hsc] {
+            let (few, many) = (cost(1_000, kind), cost(150_000, kind));
+            println!("{kind:?}: {few:.2} and {many:.2} evaluations per block");
+            assert!(many <= 1.15 * few, "{kind:?}: {many} after {few}");
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! What holds for every program: random contours, blocks and limits.
+
+mod common;
+
+use common::{Job, axis, channel};
+use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
+use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};
+use kontur_motion::block::{Block, Slope};
+use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::planner::Setpoint;
+
+/// A small deterministic generator: reproducible without a dependency.
+struct Lcg(u64);
+
+impl Lcg {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Logarithmically uniform.
+    fn range(&mut self, low: f64, high: f64) -> f64 {
+        low * libm::exp(self.next() * libm::log(high / low))
+    }
+}
+
+fn limits(r: &mut Lcg) -> AxisDynamics {
+    let mut a = axis(if r.next() < 0.3 { 0.0 } else { r.range(0.05, 1.0) });
+    let acc = r.range(200.0, 10_000.0);
+    let ramp = r.range(0.001, 0.1);
+    a.v_max_mm_s = r.range(50.0, 2000.0);
+    a.tr_geom_s = r.range(0.001, 0.05);
+    a.feed = FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] };
+    a.step_feed.acc_mm_s2 = [acc; 2];
+    a.step_feed.dec_mm_s2 = [acc; 2];
+    a
+}
+
+/// Lines between 1e-4 mm and 1 m, every fifth block an arc.
+fn contour(r: &mut Lcg, count: usize) -> Vec<Path> {
+    let mut at = [0.0_f64, 0.0];
+    let mut heading: f64 = 0.0;
+    let smooth = r.next() < 0.5;
+    let long = if r.next() < 0.3 { 1000.0 } else { 5.0 };
+    (0..count)
+        .map(|_| {
+            heading += if smooth { 0.2 * (r.next() - 0.5) } else { 6.0 * (r.next() - 0.5) };
+            let (sin, cos) = libm::sincos(heading);
+            let from = AxisVec::from_slice(&at);
+            if r.next() < 0.2 {
+                let (radius, sweep) = (r.range(0.05, 50.0), 4.0 * (r.next() - 0.5));
+                let side = sweep.signum();
+                let centre_mm = [at[0] - side * radius * sin, at[1] + side * radius * cos];
+                heading += sweep;
+                let (sin, cos) = libm::sincos(heading);
+                at = [centre_mm[0] + side * radius * sin, centre_mm[1] - side * radius * cos];
+                let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad: sweep };
+                Path::Arc(ArcPath::new(from, AxisVec::from_slice(&at), shape, &[]).unwrap())
+            } else {
+                let l = r.range(1e-4, long);
+                at = [at[0] + l * cos, at[1] + l * sin];
+                Path::Line(LinePath::new(from, AxisVec::from_slice(&at), &[]).unwrap())
+            }
+        })
+        .collect()
+}
+
+fn kinds() -> [Slope; 6] {
+    let slope = |kind: SlopeKind, optimised| Slope { kind, optimised, constant_ramp_time: false };
+    [
+        slope(Step, false),
+        slope(Trapez, false),
+        slope(Sin2, false),
+        slope(Hsc, false),
+        slope(Trapez, true),
+        slope(Sin2, true),
+    ]
+}
+
+fn job(dynamics: Vec<AxisDynamics>, slope: Slope) -> Job {
+    let mut job = Job { dynamics: channel(dynamics), ..Job::new(1.0, slope.kind) };
+    job.slope = slope;
+    job
+}
+
+fn blocks(job: &Job, paths: &[Path], feed: f64) -> Vec<Block> {
+    paths.iter().enumerate().map(|(i, p)| job.block(i as u64, p.clone(), feed)).collect()
+}
+
+fn run(job: &Job, paths: &[Path], feed: f64) -> Vec<Setpoint> {
+    job.run(&[0.0, 0.0], blocks(job, paths, feed).into_iter())
+}
+
+/// Largest velocity and second difference of an axis over its limits, and the lowest path velocity.
+fn load(job: &Job, out: &[Setpoint]) -> (f64, f64, f64) {
+    let t = f64::from(job.cycle_us) * 1e-6;
+    let p = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
+    let (mut v, mut a, mut low) = (0.0_f64, 0.0_f64, f64::INFINITY);
+    for k in 0..out.len() {
+        low = low.min(out[k].v_mm_s);
+        for (i, axis) in job.dynamics.axes.iter().enumerate() {
+            v = v.max((p(k + 1, i) - p(k, i)).abs() / t / axis.v_max_mm_s);
+            let d2 = (p(k + 2, i) - 2.0 * p(k + 1, i) + p(k, i)).abs() / (t * t);
+            a = a.max(d2 / axis.feed.acc_mm_s2);
+        }
+    }
+    (v, a, low)
+}
+
+/// No axis is faster than its limit, and its acceleration stays within what the path, its curvature and a kink may use
+/// together: each of them keeps the limit of the axis for itself.
+#[test]
+fn velocity_and_acceleration_of_the_axes() {
+    let mut r = Lcg(1);
+    let mut worst = 0.0_f64;
+    for program in 0..60 {
+        let paths = contour(&mut r, 60);
+        let axes = vec![limits(&mut r), limits(&mut r)];
+        let feed = r.range(5.0, 1000.0);
+        for slope in kinds() {
+            let job = job(axes.clone(), slope);
+            let out = run(&job, &paths, feed);
+            let (v, a, low) = load(&job, &out);
+            worst = worst.max(a);
+            assert!(v <= 1.0 + 1e-6, "{program} {slope:?}: velocity {v}");
+            assert!(a <= 3.0, "{program} {slope:?}: acceleration {a}");
+            assert!(low >= 0.0, "{program} {slope:?}: path velocity {low}");
+            let end = paths[paths.len() - 1].end();
+            assert_eq!(out[out.len() - 1].position[..], end[..], "{program} {slope:?}");
+        }
+    }
+    println!("largest acceleration: {worst:.3} of the limit");
+}
+
+/// Along straight lines without kinks there is nothing but the slope: its acceleration and its jerk.
+#[test]
+fn acceleration_and_jerk_without_kinks() {
+    let mut r = Lcg(2);
+    for program in 0..40 {
+        let (mut x, mut points) = (0.0, vec![[0.0, 0.0]]);
+        for _ in 0..80 {
+            x += r.range(1e-4, 20.0);
+            points.push([x, 0.5 * x]);
+        }
+        let feeds: Vec<f64> = (0..7).map(|_| r.range(5.0, 500.0)).collect();
+        let a = limits(&mut r);
+        for slope in [kinds()[1], kinds()[3], kinds()[4]] {
+            let job = job(vec![a; 2], slope);
+            let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+            let out = job.drive(&views, &feeds);
+            let acc = a.feed.acc_mm_s2;
+            // a ramp below the cycle time is a step
+            let jerk = acc / a.feed.ramps_s[0];
+            for w in out.windows(2) {
+                let u = [1.0, 0.5].map(|c| c / 1.25_f64.sqrt());
+                let axis = u[0] * w[1].a_mm_s2.abs();
+                assert!(axis <= acc * (1.0 + 1e-6), "{program} {slope:?}: {axis} of {acc}");
+                let step = u[0] * (w[1].a_mm_s2 - w[0].a_mm_s2).abs() / 1e-3;
+                assert!(step <= jerk * (1.0 + 1e-6), "{program} {slope:?}: {step} of {jerk}");
+            }
+        }
+    }
+}
+
+/// The path can be left at the end of any block: what comes later is not needed to keep the limits.
+#[test]
+fn a_program_may_be_cut_anywhere() {
+    let mut r = Lcg(3);
+    for program in 0..6 {
+        let paths = contour(&mut r, 30);
+        let axes = vec![limits(&mut r), limits(&mut r)];
+        let feed = r.range(20.0, 500.0);
+        for slope in kinds() {
+            let job = job(axes.clone(), slope);
+            for cut in 1..=paths.len() {
+                let out = run(&job, &paths[..cut], feed);
+                let (v, a, low) = load(&job, &out);
+                assert!(v <= 1.0 + 1e-6 && a <= 3.0 && low >= 0.0, "{program} {cut}: {v} {a}");
+                assert_eq!(out[out.len() - 1].position[..], paths[cut - 1].end()[..]);
+            }
+        }
+    }
+}
+
+/// With symmetric limits a contour takes the same time in both directions.
+#[test]
+fn a_reversed_contour_takes_the_same_time() {
+    let mut r = Lcg(4);
+    for program in 0..20 {
+        let mut at = [0.0, 0.0];
+        let mut points = vec![at];
+        for _ in 0..40 {
+            at = [at[0] + r.range(0.01, 5.0), at[1] + 4.0 * (r.next() - 0.5)];
+            points.push(at);
+        }
+        let axes = vec![limits(&mut r), limits(&mut r)];
+        let feed = r.range(20.0, 500.0);
+        let forth: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        let back: Vec<&[f64]> = points.iter().rev().map(|p| &p[..]).collect();
+        for slope in kinds() {
+            let job = job(axes.clone(), slope);
+            let cycles = [&forth, &back].map(|p| job.drive(p, &[feed]).len());
+            let apart = cycles[0].abs_diff(cycles[1]);
+            // planned in steps along varying limits: the grid of the steps starts at the other end
+            let allowed =
+                if slope.kind == Hsc || slope.optimised { cycles[0] / 500 + 1 } else { 1 };
+            assert!(apart <= allowed, "{program} {slope:?}: {cycles:?}");
+        }
+    }
+}
+
+/// More look-ahead never costs time, and a second run changes no bit.
+#[test]
+fn more_lookahead_and_a_second_run() {
+    let mut r = Lcg(5);
+    for program in 0..15 {
+        let paths = contour(&mut r, 150);
+        let axes = vec![limits(&mut r), limits(&mut r)];
+        let feed = r.range(20.0, 500.0);
+        for slope in kinds() {
+            let mut last = usize::MAX;
+            for window in [10, 30, 120, 1000] {
+                let job = Job { window, ..job(axes.clone(), slope) };
+                let out = run(&job, &paths, feed);
+                let n = out.len();
+                assert!(n <= last.saturating_add(last / 500 + 1), "{program} {slope:?} {window}");
+                last = n;
+                if window == 30 {
+                    let again = run(&job, &paths, feed);
+                    assert_eq!(n, again.len());
+                    let same = |(a, b): (&Setpoint, &Setpoint)| {
+                        a.position
+                            .iter()
+                            .zip(b.position.iter())
+                            .all(|(p, q)| p.to_bits() == q.to_bits())
+                    };
+                    assert!(out.iter().zip(&again).all(same), "{program} {slope:?}");
+                }
+            }
+        }
+    }
+}
+
+/// With a short window the knots of one plan are not those of the next; these programs end in a plan that is out of
+/// reach from the speed that is already final, and go on with the one before.
+#[test]
+fn a_final_speed_is_never_too_high() {
+    let mut r = Lcg(77);
+    for program in 0..364 {
+        let paths = contour(&mut r, 120);
+        let axes = vec![limits(&mut r), limits(&mut r)];
+        let feed = r.range(20.0, 1000.0);
+        if [167, 203, 363].contains(&program) {
+            let job = Job { window: 10, ..job(axes, kinds()[5]) };
+            let out = run(&job, &paths, feed);
+            let (v, a, low) = load(&job, &out);
+            assert!(v <= 1.0 + 1e-6 && a <= 3.0 && low >= 0.0, "{program}: {v} {a} {low}");
+            assert_eq!(out[out.len() - 1].position[..], paths[119].end()[..]);
+        }
+    }
+}
