@@ -487,6 +487,7 @@ fn recommendations_are_notes() {
         low_pass("prototype=BUTTERWORTH enable=0"),
         low_pass("prototype=BUTTERWORTH type=BANDSTOP"),
         "X.vorsteuer.vs_v_faktor=7 X.vorsteuer.vs_v_nenner=10".into(),
+        "X.vorsteuer.vs_v_faktor=0".into(),
         "X.getriebe[0].position_settling_time=10000".into(),
         "X.getriebe[0].position_settling_time=0".into(),
         "X.getriebe[0].position_settling_time=-1".into(),

@@ -7,6 +7,7 @@ mod page;
 mod picture;
 pub(crate) mod plot;
 mod recording;
+mod stops;
 mod svg;
 
 use crate::args::ReportArgs;

@@ -52,13 +52,14 @@ fn low_passes(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Source: TF5200 feedforward control.
+/// 0 is a weight of its own: no feedforward. Source: TF5200 feedforward control.
 fn weight(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     let keys = ["vorsteuer.vs_v_faktor", "vorsteuer.vs_v_nenner"];
     let [Some(numerator), Some(denominator)] = keys.map(|key| axis.raw(key)) else { return };
     let ratio = numerator / denominator;
     let (low, high) = WEIGHT_RATIO;
-    if keys.iter().any(|key| listed(axis, key)) && !(low..=high).contains(&ratio) {
+    let recommended = ratio <= 0.0 || (low..=high).contains(&ratio);
+    if keys.iter().any(|key| listed(axis, key)) && !recommended {
         let what = format!("global weight {ratio} of the feedforward");
         let advice = format!("{low} to {high} is recommended, above {high} the axis leads");
         diagnostics.push(issues::kontur(axis, ADVICE, keys[0], &what, &advice));
