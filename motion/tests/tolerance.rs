@@ -7,6 +7,7 @@
 mod common;
 
 use common::{Job, axis, channel, deviation, filtered};
+use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisVec;
@@ -281,6 +282,29 @@ fn a_tolerance_that_is_kept_anyway_changes_nothing() {
             let plain = drive(None);
             assert_eq!(drive(Some(1.01 * free)), plain, "{name} mode {mode} {freq} Hz");
             assert_ne!(drive(Some(0.9 * free)), plain, "{name} mode {mode} {freq} Hz");
+        }
+    }
+}
+
+/// A windowed sinc overshoots at every start and stop, on a straight line as well, and more where the path turns back.
+#[test]
+fn negative_weights_keep_the_tolerance_too() {
+    let straight: &[&[f64]] = &[&[0.0, 0.0], &[5.0, 1.0]];
+    let back: &[&[f64]] = &[&[0.0, 0.0], &[10.0, 0.0], &[-3.0, 0.0], &[-3.0, 0.015]];
+    let cycle = CycleTime::from_us(2000).unwrap();
+    for (name, points) in [("straight", straight), ("back", back), ("square", &SQUARE[..])] {
+        for (order, fcut_hz) in [(40, 100.0), (73, 13.6), (148, 32.3)] {
+            for tol in [0.0014, 0.01] {
+                let fir = FirConfig { order, fcut_hz, ..FirConfig::new(FirKind::WindowedSinc) };
+                let mut job = machine(2, 0.01);
+                job.cycle_us = 2000;
+                job.kernel = Some(fir.design(cycle).0.unwrap());
+                let (free, _) = worst(&job, points, F4000);
+                job.tolerance = Tolerance { ax_dev_mm: Some(tol), acc_fact: 1.0 };
+                let (dev, cycles) = worst(&job, points, F4000);
+                println!("{name} order {order} {fcut_hz} Hz: free {free}, kept {dev}, {cycles}");
+                assert!(dev <= tol, "{name} order {order} {fcut_hz} Hz: {dev} > {tol}");
+            }
         }
     }
 }

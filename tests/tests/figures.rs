@@ -148,3 +148,36 @@ fn sensitivity_of_the_modes() {
         assert!(at(curve, "f_set_over_f_real", 1.0 + 1.6 * high / 100.0, "residual_ratio") > 0.05);
     }
 }
+
+/// Every command of the list, as it stands there.
+#[test]
+fn every_command_of_the_list_runs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let list = std::fs::read_to_string(root.join("interpreter/cli/docs/figures.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let commands: Vec<&str> =
+        list.split('`').skip(1).step_by(2).filter(|part| part.starts_with("kontur ")).collect();
+    assert!(commands.len() >= 24, "{commands:?}");
+    for command in commands {
+        let mut output = None;
+        let words: Vec<OsString> = command
+            .split_whitespace()
+            .map(|word| {
+                let file = Path::new(word);
+                if word.starts_with("programs/") {
+                    root.join(file).into()
+                } else if file.extension().is_some_and(|e| e == "svg" || e == "html") {
+                    output = Some(folder.path().join(file));
+                    folder.path().join(file).into()
+                } else {
+                    word.into()
+                }
+            })
+            .collect();
+        let mut console = Console::new(Vec::new(), Vec::new());
+        assert_eq!(run_with(words, &mut Kontur, &mut console), Exit::Finished, "{command}");
+        if let Some(file) = output {
+            assert!(std::fs::metadata(file).unwrap().len() > 1000, "{command}");
+        }
+    }
+}
