@@ -130,13 +130,15 @@ fn the_course_of_an_exact_stop() {
     let text = "%P\nG90 G60 G01 X50 F6000\nG60 X60\nM30\n";
     let settings = "X.getriebe[0].kv=2000 X.vorsteuer.vorsteuerung=NONE X.getriebe[0].window=500 \
                     X.getriebe[0].position_settling_time=400000";
-    let page = &page(&[text], settings)[0];
+    let runs = page(&[text], settings);
+    let page = &runs[0];
     let trace: Run = run(text, &settings.split_whitespace().collect::<Vec<_>>());
     let (set, act) = (trace.axis(0, |a| a.set), trace.axis(0, |a| a.act));
     assert_eq!(curve(page, "X set").len(), set.len());
     for (shown, is) in [("X set", &set), ("X actual", &act)] {
-        let worst = curve(page, shown).iter().zip(is).map(|(a, b)| (a - b).abs());
-        assert!(worst.fold(0.0, f64::max) < 1e-7, "{shown}");
+        let shown = curve(page, shown);
+        let worst = shown.iter().zip(is).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-7, "{worst}");
     }
     let stops = page["stops"].as_array().unwrap();
     assert_eq!(stops.len(), 2, "{stops:?}");

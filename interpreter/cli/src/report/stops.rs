@@ -95,12 +95,12 @@ mod tests {
         let facts = Facts { cycle_us: 1000, axes: vec![axis], ..Facts::default() };
         let mut stops = Stops::new(&facts);
         let mut act = 0.0;
-        for k in 0..20 {
+        for k in 0..20_u32 {
             let set = f64::from(k.min(2));
             act += 0.5 * (set - act);
             let v_mm_s = if k < 2 { 1000.0 } else { 0.0 };
             let record = CycleRecord {
-                k: u64::from(k.unsigned_abs()),
+                k: u64::from(k),
                 path: PathRecord { v_mm_s, ..PathRecord::default() },
                 axes: vec![AxisRecord { ipo: set, set, act, ..AxisRecord::default() }],
                 ..CycleRecord::default()
