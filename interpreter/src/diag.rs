@@ -4,6 +4,7 @@
 //! vendor's space. The meaning of an ID stands in one table, [`catalog`].
 
 pub mod catalog;
+mod hints;
 
 use serde::{Serialize, Serializer};
 use std::sync::Arc;
@@ -171,7 +172,7 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// A diagnostic with the severity of its catalogue row and the given message.
+    /// A diagnostic with the severity of its catalogue row, the given message and the usual hint of its ID.
     pub fn new(id: Id, text: impl Into<String>) -> Self {
         Self {
             id,
@@ -184,7 +185,7 @@ impl Diagnostic {
             values: Vec::new(),
             correction: None,
             parameter: None,
-            hint: None,
+            hint: hints::of(id).map(str::to_owned),
         }
     }
 

@@ -14,7 +14,7 @@ mod wait;
 
 pub use totals::Totals;
 
-use crate::diag::{Diagnostic, Location};
+use crate::diag::Diagnostic;
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
 use crate::machine::{Axis, Machine};
 use crate::record::{CycleRecord, PathRecord};
@@ -97,6 +97,8 @@ pub struct Simulation {
     gains: Vec<f64>,
     underway: VecDeque<Underway>,
     current: SourceRef,
+    /// Block that the path waits for at rest.
+    waits_at: SourceRef,
     jerk_limited: bool,
     pending: Option<(After, SourceRef, Vec<Event>)>,
     phase: Phase,
@@ -153,6 +155,7 @@ impl Simulation {
             spindles,
             underway: VecDeque::new(),
             current: SourceRef::default(),
+            waits_at: SourceRef::default(),
             jerk_limited: false,
             pending: None,
             phase: Phase::Start,
@@ -283,10 +286,11 @@ impl Simulation {
 
     /// The path has come to rest behind everything that was pushed.
     fn at_rest(&mut self) {
-        let Some((after, _, events)) = self.pending.take() else {
+        let Some((after, source, events)) = self.pending.take() else {
             self.pull();
             return;
         };
+        self.waits_at = source;
         for event in events {
             self.act(event);
         }
@@ -338,11 +342,18 @@ impl Simulation {
     }
 
     fn feedforward(&mut self, on: bool, weights: &[f64]) {
+        let mut changed = false;
         for (i, chain) in self.chains.iter().enumerate() {
             if let Driver::Path(p) = self.drivers[i] {
                 let weight = weights.get(p).copied().unwrap_or(1.0);
-                self.gains[i] = chain.feedforward_gain(on, weight);
+                let gain = chain.feedforward_gain(on, weight);
+                changed |= gain.to_bits() != self.gains[i].to_bits();
+                self.gains[i] = gain;
             }
+        }
+        // the record is that of the cycle before
+        if changed && self.record.path.v_mm_s > 0.0 {
+            self.switched_while_moving();
         }
     }
 
@@ -451,26 +462,16 @@ impl Simulation {
         }
     }
 
-    /// Where a block stands.
-    fn locate(&self, source: SourceRef) -> Option<Location> {
-        let file = self.executor.files().get(source.file as usize)?;
-        Some(Location {
-            file: Arc::clone(file),
-            line: source.line,
-            column: 1,
-            offset: 0,
-            length: 1,
-            block: source.block,
-            text: "".into(),
-        })
-    }
-
     fn check_time(&mut self) {
         let k = self.planner.setpoint().k;
         let over =
             k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping { .. });
         if over {
-            self.diagnostics.push(fault::out_of_time(k, self.cycle, self.max_cycles));
+            let mut late = fault::out_of_time(k, self.cycle, self.max_cycles);
+            let waits = matches!(self.phase, Phase::Waiting(_));
+            let block = if waits { self.waits_at } else { self.current };
+            late.source = self.executor.locate(block);
+            self.diagnostics.push(late);
             self.totals.aborted = true;
             self.phase = Phase::Done;
         }

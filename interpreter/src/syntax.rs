@@ -214,10 +214,11 @@ fn too_long(raw: &RawBlock<'_>) -> Problem {
     } else {
         (Severity::Warning, BLOCK_LENGTH)
     };
-    let end = raw.text.char_indices().nth(1).map_or(raw.text.len(), |(i, _)| i);
+    // the first character that is too many; the text is cut behind the last one that is decoded
+    let at = raw.text.char_indices().nth(limit as usize).map_or(raw.text.len(), |(i, _)| i);
     Problem::vendor(
         20301,
-        Span::new(0, end),
+        Span::new(at, at),
         format!("block of {} characters, at most {limit} are allowed", raw.characters),
     )
     .severity(severity)

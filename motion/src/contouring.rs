@@ -157,7 +157,7 @@ impl Contouring {
         let mut speed = None;
         let feed_axes = from.dynamics.feed_axes.clone();
         for piece in curve.blend.pieces(parts) {
-            let Some(path) = poly(vec![piece.clone()], &feed_axes) else { continue };
+            let Some(path) = PolyPath::through(vec![piece.clone()], &feed_axes) else { continue };
             block.path = Path::Curve(path);
             let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
             let v = speeds.limited(speeds.programmed_mm_s).0;
@@ -195,14 +195,8 @@ impl Contouring {
     }
 }
 
-fn poly(pieces: Vec<PolyPiece>, feed_axes: &[bool]) -> Option<PolyPath> {
-    let start = blend::point(pieces.first()?, 0.0);
-    let end = blend::point(pieces.last()?, 1.0);
-    PolyPath::new(start, end, pieces, feed_axes)
-}
-
 fn with_path(block: &Block, pieces: Vec<PolyPiece>, feed_axes: &[bool]) -> Option<Block> {
-    let path = Path::Curve(poly(pieces, feed_axes)?);
+    let path = Path::Curve(PolyPath::through(pieces, feed_axes)?);
     Some(Block { path, ..block.clone() })
 }
 

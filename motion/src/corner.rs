@@ -10,7 +10,7 @@ use crate::limits::{contour_acceleration, longest_ramp};
 use kontur_filters::time::CycleTime;
 
 /// Direction changes below this are rounding of the program's numbers, not kinks.
-const TANGENT: f64 = 1e-9;
+pub(crate) const TANGENT: f64 = 1e-9;
 
 /// A block with its tangents and curvatures at both ends.
 #[derive(Clone, Debug)]

@@ -132,7 +132,7 @@ fn unchanged(known: &[Span], s: &Stretch, v0: f64, v1: f64) -> Option<Span> {
     same.then(|| span.clone())
 }
 
-/// Limits of the blocks of a stretch; `None` if a slope does not have ramps of constant jerk.
+/// Limits of the blocks of a stretch; `None` with STEP and with constant ramp times.
 fn cells(
     blocks: &[Arc<Queued>],
     feeds: &[Cap],

@@ -5,11 +5,13 @@
 
 mod arc;
 mod line;
+pub(crate) mod piece;
 mod poly;
 
 pub use arc::{ArcPath, ArcShape};
 pub use line::LinePath;
-pub use poly::{Coefficients, PolyPath, PolyPiece};
+pub use piece::{Coefficients, PolyPiece};
+pub use poly::PolyPath;
 
 use crate::axis::AxisVec;
 

@@ -4,7 +4,7 @@
 //! the path needs more than a cycle for it (`v <= d / T`) every kink counts for itself, else `v U_i` is bounded like a
 //! single jump. On a fine chord polygon that is the limit of the circle, `v^2 / r <= w a` (derived).
 
-use crate::corner::admissible_jump;
+use crate::corner::{TANGENT, admissible_jump};
 use crate::limit::SpeedLimit;
 use crate::lookahead::Cap;
 use crate::queue::Queued;
@@ -14,6 +14,8 @@ use std::sync::Arc;
 
 /// Kinks that are looked at one by one; a run with more of them in a cycle is taken as a curve.
 const KINKS: usize = 64;
+/// Blocks that are looked at for them: most may go straight on.
+const BLOCKS: usize = 1024;
 
 /// Lowers the caps in front of the newest block and of those before it. `caps[i]` stands before block `i`.
 pub(crate) fn lower_caps(
@@ -24,9 +26,11 @@ pub(crate) fn lower_caps(
 ) {
     let newest = queue.len() - 1;
     let to = &queue[newest];
-    let mut distance = 0.0;
-    for back in 1..=KINKS {
-        let Some(first) = newest.checked_sub(back).filter(|f| *f > 0) else { return };
+    if newest == 0 || !is_kink(&queue[newest - 1], to) {
+        return;
+    }
+    let (mut distance, mut kinks) = (0.0, 0);
+    for first in (1..newest).rev().take(BLOCKS) {
         let (from, inner) = (&queue[first - 1], &queue[first]);
         if ![from, inner, to].iter().all(|q| q.block.path.is_straight()) {
             return;
@@ -39,6 +43,10 @@ pub(crate) fn lower_caps(
         if apart >= fastest {
             return;
         }
+        if !is_kink(from, inner) {
+            continue;
+        }
+        kinks += 1;
         let mut together = f64::INFINITY;
         for i in 0..from.ends.tangent_out.len() {
             let turn = (to.ends.tangent_in[i] - from.ends.tangent_out[i]).abs();
@@ -47,11 +55,23 @@ pub(crate) fn lower_caps(
                 together = together.min(jump / turn);
             }
         }
-        let v = if back == KINKS { (together * apart).sqrt() } else { together }.max(apart);
+        let v = if kinks == KINKS { (together * apart).sqrt() } else { together }.max(apart);
         for boundary in [first, newest] {
             if v < caps[boundary].0 {
                 caps[boundary] = (v, SpeedLimit::Curve);
             }
         }
+        if kinks == KINKS {
+            return;
+        }
     }
+}
+
+/// True if the direction changes between two blocks.
+fn is_kink(from: &Queued, to: &Queued) -> bool {
+    from.ends
+        .tangent_out
+        .iter()
+        .zip(to.ends.tangent_in.iter())
+        .any(|(a, b)| (a - b).abs() > TANGENT)
 }

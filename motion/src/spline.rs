@@ -10,10 +10,14 @@
 //! and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline touches the polygon before and behind it (P-CHAN-00129
 //! = 0), or the spline ends there (`AUTO_OFF_PATH`). At its ends the spline meets the polygon with its direction and
 //! without curvature. Position, tangent and curvature are continuous everywhere else.
+//!
+//! An edge becomes several blocks with the number of the programmed one where its parts allow different speeds.
+
+mod pace;
 
 use crate::axis::AxisVec;
 use crate::block::{Block, Feed};
-use crate::path::{Path, PolyPath, PolyPiece};
+use crate::path::{Path, PolyPath, PolyPiece, piece};
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 
@@ -137,13 +141,24 @@ impl Splining {
     /// Puts out the piece of the next edge.
     fn put_out(&mut self, to_end: bool) {
         let single = self.from_start && to_end && self.run.len() == 1;
-        let edge = &self.run[self.done];
-        let curve = if single { None } else { self.curve(to_end) };
-        let mut block = edge.block.clone();
-        if let Some(curve) = curve {
-            block.path = Path::Curve(curve);
+        let curves = if single { Vec::new() } else { self.curves(to_end) };
+        let block = &self.run[self.done].block;
+        if curves.is_empty() {
+            self.ready.push(block.clone());
         }
-        self.ready.push(block);
+        let whole: f64 = curves.iter().map(PolyPath::length).sum();
+        let parts = curves.len();
+        for (i, curve) in curves.into_iter().enumerate() {
+            let mut part = block.clone();
+            if let Feed::Duration(t) = block.feed {
+                part.feed = Feed::Duration(t * curve.length() / whole);
+            }
+            if i + 1 < parts {
+                (part.end_velocity_mm_s, part.contour) = (None, None);
+            }
+            part.path = Path::Curve(curve);
+            self.ready.push(part);
+        }
         self.done += 1;
         if self.done > BEHIND {
             self.run.pop_front();
@@ -152,23 +167,39 @@ impl Splining {
         }
     }
 
-    /// The spline over the next edge.
-    fn curve(&self, to_end: bool) -> Option<PolyPath> {
+    /// The spline over the next edge: one curve, or one for each part with a speed of its own.
+    fn curves(&self, to_end: bool) -> Vec<PolyPath> {
         let polygon = ControlPolygon::around(&self.run, self.done, self.from_start, to_end);
         let pieces: Vec<PolyPiece> =
             (polygon.first..polygon.last).map(|j| polygon.piece(j)).collect();
-        let last = self.done + 1 == self.run.len();
-        let start = if self.from_start && self.done == 0 {
-            self.run[0].start().clone()
+        let block = &self.run[self.done].block;
+        let mut start = if self.from_start && self.done == 0 {
+            block.path.start().clone()
         } else {
             polygon.joint(polygon.first)
         };
-        let end = if to_end && last {
-            self.run[self.done].block.path.end().clone()
+        let end = if to_end && self.done + 1 == self.run.len() {
+            block.path.end().clone()
         } else {
             polygon.joint(polygon.last)
         };
-        PolyPath::new(start, end, pieces, &self.run[self.done].block.dynamics.feed_axes)
+        // a stop at every transition (G116) means those of the program
+        let groups = if block.dynamics.stop_at_transitions {
+            vec![pieces]
+        } else {
+            pace::groups(block, pieces)
+        };
+        let mut groups = groups.into_iter();
+        let mut out = Vec::with_capacity(groups.len());
+        while let Some(pieces) = groups.next() {
+            let here = match pieces.last() {
+                Some(last) if groups.len() > 0 => piece::point(last, 1.0),
+                _ => end.clone(),
+            };
+            let from = std::mem::replace(&mut start, here.clone());
+            out.extend(PolyPath::new(from, here, pieces, &block.dynamics.feed_axes));
+        }
+        out
     }
 }
 

@@ -221,22 +221,25 @@ impl Monitor {
             if mark.jump <= 1e-9 && !bent {
                 continue;
             }
-            let until = if bent {
-                marks.get(m + 1).map_or_else(|| rest_tick(trial), |n| n.cycles)
-            } else {
-                mark.cycles
-            };
-            let last = until.ceil() as u64 + reach;
-            let first = next.max(mark.cycles.floor() as u64 + 1);
-            if first > last {
-                continue;
+            // the entry, what lies between, and the way out of the kernels' reach
+            let entered = mark.cycles.ceil() as u64 + reach;
+            let until = marks.get(m + 1).map_or_else(|| rest_tick(trial), |n| n.cycles);
+            let left = (until.ceil() as u64).max(entered);
+            let parts = if bent { [entered, left, left + reach] } else { [entered; 3] };
+            next = next.max(mark.cycles.floor() as u64 + 1);
+            for last in parts {
+                let calm = !buffer.unequal && !trial.kernels.overshoot;
+                if next > last || (calm && quiet(trial, marks, next, last)) {
+                    next = next.max(last + 1);
+                    continue;
+                }
+                buffer.seek(self, trial, next);
+                for k in next..=last {
+                    buffer.step(self, trial, k);
+                    Self::judge(trial, marks, &contour, k, &buffer, &mut findings);
+                }
+                next = last + 1;
             }
-            buffer.fill(self, trial, first);
-            for k in first..=last {
-                buffer.step(self, trial, k);
-                Self::judge(trial, marks, &contour, k, &buffer, &mut findings);
-            }
-            next = last + 1;
         }
         findings
     }
@@ -407,6 +410,29 @@ impl Monitor {
     }
 }
 
+/// True if no set point of the cycles `first..=last` can leave the contour by half the tolerance.
+///
+/// A set point is a mean of points of the path with positive weights (not so with kernels that overshoot). Expanded
+/// around their mean path length the linear part lies on the path, and what is left of an axis is at most `bend / 2`
+/// times the variance of the path length, itself at most a quarter of the stretch squared (derived).
+fn quiet(trial: &Trial<'_>, marks: &[Mark], first: u64, last: u64) -> bool {
+    let reach = f64::from(trial.kernels.length());
+    let begin = marks.partition_point(|m| m.cycles <= first as f64 - reach - 1.0).saturating_sub(1);
+    let end = marks.partition_point(|m| m.cycles <= last as f64);
+    let (mut bend, mut speed, mut tolerance) = (0.0_f64, 0.0_f64, f64::INFINITY);
+    for (i, m) in marks[begin..end].iter().enumerate() {
+        if i > 0 && m.jump > 1e-9 {
+            return false;
+        }
+        bend = bend.max(m.queued.bend);
+        speed = speed.max(m.speed);
+        tolerance = tolerance.min(m.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY));
+    }
+    let stretch = speed * trial.cycle.seconds() * reach;
+    let axes = trial.kernels.axes.len() as f64;
+    axes.sqrt() * bend * stretch * stretch / 8.0 < 0.5 * tolerance
+}
+
 /// A fiftieth of the speed at which a curve alone uses up the tolerance: slower is never needed.
 fn slowest(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> f64 {
     let variance = (0..queued.ends.tangent_in.len())
@@ -503,6 +529,8 @@ struct Buffer<'a> {
     state: PathState,
     set: AxisVec,
     unequal: bool,
+    /// The cycle behind the last one taken.
+    next: Option<u64>,
 }
 
 impl<'a> Buffer<'a> {
@@ -520,6 +548,14 @@ impl<'a> Buffer<'a> {
             state: PathState { position: zero.clone(), ..PathState::default() },
             set: zero,
             unequal,
+            next: None,
+        }
+    }
+
+    /// Makes `first` the next cycle to take.
+    fn seek(&mut self, monitor: &Monitor, trial: &Trial<'_>, first: u64) {
+        if self.next != Some(first) {
+            self.fill(monitor, trial, first);
         }
     }
 
@@ -535,6 +571,7 @@ impl<'a> Buffer<'a> {
         self.head = (self.head + 1) % self.ring.len();
         self.ring[self.head].copy_from_slice(&self.state.position);
         self.s_mm[self.head] = self.state.s;
+        self.next = Some(k + 1);
     }
 
     /// Takes cycle `k` and filters.

@@ -463,6 +463,40 @@ fn a_larger_tolerance_costs_nothing() {
     }
 }
 
+/// The same over random zigzags: edges of 0.05 to 20 mm, any corner but a reversal, tolerances over four decades.
+#[test]
+fn a_larger_tolerance_costs_nothing_on_random_polygons() {
+    let mut seed = 9_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    for program in 0..10 {
+        let (mut heading, mut at) = (0.0, [0.0, 0.0]);
+        let mut points = vec![at];
+        for _ in 0..25 {
+            let l = 0.05 * libm::pow(400.0, random());
+            let (sin, cos) = libm::sincos(heading);
+            at = [at[0] + l * cos, at[1] + l * sin];
+            points.push(at);
+            heading += 5.6 * (random() - 0.5);
+        }
+        let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        for kind in [Trapez, Hsc] {
+            let mut job = Job::new(1.0, kind);
+            job.slope.optimised = true;
+            let mut last = usize::MAX;
+            for eps in [1e-4, 1e-3, 0.01, 0.1, 1.0] {
+                let now = peaks(&job, Some(dev(eps)), &views, 200.0);
+                println!("{program} {kind:?} {eps}: {now:?} after {last}");
+                assert!(now.0 <= last, "{program} {kind:?} {eps}: {now:?} after {last}");
+                assert!(now.1 <= 2000.0 * (1.0 + 1e-6), "{program} {kind:?} {eps}: {now:?}");
+                last = now.0;
+            }
+        }
+    }
+}
+
 /// `AX_DEV` holds on curves as it does on arcs: the filtered setpoints stay within it of the contoured path.
 #[test]
 fn tolerance_monitoring_on_curves() {

@@ -1,5 +1,7 @@
 //! What holds for every program: random contours, blocks and limits.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
 mod common;
 
 use common::{Job, axis, channel};
@@ -96,8 +98,8 @@ fn load(job: &Job, out: &[Setpoint]) -> (f64, f64, f64) {
     let t = f64::from(job.cycle_us) * 1e-6;
     let p = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
     let (mut v, mut a, mut low) = (0.0_f64, 0.0_f64, f64::INFINITY);
-    for k in 0..out.len() {
-        low = low.min(out[k].v_mm_s);
+    for (k, now) in out.iter().enumerate() {
+        low = low.min(now.v_mm_s);
         for (i, axis) in job.dynamics.axes.iter().enumerate() {
             v = v.max((p(k + 1, i) - p(k, i)).abs() / t / axis.v_max_mm_s);
             let d2 = (p(k + 2, i) - 2.0 * p(k + 1, i) + p(k, i)).abs() / (t * t);
@@ -256,6 +258,53 @@ fn a_final_speed_is_never_too_high() {
             let (v, a, low) = load(&job, &out);
             assert!(v <= 1.0 + 1e-6 && a <= 3.0 && low >= 0.0, "{program}: {v} {a} {low}");
             assert_eq!(out[out.len() - 1].position[..], paths[119].end()[..]);
+        }
+    }
+}
+
+/// Points along a chain of edges, `step` mm apart; every edge turns by the same angle.
+fn fine(edge: f64, degrees: f64, edges: usize, step: f64) -> Vec<[f64; 2]> {
+    let per_edge = libm::round(edge / step) as usize;
+    let (mut at, mut out) = ([0.0, 0.0], vec![[0.0, 0.0]]);
+    for k in 0..edges {
+        let (sin, cos) = libm::sincos(degrees.to_radians() * k as f64);
+        for i in 1..=per_edge {
+            let l = edge * i as f64 / per_edge as f64;
+            out.push([at[0] + l * cos, at[1] + l * sin]);
+        }
+        at = out[out.len() - 1];
+    }
+    out
+}
+
+/// Blocks of 1e-4 mm at 60 m/min and 10 m/s2: ten thousand of them could pass in a cycle. What the path and its kinks use
+/// together is at most twice the acceleration of an axis, the path acceleration and the jump of one cycle.
+#[test]
+fn limits_hold_at_extreme_ratios() {
+    let step = 1e-4;
+    let shapes = [
+        ("line", fine(0.5, 0.0, 1, step)),
+        ("circle of 0.05 mm", fine(step, 0.114_591_559, 3142, step)),
+        ("square", fine(0.1, 90.0, 4, step)),
+        ("kinks of 30 degrees", fine(0.01, 30.0, 24, step)),
+        ("zigzag", (0..2000).map(|k| [step * f64::from(k), step * f64::from(k % 2)]).collect()),
+    ];
+    let mut a = axis(1.0);
+    a.a_max_mm_s2 = 10_000.0;
+    a.feed = FeedSlope { acc_mm_s2: 10_000.0, dec_mm_s2: 10_000.0, ramps_s: [0.005; 4] };
+    a.step_feed.acc_mm_s2 = [10_000.0; 2];
+    a.step_feed.dec_mm_s2 = [10_000.0; 2];
+    for (name, points) in shapes {
+        let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        for slope in kinds() {
+            for window in [120, 2000] {
+                let job = Job { window, ..job(vec![a; 2], slope) };
+                let out = job.drive(&views, &[1000.0]);
+                let (v, acc, low) = load(&job, &out);
+                println!("{name} {slope:?} {window}: {} cycles, {acc:.3}", out.len());
+                assert!(v <= 1.0 + 1e-6 && acc <= 2.0 + 1e-6 && low >= 0.0, "{name} {slope:?}");
+                assert_eq!(out[out.len() - 1].position[..], points[points.len() - 1][..]);
+            }
         }
     }
 }

@@ -9,7 +9,7 @@ mod common;
 
 use common::{Job, axis, channel};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
-use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
+use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Trapez};
 
 type Point = [f64; 3];
 
@@ -150,7 +150,7 @@ fn bound(points: &[Point], a: &AxisDynamics, feed: f64, cycle_s: f64) -> f64 {
 
 fn machine_time(points: &[Point], a: AxisDynamics, kind: SlopeKind, feed: f64) -> f64 {
     let mut job = Job { dynamics: channel(vec![a; 3]), ..Job::new(1.0, kind) };
-    job.slope.optimised = kind == Trapez;
+    job.slope.optimised = kind != Hsc;
     let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
     let out = job.drive(&views, &[feed]);
     (out.len() - 1) as f64 * 1e-3
@@ -161,8 +161,13 @@ fn machine_time_is_close_to_the_bound() {
     for (name, points, feed) in
         [("surface", surface(), 150.0), ("spiral", spiral(), 250.0), ("pocket", pocket(), 150.0)]
     {
-        for (kind, ramp_s, allowed) in [(Hsc, 0.02, 0.05), (Hsc, 0.001, 0.02), (Trapez, 0.02, 0.1)]
-        {
+        for (kind, ramp_s, allowed) in [
+            (Hsc, 0.02, 0.05),
+            (Hsc, 0.001, 0.02),
+            (Trapez, 0.02, 0.1),
+            (Sin2, 0.02, 0.1),
+            (Sin2, 0.001, 0.02),
+        ] {
             let a = machine(ramp_s);
             let least = bound(&points, &a, feed, 1e-3);
             let time = machine_time(&points, a, kind, feed);

@@ -56,6 +56,28 @@ fn programs_that_must_fail() {
         let found = run.diagnostics.iter().find(|d| d.id == Id::Vendor(id));
         assert_eq!(found.unwrap().source.as_ref().unwrap().line, line, "{name}");
     }
+    let ten = run(&text("fail/ten_mistakes.nc"), &[]);
+    let places: Vec<String> = ten
+        .diagnostics
+        .iter()
+        .map(|d| {
+            let at = d.source.as_ref().unwrap();
+            format!("{} {}:{}", d.id, at.line, at.column)
+        })
+        .collect();
+    let expected = [
+        "20008 4:9",
+        "20131 6:5",
+        "20509 7:5",
+        "20203 8:11",
+        "K-0002 9:15",
+        "K-0012 10:7",
+        "21024 11:15",
+        "K-0014 12:9",
+        "22062 13:21",
+        "K-0001 14:13",
+    ];
+    assert_eq!(places, expected);
     let ids: Vec<Id> = run(&text("fail/syntax.nc"), &[]).diagnostics.iter().map(|d| d.id).collect();
     assert_eq!(ids, [Id::Vendor(20131), Id::Vendor(20203), Id::Vendor(20509), Id::Kontur(2)]);
     let slow = [

@@ -101,6 +101,14 @@ pub struct SimulationArgs {
     #[arg(long)]
     pub strict: bool,
 
+    /// Take kinematic transformations (#TRAFO, #RTCP, #KIN ID) as identity, with a warning
+    #[arg(long)]
+    pub identity_trafo: bool,
+
+    /// Value of an external variable at program start, e.g. `Speed=1200` for V.E.Speed
+    #[arg(long, value_name = "NAME=VALUE", value_parser = external)]
+    pub external: Vec<(String, String)>,
+
     /// Form of the messages on stderr
     #[arg(long, value_enum, default_value_t = MessageForm::Text)]
     pub diagnostics: MessageForm,
@@ -120,6 +128,8 @@ impl SimulationArgs {
             max_time_s: self.max_time,
             max_blocks: self.max_blocks,
             strict: self.strict,
+            identity_trafo: self.identity_trafo,
+            external: self.external.clone(),
         }
     }
 }
@@ -214,6 +224,16 @@ pub(crate) fn setting(text: &str) -> Result<String, String> {
     match Override::parse(text) {
         Ok(_) => Ok(text.to_owned()),
         Err(d) => Err(d.hint.unwrap_or(d.text)),
+    }
+}
+
+/// `NAME=VALUE`.
+fn external(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.to_owned()))
+        }
+        _ => Err("NAME=VALUE is expected".to_owned()),
     }
 }
 

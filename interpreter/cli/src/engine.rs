@@ -32,6 +32,10 @@ pub struct Request {
     pub max_blocks: u64,
     /// Keys of a list that are not modelled are refused.
     pub strict: bool,
+    /// Transformations of the kinematics are taken as identity.
+    pub identity_trafo: bool,
+    /// External variables by their name behind `V.E.`: a number, or else a text.
+    pub external: Vec<(String, String)>,
 }
 
 /// What stays the same during a run.

@@ -3,7 +3,7 @@
 use crate::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
 use crate::files::{Lists, ProgramFiles};
 use kontur_interpreter::diag::{Diagnostic, Id, Severity};
-use kontur_interpreter::exec::{self, Options, SkipLevels};
+use kontur_interpreter::exec::{self, Access, External, Options, SkipLevels, Value};
 use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override, explain};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::sim::{Limits, Simulation};
@@ -46,6 +46,11 @@ pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenErro
         });
         return Err(OpenError::Lists(refused.collect()));
     }
+    // a filter or a controller that the list describes and that cannot be: the axis would move without it
+    let chains = machine.chains().1;
+    if chains.iter().any(Diagnostic::is_error) {
+        return Err(OpenError::Lists(messages.into_iter().chain(chains).collect()));
+    }
     Ok((machine, messages))
 }
 
@@ -64,8 +69,18 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         start: request.start.clone(),
         skip,
         max_blocks: request.max_blocks,
+        identity_trafo: request.identity_trafo,
+        external: request.external.iter().map(external).collect(),
         ..Options::default()
     })
+}
+
+fn external((name, value): &(String, String)) -> (String, External) {
+    let value = match value.trim().parse::<f64>() {
+        Ok(x) if x.is_finite() => Value::Number(x),
+        _ => Value::Text(value.as_str().into()),
+    };
+    (name.clone(), External { value, access: Access::ReadWrite })
 }
 
 fn sources(request: &Request) -> ProgramFiles {
@@ -119,7 +134,10 @@ impl Source for Run {
 
     fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = std::mem::take(&mut self.messages);
-        found.extend(self.simulation.take_diagnostics());
+        // of a refused program the check has said everything
+        if !self.refused {
+            found.extend(self.simulation.take_diagnostics());
+        }
         found
     }
 
@@ -155,6 +173,7 @@ impl Engine for Kontur {
         );
         let refused = found.iter().any(Diagnostic::is_error);
         if refused {
+            messages.extend(machine.chains().1);
             messages.extend(found);
         }
         let simulation = open(options).map_err(OpenError::Lists)?;
@@ -169,7 +188,7 @@ impl Engine for Kontur {
     ) -> Result<(), OpenError> {
         readable(&request.program)?;
         let (machine, messages) = machine(request)?;
-        messages.into_iter().for_each(&mut *report);
+        messages.into_iter().chain(machine.chains().1).for_each(&mut *report);
         let options = options(request, &machine)?;
         let program = request.program.display().to_string();
         let found = exec::check(Box::new(sources(request)), &program, Arc::new(machine), options);

@@ -1,11 +1,15 @@
 //! The summary of a run, accumulated from its records.
 
+mod ripple;
+
 use crate::engine::{Facts, Totals};
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, SpeedLimit};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+
+pub use ripple::SpeedRipple;
 
 /// More messages than this are counted and no longer kept: a program may repeat a warning without end.
 const MESSAGES_KEPT: usize = 1000;
@@ -81,6 +85,8 @@ pub struct Summary {
     pub blocks: u64,
     /// Length of the path in mm.
     pub path_length_mm: f64,
+    /// Deepest dip of the path speed between two rests; none if it never dipped.
+    pub speed_ripple: Option<SpeedRipple>,
     /// Path axes in channel order, then spindles.
     pub axes: Vec<AxisSummary>,
     /// Largest contour error; none if there was no cycle.
@@ -102,6 +108,7 @@ pub struct Collector {
     cycles: u64,
     worst: (f64, u64, u32, u32, Option<u64>),
     limits: [u64; SpeedLimit::ALL.len()],
+    ripple: ripple::Collector,
     messages: Vec<Diagnostic>,
     omitted: u64,
 }
@@ -116,6 +123,7 @@ impl Collector {
             cycles: 0,
             worst: (0.0, 0, 0, 0, None),
             limits: [0; SpeedLimit::ALL.len()],
+            ripple: ripple::Collector::default(),
             messages: Vec::new(),
             omitted: 0,
         }
@@ -141,6 +149,7 @@ impl Collector {
         {
             self.limits[i] += record.k.saturating_sub(before);
         }
+        self.ripple.add(record);
         self.last = Some((record.k, record.path.s_mm));
         self.cycles += 1;
     }
@@ -174,6 +183,7 @@ impl Collector {
             not_counted: totals.not_counted.clone(),
             blocks: totals.blocks,
             path_length_mm,
+            speed_ripple: self.ripple.finish(facts.cycle_us),
             axes: axes
                 .map(|(i, (most, axis))| AxisSummary {
                     name: axis.name.clone(),
@@ -240,6 +250,14 @@ impl Summary {
             writeln!(out, "  not counted    {what}")?;
         }
         writeln!(out, "  path           {:.4} mm in {} blocks", self.path_length_mm, self.blocks)?;
+        if let Some(ripple) = &self.speed_ripple {
+            let (low, high, line) = (ripple.v_min_mm_s, ripple.v_max_mm_s, ripple.line);
+            let percent = 100.0 * ripple.ratio;
+            writeln!(
+                out,
+                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at line {line}"
+            )?;
+        }
         if let Some(worst) = &self.max_contour_error {
             let block = worst.block.map_or_else(String::new, |n| format!(", N{n}"));
             writeln!(

@@ -61,6 +61,7 @@ impl Executor {
             frames: Vec::new(),
             cycle: saved,
             declarations: false,
+            cut: false,
         });
         self.decoder.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
     }
@@ -94,13 +95,12 @@ impl Executor {
             self.pop_level();
             return;
         }
-        let text = "the main program ends without M30 or M02";
-        let diagnostic = Diagnostic::kontur(own::NO_END, text);
-        let location = self.here(Span::default());
-        self.report(match location {
-            Some(location) => diagnostic.at(location),
-            None => diagnostic,
-        });
+        if self.levels.last().is_some_and(|level| !level.cut) {
+            let text = "the main program ends without M30 or M02";
+            let mut diagnostic = Diagnostic::kontur(own::NO_END, text);
+            diagnostic.source = self.here(Span::default());
+            self.report(diagnostic);
+        }
         self.contouring_at_end();
         self.end(EndReason::Finished);
     }
@@ -112,16 +112,16 @@ impl Executor {
             .frames
             .iter()
             .filter(|f| level.index.entry(f.open).end.is_none())
-            .map(|f| (f.keyword, level.index.entry(f.open).position))
+            .map(|f| (f.keyword, *level.index.entry(f.open)))
             .collect();
-        let Some((keyword, position)) = open.first().copied() else { return };
+        let Some((keyword, entry)) = open.first().copied() else { return };
         let closer = keyword.closer().map_or("", super::index::Keyword::text);
         let text = format!("{} is not closed by {closer}", keyword.text());
         let diagnostic = Diagnostic::vendor(20375, text)
             .value(ValueKind::Current, open.len() as f64, "-")
             .value(ValueKind::State, keyword.text(), "-")
             .value(ValueKind::Expected, closer, "-");
-        let location = self.place(position, Span::default());
+        let location = self.place(entry.position, entry.span);
         self.report(match location {
             Some(location) => diagnostic.at(location),
             None => diagnostic,
@@ -132,7 +132,9 @@ impl Executor {
     fn contouring_at_end(&mut self) {
         if self.decoder.modal.contouring {
             let text = "the program ends with contouring on";
-            self.report(Diagnostic::vendor(120206, text).severity(Severity::Warning));
+            let mut diagnostic = Diagnostic::vendor(120206, text).severity(Severity::Warning);
+            diagnostic.source = self.here(Span::default());
+            self.report(diagnostic);
         }
     }
 

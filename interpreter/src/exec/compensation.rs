@@ -76,7 +76,7 @@ impl Compensator {
         }
         // another side or radius, or none: a line leads there
         if !matches!(side, Side::Line { .. }) {
-            return Err(circular(motion.span));
+            return Err(circular(&motion));
         }
         let at = active.finish(out)?;
         self.select(motion, Some(at), out)
@@ -88,9 +88,12 @@ impl Compensator {
             out.push(item);
             return Ok(());
         };
-        if let Item::Sync { what: Sync::Stop | Sync::FlushWait | Sync::ReadActual, .. } = item {
+        if let Item::Sync {
+            what: Sync::Stop | Sync::FlushWait | Sync::ReadActual, source, ..
+        } = item
+        {
             let text = "the channel cannot be flushed while tool radius compensation is active";
-            return Err(Fault::vendor(20651, text, self.span));
+            return Err(Fault::vendor(20651, text, Span::default()).in_block(source));
         }
         active.hold(item, self.span)
     }
@@ -128,7 +131,7 @@ impl Compensator {
             out.push(Item::Motion(motion));
             return Ok(());
         };
-        let Side::Line { from, .. } = side else { return Err(circular(motion.span)) };
+        let Side::Line { from, .. } = side else { return Err(circular(&motion)) };
         let last = Element { motion, side, start: from, approach: true };
         self.active = Some(Box::new(Active { distance, plane, last, between: Vec::new() }));
         Ok(())
@@ -157,7 +160,7 @@ impl Active {
     /// Completes the last element at the corner to the next one.
     fn join(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
         let Self { distance, plane, last, between } = self;
-        let span = motion.span;
+        let (span, source) = (motion.span, motion.source);
         let corner = side.start_point();
         let after = above(corner, side.tangent(false), distance);
         if last.approach {
@@ -182,8 +185,8 @@ impl Active {
             out.extend(corner_arc(&template, &motion, plane, corner, before, after, distance));
             after
         } else {
-            let at =
-                inner_corner(&last.side, &side, corner, distance).ok_or_else(|| too_tight(span))?;
+            let at = inner_corner(&last.side, &side, corner, distance)
+                .ok_or_else(|| too_tight(span, source))?;
             last.emit(at, plane, distance, out)?;
             emit_between(between, at, plane, out);
             at
@@ -216,7 +219,7 @@ impl Element {
             Side::Line { .. } => {
                 let along = dot(sub(end, start), side.tangent(false));
                 if along < 0.0 && !approach {
-                    return Err(too_tight(motion.span));
+                    return Err(too_tight(motion.span, motion.source));
                 }
                 line(&motion, plane, start, end)
             }
@@ -228,11 +231,12 @@ impl Element {
                         "tool radius {} mm is too large for an arc of radius {radius} mm",
                         distance.abs()
                     );
-                    return Err(Fault::vendor(90031, text, motion.span));
+                    let fault = Fault::vendor(90031, text, motion.span);
+                    return Err(fault.in_block(motion.source));
                 }
                 let sweep_rad = trimmed(&side, start, end);
                 if sweep_rad * side_sweep(&side) <= 0.0 {
-                    return Err(too_tight(motion.span));
+                    return Err(too_tight(motion.span, motion.source));
                 }
                 let shape = ArcShape { plane, centre_mm: *centre, sweep_rad };
                 let (from, to) = ends(&motion, plane, start, end);
@@ -361,13 +365,13 @@ fn trimmed(side: &Side, start: Point, end: Point) -> f64 {
     sweep_rad - at_start + at_end
 }
 
-fn circular(span: Span) -> Box<Fault> {
+fn circular(motion: &Motion) -> Box<Fault> {
     let text =
         "tool radius compensation is selected, changed and cancelled in straight motions only";
-    Fault::vendor(90008, text, span)
+    Fault::vendor(90008, text, motion.span).in_block(motion.source)
 }
 
-fn too_tight(span: Span) -> Box<Fault> {
+fn too_tight(span: Span, source: SourceRef) -> Box<Fault> {
     let text = "the contour is too tight for the radius of the tool";
-    Fault::kontur(own::COMPENSATION, text, span)
+    Fault::kontur(own::COMPENSATION, text, span).in_block(source)
 }

@@ -73,7 +73,8 @@ impl Contour {
         let mut faults = Vec::new();
         if let Some(mut before) = self.held.take() {
             let inserted = match self.insertion.take() {
-                Some(insertion) => insertion::between(&mut before, &mut motion, &insertion),
+                Some(insertion) => insertion::between(&mut before, &mut motion, &insertion)
+                    .map_err(|fault| fault.in_block(insertion.source)),
                 None => Ok(None),
             };
             faults.extend(self.compensate(before).map(|f| *f));
@@ -118,7 +119,8 @@ impl Contour {
         }
         if let Some(insertion) = self.insertion.take() {
             let text = "the path stops here: no chamfer or rounding is inserted";
-            faults.push(*Fault::vendor(20352, text, insertion.span));
+            let fault = Fault::vendor(20352, text, insertion.span);
+            faults.push(*fault.in_block(insertion.source));
         }
         faults
     }

@@ -8,7 +8,7 @@ use super::contouring::{Contouring, Hsc};
 use super::coordinates::Coordinates;
 use super::dialect::Seen;
 use super::dynamics::{Weights, channel_dynamics};
-use super::fault::Fault;
+use super::fault::{Fault, own};
 use super::modal::{FeedType, FeedWord, Modal, PathMode, Plane};
 use super::options::Options;
 use super::overrides::Overrides;
@@ -19,7 +19,7 @@ use super::step::{Event, Feedback, SourceRef, Sync};
 use super::system::Timers;
 use super::tools::Tools;
 use super::variables::Variables;
-use crate::diag::{Diagnostic, Location};
+use crate::diag::{Diagnostic, Id, Location};
 use crate::machine::{AxisKind, Machine};
 use crate::syntax::ast::{Ident, Span};
 use kontur_motion::axis::AxisVec;
@@ -171,7 +171,9 @@ impl Decoder {
         decoder.presets();
         let Worked { setup, diagnostics } = decoder.shaping.work_out(&decoder.machine);
         decoder.shaping.setup = setup;
-        decoder.unplaced.extend(diagnostics);
+        // what the lists say about single filters is told, with its place, when the chains are set up
+        let of_several = [own::LIST_FIR_AND_GUARD, own::UNEQUAL_KERNELS].map(Id::Kontur);
+        decoder.unplaced.extend(diagnostics.into_iter().filter(|d| of_several.contains(&d.id)));
         decoder
     }
 

@@ -2,6 +2,7 @@
 
 use super::contour::Contour;
 use super::decoder::Decoder;
+use super::dialect;
 use super::din::After;
 use super::fault::{Fault, own};
 use super::files::{FileError, Files, Parsed, Reading};
@@ -40,6 +41,8 @@ pub(super) struct Level {
     pub(super) cycle: Option<Box<Modal>>,
     /// Between `#VAR` and `#ENDVAR`.
     pub(super) declarations: bool,
+    /// A control block without its end took the rest of the text.
+    pub(super) cut: bool,
 }
 
 /// Where the execution stands.
@@ -222,6 +225,17 @@ impl Executor {
         self.files.names()
     }
 
+    /// Place of a block whose step was handed out; its text is read again.
+    pub fn locate(&mut self, source: SourceRef) -> Option<Location> {
+        if source.line == 0 {
+            return None;
+        }
+        let position = Position { offset: source.offset, line: source.line };
+        let mut location = self.files.locate_block(source.file as usize, position)?;
+        location.block = source.block;
+        Some(location)
+    }
+
     /// Kernels in force; before the first step those of the axis lists.
     pub fn shaping(&self) -> &ShapingSetup {
         &self.decoder.shaping.setup
@@ -311,7 +325,7 @@ impl Executor {
             }
             Keyword::Remark => {
                 let at = entry.position;
-                if let Some(location) = self.place(at, Span::new(0, 1)) {
+                if let Some(location) = self.place(at, entry.span) {
                     let text = "a % block inside a program is taken as a remark";
                     let d = Diagnostic::kontur(own::PERCENT, text).severity(Severity::Warning);
                     self.report(d.at(location));
@@ -352,7 +366,10 @@ impl Executor {
 
     fn wait_for_actual(&mut self, at: Position) {
         self.state = State::WaitsForActual;
-        let source = SourceRef { line: at.line, block: None, ..self.decoder.source };
+        let file =
+            self.levels.last().map_or(self.decoder.source.file, |level| file_number(level.file));
+        let source = SourceRef { file, line: at.line, offset: at.offset, block: None };
+        self.decoder.source = source;
         let faults = self.decoder.contour.sync(Sync::ReadActual, source);
         self.position = at;
         for fault in faults {
@@ -392,8 +409,8 @@ impl Executor {
                 self.decoder.keep(outcome).map(u64::from)
             }
         };
-        let file = u32::try_from(file).unwrap_or(u32::MAX);
-        self.decoder.source = SourceRef { file, line: at.line, block };
+        let file = file_number(file);
+        self.decoder.source = SourceRef { file, line: at.line, offset: at.offset, block };
         self.decoder.location = None;
         self.decoder.info.offset = at.offset;
         if let Some(block) = block {
@@ -496,10 +513,7 @@ impl Executor {
         let mut failed = faulty;
         for fault in faults {
             failed |= fault.is_error();
-            let Fault { mut diagnostic, span } = fault;
-            if diagnostic.source.is_none() {
-                diagnostic.source = self.here(span);
-            }
+            let diagnostic = self.placed(fault);
             self.report(diagnostic);
         }
         if self.decoder.checking {
@@ -517,29 +531,48 @@ impl Executor {
         }
     }
 
-    /// Place of a span of the block in work.
-    pub(super) fn here(&mut self, span: Span) -> Option<Location> {
-        self.place(self.position, span)
+    /// The diagnostic of a fault with its place.
+    fn placed(&mut self, fault: Fault) -> Diagnostic {
+        let Fault { mut diagnostic, span, origin } = fault;
+        if diagnostic.source.is_none() {
+            diagnostic.source = match origin {
+                Some(block) => self.place_in(block, span),
+                None => self.here(span),
+            };
+        }
+        diagnostic
     }
 
-    /// Place of a span of a block of the present file.
-    pub(super) fn place(&mut self, position: Position, span: Span) -> Option<Location> {
-        let file = self.levels.last().map_or(self.decoder.source.file as usize, |l| l.file);
+    /// Place of a span of the block in work, also if it has left its level or entered another.
+    pub(super) fn here(&mut self, span: Span) -> Option<Location> {
+        let Position { offset, line } = self.position;
+        self.place_in(SourceRef { line, offset, ..self.decoder.source }, span)
+    }
+
+    fn place_in(&mut self, block: SourceRef, span: Span) -> Option<Location> {
+        let file = block.file as usize;
         if file >= self.files.names().len() {
             return None;
         }
+        let position = Position { offset: block.offset, line: block.line };
         let mut location = self.files.locate(file, position, span, &self.decoder.macros)?;
-        if position == self.position {
-            location.block = self.decoder.source.block;
-        }
+        location.block = block.block;
         Some(location)
     }
 
-    /// Adds a diagnostic, once per place.
+    /// Place of a span of a block of the present level.
+    pub(super) fn place(&mut self, position: Position, span: Span) -> Option<Location> {
+        let file = self.levels.last()?.file;
+        self.files.locate(file, position, span, &self.decoder.macros)
+    }
+
+    /// Adds a diagnostic, once per place; words of other dialects once per program.
     pub(super) fn report(&mut self, mut diagnostic: Diagnostic) {
         let key = match &diagnostic.source {
-            Some(l) => (diagnostic.id, Arc::clone(&l.file), l.column, l.offset),
-            None => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
+            Some(l) if !dialect::is_foreign_word(diagnostic.id) => {
+                (diagnostic.id, Arc::clone(&l.file), l.column, l.offset)
+            }
+            _ => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
         };
         // a program with a remark in every line must not fill the memory
         let full = self.reported.len() >= DIAGNOSTICS_MAX;
@@ -565,9 +598,8 @@ impl Executor {
         let source = self.decoder.source;
         let contour: &mut Contour = &mut self.decoder.contour;
         for fault in contour.end(self.reason, source) {
-            let Fault { diagnostic, span } = fault;
-            let located = self.here(span);
-            self.report(Diagnostic { source: located, ..diagnostic });
+            let diagnostic = self.placed(fault);
+            self.report(diagnostic);
         }
     }
 
@@ -575,6 +607,11 @@ impl Executor {
     pub(super) fn has_ended(&self) -> bool {
         self.state == State::Ended
     }
+}
+
+/// A file as [`SourceRef`] names it.
+fn file_number(file: usize) -> u32 {
+    u32::try_from(file).unwrap_or(u32::MAX)
 }
 
 /// Start positions by axis name.

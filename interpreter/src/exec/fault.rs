@@ -1,5 +1,6 @@
 //! Conditions met while a block is executed, with their place in the block.
 
+use super::step::SourceRef;
 use crate::diag::{Diagnostic, Severity};
 use crate::syntax::ast::Span;
 
@@ -8,6 +9,8 @@ use crate::syntax::ast::Span;
 pub(super) struct Fault {
     pub(super) diagnostic: Diagnostic,
     pub(super) span: Span,
+    /// Block of the span, if it is an earlier one than that in work.
+    pub(super) origin: Option<SourceRef>,
 }
 
 /// Result of something that may end in a fault.
@@ -15,7 +18,7 @@ pub(super) type Outcome<T> = Result<T, Box<Fault>>;
 
 impl Fault {
     pub(super) fn new(diagnostic: Diagnostic, span: Span) -> Box<Self> {
-        Box::new(Self { diagnostic, span })
+        Box::new(Self { diagnostic, span, origin: None })
     }
 
     /// A condition with a vendor number.
@@ -36,6 +39,12 @@ impl Fault {
     /// Changes the diagnostic.
     pub(super) fn with(mut self: Box<Self>, f: impl FnOnce(Diagnostic) -> Diagnostic) -> Box<Self> {
         self.diagnostic = f(self.diagnostic);
+        self
+    }
+
+    /// The span belongs to this block.
+    pub(super) fn in_block(mut self: Box<Self>, source: SourceRef) -> Box<Self> {
+        self.origin = Some(source);
         self
     }
 

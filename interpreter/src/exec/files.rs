@@ -156,6 +156,16 @@ impl Files {
         Ok(Some((parsed, next)))
     }
 
+    /// Place of all of the block at a position.
+    pub(super) fn locate_block(&mut self, file: usize, position: Position) -> Option<Location> {
+        let ProgramFile { name, reader, .. } = self.open.get_mut(file)?;
+        reader.seek(position);
+        let raw = reader.next_block().ok()??;
+        let end = raw.text.trim_end().len();
+        let start = end - raw.text[..end].trim_start().len();
+        Some(raw.locate(name, Span::new(start, end)))
+    }
+
     /// Place of a span of the block at a position.
     pub(super) fn locate(
         &mut self,

@@ -47,7 +47,10 @@ impl Executor {
             }
             ControlKind::If { condition, goto: None } => self.if_block(condition, id, span),
             ControlKind::ElseIf(_) | ControlKind::Else => {
-                self.leave_structure(id);
+                // a stray one has been reported
+                if self.levels.last().is_some_and(|l| l.index.entry(id).open.is_some()) {
+                    self.leave_structure(id);
+                }
                 Ok(())
             }
             ControlKind::EndIf | ControlKind::EndSwitch => {
@@ -131,8 +134,12 @@ impl Executor {
         }
     }
 
-    /// 21500, 21501, 21502: the closing statement is missing.
-    fn unclosed(&self, id: EntryId, span: Span) -> Box<Fault> {
+    /// 21500, 21501, 21502: the closing statement is missing; the rest of the level is not looked at.
+    fn unclosed(&mut self, id: EntryId, span: Span) -> Box<Fault> {
+        self.skip_to_level_end();
+        if let Some(level) = self.levels.last_mut() {
+            level.cut = true;
+        }
         let Some(level) = self.levels.last() else {
             return Fault::vendor(21501, "open control block", span);
         };
@@ -165,7 +172,6 @@ impl Executor {
         loop {
             let Some(level) = self.levels.last() else { return Ok(()) };
             let Some(next) = level.index.entry(at).next else {
-                self.skip_to_level_end();
                 return Err(self.unclosed(id, span));
             };
             let (keyword, position) =
@@ -236,7 +242,6 @@ impl Executor {
         let Some(level) = self.levels.last() else { return Ok(()) };
         let (file, index) = (level.file, Arc::clone(&level.index));
         if index.entry(id).end.is_none() {
-            self.skip_to_level_end();
             return Err(self.unclosed(id, span));
         }
         let mut default = None;
@@ -285,7 +290,6 @@ impl Executor {
     ) -> Outcome<()> {
         let closed = self.levels.last().is_some_and(|l| l.index.entry(id).end.is_some());
         if !closed {
-            self.skip_to_level_end();
             return Err(self.unclosed(id, span));
         }
         let bounds = (|| {
@@ -373,7 +377,6 @@ impl Executor {
     fn while_loop(&mut self, condition: &Expr, id: EntryId, span: Span) -> Outcome<()> {
         let end = self.levels.last().and_then(|l| l.index.entry(id).end);
         if end.is_none() {
-            self.skip_to_level_end();
             return Err(self.unclosed(id, span));
         }
         if self.test(condition) {
@@ -387,7 +390,6 @@ impl Executor {
     fn open_loop(&mut self, id: EntryId, span: Span) -> Outcome<()> {
         let end = self.levels.last().and_then(|l| l.index.entry(id).end);
         if end.is_none() {
-            self.skip_to_level_end();
             return Err(self.unclosed(id, span));
         }
         self.push_frame(id, None);

@@ -145,6 +145,8 @@ pub(super) type EntryId = u32;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     pub(super) position: Position,
+    /// The keyword in its block.
+    pub(super) span: Span,
     pub(super) keyword: Keyword,
     /// Statement that opened the structure; itself for an opening one.
     pub(super) open: Option<EntryId>,
@@ -211,6 +213,8 @@ struct Head<'t> {
     skip: Option<u8>,
     number: Option<&'t str>,
     label: Option<LabelKind>,
+    /// Where the label begins.
+    label_at: usize,
     /// Text behind skip mark, number and label.
     rest: &'t str,
     /// Where it begins.
@@ -227,6 +231,7 @@ fn head(text: &str) -> Head<'_> {
     }
     let mut number = None;
     let mut label = None;
+    let mut label_at = text.len() - rest.len();
     if let Some(behind) = rest.strip_prefix(['N', 'n']) {
         let behind = blank(behind);
         let length = digits(behind);
@@ -242,11 +247,12 @@ fn head(text: &str) -> Head<'_> {
     if let (true, Some(end)) = (label.is_none() && rest.starts_with('['), rest.find(']')) {
         let name = rest[1..end].trim();
         if !name.is_empty() {
+            label_at = text.len() - rest.len();
             label = Some(LabelKind::Name(name.to_uppercase().into()));
             rest = blank(&rest[end + 1..]);
         }
     }
-    Head { skip, number, label, rest, at: text.len() - rest.len() }
+    Head { skip, number, label, label_at, rest, at: text.len() - rest.len() }
 }
 
 fn digits(text: &str) -> usize {
@@ -348,7 +354,7 @@ impl Builder<'_> {
         let first = head.rest.bytes().next();
         if let Some(open) = self.comment {
             if first == Some(b'#') && is_command(head.rest, "COMMENT", "END") {
-                let id = self.push(raw.position, Keyword::CommentEnd);
+                let id = self.push(raw.position, head.at, Keyword::CommentEnd);
                 self.index.entries[open as usize].end = Some(id);
                 self.comment = None;
             }
@@ -367,7 +373,7 @@ impl Builder<'_> {
             self.open_section(None, false, raw.position);
         }
         if let Some(label) = head.label.clone() {
-            self.label(raw, label);
+            self.label(raw, label, head.label_at);
         }
         match first {
             Some(b'$') => self.control(raw, &head),
@@ -377,10 +383,11 @@ impl Builder<'_> {
         }
     }
 
-    fn push(&mut self, position: Position, keyword: Keyword) -> EntryId {
+    fn push(&mut self, position: Position, at: usize, keyword: Keyword) -> EntryId {
         let id = EntryId::try_from(self.index.entries.len()).unwrap_or(EntryId::MAX);
         self.index.entries.push(Entry {
             position,
+            span: Span::new(at, at + keyword.text().len()),
             keyword,
             open: None,
             next: None,
@@ -441,7 +448,7 @@ impl Builder<'_> {
             self.open_section(name, true, next);
         } else if self.has_main {
             // whether it is a remark is known at the end of the file
-            let id = self.push(raw.position, Keyword::Remark);
+            let id = self.push(raw.position, raw.text.len() - rest.len(), Keyword::Remark);
             self.remarks.push((id, self.end_seen));
         } else {
             self.close(raw.position.offset);
@@ -463,7 +470,7 @@ impl Builder<'_> {
         }
     }
 
-    fn label(&mut self, raw: &RawBlock<'_>, label: LabelKind) {
+    fn label(&mut self, raw: &RawBlock<'_>, label: LabelKind, at: usize) {
         let Some(section) = self.section else { return };
         let parent = self.stack.last().copied();
         let place = LabelPlace { position: raw.position, parent };
@@ -473,7 +480,6 @@ impl Builder<'_> {
                 LabelKind::Name(name) => format!("[{name}]"),
             };
             let d = Diagnostic::vendor(20836, format!("label {shown} is defined twice"));
-            let at = raw.text.len() - blank(raw.text).len();
             self.report(raw, at, shown.len(), d);
             return;
         }
@@ -484,10 +490,16 @@ impl Builder<'_> {
         let name = word(&head.rest[1..]);
         match name.as_str() {
             "COMMENT" if is_command(head.rest, "COMMENT", "BEGIN") => {
-                self.comment = Some(self.push(raw.position, Keyword::CommentBegin));
+                let behind = head.rest[1 + name.len()..].trim_start();
+                if !matches!(blank(&behind["BEGIN".len()..]).bytes().next(), None | Some(b';')) {
+                    let text = "#COMMENT BEGIN does not stand alone in its block";
+                    let d = Diagnostic::vendor(20566, text);
+                    self.report(raw, head.at, head.rest.trim_end().len(), d);
+                }
+                self.comment = Some(self.push(raw.position, head.at, Keyword::CommentBegin));
             }
             "IF" => {
-                let id = self.push(raw.position, Keyword::ConditionalIf);
+                let id = self.push(raw.position, head.at, Keyword::ConditionalIf);
                 self.index.entries[id as usize].open = Some(id);
                 self.conditional.push(self.stack.clone());
                 self.conditional_open.push(id);
@@ -500,7 +512,7 @@ impl Builder<'_> {
                 };
                 let keyword =
                     if name == "ELSE" { Keyword::ConditionalElse } else { Keyword::ConditionalEnd };
-                let id = self.push(raw.position, keyword);
+                let id = self.push(raw.position, head.at, keyword);
                 self.index.entries[id as usize].open = Some(open);
                 self.chain(open, id);
                 if keyword == Keyword::ConditionalEnd {
@@ -522,7 +534,7 @@ impl Builder<'_> {
         if keyword == Keyword::If && contains_goto(head.rest) {
             keyword = Keyword::IfGoto;
         }
-        let id = self.push(raw.position, keyword);
+        let id = self.push(raw.position, head.at, keyword);
         if keyword.closer().is_some() {
             self.index.entries[id as usize].open = Some(id);
             self.stack.push(id);

@@ -7,6 +7,7 @@
 use super::contour::Motion;
 use super::fault::{Fault, Outcome};
 use super::planar::{Side, cross, cut, dot, intersections, norm, sub, swept};
+use super::step::SourceRef;
 use crate::syntax::ast::Span;
 use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
@@ -29,6 +30,7 @@ pub(super) struct Insertion {
     /// `#FRC`: path velocity in mm/s within it.
     pub(super) feed_mm_s: Option<f64>,
     pub(super) span: Span,
+    pub(super) source: SourceRef,
 }
 
 /// The element between two motions, which are cut; `None` at a tangential transition.

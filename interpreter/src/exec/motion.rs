@@ -305,7 +305,9 @@ impl Decoder {
             let limits = &self.machine.channel.arc_centre;
             arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
         };
-        let at = words.radius.or(centre_words[0]).or(centre_words[1]).map_or(span, |(_, at)| at);
+        let at = words.radius.or(centre_words[0]).or(centre_words[1]);
+        let g = words.group(Group::Path).map_or(span, |g| g.span);
+        let at = at.map_or(g, |(_, at)| at);
         let mut arc = found.map_err(|e| arc_fault(e, at))?;
         let pitch_word = words.centre[main[2]];
         if let Some((pitch, at)) = pitch_word {
@@ -408,7 +410,7 @@ impl Decoder {
 
     /// Chamfer or rounding in front of the next motion.
     pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed_mm_s: Option<f64>, span: Span) {
-        let insertion = Insertion { kind, size_mm, feed_mm_s, span };
+        let insertion = Insertion { kind, size_mm, feed_mm_s, span, source: self.source };
         if let Some(fault) = self.contour.insert(insertion) {
             self.note(fault);
         }

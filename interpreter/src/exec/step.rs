@@ -13,8 +13,10 @@ use std::sync::Arc;
 pub struct SourceRef {
     /// Index into [`Executor::files`](super::Executor::files).
     pub file: u32,
-    /// Line in that file, from 1.
+    /// Line in that file, from 1; 0 before the first block.
     pub line: u32,
+    /// Bytes of the file before that line.
+    pub offset: u64,
     /// N number of the block, if it has one.
     pub block: Option<u64>,
 }

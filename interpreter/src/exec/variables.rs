@@ -304,6 +304,13 @@ fn undefined(what: &str, span: Span) -> Box<Fault> {
     Fault::kontur(own::UNDEFINED, format!("{what} has no value"), span)
 }
 
+/// `G04 P500` of other controls is a value read from P500 here.
+fn undefined_parameter(index: u32, span: Span) -> Box<Fault> {
+    undefined(&format!("P{index}"), span).hint(format!(
+        "P is a parameter in this dialect, not an address: P{index}=5 assigns a value"
+    ))
+}
+
 impl Decoder {
     fn subscripts(&self, exprs: &[Expr]) -> Outcome<Subscripts> {
         exprs.iter().map(|e| self.number(e)).collect()
@@ -378,7 +385,7 @@ impl Decoder {
         for _ in 0..indirections {
             let value = match self.variables.parameters().get(&index) {
                 Some(variable) => variable.get(&[], span)?,
-                None => return Err(undefined(&format!("P{index}"), span)),
+                None => return Err(undefined_parameter(index, span)),
             };
             index = checked(as_number(&value, span)?)?;
         }
@@ -392,7 +399,7 @@ impl Decoder {
             Target::Parameter(index, subscripts) => match self.variables.parameters().get(&index) {
                 Some(variable) => variable.get(&subscripts, span),
                 None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
-                None => Err(undefined(&format!("P{index}"), span)),
+                None => Err(undefined_parameter(index, span)),
             },
             Target::Own(class, name, subscripts) => match self.variables.find(class, &name) {
                 Some(variable) => variable.get(&subscripts, span),

@@ -209,7 +209,14 @@ impl Decoder {
                 None => fault,
             });
         };
+        if row.group != Group::None
+            && let Some(first) = block.group(row.group)
+        {
+            return Err(duplicate(first.row, row, span));
+        }
         if let Act::Unsupported(what) = row.act {
+            // it takes its axis words and the place of its group all the same
+            block.g.push(GWord { row, value: None, span });
             return Err(Fault::unsupported(format!("G{number:02} ({what})"), span));
         }
         let value = match (value, row.value) {
@@ -230,11 +237,6 @@ impl Decoder {
             }
             (None, _) => None,
         };
-        if row.group != Group::None
-            && let Some(first) = block.group(row.group)
-        {
-            return Err(duplicate(first.row, row, span));
-        }
         block.g.push(GWord { row, value, span });
         Ok(())
     }

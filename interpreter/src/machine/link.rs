@@ -132,7 +132,7 @@ fn error(id: u16, message: String, at: Option<Location>) -> Diagnostic {
     diagnostic
 }
 
-/// Builds the machine; `None` if numbers or names do not fit together (K-0031, 110597).
+/// Builds the machine; `None` if numbers or names do not fit together (K-0031).
 pub(super) fn machine(
     name: &str,
     cycle: CycleTime,
@@ -210,13 +210,6 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
     let number_at = |p: &Parameters| p.setting("kopf.achs_nr").and_then(|s| s.at.clone());
     for (i, list) in settled.axes.iter().enumerate() {
         let number = logical_number(&list.parameters);
-        if number == 0 {
-            let message =
-                format!("{}: axis number 0 is not allowed, the list is not loaded", list.file);
-            let mut diagnostic = Diagnostic::vendor(110597, message).parameter("P-AXIS-00016");
-            diagnostic.source = number_at(&list.parameters);
-            diagnostics.push(diagnostic);
-        }
         let earlier = &settled.axes[..i];
         if let Some(first) = earlier.iter().find(|l| logical_number(&l.parameters) == number) {
             let message =

@@ -5,7 +5,7 @@
 
 use super::{Phase, Simulation};
 use crate::diag::{Diagnostic, ValueKind};
-use crate::machine::Machine;
+use crate::machine::{AxisKind, Machine};
 use kontur_filters::control::fault::{Derivative, ErrorId, Fault, Reaction};
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
@@ -41,10 +41,14 @@ impl Simulation {
         }
     }
 
-    fn describe(&self, chain: usize, fault: &Fault) -> Diagnostic {
+    fn describe(&mut self, chain: usize, fault: &Fault) -> Diagnostic {
         let axis = self.machine.all_axes().nth(chain);
         let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
+        let spindle = axis.is_some_and(|a| a.kind() == AxisKind::Spindle);
         let base = |text: String| match fault.id() {
+            // spindles have numbers of their own for the same
+            ErrorId::Vendor(50118) if spindle => Diagnostic::vendor(60101, text),
+            ErrorId::Vendor(50119) if spindle => Diagnostic::vendor(60102, text),
             ErrorId::Vendor(n) => Diagnostic::vendor(n, text),
             ErrorId::Kontur(n) => Diagnostic::kontur(n, text),
         };
@@ -97,7 +101,7 @@ impl Simulation {
         let mut diagnostic = diagnostic.axis(number, name);
         diagnostic.cycle = Some(self.record.k);
         diagnostic.time_s = Some(self.cycle.time_of(self.record.k));
-        diagnostic.source = self.locate(self.current);
+        diagnostic.source = self.executor.locate(self.current);
         diagnostic
     }
 }
@@ -143,8 +147,24 @@ pub(super) fn out_of_time(k: u64, cycle: CycleTime, max_cycles: u64) -> Diagnost
 }
 
 impl Simulation {
+    /// K-0022, each place once.
+    pub(super) fn switched_while_moving(&mut self) {
+        let (id, at) = (22, self.current);
+        if self.smoothing.is_new(id, at) {
+            let v = self.record.path.v_mm_s;
+            let text = format!(
+                "feedforward is switched or weighted at the path speed {v:.3} mm/s: the speed command jumps"
+            );
+            let mut d = Diagnostic::kontur(22, text).value(ValueKind::Current, v, "mm/s");
+            d.cycle = Some(self.record.k + 1);
+            d.time_s = Some(self.cycle.time_of(self.record.k + 1));
+            d.source = self.executor.locate(at);
+            self.diagnostics.push(d);
+        }
+    }
+
     /// The tolerance of a block could not be kept.
-    pub(super) fn unkept(&self, unkept: &Unkept) -> Diagnostic {
+    pub(super) fn unkept(&mut self, unkept: &Unkept) -> Diagnostic {
         let mut d = Diagnostic::kontur(
             80,
             format!(
@@ -157,7 +177,7 @@ impl Simulation {
         .hint("axes with unequal filters cannot keep a tolerance; program MODE, FREQ and DAMPING");
         let source =
             self.underway.iter().find(|u| u.seq == unkept.seq).map_or(self.current, |u| u.source);
-        d.source = self.locate(source);
+        d.source = self.executor.locate(source);
         d
     }
 
@@ -186,7 +206,7 @@ impl Simulation {
                 let mut d =
                     Diagnostic::vendor(id, format!("{text}: the corner stays as programmed"))
                         .severity(crate::diag::Severity::Warning);
-                d.source = self.locate(source);
+                d.source = self.executor.locate(source);
                 self.diagnostics.push(d);
             }
         }

@@ -507,6 +507,8 @@ impl<'a> Builder<'a> {
                     let text = format!("`{}` cannot count a $FOR loop", part.as_str());
                     let hint = "the counter is a P parameter or a variable that may be written";
                     self.report(Problem::vendor(20227, at, text).hint(hint));
+                    // the executor says the same of this place, once is enough
+                    place = Some(Place { kind: PlaceKind::Variable(Vec::new()), span: at });
                 }
                 _ => {}
             }

@@ -220,8 +220,9 @@ fn refine(
         }
         Context::Words if depth > 0 && in_cycle_list(before) => id(problem, 22151),
         Context::Words if depth > 0 && in_cycle_call(before) => id(problem, 21220),
-        Context::Words if expected.contains(&EQUALS) && ends_in_place(before) => id(problem, 20194)
-            .hint("a parameter or variable alone is no word: `=` and a value are missing"),
+        Context::Words if expected.contains(&EQUALS) && ends_in_place(before) => {
+            without_value(&problem, before)
+        }
         _ => problem,
     }
 }
@@ -267,6 +268,16 @@ fn ends_in_place(before: &str) -> bool {
         [b'P' | b'p', next, ..] => next.is_ascii_digit() || matches!(next, b'[' | b'P' | b'p'),
         _ => false,
     }
+}
+
+/// 20194 for the parameter or variable in which `before` ends.
+fn without_value(problem: &Problem, before: &str) -> Problem {
+    let trimmed = before.trim_ascii_end();
+    let word = trimmed.rsplit([' ', '\t']).next().unwrap_or_default();
+    let start = problem.span.start as usize - (before.len() - trimmed.len()) - word.len();
+    let text = format!("`{word}` without `=` and a value");
+    Problem::vendor(20194, Span::new(start, start + word.len()), text)
+        .hint("P1=5 assigns a value: P is a parameter in this dialect, not an address")
 }
 
 /// Length of the text to be marked: a run of letters and digits, or one character.

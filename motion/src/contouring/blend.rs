@@ -10,6 +10,7 @@
 //! Assumption: C3 at the interim point; the documents do not give the coefficients.
 
 use crate::axis::AxisVec;
+use crate::path::piece::section;
 use crate::path::{Coefficients, Path, PolyPiece};
 
 /// Where the curve leaves or meets a block: position, first and second derivative by path length.
@@ -91,41 +92,9 @@ impl Blend {
     }
 }
 
-/// The polynomial over `from..=to` as one over `0..=1`.
-pub(super) fn section(c: &Coefficients, from: f64, to: f64) -> Coefficients {
-    let mut out = *c;
-    // Horner shift by `from`
-    for k in 0..out.len() {
-        for i in (k..out.len() - 1).rev() {
-            out[i] += from * out[i + 1];
-        }
-    }
-    let mut scale = 1.0;
-    for c in &mut out {
-        *c *= scale;
-        scale *= to - from;
-    }
-    out
-}
-
-/// Position on a piece.
-pub(super) fn point(piece: &PolyPiece, x: f64) -> AxisVec {
-    piece.iter().map(|c| c.iter().rev().fold(0.0, |sum, c| sum * x + c)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_section_runs_through_the_same_points() {
-        let c = [1.0, -2.0, 0.5, 3.0, -1.0, 0.25];
-        let whole = PolyPiece::from_slice(&[c]);
-        let part = PolyPiece::from_slice(&[section(&c, 0.25, 0.75)]);
-        for x in [0.0, 0.3, 1.0] {
-            assert!((point(&whole, 0.25 + 0.5 * x)[0] - point(&part, x)[0]).abs() < 1e-14);
-        }
-    }
 
     #[test]
     fn two_lines_give_the_documented_coefficients() {

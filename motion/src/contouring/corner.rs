@@ -1,10 +1,10 @@
 //! One corner: how large the curve may be.
 
-use super::blend::{self, Blend, End};
+use super::blend::{Blend, End};
 use super::{ContourMode, ContourSettings, Held, NoContour, is_feed};
 use crate::axis::AxisVec;
 use crate::block::Block;
-use crate::path::Path;
+use crate::path::{Path, piece};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Least tolerance and least corner distance in mm: the resolution of the vendor's lengths.
@@ -269,7 +269,7 @@ impl<'a> Corner<'a> {
             .blend
             .halves
             .iter()
-            .flat_map(|half| (0..=16).map(|k| blend::point(half, f64::from(k) / 16.0)))
+            .flat_map(|half| (0..=16).map(|k| piece::point(half, f64::from(k) / 16.0)))
             .collect();
         let near =
             |p: &[f64]| samples.iter().map(|q| self.distance(p, q)).fold(f64::INFINITY, f64::min);

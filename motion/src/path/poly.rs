@@ -4,16 +4,11 @@
 //! five points on sub-intervals that are halved until the whole and the two halves agree; `s` is turned into `x` by
 //! Newton on the table of sub-intervals.
 
+use super::piece::{self, PolyPiece, bend, slope, twist, value};
 use crate::axis::AxisVec;
 use smallvec::SmallVec;
 use std::cmp::Ordering;
 use std::sync::Arc;
-
-/// Coefficients of one axis over one piece, lowest power first.
-pub type Coefficients = [f64; 6];
-
-/// One polynomial per axis, in channel order.
-pub type PolyPiece = SmallVec<[Coefficients; 4]>;
 
 /// Agreement of the integral over a sub-interval with that over its halves, relative to the length of the curve.
 const SPLIT: f64 = 1e-13;
@@ -65,23 +60,14 @@ pub struct PolyPath {
     extremes: [AxisVec; 3],
 }
 
-fn value(c: &Coefficients, x: f64) -> f64 {
-    c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5]))))
-}
-
-fn slope(c: &Coefficients, x: f64) -> f64 {
-    c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5])))
-}
-
-fn bend(c: &Coefficients, x: f64) -> f64 {
-    2.0 * c[2] + x * (6.0 * c[3] + x * (12.0 * c[4] + x * 20.0 * c[5]))
-}
-
-fn twist(c: &Coefficients, x: f64) -> f64 {
-    6.0 * c[3] + x * (24.0 * c[4] + x * 60.0 * c[5])
-}
-
 impl PolyPath {
+    /// A curve from the start of the first piece to the end of the last one, as [`Self::new`].
+    pub(crate) fn through(pieces: Vec<PolyPiece>, feed_axes: &[bool]) -> Option<Self> {
+        let start = piece::point(pieces.first()?, 0.0);
+        let end = piece::point(pieces.last()?, 1.0);
+        Self::new(start, end, pieces, feed_axes)
+    }
+
     /// A curve through the pieces in order; `None` if it has no length or is not finite.
     ///
     /// `start` and `end` are met exactly; the pieces are expected to begin and end there up to rounding.
@@ -155,7 +141,7 @@ impl PolyPath {
         }
     }
 
-    pub(super) fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.length
     }
 

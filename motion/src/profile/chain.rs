@@ -1,9 +1,11 @@
-//! A speed over path length as a chain of phases of constant jerk.
+//! A speed over path length as a chain of phases, each with one ramp of the acceleration.
 
+use super::ramp::{RampShape, RampState};
 use super::span::State;
 use smallvec::SmallVec;
+use std::f64::consts::FRAC_1_PI;
 
-/// A phase of constant jerk, from its state at the start.
+/// A phase in which the acceleration runs along one ramp, or stays, from its state at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Phase {
     /// Path length at the start in mm.
@@ -12,27 +14,78 @@ pub(crate) struct Phase {
     pub(crate) v: f64,
     /// Acceleration there in mm/s2.
     pub(crate) a: f64,
-    /// Jerk in mm/s3.
+    /// Jerk in mm/s3; of a sine-square ramp the mean one.
     pub(crate) j: f64,
     /// Duration in s.
     pub(crate) t: f64,
+    /// The sine-square ramp of which this is a part; `None`: the jerk is constant.
+    sine: Option<Sine>,
+}
+
+/// Where a phase lies on a sine-square ramp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Sine {
+    /// Time of the ramp before the start of the phase in s.
+    skip: f64,
+    /// Duration of the ramp in s.
+    whole: f64,
 }
 
 impl Phase {
+    /// A state, as a phase without duration.
+    pub(crate) fn state(s: f64, v: f64, a: f64) -> Self {
+        Self { s, v, a, j: 0.0, t: 0.0, sine: None }
+    }
+
+    /// From a state along a whole ramp of this (mean) jerk.
+    pub(crate) fn ramp(self, shape: RampShape, j: f64, t: f64) -> Self {
+        let curved = shape == RampShape::Sin2 && j != 0.0 && t > 0.0;
+        Self { j, t, sine: curved.then_some(Sine { skip: 0.0, whole: t }), ..self }
+    }
+
     /// The state `t` s after the start, as the start of a phase without duration.
     pub(crate) fn after(&self, t: f64) -> Self {
         let Self { s, v, a, j, .. } = *self;
-        Self {
-            s: s + t * (v + t * (0.5 * a + t * j / 6.0)),
-            v: v + t * (a + 0.5 * t * j),
-            a: a + t * j,
-            j: 0.0,
-            t: 0.0,
-        }
+        let Some(sine) = self.sine else {
+            let distance = t * (v + t * (0.5 * a + t * j / 6.0));
+            return Self::state(s + distance, v + t * (a + 0.5 * t * j), a + t * j);
+        };
+        let (from, to) = (self.on_ramp(sine, 0.0), self.on_ramp(sine, t));
+        let base = a - from.a;
+        let distance = t * (v - from.v + 0.5 * t * base) + (to.s - from.s);
+        Self::state(s + distance, v + t * base + (to.v - from.v), base + to.a)
+    }
+
+    fn on_ramp(&self, sine: Sine, t: f64) -> RampState {
+        let x = (sine.skip + t).clamp(0.0, sine.whole);
+        RampShape::Sin2.rise(self.j * sine.whole, sine.whole, x)
     }
 
     pub(crate) fn end(&self) -> Self {
         self.after(self.t)
+    }
+
+    /// The first `t` s of the phase.
+    pub(crate) fn until(self, t: f64) -> Self {
+        Self { t, ..self }
+    }
+
+    /// What is left of the phase `t` s after its start.
+    pub(crate) fn rest(&self, t: f64) -> Self {
+        let sine = self.sine.map(|s| Sine { skip: s.skip + t, ..s });
+        Self { j: self.j, t: self.t - t, sine, ..self.after(t) }
+    }
+
+    /// The phase run backwards from the other end of `length` mm.
+    pub(crate) fn reversed(&self, length: f64) -> Self {
+        let end = self.end();
+        let sine = self.sine.map(|s| Sine { skip: s.whole - s.skip - self.t, ..s });
+        Self { s: length - end.s, v: end.v, a: -end.a, sine, ..*self }
+    }
+
+    /// Jerk in mm/s3 `t` s after the start.
+    fn jerk_after(&self, t: f64) -> f64 {
+        self.sine.map_or(self.j, |sine| self.on_ramp(sine, t).j)
     }
 
     /// Time in `0..=t` at which `s` is reached; the velocity must not be negative.
@@ -65,11 +118,29 @@ impl Phase {
         t
     }
 
+    /// Velocity where the acceleration passes through zero inside the phase.
+    fn at_turn(&self) -> Option<f64> {
+        let turn = match self.sine {
+            None => -self.a / self.j,
+            Some(sine) => {
+                // a + da (sin2(z) - sin2(z of the start)) = 0
+                let ratio = (self.on_ramp(sine, 0.0).a - self.a) / (self.j * sine.whole);
+                2.0 * sine.whole * FRAC_1_PI * libm::asin(ratio.max(0.0).sqrt()) - sine.skip
+            }
+        };
+        (turn > 0.0 && turn < self.t).then(|| self.after(turn).v)
+    }
+
     /// Highest velocity of the phase.
     pub(crate) fn peak(&self) -> f64 {
         let ends = self.v.max(self.end().v);
-        let turn = -self.a / self.j;
-        if turn > 0.0 && turn < self.t { ends.max(self.after(turn).v) } else { ends }
+        self.at_turn().map_or(ends, |v| ends.max(v))
+    }
+
+    /// Lowest velocity of the phase.
+    pub(crate) fn lowest(&self) -> f64 {
+        let ends = self.v.min(self.end().v);
+        self.at_turn().map_or(ends, |v| ends.min(v))
     }
 }
 
@@ -103,9 +174,11 @@ impl Chain {
     pub(super) fn at(&self, t: f64) -> State {
         let i = self.phases.partition_point(|p| p.0 <= t).saturating_sub(1);
         let Some((start, phase)) = self.phases.get(i) else { return State::default() };
-        let now = phase.after((t - start).clamp(0.0, phase.t));
+        let t = (t - start).clamp(0.0, phase.t);
+        let now = phase.after(t);
         // rounding at a stop
-        State { s_mm: now.s, v_mm_s: now.v.max(0.0), a_mm_s2: now.a, j_mm_s3: phase.j }
+        let v_mm_s = now.v.max(0.0);
+        State { s_mm: now.s, v_mm_s, a_mm_s2: now.a, j_mm_s3: phase.jerk_after(t) }
     }
 
     pub(super) fn time_at(&self, s: f64) -> f64 {

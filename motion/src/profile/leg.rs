@@ -86,10 +86,9 @@ impl LegLimits {
         Self::new(self.shape, self.constant_ramp_time, a, rise, fall)
     }
 
-    /// Plateau, first and second ramp time, if the jerk is constant.
-    pub(super) fn trapez(&self) -> Option<(f64, f64, f64)> {
-        (self.shape == RampShape::Trapez && !self.constant_ramp_time)
-            .then_some((self.a, self.t1, self.t2))
+    /// Shape, plateau, first and second ramp time, if a short leg keeps the jerk.
+    pub(super) fn scalable(&self) -> Option<(RampShape, f64, [f64; 2])> {
+        (!self.constant_ramp_time).then_some((self.shape, self.a, self.ramps_s()))
     }
 
     /// True if plateau and ramps differ by at most `ratio`.

@@ -12,9 +12,11 @@ pub struct RampedLimits {
     down: LegLimits,
 }
 
-/// The numbers of a TRAPEZ slope.
+/// The numbers of a slope whose ramps get shorter with the change of acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rates {
+    /// Shape of the ramps.
+    pub(crate) shape: RampShape,
     /// Acceleration in mm/s2.
     pub(crate) acc: f64,
     /// Deceleration in mm/s2, positive.
@@ -51,11 +53,11 @@ impl RampedLimits {
         Self { up: self.up, down: self.down.with(dec_mm_s2, ramp_s) }
     }
 
-    /// Plateaus and ramp times, if the ramps are those of TRAPEZ.
+    /// Plateaus and ramp times; `None` with constant ramp times (P-CHAN-00349 = 1).
     pub(crate) fn rates(&self) -> Option<Rates> {
-        let (acc, t1, t2) = self.up.trapez()?;
-        let (dec, t4, t3) = self.down.trapez()?;
-        Some(Rates { acc, dec, ramps: [t1, t2, t3, t4] })
+        let (shape, acc, [t1, t2]) = self.up.scalable()?;
+        let (_, dec, [t4, t3]) = self.down.scalable()?;
+        Some(Rates { shape, acc, dec, ramps: [t1, t2, t3, t4] })
     }
 
     pub(super) fn combine(

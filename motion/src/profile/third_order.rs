@@ -20,6 +20,7 @@ mod candidate;
 mod duration;
 mod fastest;
 mod leg;
+mod peak;
 mod polynomial;
 mod profile;
 mod scaled;

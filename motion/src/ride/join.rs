@@ -1,27 +1,33 @@
 //! The lower one of rise and fall, connected where the one changes to the other.
 
 use super::{Block, SLACK};
-use crate::profile::{MotionState, Phase, ThirdOrderLimits, ThirdOrderProfile};
+use crate::profile::{MotionState, Phase, RampShape, ThirdOrderLimits, ThirdOrderProfile};
 
 /// Relative excess of the rise over the fall from which on they cross: both may miss a limit they run along by less.
 const CROSSING: f64 = 1e-3;
 /// Widths, in phases on either side, at which a connection is tried.
 const WIDTHS: [usize; 16] = [0, 1, 2, 3, 4, 6, 8, 11, 15, 20, 27, 36, 48, 64, 96, 128];
+/// Rounds in which the length of a connection with sine-square ramps is made to fit.
+const ROUNDS: u32 = 12;
+/// Length in mm by which a connection may miss its end: rounding.
+const MISS_MM: f64 = 1e-11;
 
 /// The speed from `v0` along the rise and the fall; `None` if no connection fits.
 pub(super) fn join(
     cells: &[Block],
+    shape: RampShape,
     rise: Vec<Phase>,
     fall: Vec<Phase>,
     v0: f64,
 ) -> Option<Vec<Phase>> {
-    let mut join = Join { cells, rise, fall, out: Vec::new() };
+    let mut join = Join { cells, shape, rise, fall, out: Vec::new() };
     join.run(v0)?;
     Some(join.out)
 }
 
 struct Join<'a> {
     cells: &'a [Block],
+    shape: RampShape,
     rise: Vec<Phase>,
     fall: Vec<Phase>,
     out: Vec<Phase>,
@@ -56,7 +62,7 @@ impl Join<'_> {
                 self.out.push(*next);
                 r += 1;
             }
-            let here = self.out.last().map_or(start(v0), Phase::end);
+            let here = self.out.last().map_or(Phase::state(0.0, v0, 0.0), Phase::end);
             let (to, cut) = self.connect(here, v0)?;
             // on the fall, until it is cut
             self.out.extend_from_slice(&self.fall[to..cut]);
@@ -95,8 +101,8 @@ impl Join<'_> {
                 }
                 let keep = self.out.len() - back.min(self.out.len());
                 let from = match self.out.get(keep) {
-                    Some(p) => Phase { t: 0.0, j: 0.0, ..*p },
-                    None => self.out.last().map_or(start(v0), Phase::end),
+                    Some(p) => Phase::state(p.s, p.v, p.a),
+                    None => self.out.last().map_or(Phase::state(0.0, v0, 0.0), Phase::end),
                 };
                 let to = (ahead + ahead_by).min(cut);
                 let target = if to < cut { self.fall[to] } else { self.fall[cut - 1].end() };
@@ -148,20 +154,11 @@ impl Join<'_> {
             a_min_mm_s2: -dec.max(-from.a).max(-to.a) * (1.0 + 1e-12),
             jerk_mm_s3: jerk,
         };
-        let state = |p: &Phase| MotionState { p_mm: p.s, v_mm_s: p.v, a_mm_s2: p.a };
-        let profile = ThirdOrderProfile::fastest(&state(from), &state(to), &limits);
-        let profile = profile.ok()?;
-        let mut at = *from;
-        let mut phases = Vec::with_capacity(7);
-        for (t, j) in profile.phases() {
-            let phase = Phase { j, t, ..at };
-            phases.push(phase);
-            at = phase.end();
-        }
+        let phases = self.fastest(from, to, &limits)?;
         let mut c = first;
         for phase in &phases {
             let end = phase.end();
-            if end.v < -1e-9 {
+            if phase.lowest() < -1e-9 {
                 return None;
             }
             // the highest speed in every block it passes, and at the boundaries
@@ -170,7 +167,7 @@ impl Join<'_> {
                 let cell = &self.cells[c];
                 let inside = end.s < cell.end || c == last;
                 let t = if inside { part.t } else { part.time_at(cell.end) };
-                let piece = Phase { t, ..part };
+                let piece = part.until(t);
                 let (a0, a1) = (piece.a, piece.end().a);
                 if piece.peak() > cell.v * (1.0 + SLACK)
                     || a0.max(a1) > cell.acc * (1.0 + 1e-6)
@@ -181,15 +178,39 @@ impl Join<'_> {
                 if inside {
                     break;
                 }
-                let here = piece.end();
-                if here.v > cell.cap * (1.0 + SLACK) {
+                if piece.end().v > cell.cap * (1.0 + SLACK) {
                     return None;
                 }
-                part = Phase { t: part.t - t, j: part.j, ..here };
+                part = part.rest(t);
                 c += 1;
             }
         }
         Some(phases)
+    }
+
+    /// The fastest third-order profile between two states.
+    ///
+    /// With sine-square ramps in the place of its ramps it gains the same speed over another length; so it is asked for
+    /// the length that makes up for the difference.
+    fn fastest(&self, from: &Phase, to: &Phase, limits: &ThirdOrderLimits) -> Option<Vec<Phase>> {
+        let state = |p: &Phase| MotionState { p_mm: p.s, v_mm_s: p.v, a_mm_s2: p.a };
+        let mut target = state(to);
+        for _ in 0..ROUNDS {
+            let profile = ThirdOrderProfile::fastest(&state(from), &target, limits).ok()?;
+            let mut at = *from;
+            let mut phases = Vec::with_capacity(7);
+            for (t, j) in profile.phases() {
+                let phase = at.ramp(self.shape, j, t);
+                phases.push(phase);
+                at = phase.end();
+            }
+            let miss = at.s - to.s;
+            if self.shape == RampShape::Trapez || miss.abs() <= MISS_MM {
+                return Some(phases);
+            }
+            target.p_mm -= miss;
+        }
+        None
     }
 }
 
@@ -205,8 +226,4 @@ fn speed_at(list: &[Phase], s: f64, length: f64) -> f64 {
     let s = s - 1e-12 * length;
     let i = list.partition_point(|p| p.s <= s).saturating_sub(1);
     list.get(i).map_or(f64::INFINITY, |p| p.after(p.time_at(s)).v)
-}
-
-fn start(v: f64) -> Phase {
-    Phase { s: 0.0, v, a: 0.0, j: 0.0, t: 0.0 }
 }

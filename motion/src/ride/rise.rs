@@ -1,17 +1,20 @@
 //! The rise: as fast as the blocks allow, never reducing the speed.
 
 use super::{Block, SLACK, is_hill};
-use crate::profile::Phase;
+use crate::profile::{Phase, RampShape};
 
 /// Steps per stretch beyond which it is refused, plus as many per block: a crawl is no ride.
 const MOST_STEPS: usize = 20_000;
 /// Rounds of bisection of the acceleration in a step.
 const ROUNDS: u32 = 10;
+/// Steps that a sine-square ramp up is tried over first.
+const LONG_STEPS: [f64; 3] = [8.0, 4.0, 2.0];
 
-/// The blocks and the duration of a step.
+/// The blocks, the duration of a step and the shape of the ramps.
 pub(super) struct Rise<'a> {
     pub(super) cells: &'a [Block],
     pub(super) dt: f64,
+    pub(super) shape: RampShape,
 }
 
 impl Rise<'_> {
@@ -19,22 +22,20 @@ impl Rise<'_> {
     pub(super) fn run(&self, v0: f64) -> Option<Vec<Phase>> {
         let cells = self.cells;
         let mut out = Vec::with_capacity(4 * cells.len());
-        let (mut c, mut s, mut v, mut a) = (0, 0.0, v0, 0.0);
+        let (mut c, mut here) = (0, Phase::state(0.0, v0, 0.0));
         while c < cells.len() {
             if out.len() > MOST_STEPS + 8 * cells.len() {
                 return None;
             }
-            let (dt, next) = self.step(c, s, v, a);
-            let mut phase = Phase { s, v, a, j: (next - a) / dt, t: dt };
-            if next <= 0.0 && a <= 0.0 {
-                // as fast as allowed: to the end of the block
-                if v <= 0.0 {
-                    return None;
-                }
-                phase = Phase { j: 0.0, t: (cells[c].end - s) / v, ..phase };
+            let step = self.step(c, &here);
+            let flat = step.is_none();
+            // as fast as allowed: to the end of the block
+            if flat && here.v <= 0.0 {
+                return None;
             }
+            let to_end = || here.ramp(self.shape, 0.0, (cells[c].end - here.s) / here.v);
+            let mut phase = step.unwrap_or_else(to_end);
             let mut end = phase.end();
-            let flat = phase.j == 0.0 && a <= 0.0;
             loop {
                 let cell = &cells[c];
                 if end.s < cell.end && !flat {
@@ -48,7 +49,7 @@ impl Rise<'_> {
                     let here = phase.after(t);
                     if last || flat || here.v > limit * (1.0 + SLACK) {
                         phase.t = t;
-                        end = Phase { s: cell.end, ..here };
+                        end = Phase::state(cell.end, here.v, here.a);
                         if here.v > limit {
                             (end.v, end.a) = (limit, 0.0);
                         }
@@ -61,24 +62,36 @@ impl Rise<'_> {
             if phase.t > 0.0 {
                 out.push(phase);
             }
-            (s, v, a) = (end.s, end.v, end.a.max(0.0));
+            here = Phase::state(end.s, end.v, end.a.max(0.0));
         }
         Some(out)
     }
 
-    /// Duration of the next step and the largest acceleration at its end that leaves a way.
-    fn step(&self, c: usize, s: f64, v: f64, a: f64) -> (f64, f64) {
+    /// The next step, to the largest acceleration that leaves a way; `None`: no more speed in this block.
+    fn step(&self, c: usize, here: &Phase) -> Option<Phase> {
         let Block { acc, jerks: [up, down, ..], .. } = self.cells[c];
-        let least = (a - down * self.dt).max(0.0);
-        let most = (a + up * self.dt).min(acc).max(least);
-        if self.is_safe(c, s, v, a, most) {
-            return (self.dt, most);
+        let (a, dt) = (here.a, self.dt);
+        let to = |next: f64, t: f64| here.ramp(self.shape, (next - a) / t, t);
+        let safe = |phase: &Phase| self.is_safe(c, phase, here.v);
+        if self.shape == RampShape::Sin2 {
+            for steps in LONG_STEPS {
+                let t = (steps * dt).min((acc - a) / up);
+                let phase = to(a + up * t, t);
+                if t > dt && safe(&phase) {
+                    return Some(phase);
+                }
+            }
+        }
+        let least = (a - down * dt).max(0.0);
+        let most = (a + up * dt).min(acc).max(least);
+        if safe(&to(most, dt)) {
+            return (most > 0.0 || a > 0.0).then(|| to(most, dt));
         }
         let (mut low, mut high) = (least, most);
         let mut best = None;
         for _ in 0..ROUNDS {
             let mid = 0.5 * (low + high);
-            if self.is_safe(c, s, v, a, mid) {
+            if safe(&to(mid, dt)) {
                 low = mid;
                 best = Some(mid);
             } else {
@@ -87,20 +100,21 @@ impl Rise<'_> {
         }
         match best {
             // a creep towards the limit would never end
-            Some(next) if a > 0.0 || next > 2e-3 * up * self.dt => (self.dt, next),
+            Some(next) if a > 0.0 || next > 2e-3 * up * dt => Some(to(next, dt)),
             // the ramp down that the step before has been checked with
-            _ => (if least > 0.0 { self.dt } else { a / down }, least),
+            _ if a <= 0.0 => None,
+            _ if least > 0.0 && self.shape == RampShape::Trapez => Some(to(least, dt)),
+            _ => Some(to(0.0, a / down)),
         }
     }
 
-    /// True if the step to acceleration `next`, and the ramp to zero behind it, stay below the limits ahead. A limit
-    /// below the present speed cuts the rise and is none of its business.
-    fn is_safe(&self, mut c: usize, s: f64, v: f64, a: f64, next: f64) -> bool {
+    /// True if a step, and the ramp to zero behind it, stay below the limits ahead of speed `v`. A limit below `v` cuts
+    /// the rise and is none of its business.
+    fn is_safe(&self, mut c: usize, step: &Phase, v: f64) -> bool {
         #[cfg(test)]
         crate::work::add();
-        let (mut phase, mut next) = (Phase { s, v, a, j: 0.0, t: self.dt }, next);
+        let mut phase = *step;
         loop {
-            phase.j = (next - phase.a) / self.dt;
             let end = phase.end();
             if end.s >= self.cells[c].end || end.v > self.cells[c].v * (1.0 + SLACK) {
                 loop {
@@ -119,24 +133,22 @@ impl Rise<'_> {
                             return is_drop(limit, v);
                         }
                     }
-                    if phase.a.max(next) > behind.acc * (1.0 + SLACK) {
+                    if phase.a.max(end.a) > behind.acc * (1.0 + SLACK) {
                         return false;
                     }
                     c += 1;
                 }
             }
-            if next <= 0.0 {
+            if end.a <= 0.0 {
                 return self.is_level(c, end.s, end.v, v);
             }
             let [_, down, ..] = self.cells[c].jerks;
-            phase = Phase { t: self.dt, ..end };
-            // the last part of the ramp is shorter than a step
-            if next < down * self.dt {
-                phase.t = next / down;
-                phase.j = -down;
-                return self.lands(c, &phase, v);
+            let whole = end.a / down;
+            // the last part of the ramp is shorter than a step; sine-square ramps are not cut
+            if whole < self.dt || self.shape == RampShape::Sin2 {
+                return self.lands(c, &end.ramp(self.shape, -down, whole), v);
             }
-            next -= down * self.dt;
+            phase = end.ramp(self.shape, -down, self.dt);
         }
     }
 
@@ -171,8 +183,14 @@ impl Rise<'_> {
             }
             let Some(behind) = self.cells.get(c + 1) else { return true };
             let limit = cell.cap.min(behind.v);
-            if end.v > limit && phase.after(phase.time_at(cell.end)).v > limit * (1.0 + SLACK) {
-                return is_drop(limit, v);
+            if end.v > limit || phase.a > behind.acc {
+                let here = phase.after(phase.time_at(cell.end));
+                if here.v > limit * (1.0 + SLACK) {
+                    return is_drop(limit, v);
+                }
+                if here.a > behind.acc * (1.0 + SLACK) {
+                    return false;
+                }
             }
             c += 1;
         }

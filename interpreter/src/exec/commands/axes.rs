@@ -179,16 +179,17 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         let text = format!("`{}` is no axis name", name.text);
         return Err(Fault::vendor(20524, text, name.span));
     }
+    let at = |i: usize| items.get(i).map_or(group.span, |item| item.span);
     let logical =
         number(decoder, items.get(1), (21251, "the logical axis number is missing"), group.span)?;
     let index = number(decoder, items.get(2), (21252, "the axis index is missing"), group.span)?;
     let Some(logical) = crate::exec::expr::whole(logical, 1, 65535) else {
         let text = format!("logical axis number {logical} is outside 1 to 65535");
-        return Err(Fault::vendor(21253, text, group.span));
+        return Err(Fault::vendor(21253, text, at(1)));
     };
     let Some(index) = crate::exec::expr::whole(index, 0, PLACES - 1) else {
         let text = format!("axis index {index} is outside 0 to {}", PLACES - 1);
-        return Err(Fault::kontur(own::RANGE, text, group.span));
+        return Err(Fault::kontur(own::RANGE, text, at(2)));
     };
     for item in items.iter().skip(3) {
         match &item.kind {
@@ -202,7 +203,7 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
     }
     let Some(axis) = decoder.machine.axes.iter().position(|a| a.number() == logical) else {
         let text = format!("no axis has the logical number {logical}");
-        return Err(Fault::vendor(20312, text, group.span));
+        return Err(Fault::vendor(20312, text, at(1)));
     };
     if let Some(other) = decoder.axis_of_name(&letters).filter(|other| *other != axis) {
         release(decoder, other);

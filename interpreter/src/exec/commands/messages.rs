@@ -130,7 +130,9 @@ pub(super) fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     } else {
         format!("message of the program: {}", texts.join(", "))
     };
-    let mut diagnostic = Diagnostic::new(Id::Vendor(id), text).severity(severity);
+    let mut diagnostic = Diagnostic::new(Id::Vendor(id), text)
+        .severity(severity)
+        .hint("the program raises it itself, with #ERROR");
     for name in VALUES.iter().chain(&INTEGERS) {
         if let Some((x, _)) = found.number(name) {
             diagnostic = diagnostic.value(ValueKind::Current, x, "-");

@@ -1,41 +1,6 @@
 //! Error IDs with their places, the syntax check, and the example programs of the language chapter.
 
-use super::{assert_near, checked, clean, places, run, shown};
-
-#[test]
-fn smallest_programs_for_each_id() {
-    for (text, expected) in [
-        ("G01 X10", "20008 1:5"),
-        ("F100 X10 Y20 X10", "20203 1:14"),
-        ("G99999", "20107 1:1"),
-        ("G7", "20131 1:1"),
-        ("O100", "20191 1:1"),
-        ("R3=5", "20402 1:1"),
-        ("Q10 F100", "20200 1:1"),
-        ("G01 X1 G00 F100", "20108 1:8"),
-        ("G70 G71", "20118 1:5"),
-        ("G54 G55", "20116 1:5"),
-        ("G161 G162", "20127 1:6"),
-        ("G162 G162", "20127 1:6"),
-        ("G164 G165", "20128 1:6"),
-        ("G301 I1 G302", "20130 1:9"),
-        ("G115=3 G117", "20124 1:8"),
-        ("G115=15", "20151 1:1"),
-        ("G02 X5 I1 I2 F100", "20205 1:11"),
-        ("G160=2", "20003 1:1"),
-        ("#FOO", "20509 1:1"),
-        ("#PUT AX [1]", "20797 1:10"),
-        ("X[FOO]", "K-0019 1:3"),
-        ("M70000", "K-0009 1:1"),
-        ("G33 Z10 K1", "K-0019 1:1"),
-        ("#CYL ON", "K-0019 1:1"),
-        ("L SEQUENCE [NAME=a N10 N20]", "K-0019 1:1"),
-        ("LL NOTHING", "K-0014 1:4"),
-    ] {
-        let found = places(&run(&format!("{text}\nM30\n")).diagnostics);
-        assert_eq!(found.first().map(String::as_str), Some(expected), "{text}: {found:?}");
-    }
-}
+use super::{assert_near, checked, clean, places, run};
 
 #[test]
 fn words_that_are_only_ignored_warn_once() {
@@ -53,25 +18,6 @@ fn the_dialect_guard() {
     for (text, id) in [("M98 P1=5", "K-0101"), ("G43 Z1 F100", "20131"), ("G28", "20131")] {
         assert_eq!(super::run(&format!("{text}\nM30\n")).ids()[0], id, "{text}");
     }
-}
-
-#[test]
-fn the_check_reports_ten_mistakes_in_one_run() {
-    let text = "G01 X10\nF100\nG7\n#FOO\nX1 X2\nP1=P2\nG02 X9 I5 R5\nLL NO\n#VIB GUARD ON [MODE=9]\nG70 G71\nR3=5\nG01 X1\nM30\n";
-    let found = places(&checked(text));
-    let expected = [
-        "20008 1:5",
-        "20131 3:1",
-        "20509 4:1",
-        "20203 5:4",
-        "K-0012 6:4",
-        "21024 7:11",
-        "K-0014 8:4",
-        "22062 9:16",
-        "20118 10:5",
-        "20402 11:1",
-    ];
-    assert_eq!(found, expected);
 }
 
 #[test]
@@ -100,19 +46,6 @@ fn an_error_stops_before_its_block_moves() {
     assert_eq!(run.reason(), super::EndReason::Aborted);
 }
 
-#[test]
-fn many_brackets_and_long_expressions() {
-    let deep = format!("X{}1{} F100\nM30\n", "[".repeat(10_000), "]".repeat(10_000));
-    assert_eq!(run(&deep).reason(), super::EndReason::Aborted);
-    let long = format!("P1=1{}\nM30\n", "+1".repeat(1900));
-    let run = run(&long);
-    assert!(
-        run.diagnostics.is_empty() || run.reason() == super::EndReason::Aborted,
-        "{:?}",
-        shown(&run.diagnostics)
-    );
-}
-
 /// The program of the language chapter that uses most words.
 #[test]
 fn squares() {
@@ -139,4 +72,21 @@ fn squares() {
             "run 3 of 3, F = 3000.000000"
         ]
     );
+}
+
+/// Access rights of external variables: 20097 and 20100.
+#[test]
+fn external_variables_keep_their_rights() {
+    use crate::exec::{Access, External, Options, Value};
+    let variable = |access| External { value: Value::Number(2.0), access };
+    let external = [("R", Access::ReadOnly), ("W", Access::WriteOnly), ("B", Access::ReadWrite)];
+    let external = external.map(|(name, access)| (name.to_owned(), variable(access)));
+    let places = |text: &str| {
+        let options = Options { external: external.clone().into(), ..Options::default() };
+        let sources = crate::source::MemorySources::new().with("main.nc", text.to_owned());
+        places(&super::run_with(sources, super::machine(&[]), options).diagnostics)
+    };
+    assert_eq!(places("V.E.W=1\nV.E.B=V.E.R\nX V.E.B F100\nM30\n"), [""; 0]);
+    assert_eq!(places("X V.E.W F100\nM30\n"), ["20097 1:3"]);
+    assert_eq!(places("V.E.R=1\nM30\n"), ["20100 1:1"]);
 }

@@ -14,7 +14,7 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Uns32, "operating mode, sum of bits: linear 0x1, modulo 0x4, gantry slave 0x20000")
         .default(1.0),
     axis("P-AXIS-00016", "kopf.achs_nr", Raw::Uns16, "logical axis number, unique in the whole system, 0 not allowed; the link between axis list and channel list; changed only by restart")
-        .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0),
+        .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0).below(110597, Correction::Refuse),
     axis("P-AXIS-00018", "kenngr.achs_typ", Raw::Names(AXIS_TYPES), "ACHSTYP_TRANSLATOR 0x1, ACHSTYP_ROTATOR 0x2, ACHSTYP_SPINDEL 0x4")
         .default(1.0),
     axis("P-AXIS-00020", "kenngr.antr_typ", Raw::Uns16, "drive: 1 conventional, 2 SERCOS, 3 PROFIdrive, 4 simulation, 5 Lightbus, 6 terminal, 7 RT Ethernet, 8 CANopen, 16 virtual, 32 CAN")

@@ -15,11 +15,14 @@ const DISTANCE_ERROR: f64 = 1e-10;
 /// Error of the final displacement, relative to the terms it is the sum of; they may cancel.
 const CANCELLATION: f64 = 1e-13;
 
+const SIXTH: f64 = 1.0 / 6.0;
+
 /// Seven phases in scaled units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
-    pub(super) t: [f64; 7],
-    pub(super) j: [f64; 7],
+    t: [f64; 7],
+    /// Jerk of the first ramp, `+1` or `-1` in the mirror image.
+    sign: f64,
     pub(super) duration: f64,
 }
 
@@ -29,11 +32,11 @@ pub(super) fn ramped(a: f64, change: f64) -> f64 {
     if next.abs() <= 1e-14 * change.abs() { 0.0 } else { next }
 }
 
-/// Displacement from velocity `v`, acceleration `a` over phases of jerk `j`.
-pub(super) fn displacement(mut v: f64, mut a: f64, t: &[f64; 7], j: &[f64; 7]) -> f64 {
+/// Displacement from velocity `v`, acceleration `a` over the phases `t`, the first of up to seven.
+pub(super) fn displacement<const N: usize>(mut v: f64, mut a: f64, t: &[f64; N]) -> f64 {
     let mut s = 0.0;
-    for (t, j) in t.iter().zip(j) {
-        s += t * (v + t * (0.5 * a + t * j / 6.0));
+    for (t, j) in t.iter().zip(UP_DOWN_DOWN_UP) {
+        s += t * (v + t * (0.5 * a + t * j * SIXTH));
         v += t * (a + 0.5 * t * j);
         a = ramped(a, t * j);
     }
@@ -45,43 +48,51 @@ impl Candidate {
     ///
     /// Velocity limits hold from the moment the velocity is inside: a brake may have
     /// to end before; until then it must not move further out.
-    pub(super) fn checked(problem: &Problem, mut t: [f64; 7], j: [f64; 7]) -> Option<Self> {
+    pub(super) fn checked(problem: &Problem, mut t: [f64; 7]) -> Option<Self> {
         let total: f64 = t.iter().map(|t| t.abs()).sum();
         let least = -ROUNDING * (1.0 + total);
-        for t in &mut t {
-            if t.is_nan() || *t < least {
-                return None;
-            }
-            *t = t.max(0.0);
+        // written so that NaN fails
+        if !t.iter().all(|t| *t >= least) {
+            return None;
         }
+        t = t.map(|t| t.max(0.0));
         let (mut s, mut v, mut a) = (0.0, problem.v0, problem.a0);
         let (mut travelled, mut terms, mut kept) = (0.0, 0.0, true);
         let excess = ROUNDING * (1.0 + problem.v_max.min(1.0));
         let (top, bottom) = (problem.v_max + excess, problem.v_min - excess);
-        let mut inside = false;
-        for (&t, &j) in t.iter().zip(&j) {
-            if t == 0.0 {
-                continue;
+        // until the velocity is inside for the first time
+        let (mut highest, mut lowest) = (top.max(v), bottom.min(v));
+        for (i, j) in [1.0, -1.0, -1.0, 1.0].into_iter().enumerate() {
+            if v <= top && v >= bottom {
+                (highest, lowest) = (top, bottom);
             }
-            inside |= v <= top && v >= bottom;
-            let allowed = |v: f64| {
-                if inside {
-                    v <= top && v >= bottom
-                } else {
-                    v <= top.max(problem.v0) && v >= bottom.min(problem.v0)
-                }
-            };
-            let ds = t * (v + t * (0.5 * a + t * j / 6.0));
-            let next = ramped(a, t * j);
+            let ramp = t[2 * i];
+            let change = ramp * j;
+            let next = ramped(a, change);
             if a * next < 0.0 {
-                kept &= allowed(v - 0.5 * a * a / j);
+                let extreme = v - 0.5 * a * a * j;
+                kept &= extreme <= highest && extreme >= lowest;
             }
+            let ds = ramp * (v + ramp * (0.5 * a + SIXTH * change));
+            terms += ramp * (v.abs() + ramp * (0.5 * a.abs() + SIXTH * ramp));
             travelled += ds.abs();
-            terms += t * (v.abs() + t * (0.5 * a.abs() + t * j.abs() / 6.0));
             s += ds;
-            v += t * (a + 0.5 * t * j);
+            v += ramp * (a + 0.5 * change);
             a = next;
-            kept &= allowed(v) && a <= problem.a_max + ROUNDING && a >= problem.a_min - ROUNDING;
+            kept &= v <= highest && v >= lowest;
+            kept &= a <= problem.a_max + ROUNDING && a >= problem.a_min - ROUNDING;
+            let Some(&hold) = t.get(2 * i + 1) else { continue };
+            if hold > 0.0 {
+                if v <= top && v >= bottom {
+                    (highest, lowest) = (top, bottom);
+                }
+                let ds = hold * (v + 0.5 * hold * a);
+                terms += hold * (v.abs() + 0.5 * hold * a.abs());
+                travelled += ds.abs();
+                s += ds;
+                v += hold * a;
+                kept &= v <= highest && v >= lowest;
+            }
         }
         let slack = DISTANCE_ERROR * (travelled + problem.distance.abs())
             + CANCELLATION * terms
@@ -89,19 +100,24 @@ impl Candidate {
         let met = (s - problem.distance).abs() <= slack
             && (v - problem.ve).abs() <= excess
             && (a - problem.ae).abs() <= ROUNDING * (1.0 + total);
-        (kept && met).then(|| Self { t, j, duration: t.iter().sum() })
+        (kept && met).then(|| Self { t, sign: 1.0, duration: t.iter().sum() })
+    }
+
+    /// Duration and jerk of every phase.
+    pub(super) fn phases(&self) -> impl Iterator<Item = (f64, f64)> {
+        let sign = self.sign;
+        self.t.into_iter().zip(UP_DOWN_DOWN_UP).map(move |(t, j)| (t, sign * j))
     }
 
     /// The same phases in mirrored space.
     pub(super) fn mirrored(mut self) -> Self {
-        self.j = self.j.map(|j| -j);
+        self.sign = -self.sign;
         self
     }
 
-    /// The same phases run backwards and mirrored.
+    /// The same phases run backwards and mirrored; the jerks are the same either way.
     pub(super) fn reversed(mut self) -> Self {
         self.t.reverse();
-        self.j.reverse();
         self
     }
 }

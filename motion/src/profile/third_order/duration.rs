@@ -28,7 +28,7 @@ pub(super) fn with_duration(problem: &Problem, duration: f64) -> Option<Phases> 
     // solutions for smaller displacements than wanted
     let mut below = None;
     if least_missing && let Some(least) = extremal(&problem.mirrored(), duration) {
-        below = Some((-least.0, phases(&least.1.mirrored())));
+        below = Some((-least.0, least.1.mirrored().phases().collect()));
     }
     for (lo, hi) in found {
         let at_lo = family.displacement(lo);
@@ -46,11 +46,7 @@ pub(super) fn with_duration(problem: &Problem, duration: f64) -> Option<Phases> 
         return None;
     }
     let most = extremal(problem, duration)?;
-    blend(below?, (most.0, phases(&most.1)), distance, slack)
-}
-
-fn phases(found: &Candidate) -> Phases {
-    found.t.into_iter().zip(found.j).collect()
+    blend(below?, (most.0, most.1.phases().collect()), distance, slack)
 }
 
 /// The profile of largest displacement among those that last `duration`, as far as it has no phase of constant
@@ -76,9 +72,9 @@ fn extremal(problem: &Problem, duration: f64) -> Option<(f64, Candidate)> {
     };
     let c = bisect(a0, ae + duration, |c| gain(&times(c)) <= ve - v0);
     let t = times(c);
-    let distance = displacement(v0, a0, &t, &UP_DOWN_DOWN_UP);
+    let distance = displacement(v0, a0, &t);
     let own = Problem { distance, ..*problem };
-    Candidate::checked(&own, t, UP_DOWN_DOWN_UP).map(|found| (distance, found))
+    Candidate::checked(&own, t).map(|found| (distance, found))
 }
 
 /// All profiles of one duration with a phase of constant velocity.

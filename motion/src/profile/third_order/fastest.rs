@@ -1,10 +1,13 @@
 //! Step 1: the fastest profile.
 //!
-//! Candidates towards higher positions. `a1` is the peak of the acceleration (phases 1..3), `a2` its lowest value
-//! (phases 3..7):
-//! - `direct`: one bump of acceleration without return, where the others degenerate (`a1 = a2`);
-//! - `velocity_limit`: cruise at the highest velocity; the changes of speed before and after are independent;
-//! - `both_limits`: `a1` and `a2` at their limits for some time, a quadratic for the highest velocity;
+//! Three facts make it short. The displacements possible in a given duration are an interval that starts, at the
+//! shortest duration, with the single displacement of the fastest change of velocity; so
+//! - a larger displacement is first met by a profile towards higher positions, a smaller one by its mirror image,
+//!   unless durations just above the shortest are followed by impossible ones (`isolated`);
+//! - a profile through a peak velocity (`peak`) is the fastest of its direction if nothing on the way moves back;
+//! - only where the acceleration stays on one side of zero in its falling ramp, quartics have to be solved.
+//!
+//! With `a1` the peak of the acceleration (phases 1..3) and `a2` its lowest value (phases 3..7), those are
 //! - `free`: no limit reached, `a1² - a2²` follows from the change of velocity, `x = a1 - a2` solves a quartic;
 //! - `one_limit`: `a1` at its limit for some time, `x = a1 - a2` solves a quartic;
 //!   the same for `a2`, by reversing the problem.
@@ -12,55 +15,100 @@
 //! The quartics are those of Ruckig with jerk 1 (Copyright (c) 2021 Lars Berscheid, MIT License, see the notice
 //! in `RUCKIG-LICENSE`).
 
-use super::candidate::{Candidate, UP_DOWN_DOWN_UP, displacement};
-use super::leg::{Leg, rising, settled_velocity};
+use super::candidate::{Candidate, displacement};
+use super::peak::Peak;
 use super::polynomial::roots_in;
 use super::scaled::Problem;
 
 /// The fastest profile of a problem whose boundary states are admissible.
 pub(super) fn fastest(problem: &Problem) -> Option<Candidate> {
-    let mut search = Search { best: None };
     let mirror = problem.mirrored();
-    // first: near the end of a motion rounding may have closed every other way
-    search.direct(problem, false);
-    search.direct(&mirror, true);
-    if unique(problem) {
-        // the displacement of the fastest change of velocity alone decides the direction
-        let up = direct_distance(problem) <= problem.distance;
-        let (first, second) = if up { (problem, &mirror) } else { (&mirror, problem) };
-        if search.best.is_none() {
-            search.upwards(first, !up, true);
+    let mut search = Search { best: None };
+    let change = FastestChange::new(problem, &mirror);
+    let surplus = problem.distance - change.distance;
+    // where the change is a single ramp, rounding moves it by the root of the precision
+    let near = 1e-6 * (1.0 + problem.distance.abs()) + problem.distance_rounding;
+    let [up, down] = [(problem, false), (&mirror, true)];
+    // out there a peak may lie beyond its limit, and the facts above do not hold
+    let outside = problem.v0 > problem.v_max || problem.v0 < problem.v_min;
+    let proven = !change.isolated && !outside;
+    if surplus.abs() <= near || !proven {
+        // a single bump has no freedom left: rounding may have closed every other way
+        for (p, mirrored) in [up, down] {
+            search.bumps(p, mirrored);
         }
-        if search.best.is_none() {
-            search.upwards(second, up, true);
+        if search.best.is_some() && proven {
+            return search.best;
         }
-    } else {
-        search.upwards(problem, false, false);
-        search.upwards(&mirror, true, false);
+    }
+    let margin = if outside { f64::INFINITY } else { 1.0 + 1e-9 };
+    for (p, mirrored) in if surplus >= 0.0 { [up, down] } else { [down, up] } {
+        let found = search.through_peak(p, mirrored);
+        if !found || !proven || !never_reverses(p) {
+            search.quartics(p, mirrored, margin);
+        }
+        if search.best.is_some() && proven {
+            return search.best;
+        }
+    }
+    if search.best.is_none() {
+        // rounding has closed these ways: whatever passes the check
+        for (p, mirrored) in [up, down] {
+            search.bumps(p, mirrored);
+            search.quartics(p, mirrored, f64::INFINITY);
+        }
     }
     search.best
 }
 
-/// True if one boundary is at rest or both have no acceleration: then the displacement grows with the duration
-/// on the branch of the solution, and the first valid candidate is the fastest.
-fn unique(problem: &Problem) -> bool {
-    let Problem { v0, a0, ve, ae, .. } = *problem;
-    match (a0 == 0.0, ae == 0.0) {
-        (true, true) => true,
-        (true, false) => v0 == 0.0,
-        (false, true) => ve == 0.0,
-        (false, false) => false,
+/// The fastest change of velocity and acceleration, whatever the displacement.
+struct FastestChange {
+    distance: f64,
+    /// Slightly longer durations are possible, but not all of them: the acceleration has one sign, and coming to zero
+    /// on the way would already change the velocity too much.
+    isolated: bool,
+}
+
+impl FastestChange {
+    fn new(problem: &Problem, mirror: &Problem) -> Self {
+        let Problem { v0, a0, ve, ae, .. } = *problem;
+        let gain = ve - v0;
+        let straight = 0.5 * (ae - a0).abs() * (a0 + ae);
+        let (p, sign) = if gain < straight { (mirror, -1.0) } else { (problem, 1.0) };
+        let square = bump_square(p);
+        let t = bump(p, square, square.max(0.0).sqrt());
+        let distance = sign * displacement(p.v0, p.a0, &t);
+        let through_zero = 0.5 * (a0 * a0.abs() + ae * ae.abs());
+        let rounding = 1e-9 * (through_zero.abs() + straight.abs());
+        let (low, high) = (straight.min(through_zero), straight.max(through_zero));
+        let isolated = a0 * ae > 0.0 && gain >= low - rounding && gain <= high + rounding;
+        Self { distance, isolated }
     }
 }
 
-/// Displacement of the fastest change from `(v0, a0)` to `(ve, ae)`, where one acceleration is zero.
-fn direct_distance(problem: &Problem) -> f64 {
-    let Problem { v0, a0, ve, ae, a_min, a_max, .. } = *problem;
-    if ae == 0.0 {
-        Leg::new(v0, a0, ve, a_min, a_max).displacement(v0, a0)
+/// Square of the peak of a single bump of acceleration.
+fn bump_square(problem: &Problem) -> f64 {
+    let Problem { v0, a0, ve, ae, .. } = *problem;
+    ve - v0 + 0.5 * (a0 * a0 + ae * ae)
+}
+
+/// Acceleration goes up to a peak and down to its final value.
+fn bump(problem: &Problem, square: f64, peak: f64) -> [f64; 3] {
+    let Problem { a0, ae, a_max, .. } = *problem;
+    if peak > a_max {
+        [a_max - a0, (square - a_max * a_max) / a_max, a_max - ae]
     } else {
-        Leg::new(ve, -ae, v0, -a_max, -a_min).displacement(ve, -ae)
+        let least = a0.max(ae);
+        let peak = if (peak - least).abs() <= 1e-12 { least } else { peak };
+        [peak - a0, 0.0, peak - ae]
     }
+}
+
+/// Nothing between start and end moves towards lower positions.
+fn never_reverses(problem: &Problem) -> bool {
+    let Problem { v0, a0, ve, ae, .. } = *problem;
+    let (rising, falling) = (a0.min(0.0), ae.max(0.0));
+    v0 >= 0.5 * rising * rising && ve >= 0.5 * falling * falling
 }
 
 struct Search {
@@ -69,7 +117,7 @@ struct Search {
 
 impl Search {
     fn offer(&mut self, problem: &Problem, t: [f64; 7], mirrored: bool, reversed: bool) -> bool {
-        let Some(found) = Candidate::checked(problem, t, UP_DOWN_DOWN_UP) else { return false };
+        let Some(found) = Candidate::checked(problem, t) else { return false };
         if self.best.is_none_or(|best| found.duration < best.duration) {
             let found = if reversed { found.reversed() } else { found };
             self.best = Some(if mirrored { found.mirrored() } else { found });
@@ -77,38 +125,28 @@ impl Search {
         true
     }
 
-    fn upwards(&mut self, problem: &Problem, mirrored: bool, first_only: bool) {
-        let cheapest_first: [fn(&mut Self, &Problem, bool) -> bool; 5] = [
-            Self::velocity_limit,
-            Self::both_limits,
-            Self::free,
-            |search, problem, mirrored| search.one_limit(problem, mirrored, false),
-            |search, problem, mirrored| search.one_limit(&problem.reversed(), mirrored, true),
-        ];
-        for case in cheapest_first {
-            if case(self, problem, mirrored) && first_only {
-                return;
-            }
+    fn through_peak(&mut self, problem: &Problem, mirrored: bool) -> bool {
+        let t = Peak::new(problem).and_then(|peak| peak.times());
+        t.is_some_and(|t| self.offer(problem, t, mirrored, false))
+    }
+
+    /// Profiles that do not pass a peak velocity: the falling ramp starts below zero or ends above it. `margin` widens
+    /// the range of its length beyond that.
+    fn quartics(&mut self, problem: &Problem, mirrored: bool, margin: f64) {
+        let Problem { a0, ae, .. } = *problem;
+        let everything = margin.is_infinite();
+        if a0 < 0.0 || ae > 0.0 || everything {
+            self.free(problem, mirrored, margin);
+        }
+        if ae > 0.0 || everything {
+            self.one_limit(problem, mirrored, false, margin);
+        }
+        if a0 < 0.0 || everything {
+            self.one_limit(&problem.reversed(), mirrored, true, margin);
         }
     }
 
-    fn velocity_limit(&mut self, problem: &Problem, mirrored: bool) -> bool {
-        let Problem { distance, v0, a0, ve, ae, v_max, a_max, a_min, .. } = *problem;
-        // profiles with their peak below the settled velocities do not exist
-        let highest = settled_velocity(v0, a0).max(settled_velocity(ve, -ae));
-        if v_max <= 0.0 || highest > v_max * (1.0 + 1e-12) + 1e-12 {
-            return false;
-        }
-        let [t0, t1, t2] = rising(v_max - v0, a0, a_max);
-        let [t6, t5, t4] = rising(v_max - ve, -ae, -a_min);
-        let mut t = [t0, t1, t2, 0.0, t4, t5, t6];
-        // what rounding makes of the limit: over a long cruise the difference would show
-        let cruise = v0 + t0 * (a0 + 0.5 * t0) + t1 * (a0 + t0) + t2 * (a0 + t0 - 0.5 * t2);
-        t[3] = (distance - displacement(v0, a0, &t, &UP_DOWN_DOWN_UP)) / cruise;
-        self.offer(problem, t, mirrored, false)
-    }
-
-    fn free(&mut self, problem: &Problem, mirrored: bool) -> bool {
+    fn free(&mut self, problem: &Problem, mirrored: bool, margin: f64) {
         let Problem { distance, v0, a0, ve, ae, a_max, a_min, .. } = *problem;
         let (s0, se) = (a0 * a0, ae * ae);
         // a1² - a2²
@@ -124,17 +162,17 @@ impl Search {
             let middle = 0.5 * squares / x;
             [middle + 0.5 * x - a0, 0.0, x, 0.0, 0.0, 0.0, 0.5 * x - middle + ae]
         };
-        let mut found = false;
-        for x in roots_in(&c, (a0 - ae).max(0.0), a_max - a_min) {
+        // longer ramps go through zero
+        let longest = (a_max - a_min).min(margin * squares.abs().sqrt());
+        for x in roots_in(&c, (a0 - ae).max(0.0), longest) {
             if x > 0.0 {
                 let x = polished(problem, x, &times, quartic_slope(&c, x) / (4.0 * x));
-                found |= self.offer(problem, times(x), mirrored, false);
+                self.offer(problem, times(x), mirrored, false);
             }
         }
-        found
     }
 
-    fn one_limit(&mut self, problem: &Problem, mirrored: bool, reversed: bool) -> bool {
+    fn one_limit(&mut self, problem: &Problem, mirrored: bool, reversed: bool, margin: f64) {
         let Problem { distance, v0, a0, ve, ae, a_max: a, a_min, .. } = *problem;
         let (s0, se, s) = (a0 * a0, ae * ae, a * a);
         let c = [
@@ -152,57 +190,21 @@ impl Search {
         ];
         let hold = (0.5 * (s0 - se) + ve - v0) / a;
         let times = |x: f64| [a - a0, hold - 2.0 * x + x * x / a, x, 0.0, 0.0, 0.0, ae - a + x];
-        let mut found = false;
-        for x in roots_in(&c, (a - ae).max(0.0), a - a_min) {
+        // longer ramps go through zero
+        let longest = (a - a_min).min(margin * a);
+        for x in roots_in(&c, (a - ae).max(0.0), longest) {
             let x = polished(problem, x, &times, quartic_slope(&c, x) / (2.0 * a));
-            found |= self.offer(problem, times(x), mirrored, reversed);
+            self.offer(problem, times(x), mirrored, reversed);
         }
-        found
     }
 
-    fn both_limits(&mut self, problem: &Problem, mirrored: bool) -> bool {
-        let Problem { distance, v0, a0, ve, ae, a_max, a_min, .. } = *problem;
-        // distance of a leg with plateau to peak velocity v: v²/(2a) + a v/2 + part
-        let part = |v: f64, a0: f64, a: f64| {
-            let ramp = a - a0;
-            let reached = v + 0.5 * ramp * (a + a0);
-            ramp * (v + ramp * (0.5 * a0 + ramp / 6.0))
-                - reached * reached / (2.0 * a)
-                - a * a * a / 24.0
-        };
-        let b = -a_min;
-        let c = [
-            0.5 / a_max + 0.5 / b,
-            0.5 * (a_max + b),
-            part(v0, a0, a_max) + part(ve, -ae, b) - distance,
-        ];
-        let mut found = false;
-        for v in roots_in(&c, f64::NEG_INFINITY, f64::INFINITY) {
-            let hold = |v0: f64, a0: f64, a: f64| (v - v0 + 0.5 * a0 * a0 - a * a) / a;
-            let (up, down) = (hold(v0, a0, a_max), hold(ve, -ae, b));
-            let t = [a_max - a0, up, a_max, 0.0, b, down, b + ae];
-            found |= self.offer(problem, t, mirrored, false);
-        }
-        found
-    }
-
-    /// Acceleration goes up to a peak and down to its final value.
-    fn direct(&mut self, problem: &Problem, mirrored: bool) {
-        let Problem { v0, a0, ve, ae, a_max, .. } = *problem;
-        let square = ve - v0 + 0.5 * (a0 * a0 + ae * ae);
-        let least = a0.max(ae);
+    /// A single bump of acceleration; the peak itself may be negative.
+    fn bumps(&mut self, problem: &Problem, mirrored: bool) {
+        let square = bump_square(problem);
         let root = square.max(0.0).sqrt();
-        if root > a_max {
-            let hold = (square - a_max * a_max) / a_max;
-            let t = [a_max - a0, hold, a_max - ae, 0.0, 0.0, 0.0, 0.0];
-            self.offer(problem, t, mirrored, false);
-        } else {
-            // the peak itself may be negative
-            for peak in [root, -root] {
-                let peak = if (peak - least).abs() <= 1e-12 { least } else { peak };
-                let t = [peak - a0, 0.0, peak - ae, 0.0, 0.0, 0.0, 0.0];
-                self.offer(problem, t, mirrored, false);
-            }
+        for peak in [root, -root] {
+            let [up, hold, down] = bump(problem, square, peak);
+            self.offer(problem, [up, hold, down, 0.0, 0.0, 0.0, 0.0], mirrored, false);
         }
     }
 }
@@ -213,9 +215,7 @@ fn quartic_slope(c: &[f64; 5], x: f64) -> f64 {
 
 /// Newton steps on the integrated displacement itself, as long as they reduce its error.
 fn polished(problem: &Problem, x: f64, times: &impl Fn(f64) -> [f64; 7], slope: f64) -> f64 {
-    let error = |x: f64| {
-        displacement(problem.v0, problem.a0, &times(x), &UP_DOWN_DOWN_UP) - problem.distance
-    };
+    let error = |x: f64| displacement(problem.v0, problem.a0, &times(x)) - problem.distance;
     let (mut x, mut e) = (x, error(x));
     for _ in 0..3 {
         let next = x - e / slope;

@@ -1,7 +1,6 @@
 //! The profile type with its states and errors.
 
 use super::brake::Brake;
-use super::candidate::Candidate;
 use super::leg::Leg;
 use super::scaled::{Problem, Units};
 use super::{duration, fastest};
@@ -98,9 +97,7 @@ pub enum ThirdOrderError {
 /// A phase of constant jerk.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Phase {
-    start_s: f64,
     duration_s: f64,
-    from: MotionState,
     jerk: f64,
 }
 
@@ -112,7 +109,6 @@ pub struct ThirdOrderProfile {
     end: MotionState,
     duration: f64,
     brake: f64,
-    a_largest: f64,
 }
 
 impl ThirdOrderProfile {
@@ -128,7 +124,7 @@ impl ThirdOrderProfile {
     ) -> Result<Self, ThirdOrderError> {
         let Some(task) = Task::new(start, target, limits)? else { return Ok(Self::still(start)) };
         let found = fastest::fastest(&task.problem).ok_or(ThirdOrderError::NotFound)?;
-        Ok(task.profile(*target, phases(&found)))
+        Ok(task.profile(*target, found.phases()))
     }
 
     /// A motion from `start` to `target` that lasts `duration_s`.
@@ -191,33 +187,40 @@ impl ThirdOrderProfile {
         for (t, j) in leg.t.into_iter().zip(leg.jerks()) {
             profile.push(t, j * jerk);
         }
-        profile.end.v_mm_s = velocity_mm_s;
-        profile.end.a_mm_s2 = 0.0;
+        let p_mm = profile
+            .integrated()
+            .last()
+            .map_or(start.p_mm, |(from, phase)| from.after(phase.duration_s, phase.jerk).p_mm);
+        profile.end = MotionState { p_mm, v_mm_s: velocity_mm_s, a_mm_s2: 0.0 };
         Ok(profile)
     }
 
     fn still(start: &MotionState) -> Self {
-        Self {
-            phases: SmallVec::new(),
-            start: *start,
-            end: *start,
-            duration: 0.0,
-            brake: 0.0,
-            a_largest: start.a_mm_s2.abs(),
-        }
+        Self { phases: SmallVec::new(), start: *start, end: *start, duration: 0.0, brake: 0.0 }
     }
 
     fn push(&mut self, t: f64, jerk: f64) {
         if t > 0.0 {
-            self.phases.push(Phase { start_s: self.duration, duration_s: t, from: self.end, jerk });
-            self.end = self.end.after(t, jerk);
-            // what is left of a ramp to zero is rounding, and would add up over a long cruise
-            self.a_largest = self.a_largest.max(self.end.a_mm_s2.abs());
-            if self.end.a_mm_s2.abs() <= 1e-14 * self.a_largest {
-                self.end.a_mm_s2 = 0.0;
-            }
+            self.phases.push(Phase { duration_s: t, jerk });
             self.duration += t;
         }
+    }
+
+    /// The phases with the states they start from. Profiles are made far more often than followed, so the states are
+    /// not kept.
+    fn integrated(&self) -> impl Iterator<Item = (MotionState, Phase)> + '_ {
+        let mut next = self.start;
+        let mut a_largest = next.a_mm_s2.abs();
+        self.phases.iter().map(move |phase| {
+            let from = next;
+            next = from.after(phase.duration_s, phase.jerk);
+            // what is left of a ramp to zero is rounding, and would add up over a long cruise
+            a_largest = a_largest.max(next.a_mm_s2.abs());
+            if next.a_mm_s2.abs() <= 1e-14 * a_largest {
+                next.a_mm_s2 = 0.0;
+            }
+            (from, *phase)
+        })
     }
 
     /// Duration in s, brake included.
@@ -239,8 +242,8 @@ impl ThirdOrderProfile {
     pub fn velocity_range(&self) -> (f64, f64) {
         let mut range = (self.start.v_mm_s, self.start.v_mm_s);
         let mut include = |v: f64| range = (range.0.min(v), range.1.max(v));
-        for (phase, (t, j)) in self.phases.iter().zip(self.phases()) {
-            let MotionState { v_mm_s: v, a_mm_s2: a, .. } = phase.from;
+        for (from, Phase { duration_s: t, jerk: j }) in self.integrated() {
+            let MotionState { v_mm_s: v, a_mm_s2: a, .. } = from;
             include(v);
             if a * (a + j * t) < 0.0 {
                 include(v - 0.5 * a * a / j);
@@ -255,16 +258,18 @@ impl ThirdOrderProfile {
         if t >= self.duration {
             return self.end;
         }
-        let next = self.phases.partition_point(|phase| phase.start_s <= t);
-        match next.checked_sub(1).and_then(|i| self.phases.get(i)) {
-            Some(phase) => phase.from.after(t - phase.start_s, phase.jerk),
-            None => self.start,
+        if t <= 0.0 {
+            return self.start;
         }
+        let mut rest = t;
+        for (from, phase) in self.integrated() {
+            if rest < phase.duration_s {
+                return from.after(rest, phase.jerk);
+            }
+            rest -= phase.duration_s;
+        }
+        self.end
     }
-}
-
-fn phases(found: &Candidate) -> SmallVec<[(f64, f64); 16]> {
-    found.t.into_iter().zip(found.j).collect()
 }
 
 /// A request in scaled units, its brake separated.

@@ -1,0 +1,67 @@
+//! One polynomial piece of a curve over its own parameter in `0..=1`.
+
+use crate::axis::AxisVec;
+use smallvec::SmallVec;
+
+/// Coefficients of one axis over one piece, lowest power first.
+pub type Coefficients = [f64; 6];
+
+/// One polynomial per axis, in channel order.
+pub type PolyPiece = SmallVec<[Coefficients; 4]>;
+
+/// Position of an axis.
+pub(super) fn value(c: &Coefficients, x: f64) -> f64 {
+    c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5]))))
+}
+
+/// First derivative by the parameter.
+pub(super) fn slope(c: &Coefficients, x: f64) -> f64 {
+    c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5])))
+}
+
+/// Second derivative by the parameter.
+pub(super) fn bend(c: &Coefficients, x: f64) -> f64 {
+    2.0 * c[2] + x * (6.0 * c[3] + x * (12.0 * c[4] + x * 20.0 * c[5]))
+}
+
+/// Third derivative by the parameter.
+pub(super) fn twist(c: &Coefficients, x: f64) -> f64 {
+    6.0 * c[3] + x * (24.0 * c[4] + x * 60.0 * c[5])
+}
+
+/// The polynomial over `from..=to` as one over `0..=1`.
+pub(crate) fn section(c: &Coefficients, from: f64, to: f64) -> Coefficients {
+    let mut out = *c;
+    // Horner shift by `from`
+    for k in 0..out.len() {
+        for i in (k..out.len() - 1).rev() {
+            out[i] += from * out[i + 1];
+        }
+    }
+    let mut scale = 1.0;
+    for c in &mut out {
+        *c *= scale;
+        scale *= to - from;
+    }
+    out
+}
+
+/// Position on a piece.
+pub(crate) fn point(piece: &PolyPiece, x: f64) -> AxisVec {
+    piece.iter().map(|c| c.iter().rev().fold(0.0, |sum, c| sum * x + c)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_section_runs_through_the_same_points() {
+        let c = [1.0, -2.0, 0.5, 3.0, -1.0, 0.25];
+        let whole = PolyPiece::from_slice(&[c]);
+        let part = PolyPiece::from_slice(&[section(&c, 0.25, 0.75)]);
+        for x in [0.0, 0.3, 1.0] {
+            assert!((point(&whole, 0.25 + 0.5 * x)[0] - point(&part, x)[0]).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Cuts the spline of an edge where one part of it has to be much slower than another: a block has one velocity limit,
+//! and that of the sharpest bend would hold over the whole edge.
+
+use crate::block::{Block, Feed};
+use crate::limit::SpeedLimit;
+use crate::limits::{PathExtremes, PathSpeeds};
+use crate::path::piece::section;
+use crate::path::{Path, PolyPath, PolyPiece};
+
+/// Divisions of a piece by three at most: a sharp bend, wherever it lies, leaves one of the thirds free.
+const DEEPEST: u32 = 5;
+/// Part of its time that a piece has to gain to be cut.
+const GAIN: f64 = 0.1;
+
+/// A part of the spline with its least time in s.
+struct Part {
+    piece: PolyPiece,
+    length: f64,
+    time_s: f64,
+    /// Nothing but the programmed speed holds it down.
+    at_feed: bool,
+}
+
+impl Part {
+    fn new(block: &Block, piece: PolyPiece) -> Option<Self> {
+        let path = PolyPath::through(vec![piece.clone()], &block.dynamics.feed_axes)?;
+        let block = Block { path: Path::Curve(path), ..block.clone() };
+        let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
+        let length = block.path.length();
+        let (v, limit) = speeds.limited(speeds.programmed_mm_s);
+        Some(Self { piece, length, time_s: length / v, at_feed: limit != SpeedLimit::Curve })
+    }
+
+    fn speed(&self) -> f64 {
+        self.length / self.time_s
+    }
+}
+
+/// The pieces of an edge in groups of nearly equal speed.
+pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<Vec<PolyPiece>> {
+    // a time stands for the speed over the whole edge
+    let feed = match block.feed {
+        Feed::Duration(t) => Feed::PathVelocity(block.path.length() / t),
+        feed => feed,
+    };
+    let block = Block { feed, ..block.clone() };
+    let mut parts = Vec::new();
+    for piece in pieces {
+        if let Some(part) = Part::new(&block, piece) {
+            cut(&block, part, 0, &mut parts);
+        }
+    }
+    let mut out: Vec<Vec<PolyPiece>> = Vec::new();
+    let mut speed = f64::NAN;
+    for part in parts {
+        let v = part.speed();
+        match out.last_mut() {
+            Some(group) if (v - speed).abs() <= GAIN * v.min(speed) => group.push(part.piece),
+            _ => {
+                speed = v;
+                out.push(vec![part.piece]);
+            }
+        }
+    }
+    out
+}
+
+/// Divides a part as long as that makes it faster.
+fn cut(block: &Block, part: Part, depth: u32, out: &mut Vec<Part>) {
+    let third = |k: u32| {
+        let at = |k: u32| f64::from(k) / 3.0;
+        Part::new(block, part.piece.iter().map(|c| section(c, at(k), at(k + 1))).collect())
+    };
+    let may_gain = depth < DEEPEST && !part.at_feed;
+    let thirds: Option<Vec<Part>> = if may_gain { (0..3).map(third).collect() } else { None };
+    match thirds {
+        Some(thirds)
+            if thirds.iter().map(|t| t.time_s).sum::<f64>() < (1.0 - GAIN) * part.time_s =>
+        {
+            for third in thirds {
+                cut(block, third, depth + 1, out);
+            }
+        }
+        _ => out.push(part),
+    }
+}

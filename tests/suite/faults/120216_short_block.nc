@@ -1,0 +1,10 @@
+; run: exit 0
+; warning 120216 at 6:1
+; warning 120216 at 7:1
+#CONTOUR MODE [DEV PATH_DEV=1 REMAIN_PART=50]
+G261 F1000
+X10
+Y0.00001
+X20
+G260
+M30

@@ -1,0 +1,5 @@
+; check: exit 1
+; error 20593 at 3:5
+N10 #IF 1
+#ENDIF
+M30

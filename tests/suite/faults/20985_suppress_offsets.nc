@@ -1,0 +1,5 @@
+; check: exit 1
+; error 20985 at 4:5
+G91 F1000
+X10 #SUPPRESS OFFSETS
+M30

@@ -1,0 +1,6 @@
+; check: exit 1
+; error 21218 at 4:1
+#VAR
+V.G.A = 1
+#ENDVAR
+M30

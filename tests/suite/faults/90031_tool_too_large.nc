@@ -1,0 +1,9 @@
+; check: exit 1
+; error 90031 at 6:1
+V.G.WZ[1].R=10
+D1 G41 G01 X10 F1000
+X20
+G03 X20 Y10 J5
+G01 X0
+G40 X-20
+M30

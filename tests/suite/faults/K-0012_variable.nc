@@ -1,0 +1,4 @@
+; check: exit 1
+; error K-0012 at 3:3
+X V.P.LENGTH F1000
+M30

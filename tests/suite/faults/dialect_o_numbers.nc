@@ -1,0 +1,7 @@
+; check: exit 1
+; error 20191 at 4:1
+; program numbers of other dialects
+O1000
+X1 F100
+O1001
+M30

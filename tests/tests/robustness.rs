@@ -1,0 +1,158 @@
+//! Programs made to break an interpreter: each ends, and with its diagnostic, through the command line.
+
+use kontur::console::Console;
+use kontur::simulator::Kontur;
+use kontur::{Exit, run_with};
+use std::cell::RefCell;
+use std::ffi::OsString;
+use std::io::Write;
+use std::rc::Rc;
+
+#[derive(Clone, Default)]
+struct Buffer(Rc<RefCell<Vec<u8>>>);
+
+impl Write for Buffer {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Exit, IDs with line and column, and what `run` printed on stdout.
+fn call(command: &str, text: &str, options: &[&str]) -> (Exit, Vec<String>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let program = folder.path().join("part.nc");
+    std::fs::write(&program, text).unwrap();
+    let (out, err) = (Buffer::default(), Buffer::default());
+    let mut console = Console::new(out.clone(), err.clone());
+    let mut args: Vec<OsString> = vec!["kontur".into(), command.into(), program.into()];
+    args.extend(["--diagnostics", "json"].map(OsString::from));
+    args.extend(options.iter().map(OsString::from));
+    let exit = run_with(args, &mut Kontur, &mut console);
+    let err = String::from_utf8(err.0.borrow().clone()).unwrap();
+    let said = err.lines().filter(|l| l.starts_with('{')).map(|line| {
+        let json: serde_json::Value = serde_json::from_str(line).unwrap();
+        let id = json["id"].as_u64().map(|id| id.to_string());
+        let id = id.or_else(|| json["kontur_id"].as_str().map(str::to_owned)).unwrap();
+        format!("{id} {}:{}", json["source"]["line"], json["source"]["column"])
+    });
+    let said = said.collect();
+    (exit, said, String::from_utf8(out.0.borrow().clone()).unwrap())
+}
+
+/// What `check` and `run` both say, and that both refuse the program.
+fn refused(text: &str, options: &[&str]) -> Vec<String> {
+    let (exit, checked, _) = call("check", text, options);
+    assert_eq!(exit, Exit::Aborted, "{checked:?}");
+    let (exit, run, _) = call("run", text, options);
+    assert_eq!((exit, &run), (Exit::Aborted, &checked));
+    checked
+}
+
+#[test]
+fn loops_without_motion_end() {
+    let limit = ["--max-blocks", "2000"];
+    for text in ["$WHILE 1\n$ENDWHILE\nM30\n", "N1: P1=1\n$GOTO N1\nM30\n", "$DO\n$ENDDO 1\nM30\n"]
+    {
+        let said = refused(text, &limit);
+        assert!(said.len() == 1 && said[0].starts_with("K-0017 "), "{text}: {said:?}");
+    }
+    // what passes only time ends with the time
+    let text = "$WHILE 1\n#TIME 10\n$ENDWHILE\nM30\n";
+    let (exit, said, _) = call("run", text, &["--max-blocks", "2000", "--max-time", "1"]);
+    assert_eq!(exit, Exit::Aborted);
+    assert!(said[0].starts_with("K-0017 "), "{said:?}");
+}
+
+#[test]
+fn calls_and_macros_that_reach_themselves() {
+    let selves = "%L A\nLL B\n%L B\nLL A\n%MAIN\nLL A\nM30\n";
+    let said = refused(selves, &[]);
+    assert!(said.len() == 1 && said[0].starts_with("K-0006 "), "{said:?}");
+    // the file calls itself; that its end ends the call too is told beside
+    let said = refused("X1 F1000\nL part.nc\nM30\n", &[]);
+    assert_eq!(said[0], "K-0006 2:3", "{said:?}");
+    let said = refused("\"A\" = \"\\\"B\\\"\" \"B\" = \"\\\"A\\\"\"\nF1000 \"A\"\nM30\n", &[]);
+    assert_eq!(said, ["20734 2:7"]);
+    // every step doubles: the text is cut where blocks end
+    let doubling: String =
+        (0..15).map(|i| format!("\"M{}\" = \"\\\"M{i}\\\" \\\"M{i}\\\"\"\n", i + 1)).collect();
+    let said = refused(&format!("\"M0\" = \"F1\"\n{doubling}\"M15\"\nM30\n"), &[]);
+    assert!(said[0].starts_with("20301 17:"), "{said:?}");
+}
+
+#[test]
+fn deep_brackets() {
+    let nested = |n: usize| format!("X{}1{} F1000\nM30\n", "[".repeat(n), "]".repeat(n));
+    assert_eq!(refused(&nested(10_000), &[]), ["20301 1:4097"]);
+    assert_eq!(refused(&nested(1000), &[]), ["K-0006 1:66"]);
+    for open in
+        ["X[", "P1=SIN[", "#VIB GUARD ON [", "L CYCLE [", "G80 [", "S[", "#VAR\nV.P.A[", "("]
+    {
+        let text = format!("{}\nM30\n", open.repeat(10_000 / open.len()));
+        let (_, said, _) = call("check", &text, &[]);
+        assert!(said.len() < 25, "{open}: {said:?}");
+    }
+}
+
+/// An expression as long as a block may be is computed; with more operators, or beyond that length, the ID tells.
+#[test]
+fn long_expressions() {
+    let line = |length: usize| {
+        let mut line = "X0.1".to_owned();
+        while line.len() + 20 <= length - 6 {
+            line.push_str("+0.10000000000000000");
+        }
+        line.push_str(&" ".repeat(length - 6 - line.len()));
+        line + " F1000"
+    };
+    for (length, expected) in [(4000, None), (4096, Some("20301 1:4001"))] {
+        let (exit, said, summary) =
+            call("run", &format!("{}\nM30\n", line(length)), &["--summary", "json"]);
+        assert_eq!(exit, Exit::Finished, "{said:?}");
+        let found: Option<&str> = said.first().map(String::as_str);
+        assert_eq!((found, said.len()), (expected, usize::from(expected.is_some())));
+        let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+        let tenths = line(length).matches("0.1").count();
+        let way = summary["path_length_mm"].as_f64().unwrap();
+        assert!((way - tenths as f64 / 10.0).abs() < 1e-9, "{way}, {tenths} tenths");
+    }
+    assert_eq!(refused(&format!("{}\nM30\n", line(4098)), &[]), ["20301 1:4097"]);
+    // a chain of operators is a nesting to the one who computes it
+    let said = refused(&format!("P1=1{}\nM30\n", "+1".repeat(1990)), &[]);
+    assert!(said[0].starts_with("K-0006 1:"), "{said:?}");
+}
+
+#[test]
+fn parameters_out_of_all_bounds() {
+    for (text, said) in [
+        ("P[1000000000]=1", "K-0009"),
+        ("P1000000000=1", "K-0009"),
+        ("P[1e9]=1", "K-0002"),
+        ("P[-1]=1", "K-0009"),
+        ("P1=P[1000000000]", "K-0009"),
+        ("#VAR\nP1[1000000000]\n#ENDVAR", "K-0009"),
+        ("#VAR\nV.P.A[60000][60000]\n#ENDVAR", "K-0009"),
+        ("P1=2**100000", "K-0009"),
+        ("X1000000000 F1000", "21897"),
+        ("V.G.NP[4000000000].V.X=1", "K-0009"),
+        ("#TIMER START [ID=4000000000]", "K-0009"),
+    ] {
+        let found = refused(&format!("{text}\nM30\n"), &[]);
+        assert!(found[0].starts_with(&format!("{said} ")), "{text}: {found:?}");
+    }
+}
+
+#[test]
+fn names_of_subroutines_that_lead_elsewhere() {
+    for (name, column) in
+        [("../../x.nc", 3), ("..\\..\\x.nc", 3), ("/x/y.nc", 3), (".", 3), ("..", 3)]
+    {
+        let said = refused(&format!("L {name}\nM30\n"), &[]);
+        assert_eq!(said, [format!("K-0013 1:{column}")], "{name}");
+    }
+}
