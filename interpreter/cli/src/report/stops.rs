@@ -62,9 +62,7 @@ impl Stops {
             record.axes.iter().zip(axes).zip(&mut self.watched).enumerate()
         {
             let stands = watch.set.replace(a.set).is_none_or(|x| x.to_bits() == a.set.to_bits());
-            if !stands {
-                *watch = Watch { moving: true, open: None, ..*watch };
-            } else if watch.moving && rests && (a.set - a.ipo).abs() < ARRIVED_MM {
+            if stands && watch.moving && rests && (a.set - a.ipo).abs() < ARRIVED_MM {
                 watch.moving = false;
                 if facts.spindle || self.found.len() >= MOST {
                     continue;
@@ -74,10 +72,15 @@ impl Stops {
                 watch.open = Some(self.found.len());
                 self.found.push(Stop { axis: i, target: a.set, t1, t2: None, t3: limit });
             }
-            let inside = (a.act - a.set).abs() <= facts.window;
-            if let Some(stop) = watch.open.filter(|_| inside).and_then(|s| self.found.get_mut(s)) {
+            // the cycle in which the window lets the axis go on still counts
+            if let Some(stop) = watch.open.and_then(|s| self.found.get_mut(s))
+                && (a.act - stop.target).abs() <= facts.window
+            {
                 stop.t2 = Some(record.k);
                 watch.open = None;
+            }
+            if !stands {
+                (watch.moving, watch.open) = (true, None);
             }
         }
     }
@@ -88,7 +91,7 @@ mod tests {
     use super::*;
     use kontur_interpreter::record::{AxisRecord, PathRecord};
 
-    /// Set positions 0, 1, 2, 2, ...; the actual position halves its distance each cycle.
+    /// Set positions 0, 1, 2, 2, ...; the actual position halves its distance each cycle. Conformance: P022.
     #[test]
     fn times_of_a_stop() {
         let axis = AxisFacts { window: 0.1, settling_s: Some(0.02), ..AxisFacts::default() };
