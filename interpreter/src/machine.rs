@@ -7,6 +7,7 @@ mod builtin;
 mod chain;
 mod channel;
 pub mod explain;
+mod hints;
 pub mod issues;
 pub mod key;
 mod link;

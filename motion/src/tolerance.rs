@@ -8,7 +8,8 @@
 //! The promise is kept by trying: every plan is sampled on the cycle grid, filtered and measured against the contour,
 //! exactly as the trace will be. Where it exceeds the tolerance, the speed of the corners (or curves) that cause it is
 //! lowered by the closed form, and the window is planned again. A corner that is still too coarse at a full stop dwells
-//! for as many cycles as needed, at most the length of the kernel, when nothing is left of the error.
+//! for as many cycles as needed, at most the length of the kernel, when nothing is left of the error. Kernels with
+//! negative weights (windowed sinc) overshoot even there; the blocks on both sides are slowed down.
 
 use crate::axis::AxisVec;
 use crate::contour::Contour;
@@ -37,12 +38,16 @@ const ROUNDS: usize = 60;
 #[derive(Clone, Debug, Default)]
 pub struct Kernels {
     axes: Vec<Option<Arc<Kernel>>>,
+    /// A kernel with negative weights overshoots where the path starts and stops, straight blocks included.
+    overshoot: bool,
 }
 
 impl Kernels {
     /// One kernel per axis, `None` without one.
     pub fn new(axes: Vec<Option<Arc<Kernel>>>) -> Self {
-        Self { axes }
+        let mut taps = axes.iter().flatten().flat_map(|k| k.taps());
+        let overshoot = taps.any(|tap| tap.weight < 0.0);
+        Self { axes, overshoot }
     }
 
     /// True if any axis has a kernel.
@@ -212,7 +217,7 @@ impl Monitor {
         let mut buffer = Buffer::new(trial);
         let mut next = trial.now + 1;
         for (m, mark) in marks.iter().enumerate() {
-            let bent = mark.queued.bend > 0.0 || buffer.unequal;
+            let bent = mark.queued.bend > 0.0 || buffer.unequal || trial.kernels.overshoot;
             if mark.jump <= 1e-9 && !bent {
                 continue;
             }
@@ -223,7 +228,8 @@ impl Monitor {
             let parts = if bent { [entered, left, left + reach] } else { [entered; 3] };
             next = next.max(mark.cycles.floor() as u64 + 1);
             for last in parts {
-                if next > last || (!buffer.unequal && quiet(trial, marks, next, last)) {
+                let calm = !buffer.unequal && !trial.kernels.overshoot;
+                if next > last || (calm && quiet(trial, marks, next, last)) {
                     next = next.max(last + 1);
                     continue;
                 }
@@ -310,10 +316,18 @@ impl Monitor {
         demands: &mut Demands,
     ) {
         let full = trial.kernels.length();
+        let mut slow = findings.curve.clone();
         for mark in marks {
             let Some(b) = mark.boundary else { continue };
             let excess = findings.corner[b];
             if excess <= 0.0 {
+                continue;
+            }
+            if trial.kernels.overshoot && demands.stop[b] == Some(full) {
+                // what is left is the overshoot of the stop itself
+                let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
+                note(&mut slow[b - 1], excess, tolerance);
+                note(&mut slow[b], excess, tolerance);
                 continue;
             }
             if round >= ROUNDS_OF_SPEED {
@@ -347,14 +361,19 @@ impl Monitor {
         }
         for mark in marks {
             let Some(b) = mark.block else { continue };
-            if let Some((excess, tolerance)) = findings.curve[b] {
-                // the deviation on a curve grows with the square of the speed
-                let closed = (tolerance / (tolerance + excess)).sqrt() * 0.999;
-                let ratio = if round < ROUNDS_OF_SPEED { closed } else { 0.7 * closed };
+            if let Some((excess, tolerance)) = slow[b] {
                 let queued = &trial.window[b];
+                let left = tolerance / (tolerance + excess);
+                // the deviation on a curve grows with the square of the speed, an overshoot with the speed
+                let (closed, floor) = if trial.kernels.overshoot && queued.bend <= 0.0 {
+                    (left, 0.0)
+                } else {
+                    (left.sqrt(), slowest(trial, queued, tolerance))
+                };
+                let closed = 0.999 * closed;
+                let ratio = if round < ROUNDS_OF_SPEED { closed } else { 0.7 * closed };
                 let now = demands.feed[b].min(queued.velocity.0).min(mark.speed);
-                demands.feed[b] =
-                    (now * ratio.max(0.3)).max(slowest(trial, queued, tolerance).min(now));
+                demands.feed[b] = (now * ratio.max(0.3)).max(floor.min(now));
             }
         }
     }
@@ -393,9 +412,9 @@ impl Monitor {
 
 /// True if no set point of the cycles `first..=last` can leave the contour by half the tolerance.
 ///
-/// A set point is a mean of points of the path with positive weights. Expanded around their mean path length the linear
-/// part lies on the path, and what is left of an axis is at most `bend / 2` times the variance of the path length,
-/// itself at most a quarter of the stretch squared (derived).
+/// A set point is a mean of points of the path with positive weights (not so with kernels that overshoot). Expanded
+/// around their mean path length the linear part lies on the path, and what is left of an axis is at most `bend / 2`
+/// times the variance of the path length, itself at most a quarter of the stretch squared (derived).
 fn quiet(trial: &Trial<'_>, marks: &[Mark], first: u64, last: u64) -> bool {
     let reach = f64::from(trial.kernels.length());
     let begin = marks.partition_point(|m| m.cycles <= first as f64 - reach - 1.0).saturating_sub(1);

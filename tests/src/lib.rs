@@ -1,5 +1,8 @@
 //! Helpers shared by the cross-crate tests: programs as text, on the built-in machine or a sample machine.
 
+pub mod geometry;
+pub mod random;
+
 use kontur_interpreter::diag::{Diagnostic, Id};
 use kontur_interpreter::exec::{self, Options};
 use kontur_interpreter::machine::{ListFiles, Machine, Override};

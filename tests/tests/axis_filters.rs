@@ -155,6 +155,23 @@ fn unequal_hsc_filters_are_reported() {
     );
 }
 
+/// Standard filters delay as kernels do: 18.447 ms on one axis, nothing on the others. Conformance: A072.
+#[test]
+fn unequal_standard_filters_are_reported() {
+    let program = "%P\nG90 G01 X10 Y10 F6000\nM30\n";
+    let unequal = |settings: &[String]| -> Vec<String> {
+        let run = on(program, settings);
+        assert!(!run.totals.aborted, "{:?}", run.diagnostics);
+        let found = run.diagnostics.iter().filter(|d| d.id.to_string() == "K-0112");
+        found.map(|d| d.text.clone()).collect()
+    };
+    let one = unequal(&low_pass("X"));
+    assert_eq!(one.len(), 1, "once: {one:?}");
+    assert!(one[0].contains("X 18.447 ms") && one[0].contains("Y 0.000 ms"), "{one:?}");
+    let all = ["X", "Y", "Z"].map(low_pass).concat();
+    assert_eq!(unequal(&all), Vec::<String>::new());
+}
+
 /// A band stop that overshoots the largest speed by more than 9 %, and the raised threshold. Conformance: A048.
 #[test]
 fn a_band_stop_can_trip_the_monitoring() {

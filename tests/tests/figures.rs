@@ -281,3 +281,37 @@ fn a_higher_kv_by_improved_position_control() {
     near(largest(0.0), 299.0, 11.0);
     assert!(largest(1.0) > 1.5 * largest(0.0), "{} {}", largest(0.0), largest(1.0));
 }
+
+/// Every command of the list, as it stands there; those that [`drawn`] measures run there.
+#[test]
+fn every_command_of_the_list_runs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let list = std::fs::read_to_string(root.join("interpreter/cli/docs/figures.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let commands: Vec<&str> =
+        list.split('`').skip(1).step_by(2).filter(|part| part.starts_with("kontur ")).collect();
+    assert!(commands.len() >= 24, "{commands:?}");
+    let measured = |c: &str| c.contains(" --signals ") || c.contains(" sweep ");
+    for command in commands.into_iter().filter(|c| !measured(c)) {
+        let mut output = None;
+        let words: Vec<OsString> = command
+            .split_whitespace()
+            .map(|word| {
+                let file = Path::new(word);
+                if word.starts_with("programs/") {
+                    root.join(file).into()
+                } else if file.extension().is_some_and(|e| e == "svg" || e == "html") {
+                    output = Some(folder.path().join(file));
+                    folder.path().join(file).into()
+                } else {
+                    word.into()
+                }
+            })
+            .collect();
+        let mut console = Console::new(Vec::new(), Vec::new());
+        assert_eq!(run_with(words, &mut Kontur, &mut console), Exit::Finished, "{command}");
+        if let Some(file) = output {
+            assert!(std::fs::metadata(file).unwrap().len() > 1000, "{command}");
+        }
+    }
+}

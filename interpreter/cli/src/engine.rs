@@ -56,7 +56,7 @@ pub struct Facts {
 }
 
 /// What stays the same for one axis.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct AxisFacts {
     /// Name in the NC program.
     pub name: String,
@@ -66,6 +66,10 @@ pub struct AxisFacts {
     pub spindle: bool,
     /// The plant model has a tool point of its own (`X_tcp_mm`).
     pub modal: bool,
+    /// Half width of the exact-stop window in mm or deg (P-AXIS-00236).
+    pub window: f64,
+    /// Time limit to reach it in s (P-AXIS-00532), if there is one.
+    pub settling_s: Option<f64>,
 }
 
 impl AxisFacts {

@@ -8,6 +8,7 @@ mod picture;
 pub(crate) mod plot;
 mod recording;
 mod signals;
+mod stops;
 mod svg;
 
 use crate::args::ReportArgs;

@@ -97,11 +97,15 @@ fn readable(program: &Path) -> Result<(), OpenError> {
 }
 
 fn facts(request: &Request, machine: &Machine, simulation: &Simulation) -> Facts {
+    let (chains, _) = machine.chains();
+    let stop = |i: usize| chains.get(i).map(|chain| chain.control.exact_stop).unwrap_or_default();
     let axes = machine.all_axes().enumerate().map(|(i, axis)| AxisFacts {
         name: axis.name().to_owned(),
         rotary: axis.kind() != AxisKind::Linear,
         spindle: axis.kind() == AxisKind::Spindle,
         modal: simulation.has_tool_point(i),
+        window: stop(i).window_mm,
+        settling_s: stop(i).settling_s,
     });
     Facts {
         program: request.program.display().to_string(),

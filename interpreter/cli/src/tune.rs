@@ -5,6 +5,7 @@
 //! answer.
 
 pub mod args;
+mod fit;
 mod order;
 mod own;
 mod program;
@@ -29,6 +30,8 @@ struct Task {
     at_hz: f64,
     limit_ratio: f64,
     feed_mm_min: f64,
+    /// Tolerance in mm that the command to paste carries.
+    max_dev_mm: Option<f64>,
     cycle: CycleTime,
 }
 
@@ -69,6 +72,7 @@ pub fn tune(
         band,
         limit_ratio: args.max_residual / 100.0,
         feed_mm_min: args.feed,
+        max_dev_mm: args.max_dev,
         cycle,
     };
     let rows = task.rows();
@@ -223,12 +227,20 @@ impl Task {
             .reduce(|a, b| if b.corner_error_s < a.corner_error_s { b } else { a })
     }
 
+    fn tolerance(&self) -> String {
+        self.max_dev_mm.map_or_else(String::new, |mm| format!(" AX_DEV={mm}"))
+    }
+
     fn proposal(&self, rows: &[Row]) -> String {
         match self.proposed(rows) {
             Some(choice) => format!(
-                "\nproposal  {}\n          the least contour error among the modes that keep {} %; AX_DEV=.. in the same brackets bounds it\n",
-                command(&choice.settings, ""),
-                100.0 * self.limit_ratio
+                "\nproposal  {}\n          the least contour error among the modes that keep {} %; {}\n",
+                command(&choice.settings, &self.tolerance()),
+                100.0 * self.limit_ratio,
+                match self.max_dev_mm {
+                    Some(mm) => format!("AX_DEV keeps the axes within {mm} mm of the contour"),
+                    None => "AX_DEV=.. in the same brackets bounds it".to_owned(),
+                }
             ),
             None => format!(
                 "\nproposal  none: no mode keeps {} % over {} to {} Hz; settings per position or a larger \
@@ -252,6 +264,7 @@ mod tests {
             band: VibrationBand::of(freqs_hz, 0.1).unwrap(),
             limit_ratio: 0.05,
             feed_mm_min: 4000.0,
+            max_dev_mm: None,
             cycle: CycleTime::DEFAULT,
         }
     }
@@ -294,6 +307,8 @@ mod tests {
             );
         }
         assert!(task.proposal(&rows).contains("#VIB GUARD ON [MODE=2 FREQ="));
+        let bounded = Task { max_dev_mm: Some(0.01), ..task };
+        assert!(bounded.proposal(&rows).contains(" DAMPING=0.1 AX_DEV=0.01]\n"));
     }
 
     #[test]

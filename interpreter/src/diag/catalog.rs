@@ -312,6 +312,7 @@ pub const ENTRIES: &[Entry] = &[
     row(Kontur(75), "K-LIST-NOEFFECT", Warning, 1, 1, 2, "list value without effect", "P-CHAN-00063 presets G135"),
     row(Kontur(76), "K-INPUT", Error, 3, 3, 0, "file of real-time inputs wrong or not readable", "--input FILE: CSV with the columns t_s and signals, times rising"),
     row(Kontur(77), "K-INPUT-NOEFFECT", Warning, 1, 1, 0, "real-time input without effect", "the message says what is off in the machine"),
+    row(Kontur(78), "K-LIST-ADVICE", Note, 1, 1, 2, "list value outside what the documents recommend", "a recommendation: nothing is changed"),
     row(Kontur(80), "K-AX-DEV", Warning, 1, 1, 1, "tolerance AX_DEV could not be kept", "axes with unequal kernels, or a corner that is final already"),
     row(Kontur(81), "K-MSG", Note, 1, 1, 1, "message of the program (#MSG)", ""),
     row(Kontur(82), "K-INTERNAL", Error, 6, 8, 0, "internal error of kontur", ""),

@@ -289,10 +289,15 @@ fn issue(issue: &FilterIssue, axis: &Axis) -> Diagnostic {
     diagnostic.axis(axis.number(), axis.name())
 }
 
-/// Axes of one group with kernels of different delay run asynchronously.
+/// Axes of one group whose kernels and standard filters together delay them differently run asynchronously.
 fn unequal_delays(setup: &ShapingSetup, machine: &Machine) -> Option<Diagnostic> {
-    let delays: Vec<f64> =
-        setup.axes.iter().map(|a| a.kernel.as_ref().map_or(0.0, |k| k.delay_cycles())).collect();
+    let kernel = |a: &AxisShaping| a.kernel.as_ref().map_or(0.0, |k| k.delay_cycles());
+    let delays: Vec<f64> = setup
+        .axes
+        .iter()
+        .zip(&machine.axes)
+        .map(|(a, axis)| kernel(a) + axis.standard_filter_delay_cycles(machine.cycle))
+        .collect();
     let low = delays.iter().copied().fold(f64::INFINITY, f64::min);
     let high = delays.iter().copied().fold(0.0, f64::max);
     if high - low < 1e-6 || delays.is_empty() {

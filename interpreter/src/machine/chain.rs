@@ -6,7 +6,7 @@ use super::overrides::Override;
 use super::parameters::Parameters;
 use super::plausible;
 use super::table::ListKind;
-use super::{Machine, link};
+use super::{Machine, hints, link};
 use crate::diag::{AxisRef, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
 
@@ -61,7 +61,9 @@ impl Chain<'_> {
         let cycle = self.check_all(&mut settled, &names);
         let folder = self.start_up.rsplit_once('/').map_or("", |(folder, _)| folder);
         let name = folder.rsplit('/').find(|n| !n.is_empty() && *n != ".").unwrap_or("machine");
-        link::machine(name, cycle, settled, &names, &mut self.diagnostics)
+        let machine = link::machine(name, cycle, settled, &names, &mut self.diagnostics)?;
+        hints::check(&machine, &mut self.diagnostics);
+        Some(machine)
     }
 
     /// The path of a list named in the start-up list: relative to its folder, either slash.

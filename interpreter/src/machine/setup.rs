@@ -17,6 +17,7 @@ use crate::diag::Diagnostic;
 use kontur_filters::{
     control::{AxisControlConfig, IpcConfig, Issue, buffer::channel_delay_cycles},
     iir::AxisFilter,
+    stage::Stage,
     time::CycleTime,
 };
 
@@ -95,5 +96,11 @@ impl Axis {
     /// [`Machine::chains`] reports what is wrong with them.
     pub fn kernel_preset(&self, cycle: CycleTime) -> KernelPreset {
         filters::preset(self, cycle)
+    }
+
+    /// Mean delay of the standard filters that the list switches on, in cycles.
+    pub fn standard_filter_delay_cycles(&self, cycle: CycleTime) -> f64 {
+        let cascade = filters::cascade(self, cycle, &mut Vec::new());
+        cascade.filters.iter().map(Stage::delay_cycles).sum()
     }
 }

@@ -292,7 +292,9 @@ fn documented_reactions_to_values_out_of_range() {
     for (line, id, key, used) in cases {
         let mut files = Memory::machine();
         files.put("m/lists/y.lis", &format!("kopf.achs_nr 1\n{line}\n"));
-        let (machine, warnings) = files.load(&[]).unwrap();
+        let (machine, mut warnings) = files.load(&[]).unwrap();
+        // a corrected value may still be no recommended one
+        warnings.retain(|d| d.id != Id::Kontur(78));
         let found: Vec<String> = warnings.iter().map(|d| d.id.to_string()).collect();
         assert_eq!(found, [id], "{line}");
         assert_eq!(warnings[0].severity, Severity::Warning, "{line}");

@@ -3,7 +3,7 @@ const runs = JSON.parse(document.getElementById("data").textContent);
 const COLOURS = ["#1c6dd0", "#d9480f", "#2b8a3e", "#9c36b5", "#0c8599", "#b08900"];
 const KINDS = [
   ["speed", "Path speed", true], ["error", "Contour error", false], ["dev", "Deviation from the contour", true],
-  ["lag", "Lag", true], ["vel", "Axis velocity", false], ["acc", "Axis acceleration", false],
+  ["lag", "Lag", true], ["pos", "Position", false], ["vel", "Axis velocity", false], ["acc", "Axis acceleration", false],
 ];
 const colour = i => COLOURS[i % COLOURS.length];
 const one = runs.length === 1;
@@ -167,7 +167,7 @@ for (const [kind, title, open] of KINDS) {
   const lines = runs.flatMap((r, i) => r.curves.filter(c => c.kind === kind).map(c => ({
     r, c, name: (one ? "" : r.summary.program + " ") + c.name,
     colour: one ? (kind === "speed" || kind === "error" ? COLOURS[0] : colour(3 + axisNames.indexOf(c.name) - 2)) : colour(i),
-    dash: one ? [] : [[], [6, 3], [2, 2], [8, 2, 2, 2]][Math.max(0, axisNames.indexOf(c.name) - 2) % 4],
+    dash: one ? (c.name.endsWith(" actual") ? [5, 3] : c.name.endsWith(" load") ? [2, 2] : []) : [[], [6, 3], [2, 2], [8, 2, 2, 2]][Math.max(0, axisNames.indexOf(c.name) - 2) % 4],
   })));
   if (!lines.length) continue;
   const card = make("div", undefined, "card"), bar = make("div", undefined, "bar"), canvas = make("canvas");
@@ -177,7 +177,7 @@ for (const [kind, title, open] of KINDS) {
   bar.append(bar.querySelector(".hint"));
   card.append(bar, canvas);
   byId("plots").append(card);
-  const plot = { lines, canvas, open };
+  const plot = { lines, canvas, open, kind };
   canvas.hidden = !open;
   canvas.style.display = open ? "" : "none";
   head.onclick = () => {
@@ -194,7 +194,26 @@ function timeOf(canvas, px) {
   const [x0, , w] = plotBox(canvas);
   return view.time[0] + (px - x0) / w * (view.time[1] - view.time[0]);
 }
-function drawPlot({ lines, canvas, open }) {
+// the window of an exact stop as a band from t1 on, and t1, t2 (inside the window), t3 (time limit)
+function drawStops(c, { lines, kind }, X, Y, y0, h) {
+  c.font = "10px sans-serif"; c.textBaseline = "top"; c.textAlign = "left"; c.lineWidth = 1;
+  for (const l of lines) for (const [axis, target, range, ...at] of l.r.stops) {
+    if (view.hidden.has(l) || (kind === "lag" ? l.c.name !== axis : l.c.name !== axis + " actual")) continue;
+    const [t1, t2, t3] = at.map(k => k === null ? null : X(seconds(l.r, k)));
+    const middle = kind === "lag" ? 0 : target, high = Y(middle + range), last = Math.max(t1 + 1, t2 || 0, t3 || 0);
+    c.fillStyle = l.colour + "22";
+    c.fillRect(t1, high, last - t1, Y(middle - range) - high);
+    c.strokeStyle = c.fillStyle = l.colour; c.setLineDash([3, 3]);
+    [["t1", t1], ["t2", t2], ["t3", t3]].forEach(([name, x]) => {
+      if (x === null) return;
+      c.beginPath(); c.moveTo(x, y0); c.lineTo(x, y0 + h); c.stroke();
+      c.fillText(`${axis} ${name}`, x + 2, y0 + 2);
+    });
+  }
+  c.setLineDash([]);
+}
+function drawPlot(plot) {
+  const { lines, canvas, open, kind } = plot;
   if (!open) return;
   const [c] = fitted(canvas), box = plotBox(canvas), [x0, y0, w, h] = box, [t0, t1] = view.time;
   const shown = lines.filter(l => !view.hidden.has(l));
@@ -224,6 +243,8 @@ function drawPlot({ lines, canvas, open }) {
     c.stroke();
   });
   c.setLineDash([]);
+  // many stops at once would hide the curves
+  if ((kind === "lag" || kind === "pos") && (t1 - t0) < 3) drawStops(c, plot, X, Y, y0, h);
   if (view.at !== null) {
     c.strokeStyle = "#495057"; c.lineWidth = 1;
     c.beginPath(); c.moveTo(X(view.at), y0); c.lineTo(X(view.at), y0 + h); c.stroke();

@@ -1,6 +1,7 @@
 //! The interactive page: one file, no network; data as JSON beside its own script.
 
-use super::recording::{Bucket, Kind, Point, Recording, programmed};
+use super::recording::{Bucket, Curve, Kind, Point, Recording, programmed};
+use super::stops::Stop;
 use crate::summary::Summary;
 use crate::trace::fixed::push_fixed;
 use serde_json::json;
@@ -52,11 +53,28 @@ fn run(r: &Recording, s: &Summary) -> String {
             join((0..2).map(|i| join(path.iter().map(|p| number(p[i])))))
         })),
     );
-    out.text("curves", &join(r.curves.iter().enumerate().map(|(i, c)| curve(r, i, c))));
+    let shown = r.curves.iter().enumerate().filter(|(i, c)| tells_something(r, *i, c));
+    out.text("curves", &join(shown.map(|(i, c)| curve(r, i, c))));
+    out.text("stops", &join(r.stops.found().iter().map(|s| stop(r, s))));
     out.finish()
 }
 
-fn curve(r: &Recording, i: usize, c: &super::recording::Curve) -> String {
+/// The load of a stiff axis is where its motor is.
+fn tells_something(r: &Recording, i: usize, c: &Curve) -> bool {
+    let actual = |other: &Curve| other.kind == Kind::Actual && other.axis == c.axis;
+    let Some(beside) = r.curves.iter().position(actual).filter(|_| c.kind == Kind::Load) else {
+        return true;
+    };
+    r.buckets.iter().any(|b| b.range[i] != b.range[beside])
+}
+
+/// Axis, target, window, then t1, t2 and t3 in cycles.
+fn stop(r: &Recording, s: &Stop) -> String {
+    let axis = &r.facts.axes[s.axis];
+    safe(&json!([axis.name, s.target, axis.window, s.t1, s.t2, s.t3]).to_string())
+}
+
+fn curve(r: &Recording, i: usize, c: &Curve) -> String {
     let kind = match c.kind {
         Kind::Speed => "speed",
         Kind::ContourError => "error",
@@ -64,6 +82,7 @@ fn curve(r: &Recording, i: usize, c: &super::recording::Curve) -> String {
         Kind::Lag => "lag",
         Kind::Velocity => "vel",
         Kind::Acceleration => "acc",
+        Kind::Set | Kind::Actual | Kind::Load => "pos",
     };
     let mut out = Json::new();
     out.text("name", &safe(&json!(c.name).to_string()));

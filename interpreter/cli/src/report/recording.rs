@@ -2,6 +2,7 @@
 //! value of every curve and the points that span the contour. Short runs keep every cycle; long ones keep every cycle
 //! around the largest contour error, where one looks closest.
 
+use super::stops::Stops;
 use crate::engine::Facts;
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 use std::collections::VecDeque;
@@ -63,6 +64,10 @@ pub(crate) enum Kind {
     Lag,
     Velocity,
     Acceleration,
+    /// Set, actual and load position: three curves per axis.
+    Set,
+    Actual,
+    Load,
 }
 
 impl Kind {
@@ -73,6 +78,9 @@ impl Kind {
             Self::Lag => a.lag,
             Self::Velocity => a.vel,
             Self::Acceleration => a.acc,
+            Self::Set => a.set,
+            Self::Actual => a.act,
+            Self::Load => a.load,
             Self::Speed | Self::ContourError => 0.0,
         }
     }
@@ -92,6 +100,7 @@ pub(crate) struct Pass {
 pub(crate) struct Recording {
     pub(crate) facts: Facts,
     pub(crate) curves: Vec<Curve>,
+    pub(crate) stops: Stops,
     pub(crate) buckets: Vec<Bucket>,
     /// Axes that span the contour, as indices into [`Facts::axes`].
     pub(crate) plane: Vec<usize>,
@@ -135,8 +144,16 @@ impl Recording {
                 curves.push(curve(&a.name, &format!("{}{end}", a.unit()), kind, Some(i)));
             }
         }
+        for &i in &path_axes {
+            let a = &facts.axes[i];
+            for (kind, what) in [(Kind::Set, "set"), (Kind::Actual, "actual"), (Kind::Load, "load")]
+            {
+                curves.push(curve(&format!("{} {what}", a.name), a.unit(), kind, Some(i)));
+            }
+        }
         Self {
             facts: facts.clone(),
+            stops: Stops::new(facts),
             curves,
             buckets: Vec::new(),
             plane: path_axes.into_iter().filter(|&i| !facts.axes[i].rotary).take(3).collect(),
@@ -190,6 +207,7 @@ impl Recording {
     pub(crate) fn add(&mut self, record: &CycleRecord) {
         let point = self.point(record);
         self.look_closely(point);
+        self.stops.add(record, &self.facts.axes);
         let value = |c: &Curve| match (c.kind, c.axis) {
             (Kind::Speed, _) => record.path.v_mm_s,
             (Kind::ContourError, _) => record.contour_err_mm,

@@ -206,7 +206,7 @@ mod tests {
             name: name.to_owned(),
             rotary,
             spindle,
-            modal: false,
+            ..AxisFacts::default()
         };
         Facts {
             axes: vec![axis("X", false, false), axis("C", true, false), axis("S", true, true)],

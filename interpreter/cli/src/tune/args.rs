@@ -62,8 +62,8 @@ pub struct TuneArgs {
     #[arg(long, value_name = "FILE", requires = "max_dev")]
     pub program: Option<PathBuf>,
 
-    /// Largest deviation of an axis from the contour in --program, in mm (deg)
-    #[arg(long, value_name = "MM", requires = "program", value_parser = above_zero)]
+    /// Largest deviation of an axis from the contour, in mm (deg): AX_DEV of the command to paste, bound in --program
+    #[arg(long, value_name = "MM", conflicts_with = "order_for", value_parser = above_zero)]
     pub max_dev: Option<f64>,
 
     /// Machine and cycle; what else is simulated in --program

@@ -1,4 +1,4 @@
-//! The program's own `#VIB GUARD` commands: what they say, and a copy without what is to be chosen.
+//! The program's own `#VIB GUARD` commands: what they say, and copies without what is to be chosen, with a tolerance.
 
 use crate::Error;
 use std::fs::File;
@@ -16,6 +16,8 @@ pub(super) struct Commands {
     pub(super) off: Option<usize>,
     /// Line and value of the first `AX_DEV`.
     pub(super) tolerance: Option<(usize, String)>,
+    /// Line of the head (`%NAME`) of the main program, 0 without one: local subroutines stand in front of it.
+    head: usize,
 }
 
 /// A copy of a program, deleted when it goes out of scope.
@@ -43,6 +45,11 @@ impl Commands {
     }
 
     fn read(&mut self, number: usize, line: &str) {
+        let start = line.trim_start().to_ascii_uppercase();
+        let subroutine = start.starts_with("%L ") || start.starts_with("%L\t");
+        if start.starts_with('%') && !subroutine {
+            self.head = number;
+        }
         let Some(command) = Command::find(line) else { return };
         let mut words = command.words();
         let once = |place: &mut Option<usize>, found: bool| {
@@ -59,20 +66,27 @@ impl Commands {
     }
 }
 
-/// Copies a program without MODE, FREQ and DAMPING in its `#VIB GUARD` commands; line numbers stay.
+/// Copies a program without MODE, FREQ and DAMPING in its `#VIB GUARD` commands, with `ax_dev_mm` in each of them that
+/// switches on. A program that never does so gets a command of its own in front of its first block; without it the line
+/// numbers stay.
 ///
 /// # Errors
 /// [`Error::Usage`] for a command with expressions in its brackets, [`Error::Io`] if the copy cannot be written.
-pub(super) fn without_choices(file: &Path) -> Result<Copy, Error> {
+pub(super) fn copy(file: &Path, own: &Commands, ax_dev_mm: Option<f64>) -> Result<Copy, Error> {
     let io = |e| Error::io("temporary copy of the program", e);
     let folder = tempfile::tempdir().map_err(io)?;
     let program = folder.path().join(file.file_name().unwrap_or(file.as_os_str()));
     let mut copy = BufWriter::new(File::create(&program).map_err(io)?);
+    let added = ax_dev_mm.filter(|_| own.on.is_none());
+    let switch_on = added.map(|x| format!("#VIB GUARD ON [AX_DEV={x}]\n")).unwrap_or_default();
+    if own.head == 0 {
+        copy.write_all(switch_on.as_bytes()).map_err(io)?;
+    }
     lines(file, |number, line| {
         let text = String::from_utf8_lossy(line);
         let edited = match Command::find(&text) {
             None => None,
-            Some(command) => command.without_choice(&text).map_err(|()| {
+            Some(command) => command.edited(&text, ax_dev_mm).map_err(|()| {
                 Error::Usage(format!(
                     "{}, line {number}: `{}` computes its values; leave ON and AX_DEV there and take out the rest",
                     file.display(),
@@ -80,7 +94,9 @@ pub(super) fn without_choices(file: &Path) -> Result<Copy, Error> {
                 ))
             })?,
         };
-        copy.write_all(edited.as_deref().map_or(line, str::as_bytes)).map_err(io)
+        copy.write_all(edited.as_deref().map_or(line, str::as_bytes)).map_err(io)?;
+        let behind = if number == own.head { switch_on.as_bytes() } else { &[] };
+        copy.write_all(behind).map_err(io)
     })?;
     copy.flush().map_err(io)?;
     Ok(Copy { program, _folder: folder })
@@ -130,12 +146,15 @@ impl Command {
         words.into_iter()
     }
 
-    /// The line without the words that are to be chosen; none if it has none of them.
-    fn without_choice(&self, line: &str) -> Result<Option<String>, ()> {
-        if !self.words().any(|word| CHOSEN.contains(&word.as_str())) {
+    /// The line without the words that are to be chosen, and with a tolerance if it switches on; none if nothing
+    /// changes.
+    fn edited(&self, line: &str, ax_dev_mm: Option<f64>) -> Result<Option<String>, ()> {
+        let ax_dev_mm = ax_dev_mm.filter(|_| self.words().any(|word| word == "ON"));
+        let chosen = self.words().any(|word| CHOSEN.contains(&word.as_str()));
+        if !chosen && ax_dev_mm.is_none() {
             return Ok(None);
         }
-        let mut kept = Vec::new();
+        let mut kept: Vec<String> = ax_dev_mm.map(|x| format!("AX_DEV={x}")).into_iter().collect();
         let mut switch = "";
         let mut words = self.words();
         while let Some(word) = words.next() {
@@ -229,7 +248,8 @@ mod tests {
         ];
         let join = |lines: Vec<&str>| lines.join("\r\n");
         std::fs::write(&path, join(edits.iter().map(|e| e.0).collect())).unwrap();
-        let copy = without_choices(&path).unwrap();
+        let copied = |ax_dev_mm| copy(&path, &Commands::of(&path).unwrap(), ax_dev_mm);
+        let copy = copied(None).unwrap();
         assert_eq!(copy.program.file_name(), path.file_name());
         let text = std::fs::read_to_string(&copy.program).unwrap();
         assert_eq!(text, join(edits.iter().map(|e| e.1).collect()));
@@ -237,6 +257,27 @@ mod tests {
         drop(copy);
         assert!(!kept.exists());
         std::fs::write(&path, "#VIB GUARD ON [MODE=2 FREQ=[V.P.F*2]]\n").unwrap();
-        assert!(without_choices(&path).unwrap_err().to_string().contains("line 1"));
+        assert!(copied(None).unwrap_err().to_string().contains("line 1"));
+    }
+
+    /// In the commands that switch on, else in front of the first block of the main program.
+    #[test]
+    fn the_copy_gets_a_tolerance() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("part.nc");
+        let on = "#VIB GUARD ON [AX_DEV=0.02]";
+        for (text, want) in [
+            ("N1 G1 X1\nM30\n", format!("{on}\nN1 G1 X1\nM30\n")),
+            ("%L SUB\nG1 X1\nM17\n%MAIN\nLL SUB\n", {
+                format!("%L SUB\nG1 X1\nM17\n%MAIN\n{on}\nLL SUB\n")
+            }),
+            ("%P\n#VIB GUARD ON [MODE=2]\nX1\n#VIB GUARD OFF\n", {
+                format!("%P\n{on}\nX1\n#VIB GUARD OFF\n")
+            }),
+        ] {
+            std::fs::write(&path, text).unwrap();
+            let copy = copy(&path, &Commands::of(&path).unwrap(), Some(0.02)).unwrap();
+            assert_eq!(std::fs::read_to_string(&copy.program).unwrap(), want);
+        }
     }
 }

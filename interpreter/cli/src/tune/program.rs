@@ -5,9 +5,12 @@
 //! choice and with its own tolerance, but a command that names MODE, FREQ or DAMPING itself would outvote it. Those words
 //! are what is to be chosen: the runs take a copy of the program without them. Because a subroutine may hide such a
 //! command too, the delays that really acted are compared with those of the kernels.
+//!
+//! A program without `AX_DEV` is run once more with each choice that leaves the bound: with the bound as its tolerance.
+//! A choice that keeps the bound anyway is not slowed down by the key.
 
 use super::args::TuneArgs;
-use super::own::{Commands, without_choices};
+use super::own::{Commands, copy};
 use super::{Choice, Row, Task, command};
 use crate::console::Console;
 use crate::engine::{Engine, Request};
@@ -27,6 +30,8 @@ const SAME_DELAY: f64 = 1e-6;
 /// What a run with one choice was like; no choice: the Vibration Guard off.
 struct Outcome {
     choice: Option<Choice>,
+    /// `AX_DEV` as the program that was run has it.
+    ax_dev: Option<String>,
     summary: Summary,
     /// Largest deviation of a path axis from the contour in mm (deg).
     dev_mm: f64,
@@ -42,14 +47,17 @@ pub(super) fn answer(
     console: &mut Console,
 ) -> Result<Exit, Error> {
     let own = Commands::of(file)?;
-    let mut request = args.simulation.request(file);
-    // lives until the last run
-    let copy = own.outvoting.map(|_| without_choices(file)).transpose()?;
-    if let Some(copy) = &copy {
+    let request = args.simulation.request(file);
+    // copies live until the last run
+    let plain = own.outvoting.map(|_| copy(file, &own, None)).transpose()?;
+    let instead = |copy: &super::own::Copy| {
+        let mut request = request.clone();
         request.program.clone_from(&copy.program);
         // what is not beside the copy is beside the original
         request.path.extend(file.parent().map(Path::to_path_buf));
-    }
+        request
+    };
+    let first = plain.as_ref().map_or_else(|| request.clone(), &instead);
     let loaded = simulator::machine(&request);
     let (machine, _) =
         loaded.map_err(|e| run::announce_lists(e, args.simulation.diagnostics, console))?;
@@ -57,10 +65,26 @@ pub(super) fn answer(
     let mut outcomes = Vec::new();
     // a program that switches the guard on itself has no run without it to compare with
     let off = own.on.is_none().then_some(None);
+    let tolerance = own.tolerance.as_ref().map(|(_, value)| value.clone());
     for choice in off.into_iter().chain(choices(task).into_iter().map(Some)) {
-        let request = with(&request, &machine, choice.as_ref());
-        let outcome = drive(&request, choice, engine, args, console, outcomes.is_empty())?;
+        let request = with(&first, &machine, choice.as_ref());
+        let ax_dev = tolerance.clone();
+        let outcome = drive(&request, choice, ax_dev, engine, args, console, outcomes.is_empty())?;
         outcomes.push(outcome);
+    }
+    if own.tolerance.is_none() {
+        let bounded = copy(file, &own, Some(max_dev_mm))?;
+        let second = instead(&bounded);
+        let excess: Vec<Choice> = outcomes
+            .iter()
+            .filter(|o| o.summary.state == State::Finished && !o.keeps(task, max_dev_mm))
+            .filter_map(|o| o.choice.filter(|choice| task.keeps(choice)))
+            .collect();
+        for choice in excess {
+            let request = with(&second, &machine, Some(&choice));
+            let ax_dev = Some(max_dev_mm.to_string());
+            outcomes.push(drive(&request, Some(choice), ax_dev, engine, args, console, false)?);
+        }
     }
     check_delays(&outcomes, &machine)?;
     console.print(&table(task, &outcomes, max_dev_mm))?;
@@ -105,6 +129,7 @@ fn with(request: &Request, machine: &Machine, choice: Option<&Choice>) -> Reques
 fn drive(
     request: &Request,
     choice: Option<Choice>,
+    ax_dev: Option<String>,
     engine: &mut dyn Engine,
     args: &TuneArgs,
     console: &mut Console,
@@ -143,7 +168,7 @@ fn drive(
         .filter(|(_, path)| *path)
         .map(|(axis, _)| axis.max_dev)
         .fold(0.0, f64::max);
-    Ok(Outcome { choice, summary, dev_mm })
+    Ok(Outcome { choice, ax_dev, summary, dev_mm })
 }
 
 /// The delay of an axis is that of the kernel plus what else filters it, the same in every run. If it is not, another
@@ -193,8 +218,8 @@ fn assumed(machine: &Machine, own: &Commands, max_dev_mm: f64) -> String {
             format!("          the program's own AX_DEV={value} (line {line}) with each of them")
         }
         None => format!(
-            "          no AX_DEV in the program, so nothing slows it down for the guard; with\n          \
-             #VIB GUARD ON [AX_DEV={max_dev_mm}] in it this table shows what the tolerance costs"
+            "          no AX_DEV in the program: what leaves {max_dev_mm} mm runs again with \
+             #VIB GUARD ON [AX_DEV={max_dev_mm}]"
         ),
     });
     if let Some(line) = own.outvoting {
@@ -222,6 +247,7 @@ fn table(task: &Task, outcomes: &[Outcome], max_dev_mm: f64) -> String {
     let mut table = Table::new(&[
         "mode",
         "f_set Hz",
+        "AX_DEV",
         "worst residual",
         "largest dev",
         "contour error",
@@ -243,6 +269,7 @@ fn table(task: &Task, outcomes: &[Outcome], max_dev_mm: f64) -> String {
         table.push(vec![
             mode,
             freq,
+            outcome.ax_dev.clone().unwrap_or_default(),
             residual,
             format!("{} mm", number(outcome.dev_mm, 6)),
             format!("{} mm", number(error, 6)),
@@ -271,8 +298,8 @@ fn verdict(task: &Task, outcomes: &[Outcome], max_dev_mm: f64, own: &Commands) -
             100.0 * task.limit_ratio
         );
     };
-    let tolerance =
-        own.tolerance.as_ref().map_or_else(String::new, |(_, value)| format!(" AX_DEV={value}"));
+    let own = own.tolerance.as_ref().map(|(_, value)| value.clone());
+    let tolerance = format!(" AX_DEV={}", own.unwrap_or_else(|| max_dev_mm.to_string()));
     format!(
         "\nchoice    {}\n          the fastest that keeps {} % and {max_dev_mm} mm: {} s\n",
         command(&choice.settings, &tolerance),

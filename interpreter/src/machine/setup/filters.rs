@@ -111,9 +111,10 @@ fn entry(axis: &Axis, prefix: &str, diagnostics: &mut Vec<Diagnostic>) -> Filter
         None => {
             let what = format!("prototype {number} of a filter");
             diagnostics.push(
-                issues::kontur(axis, 70, &key("prototype"), &what, "CRIT_DAMPING is used")
-                    .hint("CRIT_DAMPING 1, BUTTERWORTH 2, BESSEL 3, HSC 5"),
+                issues::kontur(axis, 70, &key("prototype"), &what, "filter off")
+                    .hint("CRIT_DAMPING 1, BUTTERWORTH 2, BESSEL 3, HSC 5; 4 is not assigned"),
             );
+            enable = false;
             default.prototype
         }
     };

@@ -1,0 +1,117 @@
+//! Stops of the axes as the position monitoring sees them: set position at its target (t1), actual position inside the
+//! window (t2), end of the time limit (t3).
+//!
+//! Source: TF5200 position monitoring, course of an exact stop.
+
+use crate::engine::{AxisFacts, Facts};
+use kontur_interpreter::record::CycleRecord;
+
+/// Stops that are kept; a picture shows no more.
+const MOST: usize = 2000;
+/// Set and interpolated position closer than this in mm (deg): the filters have arrived.
+const ARRIVED_MM: f64 = 1e-4;
+/// Path speed in mm/s below which the path rests.
+const REST_MM_S: f64 = 1e-9;
+
+/// One stop of one axis; times in cycles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stop {
+    /// Index into [`Facts::axes`].
+    pub(crate) axis: usize,
+    /// Where the axis is to stand in mm (deg).
+    pub(crate) target: f64,
+    /// The set position has reached the target.
+    pub(crate) t1: u64,
+    /// The actual position is inside the window; none if the axis went on before.
+    pub(crate) t2: Option<u64>,
+    /// The time limit ends; none without one.
+    pub(crate) t3: Option<u64>,
+}
+
+/// What is known of one axis.
+#[derive(Clone, Copy, Debug, Default)]
+struct Watch {
+    set: Option<f64>,
+    moving: bool,
+    /// Index of the stop whose window has not been reached.
+    open: Option<usize>,
+}
+
+/// Finds the stops of a run cycle by cycle.
+#[derive(Clone, Debug)]
+pub(crate) struct Stops {
+    found: Vec<Stop>,
+    watched: Vec<Watch>,
+    cycle_s: f64,
+}
+
+impl Stops {
+    pub(crate) fn new(facts: &Facts) -> Self {
+        let watched = vec![Watch::default(); facts.axes.len()];
+        Self { found: Vec::new(), watched, cycle_s: f64::from(facts.cycle_us) * 1e-6 }
+    }
+
+    /// The stops in the order in which they began.
+    pub(crate) fn found(&self) -> &[Stop] {
+        &self.found
+    }
+
+    pub(crate) fn add(&mut self, record: &CycleRecord, axes: &[AxisFacts]) {
+        let rests = record.path.v_mm_s.abs() < REST_MM_S;
+        for (i, ((a, facts), watch)) in
+            record.axes.iter().zip(axes).zip(&mut self.watched).enumerate()
+        {
+            let stands = watch.set.replace(a.set).is_none_or(|x| x.to_bits() == a.set.to_bits());
+            if stands && watch.moving && rests && (a.set - a.ipo).abs() < ARRIVED_MM {
+                watch.moving = false;
+                if facts.spindle || self.found.len() >= MOST {
+                    continue;
+                }
+                let t1 = record.k.saturating_sub(1);
+                let limit = facts.settling_s.map(|s| t1 + (s / self.cycle_s).round() as u64);
+                watch.open = Some(self.found.len());
+                self.found.push(Stop { axis: i, target: a.set, t1, t2: None, t3: limit });
+            }
+            // the cycle in which the window lets the axis go on still counts
+            if let Some(stop) = watch.open.and_then(|s| self.found.get_mut(s))
+                && (a.act - stop.target).abs() <= facts.window
+            {
+                stop.t2 = Some(record.k);
+                watch.open = None;
+            }
+            if !stands {
+                (watch.moving, watch.open) = (true, None);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kontur_interpreter::record::{AxisRecord, PathRecord};
+
+    /// Set positions 0, 1, 2, 2, ...; the actual position halves its distance each cycle. Conformance: P022.
+    #[test]
+    fn times_of_a_stop() {
+        let axis = AxisFacts { window: 0.1, settling_s: Some(0.02), ..AxisFacts::default() };
+        let facts = Facts { cycle_us: 1000, axes: vec![axis], ..Facts::default() };
+        let mut stops = Stops::new(&facts);
+        let mut act = 0.0;
+        for k in 0..20_u32 {
+            let set = f64::from(k.min(2));
+            act += 0.5 * (set - act);
+            let v_mm_s = if k < 2 { 1000.0 } else { 0.0 };
+            let record = CycleRecord {
+                k: u64::from(k),
+                path: PathRecord { v_mm_s, ..PathRecord::default() },
+                axes: vec![AxisRecord { ipo: set, set, act, ..AxisRecord::default() }],
+                ..CycleRecord::default()
+            };
+            stops.add(&record, &facts.axes);
+        }
+        // distances behind cycle 2: 0.75, 0.375, 0.1875, 0.09
+        let want = Stop { axis: 0, target: 2.0, t1: 2, t2: Some(5), t3: Some(22) };
+        assert_eq!(stops.found(), [want]);
+    }
+}

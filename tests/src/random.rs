@@ -1,0 +1,58 @@
+//! Random numbers that are the same everywhere, without a dependency.
+
+/// Linear congruential generator; two of the same seed give the same numbers.
+#[derive(Clone, Debug)]
+pub struct Random(u64);
+
+impl Random {
+    /// A generator; neighbouring seeds give unrelated numbers.
+    pub fn new(seed: u64) -> Self {
+        let mut random = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(1));
+        for _ in 0..4 {
+            random.ratio();
+        }
+        random
+    }
+
+    /// From 0 up to, not including, 1.
+    pub fn ratio(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Evenly spread.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.ratio()
+    }
+
+    /// Every decade as likely as the others.
+    pub fn log(&mut self, low: f64, high: f64) -> f64 {
+        low * libm::pow(high / low, self.ratio())
+    }
+
+    /// 0 to `count - 1`.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.ratio() * count as f64) as usize
+    }
+
+    /// True in this share of the cases.
+    pub fn chance(&mut self, share: f64) -> bool {
+        self.ratio() < share
+    }
+
+    /// One of several values.
+    pub fn pick<T: Copy>(&mut self, of: &[T]) -> T {
+        of[self.below(of.len())]
+    }
+}
+
+/// How many random cases a test takes: `COUNT` of the environment, else `default`.
+pub fn count(default: usize) -> usize {
+    std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(default)
+}
+
+/// First seed of a test: `SEED` of the environment, else 1.
+pub fn seed() -> u64 {
+    std::env::var("SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1)
+}

@@ -1,0 +1,202 @@
+//! `kontur report` and `kontur tune` on real runs: what the pages show, and what is proposed for a program.
+
+use kontur::console::Console;
+use kontur::simulator::Kontur;
+use kontur::{Exit, run_with};
+use kontur_tests::{Run, programs, run};
+use serde_json::Value;
+use std::cell::RefCell;
+use std::ffi::OsString;
+use std::io::Write;
+use std::path::Path;
+use std::rc::Rc;
+
+#[derive(Clone, Default)]
+struct Buffer(Rc<RefCell<Vec<u8>>>);
+
+impl Write for Buffer {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A command line, `kontur` in front; what it prints.
+fn call(words: &[&str]) -> (Exit, String) {
+    let out = Buffer::default();
+    let mut console = Console::new(out.clone(), Vec::new());
+    let words = std::iter::once("kontur").chain(words.iter().copied()).map(OsString::from);
+    let exit = run_with(words, &mut Kontur, &mut console);
+    let text = String::from_utf8(out.0.borrow().clone()).unwrap();
+    (exit, text)
+}
+
+fn path(folder: &Path, name: &str) -> String {
+    folder.join(name).to_str().unwrap().to_owned()
+}
+
+/// Data of the page that `kontur report` makes of programs with settings.
+fn page(texts: &[&str], settings: &str) -> Vec<Value> {
+    let folder = tempfile::tempdir().unwrap();
+    let html = path(folder.path(), "report.html");
+    let mut words = vec!["report".to_owned()];
+    for (i, text) in texts.iter().enumerate() {
+        let name = path(folder.path(), &format!("part{i}.nc"));
+        std::fs::write(&name, text).unwrap();
+        words.push(name);
+    }
+    words.extend(settings.split_whitespace().flat_map(|s| ["--set".to_owned(), s.to_owned()]));
+    words.extend(["-o".to_owned(), html.clone()]);
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    assert_ne!(call(&words).0, Exit::Usage, "{words:?}");
+    let html = std::fs::read_to_string(html).unwrap();
+    let data = html.split("type=\"application/json\">").nth(1).unwrap();
+    serde_json::from_str(data.split("</script>").next().unwrap()).unwrap()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+fn curve(run: &Value, name: &str) -> Vec<f64> {
+    let curves = run["curves"].as_array().unwrap();
+    numbers(&curves.iter().find(|c| c["name"] == name).unwrap_or_else(|| panic!("{name}"))["low"])
+}
+
+/// A load on a spring of 10 Hz: without the guard it swings on, with it it stands. Conformance: V006.
+#[test]
+fn the_load_of_a_spring_with_and_without_the_guard() {
+    let program = |guard: &str| format!("%P\n{guard}\nG90 G01 X20 F3000\nG04 1\nM30\n");
+    let texts = [program(""), program("#VIB GUARD ON [MODE=2 FREQ=10 DAMPING=0.02]")];
+    // 10.26 Hz of two free masses is 10 Hz of the load when the motor, 19 times as heavy, stands
+    let plant = "model=TWO_MASS mass_motor=95 mass_load=5 f0=10.26 damping=0.02"
+        .split(' ')
+        .map(|entry| format!("kontur.axis[1].plant.{entry} "))
+        .collect::<String>();
+    let runs = page(&[&texts[0], &texts[1]], &plant);
+    let swing = |run: &Value| {
+        let (set, load) = (curve(run, "X set"), curve(run, "X load"));
+        let arrived = set.iter().rposition(|x| (x - 20.0).abs() > 1e-6).unwrap();
+        let behind = &load[arrived + 50..arrived + 500];
+        let high = behind.iter().copied().fold(f64::MIN, f64::max);
+        high - behind.iter().copied().fold(f64::MAX, f64::min)
+    };
+    let (without, with) = (swing(&runs[0]), swing(&runs[1]));
+    assert!(without > 0.02 && with < 0.2 * without, "{without} {with}");
+}
+
+/// The three passes lie over each other, each with its largest error. Conformance: V061.
+#[test]
+fn the_three_passes_of_the_square_are_overlaid() {
+    let square = programs().join("square_corner.nc");
+    let folder = tempfile::tempdir().unwrap();
+    let svg = path(folder.path(), "square.svg");
+    assert_eq!(call(&["report", square.to_str().unwrap(), "-o", &svg]).0, Exit::Finished);
+    let picture = std::fs::read_to_string(svg).unwrap();
+    let errors: Vec<f64> = (1..=3)
+        .map(|pass| {
+            let label = picture.split(&format!("set, pass {pass}, lines ")).nth(1).unwrap();
+            let error = label.split("contour error at most ").nth(1).unwrap();
+            error.split(' ').next().unwrap().parse().unwrap()
+        })
+        .collect();
+    // 0.01 mm per axis is 0.0141 mm at most; 3500 mm/s2 in one cycle make 3.5 mm/s at the kinks
+    assert!(errors[0] <= 0.0142 && errors[0] > 0.003, "{errors:?}");
+    assert!(errors[1] > errors[0] && errors[2] < 1e-9, "{errors:?}");
+    // one colour each, in one panel
+    let runs = page(&[&std::fs::read_to_string(square).unwrap()], "");
+    assert_eq!(runs[0]["passes"], 3);
+    let (passes, set) = (numbers(&runs[0]["pass"]), &runs[0]["set"]);
+    let (x, y) = (numbers(&set[0]), numbers(&set[1]));
+    for pass in 0..3 {
+        let of = |v: &[f64]| -> (f64, f64) {
+            let of_pass =
+                v.iter().zip(&passes).filter(|(_, p)| (**p - f64::from(pass)).abs() < 0.5);
+            of_pass.fold((f64::MAX, f64::MIN), |(a, b), (v, _)| (a.min(*v), b.max(*v)))
+        };
+        for (low, high) in [of(&x), of(&y)] {
+            assert!(low.abs() < 1e-3 && (high - 1.0).abs() < 0.3, "{pass}: {low} {high}");
+        }
+    }
+}
+
+/// Set and actual position, the window, and t1, t2, t3 of an exact stop, against the trace. Conformance: P022.
+#[test]
+fn the_course_of_an_exact_stop() {
+    let text = "%P\nG90 G60 G01 X50 F6000\nG60 X60\nM30\n";
+    let settings = "X.getriebe[0].kv=2000 X.vorsteuer.vorsteuerung=NONE X.getriebe[0].window=500 \
+                    X.getriebe[0].position_settling_time=400000";
+    let runs = page(&[text], settings);
+    let page = &runs[0];
+    let trace: Run = run(text, &settings.split_whitespace().collect::<Vec<_>>());
+    let (set, act) = (trace.axis(0, |a| a.set), trace.axis(0, |a| a.act));
+    assert_eq!(curve(page, "X set").len(), set.len());
+    for (shown, is) in [("X set", &set), ("X actual", &act)] {
+        let shown = curve(page, shown);
+        let worst = shown.iter().zip(is).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-7, "{worst}");
+    }
+    let stops = page["stops"].as_array().unwrap();
+    assert_eq!(stops.len(), 2, "{stops:?}");
+    // behind the second stop the program ends before the axis is in its window
+    for (stop, target) in stops.iter().zip([50.0_f64]) {
+        let t1 = set.iter().position(|x| x.to_bits() == target.to_bits()).unwrap();
+        let t2 = (t1..).find(|&k| (act[k] - target).abs() <= 0.05).unwrap();
+        assert_eq!(stop[0], "X");
+        assert_eq!(
+            numbers(&Value::from(stop.as_array().unwrap()[1..].to_vec())),
+            [target, 0.05, t1 as f64, t2 as f64, (t1 + 400) as f64]
+        );
+        // ln(lag / window) over the slow pole of kv = 20/s behind a drive of 5 ms
+        let pole_1_s = (1.0 - (1.0_f64 - 4.0 * 20.0 * 0.005).sqrt()) / (2.0 * 0.005);
+        let lag = act[t1] - target;
+        let closed = libm::log(lag.abs() / 0.05) / pole_1_s;
+        assert!((1e-3 * (t2 - t1) as f64 / closed - 1.0).abs() < 0.03, "{t1} {t2} {closed}");
+    }
+}
+
+/// Time and largest deviation that `kontur run` gives for a program.
+fn driven(text: &str) -> (f64, f64) {
+    let run = run(text, &[]);
+    assert!(!run.totals.aborted, "{:?}", run.diagnostics);
+    let dev =
+        run.records.iter().flat_map(|r| &r.axes[..3]).map(|a| a.dev.abs()).fold(0.0, f64::max);
+    ((run.records.len() - 1) as f64 * run.cycle_s, dev)
+}
+
+/// The choice for a real program: pasted into it, it takes the time and keeps the deviation that the table says.
+#[test]
+fn a_choice_for_a_program_does_what_it_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let part = path(folder.path(), "part.nc");
+    let blocks = "G90 G01 F3000\nX4\nY4\nX1 Y2\nX0 Y0\nM30\n";
+    std::fs::write(&part, format!("%PART\n{blocks}")).unwrap();
+    let (exit, text) = call(&["tune", "--freq", "38,42", "--program", &part, "--max-dev", "0.01"]);
+    assert_eq!(exit, Exit::Finished, "{text}");
+    let line = text.lines().find_map(|l| l.strip_prefix("choice    ")).unwrap();
+    assert!(line.starts_with("#VIB GUARD ON [MODE=") && line.ends_with(" AX_DEV=0.01]"), "{line}");
+    let promised: f64 = {
+        let end = text.lines().last().unwrap();
+        end.trim_end_matches(" s").rsplit(' ').next().unwrap().parse().unwrap()
+    };
+    let (time_s, dev) = driven(&format!("%PART\n{line}\n{blocks}"));
+    assert!((time_s - promised).abs() < 5e-4, "{time_s} {promised}\n{text}");
+    assert!(dev <= 0.01 + 1e-9 && dev > 0.003, "{dev}");
+    // without the tolerance the corners leave the bound, which is why the choice carries it
+    let (_, free) = driven(&format!("%PART\n{}\n{blocks}", line.replace(" AX_DEV=0.01", "")));
+    assert!(free > 0.01, "{free}");
+    // the table: every mode, with and without AX_DEV
+    let rows: Vec<&str> =
+        text.lines().skip_while(|l| !l.contains("machining time")).skip(1).collect();
+    for mode in ["1 ", "2 ", "3 ", "4 "] {
+        assert!(rows.iter().any(|r| r.starts_with(mode)), "{mode}: {text}");
+    }
+    assert!(rows.iter().any(|r| r.contains(" 0.01 ") && r.ends_with("yes")), "{text}");
+    // a bound that nothing leaves costs nothing, and stands in the line all the same
+    let (_, text) = call(&["tune", "--freq", "38,42", "--program", &part, "--max-dev", "5"]);
+    assert!(text.contains(" AX_DEV=5]\n"), "{text}");
+}
