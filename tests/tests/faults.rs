@@ -30,6 +30,9 @@ use std::rc::Rc;
 /// A program for lists that only need an axis to be loaded.
 const PROGRAM: &str = "N10 G01 X1 F1000\nN20 M30\n";
 
+/// ID of the recommendations for lists.
+const ADVICE: &str = "K-0078";
+
 /// One message as a file states it or as the command line says it: severity, ID, place.
 type Said = (String, String, String);
 
@@ -160,7 +163,11 @@ fn compare(own: &str, head: &Head, exit: u8, said: &[Said]) -> Result<(), Failed
         }
         text
     };
-    let (wanted, found) = (shown(&head.messages), shown(said));
+    // recommendations for lists are noise beside everything but themselves
+    let expects_advice = head.messages.iter().any(|m| m.1 == ADVICE);
+    let said: Vec<Said> =
+        said.iter().filter(|m| expects_advice || m.1 != ADVICE).cloned().collect();
+    let (wanted, found) = (shown(&head.messages), shown(&said));
     if wanted != found {
         return Err(format!("expected\n{wanted}said\n{found}").into());
     }

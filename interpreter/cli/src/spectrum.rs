@@ -8,7 +8,7 @@ pub(crate) const MOST_SAMPLES: usize = 1_000_000;
 const PADDING: usize = 8;
 
 /// Single-sided amplitude spectrum under a Hann window: a sine of amplitude 1 that lasts the whole record has the height
-/// 1. The mean of the record is taken out before.
+/// 1. The mean of the windowed record is taken out before.
 #[derive(Clone, Debug)]
 pub(crate) struct Spectrum {
     step_hz: f64,
@@ -19,9 +19,11 @@ impl Spectrum {
     /// The spectrum of samples taken every `cycle_s` seconds.
     pub(crate) fn of(samples: &[f64], cycle_s: f64) -> Self {
         let n = samples.len().max(1);
-        let mean = samples.iter().sum::<f64>() / n as f64;
         let window =
             |i: usize| 0.5 - 0.5 * libm::cos(std::f64::consts::TAU * (i as f64 + 0.5) / n as f64);
+        // under the window, so that unfinished waves leave nothing behind
+        let mean =
+            samples.iter().enumerate().map(|(i, x)| x * window(i)).sum::<f64>() / (0.5 * n as f64);
         let length = (PADDING * n).next_power_of_two();
         let mut padded: Vec<f64> =
             samples.iter().enumerate().map(|(i, x)| (x - mean) * window(i)).collect();

@@ -1,5 +1,6 @@
 ; run --set X.filter[0].enable=1 --set X.filter[0].order=6 --set X.filter[0].prototype=BUTTERWORTH --set X.filter[0].fg_f0=2 --start X-490: exit 1
-; warning 50119 at 4:1
-; error 50118 at 4:1
+; warning 50119 at 5:1
+; error 50118 at 5:1
+; warning K-0112 at -
 N10 G00 X490
 M30

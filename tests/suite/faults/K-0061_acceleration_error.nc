@@ -2,7 +2,7 @@
 ; warning K-0060 at 7:1
 ; error K-0061 at 7:1
 ; warning K-0060 at 7:1
-; error K-0061 at 7:1
+; warning K-0112 at -
 N10 G131=170
 N20 G01 X100 F60000
 M30
