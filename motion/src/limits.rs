@@ -21,6 +21,9 @@ pub struct PathExtremes {
     pub second: AxisVec,
     /// `max |q_i'''|` in 1/mm2.
     pub third: AxisVec,
+    /// Lengths of the vectors `q''` in 1/mm and `q'''` in 1/mm2: on arcs their largest values, on curves bounds (the
+    /// axes have their maxima at different places).
+    pub lengths: [f64; 2],
 }
 
 /// `max |cos(x - phase)|` over the angles that an arc really travels: 1 where a multiple of pi lies among them, else the
@@ -79,7 +82,7 @@ fn arc_extremes(arc: &ArcPath) -> PathExtremes {
     (first[a], first[b]) = (v1 * sin, v1 * cos);
     (second[a], second[b]) = (v2 * cos, v2 * sin);
     (third[a], third[b]) = (v3 * sin, v3 * cos);
-    PathExtremes { first, second, third }
+    PathExtremes { first, second, third, lengths: [v2, v3] }
 }
 
 impl PathExtremes {
@@ -92,13 +95,16 @@ impl PathExtremes {
                     first: line.direction().iter().map(|u| u.abs()).collect(),
                     second: AxisVec::zeros(n),
                     third: AxisVec::zeros(n),
+                    lengths: [0.0; 2],
                 }
             }
             Path::Arc(arc) => arc_extremes(arc),
             Path::Tilted(tilted) => tilted_extremes(tilted),
             Path::Curve(curve) => {
                 let [first, second, third] = curve.extremes().clone();
-                Self { first, second, third }
+                let norm = |v: &AxisVec| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+                let lengths = [norm(&second), norm(&third)];
+                Self { first, second, third, lengths }
             }
         }
     }
@@ -168,8 +174,7 @@ pub fn curve_jerk(
 
 /// Velocity limits of `#VECTOR LIMIT` on a curved path.
 fn vector_curve(d: &ChannelDynamics, x: &PathExtremes) -> f64 {
-    let norm = |v: &AxisVec| v.iter().map(|c| c * c).sum::<f64>().sqrt();
-    let (k2, k3) = (norm(&x.second), norm(&x.third));
+    let [k2, k3] = x.lengths;
     if k2 <= 0.0 {
         return f64::INFINITY;
     }
@@ -315,4 +320,30 @@ fn step_slope(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> StepLimits 
         });
     }
     StepLimits::from_axes(&axes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PathExtremes;
+    use crate::axis::AxisVec;
+    use crate::path::{ArcPath, ArcShape, Path};
+    use std::f64::consts::TAU;
+
+    /// Curvature of a helix of radius r and pitch 2 pi c: r / (r^2 + c^2), however long it is; a circle has c = 0.
+    #[test]
+    fn curvature_of_circles_and_helices() {
+        for (turns, pitch) in [(1.0, 0.0), (0.1, 0.0), (1.0, 5.0), (3.0, 40.0)] {
+            let r = 10.0;
+            let angle = TAU * turns;
+            let start = AxisVec::from_slice(&[r, 0.0, 0.0]);
+            let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+            let end = AxisVec::from_slice(&[r * cos, r * sin, pitch * turns]);
+            let shape = ArcShape { plane: [0, 1], centre_mm: [0.0, 0.0], sweep_rad: angle };
+            let path = Path::Arc(ArcPath::new(start, end, shape, &[]).unwrap());
+            let c = pitch / TAU;
+            let [second, third] = PathExtremes::of(&path).lengths;
+            assert!((second - r / (r * r + c * c)).abs() < 1e-12, "{second}");
+            assert!((third - r / libm::pow(r * r + c * c, 1.5)).abs() < 1e-12, "{third}");
+        }
+    }
 }
