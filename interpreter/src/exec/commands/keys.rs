@@ -92,8 +92,15 @@ impl Arguments {
     ) -> Outcome<Option<f64>> {
         match self.number(name) {
             Some((x, span)) if !(low..=high).contains(&x) => {
-                let above = if high < f64::MAX { format!(" to {high}") } else { " upwards".into() };
-                let text = format!("{name}={x}, allowed are {low}{above}");
+                // the least positive number stands for an open end
+                let open = low.to_bits() == f64::MIN_POSITIVE.to_bits();
+                let range = match (open, high < f64::MAX) {
+                    (true, false) => "values above 0".to_owned(),
+                    (true, true) => format!("values above 0, up to {high}"),
+                    (false, false) => format!("{low} upwards"),
+                    (false, true) => format!("{low} to {high}"),
+                };
+                let text = format!("{name}={x}, allowed are {range}");
                 Err(Fault::kontur(id, text, span))
             }
             found => Ok(found.map(|(x, _)| x)),
