@@ -520,9 +520,13 @@ impl Simulation {
             axis.dev = *dev;
         }
         self.record.k = k;
-        self.record.file = self.current.file;
-        self.record.line = self.current.line;
-        self.record.block = self.current.block;
+        let at = match &self.phase {
+            Phase::Waiting(wait) if wait.is_dwell() => self.waits_at,
+            _ => self.current,
+        };
+        self.record.file = at.file;
+        self.record.line = at.line;
+        self.record.block = at.block;
         self.record.path = PathRecord {
             s_mm: setpoint.s_mm,
             v_mm_s: setpoint.v_mm_s,

@@ -82,6 +82,11 @@ impl Wait {
         }
     }
 
+    /// A dwell: its cycles belong to its own block, not to the motion before.
+    pub(super) fn is_dwell(&self) -> bool {
+        matches!(self.until, Until::Cycles(_))
+    }
+
     /// One cycle goes by.
     pub(super) fn count(&mut self) {
         if let Until::Cycles(n) = &mut self.until {
