@@ -32,6 +32,7 @@ mod index;
 mod insertion;
 mod modal;
 mod modes;
+mod modulo;
 mod motion;
 mod options;
 mod overrides;

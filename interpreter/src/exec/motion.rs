@@ -8,6 +8,7 @@ use super::fault::{Fault, Outcome, own};
 use super::groups::{Act, Group};
 use super::insertion::{Insertion, Kind};
 use super::modal::{Compensation, Corners, FeedType, PathMode};
+use super::modulo;
 use super::step::Sync;
 use super::words::{GWord, Placed, Words};
 use crate::diag::ValueKind;
@@ -133,7 +134,7 @@ impl Decoder {
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
         let start = self.coordinates.target().clone();
-        let targets: smallvec::SmallVec<[Target; 8]> = words
+        let mut targets: smallvec::SmallVec<[Target; 8]> = words
             .axes
             .iter()
             .enumerate()
@@ -144,6 +145,17 @@ impl Decoder {
             })
             .collect();
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
+        for target in targets.iter_mut().filter(|t| t.absolute) {
+            if self.machine.axes[target.axis].is_modulo() {
+                let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
+                let turn = turn.map(|(_, sign)| *sign).transpose().map_err(two_readings)?;
+                let offset = match suppressed {
+                    Some(_) => 0.0,
+                    None => self.coordinates.active_offset(target.axis),
+                };
+                target.value = modulo::unwrapped(target.value, turn, start[target.axis] - offset);
+            }
+        }
         match suppressed {
             Some((_, _, at)) if targets.iter().any(|t| !t.absolute) => {
                 let text = "#SUPPRESS OFFSETS acts only with G90";
@@ -529,6 +541,14 @@ impl Decoder {
             self.note(fault);
         }
     }
+}
+
+/// A sum behind the sign of a modulo axis.
+fn two_readings(span: Span) -> Box<Fault> {
+    let text =
+        "the first sign behind a modulo axis is its direction of rotation, not that of a term";
+    Fault::kontur(own::SYNTAX, text, span)
+        .hint("put the position in brackets: C-[P1+5] turns in negative direction, C[-P1+5] the shortest way")
 }
 
 /// The diagnostic of an arc that does not exist.

@@ -10,7 +10,8 @@ use super::options::Value;
 use super::suggest;
 use crate::diag::ValueKind;
 use crate::syntax::ast::{
-    Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Label, Name, Span, Word, WordKind,
+    Assign, Bracket, Call, CodeNumber, Expr, ExprKind, GValue, HashWord, Label, Name, Sign, Span,
+    Word, WordKind,
 };
 use smallvec::SmallVec;
 
@@ -48,6 +49,9 @@ pub(super) struct Words<'b> {
     pub(super) g: SmallVec<[GWord; 6]>,
     /// Axis, value as written, place.
     pub(super) axes: SmallVec<[(usize, f64, Span); 8]>,
+    /// First sign of the words of modulo axes: the direction of rotation; or the place of a sum whose first sign may
+    /// also belong to its first term.
+    pub(super) turns: SmallVec<[(usize, Result<Sign, Span>); 1]>,
     /// G90 and G91 that act from their place on (P-CHAN-00116): number of axis words before, and whether absolute.
     pub(super) dimensions: SmallVec<[(usize, bool); 2]>,
     /// I, J, K.
@@ -99,7 +103,9 @@ impl Decoder {
     fn collect_word<'b>(&mut self, word: &'b Word, block: &mut Words<'b>) -> Outcome<()> {
         let span = word.span;
         match &word.kind {
-            WordKind::Address { name, value } => self.address(name, value, span, block),
+            WordKind::Address { name, sign, value } => {
+                self.address(name, *sign, value, span, block)
+            }
             WordKind::G { number, value } => self.g_word(*number, value.as_deref(), span, block),
             WordKind::M(number, value) => {
                 let code = self.code(number, value.as_deref(), "M", span)?;
@@ -294,6 +300,7 @@ impl Decoder {
     fn address(
         &mut self,
         name: &Name,
+        sign: Option<Sign>,
         value: &Expr,
         span: Span,
         block: &mut Words<'_>,
@@ -303,6 +310,12 @@ impl Decoder {
             Name::Long(name) => self.axis_of_name(name),
         };
         if let Some(axis) = axis {
+            if let Some(sign) = sign
+                && self.machine.axes[axis].is_modulo()
+            {
+                let sum = matches!(value.kind, ExprKind::Binary(_));
+                block.turns.push((axis, if sum { Err(value.span) } else { Ok(sign) }));
+            }
             let value = self.number(value)?;
             if block.axes.iter().any(|(a, _, _)| *a == axis) {
                 let number = self.machine.axes[axis].number();

@@ -123,7 +123,9 @@ pub enum WordKind {
     Address {
         /// Address.
         name: Name,
-        /// Value.
+        /// First sign of the value: the direction of rotation of a modulo axis.
+        sign: Option<Sign>,
+        /// Value, the first sign included.
         value: Expr,
     },
     /// Axis or spindle command: `X[OVERRIDE FEED_FACT=50]`, `S[M3 REV1000]`, `S2[G136=80]`.
@@ -513,6 +515,15 @@ pub enum ExprKind {
     Binary(Box<Binary>),
     /// `SIN[30]`, `ATAN2[y, x]`.
     Call(Box<FunctionCall>),
+}
+
+/// Sign directly behind an address, outside of brackets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// `C+10`.
+    Plus,
+    /// `C-10`.
+    Minus,
 }
 
 /// Binary operation.

@@ -3,7 +3,8 @@
 use super::ast::{
     Assign, Block, BlockNumber, Body, Bracket, Call, CallKind, CodeNumber, Command, Control,
     ControlKind, Declaration, Expr, GValue, Group, HashWord, Ident, Item, ItemKind, ItemValue,
-    Label, LabelKind, MacroDefinition, Name, Place, PlaceKind, ProgramHead, Span, Word, WordKind,
+    Label, LabelKind, MacroDefinition, Name, Place, PlaceKind, ProgramHead, Sign, Span, Word,
+    WordKind,
 };
 use super::grammar::Grammar;
 use super::problem::{self, Context, Problem};
@@ -235,6 +236,7 @@ impl<'a> Builder<'a> {
         let mut number = 0;
         let mut code = CodeNumber::Literal(0);
         let mut value = None;
+        let mut sign = None;
         let mut slots = Vec::new();
         let mut group = Group::default();
         for part in pair.into_inner() {
@@ -251,8 +253,18 @@ impl<'a> Builder<'a> {
                 | Rule::name_letters
                 | Rule::hash_name => name = Some(self.written(span)),
                 Rule::place => place = Some(self.place(part)),
-                Rule::expression => value = Some(self.expression(part)),
-                Rule::signed_number => value = Some(self.signed_number(part)),
+                Rule::expression | Rule::signed_number => {
+                    sign = match part.as_str().as_bytes().first() {
+                        Some(b'+') => Some(Sign::Plus),
+                        Some(b'-') => Some(Sign::Minus),
+                        _ => None,
+                    };
+                    value = Some(if part.as_rule() == Rule::expression {
+                        self.expression(part)
+                    } else {
+                        self.signed_number(part)
+                    });
+                }
                 Rule::slot => slots.push(part.into_inner().next().map(|p| self.expression(p))),
                 Rule::group => group = self.group(part),
                 _ => {}
@@ -284,7 +296,7 @@ impl<'a> Builder<'a> {
                 let value = value.unwrap_or_else(Self::zero);
                 match place {
                     Some(target) => WordKind::Assign(Box::new(Assign { target, value })),
-                    None => WordKind::Address { name: address(), value },
+                    None => WordKind::Address { name: address(), sign, value },
                 }
             }
         }

@@ -5,7 +5,7 @@
 //! and damaged lines.
 
 use super::ast::{
-    Block, BlockNumber, Body, CodeNumber, Expr, ExprKind, Name, Span, Word, WordKind,
+    Block, BlockNumber, Body, CodeNumber, Expr, ExprKind, Name, Sign, Span, Word, WordKind,
 };
 use super::number::short_decimal;
 
@@ -71,7 +71,8 @@ fn word(bytes: &[u8], start: usize, letter: u8) -> Option<Word> {
             followed_by_word(bytes, blanks(bytes, at + length))?;
             let kind = ExprKind::Number(if negative { -value } else { value });
             let value = Expr { kind, span };
-            let kind = WordKind::Address { name: Name::Letter(letter), value };
+            let sign = negative.then_some(Sign::Minus);
+            let kind = WordKind::Address { name: Name::Letter(letter), sign, value };
             Some(Word { kind, span: Span::new(start, at + length) })
         }
         _ => None,

@@ -3,7 +3,7 @@
 use super::ast::{
     Binary, Block, BlockNumber, Body, Call, CallKind, CodeNumber, Command, Control, ControlKind,
     Declaration, Expr, ExprKind, GValue, Group, Item, ItemKind, ItemValue, Label, LabelKind, Name,
-    ParameterIndex, Place, PlaceKind, Word, WordKind,
+    ParameterIndex, Place, PlaceKind, Sign, Word, WordKind,
 };
 use std::fmt::{Display, Formatter, Result};
 
@@ -129,7 +129,16 @@ impl Display for Word {
             }
             WordKind::M(number, value) => code(f, 'M', number, value.as_deref()),
             WordKind::H(number, value) => code(f, 'H', number, value.as_deref()),
-            WordKind::Address { name, value } => write!(f, "{name}={value}"),
+            WordKind::Address { name, sign, value } => {
+                // two signs cancel out, and only the first one is the direction
+                let text = value.to_string();
+                match (sign, text.starts_with('-')) {
+                    (None, true) => write!(f, "{name}=[{text}]"),
+                    (None, false) | (Some(Sign::Minus), true) => write!(f, "{name}={text}"),
+                    (Some(Sign::Plus), _) => write!(f, "{name}=+{text}"),
+                    (Some(Sign::Minus), false) => write!(f, "{name}=--{text}"),
+                }
+            }
             WordKind::Bracket(bracket) => write!(f, "{}{}", bracket.name, bracket.group),
             WordKind::Assign(assign) => write!(f, "{}={}", assign.target, assign.value),
             WordKind::MacroDefinition(m) => write!(f, "{}={}", Quoted(&m.name), Quoted(&m.text)),

@@ -1,6 +1,7 @@
 //! Offsets, dimensions, units and frames.
 
-use super::{assert_end, assert_near, clean, run};
+use super::{Options, assert_end, assert_near, clean, machine, run, run_with};
+use crate::source::MemorySources;
 use kontur_motion::block::Feed;
 
 #[test]
@@ -138,4 +139,47 @@ fn several_dimensions_in_a_block_act_from_their_place_on() {
     let run = super::run_with(sources(text), several(), super::Options::default());
     super::assert_near(&run.end, &[-3.0, 10.0, 0.0]);
     assert_eq!(super::run("G90 X1 G91 Y1 F100\nM30\n").ids(), ["K-0008"]);
+}
+
+/// Source: TF5200 programming manual, "Modulo programming in absolute coordinates", from 0 degrees.
+#[test]
+fn modulo_axes_turn_in_the_direction_of_the_first_sign() {
+    let modulo = ["Z.kenngr.achs_typ=ACHSTYP_ROTATOR", "Z.kenngr.achs_mode=0x4"];
+    let on = |text: &str| {
+        let sources = MemorySources::new().with("main.nc", text);
+        run_with(sources, machine(&modulo), Options::default())
+    };
+    let end = |program: &str| {
+        let run = on(&format!("{program}\nM30\n"));
+        assert!(run.ids().is_empty(), "{program}: {:?}", run.ids());
+        run.end[2]
+    };
+    for (word, deg) in [
+        ("Z+200", 200.0),
+        ("Z-200", -160.0),
+        ("Z+-200", 160.0),
+        ("Z+[-200]", 160.0),
+        ("Z--200", -200.0),
+        ("Z-[-200]", -200.0),
+        ("Z200", -160.0),
+        ("Z[+200]", -160.0),
+        ("Z[-200]", 160.0),
+        ("Z = -200", -160.0),
+        ("P1=10 Z+P1", 10.0),
+        ("P1=-350 Z-P1", -350.0),
+        ("Z+450", 90.0),
+        ("G91 Z-200", -200.0),
+        ("G91 Z400", 400.0),
+    ] {
+        assert_near(&[end(&format!("G01 F100 {word}"))], &[deg]);
+    }
+    // never more than one revolution, and none to where the axis stands
+    assert_near(&[end("G01 F100 G91 Z3600\nG90 Z+0")], &[3600.0]);
+    assert_near(&[end("G01 F100 Z350\nZ10")], &[10.0]);
+    assert_near(&[end("V.G.NP[1].V.Z=20\nG54 G01 F100 Z-350")], &[-350.0]);
+    let sum = on("P1=5\nG01 F100 Z-P1+3\nM30\n");
+    assert_eq!(sum.ids(), ["K-0002"]);
+    // a linear axis reads every sign as a sign
+    assert_end("P1=5 G01 F100 Z-P1+3", [0.0, 0.0, -2.0]);
+    assert_end("G01 F100 Z--200", [0.0, 0.0, 200.0]);
 }

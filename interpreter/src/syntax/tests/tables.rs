@@ -25,8 +25,9 @@ fn words_and_their_values() {
         ("( N010 #SLOPE[TYPE=HSC]", ""),
         ("g01 x.5 y5. z-0.25", "G1 X=0.5 Y=5 Z=-0.25"),
         ("G001 M03 M3", "G1 M3 M3"),
-        ("C--40", "C=40"),
-        ("X+5 Y-+-5", "X=5 Y=5"),
+        ("C--40", "C=--40"),
+        // the first sign of an address stays: it is the direction of a modulo axis
+        ("X+5 Y-+-5 Z[-5]", "X=+5 Y=--5 Z=[-5]"),
         ("X 10 Y = 20", "X=10 Y=20"),
         ("X100+P10", "X=100 + P10"),
         ("XV.P.A", "X=V.P.A"),
@@ -182,7 +183,8 @@ fn decoration_leaves_no_trace() {
             "#VIB GUARD ON[MODE =2, FREQ= 40,AX_DEV .01,]",
         ],
         &["G131 50", "G131=50", "G131 = 50", "G131=[50]", "G131 +50"],
-        &["G1X5", "G01 X 5", "g1x=5.", "G1 X[5]", "G1 X--5"],
+        &["G1X5", "G01 X 5", "g1x=5.", "G1 X[5]"],
+        &["G1 X--5", "G1 X-[-5]"],
         &["P1=1||2", "P1=1 OR 2"],
         &["P1=1&&P2", "P1=1 and P2"],
     ] {
