@@ -7,7 +7,8 @@
 //! Source: TF5200 programming manual, programming modulo axes. Assumption: of two shortest ways, 180 degrees each, the
 //! positive one.
 
-use crate::syntax::ast::Sign;
+use super::fault::{Fault, own};
+use crate::syntax::ast::{Sign, Span};
 
 const TURN_DEG: f64 = 360.0;
 /// Closer than this the axis is where it shall go, and does not turn.
@@ -27,6 +28,13 @@ pub(super) fn unwrapped(value: f64, turn: Option<Sign>, from: f64) -> f64 {
         Some(Sign::Plus) => angle + turns.ceil() * TURN_DEG,
         Some(Sign::Minus) => angle + turns.floor() * TURN_DEG,
     }
+}
+
+/// A sum behind the sign of a modulo axis.
+pub(super) fn two_readings(span: Span) -> Box<Fault> {
+    let text = "the first sign behind a modulo axis is its direction, not that of a term";
+    let hint = "use brackets: C-[P1+5] turns in negative direction, C[-P1+5] the shortest way";
+    Fault::kontur(own::SYNTAX, text, span).hint(hint)
 }
 
 #[cfg(test)]
