@@ -56,7 +56,7 @@ fn words_and_their_values() {
         ("PP1=5 PPP1=6 P[P1+5]=7", "PP1=5 PPP1=6 P[P1 + 5]=7"),
         ("P100[5]=1 P5[20][P1]=2", "P100[5]=1 P5[20][P1]=2"),
         ("P1=@P3 P2=@X", "P1=@P3 P2=@X"),
-        ("X[-2*[3+4]]", "X=-2 * [3 + 4]"),
+        ("X[-2*[3+4]]", "X=[-2 * [3 + 4]]"),
         ("V.E.Name.Member = \"text; (x)\"", "V.E.Name.Member=\"text; (x)\""),
         ("P1=V.A.-SWE.X P2=V.A.+SWE_MDS.X", "P1=V.A.-SWE.X P2=V.A.+SWE_MDS.X"),
         ("P1=V.P.A-V.P.B", "P1=V.P.A - V.P.B"),
