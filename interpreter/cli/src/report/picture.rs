@@ -53,8 +53,8 @@ pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
     }
     legend(&mut svg, &groups);
     let top = 640.0 + 20.0 * (groups.len().div_ceil(2) as f64);
-    times(&mut svg, runs, &groups, top);
-    svg.finish(WIDTH, top + 400.0)
+    let bottom = times(&mut svg, runs, &groups, top);
+    svg.finish(WIDTH, bottom)
 }
 
 fn head(svg: &mut Svg, runs: &[(Recording, Summary)]) {
@@ -89,11 +89,11 @@ fn groups(runs: &[(Recording, Summary)]) -> Vec<Group> {
             .map(|i| {
                 let p = run.passes[i];
                 let label = format!(
-                    "set, pass {}, lines {} to {}: contour error at most {:.4} mm",
+                    "set, pass {}, lines {} to {}{}",
                     i + 1,
                     p.first_line,
                     p.last_line,
-                    p.error_mm
+                    error(": ", p.error_mm)
                 );
                 Group { run: 0, pass: Some(i), colour: colour(i), label }
             })
@@ -102,15 +102,21 @@ fn groups(runs: &[(Recording, Summary)]) -> Vec<Group> {
             .iter()
             .enumerate()
             .map(|(i, (_, s))| {
-                let error = s.max_contour_error.as_ref().map_or(0.0, |e| e.mm);
+                let error = error(", ", s.max_contour_error.as_ref().map_or(0.0, |e| e.mm));
                 let name = if runs.len() > 1 { format!("{}, ", s.program) } else { String::new() };
-                let label = format!(
-                    "set, {name}{:.3} s, contour error at most {error:.4} mm",
-                    s.duration_s
-                );
+                let label = format!("set, {name}{:.3} s{error}", s.duration_s);
                 Group { run: i, pass: None, colour: colour(i), label }
             })
             .collect(),
+    }
+}
+
+/// What the legend says about a contour error, if there is one.
+fn error(before: &str, mm: f64) -> String {
+    if mm > VISIBLE_MM {
+        format!("{before}contour error at most {mm:.4} mm")
+    } else {
+        String::new()
     }
 }
 
@@ -220,7 +226,8 @@ fn legend(svg: &mut Svg, groups: &[Group]) {
     }
 }
 
-fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f64) {
+/// Path speed and, if there are any, deviations over time; gives the lower end of the picture.
+fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f64) -> f64 {
     let end = runs.iter().map(|(_, s)| s.duration_s).fold(0.0, f64::max).max(1e-6);
     let panel = |top: f64, y: (f64, f64)| Panel {
         left: LEFT,
@@ -236,12 +243,21 @@ fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f6
             wanted.flat_map(|(i, _)| r.buckets.iter().map(move |b| b.range[i]))
         });
         let (low, high) = all.fold((0.0, 0.0), |m: (f64, f64), r| (m.0.min(r.0), m.1.max(r.1)));
-        let air = (0.08 * (high - low)).max(1e-6);
+        // room for the numbers of the lines
+        let air = (0.16 * (high - low)).max(1e-6);
         (if low < 0.0 { low - air } else { low }, high + air)
     };
     let speed = panel(top + 20.0, range(&[Kind::Speed]));
     marks(svg, &speed, runs);
-    svg.axes(&speed, "Path speed", "", "mm/s");
+    // one program: what AX_DEV bounds, axis by axis; several: one curve each
+    let one = runs.len() == 1;
+    let kind = if one { Kind::Deviation } else { Kind::ContourError };
+    let deviates = runs.iter().any(|(r, _)| {
+        let wanted = r.curves.iter().enumerate().filter(|(_, c)| c.kind == kind);
+        let mut ranges = wanted.flat_map(|(i, _)| r.buckets.iter().map(move |b| b.range[i]));
+        ranges.any(|(low, high)| low.abs().max(high.abs()) > VISIBLE_MM)
+    });
+    svg.axes(&speed, "Path speed", if deviates { "" } else { "time in s" }, "mm/s");
     svg.clip(&speed);
     for g in groups {
         let run = &runs[g.run].0;
@@ -249,9 +265,9 @@ fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f6
         svg.curve(&speed, over_time(run, 0, g.pass).into_iter(), stroke);
     }
     svg.end_group();
-    // one program: what AX_DEV bounds, axis by axis; several: one curve each
-    let one = runs.len() == 1;
-    let kind = if one { Kind::Deviation } else { Kind::ContourError };
+    if !deviates {
+        return top + 210.0;
+    }
     let deviation = panel(top + 210.0, range(&[kind]));
     marks(svg, &deviation, runs);
     let title = if one { "Deviation from the contour by axis" } else { "Contour error" };
@@ -274,6 +290,7 @@ fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f6
         let style = format!("fill=\"{colour}\" font-weight=\"700\"");
         svg.text([RIGHT - 18.0 * i as f64, deviation.top - 9.0], "end", &style, name);
     }
+    top + 400.0
 }
 
 /// A curve over time: smallest and largest value per pixel, or of each bucket where there are fewer.
@@ -322,7 +339,7 @@ fn marks(svg: &mut Svg, panel: &Panel, runs: &[(Recording, Summary)]) {
         let text = line.to_string();
         if line > 0 && next - x > 7.0 * text.len() as f64 + 4.0 {
             let style = "fill=\"#adb5bd\" font-size=\"10\"";
-            let at = [f64::midpoint(x, next), panel.top + panel.height - 5.0];
+            let at = [f64::midpoint(x, next), panel.top + 12.0];
             svg.text(at, "middle", style, &text);
         }
     }
