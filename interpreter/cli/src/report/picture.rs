@@ -1,4 +1,5 @@
-//! The still picture: contour, a close look at its worst corner, path speed and deviations over time.
+//! The still picture: contour, a close look at its worst corner or at the largest difference of its passes, path
+//! speed and deviations over time.
 
 use super::recording::{Kind, Point, Recording, programmed};
 use super::svg::{COLOURS, FAINT, INK, Panel, Stroke, Svg};
@@ -9,6 +10,8 @@ const LEFT: f64 = 76.0;
 const RIGHT: f64 = 1172.0;
 /// Lines of the program are marked in the time plots up to this many changes.
 const MOST_MARKS: usize = 60;
+/// Set points that are compared with the first pass.
+const MOST_COMPARED: usize = 2000;
 /// Deviations below this are rounding.
 const VISIBLE_MM: f64 = 1e-7;
 
@@ -20,15 +23,22 @@ struct Group {
     label: String,
 }
 
+impl Group {
+    fn draws(&self, point: &Point) -> bool {
+        self.pass.is_none_or(|pass| pass == point.pass)
+    }
+}
+
 /// Draws one or several runs.
 pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
     let mut svg = Svg::new();
     let groups = groups(runs);
     head(&mut svg, runs);
     let plane = plane(runs);
-    let worst = worst(runs);
-    let has_zoom = worst.is_some_and(|p| p.error > VISIBLE_MM);
-    let contour_width = if has_zoom { 590.0 } else { RIGHT - LEFT };
+    let visible = |p: &Point| p.error > VISIBLE_MM;
+    let worst = worst(runs).filter(visible);
+    let look = worst.or_else(|| farthest(&drawn(runs, false), &groups, plane).filter(visible));
+    let contour_width = if look.is_some() { 590.0 } else { RIGHT - LEFT };
     let panel = Panel {
         left: LEFT,
         top: 100.0,
@@ -40,11 +50,12 @@ pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
     let panel = panel.equal_scale();
     let names = plane.map(|i| axis_label(&runs[0].0, i));
     contour(&mut svg, &panel, &drawn(runs, false), &groups, plane, "Contour", &names);
-    if let Some(worst) = worst.filter(|_| has_zoom) {
-        let zoom = zoom_panel(&worst, plane, 0.2 * (panel.x.1 - panel.x.0));
+    if let Some(look) = look {
+        let zoom = zoom_panel(&look, plane, 0.2 * (panel.x.1 - panel.x.0));
         let (a, b) = (panel.at([zoom.x.0, zoom.y.1]), panel.at([zoom.x.1, zoom.y.0]));
-        let close = drawn(runs, true);
-        contour(&mut svg, &zoom, &close, &groups, plane, "Largest contour error", &names);
+        let close = drawn(runs, worst.is_some());
+        let title = if worst.is_some() { "Largest contour error" } else { "Largest difference" };
+        contour(&mut svg, &zoom, &close, &groups, plane, title, &names);
         let size = [(b[0] - a[0]).max(4.0), (b[1] - a[1]).max(4.0)];
         let lens_style = format!("fill=\"{INK}\" fill-opacity=\"0.05\" stroke=\"{INK}\"");
         svg.clip(&panel);
@@ -84,6 +95,12 @@ fn head(svg: &mut Svg, runs: &[(Recording, Summary)]) {
 
 fn groups(runs: &[(Recording, Summary)]) -> Vec<Group> {
     let colour = |i: usize| COLOURS[i % COLOURS.len()];
+    let of_run = |s: &Summary| s.max_contour_error.as_ref().map_or(0.0, |e| e.mm);
+    let errors = runs.iter().any(|(_, s)| of_run(s) > VISIBLE_MM);
+    // nobody needs to read that there are none
+    let error = |before: &str, mm: f64| {
+        if errors { format!("{before}contour error at most {mm:.4} mm") } else { String::new() }
+    };
     match runs {
         [(run, _)] if run.passes.len() > 1 => (0..run.passes.len())
             .map(|i| {
@@ -102,21 +119,12 @@ fn groups(runs: &[(Recording, Summary)]) -> Vec<Group> {
             .iter()
             .enumerate()
             .map(|(i, (_, s))| {
-                let error = error(", ", s.max_contour_error.as_ref().map_or(0.0, |e| e.mm));
+                let error = error(", ", of_run(s));
                 let name = if runs.len() > 1 { format!("{}, ", s.program) } else { String::new() };
                 let label = format!("set, {name}{:.3} s{error}", s.duration_s);
                 Group { run: i, pass: None, colour: colour(i), label }
             })
             .collect(),
-    }
-}
-
-/// What the legend says about a contour error, if there is one.
-fn error(before: &str, mm: f64) -> String {
-    if mm > VISIBLE_MM {
-        format!("{before}contour error at most {mm:.4} mm")
-    } else {
-        String::new()
     }
 }
 
@@ -155,6 +163,29 @@ fn worst(runs: &[(Recording, Summary)]) -> Option<Point> {
         Some(w) if w.error >= p.error => Some(w),
         _ => Some(p),
     })
+}
+
+/// The set point of a group that is farthest from the first group's path, with its distance as error.
+fn farthest(runs: &[Vec<Point>], groups: &[Group], [x, y]: [usize; 2]) -> Option<Point> {
+    let (first, others) = groups.split_first()?;
+    let at = |p: &Point| [p.set[x], p.set[y]];
+    let path: Vec<[f64; 2]> = runs[first.run].iter().filter(|p| first.draws(p)).map(at).collect();
+    let count = others.iter().flat_map(|g| runs[g.run].iter().filter(|p| g.draws(p))).count();
+    let points = others.iter().flat_map(|g| runs[g.run].iter().filter(|p| g.draws(p)));
+    let apart = points.step_by(count / MOST_COMPARED + 1).map(|p| {
+        let away = path.windows(2).map(|w| from_line(at(p), w[0], w[1]));
+        Point { error: away.fold(f64::INFINITY, f64::min), ..*p }
+    });
+    apart.filter(|p| p.error.is_finite()).max_by(|a, b| a.error.total_cmp(&b.error))
+}
+
+/// Distance of a point from the straight way between two others.
+fn from_line(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (way, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let square = way[0] * way[0] + way[1] * way[1];
+    let part = (to[0] * way[0] + to[1] * way[1]) / square;
+    let part = if square > 0.0 { part.clamp(0.0, 1.0) } else { 0.0 };
+    libm::hypot(to[0] - part * way[0], to[1] - part * way[1])
 }
 
 /// A window around the worst point, three times its error to either side but at most `most` mm.
@@ -197,10 +228,9 @@ fn contour(
     for points in runs {
         svg.curve(panel, programmed(points, plane).into_iter(), wide);
     }
-    let mine = |group: &Group, p: &Point| group.pass.is_none_or(|pass| pass == p.pass);
     for (actual, width, dash) in [(true, 1.0, "3 3"), (false, 1.7, "")] {
         for group in groups {
-            let points = runs[group.run].iter().filter(|p| mine(group, p));
+            let points = runs[group.run].iter().filter(|p| group.draws(p));
             let at = points.map(|p| if actual { p.act } else { p.set });
             let stroke = Stroke { colour: group.colour, width, dash };
             svg.curve(panel, at.map(|p| [p[plane[0]], p[plane[1]]]), stroke);
@@ -342,5 +372,34 @@ fn marks(svg: &mut Svg, panel: &Panel, runs: &[(Recording, Summary)]) {
             let at = [f64::midpoint(x, next), panel.top + 12.0];
             svg.text(at, "middle", style, &text);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn passes_are_compared_with_the_path_of_the_first() {
+        let point =
+            |pass: usize, x: f64, y: f64| Point { pass, set: [x, y, 0.0], ..Point::default() };
+        // the corner in (1, 0), and what cuts it
+        let run = vec![
+            point(0, 0.0, 0.0),
+            point(0, 1.0, 0.0),
+            point(0, 1.0, 1.0),
+            point(1, 0.5, 0.0),
+            point(1, 0.7, 0.2),
+            point(1, 1.0, 0.5),
+        ];
+        let group =
+            |pass| Group { run: 0, pass: Some(pass), colour: COLOURS[0], label: String::new() };
+        let far = farthest(&[run.clone()], &[group(0), group(1)], [0, 1]).unwrap();
+        assert_eq!(far.set, [0.7, 0.2, 0.0]);
+        assert!((far.error - 0.2).abs() < 1e-15, "{}", far.error);
+        assert_eq!(farthest(&[run], &[group(0)], [0, 1]), None);
+        // beyond an end the end counts, and a way without length is a point
+        assert!((from_line([4.0, 4.0], [0.0, 0.0], [1.0, 0.0]) - 5.0).abs() < 1e-15);
+        assert!((from_line([3.0, 4.0], [0.0, 0.0], [0.0, 0.0]) - 5.0).abs() < 1e-15);
     }
 }

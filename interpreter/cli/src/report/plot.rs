@@ -258,4 +258,23 @@ mod tests {
         }
         assert!(!svg.contains("NaN"));
     }
+
+    #[test]
+    fn a_curve_that_covers_another_is_dashed() {
+        let line = |series, y| Line { series: Some(series), points: vec![[0.0, 0.0], [1.0, y]] };
+        let diagram = Diagram {
+            title: String::new(),
+            x: Scale::linear("", (0.0, 1.0)),
+            y: Scale::linear("", (0.0, 1.0)),
+            equal: false,
+            // a panel of 230 px: half a pixel is 0.0022
+            lines: vec![line(0, 0.5), line(1, 0.51), line(2, 0.501)],
+            levels: Vec::new(),
+        };
+        let svg = Plot { columns: 1, row_height: 300.0, panels: vec![diagram], ..Plot::default() };
+        let svg = svg.draw();
+        let dashed: Vec<&str> = svg.lines().filter(|l| l.contains("stroke-dasharray")).collect();
+        assert_eq!(dashed.len(), 1);
+        assert!(dashed[0].contains(COLOURS[2]), "{dashed:?}");
+    }
 }
