@@ -82,7 +82,7 @@ fn slopes() {
     {
         let setting = format!("channel.prog_start.slope.profile={profile}");
         let run = run(&text("slopes.nc"), &[&setting]);
-        for (lines, want) in [(9..=9, block), (11..=12, both)] {
+        for (lines, want) in [(10..=10, block), (12..=13, both)] {
             let is = moving_s(&run, &lines);
             assert!(
                 is >= want - 1e-9 && is < want + 2.0 * run.cycle_s,
