@@ -356,7 +356,11 @@ impl Executor {
     /// The block at a place; reading errors end the program.
     pub(super) fn fetch(&mut self, file: usize, at: Position) -> Option<(Fetched, Position)> {
         let level = self.levels.last()?;
-        let keep = self.levels.len() > 1 || level.frames.iter().any(|f| f.keyword.is_loop());
+        // the head of a loop runs again as well
+        let loops = |id: EntryId| level.index.entry(id).keyword.is_loop();
+        let keep = self.levels.len() > 1
+            || level.frames.iter().any(|f| f.keyword.is_loop())
+            || level.index.at(at).is_some_and(loops);
         let reading =
             Reading { keep: keep && !level.declarations, declaration: level.declarations };
         let mut found = Vec::new();
