@@ -148,7 +148,8 @@ fn every_program_is_listed() {
             let row = list.lines().find(|l| l.starts_with(&format!("| `{name}` |")));
             let row = row.unwrap_or_else(|| panic!("{name} has no row"));
             let mut code = row.split('`').skip(1).step_by(2);
-            let named = |c: &str| c.starts_with("kontur ") && c.contains(&format!("programs/{name}"));
+            let named =
+                |c: &str| c.starts_with("kontur ") && c.contains(&format!("programs/{name}"));
             assert!(code.any(named), "{name} has no command");
         }
     }
