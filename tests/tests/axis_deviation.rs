@@ -363,7 +363,7 @@ fn off_contour(run: &Run, case: &Case) -> f64 {
 fn the_tolerance_holds_over_random_programs() {
     let first = seed() * 1_000_000;
     let mut tightest: f64 = 0.0;
-    for n in 0..count(10) as u64 {
+    for n in 0..count(6) as u64 {
         let case = case(first + n);
         let settings: Vec<&str> = case.settings.iter().map(String::as_str).collect();
         let run = run(&case.text, &settings);
