@@ -5,6 +5,8 @@
 //! dwell, a new kernel), the planner runs dry, the loop holds the position until the condition is met, and only then
 //! asks the program for its next step.
 
+mod act;
+mod axes;
 mod chain;
 mod fault;
 mod independent;
@@ -19,9 +21,10 @@ pub use totals::Totals;
 
 use crate::diag::Diagnostic;
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
-use crate::machine::{self, Axis, Machine};
-use crate::record::{CycleRecord, PathRecord};
+use crate::machine::{self, Machine};
+use crate::record::CycleRecord;
 use crate::source::Sources;
+use axes::{Driver, drivers};
 use chain::AxisChain;
 use independent::IndependentAxes;
 use inputs::Inputs;
@@ -32,8 +35,6 @@ use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::limit::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::realtime::{FeedholdBraking, OverrideMode};
-use kontur_motion::tolerance::Kernels;
-use smallvec::SmallVec;
 use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
@@ -68,16 +69,6 @@ struct Underway {
     source: SourceRef,
     jerk_limited: bool,
     events: Vec<Event>,
-}
-
-/// Where the setpoint of a chain comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Driver {
-    /// Path axis; gantry slaves follow the path axis that is their master.
-    Path(usize),
-    Spindle(usize),
-    /// A gantry slave whose master is not in the channel.
-    Standing,
 }
 
 /// What follows when the path has come to rest.
@@ -399,166 +390,6 @@ impl Simulation {
         }
     }
 
-    /// Something happens in cycle `k`.
-    fn act(&mut self, event: Event, k: u64) {
-        match event {
-            Event::Independent { axis, motion } => {
-                let dynamics = self.machine.axes[axis].dynamics();
-                let started = self.independent.start(axis, k, motion, &dynamics, self.cycle);
-                if let Err(e) = started {
-                    self.diagnostics.push(fault::internal(&e));
-                }
-            }
-            Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
-            Event::SpindleFeedforward { spindle, on, weight_ratio } => {
-                self.spindle_feedforward(spindle, on, weight_ratio);
-            }
-            Event::Spindle { spindle, motion } => {
-                if let Some(spindle) = self.spindles.get_mut(spindle) {
-                    spindle.command(motion);
-                }
-            }
-            other => {
-                let time_s = self.cycle.time_of(self.planner.setpoint().k);
-                self.diagnostics.extend(self.totals.note(other, &self.machine, time_s));
-            }
-        }
-    }
-
-    fn feedforward(&mut self, on: bool, weights: &[f64]) {
-        let mut changed = false;
-        for (i, chain) in self.chains.iter().enumerate() {
-            if let Driver::Path(p) = self.drivers[i] {
-                let weight = weights.get(p).copied().unwrap_or(1.0);
-                let gain = chain.feedforward_gain(on, weight);
-                changed |= gain.to_bits() != self.gains[i].to_bits();
-                self.gains[i] = gain;
-            }
-        }
-        // the record is that of the cycle before
-        if changed && self.record.path.v_mm_s > 0.0 {
-            self.switched_while_moving();
-        }
-    }
-
-    fn spindle_feedforward(&mut self, spindle: usize, on: bool, weight: f64) {
-        for (i, chain) in self.chains.iter().enumerate() {
-            if self.drivers[i] == Driver::Spindle(spindle) {
-                self.gains[i] = chain.feedforward_gain(on, weight);
-            }
-        }
-    }
-
-    /// Puts new kernels into the path axes; they are flushed.
-    fn swap_kernels(&mut self, setup: &crate::exec::ShapingSetup) {
-        for (chain, axis) in self.chains.iter_mut().zip(&setup.axes) {
-            if chain.set_kernel(axis.kernel.clone()).is_err() {
-                self.diagnostics.push(fault::switch_while_moving());
-            }
-        }
-        let kernels = Kernels::new(setup.axes.iter().map(|a| a.kernel.clone()).collect());
-        let path = &self.chains[..self.vector.len()];
-        let reach = path.iter().map(AxisChain::reach_cycles).max().unwrap_or(0);
-        self.planner.set_kernels(kernels, reach);
-        for (delay, chain) in self.totals.filter_delay_cycles.iter_mut().zip(&self.chains) {
-            *delay = delay.max(chain.delay_cycles());
-        }
-    }
-
-    /// Hands the setpoint of the cycle through every axis and fills the record.
-    fn through_the_axes(&mut self) {
-        let (k, seq) = (self.planner.setpoint().k, self.planner.setpoint().seq);
-        while self.underway.front().is_some_and(|u| u.seq <= seq) {
-            if let Some(block) = self.underway.pop_front() {
-                self.current = block.source;
-                self.jerk_limited = block.jerk_limited;
-                // the block began after the cycle before
-                for event in block.events {
-                    self.act(event, k.saturating_sub(1));
-                }
-            }
-        }
-        self.take_inputs(k);
-        let setpoint = self.planner.setpoint();
-        let n = self.vector.len();
-        let mut faults = Vec::new();
-        let positions: AxisVec =
-            (0..n).map(|p| setpoint.position[p] + self.independent.way_mm(p, k)).collect();
-        let spindles: SmallVec<[f64; 4]> =
-            self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
-        for (i, chain) in self.chains.iter_mut().enumerate() {
-            let ipo = match (self.frozen[i], self.drivers[i]) {
-                (Some(x), _) => x,
-                (None, Driver::Path(p)) => positions[p],
-                (None, Driver::Spindle(s)) => spindles[s],
-                (None, Driver::Standing) => chain.set_mm(),
-            };
-            let (record, found) = chain.step(ipo, self.gains[i], self.jerk_limited);
-            self.record.axes[i] = record;
-            faults.extend(found.iter().map(|f| (i, *f)));
-        }
-        let shaped = self.record.axes[..n].iter().any(|a| a.set.to_bits() != a.ipo.to_bits());
-        // what is measured against the contour: the set position without the ways of independent axes; while one of them
-        // moves, it does not count
-        for (p, set) in self.set.iter_mut().enumerate() {
-            let alone = self.independent.is_moving(p) || !self.chains[p].settled();
-            let way_mm = self.independent.done_mm(p);
-            *set = if self.independent.is_moving(p) || (way_mm.abs() > 0.0 && alone) {
-                setpoint.position[p]
-            } else {
-                self.record.axes[p].set - way_mm
-            };
-        }
-        // on the contour bit for bit: nothing to search
-        self.record.contour_err_mm = if shaped {
-            self.planner.deviation(&self.set, &mut self.vector)
-        } else {
-            self.vector.fill(0.0);
-            0.0
-        };
-        for (axis, dev) in self.record.axes.iter_mut().zip(self.vector.iter()) {
-            axis.dev = *dev;
-        }
-        self.record.k = k;
-        self.record.file = self.current.file;
-        self.record.line = self.current.line;
-        self.record.block = self.current.block;
-        self.record.path = PathRecord {
-            s_mm: setpoint.s_mm,
-            v_mm_s: setpoint.v_mm_s,
-            a_mm_s2: setpoint.a_mm_s2,
-            j_mm_s3: setpoint.j_mm_s3,
-            limit: setpoint.limit,
-        };
-        for unkept in self.planner.take_unkept() {
-            let diagnostic = self.unkept(&unkept);
-            self.diagnostics.push(diagnostic);
-        }
-        for (i, f) in faults {
-            self.fault(i, &f);
-        }
-    }
-
-    /// `#MACHINE DATA`: the axis concerned gets a new chain at its present position; it is at rest.
-    fn machine_data(&mut self, axis: u32, key: &str, value: &str) {
-        let machine = Arc::make_mut(&mut self.machine);
-        let Some(i) = machine.axes.iter().position(|a| a.number() == axis) else { return };
-        if machine.axes[i].set(key, value).is_err() {
-            // the program was refused by the executor, which checks the same
-            return;
-        }
-        let (mut setups, _) = machine.chains();
-        let x = self.chains[i].set_mm();
-        match AxisChain::new(setups.swap_remove(i), x, self.inputs.axes[i], self.cycle) {
-            Ok(chain) => {
-                self.chains[i] = chain;
-                let setup = self.executor.shaping().clone();
-                self.swap_kernels(&setup);
-            }
-            Err(e) => self.diagnostics.push(fault::plant(&e, &self.machine, i)),
-        }
-    }
-
     fn check_time(&mut self) {
         let k = self.planner.setpoint().k;
         let over = k >= self.max_cycles && !matches!(self.phase, Phase::Done | Phase::Stopping(_));
@@ -572,17 +403,4 @@ impl Simulation {
             self.phase = Phase::Done;
         }
     }
-}
-
-/// The driver of every chain, in the order of [`Machine::all_axes`].
-fn drivers(machine: &Machine) -> Vec<Driver> {
-    let master = |axis: &Axis| {
-        let number = axis.gantry_master()?;
-        machine.axes.iter().position(|a| a.number() == number)
-    };
-    let slaves =
-        machine.gantry_slaves.iter().map(|a| master(a).map_or(Driver::Standing, Driver::Path));
-    let paths = (0..machine.axes.len()).map(Driver::Path);
-    let spindles = (0..machine.spindles.len()).map(Driver::Spindle);
-    paths.chain(spindles).chain(slaves).collect()
 }

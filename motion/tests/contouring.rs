@@ -4,6 +4,7 @@
 
 mod common;
 
+use common::random::Random;
 use common::{Job, axis, channel, deviation, filtered};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -466,11 +467,8 @@ fn a_larger_tolerance_costs_nothing() {
 /// The same over random zigzags: edges of 0.05 to 20 mm, any corner but a reversal, tolerances over four decades.
 #[test]
 fn a_larger_tolerance_costs_nothing_on_random_polygons() {
-    let mut seed = 9_u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = Random(9);
+    let mut random = || random.next();
     for program in 0..10 {
         let (mut heading, mut at) = (0.0, [0.0, 0.0]);
         let mut points = vec![at];

@@ -4,6 +4,7 @@
 
 mod common;
 
+use common::random::Random;
 use common::{Job, axis, channel};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};
@@ -11,27 +12,12 @@ use kontur_motion::block::{Block, Slope};
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use kontur_motion::planner::Setpoint;
 
-/// A small deterministic generator: reproducible without a dependency.
-struct Lcg(u64);
-
-impl Lcg {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Logarithmically uniform.
-    fn range(&mut self, low: f64, high: f64) -> f64 {
-        low * libm::exp(self.next() * libm::log(high / low))
-    }
-}
-
-fn limits(r: &mut Lcg) -> AxisDynamics {
-    let mut a = axis(if r.next() < 0.3 { 0.0 } else { r.range(0.05, 1.0) });
-    let acc = r.range(200.0, 10_000.0);
-    let ramp = r.range(0.001, 0.1);
-    a.v_max_mm_s = r.range(50.0, 2000.0);
-    a.tr_geom_s = r.range(0.001, 0.05);
+fn limits(r: &mut Random) -> AxisDynamics {
+    let mut a = axis(if r.next() < 0.3 { 0.0 } else { r.log(0.05, 1.0) });
+    let acc = r.log(200.0, 10_000.0);
+    let ramp = r.log(0.001, 0.1);
+    a.v_max_mm_s = r.log(50.0, 2000.0);
+    a.tr_geom_s = r.log(0.001, 0.05);
     a.feed = FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] };
     a.step_feed.acc_mm_s2 = [acc; 2];
     a.step_feed.dec_mm_s2 = [acc; 2];
@@ -39,7 +25,7 @@ fn limits(r: &mut Lcg) -> AxisDynamics {
 }
 
 /// Lines between 1e-4 mm and 1 m, every fifth block an arc.
-fn contour(r: &mut Lcg, count: usize) -> Vec<Path> {
+fn contour(r: &mut Random, count: usize) -> Vec<Path> {
     let mut at = [0.0_f64, 0.0];
     let mut heading: f64 = 0.0;
     let smooth = r.next() < 0.5;
@@ -50,7 +36,7 @@ fn contour(r: &mut Lcg, count: usize) -> Vec<Path> {
             let (sin, cos) = libm::sincos(heading);
             let from = AxisVec::from_slice(&at);
             if r.next() < 0.2 {
-                let (radius, sweep) = (r.range(0.05, 50.0), 4.0 * (r.next() - 0.5));
+                let (radius, sweep) = (r.log(0.05, 50.0), 4.0 * (r.next() - 0.5));
                 let side = sweep.signum();
                 let centre_mm = [at[0] - side * radius * sin, at[1] + side * radius * cos];
                 heading += sweep;
@@ -59,7 +45,7 @@ fn contour(r: &mut Lcg, count: usize) -> Vec<Path> {
                 let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad: sweep };
                 Path::Arc(ArcPath::new(from, AxisVec::from_slice(&at), shape, &[]).unwrap())
             } else {
-                let l = r.range(1e-4, long);
+                let l = r.log(1e-4, long);
                 at = [at[0] + l * cos, at[1] + l * sin];
                 Path::Line(LinePath::new(from, AxisVec::from_slice(&at), &[]).unwrap())
             }
@@ -113,12 +99,12 @@ fn load(job: &Job, out: &[Setpoint]) -> (f64, f64, f64) {
 /// together: each of them keeps the limit of the axis for itself.
 #[test]
 fn velocity_and_acceleration_of_the_axes() {
-    let mut r = Lcg(1);
+    let mut r = Random(1);
     let mut worst = 0.0_f64;
     for program in 0..60 {
         let paths = contour(&mut r, 60);
         let axes = vec![limits(&mut r), limits(&mut r)];
-        let feed = r.range(5.0, 1000.0);
+        let feed = r.log(5.0, 1000.0);
         for slope in kinds() {
             let job = job(axes.clone(), slope);
             let out = run(&job, &paths, feed);
@@ -137,14 +123,14 @@ fn velocity_and_acceleration_of_the_axes() {
 /// Along straight lines without kinks there is nothing but the slope: its acceleration and its jerk.
 #[test]
 fn acceleration_and_jerk_without_kinks() {
-    let mut r = Lcg(2);
+    let mut r = Random(2);
     for program in 0..40 {
         let (mut x, mut points) = (0.0, vec![[0.0, 0.0]]);
         for _ in 0..80 {
-            x += r.range(1e-4, 20.0);
+            x += r.log(1e-4, 20.0);
             points.push([x, 0.5 * x]);
         }
-        let feeds: Vec<f64> = (0..7).map(|_| r.range(5.0, 500.0)).collect();
+        let feeds: Vec<f64> = (0..7).map(|_| r.log(5.0, 500.0)).collect();
         let a = limits(&mut r);
         for slope in kinds().into_iter().filter(|s| s.kind != Step) {
             let job = job(vec![a; 2], slope);
@@ -168,11 +154,11 @@ fn acceleration_and_jerk_without_kinks() {
 /// The path can be left at the end of any block: what comes later is not needed to keep the limits.
 #[test]
 fn a_program_may_be_cut_anywhere() {
-    let mut r = Lcg(3);
+    let mut r = Random(3);
     for program in 0..6 {
         let paths = contour(&mut r, 30);
         let axes = vec![limits(&mut r), limits(&mut r)];
-        let feed = r.range(20.0, 500.0);
+        let feed = r.log(20.0, 500.0);
         for slope in kinds() {
             let job = job(axes.clone(), slope);
             for cut in 1..=paths.len() {
@@ -188,16 +174,16 @@ fn a_program_may_be_cut_anywhere() {
 /// With symmetric limits a contour takes the same time in both directions.
 #[test]
 fn a_reversed_contour_takes_the_same_time() {
-    let mut r = Lcg(4);
+    let mut r = Random(4);
     for program in 0..20 {
         let mut at = [0.0, 0.0];
         let mut points = vec![at];
         for _ in 0..40 {
-            at = [at[0] + r.range(0.01, 5.0), at[1] + 4.0 * (r.next() - 0.5)];
+            at = [at[0] + r.log(0.01, 5.0), at[1] + 4.0 * (r.next() - 0.5)];
             points.push(at);
         }
         let axes = vec![limits(&mut r), limits(&mut r)];
-        let feed = r.range(20.0, 500.0);
+        let feed = r.log(20.0, 500.0);
         let forth: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
         let back: Vec<&[f64]> = points.iter().rev().map(|p| &p[..]).collect();
         for slope in kinds() {
@@ -215,11 +201,11 @@ fn a_reversed_contour_takes_the_same_time() {
 /// More look-ahead never costs time, and a second run changes no bit.
 #[test]
 fn more_lookahead_and_a_second_run() {
-    let mut r = Lcg(5);
+    let mut r = Random(5);
     for program in 0..15 {
         let paths = contour(&mut r, 150);
         let axes = vec![limits(&mut r), limits(&mut r)];
-        let feed = r.range(20.0, 500.0);
+        let feed = r.log(20.0, 500.0);
         for slope in kinds() {
             let mut last = usize::MAX;
             for window in [10, 30, 120, 1000] {
@@ -248,11 +234,11 @@ fn more_lookahead_and_a_second_run() {
 /// reach from the speed that is already final, and go on with the one before.
 #[test]
 fn a_final_speed_is_never_too_high() {
-    let mut r = Lcg(77);
+    let mut r = Random(77);
     for program in 0..364 {
         let paths = contour(&mut r, 120);
         let axes = vec![limits(&mut r), limits(&mut r)];
-        let feed = r.range(20.0, 1000.0);
+        let feed = r.log(20.0, 1000.0);
         if [167, 203, 363].contains(&program) {
             let job = Job { window: 10, ..job(axes, kinds()[5]) };
             let out = run(&job, &paths, feed);

@@ -8,6 +8,7 @@
 
 mod common;
 
+use common::random::Random;
 use common::{Job, axis, channel, deviation, filtered};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -193,19 +194,6 @@ fn rapid_override_zero_waits_in_front_of_the_rapid_block() {
     assert_eq!(out.last().unwrap().position[0], 60.0);
 }
 
-/// A small deterministic generator: reproducible without a dependency.
-struct Lcg(u64);
-
-impl Lcg {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[(self.next() * from.len() as f64) as usize]
-    }
-}
-
 struct Case {
     job: Job,
     points: Vec<[f64; 2]>,
@@ -214,7 +202,7 @@ struct Case {
 }
 
 impl Case {
-    fn new(r: &mut Lcg) -> Self {
+    fn new(r: &mut Random) -> Self {
         let kind = r.pick(&[Step, Trapez, Trapez, Sin2, Hsc]);
         let mut axes = vec![axis(r.pick(&[0.0, 0.3, 1.0])); 2];
         for a in &mut axes {
@@ -408,7 +396,7 @@ fn random_programs_with_random_events() {
     let seed: u64 = std::env::var("SEED").ok().and_then(|c| c.parse().ok()).unwrap_or(0);
     let mut failed = 0;
     for case in seed..seed + count {
-        let c = Case::new(&mut Lcg(case * 7919 + 1));
+        let c = Case::new(&mut Random(case * 7919 + 1));
         if let Err(why) = c.run().map_err(|e| e.to_string()).and_then(|out| c.check(&out)) {
             failed += 1;
             println!(
@@ -450,7 +438,7 @@ fn fast_override_over_short_blocks_that_were_read_at_a_slow_one() {
 #[test]
 fn override_of_100_percent_again_changes_nothing() {
     for seed in 0..50 {
-        let mut c = Case::new(&mut Lcg(seed));
+        let mut c = Case::new(&mut Random(seed));
         c.events.clear();
         let plain = c.run().unwrap();
         c.events = (0..50).map(|i| (i * 7, Event::Override(1.0))).collect();
@@ -472,7 +460,7 @@ fn random_programs_without_events() {
     let mut failed = Vec::new();
     for case in 100..400 {
         for window in [3, 10] {
-            let mut c = Case::new(&mut Lcg(case * 7919 + 1));
+            let mut c = Case::new(&mut Random(case * 7919 + 1));
             c.events.clear();
             c.job.window = window;
             let verdict = c.run().map_err(|e| e.to_string()).and_then(|out| c.check(&out));

@@ -1,35 +1,17 @@
 //! Properties of the slopes over random input at extreme ratios, and an independent numerical integration.
 
+mod common;
+
+use common::random::Random;
 use kontur_motion::profile::{
     RampShape, RampedLimits, SlopeLimits, SpanProfile, StepAxis, StepLimits,
 };
 
 const CASES: u32 = 20_000;
 
-/// `SplitMix64`: a fixed sequence on every platform.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Evenly distributed over the decades.
-    fn decades(&mut self, lo: f64, hi: f64) -> f64 {
-        libm::exp(libm::log(lo) + self.unit() * (libm::log(hi) - libm::log(lo)))
-    }
-
-    fn chance(&mut self, p: f64) -> bool {
-        self.unit() < p
-    }
-
-    fn ramp(&mut self) -> f64 {
-        if self.chance(0.15) { 0.0 } else { self.decades(1e-6, 1.0) }
-    }
+/// Ramp time in s, at times none.
+fn ramp_s(random: &mut Random) -> f64 {
+    if random.chance(0.15) { 0.0 } else { random.log(1e-6, 1.0) }
 }
 
 /// Limits with the largest acceleration and deceleration they allow.
@@ -41,14 +23,14 @@ struct Case {
 }
 
 fn case(random: &mut Random) -> Case {
-    let (acc, dec) = (random.decades(1.0, 1e6), random.decades(1.0, 1e6));
+    let (acc, dec) = (random.log(1.0, 1e6), random.log(1.0, 1e6));
     if random.chance(0.25) {
         let mut axes = Vec::new();
         for _ in 0..1 + u8::from(random.chance(0.5)) + 2 * u8::from(random.chance(0.5)) {
             axes.push(StepAxis {
-                acc_mm_s2: [acc, random.decades(1.0, 1e6)],
-                dec_mm_s2: [dec, random.decades(1.0, 1e6)],
-                change_mm_s: random.decades(1e-2, 1e4),
+                acc_mm_s2: [acc, random.log(1.0, 1e6)],
+                dec_mm_s2: [dec, random.log(1.0, 1e6)],
+                change_mm_s: random.log(1e-2, 1e4),
             });
         }
         let largest = |f: fn(&StepAxis) -> [f64; 2]| axes.iter().flat_map(f).fold(0.0, f64::max);
@@ -56,11 +38,11 @@ fn case(random: &mut Random) -> Case {
         let limits = SlopeLimits::Step(StepLimits::from_axes(&axes));
         return Case { limits, acc, dec, ramped: false };
     }
-    let equal = random.ramp();
+    let equal = ramp_s(random);
     let ramps = if random.chance(0.3) {
         [equal; 4]
     } else {
-        [random.ramp(), random.ramp(), random.ramp(), random.ramp()]
+        [ramp_s(random), ramp_s(random), ramp_s(random), ramp_s(random)]
     };
     let shape = if random.chance(0.5) { RampShape::Trapez } else { RampShape::Sin2 };
     let limits = RampedLimits::new(shape, random.chance(0.3), acc, dec, ramps);
@@ -68,7 +50,7 @@ fn case(random: &mut Random) -> Case {
 }
 
 fn velocity(random: &mut Random) -> f64 {
-    if random.chance(0.2) { 0.0 } else { random.decades(1e-3, 1e4) }
+    if random.chance(0.2) { 0.0 } else { random.log(1e-3, 1e4) }
 }
 
 fn check(case: &Case, profile: &SpanProfile, [v0, ve, vf, length]: [f64; 4]) {
@@ -112,10 +94,10 @@ fn feasible_plans_end_where_and_how_they_should() {
     let (mut planned, mut refused) = (0, 0);
     for _ in 0..CASES {
         let case = case(&mut random);
-        let length = random.decades(1e-6, 1e4);
+        let length = random.log(1e-6, 1e4);
         let v0 = velocity(&mut random);
         let ve = if random.chance(0.1) { v0 } else { velocity(&mut random) };
-        let vf = v0.max(ve).max(random.decades(1e-3, 1e4));
+        let vf = v0.max(ve).max(random.log(1e-3, 1e4));
         let needed =
             case.limits.up_distance(v0, v0.max(ve)) + case.limits.down_distance(v0, v0.min(ve));
         match case.limits.plan(v0, ve, vf, length) {
@@ -138,7 +120,7 @@ fn reachable_velocities_are_feasible_and_largest() {
     let mut random = Random(2);
     for _ in 0..CASES {
         let case = case(&mut random);
-        let length = random.decades(1e-6, 1e4);
+        let length = random.log(1e-6, 1e4);
         let v = velocity(&mut random);
         let up = case.limits.reach_up(v, length);
         let down = case.limits.reach_down(v, length);
@@ -166,8 +148,8 @@ fn distances_grow_with_the_peak_and_reach_with_the_length() {
     for _ in 0..CASES {
         let case = case(&mut random);
         let v0 = velocity(&mut random);
-        let v1 = v0 + random.decades(1e-3, 1e4);
-        let v2 = v1 * (1.0 + random.decades(1e-9, 1.0));
+        let v1 = v0 + random.log(1e-3, 1e4);
+        let v2 = v1 * (1.0 + random.log(1e-9, 1.0));
         let l = &case.limits;
         assert!(l.up_distance(v0, v1) < l.up_distance(v0, v2));
         assert!(l.down_distance(v1, v0) < l.down_distance(v2, v0));
@@ -175,8 +157,8 @@ fn distances_grow_with_the_peak_and_reach_with_the_length() {
         assert!(l.up_time(v0, v1) <= l.up_time(v0, v2));
         assert!(l.down_time(v1, v0) <= l.down_time(v2, v0));
         assert!(!case.ramped || l.up_distance(v0, v0).abs() < f64::MIN_POSITIVE);
-        let length = random.decades(1e-6, 1e4);
-        let longer = length * (1.0 + random.decades(1e-9, 1.0));
+        let length = random.log(1e-6, 1e4);
+        let longer = length * (1.0 + random.log(1e-9, 1.0));
         assert!(l.reach_up(v0, length) <= l.reach_up(v0, longer));
         assert!(l.reach_down(v0, length) <= l.reach_down(v0, longer));
     }
@@ -226,12 +208,12 @@ fn states_agree_with_numerical_integration() {
     for _ in 0..60 {
         let shape = if random.chance(0.5) { RampShape::Trapez } else { RampShape::Sin2 };
         let constant = random.chance(0.4);
-        let (acc, dec) = (random.decades(300.0, 3000.0), random.decades(300.0, 3000.0));
-        let mut ramp = || random.decades(0.01, 0.1);
+        let (acc, dec) = (random.log(300.0, 3000.0), random.log(300.0, 3000.0));
+        let mut ramp = || random.log(0.01, 0.1);
         let ramps = [ramp(), ramp(), ramp(), ramp()];
         let limits = SlopeLimits::Ramped(RampedLimits::new(shape, constant, acc, dec, ramps));
-        let (v0, ve) = (random.unit() * 30.0, random.unit() * 30.0);
-        let length = random.decades(0.5, 50.0);
+        let (v0, ve) = (random.next() * 30.0, random.next() * 30.0);
+        let length = random.log(0.5, 50.0);
         let Ok(profile) = limits.plan(v0, ve, 120.0, length) else { continue };
         let segments = profile.segments();
         // the plateau follows from the gain of velocity and the segment times
@@ -264,14 +246,14 @@ fn states_agree_with_numerical_integration() {
 fn equal_ramps_give_sin2_the_times_of_trapez() {
     let mut random = Random(5);
     for _ in 0..2000 {
-        let (acc, dec) = (random.decades(10.0, 1e5), random.decades(10.0, 1e5));
-        let (t, u) = (random.ramp(), random.ramp());
+        let (acc, dec) = (random.log(10.0, 1e5), random.log(10.0, 1e5));
+        let (t, u) = (ramp_s(&mut random), ramp_s(&mut random));
         let constant = random.chance(0.3);
         let make =
             |shape| SlopeLimits::Ramped(RampedLimits::new(shape, constant, acc, dec, [t, t, u, u]));
         let (trapez, sin2) = (make(RampShape::Trapez), make(RampShape::Sin2));
         let (v0, ve) = (velocity(&mut random), velocity(&mut random));
-        let length = random.decades(1e-3, 1e3);
+        let length = random.log(1e-3, 1e3);
         let (Ok(a), Ok(b)) = (trapez.plan(v0, ve, 1e4, length), sin2.plan(v0, ve, 1e4, length))
         else {
             continue;

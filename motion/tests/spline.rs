@@ -4,6 +4,7 @@
 
 mod common;
 
+use common::random::Random;
 use common::{Job, axis, channel, deviation};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Trapez};
@@ -75,22 +76,17 @@ fn strays(blocks: &[Block], points: &[Vec<f64>]) -> (f64, f64) {
     (out, points.iter().map(|p| deviation(p, &views)).fold(0.0, f64::max))
 }
 
-fn random(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-    (*seed >> 11) as f64 / (1_u64 << 53) as f64
-}
-
 /// A polygon with edges between 0.01 and 5 mm and any corner but a reversal.
 fn rough(seed: u64, count: usize) -> Vec<Vec<f64>> {
-    let mut seed = seed;
+    let mut random = Random(seed);
     let (mut heading, mut p) = (0.0, [0.0, 0.0]);
     let mut points = vec![p.to_vec()];
     for _ in 0..count {
-        let l = libm::exp(libm::log(0.01) + random(&mut seed) * libm::log(500.0));
+        let l = libm::exp(libm::log(0.01) + random.next() * libm::log(500.0));
         let (sin, cos) = libm::sincos(heading);
         p = [p[0] + l * cos, p[1] + l * sin];
         points.push(p.to_vec());
-        let turn = random(&mut seed) - 0.5;
+        let turn = random.next() - 0.5;
         heading += 5.8 * turn * turn * turn * 4.0;
     }
     points
@@ -98,15 +94,15 @@ fn rough(seed: u64, count: usize) -> Vec<Vec<f64>> {
 
 /// As [`rough`], with edges of 0.1 to 5 mm that turn by at most 35 degrees.
 fn gentle(seed: u64, count: usize) -> Vec<Vec<f64>> {
-    let mut seed = seed;
+    let mut random = Random(seed);
     let (mut heading, mut p) = (0.0, [0.0, 0.0]);
     let mut points = vec![p.to_vec()];
     for _ in 0..count {
-        let l = 0.1 * libm::pow(50.0, random(&mut seed));
+        let l = 0.1 * libm::pow(50.0, random.next());
         let (sin, cos) = libm::sincos(heading);
         p = [p[0] + l * cos, p[1] + l * sin];
         points.push(p.to_vec());
-        heading += 1.2 * (random(&mut seed) - 0.5);
+        heading += 1.2 * (random.next() - 0.5);
     }
     points
 }

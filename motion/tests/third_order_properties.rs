@@ -3,50 +3,28 @@
 //!
 //! `KONTUR_CASES` raises the number of problems (1000000 before a release).
 
+mod common;
+
+use common::random::Random;
 use kontur_motion::profile::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderProfile};
 
 fn cases() -> u32 {
     std::env::var("KONTUR_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(20_000)
 }
 
-/// `SplitMix64`: a fixed sequence on every platform.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn decades(&mut self, lo: f64, hi: f64) -> f64 {
-        libm::exp(libm::log(lo) + self.unit() * (libm::log(hi) - libm::log(lo)))
-    }
-
-    fn chance(&mut self, p: f64) -> bool {
-        self.unit() < p
-    }
-
-    fn between(&mut self, lo: f64, hi: f64) -> f64 {
-        lo + self.unit() * (hi - lo)
-    }
-}
-
 fn limits(random: &mut Random) -> ThirdOrderLimits {
-    let (v, a) = (random.decades(1e-2, 1e4), random.decades(1.0, 1e6));
+    let (v, a) = (random.log(1e-2, 1e4), random.log(1.0, 1e6));
     let symmetric = random.chance(0.3);
     let forwards = random.chance(0.15);
     let lower = |random: &mut Random, upper: f64| {
-        if symmetric { -upper } else { -upper * random.decades(0.1, 10.0) }
+        if symmetric { -upper } else { -upper * random.log(0.1, 10.0) }
     };
     ThirdOrderLimits {
         v_max_mm_s: v,
         v_min_mm_s: if forwards { 0.0 } else { lower(random, v) },
         a_max_mm_s2: a,
         a_min_mm_s2: lower(random, a),
-        jerk_mm_s3: random.decades(1e2, 1e8),
+        jerk_mm_s3: random.log(1e2, 1e8),
     }
 }
 
@@ -87,7 +65,7 @@ fn problem(random: &mut Random, at_rest: f64) -> Problem {
     let (ve, ae) = if random.chance(at_rest) { (0.0, 0.0) } else { inside(random, &l) };
     // from nothing to a long cruise
     let time = (l.v_max_mm_s / l.a_max_mm_s2).max(l.a_max_mm_s2 / l.jerk_mm_s3);
-    let distance = random.decades(1e-6, 1e2) * l.v_max_mm_s * time;
+    let distance = random.log(1e-6, 1e2) * l.v_max_mm_s * time;
     let p0 = random.between(-1.0, 1.0) * distance;
     let way = |v: f64, a: f64, l: &ThirdOrderLimits| {
         let from = MotionState { p_mm: 0.0, v_mm_s: v, a_mm_s2: a };
@@ -182,7 +160,7 @@ fn replanning_on_the_way_keeps_the_end() {
         let profile = ThirdOrderProfile::fastest(&p.start, &p.target, &p.limits).unwrap();
         let total = profile.duration();
         for k in 1..5 {
-            let t = total * (f64::from(k) + random.unit()) / 6.0;
+            let t = total * (f64::from(k) + random.next()) / 6.0;
             let rest = ThirdOrderProfile::fastest(&profile.at(t), &p.target, &p.limits)
                 .unwrap_or_else(|error| panic!("{i}: {error} at {t}: {p:?}"));
             let again = t + rest.duration();
@@ -198,7 +176,7 @@ fn given_durations_are_met() {
     for i in 0..cases() / 4 {
         let p = problem(&mut random, 0.3);
         let shortest = ThirdOrderProfile::fastest(&p.start, &p.target, &p.limits).unwrap();
-        let duration = shortest.duration() * (1.0 + random.decades(1e-6, 1e2));
+        let duration = shortest.duration() * (1.0 + random.log(1e-6, 1e2));
         match ThirdOrderProfile::with_duration(&p.start, &p.target, &p.limits, duration) {
             Ok(profile) => {
                 found += 1;

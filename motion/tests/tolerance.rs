@@ -6,6 +6,7 @@
 
 mod common;
 
+use common::random::Random;
 use common::{Job, axis, channel, deviation, filtered};
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::time::CycleTime;
@@ -76,24 +77,11 @@ fn square_on_a_fast_machine() {
     }
 }
 
-/// A small deterministic generator: reproducible without a dependency.
-struct Lcg(u64);
-
-impl Lcg {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn log(&mut self, low: f64, high: f64) -> f64 {
-        low * libm::pow(high / low, self.next())
-    }
-}
-
 #[test]
 fn random_polygons_keep_the_tolerance() {
     let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(60);
     let seed: u64 = std::env::var("SEED").ok().and_then(|c| c.parse().ok()).unwrap_or(1);
-    let mut r = Lcg(seed);
+    let mut r = Random(seed);
     for case in 0..count {
         let scale = [0.02, 0.3, 2.0, 15.0][(r.next() * 4.0) as usize];
         let n = 2 + (r.next() * 12.0) as usize;

@@ -4,6 +4,7 @@
 
 mod common;
 
+use common::random::Random;
 use common::{Job, axis, channel, filtered};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -47,23 +48,8 @@ fn vector(piece: &Piece, p: &[f64]) -> [f64; 2] {
     }
 }
 
-struct Lcg(u64);
-
-impl Lcg {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-    fn log(&mut self, low: f64, high: f64) -> f64 {
-        low * libm::pow(high / low, self.next())
-    }
-}
-
 /// Lines and arcs, half of the transitions tangential.
-fn contour(r: &mut Lcg, scale: f64) -> (Vec<Piece>, Vec<Path>) {
+fn contour(r: &mut Random, scale: f64) -> (Vec<Piece>, Vec<Path>) {
     let (mut pieces, mut paths) = (Vec::new(), Vec::new());
     let (mut p, mut heading) = ([0.0, 0.0], 0.0);
     for _ in 0..3 + (r.next() * 8.0) as usize {
@@ -97,7 +83,7 @@ fn contour(r: &mut Lcg, scale: f64) -> (Vec<Piece>, Vec<Path>) {
 #[test]
 fn lines_and_arcs_keep_the_tolerance() {
     let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(60);
-    let mut r = Lcg(std::env::var("SEED").ok().and_then(|c| c.parse().ok()).unwrap_or(1));
+    let mut r = Random(std::env::var("SEED").ok().and_then(|c| c.parse().ok()).unwrap_or(1));
     for case in 0..count {
         let scale = [0.05, 0.5, 5.0, 30.0][(r.next() * 4.0) as usize];
         let (pieces, paths) = contour(&mut r, scale);

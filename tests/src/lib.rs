@@ -1,5 +1,6 @@
 //! Helpers shared by the cross-crate tests: programs as text, on the built-in machine or a sample machine.
 
+pub mod command;
 pub mod geometry;
 pub mod random;
 

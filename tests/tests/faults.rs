@@ -13,19 +13,14 @@
 //! `open.csv` tells for every ID of the catalogue that has no file why it has none.
 //! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test faults` writes the table of the folder's README anew.
 
-use kontur::console::Console;
-use kontur::run_with;
-use kontur::simulator::Kontur;
 use kontur_interpreter::diag::catalog::{ENTRIES, Entry};
 use kontur_interpreter::diag::{Id, Severity};
+use kontur_tests::command::command;
 use libtest_mimic::{Arguments, Failed, Trial};
-use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fmt::Write as _;
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 
 /// A program for lists that only need an axis to be loaded.
 const PROGRAM: &str = "N10 G01 X1 F1000\nN20 M30\n";
@@ -43,20 +38,6 @@ struct Head {
     options: Vec<String>,
     exit: u8,
     messages: Vec<Said>,
-}
-
-#[derive(Clone, Default)]
-struct Buffer(Rc<RefCell<Vec<u8>>>);
-
-impl Write for Buffer {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.borrow_mut().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
 }
 
 fn folder() -> PathBuf {
@@ -103,30 +84,27 @@ fn head(text: &str) -> Result<Head, Failed> {
 
 /// Calls the command line and reads its messages.
 fn call(
-    command: &str,
+    verb: &str,
     program: &Path,
     options: &[String],
     home: &Path,
 ) -> Result<(u8, Vec<Said>), Failed> {
-    let (out, err) = (Buffer::default(), Buffer::default());
-    let mut console = Console::new(out, err.clone());
-    let mut args: Vec<OsString> = vec!["kontur".into(), command.into(), program.into()];
+    let mut args: Vec<OsString> = vec![verb.into(), program.into()];
     for option in options {
         // the machines of the repository by their names
         let machine = machines().join(option);
         args.push(if machine.is_dir() { machine.into() } else { option.into() });
     }
     args.extend(["--diagnostics", "json"].map(OsString::from));
-    if command == "run" {
+    if verb == "run" {
         args.extend(["--summary", "none"].map(OsString::from));
     }
-    let exit = run_with(args, &mut Kontur, &mut console) as u8;
-    let text = String::from_utf8(err.0.borrow().clone())?;
+    let output = command(args);
     let mut said = Vec::new();
-    for line in text.lines().filter(|line| line.starts_with('{')) {
+    for line in output.err.lines().filter(|line| line.starts_with('{')) {
         said.push(message(line, home)?);
     }
-    Ok((exit, said))
+    Ok((output.exit as u8, said))
 }
 
 fn message(line: &str, home: &Path) -> Result<Said, Failed> {

@@ -282,6 +282,37 @@ fn a_higher_kv_by_improved_position_control() {
     assert!(largest(1.0) > 1.5 * largest(0.0), "{} {}", largest(0.0), largest(1.0));
 }
 
+/// Peaks of path, speed, acceleration and jerk; a ramp from 0 to a = 3500 mm/s2 takes 30 ms.
+#[test]
+fn slopes_of_one_move() {
+    let (a, jerk) = (3500.0, 3500.0 / 0.03);
+    let peak = |curve: &Curve, name: &str| {
+        column(curve, name).iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+    };
+    let curves = drawn("slopes");
+    assert_eq!(curves.len(), 4);
+    let sine = std::f64::consts::FRAC_PI_2 * jerk;
+    for (curve, want) in curves.iter().zip([0.0, jerk, sine, jerk]) {
+        near(peak(curve, "s_mm"), 20.0, 1e-6);
+        near(peak(curve, "v_mm_s"), 150.0, 1e-6);
+        near(peak(curve, "a_mm_s2"), a, 1e-3);
+        // the sine is sampled beside its peak, by up to half a cycle
+        near(peak(curve, "j_mm_s3"), want, 2e-3 * want);
+    }
+    // the border of the blocks lies at 21 mm: only HSC crosses it while it accelerates
+    let borders = drawn("slopes_border");
+    assert_eq!(borders.len(), 3);
+    for (curve, crosses) in borders.iter().zip([false, false, true]) {
+        let border = at(curve, "s_mm", 21.0, "a_mm_s2");
+        if crosses {
+            assert!(border > 0.9 * a, "{border} mm/s2");
+        } else {
+            // the nearest sample is up to a cycle beside it
+            assert!(border < 1e-3 * sine, "{border} mm/s2");
+        }
+    }
+}
+
 /// Every command of the list, as it stands there; those that [`drawn`] measures run there.
 #[test]
 fn every_command_of_the_list_runs() {

@@ -1,7 +1,8 @@
 //! The sample programs: those that must run are clean, those that must fail fail as their first line says.
 
 use kontur_interpreter::diag::Id;
-use kontur_tests::{machine, programs, run, run_on, sample_machine};
+use kontur_tests::{Run, from_polyline, machine, programs, run, run_on, sample_machine};
+use std::ops::RangeInclusive;
 
 fn text(name: &str) -> String {
     std::fs::read_to_string(programs().join(name)).unwrap()
@@ -17,6 +18,8 @@ fn sample_programs_run_clean() {
         "independent_axes",
         "inputs_of_axes",
         "feedhold_and_override",
+        "slopes",
+        "corner_rounding",
     ] {
         let run = run(&text(&format!("{name}.nc")), &[]);
         assert!(!run.totals.aborted, "{name}: {:?}", run.diagnostics);
@@ -30,9 +33,8 @@ fn hsc_square() {
     let run = run_on(sample_machine("xyz_hsc", &[]), &text("square_corner_hsc.nc"));
     assert!(!run.totals.aborted, "{:?}", run.diagnostics);
     assert_eq!(run.totals.filter_delay_cycles[..2], [10.0, 10.0]);
-    let pass = |lines: std::ops::RangeInclusive<u32>| {
-        run.records.iter().filter(move |r| lines.contains(&r.line))
-    };
+    let pass =
+        |lines: RangeInclusive<u32>| run.records.iter().filter(move |r| lines.contains(&r.line));
     let cut = pass(6..=9).map(|r| r.contour_err_mm).fold(0.0, f64::max);
     assert!(cut > 1e-3, "{cut}");
     assert!(pass(11..=14).all(|r| r.axes[0].set.to_bits() == r.axes[0].ipo.to_bits()));
@@ -49,6 +51,106 @@ fn feedforward_lag() {
             .rfind(|r| r.block == Some(block) && (r.axes[0].vel.abs() - 100.0).abs() < 1e-6);
         let lag = last.unwrap().axes[0].lag.abs();
         assert!((lag - want).abs() < 2e-3, "N{block}: {lag} mm, {want} expected");
+    }
+}
+
+/// Time of motion in s over the lines of a program, in whole cycles.
+fn moving_s(run: &Run, lines: &RangeInclusive<u32>) -> f64 {
+    let way: Vec<f64> =
+        run.records.iter().filter(|r| lines.contains(&r.line)).map(|r| r.path.s_mm).collect();
+    let end = way.last().unwrap() - 1e-9;
+    // and the cycle that arrives
+    (way.iter().filter(|s| **s < end).count() + 1) as f64 * run.cycle_s
+}
+
+/// `L/v + v/a`, and one ramp time more where there are ramps; over two blocks TRAPEZ and SIN2 reach the border without
+/// acceleration, so they need the time of two profiles, and HSC needs that of one.
+#[test]
+fn slopes() {
+    let (a, ramp_s, v) = (3500.0, 0.03, 150.0);
+    let one = 20.0 / v + v / a + ramp_s;
+    // the first millimetre is too short for full ramps: L = j T^3 / 8, v1 = j T^2 / 4
+    let jerk = a / ramp_s;
+    let first_s = libm::cbrt(8.0 / jerk);
+    let v1 = jerk * first_s * first_s / 4.0;
+    // and so is the change from v1 to v: a peak below a, T = 2 sqrt(dv / j)
+    let (up_s, down_s) = (2.0 * f64::sqrt((v - v1) / jerk), v / a + ramp_s);
+    let cruise_mm = 19.0 - (v1 + v) / 2.0 * up_s - v / 2.0 * down_s;
+    let two = first_s + up_s + cruise_mm / v + down_s;
+    for (profile, block, both) in
+        [(0, one - ramp_s, one - ramp_s), (1, one, two), (2, one, two), (3, one, one)]
+    {
+        let setting = format!("channel.prog_start.slope.profile={profile}");
+        let run = run(&text("slopes.nc"), &[&setting]);
+        for (lines, want) in [(10..=10, block), (12..=13, both)] {
+            let is = moving_s(&run, &lines);
+            assert!(
+                is >= want - 1e-9 && is < want + 2.0 * run.cycle_s,
+                "slope {profile}, lines {lines:?}: {is} s, {want} s expected"
+            );
+        }
+    }
+}
+
+/// How far every curve stays from the corner, by the formulas of the contouring curve and of the B-spline; and how fast
+/// the corner is passed.
+#[test]
+fn corner_rounding() {
+    let run = run(&text("corner_rounding.nc"), &[]);
+    let sin45 = 0.5_f64.sqrt();
+    let (corner, point) = ([4.5, 0.0], [4.35, 0.15]);
+    let path = |first: u32| -> Vec<(Vec<f64>, f64)> {
+        let pass = run.records.iter().filter(|r| (first..=first + 1).contains(&r.line));
+        pass.map(|r| (vec![r.axes[0].ipo, r.axes[1].ipo], r.path.v_mm_s)).collect()
+    };
+    for (first, near, want) in [
+        (11, corner, 0.0),
+        (14, corner, 0.0),
+        (18, corner, 0.15),
+        (22, corner, 0.375 * sin45),
+        (26, point, 0.0),
+        (30, corner, 0.375 * 0.4 * sin45),
+        (35, corner, 0.08),
+    ] {
+        let points: Vec<Vec<f64>> = path(first).into_iter().map(|(p, _)| p).collect();
+        let to = from_polyline(&near, &points);
+        let least = libm::hypot(to[0], to[1]);
+        // the samples lie on both sides of a corner, or of the middle of a curve
+        let chord = if first == 14 { 2e-3 } else { 5e-4 };
+        assert!((least - want).abs() < chord, "line {first}: {least} mm, {want} mm expected");
+    }
+    let slowest = |first: u32| {
+        let near = |p: &[f64]| libm::hypot(p[0] - corner[0], p[1] - corner[1]) < 0.5;
+        let speeds = path(first).into_iter().filter(|(p, _)| near(p)).map(|(_, v)| v);
+        speeds.fold(f64::INFINITY, f64::min)
+    };
+    assert!(slowest(11).abs() <= 0.0);
+    // both axes change by v within a cycle: 3500 mm/s2 for 1 ms
+    assert!((3.5 - 1e-9..3.6).contains(&slowest(14)), "{}", slowest(14));
+    // on the curve v^3 times its third derivative is at most a / tr_geom; 0.345424 / mm2 with a deviation of 1 mm
+    for (first, dev) in [(18, 0.15), (22, 0.375 * sin45)] {
+        let want = libm::cbrt(3500.0 / 0.01 * dev * dev / 0.345_424);
+        assert!((slowest(first) - want).abs() < 1e-3, "{} mm/s, {want}", slowest(first));
+    }
+}
+
+/// Every sample program has a row with a command that names it.
+#[test]
+fn every_program_is_listed() {
+    let list = text("README.md");
+    for folder in ["", "fail/"] {
+        for file in std::fs::read_dir(programs().join(folder)).unwrap() {
+            let path = file.unwrap().path();
+            if path.extension().is_none_or(|e| e != "nc") {
+                continue;
+            }
+            let name = format!("{folder}{}", path.file_name().unwrap().to_str().unwrap());
+            let row = list.lines().find(|l| l.starts_with(&format!("| `{name}` |")));
+            let row = row.unwrap_or_else(|| panic!("{name} has no row"));
+            let mut code = row.split('`').skip(1).step_by(2);
+            let named = |c: &str| c.starts_with("kontur ") && c.contains(&format!("programs/{name}"));
+            assert!(code.any(named), "{name} has no command");
+        }
     }
 }
 

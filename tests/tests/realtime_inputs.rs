@@ -3,6 +3,7 @@
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
 use kontur_interpreter::record::{AxisRecord, SpeedLimit};
+use kontur_tests::command::command;
 use kontur_tests::{Run, machine, run_with_inputs};
 
 /// 100 mm at 100 mm/s with the linear slope and 1000 mm/s2.
@@ -329,48 +330,26 @@ fn inputs_last_over_machine_data() {
     assert_eq!(run.ids(), [0; 0]);
 }
 
-/// The command line on a sample program and its file: exit code, summary, messages.
-fn command(words: &[&str]) -> (kontur::Exit, String, String) {
-    use std::{cell::RefCell, io::Write, rc::Rc};
-    #[derive(Clone, Default)]
-    struct Text(Rc<RefCell<Vec<u8>>>);
-    impl Write for Text {
-        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-            self.0.borrow_mut().extend_from_slice(bytes);
-            Ok(bytes.len())
-        }
-        fn flush(&mut self) -> std::io::Result<()> {
-            Ok(())
-        }
-    }
-    let (out, err) = (Text::default(), Text::default());
-    let mut console = kontur::console::Console::new(out.clone(), err.clone());
-    let args = ["kontur"].iter().chain(words).map(std::ffi::OsString::from);
-    let exit = kontur::run_with(args, &mut kontur::simulator::Kontur, &mut console);
-    let text = |t: &Text| String::from_utf8(t.0.borrow().clone()).unwrap();
-    (exit, text(&out), text(&err))
-}
-
 /// 3500 mm/s2: at 50 mm/s from 0.4143 s on; held from the tick behind 0.8143 s to 1.2 s.
 #[test]
 fn sample_of_feedhold_and_override() {
     let file = |name: &str| kontur_tests::programs().join(name).display().to_string();
     let (program, csv) = (file("feedhold_and_override.nc"), file("feedhold_and_override.csv"));
-    let (exit, summary, _) = command(&["run", &program, "--input", &csv, "--summary", "json"]);
-    assert_eq!(exit, kontur::Exit::Finished);
-    assert!(summary.contains("\"held_s\":0.385,"), "{summary}");
-    let (_, text, _) = command(&["run", &program, "--input", &csv]);
+    let json = command(["run", &program, "--input", &csv, "--summary", "json"]);
+    assert_eq!(json.exit, kontur::Exit::Finished);
+    assert!(json.out.contains("\"held_s\":0.385,"), "{json:?}");
+    let text = command(["run", &program, "--input", &csv]).out;
     assert!(text.contains("held           0.385 s"), "{text}");
     // what is wrong with a file refuses run and check; a file that is not there is no mistake in one
     for verb in ["run", "check"] {
-        let (exit, _, messages) = command(&[verb, &program, "--input", &program]);
-        assert_eq!(exit, kontur::Exit::Usage);
-        assert!(messages.contains("K-0076") && messages.contains("t_s"), "{messages}");
-        let (exit, _, _) = command(&[verb, &program, "--input", "no_such_file.csv"]);
-        assert_eq!(exit, kontur::Exit::Io);
+        let refused = command([verb, &program, "--input", &program]);
+        assert_eq!(refused.exit, kontur::Exit::Usage);
+        assert!(refused.err.contains("K-0076") && refused.err.contains("t_s"), "{refused:?}");
+        let absent = command([verb, &program, "--input", "no_such_file.csv"]);
+        assert_eq!(absent.exit, kontur::Exit::Io);
     }
-    let (exit, _, messages) = command(&["run", &program, "--input", &csv, "-o", &csv]);
-    assert_eq!(exit, kontur::Exit::Usage, "{messages}");
+    let both = command(["run", &program, "--input", &csv, "-o", &csv]);
+    assert_eq!(both.exit, kontur::Exit::Usage, "{both:?}");
 }
 
 /// The three closed forms that the program's head states.

@@ -1,39 +1,10 @@
 //! `kontur report` and `kontur tune` on real runs: what the pages show, and what is proposed for a program.
 
-use kontur::console::Console;
-use kontur::simulator::Kontur;
-use kontur::{Exit, run_with};
+use kontur::Exit;
+use kontur_tests::command::command;
 use kontur_tests::{Run, programs, run};
 use serde_json::Value;
-use std::cell::RefCell;
-use std::ffi::OsString;
-use std::io::Write;
 use std::path::Path;
-use std::rc::Rc;
-
-#[derive(Clone, Default)]
-struct Buffer(Rc<RefCell<Vec<u8>>>);
-
-impl Write for Buffer {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.borrow_mut().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-/// A command line, `kontur` in front; what it prints.
-fn call(words: &[&str]) -> (Exit, String) {
-    let out = Buffer::default();
-    let mut console = Console::new(out.clone(), Vec::new());
-    let words = std::iter::once("kontur").chain(words.iter().copied()).map(OsString::from);
-    let exit = run_with(words, &mut Kontur, &mut console);
-    let text = String::from_utf8(out.0.borrow().clone()).unwrap();
-    (exit, text)
-}
 
 fn path(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().unwrap().to_owned()
@@ -52,7 +23,7 @@ fn page(texts: &[&str], settings: &str) -> Vec<Value> {
     words.extend(settings.split_whitespace().flat_map(|s| ["--set".to_owned(), s.to_owned()]));
     words.extend(["-o".to_owned(), html.clone()]);
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    assert_ne!(call(&words).0, Exit::Usage, "{words:?}");
+    assert_ne!(command(&words).exit, Exit::Usage, "{words:?}");
     let html = std::fs::read_to_string(html).unwrap();
     let data = html.split("type=\"application/json\">").nth(1).unwrap();
     serde_json::from_str(data.split("</script>").next().unwrap()).unwrap()
@@ -95,7 +66,7 @@ fn the_three_passes_of_the_square_are_overlaid() {
     let square = programs().join("square_corner.nc");
     let folder = tempfile::tempdir().unwrap();
     let svg = path(folder.path(), "square.svg");
-    assert_eq!(call(&["report", square.to_str().unwrap(), "-o", &svg]).0, Exit::Finished);
+    assert_eq!(command(["report", square.to_str().unwrap(), "-o", &svg]).exit, Exit::Finished);
     let picture = std::fs::read_to_string(svg).unwrap();
     let errors: Vec<f64> = (1..=3)
         .map(|pass| {
@@ -175,7 +146,8 @@ fn a_choice_for_a_program_does_what_it_says() {
     let part = path(folder.path(), "part.nc");
     let blocks = "G90 G01 F3000\nX4\nY4\nX1 Y2\nX0 Y0\nM30\n";
     std::fs::write(&part, format!("%PART\n{blocks}")).unwrap();
-    let (exit, text) = call(&["tune", "--freq", "38,42", "--program", &part, "--max-dev", "0.01"]);
+    let output = command(["tune", "--freq", "38,42", "--program", &part, "--max-dev", "0.01"]);
+    let (exit, text) = (output.exit, output.out);
     assert_eq!(exit, Exit::Finished, "{text}");
     let line = text.lines().find_map(|l| l.strip_prefix("choice    ")).unwrap();
     assert!(line.starts_with("#VIB GUARD ON [MODE=") && line.ends_with(" AX_DEV=0.01]"), "{line}");
@@ -197,6 +169,6 @@ fn a_choice_for_a_program_does_what_it_says() {
     }
     assert!(rows.iter().any(|r| r.contains(" 0.01 ") && r.ends_with("yes")), "{text}");
     // a bound that nothing leaves costs nothing, and stands in the line all the same
-    let (_, text) = call(&["tune", "--freq", "38,42", "--program", &part, "--max-dev", "5"]);
+    let text = command(["tune", "--freq", "38,42", "--program", &part, "--max-dev", "5"]).out;
     assert!(text.contains(" AX_DEV=5]\n"), "{text}");
 }

@@ -1,47 +1,26 @@
 //! Programs made to break an interpreter: each ends, and with its diagnostic, through the command line.
 
-use kontur::console::Console;
-use kontur::simulator::Kontur;
-use kontur::{Exit, run_with};
-use std::cell::RefCell;
+use kontur::Exit;
+use kontur_tests::command::command;
 use std::ffi::OsString;
-use std::io::Write;
-use std::rc::Rc;
-
-#[derive(Clone, Default)]
-struct Buffer(Rc<RefCell<Vec<u8>>>);
-
-impl Write for Buffer {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.borrow_mut().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
 
 /// Exit, IDs with line and column, and what `run` printed on stdout.
-fn call(command: &str, text: &str, options: &[&str]) -> (Exit, Vec<String>, String) {
+fn call(verb: &str, text: &str, options: &[&str]) -> (Exit, Vec<String>, String) {
     let folder = tempfile::tempdir().unwrap();
     let program = folder.path().join("part.nc");
     std::fs::write(&program, text).unwrap();
-    let (out, err) = (Buffer::default(), Buffer::default());
-    let mut console = Console::new(out.clone(), err.clone());
-    let mut args: Vec<OsString> = vec!["kontur".into(), command.into(), program.into()];
+    let mut args: Vec<OsString> = vec![verb.into(), program.into()];
     args.extend(["--diagnostics", "json"].map(OsString::from));
     args.extend(options.iter().map(OsString::from));
-    let exit = run_with(args, &mut Kontur, &mut console);
-    let err = String::from_utf8(err.0.borrow().clone()).unwrap();
-    let said = err.lines().filter(|l| l.starts_with('{')).map(|line| {
+    let output = command(args);
+    let said = output.err.lines().filter(|l| l.starts_with('{')).map(|line| {
         let json: serde_json::Value = serde_json::from_str(line).unwrap();
         let id = json["id"].as_u64().map(|id| id.to_string());
         let id = id.or_else(|| json["kontur_id"].as_str().map(str::to_owned)).unwrap();
         format!("{id} {}:{}", json["source"]["line"], json["source"]["column"])
     });
     let said = said.collect();
-    (exit, said, String::from_utf8(out.0.borrow().clone()).unwrap())
+    (output.exit, said, output.out)
 }
 
 /// What `check` and `run` both say, and that both refuse the program.

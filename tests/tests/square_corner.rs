@@ -135,13 +135,11 @@ fn same_bits_again() {
 fn same_bytes_as_the_release_build() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("t.csv");
-    let words = ["kontur", "run", "--signals", "time,ipo,set", "--summary", "none"];
+    let words = ["run", "--signals", "time,ipo,set", "--summary", "none"];
     let mut args: Vec<std::ffi::OsString> = words.iter().map(Into::into).collect();
     args.push(programs().join("square_corner.nc").into());
     args.extend(["-o".into(), out.clone().into()]);
-    let mut console = kontur::console::Console::new(std::io::sink(), std::io::sink());
-    let exit = kontur::run_with(args, &mut kontur::simulator::Kontur, &mut console);
-    assert_eq!(exit, kontur::Exit::Finished);
+    assert_eq!(kontur_tests::command::command(args).exit, kontur::Exit::Finished);
     let golden = programs().join("../tests/golden/square_corner.csv");
     let (fresh, golden) = (std::fs::read(out).unwrap(), std::fs::read(golden).unwrap());
     assert!(fresh == golden, "`kontur diff` of the two shows where they differ");

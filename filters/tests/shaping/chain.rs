@@ -18,7 +18,8 @@ use std::sync::Arc;
 
 const MS: CycleTime = CycleTime::DEFAULT;
 const POSITION_MM: f64 = 1000.123456789;
-const KINDS: [FilterKind; 8] = [
+/// Every standard filter.
+pub(crate) const KINDS: [FilterKind; 8] = [
     FilterKind::LowPass,
     FilterKind::HighPass,
     FilterKind::BandPass,

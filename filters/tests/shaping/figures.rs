@@ -1,5 +1,6 @@
 //! What the axis filter manual says in words and shows in its figures, as numbers.
 
+use crate::chain::KINDS;
 use crate::corner::{corner, forward_backward_gap, path};
 use crate::reference::assert_close;
 use kontur_filters::fir::{FirConfig, FirKind};
@@ -381,16 +382,7 @@ fn keys_without_meaning_change_nothing() {
         step_response(&mut filter, 200).into_iter().map(f64::to_bits).collect::<Vec<_>>()
     };
     let base = FilterConfig { order: 2, time_constant_us: 5000, ..FilterConfig::default() };
-    for kind in [
-        FilterKind::LowPass,
-        FilterKind::HighPass,
-        FilterKind::BandPass,
-        FilterKind::BandStop,
-        FilterKind::AllPass,
-        FilterKind::Pt1,
-        FilterKind::Pt2,
-        FilterKind::TimeDelay,
-    ] {
+    for kind in KINDS {
         let base = FilterConfig { kind, ..base };
         let same = |other: &FilterConfig| y(&base) == y(other);
         let band = matches!(kind, FilterKind::BandPass | FilterKind::BandStop);

@@ -3,6 +3,7 @@
 use crate::Error;
 use crate::args::setting;
 use crate::response::args::Numbers;
+use kontur_interpreter::machine::Override;
 use std::str::FromStr;
 
 /// More combinations than this are a slip of the hand.
@@ -53,6 +54,14 @@ impl Vary {
         self.key.rsplit('.').next().unwrap_or(&self.key)
     }
 
+    /// What the parameter is, with its ID, as `explain` says it.
+    pub(crate) fn meaning(&self) -> Option<String> {
+        let row = Override::parse(&format!("{}={}", self.key, self.values.first()?)).ok()?;
+        let row = row.parameter()?;
+        let id = if row.id.is_empty() { String::new() } else { format!(" ({})", row.id) };
+        Some(format!("{}{id}: {}", self.short(), row.meaning))
+    }
+
     /// The values as numbers, if all of them are.
     pub(crate) fn numbers(&self) -> Option<Vec<f64>> {
         self.values.iter().map(|v| v.parse().ok()).collect()
@@ -95,6 +104,10 @@ mod tests {
         assert_eq!(values("X.a=1..3"), ["1", "2", "3"]);
         assert_eq!(values("X.a=0.1..0.3:0.1,7"), ["0.1", "0.2", "0.3", "7"]);
         assert_eq!(values("X.v=NONE,VEL, VEL|ACC"), ["NONE", "VEL", "VEL|ACC"]);
+        let vary: Vary = "channel.prog_start.slope.profile=0..3".parse().unwrap();
+        let meaning = vary.meaning().unwrap();
+        assert!(meaning.starts_with("profile (P-CHAN-00071): slope at program start"), "{meaning}");
+        assert_eq!("X.a=1".parse::<Vary>().unwrap().meaning(), None);
         for wrong in ["X.a", "a=1", "X.=1", "X.a=3..1", "X.a=1..2:0"] {
             assert!(wrong.parse::<Vary>().is_err(), "{wrong}");
         }

@@ -11,17 +11,20 @@
 //! manual lists by angle.
 //! Assumption: the approach for every angle between approach and first element.
 
+mod corner;
+mod element;
+
 use super::arc::Point;
 use super::bottleneck::{Cut, Watch};
 use super::contour::{Compensated, Motion};
 use super::fault::{Fault, own};
-use super::planar::{Curve, Side, cross, dot, intersections, norm, sub};
+use super::planar::{Side, cross, dot};
 use super::step::{Event, SourceRef, Sync};
 use crate::syntax::ast::Span;
-use kontur_motion::axis::AxisVec;
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path, Tilt};
+use corner::{above, corner_arc, inner_corner, straight, straight_corner};
+use element::{Element, emit_between, line, moving_side};
+use kontur_motion::path::Tilt;
 use smallvec::SmallVec;
-use std::f64::consts::{PI, TAU};
 
 /// Steps between two motions that a corner may wait for.
 const BETWEEN_MAX: usize = 1000;
@@ -31,17 +34,6 @@ const BETWEEN_MAX: usize = 1000;
 pub(super) enum Item {
     Motion(Box<Motion>),
     Sync { what: Sync, source: SourceRef, events: Vec<Event> },
-}
-
-/// An element whose end is not known yet.
-#[derive(Debug)]
-struct Element {
-    motion: Box<Motion>,
-    side: Side,
-    /// Where the tool's centre begins.
-    start: Point,
-    /// The line that leads to the parallel: its direction is not that of the contour.
-    approach: bool,
 }
 
 /// Compensation in force.
@@ -322,208 +314,6 @@ impl Active {
         out.extend(line.map(Item::Motion));
         Ok(())
     }
-}
-
-/// Points of an outer corner between prolonged tangents: their intersection up to a quarter turn, beyond it two points
-/// at the radius from the ends of the parallels.
-fn straight_corner(
-    u: Point,
-    w: Point,
-    before: Point,
-    after: Point,
-    radius: f64,
-) -> SmallVec<[Point; 3]> {
-    let cos = dot(u, w);
-    if cos > -1e-12 {
-        // radius * tan(half of the angle)
-        let d = radius * cross(u, w).abs() / (1.0 + cos);
-        return SmallVec::from_slice(&[[before[0] + d * u[0], before[1] + d * u[1]]]);
-    }
-    SmallVec::from_slice(&[
-        [before[0] + radius * u[0], before[1] + radius * u[1]],
-        [after[0] - radius * w[0], after[1] - radius * w[1]],
-    ])
-}
-
-/// A line that compensation inserts, with the other axes where `at` has them.
-fn straight(
-    template: &Motion,
-    at: &AxisVec,
-    plane: [usize; 2],
-    from: Point,
-    to: Point,
-) -> Option<Box<Motion>> {
-    let place = |p: Point| {
-        let mut v = at.clone();
-        (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
-        v
-    };
-    let path = LinePath::new(place(from), place(to), &template.block.dynamics.feed_axes)?;
-    let mut motion = template.clone();
-    motion.block.path = Path::Line(path);
-    motion.events.clear();
-    Some(Box::new(motion))
-}
-
-impl Element {
-    /// The element from its start to `end`, both on the parallel.
-    fn emit(
-        self,
-        end: Point,
-        plane: [usize; 2],
-        distance: f64,
-        out: &mut Vec<Item>,
-    ) -> Fallible<()> {
-        let Self { mut motion, side, start, approach } = self;
-        let source = motion.source;
-        let path = match &side {
-            Side::Line { .. } => {
-                let along = dot(sub(end, start), side.tangent(false));
-                if along < 0.0 && !approach {
-                    return Err(too_tight(&motion));
-                }
-                line(&motion, plane, start, end)
-            }
-            Side::Arc { centre, radius, sweep_rad, .. } => {
-                let new_radius =
-                    if *sweep_rad > 0.0 { radius - distance } else { radius + distance };
-                if new_radius <= 0.0 {
-                    let text = format!(
-                        "tool radius {} mm is too large for an arc of radius {radius} mm",
-                        distance.abs()
-                    );
-                    return Err(Fault::vendor(90031, text, motion.span).in_block(source));
-                }
-                let sweep_rad = trimmed(&side, start, end);
-                if sweep_rad * side_sweep(&side) <= 0.0 {
-                    return Err(too_tight(&motion));
-                }
-                let shape = ArcShape { plane, centre_mm: *centre, sweep_rad };
-                let (from, to) = ends(&motion, plane, start, end);
-                ArcPath::new(from, to, shape, &motion.block.dynamics.feed_axes).map(Path::Arc)
-            }
-        };
-        if let Some(path) = path {
-            motion.block.path = path;
-            out.push(Item::Motion(motion));
-        }
-        Ok(())
-    }
-}
-
-/// Start and end of a motion with other places in the plane.
-fn ends(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> (AxisVec, AxisVec) {
-    let place = |v: &AxisVec, p: Point| {
-        let mut v = v.clone();
-        (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
-        v
-    };
-    (place(motion.block.path.start(), start), place(motion.block.path.end(), end))
-}
-
-fn line(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> Option<Path> {
-    let (from, to) = ends(motion, plane, start, end);
-    LinePath::new(from, to, &motion.block.dynamics.feed_axes).map(Path::Line)
-}
-
-/// The part of a motion within the plane; `None` if it does not move there.
-fn moving_side(motion: &Motion, plane: [usize; 2]) -> Fallible<Option<Side>> {
-    let path = &motion.block.path;
-    let moves = plane.iter().any(|i| path.start()[*i].to_bits() != path.end()[*i].to_bits());
-    if !moves && path.is_straight() {
-        return Ok(None);
-    }
-    if let Some(side) = Side::of(path, plane) {
-        Ok(Some(side))
-    } else {
-        let what = "an arc outside the plane with tool radius compensation";
-        Err(Fault::unsupported(what, motion.span))
-    }
-}
-
-/// The point at a distance to the left of a direction.
-fn above(p: Point, direction: Point, distance: f64) -> Point {
-    [p[0] - distance * direction[1], p[1] + distance * direction[0]]
-}
-
-/// Steps between two motions, at the place of the tool.
-fn emit_between(between: Vec<Item>, at: Point, plane: [usize; 2], out: &mut Vec<Item>) {
-    for item in between {
-        match item {
-            Item::Motion(mut motion) => {
-                if let Some(path) = line(&motion, plane, at, at) {
-                    motion.block.path = path;
-                    out.push(Item::Motion(motion));
-                }
-            }
-            Item::Sync { .. } => out.push(item),
-        }
-    }
-}
-
-/// Arc about an outer corner.
-fn corner_arc(
-    before: &Motion,
-    after: &Motion,
-    plane: [usize; 2],
-    corner: Point,
-    from: Point,
-    to: Point,
-    distance: f64,
-) -> Option<Item> {
-    let (a, b) = (sub(from, corner), sub(to, corner));
-    let angle = libm::atan2(cross(a, b), dot(a, b));
-    // to the left of the contour the tool turns clockwise about the corner
-    let sweep_rad = match (distance > 0.0, angle > 0.0) {
-        (true, true) => angle - TAU,
-        (false, false) => angle + TAU,
-        _ => angle,
-    };
-    let shape = ArcShape { plane, centre_mm: corner, sweep_rad };
-    let place = |p: Point| {
-        let mut v = after.block.path.start().clone();
-        (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
-        v
-    };
-    let feed_axes = &after.block.dynamics.feed_axes;
-    let path = ArcPath::new(place(from), place(to), shape, feed_axes)?;
-    let mut arc = before.clone();
-    arc.block.path = Path::Arc(path);
-    arc.events.clear();
-    Some(Item::Motion(Box::new(arc)))
-}
-
-/// Intersection of the parallels nearest to the corner, if it lies on both elements.
-fn inner_corner(a: &Side, b: &Side, corner: Point, distance: f64) -> Option<Point> {
-    let (p, q): (Curve, Curve) = (a.parallel(distance), b.parallel(distance));
-    intersections(&p, &q)
-        .into_iter()
-        .filter(|x| on(a, a.foot(*x)) && on(b, b.foot(*x)))
-        .min_by(|x, y| norm(sub(*x, corner)).total_cmp(&norm(sub(*y, corner))))
-}
-
-fn on(side: &Side, foot: Point) -> bool {
-    (-1e-9..=1.0 + 1e-9).contains(&side.share_of(foot))
-}
-
-fn side_sweep(side: &Side) -> f64 {
-    match side {
-        Side::Line { .. } => 0.0,
-        Side::Arc { sweep_rad, .. } => *sweep_rad,
-    }
-}
-
-/// Swept angle of an arc between other ends; a trim is less than half a turn.
-fn trimmed(side: &Side, start: Point, end: Point) -> f64 {
-    let Side::Arc { centre, start_rad, sweep_rad, .. } = side else { return 0.0 };
-    let angle = |p: Point| {
-        let r = sub(p, *centre);
-        libm::atan2(r[1], r[0])
-    };
-    let small = |x: f64| x - TAU * ((x + PI) / TAU).floor();
-    let at_start = small(angle(start) - start_rad);
-    let at_end = small(angle(end) - (start_rad + sweep_rad));
-    sweep_rad - at_start + at_end
 }
 
 fn circular(motion: &Motion) -> Box<Fault> {

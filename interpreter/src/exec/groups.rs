@@ -185,7 +185,7 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
 }
 
 const STEP_ONLY: &str = "it concerns the change of feed with the linear slope only";
-const FEED_HOLD: &str = "feed hold is not simulated";
+const FEED_HOLD: &str = "weights of feed hold are not simulated";
 const THREADS: &str = "thread cutting and tapping";
 const TURNING: &str = "turning";
 const MEASURING: &str = "measuring";

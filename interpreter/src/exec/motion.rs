@@ -1,20 +1,23 @@
 //! The motion of a block: target, path, feed and limits; or the dwell.
 
-use super::arc::{self, ArcError};
-use super::contour::{Compensated, Motion, local_ends};
+mod arcs;
+mod feed;
+mod limits;
+
+use super::contour::{Compensated, Motion};
 use super::coordinates::Target;
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome, own};
 use super::groups::{Act, Group};
 use super::insertion::{Insertion, Kind};
-use super::modal::{Compensation, Corners, FeedType, PathMode};
+use super::modal::{Compensation, Corners, PathMode};
 use super::step::Sync;
-use super::words::{GWord, Placed, Words};
+use super::words::{GWord, Words};
 use crate::diag::ValueKind;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path, Tilt, TiltedArc};
+use kontur_motion::path::{LinePath, Path, Tilt};
 
 /// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
 const DWELL_MAX_S: f64 = 4294.967295;
@@ -279,247 +282,9 @@ impl Decoder {
         Ok(Some(Tilt { axes, m: frame.m, t_mm }))
     }
 
-    /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round.
-    fn check_limits(&mut self, path: &Path, words: &Words<'_>, span: Span) {
-        let Some((low, high)) = path.extent() else { return };
-        for axis in 0..low.len() {
-            let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
-            let end = path.end()[axis];
-            if let Some(fault) = self.outside_limits(axis, low[axis], high[axis], Some(end), at) {
-                self.note(fault);
-            }
-        }
-    }
-
-    /// Compensated motions against the software limits.
-    pub(super) fn limits_of_compensated(&mut self) -> Vec<Fault> {
-        let mut faults = Vec::new();
-        for (low, high, source, span) in self.contour.take_driven() {
-            for axis in 0..low.len() {
-                let fault = self.outside_limits(axis, low[axis], high[axis], None, span);
-                faults.extend(fault.map(|f| *f.in_block(source)));
-            }
-        }
-        faults
-    }
-
-    /// 21897 for an axis that moves between `low` and `high` and leaves its limits.
-    fn outside_limits(
-        &self,
-        axis: usize,
-        low: f64,
-        high: f64,
-        end: Option<f64>,
-        span: Span,
-    ) -> Option<Box<Fault>> {
-        if low.to_bits() == high.to_bits() {
-            return None;
-        }
-        let limits @ (least, most) = self.limits_mm[axis]?;
-        let outside = |x: f64| !(least..=most).contains(&x);
-        // the path leaves out what the axis has gone as an independent axis
-        let way = self.independent.way[axis];
-        let (low, high) = (low + way, high + way);
-        // the end of the block is what the program says
-        let (what, x) = match end.map(|end| end + way).filter(|end| outside(*end)) {
-            Some(end) => ("target", end),
-            None if outside(low) => ("lowest position", low),
-            None if outside(high) => ("highest position", high),
-            None => return None,
-        };
-        Some(self.limit_fault(axis, what, x, limits, span))
-    }
-
-    /// 21897 for a target outside the software limits of its axis.
-    pub(super) fn check_limit(&mut self, axis: usize, target: f64, at: Span) {
-        let Some(limits @ (low, high)) = self.limits_mm[axis] else { return };
-        if !(low..=high).contains(&target) {
-            let fault = self.limit_fault(axis, "target", target, limits, at);
-            self.note(fault);
-        }
-    }
-
-    fn limit_fault(
-        &self,
-        axis: usize,
-        what: &str,
-        x: f64,
-        (least, most): (f64, f64),
-        span: Span,
-    ) -> Box<Fault> {
-        let name = self.axis_name(axis).to_owned();
-        let number = self.machine.axes[axis].number();
-        let text = format!("axis {name}: {what} {x} is outside its limits {least} to {most}");
-        let fault = Fault::vendor(21897, text, span).with(|d| {
-            d.axis(number, name)
-                .value(ValueKind::Current, x * 1e4, "0.1um")
-                .value(ValueKind::LowerLimit, least * 1e4, "0.1um")
-                .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
-                .parameter("P-AXIS-00177")
-        });
-        let behaviour = self.machine.axes[axis].text("kenngr.swe_behaviour");
-        if behaviour.as_deref() == Some("WARNING") { fault.warning() } else { fault }
-    }
-
     /// Position of the axes without the ways that they have gone as independent axes.
     fn on_path(&self, position: &AxisVec) -> AxisVec {
         position.iter().zip(self.independent.way.iter()).map(|(x, way)| x - way).collect()
-    }
-
-    fn arc(&mut self, from: &AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
-        let from = &self.on_path(from);
-        let target = self.on_path(self.coordinates.target());
-        let main = self.modal.plane.main_axes();
-        let tilt = self.tilt(span)?;
-        let image = self.coordinates.frame().image_of_plane(main[0], main[1]);
-        // askew to the axes the arc is one of the coordinate system
-        let (image, keeps_sense) =
-            image.filter(|_| tilt.is_none()).unwrap_or(([main[0], main[1]], true));
-        let (start, end) = match &tilt {
-            Some(tilt) => local_ends(tilt, from, &target),
-            None => (from.clone(), target.clone()),
-        };
-        let axis = |m: usize| {
-            self.coordinates.main_axis(m).ok_or_else(|| {
-                let text = "the plane of the arc has no axis in the channel";
-                Fault::vendor(20200, text, span)
-            })
-        };
-        let plane = [axis(image[0])?, axis(image[1])?];
-        let in_plane = |p: &AxisVec| [p[plane[0]], p[plane[1]]];
-        let (s, e) = (in_plane(&start), in_plane(&end));
-        let ccw = (self.modal.path == PathMode::CounterClockwise) == keeps_sense;
-        let centre_words = [words.centre[main[0]], words.centre[main[1]]];
-        let has_centre = centre_words.iter().any(Option::is_some);
-        if let Some((radius, at)) = words.radius {
-            if has_centre {
-                let text = "centre and radius in one block";
-                return Err(Fault::vendor(21024, text, at));
-            }
-            self.modal.radius_mm = Some(radius * self.unit_mm());
-        }
-        let found = if let (false, Some(radius)) = (has_centre, self.modal.radius_mm) {
-            arc::by_radius(s, e, radius, ccw)
-        } else {
-            let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
-            let limits = &self.machine.channel.arc_centre;
-            arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
-        };
-        let at = words.radius.or(centre_words[0]).or(centre_words[1]);
-        let g = words.group(Group::Path).map_or(span, |g| g.span);
-        let at = at.map_or(g, |(_, at)| at);
-        let mut arc = found.map_err(|e| arc_fault(e, at))?;
-        let pitch_word = words.centre[main[2]];
-        if let Some((pitch, at)) = pitch_word {
-            let normal =
-                (0..3).find(|i| !image.contains(i)).and_then(|m| self.coordinates.main_axis(m));
-            let height = normal.map_or(0.0, |axis| end[axis] - start[axis]);
-            if pitch == 0.0 || height == 0.0 {
-                if pitch != 0.0 {
-                    let text = "a pitch has no meaning without a way along the third axis";
-                    self.note(Fault::kontur(own::ODD, text, at).warning());
-                }
-            } else {
-                arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch * self.unit_mm());
-            }
-        }
-        self.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
-        self.last_arc.plane = image;
-        self.last_arc.shift_mm = arc.shift;
-        self.last_arc.radius_mm =
-            libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
-        let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
-        let arc = ArcPath::new(start, end, shape, &self.feed_axes)
-            .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))?;
-        Ok(match tilt {
-            Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, tilt, from.clone(), target))),
-            None => Path::Arc(arc),
-        })
-    }
-
-    /// Centre in the coordinates of the axes, or of the program if the plane lies askew to them.
-    fn centre(
-        &self,
-        start: &AxisVec,
-        main: [usize; 3],
-        image: [usize; 2],
-        tilted: bool,
-        words: [Option<Placed>; 2],
-    ) -> [f64; 2] {
-        let value = |w: Option<Placed>| w.map_or(0.0, |(v, _)| v * self.unit_mm());
-        let from = |m: usize| self.coordinates.main_axis(m).map_or(0.0, |axis| start[axis]);
-        if tilted {
-            let c = words.map(value);
-            if self.modal.centre_absolute {
-                return c;
-            }
-            return [from(image[0]) + c[0], from(image[1]) + c[1]];
-        }
-        let mut p = [0.0; 3];
-        (p[main[0]], p[main[1]]) = (value(words[0]), value(words[1]));
-        if self.modal.centre_absolute {
-            let q = self.coordinates.to_machine(p);
-            let way = |m: usize| {
-                self.coordinates.main_axis(m).map_or(0.0, |axis| self.independent.way[axis])
-            };
-            return [q[image[0]] - way(image[0]), q[image[1]] - way(image[1])];
-        }
-        let d = self.coordinates.frame().direction(p);
-        [from(image[0]) + d[image[0]], from(image[1]) + d[image[1]]]
-    }
-
-    /// Feed of a block with this path.
-    fn feed_of(&mut self, path: &Path, span: Span) -> Outcome<Feed> {
-        if self.modal.path == PathMode::Rapid {
-            return Ok(Feed::Rapid);
-        }
-        let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
-            let key = "20008".to_owned();
-            let text = "the feed is 0: no F word has been programmed";
-            self.note_once(&key, Fault::vendor(20008, text, span));
-            // the block is left out, the positions go on
-            return Ok(Feed::PathVelocity(1.0));
-        };
-        let unit_mm = if word.inch && self.feed_is_linear(path) { 25.4 } else { 1.0 };
-        Ok(match self.modal.feed_type {
-            FeedType::PerMinute => Feed::PathVelocity(
-                word.value * unit_mm * self.machine.channel.feed_unit_mm_min / 60.0,
-            ),
-            FeedType::Time => Feed::Duration(word.value),
-            FeedType::ShareOfMaximum => Feed::ShareOfMaximum(word.value / 100.0),
-            FeedType::PerRevolution => {
-                let rpm = self.spindles[0].rpm.abs();
-                if rpm == 0.0 {
-                    let text = "feed per revolution, but the main spindle has no speed";
-                    return Err(Fault::vendor(60132, text, span));
-                }
-                Feed::PathVelocity(word.value * unit_mm * rpm / 60.0)
-            }
-        })
-    }
-
-    /// True unless only rotary axes move.
-    fn feed_is_linear(&self, path: &Path) -> bool {
-        !path.is_straight()
-            || (0..path.start().len())
-                .any(|i| self.is_linear(i) && path.start()[i].to_bits() != path.end()[i].to_bits())
-    }
-
-    /// Unit of an F word with G94 in mm/s.
-    pub(super) fn feed_unit_mm_s(&self) -> f64 {
-        self.unit_mm() * self.machine.channel.feed_unit_mm_min / 60.0
-    }
-
-    fn end_velocity(&self, (value, span): Placed, feed: Feed) -> Outcome<Option<f64>> {
-        let Feed::PathVelocity(v) = feed else {
-            let text = "E acts only with G94 and not in rapid traverse";
-            return Err(Fault::kontur(own::SYNTAX, text, span));
-        };
-        if self.modal.feed_type != FeedType::PerMinute || value < 0.0 {
-            let text = "E acts only with G94 and is not negative";
-            return Err(Fault::kontur(own::SYNTAX, text, span));
-        }
-        Ok(Some((value * self.feed_unit_mm_s()).min(v)))
     }
 
     /// Chamfer or rounding in front of the next motion.
@@ -527,47 +292,6 @@ impl Decoder {
         let insertion = Insertion { kind, size_mm, feed_mm_s, span, source: self.source };
         if let Some(fault) = self.contour.insert(insertion) {
             self.note(fault);
-        }
-    }
-}
-
-/// The diagnostic of an arc that does not exist.
-fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
-    match error {
-        ArcError::RadiusZero => {
-            Fault::vendor(20036, "the radius of the arc is 0", span).hint("is I, J or K missing?")
-        }
-        ArcError::FullCircleWithRadius => {
-            let text = "a full circle cannot be programmed with R";
-            Fault::vendor(20034, text, span).hint("use I, J, K")
-        }
-        ArcError::RadiusTooSmall { radius, half_chord } => {
-            let text = format!(
-                "radius {} is smaller than half the chord, {half_chord:.6} mm",
-                radius.abs()
-            );
-            Fault::kontur(own::RADIUS_TOO_SMALL, text, span)
-        }
-        ArcError::CentreTooFar { shift, limit } => {
-            let text = format!(
-                "start, end and centre do not fit: the centre would have to move by {shift:.6} mm, at most {limit:.6} mm"
-            );
-            Fault::kontur(own::ARC_CENTRE, text, span)
-                .with(|d| d.parameter("P-CHAN-00059"))
-                .hint("G161 makes I, J, K absolute, G162 relative to the start point")
-        }
-        ArcError::RadiiDiffer { start, end, limit } => {
-            let text = format!(
-                "the radii at start and end differ by {:.6} mm, at most {limit:.6} mm",
-                (start - end).abs()
-            );
-            Fault::vendor(21758, text, span).with(|d| {
-                d.value(ValueKind::Current, (start - end).abs() * 1e4, "0.1um")
-                    .value(ValueKind::Limit, limit * 1e4, "0.1um")
-                    .value(ValueKind::StartValue, start * 1e4, "0.1um")
-                    .value(ValueKind::TargetValue, end * 1e4, "0.1um")
-                    .parameter("P-CHAN-00171")
-            })
         }
     }
 }

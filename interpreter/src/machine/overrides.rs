@@ -57,6 +57,17 @@ impl Override {
         Ok(())
     }
 
+    /// The parameter that is set, if the key is one.
+    pub fn parameter(&self) -> Option<&'static Row> {
+        let kind = match self.target.as_str() {
+            "channel" => ListKind::Channel,
+            "start_up" => ListKind::StartUp,
+            "kontur" => ListKind::Kontur,
+            _ => ListKind::Axis,
+        };
+        self.resolve(kind).ok().map(|(row, _)| row)
+    }
+
     fn resolve(&self, kind: ListKind) -> Result<(&'static Row, Indices), Box<Diagnostic>> {
         let key = Key::parse(&self.key);
         if let Some(found) = key.as_ref().and_then(|key| key.resolve(kind)) {

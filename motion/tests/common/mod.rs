@@ -5,6 +5,8 @@
     reason = "a helper of tests, every file uses its own part"
 )]
 
+pub(crate) mod random;
+
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};

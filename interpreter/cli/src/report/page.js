@@ -1,12 +1,14 @@
 "use strict";
 const runs = JSON.parse(document.getElementById("data").textContent);
-const COLOURS = ["#1c6dd0", "#d9480f", "#2b8a3e", "#9c36b5", "#0c8599", "#b08900"];
+const COLOURS = ["#1c6dd0", "#d9480f", "#2b8a3e", "#9c36b5", "#0c8599", "#b08900", "#e64980", "#495057"];
 const KINDS = [
   ["speed", "Path speed", true], ["error", "Contour error", false], ["dev", "Deviation from the contour", true],
   ["lag", "Lag", true], ["pos", "Position", false], ["vel", "Axis velocity", false], ["acc", "Axis acceleration", false],
 ];
 const colour = i => COLOURS[i % COLOURS.length];
 const one = runs.length === 1;
+// deviations below this are rounding
+const VISIBLE = 1e-7;
 const byId = id => document.getElementById(id);
 const make = (tag, text, cls) => {
   const e = document.createElement(tag);
@@ -163,13 +165,15 @@ const bucketAt = (r, t) => upTo(r.k, cycleAt(r, t));
 // ---- curves over time
 const plots = [];
 const axisNames = [...new Set(runs.flatMap(r => r.curves.map(c => c.name)))];
-for (const [kind, title, open] of KINDS) {
+const flat = ({ low, high }) => [...low, ...(high || [])].every(v => Math.abs(v) < VISIBLE);
+for (const [kind, title, wanted] of KINDS) {
   const lines = runs.flatMap((r, i) => r.curves.filter(c => c.kind === kind).map(c => ({
     r, c, name: (one ? "" : r.summary.program + " ") + c.name,
-    colour: one ? (kind === "speed" || kind === "error" ? COLOURS[0] : colour(3 + axisNames.indexOf(c.name) - 2)) : colour(i),
+    colour: one ? (kind === "speed" || kind === "error" ? COLOURS[0] : colour(1 + axisNames.indexOf(c.name.replace(/ (set|actual|load)$/, "")))) : colour(i),
     dash: one ? (c.name.endsWith(" actual") ? [5, 3] : c.name.endsWith(" load") ? [2, 2] : []) : [[], [6, 3], [2, 2], [8, 2, 2, 2]][Math.max(0, axisNames.indexOf(c.name) - 2) % 4],
   })));
   if (!lines.length) continue;
+  const open = wanted && !(kind === "dev" && lines.every(l => flat(l.c)));
   const card = make("div", undefined, "card"), bar = make("div", undefined, "bar"), canvas = make("canvas");
   const head = make("button", title, open ? "on" : "");
   bar.append(head, make("span", `${lines[0].c.unit} over s`, "hint"));
@@ -226,7 +230,7 @@ function drawPlot(plot) {
     }
     return [from, to];
   });
-  const air = Math.max((high - low) * 0.06, 1e-9), y = [low < 0 ? low - air : low, high + air];
+  const air = Math.max((high - low) * 0.06, 1e-6), y = [low < 0 ? low - air : low, high + air];
   grid(c, box, view.time, y, true);
   c.save();
   c.beginPath(); c.rect(...box); c.clip();
@@ -345,7 +349,7 @@ function key(parent, name, colour, what, dashed) {
 }
 key(byId("legend"), "programmed", "#ced4da", "programmed");
 groups.forEach(g => key(byId("legend"), g.name, g.colour, g));
-key(byId("legend"), "set", "#343a40", "set");
+if (groups.length > 1) key(byId("legend"), "set", "#343a40", "set");
 key(byId("legend"), "actual", "#343a40", "act", true);
 const most = Math.max(...runs.map(r => r.plane.length));
 PLANES.forEach((p, i) => {
@@ -362,7 +366,7 @@ PLANES.forEach((p, i) => {
 byId("facts").textContent = runs.map(({ summary: s }) => {
   const e = s.max_contour_error;
   return `${one ? "" : s.program + ": "}machine ${s.machine} · cycle ${s.cycle_us / 1000} ms · ${s.duration_s.toFixed(3)} s (path / feed ${s.ideal_duration_s.toFixed(3)} s) · ${s.state}`
-    + (e ? ` · contour error at most ${e.mm.toFixed(5)} mm at ${e.time_s.toFixed(4)} s, line ${e.line}` : "");
+    + (e && e.mm > VISIBLE ? ` · contour error at most ${e.mm.toFixed(5)} mm at ${e.time_s.toFixed(4)} s, line ${e.line}` : "");
 }).join("\n");
 byId("facts").style.whiteSpace = "pre-line";
 const head = make("tr");

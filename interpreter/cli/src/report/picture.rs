@@ -1,4 +1,5 @@
-//! The still picture: contour, a close look at its worst corner, path speed and deviations over time.
+//! The still picture: contour, a close look at its worst corner or at the largest difference of its passes, path
+//! speed and deviations over time.
 
 use super::recording::{Kind, Point, Recording, programmed};
 use super::svg::{COLOURS, FAINT, INK, Panel, Stroke, Svg};
@@ -9,6 +10,8 @@ const LEFT: f64 = 76.0;
 const RIGHT: f64 = 1172.0;
 /// Lines of the program are marked in the time plots up to this many changes.
 const MOST_MARKS: usize = 60;
+/// Set points that are compared with the first pass.
+const MOST_COMPARED: usize = 2000;
 /// Deviations below this are rounding.
 const VISIBLE_MM: f64 = 1e-7;
 
@@ -20,15 +23,22 @@ struct Group {
     label: String,
 }
 
+impl Group {
+    fn draws(&self, point: &Point) -> bool {
+        self.pass.is_none_or(|pass| pass == point.pass)
+    }
+}
+
 /// Draws one or several runs.
 pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
     let mut svg = Svg::new();
     let groups = groups(runs);
     head(&mut svg, runs);
     let plane = plane(runs);
-    let worst = worst(runs);
-    let has_zoom = worst.is_some_and(|p| p.error > VISIBLE_MM);
-    let contour_width = if has_zoom { 590.0 } else { RIGHT - LEFT };
+    let visible = |p: &Point| p.error > VISIBLE_MM;
+    let worst = worst(runs).filter(visible);
+    let look = worst.or_else(|| farthest(&drawn(runs, false), &groups, plane).filter(visible));
+    let contour_width = if look.is_some() { 590.0 } else { RIGHT - LEFT };
     let panel = Panel {
         left: LEFT,
         top: 100.0,
@@ -40,11 +50,12 @@ pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
     let panel = panel.equal_scale();
     let names = plane.map(|i| axis_label(&runs[0].0, i));
     contour(&mut svg, &panel, &drawn(runs, false), &groups, plane, "Contour", &names);
-    if let Some(worst) = worst.filter(|_| has_zoom) {
-        let zoom = zoom_panel(&worst, plane, 0.2 * (panel.x.1 - panel.x.0));
+    if let Some(look) = look {
+        let zoom = zoom_panel(&look, plane, 0.2 * (panel.x.1 - panel.x.0));
         let (a, b) = (panel.at([zoom.x.0, zoom.y.1]), panel.at([zoom.x.1, zoom.y.0]));
-        let close = drawn(runs, true);
-        contour(&mut svg, &zoom, &close, &groups, plane, "Largest contour error", &names);
+        let close = drawn(runs, worst.is_some());
+        let title = if worst.is_some() { "Largest contour error" } else { "Largest difference" };
+        contour(&mut svg, &zoom, &close, &groups, plane, title, &names);
         let size = [(b[0] - a[0]).max(4.0), (b[1] - a[1]).max(4.0)];
         let lens_style = format!("fill=\"{INK}\" fill-opacity=\"0.05\" stroke=\"{INK}\"");
         svg.clip(&panel);
@@ -53,8 +64,8 @@ pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
     }
     legend(&mut svg, &groups);
     let top = 640.0 + 20.0 * (groups.len().div_ceil(2) as f64);
-    times(&mut svg, runs, &groups, top);
-    svg.finish(WIDTH, top + 400.0)
+    let bottom = times(&mut svg, runs, &groups, top);
+    svg.finish(WIDTH, bottom)
 }
 
 fn head(svg: &mut Svg, runs: &[(Recording, Summary)]) {
@@ -84,16 +95,22 @@ fn head(svg: &mut Svg, runs: &[(Recording, Summary)]) {
 
 fn groups(runs: &[(Recording, Summary)]) -> Vec<Group> {
     let colour = |i: usize| COLOURS[i % COLOURS.len()];
+    let of_run = |s: &Summary| s.max_contour_error.as_ref().map_or(0.0, |e| e.mm);
+    let errors = runs.iter().any(|(_, s)| of_run(s) > VISIBLE_MM);
+    // nobody needs to read that there are none
+    let error = |before: &str, mm: f64| {
+        if errors { format!("{before}contour error at most {mm:.4} mm") } else { String::new() }
+    };
     match runs {
         [(run, _)] if run.passes.len() > 1 => (0..run.passes.len())
             .map(|i| {
                 let p = run.passes[i];
                 let label = format!(
-                    "set, pass {}, lines {} to {}: contour error at most {:.4} mm",
+                    "set, pass {}, lines {} to {}{}",
                     i + 1,
                     p.first_line,
                     p.last_line,
-                    p.error_mm
+                    error(": ", p.error_mm)
                 );
                 Group { run: 0, pass: Some(i), colour: colour(i), label }
             })
@@ -102,12 +119,9 @@ fn groups(runs: &[(Recording, Summary)]) -> Vec<Group> {
             .iter()
             .enumerate()
             .map(|(i, (_, s))| {
-                let error = s.max_contour_error.as_ref().map_or(0.0, |e| e.mm);
+                let error = error(", ", of_run(s));
                 let name = if runs.len() > 1 { format!("{}, ", s.program) } else { String::new() };
-                let label = format!(
-                    "set, {name}{:.3} s, contour error at most {error:.4} mm",
-                    s.duration_s
-                );
+                let label = format!("set, {name}{:.3} s{error}", s.duration_s);
                 Group { run: i, pass: None, colour: colour(i), label }
             })
             .collect(),
@@ -151,6 +165,29 @@ fn worst(runs: &[(Recording, Summary)]) -> Option<Point> {
     })
 }
 
+/// The set point of a group that is farthest from the first group's path, with its distance as error.
+fn farthest(runs: &[Vec<Point>], groups: &[Group], [x, y]: [usize; 2]) -> Option<Point> {
+    let (first, others) = groups.split_first()?;
+    let at = |p: &Point| [p.set[x], p.set[y]];
+    let path: Vec<[f64; 2]> = runs[first.run].iter().filter(|p| first.draws(p)).map(at).collect();
+    let count = others.iter().flat_map(|g| runs[g.run].iter().filter(|p| g.draws(p))).count();
+    let points = others.iter().flat_map(|g| runs[g.run].iter().filter(|p| g.draws(p)));
+    let apart = points.step_by(count / MOST_COMPARED + 1).map(|p| {
+        let away = path.windows(2).map(|w| from_line(at(p), w[0], w[1]));
+        Point { error: away.fold(f64::INFINITY, f64::min), ..*p }
+    });
+    apart.filter(|p| p.error.is_finite()).max_by(|a, b| a.error.total_cmp(&b.error))
+}
+
+/// Distance of a point from the straight way between two others.
+fn from_line(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (way, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let square = way[0] * way[0] + way[1] * way[1];
+    let part = (to[0] * way[0] + to[1] * way[1]) / square;
+    let part = if square > 0.0 { part.clamp(0.0, 1.0) } else { 0.0 };
+    libm::hypot(to[0] - part * way[0], to[1] - part * way[1])
+}
+
 /// A window around the worst point, three times its error to either side but at most `most` mm.
 fn zoom_panel(worst: &Point, [x, y]: [usize; 2], most: f64) -> Panel {
     let half = (3.0 * worst.error).min(most);
@@ -191,10 +228,9 @@ fn contour(
     for points in runs {
         svg.curve(panel, programmed(points, plane).into_iter(), wide);
     }
-    let mine = |group: &Group, p: &Point| group.pass.is_none_or(|pass| pass == p.pass);
     for (actual, width, dash) in [(true, 1.0, "3 3"), (false, 1.7, "")] {
         for group in groups {
-            let points = runs[group.run].iter().filter(|p| mine(group, p));
+            let points = runs[group.run].iter().filter(|p| group.draws(p));
             let at = points.map(|p| if actual { p.act } else { p.set });
             let stroke = Stroke { colour: group.colour, width, dash };
             svg.curve(panel, at.map(|p| [p[plane[0]], p[plane[1]]]), stroke);
@@ -220,7 +256,8 @@ fn legend(svg: &mut Svg, groups: &[Group]) {
     }
 }
 
-fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f64) {
+/// Path speed and, if there are any, deviations over time; gives the lower end of the picture.
+fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f64) -> f64 {
     let end = runs.iter().map(|(_, s)| s.duration_s).fold(0.0, f64::max).max(1e-6);
     let panel = |top: f64, y: (f64, f64)| Panel {
         left: LEFT,
@@ -236,12 +273,21 @@ fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f6
             wanted.flat_map(|(i, _)| r.buckets.iter().map(move |b| b.range[i]))
         });
         let (low, high) = all.fold((0.0, 0.0), |m: (f64, f64), r| (m.0.min(r.0), m.1.max(r.1)));
-        let air = (0.08 * (high - low)).max(1e-6);
+        // room for the numbers of the lines
+        let air = (0.16 * (high - low)).max(1e-6);
         (if low < 0.0 { low - air } else { low }, high + air)
     };
     let speed = panel(top + 20.0, range(&[Kind::Speed]));
     marks(svg, &speed, runs);
-    svg.axes(&speed, "Path speed", "", "mm/s");
+    // one program: what AX_DEV bounds, axis by axis; several: one curve each
+    let one = runs.len() == 1;
+    let kind = if one { Kind::Deviation } else { Kind::ContourError };
+    let deviates = runs.iter().any(|(r, _)| {
+        let wanted = r.curves.iter().enumerate().filter(|(_, c)| c.kind == kind);
+        let mut ranges = wanted.flat_map(|(i, _)| r.buckets.iter().map(move |b| b.range[i]));
+        ranges.any(|(low, high)| low.abs().max(high.abs()) > VISIBLE_MM)
+    });
+    svg.axes(&speed, "Path speed", if deviates { "" } else { "time in s" }, "mm/s");
     svg.clip(&speed);
     for g in groups {
         let run = &runs[g.run].0;
@@ -249,9 +295,9 @@ fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f6
         svg.curve(&speed, over_time(run, 0, g.pass).into_iter(), stroke);
     }
     svg.end_group();
-    // one program: what AX_DEV bounds, axis by axis; several: one curve each
-    let one = runs.len() == 1;
-    let kind = if one { Kind::Deviation } else { Kind::ContourError };
+    if !deviates {
+        return top + 210.0;
+    }
     let deviation = panel(top + 210.0, range(&[kind]));
     marks(svg, &deviation, runs);
     let title = if one { "Deviation from the contour by axis" } else { "Contour error" };
@@ -274,6 +320,7 @@ fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f6
         let style = format!("fill=\"{colour}\" font-weight=\"700\"");
         svg.text([RIGHT - 18.0 * i as f64, deviation.top - 9.0], "end", &style, name);
     }
+    top + 400.0
 }
 
 /// A curve over time: smallest and largest value per pixel, or of each bucket where there are fewer.
@@ -322,8 +369,37 @@ fn marks(svg: &mut Svg, panel: &Panel, runs: &[(Recording, Summary)]) {
         let text = line.to_string();
         if line > 0 && next - x > 7.0 * text.len() as f64 + 4.0 {
             let style = "fill=\"#adb5bd\" font-size=\"10\"";
-            let at = [f64::midpoint(x, next), panel.top + panel.height - 5.0];
+            let at = [f64::midpoint(x, next), panel.top + 12.0];
             svg.text(at, "middle", style, &text);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn passes_are_compared_with_the_path_of_the_first() {
+        let point =
+            |pass: usize, x: f64, y: f64| Point { pass, set: [x, y, 0.0], ..Point::default() };
+        // the corner in (1, 0), and what cuts it
+        let runs = [vec![
+            point(0, 0.0, 0.0),
+            point(0, 1.0, 0.0),
+            point(0, 1.0, 1.0),
+            point(1, 0.5, 0.0),
+            point(1, 0.7, 0.2),
+            point(1, 1.0, 0.5),
+        ]];
+        let group =
+            |pass| Group { run: 0, pass: Some(pass), colour: COLOURS[0], label: String::new() };
+        let far = farthest(&runs, &[group(0), group(1)], [0, 1]).unwrap();
+        assert!((far.set[0] - 0.7).abs() < 1e-15 && far.pass == 1, "{far:?}");
+        assert!((far.error - 0.2).abs() < 1e-15, "{}", far.error);
+        assert_eq!(farthest(&runs, &[group(0)], [0, 1]), None);
+        // beyond an end the end counts, and a way without length is a point
+        assert!((from_line([4.0, 4.0], [0.0, 0.0], [1.0, 0.0]) - 5.0).abs() < 1e-15);
+        assert!((from_line([3.0, 4.0], [0.0, 0.0], [0.0, 0.0]) - 5.0).abs() < 1e-15);
     }
 }

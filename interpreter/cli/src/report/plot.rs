@@ -10,6 +10,8 @@ const GRID: &str = "#e9ecef";
 const LONG_NAME: usize = 66;
 /// Dashes tell curves apart when the colours are used up.
 const DASHES: [&str; 3] = ["", "7 4", "2 3"];
+/// Dashes of a curve that covers another one.
+const OVER: &str = "8 8";
 
 /// A picture.
 #[derive(Clone, Debug, Default)]
@@ -144,15 +146,32 @@ impl Diagram {
             let faint = Stroke { colour: FAINT, width: 1.2, dash: "5 4" };
             svg.curve(panel, ends.into_iter(), faint);
         }
-        for line in &self.lines {
+        let per_px = (panel.y.1 - panel.y.0) / panel.height;
+        for (i, line) in self.lines.iter().enumerate() {
             let reference = Stroke { colour: "#ced4da", width: 5.0, dash: "" };
-            let stroke = line.series.map_or(reference, |series| stroke(series, 1.8));
+            let mut stroke = line.series.map_or(reference, |series| stroke(series, 1.8));
+            // what lies on an earlier curve leaves it visible
+            if self.lines[..i].iter().any(|l| self.covers(line, l, 0.5 * per_px)) {
+                stroke.dash = OVER;
+            }
             for part in line.points.split(|p| !p.iter().all(|v| v.is_finite())) {
                 let points = part.iter().map(|p| [self.x.drawn(p[0]), self.y.drawn(p[1])]);
                 svg.curve(panel, points, stroke);
             }
         }
         svg.end_group();
+    }
+
+    /// Two series have the same points, but for `tolerance` upwards.
+    fn covers(&self, line: &Line, other: &Line, tolerance: f64) -> bool {
+        let same = |(a, b): (&[f64; 2], &[f64; 2])| {
+            a[0].to_bits() == b[0].to_bits()
+                && (self.y.drawn(a[1]) - self.y.drawn(b[1])).abs() <= tolerance
+        };
+        line.series.is_some()
+            && other.series.is_some()
+            && line.points.len() == other.points.len()
+            && line.points.iter().zip(&other.points).all(same)
     }
 }
 
@@ -238,5 +257,24 @@ mod tests {
             assert!(svg.contains(name), "{name}");
         }
         assert!(!svg.contains("NaN"));
+    }
+
+    #[test]
+    fn a_curve_that_covers_another_is_dashed() {
+        let line = |series, y| Line { series: Some(series), points: vec![[0.0, 0.0], [1.0, y]] };
+        let diagram = Diagram {
+            title: String::new(),
+            x: Scale::linear("", (0.0, 1.0)),
+            y: Scale::linear("", (0.0, 1.0)),
+            equal: false,
+            // a panel of 230 px: half a pixel is 0.0022
+            lines: vec![line(0, 0.5), line(1, 0.51), line(2, 0.501)],
+            levels: Vec::new(),
+        };
+        let svg = Plot { columns: 1, row_height: 300.0, panels: vec![diagram], ..Plot::default() };
+        let svg = svg.draw();
+        let dashed: Vec<&str> = svg.lines().filter(|l| l.contains("stroke-dasharray")).collect();
+        assert_eq!(dashed.len(), 1);
+        assert!(dashed[0].contains(COLOURS[2]), "{dashed:?}");
     }
 }

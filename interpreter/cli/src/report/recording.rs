@@ -14,7 +14,7 @@ const MOST_BUCKETS: usize = 4000;
 const CLOSE: usize = 256;
 
 /// More passes than this over one contour are drawn as one.
-pub(crate) const MOST_PASSES: usize = 6;
+pub(crate) const MOST_PASSES: usize = 8;
 
 /// The set point that starts a pass is met again within this distance in mm.
 const CLOSED_MM: f64 = 1e-6;

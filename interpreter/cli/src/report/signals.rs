@@ -119,12 +119,12 @@ fn plot(args: &ReportArgs, runs: &[Recorded]) -> Plot {
             times().copied().fold(f64::INFINITY, f64::min),
             times().copied().fold(f64::NEG_INFINITY, f64::max),
         );
-        panels.push(panel(&column.name, "time in s", time, runs, over_time));
+        panels.push(panel(column, &column.name, "time in s", time, runs, over_time));
         if let Some(band) = args.spectrum {
             let over_frequency =
                 |r: &Recorded| (i < r.samples.len()).then(|| r.spectrum(i).lines(band).collect());
             let title = format!("Amplitude of {}", column.name);
-            panels.push(panel(&title, "frequency in Hz", band, runs, over_frequency));
+            panels.push(panel(column, &title, "frequency in Hz", band, runs, over_frequency));
         }
     }
     let few = args.spectrum.is_none() && panels.len() > 3;
@@ -135,9 +135,7 @@ fn plot(args: &ReportArgs, runs: &[Recorded]) -> Plot {
             .map(|p| p.display().to_string())
             .collect::<Vec<_>>()
             .join("  \u{b7}  "),
-        subtitle: args
-            .window
-            .map_or_else(String::new, |(from, to)| format!("from {from} s to {to} s")),
+        subtitle: subtitle(args),
         legend: runs.iter().map(|r| r.label.clone()).collect(),
         columns: if few { 2 } else { 1 },
         row_height: 300.0,
@@ -145,7 +143,31 @@ fn plot(args: &ReportArgs, runs: &[Recorded]) -> Plot {
     }
 }
 
+/// What is shown of the runs and, if one thing is varied, what it is.
+fn subtitle(args: &ReportArgs) -> String {
+    let window = args.window.map(|(from, to)| format!("from {from} s to {to} s"));
+    let varied = if let [one] = &args.vary[..] { one.meaning() } else { None };
+    window.into_iter().chain(varied).collect::<Vec<_>>().join("  \u{b7}  ")
+}
+
+/// The unit that a column's name ends with.
+fn unit(name: &str) -> &'static str {
+    const UNITS: [(&str, &str); 9] = [
+        ("_mm", "mm"),
+        ("_mm_s", "mm/s"),
+        ("_mm_s2", "mm/s\u{b2}"),
+        ("_mm_s3", "mm/s\u{b3}"),
+        ("_deg", "deg"),
+        ("_deg_s", "deg/s"),
+        ("_deg_s2", "deg/s\u{b2}"),
+        ("_deg_s3", "deg/s\u{b3}"),
+        ("_nm", "N m"),
+    ];
+    UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("", |(_, unit)| *unit)
+}
+
 fn panel(
+    column: &Column,
     title: &str,
     x_label: &'static str,
     x: (f64, f64),
@@ -158,7 +180,7 @@ fn panel(
     Diagram {
         title: title.to_owned(),
         x: Scale::linear(x_label, x),
-        y: Scale::linear("", y),
+        y: Scale::linear(unit(&column.name), y),
         equal: false,
         lines,
         levels: Vec::new(),

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 /// Colours that stay apart in print and for colour-blind eyes.
-pub(super) const COLOURS: [&str; 6] =
-    ["#1c6dd0", "#d9480f", "#2b8a3e", "#9c36b5", "#0c8599", "#b08900"];
+pub(super) const COLOURS: [&str; 8] =
+    ["#1c6dd0", "#d9480f", "#2b8a3e", "#9c36b5", "#0c8599", "#b08900", "#e64980", "#495057"];
 /// Text and axes.
 pub(super) const INK: &str = "#343a40";
 /// Secondary text.

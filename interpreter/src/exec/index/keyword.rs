@@ -1,0 +1,121 @@
+//! Control statements by their words, partners and closers.
+
+/// What begins a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Keyword {
+    If,
+    /// `$IF .. $GOTO ..`: no block of its own.
+    IfGoto,
+    ElseIf,
+    Else,
+    EndIf,
+    Switch,
+    Case,
+    Default,
+    EndSwitch,
+    For,
+    EndFor,
+    While,
+    EndWhile,
+    Do,
+    EndDo,
+    Repeat,
+    Until,
+    Break,
+    Continue,
+    CommentBegin,
+    CommentEnd,
+    ConditionalIf,
+    ConditionalElse,
+    ConditionalEnd,
+    /// `%` text inside a main program.
+    Remark,
+}
+
+impl Keyword {
+    pub(super) fn of_control(word: &str) -> Option<Self> {
+        Some(match word {
+            "IF" => Self::If,
+            "ELSEIF" => Self::ElseIf,
+            "ELSE" => Self::Else,
+            "ENDIF" => Self::EndIf,
+            "SWITCH" => Self::Switch,
+            "CASE" => Self::Case,
+            "DEFAULT" => Self::Default,
+            "ENDSWITCH" => Self::EndSwitch,
+            "FOR" => Self::For,
+            "ENDFOR" => Self::EndFor,
+            "WHILE" => Self::While,
+            "ENDWHILE" => Self::EndWhile,
+            "DO" => Self::Do,
+            "ENDDO" => Self::EndDo,
+            "REPEAT" => Self::Repeat,
+            "UNTIL" => Self::Until,
+            "BREAK" => Self::Break,
+            "CONTINUE" => Self::Continue,
+            _ => return None,
+        })
+    }
+
+    /// How it is written.
+    pub(in crate::exec) fn text(self) -> &'static str {
+        match self {
+            Self::If | Self::IfGoto => "$IF",
+            Self::ElseIf => "$ELSEIF",
+            Self::Else => "$ELSE",
+            Self::EndIf => "$ENDIF",
+            Self::Switch => "$SWITCH",
+            Self::Case => "$CASE",
+            Self::Default => "$DEFAULT",
+            Self::EndSwitch => "$ENDSWITCH",
+            Self::For => "$FOR",
+            Self::EndFor => "$ENDFOR",
+            Self::While => "$WHILE",
+            Self::EndWhile => "$ENDWHILE",
+            Self::Do => "$DO",
+            Self::EndDo => "$ENDDO",
+            Self::Repeat => "$REPEAT",
+            Self::Until => "$UNTIL",
+            Self::Break => "$BREAK",
+            Self::Continue => "$CONTINUE",
+            Self::CommentBegin => "#COMMENT BEGIN",
+            Self::CommentEnd => "#COMMENT END",
+            Self::ConditionalIf => "#IF",
+            Self::ConditionalElse => "#ELSE",
+            Self::ConditionalEnd => "#ENDIF",
+            Self::Remark => "%",
+        }
+    }
+
+    /// What closes a statement that opens a block.
+    pub(in crate::exec) fn closer(self) -> Option<Self> {
+        Some(match self {
+            Self::If => Self::EndIf,
+            Self::Switch => Self::EndSwitch,
+            Self::For => Self::EndFor,
+            Self::While => Self::EndWhile,
+            Self::Do => Self::EndDo,
+            Self::Repeat => Self::Until,
+            Self::ConditionalIf => Self::ConditionalEnd,
+            _ => return None,
+        })
+    }
+
+    /// What a clause or a closing statement belongs to.
+    pub(super) fn opener(self) -> Option<Self> {
+        Some(match self {
+            Self::ElseIf | Self::Else | Self::EndIf => Self::If,
+            Self::Case | Self::Default | Self::EndSwitch => Self::Switch,
+            Self::EndFor => Self::For,
+            Self::EndWhile => Self::While,
+            Self::EndDo => Self::Do,
+            Self::Until => Self::Repeat,
+            Self::ConditionalElse | Self::ConditionalEnd => Self::ConditionalIf,
+            _ => return None,
+        })
+    }
+
+    pub(in crate::exec) fn is_loop(self) -> bool {
+        matches!(self, Self::For | Self::While | Self::Do | Self::Repeat)
+    }
+}

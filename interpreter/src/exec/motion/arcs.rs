@@ -1,0 +1,158 @@
+//! Centre, end and faults of a programmed arc.
+
+use crate::diag::ValueKind;
+use crate::exec::arc::{self, ArcError};
+use crate::exec::contour::local_ends;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::groups::Group;
+use crate::exec::modal::PathMode;
+use crate::exec::words::{Placed, Words};
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
+
+impl Decoder {
+    pub(super) fn arc(&mut self, from: &AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
+        let from = &self.on_path(from);
+        let target = self.on_path(self.coordinates.target());
+        let main = self.modal.plane.main_axes();
+        let tilt = self.tilt(span)?;
+        let image = self.coordinates.frame().image_of_plane(main[0], main[1]);
+        // askew to the axes the arc is one of the coordinate system
+        let (image, keeps_sense) =
+            image.filter(|_| tilt.is_none()).unwrap_or(([main[0], main[1]], true));
+        let (start, end) = match &tilt {
+            Some(tilt) => local_ends(tilt, from, &target),
+            None => (from.clone(), target.clone()),
+        };
+        let axis = |m: usize| {
+            self.coordinates.main_axis(m).ok_or_else(|| {
+                let text = "the plane of the arc has no axis in the channel";
+                Fault::vendor(20200, text, span)
+            })
+        };
+        let plane = [axis(image[0])?, axis(image[1])?];
+        let in_plane = |p: &AxisVec| [p[plane[0]], p[plane[1]]];
+        let (s, e) = (in_plane(&start), in_plane(&end));
+        let ccw = (self.modal.path == PathMode::CounterClockwise) == keeps_sense;
+        let centre_words = [words.centre[main[0]], words.centre[main[1]]];
+        let has_centre = centre_words.iter().any(Option::is_some);
+        if let Some((radius, at)) = words.radius {
+            if has_centre {
+                let text = "centre and radius in one block";
+                return Err(Fault::vendor(21024, text, at));
+            }
+            self.modal.radius_mm = Some(radius * self.unit_mm());
+        }
+        let found = if let (false, Some(radius)) = (has_centre, self.modal.radius_mm) {
+            arc::by_radius(s, e, radius, ccw)
+        } else {
+            let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
+            let limits = &self.machine.channel.arc_centre;
+            arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
+        };
+        let at = words.radius.or(centre_words[0]).or(centre_words[1]);
+        let g = words.group(Group::Path).map_or(span, |g| g.span);
+        let at = at.map_or(g, |(_, at)| at);
+        let mut arc = found.map_err(|e| arc_fault(e, at))?;
+        let pitch_word = words.centre[main[2]];
+        if let Some((pitch, at)) = pitch_word {
+            let normal =
+                (0..3).find(|i| !image.contains(i)).and_then(|m| self.coordinates.main_axis(m));
+            let height = normal.map_or(0.0, |axis| end[axis] - start[axis]);
+            if pitch == 0.0 || height == 0.0 {
+                if pitch != 0.0 {
+                    let text = "a pitch has no meaning without a way along the third axis";
+                    self.note(Fault::kontur(own::ODD, text, at).warning());
+                }
+            } else {
+                arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch * self.unit_mm());
+            }
+        }
+        self.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
+        self.last_arc.plane = image;
+        self.last_arc.shift_mm = arc.shift;
+        self.last_arc.radius_mm =
+            libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
+        let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
+        let arc = ArcPath::new(start, end, shape, &self.feed_axes)
+            .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))?;
+        Ok(match tilt {
+            Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, tilt, from.clone(), target))),
+            None => Path::Arc(arc),
+        })
+    }
+
+    /// Centre in the coordinates of the axes, or of the program if the plane lies askew to them.
+    pub(super) fn centre(
+        &self,
+        start: &AxisVec,
+        main: [usize; 3],
+        image: [usize; 2],
+        tilted: bool,
+        words: [Option<Placed>; 2],
+    ) -> [f64; 2] {
+        let value = |w: Option<Placed>| w.map_or(0.0, |(v, _)| v * self.unit_mm());
+        let from = |m: usize| self.coordinates.main_axis(m).map_or(0.0, |axis| start[axis]);
+        if tilted {
+            let c = words.map(value);
+            if self.modal.centre_absolute {
+                return c;
+            }
+            return [from(image[0]) + c[0], from(image[1]) + c[1]];
+        }
+        let mut p = [0.0; 3];
+        (p[main[0]], p[main[1]]) = (value(words[0]), value(words[1]));
+        if self.modal.centre_absolute {
+            let q = self.coordinates.to_machine(p);
+            let way = |m: usize| {
+                self.coordinates.main_axis(m).map_or(0.0, |axis| self.independent.way[axis])
+            };
+            return [q[image[0]] - way(image[0]), q[image[1]] - way(image[1])];
+        }
+        let d = self.coordinates.frame().direction(p);
+        [from(image[0]) + d[image[0]], from(image[1]) + d[image[1]]]
+    }
+}
+
+/// The diagnostic of an arc that does not exist.
+fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
+    match error {
+        ArcError::RadiusZero => {
+            Fault::vendor(20036, "the radius of the arc is 0", span).hint("is I, J or K missing?")
+        }
+        ArcError::FullCircleWithRadius => {
+            let text = "a full circle cannot be programmed with R";
+            Fault::vendor(20034, text, span).hint("use I, J, K")
+        }
+        ArcError::RadiusTooSmall { radius, half_chord } => {
+            let text = format!(
+                "radius {} is smaller than half the chord, {half_chord:.6} mm",
+                radius.abs()
+            );
+            Fault::kontur(own::RADIUS_TOO_SMALL, text, span)
+        }
+        ArcError::CentreTooFar { shift, limit } => {
+            let text = format!(
+                "start, end and centre do not fit: the centre would have to move by {shift:.6} mm, at most {limit:.6} mm"
+            );
+            Fault::kontur(own::ARC_CENTRE, text, span)
+                .with(|d| d.parameter("P-CHAN-00059"))
+                .hint("G161 makes I, J, K absolute, G162 relative to the start point")
+        }
+        ArcError::RadiiDiffer { start, end, limit } => {
+            let text = format!(
+                "the radii at start and end differ by {:.6} mm, at most {limit:.6} mm",
+                (start - end).abs()
+            );
+            Fault::vendor(21758, text, span).with(|d| {
+                d.value(ValueKind::Current, (start - end).abs() * 1e4, "0.1um")
+                    .value(ValueKind::Limit, limit * 1e4, "0.1um")
+                    .value(ValueKind::StartValue, start * 1e4, "0.1um")
+                    .value(ValueKind::TargetValue, end * 1e4, "0.1um")
+                    .parameter("P-CHAN-00171")
+            })
+        }
+    }
+}

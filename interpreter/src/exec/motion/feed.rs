@@ -1,0 +1,65 @@
+//! Feed and end velocity of a block.
+
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::modal::{FeedType, PathMode};
+use crate::exec::words::Placed;
+use crate::syntax::ast::Span;
+use kontur_motion::block::Feed;
+use kontur_motion::path::Path;
+
+impl Decoder {
+    /// Feed of a block with this path.
+    pub(super) fn feed_of(&mut self, path: &Path, span: Span) -> Outcome<Feed> {
+        if self.modal.path == PathMode::Rapid {
+            return Ok(Feed::Rapid);
+        }
+        let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
+            let key = "20008".to_owned();
+            let text = "the feed is 0: no F word has been programmed";
+            self.note_once(&key, Fault::vendor(20008, text, span));
+            // the block is left out, the positions go on
+            return Ok(Feed::PathVelocity(1.0));
+        };
+        let unit_mm = if word.inch && self.feed_is_linear(path) { 25.4 } else { 1.0 };
+        Ok(match self.modal.feed_type {
+            FeedType::PerMinute => Feed::PathVelocity(
+                word.value * unit_mm * self.machine.channel.feed_unit_mm_min / 60.0,
+            ),
+            FeedType::Time => Feed::Duration(word.value),
+            FeedType::ShareOfMaximum => Feed::ShareOfMaximum(word.value / 100.0),
+            FeedType::PerRevolution => {
+                let rpm = self.spindles[0].rpm.abs();
+                if rpm == 0.0 {
+                    let text = "feed per revolution, but the main spindle has no speed";
+                    return Err(Fault::vendor(60132, text, span));
+                }
+                Feed::PathVelocity(word.value * unit_mm * rpm / 60.0)
+            }
+        })
+    }
+
+    /// True unless only rotary axes move.
+    fn feed_is_linear(&self, path: &Path) -> bool {
+        !path.is_straight()
+            || (0..path.start().len())
+                .any(|i| self.is_linear(i) && path.start()[i].to_bits() != path.end()[i].to_bits())
+    }
+
+    /// Unit of an F word with G94 in mm/s.
+    pub(in crate::exec) fn feed_unit_mm_s(&self) -> f64 {
+        self.unit_mm() * self.machine.channel.feed_unit_mm_min / 60.0
+    }
+
+    pub(super) fn end_velocity(&self, (value, span): Placed, feed: Feed) -> Outcome<Option<f64>> {
+        let Feed::PathVelocity(v) = feed else {
+            let text = "E acts only with G94 and not in rapid traverse";
+            return Err(Fault::kontur(own::SYNTAX, text, span));
+        };
+        if self.modal.feed_type != FeedType::PerMinute || value < 0.0 {
+            let text = "E acts only with G94 and is not negative";
+            return Err(Fault::kontur(own::SYNTAX, text, span));
+        }
+        Ok(Some((value * self.feed_unit_mm_s()).min(v)))
+    }
+}

@@ -1,0 +1,92 @@
+//! Software limits along a path.
+
+use crate::diag::ValueKind;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::Fault;
+use crate::exec::words::Words;
+use crate::syntax::ast::Span;
+use kontur_motion::path::Path;
+
+impl Decoder {
+    /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round.
+    pub(super) fn check_limits(&mut self, path: &Path, words: &Words<'_>, span: Span) {
+        let Some((low, high)) = path.extent() else { return };
+        for axis in 0..low.len() {
+            let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
+            let end = path.end()[axis];
+            if let Some(fault) = self.outside_limits(axis, low[axis], high[axis], Some(end), at) {
+                self.note(fault);
+            }
+        }
+    }
+
+    /// Compensated motions against the software limits.
+    pub(in crate::exec) fn limits_of_compensated(&mut self) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        for (low, high, source, span) in self.contour.take_driven() {
+            for axis in 0..low.len() {
+                let fault = self.outside_limits(axis, low[axis], high[axis], None, span);
+                faults.extend(fault.map(|f| *f.in_block(source)));
+            }
+        }
+        faults
+    }
+
+    /// 21897 for an axis that moves between `low` and `high` and leaves its limits.
+    fn outside_limits(
+        &self,
+        axis: usize,
+        low: f64,
+        high: f64,
+        end: Option<f64>,
+        span: Span,
+    ) -> Option<Box<Fault>> {
+        if low.to_bits() == high.to_bits() {
+            return None;
+        }
+        let limits @ (least, most) = self.limits_mm[axis]?;
+        let outside = |x: f64| !(least..=most).contains(&x);
+        // the path leaves out what the axis has gone as an independent axis
+        let way = self.independent.way[axis];
+        let (low, high) = (low + way, high + way);
+        // the end of the block is what the program says
+        let (what, x) = match end.map(|end| end + way).filter(|end| outside(*end)) {
+            Some(end) => ("target", end),
+            None if outside(low) => ("lowest position", low),
+            None if outside(high) => ("highest position", high),
+            None => return None,
+        };
+        Some(self.limit_fault(axis, what, x, limits, span))
+    }
+
+    /// 21897 for a target outside the software limits of its axis.
+    pub(in crate::exec) fn check_limit(&mut self, axis: usize, target: f64, at: Span) {
+        let Some(limits @ (low, high)) = self.limits_mm[axis] else { return };
+        if !(low..=high).contains(&target) {
+            let fault = self.limit_fault(axis, "target", target, limits, at);
+            self.note(fault);
+        }
+    }
+
+    fn limit_fault(
+        &self,
+        axis: usize,
+        what: &str,
+        x: f64,
+        (least, most): (f64, f64),
+        span: Span,
+    ) -> Box<Fault> {
+        let name = self.axis_name(axis).to_owned();
+        let number = self.machine.axes[axis].number();
+        let text = format!("axis {name}: {what} {x} is outside its limits {least} to {most}");
+        let fault = Fault::vendor(21897, text, span).with(|d| {
+            d.axis(number, name)
+                .value(ValueKind::Current, x * 1e4, "0.1um")
+                .value(ValueKind::LowerLimit, least * 1e4, "0.1um")
+                .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
+                .parameter("P-AXIS-00177")
+        });
+        let behaviour = self.machine.axes[axis].text("kenngr.swe_behaviour");
+        if behaviour.as_deref() == Some("WARNING") { fault.warning() } else { fault }
+    }
+}

@@ -1,0 +1,127 @@
+//! Which variables exist at a place of the program: per class, level and cycle.
+
+use super::storage::Variable;
+use crate::exec::options::{External, Value};
+use std::collections::BTreeMap;
+
+type Table = BTreeMap<Box<str>, Variable>;
+
+/// What belongs to one call of a cycle.
+#[derive(Clone, Debug, Default)]
+pub(super) struct CycleScope {
+    /// Own P parameters.
+    parameters: BTreeMap<u32, Variable>,
+    /// `V.CYC`.
+    variables: Table,
+    /// `@P1`, `@X`, ... by the name behind `@`.
+    pub(super) passed: BTreeMap<Box<str>, Value>,
+}
+
+/// All variables of a program.
+#[derive(Clone, Debug, Default)]
+pub(in crate::exec) struct Variables {
+    parameters: BTreeMap<u32, Variable>,
+    program: Table,
+    shared: Table,
+    /// One table per program level.
+    locals: Vec<Table>,
+    pub(super) cycles: Vec<CycleScope>,
+    pub(super) external: BTreeMap<String, External>,
+    pub(super) elements: usize,
+}
+
+impl Variables {
+    pub(in crate::exec) fn new(external: BTreeMap<String, External>) -> Self {
+        Self { external, locals: vec![Table::new()], ..Self::default() }
+    }
+
+    /// Enters a program level.
+    pub(in crate::exec) fn enter_level(&mut self) {
+        self.locals.push(Table::new());
+    }
+
+    /// Leaves a program level: its local variables are gone.
+    pub(in crate::exec) fn leave_level(&mut self) {
+        let gone = self.locals.pop().unwrap_or_default();
+        self.elements -= gone.values().map(Variable::elements).sum::<usize>();
+    }
+
+    /// Enters a cycle with the parameters passed to it.
+    pub(in crate::exec) fn enter_cycle(&mut self, passed: BTreeMap<Box<str>, Value>) {
+        self.cycles.push(CycleScope { passed, ..CycleScope::default() });
+    }
+
+    pub(in crate::exec) fn leave_cycle(&mut self) {
+        let gone = self.cycles.pop().unwrap_or_default();
+        let variables = gone.variables.values().map(Variable::elements).sum::<usize>();
+        let parameters = gone.parameters.values().map(Variable::elements).sum::<usize>();
+        self.elements -= variables + parameters;
+    }
+
+    /// Whether a cycle parameter was passed; `None` outside cycles.
+    pub(in crate::exec) fn passed(&self, name: &str) -> Option<bool> {
+        Some(self.cycles.last()?.passed.contains_key(name))
+    }
+
+    pub(super) fn parameters(&self) -> &BTreeMap<u32, Variable> {
+        self.cycles.last().map_or(&self.parameters, |c| &c.parameters)
+    }
+
+    pub(super) fn parameters_mut(&mut self) -> &mut BTreeMap<u32, Variable> {
+        self.cycles.last_mut().map_or(&mut self.parameters, |c| &mut c.parameters)
+    }
+
+    pub(super) fn find(&self, class: Class, name: &str) -> Option<&Variable> {
+        match class {
+            Class::Program => self.program.get(name),
+            Class::Shared => self.shared.get(name),
+            Class::Cycle => self.cycles.last()?.variables.get(name),
+            Class::Local => self.locals.iter().rev().find_map(|table| table.get(name)),
+        }
+    }
+
+    pub(super) fn find_mut(&mut self, class: Class, name: &str) -> Option<&mut Variable> {
+        match class {
+            Class::Program => self.program.get_mut(name),
+            Class::Shared => self.shared.get_mut(name),
+            Class::Cycle => self.cycles.last_mut()?.variables.get_mut(name),
+            Class::Local => self.locals.iter_mut().rev().find_map(|table| table.get_mut(name)),
+        }
+    }
+
+    /// The table in which a declaration stands now.
+    pub(super) fn table(&mut self, class: Class) -> Option<&mut Table> {
+        match class {
+            Class::Program => Some(&mut self.program),
+            Class::Shared => Some(&mut self.shared),
+            Class::Cycle => self.cycles.last_mut().map(|c| &mut c.variables),
+            Class::Local => self.locals.last_mut(),
+        }
+    }
+
+    pub(super) fn names(&self, class: Class) -> Vec<&str> {
+        let tables: Vec<&Table> = match class {
+            Class::Program => vec![&self.program],
+            Class::Shared => vec![&self.shared],
+            Class::Cycle => self.cycles.last().map(|c| &c.variables).into_iter().collect(),
+            Class::Local => self.locals.iter().collect(),
+        };
+        tables.into_iter().flat_map(|t| t.keys().map(|k| &**k)).collect()
+    }
+}
+
+/// Class of self-defined variables.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Class {
+    Program,
+    Local,
+    Shared,
+    Cycle,
+}
+
+/// Class of the first segment, if it is one of self-defined variables.
+pub(super) fn class(segment: &str) -> Option<(Class, &'static str)> {
+    const CLASSES: [(&str, Class); 4] =
+        [("P", Class::Program), ("L", Class::Local), ("S", Class::Shared), ("CYC", Class::Cycle)];
+    CLASSES.iter().find(|(n, _)| n.eq_ignore_ascii_case(segment)).map(|(n, c)| (*c, *n))
+}

@@ -1,0 +1,96 @@
+//! What the events of a block change in the running machine: kernels, feedforward, machine data.
+
+use super::Simulation;
+use super::axes::Driver;
+use super::chain::AxisChain;
+use crate::exec::Event;
+use kontur_motion::tolerance::Kernels;
+use std::sync::Arc;
+
+impl Simulation {
+    /// Something happens in cycle `k`.
+    pub(super) fn act(&mut self, event: Event, k: u64) {
+        match event {
+            Event::Independent { axis, motion } => {
+                let dynamics = self.machine.axes[axis].dynamics();
+                let started = self.independent.start(axis, k, motion, &dynamics, self.cycle);
+                if let Err(e) = started {
+                    self.diagnostics.push(super::fault::internal(&e));
+                }
+            }
+            Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
+            Event::SpindleFeedforward { spindle, on, weight_ratio } => {
+                self.spindle_feedforward(spindle, on, weight_ratio);
+            }
+            Event::Spindle { spindle, motion } => {
+                if let Some(spindle) = self.spindles.get_mut(spindle) {
+                    spindle.command(motion);
+                }
+            }
+            other => {
+                let time_s = self.cycle.time_of(self.planner.setpoint().k);
+                self.diagnostics.extend(self.totals.note(other, &self.machine, time_s));
+            }
+        }
+    }
+
+    pub(super) fn feedforward(&mut self, on: bool, weights: &[f64]) {
+        let mut changed = false;
+        for (i, chain) in self.chains.iter().enumerate() {
+            if let Driver::Path(p) = self.drivers[i] {
+                let weight = weights.get(p).copied().unwrap_or(1.0);
+                let gain = chain.feedforward_gain(on, weight);
+                changed |= gain.to_bits() != self.gains[i].to_bits();
+                self.gains[i] = gain;
+            }
+        }
+        // the record is that of the cycle before
+        if changed && self.record.path.v_mm_s > 0.0 {
+            self.switched_while_moving();
+        }
+    }
+
+    pub(super) fn spindle_feedforward(&mut self, spindle: usize, on: bool, weight: f64) {
+        for (i, chain) in self.chains.iter().enumerate() {
+            if self.drivers[i] == Driver::Spindle(spindle) {
+                self.gains[i] = chain.feedforward_gain(on, weight);
+            }
+        }
+    }
+
+    /// Puts new kernels into the path axes; they are flushed.
+    pub(super) fn swap_kernels(&mut self, setup: &crate::exec::ShapingSetup) {
+        for (chain, axis) in self.chains.iter_mut().zip(&setup.axes) {
+            if chain.set_kernel(axis.kernel.clone()).is_err() {
+                self.diagnostics.push(super::fault::switch_while_moving());
+            }
+        }
+        let kernels = Kernels::new(setup.axes.iter().map(|a| a.kernel.clone()).collect());
+        let path = &self.chains[..self.vector.len()];
+        let reach = path.iter().map(AxisChain::reach_cycles).max().unwrap_or(0);
+        self.planner.set_kernels(kernels, reach);
+        for (delay, chain) in self.totals.filter_delay_cycles.iter_mut().zip(&self.chains) {
+            *delay = delay.max(chain.delay_cycles());
+        }
+    }
+
+    /// `#MACHINE DATA`: the axis concerned gets a new chain at its present position; it is at rest.
+    pub(super) fn machine_data(&mut self, axis: u32, key: &str, value: &str) {
+        let machine = Arc::make_mut(&mut self.machine);
+        let Some(i) = machine.axes.iter().position(|a| a.number() == axis) else { return };
+        if machine.axes[i].set(key, value).is_err() {
+            // the program was refused by the executor, which checks the same
+            return;
+        }
+        let (mut setups, _) = machine.chains();
+        let x = self.chains[i].set_mm();
+        match AxisChain::new(setups.swap_remove(i), x, self.inputs.axes[i], self.cycle) {
+            Ok(chain) => {
+                self.chains[i] = chain;
+                let setup = self.executor.shaping().clone();
+                self.swap_kernels(&setup);
+            }
+            Err(e) => self.diagnostics.push(super::fault::plant(&e, &self.machine, i)),
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! One cycle through all axes: from the setpoints of path and spindles to the records.
+
+use super::Simulation;
+use crate::machine::{Axis, Machine};
+use crate::record::PathRecord;
+use kontur_motion::axis::AxisVec;
+use smallvec::SmallVec;
+
+/// Where the setpoint of a chain comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Driver {
+    /// Path axis; gantry slaves follow the path axis that is their master.
+    Path(usize),
+    Spindle(usize),
+    /// A gantry slave whose master is not in the channel.
+    Standing,
+}
+
+/// The driver of every chain, in the order of [`Machine::all_axes`].
+pub(super) fn drivers(machine: &Machine) -> Vec<Driver> {
+    let master = |axis: &Axis| {
+        let number = axis.gantry_master()?;
+        machine.axes.iter().position(|a| a.number() == number)
+    };
+    let slaves =
+        machine.gantry_slaves.iter().map(|a| master(a).map_or(Driver::Standing, Driver::Path));
+    let paths = (0..machine.axes.len()).map(Driver::Path);
+    let spindles = (0..machine.spindles.len()).map(Driver::Spindle);
+    paths.chain(spindles).chain(slaves).collect()
+}
+
+impl Simulation {
+    /// Hands the setpoint of the cycle through every axis and fills the record.
+    pub(super) fn through_the_axes(&mut self) {
+        let (k, seq) = (self.planner.setpoint().k, self.planner.setpoint().seq);
+        while self.underway.front().is_some_and(|u| u.seq <= seq) {
+            if let Some(block) = self.underway.pop_front() {
+                self.current = block.source;
+                self.jerk_limited = block.jerk_limited;
+                // the block began after the cycle before
+                for event in block.events {
+                    self.act(event, k.saturating_sub(1));
+                }
+            }
+        }
+        self.take_inputs(k);
+        let setpoint = self.planner.setpoint();
+        let n = self.vector.len();
+        let mut faults = Vec::new();
+        let positions: AxisVec =
+            (0..n).map(|p| setpoint.position[p] + self.independent.way_mm(p, k)).collect();
+        let spindles: SmallVec<[f64; 4]> =
+            self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
+        for (i, chain) in self.chains.iter_mut().enumerate() {
+            let ipo = match (self.frozen[i], self.drivers[i]) {
+                (Some(x), _) => x,
+                (None, Driver::Path(p)) => positions[p],
+                (None, Driver::Spindle(s)) => spindles[s],
+                (None, Driver::Standing) => chain.set_mm(),
+            };
+            let (record, found) = chain.step(ipo, self.gains[i], self.jerk_limited);
+            self.record.axes[i] = record;
+            faults.extend(found.iter().map(|f| (i, *f)));
+        }
+        let shaped = self.record.axes[..n].iter().any(|a| a.set.to_bits() != a.ipo.to_bits());
+        // what is measured against the contour: the set position without the ways of independent axes; while one of them
+        // moves, it does not count
+        for (p, set) in self.set.iter_mut().enumerate() {
+            let alone = self.independent.is_moving(p) || !self.chains[p].settled();
+            let way_mm = self.independent.done_mm(p);
+            *set = if self.independent.is_moving(p) || (way_mm.abs() > 0.0 && alone) {
+                setpoint.position[p]
+            } else {
+                self.record.axes[p].set - way_mm
+            };
+        }
+        // on the contour bit for bit: nothing to search
+        self.record.contour_err_mm = if shaped {
+            self.planner.deviation(&self.set, &mut self.vector)
+        } else {
+            self.vector.fill(0.0);
+            0.0
+        };
+        for (axis, dev) in self.record.axes.iter_mut().zip(self.vector.iter()) {
+            axis.dev = *dev;
+        }
+        self.record.k = k;
+        self.record.file = self.current.file;
+        self.record.line = self.current.line;
+        self.record.block = self.current.block;
+        self.record.path = PathRecord {
+            s_mm: setpoint.s_mm,
+            v_mm_s: setpoint.v_mm_s,
+            a_mm_s2: setpoint.a_mm_s2,
+            j_mm_s3: setpoint.j_mm_s3,
+            limit: setpoint.limit,
+        };
+        for unkept in self.planner.take_unkept() {
+            let diagnostic = self.unkept(&unkept);
+            self.diagnostics.push(diagnostic);
+        }
+        for (i, f) in faults {
+            self.fault(i, &f);
+        }
+    }
+}

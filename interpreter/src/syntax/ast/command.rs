@@ -1,0 +1,130 @@
+//! Commands: words, switches and groups of keys.
+
+use super::{Expr, Span};
+
+/// A name with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ident {
+    /// Text; see the module documentation for its case.
+    pub text: Box<str>,
+    /// Place.
+    pub span: Span,
+}
+
+impl Ident {
+    /// Compares without case.
+    pub fn is(&self, other: &str) -> bool {
+        self.text.eq_ignore_ascii_case(other)
+    }
+
+    /// Splits a name written together with a number, `ID455` or `REV1000.5`, into both.
+    pub fn split_number(&self) -> Option<(&str, f64)> {
+        let at = self.text.find(|c: char| c.is_ascii_digit() || c == '.')?;
+        let (name, number) = self.text.split_at(at);
+        let plain = number.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+        if name.is_empty() || !plain {
+            return None;
+        }
+        number.parse().ok().map(|value| (name, value))
+    }
+}
+
+/// Plain-text command: `#NAME WORDS [ON|OFF] [WORDS] [arguments | bracket groups]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    /// Words up to `ON`/`OFF` or the first argument, in upper case: `["VIB", "GUARD"]`.
+    pub words: Vec<Ident>,
+    /// `ON` (true) or `OFF` (false) behind the words.
+    pub on: Option<bool>,
+    /// Words behind `ON`/`OFF`: `ALL` of `#CS OFF ALL`; in upper case.
+    pub tail: Vec<Ident>,
+    /// Values without bracket: `#TIME 2.5`, `#WAIT FOR V.E.A == 1`, `#DELETE V.P.A, V.P.B`.
+    pub arguments: Vec<Expr>,
+    /// Bracket groups: `#CS DEF[1][0,0,0]` has two.
+    pub groups: Vec<Group>,
+    /// Place.
+    pub span: Span,
+}
+
+impl Command {
+    /// True if the words up to `ON`/`OFF` are exactly these (`"CONTOUR MODE"`: one blank between two words).
+    pub fn is(&self, name: &str) -> bool {
+        let mut words = self.words.iter();
+        name.split(' ').all(|part| words.next().is_some_and(|word| &*word.text == part))
+            && words.next().is_none()
+    }
+
+    /// The words up to `ON`/`OFF` with one blank between two.
+    pub fn name(&self) -> String {
+        let mut name = String::new();
+        for word in &self.words {
+            if !name.is_empty() {
+                name.push(' ');
+            }
+            name.push_str(&word.text);
+        }
+        name
+    }
+}
+
+/// Contents of a bracket; commas, equals signs and `|` between items are decoration and left no trace.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Group {
+    /// Items in written order.
+    pub items: Vec<Item>,
+    /// Place, brackets included.
+    pub span: Span,
+}
+
+impl Group {
+    /// The first value of a key (upper case).
+    pub fn get(&self, key: &str) -> Option<&ItemValue> {
+        self.items.iter().find_map(|item| match &item.kind {
+            ItemKind::Pair { key: k, value } if &*k.text == key => Some(value),
+            _ => None,
+        })
+    }
+
+    /// True if the flag (upper case) is written.
+    pub fn has(&self, flag: &str) -> bool {
+        self.items.iter().any(|item| matches!(&item.kind, ItemKind::Flag(f) if f.is(flag)))
+    }
+}
+
+/// One item of a bracket.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Item {
+    /// What it is.
+    pub kind: ItemKind,
+    /// Place.
+    pub span: Span,
+}
+
+/// Kind of an item.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ItemKind {
+    /// A word alone: `DEV`, `BSPLINE`, `X`, `ID455`; as written.
+    Flag(Ident),
+    /// `KEY=value`, `KEY value`; `@P1=5` has the key `@P1`. The key is in upper case.
+    Pair {
+        /// Key.
+        key: Ident,
+        /// Value.
+        value: ItemValue,
+    },
+    /// A value alone: `["text", P1]`, `[0,0,0]`.
+    Value(ItemValue),
+    /// Nothing between two commas.
+    Missing,
+}
+
+/// Value of an item.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ItemValue {
+    /// Expression or string.
+    Expr(Expr),
+    /// Identifier: `TYPE=HSC`, `AX=Z`, `NAME=file.nc`; as written.
+    Name(Ident),
+    /// Nested list.
+    List(Group),
+}

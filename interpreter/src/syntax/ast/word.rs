@@ -1,0 +1,170 @@
+//! Words of a block: addresses, names, assignments and calls.
+
+use super::{Expr, Group, Ident, Label, Place, Span};
+
+/// One word of a block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Word {
+    /// What it is.
+    pub kind: WordKind,
+    /// Place, value included.
+    pub span: Span,
+}
+
+/// Kind and contents of a word.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WordKind {
+    /// `G01`, `G131=50`, `G04 P1`, `G80[1,,3]`. Whether a G function takes a value is not known here.
+    G {
+        /// Number without leading zeros; `u32::MAX` if it does not fit.
+        number: u32,
+        /// Value or list.
+        value: Option<Box<GValue>>,
+    },
+    /// `M30`, `M200=800`, `M@P6`.
+    M(CodeNumber, Option<Box<Expr>>),
+    /// `H5`, `H5=2`.
+    H(CodeNumber, Option<Box<Expr>>),
+    /// Letter or name with a value: axes, `F`, `S`, `I J K`, `R`, `T`, `D`, `E`, `O`, ...
+    Address {
+        /// Address.
+        name: Name,
+        /// Value.
+        value: Expr,
+    },
+    /// Axis or spindle command: `X[OVERRIDE FEED_FACT=50]`, `S[M3 REV1000]`, `S2[G136=80]`.
+    Bracket(Box<Bracket>),
+    /// `P1=5`, `V.P.A[2]=3`, `V.E.NAME="text"`.
+    Assign(Box<Assign>),
+    /// `"NAME" = "text"`.
+    MacroDefinition(Box<MacroDefinition>),
+    /// `"NAME"` standing for words; still here only if the macro was not expanded before parsing.
+    MacroUse(Box<str>),
+    /// A `#` word that stands among DIN words: `#FRC=50`, `#CHR`, `#ANG=30`, `#PSET`, ...
+    Hash(Box<HashWord>),
+    /// Subroutine call.
+    Call(Box<Call>),
+    /// `$GOTO target`.
+    Goto(Box<Label>),
+}
+
+/// Value of a G function.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GValue {
+    /// `G131=50`, `G04 2.5`.
+    Scalar(Expr),
+    /// `G80 [1, 2, , 4]`: only for G80 to G89 and G800 to G899; an empty place is `None`.
+    List(Vec<Option<Expr>>),
+}
+
+/// Number of an M or H function.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CodeNumber {
+    /// Digits; `u32::MAX` if they do not fit.
+    Literal(u32),
+    /// `M@P6`, `MP1`, `M[P1+1]`.
+    Computed(Box<Expr>),
+}
+
+/// Address of a word, in upper case.
+#[derive(Clone, PartialEq, Eq)]
+pub enum Name {
+    /// One letter `A` to `Z` (ASCII code).
+    Letter(u8),
+    /// Several characters: `X1`, `AP`, `S2`.
+    Long(Box<str>),
+}
+
+/// `A` to `Z`, so that a letter can be lent out as a string.
+const LETTERS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+
+impl Name {
+    /// The name of `text` in upper case.
+    pub fn new(text: &str) -> Self {
+        match text.as_bytes() {
+            [letter] if letter.is_ascii_alphabetic() => Self::Letter(letter.to_ascii_uppercase()),
+            _ => Self::Long(text.to_ascii_uppercase().into()),
+        }
+    }
+
+    /// The letter of a one-letter name.
+    pub fn letter(&self) -> Option<u8> {
+        match self {
+            Self::Letter(letter) => Some(*letter),
+            Self::Long(_) => None,
+        }
+    }
+
+    /// The name as text.
+    pub fn as_str(&self) -> &str {
+        match self {
+            Self::Letter(letter) => {
+                let i = usize::from(letter.wrapping_sub(b'A'));
+                LETTERS.get(i..=i).unwrap_or("?")
+            }
+            Self::Long(text) => text,
+        }
+    }
+}
+
+impl std::fmt::Debug for Name {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// Axis or spindle command in brackets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bracket {
+    /// Axis or spindle.
+    pub name: Name,
+    /// Contents of the bracket.
+    pub group: Group,
+}
+
+/// Assignment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assign {
+    /// Left side.
+    pub target: Place,
+    /// Right side.
+    pub value: Expr,
+}
+
+/// Definition of a macro.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MacroDefinition {
+    /// Name, as written.
+    pub name: Box<str>,
+    /// Text, `\"` already turned into `"`.
+    pub text: Box<str>,
+}
+
+/// A `#` word among DIN words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HashWord {
+    /// Name without `#`, in upper case: `FRC CHR CHF RND ANG CANG ACHSE PSET PRESET ADD`.
+    pub name: Box<str>,
+    /// Value, if one is written.
+    pub value: Option<Expr>,
+}
+
+/// Subroutine call.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Call {
+    /// `LL` is local, `L` global.
+    pub local: bool,
+    /// What is called.
+    pub kind: CallKind,
+}
+
+/// What a call names.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CallKind {
+    /// `L file.nc`, `LL NAME`, `L "a b.nc"`: name or path as written, without quotes.
+    Program(Ident),
+    /// `L CYCLE [NAME=file @P1=..]`.
+    Cycle(Group),
+    /// `L SEQUENCE [NAME=.. N10 N50 REPEAT=2]`.
+    Sequence(Group),
+}

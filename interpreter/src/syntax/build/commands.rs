@@ -1,0 +1,200 @@
+//! Commands with their groups, declarations and control statements.
+
+use super::Builder;
+use crate::diag::Severity;
+use crate::syntax::Rule;
+use crate::syntax::ast::{
+    Block, Body, Command, Control, ControlKind, Declaration, Group, Item, ItemKind, ItemValue,
+    Place, PlaceKind, Span,
+};
+use crate::syntax::problem::Problem;
+use pest::iterators::Pair;
+
+impl Builder<'_> {
+    /// `group` or `cycle_group`.
+    pub(super) fn group(&mut self, pair: Pair<'_, Rule>) -> Group {
+        let span = self.span(&pair);
+        let mut items: Vec<Item> = Vec::new();
+        // True where an item would be missing if a comma came now.
+        let mut bare = true;
+        for part in pair.into_inner() {
+            let place = self.span(&part);
+            match part.as_rule() {
+                Rule::comma => {
+                    if bare {
+                        items
+                            .push(Item { kind: ItemKind::Missing, span: Span { len: 0, ..place } });
+                    }
+                    bare = true;
+                }
+                Rule::bar => {
+                    let text =
+                        "`|` between two keys belongs to the notation of manuals, it is ignored";
+                    self.report(Problem::syntax(place, text).severity(Severity::Note));
+                }
+                Rule::item | Rule::name_item => {
+                    items.push(Item { kind: self.item(part), span: place });
+                    bare = false;
+                }
+                _ => {}
+            }
+        }
+        Group { items, span }
+    }
+
+    fn item(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
+        let whole =
+            if pair.as_rule() == Rule::name_item { Some(pair) } else { pair.into_inner().next() };
+        let Some(whole) = whole else { return ItemKind::Missing };
+        if whole.as_rule() == Rule::flag {
+            return ItemKind::Flag(self.ident(&whole));
+        }
+        let mut key = None;
+        let mut value = None;
+        for part in whole.into_inner() {
+            match part.as_rule() {
+                Rule::key | Rule::cycle_key | Rule::name_key => key = Some(self.upper(&part)),
+                Rule::equals => {}
+                _ => value = Some(self.item_value(part)),
+            }
+        }
+        match (key, value) {
+            (Some(key), Some(value)) => ItemKind::Pair { key, value },
+            (Some(key), None) => ItemKind::Flag(key),
+            (None, Some(value)) => ItemKind::Value(value),
+            (None, None) => ItemKind::Missing,
+        }
+    }
+
+    fn item_value(&mut self, pair: Pair<'_, Rule>) -> ItemValue {
+        match pair.as_rule() {
+            Rule::expression => ItemValue::Expr(self.expression(pair)),
+            Rule::group => ItemValue::List(self.group(pair)),
+            Rule::value => match pair.into_inner().next() {
+                Some(inner) => self.item_value(inner),
+                None => ItemValue::Expr(Self::zero()),
+            },
+            _ => ItemValue::Name(self.file(&pair)),
+        }
+    }
+
+    pub(super) fn command(&mut self, pair: Pair<'_, Rule>) -> Command {
+        let span = self.span(&pair);
+        let (words, tail, arguments, groups) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut command = Command { words, on: None, tail, arguments, groups, span };
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::command_word => {
+                    let word = self.upper(&part);
+                    match (&*word.text, command.on) {
+                        ("ON", None) if !command.words.is_empty() => command.on = Some(true),
+                        ("OFF", None) if !command.words.is_empty() => command.on = Some(false),
+                        (_, None) => command.words.push(word),
+                        (_, Some(_)) => command.tail.push(word),
+                    }
+                }
+                Rule::group => command.groups.push(self.group(part)),
+                Rule::arguments => {
+                    for argument in part.into_inner() {
+                        if argument.as_rule() == Rule::expression {
+                            command.arguments.push(self.expression(argument));
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        command
+    }
+
+    /// Rules of shape for single commands.
+    pub(super) fn check_command(&mut self, command: &Command, block: &Block) {
+        let words: Vec<&str> = command.words.iter().map(|word| &*word.text).collect();
+        let bare =
+            command.arguments.is_empty() && command.groups.is_empty() && command.tail.is_empty();
+        match words.as_slice() {
+            ["COMMENT", "BEGIN", rest @ ..] if !rest.is_empty() || !bare => {
+                let text = "#COMMENT BEGIN does not stand alone in its block";
+                self.report(Problem::vendor(20566, command.span, text));
+            }
+            ["COMMENT", "END", rest @ ..] if !rest.is_empty() || !bare => {
+                let text = "#COMMENT END does not stand alone in its block";
+                self.report(Problem::vendor(20569, command.span, text));
+            }
+            ["IF" | "ELSE" | "ENDIF", ..] if block.number.is_some() || block.label.is_some() => {
+                let text = format!("#{} behind a block number", words.join(" "));
+                let hint = "only a skip mark may stand before it";
+                self.report(Problem::vendor(20593, command.span, text).hint(hint));
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn declaration(&mut self, pair: Pair<'_, Rule>) -> Declaration {
+        let span = self.span(&pair);
+        let place = Place { kind: PlaceKind::Variable(Vec::new()), span };
+        let mut declaration =
+            Declaration { place, type_name: None, length: None, value: None, span };
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::place => declaration.place = self.place(part),
+                Rule::type_name => declaration.type_name = Some(self.upper(&part)),
+                Rule::index => declaration.length = Some(self.index(part)),
+                Rule::value => declaration.value = Some(self.item_value(part)),
+                _ => {}
+            }
+        }
+        declaration
+    }
+
+    pub(super) fn control(&mut self, pair: Pair<'_, Rule>, span: Span) -> Body {
+        let Some(inner) = pair.into_inner().next() else { return Body::Empty };
+        let rule = inner.as_rule();
+        let mut values = Vec::new();
+        let mut place = None;
+        let mut goto = None;
+        for part in inner.into_inner() {
+            match part.as_rule() {
+                Rule::expression => values.push(self.expression(part)),
+                Rule::place => place = Some(self.place(part)),
+                Rule::target => goto = Some(self.target(part)),
+                Rule::bad_counter => {
+                    let at = self.span(&part);
+                    let text = format!("`{}` cannot count a $FOR loop", part.as_str());
+                    let hint = "the counter is a P parameter or a variable that may be written";
+                    self.report(Problem::vendor(20227, at, text).hint(hint));
+                    // the executor says the same of this place, once is enough
+                    place = Some(Place { kind: PlaceKind::Variable(Vec::new()), span: at });
+                }
+                _ => {}
+            }
+        }
+        let mut values = values.into_iter();
+        let mut value = || values.next().unwrap_or_else(Self::zero);
+        let kind = match rule {
+            Rule::c_if => ControlKind::If { condition: value(), goto },
+            Rule::c_elseif => ControlKind::ElseIf(value()),
+            Rule::c_else => ControlKind::Else,
+            Rule::c_endif => ControlKind::EndIf,
+            Rule::c_switch => ControlKind::Switch { target: place, value: value() },
+            Rule::c_case => ControlKind::Case(value()),
+            Rule::c_default => ControlKind::Default,
+            Rule::c_endswitch => ControlKind::EndSwitch,
+            Rule::c_for => {
+                let counter =
+                    place.unwrap_or(Place { kind: PlaceKind::Variable(Vec::new()), span });
+                ControlKind::For { counter, start: value(), end: value(), step: values.next() }
+            }
+            Rule::c_endfor => ControlKind::EndFor,
+            Rule::c_while => ControlKind::While(value()),
+            Rule::c_endwhile => ControlKind::EndWhile,
+            Rule::c_do => ControlKind::Do,
+            Rule::c_enddo => ControlKind::EndDo(values.next()),
+            Rule::c_repeat => ControlKind::Repeat,
+            Rule::c_until => ControlKind::Until(value()),
+            Rule::c_break => ControlKind::Break,
+            _ => ControlKind::Continue,
+        };
+        Body::Control(Box::new(Control { kind, span }))
+    }
+}

@@ -1,0 +1,145 @@
+//! Words of a block: addresses with values, code numbers, calls and file names.
+
+use super::Builder;
+use crate::syntax::Rule;
+use crate::syntax::ast::{
+    Assign, Bracket, Call, CallKind, CodeNumber, Expr, GValue, Group, HashWord, Ident, Label,
+    LabelKind, MacroDefinition, Name, Place, Span, Word, WordKind,
+};
+use pest::iterators::Pair;
+
+impl Builder<'_> {
+    pub(super) fn word(&mut self, pair: Pair<'_, Rule>, span: Span) -> Word {
+        let rule = pair.as_rule();
+        let kind = match rule {
+            Rule::goto => {
+                let target = pair.into_inner().next();
+                let empty = Label { kind: LabelKind::Number(0), span };
+                WordKind::Goto(Box::new(target.map_or(empty, |p| self.target(p))))
+            }
+            Rule::call => WordKind::Call(Box::new(self.call(pair))),
+            Rule::macro_definition => {
+                let mut texts = pair.into_inner().filter(|p| p.as_rule() == Rule::string);
+                let mut text = || texts.next().map(|p| self.string(&p)).unwrap_or_default();
+                let (name, text) = (text(), text());
+                WordKind::MacroDefinition(Box::new(MacroDefinition { name, text }))
+            }
+            Rule::macro_use => {
+                let name = pair.into_inner().next().map(|p| self.string(&p));
+                WordKind::MacroUse(name.unwrap_or_default())
+            }
+            _ => self.valued_word(pair, rule),
+        };
+        Word { kind, span }
+    }
+
+    /// Words that consist of an address and at most one value.
+    fn valued_word(&mut self, pair: Pair<'_, Rule>, rule: Rule) -> WordKind {
+        let mut name = None;
+        let mut place = None;
+        let mut number = 0;
+        let mut code = CodeNumber::Literal(0);
+        let mut value = None;
+        let mut slots = Vec::new();
+        let mut group = Group::default();
+        for part in pair.into_inner() {
+            let span = self.span(&part);
+            match part.as_rule() {
+                Rule::g_number | Rule::g_cycle_number => {
+                    number = part.as_str()[1..].parse().unwrap_or(u32::MAX);
+                }
+                Rule::code_number => code = self.code_number(part),
+                Rule::marked_name
+                | Rule::bracket_name
+                | Rule::equals_name
+                | Rule::letter
+                | Rule::name_letters
+                | Rule::hash_name => name = Some(self.written(span)),
+                Rule::place => place = Some(self.place(part)),
+                Rule::expression => value = Some(self.expression(part)),
+                Rule::signed_number => value = Some(self.signed_number(part)),
+                Rule::slot => slots.push(part.into_inner().next().map(|p| self.expression(p))),
+                Rule::group => group = self.group(part),
+                _ => {}
+            }
+        }
+        let address = || name.map_or(Name::Letter(b'?'), Name::new);
+        match (rule, value) {
+            (Rule::g_cycle, _) => {
+                WordKind::G { number, value: Some(Box::new(GValue::List(slots))) }
+            }
+            (Rule::g_word, value) => {
+                WordKind::G { number, value: value.map(|v| Box::new(GValue::Scalar(v))) }
+            }
+            (Rule::m_word, value) => WordKind::M(code, value.map(Box::new)),
+            (Rule::h_word, value) => WordKind::H(code, value.map(Box::new)),
+            (Rule::bracket_word, _) => {
+                WordKind::Bracket(Box::new(Bracket { name: address(), group }))
+            }
+            (Rule::hash_word, value) => {
+                let words: Vec<&str> = name
+                    .unwrap_or_default()
+                    .trim_start_matches('#')
+                    .split_ascii_whitespace()
+                    .collect();
+                let name = words.join(" ").to_ascii_uppercase().into();
+                WordKind::Hash(Box::new(HashWord { name, value }))
+            }
+            (_, value) => {
+                let value = value.unwrap_or_else(Self::zero);
+                match place {
+                    Some(target) => WordKind::Assign(Box::new(Assign { target, value })),
+                    None => WordKind::Address { name: address(), value },
+                }
+            }
+        }
+    }
+
+    fn code_number(&mut self, pair: Pair<'_, Rule>) -> CodeNumber {
+        let span = self.span(&pair);
+        let Some(inner) = pair.into_inner().next() else { return CodeNumber::Literal(0) };
+        match inner.as_rule() {
+            Rule::code_digits => CodeNumber::Literal(inner.as_str().parse().unwrap_or(u32::MAX)),
+            Rule::index => CodeNumber::Computed(Box::new(self.index(inner))),
+            _ => {
+                let place = Place { kind: self.place_kind(inner), span };
+                CodeNumber::Computed(Box::new(Expr { kind: place.into(), span }))
+            }
+        }
+    }
+
+    fn call(&mut self, pair: Pair<'_, Rule>) -> Call {
+        let mut local = false;
+        let mut kind = None;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::call_mark => local = part.as_str().len() > 1,
+                Rule::cycle_call => {
+                    kind = part.into_inner().next().map(|p| CallKind::Cycle(self.group(p)));
+                }
+                Rule::sequence_call => {
+                    kind = part.into_inner().next().map(|p| CallKind::Sequence(self.group(p)));
+                }
+                Rule::digits_call => {
+                    for inner in part.into_inner() {
+                        match inner.as_rule() {
+                            Rule::digits_mark => local = inner.as_str().len() > 1,
+                            _ => kind = Some(CallKind::Program(self.ident(&inner))),
+                        }
+                    }
+                }
+                _ => kind = part.into_inner().next().map(|p| CallKind::Program(self.file(&p))),
+            }
+        }
+        let empty = Ident { text: "".into(), span: Span::default() };
+        Call { local, kind: kind.unwrap_or(CallKind::Program(empty)) }
+    }
+
+    /// A file name, with or without quotes.
+    pub(super) fn file(&mut self, pair: &Pair<'_, Rule>) -> Ident {
+        match pair.as_rule() {
+            Rule::string => Ident { text: self.string(pair), span: self.span(pair) },
+            _ => self.ident(pair),
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! The command line as a test calls it: what goes in, and what it prints.
+
+use kontur::console::Console;
+use kontur::simulator::Kontur;
+use kontur::{Exit, run_with};
+use std::cell::RefCell;
+use std::ffi::OsString;
+use std::io::Write;
+use std::rc::Rc;
+
+/// What a command did.
+#[derive(Debug)]
+pub struct Output {
+    /// Exit code.
+    pub exit: Exit,
+    /// What it printed.
+    pub out: String,
+    /// Its messages.
+    pub err: String,
+}
+
+#[derive(Clone, Default)]
+struct Buffer(Rc<RefCell<Vec<u8>>>);
+
+impl Buffer {
+    fn text(&self) -> String {
+        String::from_utf8(self.0.take()).unwrap()
+    }
+}
+
+impl Write for Buffer {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Runs `kontur` with words behind it.
+pub fn command<W: Into<OsString>>(words: impl IntoIterator<Item = W>) -> Output {
+    let (out, err) = (Buffer::default(), Buffer::default());
+    let mut console = Console::new(out.clone(), err.clone());
+    let words = std::iter::once("kontur".into()).chain(words.into_iter().map(Into::into));
+    let exit = run_with(words, &mut Kontur, &mut console);
+    Output { exit, out: out.text(), err: err.text() }
+}
