@@ -14,6 +14,7 @@ pub mod independent;
 pub mod limit;
 pub mod limits;
 pub mod lookahead;
+mod overshoot;
 pub mod path;
 pub mod planner;
 pub mod profile;

@@ -397,7 +397,8 @@ impl Planner {
             .map(|i| lower(self.caps.get(i).copied().unwrap_or((0.0, end)), demands.cap[i]))
             .collect();
         let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
-        let plan = plan(window, &feeds, &caps, &forced, self.speed, end)?;
+        let gentle = demands.soften(window);
+        let plan = plan(&gentle, &feeds, &caps, &forced, self.speed, end)?;
         let mut at = start;
         let mut s = self.travelled;
         let mut entries = Vec::with_capacity(plan.spans.len());

@@ -9,14 +9,17 @@
 //! exactly as the trace will be. Where it exceeds the tolerance, the speed of the corners (or curves) that cause it is
 //! lowered by the closed form, and the window is planned again. A corner that is still too coarse at a full stop dwells
 //! for as many cycles as needed, at most the length of the kernel, when nothing is left of the error. Kernels with
-//! negative weights (windowed sinc) overshoot even there; the blocks on both sides are slowed down.
+//! negative weights (windowed sinc) swing beyond the end even there, and no dwell helps; the blocks on both sides start
+//! and stop with a lower acceleration, see [`crate::overshoot`].
 
 use crate::axis::AxisVec;
 use crate::contour::Contour;
+use crate::overshoot::gentle;
 use crate::queue::Queued;
 use crate::timeline::{PathState, Reader, Timeline};
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -40,6 +43,8 @@ pub struct Kernels {
     axes: Vec<Option<Arc<Kernel>>>,
     /// A kernel with negative weights overshoots where the path starts and stops, straight blocks included.
     overshoot: bool,
+    /// Not all axes have the same kernel.
+    unequal: bool,
 }
 
 impl Kernels {
@@ -47,7 +52,8 @@ impl Kernels {
     pub fn new(axes: Vec<Option<Arc<Kernel>>>) -> Self {
         let mut taps = axes.iter().flatten().flat_map(|k| k.taps());
         let overshoot = taps.any(|tap| tap.weight < 0.0);
-        Self { axes, overshoot }
+        let unequal = axes.windows(2).any(|pair| pair[0] != pair[1]);
+        Self { axes, overshoot, unequal }
     }
 
     /// True if any axis has a kernel.
@@ -85,6 +91,8 @@ pub(crate) struct Demands {
     pub(crate) stop: Vec<Option<u32>>,
     /// Velocity cap of each block.
     pub(crate) feed: Vec<f64>,
+    /// Part of its acceleration that each block may use.
+    acceleration: Vec<f64>,
     /// Speed and excess at each boundary when it was last found too fast.
     tried: Vec<Option<(f64, f64)>>,
 }
@@ -95,6 +103,7 @@ impl Demands {
             cap: vec![f64::INFINITY; blocks + 1],
             stop: vec![None; blocks + 1],
             feed: vec![f64::INFINITY; blocks],
+            acceleration: vec![1.0; blocks],
             tried: vec![None; blocks + 1],
         }
     }
@@ -103,8 +112,25 @@ impl Demands {
     pub(crate) fn release(&mut self, blocks: usize) {
         let n = self.feed.len().min(blocks);
         self.feed[..n].fill(f64::INFINITY);
+        self.acceleration[..n].fill(1.0);
         self.cap[..=n].fill(f64::INFINITY);
         self.stop[..=n].fill(None);
+    }
+
+    /// The blocks with the acceleration that is left to them.
+    pub(crate) fn soften<'a>(&self, window: &'a [Arc<Queued>]) -> Cow<'a, [Arc<Queued>]> {
+        if self.acceleration.iter().all(|ratio| *ratio >= 1.0) {
+            return Cow::Borrowed(window);
+        }
+        let soften = |(queued, ratio): (&Arc<Queued>, &f64)| {
+            if *ratio >= 1.0 {
+                return Arc::clone(queued);
+            }
+            let mut soft = Queued::clone(queued);
+            soft.slope = soft.slope.scaled(*ratio);
+            Arc::new(soft)
+        };
+        Cow::Owned(window.iter().zip(&self.acceleration).map(soften).collect())
     }
 }
 
@@ -217,7 +243,7 @@ impl Monitor {
         let mut buffer = Buffer::new(trial);
         let mut next = trial.now + 1;
         for (m, mark) in marks.iter().enumerate() {
-            let bent = mark.queued.bend > 0.0 || buffer.unequal || trial.kernels.overshoot;
+            let bent = mark.queued.bend > 0.0 || trial.kernels.unequal || trial.kernels.overshoot;
             if mark.jump <= 1e-9 && !bent {
                 continue;
             }
@@ -228,7 +254,7 @@ impl Monitor {
             let parts = if bent { [entered, left, left + reach] } else { [entered; 3] };
             next = next.max(mark.cycles.floor() as u64 + 1);
             for last in parts {
-                let calm = !buffer.unequal && !trial.kernels.overshoot;
+                let calm = !trial.kernels.unequal && !trial.kernels.overshoot;
                 if next > last || (calm && quiet(trial, marks, next, last)) {
                     next = next.max(last + 1);
                     continue;
@@ -316,18 +342,22 @@ impl Monitor {
         demands: &mut Demands,
     ) {
         let full = trial.kernels.length();
-        let mut slow = findings.curve.clone();
+        let mut soften = vec![None; trial.window.len()];
         for mark in marks {
             let Some(b) = mark.boundary else { continue };
             let excess = findings.corner[b];
             if excess <= 0.0 {
                 continue;
             }
-            if trial.kernels.overshoot && demands.stop[b] == Some(full) {
+            let swings = trial.kernels.overshoot
+                && demands.stop[b].is_some_and(|dwell| {
+                    dwell == full || !self.full_dwell_keeps(trial, marks, mark, dwell)
+                });
+            if swings {
                 // what is left is the overshoot of the stop itself
                 let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
-                note(&mut slow[b - 1], excess, tolerance);
-                note(&mut slow[b], excess, tolerance);
+                note(&mut soften[b - 1], excess, tolerance);
+                note(&mut soften[b], excess, tolerance);
                 continue;
             }
             if round >= ROUNDS_OF_SPEED {
@@ -361,52 +391,75 @@ impl Monitor {
         }
         for mark in marks {
             let Some(b) = mark.block else { continue };
-            if let Some((excess, tolerance)) = slow[b] {
-                let queued = &trial.window[b];
+            let queued = &trial.window[b];
+            let haste = if round < ROUNDS_OF_SPEED { 1.0 } else { 0.7 };
+            if let Some((excess, tolerance)) = findings.curve[b] {
                 let left = tolerance / (tolerance + excess);
-                // the deviation on a curve grows with the square of the speed, an overshoot with the speed
-                let (closed, floor) = if trial.kernels.overshoot && queued.bend <= 0.0 {
-                    (left, 0.0)
+                if trial.kernels.overshoot {
+                    note(&mut soften[b], excess, tolerance);
+                }
+                // on a straight block with equal kernels only starts and stops leave the contour
+                if queued.bend > 0.0 || trial.kernels.unequal || !trial.kernels.overshoot {
+                    // the deviation on a curve grows with the square of the speed
+                    let ratio = haste * 0.999 * left.sqrt();
+                    let floor = slowest(trial, queued, tolerance);
+                    let now = demands.feed[b].min(queued.velocity.0).min(mark.speed);
+                    demands.feed[b] = (now * ratio.max(0.3)).max(floor.min(now));
+                }
+            }
+            if let Some((excess, tolerance)) = soften[b] {
+                let now = demands.acceleration[b];
+                let mut ratio = haste * 0.99 * tolerance / (tolerance + excess);
+                if now >= 1.0 {
+                    ratio = ratio.min(2.0 * gentle_ratio(trial, mark, queued, tolerance));
                 } else {
-                    (left.sqrt(), slowest(trial, queued, tolerance))
-                };
-                let closed = 0.999 * closed;
-                let ratio = if round < ROUNDS_OF_SPEED { closed } else { 0.7 * closed };
-                let now = demands.feed[b].min(queued.velocity.0).min(mark.speed);
-                demands.feed[b] = (now * ratio.max(0.3)).max(floor.min(now));
+                    ratio = ratio.max(0.3);
+                }
+                demands.acceleration[b] = now * ratio;
             }
         }
     }
 
     /// Least dwell at a stop that keeps the tolerance as far as this corner is concerned, by bisection.
     fn needed_dwell(&self, trial: &Trial<'_>, marks: &[Mark], mark: &Mark, dwell: u32) -> u32 {
+        let contour = contour(marks);
+        let (mut low, mut high) = (dwell, trial.kernels.length());
+        while high - low > 1 {
+            let mid = low + (high - low) / 2;
+            if self.keeps(trial, &contour, mark, dwell, mid) { high = mid } else { low = mid }
+        }
+        high
+    }
+
+    /// True if the corner keeps the tolerance once it dwells for the whole kernel.
+    fn full_dwell_keeps(&self, trial: &Trial<'_>, marks: &[Mark], mark: &Mark, dwell: u32) -> bool {
+        self.keeps(trial, &contour(marks), mark, dwell, trial.kernels.length())
+    }
+
+    /// True if `cycles` of dwell in place of `dwell` keep the tolerance at a stop.
+    fn keeps(
+        &self,
+        trial: &Trial<'_>,
+        contour: &Contour,
+        mark: &Mark,
+        dwell: u32,
+        cycles: u32,
+    ) -> bool {
         let start = mark.cycles.round() as u64;
         let rest = start.saturating_sub(u64::from(dwell));
         let full = trial.kernels.length();
-        let contour = contour(marks);
         let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
         let (from, to) = (rest as f64 - f64::from(full), start as f64 + f64::from(full));
-        let keeps = |cycles: u32| -> bool {
-            let mut buffer = Buffer::new(trial);
-            buffer.fill(self, trial, rest);
-            let mut vector = AxisVec::zeros(buffer.set.len());
-            for k in rest..=rest + u64::from(cycles + full) {
-                // before the rest as planned, behind it as planned after the present dwell
-                let behind = k.saturating_sub(rest + u64::from(cycles));
-                buffer.step(self, trial, if behind > 0 { start + behind } else { k.min(rest) });
-                contour.deviation(&buffer.set, from, to, &mut vector);
-                if vector.iter().any(|c| c.abs() > tolerance - MARGIN_MM.min(0.1 * tolerance)) {
-                    return false;
-                }
-            }
-            true
-        };
-        let (mut low, mut high) = (dwell, full);
-        while high - low > 1 {
-            let mid = low + (high - low) / 2;
-            if keeps(mid) { high = mid } else { low = mid }
-        }
-        high
+        let mut buffer = Buffer::new(trial);
+        buffer.fill(self, trial, rest);
+        let mut vector = AxisVec::zeros(buffer.set.len());
+        (rest..=rest + u64::from(cycles + full)).all(|k| {
+            // before the rest as planned, behind it as planned after the present dwell
+            let behind = k.saturating_sub(rest + u64::from(cycles));
+            buffer.step(self, trial, if behind > 0 { start + behind } else { k.min(rest) });
+            contour.deviation(&buffer.set, from, to, &mut vector);
+            vector.iter().all(|c| c.abs() <= tolerance - MARGIN_MM.min(0.1 * tolerance))
+        })
     }
 }
 
@@ -442,6 +495,22 @@ fn slowest(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> f64 {
     let t = trial.cycle.seconds();
     let bend = queued.bend.max(1e-6);
     0.02 * (2.0 * tolerance / (variance * t * t * bend)).sqrt()
+}
+
+/// Part of the acceleration with which a lone start or stop on the block keeps the tolerance.
+fn gentle_ratio(trial: &Trial<'_>, mark: &Mark, queued: &Queued, tolerance: f64) -> f64 {
+    let v = mark.speed;
+    let a = 0.5 * v * v / queued.slope.down_distance(v, 0.0);
+    let axes = 0..queued.ends.tangent_in.len();
+    let gentlest = axes
+        .filter_map(|i| {
+            let kernel = trial.kernels.get(i).filter(|k| k.has_negative_taps())?;
+            let share = if queued.bend > 0.0 { 1.0 } else { queued.ends.tangent_in[i].abs() };
+            let seconds = trial.cycle.seconds();
+            Some(gentle(kernel, seconds, (v, queued.length), a, tolerance / share.max(1e-9)))
+        })
+        .fold(a, f64::min);
+    gentlest / a
 }
 
 fn note(slot: &mut Option<(f64, f64)>, excess: f64, tolerance: f64) {
@@ -528,7 +597,6 @@ struct Buffer<'a> {
     head: usize,
     state: PathState,
     set: AxisVec,
-    unequal: bool,
     /// The cycle behind the last one taken.
     next: Option<u64>,
 }
@@ -538,7 +606,6 @@ impl<'a> Buffer<'a> {
         let n = trial.window.first().map_or(0, |q| q.block.path.start().len());
         let zero = AxisVec::zeros(n);
         let size = trial.kernels.length() as usize + 1;
-        let unequal = (1..n).any(|i| trial.kernels.get(i) != trial.kernels.get(0));
         Self {
             reader: trial.timeline.reader(),
             kernels: trial.kernels,
@@ -547,7 +614,6 @@ impl<'a> Buffer<'a> {
             head: 0,
             state: PathState { position: zero.clone(), ..PathState::default() },
             set: zero,
-            unequal,
             next: None,
         }
     }

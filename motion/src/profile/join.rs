@@ -23,4 +23,13 @@ impl SlopeLimits {
             (a, b) => a == b,
         }
     }
+
+    /// Accelerations times `ratio`, positive, with the same ramp times.
+    #[must_use]
+    pub fn scaled(&self, ratio: f64) -> Self {
+        match self {
+            Self::Ramped(a) => Self::Ramped(a.combine(a, |leg, _| leg.scaled(ratio))),
+            Self::Step(a) => Self::Step(a.scaled(ratio)),
+        }
+    }
 }

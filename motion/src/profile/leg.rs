@@ -78,6 +78,11 @@ impl LegLimits {
         Self::new(self.shape, self.constant_ramp_time, a, ramp_s, ramp_s)
     }
 
+    /// The same ramp times with `ratio` of the plateau.
+    pub(super) fn scaled(&self, ratio: f64) -> Self {
+        Self::new(self.shape, self.constant_ramp_time, ratio * self.a, self.t1, self.t2)
+    }
+
     /// The smaller plateau with ramps of the smaller jerk.
     pub(super) fn weaker(&self, other: &Self) -> Self {
         let a = self.a.min(other.a);

@@ -47,6 +47,11 @@ impl StepLimits {
         Self { up: a.up.weaker(&b.up), down: a.down.weaker(&b.down) }
     }
 
+    /// `ratio` of the value at every velocity.
+    pub(super) fn scaled(&self, ratio: f64) -> Self {
+        Self { up: self.up.scaled(ratio), down: self.down.scaled(ratio) }
+    }
+
     pub(super) fn up(&self) -> &Levels {
         &self.up
     }
@@ -120,6 +125,10 @@ impl Levels {
             Level { from, a: axes.iter().map(value).fold(f64::INFINITY, f64::min) }
         });
         Self(levels.collect())
+    }
+
+    fn scaled(&self, ratio: f64) -> Self {
+        Self(self.0.iter().map(|level| Level { from: level.from, a: ratio * level.a }).collect())
     }
 
     fn weaker(&self, other: &Self) -> Self {

@@ -1,0 +1,93 @@
+//! What a kernel with negative weights (windowed sinc) adds to a start or a stop: it swings beyond the end of the path.
+//!
+//! From a speed `v` that a braking `a` ends in rest the filtered set point passes the end. Abruptly stopped it does so by
+//! `v` times an area of the kernel; a braking that is longer than the kernel leaves `a` times a second moment of its
+//! tail. So a lower acceleration keeps a tolerance at any speed, where a lower speed would have to be a crawl. Starts
+//! are stops backwards in time.
+
+use kontur_filters::kernel::{Kernel, Tap};
+
+/// Halvings of the ratio of accelerations.
+const BISECTIONS: usize = 20;
+/// Smallest acceleration looked for, as part of the present one.
+const LEAST: f64 = 1e-7;
+
+/// Largest distance in mm by which the set point swings beyond either end of a move that speeds up to `v` mm/s and
+/// brakes from it with `a` mm/s2.
+pub(crate) fn beyond_the_end(kernel: &Kernel, cycle_s: f64, v: f64, a: f64) -> f64 {
+    let braking_s = v / a;
+    // path behind the rest `t` seconds before it
+    let back = |t: f64| {
+        let ramp = t.clamp(0.0, braking_s);
+        0.5 * a * ramp * ramp + v * (t - braking_s).max(0.0)
+    };
+    let length = kernel.length();
+    let pull = |tap: &Tap, cycles: u32| tap.weight * back(cycle_s * f64::from(cycles));
+    let beyond = |n: u32| {
+        let taps = kernel.taps();
+        let stop: f64 = taps.iter().map(|tap| pull(tap, tap.delay.saturating_sub(n))).sum();
+        let start: f64 = taps.iter().map(|tap| pull(tap, n.saturating_sub(tap.delay))).sum();
+        -stop.min(start)
+    };
+    (0..=length).map(beyond).fold(0.0, f64::max)
+}
+
+/// Largest acceleration in mm/s2, at most `a`, with which a lone start or stop keeps the tolerance in mm; the move has
+/// `v` mm/s at most and `length` mm.
+pub(crate) fn gentle(
+    kernel: &Kernel,
+    cycle_s: f64,
+    (v, length): (f64, f64),
+    a: f64,
+    tolerance: f64,
+) -> f64 {
+    let keeps =
+        |a: f64| beyond_the_end(kernel, cycle_s, v.min((a * length).sqrt()), a) <= tolerance;
+    if keeps(a) {
+        return a;
+    }
+    let (mut low, mut high) = (LEAST * a, a);
+    for _ in 0..BISECTIONS {
+        let mid = (low * high).sqrt();
+        if keeps(mid) { low = mid } else { high = mid }
+    }
+    low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const T: f64 = 0.001;
+
+    fn kernel(weights: &[f64]) -> Kernel {
+        let taps = weights.iter().zip(0..).map(|(&weight, delay)| Tap { delay, weight });
+        Kernel::from_taps(taps).unwrap()
+    }
+
+    /// Weights -1/4, 3/2, -1/4: one cycle after an abrupt stop the oldest one alone still sees the path, a cycle of it
+    /// behind the end, so the set point is `v T / 4` beyond it; with a braking over more than a cycle `a T^2 / 8`.
+    #[test]
+    fn closed_forms_of_three_weights() {
+        let k = kernel(&[-0.25, 1.5, -0.25]);
+        let abrupt = beyond_the_end(&k, T, 100.0, 1e12);
+        assert!((abrupt - 0.25 * 100.0 * T).abs() < 1e-6, "{abrupt}");
+        let long = beyond_the_end(&k, T, 100.0, 5000.0);
+        assert!((long - 0.125 * 5000.0 * T * T).abs() < 1e-15, "{long}");
+    }
+
+    #[test]
+    fn positive_weights_stay_inside() {
+        let k = kernel(&[1.0, 2.0, 5.0, 1.0]);
+        assert!(beyond_the_end(&k, T, 100.0, 5000.0) <= 0.0);
+        assert!((gentle(&k, T, (100.0, 10.0), 5000.0, 1e-9) - 5000.0).abs() < 1e-12);
+    }
+
+    /// From the closed form: `a = 8 tolerance / T^2`.
+    #[test]
+    fn the_gentle_acceleration_uses_the_tolerance() {
+        let k = kernel(&[-0.25, 1.5, -0.25]);
+        let a = gentle(&k, T, (100.0, 1000.0), 50_000.0, 1e-4);
+        assert!((a / 800.0 - 1.0).abs() < 1e-4, "{a}");
+    }
+}
