@@ -151,16 +151,11 @@ fn speed_on_the_curve() {
             .fold(f64::INFINITY, f64::min)
     };
     assert!((slowest(dev(1.0), &job) - 48.004).abs() < 5e-4);
-    let mut x = PathExtremes {
-        first: AxisVec::zeros(2),
-        second: AxisVec::zeros(2),
-        third: AxisVec::zeros(2),
-    };
     let (blocks, _) =
         contoured(&job, ContourSettings { constant_velocity: true, ..dev(1.0) }, corner(90.0));
     let parts = curves(&blocks);
     assert_eq!(parts.len(), 1, "CONST_VEL: one block, one speed");
-    x.clone_from(&PathExtremes::of(&parts[0].path));
+    let x = PathExtremes::of(&parts[0].path);
     assert!((x.second[0] - 0.433952).abs() < 5e-7 && (x.second[1] - 0.433952).abs() < 5e-7);
     assert!((x.third[0] - 0.345424).abs() < 5e-7 && (x.third[1] - 0.345424).abs() < 5e-7);
     // a geometric ramp of 100 ms: (1000 / 0.1 / 0.345424)^(1/3); CHECK_JERK=2: ramps of 50 ms; 0: no jerk limit

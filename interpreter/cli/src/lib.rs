@@ -11,6 +11,7 @@ pub mod engine;
 pub mod explain;
 pub mod files;
 pub mod inputs;
+mod interrupt;
 pub mod render;
 pub mod report;
 pub mod response;
@@ -54,6 +55,12 @@ pub enum Error {
     /// A file of real-time inputs is wrong; its diagnostics have been printed.
     #[error("the file of real-time inputs was refused")]
     Inputs,
+    /// Ctrl-C stopped the run; what was computed up to then is written.
+    #[error("interrupted at t = {time_s:.6} s")]
+    Interrupted {
+        /// Program time of the last row in seconds.
+        time_s: f64,
+    },
     /// A file could not be read or written.
     #[error("{what}: {source}")]
     Io {
@@ -74,6 +81,7 @@ impl Error {
     pub const fn exit(&self) -> Exit {
         match self {
             Self::Usage(_) | Self::Lists | Self::Inputs => Exit::Usage,
+            Self::Interrupted { .. } => Exit::Aborted,
             Self::Io { .. } => Exit::Io,
         }
     }
@@ -81,6 +89,7 @@ impl Error {
 
 /// Runs one command on the process' own stdout and stderr.
 pub fn main_with(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    interrupt::listen();
     let mut console = Console::of_process();
     ExitCode::from(run_with(args, &mut simulator::Kontur, &mut console) as u8)
 }

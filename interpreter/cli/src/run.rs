@@ -3,6 +3,7 @@
 use crate::args::{MessageForm, RunArgs, SummaryForm};
 use crate::console::{Console, Progress};
 use crate::engine::{Engine, OpenError, Source, Totals};
+use crate::interrupt::Running;
 use crate::summary::Collector;
 use crate::trace::Trace;
 use crate::{Error, Exit, render};
@@ -33,14 +34,24 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
     });
     // every trace is brought to its file even if another one failed
     let finished: Vec<_> = traces.into_iter().map(|t| t.finish(source.as_ref())).collect();
-    written?;
+    let interrupted = match written {
+        Err(e @ Error::Interrupted { .. }) => Some(e),
+        other => {
+            other?;
+            None
+        }
+    };
     finished.into_iter().collect::<Result<(), _>>()?;
-    let totals = source.totals();
+    let mut totals = source.totals();
+    totals.aborted |= interrupted.is_some();
     let summary = summary.finish(&totals);
     match args.summary {
         SummaryForm::Text => console.print(&summary.text())?,
         SummaryForm::Json => console.print(&summary.json())?,
         SummaryForm::None => {}
+    }
+    if let Some(e) = interrupted {
+        return Err(e);
     }
     Ok(match totals {
         Totals { input_failed: true, .. } => Exit::Io,
@@ -71,7 +82,7 @@ pub fn keep_apart(programs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error
 /// Drives a source to its end: every record to `take` and to the summary, every message to the console.
 ///
 /// # Errors
-/// The first error of `take`; messages raised up to then have been printed.
+/// The first error of `take`, or [`Error::Interrupted`]; messages raised up to then have been printed.
 pub fn drive(
     source: &mut dyn Source,
     console: &mut Console,
@@ -82,6 +93,7 @@ pub fn drive(
     let mut progress = console.progress();
     let cycle_s = f64::from(source.facts().cycle_us) / 1e6;
     let mut result = Ok(());
+    let _running = Running::start();
     while let Some(record) = source.next_cycle() {
         summary.add(record);
         result = take(record);
@@ -92,6 +104,10 @@ pub fn drive(
             let (t, line) = (record.k as f64 * cycle_s, record.line);
             progress.show(|| format!("t = {t:.1} s, line {line}"));
             messages(source, console, form, summary, &progress);
+            if Running::is_interrupted() {
+                result = Err(Error::Interrupted { time_s: t });
+                break;
+            }
         }
     }
     messages(source, console, form, summary, &progress);

@@ -1,0 +1,48 @@
+//! Ctrl-C: a run stops behind the present cycle, so that traces and summary are complete up to there.
+
+use std::sync::atomic::{AtomicU8, Ordering};
+
+/// Nothing that has to be brought to an end.
+const IDLE: u8 = 0;
+const RUNNING: u8 = 1;
+const REQUESTED: u8 = 2;
+
+static STATE: AtomicU8 = AtomicU8::new(IDLE);
+
+/// Exit code of a process that Ctrl-C ended at once, as shells have it: 128 + SIGINT.
+const ENDED: i32 = 130;
+
+/// Listens to Ctrl-C. The first one stops a run in order; without a run, and the second time, it ends the process.
+pub(crate) fn listen() {
+    let listening = ctrlc::set_handler(|| {
+        let asked =
+            STATE.compare_exchange(RUNNING, REQUESTED, Ordering::Relaxed, Ordering::Relaxed);
+        if asked.is_err() {
+            std::process::exit(ENDED);
+        }
+    });
+    // without a handler Ctrl-C ends the process at once, as everywhere
+    drop(listening);
+}
+
+/// A run that is under way; over when dropped.
+#[derive(Debug)]
+pub(crate) struct Running;
+
+impl Running {
+    pub(crate) fn start() -> Self {
+        STATE.store(RUNNING, Ordering::Relaxed);
+        Self
+    }
+
+    /// Ctrl-C was pressed.
+    pub(crate) fn is_interrupted() -> bool {
+        STATE.load(Ordering::Relaxed) == REQUESTED
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        STATE.store(IDLE, Ordering::Relaxed);
+    }
+}
