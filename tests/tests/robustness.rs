@@ -47,6 +47,14 @@ fn loops_without_motion_end() {
     assert!(said[0].starts_with("K-0017 "), "{said:?}");
 }
 
+/// A mistake in a program that moves without end: the check does not go on to the limit of blocks.
+#[test]
+fn a_wrong_program_without_end() {
+    let said = refused("N5 G01 F600 X1 W1\nN10: X1\nX2\n$GOTO N10\nM30\n", &[]);
+    assert_eq!(said.len(), 2, "{said:?}");
+    assert!(said[0].ends_with(" 1:16") && said[1].starts_with("K-0116"), "{said:?}");
+}
+
 #[test]
 fn calls_and_macros_that_reach_themselves() {
     let selves = "%L A\nLL B\n%L B\nLL A\n%MAIN\nLL A\nM30\n";

@@ -62,6 +62,8 @@ pub struct Executor {
     diagnostics: Vec<Diagnostic>,
     reported: BTreeSet<(Id, Arc<str>, u32, u64)>,
     errors: usize,
+    /// Blocks executed up to the first error.
+    first_error: Option<u64>,
     blocks: u64,
     blocks_at_rest: u64,
     max_blocks: u64,
@@ -123,6 +125,7 @@ impl Executor {
             diagnostics: Vec::new(),
             reported: BTreeSet::new(),
             errors: 0,
+            first_error: None,
             blocks: 0,
             blocks_at_rest: 0,
             max_blocks,

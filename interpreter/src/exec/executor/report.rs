@@ -12,6 +12,8 @@ use std::sync::Arc;
 
 /// Errors after which a check stops. Source: P-CHAN-00019 is the vendor's counterpart.
 pub(super) const ERRORS_MAX: usize = 20;
+/// Blocks that a check executes behind the first error: a wrong program may also be an endless one.
+pub(super) const BLOCKS_BEHIND_ERROR: u64 = 1_000_000;
 
 /// Diagnostics of one run; further ones are reported only if they are errors.
 const DIAGNOSTICS_MAX: usize = 1000;
@@ -69,7 +71,10 @@ impl Executor {
         if let Some(location) = &mut diagnostic.source {
             location.block = location.block.or(self.decoder.source.block);
         }
-        self.errors += usize::from(diagnostic.is_error());
+        if diagnostic.is_error() {
+            self.errors += 1;
+            self.first_error.get_or_insert(self.blocks);
+        }
         self.diagnostics.push(diagnostic);
     }
 

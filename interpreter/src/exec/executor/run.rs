@@ -1,6 +1,6 @@
 //! One block after the other: fetching, conditions, loops and what a block leads to.
 
-use super::report::ERRORS_MAX;
+use super::report::{BLOCKS_BEHIND_ERROR, ERRORS_MAX};
 use super::{Executor, State, file_number};
 use crate::diag::{Diagnostic, Severity};
 use crate::exec::din::After;
@@ -287,8 +287,14 @@ impl Executor {
             self.report(diagnostic);
         }
         if self.decoder.checking {
-            if self.errors >= ERRORS_MAX && self.state != State::Ended {
-                let text = format!("{} errors: the check stops here", self.errors);
+            let behind = self.blocks - self.first_error.unwrap_or(self.blocks);
+            let stops = self.errors >= ERRORS_MAX || behind > BLOCKS_BEHIND_ERROR;
+            if stops && self.state != State::Ended {
+                let text = if self.errors >= ERRORS_MAX {
+                    format!("{} errors: the check stops here", self.errors)
+                } else {
+                    format!("{behind} blocks behind the first error: the check stops here")
+                };
                 let d = Diagnostic::kontur(own::TOO_MANY, text).severity(Severity::Note);
                 self.report(d);
                 self.end(EndReason::Aborted);
