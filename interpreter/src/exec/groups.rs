@@ -184,7 +184,9 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
     Row { number, group, act, value: ValueRule::Required }
 }
 
-const STEP_ONLY: &str = "it concerns the change of feed with the linear slope only";
+const FEED_CHANGE: &str =
+    "a lower feed is reached in front of its block, a higher one behind its start, as at start";
+const LATE_BRAKING: &str = "braking to a lower feed that begins behind the start of its block is not simulated: it ends in front of it";
 const FEED_HOLD: &str = "weights of feed hold are not simulated";
 const THREADS: &str = "thread cutting and tapping";
 const TURNING: &str = "turning";
@@ -201,8 +203,8 @@ const ROWS: &[Row] = &[
     g(3, Group::Path, Act::Path(PathMode::CounterClockwise)),
     Row { number: 4, group: Group::Path, act: Act::Dwell, value: ValueRule::Optional },
     g(5, Group::None, Act::Unsupported("tangential selection of tool radius compensation")),
-    g(8, Group::FeedInterpolation, Act::Ignored(STEP_ONLY)),
-    g(9, Group::None, Act::Ignored(STEP_ONLY)),
+    g(8, Group::FeedInterpolation, Act::Ignored(FEED_CHANGE)),
+    g(9, Group::None, Act::Ignored(FEED_CHANGE)),
     g(10, Group::CompensationFeed, Act::Nothing),
     g(11, Group::CompensationFeed, Act::Unsupported("adapted feed of tool radius compensation")),
     g(12, Group::CornerDeceleration, Act::Nothing),
@@ -312,8 +314,8 @@ const ROWS: &[Row] = &[
     g(351, Group::Mirror, Act::MirrorAxes),
     g(359, Group::Transition, Act::ExactStop(false)),
     g(360, Group::Transition, Act::ExactStop(true)),
-    g(900, Group::None, Act::Ignored(STEP_ONLY)),
-    g(901, Group::None, Act::Ignored(STEP_ONLY)),
+    g(900, Group::None, Act::Ignored(FEED_CHANGE)),
+    g(901, Group::None, Act::Ignored(LATE_BRAKING)),
 ];
 
 /// Highest number of the data format; above it 20107, unassigned numbers below it are 20131.
