@@ -3,6 +3,7 @@
 use crate::axis::AxisVec;
 use crate::queue::Queued;
 use std::collections::VecDeque;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Blocks as the interpolator entered them. One that a change of speed divides is entered once more for its rest.
@@ -43,20 +44,37 @@ impl Contour {
 
     /// Blocks that were being interpolated at some time in `from..=to` (cycles).
     pub(crate) fn between(&self, from: f64, to: f64) -> impl Iterator<Item = &Passed> {
-        let first = self.blocks.partition_point(|b| b.cycles <= from).saturating_sub(1);
-        let last = self.blocks.partition_point(|b| b.cycles <= to).max(first);
-        self.blocks.range(first..last)
+        self.blocks.range(self.entries(from, to))
     }
 
-    /// Components of the shortest vector from the contour between two moments to `point`; returns its length.
+    fn entries(&self, from: f64, to: f64) -> Range<usize> {
+        let first = self.blocks.partition_point(|b| b.cycles <= from).saturating_sub(1);
+        let last = self.blocks.partition_point(|b| b.cycles <= to).max(first);
+        first..last
+    }
+
+    /// End of the programmed block that the last of the first `count` entries belongs to: a rounded corner or a spline is
+    /// planned in parts, and where one of them ends means nothing outside.
+    fn whole(&self, count: usize) -> usize {
+        let Some(last) = count.checked_sub(1).and_then(|i| self.blocks.get(i)) else {
+            return count;
+        };
+        let same = |b: &&Passed| b.queued.block.seq == last.queued.block.seq;
+        count + self.blocks.range(count..).take_while(same).count()
+    }
+
+    /// Components of the shortest vector from the contour between two moments to `point`; returns its length. The block
+    /// of the second moment counts as a whole.
     ///
     /// Zero if there is no contour yet.
     pub fn deviation(&self, point: &[f64], from: f64, to: f64, out: &mut [f64]) -> f64 {
-        nearest(self.between(from, to), point, out)
+        let Range { start, end } = self.entries(from, to);
+        nearest(self.blocks.range(start..self.whole(end)), point, out)
     }
 
     /// Largest component of the shortest vector, whichever way a border within `slack` cycles of the two moments is
-    /// counted: a sample that lies on the border of two blocks belongs to both.
+    /// counted (a sample that lies on the border of two blocks belongs to both), and with or without the rest of the
+    /// block of the second moment.
     pub(crate) fn worst_component(&self, point: &[f64], from: f64, to: f64, slack: f64) -> f64 {
         let count = |t: f64| self.blocks.partition_point(|b| b.cycles <= t);
         let first = |t: f64| count(t).saturating_sub(1);
@@ -65,7 +83,9 @@ impl Contour {
         let mut vector = AxisVec::zeros(point.len());
         let mut worst = 0.0;
         for begin in firsts {
-            for end in lasts.clone() {
+            let whole = lasts.clone().map(|end| self.whole(end)).max();
+            let more = whole.filter(|whole| whole > lasts.end());
+            for end in lasts.clone().chain(more) {
                 let blocks = self.blocks.range(begin..end.max(begin + 1).min(self.blocks.len()));
                 nearest(blocks, point, &mut vector);
                 worst = vector.iter().fold(worst, |m: f64, c| m.max(c.abs()));
