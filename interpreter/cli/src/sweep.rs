@@ -11,7 +11,7 @@ mod picture;
 
 use crate::console::Console;
 use crate::engine::{Engine, OpenError, Request};
-use crate::spectrum::{MOST_SAMPLES, Spectrum};
+use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
 use crate::summary::{Collector, State, Summary};
 use crate::table::Table;
 use crate::trace::columns::Column;
@@ -171,7 +171,8 @@ fn one(args: &SweepArgs, request: &Request, engine: &dyn Engine) -> Result<Outco
     let amplitudes = wanted.iter().map(|(amplitude, _, samples)| {
         let whole =
             amplitude.window_s.is_none_or(|(_, end)| summary.cycles() as f64 * cycle_s > end);
-        let peak = Spectrum::of(samples, cycle_s).peak(amplitude.band_hz).filter(|_| whole);
+        let peak =
+            AmplitudeSpectrum::of(samples, cycle_s).peak(amplitude.band_hz).filter(|_| whole);
         peak.map_or(f64::NAN, |p| p[1])
     });
     let amplitudes = amplitudes.collect();

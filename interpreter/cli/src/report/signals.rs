@@ -5,7 +5,7 @@ use super::requests;
 use crate::args::ReportArgs;
 use crate::console::Console;
 use crate::engine::{Engine, Facts};
-use crate::spectrum::{MOST_SAMPLES, Spectrum};
+use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
 use crate::summary::Collector;
 use crate::table::{Table, number};
 use crate::trace::columns::{Column, select};
@@ -102,8 +102,8 @@ impl Recorded {
         })
     }
 
-    fn spectrum(&self, column: usize) -> Spectrum {
-        Spectrum::of(&self.samples[column], self.cycle_s)
+    fn spectrum(&self, column: usize) -> AmplitudeSpectrum {
+        AmplitudeSpectrum::of(&self.samples[column], self.cycle_s)
     }
 }
 
