@@ -2,7 +2,7 @@
 //!
 //! The counter replaces the allocator of this test binary.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use allocation_counter::measure;
 use kontur_filters::control::ipc::{

@@ -1,6 +1,6 @@
 //! Chains of the axes: the values that the lists state arrive in mm and s, and every correction is told.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 use kontur_filters::control::monitor::LagMonitorType;
 use kontur_filters::control::plant::ModalConfig;

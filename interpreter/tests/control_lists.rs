@@ -1,6 +1,6 @@
 //! Feedforward, position control and Improved Position Control from the lists to what the axis does.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput, Fault};
 use kontur_filters::shaping::Shaping;

@@ -1,6 +1,6 @@
 //! Polynomial contouring: the curve against its closed forms, its neighbours, and what a larger tolerance may not do.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
 
 mod common;
 

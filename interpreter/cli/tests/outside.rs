@@ -1,6 +1,6 @@
 //! The command line from outside, on an engine without a simulation: files, forms, exit codes.
 
-#![allow(clippy::unwrap_used, reason = "a test that fails here has failed")]
+#![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
 
 mod synthetic;
 

@@ -29,7 +29,7 @@ pub struct Entry {
     pub cause: &'static str,
 }
 
-#[allow(clippy::too_many_arguments, reason = "one table row, read as a line")]
+#[expect(clippy::too_many_arguments, reason = "one table row, read as a line")]
 const fn row(
     id: Id,
     name: &'static str,

@@ -118,7 +118,7 @@ fn complex_sqrt(re: f64, im: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+    #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
     use super::*;
 

@@ -182,7 +182,7 @@ impl LagMonitor {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+    #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
     use super::*;
     use crate::control::fault::{ErrorId, Reaction};

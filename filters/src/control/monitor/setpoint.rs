@@ -136,7 +136,7 @@ impl SetpointMonitor {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+    #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
     use super::*;
     use crate::control::fault::ErrorId;

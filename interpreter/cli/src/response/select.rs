@@ -74,7 +74,6 @@ fn values(numbers: Option<&Numbers>) -> impl Iterator<Item = f64> + '_ {
 /// A whole number of the range of a list parameter.
 fn whole(value: f64, option: &str) -> Result<u32, Error> {
     if value >= 0.0 && value <= f64::from(u32::MAX) && value.fract() == 0.0 {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
         return Ok(value as u32);
     }
     Err(Error::Usage(format!("{option} {value}: a whole number is expected")))

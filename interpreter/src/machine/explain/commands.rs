@@ -16,7 +16,7 @@ struct Command {
 }
 
 /// Reads a row as a table line.
-#[allow(clippy::too_many_arguments, reason = "one table row")]
+#[expect(clippy::too_many_arguments, reason = "one table row")]
 const fn row(
     names: &'static [&'static str],
     syntax: &'static str,
