@@ -64,7 +64,6 @@ fn a_helix_turns_round_where_height_and_circle_cancel() {
 }
 
 #[test]
-#[expect(clippy::needless_range_loop, reason = "several arrays side by side")]
 fn derivatives_extremes_and_nearest_points_of_random_arcs() {
     let mut seed = 11_u64;
     let mut next = || {

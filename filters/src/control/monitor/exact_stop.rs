@@ -115,8 +115,6 @@ impl ExactStopMonitor {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
-
     use super::*;
     use crate::control::fault::{ErrorId, Reaction};
 
