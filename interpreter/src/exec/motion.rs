@@ -70,9 +70,10 @@ impl Decoder {
             self.note(Fault::kontur(own::ODD, text, *span).warning());
         }
         let rotates = takes_axes.is_some_and(|g| g.row.act == Act::Rotate);
-        if let (Some((radius, _)), false) = (words.radius, rotates) {
-            // kept for the next arc
+        if let (Some((radius, span)), false) = (words.radius, rotates) {
             self.modal.radius_mm = Some(radius * self.unit_mm());
+            let text = "R without an end point moves nothing: it is kept for the next arc";
+            self.note(Fault::kontur(own::ODD, text, span).warning());
         }
         if let Some((_, span)) = words.end_feed {
             let text = "E has no meaning without motion";
@@ -181,8 +182,10 @@ impl Decoder {
                 let text = "I, J and K have no meaning in a straight motion";
                 self.note(Fault::kontur(own::ODD, text, *at).warning());
             }
-            if let Some((radius, _)) = words.radius {
+            if let Some((radius, at)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
+                let text = "R has no meaning in a straight motion: it is kept for the next arc";
+                self.note(Fault::kontur(own::ODD, text, at).warning());
             }
             LinePath::new(self.on_path(&start), self.on_path(&end), &self.feed_axes).map(Path::Line)
         };
