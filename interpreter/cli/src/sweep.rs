@@ -52,10 +52,12 @@ pub fn sweep(args: &SweepArgs, engine: &dyn Engine, console: &mut Console) -> Re
     let combinations = combinations(&args.vary)?;
     let outcomes = outcomes(args, &combinations, engine, console)?;
     let rows = columns::rows(args, &combinations, &outcomes)?;
-    if args.output.is_empty() {
+    let (standard, files): (Vec<_>, Vec<_>) =
+        args.output.iter().partition(|o| o.as_os_str() == crate::files::STANDARD);
+    if args.output.is_empty() || !standard.is_empty() {
         console.print(&rows.table().csv())?;
     }
-    for output in &args.output {
+    for output in files {
         write(output, args, &combinations, &outcomes, &rows)?;
     }
     let all_aborted = outcomes.iter().all(|o| o.summary.state == State::Aborted);

@@ -71,8 +71,13 @@ impl Vary {
 /// Every combination of values, the last parameter changing fastest: for each an index into the values of each parameter.
 ///
 /// # Errors
-/// [`Error::Usage`] for too many of them.
+/// [`Error::Usage`] for too many of them, or a parameter given twice.
 pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
+    for (i, v) in vary.iter().enumerate() {
+        if vary[..i].iter().any(|other| other.key.eq_ignore_ascii_case(&v.key)) {
+            return Err(Error::Usage(format!("--vary: {} twice", v.key)));
+        }
+    }
     let count = vary.iter().try_fold(1_usize, |n, v| n.checked_mul(v.values.len()));
     if count.is_none_or(|n| n > MOST_COMBINATIONS) {
         let text = format!("--vary: more than {MOST_COMBINATIONS} combinations");

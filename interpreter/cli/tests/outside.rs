@@ -95,6 +95,21 @@ fn run_writes_trace_and_summary() {
 }
 
 #[test]
+fn a_trace_on_stdout_leaves_the_summary_to_stderr() {
+    let f = Folder::new();
+    f.call(&["run", "@corner.nc", "-o", "@a.csv"]);
+    let (exit, out, err) = f.call(&["run", "@corner.nc", "-o", "-"]);
+    assert_eq!((exit, out), (Exit::Finished, f.read("a.csv")));
+    assert!(err.contains("corner.nc  finished"), "{err}");
+    let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "-", "-o", "-"]);
+    assert_eq!((exit, err.contains("used twice")), (Exit::Usage, true));
+    let vary = ["sweep", "@corner.nc", "--vary", "X.getriebe[0].kv=1000,2000"];
+    let words = [&vary[..], &["-o", "-"]].concat();
+    assert_eq!(f.call(&words).1, f.call(&vary).1);
+    assert!(!PathBuf::from("-").exists());
+}
+
+#[test]
 fn same_input_same_bytes() {
     let f = Folder::new();
     for name in ["@a.csv", "@a.svg", "@a.html"] {
