@@ -181,18 +181,19 @@ fn shift_of_profidrive() {
     assert_eq!(begins(&profidrive(2)), of_0 + 2);
     assert_eq!(begins("X.kenngr.antr_typ=3"), of_0 + 3, "the default");
     assert_eq!(begins("X.vorsteuer.shift_time=2"), of_0, "no PROFIdrive");
-    assert_eq!(ids(&profidrive(5)), ["K-0070"]);
+    assert_eq!(ids(&profidrive(5)), ["K-0070", "K-0079"]);
 }
 
 /// What is out of range, and the values used. Conformance: F055, F065, F079, F080, F082, F086, F087, F088.
 #[test]
 fn corrections_of_feedforward() {
     let torque = "X.vorsteuer.vorsteuerung=ADD_ACC kontur.axis[1].additive.torque=1";
+    let velocity = "X.vorsteuer.vorsteuerung=ADD_VEL kontur.axis[1].additive.velocity=1";
     for (settings, id) in [
-        ("X.vorsteuer.velocity_delay_time=5999".to_owned(), ""),
-        ("X.vorsteuer.velocity_delay_time=6000".to_owned(), "70349"),
-        ("X.vorsteuer.acceleration_delay_time=5999".to_owned(), ""),
-        ("X.vorsteuer.acceleration_delay_time=6000".to_owned(), "70348"),
+        (format!("{velocity} X.vorsteuer.velocity_delay_time=5999"), ""),
+        (format!("{velocity} X.vorsteuer.velocity_delay_time=6000"), "70349"),
+        (format!("{torque} X.vorsteuer.acceleration_delay_time=5999"), ""),
+        (format!("{torque} X.vorsteuer.acceleration_delay_time=6000"), "70348"),
         ("X.vorsteuer.jerk_fact_denom=0".to_owned(), "110473"),
         ("X.getriebe[0].gear_fact_denom=0".to_owned(), "110579"),
         ("X.getriebe[0].gear_fact_num=0".to_owned(), "K-0070"),

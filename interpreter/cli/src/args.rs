@@ -333,6 +333,10 @@ mod tests {
             "run a --max-time -1",
             "run a --max-time inf",
             "run a --skip 11",
+            "run a --signals ipo",
+            "run a --decimate 2",
+            "response --hsc-mean 5 --order 3",
+            "tune --order-for 0.1 --max-residual 3",
             "diff a",
             "frobnicate",
         ] {

@@ -126,7 +126,11 @@ mod tests {
         assert_eq!(all.len(), 6);
         assert_eq!(settings(&vary, &all[1]), ["X.a=1", "Y.b=6"]);
         assert_eq!(settings(&vary, &all[5]), ["X.a=2", "Y.b=7"]);
-        let many: Vec<Vary> = vec!["X.a=1..900".parse().unwrap(); 2];
-        assert!(combinations(&many).is_err());
+        let error = |texts: [&str; 2]| {
+            let vary: Vec<Vary> = texts.iter().map(|text| text.parse().unwrap()).collect();
+            combinations(&vary).unwrap_err().to_string()
+        };
+        assert!(error(["X.a=1..900", "Y.a=1..900"]).contains("more than"));
+        assert!(error(["X.a=1", "x.A=2"]).contains("twice"));
     }
 }

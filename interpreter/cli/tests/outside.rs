@@ -525,6 +525,12 @@ fn sweep_of_aborted_runs_and_wrong_words() {
 #[test]
 fn report_draws_signals_and_variants() {
     let f = Folder::new();
+    // beyond the end of the run, and beyond what the cycle can show, there is nothing to draw
+    for part in [["--window", "7000..9000"], ["--spectrum", "600..900"]] {
+        let words = ["report", "@corner.nc", "--signals", "set", "-o", "@a.svg"];
+        let (exit, _, err) = f.call(&[&words[..], &part].concat());
+        assert_eq!((exit, err.contains(part[0])), (Exit::Usage, true), "{err}");
+    }
     let words = |name: &'static str| {
         [
             "report",

@@ -120,7 +120,9 @@ impl Decoder {
         };
         let (word, value) = match &item.kind {
             ItemKind::Flag(word) => match word.split_number() {
-                Some((name, number)) if name.eq_ignore_ascii_case("REV") => {
+                Some((name, number))
+                    if ["REV", "SPEED", "POS"].iter().any(|n| name.eq_ignore_ascii_case(n)) =>
+                {
                     (name.to_ascii_uppercase(), Some(number))
                 }
                 _ => (word.text.to_ascii_uppercase(), None),

@@ -71,9 +71,12 @@ impl Decoder {
         }
         let rotates = takes_axes.is_some_and(|g| g.row.act == Act::Rotate);
         if let (Some((radius, span)), false) = (words.radius, rotates) {
+            // R alone is for the arcs that follow; beside G02 or G03 it looks like one
             self.modal.radius_mm = Some(radius * self.unit_mm());
-            let text = "R without an end point moves nothing: it is kept for the next arc";
-            self.note(Fault::kontur(own::ODD, text, span).warning());
+            if words.group(Group::Path).is_some() {
+                let text = "R without an end point moves nothing: it is kept for the next arc";
+                self.note(Fault::kontur(own::ODD, text, span).warning());
+            }
         }
         if let Some((_, span)) = words.end_feed {
             let text = "E has no meaning without motion";

@@ -53,9 +53,7 @@ impl Builder<'_> {
         let mut value = None;
         for part in whole.into_inner() {
             match part.as_rule() {
-                Rule::key | Rule::bare_key | Rule::cycle_key | Rule::name_key => {
-                    key = Some(self.upper(&part));
-                }
+                Rule::key | Rule::cycle_key | Rule::name_key => key = Some(self.upper(&part)),
                 Rule::equals => {}
                 _ => value = Some(self.item_value(part)),
             }
