@@ -187,8 +187,11 @@ impl Decoder {
             }
             if let Some((radius, at)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
-                let text = "R has no meaning in a straight motion: it is kept for the next arc";
-                self.note(Fault::kontur(own::ODD, text, at).warning());
+                // of a block with an error, such as a cycle of another control, R is the least
+                if !self.failed() {
+                    let text = "R has no meaning in a straight motion: it is kept for the next arc";
+                    self.note(Fault::kontur(own::ODD, text, at).warning());
+                }
             }
             LinePath::new(self.on_path(&start), self.on_path(&end), &self.feed_axes).map(Path::Line)
         };
