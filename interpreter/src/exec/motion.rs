@@ -17,7 +17,7 @@ use super::words::{GWord, Words};
 use crate::diag::ValueKind;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::{Block, Feed};
+use kontur_motion::block::{Block, Feed, SlopeKind};
 use kontur_motion::path::{LinePath, Path, Tilt};
 
 /// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
@@ -125,6 +125,17 @@ impl Decoder {
         self.dwell_for(seconds, span)
     }
 
+    /// True if braking to a lower feed may begin behind the end of this block: G901 without G09 (source: TF5200
+    /// programming manual, G08/G09/G900/G901).
+    fn late_braking(&mut self, early_once: bool, span: Span) -> bool {
+        let late = self.modal.late_braking && !early_once;
+        if late && self.modal.slope.kind == SlopeKind::Hsc {
+            let text = "G901 has no effect with the slope HSC";
+            self.note_once("G901 HSC", Fault::kontur(own::IGNORED, text, span));
+        }
+        late
+    }
+
     /// Waits for a time at rest; 20752 outside the range.
     pub(super) fn dwell_for(&mut self, seconds: f64, span: Span) -> Outcome<()> {
         if !(0.0..=DWELL_MAX_S).contains(&seconds) {
@@ -217,6 +228,7 @@ impl Decoder {
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
+        let late_braking = self.late_braking(once(Act::EarlyBrakingOnce), span);
         let (plane, tilt, compensation) = self.plane_and_compensation(span)?;
         // of a block with an error nothing moves; what was said before it is still said
         if self.failed() && !self.checking {
@@ -231,6 +243,7 @@ impl Decoder {
                 feed_ratio,
                 full_override: full,
                 end_velocity_mm_s,
+                late_braking,
                 slope: self.modal.slope,
                 dynamics: self.dynamics(rapid),
                 tolerance: self.shaping.tolerance(),
