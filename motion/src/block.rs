@@ -112,6 +112,24 @@ pub struct ChannelDynamics {
     pub stop_at_transitions: bool,
 }
 
+impl ChannelDynamics {
+    /// A channel of these axes, all of them in the feed group, with no limits but theirs and every mode off.
+    pub fn new(axes: Vec<AxisDynamics>) -> Self {
+        Self {
+            feed_axes: vec![true; axes.len()],
+            axes,
+            limit_tangential_jerk: false,
+            transition_jerk: TransitionJerkMode::default(),
+            curvature_estimate: 0,
+            curve_jerk: CurveJerk::default(),
+            vector: VectorLimits::default(),
+            vector_acc_on_arcs: false,
+            transition_velocity_min_mm_s: 0.0,
+            stop_at_transitions: false,
+        }
+    }
+}
+
 /// Tolerance monitoring of a filter kernel (`AX_DEV`, `ACC_FACT` of `#VIB GUARD` and `#FILTER`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
@@ -152,4 +170,28 @@ pub struct Block {
     pub contour: Option<ContourSettings>,
     /// Part of a run that becomes a spline (`#HSC ON [BSPLINE]`), see [`crate::spline`].
     pub spline: Option<SplineSettings>,
+}
+
+impl Block {
+    /// A motion without overrides, end velocity, tolerance and smoothing, with the default slope.
+    pub fn new(
+        seq: u64,
+        path: crate::path::Path,
+        feed: Feed,
+        dynamics: Arc<ChannelDynamics>,
+    ) -> Self {
+        Self {
+            seq,
+            path,
+            feed,
+            feed_ratio: 1.0,
+            full_override: false,
+            end_velocity_mm_s: None,
+            slope: Slope::default(),
+            dynamics,
+            tolerance: Tolerance::default(),
+            contour: None,
+            spline: None,
+        }
+    }
 }

@@ -22,7 +22,7 @@ use crate::queue::Queued;
 use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
 use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment, PathState, Timeline};
-use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept};
+use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -114,8 +114,8 @@ impl Planner {
             cursor: Moment::default(),
             speed: (0.0, SpeedLimit::Stop),
             travelled: 0.0,
-            setpoint: Setpoint { position: position.clone(), ..Setpoint::default() },
-            state: PathState { position, ..PathState::default() },
+            state: PathState::at_rest(&position),
+            setpoint: Setpoint { position, ..Setpoint::default() },
             kernels: Kernels::default(),
             monitor: Monitor::default(),
             contour: Contour::default(),
@@ -297,7 +297,7 @@ impl Planner {
         self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
     }
 
-    /// Plans what is queued and makes all but the last window final.
+    /// Plans what is queued and makes all but the last window final, or divides queued blocks first.
     fn extend(&mut self) -> Result<(), Infeasible> {
         let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
         let window: Vec<Arc<Queued>> = self.queue.iter().take_while(free).cloned().collect();
@@ -352,13 +352,17 @@ impl Planner {
                 );
                 round += 1;
                 match verdict {
-                    Some(Ok(found)) => {
+                    Verdict::Kept => {}
+                    Verdict::Divided(parts) => {
+                        self.divide(parts);
+                        return Ok(());
+                    }
+                    Verdict::Tightened(found) => {
                         demands.release(released);
                         worst = Some(found);
                         continue;
                     }
-                    Some(Err(unkept)) => self.unkept.push(unkept),
-                    None => {}
+                    Verdict::GivenUp(unkept) => self.unkept.push(unkept),
                 }
             }
             let rests = end != SpeedLimit::Lookahead;
@@ -431,6 +435,25 @@ impl Planner {
             })
             .count();
         (count > 0).then_some(count)
+    }
+
+    /// Puts parts in the place of queued blocks.
+    fn divide(&mut self, blocks: Vec<(usize, Vec<Arc<Queued>>)>) {
+        for (b, parts) in blocks.into_iter().rev() {
+            let mut first = 0;
+            for entry in &mut self.reserve {
+                if b < first + entry.blocks.len() {
+                    entry.divide(b - first, &parts);
+                    break;
+                }
+                first += entry.blocks.len();
+            }
+            for part in parts[1..].iter().rev() {
+                self.queue.insert(b + 1, Arc::clone(part));
+                self.caps.insert(b + 1, (f64::INFINITY, SpeedLimit::Curve));
+            }
+            self.queue[b] = Arc::clone(&parts[0]);
+        }
     }
 
     /// Makes the next span of the last plan final, because there is no new plan from where it starts.

@@ -82,6 +82,19 @@ pub struct Unkept {
     pub tolerance_mm: f64,
 }
 
+/// What the examination of a plan ends in.
+#[derive(Debug)]
+pub(crate) enum Verdict {
+    /// It keeps the tolerance.
+    Kept,
+    /// Blocks of the window, by their index, to be planned in parts: they bend too much in one place only.
+    Divided(Vec<(usize, Vec<Arc<Queued>>)>),
+    /// It does not; the demands are tightened. The largest excess.
+    Tightened(Unkept),
+    /// It does not after too many rounds. The largest excess.
+    GivenUp(Unkept),
+}
+
 /// What the monitor asks of the next plan, one entry per boundary or block of the window.
 #[derive(Clone, Debug)]
 pub(crate) struct Demands {
@@ -169,23 +182,28 @@ impl Monitor {
         }
     }
 
-    /// Examines a plan. `None`: it keeps the tolerance. Otherwise the demands are tightened (`Ok`), or, after too many
-    /// rounds, given up (`Err`); the largest excess comes back.
+    /// Examines a plan, and tightens the demands if it does not keep the tolerance.
     pub(crate) fn examine(
         &self,
         trial: &Trial<'_>,
         round: usize,
         demands: &mut Demands,
-    ) -> Option<Result<Unkept, Unkept>> {
+    ) -> Verdict {
         let view = View::new(trial, self);
         // after many rounds every corner and curve in reach counts as a cause
         let share = if round < ROUNDS_OF_SPEED { 0.5 } else { 0.0 };
         let findings = view.search(share);
-        let worst = findings.worst?;
+        let Some(worst) = findings.worst else {
+            return Verdict::Kept;
+        };
+        let parts = view.parts(&findings);
+        if !parts.is_empty() {
+            return Verdict::Divided(parts);
+        }
         if round >= ROUNDS {
-            return Some(Err(worst));
+            return Verdict::GivenUp(worst);
         }
         view.tighten(&findings, round, demands);
-        Some(Ok(worst))
+        Verdict::Tightened(worst)
     }
 }

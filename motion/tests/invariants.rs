@@ -1,6 +1,6 @@
 //! What holds for every program: random contours, blocks and limits.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod common;
 

@@ -1,6 +1,6 @@
 //! Override and feedhold: closed forms, and properties over random programs with events at random cycles.
 
-#![allow(
+#![expect(
     clippy::unwrap_used,
     clippy::float_cmp,
     reason = "helpers of tests; exact values are meant"

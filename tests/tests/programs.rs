@@ -37,6 +37,7 @@ fn hsc_square() {
         |lines: RangeInclusive<u32>| run.records.iter().filter(move |r| lines.contains(&r.line));
     let cut = pass(6..=9).map(|r| r.contour_err_mm).fold(0.0, f64::max);
     assert!(cut > 1e-3, "{cut}");
+    assert!(pass(11..=14).count() > 100);
     assert!(pass(11..=14).all(|r| r.axes[0].set.to_bits() == r.axes[0].ipo.to_bits()));
 }
 

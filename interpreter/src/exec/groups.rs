@@ -33,6 +33,7 @@ pub(super) enum Group {
     CentreCorrection,
     Manual,
     Insertion,
+    Feedforward,
     /// No group: several may share a block.
     None,
 }
@@ -89,6 +90,7 @@ impl Group {
             Self::CentreCorrection => "centre correction",
             Self::Manual => "manual mode",
             Self::Insertion => "insertion",
+            Self::Feedforward => "feedforward",
             Self::None => "",
         }
     }
@@ -268,9 +270,9 @@ const ROWS: &[Row] = &[
     g(132, Group::None, Act::WeightOfAxes(Weight::Ramp)),
     v(133, Group::None, Act::WeightOfAll(Weight::Ramp)),
     v(134, Group::None, Act::WeightOfAll(Weight::GeometricRamp)),
-    g(135, Group::None, Act::Feedforward(true)),
+    g(135, Group::Feedforward, Act::Feedforward(true)),
     g(136, Group::None, Act::FeedforwardWeights),
-    g(137, Group::None, Act::Feedforward(false)),
+    g(137, Group::Feedforward, Act::Feedforward(false)),
     g(138, Group::CompensationSelection, Act::Unsupported("direct selection of tool radius compensation")),
     g(139, Group::CompensationSelection, Act::PerpendicularSelection(false)),
     g(140, Group::Masking, Act::Nothing),

@@ -87,7 +87,7 @@ pub(super) enum Corners {
 
 /// Everything that G words and F, R, I keep.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(clippy::struct_excessive_bools, reason = "each is a group of two words")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a group of two words")]
 pub(super) struct Modal {
     pub(super) path: PathMode,
     pub(super) plane: Plane,

@@ -80,9 +80,13 @@ impl Decoder {
             self.note(Fault::kontur(own::ODD, text, *span).warning());
         }
         let rotates = takes_axes.is_some_and(|g| g.row.act == Act::Rotate);
-        if let (Some((radius, _)), false) = (words.radius, rotates) {
-            // kept for the next arc
+        if let (Some((radius, span)), false) = (words.radius, rotates) {
+            // R alone is for the arcs that follow; beside G02 or G03 it looks like one
             self.modal.radius_mm = Some(radius * self.unit_mm());
+            if words.group(Group::Path).is_some() {
+                let text = "R without an end point moves nothing: it is kept for the next arc";
+                self.note(Fault::kontur(own::ODD, text, span).warning());
+            }
         }
         if let Some((_, span)) = words.end_feed {
             let text = "E has no meaning without motion";
@@ -191,8 +195,13 @@ impl Decoder {
                 let text = "I, J and K have no meaning in a straight motion";
                 self.note(Fault::kontur(own::ODD, text, *at).warning());
             }
-            if let Some((radius, _)) = words.radius {
+            if let Some((radius, at)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
+                // of a block with an error, such as a cycle of another control, R is the least
+                if !self.failed() {
+                    let text = "R has no meaning in a straight motion: it is kept for the next arc";
+                    self.note(Fault::kontur(own::ODD, text, at).warning());
+                }
             }
             let (start, end) = (self.on_path(start), self.on_path(end));
             LinePath::new(start, end, &self.feed_axes).map(Path::Line)

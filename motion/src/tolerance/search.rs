@@ -2,6 +2,7 @@
 
 use super::view::{Buffer, View};
 use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
+use crate::timeline::{PathState, Reader};
 
 /// What exceeded the tolerance in one round.
 pub(super) struct Findings {
@@ -26,6 +27,8 @@ impl View<'_> {
             worst: None,
         };
         let mut buffer = Buffer::new(self);
+        let mut reader = trial.timeline.reader();
+        let calm = !trial.kernels.unequal && !trial.kernels.overshoot;
         let mut next = trial.now + 1;
         for (m, mark) in marks.iter().enumerate() {
             let bent = mark.queued.bend > 0.0 || trial.kernels.unequal || trial.kernels.overshoot;
@@ -39,17 +42,19 @@ impl View<'_> {
             let parts = if bent { [entered, left, left + reach] } else { [entered; 3] };
             next = next.max(mark.cycles.floor() as u64 + 1);
             for last in parts {
-                let calm = !trial.kernels.unequal && !trial.kernels.overshoot;
-                if next > last || (calm && self.quiet(next, last)) {
-                    next = next.max(last + 1);
-                    continue;
+                while next <= last {
+                    let until = last.min(next + reach);
+                    if calm && self.quiet(next, until, &mut reader) {
+                        next = until + 1;
+                        continue;
+                    }
+                    buffer.seek(next);
+                    for k in next..=until {
+                        buffer.step(k);
+                        self.judge(k, &buffer, &mut findings);
+                    }
+                    next = until + 1;
                 }
-                buffer.seek(next);
-                for k in next..=last {
-                    buffer.step(k);
-                    self.judge(k, &buffer, &mut findings);
-                }
-                next = last + 1;
             }
         }
         findings
@@ -78,14 +83,19 @@ impl View<'_> {
             let seq = support.last().map_or(0, |m| m.queued.block.seq);
             findings.worst = Some(Unkept { seq, deviation_mm: deviation, tolerance_mm: tolerance });
         }
-        // shares of the error by geometry: a corner with both its legs in the kernel's reach, the sagitta of a curve
+        // shares of the error by geometry: a corner with its shorter leg in the kernel's reach, and a curve as many small
+        // corners; over the whole reach that is the sagitta
         let (oldest, newest) = buffer.stretch();
+        let leg = |s: f64| (s - oldest).min(newest - s).max(0.0);
         let share = |i: usize| -> (f64, f64) {
             let m = &support[i];
-            let end = support.get(i + 1).map_or(newest, |next| next.s_mm.min(newest));
-            let inside = (end - m.s_mm.max(oldest)).max(0.0);
-            let legs = (m.s_mm - oldest).min(newest - m.s_mm).max(0.0);
-            (0.5 * m.jump * legs, 0.125 * m.queued.bend * inside * inside)
+            let (mut from, mut turn) = (m.s_mm, 0.0);
+            for (end, bend) in m.queued.bends() {
+                let to = m.s_mm + end;
+                turn += bend * legs(from, to, (oldest, newest));
+                from = to;
+            }
+            (0.5 * m.jump * leg(m.s_mm), 0.5 * turn)
         };
         let largest = (0..support.len()).map(share).fold(0.0_f64, |x, (a, b)| x.max(a).max(b));
         let mut blamed = false;
@@ -117,25 +127,46 @@ impl View<'_> {
     /// A set point is a mean of points of the path with positive weights (not so with kernels that overshoot). Expanded
     /// around their mean path length the linear part lies on the path, and what is left of an axis is at most `bend / 2`
     /// times the variance of the path length, itself at most a quarter of the stretch squared (derived).
-    fn quiet(&self, first: u64, last: u64) -> bool {
+    fn quiet(&self, first: u64, last: u64, reader: &mut Reader<'_>) -> bool {
         let Self { trial, marks, .. } = self;
-        let reach = f64::from(trial.kernels.length());
+        let length = u64::from(trial.kernels.length());
+        let reach = length as f64;
         let begin =
             marks.partition_point(|m| m.cycles <= first as f64 - reach - 1.0).saturating_sub(1);
         let end = marks.partition_point(|m| m.cycles <= last as f64);
+        let support = &marks[begin..end];
+        if support.iter().skip(1).any(|m| m.jump > 1e-9) {
+            return false;
+        }
+        let mut state = PathState::at_rest(trial.window[0].block.path.start());
+        let [from, to] = [first.saturating_sub(length + 1), last].map(|k| {
+            self.state(k, reader, &mut state);
+            state.s
+        });
         let (mut bend, mut speed, mut tolerance) = (0.0_f64, 0.0_f64, f64::INFINITY);
-        for (i, m) in marks[begin..end].iter().enumerate() {
-            if i > 0 && m.jump > 1e-9 {
-                return false;
-            }
-            bend = bend.max(m.queued.bend);
+        for m in support {
+            bend = bend.max(m.queued.bend_between(from - m.s_mm, to - m.s_mm));
             speed = speed.max(m.speed);
             tolerance = tolerance.min(m.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY));
         }
-        let stretch = speed * trial.cycle.seconds() * reach;
+        let stretch = (speed * trial.cycle.seconds() * reach).min(to - from);
         let axes = trial.kernels.axes.len() as f64;
         axes.sqrt() * bend * stretch * stretch / 8.0 < 0.5 * tolerance
     }
+}
+
+/// Integral over `from..=to` of the distance to the nearer end of a stretch, inside of it.
+fn legs(from: f64, to: f64, (oldest, newest): (f64, f64)) -> f64 {
+    let half = 0.5 * (newest - oldest);
+    let below = |s: f64| {
+        let x = (s - oldest).clamp(0.0, 2.0 * half);
+        if x <= half {
+            0.5 * x * x
+        } else {
+            half * half - 0.5 * (2.0 * half - x) * (2.0 * half - x)
+        }
+    };
+    below(to) - below(from)
 }
 
 /// Keeps the larger excess.

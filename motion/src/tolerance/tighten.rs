@@ -6,12 +6,32 @@ use super::{Demands, MARGIN_MM, ROUNDS_OF_SPEED, Trial};
 use crate::axis::AxisVec;
 use crate::overshoot::gentle;
 use crate::queue::Queued;
-use kontur_filters::kernel::Kernel;
+use kontur_filters::kernel::{Kernel, Tap};
+use std::sync::Arc;
 
 /// Part of the tolerance by which a correction aims below it, so that the search ends.
 const AIM: f64 = 0.003;
 
+/// Part of the acceleration of a lone start or stop below which no block is slowed down.
+const LEAST_SHARE: f64 = 0.1;
+
 impl View<'_> {
+    /// Blocks that are to blame and bend more in one place than in another, in parts: the speed that the tolerance
+    /// leaves to the sharpest bend is not for the whole of them.
+    pub(super) fn parts(&self, findings: &Findings) -> Vec<(usize, Vec<Arc<Queued>>)> {
+        let Self { trial, .. } = self;
+        let blamed =
+            findings.curve.iter().enumerate().filter_map(|(b, found)| Some((b, (*found)?)));
+        blamed
+            .map(|(b, (_, tolerance))| {
+                let queued = &trial.window[b];
+                let fastest = queued.velocity.0;
+                (b, queued.parts(|bend| on_a_bend(trial, bend, tolerance).min(fastest)))
+            })
+            .filter(|(_, parts)| parts.len() > 1)
+            .collect()
+    }
+
     pub(super) fn tighten(&self, findings: &Findings, round: usize, demands: &mut Demands) {
         let Self { trial, marks, .. } = self;
         let full = trial.kernels.length();
@@ -74,20 +94,22 @@ impl View<'_> {
                 if queued.bend > 0.0 || trial.kernels.unequal || !trial.kernels.overshoot {
                     // the deviation on a curve grows with the square of the speed
                     let ratio = haste * 0.999 * left.sqrt();
-                    let floor = slowest(trial, queued, tolerance);
+                    // slower is never needed
+                    let floor = 0.02 * on_a_bend(trial, queued.bend, tolerance);
                     let now = demands.feed[b].min(queued.velocity.0).min(mark.speed);
                     demands.feed[b] = (now * ratio.max(0.3)).max(floor.min(now));
                 }
             }
             if let Some((excess, tolerance)) = soften[b] {
                 let now = demands.acceleration[b];
-                let mut ratio = haste * 0.99 * tolerance / (tolerance + excess);
-                if now >= 1.0 {
-                    ratio = ratio.min(2.0 * gentle_ratio(trial, mark, queued, tolerance));
+                let ratio = haste * 0.99 * tolerance / (tolerance + excess);
+                let gentle = gentle_ratio(trial, mark, queued, tolerance);
+                demands.acceleration[b] = if now >= 1.0 {
+                    ratio.min(2.0 * gentle)
                 } else {
-                    ratio = ratio.max(0.3);
-                }
-                demands.acceleration[b] = now * ratio;
+                    // a start, a stop and what they meet may share the tolerance; less is no help
+                    (now * ratio.max(0.3)).max(now.min(LEAST_SHARE * gentle))
+                };
             }
         }
     }
@@ -122,15 +144,21 @@ impl View<'_> {
     }
 }
 
-/// A fiftieth of the speed at which a curve alone uses up the tolerance: slower is never needed.
-fn slowest(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> f64 {
-    let variance = (0..queued.ends.tangent_in.len())
-        .filter_map(|i| trial.kernels.get(i))
-        .map(Kernel::variance_cycles2)
-        .fold(0.0, f64::max);
+/// Speed in mm/s at which a curve alone uses up the tolerance: `v^2 T^2 spread bend / 2` (derived from a parabola).
+fn on_a_bend(trial: &Trial<'_>, bend: f64, tolerance: f64) -> f64 {
+    let spread = trial.kernels.axes.iter().flatten().map(|k| spread_cycles2(k)).fold(0.0, f64::max);
     let t = trial.cycle.seconds();
-    let bend = queued.bend.max(1e-6);
-    0.02 * (2.0 * tolerance / (variance * t * t * bend)).sqrt()
+    (2.0 * tolerance / (spread * t * t * bend.max(1e-6))).sqrt()
+}
+
+/// Variance of the kernel in cycles squared, negative weights counted like positive ones.
+fn spread_cycles2(kernel: &Kernel) -> f64 {
+    let mean = kernel.delay_cycles();
+    let part = |tap: &Tap| {
+        let d = f64::from(tap.delay) - mean;
+        tap.weight.abs() * d * d
+    };
+    kernel.taps().iter().map(part).sum()
 }
 
 /// Part of the acceleration with which a lone start or stop on the block keeps the tolerance.

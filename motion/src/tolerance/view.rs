@@ -2,14 +2,11 @@
 
 use super::{BORDER_CYCLES, Kernels, Monitor, Trial};
 use crate::axis::AxisVec;
-use crate::contour::Contour;
+use crate::contour::{Contour, SAME_START_MM};
 use crate::queue::Queued;
 use crate::timeline::{PathState, Reader};
 use kontur_filters::kernel::Kernel;
 use std::sync::Arc;
-
-/// Entries whose blocks begin closer together than this, in mm of path length, belong to the same block.
-const SAME_START_MM: f64 = 1e-9;
 
 /// A block entered in a plan.
 pub(super) struct Mark {
@@ -153,7 +150,7 @@ impl<'a> Buffer<'a> {
             ring: vec![zero.clone(); size],
             s_mm: vec![0.0; size],
             head: 0,
-            state: PathState { position: zero.clone(), ..PathState::default() },
+            state: PathState::at_rest(&zero),
             set: zero,
             next: None,
         }

@@ -140,6 +140,9 @@ fn feedforward_weights_survive_switching() {
     assert_eq!(id("G136 Q5"), ["20200", "K-0002"]);
     assert_eq!(id("S[G136=80 G136=90]"), ["21738"]);
     assert_eq!(id("S[G135 M3 REV1000]"), ["K-0108"]);
+    for text in ["S[M3 REV1000.5]", "S[M19 POS45.5]"] {
+        assert_eq!(id(text), [""; 0], "{text}");
+    }
     assert_eq!(id("S[FOO]"), ["21867"]);
 }
 
