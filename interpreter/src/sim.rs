@@ -319,7 +319,7 @@ impl Simulation {
             actual_mm: self.record.axes.iter().map(|a| a.act).take(self.vector.len()).collect(),
             time_s: self.cycle.time_of(self.planner.setpoint().k),
         };
-        match self.executor.next(&feedback) {
+        match self.executor.next(feedback) {
             Step::Motion { block, source, events } => self.motion(block, source, events),
             Step::Sync { what, source, events } => {
                 self.pending = Some((After::Sync(what), source, events));
@@ -332,11 +332,11 @@ impl Simulation {
         }
     }
 
-    fn motion(&mut self, block: Block, source: SourceRef, events: Vec<Event>) {
+    fn motion(&mut self, block: Box<Block>, source: SourceRef, events: Vec<Event>) {
         self.totals.count(&block);
         let jerk_limited = block.slope.kind != SlopeKind::Step;
         self.underway.push_back(Underway { seq: block.seq, source, jerk_limited, events });
-        self.smoothing.push(block, &mut self.planner);
+        self.smoothing.push(*block, &mut self.planner);
         self.not_contoured();
     }
 

@@ -61,7 +61,7 @@ impl Contouring {
             if held.block.contour.is_some() {
                 self.notice(held.block.seq, NoContour::NothingFollows);
             }
-            self.emit(&held, None);
+            self.emit(held, None);
             self.ready.append(&mut self.skipped);
         }
         self.ready.drain(..)
@@ -82,7 +82,7 @@ impl Contouring {
             return;
         };
         let Some(settings) = held.block.contour else {
-            self.emit(&held, None);
+            self.emit(held, None);
             self.held = Some(Held { block, from: 0.0 });
             return;
         };
@@ -102,18 +102,19 @@ impl Contouring {
                 if soft {
                     self.notice(seq, NoContour::ModeReplaced);
                 }
-                self.emit(&held, Some(curve.pre_mm));
-                self.emit_curve(&held.block, &block, &curve, &settings);
+                let before = held.block.clone();
+                self.emit(held, Some(curve.pre_mm));
+                self.emit_curve(&before, &block, &curve, &settings);
                 self.skipped.clear();
                 from = curve.post_mm;
             }
             Ok(None) => {
-                self.emit(&held, None);
+                self.emit(held, None);
                 self.ready.append(&mut self.skipped);
             }
             Err(reason) => {
                 self.notice(seq, reason);
-                self.emit(&held, None);
+                self.emit(held, None);
                 self.ready.append(&mut self.skipped);
             }
         }
@@ -121,16 +122,15 @@ impl Contouring {
     }
 
     /// What is left of a block after the curves at its start and, `pre` mm before its end, at its end.
-    fn emit(&mut self, held: &Held, pre: Option<f64>) {
-        let whole = held.block.path.length();
+    fn emit(&mut self, Held { mut block, from }: Held, pre: Option<f64>) {
+        let whole = block.path.length();
         let to = whole - pre.unwrap_or(0.0);
-        if to - held.from <= ROUNDING * whole {
+        if to - from <= ROUNDING * whole {
             return;
         }
-        let mut block = held.block.clone();
-        if held.from > 0.0 || pre.is_some() {
+        if from > 0.0 || pre.is_some() {
             block.feed = speed(&block);
-            if let Some(path) = block.path.section(held.from, to) {
+            if let Some(path) = block.path.section(from, to) {
                 block.path = path;
             }
         }
@@ -158,7 +158,7 @@ impl Contouring {
         let feed_axes = from.dynamics.feed_axes.clone();
         for piece in curve.blend.pieces(parts) {
             let Some(path) = PolyPath::through(vec![piece.clone()], &feed_axes) else { continue };
-            block.path = Path::Curve(path);
+            block.path = Path::Curve(Box::new(path));
             let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
             let v = speeds.limited(speeds.programmed_mm_s).0;
             let same =
@@ -196,7 +196,7 @@ impl Contouring {
 }
 
 fn with_path(block: &Block, pieces: Vec<PolyPiece>, feed_axes: &[bool]) -> Option<Block> {
-    let path = Path::Curve(PolyPath::through(pieces, feed_axes)?);
+    let path = Path::Curve(Box::new(PolyPath::through(pieces, feed_axes)?));
     Some(Block { path, ..block.clone() })
 }
 

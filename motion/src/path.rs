@@ -27,7 +27,7 @@ pub enum Path {
     /// Arc in a plane that lies askew to the axes.
     Tilted(Box<TiltedArc>),
     /// Polynomials in all axes: contouring and splines.
-    Curve(PolyPath),
+    Curve(Box<PolyPath>),
 }
 
 impl Path {
@@ -107,37 +107,29 @@ impl Path {
         }
     }
 
-    /// Lowest and highest position of every axis on a line or an arc; `None` for other paths.
-    pub fn extent(&self) -> Option<(AxisVec, AxisVec)> {
-        let (mut low, mut high) = (self.start().clone(), self.start().clone());
-        let mut take = |axis: usize, x: f64| {
-            low[axis] = low[axis].min(x);
-            high[axis] = high[axis].max(x);
-        };
-        for (axis, x) in self.end().iter().enumerate() {
-            take(axis, *x);
-        }
-        let mut at = self.start().clone();
-        let mut turning = |axis: usize, arc: &ArcPath, shares: [f64; 2], drift: f64| {
-            for s in arc.turning_points(shares, drift).into_iter().flatten() {
-                self.position(s, &mut at);
-                take(axis, at[axis]);
-            }
-        };
-        match self {
-            Self::Line(_) => {}
+    /// Lowest and highest position of an axis on a line or an arc; `None` for other paths.
+    pub fn extent(&self, axis: usize) -> Option<(f64, f64)> {
+        let (start, end) = (self.start()[axis], self.end()[axis]);
+        let ends = (start.min(end), start.max(end));
+        let turning = match self {
+            Self::Line(_) => return Some(ends),
             Self::Arc(arc) => {
-                let [a, b] = arc.shape().plane;
-                turning(a, arc, [1.0, 0.0], 0.0);
-                turning(b, arc, [0.0, 1.0], 0.0);
+                let shares = arc.shape().plane.map(|a| if a == axis { 1.0 } else { 0.0 });
+                arc.turning_points(shares, 0.0)
             }
-            Self::Tilted(tilted) => {
-                for axis in tilted.tilt().axes {
-                    let (shares, drift) = tilted.shares(axis);
-                    turning(axis, tilted.arc(), shares, drift);
-                }
+            Self::Tilted(tilted) if tilted.tilt().axes.contains(&axis) => {
+                let (shares, drift) = tilted.shares(axis);
+                tilted.arc().turning_points(shares, drift)
             }
+            Self::Tilted(_) => [None; 4],
             Self::Curve(_) => return None,
+        };
+        let mut at = self.start().clone();
+        let (mut low, mut high) = ends;
+        for s in turning.into_iter().flatten() {
+            self.position(s, &mut at);
+            low = low.min(at[axis]);
+            high = high.max(at[axis]);
         }
         Some((low, high))
     }

@@ -156,7 +156,7 @@ impl Splining {
             if i + 1 < parts {
                 (part.end_velocity_mm_s, part.contour) = (None, None);
             }
-            part.path = Path::Curve(curve);
+            part.path = Path::Curve(Box::new(curve));
             self.ready.push(part);
         }
         self.done += 1;

@@ -27,6 +27,12 @@ fn at(path: &Path, s: f64) -> [f64; 4] {
     q
 }
 
+/// Lowest and highest positions.
+fn extent(path: &Path) -> ([f64; 4], [f64; 4]) {
+    let of = |axis| path.extent(axis).unwrap();
+    (std::array::from_fn(|axis| of(axis).0), std::array::from_fn(|axis| of(axis).1))
+}
+
 fn assert_near(a: &[f64], b: &[f64], tolerance: f64) {
     assert!(a.iter().zip(b).all(|(x, y)| (x - y).abs() < tolerance), "{a:?} instead of {b:?}");
 }
@@ -39,7 +45,7 @@ fn a_half_circle_turned_by_thirty_degrees() {
     assert!((path.length() - 5.0 * PI).abs() < 1e-12);
     assert_near(&at(&path, 2.5 * PI), &[100.0 + 5.0 * c, 5.0, -7.0 - 5.0 * s, 0.0], 1e-12);
     assert_near(&at(&path, path.length()), &[100.0 + 10.0 * c, 0.0, -7.0 - 10.0 * s, 0.0], 1e-12);
-    let (low, high) = path.extent().unwrap();
+    let (low, high) = extent(&path);
     assert_near(&low, &[100.0, 0.0, -7.0 - 10.0 * s, 0.0], 1e-12);
     assert_near(&high, &[100.0 + 10.0 * c, 5.0, -7.0, 0.0], 1e-12);
 }
@@ -53,7 +59,7 @@ fn a_helix_turns_round_where_height_and_circle_cancel() {
     assert!((path.length() - libm::hypot(TAU * r, h)).abs() < 1e-12);
     let x = |angle: f64| r * libm::cos(angle) * libm::cos(b) + h * angle / TAU * libm::sin(b);
     let first = libm::asin(h * libm::tan(b) / (TAU * r));
-    let (low, high) = path.extent().unwrap();
+    let (low, high) = extent(&path);
     // it first turns back at `first`, then forward at half a turn less `first`
     assert!((low[0] - x(PI - first)).abs() < 1e-12, "{low:?}");
     assert!((high[0] - x(first).max(x(TAU))).abs() < 1e-12, "{high:?}");
@@ -77,7 +83,7 @@ fn derivatives_extremes_and_nearest_points_of_random_arcs() {
         let point = |a: f64, z: f64| [r * libm::cos(a), r * libm::sin(a), z, 0.0];
         let path =
             tilted(tilt, point(from, 1.0), point(from + sweep, 1.0 + height), [0.0; 2], sweep);
-        let (low, high) = path.extent().unwrap();
+        let (low, high) = extent(&path);
         let extremes = PathExtremes::of(&path);
         let n = 4000;
         let (mut least, mut most) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);

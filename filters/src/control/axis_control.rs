@@ -172,6 +172,8 @@ pub struct ControlOutput {
 pub struct AxisControl {
     config: AxisControlConfig,
     cycle: CycleTime,
+    /// Of speed command and feedforward.
+    counts_per_mm_s: (f64, f64),
     buffer: SetpointBuffer,
     feedforward: Feedforward,
     limiter: SpeedLimiter,
@@ -211,6 +213,10 @@ impl AxisControl {
             lag: LagMonitor::new(config.lag, cycle),
             exact_stop: ExactStopMonitor::new(config.exact_stop, cycle),
             setpoint: SetpointMonitor::new(config.setpoint, cycle),
+            counts_per_mm_s: (
+                config.command_format.counts_per_mm_s(cycle.seconds()),
+                config.feedforward_format.counts_per_mm_s(cycle.seconds()),
+            ),
             config,
             cycle,
             set_mm: 0.0,
@@ -410,9 +416,7 @@ impl AxisControl {
     }
 
     fn drive_values(&self, command: f64, ff: &FeedforwardOutput, additive: f64) -> DriveValues {
-        let cycle_s = self.cycle.seconds();
-        let command_scale = self.config.command_format.counts_per_mm_s(cycle_s);
-        let ff_scale = self.config.feedforward_format.counts_per_mm_s(cycle_s);
+        let (command_scale, ff_scale) = self.counts_per_mm_s;
         let torque_n_m = self.config.torque.torque(ff.additive_acc_mm_s2);
         DriveValues {
             command: command * command_scale,

@@ -248,6 +248,7 @@ impl Feedforward {
     }
 
     /// Values of one cycle; `kv_per_s` is the gain of the position controller in this cycle.
+    #[inline] // the window is used where it is made
     pub fn step(&mut self, window: &Window, kv_per_s: f64) -> FeedforwardOutput {
         use FeedforwardMode as M;
         let [pp, p, x, n, nn, nnn] = window.positions_mm;
@@ -255,27 +256,39 @@ impl Feedforward {
         let c = &self.config;
         let mode = c.mode;
         let v_at = |[a, b, d, e]: [f64; 4]| ((a - e) - 8.0 * (b - d)) / (12.0 * t);
-        let v = c.velocity_ratio * ((n - x) / t);
-        let a = c.acceleration_quotient * ((v_at([p, x, nn, nnn]) - v_at([pp, p, n, nn])) / t);
-        let j = if window.jerk_limited {
-            c.jerk_ratio * (((nn - n) - 2.0 * (n - x) + (x - p)) / (t * t * t))
-        } else {
-            0.0
+        let v = || c.velocity_ratio * ((n - x) / t);
+        let a = || c.acceleration_quotient * ((v_at([p, x, nn, nnn]) - v_at([pp, p, n, nn])) / t);
+        let j = || {
+            if window.jerk_limited {
+                c.jerk_ratio * (((nn - n) - 2.0 * (n - x) + (x - p)) / (t * t * t))
+            } else {
+                0.0
+            }
         };
         // a controller without gain has no lag that jerk feedforward could anticipate
-        let wj = if kv_per_s > 0.0 { 1e-6 * c.acceleration_quotient / kv_per_s } else { 0.0 };
+        let wj = || if kv_per_s > 0.0 { 1e-6 * c.acceleration_quotient / kv_per_s } else { 0.0 };
         let weight = window.gain * c.global_ratio;
-        let on = |flag: bool, value: f64| if flag { weight * value } else { 0.0 };
         let ta = 1e-6; // the quotient is in microseconds in the conventional variant
         FeedforwardOutput {
-            speed_mm_s: on(mode.conventional(M::VEL, M::ADD_VEL), v)
-                + on(mode.conventional(M::ACC, M::ADD_ACC), ta * a)
-                + on(mode.conventional(M::JERK, M::ADD_JERK), wj * j),
-            additive_speed_mm_s: self.velocity.step(on(mode.contains(M::ADD_VEL), v)),
-            additive_acc_mm_s2: self.acceleration.step(on(mode.contains(M::ADD_ACC), a))
-                + self.jerk.step(on(mode.contains(M::ADD_JERK), Self::JERK_TIME_S * j)),
+            speed_mm_s: part(mode.conventional(M::VEL, M::ADD_VEL), || weight * v())
+                + part(mode.conventional(M::ACC, M::ADD_ACC), || weight * (ta * a()))
+                + part(mode.conventional(M::JERK, M::ADD_JERK), || weight * (wj() * j())),
+            additive_speed_mm_s: self
+                .velocity
+                .step(part(mode.contains(M::ADD_VEL), || weight * v())),
+            additive_acc_mm_s2: self
+                .acceleration
+                .step(part(mode.contains(M::ADD_ACC), || weight * a()))
+                + self
+                    .jerk
+                    .step(part(mode.contains(M::ADD_JERK), || weight * (Self::JERK_TIME_S * j()))),
         }
     }
+}
+
+/// A part of the feedforward, computed only where it is on.
+fn part(on: bool, value: impl FnOnce() -> f64) -> f64 {
+    if on { value() } else { 0.0 }
 }
 
 /// Delay of a signal by less than six cycles; fractions interpolate linearly between the two neighbours.

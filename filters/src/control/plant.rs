@@ -214,7 +214,7 @@ impl Plant {
 
     /// Advances by one cycle. False if the state is no longer finite; what was measured last then stays.
     pub fn advance(&mut self, mut input: PlantInput) -> bool {
-        self.dead_time.copy_within(..self.dead_time_cycles, 1);
+        self.dead_time.copy_within(..PlantConfig::MAX_DEAD_TIME, 1);
         self.dead_time[0] = input.speed_mm_s;
         input.speed_mm_s = self.dead_time[self.dead_time_cycles];
         let measured = match &mut self.dynamics {

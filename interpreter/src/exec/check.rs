@@ -21,10 +21,9 @@ pub fn check(
     options: Options,
 ) -> Vec<Diagnostic> {
     let mut executor = Executor::with_mode(sources, program, machine, options, true);
-    let mut feedback = Feedback::default();
     loop {
-        feedback.actual_mm.clone_from(executor.target());
-        if let Step::End { .. } = executor.next(&feedback) {
+        let feedback = Feedback { actual_mm: executor.target().clone(), time_s: 0.0 };
+        if let Step::End { .. } = executor.next(feedback) {
             executor.check_unreached();
             return executor.take_diagnostics();
         }

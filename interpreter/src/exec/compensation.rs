@@ -33,7 +33,15 @@ const BETWEEN_MAX: usize = 1000;
 #[derive(Debug)]
 pub(super) enum Item {
     Motion(Box<Motion>),
-    Sync { what: Sync, source: SourceRef, events: Vec<Event> },
+    Rest(Box<Rest>),
+}
+
+/// A step at rest.
+#[derive(Debug)]
+pub(super) struct Rest {
+    pub(super) what: Sync,
+    pub(super) source: SourceRef,
+    pub(super) events: Vec<Event>,
 }
 
 /// Compensation in force.
@@ -44,7 +52,7 @@ struct Active {
     /// G237.
     perpendicular: bool,
     plane: [usize; 2],
-    tilt: Option<Tilt>,
+    tilt: Option<Box<Tilt>>,
     last: Element,
     between: Vec<Item>,
     watch: Watch,
@@ -118,19 +126,16 @@ impl Compensator {
     }
 
     /// A step at rest between motions.
-    pub(super) fn sync(&mut self, item: Item, out: &mut Vec<Item>) -> Fallible<()> {
+    pub(super) fn sync(&mut self, rest: Rest, out: &mut Vec<Item>) -> Fallible<()> {
         let Some(active) = &mut self.active else {
-            out.push(item);
+            out.push(Item::Rest(Box::new(rest)));
             return Ok(());
         };
-        if let Item::Sync {
-            what: Sync::Stop | Sync::FlushWait | Sync::ReadActual, source, ..
-        } = item
-        {
+        if matches!(rest.what, Sync::Stop | Sync::FlushWait | Sync::ReadActual) {
             let text = "the channel cannot be flushed while tool radius compensation is active";
-            return Err(Fault::vendor(20651, text, Span::default()).in_block(source));
+            return Err(Fault::vendor(20651, text, Span::default()).in_block(rest.source));
         }
-        active.hold(item, Span::default())
+        active.hold(Item::Rest(Box::new(rest)), Span::default())
     }
 
     /// The program ends: the last element ends perpendicular above its end.
@@ -167,7 +172,7 @@ impl Compensator {
             out.push(Item::Motion(motion));
             return Ok(());
         };
-        let tilt = motion.tilt;
+        let tilt = motion.tilt.clone();
         let (start, approach) = if perpendicular {
             let from = side.start_point();
             let start = above(from, side.tangent(false), distance);

@@ -1,7 +1,7 @@
 //! From programmed motions to steps: holds a motion back until the next one is known, where something may come between.
 
 use super::bottleneck::Cut;
-use super::compensation::{Compensator, Item};
+use super::compensation::{Compensator, Item, Rest};
 use super::fault::{Fault, own};
 use super::insertion::{self, Insertion};
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
@@ -14,13 +14,13 @@ use std::collections::VecDeque;
 /// A programmed motion; the number of its block is given when it becomes a step.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
-    pub(super) block: Block,
+    pub(super) block: Box<Block>,
     pub(super) source: SourceRef,
     pub(super) events: Vec<Event>,
     /// Axes of the plane that was active; with a tilt, axes of its coordinates.
     pub(super) plane: [usize; 2],
     /// Coordinate system, if the plane lies askew to the axes.
-    pub(super) tilt: Option<Tilt>,
+    pub(super) tilt: Option<Box<Tilt>>,
     /// The path is in the coordinates of the tilt.
     pub(super) local: bool,
     pub(super) compensation: Option<Compensated>,
@@ -62,12 +62,15 @@ impl Motion {
 
     /// Takes the path back into the coordinates of the machine.
     fn leave_tilt(&mut self) {
-        let Some(tilt) = self.tilt.filter(|_| std::mem::take(&mut self.local)) else { return };
+        let Some(tilt) = self.tilt.as_deref() else { return };
+        if !std::mem::take(&mut self.local) {
+            return;
+        }
         let (start, end) = (self.block.path.start(), self.block.path.end());
         let (start, end) = (tilt.position(start), tilt.position(end));
         let path = match &self.block.path {
             Path::Arc(arc) => {
-                Some(Path::Tilted(Box::new(TiltedArc::new(arc.clone(), tilt, start, end))))
+                Some(Path::Tilted(Box::new(TiltedArc::new(arc.clone(), *tilt, start, end))))
             }
             _ => LinePath::new(start, end, &self.block.dynamics.feed_axes).map(Path::Line),
         };
@@ -100,8 +103,14 @@ fn bottleneck(cut: &Cut) -> Box<Fault> {
     Fault::kontur(own::BOTTLENECK, text, Span::default()).hint(hint).in_block(cut.tool)
 }
 
-/// Extent of a path whose ends the program does not know: lowest and highest positions, block.
-pub(super) type Driven = (AxisVec, AxisVec, SourceRef, Span);
+/// A path whose ends the program does not know.
+#[derive(Debug)]
+pub(super) struct Driven {
+    /// Lowest and highest position of every axis.
+    pub(super) extents_mm: Vec<(f64, f64)>,
+    pub(super) source: SourceRef,
+    pub(super) span: Span,
+}
 
 /// Motions and events on their way to the simulation.
 #[derive(Debug, Default)]
@@ -114,7 +123,7 @@ pub(super) struct Contour {
     done: Vec<Item>,
     events: Vec<Event>,
     held: Option<Box<Motion>>,
-    insertion: Option<Insertion>,
+    insertion: Option<Box<Insertion>>,
     compensator: Compensator,
     driven: Vec<Driven>,
     blocks: u64,
@@ -133,7 +142,10 @@ impl Contour {
                 let Motion { block, source, events, .. } = *motion;
                 Step::Motion { block, source, events }
             }
-            Item::Sync { what, source, events } => Step::Sync { what, source, events },
+            Item::Rest(rest) => {
+                let Rest { what, source, events } = *rest;
+                Step::Sync { what, source, events }
+            }
         })
     }
 
@@ -159,7 +171,7 @@ impl Contour {
             let text = "no motion before to which a chamfer or rounding could be joined";
             return Some(Fault::vendor(20351, text, span).warning());
         }
-        let before = self.insertion.replace(insertion);
+        let before = self.insertion.replace(Box::new(insertion));
         before.map(|_| {
             let text = "two insertions without a motion between them, the last one acts";
             Fault::vendor(20701, text, span).warning()
@@ -194,8 +206,8 @@ impl Contour {
     pub(super) fn sync(&mut self, what: Sync, source: SourceRef) -> Vec<Fault> {
         let mut faults = self.flush();
         let events = self.take_events();
-        let item = Item::Sync { what, source, events };
-        faults.extend(self.compensator.sync(item, &mut self.done).err().map(|f| *f));
+        let rest = Rest { what, source, events };
+        faults.extend(self.compensator.sync(rest, &mut self.done).err().map(|f| *f));
         self.emit();
         faults
     }
@@ -243,10 +255,13 @@ impl Contour {
         for item in &mut self.done {
             if let Item::Motion(motion) = item {
                 motion.leave_tilt();
+                let Motion { block, source, span, .. } = &**motion;
+                let axes = 0..block.path.start().len();
+                let extents = axes.map(|axis| block.path.extent(axis));
                 if motion.compensation.is_some()
-                    && let Some((low, high)) = motion.block.path.extent()
+                    && let Some(extents_mm) = extents.collect()
                 {
-                    self.driven.push((low, high, motion.source, motion.span));
+                    self.driven.push(Driven { extents_mm, source: *source, span: *span });
                 }
             }
         }

@@ -204,8 +204,8 @@ impl Executor {
     }
 
     /// The next step of the program; after [`Step::End`] always that again.
-    pub fn next(&mut self, feedback: &Feedback) -> Step {
-        self.decoder.feedback = feedback.clone();
+    pub fn next(&mut self, feedback: Feedback) -> Step {
+        self.decoder.feedback = feedback;
         loop {
             if let Some(step) = self.decoder.contour.pop() {
                 self.blocks_at_rest = 0;

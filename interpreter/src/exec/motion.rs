@@ -23,6 +23,25 @@ use kontur_motion::path::{LinePath, Path, Tilt};
 /// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
 const DWELL_MAX_S: f64 = 4294.967295;
 
+/// What a motion has to know of the active plane.
+struct InPlane {
+    /// Its axes.
+    plane: [usize; 2],
+    /// The coordinate system, if it lies askew to the axes.
+    tilt: Option<Box<Tilt>>,
+    compensation: Option<Compensated>,
+}
+
+/// The active plane in the frame.
+#[derive(Debug)]
+struct PlaneImage {
+    /// Indices of its main axes; with a tilt, those of the coordinate system.
+    main: [usize; 2],
+    keeps_sense: bool,
+    /// The frame, if the plane lies askew to the axes.
+    tilt: Option<Box<Tilt>>,
+}
+
 impl Decoder {
     pub(super) fn motion_or_dwell(
         &mut self,
@@ -187,7 +206,7 @@ impl Decoder {
             None => self.coordinates.program(&targets),
         }
         let path = if is_arc {
-            Some(self.arc(&start, words, span)?)
+            Some(self.arc(start, words, span)?)
         } else {
             let end = self.coordinates.target().clone();
             if let Some((_, at)) = words.centre.iter().flatten().next()
@@ -204,7 +223,8 @@ impl Decoder {
                     self.note(Fault::kontur(own::ODD, text, at).warning());
                 }
             }
-            LinePath::new(self.on_path(&start), self.on_path(&end), &self.feed_axes).map(Path::Line)
+            let (start, end) = (self.on_path(start), self.on_path(end));
+            LinePath::new(start, end, &self.feed_axes).map(Path::Line)
         };
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
@@ -221,35 +241,36 @@ impl Decoder {
         };
         let rapid = feed == Feed::Rapid;
         let full = words.g.iter().any(|g| g.row.act == Act::FullOverride);
-        let (low, high) =
-            path.extent().unwrap_or_else(|| (path.start().clone(), path.end().clone()));
-        let moved = (0..low.len()).filter(|i| low[*i].to_bits() != high[*i].to_bits());
+        let moves = |axis: &usize| {
+            path.extent(*axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
+        };
+        let moved = (0..self.feed_axes.len()).filter(moves);
         let feed_ratio = if full { 1.0 } else { self.overrides.ratio(rapid, moved) };
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
         let late_braking = self.late_braking(once(Act::EarlyBrakingOnce), span);
-        let (plane, tilt, compensation) = self.plane_and_compensation(span)?;
+        let InPlane { plane, tilt, compensation } = self.in_plane(span)?;
         // of a block with an error nothing moves; what was said before it is still said
         if self.failed() && !self.checking {
             return Ok(());
         }
-        // a large thing: made where it stays
+        let block = Box::new(Block {
+            seq: 0,
+            path,
+            feed,
+            feed_ratio,
+            full_override: full,
+            end_velocity_mm_s,
+            late_braking,
+            slope: self.modal.slope,
+            dynamics: self.dynamics(rapid),
+            tolerance: self.shaping.tolerance(),
+            contour: if rounds { Some(self.contouring.settings()) } else { self.hsc.contour() },
+            spline: self.hsc.spline(),
+        });
         let motion = Box::new(Motion {
-            block: Block {
-                seq: 0,
-                path,
-                feed,
-                feed_ratio,
-                full_override: full,
-                end_velocity_mm_s,
-                late_braking,
-                slope: self.modal.slope,
-                dynamics: self.dynamics(rapid),
-                tolerance: self.shaping.tolerance(),
-                contour: if rounds { Some(self.contouring.settings()) } else { self.hsc.contour() },
-                spline: self.hsc.spline(),
-            },
+            block,
             source: self.source,
             events: self.contour.take_events(),
             plane,
@@ -269,25 +290,16 @@ impl Decoder {
     }
 
     /// Axes of the active plane, its coordinate system if it lies askew to the axes, and the compensation.
-    fn plane_and_compensation(
-        &self,
-        span: Span,
-    ) -> Outcome<([usize; 2], Option<Tilt>, Option<Compensated>)> {
-        let main = self.modal.plane.main_axes();
-        let frame = self.coordinates.frame();
+    fn in_plane(&self, span: Span) -> Outcome<InPlane> {
         let axis = |m: usize| self.coordinates.main_axis(m);
         let compensated = self.modal.compensation != Compensation::Off;
-        let tilt = self.tilt(span)?;
-        let (plane, keeps_sense) = match frame.image_of_plane(main[0], main[1]) {
-            Some(image) if tilt.is_none() => image,
-            _ => ([main[0], main[1]], true),
-        };
-        let (Some(first), Some(second)) = (axis(plane[0]), axis(plane[1])) else {
+        let PlaneImage { main, keeps_sense, tilt } = self.image_of_plane(span)?;
+        let (Some(first), Some(second)) = (axis(main[0]), axis(main[1])) else {
             if compensated {
                 let text = "the plane of the tool radius compensation has no axis in the channel";
                 return Err(Fault::vendor(20200, text, span));
             }
-            return Ok(([0, 0], tilt, None));
+            return Ok(InPlane { plane: [0, 0], tilt, compensation: None });
         };
         let left = (self.modal.compensation == Compensation::Left) == keeps_sense;
         let radius = self.tools.active.radius_mm;
@@ -296,15 +308,15 @@ impl Decoder {
             straight_corners: self.modal.corners == Corners::Straight,
             perpendicular: self.modal.perpendicular_selection,
         });
-        Ok(([first, second], tilt, compensation))
+        Ok(InPlane { plane: [first, second], tilt, compensation })
     }
 
-    /// The frame, if the active plane lies askew to the axes in it.
-    fn tilt(&self, span: Span) -> Outcome<Option<Tilt>> {
-        let main = self.modal.plane.main_axes();
+    /// Where the frame puts the active plane.
+    fn image_of_plane(&self, span: Span) -> Outcome<PlaneImage> {
+        let [a, b, _] = self.modal.plane.main_axes();
         let frame = self.coordinates.frame();
-        if frame.image_of_plane(main[0], main[1]).is_some() {
-            return Ok(None);
+        if let Some((main, keeps_sense)) = frame.image_of_plane(a, b) {
+            return Ok(PlaneImage { main, keeps_sense, tilt: None });
         }
         let axis = |m: usize| self.coordinates.main_axis(m);
         let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
@@ -313,12 +325,16 @@ impl Decoder {
         };
         let (axes, origin) = ([x, y, z], self.coordinates.to_machine([0.0; 3]));
         let t_mm = std::array::from_fn(|i| origin[i] - self.independent.way[axes[i]]);
-        Ok(Some(Tilt { axes, m: frame.m, t_mm }))
+        let tilt = Some(Box::new(Tilt { axes, m: frame.m, t_mm }));
+        Ok(PlaneImage { main: [a, b], keeps_sense: true, tilt })
     }
 
     /// Position of the axes without the ways that they have gone as independent axes.
-    fn on_path(&self, position: &AxisVec) -> AxisVec {
-        position.iter().zip(self.independent.way.iter()).map(|(x, way)| x - way).collect()
+    fn on_path(&self, mut position: AxisVec) -> AxisVec {
+        for (x, way) in position.iter_mut().zip(self.independent.way.iter()) {
+            *x -= way;
+        }
+        position
     }
 
     /// Chamfer or rounding in front of the next motion.

@@ -24,12 +24,11 @@ pub struct SourceRef {
 
 /// One step of the program.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "steps are handed over one at a time")]
 pub enum Step {
     /// A motion for the planner.
     Motion {
         /// The motion.
-        block: Block,
+        block: Box<Block>,
         /// Where it was programmed.
         source: SourceRef,
         /// They act in the first cycle of the motion, without a stop.

@@ -43,7 +43,7 @@ impl Run {
         self.steps
             .iter()
             .filter_map(|s| match s {
-                Step::Motion { block, .. } => Some(block),
+                Step::Motion { block, .. } => Some(&**block),
                 _ => None,
             })
             .collect()
@@ -109,10 +109,9 @@ pub(super) fn places(diagnostics: &[Diagnostic]) -> Vec<String> {
 pub(super) fn run_with(sources: MemorySources, machine: Arc<Machine>, options: Options) -> Run {
     let mut executor = Executor::new(Box::new(sources), "main.nc", machine, options);
     let mut steps = Vec::new();
-    let mut feedback = Feedback::default();
     loop {
-        feedback.actual_mm = executor.target().clone();
-        let step = executor.next(&feedback);
+        let feedback = Feedback { actual_mm: executor.target().clone(), time_s: 0.0 };
+        let step = executor.next(feedback);
         let ended = matches!(step, Step::End { .. });
         steps.push(step);
         if ended {

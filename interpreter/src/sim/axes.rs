@@ -58,9 +58,10 @@ impl Simulation {
                 (None, Driver::Spindle(s)) => spindles[s],
                 (None, Driver::Standing) => chain.set_mm(),
             };
-            let (record, found) = chain.step(ipo, self.gains[i], self.jerk_limited);
-            self.record.axes[i] = record;
-            faults.extend(found.iter().map(|f| (i, *f)));
+            let record = &mut self.record.axes[i];
+            if let Some(found) = chain.step(ipo, self.gains[i], self.jerk_limited, record) {
+                faults.extend(found.iter().map(|f| (i, *f)));
+            }
         }
         let shaped = self.record.axes[..n].iter().any(|a| a.set.to_bits() != a.ipo.to_bits());
         // what is measured against the contour: the set position without the ways of independent axes; while one of them

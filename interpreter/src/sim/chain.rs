@@ -2,7 +2,7 @@
 
 use crate::machine::{AdditionalInterface, ChainSetup};
 use crate::record::AxisRecord;
-use kontur_filters::control::axis_control::{AxisControl, AxisInputs, ControlOutput};
+use kontur_filters::control::axis_control::{AxisControl, AxisInputs};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::kernel::{Kernel, SwitchWhileMoving};
@@ -177,8 +177,14 @@ impl AxisChain {
         }
     }
 
-    /// One cycle.
-    pub(crate) fn step(&mut self, ipo: f64, gain: f64, jerk_limited: bool) -> (AxisRecord, Faults) {
+    /// One cycle: fills the record and tells what the monitors have raised, if anything.
+    pub(crate) fn step(
+        &mut self,
+        ipo: f64,
+        gain: f64,
+        jerk_limited: bool,
+        record: &mut AxisRecord,
+    ) -> Option<Faults> {
         self.ipo.push_back(ipo);
         self.ipo.pop_front();
         let set = self.shaping.step(ipo);
@@ -190,12 +196,7 @@ impl AxisChain {
         let additional_mm = self.additional_mm();
         self.control.set_inputs(AxisInputs { additional_mm, ..self.inputs });
         let out = self.control.step(set, gain, jerk_limited);
-        let record = self.record(ipo, [set, vel, acc, jerk], &out);
-        (AxisRecord { add: additional_mm, ..record }, out.faults)
-    }
-
-    fn record(&self, ipo: f64, [set, vel, acc, jerk]: [f64; 4], out: &ControlOutput) -> AxisRecord {
-        AxisRecord {
+        *record = AxisRecord {
             ipo,
             set,
             vel,
@@ -210,7 +211,7 @@ impl AxisChain {
             act: out.act_mm,
             load: out.load_mm,
             lag: out.lag_mm,
-            add: 0.0,
+            add: additional_mm,
             tcp: out.tcp_mm,
             tcp_acc: out.tcp_acc_mm_s2,
             cmd_drive: out.drive.command,
@@ -218,7 +219,8 @@ impl AxisChain {
             vadd_drive: out.drive.additive_speed,
             torque_drive: out.drive.torque,
             torque_n_m: out.drive.torque_n_m,
-        }
+        };
+        (!out.faults.is_empty()).then_some(out.faults)
     }
 
     /// Interpolated setpoint of the moment that the mean delay points to, linear between two samples.

@@ -33,7 +33,10 @@ impl LinePath {
         if length.is_nan() || length <= 0.0 {
             return None;
         }
-        let direction = start.iter().zip(end.iter()).map(|(a, b)| (b - a) / length).collect();
+        let mut direction = end.clone();
+        for (d, a) in direction.iter_mut().zip(start.iter()) {
+            *d = (*d - a) / length;
+        }
         Some(Self { start, end, direction, length })
     }
 

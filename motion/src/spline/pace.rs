@@ -24,7 +24,7 @@ struct Part {
 impl Part {
     fn new(block: &Block, piece: PolyPiece) -> Option<Self> {
         let path = PolyPath::through(vec![piece.clone()], &block.dynamics.feed_axes)?;
-        let block = Block { path: Path::Curve(path), ..block.clone() };
+        let block = Block { path: Path::Curve(Box::new(path)), ..block.clone() };
         let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
         let length = block.path.length();
         let (v, limit) = speeds.limited(speeds.programmed_mm_s);

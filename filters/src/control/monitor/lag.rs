@@ -128,7 +128,7 @@ impl LagMonitor {
 
     /// One cycle: reference and actual position, gain of the position controller.
     pub fn step(&mut self, reference_mm: f64, actual_mm: f64, kv_per_s: f64) -> Option<Fault> {
-        self.past_mm.copy_within(..=self.config.delay_cycles, 1);
+        self.past_mm.copy_within(..=Self::MAX_DELAY, 1);
         self.past_mm[0] = reference_mm;
         let commanded = self.past_mm[self.config.delay_cycles];
         self.lag_mm = commanded - actual_mm;

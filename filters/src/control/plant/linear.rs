@@ -17,6 +17,13 @@ pub(super) struct Continuous {
     pub(super) speeds: [RowDVector<f64>; 3],
 }
 
+impl Continuous {
+    /// Two measured points move apart.
+    fn differ(&self, a: usize, b: usize) -> bool {
+        self.positions[a] != self.positions[b] || self.speeds[a] != self.speeds[b]
+    }
+}
+
 /// Discrete model with state. The position is kept apart and only ever moved by increments: so an axis at rest stays
 /// where it is bit by bit, and far from zero it loses nothing of its resolution.
 #[derive(Clone, Debug)]
@@ -34,6 +41,8 @@ pub(super) struct LinearPlant {
     substeps: u32,
     cycles: u64,
     cycle: CycleTime,
+    /// The load moves apart from the motor, the tool point apart from the load.
+    elastic: bool,
     has_tool_point: bool,
 }
 
@@ -66,7 +75,8 @@ impl LinearPlant {
             substeps,
             cycles: 0,
             cycle,
-            has_tool_point: model.positions[1] != model.positions[2],
+            elastic: model.differ(0, 1),
+            has_tool_point: model.differ(1, 2),
         })
     }
 
@@ -128,23 +138,26 @@ impl LinearPlant {
     }
 
     fn measured(&self) -> Measured {
-        let of = |row| self.value(row);
-        let [motor, load, tcp] = &self.positions;
-        let [motor_v, load_v, tcp_v] = &self.speeds;
-        Measured {
-            motor_mm: self.base_mm + of(motor),
-            motor_mm_s: of(motor_v),
-            load_mm: self.base_mm + of(load),
-            load_mm_s: of(load_v),
-            tcp_mm: self.base_mm + of(tcp),
-            tcp_mm_s: of(tcp_v),
-        }
+        let (motor_mm, motor_mm_s) = self.point(0);
+        let (load_mm, load_mm_s) =
+            if self.elastic { self.point(1) } else { (motor_mm, motor_mm_s) };
+        let (tcp_mm, tcp_mm_s) =
+            if self.has_tool_point { self.point(2) } else { (load_mm, load_mm_s) };
+        Measured { motor_mm, motor_mm_s, load_mm, load_mm_s, tcp_mm, tcp_mm_s }
+    }
+
+    /// Position and speed of a measured point.
+    fn point(&self, i: usize) -> (f64, f64) {
+        (self.base_mm + self.value(&self.positions[i]), self.value(&self.speeds[i]))
     }
 }
 
 /// Adds the product of a matrix and a vector, column by column.
 fn add_product(sum: &mut [f64], matrix: &DMatrix<f64>, vector: &[f64]) {
-    for (column, x) in matrix.as_slice().chunks_exact(sum.len()).zip(vector) {
+    let mut columns = matrix.as_slice();
+    for x in vector {
+        let (column, others) = columns.split_at(sum.len());
+        columns = others;
         for (sum, c) in sum.iter_mut().zip(column) {
             *sum += c * x;
         }

@@ -106,7 +106,7 @@ pub(super) fn emit_between(between: Vec<Item>, at: Point, plane: [usize; 2], out
                     out.push(Item::Motion(motion));
                 }
             }
-            Item::Sync { .. } => out.push(item),
+            Item::Rest(_) => out.push(item),
         }
     }
 }

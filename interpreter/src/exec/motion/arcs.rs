@@ -1,5 +1,6 @@
 //! Centre, end and faults of a programmed arc.
 
+use super::PlaneImage;
 use crate::diag::ValueKind;
 use crate::exec::arc::{self, ArcError};
 use crate::exec::contour::local_ends;
@@ -13,15 +14,12 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
 
 impl Decoder {
-    pub(super) fn arc(&mut self, from: &AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
+    pub(super) fn arc(&mut self, from: AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
         let from = &self.on_path(from);
-        let target = self.on_path(self.coordinates.target());
+        let target = self.on_path(self.coordinates.target().clone());
         let main = self.modal.plane.main_axes();
-        let tilt = self.tilt(span)?;
-        let image = self.coordinates.frame().image_of_plane(main[0], main[1]);
         // askew to the axes the arc is one of the coordinate system
-        let (image, keeps_sense) =
-            image.filter(|_| tilt.is_none()).unwrap_or(([main[0], main[1]], true));
+        let PlaneImage { main: image, keeps_sense, tilt } = self.image_of_plane(span)?;
         let (start, end) = match &tilt {
             Some(tilt) => local_ends(tilt, from, &target),
             None => (from.clone(), target.clone()),
@@ -79,7 +77,7 @@ impl Decoder {
         let arc = ArcPath::new(start, end, shape, &self.feed_axes)
             .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))?;
         Ok(match tilt {
-            Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, tilt, from.clone(), target))),
+            Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
             None => Path::Arc(arc),
         })
     }

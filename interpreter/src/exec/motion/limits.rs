@@ -1,6 +1,7 @@
 //! Software limits along a path.
 
 use crate::diag::ValueKind;
+use crate::exec::contour::Driven;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::words::Words;
@@ -10,11 +11,11 @@ use kontur_motion::path::Path;
 impl Decoder {
     /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round.
     pub(super) fn check_limits(&mut self, path: &Path, words: &Words<'_>, span: Span) {
-        let Some((low, high)) = path.extent() else { return };
-        for axis in 0..low.len() {
+        for axis in 0..self.limits_mm.len() {
+            let Some((low, high)) = path.extent(axis) else { return };
             let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
             let end = path.end()[axis];
-            if let Some(fault) = self.outside_limits(axis, low[axis], high[axis], Some(end), at) {
+            if let Some(fault) = self.outside_limits(axis, low, high, Some(end), at) {
                 self.note(fault);
             }
         }
@@ -22,14 +23,14 @@ impl Decoder {
 
     /// Compensated motions against the software limits.
     pub(in crate::exec) fn limits_of_compensated(&mut self) -> Vec<Fault> {
-        let mut faults = Vec::new();
-        for (low, high, source, span) in self.contour.take_driven() {
-            for axis in 0..low.len() {
-                let fault = self.outside_limits(axis, low[axis], high[axis], None, span);
-                faults.extend(fault.map(|f| *f.in_block(source)));
-            }
-        }
-        faults
+        let driven = self.contour.take_driven();
+        let faults = driven.iter().flat_map(|Driven { extents_mm, source, span }| {
+            extents_mm.iter().enumerate().filter_map(|(axis, (low, high))| {
+                let fault = self.outside_limits(axis, *low, *high, None, *span)?;
+                Some(*fault.in_block(*source))
+            })
+        });
+        faults.collect()
     }
 
     /// 21897 for an axis that moves between `low` and `high` and leaves its limits.
