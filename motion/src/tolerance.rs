@@ -108,15 +108,6 @@ impl Demands {
         }
     }
 
-    /// Takes back what is asked of the first blocks: the path is too fast there already.
-    pub(crate) fn release(&mut self, blocks: usize) {
-        let n = self.feed.len().min(blocks);
-        self.feed[..n].fill(f64::INFINITY);
-        self.acceleration[..n].fill(1.0);
-        self.cap[..=n].fill(f64::INFINITY);
-        self.stop[..=n].fill(None);
-    }
-
     /// The blocks with the acceleration that is left to them.
     pub(crate) fn soften<'a>(&self, window: &'a [Arc<Queued>]) -> Cow<'a, [Arc<Queued>]> {
         if self.acceleration.iter().all(|ratio| *ratio >= 1.0) {
@@ -171,13 +162,18 @@ struct Findings {
 
 /// A plan under examination.
 pub(crate) struct Trial<'a> {
+    /// What is final and the plan behind it.
     pub(crate) timeline: &'a Timeline,
+    /// Entries of the timeline that are final.
+    pub(crate) placed: usize,
     pub(crate) window: &'a [Arc<Queued>],
     pub(crate) past: &'a Contour,
     pub(crate) kernels: &'a Kernels,
     pub(crate) cycle: CycleTime,
     /// Last cycle that was output.
     pub(crate) now: u64,
+    /// The path is at rest where the plan starts: the start can wait.
+    pub(crate) at_rest: bool,
 }
 
 impl Monitor {
@@ -323,6 +319,16 @@ impl Monitor {
                 blamed = true;
             }
         }
+        // a cause in front of a stop is final already, but what follows the stop can wait for the filters
+        let waits = (0..support.len()).any(|i| support[i].boundary == Some(0) && i > 0)
+            && (0..support.len()).any(|i| {
+                let (corner, curve) = share(i);
+                support[i].block.is_none() && corner.max(curve) >= findings.share * largest
+            });
+        if waits {
+            findings.corner[0] = findings.corner[0].max(excess);
+            blamed = true;
+        }
         // kernels that differ between the axes, or a cause that is final already: slow down what still can be
         if !blamed {
             for m in support {
@@ -356,7 +362,9 @@ impl Monitor {
             if swings {
                 // what is left is the overshoot of the stop itself
                 let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
-                note(&mut soften[b - 1], excess, tolerance);
+                if b > 0 {
+                    note(&mut soften[b - 1], excess, tolerance);
+                }
                 note(&mut soften[b], excess, tolerance);
                 continue;
             }
@@ -364,7 +372,8 @@ impl Monitor {
                 (demands.cap[b], demands.stop[b]) = (0.0, Some(full));
                 continue;
             }
-            if let Some(dwell) = demands.stop[b] {
+            let resting = demands.stop[b].or((b == 0).then_some(0));
+            if let Some(dwell) = resting {
                 // in small steps, because neighbouring corners within reach share the error
                 let needed = self.needed_dwell(trial, marks, mark, dwell);
                 let step = (full / 8).max(1);
@@ -526,7 +535,7 @@ fn rest_tick(trial: &Trial<'_>) -> f64 {
 /// Planned speed at a boundary of the window.
 fn speed_at(trial: &Trial<'_>, boundary: usize) -> f64 {
     let mut index = 0;
-    for e in trial.timeline.entries() {
+    for e in trial.timeline.entries().skip(trial.placed) {
         if boundary < index + e.blocks.len() {
             let s = if boundary == index { 0.0 } else { e.blocks[boundary - index - 1].1 };
             return e.profile.at(e.profile.time_at(s)).v_mm_s;
@@ -563,7 +572,8 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
             }
         }
         let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
-        let boundary = block.filter(|b| *b > 0);
+        // at the start of the path itself only a wait is possible
+        let boundary = block.filter(|b| *b > 0 || trial.at_rest);
         let queued = Arc::clone(queued);
         out.push(Mark { cycles, boundary, block, queued, s_mm: s, speed, jump, axis });
     };
@@ -573,7 +583,7 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
         add(passed.cycles, queued, None, passed.s_mm, queued.velocity.0);
     }
     let mut index = 0;
-    for entry in trial.timeline.entries() {
+    for entry in trial.timeline.entries().skip(trial.placed) {
         for (cycles, s, queued) in entry.entries(trial.cycle) {
             add(cycles, queued, Some(index), s, entry.profile.peak());
             index += 1;
