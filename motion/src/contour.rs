@@ -6,6 +6,9 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::Arc;
 
+/// Entries whose paths begin closer together than this, in mm of path length, have the same path.
+pub(crate) const SAME_START_MM: f64 = 1e-9;
+
 /// Blocks as the interpolator entered them. One that a change of speed divides is entered once more for its rest.
 #[derive(Clone, Debug, Default)]
 pub struct Contour {
@@ -20,6 +23,15 @@ pub(crate) struct Passed {
     /// Path length of the program in mm.
     pub(crate) s_mm: f64,
     pub(crate) queued: Arc<Queued>,
+}
+
+impl Passed {
+    /// True if both are parts of one path: they are where the whole of it starts.
+    fn is_part_of_the_same(&self, other: &Self) -> bool {
+        let start = |p: &Self| p.s_mm - p.queued.offset;
+        self.queued.block.seq == other.queued.block.seq
+            && (start(self) - start(other)).abs() < SAME_START_MM
+    }
 }
 
 impl Contour {
@@ -99,7 +111,13 @@ impl Contour {
 fn nearest<'a>(blocks: impl Iterator<Item = &'a Passed>, point: &[f64], out: &mut [f64]) -> f64 {
     let mut best = f64::INFINITY;
     let mut q = AxisVec::zeros(point.len());
+    let mut before: Option<&Passed> = None;
     for passed in blocks {
+        // every path is searched over its whole length, so once is enough for its parts
+        if before.is_some_and(|b| b.is_part_of_the_same(passed)) {
+            continue;
+        }
+        before = Some(passed);
         let path = &passed.queued.block.path;
         path.position(path.nearest(point), &mut q);
         let d2: f64 = q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();

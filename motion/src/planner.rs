@@ -22,7 +22,7 @@ use crate::queue::Queued;
 use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
 use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment, PathState, Timeline};
-use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept};
+use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -113,8 +113,8 @@ impl Planner {
             cursor: Moment::default(),
             speed: (0.0, SpeedLimit::Stop),
             travelled: 0.0,
-            setpoint: Setpoint { position: position.clone(), ..Setpoint::default() },
-            state: PathState { position, ..PathState::default() },
+            state: PathState::at_rest(&position),
+            setpoint: Setpoint { position, ..Setpoint::default() },
             kernels: Kernels::default(),
             monitor: Monitor::default(),
             contour: Contour::default(),
@@ -295,7 +295,7 @@ impl Planner {
         self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
     }
 
-    /// Plans what is queued and makes all but the last window final.
+    /// Plans what is queued and makes all but the last window final, or divides queued blocks first.
     fn extend(&mut self) -> Result<(), Infeasible> {
         let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
         let window: Vec<Arc<Queued>> = self.queue.iter().take_while(free).cloned().collect();
@@ -325,9 +325,13 @@ impl Planner {
             let verdict = self.verdict(&window, &entries, round, &mut demands);
             round += 1;
             match verdict {
-                Some(Ok(_)) => continue,
-                Some(Err(unkept)) => self.unkept.push(unkept),
-                None => {}
+                Verdict::Kept => {}
+                Verdict::Divided(parts) => {
+                    self.divide(parts);
+                    return Ok(());
+                }
+                Verdict::Tightened => continue,
+                Verdict::GivenUp(unkept) => self.unkept.push(unkept),
             }
             let rests = end != SpeedLimit::Lookahead;
             let Some(count) = self.final_entries(&entries, n, rests) else {
@@ -347,10 +351,10 @@ impl Planner {
         entries: &[Entry],
         round: usize,
         demands: &mut Demands,
-    ) -> Option<Result<Unkept, Unkept>> {
+    ) -> Verdict {
         let bound = window.iter().any(|q| q.block.tolerance.ax_dev_mm.is_some());
         if !bound || !self.kernels.any() {
-            return None;
+            return Verdict::Kept;
         }
         let mut timeline = self.timeline.clone();
         let placed = timeline.entries().count();
@@ -369,20 +373,24 @@ impl Planner {
     }
 
     /// The way to rest from the cursor on with the tolerance kept; `None` if there is none.
-    fn way_out(&self) -> Option<Vec<Entry>> {
-        let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
-        let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
-        let mut demands = Demands::none(window.len());
-        let forced = vec![false; window.len() + 1];
-        let mut round = 0;
+    fn way_out(&mut self) -> Option<Vec<Entry>> {
         loop {
-            let stop = SpeedLimit::Stop;
-            let entries = self.place(&window, &demands, &forced, self.cursor, stop).ok()?;
-            match self.verdict(&window, &entries, round, &mut demands) {
-                None => return Some(entries),
-                Some(Ok(_)) => round += 1,
-                Some(Err(_)) => return None,
-            }
+            let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
+            let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
+            let mut demands = Demands::none(window.len());
+            let forced = vec![false; window.len() + 1];
+            let mut round = 0;
+            let parts = loop {
+                let stop = SpeedLimit::Stop;
+                let entries = self.place(&window, &demands, &forced, self.cursor, stop).ok()?;
+                match self.verdict(&window, &entries, round, &mut demands) {
+                    Verdict::Kept => return Some(entries),
+                    Verdict::Divided(parts) => break parts,
+                    Verdict::Tightened => round += 1,
+                    Verdict::GivenUp(_) => return None,
+                }
+            };
+            self.divide(parts);
         }
     }
 
@@ -449,6 +457,25 @@ impl Planner {
             })
             .count();
         (count > 0).then_some(count)
+    }
+
+    /// Puts parts in the place of queued blocks.
+    fn divide(&mut self, blocks: Vec<(usize, Vec<Arc<Queued>>)>) {
+        for (b, parts) in blocks.into_iter().rev() {
+            let mut first = 0;
+            for entry in &mut self.reserve {
+                if b < first + entry.blocks.len() {
+                    entry.divide(b - first, &parts);
+                    break;
+                }
+                first += entry.blocks.len();
+            }
+            for part in parts[1..].iter().rev() {
+                self.queue.insert(b + 1, Arc::clone(part));
+                self.caps.insert(b + 1, (f64::INFINITY, SpeedLimit::Curve));
+            }
+            self.queue[b] = Arc::clone(&parts[0]);
+        }
     }
 
     /// Makes the next span of the last plan final, because there is no new plan from where it starts.

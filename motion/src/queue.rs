@@ -4,10 +4,15 @@ use crate::block::{Block, SlopeKind};
 use crate::corner::Ends;
 use crate::limit::SpeedLimit;
 use crate::limits::{PathExtremes, PathSpeeds, path_slope};
+use crate::path::Path;
 use crate::profile::SlopeLimits;
 use crate::realtime::Override;
 use kontur_filters::time::CycleTime;
+use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
+
+/// Part of their time that two stretches of a block have to gain to be planned apart.
+const WORTH: f64 = 0.1;
 
 /// A block with its own limits, computed once when it enters the queue.
 #[derive(Clone, Debug)]
@@ -28,6 +33,8 @@ pub struct Queued {
     pub slope: SlopeLimits,
     /// Largest `|q''|` over the axes in 1/mm; 0 for a line.
     pub bend: f64,
+    /// The block goes on behind the end of this part of it.
+    pub(crate) goes_on: bool,
 }
 
 impl Queued {
@@ -43,6 +50,7 @@ impl Queued {
             velocity: speeds.limited(speeds.programmed_mm_s),
             slope: path_slope(&block, &x, cycle),
             bend: x.second.iter().copied().fold(0.0, f64::max),
+            goes_on: false,
             block,
         }
     }
@@ -68,10 +76,76 @@ impl Queued {
         }
         let mut rest = Self::clone(self);
         rest.offset += s;
-        rest.length = rest.block.path.length() - rest.offset;
+        rest.length =
+            if self.goes_on { self.length - s } else { self.block.path.length() - rest.offset };
         rest.block.path.tangent(rest.offset, &mut rest.ends.tangent_in);
         rest.block.path.curvature(rest.offset, &mut rest.ends.curvature_in);
         Arc::new(rest)
+    }
+
+    /// Stretches of different bend by the distance of their ends from the present start: one, unless it is a curve.
+    pub(crate) fn bends(&self) -> SmallVec<[(f64, f64); 1]> {
+        let Path::Curve(curve) = &self.block.path else {
+            return smallvec![(self.length, self.bend)];
+        };
+        let mut from = 0.0;
+        let mut out: SmallVec<[(f64, f64); 1]> = SmallVec::new();
+        for (end, bend) in curve.bends() {
+            let end = (end - self.offset).min(self.length);
+            if end > from {
+                out.push((end, bend.min(self.bend)));
+                from = end;
+            }
+        }
+        out
+    }
+
+    /// Largest `|q''|` of an axis in 1/mm between two distances from the present start.
+    pub(crate) fn bend_between(&self, from: f64, to: f64) -> f64 {
+        let mut start = 0.0;
+        let inside = self.bends().into_iter().filter(|(end, _)| {
+            let inside = *end >= from && start <= to;
+            start = *end;
+            inside
+        });
+        inside.map(|(_, bend)| bend).fold(0.0, f64::max)
+    }
+
+    /// The block in parts of similar bend, where the speed that a bend allows makes that worth it; one part otherwise.
+    pub(crate) fn parts(self: &Arc<Self>, speed: impl Fn(f64) -> f64) -> Vec<Arc<Self>> {
+        // neighbours stay together as long as their common speed costs little
+        let mut groups: Vec<(f64, f64, f64)> = Vec::new();
+        let mut from = 0.0;
+        for (end, bend) in self.bends() {
+            let mut group = (from, end, bend);
+            while let Some(&(start, until, before)) = groups.last() {
+                let bend = before.max(group.2);
+                let apart = (until - start) / speed(before) + (group.1 - group.0) / speed(group.2);
+                if (group.1 - start) / speed(bend) > (1.0 + WORTH) * apart {
+                    break;
+                }
+                group = (start, group.1, bend);
+                groups.pop();
+            }
+            groups.push(group);
+            from = end;
+        }
+        let last = groups.len().saturating_sub(1);
+        let part = |(i, (from, to, bend)): (usize, (f64, f64, f64))| {
+            let mut part = Self::clone(&self.remainder(from));
+            part.bend = bend;
+            if i < last {
+                (part.length, part.goes_on) = (to - from, true);
+                let end = self.offset + to;
+                part.block.path.tangent(end, &mut part.ends.tangent_out);
+                part.block.path.curvature(end, &mut part.ends.curvature_out);
+            }
+            Arc::new(part)
+        };
+        if last == 0 {
+            return vec![Arc::clone(self)];
+        }
+        groups.into_iter().enumerate().map(part).collect()
     }
 
     /// True if the profile of this block may run on across its ends with a non-zero acceleration.

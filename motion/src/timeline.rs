@@ -91,6 +91,13 @@ pub(crate) struct PathState {
     pub(crate) seq: u64,
 }
 
+impl PathState {
+    /// At rest at a position.
+    pub(crate) fn at_rest(position: &AxisVec) -> Self {
+        Self { position: position.clone(), ..Self::default() }
+    }
+}
+
 impl Entry {
     pub(crate) fn new(
         start: Moment,
@@ -140,6 +147,16 @@ impl Entry {
         self.cut_s.map_or_else(|| self.profile.end(), |t| self.profile.at(t))
     }
 
+    /// Puts parts in the place of a block.
+    pub(crate) fn divide(&mut self, block: usize, parts: &[Arc<Queued>]) {
+        let mut end = self.blocks[block].1;
+        self.blocks.remove(block);
+        for part in parts.iter().rev() {
+            self.blocks.insert(block, (Arc::clone(part), end));
+            end -= part.length;
+        }
+    }
+
     /// Ends the entry in cycle `k`.
     pub(crate) fn cut(&mut self, k: u64, cycle: CycleTime) {
         let t = self.seconds_at(k, cycle);
@@ -177,7 +194,7 @@ impl Entry {
         let (queued, s_end) = &self.blocks[i];
         let path = &queued.block.path;
         if over {
-            if *s_end > self.profile.length() {
+            if queued.goes_on || *s_end > self.profile.length() {
                 path.position(
                     queued.offset + state.s_mm - (s_end - queued.length),
                     &mut out.position,

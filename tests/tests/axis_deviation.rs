@@ -1,12 +1,13 @@
 //! `AX_DEV` as a promise: over random programs no axis leaves the contour by more than the tolerance, by the program's
 //! own column and by the geometry of this package.
 //!
-//! `COUNT=2000 SEED=7 cargo test --release -p kontur-tests --test axis_deviation` takes as many programs of another kind.
+//! `COUNT=2000 SEED=7 cargo test --release -p kontur-tests --test axis_deviation -- the_tolerance` takes as many programs of
+//! another kind.
 
 use kontur_interpreter::diag::Id;
 use kontur_tests::geometry::{Piece, Point, deviation, direction, dot, minus, norm};
 use kontur_tests::random::{Random, count, seed};
-use kontur_tests::{Run, run};
+use kontur_tests::{Run, machine, run, run_with_inputs};
 
 /// Rounding of the sums over the kernel; a trace prints two digits less.
 const SLACK_MM: f64 = 1e-9;
@@ -387,4 +388,81 @@ fn the_tolerance_holds_over_random_programs() {
         tightest = tightest.max(own / case.tolerance_mm);
     }
     assert!(tightest > 0.9, "the tolerance is used: {tightest}");
+}
+
+/// A square of 50 mm under `#HSC ON [BSPLINE]`, its corners rounded within `path_dev`.
+fn square_spline(slope: &str, feed: f64, path_dev: f64, guard: &str) -> String {
+    format!(
+        "G90 G01 F{feed}\n#SLOPE [TYPE={slope}]\n{guard}\n#HSC ON [BSPLINE PATH_DEV={path_dev}]\n\
+         G01 X50\nG01 Y50\nG01 X0\nG01 Y0\n#HSC OFF\nM30\n"
+    )
+}
+
+/// The speed that the tolerance leaves to a sharp bend is not that of the whole edge: a rounded square takes hardly longer
+/// than the square with its corners, which rests in them if it has to.
+#[test]
+fn a_sharp_bend_does_not_slow_down_its_edge() {
+    let guards = [
+        "#VIB GUARD ON [MODE=4 FREQ=6.4 DAMPING=0.14 AX_DEV=0.002]",
+        "#VIB GUARD ON [MODE=1 FREQ=20 DAMPING=0.05 AX_DEV=0.01]",
+    ];
+    for (guard, feed) in guards.into_iter().zip([600.0, 6000.0]) {
+        for slope in ["TRAPEZ", "SIN2", "HSC", "STEP"] {
+            let rounded = square_spline(slope, feed, 0.01, guard);
+            let cornered: String = rounded
+                .lines()
+                .filter(|l| !l.contains("HSC O"))
+                .map(|l| l.to_owned() + "\n")
+                .collect();
+            let [with, without] = [&rounded, &cornered].map(|text| run(text, &[]).records.len());
+            let longer = with as f64 / without as f64;
+            assert!(longer <= 1.1, "{slope} {guard}: {with} cycles, with corners {without}");
+        }
+    }
+}
+
+/// Changes of override and feedholds in the middle of it neither lose nor repeat a part of the contour, and the tolerance
+/// holds wherever the program does not say that it could not be kept.
+#[test]
+fn override_and_feedhold_on_a_rounded_square() {
+    let guard = "#VIB GUARD ON [MODE=2 FREQ=15 DAMPING=0.1 AX_DEV=0.005]";
+    for (n, slope) in ["TRAPEZ", "SIN2", "HSC", "STEP"].into_iter().enumerate() {
+        let text = square_spline(slope, 1800.0, 0.02, guard);
+        let free = run(&text, &[]);
+        for program in 0..count(1) as u64 {
+            let mut r = Random::new(seed() * 1000 + 10 * n as u64 + program);
+            let mut inputs = Vec::new();
+            let mut t = 0.0;
+            while t < 8.0 {
+                t += r.between(0.05, 0.8);
+                inputs.push((t, "override_percent", r.between(20.0, 150.0).round()));
+                if r.chance(0.3) {
+                    inputs.push((t + 0.01, "feedhold", 1.0));
+                    t += r.between(0.2, 0.6);
+                    inputs.push((t, "feedhold", 0.0));
+                }
+            }
+            let changed = run_with_inputs(machine(&[]), &text, &inputs);
+            assert!(!changed.totals.aborted, "{:?}", changed.diagnostics);
+            let [last, free_last] = [&changed, &free].map(|run| run.records.last().unwrap());
+            assert!(
+                (last.path.s_mm - free_last.path.s_mm).abs() < 1e-6,
+                "{slope}: {} mm",
+                last.path.s_mm
+            );
+            for pair in changed.records.windows(2) {
+                let step = pair[1].path.s_mm - pair[0].path.s_mm;
+                assert!((-1e-9..0.05).contains(&step), "{slope}: {step} mm in cycle {}", pair[1].k);
+                let moved = norm([0, 1, 2].map(|i| pair[1].axes[i].ipo - pair[0].axes[i].ipo));
+                assert!(moved <= step + 1e-7, "{slope}: {moved} of {step} mm, {}", pair[1].k);
+            }
+            if changed.diagnostics.iter().all(|d| d.id != Id::Kontur(80)) {
+                let own = changed.records.iter().flat_map(|r| &r.axes[..3]).map(|a| a.dev.abs());
+                let own = own.fold(0.0, f64::max);
+                assert!(own <= 0.005 + SLACK_MM, "{slope}: {own}");
+            } else {
+                println!("{slope} {program}: not kept in front of a change, said so");
+            }
+        }
+    }
 }

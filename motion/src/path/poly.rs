@@ -35,6 +35,8 @@ struct Cell {
     to: f64,
     /// Path length at `from`.
     s: f64,
+    /// Largest `|q''|` of an axis in 1/mm, rounded up.
+    bend: f64,
 }
 
 /// Derivatives of all axes by path length at one point.
@@ -99,8 +101,8 @@ impl PolyPath {
         for p in 0..path.pieces.len() {
             path.subdivide(p, (0.0, 1.0), coarse, 0, &mut cells);
         }
+        path.find_extremes(&mut cells);
         path.cells = cells.into();
-        path.find_extremes();
         Some(path)
     }
 
@@ -136,7 +138,7 @@ impl PolyPath {
             self.subdivide(piece, (from, mid), scale, depth + 1, cells);
             self.subdivide(piece, (mid, to), scale, depth + 1, cells);
         } else {
-            cells.push(Cell { piece, from, to, s: self.length });
+            cells.push(Cell { piece, from, to, s: self.length, bend: 0.0 });
             self.length += whole;
         }
     }
@@ -254,13 +256,14 @@ impl PolyPath {
     }
 
     /// Samples every sub-interval and refines each local maximum that could be the greatest one by golden section.
-    fn find_extremes(&mut self) {
+    fn find_extremes(&mut self, cells: &mut [Cell]) {
         let n = self.start.len();
-        for cell in self.cells.clone().iter() {
+        for cell in cells {
             let piece = cell.piece;
             let at = |k: usize| cell.from + (cell.to - cell.from) * k as f64 / SAMPLES as f64;
             let samples: SmallVec<[Derivatives; SAMPLES + 1]> =
                 (0..=SAMPLES).map(|k| self.derivatives(piece, at(k))).collect();
+            let mut bend = 0.0_f64;
             for order in 0..3 {
                 for i in 0..n {
                     let get = |d: &Derivatives| [&d.first, &d.second, &d.third][order][i].abs();
@@ -273,6 +276,9 @@ impl PolyPath {
                         let mid = k.clamp(1, SAMPLES - 1);
                         let [l, m, r] = [mid - 1, mid, mid + 1].map(|k| get(&samples[k]));
                         let bound = here + (2.0 * m - l - r).abs();
+                        if order == 1 {
+                            bend = bend.max(bound);
+                        }
                         if here < before || here < behind || bound <= self.extremes[order][i] {
                             continue;
                         }
@@ -281,7 +287,14 @@ impl PolyPath {
                     }
                 }
             }
+            cell.bend = bend;
         }
+    }
+
+    /// Sub-intervals by the path length at their ends, with the largest `|q''|` of an axis in 1/mm, rounded up.
+    pub(crate) fn bends(&self) -> impl Iterator<Item = (f64, f64)> {
+        let ends = self.cells.iter().skip(1).map(|c| c.s).chain([self.length]);
+        ends.zip(self.cells.iter().map(|c| c.bend))
     }
 
     pub(super) fn nearest(&self, point: &[f64]) -> f64 {
@@ -467,10 +480,15 @@ mod tests {
     #[test]
     fn no_sample_exceeds_the_extremes() {
         let path = sample();
+        let bends: Vec<(f64, f64)> = path.bends().collect();
+        assert_eq!(bends[bends.len() - 1].0.to_bits(), path.length().to_bits());
         for k in 0..=10_000 {
-            let (piece, x) = path.locate(path.length() * f64::from(k) / 10_000.0);
+            let s = path.length() * f64::from(k) / 10_000.0;
+            let (piece, x) = path.locate(s);
             let d = path.derivatives(piece, x);
+            let bend = bends[bends.partition_point(|b| b.0 < s)].1;
             for i in 0..3 {
+                assert!(d.second[i].abs() <= bend * (1.0 + 1e-9), "{s}");
                 for (value, limit) in [&d.first, &d.second, &d.third].iter().zip(path.extremes()) {
                     assert!(value[i].abs() <= limit[i] * (1.0 + 1e-12) + 1e-15);
                 }

@@ -30,6 +30,9 @@ use std::sync::Arc;
 /// Relative slack of comparisons of velocities.
 const SLACK: f64 = 1e-9;
 
+/// Parts of a block that end closer together than this, in mm, end at the same place.
+const SAME_END_MM: f64 = 1e-9;
+
 /// Blocks ahead with the caps at their starts.
 type Ahead = Vec<(Arc<Queued>, Cap)>;
 /// One or two courses in a row.
@@ -97,8 +100,12 @@ impl Planner {
     fn ahead(&self, old: &[Entry]) -> Vec<(f64, Arc<Queued>, Cap)> {
         let mut out: Vec<(f64, Arc<Queued>, Cap)> = Vec::new();
         let mut add = |s: f64, queued: &Arc<Queued>, cap: Cap| {
-            // the rest of a block that is listed already
-            if queued.offset <= 0.0 || out.is_empty() {
+            // not the rest of a block that is listed already
+            let listed = out.last().is_some_and(|(_, listed, _)| {
+                let [own, other] = [queued, listed].map(|q| q.offset + q.length);
+                queued.offset > listed.offset && (own - other).abs() <= SAME_END_MM
+            });
+            if !listed {
                 out.push((s, queued.rated(&self.active.ratios), cap));
             }
         };

@@ -1,0 +1,181 @@
+//! Answers an excess: lower speeds, stops, dwells and accelerations for the next round.
+
+use super::search::{Findings, note};
+use super::view::{Buffer, Mark, View};
+use super::{Demands, MARGIN_MM, ROUNDS_OF_SPEED, Trial};
+use crate::axis::AxisVec;
+use crate::overshoot::gentle;
+use crate::queue::Queued;
+use kontur_filters::kernel::{Kernel, Tap};
+use std::sync::Arc;
+
+/// Part of the tolerance by which a correction aims below it, so that the search ends.
+const AIM: f64 = 0.003;
+
+/// Part of the acceleration of a lone start or stop below which no block is slowed down.
+const LEAST_SHARE: f64 = 0.1;
+
+impl View<'_> {
+    /// Blocks that are to blame and bend more in one place than in another, in parts: the speed that the tolerance
+    /// leaves to the sharpest bend is not for the whole of them.
+    pub(super) fn parts(&self, findings: &Findings) -> Vec<(usize, Vec<Arc<Queued>>)> {
+        let Self { trial, .. } = self;
+        let blamed =
+            findings.curve.iter().enumerate().filter_map(|(b, found)| Some((b, (*found)?)));
+        blamed
+            .map(|(b, (_, tolerance))| {
+                let queued = &trial.window[b];
+                let fastest = queued.velocity.0;
+                (b, queued.parts(|bend| on_a_bend(trial, bend, tolerance).min(fastest)))
+            })
+            .filter(|(_, parts)| parts.len() > 1)
+            .collect()
+    }
+
+    pub(super) fn tighten(&self, findings: &Findings, round: usize, demands: &mut Demands) {
+        let Self { trial, marks, .. } = self;
+        let full = trial.kernels.length();
+        let mut soften = vec![None; trial.window.len()];
+        for mark in marks {
+            let Some(b) = mark.boundary else { continue };
+            let excess = findings.corner[b];
+            if excess <= 0.0 {
+                continue;
+            }
+            let swings = trial.kernels.overshoot
+                && demands.stop[b]
+                    .is_some_and(|dwell| dwell == full || !self.keeps(mark, dwell, full));
+            if swings {
+                // what is left is the overshoot of the stop itself
+                let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
+                if b > 0 {
+                    note(&mut soften[b - 1], excess, tolerance);
+                }
+                note(&mut soften[b], excess, tolerance);
+                continue;
+            }
+            if round >= ROUNDS_OF_SPEED {
+                (demands.cap[b], demands.stop[b]) = (0.0, Some(full));
+                continue;
+            }
+            let resting = demands.stop[b].or((b == 0).then_some(0));
+            if let Some(dwell) = resting {
+                // in small steps, because neighbouring corners within reach share the error
+                let needed = self.needed_dwell(mark, dwell);
+                let step = (full / 8).max(1);
+                demands.stop[b] = Some(needed.min(dwell + step).max(dwell + 1).min(full));
+                continue;
+            }
+            let m1 =
+                trial.kernels.get(mark.axis).map_or(1.0, Kernel::m1_cycles) * trial.cycle.seconds();
+            let now = self.speed_at(b);
+            // the closed form is the steepest the error can fall with the speed; what the last step showed is better
+            let steepest = m1 * mark.jump;
+            let slope = demands.tried[b].map_or(steepest, |(v, e)| {
+                let seen = (e - excess) / (v - now);
+                if seen.is_finite() { seen } else { steepest }.clamp(0.25 * steepest, steepest)
+            });
+            demands.tried[b] = Some((now, excess));
+            let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
+            let lowered = now - (excess + AIM * tolerance) / slope;
+            if lowered > 0.03 * now {
+                demands.cap[b] = demands.cap[b].min(lowered);
+            } else {
+                (demands.cap[b], demands.stop[b]) = (0.0, Some(0));
+            }
+        }
+        for mark in marks {
+            let Some(b) = mark.block else { continue };
+            let queued = &trial.window[b];
+            let haste = if round < ROUNDS_OF_SPEED { 1.0 } else { 0.7 };
+            if let Some((excess, tolerance)) = findings.curve[b] {
+                let left = tolerance / (tolerance + excess);
+                if trial.kernels.overshoot {
+                    note(&mut soften[b], excess, tolerance);
+                }
+                // on a straight block with equal kernels only starts and stops leave the contour
+                if queued.bend > 0.0 || trial.kernels.unequal || !trial.kernels.overshoot {
+                    // the deviation on a curve grows with the square of the speed
+                    let ratio = haste * 0.999 * left.sqrt();
+                    // slower is never needed
+                    let floor = 0.02 * on_a_bend(trial, queued.bend, tolerance);
+                    let now = demands.feed[b].min(queued.velocity.0).min(mark.speed);
+                    demands.feed[b] = (now * ratio.max(0.3)).max(floor.min(now));
+                }
+            }
+            if let Some((excess, tolerance)) = soften[b] {
+                let now = demands.acceleration[b];
+                let ratio = haste * 0.99 * tolerance / (tolerance + excess);
+                let gentle = gentle_ratio(trial, mark, queued, tolerance);
+                demands.acceleration[b] = if now >= 1.0 {
+                    ratio.min(2.0 * gentle)
+                } else {
+                    // a start, a stop and what they meet may share the tolerance; less is no help
+                    (now * ratio.max(0.3)).max(now.min(LEAST_SHARE * gentle))
+                };
+            }
+        }
+    }
+
+    /// Least dwell at a stop that keeps the tolerance as far as this corner is concerned, by bisection.
+    fn needed_dwell(&self, mark: &Mark, dwell: u32) -> u32 {
+        let (mut low, mut high) = (dwell, self.trial.kernels.length());
+        while high - low > 1 {
+            let mid = low + (high - low) / 2;
+            if self.keeps(mark, dwell, mid) { high = mid } else { low = mid }
+        }
+        high
+    }
+
+    /// True if `cycles` of dwell in place of `dwell` keep the tolerance at a stop.
+    fn keeps(&self, mark: &Mark, dwell: u32, cycles: u32) -> bool {
+        let start = mark.cycles.round() as u64;
+        let rest = start.saturating_sub(u64::from(dwell));
+        let full = self.trial.kernels.length();
+        let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
+        let (from, to) = (rest as f64 - f64::from(full), start as f64 + f64::from(full));
+        let mut buffer = Buffer::new(self);
+        buffer.seek(rest);
+        let mut vector = AxisVec::zeros(buffer.set.len());
+        (rest..=rest + u64::from(cycles + full)).all(|k| {
+            // before the rest as planned, behind it as planned after the present dwell
+            let behind = k.saturating_sub(rest + u64::from(cycles));
+            buffer.step(if behind > 0 { start + behind } else { k.min(rest) });
+            self.contour.deviation(&buffer.set, from, to, &mut vector);
+            vector.iter().all(|c| c.abs() <= tolerance - MARGIN_MM.min(0.1 * tolerance))
+        })
+    }
+}
+
+/// Speed in mm/s at which a curve alone uses up the tolerance: `v^2 T^2 spread bend / 2` (derived from a parabola).
+fn on_a_bend(trial: &Trial<'_>, bend: f64, tolerance: f64) -> f64 {
+    let spread = trial.kernels.axes.iter().flatten().map(|k| spread_cycles2(k)).fold(0.0, f64::max);
+    let t = trial.cycle.seconds();
+    (2.0 * tolerance / (spread * t * t * bend.max(1e-6))).sqrt()
+}
+
+/// Variance of the kernel in cycles squared, negative weights counted like positive ones.
+fn spread_cycles2(kernel: &Kernel) -> f64 {
+    let mean = kernel.delay_cycles();
+    let part = |tap: &Tap| {
+        let d = f64::from(tap.delay) - mean;
+        tap.weight.abs() * d * d
+    };
+    kernel.taps().iter().map(part).sum()
+}
+
+/// Part of the acceleration with which a lone start or stop on the block keeps the tolerance.
+fn gentle_ratio(trial: &Trial<'_>, mark: &Mark, queued: &Queued, tolerance: f64) -> f64 {
+    let v = mark.speed;
+    let a = 0.5 * v * v / queued.slope.down_distance(v, 0.0);
+    let axes = 0..queued.ends.tangent_in.len();
+    let gentlest = axes
+        .filter_map(|i| {
+            let kernel = trial.kernels.get(i).filter(|k| k.has_negative_taps())?;
+            let share = if queued.bend > 0.0 { 1.0 } else { queued.ends.tangent_in[i].abs() };
+            let seconds = trial.cycle.seconds();
+            Some(gentle(kernel, seconds, (v, queued.length), a, tolerance / share.max(1e-9)))
+        })
+        .fold(a, f64::min);
+    gentlest / a
+}

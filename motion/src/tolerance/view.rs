@@ -1,0 +1,201 @@
+//! A plan under examination on the cycle grid: what is entered when, and the set points it gives.
+
+use super::{BORDER_CYCLES, Kernels, Monitor, Trial};
+use crate::axis::AxisVec;
+use crate::contour::{Contour, SAME_START_MM};
+use crate::queue::Queued;
+use crate::timeline::{PathState, Reader};
+use kontur_filters::kernel::Kernel;
+use std::sync::Arc;
+
+/// A block entered in a plan.
+pub(super) struct Mark {
+    pub(super) cycles: f64,
+    /// Index of the boundary in the window; `None` if it can no longer change.
+    pub(super) boundary: Option<usize>,
+    /// Index of the block in the window; `None` if it is final.
+    pub(super) block: Option<usize>,
+    pub(super) queued: Arc<Queued>,
+    /// Path length at the start of the block.
+    pub(super) s_mm: f64,
+    /// Highest speed planned for it in mm/s.
+    pub(super) speed: f64,
+    /// Largest jump of direction of an axis with a kernel, and that axis.
+    pub(super) jump: f64,
+    pub(super) axis: usize,
+}
+
+/// A plan with the setpoints before it.
+pub(super) struct View<'a> {
+    pub(super) trial: &'a Trial<'a>,
+    pub(super) monitor: &'a Monitor,
+    /// Blocks that are within reach already, then those of the plan.
+    pub(super) marks: Vec<Mark>,
+    /// The blocks of the marks.
+    pub(super) contour: Contour,
+}
+
+impl<'a> View<'a> {
+    pub(super) fn new(trial: &'a Trial<'a>, monitor: &'a Monitor) -> Self {
+        let marks = marks(trial);
+        let mut contour = Contour::default();
+        for m in &marks {
+            contour.enter(m.cycles, m.s_mm, Arc::clone(&m.queued));
+        }
+        Self { trial, monitor, marks, contour }
+    }
+
+    /// The path in cycle `k`, output or planned.
+    pub(super) fn state(&self, k: u64, reader: &mut Reader<'_>, state: &mut PathState) {
+        let trial = self.trial;
+        if k > trial.now {
+            reader.state(k, trial.cycle, state);
+        } else {
+            let history = &self.monitor.history;
+            let back = (trial.now - k) as usize;
+            let i = history.len().saturating_sub(1 + back);
+            if let Some((position, s)) = history.get(i) {
+                state.position.copy_from_slice(position);
+                state.s = *s;
+            }
+        }
+    }
+
+    /// Moment in cycles at which the plan comes to rest.
+    pub(super) fn rest(&self) -> f64 {
+        let entries = self.trial.timeline.entries();
+        entries.last().map_or(self.trial.now as f64, |e| e.end.cycles(self.trial.cycle))
+    }
+
+    /// Planned speed at a boundary of the window.
+    pub(super) fn speed_at(&self, boundary: usize) -> f64 {
+        let mut index = 0;
+        for e in self.trial.timeline.entries().skip(self.trial.placed) {
+            if boundary < index + e.blocks.len() {
+                let s = if boundary == index { 0.0 } else { e.blocks[boundary - index - 1].1 };
+                return e.profile.at(e.profile.time_at(s)).v_mm_s;
+            }
+            index += e.blocks.len();
+        }
+        0.0
+    }
+}
+
+/// Blocks that are within reach already, then those of the plan.
+fn marks(trial: &Trial<'_>) -> Vec<Mark> {
+    let reach = f64::from(trial.kernels.length());
+    let mut out: Vec<Mark> = Vec::with_capacity(trial.window.len() + 8);
+    let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s: f64, speed: f64| {
+        let (mut jump, mut axis) = (0.0, 0);
+        // the rest of a block goes on without a corner
+        let start = s - queued.offset;
+        let goes_on = |m: &Mark| (m.s_mm - m.queued.offset - start).abs() < SAME_START_MM;
+        if let Some(before) = out.last().filter(|m| !goes_on(m)) {
+            let (a, b) = (&before.queued.ends.tangent_out, &queued.ends.tangent_in);
+            for i in 0..a.len() {
+                let du = (b[i] - a[i]).abs();
+                if du > jump && trial.kernels.get(i).is_some() {
+                    (jump, axis) = (du, i);
+                }
+            }
+        }
+        let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
+        // at the start of the path itself only a wait is possible
+        let boundary = block.filter(|b| *b > 0 || trial.at_rest);
+        let queued = Arc::clone(queued);
+        out.push(Mark { cycles, boundary, block, queued, s_mm: s, speed, jump, axis });
+    };
+    let now = trial.now as f64;
+    for passed in trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY) {
+        let queued = &passed.queued;
+        add(passed.cycles, queued, None, passed.s_mm, queued.velocity.0);
+    }
+    let mut index = 0;
+    for entry in trial.timeline.entries().skip(trial.placed) {
+        for (cycles, s, queued) in entry.entries(trial.cycle) {
+            add(cycles, queued, Some(index), s, entry.profile.peak());
+            index += 1;
+        }
+    }
+    out
+}
+
+/// Axis with the longest kernel.
+fn widest(kernels: &Kernels) -> usize {
+    let length = |i: &usize| kernels.get(*i).map_or(0, Kernel::length);
+    (0..kernels.axes.len()).max_by_key(length).unwrap_or(0)
+}
+
+/// Raw positions in reach of the kernels, and the set point they give.
+pub(super) struct Buffer<'a> {
+    view: &'a View<'a>,
+    reader: Reader<'a>,
+    ring: Vec<AxisVec>,
+    s_mm: Vec<f64>,
+    head: usize,
+    state: PathState,
+    pub(super) set: AxisVec,
+    /// The cycle behind the last one taken.
+    next: Option<u64>,
+}
+
+impl<'a> Buffer<'a> {
+    pub(super) fn new(view: &'a View<'a>) -> Self {
+        let trial = view.trial;
+        let n = trial.window.first().map_or(0, |q| q.block.path.start().len());
+        let zero = AxisVec::zeros(n);
+        let size = trial.kernels.length() as usize + 1;
+        Self {
+            view,
+            reader: trial.timeline.reader(),
+            ring: vec![zero.clone(); size],
+            s_mm: vec![0.0; size],
+            head: 0,
+            state: PathState::at_rest(&zero),
+            set: zero,
+            next: None,
+        }
+    }
+
+    /// Makes `first` the next cycle to take.
+    pub(super) fn seek(&mut self, first: u64) {
+        if self.next != Some(first) {
+            for back in (1..self.ring.len() as u64).rev() {
+                self.take(first.saturating_sub(back));
+            }
+        }
+    }
+
+    fn take(&mut self, k: u64) {
+        self.view.state(k, &mut self.reader, &mut self.state);
+        self.head = (self.head + 1) % self.ring.len();
+        self.ring[self.head].copy_from_slice(&self.state.position);
+        self.s_mm[self.head] = self.state.s;
+        self.next = Some(k + 1);
+    }
+
+    /// Takes cycle `k` and filters.
+    pub(super) fn step(&mut self, k: u64) {
+        self.take(k);
+        let size = self.ring.len();
+        for i in 0..self.set.len() {
+            let x = self.ring[self.head][i];
+            self.set[i] = match self.view.trial.kernels.get(i) {
+                None => x,
+                Some(kernel) => {
+                    let mut y = 0.0;
+                    for tap in kernel.taps() {
+                        let at = (self.head + size - tap.delay as usize) % size;
+                        y += tap.weight * (self.ring[at][i] - x);
+                    }
+                    x + y
+                }
+            };
+        }
+    }
+
+    /// Path lengths of the oldest and the newest setpoint in reach.
+    pub(super) fn stretch(&self) -> (f64, f64) {
+        (self.s_mm[(self.head + 1) % self.s_mm.len()], self.s_mm[self.head])
+    }
+}
