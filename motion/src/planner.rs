@@ -24,6 +24,7 @@ use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment, PathState, Timeline};
 use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
+use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -431,7 +432,8 @@ impl Planner {
         for span in &plan.spans {
             let stop = demands.stop[span.end];
             let stops = stop.is_some() || (span.end == n && end != SpeedLimit::Lookahead);
-            let entry = Entry::new(at, s, span, window, stops);
+            let mut entry = Entry::new(at, s, span, window, stops);
+            entry.feeds = SmallVec::from_slice(&feeds[span.first..span.end]);
             at = match stop {
                 Some(dwell) => Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell)),
                 None => entry.end,

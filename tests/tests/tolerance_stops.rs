@@ -1,6 +1,7 @@
 //! `AX_DEV` where the path stands or changes its speed for other reasons: dwells and stops shorter than the kernel,
 //! override and feedhold from outside. The contour is that of this test, not the program's own column.
 
+use kontur_interpreter::record::SpeedLimit;
 use kontur_tests::{Run, from_polyline, machine, run, run_with_inputs};
 
 /// Rounding of the sums over the kernel.
@@ -80,4 +81,16 @@ fn changes_of_speed_on_an_arc() {
             }
         }
     }
+}
+
+/// The trace names what holds the speed on an arc.
+#[test]
+fn the_reason_on_an_arc() {
+    let program = "#VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.01]\nG01 F6000\nG02 X20 Y0 I10 J0\nM30\n";
+    let run = run(program, &[]);
+    let top = run.records.iter().map(|r| r.path.v_mm_s).fold(0.0, f64::max);
+    let held: Vec<_> = run.records.iter().filter(|r| r.path.v_mm_s > top * (1.0 - 1e-9)).collect();
+    // some 1.2 s at 25 mm/s
+    assert!(held.len() > 1000, "{}", held.len());
+    assert!(held.iter().all(|r| r.path.limit == SpeedLimit::AxDev));
 }
