@@ -70,11 +70,6 @@ fn no_vibration(period_cycles: f64) -> Option<Kernel> {
     let rest = (period_cycles - 1.0 - 2.0 * pairs).max(0.0);
     let half = PI / period_cycles;
     let outer = libm::sin(rest * half) / (2.0 * libm::sin(half) * libm::cos((1.0 - rest) * half));
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a whole number between 1 and 100"
-    )]
     let last = 2 * pairs as u32 + 2;
     Kernel::from_taps((0..=last).map(|delay| {
         let weight = if delay == 0 || delay == last { outer } else { 1.0 };

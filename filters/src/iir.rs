@@ -41,6 +41,18 @@ pub enum FilterKind {
 }
 
 impl FilterKind {
+    /// Every kind, by its number.
+    pub const ALL: [Self; 8] = [
+        Self::LowPass,
+        Self::HighPass,
+        Self::BandPass,
+        Self::BandStop,
+        Self::AllPass,
+        Self::Pt1,
+        Self::Pt2,
+        Self::TimeDelay,
+    ];
+
     /// Highest order of the range, resp. the only effective one. Source: P-AXIS-00140.
     pub const fn max_order(self) -> u32 {
         match self {

@@ -169,11 +169,6 @@ impl VibGuardSettings {
         let n = u.floor();
         let theta = PI / u;
         let decay = |cycles: f64| libm::exp(-self.damping / root * theta * cycles);
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a whole number between 1 and MAX_TAPS"
-        )]
         let delay = n as u32;
         Kernel::from_taps([
             Tap { delay: 0, weight: libm::sin(theta) },

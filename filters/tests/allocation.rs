@@ -2,7 +2,7 @@
 //!
 //! The counter replaces the allocator of this test binary.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use allocation_counter::measure;
 use kontur_filters::control::ipc::{
@@ -41,17 +41,6 @@ fn the_counter_counts() {
 }
 
 fn standard_filters() -> Vec<AxisFilter> {
-    let kinds = [
-        FilterKind::LowPass,
-        FilterKind::HighPass,
-        FilterKind::BandPass,
-        FilterKind::BandStop,
-        FilterKind::AllPass,
-        FilterKind::Pt1,
-        FilterKind::Pt2,
-        FilterKind::TimeDelay,
-    ];
-    let prototypes = [Prototype::CritDamping, Prototype::Butterworth, Prototype::Bessel];
     let config = |kind, prototype| FilterConfig {
         kind,
         prototype,
@@ -60,7 +49,7 @@ fn standard_filters() -> Vec<AxisFilter> {
         time_constant_us: if kind == FilterKind::TimeDelay { 2300 } else { 10_000 },
         ..FilterConfig::default()
     };
-    let all = kinds.into_iter().flat_map(|kind| prototypes.map(|p| config(kind, p)));
+    let all = FilterKind::ALL.into_iter().flat_map(|kind| Prototype::ALL.map(|p| config(kind, p)));
     all.map(|config| AxisFilter::design(&config, MS).0.unwrap()).collect()
 }
 

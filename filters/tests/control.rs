@@ -1,10 +1,8 @@
 //! The axis behind its set position as a whole: closed loops against closed forms and documented figures.
 
-#![allow(
+#![expect(
     clippy::float_cmp,
     clippy::unwrap_used,
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
     clippy::approx_constant,
     reason = "tests: exact values, helpers outside of test functions, cycle numbers from times, measured amplitudes"
 )]

@@ -57,5 +57,5 @@ pub use step::{
 };
 
 #[cfg(test)]
-#[allow(clippy::float_cmp, reason = "programmed positions are exact")]
+#[expect(clippy::float_cmp, reason = "programmed positions are exact")]
 mod tests;

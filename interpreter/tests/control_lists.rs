@@ -1,12 +1,12 @@
 //! Feedforward, position control and Improved Position Control from the lists to what the axis does.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput, Fault};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
-use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::machine::table::ListKind;
 use kontur_interpreter::machine::{Machine, Override, lists};
 
@@ -181,18 +181,19 @@ fn shift_of_profidrive() {
     assert_eq!(begins(&profidrive(2)), of_0 + 2);
     assert_eq!(begins("X.kenngr.antr_typ=3"), of_0 + 3, "the default");
     assert_eq!(begins("X.vorsteuer.shift_time=2"), of_0, "no PROFIdrive");
-    assert_eq!(ids(&profidrive(5)), ["K-0070"]);
+    assert_eq!(ids(&profidrive(5)), ["K-0070", "K-0079"]);
 }
 
 /// What is out of range, and the values used. Conformance: F055, F065, F079, F080, F082, F086, F087, F088.
 #[test]
 fn corrections_of_feedforward() {
     let torque = "X.vorsteuer.vorsteuerung=ADD_ACC kontur.axis[1].additive.torque=1";
+    let velocity = "X.vorsteuer.vorsteuerung=ADD_VEL kontur.axis[1].additive.velocity=1";
     for (settings, id) in [
-        ("X.vorsteuer.velocity_delay_time=5999".to_owned(), ""),
-        ("X.vorsteuer.velocity_delay_time=6000".to_owned(), "70349"),
-        ("X.vorsteuer.acceleration_delay_time=5999".to_owned(), ""),
-        ("X.vorsteuer.acceleration_delay_time=6000".to_owned(), "70348"),
+        (format!("{velocity} X.vorsteuer.velocity_delay_time=5999"), ""),
+        (format!("{velocity} X.vorsteuer.velocity_delay_time=6000"), "70349"),
+        (format!("{torque} X.vorsteuer.acceleration_delay_time=5999"), ""),
+        (format!("{torque} X.vorsteuer.acceleration_delay_time=6000"), "70348"),
         ("X.vorsteuer.jerk_fact_denom=0".to_owned(), "110473"),
         ("X.getriebe[0].gear_fact_denom=0".to_owned(), "110579"),
         ("X.getriebe[0].gear_fact_num=0".to_owned(), "K-0070"),
@@ -377,15 +378,17 @@ fn additive_speed_and_the_place_of_the_loop() {
         let sercos = format!("X.kenngr.antr_typ={drive}");
         let without = format!("{sercos} X.antr.operation_mode=DRIVE_POSITION_CONTROL");
         for settings in [&sercos, &without] {
-            assert_eq!(ids(&stage(settings)), ["K-0066"], "{settings}");
+            assert_eq!(ids(&stage(settings)), ["K-0079", "K-0066"], "{settings}");
             near(swinging(settings), 0.0, 0.0);
         }
-        for settings in [format!("{sercos} {input}"), format!("{sercos} {cnc}")] {
-            assert_eq!(ids(&stage(&settings)), [""; 0], "{settings}");
+        let with_input = format!("{sercos} {input}");
+        let in_cnc = format!("{sercos} {cnc}");
+        for (settings, told) in [(with_input, &["K-0079"][..]), (in_cnc, &[])] {
+            assert_eq!(ids(&stage(&settings)), told, "{settings}");
             assert!(swinging(&settings) > 0.1, "{settings}");
         }
-        // the message is about Improved Position Control, not about every such drive
-        assert_eq!(ids(&sercos), [""; 0]);
+        // without Improved Position Control only the loop itself is worth a note
+        assert_eq!(ids(&sercos), ["K-0079"]);
     }
     // simulated and analogue drives take speed commands only
     for drive in [1, 4, 6] {
@@ -461,7 +464,7 @@ fn both_inputs_of_a_profidrive() {
     let out = |names: &str| {
         let input = "X.antr.sercos.mdt[0].nc_ref=S_0_0037";
         let settings = format!("X.kenngr.antr_typ=3 X.vorsteuer.vorsteuerung={names} {input}");
-        assert_eq!(ids(&settings), [""; 0]);
+        assert_eq!(ids(&settings), ["K-0079"]);
         last(&settings, 1.0)
     };
     let (conventional, additive) = (out("VEL"), out("ADD_VEL"));
@@ -472,4 +475,36 @@ fn both_inputs_of_a_profidrive() {
     near(additive.feedforward.additive_speed_mm_s, 100.0, 1e-6);
     near(additive.command_mm_s, 0.0, 1e-6);
     near(additive.lag_mm, 0.0, 1e-6);
+}
+
+/// P-AXIS-00320: the loop of a spindle may be open, that of a path axis not; both are told, as kontur keeps it closed.
+#[test]
+fn open_position_loops() {
+    for mode in ["MODE", "POS_FEEDBACK", "VEL_FEEDBACK", "NO_FEEDBACK"] {
+        let set = |axis: &str| format!("{axis}.antr.operation_mode=OPEN_POSITION_LOOP_{mode}");
+        let (_, found) = machine(&[set("S")]);
+        let told: Vec<_> = found.iter().map(|d| (d.id.to_string(), d.severity)).collect();
+        assert_eq!(told, [("K-0079".to_owned(), Severity::Warning)]);
+        let (_, found) = machine(&[set("X")]);
+        let told: Vec<_> = found.iter().map(|d| (d.id.to_string(), d.severity)).collect();
+        assert_eq!(told, [("70345".to_owned(), Severity::Error)]);
+    }
+}
+
+/// P-AXIS-00389, P-AXIS-00390, P-AXIS-00547 delay additive inputs; a delay that nothing uses is told.
+#[test]
+fn delays_without_an_additive_input() {
+    for (key, own) in [("velocity", "ADD_VEL"), ("acceleration", "ADD_ACC"), ("jerk", "ADD_JERK")] {
+        let told = |mode: &str| {
+            ids(&format!(
+                "X.vorsteuer.{key}_delay_time=150 X.vorsteuer.vorsteuerung={mode} \
+                 kontur.axis[1].additive.velocity=1 kontur.axis[1].additive.torque=1"
+            ))
+            .contains(&"K-0075".to_owned())
+        };
+        assert!(told("VEL|ACC|JERK"), "{key}");
+        assert!(!told(own), "{key}");
+        // without feedforward nobody expects an effect
+        assert!(!told("0x0"), "{key}");
+    }
 }

@@ -1,6 +1,6 @@
 //! What `explain` says, compared with the parameter tables and remarks of the function manuals.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 use kontur_interpreter::machine::explain::explain;
 

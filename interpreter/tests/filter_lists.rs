@@ -1,6 +1,6 @@
 //! Axis filters, HSC filters and Vibration Guard as the lists state them: what becomes of the values, and what is said.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use kontur_filters::hsc::HscKind;
 use kontur_filters::iir::AxisFilter;

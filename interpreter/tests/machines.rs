@@ -1,6 +1,6 @@
 //! The sample machines of `programs/machines`.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::table::{self, Default, ListKind};

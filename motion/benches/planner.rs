@@ -1,49 +1,27 @@
 //! Blocks per second through look-ahead and sampling: a wavy CAM contour of short straight blocks.
 
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use common::{axis, channel};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
-use kontur_motion::block::{
-    Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance, TransitionJerkMode,
-    VectorLimits,
-};
+use kontur_motion::axis::{AxisVec, FeedSlope};
+use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::tolerance::Kernels;
 use std::hint::black_box;
 use std::sync::Arc;
 
+/// The channel of a machine of 4 m/s2 with ramps of 20 ms.
 fn dynamics() -> Arc<ChannelDynamics> {
-    let step = StepSlope { acc_mm_s2: [4000.0; 2], dec_mm_s2: [4000.0; 2], change_mm_s: 100.0 };
-    let axis = AxisDynamics {
-        v_max_mm_s: 1000.0,
-        v_rapid_mm_s: 1000.0,
-        a_max_mm_s2: 6000.0,
-        a_emergency_mm_s2: 6000.0,
-        tr_geom_s: 0.01,
-        feed: FeedSlope { acc_mm_s2: 4000.0, dec_mm_s2: 4000.0, ramps_s: [0.02; 4] },
-        rapid: RapidSlope { acc_mm_s2: 5000.0, ramp_s: 0.02 },
-        feedhold: FeedholdSlope { step_dec_mm_s2: 5000.0, dec_mm_s2: 5000.0, ramp_s: 0.02 },
-        step_feed: step,
-        step_rapid: step,
-        a_trans_ratio: 1.0,
-        r_trans_ratio: 1.0,
-        j_trans_kink_mm_s3: 0.0,
-        j_trans_tangential_mm_s3: 0.0,
-    };
-    Arc::new(ChannelDynamics {
-        axes: vec![axis; 3],
-        feed_axes: vec![true; 3],
-        limit_tangential_jerk: false,
-        transition_jerk: TransitionJerkMode::Coupled,
-        curvature_estimate: 0,
-        curve_jerk: CurveJerk::Geometric,
-        vector: VectorLimits::default(),
-        vector_acc_on_arcs: false,
-        transition_velocity_min_mm_s: 0.0,
-        stop_at_transitions: false,
-    })
+    let mut axis = axis(1.0);
+    axis.a_max_mm_s2 = 6000.0;
+    axis.feed = FeedSlope { acc_mm_s2: 4000.0, dec_mm_s2: 4000.0, ramps_s: [0.02; 4] };
+    (axis.step_feed.acc_mm_s2, axis.step_feed.dec_mm_s2) = ([4000.0; 2], [4000.0; 2]);
+    channel(vec![axis; 3])
 }
 
 /// Points of a wavy surface, rows of 50 mm in steps of 0.2 mm.
@@ -72,19 +50,11 @@ fn drive(count: usize, kind: SlopeKind, ax_dev_mm: Option<f64>) -> u64 {
             }
             Ok(Next::Input) if i < count => {
                 if let Some(line) = LinePath::new(point(i), point(i + 1), &dynamics.feed_axes) {
-                    planner.push(Block {
-                        seq: i as u64,
-                        path: Path::Line(line),
-                        feed: Feed::PathVelocity(100.0),
-                        feed_ratio: 1.0,
-                        full_override: false,
-                        end_velocity_mm_s: None,
-                        slope: Slope { kind, ..Slope::default() },
-                        dynamics: Arc::clone(&dynamics),
-                        tolerance: Tolerance { ax_dev_mm, acc_fact: 1.0 },
-                        contour: None,
-                        spline: None,
-                    });
+                    let feed = Feed::PathVelocity(100.0);
+                    let block = Block::new(i as u64, Path::Line(line), feed, Arc::clone(&dynamics));
+                    let slope = Slope { kind, ..Slope::default() };
+                    let tolerance = Tolerance { ax_dev_mm, acc_fact: 1.0 };
+                    planner.push(Block { slope, tolerance, ..block });
                 }
                 i += 1;
             }

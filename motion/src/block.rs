@@ -112,6 +112,24 @@ pub struct ChannelDynamics {
     pub stop_at_transitions: bool,
 }
 
+impl ChannelDynamics {
+    /// A channel of these axes, all of them in the feed group, with no limits but theirs and every mode off.
+    pub fn new(axes: Vec<AxisDynamics>) -> Self {
+        Self {
+            feed_axes: vec![true; axes.len()],
+            axes,
+            limit_tangential_jerk: false,
+            transition_jerk: TransitionJerkMode::default(),
+            curvature_estimate: 0,
+            curve_jerk: CurveJerk::default(),
+            vector: VectorLimits::default(),
+            vector_acc_on_arcs: false,
+            transition_velocity_min_mm_s: 0.0,
+            stop_at_transitions: false,
+        }
+    }
+}
+
 /// Tolerance monitoring of a filter kernel (`AX_DEV`, `ACC_FACT` of `#VIB GUARD` and `#FILTER`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
@@ -142,6 +160,9 @@ pub struct Block {
     pub full_override: bool,
     /// Path velocity wanted at the end of the block in mm/s (E word).
     pub end_velocity_mm_s: Option<f64>,
+    /// G901: braking to a lower feed of the next block may begin behind the end of this block. The next block is entered
+    /// with at most what its limits allow, whatever its feed; G00 and HSC do not know it.
+    pub late_braking: bool,
     /// Slope.
     pub slope: Slope,
     /// Limits.
@@ -152,4 +173,29 @@ pub struct Block {
     pub contour: Option<ContourSettings>,
     /// Part of a run that becomes a spline (`#HSC ON [BSPLINE]`), see [`crate::spline`].
     pub spline: Option<SplineSettings>,
+}
+
+impl Block {
+    /// A motion without overrides, end velocity, tolerance and smoothing, with the default slope.
+    pub fn new(
+        seq: u64,
+        path: crate::path::Path,
+        feed: Feed,
+        dynamics: Arc<ChannelDynamics>,
+    ) -> Self {
+        Self {
+            seq,
+            path,
+            feed,
+            feed_ratio: 1.0,
+            full_override: false,
+            end_velocity_mm_s: None,
+            late_braking: false,
+            slope: Slope::default(),
+            dynamics,
+            tolerance: Tolerance::default(),
+            contour: None,
+            spline: None,
+        }
+    }
 }

@@ -23,6 +23,8 @@ pub(crate) struct Passed {
     /// Path length of the program in mm.
     pub(crate) s_mm: f64,
     pub(crate) queued: Arc<Queued>,
+    /// It may have been entered faster than its feed (G901).
+    pub(crate) above_feed: bool,
 }
 
 impl Passed {
@@ -37,7 +39,15 @@ impl Passed {
 impl Contour {
     /// Adds the block that is entered at `cycles` (not before the moments added so far) and at path length `s_mm`.
     pub(crate) fn enter(&mut self, cycles: f64, s_mm: f64, queued: Arc<Queued>) {
-        self.blocks.push_back(Passed { cycles, s_mm, queued });
+        let above_feed = self.blocks.back().is_some_and(|before| {
+            // the rest of a block goes on as the block began
+            if queued.offset > 0.0 {
+                before.above_feed
+            } else {
+                before.queued.brakes_late_into(&queued)
+            }
+        });
+        self.blocks.push_back(Passed { cycles, s_mm, queued, above_feed });
     }
 
     /// Forgets blocks that were left before `cycles`.

@@ -3,8 +3,7 @@
 //! When the next block may start (`INDP_SYN`, `INDP_ASYN`, `#WAIT INDP`) is the caller's.
 
 use crate::axis::{AxisDynamics, AxisVec, StepSlope};
-use crate::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance};
-use crate::block::{TransitionJerkMode, VectorLimits};
+use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};
 use crate::course::Course;
 use crate::limits::PathSpeeds;
 use crate::path::{LinePath, Path};
@@ -182,33 +181,12 @@ fn block(line: LinePath, speed: IndependentSpeed, kind: SlopeKind, axis: AxisDyn
         step_rapid: stage_1(axis.step_rapid),
         ..axis
     };
-    Block {
-        seq: 0,
-        path: Path::Line(line),
-        feed: match speed {
-            IndependentSpeed::Rapid => Feed::Rapid,
-            IndependentSpeed::Feed(v) => Feed::PathVelocity(v),
-            IndependentSpeed::ShareOfMaximum(share) => Feed::ShareOfMaximum(share),
-            IndependentSpeed::Time(t) => Feed::Duration(t),
-        },
-        feed_ratio: 1.0,
-        full_override: false,
-        end_velocity_mm_s: None,
-        slope: Slope { kind, ..Slope::default() },
-        dynamics: Arc::new(ChannelDynamics {
-            axes: vec![axis],
-            feed_axes: vec![true],
-            limit_tangential_jerk: false,
-            transition_jerk: TransitionJerkMode::default(),
-            curvature_estimate: 0,
-            curve_jerk: CurveJerk::default(),
-            vector: VectorLimits::default(),
-            vector_acc_on_arcs: false,
-            transition_velocity_min_mm_s: 0.0,
-            stop_at_transitions: false,
-        }),
-        tolerance: Tolerance::default(),
-        contour: None,
-        spline: None,
-    }
+    let feed = match speed {
+        IndependentSpeed::Rapid => Feed::Rapid,
+        IndependentSpeed::Feed(v) => Feed::PathVelocity(v),
+        IndependentSpeed::ShareOfMaximum(share) => Feed::ShareOfMaximum(share),
+        IndependentSpeed::Time(t) => Feed::Duration(t),
+    };
+    let block = Block::new(0, Path::Line(line), feed, Arc::new(ChannelDynamics::new(vec![axis])));
+    Block { slope: Slope { kind, ..Slope::default() }, ..block }
 }

@@ -5,7 +5,7 @@
 //! 2. *knots*: boundaries where the acceleration is zero. STEP: every boundary (its acceleration may jump anyway).
 //!    TRAPEZ and SIN2: every boundary except those inside a run of blocks with equal feed, (nearly) equal slope and no
 //!    binding cap - such a run is one span. HSC and `NO_OPT=0`: the local minima of the speed, unless they are so close
-//!    to each other that a stop of the acceleration costs speed;
+//!    to each other that a stop of the acceleration costs speed. Where braking under G901 begins, see [`late`];
 //! 3. *backward pass*: no knot is faster than what can still be braked to the next one, so the window ends at rest;
 //! 4. *forward pass*: no knot is faster than what can be reached from the one before;
 //! 5. *check* (HSC, `NO_OPT=0`): a span that exceeds a limit inside is planned along its limits, see [`crate::ride`]; where
@@ -13,6 +13,8 @@
 //!
 //! Guarantee: every span is feasible, and by induction a stop is possible from every state that is ever output, because
 //! the passes only lower velocities and `reach_down` is monotone.
+
+mod late;
 
 use crate::limit::SpeedLimit;
 use crate::profile::{Infeasible, Rates, SlopeLimits, SpanProfile};
@@ -58,6 +60,22 @@ struct Stretch {
     slope: SlopeLimits,
 }
 
+/// What is planned: blocks with what each of them and each boundary allows. Entry `i` of `caps`, `forced`, `entries` and
+/// `carried` belongs to the boundary before block `i`.
+#[derive(Clone, Debug)]
+struct Window<'a> {
+    blocks: &'a [Arc<Queued>],
+    feeds: &'a [Cap],
+    caps: &'a [Cap],
+    forced: &'a [bool],
+    v_start: Cap,
+    end: SpeedLimit,
+    /// Speed at which a block may be entered: its feed, or more under G901.
+    entries: Vec<Cap>,
+    /// Braking under G901 goes on across the boundary.
+    carried: Vec<bool>,
+}
+
 /// Plans a window of blocks from `v_start` to rest.
 ///
 /// `caps[i]` belongs to the boundary before block `i`; `caps[0]` is not read. `forced` boundaries are knots.
@@ -72,55 +90,264 @@ pub fn plan(
     v_start: Cap,
     end: SpeedLimit,
 ) -> Result<Plan, Infeasible> {
-    let n = blocks.len();
-    let mut knot = vec![false; n + 1];
-    (knot[0], knot[n]) = (true, true);
-    mark_knots(blocks, feeds, caps, forced, &mut knot);
-    let mut soft = minima(blocks, feeds, caps, v_start.0, &knot);
-    let mut known: Vec<Span> = Vec::new();
-    loop {
-        let all: Vec<bool> = knot.iter().zip(&soft).map(|(k, s)| *k || *s).collect();
-        let stretches = stretches(blocks, feeds, &all);
-        let speeds = passes(&stretches, feeds, caps, v_start, end);
-        if drop_lowered(&stretches, &speeds, feeds, caps, &knot, &mut soft) {
-            continue;
+    let (entries, carried) = (feeds.to_vec(), vec![false; blocks.len()]);
+    let early = Window { blocks, feeds, caps, forced, v_start, end, entries, carried };
+    match late::entries(blocks, feeds) {
+        Some(entries) => late::plan(&early, entries),
+        None => early.plan(),
+    }
+}
+
+impl Window<'_> {
+    /// Speed and reason that the boundary before block `b` allows.
+    fn limit(&self, b: usize) -> Cap {
+        let mut best = self.caps[b];
+        for feed in [self.feeds[b - 1], self.entries[b]] {
+            if feed.0 < best.0 {
+                best = feed;
+            }
         }
-        let mut spans: Vec<Span> = Vec::with_capacity(stretches.len());
-        let mut again = false;
-        for (k, s) in stretches.iter().enumerate() {
-            let (from, to) = (speeds[k], speeds[k + 1]);
-            if let Some(same) = unchanged(&known, s, from.0, to.0) {
-                spans.push(same);
+        best
+    }
+
+    fn plan(&self) -> Result<Plan, Infeasible> {
+        let Self { blocks, feeds, caps, .. } = *self;
+        let n = blocks.len();
+        let mut knot = vec![false; n + 1];
+        (knot[0], knot[n]) = (true, true);
+        let plain = self.mark_knots(&mut knot);
+        let mut soft = self.minima(&knot, &plain);
+        let mut known: Vec<Span> = Vec::new();
+        loop {
+            let all: Vec<bool> = knot.iter().zip(&soft).map(|(k, s)| *k || *s).collect();
+            let stretches = self.stretches(&all);
+            let speeds = self.passes(&stretches);
+            if self.drop_lowered(&stretches, &speeds, &knot, &mut soft) {
                 continue;
             }
-            #[cfg(test)]
-            crate::work::add();
-            let mut profile = s.slope.plan(from.0, to.0, s.feed, s.length)?;
-            if s.end - s.first > 1
-                && blocks[s.first].plans_across()
-                && let Some(worst) = most_exceeded(blocks, feeds, caps, s, &profile)
-            {
-                let cells = cells(blocks, feeds, caps, s.first, s.end);
-                if let Some(chain) = cells.and_then(|c| ride(&c, from.0, to.0)) {
-                    profile = SpanProfile::from_chain(chain);
-                } else {
-                    knot[worst] = true;
-                    again = true;
-                }
+            let mut spans: Vec<Span> = Vec::with_capacity(stretches.len());
+            let mut again = false;
+            // a speed that is final already; the plan that it comes from goes on
+            if !self.keeps(&stretches[0], speeds[0].0, speeds[1].0) {
+                let (length_mm, needed_mm) = (stretches[0].length, f64::INFINITY);
+                return Err(Infeasible { length_mm, needed_mm });
             }
-            spans.push(Span {
-                first: s.first,
-                end: s.end,
-                profile,
-                why_up: from.1,
-                why_down: to.1,
-            });
+            for (k, s) in stretches.iter().enumerate() {
+                let (from, to) = (speeds[k], speeds[k + 1]);
+                if let Some(same) = unchanged(&known, s, from.0, to.0) {
+                    spans.push(same);
+                    continue;
+                }
+                #[cfg(test)]
+                crate::work::add();
+                let mut profile = s.profile(from.0, to.0)?;
+                if s.end - s.first > 1
+                    && blocks[s.first].plans_across()
+                    && !s.is_above(from.0)
+                    && let Some(worst) = most_exceeded(blocks, feeds, caps, s, &profile)
+                {
+                    let cells = cells(blocks, feeds, caps, s.first, s.end);
+                    if let Some(chain) = cells.and_then(|c| ride(&c, from.0, to.0)) {
+                        profile = SpanProfile::from_chain(chain);
+                    } else {
+                        knot[worst] = true;
+                        again = true;
+                    }
+                }
+                spans.push(Span {
+                    first: s.first,
+                    end: s.end,
+                    profile,
+                    why_up: from.1,
+                    why_down: to.1,
+                });
+            }
+            if !again {
+                return Ok(Plan { spans });
+            }
+            known = spans;
         }
-        if !again {
-            return Ok(Plan { spans });
-        }
-        known = spans;
     }
+
+    /// Boundaries at which the fastest speed without a jerk limit has a local minimum worth the name: there the acceleration
+    /// passes through zero in any case, so they are knots that cost nothing. `plain`: blocks that are not planned across.
+    fn minima(&self, knot: &[bool], plain: &[bool]) -> Vec<bool> {
+        let blocks = self.blocks;
+        let n = blocks.len();
+        let mut square: Vec<f64> = (1..n).map(|i| self.limit(i).0 * self.limit(i).0).collect();
+        square.insert(0, self.v_start.0 * self.v_start.0);
+        square.push(0.0);
+        let own = square.clone();
+        let gain = |i: usize, up: bool| {
+            rates(&blocks[i])
+                .map_or(0.0, |r| 2.0 * blocks[i].length * if up { r.acc } else { r.dec })
+        };
+        for i in (0..n).rev() {
+            square[i] = square[i].min(square[i + 1] + gain(i, false));
+        }
+        for i in 0..n {
+            square[i + 1] = square[i + 1].min(square[i] + gain(i, true));
+        }
+        let own_hill = |i: usize| {
+            let v = square[i].max(square[i + 1]).sqrt();
+            rates(&blocks[i]).is_some_and(|r| has_hill(blocks[i].length, v, &r))
+        };
+        (0..=n)
+            .map(|i| {
+                i > 0
+                    && i < n
+                    && !knot[i]
+                    && !plain[i]
+                    && blocks[i].plans_across()
+                    && rates(&blocks[i]).is_some()
+                    && square[i] >= own[i]
+                    && (square[i] <= square[i - 1] || own_hill(i - 1))
+                    && (square[i] <= square[i + 1] || own_hill(i))
+            })
+            .collect()
+    }
+
+    /// Drops the minima at which acceleration zero would cost speed; true if there were any.
+    fn drop_lowered(
+        &self,
+        stretches: &[Stretch],
+        speeds: &[Cap],
+        knot: &[bool],
+        soft: &mut [bool],
+    ) -> bool {
+        let mut any = false;
+        // from the speed at the start, which is final, the first one may be out of reach
+        if let [first, second, ..] = stretches {
+            let (v0, v1) = (speeds[0].0, speeds[1].0);
+            if soft[second.first] && first.slope.down_distance(v0.max(v1), v1) > first.length {
+                soft[second.first] = false;
+                any = true;
+            }
+        }
+        for (s, v) in stretches.iter().zip(speeds).skip(1) {
+            let b = s.first;
+            if soft[b] && !knot[b] && v.0 < self.limit(b).0 * (1.0 - 1e-9) {
+                soft[b] = false;
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Marks the boundaries that are knots in any case. Returns which blocks are planned as with plain TRAPEZ or SIN2: the
+    /// run of equal feed in which braking under G901 begins.
+    fn mark_knots(&self, knot: &mut [bool]) -> Vec<bool> {
+        let Self { blocks, feeds, caps, .. } = *self;
+        let mut run = 0;
+        let mut plain = vec![false; blocks.len()];
+        plain[0] = is_above(self.v_start.0, feeds[0].0);
+        for i in 1..blocks.len() {
+            let (a, b) = (&blocks[i - 1], &blocks[i]);
+            let drops = is_above(self.entries[i].0, feeds[i].0);
+            let joined = self.carried[i]
+                || !self.forced[i]
+                    && a.block.slope == b.block.slope
+                    && if a.plans_across() && !plain[i - 1] {
+                        caps[i].0 > 0.0 && !drops
+                    } else {
+                        let feed = feeds[i - 1].0.min(feeds[i].0);
+                        caps[i].0 >= feed
+                            && (feeds[i - 1].0 - feeds[i].0).abs() <= 1e-9 * feed
+                            && blocks[run].slope.nearly_equals(&b.slope, NEARLY_EQUAL)
+                    };
+            plain[i] = if joined { plain[i - 1] } else { drops };
+            if !joined {
+                knot[i] = true;
+                run = i;
+            }
+        }
+        plain
+    }
+
+    fn stretches(&self, knot: &[bool]) -> Vec<Stretch> {
+        let mut out = Vec::with_capacity(self.blocks.len());
+        let mut first = 0;
+        for (end, _) in knot.iter().enumerate().skip(1).filter(|(_, k)| **k) {
+            out.push(self.stretch(first, end));
+            first = end;
+        }
+        out
+    }
+
+    fn stretch(&self, first: usize, end: usize) -> Stretch {
+        let Self { blocks, feeds, .. } = *self;
+        let mut s = Stretch {
+            first,
+            end,
+            length: blocks[first].length,
+            feed: feeds[first].0,
+            slope: blocks[first].slope.clone(),
+        };
+        for i in first + 1..end {
+            s.length += blocks[i].length;
+            s.feed = if self.carried[i] {
+                // what the braking ends at
+                feeds[i].0
+            } else {
+                // across blocks of different feed the check finds what is exceeded
+                s.feed.max(feeds[i].0)
+            };
+            s.slope = s.slope.weaker(&blocks[i].slope);
+        }
+        s
+    }
+
+    /// Backward and forward pass: speed and reason at every knot.
+    fn passes(&self, stretches: &[Stretch]) -> Vec<Cap> {
+        let m = stretches.len();
+        let mut v = vec![self.v_start; m + 1];
+        v[m] = (0.0, self.end);
+        for k in (1..m).rev() {
+            let s = &stretches[k];
+            let best = self.limit(s.first);
+            let reach = s.slope.reach_down(v[k + 1].0, s.length);
+            v[k] = if reach < best.0 { (reach, v[k + 1].1) } else { best };
+            v[k].0 = self.entry_speed(s, v[k].0, v[k + 1].0);
+        }
+        for k in 1..m {
+            let reach = stretches[k - 1].slope.reach_up(v[k - 1].0, stretches[k - 1].length);
+            if reach < v[k].0 {
+                v[k] = (reach, v[k - 1].1);
+            }
+        }
+        v
+    }
+}
+
+impl Stretch {
+    /// Both in one, with the feed of the second one: braking goes on from the first to the second.
+    fn carried_into(self, second: &Self) -> Self {
+        Self {
+            first: self.first,
+            end: second.end,
+            length: self.length + second.length,
+            feed: second.feed,
+            slope: self.slope.weaker(&second.slope),
+        }
+    }
+
+    /// True if a speed at its start is above its feed (G901).
+    fn is_above(&self, v0: f64) -> bool {
+        is_above(v0, self.feed)
+    }
+
+    fn profile(&self, v0: f64, v1: f64) -> Result<SpanProfile, Infeasible> {
+        if self.is_above(v0) {
+            self.slope.plan_from_above(v0, v1, self.feed, self.length)
+        } else {
+            self.slope.plan(v0, v1, self.feed, self.length)
+        }
+    }
+}
+
+/// True if a speed exceeds a feed by more than rounding.
+fn is_above(v: f64, feed: f64) -> bool {
+    v > feed * (1.0 + 1e-9)
 }
 
 /// The span of the last round, if neither its ends nor its speeds have changed.
@@ -144,7 +371,9 @@ fn cells(
     (first..end)
         .map(|i| {
             at += blocks[i].length;
-            let cap = if i + 1 < end { caps[i + 1].0 } else { f64::INFINITY };
+            // the boundary belongs to both blocks
+            let both = |i: usize| caps[i + 1].0.min(feeds[i].0).min(feeds[i + 1].0);
+            let cap = if i + 1 < end { both(i) } else { f64::INFINITY };
             Some(Cell { end: at, v: feeds[i].0, cap, rates: rates(&blocks[i])? })
         })
         .collect()
@@ -155,158 +384,6 @@ fn rates(block: &Queued) -> Option<Rates> {
         SlopeLimits::Ramped(limits) => limits.rates(),
         SlopeLimits::Step(_) => None,
     }
-}
-
-/// Boundaries at which the fastest speed without a jerk limit has a local minimum worth the name: there the acceleration passes
-/// through zero in any case, so they are knots that cost nothing.
-fn minima(
-    blocks: &[Arc<Queued>],
-    feeds: &[Cap],
-    caps: &[Cap],
-    v_start: f64,
-    knot: &[bool],
-) -> Vec<bool> {
-    let n = blocks.len();
-    let cap = |i: usize| caps[i].0.min(feeds[i - 1].0).min(feeds[i].0);
-    let mut square: Vec<f64> = (1..n).map(|i| cap(i) * cap(i)).collect();
-    square.insert(0, v_start * v_start);
-    square.push(0.0);
-    let own = square.clone();
-    let gain = |i: usize, up: bool| {
-        rates(&blocks[i]).map_or(0.0, |r| 2.0 * blocks[i].length * if up { r.acc } else { r.dec })
-    };
-    for i in (0..n).rev() {
-        square[i] = square[i].min(square[i + 1] + gain(i, false));
-    }
-    for i in 0..n {
-        square[i + 1] = square[i + 1].min(square[i] + gain(i, true));
-    }
-    let own_hill = |i: usize| {
-        let v = square[i].max(square[i + 1]).sqrt();
-        rates(&blocks[i]).is_some_and(|r| has_hill(blocks[i].length, v, &r))
-    };
-    (0..=n)
-        .map(|i| {
-            i > 0
-                && i < n
-                && !knot[i]
-                && blocks[i].plans_across()
-                && rates(&blocks[i]).is_some()
-                && square[i] >= own[i]
-                && (square[i] <= square[i - 1] || own_hill(i - 1))
-                && (square[i] <= square[i + 1] || own_hill(i))
-        })
-        .collect()
-}
-
-/// Drops the minima at which acceleration zero would cost speed; true if there were any.
-fn drop_lowered(
-    stretches: &[Stretch],
-    speeds: &[Cap],
-    feeds: &[Cap],
-    caps: &[Cap],
-    knot: &[bool],
-    soft: &mut [bool],
-) -> bool {
-    let mut any = false;
-    // from the speed at the start, which is final, the first one may be out of reach
-    if let [first, second, ..] = stretches {
-        let (v0, v1) = (speeds[0].0, speeds[1].0);
-        if soft[second.first] && first.slope.down_distance(v0.max(v1), v1) > first.length {
-            soft[second.first] = false;
-            any = true;
-        }
-    }
-    for (s, v) in stretches.iter().zip(speeds).skip(1) {
-        let b = s.first;
-        let cap = caps[b].0.min(feeds[b - 1].0).min(feeds[b].0);
-        if soft[b] && !knot[b] && v.0 < cap * (1.0 - 1e-9) {
-            soft[b] = false;
-            any = true;
-        }
-    }
-    any
-}
-
-fn mark_knots(
-    blocks: &[Arc<Queued>],
-    feeds: &[Cap],
-    caps: &[Cap],
-    forced: &[bool],
-    knot: &mut [bool],
-) {
-    let mut run = 0;
-    for i in 1..blocks.len() {
-        let (a, b) = (&blocks[i - 1], &blocks[i]);
-        let joined = !forced[i]
-            && a.block.slope == b.block.slope
-            && if a.plans_across() {
-                caps[i].0 > 0.0
-            } else {
-                let feed = feeds[i - 1].0.min(feeds[i].0);
-                caps[i].0 >= feed
-                    && (feeds[i - 1].0 - feeds[i].0).abs() <= 1e-9 * feed
-                    && blocks[run].slope.nearly_equals(&b.slope, NEARLY_EQUAL)
-            };
-        if !joined {
-            knot[i] = true;
-            run = i;
-        }
-    }
-}
-
-fn stretches(blocks: &[Arc<Queued>], feeds: &[Cap], knot: &[bool]) -> Vec<Stretch> {
-    let mut out = Vec::with_capacity(blocks.len());
-    let mut first = 0;
-    for (end, _) in knot.iter().enumerate().skip(1).filter(|(_, k)| **k) {
-        let mut s = Stretch {
-            first,
-            end,
-            length: blocks[first].length,
-            feed: feeds[first].0,
-            slope: blocks[first].slope.clone(),
-        };
-        for i in first + 1..end {
-            s.length += blocks[i].length;
-            // across blocks of different feed the check finds what is exceeded
-            s.feed = s.feed.max(feeds[i].0);
-            s.slope = s.slope.weaker(&blocks[i].slope);
-        }
-        out.push(s);
-        first = end;
-    }
-    out
-}
-
-/// Backward and forward pass: speed and reason at every knot.
-fn passes(
-    stretches: &[Stretch],
-    feeds: &[Cap],
-    caps: &[Cap],
-    v_start: Cap,
-    end: SpeedLimit,
-) -> Vec<Cap> {
-    let m = stretches.len();
-    let mut v = vec![v_start; m + 1];
-    v[m] = (0.0, end);
-    for k in (1..m).rev() {
-        let b = stretches[k].first;
-        let mut best = caps[b];
-        for feed in [feeds[b - 1], feeds[b]] {
-            if feed.0 < best.0 {
-                best = feed;
-            }
-        }
-        let reach = stretches[k].slope.reach_down(v[k + 1].0, stretches[k].length);
-        v[k] = if reach < best.0 { (reach, v[k + 1].1) } else { best };
-    }
-    for k in 1..m {
-        let reach = stretches[k - 1].slope.reach_up(v[k - 1].0, stretches[k - 1].length);
-        if reach < v[k].0 {
-            v[k] = (reach, v[k - 1].1);
-        }
-    }
-    v
 }
 
 /// The boundary inside a span whose cap, or whose block's velocity, the profile exceeds most.

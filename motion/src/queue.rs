@@ -1,6 +1,6 @@
 //! A block in the look-ahead queue with everything that depends on it alone.
 
-use crate::block::{Block, SlopeKind};
+use crate::block::{Block, Feed, SlopeKind};
 use crate::corner::Ends;
 use crate::limit::SpeedLimit;
 use crate::limits::{PathExtremes, PathSpeeds, path_slope};
@@ -29,6 +29,8 @@ pub struct Queued {
     pub speeds: PathSpeeds,
     /// Path velocity in mm/s under the real-time override, and what it comes from.
     pub velocity: (f64, SpeedLimit),
+    /// What the path velocity would be if no feed were programmed.
+    pub ceiling: (f64, SpeedLimit),
     /// Path slope.
     pub slope: SlopeLimits,
     /// Largest `|q''|` over the axes in 1/mm; 0 for a line.
@@ -48,6 +50,7 @@ impl Queued {
             ends: Ends::of(&block),
             length: block.path.length(),
             velocity: speeds.limited(speeds.programmed_mm_s),
+            ceiling: speeds.limited(f64::INFINITY),
             slope: path_slope(&block, &x, cycle),
             bend: x.second.iter().copied().fold(0.0, f64::max),
             goes_on: false,
@@ -57,15 +60,19 @@ impl Queued {
 
     /// The block under a real-time override.
     pub(crate) fn rated(self: &Arc<Self>, ratios: &Override) -> Arc<Self> {
-        let velocity = if self.block.full_override {
-            self.speeds.limited(self.speeds.programmed_mm_s)
-        } else {
-            ratios.velocity(&self.speeds)
+        let rated = |speeds: &PathSpeeds| {
+            if self.block.full_override {
+                speeds.limited(speeds.programmed_mm_s)
+            } else {
+                ratios.velocity(speeds)
+            }
         };
-        if velocity == self.velocity {
+        let velocity = rated(&self.speeds);
+        let ceiling = rated(&PathSpeeds { programmed_mm_s: f64::INFINITY, ..self.speeds });
+        if velocity == self.velocity && ceiling == self.ceiling {
             Arc::clone(self)
         } else {
-            Arc::new(Self { velocity, ..Self::clone(self) })
+            Arc::new(Self { velocity, ceiling, ..Self::clone(self) })
         }
     }
 
@@ -81,6 +88,17 @@ impl Queued {
         rest.block.path.tangent(rest.offset, &mut rest.ends.tangent_in);
         rest.block.path.curvature(rest.offset, &mut rest.ends.curvature_in);
         Arc::new(rest)
+    }
+
+    /// True if braking to the feed of the next block may begin in that block (G901).
+    pub fn brakes_late_into(&self, next: &Self) -> bool {
+        let hsc = [self, next].iter().any(|q| q.block.slope.kind == SlopeKind::Hsc);
+        self.block.late_braking && self.block.feed != Feed::Rapid && !hsc
+    }
+
+    /// Velocity in mm/s that the path has nowhere in this block behind `before`, whatever the override.
+    pub(crate) fn fastest_behind(&self, before: &Self) -> f64 {
+        if before.brakes_late_into(self) { self.speeds.highest() } else { self.speeds.fastest() }
     }
 
     /// Stretches of different bend by the distance of their ends from the present start: one, unless it is a curve.

@@ -38,7 +38,8 @@ pub(crate) fn lower_caps(
         distance += inner.length;
         let apart = distance / cycle.seconds();
         // an override may come later
-        let fastest = to.speeds.fastest().min(inner.speeds.fastest());
+        let before_last = &queue[newest - 1];
+        let fastest = to.fastest_behind(before_last).min(inner.fastest_behind(from));
         let fastest = fastest.min(caps[newest].0).min(caps[first].0);
         if apart >= fastest {
             return;

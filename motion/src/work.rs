@@ -19,10 +19,7 @@ fn take() -> u64 {
 mod tests {
     use super::take;
     use crate::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
-    use crate::block::{
-        Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance, TransitionJerkMode,
-        VectorLimits,
-    };
+    use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};
     use crate::path::{LinePath, Path};
     use crate::planner::{Next, Planner};
     use kontur_filters::time::CycleTime;
@@ -46,18 +43,7 @@ mod tests {
             j_trans_kink_mm_s3: 0.0,
             j_trans_tangential_mm_s3: 0.0,
         };
-        Arc::new(ChannelDynamics {
-            axes: vec![axis; 3],
-            feed_axes: vec![true; 3],
-            limit_tangential_jerk: false,
-            transition_jerk: TransitionJerkMode::Coupled,
-            curvature_estimate: 0,
-            curve_jerk: CurveJerk::Geometric,
-            vector: VectorLimits::default(),
-            vector_acc_on_arcs: false,
-            transition_velocity_min_mm_s: 0.0,
-            stop_at_transitions: false,
-        })
+        Arc::new(ChannelDynamics::new(vec![axis; 3]))
     }
 
     /// Rows of 50 mm over a wavy surface in steps of 0.2 mm.
@@ -81,23 +67,11 @@ mod tests {
                 Next::Input if i < count => {
                     let line = LinePath::new(point(i), point(i + 1), &[]).unwrap();
                     i += 1;
-                    planner.push(Block {
-                        seq: i as u64,
-                        path: Path::Line(line),
-                        feed: Feed::PathVelocity(150.0),
-                        feed_ratio: 1.0,
-                        full_override: false,
-                        end_velocity_mm_s: None,
-                        slope: Slope {
-                            kind,
-                            optimised: kind == SlopeKind::Sin2,
-                            ..Slope::default()
-                        },
-                        dynamics: Arc::clone(&dynamics),
-                        tolerance: Tolerance::default(),
-                        contour: None,
-                        spline: None,
-                    });
+                    let feed = Feed::PathVelocity(150.0);
+                    let block = Block::new(i as u64, Path::Line(line), feed, Arc::clone(&dynamics));
+                    let optimised = kind == SlopeKind::Sin2;
+                    let slope = Slope { kind, optimised, ..Slope::default() };
+                    planner.push(Block { slope, ..block });
                 }
                 Next::Input => planner.finish(),
                 Next::Rest => return take() as f64 / count as f64,

@@ -1,6 +1,6 @@
 //! Polynomial contouring: the curve against its closed forms, its neighbours, and what a larger tolerance may not do.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
 
 mod common;
 
@@ -369,7 +369,8 @@ fn words_of_the_neighbours() {
     };
     let mut out: Vec<Block> = stage.push(e).collect();
     out.extend(stage.push(job.block(1, b.clone(), 60.0)));
-    assert!(curves(&out).iter().all(|c| c.feed == Feed::PathVelocity(5.0)));
+    let feeds: Vec<Feed> = curves(&out).iter().map(|c| c.feed).collect();
+    assert_eq!(feeds, [Feed::PathVelocity(5.0)]);
     out.extend(stage.flush());
     // a block without the word keeps its corner
     out.extend(stage.push(job.block(0, a, 60.0)));

@@ -1,6 +1,6 @@
 //! Independent axes against the closed forms of the slopes.
 
-#![allow(
+#![expect(
     clippy::unwrap_used,
     clippy::float_cmp,
     reason = "helpers of tests; exact values are meant"

@@ -1,6 +1,6 @@
 //! What holds for every program: random contours, blocks and limits.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod common;
 
@@ -8,7 +8,7 @@ use common::random::Random;
 use common::{Job, axis, channel};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};
-use kontur_motion::block::{Block, Slope};
+use kontur_motion::block::{Block, Feed, Slope};
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use kontur_motion::planner::Setpoint;
 
@@ -118,6 +118,38 @@ fn velocity_and_acceleration_of_the_axes() {
         }
     }
     println!("largest acceleration: {worst:.3} of the limit");
+}
+
+/// The same with feeds that change from block to block, without and with G901, which never costs time; cut anywhere too.
+#[test]
+fn changes_of_feed_with_and_without_late_braking() {
+    let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(6);
+    let mut r = Random(6);
+    for program in 0..count {
+        let paths = contour(&mut r, 60);
+        let axes = vec![limits(&mut r), limits(&mut r)];
+        let feed = r.log(5.0, 1000.0);
+        let feeds: Vec<f64> = (0..7).map(|_| feed * r.log(0.05, 1.0)).collect();
+        let cut = 1 + (r.next() * 59.0) as usize;
+        for slope in kinds() {
+            let job = job(axes.clone(), slope);
+            let mut cycles = usize::MAX;
+            for (late, count) in [(false, 60), (true, 60), (true, cut)] {
+                let mut blocks = blocks(&job, &paths[..count], feed);
+                for (i, block) in blocks.iter_mut().enumerate() {
+                    block.feed = Feed::PathVelocity(feeds[i % 7]);
+                    block.late_braking = late;
+                }
+                let out = job.run(&[0.0, 0.0], blocks.into_iter());
+                let (v, a, low) = load(&job, &out);
+                let name = format!("{program} {slope:?} {late} {count}");
+                assert!(v <= 1.0 + 1e-6 && a <= 3.0 && low >= 0.0, "{name}: {v} {a} {low}");
+                assert_eq!(out[out.len() - 1].position[..], paths[count - 1].end()[..], "{name}");
+                assert!(out.len() <= cycles.saturating_add(1), "{name}: {} {cycles}", out.len());
+                cycles = cycles.min(out.len());
+            }
+        }
+    }
 }
 
 /// Along straight lines without kinks there is nothing but the slope: its acceleration and its jerk.

@@ -1,6 +1,6 @@
 //! Velocity limits against worked numbers: kinks (P-AXIS-00013), arcs, oblique lines.
 
-#![allow(
+#![expect(
     clippy::unwrap_used,
     clippy::float_cmp,
     reason = "helpers of tests; exact values are meant"

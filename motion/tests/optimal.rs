@@ -3,7 +3,7 @@
 //! The bound is computed here on its own: time-optimal path following of second order on the same polygon with the same
 //! axis limits and transition speeds, but without a jerk limit, by a backward and a forward pass on a fine grid.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
 
 mod common;
 

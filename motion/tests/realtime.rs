@@ -1,6 +1,6 @@
 //! Override and feedhold: closed forms, and properties over random programs with events at random cycles.
 
-#![allow(
+#![expect(
     clippy::unwrap_used,
     clippy::float_cmp,
     reason = "helpers of tests; exact values are meant"
@@ -199,6 +199,8 @@ struct Case {
     points: Vec<[f64; 2]>,
     feeds: Vec<Option<f64>>,
     events: Vec<(u64, Event)>,
+    /// G901.
+    late: bool,
 }
 
 impl Case {
@@ -256,7 +258,7 @@ impl Case {
         }
         events.push((k + 500, Event::Override(0.7 + r.next())));
         events.push((k + 500, Event::Release));
-        Self { job, points, feeds, events }
+        Self { job, points, feeds, events, late: false }
     }
 
     fn run(&self) -> Result<Vec<Setpoint>, Infeasible> {
@@ -265,6 +267,7 @@ impl Case {
             if self.feeds[i].is_none() {
                 b.feed = Feed::Rapid;
             }
+            b.late_braking = self.late;
             b
         };
         let blocks = self.points.windows(2).enumerate().map(block).collect();
@@ -396,11 +399,13 @@ fn random_programs_with_random_events() {
     let seed: u64 = std::env::var("SEED").ok().and_then(|c| c.parse().ok()).unwrap_or(0);
     let mut failed = 0;
     for case in seed..seed + count {
-        let c = Case::new(&mut Random(case * 7919 + 1));
+        let mut c = Case::new(&mut Random(case * 7919 + 1));
+        c.late = case % 2 == 1;
         if let Err(why) = c.run().map_err(|e| e.to_string()).and_then(|out| c.check(&out)) {
             failed += 1;
             println!(
-                "case {case}: {why}; {:?} window {} {} us, events {:?}, feeds {:?}, {} points",
+                "case {case}, G901 {}: {why}; {:?} window {} {} us, events {:?}, feeds {:?}, {} points",
+                c.late,
                 c.job.slope.kind,
                 c.job.window,
                 c.job.cycle_us,

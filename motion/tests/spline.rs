@@ -1,6 +1,6 @@
 //! B-spline through short blocks: tolerance, smoothness, ends, ripple.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod common;
 

@@ -1,6 +1,6 @@
 //! Arcs askew to the axes, against rotations written out by hand and against dense samples.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use kontur_motion::axis::AxisVec;
 use kontur_motion::limits::PathExtremes;
@@ -64,7 +64,6 @@ fn a_helix_turns_round_where_height_and_circle_cancel() {
 }
 
 #[test]
-#[allow(clippy::needless_range_loop, reason = "several arrays side by side")]
 fn derivatives_extremes_and_nearest_points_of_random_arcs() {
     let mut seed = 11_u64;
     let mut next = || {

@@ -2,7 +2,7 @@
 //!
 //! The deviation is measured here on its own, from setpoints, kernel taps and the corners of the program.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
 
 mod common;
 

@@ -1,6 +1,6 @@
 //! `AX_DEV` on contours of lines and arcs, judged by the geometry of each block.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
 
 mod common;
 

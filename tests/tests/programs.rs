@@ -19,6 +19,7 @@ fn sample_programs_run_clean() {
         "inputs_of_axes",
         "feedhold_and_override",
         "slopes",
+        "late_braking",
         "corner_rounding",
     ] {
         let run = run(&text(&format!("{name}.nc")), &[]);
@@ -37,6 +38,7 @@ fn hsc_square() {
         |lines: RangeInclusive<u32>| run.records.iter().filter(move |r| lines.contains(&r.line));
     let cut = pass(6..=9).map(|r| r.contour_err_mm).fold(0.0, f64::max);
     assert!(cut > 1e-3, "{cut}");
+    assert!(pass(11..=14).count() > 100);
     assert!(pass(11..=14).all(|r| r.axes[0].set.to_bits() == r.axes[0].ipo.to_bits()));
 }
 
@@ -90,6 +92,62 @@ fn slopes() {
             );
         }
     }
+}
+
+/// Every change of speed of the program, the length it takes from its block and its time: at `a`, with ramps one ramp
+/// time more, or `2 t sqrt(dv / a t)` if the acceleration is not reached.
+#[test]
+fn late_braking() {
+    let (a, ramp_s, mm) = (3500.0, 0.03, 20.0);
+    let v = [150.0, 100.0, 75.0, 50.0, 25.0];
+    // per block the changes of speed that lie in it
+    let words: [&[(f64, f64)]; 5] = [
+        &[(0.0, v[0])],
+        &[(v[0], v[1]), (v[1], v[2])],
+        &[],
+        &[(v[2], v[3]), (v[3], v[4])],
+        &[(v[4], 0.0)],
+    ];
+    let g900: [&[(f64, f64)]; 5] = [
+        &[(0.0, v[0]), (v[0], v[1])],
+        &[(v[1], v[2])],
+        &[(v[2], v[3])],
+        &[(v[3], v[4])],
+        &[(v[4], 0.0)],
+    ];
+    let program = text("late_braking.nc");
+    let early = program.replace("G901", "G900");
+    for profile in 0..=2 {
+        let setting = format!("channel.prog_start.slope.profile={profile}");
+        for (program, changes) in [(&program, words), (&early, g900)] {
+            let blocks = v.iter().zip(changes).map(|(v, changes)| {
+                let legs = changes.iter().map(|(from, to)| {
+                    let dv = f64::abs(to - from);
+                    let time = match profile {
+                        0 => dv / a,
+                        _ if dv < a * ramp_s => 2.0 * ramp_s * (dv / (a * ramp_s)).sqrt(),
+                        _ => dv / a + ramp_s,
+                    };
+                    time * (1.0 - 0.5 * (from + to) / v)
+                });
+                mm / v + legs.sum::<f64>()
+            });
+            let want: f64 = blocks.sum();
+            let run = run(program, &[&setting]);
+            assert!(run.ids().is_empty(), "{:?}", run.diagnostics);
+            let is = moving_s(&run, &(10..=14));
+            assert!(
+                is >= want - 1e-9 && is < want + 2.0 * run.cycle_s,
+                "slope {profile}: {is} s, {want} s expected"
+            );
+        }
+    }
+    let hsc = |program: &str| run(program, &["channel.prog_start.slope.profile=3"]);
+    let (late, early) = (hsc(&program), hsc(&early));
+    let notes: Vec<Id> = late.diagnostics.iter().map(|d| d.id).collect();
+    assert_eq!(notes, [Id::Kontur(100)]);
+    let way = |run: &Run| run.records.iter().map(|r| r.path.s_mm.to_bits()).collect::<Vec<_>>();
+    assert_eq!(way(&late), way(&early));
 }
 
 /// How far every curve stays from the corner, by the formulas of the contouring curve and of the B-spline; and how fast

@@ -143,3 +143,16 @@ fn names_of_subroutines_that_lead_elsewhere() {
         assert_eq!(said, [format!("K-0013 1:{column}")], "{name}");
     }
 }
+
+/// One of the two would have been dropped without a word.
+#[test]
+fn options_given_twice() {
+    for options in [["--start", "X5,x6"], ["--path", "no/such/folder"]] {
+        assert_eq!(call("run", "M30\n", &options).0, Exit::Usage, "{options:?}");
+    }
+    let (exit, ..) = call("run", "M30\n", &["--external", "A=1", "--external", "A=2"]);
+    assert_eq!(exit, Exit::Usage);
+    let kv = |value: u32| format!("X.getriebe[0].kv={value}");
+    let (exit, said, _) = call("run", "M30\n", &["--set", &kv(1000), "--set", &kv(2000)]);
+    assert_eq!((exit, said), (Exit::Finished, vec!["K-0028 null:null".to_owned()]));
+}

@@ -115,7 +115,7 @@ impl SetpointBuffer {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+    #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
     use super::*;
     use crate::control::feedforward::FeedforwardMode;

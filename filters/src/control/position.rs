@@ -124,7 +124,7 @@ impl SpeedLimiter {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+    #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
     use super::*;
     use crate::control::fault::{ErrorId, Reaction};

@@ -144,8 +144,6 @@ pub fn encoder_resolution(increments_per_rev: f64, feed_mm: f64, gear_ratio: f64
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
-
     use super::*;
     use crate::control::fault::ErrorId;
 

@@ -29,6 +29,9 @@ pub enum Prototype {
 }
 
 impl Prototype {
+    /// Every prototype, by its number.
+    pub const ALL: [Self; 3] = [Self::CritDamping, Self::Butterworth, Self::Bessel];
+
     /// The factors of the low-pass of `order` 1 to 6; higher orders give order 6.
     pub fn terms(self, order: u32) -> Vec<Term> {
         let order = order.min(6);

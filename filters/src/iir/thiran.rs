@@ -42,11 +42,6 @@ impl Thiran {
         if cycles <= 0.0 {
             return Self { order: 0, a };
         }
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "positive, and the cast saturates"
-        )]
         let order = ((cycles + 0.5) as usize).clamp(1, MAX_ORDER);
         let below = cycles.min(MAX_ORDER as f64) - order as f64;
         let mut binomial = 1.0;

@@ -18,20 +18,6 @@ use std::sync::Arc;
 
 const MS: CycleTime = CycleTime::DEFAULT;
 const POSITION_MM: f64 = 1000.123456789;
-/// Every standard filter.
-pub(crate) const KINDS: [FilterKind; 8] = [
-    FilterKind::LowPass,
-    FilterKind::HighPass,
-    FilterKind::BandPass,
-    FilterKind::BandStop,
-    FilterKind::AllPass,
-    FilterKind::Pt1,
-    FilterKind::Pt2,
-    FilterKind::TimeDelay,
-];
-const PROTOTYPES: [Prototype; 3] =
-    [Prototype::CritDamping, Prototype::Butterworth, Prototype::Bessel];
-
 fn standard(kind: FilterKind, prototype: Prototype, order: u32, share_ratio: f64) -> FilterConfig {
     let time_constant_us = if kind == FilterKind::TimeDelay { 2300 } else { 10_000 };
     let default = FilterConfig::default();
@@ -77,13 +63,13 @@ fn stays(shaping: &mut Shaping, cycles: u32, what: &dyn std::fmt::Debug) {
 
 #[test]
 fn a_standing_axis_keeps_every_bit_in_every_filter() {
-    for kind in KINDS {
+    for kind in FilterKind::ALL {
         for share_ratio in [0.0, 0.37, 1.0] {
             let config = standard(kind, Prototype::Bessel, 3, share_ratio);
             let mut shaping = Shaping::new(vec![design(&config)], POSITION_MM);
             stays(&mut shaping, 1_000_000, &config);
             // All prototypes and orders, for a shorter time.
-            for prototype in PROTOTYPES {
+            for prototype in Prototype::ALL {
                 for order in 1..=6 {
                     let config = standard(kind, prototype, order, share_ratio);
                     let mut shaping = Shaping::new(vec![design(&config)], POSITION_MM);
@@ -236,7 +222,7 @@ fn the_chain_multiplies_responses_and_adds_delays() {
 /// Conformance: A098.
 #[test]
 fn a_share_of_the_signal_goes_past_the_filter() {
-    for kind in KINDS {
+    for kind in FilterKind::ALL {
         let whole = standard(kind, Prototype::Bessel, 2, 1.0);
         let part = FilterConfig { share_ratio: 0.37, ..whole };
         let none = FilterConfig { share_ratio: 0.0, ..whole };
@@ -293,12 +279,12 @@ fn numbers_of_types_and_prototypes() {
         let refused = FilterIssue::TypeNotPermitted { number };
         assert_eq!(ListedType::from_number(number), Err(refused));
     }
-    for (number, kind) in [1, 2, 3, 4, 5, 6, 10, 11].into_iter().zip(KINDS) {
+    for (number, kind) in [1, 2, 3, 4, 5, 6, 10, 11].into_iter().zip(FilterKind::ALL) {
         assert_eq!(ListedType::from_number(number), Ok(ListedType::Standard(kind)));
     }
     assert_eq!(ListedType::from_number(8), Ok(ListedType::Hsc(HscKind::Mean)));
     assert_eq!(ListedType::from_number(12), Ok(ListedType::Hsc(HscKind::NoVib)));
-    for (number, prototype) in (1..=3).zip(PROTOTYPES) {
+    for (number, prototype) in (1..=3).zip(Prototype::ALL) {
         let want = Some(ListedPrototype::Standard(prototype));
         assert_eq!(ListedPrototype::from_number(number), want);
     }
@@ -331,8 +317,8 @@ fn identifications() {
 }
 
 fn any_filter() -> impl Strategy<Value = FilterConfig> {
-    let kind = proptest::sample::select(KINDS.to_vec());
-    let prototype = proptest::sample::select(PROTOTYPES.to_vec());
+    let kind = proptest::sample::select(FilterKind::ALL.to_vec());
+    let prototype = proptest::sample::select(Prototype::ALL.to_vec());
     (kind, prototype, 1..=6_u32, 2.0..200.0_f64, 1.0..=10.0_f64, 0.0..=1.0_f64, 1000..5999_u32)
         .prop_map(|(kind, prototype, order, f_hz, q, share_ratio, time_constant_us)| FilterConfig {
             kind,

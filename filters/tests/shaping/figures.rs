@@ -1,6 +1,5 @@
 //! What the axis filter manual says in words and shows in its figures, as numbers.
 
-use crate::chain::KINDS;
 use crate::corner::{corner, forward_backward_gap, path};
 use crate::reference::assert_close;
 use kontur_filters::fir::{FirConfig, FirKind};
@@ -15,8 +14,6 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 const MS: CycleTime = CycleTime::DEFAULT;
-const PROTOTYPES: [Prototype; 3] =
-    [Prototype::CritDamping, Prototype::Bessel, Prototype::Butterworth];
 
 fn filter(kind: FilterKind, prototype: Prototype, order: u32, f_hz: f64, q: f64) -> AxisFilter {
     let config = FilterConfig { kind, prototype, order, f_hz, q, ..FilterConfig::default() };
@@ -120,7 +117,7 @@ fn overshoot_in_per_cent() {
 #[test]
 fn the_high_pass_is_the_mirrored_low_pass() {
     let warped = |k: f64| libm::atan(k * libm::tan(PI * 15.0 * 0.001)) / (PI * 0.001);
-    for prototype in PROTOTYPES {
+    for prototype in Prototype::ALL {
         for order in 1..=6 {
             let low = low_pass(prototype, order, 15.0);
             let high = filter(FilterKind::HighPass, prototype, order, 15.0, 1.0);
@@ -172,21 +169,23 @@ fn edges_of_bands() {
 fn the_prototype_matters_little_for_bands() {
     for kind in [FilterKind::BandPass, FilterKind::BandStop] {
         let first = filter(kind, Prototype::CritDamping, 1, 20.0, 1.0);
-        for prototype in PROTOTYPES {
+        for prototype in Prototype::ALL {
             let other = filter(kind, prototype, 1, 20.0, 1.0);
             for f in [5.0, 12.0, 17.0, 25.0, 60.0] {
                 assert_close(db(&other, f), db(&first, f), 1e-9, &(kind, prototype, f));
             }
         }
     }
-    let at_10_hz = [-5.73, -6.38, -7.85];
-    let overshoots = [18.0, 19.4, 21.5];
-    for (i, prototype) in PROTOTYPES.into_iter().enumerate() {
+    for (prototype, at_10_hz, overshoot_percent) in [
+        (Prototype::CritDamping, -5.73, 18.0),
+        (Prototype::Bessel, -6.38, 19.4),
+        (Prototype::Butterworth, -7.85, 21.5),
+    ] {
         let pass = filter(FilterKind::BandPass, prototype, 2, 20.0, 1.0);
-        assert_close(db(&pass, 10.0), at_10_hz[i], 6e-3, &prototype);
+        assert_close(db(&pass, 10.0), at_10_hz, 6e-3, &prototype);
         assert_close(
             overshoot(band_stop(prototype, 2, 20.0, 4.0)),
-            overshoots[i],
+            overshoot_percent,
             0.06,
             &prototype,
         );
@@ -228,7 +227,7 @@ fn ringing_of_band_stops() {
 /// Figure 9 and text: gain 1, falling phase; BESSEL delays evenly. Conformance: A020, A051, A054.
 #[test]
 fn all_passes() {
-    for prototype in PROTOTYPES {
+    for prototype in Prototype::ALL {
         for order in 1..=6 {
             let all = filter(FilterKind::AllPass, prototype, order, 30.0, 1.0);
             let mut before = 0.0;
@@ -253,7 +252,7 @@ fn all_passes() {
 /// -20 dB per decade and order, half of it on each side of a band. Conformance: A021, A022, A096.
 #[test]
 fn flanks() {
-    for prototype in PROTOTYPES {
+    for prototype in Prototype::ALL {
         for order in 1..=6_u32 {
             let low = low_pass(prototype, order, 0.01);
             let want = -20.0 * f64::from(order);
@@ -382,7 +381,7 @@ fn keys_without_meaning_change_nothing() {
         step_response(&mut filter, 200).into_iter().map(f64::to_bits).collect::<Vec<_>>()
     };
     let base = FilterConfig { order: 2, time_constant_us: 5000, ..FilterConfig::default() };
-    for kind in KINDS {
+    for kind in FilterKind::ALL {
         let base = FilterConfig { kind, ..base };
         let same = |other: &FilterConfig| y(&base) == y(other);
         let band = matches!(kind, FilterKind::BandPass | FilterKind::BandStop);

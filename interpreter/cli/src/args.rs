@@ -146,22 +146,23 @@ impl SimulationArgs {
 /// `kontur run`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct RunArgs {
-    /// The NC program
+    /// The NC program; `-` reads it from standard input
     pub program: PathBuf,
 
-    /// Write a trace; `.parquet` or, with any other name, CSV. May be given several times
+    /// Write a trace; `.parquet` or, with any other name, CSV; `-` writes CSV to stdout and the summary to stderr. May be
+    /// given several times
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
 
     /// Columns of the trace: groups or names, separated by commas
-    #[arg(long, value_name = "GROUPS|NAMES", default_value = crate::trace::DEFAULT_SIGNALS)]
+    #[arg(long, value_name = "GROUPS|NAMES", default_value = crate::trace::DEFAULT_SIGNALS, requires = "output")]
     pub signals: String,
 
     /// Write every N-th cycle only
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..), requires = "output")]
     pub decimate: u64,
 
-    /// Form of the summary on stdout
+    /// Form of the summary on stdout (stderr with `-o -`)
     #[arg(long, value_enum, default_value_t = SummaryForm::Text)]
     pub summary: SummaryForm,
 
@@ -173,7 +174,7 @@ pub struct RunArgs {
 /// `kontur check`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckArgs {
-    /// The NC programs
+    /// The NC programs; `-` reads one from standard input
     #[arg(required = true)]
     pub programs: Vec<PathBuf>,
 
@@ -332,6 +333,10 @@ mod tests {
             "run a --max-time -1",
             "run a --max-time inf",
             "run a --skip 11",
+            "run a --signals ipo",
+            "run a --decimate 2",
+            "response --hsc-mean 5 --order 3",
+            "tune --order-for 0.1 --max-residual 3",
             "diff a",
             "frobnicate",
         ] {

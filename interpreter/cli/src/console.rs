@@ -2,12 +2,14 @@
 
 use crate::{Error, Exit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::cell::RefCell;
 use std::io::{IsTerminal, Write};
+use std::rc::Rc;
 use std::time::Duration;
 
 /// Stdout and stderr of one command; tests put buffers in their place.
 pub struct Console {
-    out: Box<dyn Write>,
+    out: Output,
     err: Box<dyn Write>,
     terminal: bool,
 }
@@ -22,7 +24,7 @@ impl Console {
     /// The process' own stdout and stderr; colours and progress if stderr is a terminal.
     pub fn of_process() -> Self {
         Self {
-            out: Box::new(std::io::stdout()),
+            out: Output(Rc::new(RefCell::new(std::io::stdout()))),
             err: Box::new(std::io::stderr()),
             terminal: std::io::stderr().is_terminal(),
         }
@@ -30,7 +32,12 @@ impl Console {
 
     /// Any two writers, neither of them a terminal.
     pub fn new(out: impl Write + 'static, err: impl Write + 'static) -> Self {
-        Self { out: Box::new(out), err: Box::new(err), terminal: false }
+        Self { out: Output(Rc::new(RefCell::new(out))), err: Box::new(err), terminal: false }
+    }
+
+    /// Stdout, for a trace.
+    pub fn output(&self) -> Output {
+        self.out.clone()
     }
 
     /// True if stderr is a terminal: colours and a progress bar make sense.
@@ -61,6 +68,8 @@ impl Console {
     pub fn finish(&mut self, done: Result<Exit, Error>) -> Exit {
         match done {
             Ok(exit) => exit,
+            // the reader of a pipe has seen enough
+            Err(e @ Error::ClosedPipe) => e.exit(),
             Err(e) => {
                 self.error_text(&format!("error: {e}"));
                 e.exit()
@@ -75,6 +84,26 @@ impl Console {
             bar.set_style(style);
         }
         Progress { bar, wanted: self.terminal, shown: false }
+    }
+}
+
+/// A handle on stdout.
+#[derive(Clone)]
+pub struct Output(Rc<RefCell<dyn Write>>);
+
+impl std::fmt::Debug for Output {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Output")
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.0.borrow_mut().flush()
     }
 }
 

@@ -1,13 +1,33 @@
 //! The file system behind the library's two doors: NC programs and parameter lists.
 
 use kontur_interpreter::machine::ListFiles;
-use kontur_interpreter::source::{OpenError, Source, Sources};
+use kontur_interpreter::source::{MemorySources, OpenError, Source, Sources};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-/// NC programs in files: relative to the caller, then in the folders given.
+/// The name that stands for standard input or output in place of a file.
+pub const STANDARD: &str = "-";
+/// What messages call a program from standard input.
+pub const STANDARD_INPUT: &str = "<stdin>";
+
+/// The program on standard input. That can be read only once, a program is read again and again: by the check, by the
+/// run, and by every run of a sweep.
+///
+/// # Errors
+/// The system's.
+pub fn standard_input() -> io::Result<&'static MemorySources> {
+    static PROGRAM: OnceLock<MemorySources> = OnceLock::new();
+    if let Some(program) = PROGRAM.get() {
+        return Ok(program);
+    }
+    let mut text = Vec::new();
+    io::stdin().lock().read_to_end(&mut text)?;
+    Ok(PROGRAM.get_or_init(|| MemorySources::new().with(STANDARD_INPUT, text)))
+}
+
+/// NC programs in files: relative to the caller, then in the folders given; the program `-` is standard input.
 #[derive(Clone, Debug, Default)]
 pub struct ProgramFiles {
     /// Folders of global subroutines, in the order of search.
@@ -37,6 +57,14 @@ impl Source for ProgramFile {
 
 impl Sources for ProgramFiles {
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError> {
+        if caller.is_none() && name == STANDARD {
+            let error = |e: io::Error| OpenError {
+                name: STANDARD_INPUT.to_owned(),
+                reason: e.to_string(),
+                searched: Vec::new(),
+            };
+            return standard_input().map_err(error)?.open(STANDARD_INPUT, None);
+        }
         // programs written on Windows name their subroutines with backslashes
         let wanted =
             PathBuf::from(if caller.is_some() { name.replace('\\', "/") } else { name.to_owned() });

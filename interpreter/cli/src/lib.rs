@@ -61,6 +61,9 @@ pub enum Error {
         /// Program time of the last row in seconds.
         time_s: f64,
     },
+    /// Nobody reads stdout any more; nothing is left to say.
+    #[error("stdout is closed")]
+    ClosedPipe,
     /// A file could not be read or written.
     #[error("{what}: {source}")]
     Io {
@@ -82,7 +85,7 @@ impl Error {
         match self {
             Self::Usage(_) | Self::Lists | Self::Inputs => Exit::Usage,
             Self::Interrupted { .. } => Exit::Aborted,
-            Self::Io { .. } => Exit::Io,
+            Self::ClosedPipe | Self::Io { .. } => Exit::Io,
         }
     }
 }

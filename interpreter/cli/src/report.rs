@@ -14,6 +14,7 @@ mod svg;
 use crate::args::ReportArgs;
 use crate::console::Console;
 use crate::engine::{Engine, Request};
+use crate::files::STANDARD;
 use crate::summary::{Collector, State, Summary};
 use crate::vary::{combinations, settings};
 use crate::{Error, Exit};
@@ -31,6 +32,9 @@ pub fn report(
 ) -> Result<Exit, Error> {
     let output = match (&args.output, args.programs.first()) {
         (Some(output), _) => output.clone(),
+        (None, Some(program)) if program.as_os_str() == STANDARD => {
+            return Err(Error::Usage("a program from standard input needs -o FILE".to_owned()));
+        }
         (None, Some(program)) => program.with_extension("html"),
         (None, None) => return Err(Error::Usage("a program is expected".to_owned())),
     };

@@ -3,6 +3,7 @@
 use crate::args::{MessageForm, RunArgs, SummaryForm};
 use crate::console::{Console, Progress};
 use crate::engine::{Engine, OpenError, Source, Totals};
+use crate::files::STANDARD;
 use crate::interrupt::Running;
 use crate::summary::Collector;
 use crate::trace::Trace;
@@ -25,7 +26,7 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
     let mut source = engine
         .open(&args.simulation.request(&args.program))
         .map_err(|e| announce_lists(e, form, console))?;
-    let create = |path| Trace::create(path, &args.signals, args.decimate, source.facts());
+    let create = |path| Trace::create(path, &args.signals, args.decimate, source.facts(), console);
     let mut traces: Vec<Trace> =
         args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
     let mut summary = Collector::new(source.facts());
@@ -45,10 +46,16 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
     let mut totals = source.totals();
     totals.aborted |= interrupted.is_some();
     let summary = summary.finish(&totals);
-    match args.summary {
-        SummaryForm::Text => console.print(&summary.text())?,
-        SummaryForm::Json => console.print(&summary.json())?,
-        SummaryForm::None => {}
+    let text = match args.summary {
+        SummaryForm::Text => Some(summary.text()),
+        SummaryForm::Json => Some(summary.json()),
+        SummaryForm::None => None,
+    };
+    match text {
+        // stdout belongs to the trace
+        Some(text) if args.output.iter().any(|o| is_standard(o)) => console.error_text(&text),
+        Some(text) => console.print(&text)?,
+        None => {}
     }
     if let Some(e) = interrupted {
         return Err(e);
@@ -67,7 +74,9 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
 pub fn keep_apart(programs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error> {
     // a file that does not exist yet has no canonical name, and its given name serves
     let name = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let mut taken: Vec<PathBuf> = programs.iter().map(|p| name(p)).collect();
+    // standard input is not standard output
+    let files = programs.iter().filter(|p| !is_standard(p));
+    let mut taken: Vec<PathBuf> = files.map(|p| name(p)).collect();
     for output in outputs {
         let name = name(output);
         if taken.contains(&name) && !output.starts_with("/dev") {
@@ -77,6 +86,11 @@ pub fn keep_apart(programs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error
         taken.push(name);
     }
     Ok(())
+}
+
+/// True for `-`, standard input or output.
+fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == STANDARD
 }
 
 /// Drives a source to its end: every record to `take` and to the summary, every message to the console.

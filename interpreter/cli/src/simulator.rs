@@ -1,7 +1,7 @@
 //! The simulation of this workspace behind the commands' questions.
 
 use crate::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
-use crate::files::{Lists, ProgramFiles};
+use crate::files::{Lists, ProgramFiles, STANDARD, STANDARD_INPUT, standard_input};
 use crate::inputs;
 use kontur_interpreter::diag::{Diagnostic, Id, Severity};
 use kontur_interpreter::exec::{self, Access, External, Options, SkipLevels, Value};
@@ -35,7 +35,8 @@ pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenErro
             Machine::load(&Lists, &start_up.to_string_lossy(), &overrides)
         }
     };
-    let (machine, messages) = loaded.map_err(OpenError::Lists)?;
+    let (machine, mut messages) = loaded.map_err(OpenError::Lists)?;
+    messages.extend(given_twice(&request.settings));
     let unknown = |d: &Diagnostic| d.id == Id::Vendor(1001119);
     if request.strict && messages.iter().any(unknown) {
         let refused = messages.into_iter().map(|d| {
@@ -55,14 +56,43 @@ pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenErro
     Ok((machine, messages))
 }
 
+/// K-LIST-DUP for settings that a later one replaces.
+fn given_twice(settings: &[String]) -> impl Iterator<Item = Diagnostic> {
+    let key = |setting: &String| setting.split('=').next().unwrap_or_default().trim().to_owned();
+    let keys: Vec<String> = settings.iter().map(key).collect();
+    (1..keys.len()).filter_map(move |i| {
+        let twice = keys[..i].iter().any(|other| other.eq_ignore_ascii_case(&keys[i]));
+        let text = format!("--set {}: given twice, the last one wins", keys[i]);
+        twice.then(|| Diagnostic::new(Id::Kontur(28), text))
+    })
+}
+
+/// Folders of subroutines that do not exist would only be missed much later.
+fn folders(request: &Request) -> Result<(), OpenError> {
+    match request.path.iter().find(|folder| !folder.is_dir()) {
+        Some(folder) => {
+            Err(OpenError::Usage(format!("--path {}: no such folder", folder.display())))
+        }
+        None => Ok(()),
+    }
+}
+
 fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
-    for (name, _) in &request.start {
+    for (i, (name, _)) in request.start.iter().enumerate() {
+        if request.start[..i].iter().any(|(other, _)| other.eq_ignore_ascii_case(name)) {
+            return Err(OpenError::Usage(format!("--start: axis `{name}` twice")));
+        }
         if !machine.axes.iter().any(|a| a.name().eq_ignore_ascii_case(name)) {
             let known: Vec<&str> = machine.axes.iter().map(Axis::name).collect();
             let known = known.join(", ");
             return Err(OpenError::Usage(format!(
                 "--start: no axis `{name}`; the axes are {known}"
             )));
+        }
+    }
+    for (i, (name, _)) in request.external.iter().enumerate() {
+        if request.external[..i].iter().any(|(other, _)| other.eq_ignore_ascii_case(name)) {
+            return Err(OpenError::Usage(format!("--external: `{name}` twice")));
         }
     }
     let skip = request.skip.iter().fold(SkipLevels::NONE, |levels, level| levels.with(*level));
@@ -90,6 +120,10 @@ fn sources(request: &Request) -> ProgramFiles {
 
 /// A program that must be a readable file, or the command fails before it decodes anything.
 fn readable(program: &Path) -> Result<(), OpenError> {
+    if program.as_os_str() == STANDARD {
+        let read = standard_input().map(|_| ());
+        return read.map_err(|e| OpenError::Io("standard input".into(), e));
+    }
     let open = std::fs::File::open(program).and_then(|f| {
         if f.metadata()?.is_dir() { Err(std::io::ErrorKind::IsADirectory.into()) } else { Ok(()) }
     });
@@ -108,7 +142,11 @@ fn facts(request: &Request, machine: &Machine, simulation: &Simulation) -> Facts
         settling_s: stop(i).settling_s,
     });
     Facts {
-        program: request.program.display().to_string(),
+        program: if request.program.as_os_str() == STANDARD {
+            STANDARD_INPUT.to_owned()
+        } else {
+            request.program.display().to_string()
+        },
         machine: machine.name.clone(),
         cycle_us: machine.cycle.us(),
         axes: axes.collect(),
@@ -151,6 +189,7 @@ impl Source for Run {
 impl Engine for Kontur {
     fn open(&self, request: &Request) -> Result<Box<dyn Source>, OpenError> {
         readable(&request.program)?;
+        folders(request)?;
         let (machine, mut messages) = machine(request)?;
         let options = options(request, &machine)?;
         let machine = Arc::new(machine);
@@ -191,6 +230,7 @@ impl Engine for Kontur {
         report: &mut dyn FnMut(Diagnostic),
     ) -> Result<(), OpenError> {
         readable(&request.program)?;
+        folders(request)?;
         let (machine, messages) = machine(request)?;
         messages.into_iter().chain(machine.chains().1).for_each(&mut *report);
         let options = options(request, &machine)?;

@@ -10,12 +10,12 @@ const PADDING: usize = 8;
 /// Single-sided amplitude spectrum under a Hann window: a sine of amplitude 1 that lasts the whole record has the height
 /// 1. The mean of the windowed record is taken out before.
 #[derive(Clone, Debug)]
-pub(crate) struct Spectrum {
+pub(crate) struct AmplitudeSpectrum {
     step_hz: f64,
     amplitudes: Vec<f64>,
 }
 
-impl Spectrum {
+impl AmplitudeSpectrum {
     /// The spectrum of samples taken every `cycle_s` seconds.
     pub(crate) fn of(samples: &[f64], cycle_s: f64) -> Self {
         let n = samples.len().max(1);
@@ -61,7 +61,7 @@ mod tests {
             |f_hz: f64, k: u32| libm::sin(std::f64::consts::TAU * f_hz * 1e-3 * f64::from(k));
         let samples: Vec<f64> =
             (0..1178).map(|k| 4.0 + 0.81 * wave(53.1, k) + 0.02 * wave(11.0, k)).collect();
-        let spectrum = Spectrum::of(&samples, 1e-3);
+        let spectrum = AmplitudeSpectrum::of(&samples, 1e-3);
         let [f, a] = spectrum.peak((50.0, 56.0)).unwrap();
         assert!((f - 53.1).abs() < 0.1 && (a - 0.81).abs() < 1e-3, "{f} {a}");
         let [f, a] = spectrum.peak((9.5, 12.5)).unwrap();

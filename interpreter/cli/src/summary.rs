@@ -87,7 +87,7 @@ pub struct Summary {
     pub blocks: u64,
     /// Length of the path in mm.
     pub path_length_mm: f64,
-    /// Deepest dip of the path speed between two rests; none if it never dipped.
+    /// Deepest dip of the path speed without a corner; none if it never dipped.
     pub speed_ripple: Option<SpeedRipple>,
     /// Path axes in channel order, then spindles.
     pub axes: Vec<AxisSummary>,
@@ -125,7 +125,7 @@ impl Collector {
             cycles: 0,
             worst: (0.0, 0, 0, 0, None),
             limits: [0; SpeedLimit::ALL.len()],
-            ripple: ripple::Collector::default(),
+            ripple: ripple::Collector::new(facts),
             messages: Vec::new(),
             omitted: 0,
         }
@@ -151,7 +151,7 @@ impl Collector {
         {
             self.limits[i] += record.k.saturating_sub(before);
         }
-        self.ripple.add(record);
+        self.ripple.add(record, self.facts.cycle_us);
         self.last = Some((record.k, record.path.s_mm));
         self.cycles += 1;
     }
@@ -261,7 +261,8 @@ impl Summary {
             let percent = 100.0 * ripple.ratio;
             writeln!(
                 out,
-                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at line {line}"
+                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at line {line} (corners above {} deg left out)",
+                ripple::CORNER_DEG
             )?;
         }
         if let Some(worst) = &self.max_contour_error {

@@ -11,7 +11,7 @@ mod picture;
 
 use crate::console::Console;
 use crate::engine::{Engine, OpenError, Request};
-use crate::spectrum::{MOST_SAMPLES, Spectrum};
+use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
 use crate::summary::{Collector, State, Summary};
 use crate::table::Table;
 use crate::trace::columns::Column;
@@ -52,10 +52,12 @@ pub fn sweep(args: &SweepArgs, engine: &dyn Engine, console: &mut Console) -> Re
     let combinations = combinations(&args.vary)?;
     let outcomes = outcomes(args, &combinations, engine, console)?;
     let rows = columns::rows(args, &combinations, &outcomes)?;
-    if args.output.is_empty() {
+    let (standard, files): (Vec<_>, Vec<_>) =
+        args.output.iter().partition(|o| o.as_os_str() == crate::files::STANDARD);
+    if args.output.is_empty() || !standard.is_empty() {
         console.print(&rows.table().csv())?;
     }
-    for output in &args.output {
+    for output in files {
         write(output, args, &combinations, &outcomes, &rows)?;
     }
     let all_aborted = outcomes.iter().all(|o| o.summary.state == State::Aborted);
@@ -171,7 +173,8 @@ fn one(args: &SweepArgs, request: &Request, engine: &dyn Engine) -> Result<Outco
     let amplitudes = wanted.iter().map(|(amplitude, _, samples)| {
         let whole =
             amplitude.window_s.is_none_or(|(_, end)| summary.cycles() as f64 * cycle_s > end);
-        let peak = Spectrum::of(samples, cycle_s).peak(amplitude.band_hz).filter(|_| whole);
+        let peak =
+            AmplitudeSpectrum::of(samples, cycle_s).peak(amplitude.band_hz).filter(|_| whole);
         peak.map_or(f64::NAN, |p| p[1])
     });
     let amplitudes = amplitudes.collect();

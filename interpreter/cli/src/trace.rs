@@ -9,7 +9,9 @@ pub mod parquet;
 pub use columns::DEFAULT_SIGNALS;
 
 use crate::Error;
+use crate::console::Console;
 use crate::engine::{Facts, Source};
+use crate::files::STANDARD;
 use kontur_interpreter::record::CycleRecord;
 use std::fs::File;
 use std::io;
@@ -31,11 +33,17 @@ enum Writer {
 }
 
 impl Trace {
-    /// Creates the file and writes the header.
+    /// Creates the file, `-` is stdout, and writes the header.
     ///
     /// # Errors
     /// [`Error::Usage`] for an unknown signal, [`Error::Io`] if the file cannot be created.
-    pub fn create(path: &Path, signals: &str, decimate: u64, facts: &Facts) -> Result<Self, Error> {
+    pub fn create(
+        path: &Path,
+        signals: &str,
+        decimate: u64,
+        facts: &Facts,
+        console: &Console,
+    ) -> Result<Self, Error> {
         let columns = columns::select(signals, facts).map_err(Error::Usage)?;
         let is_parquet = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"));
         #[cfg(not(feature = "parquet"))]
@@ -44,6 +52,12 @@ impl Trace {
             return Err(Error::Usage(message));
         }
         let to_error = |e| Error::io(path.display().to_string(), e);
+        let decimate = decimate.max(1);
+        if path.as_os_str() == STANDARD {
+            let target = csv::Target::Standard(console.output());
+            let writer = Writer::Csv(csv::CsvWriter::new(target, csv::Rows::new(columns, facts)));
+            return Ok(Self { path: "stdout".into(), writer, decimate });
+        }
         let file = File::create(path).map_err(to_error)?;
         let writer = match is_parquet {
             #[cfg(feature = "parquet")]
@@ -51,9 +65,12 @@ impl Trace {
                 let writer = parquet::ParquetWriter::new(file, columns, facts).map_err(to_error)?;
                 Writer::Parquet(Box::new(writer))
             }
-            _ => Writer::Csv(csv::CsvWriter::new(file, csv::Rows::new(columns, facts))),
+            _ => Writer::Csv(csv::CsvWriter::new(
+                csv::Target::File(file),
+                csv::Rows::new(columns, facts),
+            )),
         };
-        Ok(Self { path: path.to_owned(), writer, decimate: decimate.max(1) })
+        Ok(Self { path: path.to_owned(), writer, decimate })
     }
 
     /// Adds a record, if it is one of every `decimate`.
@@ -69,27 +86,30 @@ impl Trace {
             #[cfg(feature = "parquet")]
             Writer::Parquet(w) => w.write(record),
         };
-        written.map_err(|e| self.error(e))
+        written.map_err(|e| error(&self.path, e))
     }
 
     /// Brings everything to the file.
     ///
     /// # Errors
     /// As [`Trace::write`].
-    pub fn finish(self, source: &dyn Source) -> Result<(), Error> {
-        let name = self.path.display().to_string();
+    pub fn finish(mut self, source: &dyn Source) -> Result<(), Error> {
         let finished = match self.writer {
-            Writer::Csv(mut w) => w.flush(),
+            Writer::Csv(ref mut w) => w.flush(),
             #[cfg(feature = "parquet")]
             Writer::Parquet(w) => w.finish(source.facts(), &source.totals()),
         };
         // only Parquet has a place for what is known at the end
         #[cfg(not(feature = "parquet"))]
         let _ = source;
-        finished.map_err(|e| Error::io(name, e))
+        finished.map_err(|e| error(&self.path, e))
     }
+}
 
-    fn error(&self, e: io::Error) -> Error {
-        Error::io(self.path.display().to_string(), e)
+fn error(path: &Path, e: io::Error) -> Error {
+    if e.kind() == io::ErrorKind::BrokenPipe {
+        Error::ClosedPipe
+    } else {
+        Error::io(path.display().to_string(), e)
     }
 }

@@ -71,8 +71,13 @@ impl Vary {
 /// Every combination of values, the last parameter changing fastest: for each an index into the values of each parameter.
 ///
 /// # Errors
-/// [`Error::Usage`] for too many of them.
+/// [`Error::Usage`] for too many of them, or a parameter given twice.
 pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
+    for (i, v) in vary.iter().enumerate() {
+        if vary[..i].iter().any(|other| other.key.eq_ignore_ascii_case(&v.key)) {
+            return Err(Error::Usage(format!("--vary: {} twice", v.key)));
+        }
+    }
     let count = vary.iter().try_fold(1_usize, |n, v| n.checked_mul(v.values.len()));
     if count.is_none_or(|n| n > MOST_COMBINATIONS) {
         let text = format!("--vary: more than {MOST_COMBINATIONS} combinations");
@@ -121,7 +126,11 @@ mod tests {
         assert_eq!(all.len(), 6);
         assert_eq!(settings(&vary, &all[1]), ["X.a=1", "Y.b=6"]);
         assert_eq!(settings(&vary, &all[5]), ["X.a=2", "Y.b=7"]);
-        let many: Vec<Vary> = vec!["X.a=1..900".parse().unwrap(); 2];
-        assert!(combinations(&many).is_err());
+        let error = |texts: [&str; 2]| {
+            let vary: Vec<Vary> = texts.iter().map(|text| text.parse().unwrap()).collect();
+            combinations(&vary).unwrap_err().to_string()
+        };
+        assert!(error(["X.a=1..900", "Y.a=1..900"]).contains("more than"));
+        assert!(error(["X.a=1", "x.A=2"]).contains("twice"));
     }
 }

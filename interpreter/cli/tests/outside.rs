@@ -1,6 +1,6 @@
 //! The command line from outside, on an engine without a simulation: files, forms, exit codes.
 
-#![allow(clippy::unwrap_used, reason = "a test that fails here has failed")]
+#![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
 
 mod synthetic;
 
@@ -92,6 +92,21 @@ fn run_writes_trace_and_summary() {
         .unwrap();
     assert_eq!(cell(row, "contour_err_mm"), format!("{:.7}", most["mm"].as_f64().unwrap()));
     assert_eq!(cell(row, "line"), most["line"].to_string());
+}
+
+#[test]
+fn a_trace_on_stdout_leaves_the_summary_to_stderr() {
+    let f = Folder::new();
+    f.call(&["run", "@corner.nc", "-o", "@a.csv"]);
+    let (exit, out, err) = f.call(&["run", "@corner.nc", "-o", "-"]);
+    assert_eq!((exit, out), (Exit::Finished, f.read("a.csv")));
+    assert!(err.contains("corner.nc  finished"), "{err}");
+    let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "-", "-o", "-"]);
+    assert_eq!((exit, err.contains("used twice")), (Exit::Usage, true));
+    let vary = ["sweep", "@corner.nc", "--vary", "X.getriebe[0].kv=1000,2000"];
+    let words = [&vary[..], &["-o", "-"]].concat();
+    assert_eq!(f.call(&words).1, f.call(&vary).1);
+    assert!(!PathBuf::from("-").exists());
 }
 
 #[test]
@@ -510,6 +525,12 @@ fn sweep_of_aborted_runs_and_wrong_words() {
 #[test]
 fn report_draws_signals_and_variants() {
     let f = Folder::new();
+    // beyond the end of the run, and beyond what the cycle can show, there is nothing to draw
+    for part in [["--window", "7000..9000"], ["--spectrum", "600..900"]] {
+        let words = ["report", "@corner.nc", "--signals", "set", "-o", "@a.svg"];
+        let (exit, _, err) = f.call(&[&words[..], &part].concat());
+        assert_eq!((exit, err.contains(part[0])), (Exit::Usage, true), "{err}");
+    }
     let words = |name: &'static str| {
         [
             "report",

@@ -29,7 +29,7 @@ pub struct Entry {
     pub cause: &'static str,
 }
 
-#[allow(clippy::too_many_arguments, reason = "one table row, read as a line")]
+#[expect(clippy::too_many_arguments, reason = "one table row, read as a line")]
 const fn row(
     id: Id,
     name: &'static str,
@@ -191,6 +191,7 @@ pub const ENTRIES: &[Entry] = &[
     row(Vendor(70099), "", Error, 5, 6, 11, "setpoint jump at enable too large", "00108"),
     row(Vendor(70195), "", Error, 7, 6, 11, "software limit cannot be kept (setpoint monitoring)", "00520/00521, braking with 00003"),
     row(Vendor(70269), "", Error, 5, 7, 11, "no command velocity in the telegram", "00320"),
+    row(Vendor(70345), "", Error, 5, 7, 11, "axis without position control that is no spindle", "P-AXIS-00320"),
     row(Vendor(70348), "", Warning, 1, 1, 11, "acceleration (or jerk) feedforward delay too large, set to 0", "P-AXIS-00390, P-AXIS-00547"),
     row(Vendor(70349), "", Warning, 1, 1, 11, "velocity feedforward delay too large, set to 0", "P-AXIS-00389"),
     row(Vendor(70350), "", Warning, 1, 1, 11, "additive velocity not in the process data", "P-AXIS-00223 ADD_VEL"),
@@ -263,7 +264,7 @@ pub const ENTRIES: &[Entry] = &[
     row(Kontur(5), "K-PERCENT", Error, 2, 3, 0, "`%` head malformed", ""),
     row(Kontur(6), "K-NESTING", Error, 2, 3, 0, "call or control nesting beyond the limit", ""),
     row(Kontur(7), "K-DUPKEY", Error, 2, 3, 0, "key twice in one command (no vendor ID known)", ""),
-    row(Kontur(8), "K-DUPGROUP", Error, 2, 3, 0, "two G functions of one group (no vendor ID known)", ""),
+    row(Kontur(8), "K-DUPGROUP", Error, 2, 3, 0, "two functions of one group (no vendor ID known)", ""),
     row(Kontur(9), "K-RANGE", Error, 2, 3, 0, "value outside the range of a command key", ""),
     row(Kontur(10), "K-RADIUS-TOO-SMALL", Error, 2, 3, 0, "R smaller than half the chord", ""),
     row(Kontur(11), "K-SQRT", Error, 2, 3, 0, "root of a negative number", ""),
@@ -313,6 +314,7 @@ pub const ENTRIES: &[Entry] = &[
     row(Kontur(76), "K-INPUT", Error, 3, 3, 0, "file of real-time inputs wrong or not readable", "--input FILE: CSV with the columns t_s and signals, times rising"),
     row(Kontur(77), "K-INPUT-NOEFFECT", Warning, 1, 1, 0, "real-time input without effect", "the message says what is off in the machine"),
     row(Kontur(78), "K-LIST-ADVICE", Note, 1, 1, 2, "list value outside what the documents recommend", "a recommendation: nothing is changed"),
+    row(Kontur(79), "K-LOOP", Note, 1, 1, 2, "position loop simulated in another way than the list says", "P-AXIS-00320: loop in the drive, or none"),
     row(Kontur(80), "K-AX-DEV", Warning, 1, 1, 1, "tolerance AX_DEV could not be kept", "axes with unequal kernels, or a corner that is final already"),
     row(Kontur(81), "K-MSG", Note, 1, 1, 1, "message of the program (#MSG)", ""),
     row(Kontur(82), "K-INTERNAL", Error, 6, 8, 0, "internal error of kontur", ""),

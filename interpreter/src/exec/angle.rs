@@ -61,7 +61,7 @@ pub(super) fn to_deg(rad: f64) -> f64 {
 }
 
 #[cfg(test)]
-#[allow(clippy::float_cmp, reason = "exact values are the point")]
+#[expect(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
     use super::{cos_deg, sin_deg, tan_deg};
 

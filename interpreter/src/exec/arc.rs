@@ -169,7 +169,7 @@ pub(super) fn with_turns(sweep_rad: f64, height: f64, pitch: f64) -> f64 {
 }
 
 #[cfg(test)]
-#[allow(clippy::float_cmp, reason = "exact values are the point")]
+#[expect(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
     use super::{Arc, ArcError, by_centre, by_radius, with_turns};
     use crate::machine::ArcCentre;

@@ -6,6 +6,7 @@ use super::commands::{Key, Kind, arguments};
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome, own};
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
+use std::mem::discriminant;
 
 /// What one item of a spindle bracket means.
 enum SpindleItem {
@@ -98,6 +99,13 @@ impl Decoder {
         if let (Some(_), Some((_, span))) = (weights.next(), weights.next()) {
             return Err(Fault::vendor(21738, "G136 twice for one spindle", *span));
         }
+        for (i, (item, span)) in items.iter().enumerate() {
+            let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
+            if items[..i].iter().any(same) {
+                let text = "two words of a spindle bracket that set the same";
+                return Err(Fault::kontur(own::DUPLICATE_GROUP, text, *span));
+            }
+        }
         for (item, span) in items {
             self.spindle_action(spindle, &item, span)?;
         }
@@ -112,7 +120,9 @@ impl Decoder {
         };
         let (word, value) = match &item.kind {
             ItemKind::Flag(word) => match word.split_number() {
-                Some((name, number)) if name.eq_ignore_ascii_case("REV") => {
+                Some((name, number))
+                    if ["REV", "SPEED", "POS"].iter().any(|n| name.eq_ignore_ascii_case(n)) =>
+                {
                     (name.to_ascii_uppercase(), Some(number))
                 }
                 _ => (word.text.to_ascii_uppercase(), None),

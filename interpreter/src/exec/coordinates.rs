@@ -350,7 +350,7 @@ impl Coordinates {
 }
 
 #[cfg(test)]
-#[allow(clippy::float_cmp, reason = "exact values are the point")]
+#[expect(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
     use super::{Coordinates, Rotation, Target};
     use kontur_motion::axis::AxisVec;

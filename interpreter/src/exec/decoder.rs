@@ -49,7 +49,7 @@ pub(super) struct LastArc {
 
 /// State of a running program.
 #[derive(Debug)]
-#[allow(clippy::struct_excessive_bools, reason = "independent conditions of the block in work")]
+#[expect(clippy::struct_excessive_bools, reason = "independent conditions of the block in work")]
 pub(super) struct Decoder {
     pub(super) machine: Arc<Machine>,
     pub(super) identity_trafo: bool,

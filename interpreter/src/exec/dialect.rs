@@ -15,7 +15,10 @@ pub(super) fn unknown_g(number: u32) -> Option<&'static str> {
             "reference points of other controls do not exist here; G74 homes, G53 cancels offsets"
         }
         43 | 44 | 49 => "tool length is selected by D here (D0 cancels)",
-        7 | 64 => "contouring is G261 with #CONTOUR MODE here",
+        7 => {
+            "G07 of other controls is diameter programming (G51 here) or cylindrical interpolation (#CYL here); neither is simulated"
+        }
+        64 => "contouring is G261 with #CONTOUR MODE here",
         15 | 16 => "polar coordinates of other controls do not exist here",
         50 => "#SCALE scales here",
         65..=67 => "subroutines are called by L, LL and L CYCLE here",

@@ -138,6 +138,7 @@ impl Decoder {
                 self.modal.contouring = on;
                 self.modal.exact_stop &= !on;
             }
+            Act::LateBraking(late) => self.modal.late_braking = late,
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
             Act::CentreCorrection(on) => self.modal.centre_correction = on,
             Act::WeightOfAll(weight) => {

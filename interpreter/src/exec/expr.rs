@@ -99,7 +99,6 @@ pub(super) fn as_number(value: &Value, span: Span) -> Outcome<f64> {
 /// `x` rounded, if it is within the range.
 pub(super) fn whole(x: f64, low: u32, high: u32) -> Option<u32> {
     let rounded = x.round();
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within u32")]
     (rounded >= f64::from(low) && rounded <= f64::from(high)).then_some(rounded as u32)
 }
 
@@ -159,7 +158,6 @@ pub(super) fn finite(x: f64, span: Span) -> Outcome<f64> {
 /// Bit pattern of a number: fractions are cut, negative numbers count as signed 32 bits.
 pub(super) fn bits(x: f64, span: Span) -> Outcome<u32> {
     let cut = x.trunc();
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
     if cut >= 0.0 && cut <= f64::from(u32::MAX) {
         Ok(cut as u32)
     } else if cut < 0.0 && cut >= f64::from(i32::MIN) {

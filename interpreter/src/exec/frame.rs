@@ -87,7 +87,7 @@ impl Frame {
 }
 
 #[cfg(test)]
-#[allow(clippy::float_cmp, reason = "exact values are the point")]
+#[expect(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
     use super::Frame;
 

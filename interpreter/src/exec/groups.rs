@@ -12,6 +12,7 @@ pub(super) enum Group {
     FeedInterpolation,
     CompensationFeed,
     CornerDeceleration,
+    Deceleration,
     Plane,
     Mirror,
     CompensationTransition,
@@ -33,6 +34,7 @@ pub(super) enum Group {
     CentreCorrection,
     Manual,
     Insertion,
+    Feedforward,
     /// No group: several may share a block.
     None,
 }
@@ -68,6 +70,7 @@ impl Group {
             Self::FeedInterpolation => "feed interpolation",
             Self::CompensationFeed => "feed of tool radius compensation",
             Self::CornerDeceleration => "corner deceleration",
+            Self::Deceleration => "deceleration to a lower feed",
             Self::Plane => "plane",
             Self::Mirror => "mirroring",
             Self::CompensationTransition => "transitions of tool radius compensation",
@@ -89,6 +92,7 @@ impl Group {
             Self::CentreCorrection => "centre correction",
             Self::Manual => "manual mode",
             Self::Insertion => "insertion",
+            Self::Feedforward => "feedforward",
             Self::None => "",
         }
     }
@@ -121,6 +125,10 @@ pub(super) enum Act {
     ExactStop(bool),
     ContourOnce,
     Contour(bool),
+    /// G09.
+    EarlyBrakingOnce,
+    /// G901 (true), G900.
+    LateBraking(bool),
     Compensation(Compensation),
     /// G25, G26.
     Corners(Corners),
@@ -184,9 +192,7 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
     Row { number, group, act, value: ValueRule::Required }
 }
 
-const FEED_CHANGE: &str =
-    "a lower feed is reached in front of its block, a higher one behind its start, as at start";
-const LATE_BRAKING: &str = "braking to a lower feed that begins behind the start of its block is not simulated: it ends in front of it";
+const FEED_CHANGE: &str = "a higher feed is reached behind the start of its block, as at start";
 const FEED_HOLD: &str = "weights of feed hold are not simulated";
 const THREADS: &str = "thread cutting and tapping";
 const TURNING: &str = "turning";
@@ -204,7 +210,7 @@ const ROWS: &[Row] = &[
     Row { number: 4, group: Group::Path, act: Act::Dwell, value: ValueRule::Optional },
     g(5, Group::None, Act::Unsupported("tangential selection of tool radius compensation")),
     g(8, Group::FeedInterpolation, Act::Ignored(FEED_CHANGE)),
-    g(9, Group::None, Act::Ignored(FEED_CHANGE)),
+    g(9, Group::None, Act::EarlyBrakingOnce),
     g(10, Group::CompensationFeed, Act::Nothing),
     g(11, Group::CompensationFeed, Act::Unsupported("adapted feed of tool radius compensation")),
     g(12, Group::CornerDeceleration, Act::Nothing),
@@ -268,9 +274,9 @@ const ROWS: &[Row] = &[
     g(132, Group::None, Act::WeightOfAxes(Weight::Ramp)),
     v(133, Group::None, Act::WeightOfAll(Weight::Ramp)),
     v(134, Group::None, Act::WeightOfAll(Weight::GeometricRamp)),
-    g(135, Group::None, Act::Feedforward(true)),
+    g(135, Group::Feedforward, Act::Feedforward(true)),
     g(136, Group::None, Act::FeedforwardWeights),
-    g(137, Group::None, Act::Feedforward(false)),
+    g(137, Group::Feedforward, Act::Feedforward(false)),
     g(138, Group::CompensationSelection, Act::Unsupported("direct selection of tool radius compensation")),
     g(139, Group::CompensationSelection, Act::PerpendicularSelection(false)),
     g(140, Group::Masking, Act::Nothing),
@@ -314,8 +320,8 @@ const ROWS: &[Row] = &[
     g(351, Group::Mirror, Act::MirrorAxes),
     g(359, Group::Transition, Act::ExactStop(false)),
     g(360, Group::Transition, Act::ExactStop(true)),
-    g(900, Group::None, Act::Ignored(FEED_CHANGE)),
-    g(901, Group::None, Act::Ignored(LATE_BRAKING)),
+    g(900, Group::Deceleration, Act::LateBraking(false)),
+    g(901, Group::Deceleration, Act::LateBraking(true)),
 ];
 
 /// Highest number of the data format; above it 20107, unassigned numbers below it are 20131.

@@ -87,7 +87,7 @@ pub(super) enum Corners {
 
 /// Everything that G words and F, R, I keep.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(clippy::struct_excessive_bools, reason = "each is a group of two words")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a group of two words")]
 pub(super) struct Modal {
     pub(super) path: PathMode,
     pub(super) plane: Plane,
@@ -98,6 +98,8 @@ pub(super) struct Modal {
     pub(super) feeds: [Option<FeedWord>; 4],
     pub(super) exact_stop: bool,
     pub(super) contouring: bool,
+    /// G901: a lower feed of the next block may be reached behind the end of the block.
+    pub(super) late_braking: bool,
     /// G161: centres in coordinates of the program.
     pub(super) centre_absolute: bool,
     /// G165.
@@ -135,6 +137,7 @@ impl Modal {
             feeds: [None; 4],
             exact_stop: false,
             contouring: false,
+            late_braking: false,
             centre_absolute: false,
             centre_correction: true,
             radius_mm: None,

@@ -38,7 +38,7 @@ pub(super) fn two_readings(span: Span) -> Box<Fault> {
 }
 
 #[cfg(test)]
-#[allow(clippy::float_cmp, reason = "exact values are the point")]
+#[expect(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
     use super::{Sign, unwrapped};
 

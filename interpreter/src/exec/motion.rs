@@ -17,7 +17,7 @@ use super::words::{GWord, Words};
 use crate::diag::ValueKind;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::{Block, Feed};
+use kontur_motion::block::{Block, Feed, SlopeKind};
 use kontur_motion::path::{LinePath, Path, Tilt};
 
 /// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
@@ -70,9 +70,13 @@ impl Decoder {
             self.note(Fault::kontur(own::ODD, text, *span).warning());
         }
         let rotates = takes_axes.is_some_and(|g| g.row.act == Act::Rotate);
-        if let (Some((radius, _)), false) = (words.radius, rotates) {
-            // kept for the next arc
+        if let (Some((radius, span)), false) = (words.radius, rotates) {
+            // R alone is for the arcs that follow; beside G02 or G03 it looks like one
             self.modal.radius_mm = Some(radius * self.unit_mm());
+            if words.group(Group::Path).is_some() {
+                let text = "R without an end point moves nothing: it is kept for the next arc";
+                self.note(Fault::kontur(own::ODD, text, span).warning());
+            }
         }
         if let Some((_, span)) = words.end_feed {
             let text = "E has no meaning without motion";
@@ -119,6 +123,17 @@ impl Decoder {
             self.note(Fault::vendor(20685, text, span).with(|d| d.axis(number, name)));
         }
         self.dwell_for(seconds, span)
+    }
+
+    /// True if braking to a lower feed may begin behind the end of this block: G901 without G09 (source: TF5200
+    /// programming manual, G08/G09/G900/G901).
+    fn late_braking(&mut self, early_once: bool, span: Span) -> bool {
+        let late = self.modal.late_braking && !early_once;
+        if late && self.modal.slope.kind == SlopeKind::Hsc {
+            let text = "G901 has no effect with the slope HSC";
+            self.note_once("G901 HSC", Fault::kontur(own::IGNORED, text, span));
+        }
+        late
     }
 
     /// Waits for a time at rest; 20752 outside the range.
@@ -181,8 +196,13 @@ impl Decoder {
                 let text = "I, J and K have no meaning in a straight motion";
                 self.note(Fault::kontur(own::ODD, text, *at).warning());
             }
-            if let Some((radius, _)) = words.radius {
+            if let Some((radius, at)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
+                // of a block with an error, such as a cycle of another control, R is the least
+                if !self.failed() {
+                    let text = "R has no meaning in a straight motion: it is kept for the next arc";
+                    self.note(Fault::kontur(own::ODD, text, at).warning());
+                }
             }
             LinePath::new(self.on_path(&start), self.on_path(&end), &self.feed_axes).map(Path::Line)
         };
@@ -208,6 +228,7 @@ impl Decoder {
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
+        let late_braking = self.late_braking(once(Act::EarlyBrakingOnce), span);
         let (plane, tilt, compensation) = self.plane_and_compensation(span)?;
         // of a block with an error nothing moves; what was said before it is still said
         if self.failed() && !self.checking {
@@ -222,6 +243,7 @@ impl Decoder {
                 feed_ratio,
                 full_override: full,
                 end_velocity_mm_s,
+                late_braking,
                 slope: self.modal.slope,
                 dynamics: self.dynamics(rapid),
                 tolerance: self.shaping.tolerance(),

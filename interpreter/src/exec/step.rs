@@ -24,7 +24,7 @@ pub struct SourceRef {
 
 /// One step of the program.
 #[derive(Clone, Debug)]
-#[allow(clippy::large_enum_variant, reason = "steps are handed over one at a time")]
+#[expect(clippy::large_enum_variant, reason = "steps are handed over one at a time")]
 pub enum Step {
     /// A motion for the planner.
     Motion {

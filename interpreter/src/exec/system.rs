@@ -27,17 +27,17 @@ struct Path<'a> {
     span: Span,
 }
 
-#[allow(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
+#[expect(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
 fn number(x: f64) -> Outcome<Value> {
     Ok(Value::Number(x))
 }
 
-#[allow(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
+#[expect(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
 fn truth(b: bool) -> Outcome<Value> {
     Ok(Value::truth(b))
 }
 
-#[allow(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
+#[expect(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
 fn text(s: &str) -> Outcome<Value> {
     Ok(Value::Text(s.into()))
 }

@@ -259,7 +259,6 @@ pub(super) fn kind_of(parameters: &Parameters) -> AxisKind {
 }
 
 /// A list number that is a whole number of the type UNS32.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked before")]
 pub(super) fn integer(x: Option<f64>) -> Option<u32> {
     x.filter(|x| (0.0..=f64::from(u32::MAX)).contains(x)).map(|x| x as u32)
 }

@@ -65,7 +65,7 @@ pub struct ArcCentre {
 
 /// The channel with its start values.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(clippy::struct_excessive_bools, reason = "one switch per parameter of the list")]
+#[expect(clippy::struct_excessive_bools, reason = "one switch per parameter of the list")]
 pub struct Channel {
     /// Slope at program start (P-CHAN-00071), default STEP.
     pub slope: SlopeKind,

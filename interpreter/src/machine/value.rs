@@ -64,11 +64,6 @@ pub fn read(raw: Raw, text: &str) -> Result<Value, BadValue> {
                     Some(bits) => sum |= bits,
                     None => match integer(raw, part.trim(), Some(names))? {
                         // flags stay below 2^32, so the conversion is exact
-                        #[allow(
-                            clippy::cast_possible_truncation,
-                            clippy::cast_sign_loss,
-                            reason = "limited to u32"
-                        )]
                         Value::Number(x) => sum |= x as u32,
                         Value::Text(_) => {}
                     },
@@ -163,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    #[allow(clippy::float_cmp, reason = "list numbers are exact")]
+    #[expect(clippy::float_cmp, reason = "list numbers are exact")]
     fn numbers_in_every_form_of_the_documents() {
         assert_eq!(num(Raw::Uns32, "200000"), 200000.0);
         assert_eq!(num(Raw::Uns16, "0x101"), 257.0);
@@ -185,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    #[allow(clippy::float_cmp, reason = "list numbers are exact")]
+    #[expect(clippy::float_cmp, reason = "list numbers are exact")]
     fn names_and_flags() {
         let kind = table::by_id("P-AXIS-00204").unwrap().raw;
         assert_eq!(num(kind, "bandstop"), 4.0);

@@ -14,6 +14,8 @@ pub struct Infeasible {
     pub needed_mm: f64,
 }
 
+/// Halvings of the speed at which the acceleration stops between two legs of braking.
+const HALVINGS: u32 = 50;
 /// How far (relative) the boundary velocities may miss the length before a plan is refused.
 pub(super) const LENGTH_SLACK: f64 = 1e-9;
 
@@ -109,6 +111,47 @@ impl SlopeLimits {
             Self::Step(l) => l.plan(v0, ve, vf, length),
             Self::Ramped(l) => l.plan(v0, ve, vf, length),
         }
+    }
+}
+
+impl SlopeLimits {
+    /// As [`Self::plan`] for a `v0` above the feed `vf >= ve`: brakes to the feed at once, holds it and goes on to `ve`
+    /// (G901).
+    ///
+    /// Where the acceleration has to stop at the feed and that does not fit, it stops at a lower speed.
+    ///
+    /// # Errors
+    /// [`Infeasible`] if the change from `v0` to `ve` alone needs more than `length`, or no speed is allowed.
+    pub fn plan_from_above(
+        &self,
+        v0: f64,
+        ve: f64,
+        vf: f64,
+        length: f64,
+    ) -> Result<SpanProfile, Infeasible> {
+        let distance = |hold: f64| self.down_distance(v0, hold) + self.down_distance(hold, ve);
+        let mut hold = vf.min(v0);
+        if distance(hold) > length {
+            let (mut low, mut high) = (ve, hold);
+            for _ in 0..HALVINGS {
+                let mid = 0.5 * (low + high);
+                if distance(mid) > length { high = mid } else { low = mid }
+            }
+            hold = low;
+        }
+        let braking = self.down_distance(v0, hold);
+        let parts = || {
+            let first = self.plan(v0, hold, v0, braking).ok()?;
+            let second = self.plan(hold, ve, hold, length - braking).ok()?;
+            SpanProfile::brake_first(first, second)
+        };
+        // one leg, but for rounding, has no room for the other one
+        if (hold > ve || hold > 0.0 && braking < length)
+            && let Some(profile) = parts()
+        {
+            return Ok(profile);
+        }
+        self.plan(v0, ve, v0, length)
     }
 }
 

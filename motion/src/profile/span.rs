@@ -79,7 +79,15 @@ pub struct SpanProfile(Shape);
 #[derive(Clone, Debug, PartialEq)]
 enum Shape {
     Legs(Box<Legs>),
+    /// Braking to the feed first, then the rest of the span.
+    BrakeFirst(Box<[Legs; 2]>),
     Chain(Chain),
+}
+
+/// The part of two in a row in which `at` lies, with what lies before it.
+fn part(parts: &[Legs; 2], at: f64, size: impl Fn(&Legs) -> f64) -> (&Legs, f64, f64) {
+    let [first, second] = parts;
+    if at < size(first) { (first, 0.0, 0.0) } else { (second, first.length, first.duration()) }
 }
 
 /// Speed-up, cruise and braking.
@@ -107,6 +115,16 @@ impl SpanProfile {
         Self(Shape::Legs(Box::new(Legs::assemble(span, distance, legs))))
     }
 
+    /// Two profiles in a row, the second one from the speed at which the first one ends; `None` for chains.
+    pub(super) fn brake_first(first: Self, second: Self) -> Option<Self> {
+        match (first.0, second.0) {
+            (Shape::Legs(first), Shape::Legs(second)) => {
+                Some(Self(Shape::BrakeFirst(Box::new([*first, *second]))))
+            }
+            _ => None,
+        }
+    }
+
     /// A chain of phases of constant jerk.
     pub(crate) fn from_chain(chain: Chain) -> Self {
         Self(Shape::Chain(chain))
@@ -116,6 +134,7 @@ impl SpanProfile {
     pub fn duration(&self) -> f64 {
         match &self.0 {
             Shape::Legs(p) => p.duration(),
+            Shape::BrakeFirst(parts) => parts.iter().map(Legs::duration).sum(),
             Shape::Chain(p) => p.duration(),
         }
     }
@@ -124,6 +143,7 @@ impl SpanProfile {
     pub fn length(&self) -> f64 {
         match &self.0 {
             Shape::Legs(p) => p.length,
+            Shape::BrakeFirst(parts) => parts.iter().map(|p| p.length).sum(),
             Shape::Chain(p) => p.length(),
         }
     }
@@ -132,6 +152,7 @@ impl SpanProfile {
     pub fn peak(&self) -> f64 {
         match &self.0 {
             Shape::Legs(p) => p.peak,
+            Shape::BrakeFirst(parts) => parts.iter().map(|p| p.peak).fold(0.0, f64::max),
             Shape::Chain(p) => p.peak(),
         }
     }
@@ -140,6 +161,18 @@ impl SpanProfile {
     pub fn highest_between(&self, from_mm: f64, to_mm: f64) -> f64 {
         match &self.0 {
             Shape::Legs(p) => p.highest_between(from_mm, to_mm),
+            Shape::BrakeFirst(parts) => {
+                let [first, second] = &**parts;
+                let cut = first.length;
+                if to_mm <= cut {
+                    first.highest_between(from_mm, to_mm)
+                } else if from_mm >= cut {
+                    second.highest_between(from_mm - cut, to_mm - cut)
+                } else {
+                    let behind = second.highest_between(0.0, to_mm - cut);
+                    first.highest_between(from_mm, cut).max(behind)
+                }
+            }
             Shape::Chain(p) => p.highest_between(from_mm, to_mm),
         }
     }
@@ -148,6 +181,7 @@ impl SpanProfile {
     pub fn lowest(&self) -> f64 {
         match &self.0 {
             Shape::Legs(p) => p.v_start.min(p.v_end),
+            Shape::BrakeFirst(parts) => parts[0].v_start.min(parts[1].v_end),
             Shape::Chain(p) => p.at(0.0).v_mm_s.min(p.at(p.duration()).v_mm_s),
         }
     }
@@ -155,10 +189,11 @@ impl SpanProfile {
     /// Durations of the segments in s, in the order of time.
     ///
     /// TRAPEZ and SIN2: the seven segments I..VII. STEP: one per acceleration level from the lowest, cruise, one
-    /// per deceleration level from the highest. A speed that follows varying limits: one per phase of constant jerk.
+    /// per deceleration level from the highest. Braking to the feed first: those of the braking in front. A speed that follows varying limits: one per phase of constant jerk.
     pub fn segments(&self) -> SmallVec<[f64; 8]> {
         match &self.0 {
             Shape::Legs(p) => p.segments(),
+            Shape::BrakeFirst(parts) => parts.iter().flat_map(Legs::segments).collect(),
             Shape::Chain(p) => p.times(),
         }
     }
@@ -167,6 +202,11 @@ impl SpanProfile {
     pub fn at(&self, t: f64) -> State {
         match &self.0 {
             Shape::Legs(p) => p.at(t),
+            Shape::BrakeFirst(parts) => {
+                let (part, s, before) = part(parts, t, Legs::duration);
+                let state = part.at(t - before);
+                State { s_mm: s + state.s_mm, ..state }
+            }
             Shape::Chain(p) => p.at(t),
         }
     }
@@ -175,6 +215,10 @@ impl SpanProfile {
     pub fn time_at(&self, s_mm: f64) -> f64 {
         match &self.0 {
             Shape::Legs(p) => p.time_at(s_mm),
+            Shape::BrakeFirst(parts) => {
+                let (part, s, before) = part(parts, s_mm, |p| p.length);
+                before + part.time_at(s_mm - s)
+            }
             Shape::Chain(p) => p.time_at(s_mm),
         }
     }

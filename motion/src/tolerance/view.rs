@@ -108,7 +108,8 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
     let now = trial.now as f64;
     for passed in trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY) {
         let queued = &passed.queued;
-        add(passed.cycles, queued, None, passed.s_mm, queued.velocity.0);
+        let speed = if passed.above_feed { queued.ceiling } else { queued.velocity };
+        add(passed.cycles, queued, None, passed.s_mm, speed.0);
     }
     let mut index = 0;
     for entry in trial.timeline.entries().skip(trial.placed) {

@@ -10,8 +10,7 @@ pub(crate) mod random;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
-use kontur_motion::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind, Tolerance};
-use kontur_motion::block::{TransitionJerkMode, VectorLimits};
+use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner, Setpoint};
 use kontur_motion::tolerance::Kernels;
@@ -39,19 +38,7 @@ pub(crate) fn axis(weight: f64) -> AxisDynamics {
 }
 
 pub(crate) fn channel(axes: Vec<AxisDynamics>) -> Arc<ChannelDynamics> {
-    let feed_axes = vec![true; axes.len()];
-    Arc::new(ChannelDynamics {
-        axes,
-        feed_axes,
-        limit_tangential_jerk: false,
-        transition_jerk: TransitionJerkMode::Coupled,
-        curvature_estimate: 0,
-        curve_jerk: CurveJerk::Geometric,
-        vector: VectorLimits::default(),
-        vector_acc_on_arcs: false,
-        transition_velocity_min_mm_s: 0.0,
-        stop_at_transitions: false,
-    })
+    Arc::new(ChannelDynamics::new(axes))
 }
 
 pub(crate) struct Job {
@@ -76,19 +63,9 @@ impl Job {
     }
 
     pub(crate) fn block(&self, seq: u64, path: Path, feed_mm_s: f64) -> Block {
-        Block {
-            seq,
-            path,
-            feed: Feed::PathVelocity(feed_mm_s),
-            feed_ratio: 1.0,
-            full_override: false,
-            end_velocity_mm_s: None,
-            slope: self.slope,
-            dynamics: Arc::clone(&self.dynamics),
-            tolerance: self.tolerance,
-            contour: None,
-            spline: None,
-        }
+        let feed = Feed::PathVelocity(feed_mm_s);
+        let block = Block::new(seq, path, feed, Arc::clone(&self.dynamics));
+        Block { slope: self.slope, tolerance: self.tolerance, ..block }
     }
 
     /// Drives a polyline; the feeds are cycled.

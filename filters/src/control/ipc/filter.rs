@@ -118,8 +118,6 @@ fn complex_sqrt(re: f64, im: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
-
     use super::*;
 
     const T: f64 = 1e-3;

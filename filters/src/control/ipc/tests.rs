@@ -1,4 +1,4 @@
-#![allow(clippy::float_cmp, reason = "exact values are what is tested")]
+#![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
 use super::*;
 use crate::control::fault::ErrorId;

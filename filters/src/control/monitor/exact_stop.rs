@@ -115,8 +115,6 @@ impl ExactStopMonitor {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
-
     use super::*;
     use crate::control::fault::{ErrorId, Reaction};
 

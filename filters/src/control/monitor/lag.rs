@@ -182,8 +182,6 @@ impl LagMonitor {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
-
     use super::*;
     use crate::control::fault::{ErrorId, Reaction};
 

@@ -136,8 +136,6 @@ impl SetpointMonitor {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
-
     use super::*;
     use crate::control::fault::ErrorId;
 

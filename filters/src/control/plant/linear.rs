@@ -213,8 +213,6 @@ fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::float_cmp, reason = "exact values are what is tested")]
-
     use super::*;
 
     fn close(a: f64, b: f64, relative: f64) -> bool {

@@ -5,7 +5,7 @@ use super::requests;
 use crate::args::ReportArgs;
 use crate::console::Console;
 use crate::engine::{Engine, Facts};
-use crate::spectrum::{MOST_SAMPLES, Spectrum};
+use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
 use crate::summary::Collector;
 use crate::table::{Table, number};
 use crate::trace::columns::{Column, select};
@@ -73,6 +73,17 @@ pub(super) fn report(
             Ok(())
         })?;
         aborted |= source.totals().aborted;
+        if run.times.is_empty() && summary.cycles() > 0 {
+            let end_s = summary.cycles().saturating_sub(1) as f64 * run.cycle_s;
+            let text = format!("--window: the run of {} ends at {end_s:.3} s", run.label);
+            return Err(Error::Usage(text));
+        }
+        let highest_hz = 0.5 / run.cycle_s;
+        if args.spectrum.is_some_and(|(low_hz, _)| low_hz >= highest_hz) {
+            let text =
+                format!("--spectrum: a cycle of {} s shows up to {highest_hz} Hz", run.cycle_s);
+            return Err(Error::Usage(text));
+        }
         runs.push(run);
     }
     let text = if is("csv") { table(args, &runs).csv() } else { plot(args, &runs).draw() };
@@ -102,8 +113,8 @@ impl Recorded {
         })
     }
 
-    fn spectrum(&self, column: usize) -> Spectrum {
-        Spectrum::of(&self.samples[column], self.cycle_s)
+    fn spectrum(&self, column: usize) -> AmplitudeSpectrum {
+        AmplitudeSpectrum::of(&self.samples[column], self.cycle_s)
     }
 }
 

@@ -232,7 +232,6 @@ pub(super) fn ticks(range: (f64, f64), wanted: f64) -> (Vec<f64>, usize) {
     let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * magnitude >= rough).unwrap_or(10.0);
     let step = factor * magnitude;
     let finest = if factor >= 10.0 { power + 1.0 } else { power };
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 12")]
     let decimals = (-finest).clamp(0.0, 12.0) as usize;
     let first = libm::ceil(range.0 / step - 1e-9);
     let values = (0..200).map(|i| (first + f64::from(i)) * step);

@@ -34,27 +34,27 @@ pub struct ResponseArgs {
     pub filter: Vec<String>,
 
     /// Prototypes of --filter: `CRIT_DAMPING`, BUTTERWORTH, BESSEL
-    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "CRIT_DAMPING", value_parser = prototype)]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "CRIT_DAMPING", value_parser = prototype, requires = "filter")]
     pub prototype: Vec<String>,
 
     /// Orders of --filter: `4`, `1,2,3`, `1..6` (P-AXIS-00140)
-    #[arg(long, value_name = "N", default_value = "2")]
+    #[arg(long, value_name = "N", default_value = "2", requires = "filter")]
     pub order: Numbers,
 
     /// Characteristic frequencies of --filter in Hz (P-AXIS-00067)
-    #[arg(long, value_name = "HZ", default_value = "30")]
+    #[arg(long, value_name = "HZ", default_value = "30", requires = "filter")]
     pub f0: Numbers,
 
     /// Qualities of BANDPASS and BANDSTOP (P-AXIS-00080)
-    #[arg(long, value_name = "Q", default_value = "1")]
+    #[arg(long, value_name = "Q", default_value = "1", requires = "filter")]
     pub q: Numbers,
 
     /// Time constants of PT1, PT2 and `TIME_DELAY` in microseconds (P-AXIS-00357)
-    #[arg(long, value_name = "US", default_value = "10000")]
+    #[arg(long, value_name = "US", default_value = "10000", requires = "filter")]
     pub time: Numbers,
 
     /// Shares of the signal led through --filter in percent (P-AXIS-00164)
-    #[arg(long, value_name = "PERCENT", default_value = "100")]
+    #[arg(long, value_name = "PERCENT", default_value = "100", requires = "filter")]
     pub share: Numbers,
 
     /// Vibration Guard: `MODE=2,FREQ=40,DAMPING=0.1`; what is missing has the default 1, 30, 0.1

@@ -74,7 +74,6 @@ fn values(numbers: Option<&Numbers>) -> impl Iterator<Item = f64> + '_ {
 /// A whole number of the range of a list parameter.
 fn whole(value: f64, option: &str) -> Result<u32, Error> {
     if value >= 0.0 && value <= f64::from(u32::MAX) && value.fract() == 0.0 {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
         return Ok(value as u32);
     }
     Err(Error::Usage(format!("{option} {value}: a whole number is expected")))
@@ -253,16 +252,21 @@ fn families(kind: FilterKind, args: &ResponseArgs) -> Result<Vec<Family>, Error>
 
 /// `KEY=number` separated by commas.
 fn pairs<'a>(text: &'a str, option: &str) -> Result<Vec<(&'a str, f64)>, Error> {
-    let parts = text.split(',').filter(|part| !part.trim().is_empty());
-    parts
-        .map(|part| {
-            let pair = part.split_once('=').and_then(|(key, value)| {
-                let value: f64 = value.trim().parse().ok()?;
-                value.is_finite().then_some((key.trim(), value))
-            });
-            pair.ok_or_else(|| Error::Usage(format!("{option}: `{part}`: KEY=number expected")))
-        })
-        .collect()
+    let mut pairs: Vec<(&str, f64)> = Vec::new();
+    for part in text.split(',').filter(|part| !part.trim().is_empty()) {
+        let pair = part.split_once('=').and_then(|(key, value)| {
+            let value: f64 = value.trim().parse().ok()?;
+            value.is_finite().then_some((key.trim(), value))
+        });
+        let Some(pair) = pair else {
+            return Err(Error::Usage(format!("{option}: `{part}`: KEY=number expected")));
+        };
+        if pairs.iter().any(|(key, _)| key.eq_ignore_ascii_case(pair.0)) {
+            return Err(Error::Usage(format!("{option}: {} twice", pair.0)));
+        }
+        pairs.push(pair);
+    }
+    Ok(pairs)
 }
 
 fn unknown(option: &str, word: &str, known: &str) -> Error {

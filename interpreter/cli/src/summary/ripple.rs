@@ -1,21 +1,34 @@
-//! Ripple of the path speed: how far the speed dips while the path is under way.
+//! Ripple of the path speed: how far the speed dips where the path runs on without a corner.
+//!
+//! A corner slows the path down because it is a corner, a lower F word because it is programmed. What a surface shows are
+//! the dips between: at the small kinks of a polygon, at block limits, where a tolerance or the look-ahead takes speed.
 
-use kontur_interpreter::record::CycleRecord;
+use crate::engine::Facts;
+use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 use serde::Serialize;
 
 /// Speeds closer together than this share of the larger one are equal: below it lies the rounding of the profiles.
 const SAME: f64 = 1e-9;
 
-/// The deepest dip of the path speed on the way from one rest to the next.
+/// A path that turns by more than this on the way through a dip has a corner there, in degrees.
 ///
-/// Counted from the first to the last local maximum of the speed, so neither the start nor the stop is a dip.
+/// Assumption: between the kinks of usual polygons (below 15 degrees) and the corners of a drawing (from 45 degrees on).
+pub(super) const CORNER_DEG: f64 = 30.0;
+
+/// Steps in mm that are too short to have a direction.
+const NO_STEP_MM: f64 = 1e-9;
+
+/// The deepest dip of the path speed without a corner.
+///
+/// A dip lies between two local maxima of the speed; of smaller dips inside a larger one each counts for itself. Left
+/// out are rests, dips on whose way the path turns by more than 30 degrees, and dips down to the programmed feed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpeedRipple {
     /// `(v_max - v_min) / v_max`, 0 to 1.
     pub ratio: f64,
-    /// Highest path velocity on that way in mm/s.
+    /// Lower one of the local maxima of the path velocity beside the dip in mm/s.
     pub v_max_mm_s: f64,
-    /// Lowest path velocity between two local maxima in mm/s.
+    /// Lowest path velocity in the dip in mm/s.
     pub v_min_mm_s: f64,
     /// Program time of the dip in seconds.
     pub time_s: f64,
@@ -23,104 +36,217 @@ pub struct SpeedRipple {
     pub line: u32,
 }
 
-/// A speed with its cycle and line.
+/// A local extreme of the speed, possibly a plateau.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sample {
+struct Extreme {
     v: f64,
     k: u64,
     line: u32,
+    /// The programmed feed is reached.
+    fed: bool,
+    /// Angle in radians by which the path had turned at its first and at its last cycle.
+    turned: [f64; 2],
 }
 
 /// Collects the ripple, record by record.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Collector {
-    last: Sample,
-    /// Highest speed since the last rest.
-    peak: f64,
-    /// The speed has fallen since the last rest.
-    fallen: bool,
-    /// Lowest speed between two local maxima since the last rest.
-    dip: Option<Sample>,
-    /// The deepest so far, with the highest speed of its way.
-    worst: Option<(Sample, f64)>,
-}
-
-fn depth(dip: f64, peak: f64) -> f64 {
-    (peak - dip) / peak
+    /// Linear axes of the path.
+    axes: Vec<usize>,
+    /// Position and direction of the last step.
+    position: Vec<f64>,
+    direction: Option<Vec<f64>>,
+    turned: f64,
+    /// Extremes since the last rest that belong to no complete dip yet, minima and maxima in turn.
+    open: Vec<Extreme>,
+    /// The extreme that the speed is at or runs towards, and whether it rises.
+    at: Extreme,
+    rising: bool,
+    worst: Option<SpeedRipple>,
 }
 
 impl Collector {
-    pub(super) fn add(&mut self, record: &CycleRecord) {
-        let now = Sample { v: record.path.v_mm_s, k: record.k, line: record.line };
-        if now.v <= 0.0 {
-            self.rest();
-        } else {
-            let slack = SAME * now.v.max(self.last.v);
-            if now.v < self.last.v - slack {
-                self.fallen = true;
-            } else if now.v > self.last.v + slack
-                && self.fallen
-                && self.dip.is_none_or(|d| self.last.v < d.v)
-            {
-                self.dip = Some(self.last);
-            }
-            self.peak = self.peak.max(now.v);
+    pub(super) fn new(facts: &Facts) -> Self {
+        let linear = |i: &usize| !facts.axes[*i].rotary && !facts.axes[*i].spindle;
+        Self {
+            axes: (0..facts.axes.len()).filter(linear).collect(),
+            position: Vec::new(),
+            direction: None,
+            turned: 0.0,
+            open: vec![Extreme::default()],
+            at: Extreme::default(),
+            rising: true,
+            worst: None,
         }
-        self.last = now;
     }
 
-    fn rest(&mut self) {
-        if let Some(dip) = self.dip.take()
-            && self.worst.is_none_or(|(w, peak)| depth(dip.v, self.peak) > depth(w.v, peak))
-        {
-            self.worst = Some((dip, self.peak));
+    pub(super) fn add(&mut self, record: &CycleRecord, cycle_us: u32) {
+        self.turn(record);
+        let v = record.path.v_mm_s;
+        if v <= 0.0 {
+            self.rest(cycle_us);
+            return;
         }
-        (self.peak, self.fallen) = (0.0, false);
+        let now = Extreme {
+            v,
+            k: record.k,
+            line: record.line,
+            fed: matches!(record.path.limit, SpeedLimit::Feed | SpeedLimit::Stop),
+            turned: [self.turned; 2],
+        };
+        let slack = SAME * v.max(self.at.v);
+        let onwards = if self.rising { v - self.at.v } else { self.at.v - v };
+        if onwards > slack {
+            self.at = now;
+        } else if onwards >= -slack {
+            self.at.turned[1] = self.turned;
+            self.at.fed |= now.fed;
+        } else {
+            self.open.push(self.at);
+            self.close(cycle_us);
+            self.at = now;
+            self.rising = !self.rising;
+        }
+    }
+
+    /// Adds up by how much the path turns.
+    fn turn(&mut self, record: &CycleRecord) {
+        let here: Vec<f64> =
+            self.axes.iter().filter_map(|i| record.axes.get(*i)).map(|axis| axis.ipo).collect();
+        let step: Vec<f64> = here.iter().zip(&self.position).map(|(a, b)| a - b).collect();
+        self.position = here;
+        let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if length < NO_STEP_MM {
+            return;
+        }
+        let direction: Vec<f64> = step.iter().map(|x| x / length).collect();
+        if let Some(last) = &self.direction {
+            let chord = direction.iter().zip(last).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+            self.turned += 2.0 * libm::asin((0.5 * chord.sqrt()).min(1.0));
+        }
+        self.direction = Some(direction);
+    }
+
+    /// Takes out every dip that lies between two extremes at least as far apart as its own: a larger dip around it stays.
+    fn close(&mut self, cycle_us: u32) {
+        while let [.., a, b, c, d] = self.open[..] {
+            let inner = (b.v - c.v).abs();
+            if inner > (a.v - b.v).abs() || inner > (c.v - d.v).abs() {
+                return;
+            }
+            self.open.truncate(self.open.len() - 3);
+            self.open.push(d);
+            let (dip, sides) = if b.v > c.v { (c, [b, d]) } else { (b, [a, c]) };
+            let turn = sides[1].turned[0] - sides[0].turned[1];
+            let v_max_mm_s = b.v.max(c.v);
+            let ratio = inner / v_max_mm_s;
+            let deeper = self.worst.as_ref().is_none_or(|worst| ratio > worst.ratio);
+            if !dip.fed && turn.to_degrees() <= CORNER_DEG && deeper {
+                self.worst = Some(SpeedRipple {
+                    ratio,
+                    v_max_mm_s,
+                    v_min_mm_s: dip.v,
+                    time_s: dip.k as f64 * f64::from(cycle_us) / 1e6,
+                    line: dip.line,
+                });
+            }
+        }
+    }
+
+    fn rest(&mut self, cycle_us: u32) {
+        self.open.push(self.at);
+        self.close(cycle_us);
+        if self.rising {
+            self.open.push(Extreme::default());
+            self.close(cycle_us);
+        }
+        self.open.truncate(1);
+        self.at = Extreme::default();
+        self.rising = true;
     }
 
     /// The ripple; `None` if the speed never dipped.
     pub(super) fn finish(mut self, cycle_us: u32) -> Option<SpeedRipple> {
-        self.rest();
-        self.worst.map(|(dip, v_max_mm_s)| SpeedRipple {
-            ratio: depth(dip.v, v_max_mm_s),
-            v_max_mm_s,
-            v_min_mm_s: dip.v,
-            time_s: dip.k as f64 * f64::from(cycle_us) / 1e6,
-            line: dip.line,
-        })
+        self.rest(cycle_us);
+        self.worst
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kontur_interpreter::record::PathRecord;
+    use crate::engine::AxisFacts;
+    use kontur_interpreter::record::{AxisRecord, PathRecord};
 
-    fn of(speeds: &[f64]) -> Option<SpeedRipple> {
-        let mut collector = Collector::default();
+    /// Ripple of these speeds; the path turns by an angle in degrees in the cycles given.
+    fn turning(speeds: &[f64], kinks: &[(usize, f64)], fed: &[usize]) -> Option<SpeedRipple> {
+        let facts = Facts { axes: vec![AxisFacts::default(); 2], ..Facts::default() };
+        let mut collector = Collector::new(&facts);
+        let (mut at, mut heading) = ([0.0, 0.0], 0.0_f64);
         for (k, v) in speeds.iter().enumerate() {
-            let path = PathRecord { v_mm_s: *v, ..PathRecord::default() };
-            let record =
-                CycleRecord { k: k as u64, line: k as u32, path, ..CycleRecord::default() };
-            collector.add(&record);
+            heading += kinks.iter().filter(|kink| kink.0 == k).map(|kink| kink.1).sum::<f64>();
+            let (sin, cos) = libm::sincos(heading.to_radians());
+            at = [at[0] + v * 1e-3 * cos, at[1] + v * 1e-3 * sin];
+            let limit = if fed.contains(&k) { SpeedLimit::Feed } else { SpeedLimit::Corner };
+            let path = PathRecord { v_mm_s: *v, limit, ..PathRecord::default() };
+            let axes = at.map(|ipo| AxisRecord { ipo, ..AxisRecord::default() }).to_vec();
+            let (k, line) = (k as u64, k as u32);
+            collector.add(&CycleRecord { k, line, path, axes, ..CycleRecord::default() }, 1000);
         }
         collector.finish(1000)
     }
 
+    fn ratio(speeds: &[f64], kinks: &[(usize, f64)], fed: &[usize]) -> Option<f64> {
+        turning(speeds, kinks, fed).map(|r| r.ratio)
+    }
+
     #[test]
     fn start_and_stop_are_no_ripple() {
-        assert_eq!(of(&[0.0, 0.0]), None);
-        assert_eq!(of(&[0.0, 5.0, 10.0, 10.0, 5.0, 0.0, 0.0, 4.0, 2.0]), None);
+        assert_eq!(ratio(&[0.0, 0.0], &[], &[]), None);
+        assert_eq!(ratio(&[0.0, 5.0, 10.0, 10.0, 5.0, 0.0, 0.0, 4.0, 2.0], &[], &[]), None);
     }
 
     #[test]
     fn the_deepest_dip_between_two_maxima() {
         let speeds = [0.0, 5.0, 10.0, 9.0, 10.0, 4.0, 0.0, 8.0, 6.0, 3.0, 6.0, 5.0, 7.0, 0.0];
-        let ripple = of(&speeds);
-        let want =
-            SpeedRipple { ratio: 0.625, v_max_mm_s: 8.0, v_min_mm_s: 3.0, time_s: 0.009, line: 9 };
-        assert_eq!(ripple, Some(want));
+        let want = SpeedRipple {
+            ratio: 4.0 / 7.0,
+            v_max_mm_s: 7.0,
+            v_min_mm_s: 3.0,
+            time_s: 0.009,
+            line: 9,
+        };
+        assert_eq!(turning(&speeds, &[], &[]), Some(want));
         // still under way at the end
-        assert_eq!(of(&[0.0, 8.0, 6.0, 8.0]).map(|r| r.ratio), Some(0.25));
+        assert_eq!(ratio(&[0.0, 8.0, 6.0, 8.0], &[], &[]), Some(0.25));
+    }
+
+    #[test]
+    fn a_small_dip_does_not_hide_the_one_around_it() {
+        assert_eq!(ratio(&[0.0, 10.0, 5.0, 5.5, 4.0, 10.0, 0.0], &[], &[]), Some(0.6));
+        assert_eq!(ratio(&[0.0, 10.0, 4.0, 5.5, 5.0, 10.0, 0.0], &[], &[]), Some(0.6));
+    }
+
+    #[test]
+    fn corners_are_no_ripple_and_kinks_are() {
+        // a square that slows down at its corners, with a small dip at a joint of a side
+        let speeds = [0.0, 10.0, 10.0, 1.0, 10.0, 9.0, 10.0, 1.0, 10.0, 10.0, 0.0];
+        assert_eq!(ratio(&speeds, &[(3, 90.0), (7, 90.0)], &[]), Some(0.1));
+        // a polygon: three kinks of 20 degrees, which a circle of them adds up to more than a corner
+        let speeds = [0.0, 10.0, 8.0, 10.0, 10.0, 8.0, 10.0, 10.0, 8.0, 10.0, 0.0];
+        assert_eq!(ratio(&speeds, &[(2, 20.0), (5, 20.0), (8, 20.0)], &[]), Some(0.2));
+        // a curve at constant speed in front of the dip does not make it a corner
+        let speeds = [0.0, 10.0, 10.0, 10.0, 10.0, 8.0, 10.0, 0.0];
+        assert_eq!(ratio(&speeds, &[(2, 25.0), (3, 25.0), (5, 5.0)], &[]), Some(0.2));
+        // round a corner in small steps
+        let speeds = [0.0, 10.0, 8.0, 6.0, 6.0, 8.0, 10.0, 0.0];
+        assert_eq!(ratio(&speeds, &[(2, 25.0), (3, 25.0), (5, 25.0)], &[]), None);
+    }
+
+    #[test]
+    fn a_lower_feed_is_no_ripple() {
+        let speeds = [0.0, 10.0, 5.0, 5.0, 5.0, 10.0, 0.0];
+        assert_eq!(ratio(&speeds, &[], &[3]), None);
+        assert_eq!(ratio(&speeds, &[], &[1]), Some(0.5));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::columns::{Column, Content};
 use super::fixed::{push_fixed, push_integer, push_seconds};
+use crate::console::Output;
 use crate::engine::Facts;
 use kontur_interpreter::record::CycleRecord;
 use std::fs::File;
@@ -72,11 +73,43 @@ fn quoted(cell: &str) -> String {
     }
 }
 
+/// Where the lines go.
+#[derive(Debug)]
+pub enum Target {
+    /// A file.
+    File(File),
+    /// Stdout.
+    Standard(Output),
+}
+
+impl Target {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::File(file) => file.write(bytes),
+            Self::Standard(out) => out.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::File(file) => file.flush(),
+            Self::Standard(out) => out.flush(),
+        }
+    }
+
+    /// Takes a torn line away. Not every target can be cut (a pipe, a device): there it stays, and the error is reported.
+    fn cut(&self, length: u64) {
+        if let Self::File(file) = self {
+            let _ = file.set_len(length);
+        }
+    }
+}
+
 /// A trace file that holds whole lines at every moment between two writes.
 #[derive(Debug)]
 pub struct CsvWriter {
     rows: Rows,
-    file: File,
+    target: Target,
     buffer: Vec<u8>,
     written: u64,
 }
@@ -86,10 +119,10 @@ impl CsvWriter {
     const PIECE: usize = 256 * 1024;
 
     /// Starts a trace with its header.
-    pub fn new(file: File, rows: Rows) -> Self {
+    pub fn new(target: Target, rows: Rows) -> Self {
         let mut buffer = Vec::with_capacity(Self::PIECE + 4096);
         rows.push_header(&mut buffer);
-        Self { rows, file, buffer, written: 0 }
+        Self { rows, target, buffer, written: 0 }
     }
 
     /// Adds a record.
@@ -108,8 +141,8 @@ impl CsvWriter {
     pub fn flush(&mut self) -> io::Result<()> {
         let mut done = 0;
         let result = loop {
-            match self.file.write(&self.buffer[done..]) {
-                _ if done == self.buffer.len() => break Ok(()),
+            match self.target.write(&self.buffer[done..]) {
+                _ if done == self.buffer.len() => break self.target.flush(),
                 Ok(0) => break Err(io::ErrorKind::WriteZero.into()),
                 Ok(n) => done += n,
                 Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
@@ -118,8 +151,7 @@ impl CsvWriter {
         };
         if result.is_err() {
             let whole = self.buffer[..done].iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
-            // not every target can be cut (a pipe, a device): there the torn line stays, and the error is reported
-            let _ = self.file.set_len(self.written + whole as u64);
+            self.target.cut(self.written + whole as u64);
         }
         self.written += done as u64;
         self.buffer.clear();
@@ -181,7 +213,7 @@ mod tests {
         let rows = Rows::new(columns::select(columns::DEFAULT_SIGNALS, &facts).unwrap(), &facts);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
-        let mut writer = CsvWriter::new(File::create(&path).unwrap(), rows);
+        let mut writer = CsvWriter::new(Target::File(File::create(&path).unwrap()), rows);
         for k in 0..20_000 {
             writer.write(&record(k)).unwrap();
         }
@@ -199,7 +231,7 @@ mod tests {
         let facts = facts(&["a.nc"]);
         let rows = Rows::new(columns::select("ipo", &facts).unwrap(), &facts);
         let file = File::options().write(true).open("/dev/full").unwrap();
-        let mut writer = CsvWriter::new(file, rows);
+        let mut writer = CsvWriter::new(Target::File(file), rows);
         writer.write(&record(0)).unwrap();
         assert_eq!(writer.flush().unwrap_err().kind(), io::ErrorKind::StorageFull);
     }

@@ -5,7 +5,6 @@
 //! rounding error matters only when the product lands on a tie, and then a fused multiply-add tells its sign.
 
 /// Two decimal digits of 0..=99.
-#[allow(clippy::cast_possible_truncation, reason = "digits")]
 const PAIRS: [[u8; 2]; 100] = {
     let mut table = [[b'0'; 2]; 100];
     let mut i = 0;
@@ -52,8 +51,7 @@ fn push<const DECIMALS: usize>(out: &mut Vec<u8>, value: f64) {
 }
 
 /// `value * scale` rounded half away from zero, where `product` is their rounded product.
-#[allow(clippy::cast_possible_truncation, reason = "the caller checked |product| < 2^52")]
-#[allow(clippy::float_cmp, reason = "a tie is an exact bit pattern")]
+#[expect(clippy::float_cmp, reason = "a tie is an exact bit pattern")]
 fn round_product(value: f64, scale: f64, product: f64) -> i64 {
     // truncation is exact, and so is the rest
     let whole = product as i64;

@@ -55,7 +55,7 @@ pub struct TuneArgs {
     pub feed: f64,
 
     /// The largest order of a mean or Gauss filter whose contour error at a corner stays within this, in mm
-    #[arg(long, value_name = "MM", value_parser = above_zero, conflicts_with_all = ["program", "damping", "at"])]
+    #[arg(long, value_name = "MM", value_parser = above_zero, conflicts_with_all = ["program", "damping", "at", "max_residual"])]
     pub order_for: Option<f64>,
 
     /// Run this NC program with each choice: deviation from the contour and machining time

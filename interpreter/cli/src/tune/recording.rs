@@ -141,7 +141,7 @@ fn uniform_rate(times: &[f64]) -> Option<f64> {
 pub fn modes(samples: &[f64], rate_hz: f64) -> Vec<Mode> {
     let mean = samples.iter().sum::<f64>() / samples.len().max(1) as f64;
     let centred: Vec<f64> = samples.iter().map(|x| x - mean).collect();
-    let spectrum = Spectrum::of(&centred, rate_hz);
+    let spectrum = ComplexSpectrum::of(&centred, rate_hz);
     let peaks = spectrum.peaks(samples.len());
     let highest = peaks.first().map_or(1.0, |p| p.height);
     let mut modes: Vec<Mode> = Vec::new();
@@ -169,8 +169,8 @@ pub fn modes(samples: &[f64], rate_hz: f64) -> Vec<Mode> {
     modes
 }
 
-/// Spectrum of a record, with zeros behind it so that filtering does not wrap around.
-struct Spectrum {
+/// Spectrum of a record with its phases, with zeros behind it so that filtering does not wrap around.
+struct ComplexSpectrum {
     values: Vec<Complex<f64>>,
     /// Samples transformed.
     length: usize,
@@ -182,7 +182,7 @@ struct Peak {
     height: f64,
 }
 
-impl Spectrum {
+impl ComplexSpectrum {
     fn of(samples: &[f64], rate_hz: f64) -> Self {
         let length = (4 * samples.len()).next_power_of_two();
         let mut padded = samples.to_vec();

@@ -84,8 +84,14 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
             }));
         }
     }
-    if let Some((_, mode)) = MODES.iter().find(|(name, _)| keys.has(name)) {
+    let mut modes = MODES.iter().filter(|(name, _)| keys.has(name));
+    if let Some((first, mode)) = modes.next() {
         settings.mode = *mode;
+        if let Some((second, _)) = modes.next() {
+            let text = format!("#CONTOUR MODE: {first} and {second} are two modes");
+            let at = keys.place(second).unwrap_or(call.span());
+            return Err(Fault::kontur(own::DUPLICATE_KEY, text, at));
+        }
     }
     // POS alone allows a distance of 0
     for key in ["PRE_DIST", "POST_DIST"] {
@@ -164,14 +170,19 @@ fn points(
     let Some(group) = group else { return Ok(None) };
     let mut rest = Group { items: Vec::new(), span: group.span };
     for item in &group.items {
+        let main_axis = |name: &str| decoder.axis_of_name(name).filter(|axis| *axis < 3);
         let point = match &item.kind {
-            ItemKind::Pair { key, value: ItemValue::Expr(expr) } => {
-                let axis = decoder.axis_of_name(&key.text);
-                axis.filter(|axis| *axis < 3).map(|axis| (axis, expr))
-            }
+            ItemKind::Pair { key, value: ItemValue::Expr(expr) } => match main_axis(&key.text) {
+                Some(axis) => Some((axis, decoder.number(expr)?)),
+                None => None,
+            },
+            // `X2.7`
+            ItemKind::Flag(word) => word
+                .split_number()
+                .and_then(|(name, number)| main_axis(name).map(|axis| (axis, number))),
             _ => None,
         };
-        let Some((axis, expr)) = point else {
+        let Some((axis, value)) = point else {
             rest.items.push(item.clone());
             continue;
         };
@@ -179,7 +190,7 @@ fn points(
             let what = "an interim point of #CONTOUR MODE in a frame";
             return Err(Fault::unsupported(what, item.span));
         }
-        let value = decoder.number(expr)? * decoder.axis_unit(axis);
+        let value = value * decoder.axis_unit(axis);
         settings.point_mm[axis] = Some(value + decoder.coordinates.active_offset(axis));
     }
     Ok(Some(rest))

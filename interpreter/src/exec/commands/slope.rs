@@ -50,7 +50,7 @@ pub(super) fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
         [word, ..] => return Err(call.unexpected(word)),
     }
-    if call.command.groups.is_empty() {
+    if call.command.groups.iter().all(|group| group.items.is_empty()) {
         let text = "#SLOPE needs [TYPE=..] or DEFAULT";
         return Err(Fault::vendor(21220, text, call.span()));
     }

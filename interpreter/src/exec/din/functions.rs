@@ -53,10 +53,19 @@ impl Decoder {
         if self.spindles[index].index.is_none() {
             let text = "the machine has no spindle: speeds are remembered, nothing turns";
             self.note_once("spindle", Fault::kontur(own::IGNORED, text, span));
+        } else if self.spindles[index].is_turning() && self.spindles[index].rpm == 0.0 {
+            let text = "M03 and M04 with the speed 0 turn nothing before an S word";
+            self.note_once("spindle speed", Fault::kontur(own::ODD, text, span));
         }
     }
 
     pub(super) fn functions_before(&mut self, words: &Words<'_>) {
+        let mut spindle = words.m.iter().filter(|m| m_kind(m.number) == MKind::Spindle);
+        if let (Some(first), Some(second)) = (spindle.next(), spindle.next()) {
+            let (m, n) = (first.number, second.number);
+            let text = format!("M{m:02} and M{n:02} in one block: both set the spindle");
+            self.note(Fault::kontur(own::DUPLICATE_GROUP, text, second.span));
+        }
         for m in &words.m {
             match m_kind(m.number) {
                 MKind::Before => self.m_function(m),

@@ -9,33 +9,28 @@ fn ends(text: &str) -> Vec<Vec<f64>> {
     clean(&format!("{TOOL}{text}\nM30\n")).ends()
 }
 
+fn assert_points(found: &[Vec<f64>], expected: &[[f64; 2]]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert_near(&found[..2], expected);
+    }
+}
+
+/// Clockwise round the left, upper and right side of a square, tool outside; radius 2.
+const ROUND_A_SQUARE: &str = "G41 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30";
+const OUTSIDE_OF_IT: [[f64; 2]; 7] =
+    [[-2.0, -10.0], [-2.0, 0.0], [0.0, 2.0], [10.0, 2.0], [12.0, 0.0], [12.0, -20.0], [0.0, -30.0]];
+
 #[test]
 fn outer_corners_are_rounded() {
-    // clockwise round a square, tool outside
-    let e = ends("G41 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30");
-    let expected = [
-        [-2.0, -10.0],
-        [-2.0, 0.0],
-        [0.0, 2.0],
-        [10.0, 2.0],
-        [12.0, 0.0],
-        [12.0, -20.0],
-        [0.0, -30.0],
-    ];
-    assert_eq!(e.len(), expected.len(), "{e:?}");
-    for (e, x) in e.iter().zip(expected) {
-        assert_near(&e[..2], &x);
-    }
+    assert_points(&ends(ROUND_A_SQUARE), &OUTSIDE_OF_IT);
 }
 
 #[test]
 fn inner_corners_are_intersections() {
     let e = ends("G42 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30");
     let expected = [[2.0, -10.0], [2.0, -2.0], [8.0, -2.0], [8.0, -20.0], [0.0, -30.0]];
-    assert_eq!(e.len(), expected.len(), "{e:?}");
-    for (e, x) in e.iter().zip(expected) {
-        assert_near(&e[..2], &x);
-    }
+    assert_points(&e, &expected);
 }
 
 #[test]
@@ -166,28 +161,16 @@ fn perpendicular_selection() {
         [0.0, 0.0],
     ];
     let e = run.ends();
-    assert_eq!(e.len(), expected.len(), "{e:?}");
-    for (e, x) in e.iter().zip(expected) {
-        assert_near(&e[..2], &x);
-    }
+    assert_points(&e, &expected);
 }
 
 #[test]
 fn compensation_in_a_tilted_plane() {
     // the square of outer corners, turned by 30 degrees about Y: X = x cos, Z = -x sin
-    let e = ends("#CS ON [0,0,0,0,30,0]\nG41 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30");
+    let e = ends(&format!("#CS ON [0,0,0,0,30,0]\n{ROUND_A_SQUARE}"));
     let (s, c) = (0.5, 0.75_f64.sqrt());
-    let flat = [
-        [-2.0, -10.0],
-        [-2.0, 0.0],
-        [0.0, 2.0],
-        [10.0, 2.0],
-        [12.0, 0.0],
-        [12.0, -20.0],
-        [0.0, -30.0],
-    ];
-    assert_eq!(e.len(), flat.len(), "{e:?}");
-    for (e, [x, y]) in e.iter().zip(flat) {
+    assert_eq!(e.len(), OUTSIDE_OF_IT.len(), "{e:?}");
+    for (e, [x, y]) in e.iter().zip(OUTSIDE_OF_IT) {
         assert_near(e, &[x * c, y, -x * s]);
     }
     let id = |text: &str| run(&format!("{TOOL}{text}\nM30\n")).ids();

@@ -116,3 +116,29 @@ fn external_variables_keep_their_rights() {
     assert_eq!(places("X V.E.W F100\nM30\n"), ["20097 1:3"]);
     assert_eq!(places("V.E.R=1\nM30\n"), ["20100 1:1"]);
 }
+
+/// A number written to its key at once, as the manual writes interim points.
+#[test]
+fn keys_with_their_numbers() {
+    let point = |text: &str| {
+        let run = clean(&format!("#CONTOUR MODE [POS {text}]\nG61 X10 F100\nY10\nM30\n"));
+        let mode = run.blocks()[0].contour.map(|c| c.mode);
+        format!("{mode:?}")
+    };
+    assert!(point("X9.7 Y.3").contains("9.7"));
+    for text in ["X9.7 Y0.3", "X9.7 Y=0.3", "X 9.7 Y 0.3"] {
+        assert_eq!(point(text), point("X=9.7 Y=0.3"), "{text}");
+    }
+    assert_eq!(run("#CONTOUR MODE [POS Q9.7]\nM30\n").ids(), ["21220"]);
+    let unit = |text: &str| clean(&format!("{text}\nG61 X10 F100\nM30\n")).blocks()[0].contour;
+    assert_eq!(unit("#CONTOUR MODE [DEV PATH_DEV0.5]"), unit("#CONTOUR MODE [DEV PATH_DEV=0.5]"));
+}
+
+/// It would be an arc, if it had an end.
+#[test]
+fn a_radius_without_an_end_point_is_told() {
+    let kept = run("G02 F100 R5\nX10\nM30\n");
+    assert_eq!(places(&kept.diagnostics), ["K-0109 1:10"]);
+    assert_near(&kept.end, &[10.0, 0.0, 0.0]);
+    assert!(matches!(kept.blocks()[0].path, kontur_motion::path::Path::Arc(_)));
+}

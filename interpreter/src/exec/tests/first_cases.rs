@@ -4,9 +4,6 @@ use super::{EndReason, Sync, assert_end, checked, clean, places, run};
 
 #[test]
 fn words_and_comments() {
-    assert_end("N30X100Y200F500", [100.0, 200.0, 0.0]);
-    assert_end("G1 X10 (a (b) c) Y5 F100", [10.0, 5.0, 0.0]);
-    assert_end("( N010 #SLOPE[TYPE=HSC]", [0.0, 0.0, 0.0]);
     assert_end("X--40 F100 ; remark", [40.0, 0.0, 0.0]);
     assert_end("g01 x1 \\\nN20 y2 f100", [1.0, 2.0, 0.0]);
 }

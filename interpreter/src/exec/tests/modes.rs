@@ -39,6 +39,27 @@ fn end_feeds() {
     assert_eq!(ends, [Some(5.0), Some(10.0), None]);
 }
 
+/// The words act on the end of the block they stand in; G09 in its block only (TF5200 programming manual, last example of
+/// G08/G09/G900/G901).
+#[test]
+fn late_braking() {
+    let late = |text: &str| -> Vec<bool> {
+        clean(&format!("{text}\nM30\n")).blocks().iter().map(|b| b.late_braking).collect()
+    };
+    assert_eq!(
+        late("G137 G01 G901 X20 F2000\nG09 X40 F1600\nX60 F1200\nG900 X80 F800\nX100 F400"),
+        [true, false, true, false, false]
+    );
+    assert_eq!(
+        late("G137 G01 X1 F100\nG09 X2 F50\nG901\nX3 F20\nG09\nX4"),
+        [false, false, true, true]
+    );
+    assert_eq!(run("G137 G900 G901 X1 F100\nM30\n").ids(), ["K-0008"]);
+    // said once
+    let hsc = run("G137 G901\n#SLOPE [TYPE=HSC]\nG01 X1 F100\nX2 F50\nX3\nG900 X4\nM30\n");
+    assert_eq!(hsc.ids(), ["K-0100"]);
+}
+
 #[test]
 fn exact_stops() {
     let run = clean("G60 X1 F100\nX2\nG360 X3\nX4\nG359 X5\nM30\n");
@@ -140,6 +161,9 @@ fn feedforward_weights_survive_switching() {
     assert_eq!(id("G136 Q5"), ["20200", "K-0002"]);
     assert_eq!(id("S[G136=80 G136=90]"), ["21738"]);
     assert_eq!(id("S[G135 M3 REV1000]"), ["K-0108"]);
+    for text in ["S[M3 REV1000.5]", "S[M19 POS45.5]"] {
+        assert_eq!(id(text), [""; 0], "{text}");
+    }
     assert_eq!(id("S[FOO]"), ["21867"]);
 }
 

@@ -16,7 +16,6 @@ struct Command {
 }
 
 /// Reads a row as a table line.
-#[allow(clippy::too_many_arguments, reason = "one table row")]
 const fn row(
     names: &'static [&'static str],
     syntax: &'static str,
@@ -49,7 +48,7 @@ const COMMANDS: &[Command] = &[
     row(&["#SET SLOPE PROFIL"], "#SET SLOPE PROFIL [n]", "older form of #SLOPE: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC", "", "", "#SET SLOPE PROFIL [1]", &["#SLOPE", "P-CHAN-00071"]),
     row(&["#CONTOUR MODE"], "#CONTOUR MODE [ON|OFF] [DEV|DIST|DIST_SOFT|DIST_MASTER|POS|PTP keys]",
         "how corners are rounded by polynomials; ON also switches contouring on (G261), OFF off (G260)",
-        "DEV: PATH_DEV, default 1 mm; TRACK_DEV deg, 0; DIST: PRE_DIST and POST_DIST, default 1 mm; POS: an interim point X= Y= Z= besides; PTP: PATH_DEV, PATH_DIST; all: RELEVANT_PATH mm and RELEVANT_TRACK deg, 0, shorter blocks are skipped; REMAIN_PART 0..100 %, 0, part of a block that stays; MAX_ANGLE 0..180 deg; CONST_VEL; CHECK_JERK 0..3",
+        "DEV: PATH_DEV, default 1 mm; TRACK_DEV deg, 0; DIST: PRE_DIST and POST_DIST, default 1 mm; POS: an interim point X Y Z besides (X2.7 or X=2.7); PTP: PATH_DEV, PATH_DIST; all: RELEVANT_PATH mm and RELEVANT_TRACK deg, 0, shorter blocks are skipped; REMAIN_PART 0..100 %, 0, part of a block that stays; MAX_ANGLE 0..180 deg; CONST_VEL; CHECK_JERK 0..3",
         "program start: DEV with PATH_DEV 1; a key that is not written keeps its value. DIST_SOFT and DIST_MASTER are rounded as PTP (K-0111)", "#CONTOUR MODE [DEV PATH_DEV=0.05]", &["G261", "120129", "120206", "120216", "P-CHAN-00439"]),
     row(&["#HSC"], "#HSC [ON|OFF] [BSPLINE keys]   #HSC [ON|OFF] [OPMODE=1 CONTERROR=..]", "puts a B-spline through short blocks; OPMODE=1 rounds corners within CONTERROR",
         "PATH_DEV default 0.2 mm; TRACK_DEV default 5 deg; 0: not monitored; MAX_PATH_LENGTH mm and MAX_ANGLE deg: longer blocks and sharper corners stay; AUTO_OFF_PATH, AUTO_OFF_TRACK, AUTO_OFF_G00: ends the spline; CONTERROR default 0.1 mm", "BSPLINE is the first key; MERGE has no effect", "#HSC ON [BSPLINE PATH_DEV=0.05]", &["120393", "120396"]),

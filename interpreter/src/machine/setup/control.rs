@@ -60,7 +60,7 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
             command_format
         },
         feedforward,
-        position: position(axis, limits.v_max_mm_s),
+        position: position(axis, limits.v_max_mm_s, diagnostics),
         encoder: encoder(axis),
         plant: plant::config(axis),
         lag: lag(axis, drive),
@@ -111,6 +111,22 @@ fn feedforward(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) -> 
             )
             .hint("VEL 0x1, ACC 0x2, JERK 0x4, ADD_VEL 0x101, ADD_ACC 0x202, ADD_JERK 0x804"),
         );
+    }
+    for (name, part, input) in [
+        ("velocity_delay_time", FeedforwardMode::ADD_VEL, "ADD_VEL"),
+        ("acceleration_delay_time", FeedforwardMode::ADD_ACC, "ADD_ACC"),
+        ("jerk_delay_time", FeedforwardMode::ADD_JERK, "ADD_JERK"),
+    ] {
+        let key = format!("vorsteuer.{name}");
+        let us = raw(axis, &key);
+        if us > 0.0 && !mode.is_empty() && !mode.contains(part) {
+            let what = format!("delay of {us} us without the additive feedforward {input}");
+            diagnostics.push(
+                issues::kontur(axis, 75, &key, &what, "no effect").hint(format!(
+                    "only additive inputs are delayed: vorsteuer.vorsteuerung {input}"
+                )),
+            );
+        }
     }
     let weight =
         |n: &str, d: &str| quotient(axis, &format!("vorsteuer.{n}"), &format!("vorsteuer.{d}"));
@@ -179,19 +195,36 @@ fn additive_inputs(
 /// A simulated or analogue drive takes speed commands only. Assumption: the list names no telegram of set positions
 /// (PROFIdrive, CANopen), so `operation_mode` decides for them as the manual says it does for SERCOS, and
 /// `DRIVE_DEFAULT` means what the commissioning manual prints as the usual case of each bus.
-fn position_loop(axis: &Axis) -> PositionLoop {
-    let usual = match integer(axis.raw("kenngr.antr_typ")) {
-        Some(2 | 3 | 8) => PositionLoop::Drive,
-        _ => return PositionLoop::Cnc,
-    };
-    match axis.text("antr.operation_mode").as_deref() {
-        Some("CNC_POSITION_CONTROL") => PositionLoop::Cnc,
-        _ => usual,
+fn position_loop(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> PositionLoop {
+    let key = "antr.operation_mode";
+    let mode = axis.text(key).unwrap_or_default();
+    if mode.starts_with("OPEN_POSITION_LOOP") {
+        let effect = "the loop stays closed";
+        diagnostics.push(if axis.kind() == AxisKind::Spindle {
+            let what = format!("{mode}, a spindle without position control");
+            issues::kontur(axis, 79, key, &what, effect).severity(Severity::Warning)
+        } else {
+            let what = format!("{mode}, which only spindles can have");
+            issues::vendor(axis, 70345, key, &what, effect)
+        });
     }
+    if !matches!(integer(axis.raw("kenngr.antr_typ")), Some(2 | 3 | 8))
+        || mode == "CNC_POSITION_CONTROL"
+    {
+        return PositionLoop::Cnc;
+    }
+    if !mode.starts_with("OPEN_POSITION_LOOP") {
+        let what = "position loop closed in the drive";
+        let effect = "simulated with the law of the control and its gain kv (P-AXIS-00099)";
+        diagnostics.push(issues::kontur(axis, 79, key, what, effect).hint(
+            "set kv to the gain of the drive; CNC_POSITION_CONTROL closes the loop in the control",
+        ));
+    }
+    PositionLoop::Drive
 }
 
 /// Assumption: the gain depends on speed if its two values differ; the manual names no switch.
-fn position(axis: &Axis, v_max_mm_s: f64) -> PositionConfig {
+fn position(axis: &Axis, v_max_mm_s: f64, diagnostics: &mut Vec<Diagnostic>) -> PositionConfig {
     let dynamic = |key: &str| converted(axis, &format!("getriebe[0].dyn_kv.{key}"));
     let dynamic_kv = DynamicKv {
         v1_mm_s: dynamic("v1"),
@@ -205,7 +238,7 @@ fn position(axis: &Axis, v_max_mm_s: f64) -> PositionConfig {
         v_max_mm_s,
         v_excess_ratio: converted(axis, "lr_param.dyn_monitoring_v_err"),
         dead_band_mm: converted(axis, "getriebe[0].pos_control_deadband"),
-        closed_in: position_loop(axis),
+        closed_in: position_loop(axis, diagnostics),
     }
 }
 

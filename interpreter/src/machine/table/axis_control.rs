@@ -3,8 +3,16 @@
 use super::row::{Bound, Correction, Default, Raw, Row, axis};
 
 /// Names of P-AXIS-00320.
-const OPERATION_MODES: &[&str] =
-    &["DRIVE_DEFAULT", "DRIVE_POSITION_CONTROL", "CNC_POSITION_CONTROL"];
+const OPERATION_MODES: &[&str] = &[
+    "DRIVE_DEFAULT",
+    "DRIVE_POSITION_CONTROL",
+    "CNC_POSITION_CONTROL",
+    "DSC_POSITION_CONTROL",
+    "OPEN_POSITION_LOOP_MODE",
+    "OPEN_POSITION_LOOP_POS_FEEDBACK",
+    "OPEN_POSITION_LOOP_VEL_FEEDBACK",
+    "OPEN_POSITION_LOOP_NO_FEEDBACK",
+];
 
 /// The rows.
 #[rustfmt::skip]

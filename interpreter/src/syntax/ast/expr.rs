@@ -107,8 +107,12 @@ macro_rules! functions {
     ($($variant:ident $name:literal,)*) => {
         /// Function of the expression language.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        #[allow(missing_docs, reason = "the names are the language's own")]
-        pub enum Function { $($variant),* }
+        pub enum Function {
+            $(
+                #[doc = concat!("`", $name, "`.")]
+                $variant,
+            )*
+        }
 
         impl Function {
             /// Every function.

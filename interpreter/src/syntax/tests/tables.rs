@@ -154,6 +154,7 @@ fn commands_in_all_their_spellings() {
             "#MSG SAVE EXCLUSIVE [\"%f\", V.A.ABS.X, P1]",
         ),
         ("#ERROR [ID455 RC2 PV1=5]", "#ERROR [ID455, RC2, PV1=5]"),
+        ("#CONTOUR MODE [POS X2.7 Y.5 Z-1]", "#CONTOUR MODE [POS, X2.7, Y=0.5, Z=-1]"),
         ("#CALL AX FAST [X,1,0][Y,2,1,CMDPOS]", "#CALL AX FAST [X, 1, 0] [Y, 2, 1, CMDPOS]"),
         ("#PUT AX [X, , Y]", "#PUT AX [X, , Y]"),
         ("#FILE NAME[ G80=\"x.nc\" ]", "#FILE NAME [G80=\"x.nc\"]"),

@@ -1,0 +1,191 @@
+//! G901: braking to a lower feed begins behind the end of the faster block.
+//!
+//! The slower block may be entered above its feed, with what its own limits and the boundary allow; there the path brakes
+//! at once to the feed, holds it and goes on as usual. The boundary is a knot, and braking ends in the run of blocks of
+//! this feed, so at its end the speed is what it would be without G901.
+//!
+//! A run shorter than the braking is *carried*: if its end is under G901 too, the next run is slower still, and that makes
+//! the path faster, the next run is joined to it, and braking goes on across the boundary to the feed of the next run.
+//!
+//! Source: TF5200 programming manual, G08/G09/G900/G901. Assumption: its exception, that the path is at its velocity limit
+//! already, means the limits of the slower block, with which it is entered at most.
+//!
+//! Nothing here is promised to be faster: of the plans with carried braking, without it, and without G901 the fastest one
+//! is taken.
+
+use super::{Cap, Plan, Span, Stretch, Window, is_above};
+use crate::profile::Infeasible;
+use crate::queue::Queued;
+use std::sync::Arc;
+
+/// Halvings of the speed at which a run of several blocks may be entered.
+const HALVINGS: u32 = 40;
+/// Rounds of carrying; each one joins as many runs as it can.
+const ROUNDS: usize = 16;
+
+/// Speeds at which the blocks may be entered; `None` if no block may be entered above its feed.
+pub(super) fn entries(blocks: &[Arc<Queued>], feeds: &[Cap]) -> Option<Vec<Cap>> {
+    let mut entries = feeds.to_vec();
+    for i in 1..blocks.len() {
+        let most = highest(blocks, feeds, i);
+        let reached = if feeds[i - 1].0 < most.0 { feeds[i - 1] } else { most };
+        if is_above(reached.0, feeds[i].0) {
+            entries[i] = reached;
+        }
+    }
+    (entries != feeds).then_some(entries)
+}
+
+/// Highest speed at which block `i` may be entered, whatever the feed of the block before.
+fn highest(blocks: &[Arc<Queued>], feeds: &[Cap], i: usize) -> Cap {
+    // what lowers a feed below that of the block (tolerance monitoring) is a limit
+    let own = feeds[i].0 >= blocks[i].velocity.0;
+    let late = own && blocks[i - 1].brakes_late_into(&blocks[i]);
+    if late && blocks[i].ceiling.0 > feeds[i].0 { blocks[i].ceiling } else { feeds[i] }
+}
+
+/// Plans a window with these entries, `early` without them.
+pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Plan, Infeasible> {
+    let mut late = Window { entries, ..early.clone() };
+    late.carry_start();
+    let best = match (late.plan(), early.plan()) {
+        (Ok(late), Ok(early)) => faster(late, early),
+        (Ok(plan), _) | (_, Ok(plan)) => plan,
+        (Err(e), _) => return Err(e),
+    };
+    Ok(match late.carried(&best) {
+        Some(carried) => faster(carried, best),
+        None => best,
+    })
+}
+
+/// The faster one of two plans, the second one if they are equal.
+fn faster(a: Plan, b: Plan) -> Plan {
+    let time = |plan: &Plan| plan.spans.iter().map(|s| s.profile.duration()).sum::<f64>();
+    if time(&a) < time(&b) { a } else { b }
+}
+
+impl Window<'_> {
+    /// The highest speed, at most `most`, at which a stretch that ends with `v1` may be entered: above its feed no
+    /// boundary inside is passed faster than it allows, now and when a later plan ends it at its feed.
+    pub(super) fn entry_speed(&self, s: &Stretch, most: f64, v1: f64) -> f64 {
+        if !s.is_above(most) {
+            return most;
+        }
+        let most = most.min(s.slope.reach_down(s.feed, s.length));
+        let keeps = |v0: f64| self.keeps(s, v0, v1) && self.keeps(s, v0, s.feed);
+        if keeps(most) {
+            return most;
+        }
+        let (mut low, mut high) = (s.feed, most);
+        for _ in 0..HALVINGS {
+            let mid = 0.5 * (low + high);
+            if keeps(mid) { low = mid } else { high = mid }
+        }
+        low
+    }
+
+    /// True if no boundary inside a stretch is passed faster than it allows.
+    pub(super) fn keeps(&self, s: &Stretch, v0: f64, v1: f64) -> bool {
+        if s.end - s.first == 1 || !s.is_above(v0) {
+            return true;
+        }
+        let Ok(profile) = s.profile(v0, v1) else { return false };
+        let mut at = 0.0;
+        (s.first + 1..s.end).all(|i| {
+            at += self.blocks[i - 1].length;
+            let limit = self.caps[i].0.min(highest(self.blocks, self.feeds, i).0);
+            !is_above(profile.at(profile.time_at(at)).v_mm_s, limit)
+        })
+    }
+
+    /// True if braking may go on across the boundary before block `b`: to a feed that is not higher and that the boundary
+    /// allows.
+    fn joins(&self, b: usize) -> bool {
+        let (from, to) = (&self.blocks[b - 1], &self.blocks[b]);
+        !self.forced[b]
+            && self.feeds[b].0 <= self.feeds[b - 1].0.min(self.caps[b].0)
+            && from.block.slope == to.block.slope
+            && from.brakes_late_into(to)
+    }
+
+    /// Carries the braking that begins in front of the window as far as it needs.
+    fn carry_start(&mut self) {
+        let v0 = self.v_start.0;
+        for end in 1..self.blocks.len() {
+            let s = self.stretch(0, end);
+            if !s.is_above(v0) || s.slope.down_distance(v0, s.feed) <= s.length || !self.joins(end)
+            {
+                return;
+            }
+            self.carried[end] = true;
+        }
+    }
+
+    /// A plan in which braking goes on across the ends of runs, as far as that makes it faster; `None` if nowhere.
+    fn carried(&self, base: &Plan) -> Option<Plan> {
+        let mut window = self.clone();
+        let mut plan: Option<Plan> = None;
+        for _ in 0..ROUNDS {
+            let now = plan.as_ref().unwrap_or(base);
+            let joints = window.joints(now);
+            if joints.is_empty() {
+                break;
+            }
+            for b in joints {
+                window.carried[b] = true;
+            }
+            match window.plan() {
+                Ok(next) => plan = Some(next),
+                Err(_) => break,
+            }
+        }
+        plan
+    }
+
+    /// Ends of runs across which braking should go on: with the speeds around as they are, the two runs and what lies
+    /// in front of them take less time.
+    fn joints(&self, plan: &Plan) -> Vec<usize> {
+        let mut out = Vec::new();
+        let mut k = 1;
+        while k + 1 < plan.spans.len() {
+            let b = plan.spans[k + 1].first;
+            if self.gains(plan, k) {
+                out.push(b);
+                // the speeds around change
+                k += 3;
+            } else {
+                k += 1;
+            }
+        }
+        out
+    }
+
+    /// True if spans `k` and `k + 1` as one are faster.
+    fn gains(&self, plan: &Plan, k: usize) -> bool {
+        let [before, first, second] = &plan.spans[k - 1..=k + 1] else { return false };
+        let start = |s: &Span| s.profile.at(0.0).v_mm_s;
+        let best = self.limit(first.first).0;
+        if !is_above(self.entries[first.first].0, self.feeds[first.first].0)
+            || !is_above(best, start(first))
+            || !self.joins(second.first)
+        {
+            return false;
+        }
+        let stretch = |span: &Span| self.stretch(span.first, span.end);
+        let (up, whole) = (stretch(before), stretch(first).carried_into(&stretch(second)));
+        let v0 = start(before);
+        let v1 = second.profile.at(second.profile.duration()).v_mm_s;
+        // braking ends at the feed of the second run at the latest
+        if is_above(v1, whole.feed) {
+            return false;
+        }
+        let v = best
+            .min(whole.slope.reach_down(v1, whole.length))
+            .min(up.slope.reach_up(v0, up.length));
+        let v = self.entry_speed(&whole, v, v1);
+        let (Ok(up), Ok(whole)) = (up.profile(v0, v), whole.profile(v, v1)) else { return false };
+        let time = [before, first, second].iter().map(|s| s.profile.duration()).sum::<f64>();
+        up.duration() + whole.duration() < time * (1.0 - 1e-9)
+    }
+}
