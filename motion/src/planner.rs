@@ -24,6 +24,7 @@ use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment, PathState, Timeline};
 use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
+use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -60,7 +61,7 @@ pub enum Next {
 }
 
 /// Look-ahead and interpolation of one channel.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Planner {
     cycle: CycleTime,
     window: usize,
@@ -84,9 +85,8 @@ pub struct Planner {
     reach_cycles: u32,
     unkept: Vec<Unkept>,
     brake: Option<Brake>,
-    /// Rest of the last plan, from the cursor to rest; and whether the tolerance was examined on it.
+    /// Rest of the last plan, from the cursor to rest.
     reserve: VecDeque<Entry>,
-    reserve_is_examined: bool,
     /// Override and feedhold in effect, and those asked for.
     active: Realtime,
     wanted: Realtime,
@@ -123,7 +123,6 @@ impl Planner {
             unkept: Vec::new(),
             brake: None,
             reserve: VecDeque::new(),
-            reserve_is_examined: true,
             active: Realtime::default(),
             wanted: Realtime::default(),
         }
@@ -204,7 +203,7 @@ impl Planner {
     /// [`Infeasible`] is an internal error: the passes exclude it, and where they do not the last plan goes on.
     pub fn advance(&mut self) -> Result<Next, Infeasible> {
         if self.wanted != self.active {
-            self.replan()?;
+            self.replan();
         }
         loop {
             let k = self.setpoint.k + 1;
@@ -316,54 +315,24 @@ impl Planner {
         } else {
             SpeedLimit::Lookahead
         };
-        let monitored =
-            self.kernels.any() && window.iter().any(|q| q.block.tolerance.ax_dev_mm.is_some());
         let mut demands = Demands::none(n);
         let mut forced = vec![false; n + 1];
-        let (mut round, mut released, mut worst) = (0, 0, None);
+        let mut round = 0;
         loop {
             let entries = match self.place(&window, &demands, &forced, start, end) {
                 Ok(entries) => entries,
-                Err(e) if self.reserve_is_examined || worst.is_none() => {
-                    return self.fall_back().ok_or(e);
-                }
-                // after a change of speed the path may be too fast for what the monitor asks of the next blocks
-                Err(_) if worst.is_some() && released < n => {
-                    released = (2 * released).clamp(1, n);
-                    demands.release(released);
-                    continue;
-                }
-                Err(e) => return Err(e),
+                Err(e) => return self.fall_back().ok_or(e),
             };
-            if monitored {
-                let mut trial = Timeline::default();
-                entries.iter().cloned().for_each(|e| trial.push(e));
-                let verdict = self.monitor.examine(
-                    &Trial {
-                        timeline: &trial,
-                        window: &window,
-                        past: &self.contour,
-                        kernels: &self.kernels,
-                        cycle: self.cycle,
-                        now: self.setpoint.k,
-                    },
-                    round,
-                    &mut demands,
-                );
-                round += 1;
-                match verdict {
-                    Verdict::Kept => {}
-                    Verdict::Divided(parts) => {
-                        self.divide(parts);
-                        return Ok(());
-                    }
-                    Verdict::Tightened(found) => {
-                        demands.release(released);
-                        worst = Some(found);
-                        continue;
-                    }
-                    Verdict::GivenUp(unkept) => self.unkept.push(unkept),
+            let verdict = self.verdict(&window, &entries, round, &mut demands);
+            round += 1;
+            match verdict {
+                Verdict::Kept => {}
+                Verdict::Divided(parts) => {
+                    self.divide(parts);
+                    return Ok(());
                 }
+                Verdict::Tightened => continue,
+                Verdict::GivenUp(unkept) => self.unkept.push(unkept),
             }
             let rests = end != SpeedLimit::Lookahead;
             let Some(count) = self.final_entries(&entries, n, rests) else {
@@ -373,6 +342,56 @@ impl Planner {
             };
             self.commit(entries, count, &demands);
             return Ok(());
+        }
+    }
+
+    /// Examines a plan of the window behind everything that is final, see [`Monitor::examine`].
+    fn verdict(
+        &self,
+        window: &[Arc<Queued>],
+        entries: &[Entry],
+        round: usize,
+        demands: &mut Demands,
+    ) -> Verdict {
+        let bound = window.iter().any(|q| q.block.tolerance.ax_dev_mm.is_some());
+        if !bound || !self.kernels.any() {
+            return Verdict::Kept;
+        }
+        let mut timeline = self.timeline.clone();
+        let placed = timeline.entries().count();
+        entries.iter().cloned().for_each(|e| timeline.push(e));
+        let trial = Trial {
+            timeline: &timeline,
+            placed,
+            window,
+            past: &self.contour,
+            kernels: &self.kernels,
+            cycle: self.cycle,
+            now: self.setpoint.k,
+            at_rest: self.speed.0 <= 0.0,
+        };
+        self.monitor.examine(&trial, round, demands)
+    }
+
+    /// The way to rest from the cursor on with the tolerance kept; `None` if there is none.
+    fn way_out(&mut self) -> Option<Vec<Entry>> {
+        loop {
+            let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
+            let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
+            let mut demands = Demands::none(window.len());
+            let forced = vec![false; window.len() + 1];
+            let mut round = 0;
+            let parts = loop {
+                let stop = SpeedLimit::Stop;
+                let entries = self.place(&window, &demands, &forced, self.cursor, stop).ok()?;
+                match self.verdict(&window, &entries, round, &mut demands) {
+                    Verdict::Kept => return Some(entries),
+                    Verdict::Divided(parts) => break parts,
+                    Verdict::Tightened => round += 1,
+                    Verdict::GivenUp(_) => return None,
+                }
+            };
+            self.divide(parts);
         }
     }
 
@@ -403,13 +422,18 @@ impl Planner {
         let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
         let gentle = demands.soften(window);
         let plan = plan(&gentle, &feeds, &caps, &forced, self.speed, end)?;
-        let mut at = start;
+        // behind a rest the start may have to wait until the filters have left the corner in front of it
+        let mut at = match demands.stop[0] {
+            Some(wait) => Moment::tick(start.next_tick(self.cycle) + u64::from(wait)),
+            None => start,
+        };
         let mut s = self.travelled;
         let mut entries = Vec::with_capacity(plan.spans.len());
         for span in &plan.spans {
             let stop = demands.stop[span.end];
             let stops = stop.is_some() || (span.end == n && end != SpeedLimit::Lookahead);
-            let entry = Entry::new(at, s, span, window, stops);
+            let mut entry = Entry::new(at, s, span, window, stops);
+            entry.feeds = SmallVec::from_slice(&feeds[span.first..span.end]);
             at = match stop {
                 Some(dwell) => Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell)),
                 None => entry.end,
@@ -477,7 +501,6 @@ impl Planner {
     fn commit(&mut self, mut entries: Vec<Entry>, count: usize, demands: &Demands) {
         let mut blocks = 0;
         self.reserve = entries.split_off(count).into();
-        self.reserve_is_examined = true;
         for mut entry in entries {
             blocks += entry.blocks.len();
             entry.caps = self.caps.drain(..entry.blocks.len()).collect();

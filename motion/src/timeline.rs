@@ -64,6 +64,8 @@ pub(crate) struct Entry {
     pub(crate) why_down: SpeedLimit,
     /// Blocks with the path length inside the span at their end; the last one may reach beyond the span.
     pub(crate) blocks: SmallVec<[(Arc<Queued>, f64); 1]>,
+    /// Speeds that the plan left to the blocks; empty: their own.
+    pub(crate) feeds: SmallVec<[Cap; 1]>,
     /// Caps at the starts of the blocks, once the entry is final.
     pub(crate) caps: SmallVec<[Cap; 1]>,
     /// The motion ends here, at its next tick.
@@ -136,6 +138,7 @@ impl Entry {
             why_up: why.0,
             why_down: why.1,
             blocks,
+            feeds: SmallVec::new(),
             caps: SmallVec::new(),
             stops,
             cut_s: None,
@@ -151,6 +154,9 @@ impl Entry {
     pub(crate) fn divide(&mut self, block: usize, parts: &[Arc<Queued>]) {
         let mut end = self.blocks[block].1;
         self.blocks.remove(block);
+        if let Some(feed) = self.feeds.get(block).copied() {
+            self.feeds.insert_many(block, std::iter::repeat_n(feed, parts.len().saturating_sub(1)));
+        }
         for part in parts.iter().rev() {
             self.blocks.insert(block, (Arc::clone(part), end));
             end -= part.length;
@@ -207,12 +213,13 @@ impl Entry {
         } else {
             path.position(queued.offset + state.s_mm - (s_end - queued.length), &mut out.position);
             (out.v, out.a, out.j) = (state.v_mm_s, state.a_mm_s2, state.j_mm_s3);
+            let top = self.feeds.get(i).unwrap_or(&queued.velocity);
             out.limit = if state.a_mm_s2 > 0.0 {
                 self.why_up
             } else if state.a_mm_s2 < 0.0 {
                 self.why_down
-            } else if state.v_mm_s >= queued.velocity.0 * (1.0 - 1e-9) {
-                queued.velocity.1
+            } else if state.v_mm_s >= top.0 * (1.0 - 1e-9) {
+                top.1
             } else {
                 self.why_down
             };

@@ -89,8 +89,8 @@ pub(crate) enum Verdict {
     Kept,
     /// Blocks of the window, by their index, to be planned in parts: they bend too much in one place only.
     Divided(Vec<(usize, Vec<Arc<Queued>>)>),
-    /// It does not; the demands are tightened. The largest excess.
-    Tightened(Unkept),
+    /// It does not; the demands are tightened.
+    Tightened,
     /// It does not after too many rounds. The largest excess.
     GivenUp(Unkept),
 }
@@ -121,15 +121,6 @@ impl Demands {
         }
     }
 
-    /// Takes back what is asked of the first blocks: the path is too fast there already.
-    pub(crate) fn release(&mut self, blocks: usize) {
-        let n = self.feed.len().min(blocks);
-        self.feed[..n].fill(f64::INFINITY);
-        self.acceleration[..n].fill(1.0);
-        self.cap[..=n].fill(f64::INFINITY);
-        self.stop[..=n].fill(None);
-    }
-
     /// The blocks with the acceleration that is left to them.
     pub(crate) fn soften<'a>(&self, window: &'a [Arc<Queued>]) -> Cow<'a, [Arc<Queued>]> {
         if self.acceleration.iter().all(|ratio| *ratio >= 1.0) {
@@ -156,13 +147,18 @@ pub(crate) struct Monitor {
 
 /// A plan under examination.
 pub(crate) struct Trial<'a> {
+    /// What is final and the plan behind it.
     pub(crate) timeline: &'a Timeline,
+    /// Entries of the timeline that are final.
+    pub(crate) placed: usize,
     pub(crate) window: &'a [Arc<Queued>],
     pub(crate) past: &'a Contour,
     pub(crate) kernels: &'a Kernels,
     pub(crate) cycle: CycleTime,
     /// Last cycle that was output.
     pub(crate) now: u64,
+    /// The path is at rest where the plan starts: the start can wait.
+    pub(crate) at_rest: bool,
 }
 
 impl Monitor {
@@ -204,6 +200,6 @@ impl Monitor {
             return Verdict::GivenUp(worst);
         }
         view.tighten(&findings, round, demands);
-        Verdict::Tightened(worst)
+        Verdict::Tightened
     }
 }

@@ -315,7 +315,10 @@ fn what_cannot_be_contoured_says_so() {
     assert_eq!(reason(dev(5e-5), right()).0, Some(120_129));
     let mode = ContourMode::Dist { pre_mm: 0.0, post_mm: 1.0 };
     assert_eq!(reason(ContourSettings { mode, ..dev(1.0) }, right()).0, Some(120_131));
-    assert_eq!(reason(dev(1.0), corner(180.0).to_vec()).0, Some(120_207));
+    // a needle next to a reversal would be a crawl
+    for angle_deg in [180.0, 179.999, 179.0] {
+        assert_eq!(reason(dev(1.0), corner(angle_deg).to_vec()).0, Some(120_207));
+    }
     let tiny = vec![line(&[0.0, 0.0], &[1e-4, 0.0]), line(&[1e-4, 0.0], &[1e-4, 1.0])];
     assert_eq!(reason(dev(1.0), tiny).0, Some(120_216));
     let bounded = ContourSettings { max_angle_deg: 60.0, ..dev(1.0) };

@@ -191,3 +191,23 @@ fn spline_through_a_polygonised_circle() {
     let end = smooth.set(2).last().unwrap().clone();
     assert!(libm::hypot(end[0] - 10.0, end[1]) < 1e-9, "{end:?}");
 }
+
+/// An edge between sharp bends is as fast as its straight part allows: a tenth of its speed lost on a long edge would
+/// make a larger tolerance slower.
+#[test]
+fn a_larger_path_dev_keeps_long_edges_fast() {
+    for feed in [500, 700, 1000] {
+        let mut last = usize::MAX;
+        for path_dev in ["0.005", "0.01", "0.015", "0.02", "0.03", "0.05", "0.1"] {
+            let program = format!(
+                "%P\n#SLOPE [TYPE=HSC]\n#HSC ON [BSPLINE PATH_DEV={path_dev}]\nG90 G01 F{feed} X5 Y5\nX5.2 Y30\n\
+                 X-15 Y40\n#HSC OFF\nM30\n"
+            );
+            let run = run(&program, &[]);
+            assert!(run.diagnostics.is_empty(), "{:?}", run.diagnostics);
+            let cycles = run.records.len();
+            assert!(cycles <= last, "F{feed} {path_dev}: {cycles} cycles after {last}");
+            last = cycles;
+        }
+    }
+}

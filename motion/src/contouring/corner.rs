@@ -32,6 +32,11 @@ struct Bounds {
     passes_point: bool,
 }
 
+/// What a corner is short of a reversal from which on it stays (Assumption: the curvature of the curve grows with the
+/// square of the tangent of half the angle; in such a needle the path would crawl for seconds where the corner itself
+/// takes a few cycles).
+const NEEDLE_RAD: f64 = 0.05;
+
 /// Largest corner distance of a block: half of what does not have to remain, on arcs at most a quarter turn
 /// (source: TF5200, maximum corner distance).
 fn longest(path: &Path, settings: &ContourSettings) -> f64 {
@@ -66,7 +71,7 @@ pub(super) fn curve(
     if skipped.is_empty() && corner.jump <= TANGENT {
         return Ok(None);
     }
-    if corner.angle_rad >= PI - 1e-6 {
+    if corner.angle_rad >= PI - NEEDLE_RAD {
         return Err(NoContour::NotPossible);
     }
     let angle_deg = corner.angle_rad.to_degrees();

@@ -12,19 +12,18 @@
 //! So every state that is output still has a stop in front of it. Until its leg begins the path follows the old plan:
 //! close in front of a slower place, where the path is braking already, a change takes effect behind that place.
 //!
-//! Tolerance monitoring (`AX_DEV`) examines what is planned behind the leg, with all setpoints before it in reach of the
-//! kernel. The leg itself is not examined: it is slower than the old plan that was. A boundary behind it that asks for
-//! less speed than can be reached any more is reported as not kept, if it really exceeds the tolerance.
+//! Tolerance monitoring (`AX_DEV`) examines a leg with what is planned behind it before it is taken; where the tolerance
+//! cannot be kept that way the old plan, which keeps it, goes on to the next place. A leg that ends at rest is not
+//! examined: it is slower than the old plan, and what follows the rest can wait.
 
 use super::Planner;
 use crate::course::Course;
 use crate::limit::SpeedLimit;
 use crate::lookahead::{Cap, plan};
-use crate::profile::{Infeasible, SlopeLimits};
+use crate::profile::SlopeLimits;
 use crate::queue::Queued;
 use crate::realtime::feedhold_slope;
 use crate::timeline::{Entry, Moment};
-use crate::tolerance::Demands;
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
 
@@ -65,34 +64,36 @@ enum Aim {
 
 impl Planner {
     /// Brings the demanded override and feedhold into effect.
-    pub(super) fn replan(&mut self) -> Result<(), Infeasible> {
+    pub(super) fn replan(&mut self) {
         while self.fall_back().is_some() {}
         self.active = self.wanted;
         let (k, cycle) = (self.setpoint.k, self.cycle);
-        let mut old: Vec<Entry> = self.timeline.take().into();
+        let old: Vec<Entry> = self.timeline.take().into();
         let over = old.iter().take_while(|e| e.is_over(k, cycle)).count();
         let ahead = self.ahead(&old[over..]);
         for i in over..=old.len() {
             let spot = self.spot(&old, over, i);
-            if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..]) {
-                old.truncate(i);
-                return self.install(&spot, old, leg, rest);
+            if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..])
+                && self.install(&spot, old[..i].to_vec(), leg, rest)
+            {
+                return;
             }
             // inside the entry of the present cycle: ever later
             let mut later = 1;
             while i == over && spot.v > 0.0 && !old[i].is_over(k + later, cycle) {
                 let spot = self.inside(&old[i], k + later);
                 if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..]) {
-                    old.truncate(i + 1);
-                    old[i].cut(k + later, cycle);
-                    return self.install(&spot, old, leg, rest);
+                    let mut kept = old[..=i].to_vec();
+                    kept[i].cut(k + later, cycle);
+                    if self.install(&spot, kept, leg, rest) {
+                        return;
+                    }
                 }
                 later *= 2;
             }
         }
         // not reached: the old plan ends at rest, where every leg fits
         self.timeline.put(old);
-        Ok(())
     }
 
     /// Everything known from the entry of the present cycle on, with the path length at which it starts.
@@ -179,16 +180,23 @@ impl Planner {
         let settled = slope.settled(spot.v, spot.a);
         let steady = (settled - spot.v).abs() <= 1e-12 * spot.v;
         let spot = Spot { a: if steady { 0.0 } else { spot.a }, ..*spot };
+        // the old plan keeps the tolerance, and so does what is slower; what is faster has to be examined first
+        let monitored =
+            self.kernels.any() && rest.iter().any(|(q, _)| q.block.tolerance.ax_dev_mm.is_some());
         let aims: &[Aim] = if steady {
             if spot.v <= target { &[Aim::Stay] } else { &[Aim::Brake(target)] }
         } else if spot.a > 0.0 {
-            if settled <= target {
+            if settled <= target && monitored {
+                &[Aim::Settle]
+            } else if settled <= target {
                 &[Aim::Rise(target), Aim::Settle]
             } else {
                 &[Aim::Brake(target)]
             }
         } else if settled >= target {
             &[Aim::Brake(target)]
+        } else if monitored {
+            return None;
         } else {
             &[Aim::Settle]
         };
@@ -252,19 +260,15 @@ impl Planner {
         (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
-    /// Puts what is kept and a leg on the timeline and what lies behind it into the queue.
-    fn install(
-        &mut self,
-        spot: &Spot,
-        kept: Vec<Entry>,
-        leg: Leg,
-        mut rest: Ahead,
-    ) -> Result<(), Infeasible> {
-        self.timeline.put(kept);
-        self.contour.forget_from(spot.moment.cycles(self.cycle) - SLACK);
-        self.cursor = spot.moment;
-        self.travelled = spot.s;
-        self.speed = (spot.v, spot.why);
+    /// Puts what is kept and a leg on the timeline and what lies behind it into the queue; false, and nothing is changed,
+    /// if the path would be too fast there for the tolerance.
+    fn install(&mut self, spot: &Spot, kept: Vec<Entry>, leg: Leg, mut rest: Ahead) -> bool {
+        let mut next = self.clone();
+        next.timeline.put(kept);
+        next.contour.forget_from(spot.moment.cycles(self.cycle) - SLACK);
+        next.cursor = spot.moment;
+        next.travelled = spot.s;
+        next.speed = (spot.v, spot.why);
         let why = if self.active.hold.is_some() { SpeedLimit::Stop } else { SpeedLimit::Feed };
         for course in leg {
             let length = course.length();
@@ -277,22 +281,20 @@ impl Planner {
             let (blocks, caps): (Vec<_>, Vec<_>) = along.cloned().unzip();
             let stops = course.end().v_mm_s <= 0.0;
             let mut entry =
-                Entry::along(self.cursor, self.travelled, course, (why, why), &blocks, stops);
+                Entry::along(next.cursor, next.travelled, course, (why, why), &blocks, stops);
             entry.caps = caps.into();
-            self.append(entry, 0);
+            next.append(entry, 0);
             rest = cut(rest, length);
         }
         let (queue, caps): (Vec<_>, Vec<_>) = rest.into_iter().unzip();
-        (self.queue, self.caps) = (queue.into(), caps.into());
-        self.reserve.clear();
-        if self.speed.0 > 0.0 {
-            let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
-            let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
-            let (none, free) = (Demands::none(window.len()), vec![false; window.len() + 1]);
-            self.reserve = self.place(&window, &none, &free, self.cursor, SpeedLimit::Stop)?.into();
-            self.reserve_is_examined = false;
+        (next.queue, next.caps) = (queue.into(), caps.into());
+        next.reserve.clear();
+        if next.speed.0 > 0.0 {
+            let Some(way_out) = next.way_out() else { return false };
+            next.reserve = way_out.into();
         }
-        Ok(())
+        *self = next;
+        true
     }
 }
 

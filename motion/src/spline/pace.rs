@@ -9,8 +9,10 @@ use crate::path::{Path, PolyPath, PolyPiece};
 
 /// Divisions of a piece by three at most: a sharp bend, wherever it lies, leaves one of the thirds free.
 const DEEPEST: u32 = 5;
-/// Part of its time that a piece has to gain to be cut.
+/// Part of its time that a piece has to gain to be cut, and the time in s from which on it is cut in any case: a tenth
+/// of a long edge is no trifle, and a larger tolerance would cost it.
 const GAIN: f64 = 0.1;
+const GAIN_S: f64 = 1e-3;
 
 /// A part of the spline with its least time in s.
 struct Part {
@@ -30,10 +32,6 @@ impl Part {
         let (v, limit) = speeds.limited(speeds.programmed_mm_s);
         Some(Self { piece, length, time_s: length / v, at_feed: limit != SpeedLimit::Curve })
     }
-
-    fn speed(&self) -> f64 {
-        self.length / self.time_s
-    }
 }
 
 /// The pieces of an edge in groups of nearly equal speed.
@@ -51,18 +49,28 @@ pub(super) fn groups(block: &Block, pieces: Vec<PolyPiece>) -> Vec<Vec<PolyPiece
         }
     }
     let mut out: Vec<Vec<PolyPiece>> = Vec::new();
-    let mut speed = f64::NAN;
+    // of the group under way: its length, the time of its parts, and that of its slowest part for a mm
+    let (mut length, mut time_s, mut pace) = (0.0, 0.0, 0.0);
     for part in parts {
-        let v = part.speed();
+        let own = part.time_s / part.length;
+        let (long, apart_s, slowest) = (length + part.length, time_s + part.time_s, own.max(pace));
         match out.last_mut() {
-            Some(group) if (v - speed).abs() <= GAIN * v.min(speed) => group.push(part.piece),
+            Some(group) if !gains(apart_s, long * slowest) => {
+                group.push(part.piece);
+                (length, time_s, pace) = (long, apart_s, slowest);
+            }
             _ => {
-                speed = v;
                 out.push(vec![part.piece]);
+                (length, time_s, pace) = (part.length, part.time_s, own);
             }
         }
     }
     out
+}
+
+/// True if parts that take `apart_s` should not share the speed with which they take `together_s`.
+fn gains(apart_s: f64, together_s: f64) -> bool {
+    apart_s < (1.0 - GAIN) * together_s || apart_s < together_s - GAIN_S
 }
 
 /// Divides a part as long as that makes it faster.
@@ -74,9 +82,7 @@ fn cut(block: &Block, part: Part, depth: u32, out: &mut Vec<Part>) {
     let may_gain = depth < DEEPEST && !part.at_feed;
     let thirds: Option<Vec<Part>> = if may_gain { (0..3).map(third).collect() } else { None };
     match thirds {
-        Some(thirds)
-            if thirds.iter().map(|t| t.time_s).sum::<f64>() < (1.0 - GAIN) * part.time_s =>
-        {
+        Some(thirds) if gains(thirds.iter().map(|t| t.time_s).sum(), part.time_s) => {
             for third in thirds {
                 cut(block, third, depth + 1, out);
             }

@@ -112,6 +112,16 @@ impl View<'_> {
                 blamed = true;
             }
         }
+        // a cause in front of a stop is final already, but what follows the stop can wait for the filters
+        let waits = (0..support.len()).any(|i| support[i].boundary == Some(0) && i > 0)
+            && (0..support.len()).any(|i| {
+                let (corner, curve) = share(i);
+                support[i].block.is_none() && corner.max(curve) >= findings.share * largest
+            });
+        if waits {
+            findings.corner[0] = findings.corner[0].max(excess);
+            blamed = true;
+        }
         // kernels that differ between the axes, or a cause that is final already: slow down what still can be
         if !blamed {
             for m in support {

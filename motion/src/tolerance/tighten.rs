@@ -48,7 +48,9 @@ impl View<'_> {
             if swings {
                 // what is left is the overshoot of the stop itself
                 let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
-                note(&mut soften[b - 1], excess, tolerance);
+                if b > 0 {
+                    note(&mut soften[b - 1], excess, tolerance);
+                }
                 note(&mut soften[b], excess, tolerance);
                 continue;
             }
@@ -56,7 +58,8 @@ impl View<'_> {
                 (demands.cap[b], demands.stop[b]) = (0.0, Some(full));
                 continue;
             }
-            if let Some(dwell) = demands.stop[b] {
+            let resting = demands.stop[b].or((b == 0).then_some(0));
+            if let Some(dwell) = resting {
                 // in small steps, because neighbouring corners within reach share the error
                 let needed = self.needed_dwell(mark, dwell);
                 let step = (full / 8).max(1);

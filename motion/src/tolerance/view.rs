@@ -70,7 +70,7 @@ impl<'a> View<'a> {
     /// Planned speed at a boundary of the window.
     pub(super) fn speed_at(&self, boundary: usize) -> f64 {
         let mut index = 0;
-        for e in self.trial.timeline.entries() {
+        for e in self.trial.timeline.entries().skip(self.trial.placed) {
             if boundary < index + e.blocks.len() {
                 let s = if boundary == index { 0.0 } else { e.blocks[boundary - index - 1].1 };
                 return e.profile.at(e.profile.time_at(s)).v_mm_s;
@@ -100,7 +100,8 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
             }
         }
         let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
-        let boundary = block.filter(|b| *b > 0);
+        // at the start of the path itself only a wait is possible
+        let boundary = block.filter(|b| *b > 0 || trial.at_rest);
         let queued = Arc::clone(queued);
         out.push(Mark { cycles, boundary, block, queued, s_mm: s, speed, jump, axis });
     };
@@ -111,7 +112,7 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
         add(passed.cycles, queued, None, passed.s_mm, speed.0);
     }
     let mut index = 0;
-    for entry in trial.timeline.entries() {
+    for entry in trial.timeline.entries().skip(trial.placed) {
         for (cycles, s, queued) in entry.entries(trial.cycle) {
             add(cycles, queued, Some(index), s, entry.profile.peak());
             index += 1;

@@ -1,0 +1,96 @@
+//! `AX_DEV` where the path stands or changes its speed for other reasons: dwells and stops shorter than the kernel,
+//! override and feedhold from outside. The contour is that of this test, not the program's own column.
+
+use kontur_interpreter::record::SpeedLimit;
+use kontur_tests::{Run, from_polyline, machine, run, run_with_inputs};
+
+/// Rounding of the sums over the kernel.
+const SLACK_MM: f64 = 1e-9;
+
+/// Largest component by which the set positions leave the polyline in the XY plane.
+fn off_polyline(run: &Run, corners: &[[f64; 2]]) -> f64 {
+    let polyline: Vec<Vec<f64>> = corners.iter().map(|c| c.to_vec()).collect();
+    let off =
+        |p: &Vec<f64>| from_polyline(p, &polyline).iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    run.set(2).iter().map(off).fold(0.0, f64::max)
+}
+
+/// The end of the motion in front of a stop is final when the motion behind it is planned; that one waits until the
+/// tolerance is kept, and no longer than without the stop.
+#[test]
+fn stops_shorter_than_the_kernel() {
+    let program = |slope: &str, guard: &str, stop: &str| {
+        format!(
+            "#SLOPE [TYPE={slope}]\n#VIB GUARD ON [{guard} AX_DEV=0.01]\nG01 X10 F3000\n{stop}\nG01 Y5\nM30\n"
+        )
+    };
+    let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 5.0]];
+    for slope in ["TRAPEZ", "SIN2", "HSC", "STEP"] {
+        for guard in ["MODE=2 FREQ=20", "MODE=3 FREQ=8 DAMPING=0", "MODE=4 FREQ=30"] {
+            let plain = run(&program(slope, guard, ""), &[]);
+            for stop in ["G04 0.005", "G04 X0.03", "#TIME 0.001", "M00", "M01", "#FLUSH"] {
+                let run = run(&program(slope, guard, stop), &[]);
+                assert!(run.diagnostics.is_empty(), "{:?}", run.diagnostics);
+                let off = off_polyline(&run, &corners);
+                assert!(off <= 0.01 + SLACK_MM, "{slope} {guard} {stop}: {off}");
+                let more = run.records.len().saturating_sub(plain.records.len());
+                assert!(more <= 31, "{slope} {guard} {stop}: {more} cycles more");
+            }
+        }
+    }
+}
+
+/// Where the stop lies on a straight line nothing has to wait.
+#[test]
+fn a_stop_on_a_line_does_not_wait() {
+    let program = |key: &str| {
+        format!("#VIB GUARD ON [MODE=2 FREQ=20{key}]\nG01 X10 F3000\nG04 0.005\nX20\nM30\n")
+    };
+    let (free, bound) = (run(&program(""), &[]), run(&program(" AX_DEV=0.001"), &[]));
+    assert_eq!(free.set(2), bound.set(2));
+}
+
+/// A change of override or a feedhold while the path speeds up on a curve: the speed that the tolerance allows there
+/// holds behind it as well.
+#[test]
+fn changes_of_speed_on_an_arc() {
+    let fir: Vec<String> =
+        ["X", "Y", "Z"].iter().map(|a| format!("{a}.filter_fir.type=2")).collect();
+    let fir: Vec<&str> = fir.iter().map(String::as_str).collect();
+    let (ratio, hold) = ("override_percent", "feedhold");
+    let inputs: [Vec<(f64, &str, f64)>; 5] = [
+        vec![(0.02, ratio, 50.0)],
+        vec![(0.01, ratio, 99.0)],
+        vec![(0.0, ratio, 30.0), (0.01, ratio, 31.0), (0.02, ratio, 100.0)],
+        vec![(0.1, hold, 1.0), (0.4, hold, 0.0), (0.41, ratio, 99.0)],
+        vec![(0.1, hold, 1.0), (0.11, hold, 0.0), (0.12, ratio, 99.0)],
+    ];
+    for slope in ["TRAPEZ", "SIN2", "HSC", "STEP"] {
+        let program = format!(
+            "#SLOPE [TYPE={slope}]\n#FILTER ON [ORDER=100 AX_DEV=0.05]\nG01 F12000\nG02 X20 Y0 I10 J0\nM30\n"
+        );
+        for input in &inputs {
+            let run = run_with_inputs(machine(&fir), &program, input);
+            assert!(run.diagnostics.is_empty(), "{:?}", run.diagnostics);
+            for p in run.set(2) {
+                let (x, y) = (p[0] - 10.0, p[1]);
+                let off = 1.0 - 10.0 / libm::hypot(x, y);
+                let off = (off * x).abs().max((off * y).abs());
+                // the ends of the half circle are not on it
+                assert!(off <= 0.05 + SLACK_MM || y <= 0.0, "{slope} {input:?}: {off} at {p:?}");
+            }
+        }
+    }
+}
+
+/// The trace names what holds the speed on an arc.
+#[test]
+fn the_reason_on_an_arc() {
+    let program = "#VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.01]\nG01 F6000\nG02 X20 Y0 I10 J0\nM30\n";
+    let run = run(program, &[]);
+    let top = run.records.iter().map(|r| r.path.v_mm_s).fold(0.0, f64::max);
+    let held: Vec<_> = run.records.iter().filter(|r| r.path.v_mm_s > top * (1.0 - 1e-9)).collect();
+    // some 1.2 s at 25 mm/s
+    assert!(held.len() > 1000, "{}", held.len());
+    assert!(held.iter().all(|r| r.path.limit == SpeedLimit::AxDev));
+}
