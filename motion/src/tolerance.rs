@@ -178,6 +178,12 @@ impl Monitor {
         }
     }
 
+    /// What of the final part of a trial does not keep the tolerance.
+    pub(crate) fn excess(&self, trial: &Trial<'_>) -> Option<Unkept> {
+        let none = Demands::none(trial.window.len());
+        View::new(trial, self).search(0.5, &none).worst
+    }
+
     /// Examines a plan, and tightens the demands if it does not keep the tolerance.
     pub(crate) fn examine(
         &self,
@@ -188,7 +194,7 @@ impl Monitor {
         let view = View::new(trial, self);
         // after many rounds every corner and curve in reach counts as a cause
         let share = if round < ROUNDS_OF_SPEED { 0.5 } else { 0.0 };
-        let findings = view.search(share);
+        let findings = view.search(share, demands);
         let Some(worst) = findings.worst else {
             return Verdict::Kept;
         };

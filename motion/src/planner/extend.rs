@@ -5,8 +5,8 @@ use crate::limit::SpeedLimit;
 use crate::lookahead::{Cap, plan};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
-use crate::timeline::{Entry, Moment};
-use crate::tolerance::{Demands, Trial, Verdict};
+use crate::timeline::{Entry, Moment, Timeline};
+use crate::tolerance::{Demands, Trial, Unkept, Verdict};
 use smallvec::SmallVec;
 use std::sync::Arc;
 
@@ -75,8 +75,26 @@ impl Planner {
         let mut timeline = self.timeline.clone();
         let placed = timeline.entries().count();
         entries.iter().cloned().for_each(|e| timeline.push(e));
-        let trial = Trial {
-            timeline: &timeline,
+        self.monitor.examine(&self.trial(&timeline, placed, window), round, demands)
+    }
+
+    /// What of the timeline, which ends at rest, does not keep the tolerance.
+    pub(super) fn excess(&self) -> Option<Unkept> {
+        if !self.kernels.any() {
+            return None;
+        }
+        let placed = self.timeline.entries().count();
+        self.monitor.excess(&self.trial(&self.timeline, placed, &[]))
+    }
+
+    fn trial<'a>(
+        &'a self,
+        timeline: &'a Timeline,
+        placed: usize,
+        window: &'a [Arc<Queued>],
+    ) -> Trial<'a> {
+        Trial {
+            timeline,
             placed,
             window,
             past: &self.contour,
@@ -84,8 +102,7 @@ impl Planner {
             cycle: self.cycle,
             now: self.setpoint.k,
             at_rest: self.speed.0 <= 0.0,
-        };
-        self.monitor.examine(&trial, round, demands)
+        }
     }
 
     /// The way to rest from the cursor on with the tolerance kept; `None` if there is none.

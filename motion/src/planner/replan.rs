@@ -13,8 +13,8 @@
 //! close in front of a slower place, where the path is braking already, a change takes effect behind that place.
 //!
 //! Tolerance monitoring (`AX_DEV`) examines a leg with what is planned behind it before it is taken; where the tolerance
-//! cannot be kept that way the old plan, which keeps it, goes on to the next place. A leg that ends at rest is not
-//! examined: it is slower than the old plan, and what follows the rest can wait.
+//! cannot be kept that way the old plan, which keeps it, goes on to the next place. A leg that ends at rest waits for such
+//! a place no longer than the kernel is; then it is taken, and what it exceeds is reported as not kept.
 
 use super::{Planner, programmed};
 use crate::course::Course;
@@ -264,6 +264,7 @@ impl Planner {
     /// if the path would be too fast there for the tolerance.
     fn install(&mut self, spot: &Spot, kept: Vec<Entry>, leg: Leg, mut rest: Ahead) -> bool {
         let mut next = self.clone();
+        let moves = !leg.is_empty();
         next.timeline.put(kept);
         next.contour.forget_from(spot.moment.cycles(self.cycle) - SLACK);
         next.cursor = spot.moment;
@@ -293,6 +294,12 @@ impl Planner {
         if next.speed.0 > 0.0 {
             let Some(way_out) = next.way_out() else { return false };
             next.reserve = way_out.into();
+        } else if let Some(unkept) = moves.then(|| next.excess()).flatten() {
+            let waited = spot.moment.cycles(self.cycle) - self.setpoint.k as f64;
+            if waited < f64::from(self.kernels.length()) {
+                return false;
+            }
+            next.unkept.push(unkept);
         }
         *self = next;
         true

@@ -1,8 +1,14 @@
 //! Measures a plan: where it exceeds the tolerance, and what causes it.
 
-use super::view::{Buffer, View};
-use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
+use super::tighten::on_a_bend;
+use super::view::{Buffer, Mark, View};
+use super::{BORDER_CYCLES, Demands, MARGIN_MM, Unkept};
 use crate::timeline::{PathState, Reader};
+use kontur_filters::kernel::Kernel;
+
+/// Part of the tolerance that a corner has to use up to be slowed down in place of the curves beside it: less than that
+/// the curves give up easier.
+const LEAST_PART: f64 = 0.25;
 
 /// What exceeded the tolerance in one round.
 pub(super) struct Findings {
@@ -17,7 +23,7 @@ pub(super) struct Findings {
 
 impl View<'_> {
     /// Measures every cycle whose kernel support holds a corner or a curve.
-    pub(super) fn search(&self, share: f64) -> Findings {
+    pub(super) fn search(&self, share: f64, demands: &Demands) -> Findings {
         let Self { trial, marks, .. } = self;
         let reach = u64::from(trial.kernels.length());
         let mut findings = Findings {
@@ -51,7 +57,7 @@ impl View<'_> {
                     buffer.seek(next);
                     for k in next..=until {
                         buffer.step(k);
-                        self.judge(k, &buffer, &mut findings);
+                        self.judge(k, &buffer, demands, &mut findings);
                     }
                     next = until + 1;
                 }
@@ -60,7 +66,7 @@ impl View<'_> {
         findings
     }
 
-    fn judge(&self, k: u64, buffer: &Buffer<'_>, findings: &mut Findings) {
+    fn judge(&self, k: u64, buffer: &Buffer<'_>, demands: &Demands, findings: &mut Findings) {
         let Self { trial, marks, contour, .. } = self;
         let reach = f64::from(trial.kernels.length());
         let (from, to) = (k as f64 - reach, k as f64);
@@ -99,7 +105,16 @@ impl View<'_> {
         };
         let largest = (0..support.len()).map(share).fold(0.0_f64, |x, (a, b)| x.max(a).max(b));
         let mut blamed = false;
-        for (i, m) in support.iter().enumerate() {
+        // a corner that is alone to blame is slowed down alone, not the curve beside it
+        let alone = |m: &Mark| {
+            m.boundary.is_some_and(|b| self.is_alone_to_blame(m, b, support, demands, excess))
+        };
+        for b in support.iter().filter(|m| alone(m)).filter_map(|m| m.boundary) {
+            findings.corner[b] = findings.corner[b].max(excess);
+            blamed = true;
+        }
+        let others = if blamed { &[] } else { support };
+        for (i, m) in others.iter().enumerate() {
             let (corner, curve) = share(i);
             if let Some(b) =
                 m.boundary.filter(|_| corner > 0.0 && corner >= findings.share * largest)
@@ -132,6 +147,34 @@ impl View<'_> {
         }
     }
 
+    /// True if a corner next to curves that keep the tolerance by themselves explains an excess, by the closed forms, or
+    /// if it rests already but does not dwell for the whole kernel.
+    fn is_alone_to_blame(
+        &self,
+        corner: &Mark,
+        boundary: usize,
+        support: &[Mark],
+        demands: &Demands,
+        excess: f64,
+    ) -> bool {
+        let Self { trial, .. } = self;
+        let tolerance = corner.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
+        let curves = || support.iter().filter(|m| m.queued.bend > 0.0);
+        let calm = |m: &Mark| {
+            let speed = m.speed.min(m.block.map_or(f64::INFINITY, |b| demands.feed[b]));
+            speed <= on_a_bend(trial, m.queued.bend, tolerance)
+        };
+        if boundary == 0 || curves().next().is_none() || !curves().all(calm) {
+            return false;
+        }
+        if let Some(dwell) = demands.stop[boundary] {
+            return dwell < trial.kernels.length();
+        }
+        let m1 = trial.kernels.get(corner.axis).map_or(0.0, Kernel::m1_cycles);
+        let own = m1 * trial.cycle.seconds() * corner.jump * self.speed_at(boundary);
+        own >= excess.max(LEAST_PART * tolerance)
+    }
+
     /// True if no set point of the cycles `first..=last` can leave the contour by half the tolerance.
     ///
     /// A set point is a mean of points of the path with positive weights (not so with kernels that overshoot). Expanded
@@ -148,7 +191,7 @@ impl View<'_> {
         if support.iter().skip(1).any(|m| m.jump > 1e-9) {
             return false;
         }
-        let mut state = PathState::at_rest(trial.window[0].block.path.start());
+        let mut state = PathState::at_rest(marks[begin].queued.block.path.start());
         let [from, to] = [first.saturating_sub(length + 1), last].map(|k| {
             self.state(k, reader, &mut state);
             state.s

@@ -97,9 +97,11 @@ impl View<'_> {
                 if queued.bend > 0.0 || trial.kernels.unequal || !trial.kernels.overshoot {
                     // the deviation on a curve grows with the square of the speed
                     let ratio = haste * 0.999 * left.sqrt();
-                    // slower is never needed
-                    let floor = 0.02 * on_a_bend(trial, queued.bend, tolerance);
                     let now = demands.feed[b].min(queued.velocity.0).min(mark.speed);
+                    // at first what the curve itself is to blame for: a corner may have a part in the excess; and
+                    // slower than a fiftieth of that is never needed
+                    let own = on_a_bend(trial, queued.bend, tolerance);
+                    let floor = if now > own { 0.98 * own } else { 0.02 * own };
                     demands.feed[b] = (now * ratio.max(0.3)).max(floor.min(now));
                 }
             }
@@ -148,7 +150,7 @@ impl View<'_> {
 }
 
 /// Speed in mm/s at which a curve alone uses up the tolerance: `v^2 T^2 spread bend / 2` (derived from a parabola).
-fn on_a_bend(trial: &Trial<'_>, bend: f64, tolerance: f64) -> f64 {
+pub(super) fn on_a_bend(trial: &Trial<'_>, bend: f64, tolerance: f64) -> f64 {
     let spread = trial.kernels.axes.iter().flatten().map(|k| spread_cycles2(k)).fold(0.0, f64::max);
     let t = trial.cycle.seconds();
     (2.0 * tolerance / (spread * t * t * bend.max(1e-6))).sqrt()

@@ -143,7 +143,7 @@ pub(super) struct Buffer<'a> {
 impl<'a> Buffer<'a> {
     pub(super) fn new(view: &'a View<'a>) -> Self {
         let trial = view.trial;
-        let n = trial.window.first().map_or(0, |q| q.block.path.start().len());
+        let n = view.marks.first().map_or(0, |m| m.queued.block.path.start().len());
         let zero = AxisVec::zeros(n);
         let size = trial.kernels.length() as usize + 1;
         Self {
