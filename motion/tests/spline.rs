@@ -22,7 +22,7 @@ fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) 
         let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
         let block = Block { spline: Some(settings), ..job.block(i as u64, path, feed) };
         out.extend(stage.push(block));
-        assert!(out.last().map_or(0, |b| b.seq) as usize + 5 > i, "the buffer is bounded");
+        assert!(out.last().map_or(0, |b| b.seq) as usize + 7 > i, "the buffer is bounded");
     }
     out.extend(stage.flush());
     let mut numbers: Vec<u64> = out.iter().map(|b| b.seq).collect();
@@ -169,6 +169,18 @@ fn a_coarse_corner_does_not_slow_down_its_edges() {
     }
 }
 
+/// Just short of a reversal a corner stays a corner: no slower than without the spline.
+#[test]
+fn a_needle_stays_a_corner() {
+    let job = Job::new(1.0, Hsc);
+    let points = [vec![0.0, 0.0], vec![10.0, 0.0], vec![0.0, 1e-4]];
+    let plain = job.drive(&[&points[0], &points[1], &points[2]], &[50.0]).len();
+    let settings = SplineSettings { path_dev_mm: 0.1, ..SplineSettings::default() };
+    let blocks = splined(&job, settings, &points, 50.0);
+    assert!(blocks.iter().all(|b| b.path.is_straight()));
+    assert_eq!(job.run(&points[0], blocks.into_iter()).len(), plain);
+}
+
 #[test]
 fn where_the_spline_ends() {
     let job = Job::new(1.0, Hsc);
@@ -251,6 +263,57 @@ fn ripple_on_a_circle_with_the_spline() {
                 println!("{kind:?} chord {chord} F {feed}: ripple {:.4} %", 100.0 * r);
                 assert!(r < 0.01, "{kind:?} chord {chord} F {feed}: {r}");
             }
+        }
+    }
+}
+
+/// Deviation of the spline at the corners of a [`circle`], all knots even: a sixth of an edge times the change of
+/// direction.
+fn natural(chord: f64) -> f64 {
+    let n = libm::round(2.0 * std::f64::consts::PI * 10.0 / chord);
+    let half = libm::sin(std::f64::consts::PI / n);
+    20.0 * half * 2.0 * half / 6.0
+}
+
+/// The same with the smallest tolerance that leaves the spline as it is, `h^2 / (6 r)`.
+#[test]
+fn ripple_on_a_circle_with_the_least_tolerance() {
+    let mut job = Job { window: 400, ..Job::new(1.0, Hsc) };
+    job.slope.optimised = true;
+    for chord in [0.05, 0.2, 0.5, 1.0, 2.0] {
+        let points = circle(chord);
+        let path_dev_mm = natural(chord) * (1.0 + 1e-3);
+        let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+        for feed in [50.0, 100.0] {
+            let blocks = splined(&job, settings, &points, feed);
+            let r = ripple(&job.run(&points[0], blocks.into_iter()));
+            println!("chord {chord} F {feed}: ripple {:.4} %", 100.0 * r);
+            assert!(r < 0.01, "chord {chord} F {feed}: {r}");
+        }
+    }
+}
+
+/// Tolerances below `h^2 / (6 r)` are used, and the time grows with them gradually: the curvature at a corner is about
+/// `jump^2 / (6 d)`, so the speed in it falls no faster than the root of the tolerance.
+#[test]
+fn a_small_tolerance_on_a_circle() {
+    let mut job = Job { window: 400, ..Job::new(1.0, Hsc) };
+    job.slope.optimised = true;
+    for chord in [0.5, 2.0] {
+        let points = circle(chord);
+        let mut last = 0;
+        for share in [2.0, 1.001, 0.999, 0.9, 0.75, 0.6, 0.5, 0.4, 0.3, 0.25, 0.201, 0.199, 0.1] {
+            let path_dev_mm = natural(chord) * share;
+            let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+            let blocks = splined(&job, settings, &points, 300.0);
+            let (out, missed) = strays(&blocks, &points);
+            assert!(out <= path_dev_mm * (1.0 + 1e-9), "{chord} {share}: {out}");
+            assert!(missed >= 0.95 * path_dev_mm.min(natural(chord)), "{chord} {share}: {missed}");
+            assert!(gaps(&blocks)[2] < 1e-6);
+            let cycles = job.run(&points[0], blocks.into_iter()).len();
+            println!("chord {chord} share {share}: {cycles} cycles, {missed}");
+            assert!(cycles >= last, "{chord} {share}: {cycles} after {last}");
+            last = cycles;
         }
     }
 }
