@@ -8,6 +8,7 @@
 //! Override and feedhold take back what is final from the next cycle on, bring the speed to its new value and have the
 //! rest planned again, see `replan`.
 
+mod extend;
 mod replan;
 
 use crate::axis::AxisVec;
@@ -16,15 +17,14 @@ use crate::brake::Brake;
 use crate::contour::Contour;
 use crate::corner::transition;
 use crate::limit::SpeedLimit;
-use crate::lookahead::{Cap, plan};
+use crate::lookahead::Cap;
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
 use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment, PathState, Timeline};
-use crate::tolerance::{Demands, Kernels, Monitor, Trial, Unkept, Verdict};
+use crate::tolerance::{Kernels, Monitor, Unkept};
 use kontur_filters::time::CycleTime;
-use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -66,6 +66,8 @@ pub struct Planner {
     cycle: CycleTime,
     window: usize,
     queue: VecDeque<Arc<Queued>>,
+    /// Programmed blocks in the queue: a spline or a rounded corner is planned in parts.
+    programmed: usize,
     /// Caps between the queued blocks; entry `i` stands before block `i`.
     caps: VecDeque<Cap>,
     last: Option<Arc<Queued>>,
@@ -107,6 +109,7 @@ impl Planner {
             cycle,
             window: window.max(1),
             queue: VecDeque::new(),
+            programmed: 0,
             caps: VecDeque::new(),
             last: None,
             finishing: false,
@@ -187,6 +190,9 @@ impl Planner {
             None => (0.0, SpeedLimit::Stop),
         };
         self.caps.push_back(cap);
+        if self.queue.back().is_none_or(|last| last.block.seq != queued.block.seq) {
+            self.programmed += 1;
+        }
         self.queue.push_back(Arc::clone(&queued));
         lower_caps(&self.queue, &mut self.caps, self.cycle, self.kernels.any());
         self.last = Some(queued);
@@ -214,7 +220,7 @@ impl Planner {
             if self.queue.is_empty() && self.speed.0 <= 0.0 {
                 return Ok(if self.finishing { Next::Rest } else { Next::Input });
             }
-            if !self.finishing && self.queue.len() < 2 * self.window {
+            if !self.finishing && self.programmed < 2 * self.window {
                 return Ok(Next::Input);
             }
             if self.is_held() {
@@ -295,232 +301,11 @@ impl Planner {
         self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
         self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
     }
+}
 
-    /// Plans what is queued and makes all but the last window final, or divides queued blocks first.
-    fn extend(&mut self) -> Result<(), Infeasible> {
-        let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
-        let window: Vec<Arc<Queued>> = self.queue.iter().take_while(free).cloned().collect();
-        let n = window.len();
-        // a block without speed ends the path in front of it
-        let barred = n < self.queue.len();
-        let start = if self.speed.0 > 0.0 {
-            self.cursor
-        } else {
-            Moment::tick(self.cursor.origin.max(self.setpoint.k))
-        };
-        let end = if barred {
-            SpeedLimit::Feed
-        } else if self.finishing {
-            SpeedLimit::Stop
-        } else {
-            SpeedLimit::Lookahead
-        };
-        let mut demands = Demands::none(n);
-        let mut forced = vec![false; n + 1];
-        let mut round = 0;
-        loop {
-            let entries = match self.place(&window, &demands, &forced, start, end) {
-                Ok(entries) => entries,
-                Err(e) => return self.fall_back().ok_or(e),
-            };
-            let verdict = self.verdict(&window, &entries, round, &mut demands);
-            round += 1;
-            match verdict {
-                Verdict::Kept => {}
-                Verdict::Divided(parts) => {
-                    self.divide(parts);
-                    return Ok(());
-                }
-                Verdict::Tightened => continue,
-                Verdict::GivenUp(unkept) => self.unkept.push(unkept),
-            }
-            let rests = end != SpeedLimit::Lookahead;
-            let Some(count) = self.final_entries(&entries, n, rests) else {
-                // one span over more than a window: it is cut where the last window begins
-                forced[n - self.window] = true;
-                continue;
-            };
-            self.commit(entries, count, &demands);
-            return Ok(());
-        }
-    }
-
-    /// Examines a plan of the window behind everything that is final, see [`Monitor::examine`].
-    fn verdict(
-        &self,
-        window: &[Arc<Queued>],
-        entries: &[Entry],
-        round: usize,
-        demands: &mut Demands,
-    ) -> Verdict {
-        let bound = window.iter().any(|q| q.block.tolerance.ax_dev_mm.is_some());
-        if !bound || !self.kernels.any() {
-            return Verdict::Kept;
-        }
-        let mut timeline = self.timeline.clone();
-        let placed = timeline.entries().count();
-        entries.iter().cloned().for_each(|e| timeline.push(e));
-        let trial = Trial {
-            timeline: &timeline,
-            placed,
-            window,
-            past: &self.contour,
-            kernels: &self.kernels,
-            cycle: self.cycle,
-            now: self.setpoint.k,
-            at_rest: self.speed.0 <= 0.0,
-        };
-        self.monitor.examine(&trial, round, demands)
-    }
-
-    /// The way to rest from the cursor on with the tolerance kept; `None` if there is none.
-    fn way_out(&mut self) -> Option<Vec<Entry>> {
-        loop {
-            let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
-            let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
-            let mut demands = Demands::none(window.len());
-            let forced = vec![false; window.len() + 1];
-            let mut round = 0;
-            let parts = loop {
-                let stop = SpeedLimit::Stop;
-                let entries = self.place(&window, &demands, &forced, self.cursor, stop).ok()?;
-                match self.verdict(&window, &entries, round, &mut demands) {
-                    Verdict::Kept => return Some(entries),
-                    Verdict::Divided(parts) => break parts,
-                    Verdict::Tightened => round += 1,
-                    Verdict::GivenUp(_) => return None,
-                }
-            };
-            self.divide(parts);
-        }
-    }
-
-    /// Plans the window and places the spans on the time axis.
-    fn place(
-        &self,
-        window: &[Arc<Queued>],
-        demands: &Demands,
-        forced: &[bool],
-        start: Moment,
-        end: SpeedLimit,
-    ) -> Result<Vec<Entry>, Infeasible> {
-        let lower = |cap: Cap, demand: f64| {
-            if demand < cap.0 { (demand, SpeedLimit::AxDev) } else { cap }
-        };
-        let n = window.len();
-        let feeds: Vec<Cap> = window
-            .iter()
-            .enumerate()
-            .map(|(i, q)| {
-                let floor = if i == 0 { self.speed.0 } else { 0.0 };
-                lower(q.velocity, demands.feed[i].max(floor))
-            })
-            .collect();
-        let caps: Vec<Cap> = (0..=n)
-            .map(|i| lower(self.caps.get(i).copied().unwrap_or((0.0, end)), demands.cap[i]))
-            .collect();
-        let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
-        let gentle = demands.soften(window);
-        let plan = plan(&gentle, &feeds, &caps, &forced, self.speed, end)?;
-        // behind a rest the start may have to wait until the filters have left the corner in front of it
-        let mut at = match demands.stop[0] {
-            Some(wait) => Moment::tick(start.next_tick(self.cycle) + u64::from(wait)),
-            None => start,
-        };
-        let mut s = self.travelled;
-        let mut entries = Vec::with_capacity(plan.spans.len());
-        for span in &plan.spans {
-            let stop = demands.stop[span.end];
-            let stops = stop.is_some() || (span.end == n && end != SpeedLimit::Lookahead);
-            let mut entry = Entry::new(at, s, span, window, stops);
-            entry.feeds = SmallVec::from_slice(&feeds[span.first..span.end]);
-            at = match stop {
-                Some(dwell) => Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell)),
-                None => entry.end,
-            };
-            s += span.profile.length();
-            entries.push(entry);
-        }
-        Ok(entries)
-    }
-
-    /// How many entries become final; `None` if the first one already reaches into the last window.
-    fn final_entries(&self, entries: &[Entry], n: usize, rests: bool) -> Option<usize> {
-        if rests {
-            return Some(entries.len());
-        }
-        let limit = n.saturating_sub(self.window);
-        let mut blocks = 0;
-        let count = entries
-            .iter()
-            .take_while(|e| {
-                blocks += e.blocks.len();
-                blocks <= limit
-            })
-            .count();
-        (count > 0).then_some(count)
-    }
-
-    /// Puts parts in the place of queued blocks.
-    fn divide(&mut self, blocks: Vec<(usize, Vec<Arc<Queued>>)>) {
-        for (b, parts) in blocks.into_iter().rev() {
-            let mut first = 0;
-            for entry in &mut self.reserve {
-                if b < first + entry.blocks.len() {
-                    entry.divide(b - first, &parts);
-                    break;
-                }
-                first += entry.blocks.len();
-            }
-            for part in parts[1..].iter().rev() {
-                self.queue.insert(b + 1, Arc::clone(part));
-                self.caps.insert(b + 1, (f64::INFINITY, SpeedLimit::Curve));
-            }
-            self.queue[b] = Arc::clone(&parts[0]);
-        }
-    }
-
-    /// Makes the next span of the last plan final, because there is no new plan from where it starts.
-    ///
-    /// New blocks can make the window infeasible: with ramps, braking to the crawl that they ask for may be longer than
-    /// braking to the rest that was planned, and runs of blocks are joined anew from the cursor on.
-    fn fall_back(&mut self) -> Option<()> {
-        let mut entry = self.reserve.pop_front()?;
-        entry.stops |= self.reserve.is_empty();
-        let blocks = entry.blocks.len();
-        entry.caps = self.caps.drain(..blocks).collect();
-        self.queue.drain(..blocks);
-        self.append(entry, 0);
-        if let Some(next) = self.reserve.front() {
-            // a dwell in between
-            self.cursor = next.start;
-        }
-        Some(())
-    }
-
-    fn commit(&mut self, mut entries: Vec<Entry>, count: usize, demands: &Demands) {
-        let mut blocks = 0;
-        self.reserve = entries.split_off(count).into();
-        for mut entry in entries {
-            blocks += entry.blocks.len();
-            entry.caps = self.caps.drain(..entry.blocks.len()).collect();
-            self.append(entry, demands.stop[blocks].unwrap_or(0));
-        }
-        self.queue.drain(..blocks);
-    }
-
-    /// Puts an entry behind the others on the timeline; what follows a stop starts after `dwell` cycles.
-    fn append(&mut self, entry: Entry, dwell: u32) {
-        for (cycles, s, queued) in entry.entries(self.cycle) {
-            self.contour.enter(cycles, s, Arc::clone(queued));
-        }
-        self.travelled = entry.s0 + entry.profile.length();
-        self.speed = (entry.profile.end().v_mm_s, entry.why_down);
-        self.cursor = entry.end;
-        if entry.stops {
-            self.cursor = Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell));
-            self.speed = (0.0, entry.why_down);
-        }
-        self.timeline.push(entry);
-    }
+/// Programmed blocks among parts of them.
+fn programmed(parts: &VecDeque<Arc<Queued>>) -> usize {
+    let seqs = parts.iter().map(|q| q.block.seq);
+    let behind = seqs.clone().skip(1);
+    usize::from(!parts.is_empty()) + seqs.zip(behind).filter(|(a, b)| a != b).count()
 }

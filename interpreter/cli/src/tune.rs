@@ -19,12 +19,15 @@ use args::TuneArgs;
 use kontur_filters::analysis::tuning::{Choice, VibrationBand};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
+use recording::{Measured, Mode};
 
 /// What the table of the modes is computed for.
 #[derive(Clone, Debug)]
 struct Task {
     /// Measured natural frequencies in Hz.
     freqs_hz: Vec<f64>,
+    /// Weaker vibrations of the recordings.
+    others: Vec<Mode>,
     band: VibrationBand,
     /// A set frequency in Hz that is judged beside the best one.
     at_hz: f64,
@@ -56,8 +59,8 @@ pub fn tune(
     if let Some(tolerance_mm) = args.order_for {
         return order::answer(tolerance_mm, args.feed, cycle, console);
     }
-    let (freqs_hz, measured_damping) = if args.recording.is_empty() {
-        (args.freq.clone(), None)
+    let Measured { freqs_hz, damping: measured_damping, others } = if args.recording.is_empty() {
+        Measured { freqs_hz: args.freq.clone(), ..Measured::default() }
     } else {
         recording::measured(args, console)?
     };
@@ -69,6 +72,7 @@ pub fn tune(
     let task = Task {
         at_hz: args.at.unwrap_or_else(|| (100.0 * median(&freqs_hz)).round() / 100.0),
         freqs_hz,
+        others,
         band,
         limit_ratio: args.max_residual / 100.0,
         feed_mm_min: args.feed,
@@ -202,22 +206,54 @@ impl Task {
     /// Residual vibration at each measured frequency.
     fn residuals(&self, rows: &[Row]) -> String {
         let mut header = vec!["mode".to_owned(), "f_set Hz".to_owned()];
-        header
-            .extend(self.freqs_hz.iter().map(|f| format!("f_real {} Hz", (f * 1e3).round() / 1e3)));
+        let rounded = |f: f64| (f * 1e3).round() / 1e3;
+        header.extend(self.freqs_hz.iter().map(|f| format!("f_real {} Hz", rounded(*f))));
+        header.extend(self.others.iter().map(|m| format!("other {} Hz", rounded(m.freq_hz))));
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
         let mut table = Table::new(&header);
         for Row { choice, .. } in rows {
             let mut row =
                 vec![choice.settings.mode.to_string(), format!("{}", choice.settings.freq_hz)];
-            row.extend(self.freqs_hz.iter().map(|&real_hz| {
-                let one = VibrationBand { low_hz: real_hz, high_hz: real_hz, ..self.band };
-                let judged = one.judge(choice.settings, self.cycle);
-                judged
-                    .map_or_else(String::new, |c| format!("{} %", number(100.0 * c.worst_ratio, 2)))
+            let real = self.freqs_hz.iter().map(|f| (*f, self.band.damping));
+            let all = real.chain(self.others.iter().map(|m| self.vibration(m)));
+            row.extend(all.map(|real| {
+                let left = self.left_of(choice, real);
+                left.map_or_else(String::new, |left| format!("{} %", number(100.0 * left, 2)))
             }));
             table.push(row);
         }
         table.text()
+    }
+
+    /// Frequency in Hz and damping of a weaker vibration.
+    fn vibration(&self, mode: &Mode) -> (f64, f64) {
+        (mode.freq_hz, mode.damping.unwrap_or(self.band.damping))
+    }
+
+    /// Share of a vibration of this frequency in Hz and damping that a choice leaves.
+    fn left_of(&self, choice: &Choice, (real_hz, damping): (f64, f64)) -> Option<f64> {
+        let band = VibrationBand { low_hz: real_hz, high_hz: real_hz, damping };
+        Some(band.judge(choice.settings, self.cycle)?.worst_ratio)
+    }
+
+    /// Weaker vibrations of which a choice leaves more than the limit of the strongest one.
+    fn beside(&self, choice: &Choice) -> String {
+        let loud = |m: &&Mode| {
+            self.left_of(choice, self.vibration(m))
+                .is_some_and(|left| left * m.peak_ratio > self.limit_ratio)
+        };
+        let line = |mode: &Mode| {
+            let left = self.left_of(choice, self.vibration(mode)).unwrap_or(1.0);
+            let all = self.freqs_hz.iter().chain([&mode.freq_hz]).map(|f| number(*f, 2));
+            format!(
+                "warning   {} Hz, {} % as strong, keeps {} % of its vibration; --freq {} tunes for both\n",
+                number(mode.freq_hz, 2),
+                number(100.0 * mode.peak_ratio, 0),
+                number(100.0 * left, 0),
+                all.collect::<Vec<_>>().join(",")
+            )
+        };
+        self.others.iter().filter(loud).map(line).collect::<Vec<_>>().concat()
     }
 
     /// The mode with the least contour error among those that keep the limit, at its best frequency.
@@ -234,13 +270,14 @@ impl Task {
     fn proposal(&self, rows: &[Row]) -> String {
         match self.proposed(rows) {
             Some(choice) => format!(
-                "\nproposal  {}\n          the least contour error among the modes that keep {} %; {}\n",
+                "\nproposal  {}\n          the least contour error among the modes that keep {} %; {}\n{}",
                 command(&choice.settings, &self.tolerance()),
                 100.0 * self.limit_ratio,
                 match self.max_dev_mm {
                     Some(mm) => format!("AX_DEV keeps the axes within {mm} mm of the contour"),
                     None => "AX_DEV=.. in the same brackets bounds it".to_owned(),
-                }
+                },
+                self.beside(&choice)
             ),
             None => format!(
                 "\nproposal  none: no mode keeps {} % over {} to {} Hz; settings per position or a larger \
@@ -261,6 +298,7 @@ mod tests {
         Task {
             at_hz: median(freqs_hz),
             freqs_hz: freqs_hz.to_vec(),
+            others: Vec::new(),
             band: VibrationBand::of(freqs_hz, 0.1).unwrap(),
             limit_ratio: 0.05,
             feed_mm_min: 4000.0,
@@ -317,6 +355,18 @@ mod tests {
         let rows = task.rows();
         assert_eq!(task.proposed(&rows), None);
         assert!(task.proposal(&rows).contains("none"));
+    }
+
+    /// Half of a vibration of the other frequency is far more than 5 % of the strongest one; a tenth as strong it is not.
+    #[test]
+    fn a_second_vibration_that_stays_is_told() {
+        let other = |peak_ratio| Mode { freq_hz: 31.0, damping: Some(0.1), peak_ratio };
+        let with = |peak_ratio| Task { others: vec![other(peak_ratio)], ..task(&[20.0]) };
+        let said = with(0.5).proposal(&with(0.5).rows());
+        assert!(said.contains("warning   31.00 Hz, 50 % as strong"), "{said}");
+        assert!(said.contains("--freq 20.00,31.00 tunes"), "{said}");
+        assert!(!with(0.05).proposal(&with(0.05).rows()).contains("warning"));
+        assert!(with(0.5).text(&with(0.5).rows()).contains("other 31 Hz"));
     }
 
     #[test]

@@ -269,6 +269,7 @@ impl Decoder {
             contour: if rounds { Some(self.contouring.settings()) } else { self.hsc.contour() },
             spline: self.hsc.spline(),
         });
+        self.check_time(&block, at);
         let motion = Box::new(Motion {
             block,
             source: self.source,

@@ -16,7 +16,7 @@
 //! cannot be kept that way the old plan, which keeps it, goes on to the next place. A leg that ends at rest is not
 //! examined: it is slower than the old plan, and what follows the rest can wait.
 
-use super::Planner;
+use super::{Planner, programmed};
 use crate::course::Course;
 use crate::limit::SpeedLimit;
 use crate::lookahead::{Cap, plan};
@@ -288,6 +288,7 @@ impl Planner {
         }
         let (queue, caps): (Vec<_>, Vec<_>) = rest.into_iter().unzip();
         (next.queue, next.caps) = (queue.into(), caps.into());
+        next.programmed = programmed(&next.queue);
         next.reserve.clear();
         if next.speed.0 > 0.0 {
             let Some(way_out) = next.way_out() else { return false };

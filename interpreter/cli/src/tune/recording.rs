@@ -38,16 +38,24 @@ pub struct Mode {
     pub peak_ratio: f64,
 }
 
-/// The strongest natural frequency of each recording, and the mean of their dampings.
+/// What recordings tell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Measured {
+    /// The strongest natural frequency of each recording in Hz.
+    pub(super) freqs_hz: Vec<f64>,
+    /// Mean of their dampings.
+    pub(super) damping: Option<f64>,
+    /// The weaker vibrations of all recordings.
+    pub(super) others: Vec<Mode>,
+}
+
+/// The natural frequencies of the recordings.
 ///
 /// # Errors
 /// [`Error`] if a file cannot be read, has no such column, or holds no vibration.
-pub(super) fn measured(
-    args: &TuneArgs,
-    console: &mut Console,
-) -> Result<(Vec<f64>, Option<f64>), Error> {
+pub(super) fn measured(args: &TuneArgs, console: &mut Console) -> Result<Measured, Error> {
     let mut table = Table::new(&["recording", "peak", "frequency", "damping", ""]);
-    let (mut freqs_hz, mut dampings) = (Vec::new(), Vec::new());
+    let (mut found, mut dampings) = (Measured::default(), Vec::new());
     for path in &args.recording {
         let (samples, rate_hz) = read(path, args.column.as_deref(), args.rate)?;
         let modes = modes(&samples, rate_hz);
@@ -55,7 +63,8 @@ pub(super) fn measured(
             let text = format!("{}: no vibration stands out of its spectrum", path.display());
             return Err(Error::Usage(text));
         };
-        freqs_hz.push(strongest.freq_hz);
+        found.freqs_hz.push(strongest.freq_hz);
+        found.others.extend(&modes[1..]);
         dampings.extend(strongest.damping);
         for (i, mode) in modes.iter().enumerate() {
             table.push(vec![
@@ -63,13 +72,14 @@ pub(super) fn measured(
                 format!("{} %", number(100.0 * mode.peak_ratio, 0)),
                 format!("{} Hz", number(mode.freq_hz, 3)),
                 mode.damping.map_or_else(|| "no decay".to_owned(), |z| number(z, 4)),
-                if i == 0 { "used" } else { "not used" }.to_owned(),
+                if i == 0 { "used" } else { "other" }.to_owned(),
             ]);
         }
     }
     console.print(&format!("{}\n", table.text()))?;
     let mean = dampings.iter().sum::<f64>() / dampings.len() as f64;
-    Ok((freqs_hz, (!dampings.is_empty()).then_some(mean)))
+    found.damping = (!dampings.is_empty()).then_some(mean);
+    Ok(found)
 }
 
 /// Samples and sampling rate of a CSV file.

@@ -5,7 +5,8 @@ use crate::exec::fault::{Fault, Outcome, own};
 use crate::exec::modal::{FeedType, PathMode};
 use crate::exec::words::Placed;
 use crate::syntax::ast::Span;
-use kontur_motion::block::Feed;
+use kontur_motion::block::{Block, Feed};
+use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::Path;
 
 impl Decoder {
@@ -37,6 +38,19 @@ impl Decoder {
                 Feed::PathVelocity(word.value * unit_mm * rpm / 60.0)
             }
         })
+    }
+
+    /// Says of a time (G93) that the limits of the axes do not allow: the limits win.
+    pub(super) fn check_time(&mut self, block: &Block, span: Span) {
+        let Feed::Duration(time_s) = block.feed else { return };
+        let speeds = PathSpeeds::of(block, &PathExtremes::of(&block.path));
+        let least_s = block.path.length() / speeds.highest();
+        if time_s < least_s * (1.0 - 1e-9) {
+            let text = format!(
+                "the block cannot be done in F{time_s} s (G93): its velocity limits need {least_s:.6} s"
+            );
+            self.note(Fault::kontur(own::ODD, text, span).warning());
+        }
     }
 
     /// True unless only rotary axes move.

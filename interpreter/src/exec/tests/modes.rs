@@ -30,6 +30,8 @@ fn feed_types() {
     assert_eq!(id("G95 F1 X1"), ["60132"]);
     assert_eq!(id("F100 X10 F200"), ["20175"]);
     assert_eq!(id("G137 G93 G94 F1"), ["20121"]);
+    // 10 m/s
+    assert_eq!(id("G137 G93 F0.001 X10"), ["K-0109"]);
 }
 
 #[test]
