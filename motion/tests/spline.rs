@@ -293,8 +293,7 @@ fn ripple_on_a_circle_with_the_least_tolerance() {
     }
 }
 
-/// Tolerances below `h^2 / (6 r)` are used, and the time grows with them gradually: the curvature at a corner is about
-/// `jump^2 / (6 d)`, so the speed in it falls no faster than the root of the tolerance.
+/// Tolerances below `h^2 / (6 r)` are used, and a smaller one never makes the run shorter.
 #[test]
 fn a_small_tolerance_on_a_circle() {
     let mut job = Job { window: 400, ..Job::new(1.0, Hsc) };
