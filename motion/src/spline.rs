@@ -10,8 +10,8 @@
 //! along a radius. A corner that would deviate more is drawn back. With a little too small a tolerance, knots in the
 //! middles of its edges leave only the corner itself to move back to the programmed point, by as much as is needed; the
 //! full way halves the deviation, and the next knots go on from there. So the tolerance is used, and a larger one makes
-//! the spline neither sharper nor different at once. A corner whose tolerance is small beside its edges gets two more
-//! control points on either side, at distances `e` and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline
+//! the spline neither sharper nor different at once. A corner whose tolerance is small beside its edges, or whose edges
+//! are uneven and whose deviation could exceed the tolerance for any other edges, gets two more control points on either side, at distances `e` and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline
 //! touches the polygon before and behind it (P-CHAN-00129 = 0). Or the spline ends there (`AUTO_OFF_PATH`; this goes by the
 //! bound for any other edges, at even ones a quarter of an edge). At its ends the spline meets the polygon with its
 //! direction and without curvature. Position, tangent and curvature are continuous everywhere else.
@@ -48,7 +48,8 @@ const EVEN: f64 = 2.0;
 /// Parameters of `#HSC [BSPLINE]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplineSettings {
-    /// `PATH_DEV` in mm, default 0.2: largest deviation from the polygon; 0 = not monitored.
+    /// `PATH_DEV` in mm, default 0.2: largest deviation from the polygon; 0 = not monitored. Below `c^2 / (6 r)` on chords
+    /// `c` of an arc it costs speed.
     pub path_dev_mm: f64,
     /// `TRACK_DEV` in deg, default 5: largest deviation of the axes outside the feed group; 0 = not monitored.
     pub track_dev_deg: f64,
