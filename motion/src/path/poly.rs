@@ -291,10 +291,14 @@ impl PolyPath {
             let mut bend = 0.0_f64;
             for i in 0..n {
                 let axis = &self.pieces[piece][i];
-                let samples: [[f64; 3]; SAMPLES + 1] =
-                    std::array::from_fn(|k| paces[k].derivatives(axis, at(k)));
-                for order in 0..3 {
-                    let get = |k: usize| samples[k][order].abs();
+                let mut orders = [[0.0; SAMPLES + 1]; 3];
+                for (k, pace) in paces.iter().enumerate() {
+                    for (samples, d) in orders.iter_mut().zip(pace.derivatives(axis, at(k))) {
+                        samples[k] = d.abs();
+                    }
+                }
+                for (order, samples) in orders.iter().enumerate() {
+                    let get = |k: usize| samples[k];
                     let extreme = &mut self.extremes[order][i];
                     for k in 0..=SAMPLES {
                         let here = get(k);

@@ -202,17 +202,16 @@ impl ControlPolygon {
                 let a = if before { self.middle(j - 1) } else { self.knot(j - 1) };
                 let b = if behind { self.middle(j) } else { self.knot(j + 1) };
                 let drawn_in = self.control(j, a, b);
-                match node.reach.filter(|_| far[j]) {
-                    Some(reach) => {
-                        let (now, then) = (self.reach(j), self.reach_subdivided(j));
-                        if then < reach {
-                            let back = (now - reach) / (now - then);
-                            node.point = between(&drawn_in, &node.point, back);
-                            node.reach = None;
-                        }
+                if let Some(reach) = node.reach.filter(|_| far[j]) {
+                    let (now, then) = (self.reach(j), self.reach_subdivided(j));
+                    if then < reach {
+                        let back = (now - reach) / (now - then);
+                        node.point = between(&drawn_in, &node.point, back);
+                        node.reach = None;
                     }
+                } else {
                     // judged once: what its neighbours do leaves the spline here as it is
-                    None => (node.point, node.reach) = (drawn_in, None),
+                    (node.point, node.reach) = (drawn_in, None);
                 }
             }
             first = if j == self.first { nodes.len() } else { first };
