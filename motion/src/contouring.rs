@@ -12,6 +12,7 @@ mod settings;
 use crate::block::{Block, ChannelDynamics, CurveJerk, Feed};
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::{Path, PolyPath, PolyPiece};
+pub(crate) use corner::NEEDLE_RAD;
 use corner::{Curve, curve};
 use std::sync::Arc;
 

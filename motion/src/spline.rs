@@ -6,32 +6,50 @@
 //! piece belongs to one block, and is never further from its edge than its ends are: the deviation of the whole spline is
 //! known from the corners alone.
 //!
-//! A corner whose deviation could exceed the tolerance gets two more control points on either side, at distances `e`
-//! and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline touches the polygon before and behind it (P-CHAN-00129
-//! = 0), or the spline ends there (`AUTO_OFF_PATH`). At its ends the spline meets the polygon with its direction and
-//! without curvature. Position, tangent and curvature are continuous everywhere else.
+//! At even edges the deviation is a sixth of an edge times the change of direction: `h^2 / (6 r)` where the polygon runs
+//! along a radius. A corner that would deviate more is drawn back. With a little too small a tolerance, knots in the
+//! middles of its edges leave only the corner itself to move back to the programmed point, by as much as is needed; the
+//! full way halves the deviation, and the next knots go on from there. So the tolerance is used, and a larger one makes
+//! the spline neither sharper nor different at once. A corner whose tolerance is small beside its edges, or whose edges
+//! are uneven and whose deviation could exceed the tolerance for any other edges, gets two more control points on either side, at distances `e` and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline
+//! touches the polygon before and behind it (P-CHAN-00129 = 0). Or the spline ends there (`AUTO_OFF_PATH`; this goes by the
+//! bound for any other edges, at even ones a quarter of an edge). At its ends the spline meets the polygon with its
+//! direction and without curvature. Position, tangent and curvature are continuous everywhere else.
+//!
+//! Whatever the control points: a spline that passes a corner at the distance `d` with a change of direction by `jump`
+//! has a curvature of about `jump^2 / (6 d)` there. Below the deviation of the even polygon a smaller tolerance therefore
+//! costs speed, as its root: the edges get straighter and the corners sharper, and the path speed has a ripple. A corner
+//! just short of a reversal stays a corner, as in contouring.
 //!
 //! An edge becomes several blocks with the number of the programmed one where its parts allow different speeds.
 
 mod pace;
+mod polygon;
 
 use crate::axis::AxisVec;
 use crate::block::{Block, Feed};
-use crate::path::{Path, PolyPath, PolyPiece, piece};
-use smallvec::SmallVec;
+use crate::contouring::NEEDLE_RAD;
+use crate::path::{Path, PolyPath, piece};
+use polygon::ControlPolygon;
 use std::collections::VecDeque;
+use std::f64::consts::PI;
 
 /// Edges behind the present one that decide its piece.
-const AHEAD: usize = 3;
+const AHEAD: usize = 5;
 /// Edges before the present one that decide its piece.
 const BEHIND: usize = 3;
-/// Part of an edge that `e` takes at most, so that the control points added at both ends stay in order.
-const SHARE: f64 = 0.2;
+/// Part of an edge that `e` takes at most, so that the control points added at both ends stay in order. Below a quarter,
+/// where twice halved edges have the same control points.
+const SHARE: f64 = 0.245;
+/// Edges around a corner whose lengths differ by no more than this ratio can be halved: each halving takes at least a
+/// third of the deviation. Otherwise the control points would crowd at the ends of short edges.
+const EVEN: f64 = 2.0;
 
 /// Parameters of `#HSC [BSPLINE]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplineSettings {
-    /// `PATH_DEV` in mm, default 0.2: largest deviation from the polygon; 0 = not monitored.
+    /// `PATH_DEV` in mm, default 0.2: largest deviation from the polygon; 0 = not monitored. Below `c^2 / (6 r)` on chords
+    /// `c` of an arc it costs speed.
     pub path_dev_mm: f64,
     /// `TRACK_DEV` in deg, default 5: largest deviation of the axes outside the feed group; 0 = not monitored.
     pub track_dev_deg: f64,
@@ -68,17 +86,20 @@ struct Edge {
     settings: SplineSettings,
     direction: AxisVec,
     length: f64,
-    /// Distance of the control points added on either side of the corner at its start.
-    corner: Option<f64>,
+    corner: Corner,
 }
 
-/// What the corner between two edges asks for.
-enum Corner {
-    Plain,
+/// The corner at the start of an edge inside a run.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    /// Largest deviation there for a change of direction by 1 in mm, as far as the tolerances go.
+    reach: f64,
     /// Control points at `e` and `2 e` on either side.
-    Refined(f64),
-    /// The spline ends.
-    End,
+    e: Option<f64>,
+}
+
+impl Corner {
+    const FREE: Self = Self { reach: f64::INFINITY, e: None };
 }
 
 /// The stage. It holds at most [`AHEAD`] blocks, and what it needs of the [`BEHIND`] before them.
@@ -118,19 +139,39 @@ impl Splining {
         };
         if let Some(last) = self.run.back() {
             match corner(last, &edge) {
-                Corner::Plain => {}
-                Corner::Refined(e) => edge.corner = Some(e),
-                Corner::End => self.end_run(),
+                Some(corner) => edge.corner = corner,
+                None => self.end_run(),
             }
         }
         self.from_start |= self.run.is_empty();
+        self.settle(edge.length);
         self.run.push_back(edge);
         if self.run.len() > self.done + AHEAD {
             self.put_out(false);
         }
     }
 
+    /// Settles the corner at the start of the last edge, which the length of the next edge has a part in.
+    fn settle(&mut self, next: f64) {
+        let Some(at) = self.run.len().checked_sub(2) else { return };
+        let (h, k) = (self.run[at].length, self.run[at + 1].length);
+        let g = if at > 0 { self.run[at - 1].length } else { h };
+        let lengths = [g, h, k, next];
+        let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
+        let even = lengths.iter().all(|l| *l <= EVEN * shortest);
+        let most = SHARE * h.min(k);
+        let Corner { reach, e } = &mut self.run[at + 1].corner;
+        if reach.is_finite() {
+            let exact = 6.0 * *reach;
+            *e = (!even || exact < most).then_some(exact.min(most));
+        }
+    }
+
     fn end_run(&mut self) {
+        if let Some(last) = self.run.back() {
+            // mirrored at the end
+            self.settle(last.length);
+        }
         while self.done < self.run.len() {
             self.put_out(true);
         }
@@ -170,8 +211,7 @@ impl Splining {
     /// The spline over the next edge: one curve, or one for each part with a speed of its own.
     fn curves(&self, to_end: bool) -> Vec<PolyPath> {
         let polygon = ControlPolygon::around(&self.run, self.done, self.from_start, to_end);
-        let pieces: Vec<PolyPiece> =
-            (polygon.first..polygon.last).map(|j| polygon.piece(j)).collect();
+        let pieces = polygon.pieces();
         let block = &self.run[self.done].block;
         let mut start = if self.from_start && self.done == 0 {
             block.path.start().clone()
@@ -216,11 +256,7 @@ impl Edge {
             return None;
         }
         let direction = line.direction().clone();
-        Some(Self { block: block.clone(), settings, direction, length, corner: None })
-    }
-
-    fn start(&self) -> &AxisVec {
-        self.block.path.start()
+        Some(Self { block: block.clone(), settings, direction, length, corner: Corner::FREE })
     }
 }
 
@@ -228,10 +264,10 @@ fn is_feed(block: &Block, i: usize) -> bool {
     block.dynamics.feed_axes.get(i).copied().unwrap_or(true)
 }
 
-/// Judges the corner between two edges of a run.
-fn corner(a: &Edge, b: &Edge) -> Corner {
+/// Judges the corner between two edges of a run; `None` where the spline ends.
+fn corner(a: &Edge, b: &Edge) -> Option<Corner> {
     if a.block.dynamics.feed_axes != b.block.dynamics.feed_axes {
-        return Corner::End;
+        return None;
     }
     let (mut jump2, mut sum2, mut track) = (0.0, 0.0, 0.0_f64);
     for i in 0..a.direction.len() {
@@ -246,133 +282,23 @@ fn corner(a: &Edge, b: &Edge) -> Corner {
     let jump = jump2.sqrt();
     let angle = 2.0 * libm::atan2(jump, sum2.sqrt());
     let settings = &b.settings;
-    if angle.to_degrees() > settings.max_angle_deg || sum2 <= 1e-12 {
-        return Corner::End;
+    if angle.to_degrees() > settings.max_angle_deg || angle >= PI - NEEDLE_RAD {
+        return None;
     }
-    // both points that cut the corner are at most `cut` away from it, whatever the other knots are, and the joint
-    // between them divides their distance in the ratio of the edges
+    // the reach whatever the knots of the other corners are
     let (h, k) = (a.length, b.length);
-    let cut = h * k / (h + k) * h.max(k) / (h + k);
-    let monitored = |dev: f64, off: bool, jump: f64| {
-        (dev > 0.0 && cut * jump > dev).then_some((off, 6.0 * dev / jump))
+    let most = h * k / (h + k) * h.max(k) / (h + k);
+    let allowed = |dev: f64, off: bool, jump: f64| {
+        (dev > 0.0 && most * jump > dev).then_some((off, dev / jump))
     };
-    let path = monitored(settings.path_dev_mm, settings.off_at_path_dev, jump);
-    let slaved = monitored(settings.track_dev_deg, settings.off_at_track_dev, track);
-    let demands = [path, slaved];
-    if demands.iter().flatten().any(|(off, _)| *off) {
-        return Corner::End;
-    }
-    match demands.iter().flatten().map(|(_, e)| *e).min_by(f64::total_cmp) {
-        None => Corner::Plain,
-        Some(e) => Corner::Refined(e.min(SHARE * h.min(k))),
-    }
-}
-
-/// Control points around an edge with their knots.
-struct ControlPolygon {
-    points: SmallVec<[AxisVec; 24]>,
-    /// Distances along the polygon.
-    knots: SmallVec<[f64; 24]>,
-    /// Control points at the start and the end of the edge.
-    first: usize,
-    last: usize,
-}
-
-impl ControlPolygon {
-    fn around(run: &VecDeque<Edge>, edge: usize, from_start: bool, to_end: bool) -> Self {
-        let mut out = Self { points: SmallVec::new(), knots: SmallVec::new(), first: 0, last: 0 };
-        let begin = edge.saturating_sub(2);
-        let end = (edge + AHEAD).min(run.len());
-        let mut at = 0.0;
-        for i in begin..end {
-            let Edge { length, corner, .. } = run[i];
-            out.last = if i == edge + 1 { out.points.len() } else { out.last };
-            out.first = if i == edge { out.points.len() } else { out.first };
-            out.points.push(run[i].start().clone());
-            out.knots.push(at);
-            let behind = run.get(i + 1).and_then(|next| next.corner);
-            let near = corner.into_iter().flat_map(|e| [e, 2.0 * e]);
-            let far = behind.into_iter().flat_map(|e| [length - 2.0 * e, length - e]);
-            for d in near.chain(far) {
-                let mut p = run[i].start().clone();
-                run[i].block.path.position(d, &mut p);
-                out.points.push(p);
-                out.knots.push(at + d);
-            }
-            at += length;
+    let path = allowed(settings.path_dev_mm, settings.off_at_path_dev, jump);
+    let slaved = allowed(settings.track_dev_deg, settings.off_at_track_dev, track);
+    let mut reach = f64::INFINITY;
+    for (off, allowed) in [path, slaved].into_iter().flatten() {
+        if off {
+            return None;
         }
-        if let Some(last) = run.get(end.wrapping_sub(1)) {
-            out.last = if end == edge + 1 { out.points.len() } else { out.last };
-            out.points.push(last.block.path.end().clone());
-            out.knots.push(at);
-        }
-        if to_end && end == run.len() {
-            out.mirror_end();
-        }
-        if from_start && begin == 0 {
-            out.mirror_start();
-        }
-        out
+        reach = reach.min(allowed);
     }
-
-    /// Two control points mirrored at the end, which make it an exact end without curvature.
-    fn mirror_end(&mut self) {
-        let n = self.points.len() - 1;
-        for back in 1..=2 {
-            let at = n.saturating_sub(back);
-            let p = self.points[n].iter().zip(self.points[at].iter()).map(|(e, p)| 2.0 * e - p);
-            self.points.push(p.collect());
-            self.knots.push(2.0 * self.knots[n] - self.knots[at]);
-        }
-    }
-
-    fn mirror_start(&mut self) {
-        for _ in 0..2 {
-            // what stands at 0, 1 first is the start; after one insertion it stands at 1
-            let start = self.knots.iter().position(|k| *k >= 0.0).unwrap_or(0);
-            let at = 2 * start + 1;
-            let p = self.points[start].iter().zip(self.points[at].iter()).map(|(s, p)| 2.0 * s - p);
-            self.points.insert(0, p.collect());
-            self.knots.insert(0, 2.0 * self.knots[start] - self.knots[at]);
-            self.first += 1;
-            self.last += 1;
-        }
-    }
-
-    /// Point on the leg behind control point `j` with the knots around it and the third knot `t`.
-    fn on_leg(&self, j: usize, t: f64) -> AxisVec {
-        let (before, behind) = (self.knots[j - 1], self.knots[j + 2]);
-        let ratio = (t - before) / (behind - before);
-        self.points[j]
-            .iter()
-            .zip(self.points[j + 1].iter())
-            .map(|(p, q)| p + ratio * (q - p))
-            .collect()
-    }
-
-    /// Inner Bezier points of the interval behind knot `j`.
-    fn inner(&self, j: usize) -> [AxisVec; 2] {
-        [self.on_leg(j, self.knots[j]), self.on_leg(j, self.knots[j + 1])]
-    }
-
-    /// Point of the spline at knot `j`.
-    fn joint(&self, j: usize) -> AxisVec {
-        let before = self.on_leg(j - 1, self.knots[j]);
-        let behind = self.on_leg(j, self.knots[j]);
-        let ratio = (self.knots[j] - self.knots[j - 1]) / (self.knots[j + 1] - self.knots[j - 1]);
-        before.iter().zip(behind.iter()).map(|(p, q)| p + ratio * (q - p)).collect()
-    }
-
-    /// The polynomial between knot `j` and the next one.
-    fn piece(&self, j: usize) -> PolyPiece {
-        let (b0, b3) = (self.joint(j), self.joint(j + 1));
-        let [b1, b2] = self.inner(j);
-        (0..b0.len())
-            .map(|i| {
-                let (p, q, r, s) = (b0[i], b1[i], b2[i], b3[i]);
-                let second = (p - q) - (q - r);
-                [p, 3.0 * (q - p), 3.0 * second, (s - p) - 3.0 * (r - q), 0.0, 0.0]
-            })
-            .collect()
-    }
+    Some(Corner { reach, e: None })
 }

@@ -32,10 +32,10 @@ struct Bounds {
     passes_point: bool,
 }
 
-/// What a corner is short of a reversal from which on it stays (Assumption: the curvature of the curve grows with the
-/// square of the tangent of half the angle; in such a needle the path would crawl for seconds where the corner itself
+/// What a corner is short of a reversal from which on it stays (Assumption: the curvature of the curve, and that of a
+/// spline at such a corner, grows with the square of the tangent of half the angle; in such a needle the path would crawl for seconds where the corner itself
 /// takes a few cycles).
-const NEEDLE_RAD: f64 = 0.05;
+pub(crate) const NEEDLE_RAD: f64 = 0.05;
 
 /// Largest corner distance of a block: half of what does not have to remain, on arcs at most a quarter turn
 /// (source: TF5200, maximum corner distance).

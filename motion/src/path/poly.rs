@@ -47,6 +47,44 @@ struct Derivatives {
     third: AxisVec,
 }
 
+/// How the parameter runs along the path at one point, by the parameter.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    rate: f64,
+    rate2: f64,
+    growth: f64,
+    growth2: f64,
+}
+
+impl Pace {
+    /// From the derivatives by the parameter of the measured axes.
+    fn at(piece: &PolyPiece, measured: &[bool], x: f64) -> Self {
+        let (mut dot12, mut dot22, mut dot13) = (0.0, 0.0, 0.0);
+        let mut rate2 = 0.0;
+        for (c, _) in piece.iter().zip(measured).filter(|(_, m)| **m) {
+            let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
+            rate2 += d1 * d1;
+            dot12 += d1 * d2;
+            dot22 += d2 * d2;
+            dot13 += d1 * d3;
+        }
+        let rate = rate2.sqrt();
+        let growth = dot12 / rate;
+        let growth2 = (dot22 + dot13 - growth * growth) / rate;
+        Self { rate, rate2, growth, growth2 }
+    }
+
+    /// Derivatives of one axis by path length.
+    fn derivatives(self, c: &[f64; 6], x: f64) -> [f64; 3] {
+        let Self { rate, rate2, growth, growth2 } = self;
+        let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
+        let first = d1 / rate;
+        let second = (d2 - first * growth) / rate2;
+        let third = ((d3 - first * growth2) / rate2 - 3.0 * second * growth / rate) / rate;
+        [first, second, third]
+    }
+}
+
 /// A curve of polynomials, `s` measured over the feed axes (over all axes if none of them moves).
 #[derive(Clone, Debug, PartialEq)]
 pub struct PolyPath {
@@ -208,21 +246,14 @@ impl PolyPath {
         }
     }
 
-    /// `q'`, `q''`, `q'''` by path length, from the derivatives by the parameter and those of its speed.
+    fn pace(&self, piece: usize, x: f64) -> Pace {
+        Pace::at(&self.pieces[piece], &self.measured, x)
+    }
+
+    /// `q'`, `q''`, `q'''` by path length.
     fn derivatives(&self, piece: usize, x: f64) -> Derivatives {
+        let pace = self.pace(piece, x);
         let axes = &self.pieces[piece];
-        let (mut dot12, mut dot22, mut dot13) = (0.0, 0.0, 0.0);
-        let mut rate2 = 0.0;
-        for (c, _) in axes.iter().zip(&self.measured).filter(|(_, m)| **m) {
-            let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
-            rate2 += d1 * d1;
-            dot12 += d1 * d2;
-            dot22 += d2 * d2;
-            dot13 += d1 * d3;
-        }
-        let rate = rate2.sqrt();
-        let growth = dot12 / rate;
-        let growth2 = (dot22 + dot13 - growth * growth) / rate;
         let n = axes.len();
         let mut out = Derivatives {
             first: AxisVec::zeros(n),
@@ -230,12 +261,7 @@ impl PolyPath {
             third: AxisVec::zeros(n),
         };
         for (i, c) in axes.iter().enumerate() {
-            let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
-            let first = d1 / rate;
-            let second = (d2 - first * growth) / rate2;
-            out.first[i] = first;
-            out.second[i] = second;
-            out.third[i] = ((d3 - first * growth2) / rate2 - 3.0 * second * growth / rate) / rate;
+            [out.first[i], out.second[i], out.third[i]] = pace.derivatives(c, x);
         }
         out
     }
@@ -261,29 +287,38 @@ impl PolyPath {
         for cell in cells {
             let piece = cell.piece;
             let at = |k: usize| cell.from + (cell.to - cell.from) * k as f64 / SAMPLES as f64;
-            let samples: SmallVec<[Derivatives; SAMPLES + 1]> =
-                (0..=SAMPLES).map(|k| self.derivatives(piece, at(k))).collect();
+            let paces: [Pace; SAMPLES + 1] = std::array::from_fn(|k| self.pace(piece, at(k)));
             let mut bend = 0.0_f64;
-            for order in 0..3 {
-                for i in 0..n {
-                    let get = |d: &Derivatives| [&d.first, &d.second, &d.third][order][i].abs();
+            for i in 0..n {
+                let axis = &self.pieces[piece][i];
+                let mut orders = [[0.0; SAMPLES + 1]; 3];
+                for (k, pace) in paces.iter().enumerate() {
+                    for (samples, d) in orders.iter_mut().zip(pace.derivatives(axis, at(k))) {
+                        samples[k] = d.abs();
+                    }
+                }
+                for (order, samples) in orders.iter().enumerate() {
+                    let get = |k: usize| samples[k];
+                    let extreme = &mut self.extremes[order][i];
                     for k in 0..=SAMPLES {
-                        let here = get(&samples[k]);
-                        self.extremes[order][i] = self.extremes[order][i].max(here);
+                        let here = get(k);
+                        *extreme = extreme.max(here);
                         let (low, high) = (k.saturating_sub(1), (k + 1).min(SAMPLES));
-                        let (before, behind) = (get(&samples[low]), get(&samples[high]));
                         // the vertex of a parabola through three samples is at most this much higher
                         let mid = k.clamp(1, SAMPLES - 1);
-                        let [l, m, r] = [mid - 1, mid, mid + 1].map(|k| get(&samples[k]));
+                        let [l, m, r] = [mid - 1, mid, mid + 1].map(get);
                         let bound = here + (2.0 * m - l - r).abs();
                         if order == 1 {
                             bend = bend.max(bound);
                         }
-                        if here < before || here < behind || bound <= self.extremes[order][i] {
+                        if here < get(low) || here < get(high) || bound <= *extreme {
                             continue;
                         }
-                        let peak = golden(at(low), at(high), |x| get(&self.derivatives(piece, x)));
-                        self.extremes[order][i] = self.extremes[order][i].max(peak);
+                        let peak = golden(at(low), at(high), |x| {
+                            let pace = Pace::at(&self.pieces[piece], &self.measured, x);
+                            pace.derivatives(axis, x)[order].abs()
+                        });
+                        *extreme = extreme.max(peak);
                     }
                 }
             }

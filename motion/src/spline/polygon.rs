@@ -1,0 +1,248 @@
+//! The control polygon around an edge: control points, knots, and the spline in Bezier form.
+
+use super::{AHEAD, BEHIND, Edge};
+use crate::axis::AxisVec;
+use crate::path::PolyPiece;
+use smallvec::SmallVec;
+use std::collections::VecDeque;
+
+/// Subdivisions of the legs at a corner at most. Each of them takes at least a third of its deviation, where less than a
+/// tenth has to be left.
+const DEEPEST: usize = 32;
+
+/// A control point with its knot.
+#[derive(Clone, Debug)]
+struct Node {
+    point: AxisVec,
+    /// Place on the polygon: the knot, but for control points that a subdivision puts on an edge.
+    at: f64,
+    knot: f64,
+    /// Present at corners that are still where they were programmed: the largest reach of the spline there.
+    reach: Option<f64>,
+}
+
+/// Control points around an edge.
+#[derive(Debug)]
+pub(super) struct ControlPolygon {
+    nodes: SmallVec<[Node; 24]>,
+    /// Control points at the start and the end of the edge.
+    pub(super) first: usize,
+    pub(super) last: usize,
+}
+
+impl ControlPolygon {
+    pub(super) fn around(
+        run: &VecDeque<Edge>,
+        edge: usize,
+        from_start: bool,
+        to_end: bool,
+    ) -> Self {
+        let mut out = Self { nodes: SmallVec::new(), first: 0, last: 0 };
+        let begin = edge.saturating_sub(BEHIND);
+        // the corner behind these edges is settled
+        let end = (edge + AHEAD - 1).min(run.len());
+        let mut at = 0.0;
+        for i in begin..end {
+            let Edge { length, corner, block, .. } = &run[i];
+            out.last = if i == edge + 1 { out.nodes.len() } else { out.last };
+            out.first = if i == edge { out.nodes.len() } else { out.first };
+            let reach = corner.e.is_none().then_some(corner.reach);
+            out.push(block.path.start().clone(), at, reach);
+            let behind = run.get(i + 1).and_then(|next| next.corner.e);
+            let near = corner.e.into_iter().flat_map(|e| [e, 2.0 * e]);
+            let far = behind.into_iter().flat_map(|e| [length - 2.0 * e, length - e]);
+            for d in near.chain(far) {
+                let mut p = block.path.start().clone();
+                block.path.position(d, &mut p);
+                out.push(p, at + d, None);
+            }
+            at += length;
+        }
+        if let Some(last) = run.get(end.wrapping_sub(1)) {
+            out.last = if end == edge + 1 { out.nodes.len() } else { out.last };
+            out.push(last.block.path.end().clone(), at, None);
+        }
+        if to_end && end == run.len() {
+            out.mirror_end();
+        }
+        if from_start && begin == 0 {
+            out.mirror_start();
+        }
+        for _ in 0..DEEPEST {
+            if !out.subdivide() {
+                break;
+            }
+        }
+        out
+    }
+
+    fn push(&mut self, point: AxisVec, at: f64, reach: Option<f64>) {
+        self.nodes.push(Node { point, at, knot: at, reach });
+    }
+
+    /// Two control points mirrored at the end, which make it an exact end without curvature.
+    fn mirror_end(&mut self) {
+        let n = self.nodes.len() - 1;
+        for back in 1..=2 {
+            let mirrored = self.mirrored(n, n.saturating_sub(back));
+            self.nodes.push(mirrored);
+        }
+    }
+
+    fn mirror_start(&mut self) {
+        for back in 1..=2 {
+            // each insertion moves the start by one
+            let start = back - 1;
+            let mirrored = self.mirrored(start, start + back);
+            self.nodes.insert(0, mirrored);
+            self.first += 1;
+            self.last += 1;
+        }
+    }
+
+    fn mirrored(&self, center: usize, node: usize) -> Node {
+        let (c, n) = (&self.nodes[center], &self.nodes[node]);
+        let at = 2.0 * c.at - n.at;
+        let point = c.point.iter().zip(n.point.iter()).map(|(c, p)| 2.0 * c - p).collect();
+        Node { point, at, knot: at, reach: None }
+    }
+
+    fn knot(&self, j: usize) -> f64 {
+        self.nodes[j].knot
+    }
+
+    /// Ratio at which the third knot `t` divides the leg behind control point `j`, beside the knots at its ends.
+    fn ratio(&self, j: usize, t: f64) -> f64 {
+        let (before, behind) = (self.knot(j - 1), self.knot(j + 2));
+        (t - before) / (behind - before)
+    }
+
+    /// Point on the leg behind control point `j` with the knots at its ends and the third knot `t`.
+    fn on_leg(&self, j: usize, t: f64) -> AxisVec {
+        between(&self.nodes[j].point, &self.nodes[j + 1].point, self.ratio(j, t))
+    }
+
+    /// The control point with knot `j` between the knots `a` and `b`; with all three equal the point of the spline.
+    fn control(&self, j: usize, a: f64, b: f64) -> AxisVec {
+        let (before, behind) = (self.knot(j - 1), self.knot(j + 1));
+        let ratio = (a - before) / (behind - before);
+        between(&self.on_leg(j - 1, b), &self.on_leg(j, b), ratio)
+    }
+
+    /// Point of the spline at knot `j`.
+    pub(super) fn joint(&self, j: usize) -> AxisVec {
+        self.control(j, self.knot(j), self.knot(j))
+    }
+
+    /// The polynomials of the edge.
+    pub(super) fn pieces(&self) -> Vec<PolyPiece> {
+        let mut start = self.joint(self.first);
+        (self.first..self.last)
+            .map(|j| {
+                let end = self.joint(j + 1);
+                let from = std::mem::replace(&mut start, end);
+                self.piece(j, &from, &start)
+            })
+            .collect()
+    }
+
+    /// The polynomial between the points of the spline at knot `j` and the next one.
+    fn piece(&self, j: usize, b0: &AxisVec, b3: &AxisVec) -> PolyPiece {
+        let (b1, b2) = (self.on_leg(j, self.knot(j)), self.on_leg(j, self.knot(j + 1)));
+        (0..b0.len())
+            .map(|i| {
+                let (p, q, r, s) = (b0[i], b1[i], b2[i], b3[i]);
+                let second = (p - q) - (q - r);
+                [p, 3.0 * (q - p), 3.0 * second, (s - p) - 3.0 * (r - q), 0.0, 0.0]
+            })
+            .collect()
+    }
+
+    /// Reach of the spline at a corner that is a control point: its deviation for a change of direction by 1.
+    fn reach(&self, j: usize) -> f64 {
+        let node = |k: usize| (self.nodes[k].at, self.nodes[k].knot);
+        reach([j - 2, j - 1, j, j + 1, j + 2].map(node))
+    }
+
+    /// The reach behind the subdivision of both legs.
+    fn reach_subdivided(&self, j: usize) -> f64 {
+        let node = |k: usize| (self.nodes[k].at, self.nodes[k].knot);
+        let middle = |k: usize| {
+            let t = self.middle(k);
+            let ((a, _), (b, _)) = (node(k), node(k + 1));
+            (a + self.ratio(k, t) * (b - a), t)
+        };
+        reach([node(j - 1), middle(j - 1), node(j), middle(j), node(j + 1)])
+    }
+
+    fn middle(&self, j: usize) -> f64 {
+        0.5 * (self.knot(j) + self.knot(j + 1))
+    }
+
+    /// Puts a knot into the middle of both legs of every corner that reaches too far. That alone leaves the spline as it
+    /// is, with the new control points on the edges and the corners drawn in; then the corners go back to the programmed
+    /// points, as far as the tolerance demands. False if there are none.
+    fn subdivide(&mut self) -> bool {
+        let n = self.nodes.len();
+        let inside = |j: usize| j >= 2 && j + 2 < n;
+        let reaches_far =
+            |j: usize| inside(j) && self.nodes[j].reach.is_some_and(|reach| self.reach(j) > reach);
+        let far: SmallVec<[bool; 32]> = (0..n).map(reaches_far).collect();
+        if !far.contains(&true) {
+            return false;
+        }
+        let splits = |j: usize| j + 1 < n && (far[j] || far[j + 1]);
+        let (mut first, mut last) = (self.first, self.last);
+        let mut nodes = SmallVec::new();
+        for j in 0..n {
+            let mut node = self.nodes[j].clone();
+            let (before, behind) = (j > 0 && splits(j - 1), splits(j));
+            // the outermost control points have no part in the edge
+            if inside(j) {
+                let a = if before { self.middle(j - 1) } else { self.knot(j - 1) };
+                let b = if behind { self.middle(j) } else { self.knot(j + 1) };
+                let drawn_in = self.control(j, a, b);
+                if let Some(reach) = node.reach.filter(|_| far[j]) {
+                    let (now, then) = (self.reach(j), self.reach_subdivided(j));
+                    if then < reach {
+                        let back = (now - reach) / (now - then);
+                        node.point = between(&drawn_in, &node.point, back);
+                        node.reach = None;
+                    }
+                } else {
+                    // judged once: what its neighbours do leaves the spline here as it is
+                    (node.point, node.reach) = (drawn_in, None);
+                }
+            }
+            first = if j == self.first { nodes.len() } else { first };
+            last = if j == self.last { nodes.len() } else { last };
+            let at = node.at;
+            nodes.push(node);
+            if behind {
+                let knot = self.middle(j);
+                let at = at + self.ratio(j, knot) * (self.nodes[j + 1].at - at);
+                nodes.push(Node { point: self.on_leg(j, knot), at, knot, reach: None });
+            }
+        }
+        *self = Self { nodes, first, last };
+        true
+    }
+}
+
+fn between(p: &AxisVec, q: &AxisVec, ratio: f64) -> AxisVec {
+    p.iter().zip(q.iter()).map(|(p, q)| p + ratio * (q - p)).collect()
+}
+
+/// Reach at the middle one of five control points given by place and knot.
+///
+/// With `g h k l` between the knots, the Bezier points before and behind the corner have the distances
+/// `h k / (g + h + k)` and `h k / (h + k + l)` from it (on legs as long as `h` and `k`), and the spline divides their
+/// connection as `h : k`. So it has the distances `beta sin(theta)` from the first edge and `alpha sin(theta)` from the
+/// second one, where `alpha = h k^2 / ((h + k) (g + h + k))` and `beta = h^2 k / ((h + k) (h + k + l))`, and passes the
+/// corner at no more than the larger one of them times the change of direction. At even edges that is a sixth of an edge.
+fn reach([a, b, c, d, e]: [(f64, f64); 5]) -> f64 {
+    let (h, k) = (c.1 - b.1, d.1 - c.1);
+    let alpha = (c.0 - b.0) * k * k / (d.1 - a.1);
+    let beta = (d.0 - c.0) * h * h / (e.1 - b.1);
+    alpha.max(beta) / (h + k)
+}
