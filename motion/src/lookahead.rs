@@ -8,8 +8,9 @@
 //!    to each other that a stop of the acceleration costs speed. Where braking under G901 begins, see [`late`];
 //! 3. *backward pass*: no knot is faster than what can still be braked to the next one, so the window ends at rest;
 //! 4. *forward pass*: no knot is faster than what can be reached from the one before;
-//! 5. *check* (HSC, `NO_OPT=0`): a span that exceeds a limit inside is planned along its limits, see [`crate::ride`]; where
-//!    that is refused, the boundary that is exceeded most becomes a knot, and 3 to 5 are repeated.
+//! 5. *check* (HSC, `NO_OPT=0`): a span that exceeds a limit inside, or whose blocks differ in acceleration, is planned
+//!    along its limits, see [`crate::ride`]; where that is refused, the boundary that is exceeded most becomes a knot, and
+//!    3 to 5 are repeated.
 //!
 //! Guarantee: every span is feasible, and by induction a stop is possible from every state that is ever output, because
 //! the passes only lower velocities and `reach_down` is monotone.
@@ -26,6 +27,9 @@ use std::sync::Arc;
 /// value (Assumption: a CAM contour changes its direction from block to block by little, and the control does not
 /// stop accelerating there).
 const NEARLY_EQUAL: f64 = 0.1;
+
+/// Relative difference of path acceleration from which on blocks planned across are not planned with the weakest of them.
+const UNEVEN: f64 = 0.01;
 
 /// A velocity with its reason.
 pub type Cap = (f64, SpeedLimit);
@@ -141,17 +145,20 @@ impl Window<'_> {
                 #[cfg(test)]
                 crate::work::add();
                 let mut profile = s.profile(from.0, to.0)?;
-                if s.end - s.first > 1
-                    && blocks[s.first].plans_across()
-                    && !s.is_above(from.0)
-                    && let Some(worst) = most_exceeded(blocks, feeds, caps, s, &profile)
-                {
-                    let cells = cells(blocks, feeds, caps, s.first, s.end);
-                    if let Some(chain) = cells.and_then(|c| ride(&c, from.0, to.0)) {
-                        profile = SpanProfile::from_chain(chain);
-                    } else {
-                        knot[worst] = true;
-                        again = true;
+                if s.end - s.first > 1 && blocks[s.first].plans_across() && !s.is_above(from.0) {
+                    let worst = most_exceeded(blocks, feeds, caps, s, &profile);
+                    let chain = (worst.is_some() || s.is_uneven(blocks, profile.peak()))
+                        .then(|| cells(blocks, feeds, caps, s.first, s.end))
+                        .flatten()
+                        .and_then(|cells| ride(&cells, from.0, to.0));
+                    match (chain.map(SpanProfile::from_chain), worst) {
+                        (Some(ride), None) if ride.duration() >= profile.duration() => {}
+                        (Some(ride), _) => profile = ride,
+                        (None, Some(worst)) => {
+                            knot[worst] = true;
+                            again = true;
+                        }
+                        (None, None) => {}
                     }
                 }
                 spans.push(Span {
@@ -329,6 +336,14 @@ impl Stretch {
             feed: second.feed,
             slope: self.slope.weaker(&second.slope),
         }
+    }
+
+    /// True if one of its blocks allows more than all of them together, and is long enough at this speed to use it.
+    fn is_uneven(&self, blocks: &[Arc<Queued>], v: f64) -> bool {
+        blocks[self.first..self.end].iter().any(|b| {
+            !b.slope.nearly_equals(&self.slope, UNEVEN)
+                && rates(b).is_some_and(|r| has_hill(b.length, v, &r))
+        })
     }
 
     /// True if a speed at its start is above its feed (G901).

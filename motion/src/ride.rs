@@ -7,7 +7,8 @@
 //! 2. *fall*: the same from the end, backwards.
 //! 3. *join*: the lower one of both is the speed. Where it changes from rise to fall the acceleration would jump, so there
 //!    the fastest third-order profile connects a state before with one behind, as close to each other as the limits
-//!    allow. At a local minimum both are at the limit with zero acceleration and meet by themselves.
+//!    allow. At a local minimum both are at the limit with zero acceleration and meet by themselves. Where no connection
+//!    fits, or it would crawl, both are planned anew below a lower *hill*.
 //!
 //! TRAPEZ: every ramp has a constant jerk. SIN2: it has the shape of a sine square, over the time that TRAPEZ would take;
 //! so the jerk is zero between any two of them and its peak is that of SIN2 (`pi/2 a/t`).
@@ -15,6 +16,7 @@
 //! Nothing is promised before it has been measured: every connection is checked against every limit it passes, and a
 //! stretch for which no connection fits is refused; the caller then stops accelerating at its boundaries.
 
+mod hill;
 mod join;
 mod rise;
 
@@ -105,8 +107,8 @@ pub(crate) fn ride(cells: &[Cell], v0: f64, v1: f64) -> Option<Chain> {
     let backward = Rise { cells: mirrored, dt, shape }.run(v1)?;
     let turn = |list: &[Phase]| list.iter().rev().map(|p| p.reversed(length)).collect::<Vec<_>>();
     // joined from either end, so that a reversed contour takes the same time
-    let there = join(cells, shape, forward.clone(), turn(&backward), v0);
-    let back = join(mirrored, shape, backward, turn(&forward), v1).map(|out| turn(&out));
+    let there = join(cells, shape, dt, forward.clone(), turn(&backward), v0);
+    let back = join(mirrored, shape, dt, backward, turn(&forward), v1).map(|out| turn(&out));
     let time = |list: &Vec<Phase>| list.iter().map(|p| p.t).sum::<f64>();
     let best = [there, back].into_iter().flatten().min_by(|a, b| time(a).total_cmp(&time(b)))?;
     Some(Chain::new(best, length))

@@ -1,12 +1,16 @@
 //! The lower one of rise and fall, connected where the one changes to the other.
 
-use super::{Block, SLACK};
+use super::hill::Hill;
+use super::{Block, SLACK, STEPS_PER_RAMP};
 use crate::profile::{MotionState, Phase, RampShape, ThirdOrderLimits, ThirdOrderProfile};
 
 /// Relative excess of the rise over the fall from which on they cross: both may miss a limit they run along by less.
 const CROSSING: f64 = 1e-3;
 /// Widths, in phases on either side, at which a connection is tried.
 const WIDTHS: [usize; 16] = [0, 1, 2, 3, 4, 6, 8, 11, 15, 20, 27, 36, 48, 64, 96, 128];
+/// Parts of the jerk that are tried where the whole of it leaves no way: a sine-square ramp that is shorter than one of
+/// the rise is ahead of it at first.
+const GENTLER: [f64; 4] = [0.7, 0.5, 0.35, 0.25];
 /// Rounds in which the length of a connection with sine-square ramps is made to fit.
 const ROUNDS: u32 = 12;
 /// Length in mm by which a connection may miss its end: rounding.
@@ -16,13 +20,26 @@ const MISS_MM: f64 = 1e-11;
 pub(super) fn join(
     cells: &[Block],
     shape: RampShape,
+    dt: f64,
     rise: Vec<Phase>,
     fall: Vec<Phase>,
     v0: f64,
 ) -> Option<Vec<Phase>> {
-    let mut join = Join { cells, shape, rise, fall, out: Vec::new() };
+    let mut join = Join { cells, shape, rise, fall, out: Vec::new(), dt, base: 0 };
     join.run(v0)?;
     Some(join.out)
+}
+
+/// How much of what has been put out stays before a connection, its phases, and where on the fall it ends.
+type Connection = (usize, Vec<Phase>, usize);
+
+/// What a connection may use.
+#[derive(Clone, Copy)]
+struct Way {
+    /// Up to the highest limit of the blocks it passes, else not above the lowest one.
+    free: bool,
+    /// Part of the jerk.
+    jerk: f64,
 }
 
 struct Join<'a> {
@@ -31,6 +48,9 @@ struct Join<'a> {
     rise: Vec<Phase>,
     fall: Vec<Phase>,
     out: Vec<Phase>,
+    dt: f64,
+    /// Number of phases put out up to the last place at which both are cut.
+    base: usize,
 }
 
 impl Join<'_> {
@@ -66,6 +86,7 @@ impl Join<'_> {
             let (to, cut) = self.connect(here, v0)?;
             // on the fall, until it is cut
             self.out.extend_from_slice(&self.fall[to..cut]);
+            self.base = self.out.len();
             if cut == self.fall.len() {
                 return Some(());
             }
@@ -91,7 +112,31 @@ impl Join<'_> {
             behind.v > before.v * (1.0 + SLACK) + 1e-12
         };
         let cut = (ahead..self.fall.len()).find(|k| is_cut(*k)).unwrap_or(self.fall.len());
-        // as close as possible, both sides alike first
+        let loss = |(keep, phases, to): &Connection| {
+            time(phases) - time(&self.out[*keep..]) - time(&self.fall[ahead..*to])
+        };
+        let closest = |way: Way| self.closest(ahead, cut, v0, way);
+        let first = closest(Way { free: true, jerk: 1.0 });
+        // it rounds off the peak: that costs less than the longest ramp
+        let is_good = |found: &Connection| loss(found) <= STEPS_PER_RAMP * self.dt;
+        let best = if first.as_ref().is_some_and(is_good) {
+            first
+        } else {
+            [first, self.hill(cut, v0)]
+                .into_iter()
+                .flatten()
+                .min_by(|a, b| loss(a).total_cmp(&loss(b)))
+                .or_else(|| GENTLER.into_iter().find_map(|jerk| closest(Way { free: true, jerk })))
+                .or_else(|| closest(Way { free: false, jerk: 1.0 }))
+        };
+        let (keep, phases, to) = best?;
+        self.out.truncate(keep);
+        self.out.extend(phases);
+        Some((to, cut))
+    }
+
+    /// A connection as close as possible, both sides alike first.
+    fn closest(&self, ahead: usize, cut: usize, v0: f64, way: Way) -> Option<Connection> {
         for width in WIDTHS {
             let other = WIDTHS.into_iter().take_while(|w| *w < width);
             let pairs = [(width, width)].into_iter();
@@ -106,27 +151,39 @@ impl Join<'_> {
                 };
                 let to = (ahead + ahead_by).min(cut);
                 let target = if to < cut { self.fall[to] } else { self.fall[cut - 1].end() };
-                let phases = if coincide(&from, &target) {
-                    Some(Vec::new())
-                } else {
-                    let free = self.between(&from, &target, true);
-                    free.or_else(|| self.between(&from, &target, false))
-                };
-                if let Some(phases) = phases {
-                    self.out.truncate(keep);
-                    self.out.extend(phases);
-                    return Some((to, cut));
+                if let Some(phases) = self.between(&from, &target, way) {
+                    return Some((keep, phases, to));
                 }
             }
         }
         None
     }
 
-    /// The fastest third-order profile between two states, if it keeps every limit; `free`: up to the highest limit of
-    /// the blocks it passes, else not above the lowest one.
-    fn between(&self, from: &Phase, to: &Phase, free: bool) -> Option<Vec<Phase>> {
+    /// As [`Self::closest`], with the hill from the last cut to the next one planned anew.
+    fn hill(&self, cut: usize, v0: f64) -> Option<Connection> {
+        let last = self.base.checked_sub(1).and_then(|last| self.out.get(last));
+        let hill = Hill {
+            cells: self.cells,
+            shape: self.shape,
+            dt: self.dt,
+            from: last.map_or(Phase::state(0.0, v0, 0.0), Phase::end),
+            to: self.fall[cut - 1].end(),
+        };
+        let between = |from: &Phase, to: &Phase| {
+            [true, false]
+                .into_iter()
+                .find_map(|free| self.between(from, to, Way { free, jerk: 1.0 }))
+        };
+        Some((self.base, hill.highest(between)?, cut))
+    }
+
+    /// The fastest third-order profile between two states, if it keeps every limit.
+    fn between(&self, from: &Phase, to: &Phase, way: Way) -> Option<Vec<Phase>> {
         #[cfg(test)]
         crate::work::add();
+        if coincide(from, to) {
+            return Some(Vec::new());
+        }
         if to.s <= from.s {
             return None;
         }
@@ -143,7 +200,8 @@ impl Join<'_> {
             jerk = jerk.min(cell.least_jerk());
             v = v.max(cell.v);
         }
-        if !free {
+        jerk *= way.jerk;
+        if !way.free {
             let flat = |v: f64, a: f64| v + 0.5 * a.max(0.0) * a / jerk;
             v = lowest.max(flat(from.v, from.a)).max(flat(to.v, -to.a));
         }
@@ -212,6 +270,10 @@ impl Join<'_> {
         }
         None
     }
+}
+
+fn time(phases: &[Phase]) -> f64 {
+    phases.iter().map(|p| p.t).sum()
 }
 
 /// True if two states are the same up to rounding.

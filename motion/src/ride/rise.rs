@@ -125,6 +125,9 @@ impl Rise<'_> {
                         }
                         break;
                     }
+                    if cell.is_exceeded(&phase) {
+                        return false;
+                    }
                     let Some(behind) = self.cells.get(c + 1) else { return true };
                     let limit = cell.cap.min(behind.v);
                     if end.v > limit {
@@ -181,6 +184,9 @@ impl Rise<'_> {
             if end.s < cell.end {
                 return end.v <= cell.v * (1.0 + SLACK) && self.is_level(c, end.s, end.v, v);
             }
+            if cell.is_exceeded(phase) {
+                return false;
+            }
             let Some(behind) = self.cells.get(c + 1) else { return true };
             let limit = cell.cap.min(behind.v);
             if end.v > limit || phase.a > behind.acc {
@@ -194,6 +200,14 @@ impl Rise<'_> {
             }
             c += 1;
         }
+    }
+}
+
+impl Block {
+    /// True if a phase of a rise that goes on behind the block is too fast at its end.
+    fn is_exceeded(&self, phase: &Phase) -> bool {
+        let most = self.v * (1.0 + SLACK);
+        phase.end().v > most && phase.after(phase.time_at(self.end)).v > most
     }
 }
 
