@@ -5,6 +5,7 @@
 use super::commands::{Key, Kind, arguments};
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome, own};
+use super::words::Words;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 use std::mem::discriminant;
 
@@ -23,10 +24,10 @@ enum SpindleItem {
 }
 
 impl Decoder {
-    pub(super) fn bracket(&mut self, bracket: &Bracket) -> Outcome<()> {
+    pub(super) fn bracket(&mut self, bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
         let name = bracket.name.as_str();
         if let Some(axis) = self.axis_of_name(name) {
-            return self.axis_bracket(axis, &bracket.group);
+            return self.axis_bracket(axis, &bracket.group, words);
         }
         if let Some(spindle) = self.spindle_of_name(name) {
             return self.spindle_bracket(spindle, &bracket.group);
@@ -34,7 +35,7 @@ impl Decoder {
         Err(self.unknown_axis(name, bracket.group.span))
     }
 
-    fn axis_bracket(&mut self, axis: usize, group: &Group) -> Outcome<()> {
+    fn axis_bracket(&mut self, axis: usize, group: &Group, words: &Words<'_>) -> Outcome<()> {
         match group.items.split_first() {
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OVERRIDE") => {
                 let rest = Group { items: rest.to_vec(), span: group.span };
@@ -44,6 +45,9 @@ impl Decoder {
             Some((Item { kind: ItemKind::Flag(word), .. }, rest))
                 if word.is("INDP_SYN") || word.is("INDP_ASYN") =>
             {
+                if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
+                    return Err(self.axis_twice(axis, group.span));
+                }
                 self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
             }
             Some((Item { kind: ItemKind::Flag(word), span }, _)) => {

@@ -49,7 +49,7 @@ impl Decoder {
         }
         self.functions_before(&words);
         for bracket in &words.brackets {
-            let outcome = self.bracket(bracket);
+            let outcome = self.bracket(bracket, &words);
             self.keep(outcome);
         }
         if !preset {

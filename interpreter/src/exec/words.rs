@@ -318,11 +318,7 @@ impl Decoder {
             }
             let value = self.number(value)?;
             if block.axes.iter().any(|(a, _, _)| *a == axis) {
-                let number = self.machine.axes[axis].number();
-                let name = self.axis_name(axis).to_owned();
-                let text = format!("axis {name} twice in one block");
-                return Err(Fault::vendor(20203, text, span)
-                    .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
+                return Err(self.axis_twice(axis, span));
             }
             block.axes.push((axis, value, span));
             return Ok(());
@@ -358,6 +354,15 @@ impl Decoder {
             });
         }
         Ok(())
+    }
+
+    /// An axis that one block moves twice.
+    pub(super) fn axis_twice(&self, axis: usize, span: Span) -> Box<Fault> {
+        let number = self.machine.axes[axis].number();
+        let name = self.axis_name(axis).to_owned();
+        let text = format!("axis {name} twice in one block");
+        Fault::vendor(20203, text, span)
+            .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"))
     }
 
     fn unknown_letter(&self, letter: u8, span: Span) -> Box<Fault> {
