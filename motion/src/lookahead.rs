@@ -94,6 +94,9 @@ pub fn plan(
     v_start: Cap,
     end: SpeedLimit,
 ) -> Result<Plan, Infeasible> {
+    if blocks.is_empty() {
+        return Ok(Plan::default());
+    }
     let (entries, carried) = (feeds.to_vec(), vec![false; blocks.len()]);
     let early = Window { blocks, feeds, caps, forced, v_start, end, entries, carried };
     match late::entries(blocks, feeds) {

@@ -9,7 +9,7 @@
 mod common;
 
 use common::random::Random;
-use common::{Job, axis, channel};
+use common::{Job, axis, channel, second_order_time};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
 use kontur_motion::block::{Block, SlopeKind};
@@ -115,14 +115,7 @@ fn bound(blocks: &[Block], a: &AxisDynamics) -> (f64, usize) {
             limit[end] = limit[end].min(kink * kink);
         }
     }
-    let n = acc.len();
-    for k in (0..n).rev() {
-        limit[k] = limit[k].min(limit[k + 1] + 2.0 * acc[k] * step[k]);
-    }
-    for k in 0..n {
-        limit[k + 1] = limit[k + 1].min(limit[k] + 2.0 * acc[k] * step[k]);
-    }
-    let time = (0..n).map(|k| 2.0 * step[k] / (limit[k].sqrt() + limit[k + 1].sqrt())).sum();
+    let time = second_order_time(&mut limit, &acc, &step);
     let (mut hills, mut falling) = (0, true);
     for w in limit.windows(2) {
         if w[1] > w[0] {

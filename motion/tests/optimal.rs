@@ -7,7 +7,7 @@
 
 mod common;
 
-use common::{Job, axis, channel};
+use common::{Job, axis, channel, second_order_time};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Trapez};
 
@@ -137,15 +137,7 @@ fn bound(points: &[Point], a: &AxisDynamics, feed: f64, cycle_s: f64) -> f64 {
             }
         }
     }
-    let n = acc.len();
-    // the speed in front of a faster block is that of the slower one
-    for k in (0..n).rev() {
-        limit[k] = limit[k].min(limit[k + 1] + 2.0 * acc[k] * step[k]);
-    }
-    for k in 0..n {
-        limit[k + 1] = limit[k + 1].min(limit[k] + 2.0 * acc[k] * step[k]);
-    }
-    (0..n).map(|k| 2.0 * step[k] / (limit[k].sqrt() + limit[k + 1].sqrt())).sum()
+    second_order_time(&mut limit, &acc, &step)
 }
 
 fn machine_time(points: &[Point], a: AxisDynamics, kind: SlopeKind, feed: f64) -> f64 {

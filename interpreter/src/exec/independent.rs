@@ -8,7 +8,7 @@
 
 use super::coordinates::Target;
 use super::decoder::Decoder;
-use super::fault::{Fault, Outcome};
+use super::fault::{Fault, Outcome, own};
 use super::step::{Event, IndependentMotion, Sync};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
 use kontur_motion::axis::AxisVec;
@@ -95,6 +95,15 @@ impl Decoder {
         // the offsets of the program do not act on independent axes
         self.coordinates.program_without_offsets(&[Target { axis, value: target, absolute: true }]);
         self.check_limit(axis, target, at);
+        if let IndependentSpeed::Time(time_s) = speed {
+            let least_s = (target - start[axis]).abs() / self.dynamics(false).axes[axis].v_max_mm_s;
+            if time_s < least_s * (1.0 - 1e-9) {
+                let text = format!(
+                    "the independent axis cannot move in TIME={time_s} s: its velocity limit needs {least_s:.6} s"
+                );
+                self.note(Fault::kontur(own::ODD, text, span).warning());
+            }
+        }
         self.independent.way[axis] += target - start[axis];
         let slope = words.slope.unwrap_or(self.machine.channel.slope);
         let motion = IndependentMotion { from_mm: start[axis], to_mm: target, speed, slope };

@@ -112,9 +112,7 @@ impl SlopeLimits {
             Self::Ramped(l) => l.plan(v0, ve, vf, length),
         }
     }
-}
 
-impl SlopeLimits {
     /// As [`Self::plan`] for a `v0` above the feed `vf >= ve`: brakes to the feed at once, holds it and goes on to `ve`
     /// (G901).
     ///
