@@ -12,18 +12,25 @@ pub const STANDARD: &str = "-";
 /// What messages call a program from standard input.
 pub const STANDARD_INPUT: &str = "<stdin>";
 
+/// Bytes on standard input at most, 256 MiB (about ten million blocks): they are kept in memory, where a file is not.
+const MOST_STANDARD_BYTES: u64 = 1 << 28;
+
 /// The program on standard input. That can be read only once, a program is read again and again: by the check, by the
 /// run, and by every run of a sweep.
 ///
 /// # Errors
-/// The system's.
+/// The system's, and more than 256 MiB.
 pub fn standard_input() -> io::Result<&'static MemorySources> {
     static PROGRAM: OnceLock<MemorySources> = OnceLock::new();
     if let Some(program) = PROGRAM.get() {
         return Ok(program);
     }
     let mut text = Vec::new();
-    io::stdin().lock().read_to_end(&mut text)?;
+    io::stdin().lock().take(MOST_STANDARD_BYTES + 1).read_to_end(&mut text)?;
+    if text.len() as u64 > MOST_STANDARD_BYTES {
+        let text = "more than 256 MiB; only a file may be of any length";
+        return Err(io::Error::other(text));
+    }
     Ok(PROGRAM.get_or_init(|| MemorySources::new().with(STANDARD_INPUT, text)))
 }
 
