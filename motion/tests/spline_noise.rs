@@ -1,7 +1,5 @@
 //! Rounded coordinates under the B-spline: speed, ripple, jerk, and the tolerance in both directions.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 mod common;
 
 use common::random::Random;
@@ -242,7 +240,9 @@ fn the_path_is_the_same_seen_otherwise() {
         };
         let mut reversed = path(&points.iter().rev().cloned().collect::<Vec<_>>());
         reversed.reverse();
-        reversed.iter_mut().for_each(|edge| edge.reverse());
+        for edge in &mut reversed {
+            edge.reverse();
+        }
         same(&reversed, "reversed");
         let mirror = |p: &[f64]| vec![-p[0], p[1], p[2]];
         let back = path(&each(&points, &mirror));

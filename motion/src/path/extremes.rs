@@ -151,11 +151,11 @@ fn halve(largest: &mut [AxisVec; 3], part: &PolyPiece, measured: &[bool], depth:
     let (mut bend, mut open) = (0.0_f64, false);
     for (i, c) in part.iter().enumerate() {
         let mut f = trimmed(slope(c));
+        let mut twice = 1;
         for (order, largest) in largest.iter_mut().enumerate() {
             if f.is_empty() {
                 break;
             }
-            let twice = 1 + 3 * order as i32;
             let next = speed.next(&f, twice);
             let bound = settle(&speed, (&f, &next), twice, &mut largest[i], depth);
             open |= bound.is_none();
@@ -163,6 +163,7 @@ fn halve(largest: &mut [AxisVec; 3], part: &PolyPiece, measured: &[bool], depth:
                 bend = bend.max(bound.unwrap_or(0.0));
             }
             f = next;
+            twice += 3;
         }
     }
     if open {
@@ -277,11 +278,11 @@ mod tests {
             let samples = 4000;
             let mut sampled = [[0.0_f64; 3]; 3];
             for k in 0..=samples {
+                let x = f64::from(k) / f64::from(samples);
                 for i in 0..3 {
-                    let x = f64::from(k) / f64::from(samples);
-                    for (order, d) in by_chain_rule(&piece, &measured, i, x).into_iter().enumerate()
-                    {
-                        sampled[order][i] = sampled[order][i].max(d.abs());
+                    let derivatives = by_chain_rule(&piece, &measured, i, x);
+                    for (largest, d) in sampled.iter_mut().zip(derivatives) {
+                        largest[i] = largest[i].max(d.abs());
                     }
                 }
             }

@@ -152,7 +152,7 @@ impl Fairing {
             let (from, to) = (&self.row[at], &self.row[at + 1]);
             let before = if at > 0 { self.row[at - 1].size } else { self.before };
             edge.block.spline = Some(what_is_left(&edge, [before, from.size, to.size]));
-            if [from, to].iter().any(|v| v.size != [0.0; 2]) {
+            if [from, to].iter().any(|v| v.size.iter().any(|s| *s > 0.0)) {
                 let [start, end] = [from, to].map(moved);
                 if let Some(line) = LinePath::new(start, end, &edge.block.dynamics.feed_axes) {
                     edge.block.path = Path::Line(line);

@@ -248,8 +248,8 @@ fn the_room_is_kept_and_taken_off() {
             largest = std::array::from_fn(|k| largest[k].max(sizes[k]));
         }
         assert!(largest[0] > 0.5 * most(path_dev_mm).min(most(track_dev_deg) / 40.0));
-        for i in 1..out.len() {
-            let Some(left) = out[i].spline else { panic!("a spline") };
+        for (i, block) in out.iter().enumerate().skip(1) {
+            let Some(left) = block.spline else { panic!("a spline") };
             let sizes = (i - 1..i + 2).map(|k| size(k, 0..3)).fold(0.0, f64::max);
             let tracks = (i - 1..i + 2).map(|k| size(k, 3..4)).fold(0.0, f64::max);
             if path_dev_mm > 0.0 {
