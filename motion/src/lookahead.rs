@@ -3,12 +3,13 @@
 //! Stages, each reads what the ones before guarantee:
 //! 1. *caps* (caller): the velocity that each boundary allows for itself, see [`crate::corner`];
 //! 2. *knots*: boundaries where the acceleration is zero. STEP: every boundary (its acceleration may jump anyway).
-//!    TRAPEZ and SIN2: every boundary except those inside a run of blocks with equal feed, (nearly) equal slope and no
-//!    binding cap - such a run is one span. HSC and `NO_OPT=0`: the local minima of the speed, unless they are so close
-//!    to each other that a stop of the acceleration costs speed. Where braking under G901 begins, see [`late`];
+//!    Constant ramp times (P-CHAN-00349): every boundary except those inside a run of blocks with equal feed, (nearly)
+//!    equal slope and no binding cap - such a run is one span. TRAPEZ, SIN2, HSC: the local minima of the speed, unless
+//!    they are so close to each other that a stop of the acceleration costs speed. Where braking under G901 begins, see
+//!    [`late`];
 //! 3. *backward pass*: no knot is faster than what can still be braked to the next one, so the window ends at rest;
 //! 4. *forward pass*: no knot is faster than what can be reached from the one before;
-//! 5. *check* (HSC, `NO_OPT=0`): a span that exceeds a limit inside, or whose blocks differ in acceleration, is planned
+//! 5. *check* (TRAPEZ, SIN2, HSC): a span that exceeds a limit inside, or whose blocks differ in acceleration, is planned
 //!    along its limits, see [`crate::ride`]; where that is refused, the boundary that is exceeded most becomes a knot, and
 //!    3 to 5 are repeated.
 //!
