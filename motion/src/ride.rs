@@ -55,6 +55,16 @@ struct Block {
 }
 
 impl Block {
+    /// True if its end and the block behind change nothing.
+    fn goes_on_as(&self, next: &Self) -> bool {
+        let same = |a: f64, b: f64| (a - b).abs() <= SLACK * a;
+        self.cap >= self.v * (1.0 - SLACK)
+            && same(self.v, next.v)
+            && same(self.acc, next.acc)
+            && same(self.dec, next.dec)
+            && self.jerks.iter().zip(next.jerks).all(|(a, b)| same(*a, b))
+    }
+
     fn least_jerk(&self) -> f64 {
         self.jerks.into_iter().fold(f64::INFINITY, f64::min)
     }
@@ -71,16 +81,30 @@ fn own(cells: &[Cell]) -> Vec<Block> {
     cells.iter().map(block).collect()
 }
 
-/// The fastest speed found from `v0` to `v1`, acceleration zero at both ends; `None` if the limits leave no way.
-pub(crate) fn ride(cells: &[Cell], v0: f64, v1: f64) -> Option<Chain> {
+/// Blocks between which nothing changes as one, so that a line in two parts is driven as a whole one.
+fn joined(blocks: Vec<Block>) -> Vec<Block> {
+    let mut out: Vec<Block> = Vec::with_capacity(blocks.len());
+    for block in blocks {
+        match out.last_mut().filter(|last| last.goes_on_as(&block)) {
+            Some(last) => (last.end, last.cap) = (block.end, block.cap),
+            None => out.push(block),
+        }
+    }
+    out
+}
+
+/// The fastest speed found from `v0` with acceleration `a0` (constant jerk only) to `v1` with acceleration zero; `None` if
+/// the limits leave no way.
+pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Chain> {
     let last = cells.last()?;
     let length = last.end;
     if last.rates.shape == RampShape::Sin2 {
-        return Some(Chain::new(sine::speed(cells, v0, v1)?, length));
+        let speed = if a0.abs() > 0.0 { None } else { sine::speed(cells, v0, v1) };
+        return speed.map(|speed| Chain::new(speed, length));
     }
-    let cells = &own(cells)[..];
-    let rise = climb(cells, v0)?;
-    let fall = turned(&climb(&mirror(cells), v1)?, length);
+    let cells = &joined(own(cells))[..];
+    let rise = climb(cells, v0, a0)?;
+    let fall = turned(&climb(&mirror(cells), v1, 0.0)?, length);
     let speed = Meet { cells, rise: &rise, fall: &fall, v1 }.speed()?;
     Some(Chain::new(speed, length))
 }
@@ -190,7 +214,7 @@ mod tests {
                 (0.02, RampShape::Sin2, FRAC_PI_2),
             ] {
                 let cells = cells(seed, ramp, shape);
-                let Some(chain) = ride(&cells, 0.0, 0.0) else { continue };
+                let Some(chain) = ride(&cells, (0.0, 0.0), 0.0) else { continue };
                 found += 1;
                 let length = cells[cells.len() - 1].end;
                 let profile = SpanProfile::from_chain(chain);

@@ -37,10 +37,11 @@ pub(super) struct Climb<'a> {
     base: usize,
 }
 
-/// Phases from `v0` with acceleration zero to the end; cut where a limit drops. `None`: a crawl.
-pub(super) fn climb(cells: &[Block], v0: f64) -> Option<Vec<Phase>> {
+/// Phases from `v0` with acceleration `a0` to the end; cut where a limit drops. `None`: a crawl.
+pub(super) fn climb(cells: &[Block], v0: f64, a0: f64) -> Option<Vec<Phase>> {
     let out = Vec::with_capacity(4 * cells.len());
-    let mut climb = Climb { cells, out, c: 0, here: Phase::state(0.0, v0, 0.0), base: 0 };
+    let mut climb = Climb { cells, out, c: 0, here: Phase::state(0.0, v0, a0), base: 0 };
+    climb.settle()?;
     while climb.c < cells.len() {
         if climb.out.len() > MOST_PHASES[0] * cells.len() + MOST_PHASES[1] {
             return None;
@@ -51,6 +52,36 @@ pub(super) fn climb(cells: &[Block], v0: f64) -> Option<Vec<Phase>> {
 }
 
 impl Climb<'_> {
+    /// Ends a deceleration at the start; `None`: it comes to rest before.
+    fn settle(&mut self) -> Option<()> {
+        while let Some(cell) = self.cells.get(self.c).filter(|_| self.here.a < 0.0) {
+            let here = self.here;
+            let up = cell.jerks[3];
+            let mut ramp = here.ramp(RampShape::Trapez, up, -here.a / up);
+            if ramp.lowest() < 0.0 {
+                return None;
+            }
+            let whole = ramp.end().s >= cell.end;
+            if whole {
+                ramp.t = ramp.time_at(cell.end);
+            }
+            let end = ramp.end();
+            self.out.push(ramp);
+            self.here = Phase::state(end.s, end.v, if whole { end.a } else { 0.0 });
+            if whole {
+                self.here.s = cell.end;
+                self.c += 1;
+                let next = self.cells.get(self.c).map_or(f64::INFINITY, |n| n.v);
+                let limit = cell.cap.min(next);
+                if end.v > limit * (1.0 + SLACK) {
+                    self.here = Phase::state(cell.end, limit, 0.0);
+                    self.base = self.out.len();
+                }
+            }
+        }
+        Some(())
+    }
+
     /// The next piece of the rise.
     fn step(&mut self) -> Option<()> {
         let cells = self.cells;
