@@ -316,8 +316,8 @@ impl Planner {
             self.contour.enter(cycles, s, Arc::clone(queued));
         }
         self.travelled = entry.s0 + entry.profile.length();
-        let last = entry.profile.end();
-        (self.speed, self.acceleration) = ((last.v_mm_s, entry.why_down), last.a_mm_s2);
+        self.speed = (entry.profile.end().v_mm_s, entry.why_down);
+        self.acceleration = entry.profile.left_with();
         self.cursor = entry.end;
         if entry.stops {
             self.cursor = Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell));

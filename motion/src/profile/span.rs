@@ -141,6 +141,14 @@ impl SpanProfile {
         Some((Self(Shape::Chain(before)), Self(Shape::Chain(behind))))
     }
 
+    /// Acceleration in mm/s2 with which the path goes on behind the end: zero, but where the profile was parted.
+    pub(crate) fn left_with(&self) -> f64 {
+        match &self.0 {
+            Shape::Legs(_) | Shape::BrakeFirst(_) => 0.0,
+            Shape::Chain(p) => p.at(p.duration()).a_mm_s2,
+        }
+    }
+
     /// Duration in s.
     pub fn duration(&self) -> f64 {
         match &self.0 {

@@ -111,6 +111,8 @@ def row(name, machine, points, feeds):
     m = MACHINES[machine]
     every = np.broadcast_to(feeds, (len(points) - 1,))
     least = solve(limits(points, every, {**m, "cycle": CYCLE}), DENSITY)
+    if not math.isfinite(least):
+        return  # a rest inside, on both sides of which the grid has no speed
     text = ";".join(" ".join(f"{c:.4f}".rstrip("0").rstrip(".") for c in p) for p in points)
     print(f"{name},{machine},{' '.join(f'{f:g}' for f in feeds)},{text},{least:.6f}", flush=True)
 
