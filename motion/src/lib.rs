@@ -6,9 +6,10 @@
 pub mod axis;
 pub mod block;
 mod brake;
-pub mod contour;
+mod contour;
 pub mod contouring;
 pub mod corner;
+mod deviation;
 mod course;
 pub mod independent;
 pub mod limit;

@@ -16,6 +16,7 @@ use crate::block::Block;
 use crate::brake::Brake;
 use crate::contour::Contour;
 use crate::corner::transition;
+use crate::deviation::Gauge;
 use crate::limit::SpeedLimit;
 use crate::lookahead::Cap;
 use crate::profile::Infeasible;
@@ -84,6 +85,7 @@ pub struct Planner {
     kernels: Kernels,
     monitor: Monitor,
     contour: Contour,
+    gauge: Gauge,
     reach_cycles: u32,
     unkept: Vec<Unkept>,
     brake: Option<Brake>,
@@ -122,6 +124,7 @@ impl Planner {
             kernels: Kernels::default(),
             monitor: Monitor::default(),
             contour: Contour::default(),
+            gauge: Gauge::default(),
             reach_cycles: 0,
             unkept: Vec::new(),
             brake: None,
@@ -143,6 +146,7 @@ impl Planner {
         self.reach_cycles = reach_cycles.max(kernels.length());
         self.monitor.rest(&self.setpoint.position, self.setpoint.s_mm, kernels.length());
         self.kernels = kernels;
+        self.gauge = Gauge::new(self.reach_cycles, self.kernels.differ());
     }
 
     /// Sets what the override is a percentage of (P-CHAN-00066), from the next cycle on.
@@ -278,10 +282,15 @@ impl Planner {
         self.setpoint.limit = SpeedLimit::Stop;
     }
 
-    /// Components of the shortest vector from the contour within reach of the filters to `point`; returns its length.
-    pub fn deviation(&self, point: &[f64], out: &mut [f64]) -> f64 {
+    /// How far the set path leaves the contour, both ways (see `deviation.rs`), with the set point of the present cycle;
+    /// called once in every cycle. Fills the largest component of each axis and returns the length in mm of the shortest
+    /// vector from the contour within reach of the filters to the set point.
+    pub fn deviation(&mut self, point: &[f64], out: &mut [f64]) -> f64 {
         let now = self.setpoint.k as f64;
-        self.contour.deviation(point, now - f64::from(self.reach_cycles), now, out)
+        self.gauge.step(&self.contour, self.setpoint.k, point, &self.setpoint.position, out);
+        self.contour
+            .nearest(point, now - f64::from(self.reach_cycles), now, &mut AxisVec::zeros(point.len()))
+            .map_or(0.0, |n| n.distance)
     }
 
     /// Blocks whose tolerance could not be kept since the last call.

@@ -12,6 +12,7 @@
 //! negative weights (windowed sinc) swing beyond the end even there, and no dwell helps; the blocks on both sides start
 //! and stop with a lower acceleration, see [`crate::overshoot`].
 
+mod blame;
 mod search;
 mod tighten;
 mod view;
@@ -25,6 +26,7 @@ use kontur_filters::time::CycleTime;
 use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::sync::Arc;
+use blame::Findings;
 use view::View;
 
 /// Part of the tolerance kept in hand, in mm: two digits below the last one of a trace.
@@ -32,6 +34,8 @@ const MARGIN_MM: f64 = 2e-7;
 /// How far behind the kernel a block may have been left and still count as within reach, in cycles: nobody can tell
 /// from a trace on which side of a sample a border lies.
 const BORDER_CYCLES: f64 = 5.0;
+/// Raw setpoints kept, in lengths of the kernel: set points of one length, and one more in front of a stretch.
+const HELD: usize = 3;
 /// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
 const ROUNDS_OF_SPEED: usize = 32;
 /// Rounds of planning after which the tolerance is given up with a message.
@@ -64,6 +68,15 @@ impl Kernels {
     /// Cycles until every axis is constant after the path has come to rest.
     pub fn length(&self) -> u32 {
         self.axes.iter().flatten().map(|k| k.length()).max().unwrap_or(0)
+    }
+
+    /// True if not all axes have the same kernel.
+    pub(crate) fn differ(&self) -> bool {
+        self.unequal
+    }
+
+    fn longest(&self) -> Option<&Kernel> {
+        self.axes.iter().flatten().max_by_key(|k| k.length()).map(|k| &**k)
     }
 
     fn get(&self, i: usize) -> Option<&Kernel> {
@@ -164,13 +177,13 @@ pub(crate) struct Trial<'a> {
 impl Monitor {
     /// The path rests at `position`; the kernels reach `length` cycles back.
     pub(crate) fn rest(&mut self, position: &AxisVec, s_mm: f64, length: u32) {
-        self.length = length as usize + 1;
+        self.length = if length > 0 { HELD * length as usize + 8 } else { 0 };
         self.history = std::iter::repeat_n((position.clone(), s_mm), self.length).collect();
     }
 
     /// Takes the setpoint of a cycle.
     pub(crate) fn record(&mut self, position: &AxisVec, s_mm: f64) {
-        if self.length > 1 {
+        if self.length > 0 {
             self.history.push_back((position.clone(), s_mm));
             if self.history.len() > self.length {
                 self.history.pop_front();
@@ -180,8 +193,7 @@ impl Monitor {
 
     /// What of the final part of a trial does not keep the tolerance.
     pub(crate) fn excess(&self, trial: &Trial<'_>) -> Option<Unkept> {
-        let none = Demands::none(trial.window.len());
-        View::new(trial, self).search(0.5, &none).worst
+        View::new(trial, self).search(|_, _| ())
     }
 
     /// Examines a plan, and tightens the demands if it does not keep the tolerance.
@@ -192,10 +204,11 @@ impl Monitor {
         demands: &mut Demands,
     ) -> Verdict {
         let view = View::new(trial, self);
-        // after many rounds every corner and curve in reach counts as a cause
-        let share = if round < ROUNDS_OF_SPEED { 0.5 } else { 0.0 };
-        let findings = view.search(share, demands);
-        let Some(worst) = findings.worst else {
+        let mut findings = Findings::none(trial.window.len());
+        // after many rounds everything in reach counts as a cause
+        let all = round >= ROUNDS_OF_SPEED;
+        let worst = view.search(|v, record| view.blame(v, record, all, demands, &mut findings));
+        let Some(worst) = worst else {
             return Verdict::Kept;
         };
         let parts = view.parts(&findings);
