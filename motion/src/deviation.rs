@@ -29,6 +29,9 @@ use crate::contour::{Contour, WARY};
 /// Parts into which the line between two set points is divided where it passes a border of blocks.
 const PARTS: u32 = 8;
 
+/// Halvings in the search for the point where the nearest block changes.
+const HALVINGS: u32 = 8;
+
 /// Set points of consecutive cycles.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SetPath {
@@ -128,9 +131,25 @@ impl SetPath {
             (Some(_), Some(_)) => PARTS,
             _ => return,
         };
-        for point in self.divided(k, parts) {
-            contour.nearest(&point, from - 1.0, to, &mut vector);
+        // the largest distance lies where the nearest point passes from one block to another
+        let mut look = |u: f64| {
+            let point: AxisVec = before.iter().zip(here).map(|(a, b)| a + u * (b - a)).collect();
+            let found = contour.nearest(&point, from - 1.0, to, &mut vector).map(|n| n.block);
             out.take(&vector);
+            found
+        };
+        let mut last = then.map(|n| n.block);
+        for part in 1..=parts {
+            let mut high = f64::from(part) / f64::from(parts);
+            let found = look(high);
+            if found != last {
+                let mut low = high - 1.0 / f64::from(parts);
+                for _ in 0..HALVINGS {
+                    let mid = 0.5 * (low + high);
+                    if look(mid) == last { low = mid } else { high = mid }
+                }
+            }
+            last = found;
         }
     }
 

@@ -37,9 +37,11 @@ const BORDER_CYCLES: f64 = 5.0;
 /// Raw setpoints kept, in lengths of the kernel: set points of one length, and one more in front of a stretch.
 const HELD: usize = 3;
 /// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
-const ROUNDS_OF_SPEED: usize = 32;
+const ROUNDS_OF_SPEED: usize = 64;
+/// Rounds more for every block.
+const ROUNDS_PER_BLOCK: usize = 2;
 /// Rounds of planning after which the tolerance is given up with a message.
-const ROUNDS: usize = 60;
+const ROUNDS: usize = 96;
 
 /// The filter kernels of the axes of a channel.
 #[derive(Clone, Debug, Default)]
@@ -206,7 +208,7 @@ impl Monitor {
         let view = View::new(trial, self);
         let mut findings = Findings::none(trial.window.len());
         // after many rounds everything in reach counts as a cause
-        let all = round >= ROUNDS_OF_SPEED;
+        let all = round >= ROUNDS_OF_SPEED + ROUNDS_PER_BLOCK * trial.window.len();
         let worst = view.search(|v, record| view.blame(v, record, all, demands, &mut findings));
         let Some(worst) = worst else {
             return Verdict::Kept;
@@ -215,10 +217,11 @@ impl Monitor {
         if !parts.is_empty() {
             return Verdict::Divided(parts);
         }
-        if round >= ROUNDS {
+        // an answer at one corner can make another one necessary at the next
+        if round >= ROUNDS + ROUNDS_PER_BLOCK * trial.window.len() {
             return Verdict::GivenUp(worst);
         }
-        view.tighten(&findings, round, demands);
+        view.tighten(&findings, all, demands);
         Verdict::Tightened
     }
 }

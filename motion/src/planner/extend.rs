@@ -47,6 +47,8 @@ impl Planner {
                     return Ok(());
                 }
                 Verdict::Tightened => continue,
+                // the plan before this one keeps the tolerance
+                Verdict::GivenUp(_) if self.fall_back().is_some() => return Ok(()),
                 Verdict::GivenUp(unkept) => self.unkept.push(unkept),
             }
             let rests = end != SpeedLimit::Lookahead;

@@ -21,6 +21,8 @@ use kontur_filters::kernel::Kernel;
 const ALIKE: f64 = 0.3;
 /// Points at which a bend is looked at.
 const BEND_POINTS: u32 = 6;
+/// Doublings from the least speed looked at to the one planned.
+const DOUBLINGS: u32 = 4;
 /// Halvings in the search for the even speed.
 const HALVINGS: u32 = 24;
 /// Share of the tolerance by which an even speed aims below it.
@@ -220,11 +222,17 @@ impl View<'_> {
         let middle: f64 = kernel.taps().iter().map(|t| t.weight * at(t.delay)).sum();
         let aim = within(v.tolerance_mm) - AIM * v.tolerance_mm;
         let keeps = |speed: f64| self.even_deviation(v, middle, speed * seconds) <= aim;
-        let mut least = 0.0;
-        let mut most = fastest;
-        if keeps(fastest) {
+        // the lowest speed that does not: a faster run may be even enough to keep it again, but never gets there
+        let (mut least, mut most) = (0.0, fastest);
+        let mut rising = fastest / f64::from(1 << DOUBLINGS);
+        while rising < fastest && keeps(rising) {
+            least = rising;
+            rising *= std::f64::consts::SQRT_2;
+        }
+        if rising >= fastest && keeps(fastest) {
             least = fastest;
         } else {
+            most = most.min(rising);
             for _ in 0..HALVINGS {
                 let mid = 0.5 * (least + most);
                 if keeps(mid) { least = mid } else { most = mid }

@@ -3,7 +3,7 @@
 use super::blame::Findings;
 use super::search::within;
 use super::view::{Buffer, Mark, View};
-use super::{Demands, ROUNDS_OF_SPEED, Trial};
+use super::{Demands, Trial};
 use crate::deviation::{Excursion, SetPath};
 use crate::overshoot::gentle;
 use crate::queue::Queued;
@@ -33,7 +33,7 @@ impl View<'_> {
             .collect()
     }
 
-    pub(super) fn tighten(&self, findings: &Findings, round: usize, demands: &mut Demands) {
+    pub(super) fn tighten(&self, findings: &Findings, all: bool, demands: &mut Demands) {
         let Self { trial, marks, .. } = self;
         let full = trial.kernels.length();
         let mut soften = vec![None; trial.window.len()];
@@ -55,7 +55,7 @@ impl View<'_> {
                 note(&mut soften[b], excess, tolerance);
                 continue;
             }
-            if round >= ROUNDS_OF_SPEED {
+            if all {
                 (demands.cap[b], demands.stop[b]) = (0.0, Some(full));
                 continue;
             }
@@ -102,7 +102,7 @@ impl View<'_> {
                 }
             }
             if let Some((excess, tolerance)) = soften[b] {
-                let haste = if round < ROUNDS_OF_SPEED { 1.0 } else { 0.7 };
+                let haste = if all { 0.7 } else { 1.0 };
                 let now = demands.acceleration[b];
                 let ratio = haste * 0.99 * tolerance / (tolerance + excess);
                 let gentle = gentle_ratio(trial, mark, queued, tolerance);
