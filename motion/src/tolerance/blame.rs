@@ -26,7 +26,7 @@ const DOUBLINGS: u32 = 4;
 /// Halvings in the search for the even speed.
 const HALVINGS: u32 = 24;
 /// Share of the tolerance by which an even speed aims below it.
-const AIM: f64 = 0.002;
+const AIM: f64 = 0.01;
 /// Largest reduction of an even speed in one round.
 const MOST: f64 = 0.25;
 /// Places around a point of the contour at which an even run is looked at for the point.
@@ -65,6 +65,13 @@ struct Part {
     s: f64,
 }
 
+/// Marks whose blocks, and whose entries, share one speed.
+#[derive(Default)]
+struct Shared {
+    marks: Vec<usize>,
+    kinks: Vec<usize>,
+}
+
 impl View<'_> {
     /// Finds who is to blame for a violation; `all`: everything that can still be changed.
     pub(super) fn blame(
@@ -97,8 +104,8 @@ impl View<'_> {
         let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
         let alike: Vec<&Part> =
             parts.iter().filter(|p| free(p) && p.size > 0.0 && p.size >= ALIKE * largest).collect();
-        let speed = self.even_speed(v, record);
-        let apart = speed * length as f64 * trial.cycle.seconds();
+        let even = self.even_speed(v, record);
+        let apart = even * length as f64 * trial.cycle.seconds();
         let isolated =
             |i: usize| -> bool {
                 let p = alike[i];
@@ -107,17 +114,18 @@ impl View<'_> {
                     && i.checked_sub(1).is_none_or(|b| !near(&alike[b]))
                     && alike.get(i + 1).is_none_or(|q| !near(q))
             };
+        let mut shared = Shared::default();
         let mut blamed = false;
         for (i, part) in alike.iter().enumerate() {
             let m = &marks[part.mark];
             let Some(b) = (if part.bend { m.block } else { m.boundary }) else { continue };
             blamed = true;
-            if !part.bend && isolated(i) {
+            if part.bend {
+                shared.marks.push(part.mark);
+            } else if isolated(i) {
                 findings.corner[b] = findings.corner[b].max(excess);
-            } else if part.bend {
-                self.evenly(b, speed, v, findings);
             } else {
-                findings.even_at[b] = findings.even_at[b].min(speed);
+                shared.kinks.push(part.mark);
                 if demands.stop[b].is_some() {
                     findings.corner[b] = findings.corner[b].max(excess);
                 }
@@ -125,35 +133,75 @@ impl View<'_> {
         }
         // what lies between the likes shares their speed
         for pair in alike.windows(2) {
-            if (pair[1].s - pair[0].s).abs() > apart {
-                continue;
-            }
-            for m in &marks[pair[0].mark..pair[1].mark] {
-                if let Some(b) = m.block {
-                    self.evenly(b, speed, v, findings);
-                }
+            if (pair[1].s - pair[0].s).abs() <= apart {
+                shared.marks.extend(pair[0].mark..pair[1].mark);
             }
         }
-        if blamed && !all {
-            return;
-        }
-        // a cause in front of a stop is final already, but what follows the stop can wait for the filters
-        let fixed = |p: &&Part| marks[p.mark].block.is_none();
-        let before = parts.iter().filter(fixed).map(|p| p.size).fold(0.0, f64::max);
-        let waits = before > 0.0
-            && marks[first..last].iter().any(|m| m.boundary == Some(0))
-            && demands.stop[0].is_none_or(|dwell| u64::from(dwell) < length);
-        if waits {
-            findings.corner[0] = findings.corner[0].max(excess);
-            if !all {
-                return;
+        if !blamed || all {
+            // a cause in front of a stop is final already, but what follows the stop can wait for the filters
+            let fixed = |p: &&Part| marks[p.mark].block.is_none();
+            let before = parts.iter().filter(fixed).map(|p| p.size).fold(0.0, f64::max);
+            let waits = before > 0.0
+                && marks[first..last].iter().any(|m| m.boundary == Some(0))
+                && demands.stop[0].is_none_or(|dwell| u64::from(dwell) < length);
+            if waits {
+                findings.corner[0] = findings.corner[0].max(excess);
+            }
+            if !waits || all {
+                shared.marks.extend(first..last);
             }
         }
-        for m in &marks[first..last] {
-            if let Some(b) = m.block {
+        self.share(&shared, even, v, record, demands, findings);
+    }
+
+    /// Asks for one speed on a stretch: the even one, or less if that is not below what is planned.
+    fn share(
+        &self,
+        shared: &Shared,
+        even: f64,
+        v: &Violation,
+        record: &Record,
+        demands: &Demands,
+        findings: &mut Findings,
+    ) {
+        let marks = &self.marks;
+        let at = |m: &usize, length: f64, asked: f64| {
+            let s = marks[*m].s_mm;
+            self.fastest(v, record, s, s + length).min(asked)
+        };
+        let blocks = shared.marks.iter().map(|m| {
+            let asked = marks[*m].block.map_or(f64::INFINITY, |b| demands.feed[b]);
+            at(m, marks[*m].queued.length, asked)
+        });
+        let kinks = shared.kinks.iter().map(|m| {
+            let asked = marks[*m].boundary.map_or(f64::INFINITY, |b| demands.cap[b]);
+            at(m, 0.0, asked)
+        });
+        let present = blocks.chain(kinks).fold(0.0, f64::max);
+        let speed = if even < 0.995 * present {
+            even
+        } else {
+            // where the speed is even already, or a change of speed is the cause
+            let aim = within(v.tolerance_mm) - AIM * v.tolerance_mm;
+            present * (aim / v.deviation_mm).sqrt().clamp(MOST, 0.995)
+        };
+        for m in &shared.marks {
+            if let Some(b) = marks[*m].block {
                 self.evenly(b, speed, v, findings);
             }
         }
+        for b in shared.kinks.iter().filter_map(|m| marks[*m].boundary) {
+            findings.even_at[b] = findings.even_at[b].min(speed);
+        }
+    }
+
+    /// Highest speed in mm/s between two path lengths while the filters hold a violation.
+    fn fastest(&self, v: &Violation, record: &Record, from: f64, to: f64) -> f64 {
+        let length = u64::from(self.trial.kernels.length());
+        let cycles = v.cycle.saturating_sub(length)..v.cycle;
+        let inside = cycles.filter(|k| record.s(k + 1) >= from && record.s(*k) <= to);
+        let steps = inside.map(|k| record.s(k + 1) - record.s(k));
+        steps.fold(0.0, f64::max) / self.trial.cycle.seconds()
     }
 
     fn evenly(&self, block: usize, speed: f64, v: &Violation, findings: &mut Findings) {
@@ -207,15 +255,12 @@ impl View<'_> {
         parts
     }
 
-    /// Speed in mm/s at which the stretch of a violation, run through evenly, keeps the tolerance; lower than the
-    /// highest one planned there.
+    /// Speed in mm/s at which the stretch of a violation, run through evenly, keeps the tolerance; at most the highest one
+    /// planned there.
     fn even_speed(&self, v: &Violation, record: &Record) -> f64 {
         let Self { trial, .. } = self;
-        let length = u64::from(trial.kernels.length());
         let seconds = trial.cycle.seconds();
-        let oldest = v.cycle.saturating_sub(length);
-        let step = |k: u64| record.s(k + 1) - record.s(k);
-        let fastest = (oldest..v.cycle).map(step).fold(0.0, f64::max) / seconds;
+        let fastest = self.fastest(v, record, f64::NEG_INFINITY, f64::INFINITY);
         let longest = trial.kernels.longest();
         let Some(kernel) = trial.kernels.get(v.axis).or(longest) else { return fastest };
         let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));
@@ -240,11 +285,6 @@ impl View<'_> {
                     break;
                 }
             }
-        }
-        // where the speed is even already, or the acceleration is the cause
-        if least >= 0.98 * fastest {
-            let ratio = (aim / v.deviation_mm).sqrt().clamp(MOST, 0.995);
-            return ratio * fastest;
         }
         least.max(1e-3 * MOST * fastest)
     }
