@@ -153,34 +153,30 @@ impl SetPath {
         }
     }
 
-    /// Points of the line from the set point of cycle `k - 1` to that of cycle `k`, the latter included.
-    pub(crate) fn between(&self, k: u64) -> impl Iterator<Item = AxisVec> + '_ {
-        self.divided(k, PARTS).chain(self.get(k).map(AxisVec::from_slice))
-    }
-
-    /// The borders between `parts` equal parts of the line between cycle `k - 1` and cycle `k`.
-    fn divided(&self, k: u64, parts: u32) -> impl Iterator<Item = AxisVec> + '_ {
+    /// Points of the line from the set point of cycle `k - 1` to that of cycle `k`, the latter included, at most `apart` mm
+    /// from each other as long as `PARTS` of them are enough.
+    pub(crate) fn between(&self, k: u64, apart: f64) -> impl Iterator<Item = AxisVec> + '_ {
         let ends = k.checked_sub(1).and_then(|before| Some((self.get(before)?, self.get(k)?)));
         ends.into_iter().flat_map(move |(a, b)| {
-            (1..parts).map(move |part| {
+            let length = a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt();
+            let parts = (length / apart).ceil().clamp(1.0, f64::from(PARTS)) as u32;
+            (1..=parts).map(move |part| {
                 let u = f64::from(part) / f64::from(parts);
                 a.iter().zip(b).map(|(a, b)| a + u * (b - a)).collect()
             })
         })
     }
 
-    /// (b) of a point of the contour that was interpolated at `moment` (cycles), from the set path of that moment and the
-    /// `reach` cycles behind it; returns the cycle that comes nearest. Beyond `wary_mm` whatever could be called the
+    /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest. Beyond `wary_mm` whatever could be called the
     /// shortest vector counts.
     pub(crate) fn misses(
         &self,
         point: &[f64],
-        (moment, reach): (f64, f64),
+        (first, last): (u64, u64),
         wary_mm: f64,
         out: &mut Excursion,
     ) -> Option<u64> {
-        let first = (moment.floor() as u64).max(self.first);
-        let last = ((moment + reach).ceil() as u64 + 1).min(self.end().checked_sub(1)?);
+        let (first, last) = (first.max(self.first), last.min(self.end().checked_sub(1)?));
         let mut vector = AxisVec::zeros(self.axes);
         let mut best = (f64::INFINITY, first);
         for k in first..last {
@@ -261,12 +257,15 @@ impl Gauge {
         self.set.leaves(contour, k, (moment - reach, moment), &mut found);
         let passed = moment - reach - 1.0;
         for (moment, point) in contour.kinks(passed - 1.0, passed) {
-            self.set.misses(&point, (moment, reach), f64::INFINITY, &mut found);
+            let first = moment.floor().max(0.0) as u64;
+            let among = (first, first + self.reach + 2);
+            self.set.misses(&point, among, f64::INFINITY, &mut found);
         }
-        if let Some(point) = k.checked_sub(self.reach + 1).and_then(|k| self.path.get(k))
+        if let Some(first) = k.checked_sub(self.reach + 1)
+            && let Some(point) = self.path.get(first)
             && (self.every || contour.is_bent(passed))
         {
-            self.set.misses(point, (passed, reach), f64::INFINITY, &mut found);
+            self.set.misses(point, (first, k), f64::INFINITY, &mut found);
         }
         out.copy_from_slice(&found.vector);
         let old = k.saturating_sub(2 * self.reach + 4);

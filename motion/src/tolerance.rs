@@ -136,6 +136,31 @@ impl Demands {
         }
     }
 
+    /// What is known before a plan: axes whose filters have different delays leave a straight line by the speed times the
+    /// difference, so a line long enough to be run through evenly has a speed of its own.
+    pub(crate) fn of(window: &[Arc<Queued>], kernels: &Kernels, cycle: CycleTime) -> Self {
+        let mut demands = Self::none(window.len());
+        if !kernels.unequal {
+            return demands;
+        }
+        let delay = |i: usize| kernels.get(i).map_or(0.0, Kernel::delay_cycles) * cycle.seconds();
+        for (queued, feed) in window.iter().zip(&mut demands.feed) {
+            let Some(tolerance) = queued.block.tolerance.ax_dev_mm else { continue };
+            if !queued.block.path.is_straight() {
+                continue;
+            }
+            let u = &queued.ends.tangent_in;
+            let norm: f64 = u.iter().map(|c| c * c).sum();
+            let along: f64 = u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
+            let aside = |(i, c): (usize, &f64)| (c * (delay(i) - along)).abs();
+            let speed = tolerance / u.iter().enumerate().map(aside).fold(0.0, f64::max);
+            if speed * f64::from(kernels.length()) * cycle.seconds() <= queued.length {
+                *feed = speed;
+            }
+        }
+        demands
+    }
+
     /// The blocks with the acceleration that is left to them.
     pub(crate) fn soften<'a>(&self, window: &'a [Arc<Queued>]) -> Cow<'a, [Arc<Queued>]> {
         if self.acceleration.iter().all(|ratio| *ratio >= 1.0) {

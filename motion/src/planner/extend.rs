@@ -30,7 +30,7 @@ impl Planner {
         } else {
             SpeedLimit::Lookahead
         };
-        let mut demands = Demands::none(n);
+        let mut demands = Demands::of(&window, &self.kernels, self.cycle);
         let mut forced = vec![false; n + 1];
         let mut round = 0;
         loop {
@@ -112,7 +112,7 @@ impl Planner {
         loop {
             let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
             let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
-            let mut demands = Demands::none(window.len());
+            let mut demands = Demands::of(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
             let mut round = 0;
             let parts = loop {

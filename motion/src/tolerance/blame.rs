@@ -25,12 +25,16 @@ const BEND_POINTS: u32 = 6;
 const DOUBLINGS: u32 = 4;
 /// Halvings in the search for the even speed.
 const HALVINGS: u32 = 24;
+/// Ratio of two excesses up to which the second one is not looked at.
+const LITTLE_MORE: f64 = 1.05;
 /// Share of the tolerance by which an even speed aims below it.
 const AIM: f64 = 0.01;
 /// Largest reduction of an even speed in one round.
 const MOST: f64 = 0.25;
 /// Places around a point of the contour at which an even run is looked at for the point.
-const PLACES: i32 = 6;
+const PLACES: i32 = 4;
+/// Taps of a kernel in the search for the even speed.
+const COARSE: usize = 24;
 
 /// What exceeded the tolerance in one round.
 pub(super) struct Findings {
@@ -42,6 +46,8 @@ pub(super) struct Findings {
     pub(super) even_at: Vec<f64>,
     /// Largest excess in mm and its tolerance on each block to blame.
     pub(super) block: Vec<Option<(f64, f64)>>,
+    /// First and last mark within reach of the violation of either kind looked at last, with its excess.
+    last: [Option<((usize, usize), f64)>; 2],
 }
 
 impl Findings {
@@ -51,6 +57,7 @@ impl Findings {
             even: vec![f64::INFINITY; blocks],
             even_at: vec![f64::INFINITY; blocks + 1],
             block: vec![None; blocks],
+            last: [None; 2],
         }
     }
 }
@@ -92,6 +99,13 @@ impl View<'_> {
             return;
         }
         let excess = v.excess();
+        // a slow run over the same blocks would be told the same again and again
+        let place = (first, last);
+        let told = &mut findings.last[usize::from(v.missed.is_some())];
+        if told.is_some_and(|(at, most)| at == place && excess <= LITTLE_MORE * most) {
+            return;
+        }
+        *told = Some((place, excess));
         let parts = self.parts_of(v, record, first, last);
         let free = |p: &Part| {
             let m = &marks[p.mark];
@@ -326,10 +340,10 @@ impl View<'_> {
         // equal kernels share their taps
         if !kernels.unequal {
             if let Some(kernel) = kernels.longest() {
-                for tap in kernel.taps() {
-                    self.contour.position(s + step * (middle - f64::from(tap.delay)), &mut position);
+                for (weight, delay) in coarse(kernel) {
+                    self.contour.position(s + step * (middle - delay), &mut position);
                     for (o, p) in out.iter_mut().zip(position.iter()) {
-                        *o += tap.weight * p;
+                        *o += weight * p;
                     }
                 }
                 return;
@@ -342,13 +356,22 @@ impl View<'_> {
                     out[i] = position[i];
                 }
                 Some(kernel) => {
-                    for tap in kernel.taps() {
-                        let s = s + step * (middle - f64::from(tap.delay));
-                        self.contour.position(s, &mut position);
-                        out[i] += tap.weight * position[i];
+                    for (weight, delay) in coarse(kernel) {
+                        self.contour.position(s + step * (middle - delay), &mut position);
+                        out[i] += weight * position[i];
                     }
                 }
             }
         }
     }
+}
+
+/// A kernel of many taps in few: weights, and mean delays in cycles.
+fn coarse(kernel: &Kernel) -> impl Iterator<Item = (f64, f64)> + '_ {
+    let taps = kernel.taps();
+    taps.chunks(taps.len().div_ceil(COARSE)).filter_map(|part| {
+        let weight: f64 = part.iter().map(|t| t.weight).sum();
+        let delay: f64 = part.iter().map(|t| t.weight * f64::from(t.delay)).sum();
+        (weight.abs() > 0.0).then(|| (weight, delay / weight))
+    })
 }

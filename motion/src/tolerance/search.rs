@@ -11,10 +11,18 @@ use crate::axis::AxisVec;
 use crate::deviation::{Excursion, SetPath};
 use kontur_filters::kernel::Kernel;
 
+/// Cycles around the set point nearest to the last point of the contour among which that of the next one is looked for.
+const HINT: u64 = 3;
+/// Points of the contour looked at in a cycle in which it may be missed.
+const PARTS: f64 = 4.0;
+/// Cycles on both sides of the last one among which the nearest set point is looked for.
+const AROUND: u64 = 24;
+/// Distance between the points of the contour that are looked at, in tolerances.
+const SPACING: f64 = 0.02;
 /// Cycles measured in one go, so that long stretches need little memory.
 const CHUNK: u64 = 8192;
 /// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be.
-const DOUBT: f64 = 0.95;
+const DOUBT: f64 = 0.9;
 /// Part of the tolerance up to which the bound excuses a stretch from being measured.
 const CERTAIN: f64 = 0.9;
 
@@ -157,14 +165,16 @@ impl View<'_> {
         let reach = length as f64;
         let mut buffer = Buffer::new(self);
         let n = buffer.set.len();
+        let delay = trial.kernels.longest().map_or(0, |k| k.delay_cycles().round() as u64);
         let first = from.saturating_sub(2 * length + 4);
         let mut record = Record { first, s_mm: Vec::with_capacity((to - first) as usize + 1) };
-        let (mut set, mut raw) = (SetPath::starting(first, n), SetPath::starting(first, n));
+        let mut set = SetPath::starting(first, n);
         buffer.seek(first);
         let mut at = marks.partition_point(|m| m.cycles < from as f64 - reach - 2.0);
         let mut bucket: Option<Violation> = None;
+        let mut between = AxisVec::zeros(n);
+        let (mut hint, mut looked) = (first + delay, f64::NEG_INFINITY);
         let half = (length / 2).max(1);
-        let delay = trial.kernels.longest().map_or(0, |k| k.delay_cycles().round() as u64);
         let mut note = |v: Violation, record: &Record| {
             if worst.as_ref().is_none_or(|w| w.deviation_mm < v.deviation_mm) {
                 let i = marks.partition_point(|m| m.cycles <= v.cycle as f64).max(1) - 1;
@@ -187,7 +197,6 @@ impl View<'_> {
             buffer.step(k);
             record.s_mm.push(buffer.s());
             set.push(&buffer.set);
-            raw.push(buffer.raw());
             if k < from {
                 continue;
             }
@@ -202,7 +211,8 @@ impl View<'_> {
                     let doubtful = |point: &[f64]| {
                         contour.worst_component(point, moment - reach, moment, BORDER_CYCLES)
                     };
-                    deviation_mm = set.between(k).map(|p| doubtful(&p)).fold(deviation_mm, f64::max);
+                    let points = set.between(k, 10.0 * SPACING * tolerance);
+                    deviation_mm = points.map(|p| doubtful(&p)).fold(deviation_mm, f64::max);
                 }
                 if deviation_mm > within(tolerance) {
                     let axis = out.axis();
@@ -216,12 +226,12 @@ impl View<'_> {
                 }
             }
             // points of the contour that the filters hold no longer
-            let mut missed = |point: &[f64], moment: f64, s: f64| {
+            let mut missed = |point: &[f64], among: (u64, u64), moment: f64, s: f64| {
                 let tolerance_mm = self.tolerance(moment, moment + reach);
                 let mut out = Excursion::none(n);
                 let wary_mm = DOUBT * tolerance_mm;
-                let Some(cycle) = set.misses(point, (moment, reach), wary_mm, &mut out) else {
-                    return;
+                let Some(cycle) = set.misses(point, among, wary_mm, &mut out) else {
+                    return among.0;
                 };
                 let deviation_mm = out.largest();
                 if deviation_mm > within(tolerance_mm) {
@@ -233,23 +243,44 @@ impl View<'_> {
                         &record,
                     );
                 }
+                cycle
             };
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
                 if at > 0 && mark.jump > 1e-9 {
-                    missed(&mark.point, mark.cycles, mark.s_mm);
+                    let first = mark.cycles.floor().max(0.0) as u64;
+                    missed(&mark.point, (first, first + length + 2), mark.cycles, mark.s_mm);
                 }
                 at += 1;
             }
+            // the other points of the contour, as far apart as matters
             let passed = k.saturating_sub(length + 1);
-            if let Some(point) = raw.get(passed) {
-                // a set point near enough spares the search for the nearest one
-                let near = set.get(passed + delay).is_some_and(|p| {
-                    distance(p, point) <= DOUBT * self.tolerance(passed as f64, moment)
-                });
-                if !near {
-                    missed(point, passed as f64, record.s(passed));
-                }
+            if passed <= first {
+                continue;
+            }
+            let tolerance = self.tolerance(passed as f64, moment);
+            let (from, to) = (looked.max(record.s(passed - 1)), record.s(passed));
+            if to - from < SPACING * tolerance && tolerance.is_finite() {
+                looked = from;
+                continue;
+            }
+            looked = to;
+            hint = hint.max(passed);
+            contour.position(to, &mut between);
+            let off = |k: &u64| set.get(*k).map_or(f64::INFINITY, |p| distance(p, &between));
+            let around = hint.saturating_sub(HINT)..=hint + HINT;
+            let best = around.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(hint);
+            // a set point near enough spares the search for the nearest one; the next one is found close to the last
+            if off(&best) <= DOUBT * tolerance {
+                hint = best;
+                continue;
+            }
+            let parts = ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
+            for part in 1..=parts {
+                let s = from + f64::from(part) / f64::from(parts) * (to - from);
+                contour.position(s, &mut between);
+                let among = (hint.saturating_sub(AROUND).max(passed), hint + AROUND);
+                hint = missed(&between, among, passed as f64, s);
             }
         }
         if let Some(v) = bucket {

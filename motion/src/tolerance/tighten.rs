@@ -148,8 +148,8 @@ impl View<'_> {
                 set.leaves(&self.contour, k, (from, to), &mut out);
             }
         }
-        let moment = rest as f64;
-        set.misses(&mark.point, (moment, f64::from(cycles + full)), tolerance, &mut out);
+        let among = (rest, rest + u64::from(cycles + full) + 1);
+        set.misses(&mark.point, among, tolerance, &mut out);
         out.largest() <= within(tolerance)
     }
 }

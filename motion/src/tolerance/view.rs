@@ -214,8 +214,4 @@ impl<'a> Buffer<'a> {
         self.s_mm[self.head]
     }
 
-    /// The path in the cycle taken last.
-    pub(super) fn raw(&self) -> &AxisVec {
-        &self.ring[self.head]
-    }
 }
