@@ -5,9 +5,9 @@
 //! P-AXIS-00003. The run goes on until the axes themselves stand.
 
 use super::{Phase, Simulation};
-use crate::diag::{Diagnostic, ValueKind};
+use crate::diag::{Condition, Diagnostic, Reaction, ValueKind};
 use crate::machine::{AxisKind, Machine};
-use kontur_filters::control::fault::{Derivative, ErrorId, Fault, Reaction};
+use kontur_filters::control::fault::{Derivative, Fault};
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
 use kontur_motion::contouring::NoContour;
@@ -25,15 +25,15 @@ pub(super) struct Stopping {
     settled_cycles: u32,
     coasting_cycles: u32,
     /// What was told already: an axis that swings meets its limits again and again.
-    told: Vec<(usize, ErrorId)>,
+    told: Vec<(usize, Condition)>,
 }
 
 impl Stopping {
     /// The axis has not said this since the stop began.
-    fn is_new(&mut self, chain: usize, id: ErrorId) -> bool {
-        let new = !self.told.contains(&(chain, id));
+    fn is_new(&mut self, chain: usize, condition: Condition) -> bool {
+        let new = !self.told.contains(&(chain, condition));
         if new {
-            self.told.push((chain, id));
+            self.told.push((chain, condition));
         }
         new
     }
@@ -57,14 +57,15 @@ impl Simulation {
         if self.frozen[chain].is_some() && of_set_position {
             return;
         }
+        let condition = condition(fault, self.is_spindle(chain));
         if let Phase::Stopping(stopping) = &mut self.phase
-            && !stopping.is_new(chain, fault.id())
+            && !stopping.is_new(chain, condition)
         {
             return;
         }
-        let diagnostic = self.describe(chain, fault);
+        let diagnostic = self.describe(chain, condition, fault);
         self.diagnostics.push(diagnostic);
-        let reaction = fault.reaction();
+        let reaction = condition.row().reaction;
         if reaction == Reaction::None {
             return;
         }
@@ -72,7 +73,11 @@ impl Simulation {
         let frozen = match reaction {
             Reaction::AbruptStop | Reaction::OpenLoopStop => chain..chain + 1,
             Reaction::AllStop => 0..self.chains.len(),
-            _ => 0..0,
+            Reaction::None
+            | Reaction::ProgramAbort
+            | Reaction::JobAbort
+            | Reaction::FeedHold
+            | Reaction::ControlledStop => 0..0,
         };
         for i in frozen {
             let here = self.record.axes[i].ipo;
@@ -86,68 +91,39 @@ impl Simulation {
             if let Err(e) = self.independent.stop(self.record.k) {
                 self.diagnostics.push(internal(&e));
             }
-            let told = vec![(chain, fault.id())];
+            let told = vec![(chain, condition)];
             self.phase = Phase::Stopping(Stopping { told, ..Stopping::default() });
         }
     }
 
-    fn describe(&mut self, chain: usize, fault: &Fault) -> Diagnostic {
+    fn is_spindle(&self, chain: usize) -> bool {
+        self.machine.all_axes().nth(chain).is_some_and(|axis| axis.kind() == AxisKind::Spindle)
+    }
+
+    fn describe(&mut self, chain: usize, condition: Condition, fault: &Fault) -> Diagnostic {
         let axis = self.machine.all_axes().nth(chain);
         let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
-        let spindle = axis.is_some_and(|a| a.kind() == AxisKind::Spindle);
-        let base = |text: String| match fault.id() {
-            // spindles have numbers of their own for the same
-            ErrorId::Vendor(50118) if spindle => Diagnostic::vendor(60101, text),
-            ErrorId::Vendor(50119) if spindle => Diagnostic::vendor(60102, text),
-            ErrorId::Vendor(n) => Diagnostic::vendor(n, text),
-            ErrorId::Kontur(n) => Diagnostic::kontur(n, text),
-        };
+        let base = Diagnostic::new(condition, format!("{fault}, axis {name}"));
         let diagnostic = match *fault {
-            Fault::FollowingError { lag_mm, limit_mm } => {
-                base(format!("following error {lag_mm:.4} mm exceeds {limit_mm:.4} mm, axis {name}"))
-                    .value(ValueKind::Current, lag_mm, "mm")
-                    .value(ValueKind::Limit, limit_mm, "mm")
-                    .parameter("P-AXIS-00172")
-                    .hint("raise slep_max, use feedforward (G135), or lower the feed")
+            Fault::FollowingError { lag_mm, limit_mm } | Fault::Unstable { lag_mm, limit_mm } => {
+                base.value(ValueKind::Current, lag_mm, "mm").value(ValueKind::Limit, limit_mm, "mm")
             }
-            Fault::SettlingTimeout { lag_mm, window_mm, time_s } => base(format!(
-                "distance {lag_mm:.4} mm to the target after {time_s:.6} s is outside the exact-stop window of {window_mm:.4} mm, axis {name}"
-            ))
-            .value(ValueKind::Current, lag_mm, "mm")
-            .value(ValueKind::Limit, window_mm, "mm")
-            .value(ValueKind::Limit, time_s, "s")
-            .parameter("P-AXIS-00236")
-            .hint("raise position_settling_time (P-AXIS-00532) or window, or the gain kv"),
-            Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => base(format!(
-                "speed command {speed_mm_s:.3} mm/s exceeds {limit_mm_s:.3} mm/s, axis {name}"
-            ))
-            .value(ValueKind::Current, speed_mm_s, "mm/s")
-            .value(ValueKind::Limit, limit_mm_s, "mm/s")
-            .parameter("P-AXIS-00407")
-            .hint("an axis that swings up: lower the gain kv or the weights of Improved Position Control"),
-            Fault::SetpointWarning { what, value, limit } => {
-                let (quantity, unit, parameter, _) = watched(what);
-                base(format!("{quantity} of the set position {value:.3} {unit} exceeds {limit:.3} {unit}, axis {name}"))
-                    .value(ValueKind::Current, value, unit)
-                    .value(ValueKind::Limit, limit, unit)
-                    .parameter(parameter)
-            }
-            Fault::SetpointError { what, value, limit } => {
-                let (quantity, unit, _, parameter) = watched(what);
-                base(format!("{quantity} of the set position {value:.3} {unit} exceeds {limit:.3} {unit}, axis {name}"))
-                    .value(ValueKind::Current, value, unit)
-                    .value(ValueKind::Limit, limit, unit)
-                    .parameter(parameter)
-                    .hint("lower the dynamics, or raise the threshold if a filter overshoots")
-            }
-            Fault::Unstable { lag_mm, limit_mm } => base(format!(
-                "following error {lag_mm:.3} mm beyond {limit_mm:.3} mm: the simulated axis {name} is unstable"
-            ))
-            .value(ValueKind::Current, lag_mm, "mm")
-            .value(ValueKind::Limit, limit_mm, "mm")
-            .parameter("P-AXIS-00099")
-            .hint("lower the gain kv or the weights of Improved Position Control"),
-            _ => base(format!("parameters of Improved Position Control changed while axis {name} moves")),
+            Fault::SettlingTimeout { lag_mm, window_mm, time_s } => base
+                .value(ValueKind::Current, lag_mm, "mm")
+                .value(ValueKind::Limit, window_mm, "mm")
+                .value(ValueKind::Limit, time_s, "s"),
+            Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => base
+                .value(ValueKind::Current, speed_mm_s, "mm/s")
+                .value(ValueKind::Limit, limit_mm_s, "mm/s"),
+            Fault::SetpointWarning { what, value, limit } => base
+                .value(ValueKind::Current, value, what.unit())
+                .value(ValueKind::Limit, limit, what.unit())
+                .parameter(thresholds(what).0),
+            Fault::SetpointError { what, value, limit } => base
+                .value(ValueKind::Current, value, what.unit())
+                .value(ValueKind::Limit, limit, what.unit())
+                .parameter(thresholds(what).1),
+            Fault::IpcChangedMoving => base,
         };
         let mut diagnostic = diagnostic.axis(number, name);
         diagnostic.cycle = Some(self.record.k);
@@ -157,38 +133,63 @@ impl Simulation {
     }
 }
 
-/// Quantity, unit and the parameters of warning and error.
-const fn watched(what: Derivative) -> (&'static str, &'static str, &'static str, &'static str) {
+/// The condition of a fault; spindles have numbers of their own for their speed.
+const fn condition(fault: &Fault, spindle: bool) -> Condition {
+    match fault {
+        Fault::FollowingError { .. } => Condition::FollowingError,
+        Fault::SettlingTimeout { .. } => Condition::SettlingTimeout,
+        Fault::ControllerSpeed { .. } => Condition::ControllerSpeed,
+        Fault::SetpointWarning { what: Derivative::Velocity, .. } if spindle => {
+            Condition::SpindleSpeedWarning
+        }
+        Fault::SetpointError { what: Derivative::Velocity, .. } if spindle => {
+            Condition::SpindleSpeedError
+        }
+        Fault::SetpointWarning { what: Derivative::Velocity, .. } => Condition::SpeedWarning,
+        Fault::SetpointError { what: Derivative::Velocity, .. } => Condition::SpeedError,
+        Fault::SetpointWarning { what: Derivative::Acceleration | Derivative::Jerk, .. } => {
+            Condition::SetpointWarning
+        }
+        Fault::SetpointError { what: Derivative::Acceleration | Derivative::Jerk, .. } => {
+            Condition::SetpointError
+        }
+        Fault::IpcChangedMoving => Condition::IpcChangedMoving,
+        Fault::Unstable { .. } => Condition::Unstable,
+    }
+}
+
+/// Parameters of the warning and of the error.
+const fn thresholds(what: Derivative) -> (&'static str, &'static str) {
     match what {
-        Derivative::Velocity => ("velocity", "mm/s", "P-AXIS-00439", "P-AXIS-00440"),
-        Derivative::Acceleration => ("acceleration", "mm/s2", "P-AXIS-00441", "P-AXIS-00442"),
-        Derivative::Jerk => ("jerk", "mm/s3", "P-AXIS-00443", "P-AXIS-00444"),
+        Derivative::Velocity => ("P-AXIS-00439", "P-AXIS-00440"),
+        Derivative::Acceleration => ("P-AXIS-00441", "P-AXIS-00442"),
+        Derivative::Jerk => ("P-AXIS-00443", "P-AXIS-00444"),
     }
 }
 
 /// The plant of an axis cannot be simulated.
 pub(super) fn plant(error: &PlantError, machine: &Machine, chain: usize) -> Diagnostic {
     let name = machine.all_axes().nth(chain).map_or("?", |a| a.name());
-    Diagnostic::kontur(70, format!("plant of axis {name}: {error}"))
+    Diagnostic::new(Condition::ListRange, format!("plant of axis {name}: {error}"))
         .severity(crate::diag::Severity::Error)
 }
 
 /// A condition that the look-ahead excludes.
 pub(super) fn internal(error: &Infeasible) -> Diagnostic {
-    Diagnostic::kontur(82, format!("look-ahead: {error}")).hint(
+    Diagnostic::new(Condition::Internal, format!("look-ahead: {error}")).hint(
         "this is an error of kontur itself; the program and the machine lists help to find it",
     )
 }
 
 /// A kernel that was to be swapped while the axis still moves.
 pub(super) fn switch_while_moving() -> Diagnostic {
-    Diagnostic::kontur(82, "filter kernel not switched: the axis still moves")
+    Diagnostic::new(Condition::Internal, "filter kernel not switched: the axis still moves")
 }
 
 /// The program time is used up.
 pub(super) fn out_of_time(k: u64, cycle: CycleTime, max_cycles: u64) -> Diagnostic {
-    let mut d = Diagnostic::kontur(
-        17,
+    let mut d = Diagnostic::new(
+        Condition::Endless,
         format!("program time exceeds {} s: the run was stopped", cycle.time_of(max_cycles)),
     )
     .hint("raise the limit with --max-time");
@@ -203,7 +204,8 @@ pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
         if feedhold { ("feedhold", "feedhold 0") } else { ("override 0", "an override") };
     let text =
         format!("the path is held by {what} and no later input releases it: the run was stopped");
-    let mut d = Diagnostic::kontur(83, text).hint(format!("give {release} a later time stamp"));
+    let mut d =
+        Diagnostic::new(Condition::Held, text).hint(format!("give {release} a later time stamp"));
     d.cycle = Some(k);
     d.time_s = Some(cycle.time_of(k));
     d
@@ -212,13 +214,17 @@ pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
 impl Simulation {
     /// K-0022, each place once.
     pub(super) fn switched_while_moving(&mut self) {
-        let (id, at) = (22, self.current);
-        if self.smoothing.is_new(id, at) {
+        let at = self.current;
+        if self.smoothing.is_new(Condition::FeedforwardSwitchedMoving, at) {
             let v = self.record.path.v_mm_s;
             let text = format!(
                 "feedforward is switched or weighted at the path speed {v:.3} mm/s: the speed command jumps"
             );
-            let mut d = Diagnostic::kontur(22, text).value(ValueKind::Current, v, "mm/s");
+            let mut d = Diagnostic::new(Condition::FeedforwardSwitchedMoving, text).value(
+                ValueKind::Current,
+                v,
+                "mm/s",
+            );
             d.cycle = Some(self.record.k + 1);
             d.time_s = Some(self.cycle.time_of(self.record.k + 1));
             d.source = self.executor.locate(at);
@@ -228,8 +234,8 @@ impl Simulation {
 
     /// The tolerance of a block could not be kept.
     pub(super) fn unkept(&mut self, unkept: &Unkept) -> Diagnostic {
-        let mut d = Diagnostic::kontur(
-            80,
+        let mut d = Diagnostic::new(
+            Condition::AxDevNotKept,
             format!(
                 "deviation {:.6} mm exceeds AX_DEV {:.6} mm and could not be lowered further",
                 unkept.deviation_mm, unkept.tolerance_mm
@@ -247,27 +253,37 @@ impl Simulation {
     /// Reports the corners that were not contoured as asked for, each place once.
     pub(super) fn not_contoured(&mut self) {
         for notice in self.smoothing.take_notices() {
-            let text = match notice.reason {
-                NoContour::BlockTooShort => "a block is too short for contouring",
-                NoContour::DeviationTooSmall { .. } => "PATH_DEV is below the minimum",
-                NoContour::DistanceTooSmall { .. } => "a corner distance is below the minimum",
-                NoContour::NotPossible => "contouring is not possible at the end of this block",
-                NoContour::FeedGroup => "the feed group changes behind this block",
+            let (condition, text) = match notice.reason {
+                NoContour::BlockTooShort => {
+                    (Condition::BlockTooShort, "a block is too short for contouring")
+                }
+                NoContour::DeviationTooSmall { .. } => {
+                    (Condition::PathDevTooSmall, "PATH_DEV is below the minimum")
+                }
+                NoContour::DistanceTooSmall { .. } => {
+                    (Condition::CornerDistanceTooSmall, "a corner distance is below the minimum")
+                }
+                NoContour::NotPossible => (
+                    Condition::ContouringNotPossible,
+                    "contouring is not possible at the end of this block",
+                ),
+                NoContour::FeedGroup => {
+                    (Condition::ContouringFeedGroup, "the feed group changes behind this block")
+                }
                 // at a stop there is no corner to round; MAX_ANGLE asks for it; the executor tells about the mode
                 NoContour::NothingFollows
                 | NoContour::AngleAboveMaximum { .. }
                 | NoContour::ModeReplaced => continue,
             };
-            let Some(id) = notice.id() else { continue };
             let source = self
                 .underway
                 .iter()
                 .find(|u| u.seq == notice.seq)
                 .map_or(self.current, |u| u.source);
-            if self.smoothing.is_new(id, source) {
+            if self.smoothing.is_new(condition, source) {
                 // Assumption: the run goes on, with the corner as programmed, where the control would abort
                 let mut d =
-                    Diagnostic::vendor(id, format!("{text}: the corner stays as programmed"))
+                    Diagnostic::new(condition, format!("{text}: the corner stays as programmed"))
                         .severity(crate::diag::Severity::Warning);
                 d.source = self.executor.locate(source);
                 self.diagnostics.push(d);
