@@ -226,6 +226,7 @@ pub(crate) struct Gauge {
     every: bool,
     set: SetPath,
     path: SetPath,
+    found: Excursion,
 }
 
 impl Gauge {
@@ -234,7 +235,12 @@ impl Gauge {
         Self { reach: u64::from(reach), every, ..Self::default() }
     }
 
-    /// Takes the set point and the interpolated point of cycle `k`. Fills the largest components of what the line to the
+    /// Largest components found in the last cycle, per axis.
+    pub(crate) fn found(&self) -> &[f64] {
+        &self.found.vector
+    }
+
+    /// Takes the set point and the interpolated point of cycle `k`. Finds the largest components of what the line to the
     /// set point leaves the contour by, and of what the points of the contour that the filters have just let go were
     /// missed by.
     pub(crate) fn step(
@@ -243,7 +249,6 @@ impl Gauge {
         k: u64,
         set: &[f64],
         path: &[f64],
-        out: &mut [f64],
     ) {
         let axes = set.len();
         if self.set.end() != k {
@@ -267,7 +272,7 @@ impl Gauge {
         {
             self.set.misses(point, (first, k), f64::INFINITY, &mut found);
         }
-        out.copy_from_slice(&found.vector);
+        self.found = found;
         let old = k.saturating_sub(2 * self.reach + 4);
         self.set.forget_before(old);
         self.path.forget_before(old);

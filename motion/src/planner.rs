@@ -282,15 +282,19 @@ impl Planner {
         self.setpoint.limit = SpeedLimit::Stop;
     }
 
-    /// How far the set path leaves the contour, both ways (see `deviation.rs`), with the set point of the present cycle;
-    /// called once in every cycle. Fills the largest component of each axis and returns the length in mm of the shortest
-    /// vector from the contour within reach of the filters to the set point.
+    /// Components of the shortest vector from the contour within reach of the filters to the set point of the present
+    /// cycle; returns its length in mm. Called once in a cycle, it keeps [`Self::excursion`] up to date.
     pub fn deviation(&mut self, point: &[f64], out: &mut [f64]) -> f64 {
-        let now = self.setpoint.k as f64;
-        self.gauge.step(&self.contour, self.setpoint.k, point, &self.setpoint.position, out);
-        self.contour
-            .nearest(point, now - f64::from(self.reach_cycles), now, &mut AxisVec::zeros(point.len()))
-            .map_or(0.0, |n| n.distance)
+        let k = self.setpoint.k;
+        self.gauge.step(&self.contour, k, point, &self.setpoint.position);
+        let (from, to) = (k as f64 - f64::from(self.reach_cycles), k as f64);
+        self.contour.nearest(point, from, to, out).map_or(0.0, |n| n.distance)
+    }
+
+    /// Largest components in mm of what the set path leaves the contour by in this cycle, and of what it has missed of the
+    /// contour that the filters have just let go: the two directions that `AX_DEV` bounds.
+    pub fn excursion(&self) -> &[f64] {
+        self.gauge.found()
     }
 
     /// Blocks whose tolerance could not be kept since the last call.

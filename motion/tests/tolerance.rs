@@ -38,6 +38,19 @@ fn worst(job: &Job, points: &[&[f64]], feed: f64) -> (f64, usize) {
     (filtered(&out, kernel).iter().enumerate().map(dev).fold(0.0, f64::max), last)
 }
 
+/// Largest deviation of the joined set points from the edges, and of points of the edges from them.
+fn both_ways(job: &Job, points: &[&[f64]], feed: f64) -> f64 {
+    let set = filtered(&job.drive(points, &[feed]), job.kernel.as_ref().unwrap());
+    let joined: Vec<&[f64]> = set.iter().map(Vec::as_slice).collect();
+    let between = |line: &[&[f64]]| -> Vec<Vec<f64>> {
+        let at = |u: f64| line[0].iter().zip(line[1]).map(|(a, b)| a + u * (b - a)).collect();
+        (0..=16).map(|i| at(f64::from(i) / 16.0)).collect()
+    };
+    let leaves = joined.windows(2).flat_map(between).map(|p| deviation(&p, points));
+    let misses = points.windows(2).flat_map(between).map(|p| deviation(&p, &joined));
+    leaves.chain(misses).fold(0.0, f64::max)
+}
+
 #[test]
 fn square_keeps_the_tolerance_in_every_mode() {
     for mode in 1..=4 {
@@ -265,7 +278,7 @@ fn a_tolerance_that_is_kept_anyway_changes_nothing() {
                 (bits, places)
             };
             let job = guarded(machine(points[0].len(), 0.03), mode, freq, 0.1, None);
-            let (free, _) = worst(&job, points, F4000);
+            let free = both_ways(&job, points, F4000);
             assert!(free > 1e-3, "{name}: {free}");
             let plain = drive(None);
             assert_eq!(drive(Some(1.01 * free)), plain, "{name} mode {mode} {freq} Hz");

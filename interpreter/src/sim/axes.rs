@@ -97,8 +97,10 @@ impl Simulation {
             self.vector.fill(0.0);
             0.0
         };
-        for (axis, dev) in self.record.axes.iter_mut().zip(self.vector.iter()) {
+        let both_ways = if shaped { self.planner.excursion() } else { &[] };
+        for (i, (axis, dev)) in self.record.axes.iter_mut().zip(self.vector.iter()).enumerate() {
             axis.dev = *dev;
+            axis.dev_both_ways = both_ways.get(i).map_or(dev.abs(), |d| d.abs().max(dev.abs()));
         }
         for unkept in self.planner.take_unkept() {
             let diagnostic = self.unkept(&unkept);
