@@ -103,8 +103,7 @@ impl Simulation {
             axis.dev_both_ways = both_ways.get(i).map_or(dev.abs(), |d| d.abs().max(dev.abs()));
         }
         for unkept in self.planner.take_unkept() {
-            let diagnostic = self.unkept(&unkept);
-            self.diagnostics.push(diagnostic);
+            self.unkept(&unkept);
         }
         for (i, f) in faults {
             self.fault(i, &f);
