@@ -226,9 +226,11 @@ pub fn diff(data: &[u8]) {
     let files = [("a.csv", a), ("b.csv", b)];
     let there = call(&files, &["diff", "@a.csv", "@b.csv"]).exit;
     let back = call(&files, &["diff", "@b.csv", "@a.csv"]).exit;
-    assert_eq!(there, back);
+    // of two tables that cannot be read, the first decides how
+    let is_read = |exit| exit == Exit::Finished || exit == Exit::Aborted;
+    assert!(there == back || !is_read(there) && !is_read(back), "{there:?} {back:?}");
     // what can be read equals itself
-    if there == Exit::Finished || there == Exit::Aborted {
+    if is_read(there) {
         assert_eq!(call(&files, &["diff", "@a.csv", "@a.csv"]).exit, Exit::Finished);
     }
 }
