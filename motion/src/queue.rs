@@ -118,6 +118,17 @@ impl Queued {
         out
     }
 
+    /// Largest `|q''|` of an axis in 1/mm between two distances from the present start.
+    pub(crate) fn bend_between(&self, from: f64, to: f64) -> f64 {
+        let mut start = 0.0;
+        let inside = self.bends().into_iter().filter(|(end, _)| {
+            let inside = *end >= from && start <= to;
+            start = *end;
+            inside
+        });
+        inside.map(|(_, bend)| bend).fold(0.0, f64::max)
+    }
+
     /// The block in parts of similar bend, where the speed that a bend allows makes that worth it; one part otherwise.
     pub(crate) fn parts(self: &Arc<Self>, speed: impl Fn(f64) -> f64) -> Vec<Arc<Self>> {
         // neighbours stay together as long as their common speed costs little

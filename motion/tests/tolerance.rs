@@ -281,7 +281,8 @@ fn a_tolerance_that_is_kept_anyway_changes_nothing() {
             let free = both_ways(&job, points, F4000);
             assert!(free > 1e-3, "{name}: {free}");
             let plain = drive(None);
-            assert_eq!(drive(Some(1.01 * free)), plain, "{name} mode {mode} {freq} Hz");
+            // a twentieth more, because what could be called the shortest vector counts
+            assert_eq!(drive(Some(1.06 * free)), plain, "{name} mode {mode} {freq} Hz");
             assert_ne!(drive(Some(0.9 * free)), plain, "{name} mode {mode} {freq} Hz");
         }
     }

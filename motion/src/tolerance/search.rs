@@ -9,6 +9,7 @@ use super::view::{Buffer, View};
 use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
 use crate::axis::AxisVec;
 use crate::deviation::{Excursion, SetPath};
+use crate::timeline::{PathState, Reader};
 use kontur_filters::kernel::Kernel;
 
 /// Cycles around the set point nearest to the last point of the contour among which that of the next one is looked for.
@@ -82,9 +83,27 @@ impl View<'_> {
                 from = until + 1;
             }
         };
+        let mut reader = self.trial.timeline.reader();
+        let mut active: Vec<(u64, u64)> = Vec::new();
         for m in 0..self.marks.len() {
             let Some((from, to)) = self.active(m) else { continue };
             let from = from.max(self.trial.now + 1);
+            if self.marks[m].queued.bend <= 0.0 || !self.calm() {
+                active.push((from, to));
+                continue;
+            }
+            // of a bent block only where it bends
+            let mut k = from;
+            while k <= to {
+                let until = to.min(k + reach.max(8));
+                if !self.straightens(k.saturating_sub(reach + 2), until, &mut reader) {
+                    active.push((k, until));
+                }
+                k = until + 1;
+            }
+        }
+        active.sort_unstable();
+        for (from, to) in active {
             if to < from {
                 continue;
             }
@@ -122,6 +141,35 @@ impl View<'_> {
             return None;
         }
         Some((from.floor().max(0.0) as u64, to.ceil() as u64))
+    }
+
+    /// The kernels are equal and pull nothing beyond an end: only kinks and bends leave the contour.
+    fn calm(&self) -> bool {
+        !self.trial.kernels.unequal && !self.trial.kernels.overshoot
+    }
+
+    /// True if no set point of the cycles `first..=last` can leave the contour by the tolerance: expanded around their
+    /// mean path length the linear part of the path points lies on the path, and what is left of an axis is at most
+    /// `bend / 2` times their variance, itself at most a quarter of the stretch squared (derived).
+    fn straightens(&self, first: u64, last: u64, reader: &mut Reader<'_>) -> bool {
+        let Self { trial, marks, .. } = self;
+        let begin = marks.partition_point(|m| m.cycles <= first as f64 - 1.0).saturating_sub(1);
+        let end = marks.partition_point(|m| m.cycles <= last as f64);
+        if (begin + 1..end).any(|m| marks[m].jump > 1e-9) {
+            return false;
+        }
+        let mut state = PathState::at_rest(&marks[begin].point);
+        let [from, to] = [first, last].map(|k| {
+            self.state(k, reader, &mut state);
+            state.s
+        });
+        let (mut bend, mut tolerance) = (0.0_f64, f64::INFINITY);
+        for m in &marks[begin..end] {
+            bend = bend.max(m.queued.bend_between(from - m.s_mm, to - m.s_mm));
+            tolerance = tolerance.min(m.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY));
+        }
+        let axes = trial.kernels.axes.len() as f64;
+        axes.sqrt() * bend * (to - from) * (to - from) / 8.0 <= 0.5 * tolerance
     }
 
     /// True if the changes of direction between two moments are too small to exceed the tolerance.
