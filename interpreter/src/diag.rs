@@ -5,6 +5,9 @@
 
 pub mod catalog;
 mod hints;
+mod number;
+
+pub use number::rounded;
 
 use serde::{Serialize, Serializer};
 use std::sync::Arc;

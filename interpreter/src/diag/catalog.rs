@@ -338,6 +338,8 @@ pub const ENTRIES: &[Entry] = &[
     row(Kontur(117), "K-ARC-CENTRE", Error, 2, 3, 1, "start, end and centre of an arc do not fit", "G165; P-CHAN-00059, P-CHAN-00060"),
     row(Kontur(118), "K-UNREACHED", Warning, 1, 3, 1, "syntax error in a part of the program that does not run", "branch not taken, block jumped over, subroutine not called"),
     row(Kontur(119), "K-BOTTLENECK", Warning, 1, 3, 1, "a compensated tool cuts its own contour at a bottleneck", "gap narrower than the tool, loop over several blocks"),
+    row(Kontur(130), "K-STANDSTILL", Error, 2, 3, 11, "an axis will never arrive where the program waits for it", "its loop stands or swings outside the window, and no input is left that could move it"),
+    row(Kontur(131), "K-SPINDLE-LIMIT", Warning, 1, 1, 1, "spindle speed above the limit of the spindle, limited", "S word or REV above P-AXIS-00212"),
 ];
 
 #[cfg(test)]

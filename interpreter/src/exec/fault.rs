@@ -119,6 +119,8 @@ pub(super) mod own {
     pub(in crate::exec) const ARC_CENTRE: u16 = 117;
     /// A compensated tool cuts its own contour at a bottleneck.
     pub(in crate::exec) const BOTTLENECK: u16 = 119;
+    /// Spindle speed above the limit of the spindle.
+    pub(in crate::exec) const SPINDLE_LIMIT: u16 = 131;
     /// Syntax error in a part of the program that does not run.
     pub(in crate::exec) const UNREACHED: u16 = 118;
     /// The program has more errors than are reported.

@@ -55,6 +55,11 @@ impl Axis {
         self.number
     }
 
+    /// Unit of its positions: `mm` or `deg`.
+    pub fn unit(&self) -> &'static str {
+        if self.kind == AxisKind::Linear { "mm" } else { "deg" }
+    }
+
     /// Linear, rotary or spindle.
     pub fn kind(&self) -> AxisKind {
         self.kind

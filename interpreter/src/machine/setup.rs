@@ -32,8 +32,6 @@ pub struct ChainSetup {
     pub control: AxisControlConfig,
     /// Difference of input and output below which the filters count as settled, in mm (P-AXIS-00351).
     pub filter_window_mm: f64,
-    /// Exact-stop window in mm (P-AXIS-00236).
-    pub window_mm: f64,
 }
 
 impl Machine {
@@ -74,7 +72,6 @@ impl Machine {
             additional: filters::additional(axis, self.cycle, diagnostics),
             control,
             filter_window_mm: axis.filter_window_mm(),
-            window_mm: axis.window_mm(),
         }
     }
 

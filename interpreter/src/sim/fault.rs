@@ -4,9 +4,12 @@
 //! where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7), the others brake along the path with
 //! P-AXIS-00003. The run goes on until the axes themselves stand.
 
+use super::axes::Driver;
+use super::chain::Remaining;
 use super::{Phase, Simulation};
-use crate::diag::{Diagnostic, ValueKind};
-use crate::machine::{AxisKind, Machine};
+use crate::diag::{Diagnostic, ValueKind, rounded};
+use crate::exec::SpindleMotion;
+use crate::machine::{Axis, AxisKind, Machine};
 use kontur_filters::control::fault::{Derivative, ErrorId, Fault, Reaction};
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
@@ -69,19 +72,11 @@ impl Simulation {
             return;
         }
         self.totals.aborted = true;
-        let frozen = match reaction {
-            Reaction::AbruptStop | Reaction::OpenLoopStop => chain..chain + 1,
-            Reaction::AllStop => 0..self.chains.len(),
-            _ => 0..0,
-        };
-        for i in frozen {
-            let here = self.record.axes[i].ipo;
-            self.frozen[i].get_or_insert(here);
-        }
-        if reaction == Reaction::OpenLoopStop {
-            self.chains[chain].open_loop();
-        }
+        self.react(chain, reaction);
         if !matches!(self.phase, Phase::Stopping(_)) {
+            for spindle in &mut self.spindles {
+                spindle.command(SpindleMotion::Stop);
+            }
             self.planner.brake();
             if let Err(e) = self.independent.stop(self.record.k) {
                 self.diagnostics.push(internal(&e));
@@ -91,10 +86,77 @@ impl Simulation {
         }
     }
 
+    /// What the axis concerned does at once.
+    ///
+    /// Both sides of a gantry bridge stop alike: kept where they are once their set position stands, with the limits of the
+    /// path while it moves. Stopping one of them alone would rack the bridge.
+    fn react(&mut self, chain: usize, reaction: Reaction) {
+        let driver = self.drivers[chain];
+        let together =
+            |i: usize| i == chain || matches!(driver, Driver::Path(_)) && self.drivers[i] == driver;
+        let concerned: Vec<usize> = match reaction {
+            Reaction::AbruptStop | Reaction::OpenLoopStop => {
+                (0..self.chains.len()).filter(|i| together(*i)).collect()
+            }
+            Reaction::AllStop => (0..self.chains.len()).collect(),
+            _ => return,
+        };
+        let bridge = reaction != Reaction::AllStop && concerned.len() > 1;
+        if bridge && self.record.path.v_mm_s > 0.0 {
+            return;
+        }
+        for i in concerned {
+            let here = self.record.axes[i].ipo;
+            self.frozen[i].get_or_insert(here);
+            match reaction {
+                Reaction::OpenLoopStop => self.chains[i].open_loop(),
+                Reaction::AbruptStop => self.chains[i].halt(),
+                _ => {}
+            }
+        }
+    }
+
+    /// Nothing will ever bring an axis to where the program waits for it: the end of the run.
+    pub(super) fn never_arrives(&mut self, chain: usize, lacks: Remaining) {
+        let axis = self.machine.all_axes().nth(chain);
+        let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
+        let unit = axis.map_or("mm", Axis::unit);
+        let Remaining { distance_mm, window_mm, filters } = lacks;
+        let (window, parameter, help) = if filters {
+            ("the window of its filters", "P-AXIS-00351", "raise filter_position_window")
+        } else {
+            (
+                "the exact-stop window",
+                "P-AXIS-00236",
+                "raise window or the gain kv, or take the force away",
+            )
+        };
+        let text = format!(
+            "axis {name} stands {} {unit} from its target, {window} is {} {unit}, and nothing moves it any more",
+            rounded(distance_mm),
+            rounded(window_mm)
+        );
+        let mut d = Diagnostic::kontur(130, text)
+            .value(ValueKind::Current, distance_mm, unit)
+            .value(ValueKind::Limit, window_mm, unit)
+            .axis(number, name)
+            .parameter(parameter)
+            .hint(help);
+        let k = self.planner.setpoint().k;
+        (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
+        let at = self.stops_at[chain];
+        d.source = self.executor.locate(if at.line > 0 { at } else { self.waits_at });
+        self.diagnostics.push(d);
+        self.totals.aborted = true;
+        self.phase = Phase::Done;
+    }
+
     fn describe(&mut self, chain: usize, fault: &Fault) -> Diagnostic {
         let axis = self.machine.all_axes().nth(chain);
         let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
         let spindle = axis.is_some_and(|a| a.kind() == AxisKind::Spindle);
+        let unit = axis.map_or("mm", Axis::unit);
+        let (speed_unit, r) = (per_s(unit, 1), rounded);
         let base = |text: String| match fault.id() {
             // spindles have numbers of their own for the same
             ErrorId::Vendor(50118) if spindle => Diagnostic::vendor(60101, text),
@@ -102,68 +164,105 @@ impl Simulation {
             ErrorId::Vendor(n) => Diagnostic::vendor(n, text),
             ErrorId::Kontur(n) => Diagnostic::kontur(n, text),
         };
-        let diagnostic = match *fault {
-            Fault::FollowingError { lag_mm, limit_mm } => {
-                base(format!("following error {lag_mm:.4} mm exceeds {limit_mm:.4} mm, axis {name}"))
-                    .value(ValueKind::Current, lag_mm, "mm")
-                    .value(ValueKind::Limit, limit_mm, "mm")
-                    .parameter("P-AXIS-00172")
-                    .hint("raise slep_max, use feedforward (G135), or lower the feed")
-            }
-            Fault::SettlingTimeout { lag_mm, window_mm, time_s } => base(format!(
-                "distance {lag_mm:.4} mm to the target after {time_s:.6} s is outside the exact-stop window of {window_mm:.4} mm, axis {name}"
-            ))
-            .value(ValueKind::Current, lag_mm, "mm")
-            .value(ValueKind::Limit, window_mm, "mm")
-            .value(ValueKind::Limit, time_s, "s")
-            .parameter("P-AXIS-00236")
-            .hint("raise position_settling_time (P-AXIS-00532) or window, or the gain kv"),
-            Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => base(format!(
-                "speed command {speed_mm_s:.3} mm/s exceeds {limit_mm_s:.3} mm/s, axis {name}"
-            ))
-            .value(ValueKind::Current, speed_mm_s, "mm/s")
-            .value(ValueKind::Limit, limit_mm_s, "mm/s")
-            .parameter("P-AXIS-00407")
-            .hint("an axis that swings up: lower the gain kv or the weights of Improved Position Control"),
-            Fault::SetpointWarning { what, value, limit } => {
-                let (quantity, unit, parameter, _) = watched(what);
-                base(format!("{quantity} of the set position {value:.3} {unit} exceeds {limit:.3} {unit}, axis {name}"))
+        // the monitors watch magnitudes, the vendor's values too
+        let (diagnostic, at) = match *fault {
+            Fault::FollowingError { lag_mm, limit_mm } => (
+                base(format!(
+                    "following error {} {unit} exceeds {} {unit}, axis {name}",
+                    r(lag_mm),
+                    r(limit_mm)
+                ))
+                .value(ValueKind::Current, lag_mm, unit)
+                .value(ValueKind::Limit, limit_mm, unit)
+                .parameter("P-AXIS-00172")
+                .hint("raise slep_max, use feedforward (G135), or lower the feed"),
+                self.current,
+            ),
+            Fault::SettlingTimeout { lag_mm, window_mm, time_s } => (
+                base(format!(
+                    "distance {} {unit} to the target after {} s is outside the exact-stop window of {} {unit}, axis {name}",
+                    r(lag_mm),
+                    r(time_s),
+                    r(window_mm)
+                ))
+                .value(ValueKind::Current, lag_mm, unit)
+                .value(ValueKind::Limit, window_mm, unit)
+                .value(ValueKind::Limit, time_s, "s")
+                .parameter("P-AXIS-00236")
+                .hint("raise position_settling_time (P-AXIS-00532) or window, or the gain kv"),
+                // the next blocks may be running already
+                self.stops_at[chain],
+            ),
+            Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => (
+                base(format!(
+                    "speed command {} {speed_unit} exceeds {} {speed_unit}, axis {name}",
+                    r(speed_mm_s),
+                    r(limit_mm_s)
+                ))
+                .value(ValueKind::Current, speed_mm_s, speed_unit)
+                .value(ValueKind::Limit, limit_mm_s, speed_unit)
+                .parameter("P-AXIS-00407")
+                .hint("an axis that swings up: lower the gain kv or the weights of Improved Position Control"),
+                self.current,
+            ),
+            Fault::SetpointWarning { what, value, limit } | Fault::SetpointError { what, value, limit } => {
+                let (quantity, order, warning, error) = watched(what);
+                let unit = per_s(unit, order);
+                let text = format!(
+                    "{quantity} of the set position {} {unit} exceeds {} {unit}, axis {name}",
+                    r(value),
+                    r(limit)
+                );
+                let d = base(text)
                     .value(ValueKind::Current, value, unit)
-                    .value(ValueKind::Limit, limit, unit)
-                    .parameter(parameter)
+                    .value(ValueKind::Limit, limit, unit);
+                let d = if matches!(fault, Fault::SetpointWarning { .. }) {
+                    d.parameter(warning)
+                } else {
+                    d.parameter(error)
+                        .hint("lower the dynamics, or raise the threshold if a filter overshoots")
+                };
+                (d, self.current)
             }
-            Fault::SetpointError { what, value, limit } => {
-                let (quantity, unit, _, parameter) = watched(what);
-                base(format!("{quantity} of the set position {value:.3} {unit} exceeds {limit:.3} {unit}, axis {name}"))
-                    .value(ValueKind::Current, value, unit)
-                    .value(ValueKind::Limit, limit, unit)
-                    .parameter(parameter)
-                    .hint("lower the dynamics, or raise the threshold if a filter overshoots")
-            }
-            Fault::Unstable { lag_mm, limit_mm } => base(format!(
-                "following error {lag_mm:.3} mm beyond {limit_mm:.3} mm: the simulated axis {name} is unstable"
-            ))
-            .value(ValueKind::Current, lag_mm, "mm")
-            .value(ValueKind::Limit, limit_mm, "mm")
-            .parameter("P-AXIS-00099")
-            .hint("lower the gain kv or the weights of Improved Position Control"),
-            _ => base(format!("parameters of Improved Position Control changed while axis {name} moves")),
+            Fault::Unstable { lag_mm, limit_mm } => (
+                base(format!(
+                    "following error {} {unit} beyond {} {unit}: the simulated axis {name} is unstable",
+                    r(lag_mm),
+                    r(limit_mm)
+                ))
+                .value(ValueKind::Current, lag_mm, unit)
+                .value(ValueKind::Limit, limit_mm, unit)
+                .parameter("P-AXIS-00099")
+                .hint("lower the gain kv or the weights of Improved Position Control"),
+                self.current,
+            ),
+            _ => (
+                base(format!("parameters of Improved Position Control changed while axis {name} moves")),
+                self.current,
+            ),
         };
         let mut diagnostic = diagnostic.axis(number, name);
         diagnostic.cycle = Some(self.record.k);
         diagnostic.time_s = Some(self.cycle.time_of(self.record.k));
-        diagnostic.source = self.executor.locate(self.current);
+        diagnostic.source = self.executor.locate(at);
         diagnostic
     }
 }
 
-/// Quantity, unit and the parameters of warning and error.
-const fn watched(what: Derivative) -> (&'static str, &'static str, &'static str, &'static str) {
+/// Quantity, order of the derivative, and the parameters of warning and error.
+const fn watched(what: Derivative) -> (&'static str, usize, &'static str, &'static str) {
     match what {
-        Derivative::Velocity => ("velocity", "mm/s", "P-AXIS-00439", "P-AXIS-00440"),
-        Derivative::Acceleration => ("acceleration", "mm/s2", "P-AXIS-00441", "P-AXIS-00442"),
-        Derivative::Jerk => ("jerk", "mm/s3", "P-AXIS-00443", "P-AXIS-00444"),
+        Derivative::Velocity => ("velocity", 1, "P-AXIS-00439", "P-AXIS-00440"),
+        Derivative::Acceleration => ("acceleration", 2, "P-AXIS-00441", "P-AXIS-00442"),
+        Derivative::Jerk => ("jerk", 3, "P-AXIS-00443", "P-AXIS-00444"),
     }
+}
+
+/// Unit of a derivative of a position in `mm` or `deg`.
+fn per_s(unit: &str, order: usize) -> &'static str {
+    const LINEAR: [&str; 4] = ["mm", "mm/s", "mm/s2", "mm/s3"];
+    const ROTARY: [&str; 4] = ["deg", "deg/s", "deg/s2", "deg/s3"];
+    if unit == "deg" { ROTARY[order] } else { LINEAR[order] }
 }
 
 /// The plant of an axis cannot be simulated.

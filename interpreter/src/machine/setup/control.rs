@@ -370,6 +370,7 @@ fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     TorqueFormat {
         motor,
         load: raw(axis, "getriebe[0].load"),
+        real_load: axis.own("plant.inertia").filter(|x| *x > 0.0),
         reference: raw(axis, "antr.acc_reference_value"),
         scale_num: raw(axis, "antr.torque_scale_num"),
         scale_denom: raw(axis, "antr.torque_scale_denom"),
