@@ -19,7 +19,7 @@ pub mod position;
 pub mod scaling;
 
 pub use axis_control::{AxisControl, AxisControlConfig, AxisInputs, ControlOutput, Encoder};
-pub use fault::{ErrorId, Fault, Faults, Issue, Reaction};
+pub use fault::{Fault, Faults, Issue};
 pub use feedforward::{FeedforwardConfig, FeedforwardMode};
 pub use ipc::{IpcConfig, IpcMode};
 pub use plant::{Plant, PlantConfig, PlantModel};

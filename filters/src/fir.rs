@@ -80,7 +80,7 @@ impl FirConfig {
             issues.push(FilterIssue::Frequency { f_hz: self.fcut_hz, min_hz: 1.0, max_hz });
         }
         if self.kind == FirKind::Gauss && !(self.quality > 0.0 && self.quality <= 1.0) {
-            issues.push(FilterIssue::Quality { quality: self.quality });
+            issues.push(FilterIssue::Quality { quality: self.quality, range: "above 0 to 1" });
         }
         check_share(self.share_ratio, &mut issues);
         let kernel = order.filter(|_| no_filter_off(&issues)).and_then(|order| match self.kind {

@@ -299,7 +299,7 @@ fn check(config: &FilterConfig, cycle: CycleTime) -> (FilterConfig, Vec<FilterIs
         }
     }
     if matches!(kind, BandPass | BandStop) && !(1.0..=10.0).contains(&config.q) {
-        issues.push(FilterIssue::Quality { quality: config.q });
+        issues.push(FilterIssue::Quality { quality: config.q, range: "1 to 10" });
     }
     if !(0.0..=1.0).contains(&config.share_ratio) {
         issues.push(FilterIssue::Share { share_ratio: config.share_ratio });

@@ -7,7 +7,6 @@
 //! Source: TF5250 Vibration Guard (modes, ranges, sensitivity table), P-AXIS-00568, 00571, 00589.
 //! Assumption: the impulses, identified from the sensitivity table.
 
-use crate::issue::{IssueId, OwnId};
 use crate::kernel::{Kernel, Tap};
 use crate::response::Impulse;
 use crate::time::CycleTime;
@@ -37,42 +36,35 @@ impl Default for VibGuardSettings {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum VibGuardError {
     /// Vendor error 22062: there is no such mode.
-    #[error("Vibration Guard mode {mode} is not 1 to 4")]
+    #[error("Vibration Guard mode {mode}, 1 to 4 are allowed")]
     Mode {
         /// The mode asked for.
         mode: u8,
     },
     /// K-VIB-RANGE: the frequency is below 1 Hz or no number.
-    #[error("Vibration Guard frequency {freq_hz} Hz is below 1 Hz")]
+    #[error("Vibration Guard frequency {freq_hz} Hz, at least 1 Hz")]
     Frequency {
         /// The frequency asked for.
         freq_hz: f64,
     },
     /// K-VIB-RANGE: the damping is outside 0 to 1 or no number.
-    #[error("Vibration Guard damping {damping} is not 0 to 1")]
+    #[error("Vibration Guard damping {damping}, 0 to 1 are allowed")]
     Damping {
         /// The damping asked for.
         damping: f64,
     },
     /// Vendor error 50820: half a damped period is shorter than a cycle, or the kernel would be too long.
-    #[error("Vibration Guard cannot combine {freq_hz} Hz and damping {damping} in this cycle time")]
+    #[error(
+        "Vibration Guard frequency {freq_hz} Hz with damping {damping}, half a damped period is at least one cycle \
+         and the damping at most {}",
+        VibGuardSettings::MAX_DAMPING
+    )]
     NotRealisable {
         /// The frequency asked for.
         freq_hz: f64,
         /// The damping asked for.
         damping: f64,
     },
-}
-
-impl VibGuardError {
-    /// The ID of the condition.
-    pub const fn id(&self) -> IssueId {
-        match self {
-            Self::Mode { .. } => IssueId::Vendor(22_062),
-            Self::Frequency { .. } | Self::Damping { .. } => IssueId::Own(OwnId::VibGuardRange),
-            Self::NotRealisable { .. } => IssueId::Vendor(50_820),
-        }
-    }
 }
 
 impl VibGuardSettings {

@@ -1,12 +1,12 @@
 //! Diagnostics: what a user is told, with ID, place, values and a hint.
 //!
 //! Vendor conditions carry the vendor's number, kontur's own carry `K-nnnn`; numbers are never invented inside the
-//! vendor's space. The meaning of an ID stands in one table, [`catalog`].
+//! vendor's space. Everything that is always true of a condition stands in one table, [`condition`].
 
-pub mod catalog;
-mod hints;
+pub mod condition;
 mod number;
 
+pub use condition::{Condition, Reaction};
 pub use number::rounded;
 
 use serde::{Serialize, Serializer};
@@ -175,34 +175,34 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// A diagnostic with the severity of its catalogue row, the given message and the usual hint of its ID.
-    pub fn new(id: Id, text: impl Into<String>) -> Self {
+    /// A diagnostic with severity, hint and parameter of its condition's row and the given message.
+    pub fn new(condition: Condition, text: impl Into<String>) -> Self {
+        Self::of(condition.row(), condition.id(), text.into())
+    }
+
+    /// A condition that the program raises itself with `#ERROR`; its numbers, 1 to 1000, belong to the program.
+    pub fn programmed(number: u32, text: impl Into<String>) -> Self {
+        let id = Id::Vendor(number);
+        Self::of(condition::row(id), id, text.into())
+    }
+
+    fn of(row: &condition::Row, id: Id, text: String) -> Self {
         Self {
             id,
-            severity: catalog::entry(id).severity,
-            text: text.into(),
+            severity: row.severity,
+            text,
             source: None,
             cycle: None,
             time_s: None,
             axis: None,
             values: Vec::new(),
             correction: None,
-            parameter: None,
-            hint: hints::of(id).map(str::to_owned),
+            parameter: row.parameter,
+            hint: row.hint.map(str::to_owned),
         }
     }
 
-    /// A diagnostic with a vendor number.
-    pub fn vendor(id: u32, text: impl Into<String>) -> Self {
-        Self::new(Id::Vendor(id), text)
-    }
-
-    /// A diagnostic with one of kontur's own numbers.
-    pub fn kontur(id: u16, text: impl Into<String>) -> Self {
-        Self::new(Id::Kontur(id), text)
-    }
-
-    /// Sets another severity than the catalogue's.
+    /// Sets another severity than the row's.
     #[must_use]
     pub fn severity(mut self, severity: Severity) -> Self {
         self.severity = severity;
@@ -261,7 +261,7 @@ impl Serialize for Diagnostic {
     /// The vendor's fields, all present, absent ones null.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let entry = catalog::entry(self.id);
+        let row = condition::row(self.id);
         let (vendor, own) = match self.id {
             Id::Vendor(n) => (Some(n), None),
             Id::Kontur(_) => (None, Some(self.id.to_string())),
@@ -271,9 +271,9 @@ impl Serialize for Diagnostic {
         s.serialize_field("kontur_id", &own)?;
         s.serialize_field("severity", &self.severity)?;
         s.serialize_field("text", &self.text)?;
-        s.serialize_field("reaction", &entry.reaction)?;
-        s.serialize_field("remedy", &entry.remedy)?;
-        s.serialize_field("root", &entry.root)?;
+        s.serialize_field("reaction", &row.reaction.class())?;
+        s.serialize_field("remedy", &row.remedy)?;
+        s.serialize_field("root", &row.root)?;
         s.serialize_field("multiple_id", &0)?;
         s.serialize_field("source", &self.source)?;
         s.serialize_field("cycle", &self.cycle)?;

@@ -8,7 +8,7 @@ mod chain;
 mod channel;
 pub mod explain;
 mod hints;
-pub mod issues;
+pub(crate) mod issues;
 pub mod key;
 mod link;
 pub mod lists;
@@ -21,6 +21,7 @@ pub mod value;
 
 pub use axis::{Axis, AxisKind};
 pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, OverrideMode, RapidOverride};
+pub use issues::filter_condition;
 pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};

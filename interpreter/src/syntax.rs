@@ -20,7 +20,7 @@ pub(crate) mod scan;
 
 pub use scan::NESTING_MAX;
 
-use crate::diag::{Diagnostic, Severity};
+use crate::diag::{Condition, Diagnostic, Severity};
 use crate::source::{BLOCK_LENGTH, BLOCK_LENGTH_MAX, RawBlock};
 use ast::{Block, BlockNumber, Body, Span};
 use build::Builder;
@@ -154,7 +154,7 @@ impl Parser {
         }
         if !problems.is_empty() {
             problems.sort_by_key(|p| p.span.start);
-            problems.dedup_by_key(|p| (p.id, p.span));
+            problems.dedup_by_key(|p| (p.condition, p.span));
             problems.truncate(PROBLEMS_MAX);
             let number = match block.number {
                 Some(BlockNumber::Literal(n)) => Some(n),
@@ -216,8 +216,8 @@ fn too_long(raw: &RawBlock<'_>) -> Problem {
     };
     // the first character that is too many; the text is cut behind the last one that is decoded
     let at = raw.text.char_indices().nth(limit as usize).map_or(raw.text.len(), |(i, _)| i);
-    Problem::vendor(
-        20301,
+    Problem::new(
+        Condition::LineTooLong,
         Span::new(at, at),
         format!("block of {} characters, at most {limit} are allowed", raw.characters),
     )

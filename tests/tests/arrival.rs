@@ -29,7 +29,10 @@ fn a_wait_that_cannot_end() {
     assert!(run.totals.aborted);
     let d = errors(&run)[0];
     let text = d.text.as_str();
-    assert!(text.contains("axis X") && text.contains("0.1 mm") && text.contains("0.01 mm"), "{text}");
+    assert!(
+        text.contains("axis X") && text.contains("0.1 mm") && text.contains("0.01 mm"),
+        "{text}"
+    );
     let rest = run.records.iter().rposition(|r| (r.axes[0].lag + 0.1).abs() > 1e-4).unwrap();
     let said = usize::try_from(d.cycle.unwrap()).unwrap();
     assert!(said - rest < 2000, "{said} {rest}: 1 s is the settling time of a list without one");
@@ -107,7 +110,8 @@ fn the_last_motion_is_monitored() {
 /// After the error the axis stays where it is: no creeping to the target.
 #[test]
 fn an_axis_with_an_error_stops() {
-    let text = std::fs::read_to_string(kontur_tests::programs().join("exact_stop_timeout.nc")).unwrap();
+    let text =
+        std::fs::read_to_string(kontur_tests::programs().join("exact_stop_timeout.nc")).unwrap();
     let run = run(&text, &[]);
     let at = usize::try_from(errors(&run)[0].cycle.unwrap()).unwrap();
     let here = run.records[at].axes[0].act;
@@ -167,7 +171,10 @@ fn spindle_positioning_with_a_speed() {
 /// P-AXIS-00236 and P-AXIS-00532 of a spindle: a stop that takes too long, in degrees.
 #[test]
 fn a_spindle_that_does_not_arrive() {
-    let late = run("%P\nS[M19 POS=90]\nG04 5\nM30\n", &["S.getriebe[0].kv=100", "S.getriebe[0].position_settling_time=10000"]);
+    let late = run(
+        "%P\nS[M19 POS=90]\nG04 5\nM30\n",
+        &["S.getriebe[0].kv=100", "S.getriebe[0].position_settling_time=10000"],
+    );
     assert_eq!(only(&late).0, Id::Vendor(70082));
     let text = &errors(&late)[0].text;
     assert!(text.contains("deg") && !text.contains("mm"), "{text}");
@@ -202,7 +209,11 @@ fn a_named_main_spindle() {
     let machine = || {
         sample_machine(
             "two_spindles",
-            &["channel.spindel[1].bezeichnung=S1", "channel.main_spindle_ax_nr=5", "channel.main_spindle_name=S"],
+            &[
+                "channel.spindel[1].bezeichnung=S1",
+                "channel.main_spindle_ax_nr=5",
+                "channel.main_spindle_name=S",
+            ],
         )
     };
     let (m, _) = machine();

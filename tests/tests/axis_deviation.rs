@@ -4,7 +4,7 @@
 //! `COUNT=2000 SEED=7 cargo test --release -p kontur-tests --test axis_deviation -- the_tolerance` takes as many programs of
 //! another kind.
 
-use kontur_interpreter::diag::Id;
+use kontur_interpreter::diag::Condition;
 use kontur_tests::geometry::{Piece, Point, deviation, direction, dot, minus, norm};
 use kontur_tests::random::{Random, count, seed};
 use kontur_tests::{Run, machine, run, run_with_inputs};
@@ -370,7 +370,8 @@ fn the_tolerance_holds_over_random_programs() {
         let run = run(&case.text, &settings);
         let about = || format!("program {}\n{}\n{:?}", first + n, case.text, case.settings);
         assert!(!run.totals.aborted, "{:?}\n{}", run.diagnostics, about());
-        let unkept: Vec<_> = run.diagnostics.iter().filter(|d| d.id == Id::Kontur(80)).collect();
+        let unkept: Vec<_> =
+            run.diagnostics.iter().filter(|d| d.id == Condition::AxDevNotKept).collect();
         assert!(unkept.is_empty(), "{unkept:?}\n{}", about());
         let off = off_contour(&run, &case);
         assert!(off <= case.off_mm + SLACK_MM, "setpoints {off} mm off the contour\n{}", about());
@@ -456,7 +457,7 @@ fn override_and_feedhold_on_a_rounded_square() {
                 let moved = norm([0, 1, 2].map(|i| pair[1].axes[i].ipo - pair[0].axes[i].ipo));
                 assert!(moved <= step + 1e-7, "{slope}: {moved} of {step} mm, {}", pair[1].k);
             }
-            if changed.diagnostics.iter().all(|d| d.id != Id::Kontur(80)) {
+            if changed.diagnostics.iter().all(|d| d.id != Condition::AxDevNotKept) {
                 let own = changed.records.iter().flat_map(|r| &r.axes[..3]).map(|a| a.dev.abs());
                 let own = own.fold(0.0, f64::max);
                 assert!(own <= 0.005 + SLACK_MM, "{slope}: {own}");

@@ -1,6 +1,6 @@
 //! Rounded corners and splines of programs, judged from the trace and the programmed geometry alone.
 
-use kontur_interpreter::diag::Id;
+use kontur_interpreter::diag::Condition;
 use kontur_tests::{Run, from_polyline, run};
 
 const SQUARE: [[f64; 2]; 5] = [[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [0.0, 20.0], [0.0, 0.0]];
@@ -29,7 +29,7 @@ fn off_square(p: &[f64]) -> f64 {
 
 /// Messages about functions replaced by simpler ones.
 fn fallbacks(run: &Run) -> usize {
-    run.diagnostics.iter().filter(|d| d.id == Id::Kontur(111)).count()
+    run.diagnostics.iter().filter(|d| d.id == Condition::Fallback).count()
 }
 
 /// Between chords of length `h` a curve of radius `r` is `h^2 / 8 r` away; on the curve with d = 8/3 0.1 / sin 45 deg

@@ -13,7 +13,7 @@
 //! `open.csv` tells for every ID of the catalogue that has no file why it has none.
 //! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test faults` writes the table of the folder's README anew.
 
-use kontur_interpreter::diag::catalog::{ENTRIES, Entry};
+use kontur_interpreter::diag::condition::{self, Row};
 use kontur_interpreter::diag::{Id, Severity};
 use kontur_tests::command::command;
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -21,6 +21,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+
+/// Every condition, ordered by ID.
+fn rows() -> Vec<&'static Row> {
+    let mut rows: Vec<&Row> = condition::rows().collect();
+    rows.sort_by_key(|row| row.id);
+    rows
+}
 
 /// A program for lists that only need an axis to be loaded.
 const PROGRAM: &str = "N10 G01 X1 F1000\nN20 M30\n";
@@ -209,7 +216,7 @@ fn open() -> Result<BTreeMap<String, String>, Failed> {
 /// Every ID of the catalogue has a file or a reason, and the README tells which.
 fn complete() -> Result<(), Failed> {
     let (named, open) = (named()?, open()?);
-    let known: BTreeSet<String> = ENTRIES.iter().map(|e| e.id.to_string()).collect();
+    let known: BTreeSet<String> = rows().iter().map(|e| e.id.to_string()).collect();
     for id in named.keys().chain(open.keys()) {
         let of_the_program = id.parse().is_ok_and(|n: u32| (1..=1000).contains(&n));
         if !known.contains(id) && !of_the_program {
@@ -241,13 +248,13 @@ fn complete() -> Result<(), Failed> {
 }
 
 fn table(named: &BTreeMap<String, BTreeSet<String>>, open: &BTreeMap<String, String>) -> String {
-    let of = |e: &&Entry| named.contains_key(&e.id.to_string());
-    let covered = ENTRIES.iter().filter(of).count();
+    let of = |e: &&&Row| named.contains_key(&e.id.to_string());
+    let covered = rows().iter().filter(of).count();
     let mut text = format!(
         "\n{} IDs, {covered} with a file.\n\n| ID | severity | meaning | files, or why there is none |\n|---|---|---|---|\n",
-        ENTRIES.len()
+        rows().len()
     );
-    for entry in ENTRIES {
+    for entry in rows() {
         let id = entry.id.to_string();
         let severity = match entry.severity {
             Severity::Error => "error",

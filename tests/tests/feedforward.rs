@@ -1,6 +1,6 @@
 //! Feedforward of axes and spindles in runs of programs. The names of the rows are those of the ledger.
 
-use kontur_interpreter::diag::Id;
+use kontur_interpreter::diag::Condition;
 use kontur_tests::{Run, programs, run, run_on, sample_machine};
 
 /// Lag in per cent of what it is without feedforward (speed / Kv, Kv 50/s), in the middle of the motion of a line.
@@ -257,7 +257,8 @@ fn figures_of_the_sample_program() {
 fn switching_in_motion_is_told() {
     let switched = |first: &str| {
         let run = run(&program(&[first, "G135", "G01 X100 F6000"]), &[]);
-        let found = run.diagnostics.iter().find(|d| d.id == Id::Kontur(22)).cloned();
+        let found =
+            run.diagnostics.iter().find(|d| d.id == Condition::FeedforwardSwitchedMoving).cloned();
         (found, run.diagnostics.len())
     };
     let (found, count) = switched("G90 G01 X50 F6000");

@@ -1,6 +1,6 @@
 //! Improved Position Control in runs of programs. The names of the rows are those of the ledger.
 
-use kontur_interpreter::diag::Id;
+use kontur_interpreter::diag::Condition;
 use kontur_tests::{Run, programs, run_on, sample_machine};
 use std::f64::consts::TAU;
 
@@ -119,7 +119,7 @@ fn the_sample_program_of_the_manuals_example() {
         let setting = format!("X.lr_param.improved_position_control.enable={enable}");
         let run = on("rack_and_pinion", &[setting], &text);
         // a recommendation about the settling time is all there is to say
-        let said = run.diagnostics.iter().filter(|d| d.id != Id::Kontur(78)).count();
+        let said = run.diagnostics.iter().filter(|d| d.id != Condition::ListAdvice).count();
         assert!(!run.totals.aborted && said == 0, "{:?}", run.diagnostics);
         [amplitude(&run, 761..1939, 53.0, 3.0), amplitude(&run, 2095..3095, 11.0, 1.5)]
     };

@@ -4,7 +4,7 @@
 //!
 //! `COUNT` raises the number of programs, `SEED` chooses others.
 
-use kontur_interpreter::diag::{Diagnostic, Id, Location};
+use kontur_interpreter::diag::{Condition, Diagnostic, Location};
 use kontur_interpreter::exec::{self, Options};
 use kontur_interpreter::machine::{Machine, Override};
 use kontur_interpreter::record::AxisRecord;
@@ -213,7 +213,7 @@ fn check_place(at: &Location, text: &str) {
 
 fn check_said(found: &[Diagnostic], text: &str) {
     for diagnostic in found {
-        assert!(diagnostic.id != Id::Kontur(82), "internal error: {diagnostic:?}");
+        assert!(diagnostic.id != Condition::Internal, "internal error: {diagnostic:?}");
         assert!(!diagnostic.text.is_empty());
         if let Some(at) = &diagnostic.source {
             check_place(at, text);

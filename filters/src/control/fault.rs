@@ -1,40 +1,7 @@
-//! Faults of a running axis and issues of its configuration: typed values, no text.
-
-/// Number of a condition: the vendor's own or kontur's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ErrorId {
-    /// A number of the vendor's diagnosis manual.
-    Vendor(u32),
-    /// A condition no vendor number is documented for, printed `K-nnnn`.
-    Kontur(u16),
-}
-
-/// What the control does at once.
-///
-/// Source: TF5200 diagnosis manual, reaction classes; the discriminant is the class as printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u8)]
-pub enum Reaction {
-    /// Class 1: none, a warning.
-    None = 1,
-    /// Class 4: feed hold for the whole axis group.
-    FeedHold = 4,
-    /// Class 5: the axis stops abruptly, the others of the group feed hold.
-    AbruptStop = 5,
-    /// Class 6: all axes stop abruptly.
-    AllStop = 6,
-    /// Class 7: the axis stops under control, the others feed hold.
-    ControlledStop = 7,
-    /// Class 8: the axis stops with the position loop opened, the others feed hold.
-    OpenLoopStop = 8,
-}
-
-impl Reaction {
-    /// Class as the manual prints it, 1..=8.
-    pub const fn class(self) -> u8 {
-        self as u8
-    }
-}
+//! Faults of a running axis and issues of its configuration: quantity, value and limit.
+//!
+//! How a control numbers a condition and how it reacts is not known here; the numbers in the texts below are those of
+//! the vendor's documents.
 
 /// Which derivative of the setpoint a monitor watched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,9 +14,19 @@ pub enum Derivative {
     Jerk,
 }
 
+impl Derivative {
+    /// Name in messages.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Acceleration => "acceleration",
+            Self::Jerk => "jerk",
+        }
+    }
+}
+
 /// A condition met while the axis runs. Raised once when it begins, not in every cycle it lasts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Fault {
     /// 70020: the following error exceeds the permitted lag.
     FollowingError {
@@ -103,38 +80,6 @@ pub enum Fault {
     },
 }
 
-impl Fault {
-    /// Number of the condition.
-    pub const fn id(&self) -> ErrorId {
-        match self {
-            Self::FollowingError { .. } => ErrorId::Vendor(70020),
-            Self::SettlingTimeout { .. } => ErrorId::Vendor(70082),
-            Self::ControllerSpeed { .. } => ErrorId::Vendor(70382),
-            Self::SetpointWarning { what: Derivative::Velocity, .. } => ErrorId::Vendor(50119),
-            Self::SetpointError { what: Derivative::Velocity, .. } => ErrorId::Vendor(50118),
-            Self::SetpointWarning { .. } => ErrorId::Kontur(60),
-            Self::SetpointError { .. } => ErrorId::Kontur(61),
-            Self::IpcChangedMoving => ErrorId::Vendor(70601),
-            Self::Unstable { .. } => ErrorId::Kontur(35),
-        }
-    }
-
-    /// Reaction of the control.
-    ///
-    /// Source: TF5200 diagnosis manual. 70082: the position monitoring manual stops the axis at once and then the
-    /// others of its path, which is class 5.
-    pub const fn reaction(&self) -> Reaction {
-        match self {
-            Self::SetpointWarning { .. } => Reaction::None,
-            Self::SetpointError { .. } => Reaction::FeedHold,
-            Self::SettlingTimeout { .. } => Reaction::AbruptStop,
-            Self::Unstable { .. } => Reaction::AllStop,
-            Self::ControllerSpeed { .. } | Self::IpcChangedMoving => Reaction::ControlledStop,
-            Self::FollowingError { .. } => Reaction::OpenLoopStop,
-        }
-    }
-}
-
 /// The faults one axis raised in one cycle; no allocation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Faults {
@@ -167,7 +112,6 @@ impl Faults {
 
 /// What was found (and corrected) in a configuration before the first cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Issue {
     /// 70349: delay of the velocity feedforward (P-AXIS-00389) of 6 cycles or more; set to 0.
     VelocityDelay {
@@ -271,31 +215,4 @@ pub enum IpcParameter {
     Damping,
     /// At least one band-pass per stage (P-AXIS-00849).
     BandPass,
-}
-
-impl Issue {
-    /// Number of the condition.
-    pub const fn id(&self) -> ErrorId {
-        match self {
-            Self::VelocityDelay { .. } => ErrorId::Vendor(70349),
-            Self::AccelerationDelay { .. } => ErrorId::Vendor(70348),
-            Self::NoAdditiveVelocity => ErrorId::Vendor(70350),
-            Self::NoAdditiveTorque => ErrorId::Vendor(70351),
-            Self::WithoutDelayNeedsVelocityOnly => ErrorId::Vendor(110624),
-            Self::OutputWithoutActivation | Self::ActiveAndDisabled => ErrorId::Kontur(23),
-            Self::ImplausibleLoad { .. } => ErrorId::Kontur(24),
-            Self::TorqueScaleDenominatorZero => ErrorId::Vendor(110465),
-            Self::NoTorqueScale => ErrorId::Kontur(62),
-            Self::SimulationDamping { .. } => ErrorId::Vendor(80044),
-            Self::DeadTime { .. } => ErrorId::Vendor(110040),
-            Self::IpcGantrySlave => ErrorId::Vendor(70600),
-            Self::IpcNumerator { .. } => ErrorId::Vendor(70603),
-            Self::IpcDenominator { .. } => ErrorId::Vendor(70604),
-            Self::IpcRange { .. } => ErrorId::Kontur(25),
-            Self::IpcNoInput => ErrorId::Kontur(66),
-            Self::IpcNoLimit => ErrorId::Kontur(26),
-            Self::IpcWeight { .. } => ErrorId::Kontur(27),
-            Self::IpcOverlap { .. } => ErrorId::Kontur(63),
-        }
-    }
 }

@@ -127,7 +127,6 @@ mod tests {
     #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
     use super::*;
-    use crate::control::fault::{ErrorId, Reaction};
 
     #[test]
     fn dynamic_gain_is_linear_between_its_points() {
@@ -148,10 +147,7 @@ mod tests {
         let (out, fault) = limiter.step(-500.0);
         let fault = fault.unwrap();
         assert_eq!(out, -400.0);
-        assert_eq!(
-            (fault.id(), fault.reaction()),
-            (ErrorId::Vendor(70382), Reaction::ControlledStop)
-        );
+        assert!(matches!(fault, Fault::ControllerSpeed { .. }));
         assert_eq!(limiter.step(-600.0), (-400.0, None));
         assert_eq!(limiter.step(0.0), (0.0, None));
         assert!(limiter.step(401.0).1.is_some());

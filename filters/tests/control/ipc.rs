@@ -9,7 +9,7 @@ use kontur_filters::control::ipc::{
 };
 use kontur_filters::control::plant::{Disturbance, ModalConfig, PlantConfig, PlantModel};
 use kontur_filters::control::{
-    AxisControl, AxisControlConfig, ControlOutput, ErrorId, FeedforwardConfig, FeedforwardMode,
+    AxisControl, AxisControlConfig, ControlOutput, Fault, FeedforwardConfig, FeedforwardMode,
 };
 use kontur_filters::time::CycleTime;
 use std::f64::consts::TAU;
@@ -447,7 +447,7 @@ fn parameters_are_taken_at_standstill_only() {
     let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
     axis.step(0.1, 0.0, false);
     let fault = axis.change_ipc(on([direct(3.0)])).unwrap_err();
-    assert_eq!(fault.id(), ErrorId::Vendor(70601));
+    assert_eq!(fault, Fault::IpcChangedMoving);
     assert_eq!(axis.config().ipc, on([direct(2.0)]), "the old ones stay");
     axis.step(0.1, 0.0, false);
     axis.change_ipc(on([direct(3.0)])).unwrap();

@@ -6,7 +6,7 @@ use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::hsc::{HscConfig, HscKind};
 use kontur_filters::iir::prototype::Prototype;
 use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};
-use kontur_filters::issue::{FilterIssue, IssueId, OwnId};
+use kontur_filters::issue::FilterIssue;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::response::Angle;
 use kontur_filters::shaping::Shaping;
@@ -290,30 +290,6 @@ fn numbers_of_types_and_prototypes() {
     }
     assert_eq!(ListedPrototype::from_number(5), Some(ListedPrototype::Hsc));
     assert!([0, 4, 6].into_iter().all(|number| ListedPrototype::from_number(number).is_none()));
-}
-
-#[test]
-fn identifications() {
-    let vendor = [
-        (FilterIssue::TypeNotPermitted { number: 7 }, 110_239),
-        (FilterIssue::SecondHsc, 110_500),
-        (FilterIssue::HscNotFirst, 110_501),
-        (FilterIssue::TimeConstant { time_constant_us: 1, min_us: 2, max_us: 3 }, 50_663),
-        (FilterIssue::OrderTimeBelowCycle { order_time_us: 1, cycle_us: 2 }, 50_910),
-        (FilterIssue::OrderTooHigh { order: 7, used: 6 }, 50_911),
-        (FilterIssue::NoOrder, 50_989),
-        (FilterIssue::FrequencyTooLow { f_hz: 0.0, used_hz: 0.01 }, 110_361),
-    ];
-    for (issue, number) in vendor {
-        assert_eq!(issue.id(), IssueId::Vendor(number));
-    }
-    assert_eq!(FilterIssue::Quality { quality: 0.9 }.id(), IssueId::Own(OwnId::FilterRange));
-    let of = |mode, freq_hz, damping| {
-        VibGuardSettings { mode, freq_hz, damping }.kernel(MS).unwrap_err().id()
-    };
-    assert_eq!(of(0, 30.0, 0.1), IssueId::Vendor(22_062));
-    assert_eq!(of(1, 600.0, 0.1), IssueId::Vendor(50_820));
-    assert_eq!(of(1, 0.5, 0.1), IssueId::Own(OwnId::VibGuardRange));
 }
 
 fn any_filter() -> impl Strategy<Value = FilterConfig> {

@@ -5,7 +5,7 @@
 //! run before its first cycle; then it is read again, line by line, as the run goes on.
 
 use crate::engine::OpenError;
-use kontur_interpreter::diag::{Diagnostic, Location};
+use kontur_interpreter::diag::{Condition, Diagnostic, Location};
 use kontur_interpreter::machine::Machine;
 use kontur_interpreter::sim::{Change, Changes, Signal};
 use std::collections::VecDeque;
@@ -53,7 +53,7 @@ impl Problem {
     fn diagnostic(self, name: &str) -> Box<Diagnostic> {
         match self {
             Self::Wrong(diagnostic) => diagnostic,
-            Self::Io(e) => Box::new(Diagnostic::kontur(76, format!("{name}: {e}"))),
+            Self::Io(e) => Box::new(Diagnostic::new(Condition::InputFile, format!("{name}: {e}"))),
         }
     }
 }
@@ -191,7 +191,7 @@ impl InputFile {
     /// A mistake in the line in work, `at` characters from its start.
     fn wrong(&self, at: usize, marked: &str, text: &str) -> Problem {
         let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        let diagnostic = Diagnostic::kontur(76, text).at(Location {
+        let diagnostic = Diagnostic::new(Condition::InputFile, text).at(Location {
             file: Arc::clone(&self.name),
             line: self.line,
             column: count(at + 1),

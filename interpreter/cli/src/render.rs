@@ -4,7 +4,7 @@
 //! hint. A diagnostic of the running machine has a time in place of a source line.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet};
-use kontur_interpreter::diag::{Datum, Diagnostic, Location, Severity, ValueKind, catalog};
+use kontur_interpreter::diag::{Datum, Diagnostic, Location, Severity, ValueKind, condition};
 
 /// One JSON object on one line.
 pub fn json(d: &Diagnostic) -> String {
@@ -82,14 +82,14 @@ fn notes(d: &Diagnostic) -> Vec<Message<'static>> {
     if let Some(corrected) = &d.correction {
         notes.push(note(format!("corrected to {}", datum(corrected, "-"))));
     }
-    let entry = catalog::entry(d.id);
+    let row = condition::row(d.id);
     if d.severity == Severity::Error {
         notes.push(note(format!(
             "reaction {}: {}; remedy {}: {}",
-            entry.reaction,
-            reaction(entry.reaction),
-            entry.remedy,
-            remedy(entry.remedy)
+            row.reaction.class(),
+            row.reaction.text(),
+            row.remedy,
+            row.remedy_text()
         )));
     }
     notes
@@ -133,37 +133,10 @@ fn index(n: u32) -> usize {
     usize::try_from(n).unwrap_or(usize::MAX)
 }
 
-/// What the control does at once, by reaction class. Source: TF5200 diagnosis manual.
-pub const fn reaction(class: u8) -> &'static str {
-    match class {
-        1 => "none",
-        2 => "program aborted",
-        3 => "job aborted",
-        4 => "feed hold",
-        5 => "faulty axis stopped abruptly, feed hold for the others",
-        6 => "all axes stopped abruptly",
-        7 => "faulty axis stopped under control, feed hold for the others",
-        8 => "faulty axis stopped with the loop open, feed hold for the others",
-        _ => "unknown class",
-    }
-}
-
-/// What brings the control back, by remedy class as printed. Source: TF5200 diagnosis manual, interface description.
-pub const fn remedy(class: u8) -> &'static str {
-    match class {
-        1 => "none needed",
-        2 | 3 => "reset of the channel",
-        4..=6 => "complete reset of the channel",
-        7 => "restart of the CNC",
-        8 => "restart after power-off",
-        _ => "unknown class",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kontur_interpreter::diag::ValueKind;
+    use kontur_interpreter::diag::{Condition, ValueKind};
 
     fn place(text: &str, column: u32, length: u32) -> Location {
         Location {
@@ -179,7 +152,7 @@ mod tests {
 
     #[test]
     fn source_line_with_caret() {
-        let d = Diagnostic::vendor(20131, "unknown G function")
+        let d = Diagnostic::new(Condition::GUnknown, "unknown G function")
             .at(place("N40 G01 G777 X25 Y-3 F1500", 9, 4))
             .value(ValueKind::Current, 777.0, "-")
             .hint("G0 to G3 are motions");
@@ -193,24 +166,31 @@ error[20131]: unknown G function
   |
   = note: block N40
   = note: current value 777
-  = note: reaction 2: program aborted; remedy 3: reset of the channel
+  = note: reaction 2: the program is aborted, prepared blocks are still driven; remedy 3: reset of the channel
   = help: G0 to G3 are motions";
         assert_eq!(text, expected);
     }
 
     #[test]
     fn columns_count_characters() {
-        let d = Diagnostic::kontur(1, "invalid character").at(place("(Öl) §1", 6, 1));
+        let d = Diagnostic::new(Condition::InvalidCharacter, "invalid character").at(place(
+            "(Öl) §1",
+            6,
+            1,
+        ));
         let text = text(&d, false);
         assert!(text.contains("4 | (Öl) §1\n  |      ^\n"), "{text}");
     }
 
     #[test]
     fn running_machine_and_vendor_units() {
-        let mut d = Diagnostic::vendor(70082, "axis Y not in the exact-stop window in time")
-            .axis(2, "Y")
-            .value(ValueKind::Current, 1210.0, "0.1um")
-            .value(ValueKind::Limit, 500.0, "0.1um");
+        let mut d = Diagnostic::new(
+            Condition::SettlingTimeout,
+            "axis Y not in the exact-stop window in time",
+        )
+        .axis(2, "Y")
+        .value(ValueKind::Current, 1210.0, "0.1um")
+        .value(ValueKind::Limit, 500.0, "0.1um");
         d.cycle = Some(1834);
         d.time_s = Some(1.834);
         let text = text(&d, false);
@@ -224,7 +204,8 @@ error[20131]: unknown G function
         for (line, column, length) in
             [("", 1, 1), ("X", 9, 3), ("X", 0, 0), ("\tX1\u{1b}[2J", 2, 200), ("日本", 2, 1)]
         {
-            let d = Diagnostic::kontur(2, "a\u{7}b\nc").at(place(line, column, length));
+            let d =
+                Diagnostic::new(Condition::Syntax, "a\u{7}b\nc").at(place(line, column, length));
             assert!(!text(&d, true).contains("\u{1b}[2J"), "{line:?}");
             assert!(!text(&d, false).is_empty());
         }
@@ -232,7 +213,7 @@ error[20131]: unknown G function
 
     #[test]
     fn json_is_one_line() {
-        let d = Diagnostic::kontur(12, "a\nb").at(place("X", 1, 1));
+        let d = Diagnostic::new(Condition::Undefined, "a\nb").at(place("X", 1, 1));
         let json = json(&d);
         assert_eq!(json.lines().count(), 1);
         let value: serde_json::Value = serde_json::from_str(&json).unwrap();

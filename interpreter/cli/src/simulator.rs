@@ -3,7 +3,7 @@
 use crate::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
 use crate::files::{Lists, ProgramFiles, STANDARD, STANDARD_INPUT, standard_input};
 use crate::inputs;
-use kontur_interpreter::diag::{Diagnostic, Id, Severity};
+use kontur_interpreter::diag::{Condition, Diagnostic, Severity};
 use kontur_interpreter::exec::{self, Access, External, Options, SkipLevels, Value};
 use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override, explain};
 use kontur_interpreter::record::CycleRecord;
@@ -37,7 +37,7 @@ pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenErro
     };
     let (machine, mut messages) = loaded.map_err(OpenError::Lists)?;
     messages.extend(given_twice(&request.settings));
-    let unknown = |d: &Diagnostic| d.id == Id::Vendor(1001119);
+    let unknown = |d: &Diagnostic| d.id == Condition::ListKeyUnknown;
     if request.strict && messages.iter().any(unknown) {
         let refused = messages.into_iter().map(|d| {
             if unknown(&d) {
@@ -63,7 +63,7 @@ fn given_twice(settings: &[String]) -> impl Iterator<Item = Diagnostic> {
     (1..keys.len()).filter_map(move |i| {
         let twice = keys[..i].iter().any(|other| other.eq_ignore_ascii_case(&keys[i]));
         let text = format!("--set {}: given twice, the last one wins", keys[i]);
-        twice.then(|| Diagnostic::new(Id::Kontur(28), text))
+        twice.then(|| Diagnostic::new(Condition::ListDuplicate, text))
     })
 }
 

@@ -347,7 +347,7 @@ fn response_refuses_what_it_cannot_show() {
         (&["response", "--filter", "LOWPAS"], "LOWPASS"),
         (&["response", "--filter", "LOWPASS", "--order", "0"], "order 0"),
         (&["response", "--filter", "LOWPASS", "--order", "1.5"], "whole number"),
-        (&["response", "--filter", "LOWPASS", "--f0", "500"], "500 Hz is outside"),
+        (&["response", "--filter", "LOWPASS", "--f0", "500"], "to below 500 Hz"),
         (&["response", "--filter", "LOWPASS", "--step", "--corner", "F1000"], "--corner"),
         (&["response", "--filter", "LOWPASS", "--residual"], "standard filters"),
         (&["response", "--filter", "HIGHPASS", "--corner", "F1000"], "does not follow"),

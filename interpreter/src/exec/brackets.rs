@@ -4,9 +4,10 @@
 
 use super::commands::{Key, Kind, arguments};
 use super::decoder::Decoder;
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::spindles::Turning;
 use super::words::Words;
+use crate::diag::Condition;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 use std::mem::discriminant;
 
@@ -57,7 +58,7 @@ impl Decoder {
             }
             _ => {
                 let text = "an axis command is expected in the bracket";
-                Err(Fault::kontur(own::SYNTAX, text, group.span))
+                Err(Fault::new(Condition::Syntax, text, group.span))
             }
         }
     }
@@ -75,11 +76,11 @@ impl Decoder {
             Key { name: "RAPID_FACT", kind: Kind::Number },
         ];
         let keys = arguments(self, title, group, KEYS);
-        let feed = keys.in_range("FEED_FACT", 0.1, 200.0, own::RANGE)?;
-        let rapid = keys.in_range("RAPID_FACT", 0.1, 200.0, own::RANGE)?;
+        let feed = keys.in_range("FEED_FACT", 0.1, 200.0, Condition::Range)?;
+        let rapid = keys.in_range("RAPID_FACT", 0.1, 200.0, Condition::Range)?;
         if feed.is_none() && rapid.is_none() {
             let text = format!("{title} needs FEED_FACT or RAPID_FACT");
-            return Err(Fault::vendor(21220, text, span));
+            return Err(Fault::new(Condition::TokenUnknown, text, span));
         }
         self.overrides.set(axis, feed.map(|p| p / 100.0), rapid.map(|p| p / 100.0));
         Ok(())
@@ -98,17 +99,21 @@ impl Decoder {
         let other = items.iter().find(|(i, _)| !feedforward(i));
         if let (Some(_), Some((_, span))) = (some, other) {
             let text = "feedforward stands in a bracket of its own, not beside other commands";
-            return Err(Fault::kontur(own::SPINDLE_FEEDFORWARD, text, *span));
+            return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
         }
         let mut weights = items.iter().filter(|(i, _)| matches!(i, SpindleItem::Weight(_)));
         if let (Some(_), Some((_, span))) = (weights.next(), weights.next()) {
-            return Err(Fault::vendor(21738, "G136 twice for one spindle", *span));
+            return Err(Fault::new(
+                Condition::SpindleFeedforwardTwice,
+                "G136 twice for one spindle",
+                *span,
+            ));
         }
         for (i, (item, span)) in items.iter().enumerate() {
             let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
             if items[..i].iter().any(same) {
                 let text = "two words of a spindle bracket that set the same";
-                return Err(Fault::kontur(own::DUPLICATE_GROUP, text, *span));
+                return Err(Fault::new(Condition::DuplicateGroup, text, *span));
             }
         }
         let motion = |i: &SpindleItem| {
@@ -135,7 +140,7 @@ impl Decoder {
     fn spindle_item(&self, item: &Item) -> Outcome<SpindleItem> {
         let unknown = |shown: &str| {
             let text = format!("unknown word `{shown}` in a spindle bracket");
-            Fault::vendor(21867, text, item.span)
+            Fault::new(Condition::SpindleToken, text, item.span)
         };
         let (word, value) = match &item.kind {
             ItemKind::Flag(word) => match word.split_number() {
@@ -173,7 +178,7 @@ impl Decoder {
             }
             SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
                 let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
-                return Err(Fault::kontur(own::RANGE, text, span));
+                return Err(Fault::new(Condition::Range, text, span));
             }
             SpindleItem::Speed(rpm) => self.set_spindle_speed(spindle, rpm, span),
             SpindleItem::Position(deg) => {
@@ -187,7 +192,7 @@ impl Decoder {
             }
             SpindleItem::Weight(percent) if percent < 0.0 => {
                 let text = format!("feedforward weight {percent} % is negative");
-                return Err(Fault::kontur(own::FEEDFORWARD_NEGATIVE, text, span));
+                return Err(Fault::new(Condition::FeedforwardNegative, text, span));
             }
             SpindleItem::Weight(percent) => {
                 let percent = self.limited_weight(percent, span);

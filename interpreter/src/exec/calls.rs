@@ -4,12 +4,12 @@
 //! at its end, plain subroutines share everything with their caller.
 
 use super::executor::{Executor, Level};
-use super::fault::{Fault, own};
+use super::fault::Fault;
 use super::options::Value;
 use super::step::EndReason;
 use super::suggest;
 use super::words::CycleCall;
-use crate::diag::{Diagnostic, Severity, ValueKind};
+use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::syntax::ast::{Call, CallKind, Group, Ident, ItemKind, ItemValue, Span};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -98,7 +98,7 @@ impl Executor {
         let cut = self.levels.last().is_some_and(|level| level.cut);
         if !cut && !self.end_program_called {
             let text = "the main program ends without M30 or M02";
-            let mut diagnostic = Diagnostic::kontur(own::NO_END, text);
+            let mut diagnostic = Diagnostic::new(Condition::NoEnd, text);
             diagnostic.source = self.here(Span::default());
             self.report(diagnostic);
         }
@@ -139,7 +139,7 @@ impl Executor {
         let Some((keyword, entry)) = open.first().copied() else { return };
         let closer = keyword.closer().map_or("", super::index::Keyword::text);
         let text = format!("{} is not closed by {closer}", keyword.text());
-        let diagnostic = Diagnostic::vendor(20375, text)
+        let diagnostic = Diagnostic::new(Condition::OpenControlAtEnd, text)
             .value(ValueKind::Current, open.len() as f64, "-")
             .value(ValueKind::State, keyword.text(), "-")
             .value(ValueKind::Expected, closer, "-");
@@ -154,7 +154,8 @@ impl Executor {
     fn contouring_at_end(&mut self) {
         if self.decoder.modal.contouring {
             let text = "the program ends with contouring on";
-            let mut diagnostic = Diagnostic::vendor(120206, text).severity(Severity::Warning);
+            let mut diagnostic =
+                Diagnostic::new(Condition::ContouringAtEnd, text).severity(Severity::Warning);
             diagnostic.source = self.here(Span::default());
             self.report(diagnostic);
         }
@@ -165,7 +166,7 @@ impl Executor {
         self.open_blocks();
         if self.levels.len() > 1 {
             let text = "M02 or M30 inside a subroutine ends the whole program";
-            let fault = Fault::kontur(own::ODD, text, Span::default()).warning();
+            let fault = Fault::new(Condition::Odd, text, Span::default()).warning();
             self.decoder.note(fault);
         }
         self.finish();
@@ -193,7 +194,7 @@ impl Executor {
     fn call_named(&mut self, name: &Ident, local: bool, cycle: Option<Passed>) {
         if self.levels.len() >= LEVELS_MAX {
             let text = format!("subroutines nested more than {LEVELS_MAX} deep");
-            self.decoder.note(Fault::kontur(own::NESTING, text, name.span));
+            self.decoder.note(Fault::new(Condition::Nesting, text, name.span));
             return;
         }
         let target = if local { self.local(name) } else { self.global(name) };
@@ -218,7 +219,7 @@ impl Executor {
         }
         let known: Vec<&str> = subs().filter_map(|(_, s)| s.name.as_deref()).collect();
         let text = format!("this file has no local subroutine {}", name.text);
-        let fault = Fault::kontur(own::NO_SUBROUTINE, text, name.span);
+        let fault = Fault::new(Condition::NoSubroutine, text, name.span);
         let hint = match suggest::hint(&name.text, known.iter().copied()) {
             Some(hint) => hint,
             None if known.is_empty() => "local subroutines begin with %L NAME".to_owned(),
@@ -235,7 +236,7 @@ impl Executor {
         let index = Arc::clone(&self.files.file(file).index);
         let Some(section) = index.main() else {
             let text = format!("{} holds no program to call", name.text);
-            self.decoder.note(Fault::kontur(own::NO_SUBROUTINE, text, name.span));
+            self.decoder.note(Fault::new(Condition::NoSubroutine, text, name.span));
             return None;
         };
         Some(Target { file, section })
@@ -254,11 +255,11 @@ impl Executor {
                 let fault = match error {
                     FileError::Open(e) => {
                         let text = format!("subroutine {}: {}", e.name, e.reason);
-                        Fault::kontur(own::NO_FILE, text, span)
+                        Fault::new(Condition::NoFile, text, span)
                             .hint(format!("searched: {}", e.searched.join(", ")))
                     }
                     FileError::Read(e) => {
-                        Fault::kontur(own::NO_FILE, format!("subroutine {path}: {e}"), span)
+                        Fault::new(Condition::NoFile, format!("subroutine {path}: {e}"), span)
                     }
                 };
                 self.decoder.note(fault);
@@ -288,7 +289,7 @@ impl Executor {
                         name = Some(found);
                         Ok(())
                     }
-                    Ok(_) => Err(Fault::vendor(21379, "NAME twice", key.span)),
+                    Ok(_) => Err(Fault::new(Condition::CycleKeyTwice, "NAME twice", key.span)),
                     Err(fault) => Err(fault),
                 },
                 ItemKind::Pair { key, value } if key.text.starts_with('@') => {
@@ -298,7 +299,7 @@ impl Executor {
                                 Ok(())
                             } else {
                                 let text = format!("{} twice", key.text);
-                                Err(Fault::vendor(21379, text, key.span))
+                                Err(Fault::new(Condition::CycleKeyTwice, text, key.span))
                             }
                         }
                         Err(fault) => Err(fault),
@@ -306,13 +307,13 @@ impl Executor {
                 }
                 _ => {
                     let text = "L CYCLE: NAME= or @P..= is expected";
-                    Err(Fault::vendor(21220, text, item.span))
+                    Err(Fault::new(Condition::TokenUnknown, text, item.span))
                 }
             };
             self.decoder.keep(outcome);
         }
         let Some(name) = name else {
-            self.decoder.note(Fault::vendor(21220, "L CYCLE needs NAME", span));
+            self.decoder.note(Fault::new(Condition::TokenUnknown, "L CYCLE needs NAME", span));
             return;
         };
         if let Some(every_block) = modal {
@@ -327,10 +328,12 @@ impl Executor {
             ItemValue::Name(name) => Ok(name.clone()),
             ItemValue::Expr(expr) => match self.decoder.value(expr)? {
                 Value::Text(text) => Ok(Ident { text, span: expr.span }),
-                Value::Number(_) => Err(Fault::vendor(21220, "a file name is expected", expr.span)),
+                Value::Number(_) => {
+                    Err(Fault::new(Condition::TokenUnknown, "a file name is expected", expr.span))
+                }
             },
             ItemValue::List(group) => {
-                Err(Fault::vendor(21220, "a file name is expected", group.span))
+                Err(Fault::new(Condition::TokenUnknown, "a file name is expected", group.span))
             }
         }
     }
@@ -339,7 +342,9 @@ impl Executor {
         match value {
             ItemValue::Expr(expr) => self.decoder.value(expr),
             ItemValue::Name(name) => Ok(Value::Text(name.text.clone())),
-            ItemValue::List(group) => Err(Fault::vendor(21220, "a value is expected", group.span)),
+            ItemValue::List(group) => {
+                Err(Fault::new(Condition::TokenUnknown, "a value is expected", group.span))
+            }
         }
     }
 

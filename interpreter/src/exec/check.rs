@@ -1,16 +1,15 @@
 //! Decoding without moving: everything there is to say about a program.
 
 use super::executor::Executor;
-use super::fault::own;
 use super::options::Options;
 use super::step::{Feedback, Step};
-use crate::diag::{Diagnostic, Id};
+use crate::diag::{Condition, Diagnostic};
 use crate::machine::Machine;
 use crate::source::Sources;
 use std::sync::Arc;
 
 /// ID of syntax errors in parts of a program that do not run; only [`check`] finds them.
-pub const UNREACHED: Id = Id::Kontur(own::UNREACHED);
+pub const UNREACHED: Condition = Condition::Unreached;
 
 /// Executes a program as if every axis were always where it is told to be, goes on after errors where it can, and
 /// returns all diagnostics; it stops after 20 errors. What did not run is looked at for its syntax (K-0118).

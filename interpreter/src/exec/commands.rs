@@ -12,8 +12,9 @@ mod shaping;
 mod slope;
 
 use super::decoder::Decoder;
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::suggest;
+use crate::diag::Condition;
 use crate::syntax::ast::{Command, Ident, Span};
 pub(super) use keys::{Arguments, Key, Kind, arguments};
 pub(super) use slope::{slope_of_number, slope_type};
@@ -58,7 +59,7 @@ impl Call<'_> {
     /// 21220 for a word that does not belong here.
     pub(super) fn unexpected(&self, word: &Ident) -> Box<Fault> {
         let text = format!("{}: unexpected `{}`", self.title(), word.text);
-        Fault::vendor(21220, text, word.span)
+        Fault::new(Condition::TokenUnknown, text, word.span)
     }
 
     /// No further words, neither behind the name nor behind ON and OFF.
@@ -217,7 +218,7 @@ fn unknown(command: &Command) -> Box<Fault> {
         Some(last) => Span::new(command.span.start as usize, last.span.end() as usize),
         None => command.span,
     };
-    let fault = Fault::vendor(20509, format!("unknown command #{name}"), span);
+    let fault = Fault::new(Condition::CommandUnknown, format!("unknown command #{name}"), span);
     match suggest::nearest(&name, ROWS.iter().map(|row| row.name)) {
         Some(near) => fault.hint(format!("did you mean `#{near}`?")),
         None => fault,
@@ -232,7 +233,7 @@ impl Decoder {
         let call = Call { command, name: row.name, rest: &command.words[count..] };
         let ignored = || {
             let text = format!("{} has no effect here", call.title());
-            Fault::kontur(own::IGNORED, text, call.span())
+            Fault::new(Condition::Ignored, text, call.span())
         };
         match row.act {
             Act::Run(f) => f(self, &call),

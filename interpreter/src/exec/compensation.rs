@@ -17,9 +17,10 @@ mod element;
 use super::arc::Point;
 use super::bottleneck::{Cut, Watch};
 use super::contour::{Compensated, Motion};
-use super::fault::{Fault, own};
+use super::fault::Fault;
 use super::planar::{Side, cross, dot};
 use super::step::{Event, SourceRef, Sync};
+use crate::diag::Condition;
 use crate::syntax::ast::Span;
 use corner::{above, corner_arc, inner_corner, straight, straight_corner};
 use element::{Element, emit_between, line, moving_side};
@@ -133,7 +134,8 @@ impl Compensator {
         };
         if matches!(rest.what, Sync::Stop | Sync::FlushWait | Sync::ReadActual) {
             let text = "the channel cannot be flushed while tool radius compensation is active";
-            return Err(Fault::vendor(20651, text, Span::default()).in_block(rest.source));
+            return Err(Fault::new(Condition::FlushWithCompensation, text, Span::default())
+                .in_block(rest.source));
         }
         active.hold(Item::Rest(Box::new(rest)), Span::default())
     }
@@ -213,7 +215,7 @@ impl Active {
     fn hold(&mut self, item: Item, span: Span) -> Fallible<()> {
         if self.between.len() >= BETWEEN_MAX {
             let text = format!("more than {BETWEEN_MAX} blocks without motion in the plane");
-            return Err(Fault::kontur(own::COMPENSATION, text, span));
+            return Err(Fault::new(Condition::Compensation, text, span));
         }
         self.between.push(item);
         Ok(())
@@ -324,10 +326,10 @@ impl Active {
 fn circular(motion: &Motion) -> Box<Fault> {
     let text =
         "tool radius compensation is selected, changed and cancelled in straight motions only";
-    Fault::vendor(90008, text, motion.span).in_block(motion.source)
+    Fault::new(Condition::CompensationInArc, text, motion.span).in_block(motion.source)
 }
 
 fn too_tight(motion: &Motion) -> Box<Fault> {
     let text = "the contour is too tight for the radius of the tool";
-    Fault::kontur(own::COMPENSATION, text, motion.span).in_block(motion.source)
+    Fault::new(Condition::Compensation, text, motion.span).in_block(motion.source)
 }

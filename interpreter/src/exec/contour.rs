@@ -2,9 +2,10 @@
 
 use super::bottleneck::Cut;
 use super::compensation::{Compensator, Item, Rest};
-use super::fault::{Fault, own};
+use super::fault::Fault;
 use super::insertion::{self, Insertion};
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
+use crate::diag::Condition;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Block;
@@ -100,7 +101,7 @@ fn bottleneck(cut: &Cut) -> Box<Fault> {
         cut.contour.line, cut.distance_mm
     );
     let hint = "the control drives such bottlenecks unnoticed; a smaller tool fits";
-    Fault::kontur(own::BOTTLENECK, text, Span::default()).hint(hint).in_block(cut.tool)
+    Fault::new(Condition::Bottleneck, text, Span::default()).hint(hint).in_block(cut.tool)
 }
 
 /// A path whose ends the program does not know.
@@ -169,12 +170,12 @@ impl Contour {
         let span = insertion.span;
         if self.held.is_none() {
             let text = "no motion before to which a chamfer or rounding could be joined";
-            return Some(Fault::vendor(20351, text, span).warning());
+            return Some(Fault::new(Condition::InsertionWithoutMotion, text, span).warning());
         }
         let before = self.insertion.replace(Box::new(insertion));
         before.map(|_| {
             let text = "two insertions without a motion between them, the last one acts";
-            Fault::vendor(20701, text, span).warning()
+            Fault::new(Condition::InsertionsWithoutMotion, text, span).warning()
         })
     }
 
@@ -230,7 +231,7 @@ impl Contour {
         }
         if let Some(insertion) = self.insertion.take() {
             let text = "the path stops here: no chamfer or rounding is inserted";
-            let fault = Fault::vendor(20352, text, insertion.span);
+            let fault = Fault::new(Condition::InsertionFlushed, text, insertion.span);
             faults.push(*fault.in_block(insertion.source));
         }
         faults

@@ -8,7 +8,7 @@ use super::contouring::{Contouring, Hsc};
 use super::coordinates::Coordinates;
 use super::dialect::Seen;
 use super::dynamics::{Weights, channel_dynamics};
-use super::fault::{Fault, own};
+use super::fault::Fault;
 use super::independent::Independent;
 use super::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane};
 use super::options::Options;
@@ -20,7 +20,7 @@ use super::step::{Event, Feedback, SourceRef, Sync};
 use super::system::Timers;
 use super::tools::Tools;
 use super::variables::Variables;
-use crate::diag::{Diagnostic, Id, Location};
+use crate::diag::{Condition, Diagnostic, Location};
 use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::{Ident, Span};
 use kontur_motion::axis::AxisVec;
@@ -182,8 +182,10 @@ impl Decoder {
         let Worked { setup, diagnostics } = decoder.shaping.work_out(&decoder.machine);
         decoder.shaping.setup = setup;
         // what the lists say about single filters is told, with its place, when the chains are set up
-        let of_several = [own::LIST_FIR_AND_GUARD, own::UNEQUAL_KERNELS].map(Id::Kontur);
-        decoder.unplaced.extend(diagnostics.into_iter().filter(|d| of_several.contains(&d.id)));
+        let of_several = [Condition::ListFirAndGuard, Condition::UnequalKernels];
+        decoder
+            .unplaced
+            .extend(diagnostics.into_iter().filter(|d| of_several.iter().any(|c| d.id == *c)));
         decoder
     }
 
@@ -224,7 +226,7 @@ impl Decoder {
                 | (21, _) => {}
                 (group, g) => {
                     let text = format!("prog_start.g_gruppe[{group}].nr {g} is not simulated");
-                    let d = Diagnostic::kontur(own::FALLBACK, text).parameter("P-CHAN-00063");
+                    let d = Diagnostic::new(Condition::Fallback, text).parameter("P-CHAN-00063");
                     self.unplaced.push(d);
                 }
             }
@@ -323,7 +325,7 @@ impl Decoder {
         let machine = Arc::make_mut(&mut self.machine);
         if let Err(reason) = machine.axes[axis].set(key, value) {
             let text = format!("axis {}: {reason}", machine.axes[axis].name());
-            return Err(Fault::vendor(21220, text, span));
+            return Err(Fault::new(Condition::TokenUnknown, text, span));
         }
         let number = machine.axes[axis].number();
         self.dynamics_changed();
@@ -378,7 +380,7 @@ impl Decoder {
     pub(super) fn axis_in_command(&self, name: &Ident) -> Result<usize, Box<Fault>> {
         self.axis_of_name(&name.text).ok_or_else(|| {
             let text = format!("unknown axis `{}`", name.text);
-            Fault::vendor(20797, text, name.span).hint(self.axis_hint())
+            Fault::new(Condition::AxisNameUnknown, text, name.span).hint(self.axis_hint())
         })
     }
 
@@ -432,7 +434,7 @@ impl Decoder {
     pub(super) fn update_shaping(&mut self, span: Span) {
         let Worked { setup, diagnostics } = self.shaping.work_out(&self.machine);
         for diagnostic in diagnostics {
-            self.note(Fault::new(diagnostic, span));
+            self.note(Fault::of(diagnostic, span));
         }
         if setup != self.shaping.setup {
             self.shaping.setup = setup.clone();

@@ -1,11 +1,13 @@
 //! Words that other controls give another meaning: what this dialect means by them.
 
-use crate::diag::Id;
+use crate::diag::{Condition, Id};
 
 /// True for errors that a file of another control repeats in every line: unassigned G functions (20131) and parameters
 /// without a value (20194), each for itself, and O words (20191).
 pub(super) fn is_foreign_word(id: Id) -> bool {
-    matches!(id, Id::Vendor(20131 | 20191 | 20194))
+    [Condition::GUnknown, Condition::ONotImplemented, Condition::AssignmentExpected]
+        .iter()
+        .any(|condition| id == *condition)
 }
 
 /// Hint for a G number that is not assigned here.

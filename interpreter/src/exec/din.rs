@@ -7,12 +7,12 @@ mod functions;
 mod offsets;
 
 use super::decoder::Decoder;
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::groups::{Act, Group};
 use super::insertion::Kind;
 use super::modal::{Compensation, FeedType, FeedWord, LookAhead, Plane};
 use super::words::{CycleCall, GWord, Placed, Words};
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::{Call, Label, Span, Word};
 
 /// What follows a block.
@@ -75,12 +75,12 @@ impl Decoder {
     fn set_plane(&mut self, plane: Plane, span: Span) {
         if plane != self.modal.plane && self.modal.compensation != Compensation::Off {
             let text = "the plane cannot be changed while tool radius compensation is active";
-            self.note(Fault::vendor(20133, text, span));
+            self.note(Fault::new(Condition::PlaneWithCompensation, text, span));
             return;
         }
         if plane != self.modal.plane && self.coordinates.rotation().is_some() {
             let text = "the change of plane switches the contour rotation off";
-            self.note(Fault::kontur(own::ODD, text, span).warning());
+            self.note(Fault::new(Condition::Odd, text, span).warning());
             self.coordinates.set_rotation(None);
         }
         self.modal.plane = plane;
@@ -119,7 +119,7 @@ impl Decoder {
         let most = if self.modal.feed_type == FeedType::ShareOfMaximum { 100.0 } else { 1e9 };
         if !(0.0..=most).contains(&value) {
             let text = format!("F{value} is outside 0 to {most}");
-            return Err(Fault::kontur(own::RANGE, text, span));
+            return Err(Fault::new(Condition::Range, text, span));
         }
         self.unsay("20008");
         let word = FeedWord { value, inch: self.modal.inch };
@@ -160,11 +160,11 @@ impl Decoder {
                 let value = g.value.unwrap_or_default();
                 if super::expr::whole(value, 0, 14).is_none() {
                     let text = format!("G115={value}, allowed are 0 to 14");
-                    return Err(Fault::vendor(20151, text, g.span)
+                    return Err(Fault::new(Condition::LookAheadRange, text, g.span)
                         .with(|d| d.value(ValueKind::Wrong, value, "-")));
                 }
                 let text = "G115: single functions of the look-ahead cannot be switched off";
-                self.note_once("G115", Fault::kontur(own::IGNORED, text, g.span));
+                self.note_once("G115", Fault::new(Condition::Ignored, text, g.span));
             }
             Act::Compensation(side) => self.compensation(side, g.span),
             Act::PerpendicularSelection(on) => self.modal.perpendicular_selection = on,
@@ -175,10 +175,10 @@ impl Decoder {
             Act::Ignored(why) => {
                 let text = format!("G{:02} has no effect: {why}", g.row.number);
                 let key = format!("G{}", g.row.number);
-                self.note_once(&key, Fault::kontur(own::IGNORED, text, g.span));
+                self.note_once(&key, Fault::new(Condition::Ignored, text, g.span));
             }
             Act::ExactStopOnce if words.axes.is_empty() => {
-                return Err(Fault::vendor(20003, "G60 without motion", g.span));
+                return Err(Fault::new(Condition::AxisMissing, "G60 without motion", g.span));
             }
             _ => {}
         }
@@ -201,7 +201,7 @@ impl Decoder {
                 Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
                 _ => {
                     let text = format!("G{} without a size (I)", g.row.number);
-                    self.note(Fault::vendor(20012, text, g.span));
+                    self.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
                 }
             }
         }
@@ -225,7 +225,7 @@ impl Decoder {
                 Some(size) if size > 0.0 => request = Some((kind, size, *span)),
                 _ => {
                     let text = format!("#{} without a size", hash.name);
-                    self.note(Fault::kontur(own::RANGE, text, *span));
+                    self.note(Fault::new(Condition::Range, text, *span));
                 }
             }
         }
@@ -234,7 +234,7 @@ impl Decoder {
             self.insert(kind, size, feed_mm_s, at);
         } else if let Some((_, at)) = feed {
             let text = "#FRC without chamfer or rounding has no effect";
-            self.note(Fault::kontur(own::ODD, text, at).warning());
+            self.note(Fault::new(Condition::Odd, text, at).warning());
         }
     }
 
@@ -253,13 +253,13 @@ impl Decoder {
             };
             if let (false, Some(text)) = (known, super::dialect::g_function(g.row.number)) {
                 let key = format!("dialect G{}", g.row.number);
-                self.note_once(&key, Fault::kontur(own::DIALECT, text, g.span));
+                self.note_once(&key, Fault::new(Condition::Dialect, text, g.span));
             }
         }
         if let (false, Some((_, span))) = (self.dialect.own, words.end_feed) {
             let text =
                 "E is the feed at the end of the block in this dialect, not an extruder axis";
-            self.note_once("dialect E", Fault::kontur(own::DIALECT, text, span));
+            self.note_once("dialect E", Fault::new(Condition::Dialect, text, span));
         }
     }
 }

@@ -4,7 +4,6 @@ mod report;
 mod run;
 
 use super::decoder::Decoder;
-use super::fault::own;
 use super::files::{FileError, Files};
 use super::flow::Frame;
 use super::index::Index;
@@ -12,7 +11,7 @@ use super::modal::Modal;
 use super::options::{Options, SkipLevels};
 use super::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step};
 use super::unreached::Reached;
-use crate::diag::{Diagnostic, Id, Location, Severity};
+use crate::diag::{Condition, Diagnostic, Id, Location, Severity};
 use crate::machine::Machine;
 use crate::source::{Position, Sources};
 use crate::syntax::Parser;
@@ -155,7 +154,7 @@ impl Executor {
             let text = format!("{name} holds no main program");
             let severity =
                 if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
-            self.report(Diagnostic::kontur(own::NO_END, text).severity(severity));
+            self.report(Diagnostic::new(Condition::NoEnd, text).severity(severity));
             let refused = severity == Severity::Error;
             self.end(if refused { EndReason::Aborted } else { EndReason::Finished });
             return;
@@ -188,10 +187,12 @@ impl Executor {
                 let diagnostic = match error {
                     FileError::Open(e) => {
                         let searched = e.searched.join(", ");
-                        Diagnostic::kontur(own::NO_FILE, format!("{}: {}", e.name, e.reason))
+                        Diagnostic::new(Condition::NoFile, format!("{}: {}", e.name, e.reason))
                             .hint(format!("searched: {searched}"))
                     }
-                    FileError::Read(e) => Diagnostic::kontur(own::NO_FILE, format!("{name}: {e}")),
+                    FileError::Read(e) => {
+                        Diagnostic::new(Condition::NoFile, format!("{name}: {e}"))
+                    }
                 };
                 let diagnostic = match (self.levels.is_empty(), self.here(Span::default())) {
                     (false, Some(location)) => diagnostic.at(location),
@@ -284,7 +285,7 @@ fn start_position(
             Some(axis) if value.is_finite() => position[axis] = *value,
             _ => {
                 let text = format!("start position {name}={value}: no such axis or no number");
-                diagnostics.push(Diagnostic::kontur(own::RANGE, text));
+                diagnostics.push(Diagnostic::new(Condition::Range, text));
             }
         }
     }

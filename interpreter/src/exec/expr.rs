@@ -4,9 +4,10 @@
 //! results that are no finite numbers are K-0009.
 
 use super::decoder::Decoder;
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::functions;
 use super::options::Value;
+use crate::diag::Condition;
 use crate::syntax::ast::{Binary, BinaryOp, Expr, ExprKind, Span};
 
 impl Value {
@@ -53,7 +54,7 @@ impl Decoder {
         let x = self.number(expr)?;
         whole(x, low, high).ok_or_else(|| {
             let text = format!("{what} is {x}, allowed are {low} to {high}");
-            Fault::kontur(own::RANGE, text, expr.span)
+            Fault::new(Condition::Range, text, expr.span)
         })
     }
 
@@ -92,7 +93,9 @@ impl Decoder {
 pub(super) fn as_number(value: &Value, span: Span) -> Outcome<f64> {
     match value {
         Value::Number(x) => Ok(*x),
-        Value::Text(_) => Err(Fault::kontur(own::SYNTAX, "a number is expected, not a text", span)),
+        Value::Text(_) => {
+            Err(Fault::new(Condition::Syntax, "a number is expected, not a text", span))
+        }
     }
 }
 
@@ -137,7 +140,7 @@ fn apply(
         BinaryOp::Multiply => a * b,
         BinaryOp::Divide | BinaryOp::Modulo if b == 0.0 => {
             let text = "division by zero";
-            return Err(Fault::vendor(20396, text, right_span)
+            return Err(Fault::new(Condition::DivisionByZero, text, right_span)
                 .with(|d| d.value(crate::diag::ValueKind::Current, b, "-")));
         }
         BinaryOp::Divide => a / b,
@@ -152,7 +155,7 @@ pub(super) fn finite(x: f64, span: Span) -> Outcome<f64> {
     if x.is_finite() {
         return Ok(x);
     }
-    Err(Fault::kontur(own::RANGE, "the result is not a number within the range of REAL64", span))
+    Err(Fault::new(Condition::Range, "the result is not a number within the range of REAL64", span))
 }
 
 /// Bit pattern of a number: fractions are cut, negative numbers count as signed 32 bits.
@@ -163,7 +166,7 @@ pub(super) fn bits(x: f64, span: Span) -> Outcome<u32> {
     } else if cut < 0.0 && cut >= f64::from(i32::MIN) {
         Ok(cut as i32 as u32)
     } else {
-        Err(Fault::kontur(own::RANGE, format!("{x} does not fit into 32 bits"), span))
+        Err(Fault::new(Condition::Range, format!("{x} does not fit into 32 bits"), span))
     }
 }
 
@@ -173,7 +176,7 @@ fn texts(op: BinaryOp, a: &str, b: &str, span: Span) -> Outcome<Value> {
     Ok(match op {
         BinaryOp::Add if a.len() + b.len() > LONGEST => {
             let text = format!("a text of more than {LONGEST} bytes");
-            return Err(Fault::kontur(own::RANGE, text, span));
+            return Err(Fault::new(Condition::Range, text, span));
         }
         BinaryOp::Add => Value::Text(format!("{a}{b}").into()),
         BinaryOp::Equal => Value::truth(a == b),
@@ -184,7 +187,7 @@ fn texts(op: BinaryOp, a: &str, b: &str, span: Span) -> Outcome<Value> {
         BinaryOp::GreaterEqual => Value::truth(a >= b),
         _ => {
             let text = "texts can only be joined and compared";
-            return Err(Fault::kontur(own::SYNTAX, text, span));
+            return Err(Fault::new(Condition::Syntax, text, span));
         }
     })
 }

@@ -5,10 +5,10 @@
 
 use super::executor::Executor;
 use super::expr::is_true;
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::index::{EntryId, Keyword};
 use super::options::Value;
-use crate::diag::{Diagnostic, ValueKind};
+use crate::diag::{Condition, Diagnostic, ValueKind};
 use crate::source::Position;
 use crate::syntax::ast::{
     Body, Control, ControlKind, Expr, Label, LabelKind, Place, PlaceKind, Span,
@@ -141,17 +141,17 @@ impl Executor {
             level.cut = true;
         }
         let Some(level) = self.levels.last() else {
-            return Fault::vendor(21501, "open control block", span);
+            return Fault::new(Condition::OpenIfMain, "open control block", span);
         };
         let keyword = level.index.entry(id).keyword;
         let closer = keyword.closer().map_or("", Keyword::text);
-        let number = match (level.index.sections[level.section].local, self.levels.len()) {
-            (true, _) => 21500,
-            (false, 1) => 21501,
-            (false, _) => 21502,
+        let condition = match (level.index.sections[level.section].local, self.levels.len()) {
+            (true, _) => Condition::OpenIfLocal,
+            (false, 1) => Condition::OpenIfMain,
+            (false, _) => Condition::OpenIfGlobal,
         };
         let text = format!("{} without {closer}", keyword.text());
-        Fault::vendor(number, text, span).with(|d| {
+        Fault::new(condition, text, span).with(|d| {
             d.value(ValueKind::Current, 1.0, "-")
                 .value(ValueKind::State, keyword.text(), "-")
                 .value(ValueKind::Expected, closer, "-")
@@ -316,16 +316,16 @@ impl Executor {
         if !is_counter {
             self.leave_structure(id);
             let text = "the counter of $FOR is a P parameter or a variable";
-            return Err(Fault::vendor(20227, text, counter.span));
+            return Err(Fault::new(Condition::ForCounter, text, counter.span));
         }
         if by == 0.0 {
             let at = step.map_or(span, |s| s.span);
             let text = "$FOR with step 0 does not end";
-            self.decoder.note(Fault::kontur(own::ODD, text, at).warning());
+            self.decoder.note(Fault::new(Condition::Odd, text, at).warning());
         }
         if let Err(fault) = self.decoder.write(counter, Value::Number(first), start.span) {
             self.leave_structure(id);
-            return Err(fault.with(|d| Diagnostic { id: crate::diag::Id::Vendor(20227), ..d }));
+            return Err(fault.with(|d| Diagnostic { id: Condition::ForCounter.id(), ..d }));
         }
         if passed(first, end, by) {
             self.leave_structure(id);
@@ -434,13 +434,13 @@ impl Executor {
             Ok(())
         } else {
             let text = "$BREAK outside loops and $SWITCH";
-            Err(Fault::kontur(own::SYNTAX, text, span))
+            Err(Fault::new(Condition::Syntax, text, span))
         }
     }
 
     fn go_on(&mut self, span: Span) -> Outcome<()> {
         let Some(open) = self.innermost(Keyword::is_loop) else {
-            return Err(Fault::kontur(own::SYNTAX, "$CONTINUE outside loops", span));
+            return Err(Fault::new(Condition::Syntax, "$CONTINUE outside loops", span));
         };
         let end = self.levels.last().and_then(|l| l.index.entry(open).end);
         if let (Some(level), Some(end)) = (self.levels.last_mut(), end) {
@@ -462,7 +462,7 @@ impl Executor {
         let Some(place) = level.index.label(level.section, &label.kind).copied() else {
             let text = format!("label {shown} does not exist in this program");
             let hint = "a label stands at the beginning of a block: N20: or [NAME]";
-            self.decoder.note(Fault::kontur(own::LABEL, text, label.span).hint(hint));
+            self.decoder.note(Fault::new(Condition::Label, text, label.span).hint(hint));
             return;
         };
         let depth = match place.parent {
@@ -474,7 +474,7 @@ impl Executor {
             level.at = place.position;
         } else {
             let text = format!("label {shown} stands inside a control block");
-            self.decoder.note(Fault::kontur(own::LABEL_INTO, text, label.span));
+            self.decoder.note(Fault::new(Condition::LabelInto, text, label.span));
         }
     }
 }

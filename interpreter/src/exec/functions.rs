@@ -6,9 +6,9 @@
 use super::angle::{cos_deg, sin_deg, tan_deg, to_deg};
 use super::decoder::Decoder;
 use super::expr::{as_number, bits, finite, is_true};
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::options::Value;
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::{Expr, ExprKind, Function, FunctionCall, Place, Span};
 
 /// Numbers of arguments that a function takes.
@@ -34,12 +34,12 @@ pub(super) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcom
     if n < low || n > high {
         let name = call.function.name();
         let text = format!("{name} takes {low} argument(s), {n} are written");
-        return Err(Fault::kontur(own::SYNTAX, text, span));
+        return Err(Fault::new(Condition::Syntax, text, span));
     }
     let arg = |i: usize| decoder.number(&call.arguments[i]);
     let place = || match &call.arguments[0].kind {
         ExprKind::Place(place) => Ok(&**place),
-        _ => Err(Fault::kontur(own::SYNTAX, "a variable is expected", call.arguments[0].span)),
+        _ => Err(Fault::new(Condition::Syntax, "a variable is expected", call.arguments[0].span)),
     };
     let number = match call.function {
         Function::Exist => return Ok(Value::truth(decoder.exists(place()?)?)),
@@ -65,11 +65,11 @@ fn inverted(x: f64, span: Span) -> Outcome<u32> {
 }
 
 fn pole(span: Span) -> Box<Fault> {
-    Fault::vendor(20396, "division by zero", span)
+    Fault::new(Condition::DivisionByZero, "division by zero", span)
 }
 
 fn outside(function: Function, x: f64, span: Span) -> Box<Fault> {
-    Fault::kontur(own::RANGE, format!("{} of {x} does not exist", function.name()), span)
+    Fault::new(Condition::Range, format!("{} of {x} does not exist", function.name()), span)
 }
 
 /// Functions of one number.
@@ -78,13 +78,17 @@ fn of_one(function: Function, x: f64, span: Span) -> Outcome<f64> {
         Function::Abs => x.abs(),
         Function::Sqr => x * x,
         Function::Sqrt if x < 0.0 => {
-            return Err(Fault::kontur(own::SQRT, format!("root of the negative number {x}"), span));
+            return Err(Fault::new(
+                Condition::Sqrt,
+                format!("root of the negative number {x}"),
+                span,
+            ));
         }
         Function::Sqrt => x.sqrt(),
         Function::Exp => libm::exp(x),
         Function::DecExp => libm::pow(10.0, x),
         Function::Ln | Function::Log if x <= 0.0 => {
-            return Err(Fault::vendor(20399, format!("logarithm of {x}"), span)
+            return Err(Fault::new(Condition::Logarithm, format!("logarithm of {x}"), span)
                 .with(|d| d.value(ValueKind::Wrong, x, "-")));
         }
         Function::Ln => libm::log(x),
@@ -162,7 +166,7 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
     let text = |i: usize| match decoder.value(&call.arguments[i])? {
         Value::Text(text) => Ok(text.chars().collect::<Vec<char>>()),
         Value::Number(_) => {
-            Err(Fault::kontur(own::SYNTAX, "a text is expected", call.arguments[i].span))
+            Err(Fault::new(Condition::Syntax, "a text is expected", call.arguments[i].span))
         }
     };
     let count = |i: usize| {
@@ -176,7 +180,7 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
         let number: Option<f64> = written.trim().parse().ok();
         number.filter(|x| x.is_finite()).ok_or_else(|| {
             let text = format!("`{written}` is no number");
-            Fault::kontur(own::RANGE, text, call.arguments[i].span)
+            Fault::new(Condition::Range, text, call.arguments[i].span)
         })
     };
     Ok(match call.function {

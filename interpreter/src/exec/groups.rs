@@ -4,6 +4,7 @@
 
 use super::dynamics::Weight;
 use super::modal::{Compensation, Corners, FeedType, PathMode, Plane};
+use crate::diag::Condition;
 
 /// Group: two functions of one group in a block are an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,28 +41,38 @@ pub(super) enum Group {
 }
 
 impl Group {
-    /// ID of double programming, `None` where no document read names it.
-    pub(super) fn duplicate_id(self) -> Option<u32> {
-        Some(match self {
-            Self::Path => 20108,
-            Self::FeedInterpolation => 20109,
-            Self::CompensationFeed => 20110,
-            Self::Mirror => 20112,
-            Self::Compensation => 20114,
-            Self::Diameter => 20115,
-            Self::ZeroOffset => 20116,
-            Self::Transition => 20117,
-            Self::Unit => 20118,
-            Self::FeedType => 20121,
-            Self::Measuring => 20123,
-            Self::LookAhead => 20124,
-            Self::CompensationSelection => 20126,
-            Self::CentreType => 20127,
-            Self::CentreCorrection => 20128,
-            Self::Manual => 20129,
-            Self::Insertion => 20130,
-            _ => return None,
-        })
+    /// Condition of double programming; K-DUPGROUP where no document read names a number.
+    pub(super) fn duplicate(self) -> Condition {
+        match self {
+            Self::Path => Condition::TwoMotionModes,
+            Self::FeedInterpolation => Condition::TwoFeedInterpolations,
+            Self::CompensationFeed => Condition::TwoCompensationFeeds,
+            Self::Mirror => Condition::TwoMirrors,
+            Self::Compensation => Condition::TwoCompensations,
+            Self::Diameter => Condition::TwoDiameters,
+            Self::ZeroOffset => Condition::TwoZeroOffsets,
+            Self::Transition => Condition::TwoTransitions,
+            Self::Unit => Condition::TwoUnits,
+            Self::FeedType => Condition::TwoFeedTypes,
+            Self::Measuring => Condition::TwoMeasurings,
+            Self::LookAhead => Condition::TwoLookAheads,
+            Self::CompensationSelection => Condition::TwoCompensationSelections,
+            Self::CentreType => Condition::TwoCentreTypes,
+            Self::CentreCorrection => Condition::TwoCentreCorrections,
+            Self::Manual => Condition::TwoManuals,
+            Self::Insertion => Condition::TwoInsertions,
+            Self::CornerDeceleration
+            | Self::Deceleration
+            | Self::Plane
+            | Self::CompensationTransition
+            | Self::Rotation
+            | Self::Dimension
+            | Self::SpindleMode
+            | Self::Masking
+            | Self::Splines
+            | Self::Feedforward
+            | Self::None => Condition::DuplicateGroup,
+        }
     }
 
     pub(super) fn name(self) -> &'static str {

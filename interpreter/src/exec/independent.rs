@@ -8,8 +8,9 @@
 
 use super::coordinates::Target;
 use super::decoder::Decoder;
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::step::{Event, IndependentMotion, Sync};
+use crate::diag::Condition;
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind;
@@ -54,7 +55,7 @@ const UNSUPPORTED: &[&str] = &["G100", "DRY_RUN", "ACC_WEIGHT", "RAPID_ACC_WEIGH
 
 fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
     let hint = "X[INDP_SYN G90 G01 FEED=1000 POS=50]";
-    Fault::vendor(21068, text, span).hint(hint)
+    Fault::new(Condition::IndependentSyntax, text, span).hint(hint)
 }
 
 impl Decoder {
@@ -101,7 +102,7 @@ impl Decoder {
                 let text = format!(
                     "the independent axis cannot move in TIME={time_s} s: its velocity limit needs {least_s:.6} s"
                 );
-                self.note(Fault::kontur(own::ODD, text, span).warning());
+                self.note(Fault::new(Condition::Odd, text, span).warning());
             }
         }
         self.independent.way[axis] += target - start[axis];
@@ -259,14 +260,20 @@ impl Decoder {
             match &item.kind {
                 ItemKind::Flag(name) => axes.push(self.axis_in_command(name)?),
                 ItemKind::Missing => {}
-                _ => return Err(Fault::vendor(20797, "an axis name is expected", item.span)),
+                _ => {
+                    return Err(Fault::new(
+                        Condition::AxisNameUnknown,
+                        "an axis name is expected",
+                        item.span,
+                    ));
+                }
             }
         }
         if all {
             axes = (0..self.machine.axes.len()).collect();
         } else if axes.is_empty() {
             let text = "#WAIT INDP needs [axes] or ALL";
-            return Err(Fault::vendor(21220, text, span));
+            return Err(Fault::new(Condition::TokenUnknown, text, span));
         }
         self.join(axes);
         Ok(())

@@ -8,6 +8,7 @@ use super::contour::Motion;
 use super::fault::{Fault, Outcome};
 use super::planar::{Side, cross, cut, dot, intersections, norm, sub, swept};
 use super::step::SourceRef;
+use crate::diag::Condition;
 use crate::syntax::ast::Span;
 use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
@@ -60,7 +61,7 @@ pub(super) fn between(
             "a chamfer or rounding of {} mm does not fit between the two motions",
             insertion.size_mm
         );
-        Fault::kontur(super::fault::own::RANGE, text, span)
+        Fault::new(Condition::Range, text, span)
     };
     let (p, q, centre) = match insertion.kind {
         Kind::Chamfer | Kind::ChamferLength => {

@@ -3,11 +3,11 @@
 use super::coordinates::Rotation;
 use super::decoder::Decoder;
 use super::dynamics::{Weight, channel_dynamics};
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::modal::{Compensation, Corners};
 use super::step::Event;
 use super::words::{GWord, Placed, Words};
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 
@@ -23,7 +23,7 @@ impl Decoder {
             return Ok(percent / 100.0);
         }
         let text = format!("a weight of {percent} % is not possible");
-        Err(Fault::kontur(own::RANGE, text, span))
+        Err(Fault::new(Condition::Range, text, span))
     }
 
     /// Sets a weight; 50130 if it exceeds what the lists allow.
@@ -48,7 +48,7 @@ impl Decoder {
                 ratio * 100.0
             );
             self.note(
-                Fault::vendor(50130, text, span)
+                Fault::new(Condition::DynamicsLimited, text, span)
                     .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")),
             );
         }
@@ -67,7 +67,7 @@ impl Decoder {
     ) -> Outcome<()> {
         if words.axes.is_empty() {
             let text = format!("G{} without axis words", g.row.number);
-            return Err(Fault::vendor(20003, text, g.span));
+            return Err(Fault::new(Condition::AxisMissing, text, g.span));
         }
         for (axis, value, span) in &words.axes {
             let ratio = Self::weight_ratio(weight, (*value, *span))?;
@@ -79,11 +79,11 @@ impl Decoder {
     /// G136: weights of feedforward in percent, limited to 100.
     pub(super) fn feedforward_weights(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
         if words.axes.is_empty() {
-            return Err(Fault::kontur(own::SYNTAX, "G136 without axis words", g.span));
+            return Err(Fault::new(Condition::Syntax, "G136 without axis words", g.span));
         }
         if let Some((_, value, span)) = words.axes.iter().find(|(_, value, _)| *value < 0.0) {
             let text = format!("feedforward weight {value} % is negative");
-            return Err(Fault::kontur(own::FEEDFORWARD_NEGATIVE, text, *span));
+            return Err(Fault::new(Condition::FeedforwardNegative, text, *span));
         }
         for (axis, value, span) in &words.axes {
             let percent = self.limited_weight(*value, *span);
@@ -98,7 +98,7 @@ impl Decoder {
         if percent > 100.0 {
             let text = format!("feedforward weight {percent} % is above 100 %, limited");
             self.note(
-                Fault::kontur(own::FEEDFORWARD_LIMIT, text, span).with(|d| d.corrected(100.0)),
+                Fault::new(Condition::FeedforwardLimit, text, span).with(|d| d.corrected(100.0)),
             );
         }
         percent.min(100.0)
@@ -119,7 +119,7 @@ impl Decoder {
             self.event(Event::Tool { number });
         } else {
             let text = format!("T{number} is no tool number");
-            self.note(Fault::kontur(own::RANGE, text, span));
+            self.note(Fault::new(Condition::Range, text, span));
         }
     }
 
@@ -127,7 +127,7 @@ impl Decoder {
     pub(super) fn select_tool_data(&mut self, number: f64, span: Span) {
         let Some(number) = super::expr::whole(number, 0, u32::MAX) else {
             let text = format!("D{number} is no number of tool data");
-            self.note(Fault::kontur(own::RANGE, text, span));
+            self.note(Fault::new(Condition::Range, text, span));
             return;
         };
         self.tools.data = number;
@@ -137,7 +137,7 @@ impl Decoder {
             if number != 0 {
                 let text = format!("there is no tool data D{number}: length and radius are 0");
                 let hint = "V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
-                self.note_once("D", Fault::kontur(own::NO_TOOL, text, span).hint(hint));
+                self.note_once("D", Fault::new(Condition::NoTool, text, span).hint(hint));
             }
             super::tools::Tool::default()
         };
@@ -166,7 +166,7 @@ impl Decoder {
         span: Span,
     ) -> Outcome<()> {
         if !deg.is_finite() {
-            return Err(Fault::kontur(own::RANGE, "the angle is no number", span));
+            return Err(Fault::new(Condition::Range, "the angle is no number", span));
         }
         // the centre is given in the system without rotation
         self.coordinates.set_rotation(None);
@@ -183,12 +183,12 @@ impl Decoder {
         if side != Compensation::Off && self.tools.active.radius_mm == 0.0 {
             let text = "the tool has the radius 0: the path is the programmed contour";
             let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
-            self.note_once("G41", Fault::kontur(own::NO_TOOL, text, span).hint(hint));
+            self.note_once("G41", Fault::new(Condition::NoTool, text, span).hint(hint));
         }
         if side != Compensation::Off && self.modal.corners == Corners::Unsaid {
             let text = "outer corners are rounded (G26); the control starts with lines (G25)";
             let hint = "write G25 or G26 before G41 and G42";
-            self.note_once("G26", Fault::kontur(own::ODD, text, span).hint(hint));
+            self.note_once("G26", Fault::new(Condition::Odd, text, span).hint(hint));
         }
         self.modal.compensation = side;
     }

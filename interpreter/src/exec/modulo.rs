@@ -7,7 +7,8 @@
 //! Source: TF5200 programming manual, programming modulo axes. Assumption: of two shortest ways, 180 degrees each, the
 //! positive one.
 
-use super::fault::{Fault, own};
+use super::fault::Fault;
+use crate::diag::Condition;
 use crate::syntax::ast::{Sign, Span};
 
 const TURN_DEG: f64 = 360.0;
@@ -34,7 +35,7 @@ pub(super) fn unwrapped(value: f64, turn: Option<Sign>, from: f64) -> f64 {
 pub(super) fn two_readings(span: Span) -> Box<Fault> {
     let text = "the first sign behind a modulo axis is its direction, not that of a term";
     let hint = "use brackets: C-[P1+5] turns in negative direction, C[-P1+5] the shortest way";
-    Fault::kontur(own::SYNTAX, text, span).hint(hint)
+    Fault::new(Condition::Syntax, text, span).hint(hint)
 }
 
 #[cfg(test)]

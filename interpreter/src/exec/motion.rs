@@ -7,14 +7,14 @@ mod limits;
 use super::contour::{Compensated, Motion};
 use super::coordinates::Target;
 use super::decoder::Decoder;
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::groups::{Act, Group};
 use super::insertion::{Insertion, Kind};
 use super::modal::{Compensation, Corners, PathMode};
 use super::modulo;
 use super::step::Sync;
 use super::words::{GWord, Words};
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed, SlopeKind};
@@ -86,7 +86,7 @@ impl Decoder {
         }
         if let Some((_, span)) = words.centre.iter().flatten().next() {
             let text = "I, J and K have no meaning without an arc";
-            self.note(Fault::kontur(own::ODD, text, *span).warning());
+            self.note(Fault::new(Condition::Odd, text, *span).warning());
         }
         let rotates = takes_axes.is_some_and(|g| g.row.act == Act::Rotate);
         if let (Some((radius, span)), false) = (words.radius, rotates) {
@@ -94,12 +94,12 @@ impl Decoder {
             self.modal.radius_mm = Some(radius * self.unit_mm());
             if words.group(Group::Path).is_some() {
                 let text = "R without an end point moves nothing: it is kept for the next arc";
-                self.note(Fault::kontur(own::ODD, text, span).warning());
+                self.note(Fault::new(Condition::Odd, text, span).warning());
             }
         }
         if let Some((_, span)) = words.end_feed {
             let text = "E has no meaning without motion";
-            self.note(Fault::kontur(own::ODD, text, span).warning());
+            self.note(Fault::new(Condition::Odd, text, span).warning());
         }
     }
 
@@ -110,7 +110,7 @@ impl Decoder {
         let forms = [g.value.is_some(), of_axis.is_some(), revolutions.is_some()];
         if forms.iter().filter(|f| **f).count() > 1 {
             let text = "G04 with two times: write G04 2.5 or G04 X2.5";
-            return Err(Fault::vendor(20013, text, g.span));
+            return Err(Fault::new(Condition::DwellTwoTimes, text, g.span));
         }
         let (seconds, span) = if let Some(value) = g.value {
             (value, g.span)
@@ -120,14 +120,14 @@ impl Decoder {
             let rpm = self.spindles[*spindle].rpm.abs();
             if rpm == 0.0 {
                 let text = "G04 S: the spindle has no speed";
-                return Err(Fault::vendor(20007, text, *span));
+                return Err(Fault::new(Condition::SpindleSpeedZero, text, *span));
             }
             (turns * 60.0 / rpm, *span)
         } else if let Some((_, _, span)) = words.axes.first() {
             let text = "G04: the time stands behind the first main axis";
-            return Err(Fault::vendor(20014, text, *span));
+            return Err(Fault::new(Condition::DwellWrongAxis, text, *span));
         } else {
-            return Err(Fault::kontur(own::SYNTAX, "G04 without a time", g.span));
+            return Err(Fault::new(Condition::Syntax, "G04 without a time", g.span));
         };
         let others: Vec<(usize, Span)> = words
             .axes
@@ -139,7 +139,9 @@ impl Decoder {
             let number = self.machine.axes[axis].number();
             let name = self.axis_name(axis).to_owned();
             let text = format!("G04 with the further axis {name}, which does not move");
-            self.note(Fault::vendor(20685, text, span).with(|d| d.axis(number, name)));
+            self.note(
+                Fault::new(Condition::DwellOtherAxes, text, span).with(|d| d.axis(number, name)),
+            );
         }
         self.dwell_for(seconds, span)
     }
@@ -150,7 +152,7 @@ impl Decoder {
         let late = self.modal.late_braking && !early_once;
         if late && self.modal.slope.kind == SlopeKind::Hsc {
             let text = "G901 has no effect with the slope HSC";
-            self.note_once("G901 HSC", Fault::kontur(own::IGNORED, text, span));
+            self.note_once("G901 HSC", Fault::new(Condition::Ignored, text, span));
         }
         late
     }
@@ -159,7 +161,7 @@ impl Decoder {
     pub(super) fn dwell_for(&mut self, seconds: f64, span: Span) -> Outcome<()> {
         if !(0.0..=DWELL_MAX_S).contains(&seconds) {
             let text = format!("dwell of {seconds} s is outside 0 to {DWELL_MAX_S} s");
-            return Err(Fault::vendor(20752, text, span).with(|d| {
+            return Err(Fault::new(Condition::DwellRange, text, span).with(|d| {
                 d.value(ValueKind::Wrong, seconds * 1e6, "us")
                     .value(ValueKind::LowerLimit, 0.0, "us")
                     .value(ValueKind::UpperLimit, DWELL_MAX_S * 1e6, "us")
@@ -196,7 +198,7 @@ impl Decoder {
         match suppressed {
             Some((_, _, at)) if targets.iter().any(|t| !t.absolute) => {
                 let text = "#SUPPRESS OFFSETS acts only with G90";
-                return Err(Fault::vendor(20985, text, *at));
+                return Err(Fault::new(Condition::SuppressWithIncremental, text, *at));
             }
             Some((_, _, at)) if !self.coordinates.frame().is_identity() => {
                 let what = "#SUPPRESS OFFSETS in a frame";
@@ -213,14 +215,14 @@ impl Decoder {
                 && words.group(Group::Insertion).is_none()
             {
                 let text = "I, J and K have no meaning in a straight motion";
-                self.note(Fault::kontur(own::ODD, text, *at).warning());
+                self.note(Fault::new(Condition::Odd, text, *at).warning());
             }
             if let Some((radius, at)) = words.radius {
                 self.modal.radius_mm = Some(radius * self.unit_mm());
                 // of a block with an error, such as a cycle of another control, R is the least
                 if !self.failed() {
                     let text = "R has no meaning in a straight motion: it is kept for the next arc";
-                    self.note(Fault::kontur(own::ODD, text, at).warning());
+                    self.note(Fault::new(Condition::Odd, text, at).warning());
                 }
             }
             let (start, end) = (self.on_path(start), self.on_path(end));
@@ -298,7 +300,7 @@ impl Decoder {
         let (Some(first), Some(second)) = (axis(main[0]), axis(main[1])) else {
             if compensated {
                 let text = "the plane of the tool radius compensation has no axis in the channel";
-                return Err(Fault::vendor(20200, text, span));
+                return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
             }
             return Ok(InPlane { plane: [0, 0], tilt, compensation: None });
         };
@@ -322,7 +324,7 @@ impl Decoder {
         let axis = |m: usize| self.coordinates.main_axis(m);
         let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
             let text = "a coordinate system turned in space needs three main axes";
-            return Err(Fault::vendor(20200, text, span));
+            return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
         };
         let (axes, origin) = ([x, y, z], self.coordinates.to_machine([0.0; 3]));
         let t_mm = std::array::from_fn(|i| origin[i] - self.independent.way[axes[i]]);

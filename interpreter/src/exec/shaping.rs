@@ -4,17 +4,15 @@
 //! not written means off. A change of a kernel needs the path at rest; a change of tolerances does not.
 //!
 //! Source: TF5250 Vibration Guard, TF5200 FIR filter, TF5200 axis filters.
-
-use super::fault::own;
 use super::step::{AxisShaping, ShapingSettings, ShapingSetup};
-use crate::diag::{AxisRef, Diagnostic, Location, Severity};
+use crate::diag::{Condition, Diagnostic, Location};
+use crate::machine::issues::{self, Origin};
 use crate::machine::{Axis, Machine};
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::hsc::{HscConfig, HscKind};
-use kontur_filters::issue::{Effect, FilterIssue, IssueId, OwnId};
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
-use kontur_filters::vib_guard::{VibGuardError, VibGuardSettings};
+use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::block::Tolerance;
 use std::sync::Arc;
 
@@ -111,23 +109,23 @@ impl ShapingState {
             if guard_on {
                 let text = "the list switches the Vibration Guard on and a FIR filter is active: \
                             the Vibration Guard is off";
-                let d = Diagnostic::kontur(own::LIST_FIR_AND_GUARD, with_axis(axis, text));
+                let d = Diagnostic::new(Condition::ListFirAndGuard, with_axis(axis, text));
                 found.push(d.axis(axis.number(), axis.name()));
             }
             let (kernel, issues) = config.design(cycle);
-            found.extend(issues.iter().map(|i| issue(i, axis)));
+            found.extend(issues.iter().map(|i| issues::filter(axis, Origin::Program, i)));
             return shaped(ShapingSettings::Fir(config), kernel);
         }
         if let (Some(config), true) = (self.hsc(axis), self.hsc_on) {
             let (kernel, issues) = config.design(cycle);
-            found.extend(issues.iter().map(|i| issue(i, axis)));
+            found.extend(issues.iter().map(|i| issues::filter(axis, Origin::Program, i)));
             return shaped(ShapingSettings::Hsc(config), kernel);
         }
         if guard_on {
             let settings = self.guard_settings(axis);
             match settings.kernel(cycle) {
                 Ok(kernel) => return shaped(ShapingSettings::VibGuard(settings), Some(kernel)),
-                Err(e) => found.push(guard_error(&e, axis, cycle)),
+                Err(e) => found.push(issues::vib_guard(axis, Origin::Program, &e, cycle)),
             }
         }
         AxisShaping::default()
@@ -236,59 +234,6 @@ fn with_axis(axis: &Axis, text: &str) -> String {
     format!("axis {}: {text}", axis.name())
 }
 
-/// 22062, K-0034 or 50820.
-pub(super) fn guard_error(error: &VibGuardError, axis: &Axis, cycle: CycleTime) -> Diagnostic {
-    let text = with_axis(axis, &error.to_string());
-    let diagnostic = match error {
-        VibGuardError::Mode { .. } => Diagnostic::vendor(22062, text),
-        VibGuardError::Frequency { .. } | VibGuardError::Damping { .. } => {
-            Diagnostic::kontur(own::GUARD_RANGE, text)
-        }
-        VibGuardError::NotRealisable { .. } => {
-            let text = format!("{text} of {} us", cycle.us());
-            Diagnostic::vendor(50820, text)
-                .hint("a smaller cycle time, less damping or another frequency")
-        }
-    };
-    let reference = AxisRef { number: axis.number(), name: axis.name().to_owned() };
-    Diagnostic { axis: Some(reference), ..diagnostic }
-}
-
-/// A condition of a filter's settings.
-fn issue(issue: &FilterIssue, axis: &Axis) -> Diagnostic {
-    let what = match issue {
-        FilterIssue::OrderTimeBelowCycle { order_time_us, cycle_us } => format!(
-            "time {order_time_us} us of the filter is below the cycle of {cycle_us} us, filter off"
-        ),
-        FilterIssue::OrderTooHigh { order, used } => {
-            format!("filter order {order} is too high, {used} is used")
-        }
-        FilterIssue::NoOrder => "the filter is on but has no order, filter off".to_owned(),
-        FilterIssue::Frequency { f_hz, min_hz, max_hz } => {
-            format!("frequency {f_hz} Hz of the filter is outside {min_hz} to {max_hz} Hz")
-        }
-        FilterIssue::Quality { quality } => {
-            format!("quality {quality} of the filter is outside 0 to 1")
-        }
-        FilterIssue::Share { share_ratio } => {
-            format!("share {} % of the filter is outside 0 to 100 %", share_ratio * 100.0)
-        }
-        other => format!("filter: {other:?}"),
-    };
-    let text = with_axis(axis, &what);
-    let diagnostic = match issue.id() {
-        IssueId::Vendor(id) => Diagnostic::vendor(id, text),
-        IssueId::Own(OwnId::VibGuardRange) => Diagnostic::kontur(own::GUARD_RANGE, text),
-        IssueId::Own(_) => Diagnostic::kontur(own::FILTER_RANGE, text),
-    };
-    let diagnostic = match issue.effect() {
-        Effect::Note => diagnostic.severity(Severity::Note),
-        Effect::Corrected => diagnostic.severity(Severity::Warning),
-        Effect::Off => diagnostic,
-    };
-    diagnostic.axis(axis.number(), axis.name())
-}
-
 /// Axes of one group whose kernels and standard filters together delay them differently run asynchronously.
 fn unequal_delays(setup: &ShapingSetup, machine: &Machine) -> Option<Diagnostic> {
     let kernel = |a: &AxisShaping| a.kernel.as_ref().map_or(0.0, |k| k.delay_cycles());
@@ -314,5 +259,5 @@ fn unequal_delays(setup: &ShapingSetup, machine: &Machine) -> Option<Diagnostic>
         "axes of one group are shaped with different delays and run asynchronously: {}",
         list.join(", ")
     );
-    Some(Diagnostic::kontur(own::UNEQUAL_KERNELS, text))
+    Some(Diagnostic::new(Condition::UnequalKernels, text))
 }

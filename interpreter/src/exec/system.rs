@@ -5,10 +5,11 @@
 
 use super::decoder::Decoder;
 use super::expr::{as_number, whole};
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::options::Value;
 use super::suggest;
 use super::tools::Tool;
+use crate::diag::Condition;
 use crate::syntax::ast::{Segment, Span};
 
 /// One readable variable: its name with `*` for an axis name or index.
@@ -150,7 +151,7 @@ impl Path<'_> {
         if let Some(segment) = self.segments.get(at) {
             return d.axis_of_name(&segment.name).ok_or_else(|| {
                 let text = format!("unknown axis `{}`", segment.name);
-                Fault::vendor(21947, text, self.span).hint(d.axis_hint())
+                Fault::new(Condition::AxisIdentifier, text, self.span).hint(d.axis_hint())
             });
         }
         let high = u32::try_from(d.machine.axes.len().saturating_sub(1)).unwrap_or(0);
@@ -162,7 +163,7 @@ impl Path<'_> {
         let name = self.segments.get(at).map_or("", |s| &*s.name);
         d.spindle_of_name(name).ok_or_else(|| {
             let text = format!("unknown spindle `{name}`");
-            Fault::vendor(21947, text, self.span)
+            Fault::new(Condition::AxisIdentifier, text, self.span)
         })
     }
 
@@ -171,7 +172,7 @@ impl Path<'_> {
         let subscripts = self.segments.get(at).map(|s| &s.subscripts[..]);
         match subscripts {
             Some([expr]) => d.whole(expr, "the index", 0, high),
-            _ => Err(Fault::kontur(own::SYNTAX, "one index is expected", self.span)),
+            _ => Err(Fault::new(Condition::Syntax, "one index is expected", self.span)),
         }
     }
 
@@ -187,7 +188,7 @@ impl Path<'_> {
             truth(passed)
         } else {
             let text = "V.G.@P[i].VALID is known only inside a cycle";
-            Err(Fault::vendor(21544, text, self.span))
+            Err(Fault::new(Condition::ParameterOutsideCycle, text, self.span))
         }
     }
 }
@@ -229,7 +230,7 @@ fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
     let axis = d.axis_names.iter().flatten().next().map_or("X", String::as_str);
     let names: Vec<String> =
         ROWS.iter().map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S")).collect();
-    let fault = Fault::kontur(own::UNDEFINED, format!("unknown variable V.{name}"), span);
+    let fault = Fault::new(Condition::Undefined, format!("unknown variable V.{name}"), span);
     match suggest::nearest(&name, names.iter().map(String::as_str)) {
         Some(near) => fault.hint(format!("did you mean `V.{near}`?")),
         None => fault,
@@ -263,7 +264,7 @@ pub(super) fn write(
             let index = path.index(d, 1, u32::MAX)?;
             if d.tools.table.len() >= 10_000 && !d.tools.table.contains_key(&index) {
                 let text = "the tool table holds at most 10000 tools";
-                return Err(Fault::kontur(own::RANGE, text, span));
+                return Err(Fault::new(Condition::Range, text, span));
             }
             let mut tool = path.tool(d)?;
             write_tool(d, &path, &names[2..], &mut tool, x()?)?;
@@ -271,7 +272,7 @@ pub(super) fn write(
         }
         _ if find(segments).is_some() => {
             let text = format!("V.{} may not be written", written(segments));
-            return Err(Fault::vendor(20100, text, span));
+            return Err(Fault::new(Condition::VariableNotWritable, text, span));
         }
         _ => return Err(unknown(d, segments, span)),
     }

@@ -165,7 +165,7 @@ fn unreached(diagnostic: Diagnostic) -> Diagnostic {
     let text = format!("in a part that does not run: {} ({})", diagnostic.text, diagnostic.id);
     let usual = || "no run comes here; the control looks at control statements only".to_owned();
     let hint = diagnostic.hint.or_else(|| Some(usual()));
-    Diagnostic { id: UNREACHED, text, hint, ..diagnostic }.severity(Severity::Warning)
+    Diagnostic { id: UNREACHED.id(), text, hint, ..diagnostic }.severity(Severity::Warning)
 }
 
 #[cfg(test)]

@@ -10,10 +10,11 @@ mod storage;
 
 use super::decoder::Decoder;
 use super::expr::{as_number, whole};
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::options::{Access, External, Value};
 use super::suggest;
 use super::system;
+use crate::diag::Condition;
 use crate::syntax::ast::{Expr, ParameterIndex, Place, PlaceKind, Segment, Span};
 pub(super) use scopes::Variables;
 use scopes::{Class, class};
@@ -36,7 +37,7 @@ type Subscripts = SmallVec<[f64; 2]>;
 type Name<'a> = std::borrow::Cow<'a, str>;
 
 fn undefined(what: &str, span: Span) -> Box<Fault> {
-    Fault::kontur(own::UNDEFINED, format!("{what} has no value"), span)
+    Fault::new(Condition::Undefined, format!("{what} has no value"), span)
 }
 
 /// `G04 P500` of other controls is a value read from P500 here.
@@ -110,7 +111,7 @@ impl Decoder {
         let checked = |x: f64| {
             whole(x, 1, INDEX_MAX).ok_or_else(|| {
                 let text = format!("P{x} does not exist, indices are 1 to {INDEX_MAX}");
-                Fault::kontur(own::RANGE, text, span)
+                Fault::new(Condition::Range, text, span)
             })
         };
         let mut index = match index {
@@ -145,9 +146,11 @@ impl Decoder {
                 None => Err(self.unknown(class, &name, span)),
             },
             Target::External(name) => match self.variables.external.get(&name) {
-                Some(External { access: Access::WriteOnly, .. }) => {
-                    Err(Fault::vendor(20097, format!("V.E.{name} may not be read"), span))
-                }
+                Some(External { access: Access::WriteOnly, .. }) => Err(Fault::new(
+                    Condition::VariableNotReadable,
+                    format!("V.E.{name} may not be read"),
+                    span,
+                )),
                 Some(external) => Ok(external.value.clone()),
                 None => {
                     let known = self.variables.external.keys().map(String::as_str);
@@ -167,7 +170,7 @@ impl Decoder {
     fn cycle_parameter(&self, name: &str, span: Span) -> Outcome<Value> {
         let Some(scope) = self.variables.cycles.last() else {
             let text = format!("@{name} exists only inside a cycle");
-            return Err(Fault::kontur(own::UNDEFINED, text, span));
+            return Err(Fault::new(Condition::Undefined, text, span));
         };
         scope.passed.get(name).cloned().ok_or_else(|| {
             undefined(&format!("@{name}"), span).hint(format!("test V.G.@{name}.VALID first"))
@@ -221,7 +224,7 @@ impl Decoder {
             Target::External(name) => self.write_external(name, value, span),
             Target::Cycle(name) => {
                 let text = format!("@{name} may not be written");
-                Err(Fault::vendor(20100, text, span))
+                Err(Fault::new(Condition::VariableNotWritable, text, span))
             }
             Target::System(segments) => system::write(self, segments, &value, span),
         }
@@ -229,16 +232,18 @@ impl Decoder {
 
     fn write_external(&mut self, name: String, value: Value, span: Span) -> Outcome<()> {
         match self.variables.external.get_mut(&name) {
-            Some(External { access: Access::ReadOnly, .. }) => {
-                Err(Fault::vendor(20100, format!("V.E.{name} may not be written"), span))
-            }
+            Some(External { access: Access::ReadOnly, .. }) => Err(Fault::new(
+                Condition::VariableNotWritable,
+                format!("V.E.{name} may not be written"),
+                span,
+            )),
             Some(external) => {
                 external.value = value;
                 Ok(())
             }
             None => {
                 let text = format!("V.E.{name} is not configured, the program created it");
-                self.note(Fault::kontur(own::EXTERNAL_CREATED, text, span));
+                self.note(Fault::new(Condition::ExternalCreated, text, span));
                 let access = Access::ReadWrite;
                 self.variables.external.insert(name, External { value, access });
                 Ok(())
@@ -281,7 +286,7 @@ impl Decoder {
             }
             Target::External(_) | Target::Cycle(_) | Target::System(_) => {
                 let text = "only self-defined variables can be deleted";
-                return Err(Fault::vendor(20100, text, span));
+                return Err(Fault::new(Condition::VariableNotWritable, text, span));
             }
         };
         self.variables.elements -= removed.map_or(0, |v| v.elements());
@@ -290,6 +295,6 @@ impl Decoder {
 }
 
 fn undeclared_array(index: u32, span: Span) -> Box<Fault> {
-    Fault::vendor(20921, format!("P{index} is not declared as an array"), span)
+    Fault::new(Condition::ArrayNotDeclared, format!("P{index} is not declared as an array"), span)
         .hint(format!("declare it between #VAR and #ENDVAR: P{index}[size]"))
 }

@@ -4,11 +4,11 @@
 //! else acts afterwards, in the order that [`super::din`] keeps.
 
 use super::decoder::Decoder;
-use super::fault::{Fault, Outcome, own};
+use super::fault::{Fault, Outcome};
 use super::groups::{self, Act, Group, Row, ValueRule};
 use super::options::Value;
 use super::suggest;
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::{
     Assign, Bracket, Call, CodeNumber, Expr, ExprKind, GValue, HashWord, Label, Name, Sign, Span,
     Word, WordKind,
@@ -111,7 +111,7 @@ impl Decoder {
                 let code = self.code(number, value.as_deref(), "M", span)?;
                 if block.m.iter().any(|m| m.number == code.number) {
                     let text = format!("M{} twice in one block", code.number);
-                    self.note(Fault::kontur(own::ODD, text, span).warning());
+                    self.note(Fault::new(Condition::Odd, text, span).warning());
                 } else {
                     block.m.push(code);
                 }
@@ -134,7 +134,7 @@ impl Decoder {
             WordKind::MacroUse(name) => {
                 let text = format!("macro \"{name}\" is not defined");
                 let known = self.macros.keys().map(|k| &**k);
-                let fault = Fault::kontur(own::UNDEFINED, text, span);
+                let fault = Fault::new(Condition::Undefined, text, span);
                 Err(match suggest::hint(name, known) {
                     Some(hint) => fault.hint(hint),
                     None => fault,
@@ -151,7 +151,7 @@ impl Decoder {
             WordKind::Call(call) => {
                 if block.call.replace((call, span)).is_some() {
                     let text = "two subroutine calls in one block";
-                    return Err(Fault::vendor(22008, text, span));
+                    return Err(Fault::new(Condition::SeveralCalls, text, span));
                 }
                 Ok(())
             }
@@ -180,7 +180,7 @@ impl Decoder {
             CodeNumber::Literal(n) if *n <= HIGHEST => *n,
             CodeNumber::Literal(n) => {
                 let text = format!("{letter}{n} is above {letter}{HIGHEST}");
-                return Err(Fault::kontur(own::RANGE, text, span));
+                return Err(Fault::new(Condition::Range, text, span));
             }
             CodeNumber::Computed(expr) => {
                 self.whole(expr, "the number of a function", 0, HIGHEST)?
@@ -205,7 +205,7 @@ impl Decoder {
         }
         if number > groups::NUMBER_MAX {
             let text = format!("G{number} is above G{}", groups::NUMBER_MAX);
-            return Err(Fault::vendor(20107, text, span).with(|d| {
+            return Err(Fault::new(Condition::GNumberTooLarge, text, span).with(|d| {
                 d.value(ValueKind::Wrong, number, "-").value(
                     ValueKind::UpperLimit,
                     groups::NUMBER_MAX,
@@ -214,8 +214,9 @@ impl Decoder {
             }));
         }
         let Some(row) = groups::row(number) else {
-            let fault = Fault::vendor(20131, format!("unknown G function G{number:02}"), span)
-                .with(|d| d.value(ValueKind::Current, number, "-"));
+            let fault =
+                Fault::new(Condition::GUnknown, format!("unknown G function G{number:02}"), span)
+                    .with(|d| d.value(ValueKind::Current, number, "-"));
             return Err(match super::dialect::unknown_g(number) {
                 Some(hint) => fault.hint(hint),
                 None => fault,
@@ -241,18 +242,18 @@ impl Decoder {
         let value = match (value, row.value) {
             (None, ValueRule::Required) => {
                 let text = format!("G{number} needs a value");
-                return Err(Fault::kontur(own::SYNTAX, text, span));
+                return Err(Fault::new(Condition::Syntax, text, span));
             }
             (Some(GValue::Scalar(expr)), ValueRule::Required | ValueRule::Optional) => {
                 Some(self.number(expr)?)
             }
             (Some(GValue::Scalar(expr)), ValueRule::Never) => {
                 let text = format!("G{number:02} takes no value");
-                return Err(Fault::kontur(own::SYNTAX, text, expr.span));
+                return Err(Fault::new(Condition::Syntax, text, expr.span));
             }
             (Some(GValue::List(_)), _) => {
                 let text = format!("G{number:02} takes no list");
-                return Err(Fault::kontur(own::SYNTAX, text, span));
+                return Err(Fault::new(Condition::Syntax, text, span));
             }
             (None, _) => None,
         };
@@ -270,8 +271,8 @@ impl Decoder {
         if !self.cycle_files.contains_key(&number) {
             let text = format!("G{number}: no subroutine is configured");
             let hint = "P-CHAN-00160 to 00169 or #FILE NAME [G80=\"file\"] configure one";
-            let fault =
-                Fault::vendor(20131, text, span).with(|d| d.value(ValueKind::Current, number, "-"));
+            let fault = Fault::new(Condition::GUnknown, text, span)
+                .with(|d| d.value(ValueKind::Current, number, "-"));
             return Err(fault.hint(hint));
         }
         let mut values = Vec::new();
@@ -289,10 +290,14 @@ impl Decoder {
         }
         if values.len() > 50 {
             let text = format!("{} values, a call takes up to 50", values.len());
-            return Err(Fault::kontur(own::RANGE, text, span));
+            return Err(Fault::new(Condition::Range, text, span));
         }
         if block.cycle.replace(CycleCall { number, values, span }).is_some() {
-            return Err(Fault::vendor(22008, "two implicit calls in one block", span));
+            return Err(Fault::new(
+                Condition::SeveralCalls,
+                "two implicit calls in one block",
+                span,
+            ));
         }
         Ok(())
     }
@@ -348,9 +353,9 @@ impl Decoder {
         if twice {
             let text = format!("{} twice in one block", name.as_str());
             return Err(match letter {
-                b'F' => Fault::vendor(20175, text, span),
-                b'I'..=b'K' => Fault::vendor(20205, text, span),
-                _ => Fault::kontur(own::SYNTAX, text, span),
+                b'F' => Fault::new(Condition::FeedTwice, text, span),
+                b'I'..=b'K' => Fault::new(Condition::CentreTwice, text, span),
+                _ => Fault::new(Condition::Syntax, text, span),
             });
         }
         Ok(())
@@ -361,26 +366,35 @@ impl Decoder {
         let number = self.machine.axes[axis].number();
         let name = self.axis_name(axis).to_owned();
         let text = format!("axis {name} twice in one block");
-        Fault::vendor(20203, text, span)
+        Fault::new(Condition::AxisTwice, text, span)
             .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"))
     }
 
     fn unknown_letter(&self, letter: u8, span: Span) -> Box<Fault> {
         let name = char::from(letter);
         match letter {
-            b'O' => Fault::vendor(20191, "the O word does not exist in this dialect", span)
-                .hint("a program begins with %NAME, a subroutine is called by L or LL"),
+            b'O' => Fault::new(
+                Condition::ONotImplemented,
+                "the O word does not exist in this dialect",
+                span,
+            )
+            .hint("a program begins with %NAME, a subroutine is called by L or LL"),
             b'S' => Fault::unsupported("S: the machine has no spindle of that name", span),
             b'A'..=b'C' | b'U'..=b'Z' | b'Q' => self.unknown_axis(&name.to_string(), span),
-            _ => Fault::vendor(20200, format!("{name} is no word of this dialect"), span)
-                .hint(super::dialect::letter(letter)),
+            _ => Fault::new(
+                Condition::AxisOrCommandExpected,
+                format!("{name} is no word of this dialect"),
+                span,
+            )
+            .hint(super::dialect::letter(letter)),
         }
     }
 
     fn unknown_name(&self, name: &str, span: Span) -> Box<Fault> {
         match name.as_bytes().first() {
             Some(b'R') => {
-                Fault::vendor(20402, format!("unknown radius name {name}"), span).hint("write R=..")
+                Fault::new(Condition::RadiusName, format!("unknown radius name {name}"), span)
+                    .hint("write R=..")
             }
             _ => self.unknown_axis(name, span),
         }
@@ -388,7 +402,7 @@ impl Decoder {
 
     pub(super) fn unknown_axis(&self, name: &str, span: Span) -> Box<Fault> {
         let text = format!("the channel has no axis {name}");
-        Fault::vendor(20200, text, span).hint(self.axis_hint())
+        Fault::new(Condition::AxisOrCommandExpected, text, span).hint(self.axis_hint())
     }
 }
 
@@ -399,9 +413,6 @@ fn duplicate(first: &Row, second: &Row, span: Span) -> Box<Fault> {
         second.number,
         second.group.name()
     );
-    let fault = match second.group.duplicate_id() {
-        Some(id) => Fault::vendor(id, text, span),
-        None => Fault::kontur(own::DUPLICATE_GROUP, text, span),
-    };
-    fault.with(|d| d.value(ValueKind::Wrong, second.number, "-"))
+    Fault::new(second.group.duplicate(), text, span)
+        .with(|d| d.value(ValueKind::Wrong, second.number, "-"))
 }

@@ -7,7 +7,7 @@ use super::parameters::Parameters;
 use super::plausible;
 use super::table::ListKind;
 use super::{Machine, hints, link};
-use crate::diag::{AxisRef, Diagnostic, Location, Severity};
+use crate::diag::{AxisRef, Condition, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
 
 /// Name of kontur's own list, beside the start-up list.
@@ -86,7 +86,7 @@ impl Chain<'_> {
             Err(reason) => reason,
         };
         let mut diagnostic =
-            Diagnostic::kontur(13, format!("list `{path}` cannot be read: {reason}"));
+            Diagnostic::new(Condition::NoFile, format!("list `{path}` cannot be read: {reason}"));
         diagnostic.source = at;
         self.diagnostics.push(diagnostic);
         None
@@ -105,12 +105,13 @@ impl Chain<'_> {
         self.override_list(&mut start_up, "start_up", overrides);
         if start_up.text("listen").as_deref() == Some("BINAER") {
             let message = "listen: binary lists are not read, export the lists as ASCII";
-            self.diagnostics.push(Diagnostic::kontur(19, message).parameter("P-STUP-00008"));
+            self.diagnostics
+                .push(Diagnostic::new(Condition::Unsupported, message).parameter("P-STUP-00008"));
             return None;
         }
         if start_up.number("kanal_anzahl").is_some_and(|n| n > 1.0) {
             let message = "kanal_anzahl: one channel is simulated, that of sda_mds[0]";
-            let mut diagnostic = Diagnostic::kontur(19, message)
+            let mut diagnostic = Diagnostic::new(Condition::Unsupported, message)
                 .severity(Severity::Warning)
                 .parameter("P-STUP-00001");
             diagnostic.source = start_up.setting("kanal_anzahl").and_then(|s| s.at.clone());
@@ -125,7 +126,8 @@ impl Chain<'_> {
         if start_up.setting("sda_mds[0]").is_none() {
             let message =
                 format!("{}: the start-up list names no channel list (sda_mds[0])", self.start_up);
-            self.diagnostics.push(Diagnostic::kontur(31, message).parameter("P-STUP-00009"));
+            self.diagnostics
+                .push(Diagnostic::new(Condition::ListLink, message).parameter("P-STUP-00009"));
         }
         self.override_list(&mut channel, "channel", overrides);
         let defaults = self.read_named(&start_up, ListKind::Axis, "default_achs_mds");
@@ -149,7 +151,7 @@ impl Chain<'_> {
             }
             Err(reason) => {
                 let message = format!("list `{path}` cannot be read: {reason}");
-                self.diagnostics.push(Diagnostic::kontur(13, message));
+                self.diagnostics.push(Diagnostic::new(Condition::NoFile, message));
             }
         }
         self.override_list(&mut own, "kontur", overrides);
@@ -174,7 +176,8 @@ impl Chain<'_> {
             .collect();
         for key in more {
             let message = format!("{key}: more axis lists than zahl_mds = {limit}, ignored");
-            let mut diagnostic = Diagnostic::kontur(74, message).parameter("P-STUP-00014");
+            let mut diagnostic =
+                Diagnostic::new(Condition::ListCount, message).parameter("P-STUP-00014");
             diagnostic.source = start_up.setting(&key).and_then(|s| s.at.clone());
             self.diagnostics.push(diagnostic);
         }

@@ -7,8 +7,8 @@ mod words;
 use super::key::Key;
 use super::table::{self, Bound, Correction, Default, ListKind, Raw, Row};
 use super::value::{self, Value};
-use crate::diag::Id;
-use crate::diag::catalog::{self, Entry};
+use crate::diag::condition;
+use crate::diag::{Condition, Id};
 
 /// What a thing is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +78,7 @@ pub fn explain(thing: &str) -> Result<Explanation, Vec<String>> {
         .ok_or_else(|| probably(thing))
 }
 
-fn message_of(thing: &str) -> Option<&'static Entry> {
+fn message_of(thing: &str) -> Option<&'static condition::Row> {
     let upper = thing.to_ascii_uppercase();
     let digits =
         upper.strip_prefix("P-ERR-").or_else(|| upper.strip_prefix("ID ")).unwrap_or(&upper);
@@ -86,8 +86,8 @@ fn message_of(thing: &str) -> Option<&'static Entry> {
         Some(Ok(number)) => Some(Id::Kontur(number)),
         _ => digits.parse().ok().map(Id::Vendor),
     };
-    let named = |e: &&Entry| Some(e.id) == id || (!e.name.is_empty() && e.name == upper);
-    catalog::ENTRIES.iter().find(named)
+    let named = |e: &&condition::Row| Some(e.id) == id || (!e.name.is_empty() && e.name == upper);
+    condition::rows().find(named)
 }
 
 fn key_of(thing: &str) -> Option<&'static Row> {
@@ -215,7 +215,7 @@ fn reaction(row: &Row) -> Option<String> {
             Correction::Keep => "the function is off".to_owned(),
             Correction::Refuse => "the machine is refused".to_owned(),
         };
-        Some(format!("{name}: {}, {what}", reaction.id))
+        Some(format!("{name}: {}, {what}", reaction.condition.id()))
     };
     let sides = [side(row.low, "below", row.below), side(row.high, "above", row.above)];
     let sides: Vec<String> = sides.into_iter().flatten().collect();
@@ -241,7 +241,7 @@ fn example(row: &Row) -> Option<String> {
     Some(format!("{key}   {value}"))
 }
 
-fn message(entry: &'static Entry) -> Explanation {
+fn message(entry: &'static condition::Row) -> Explanation {
     let title = if entry.name.is_empty() {
         entry.id.to_string()
     } else {
@@ -249,8 +249,8 @@ fn message(entry: &'static Entry) -> Explanation {
     };
     let mut facts = vec![
         ("severity", format!("{:?}", entry.severity).to_lowercase()),
-        ("reaction", format!("class {}: {}", entry.reaction, reaction_class(entry.reaction))),
-        ("remedy", format!("class {}: {}", entry.remedy, remedy_class(entry.remedy))),
+        ("reaction", format!("class {}: {}", entry.reaction.class(), entry.reaction.text())),
+        ("remedy", format!("class {}: {}", entry.remedy, entry.remedy_text())),
     ];
     if !entry.cause.is_empty() {
         facts.insert(0, ("cause", entry.cause.to_owned()));
@@ -268,13 +268,13 @@ fn message(entry: &'static Entry) -> Explanation {
     let mut related: Vec<String> = table::rows()
         .filter(|r| !r.id.is_empty() && !r.at_setup)
         .filter(|r| {
-            (r.below.id == entry.id && r.low != Bound::None)
-                || (r.above.id == entry.id && r.high != Bound::None)
+            (entry.id == r.below.condition && r.low != Bound::None)
+                || (entry.id == r.above.condition && r.high != Bound::None)
         })
         .map(|r| r.id.to_owned())
         .collect();
-    // 70 is the reaction of every parameter without a documented ID
-    if entry.id == Id::Kontur(70) {
+    // the reaction of every parameter without a documented ID
+    if entry.id == Condition::ListRange {
         related.clear();
     }
     related.extend(
@@ -292,7 +292,7 @@ fn message(entry: &'static Entry) -> Explanation {
 }
 
 /// Parameters that a row of the catalogue names by their five digits.
-fn named_parameters(entry: &Entry) -> Vec<String> {
+fn named_parameters(entry: &condition::Row) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for text in [entry.meaning, entry.cause] {
         for (start, _) in text.match_indices("00") {
@@ -308,31 +308,6 @@ fn named_parameters(entry: &Entry) -> Vec<String> {
         }
     }
     found
-}
-
-fn reaction_class(class: u8) -> &'static str {
-    match class {
-        1 => "none, the run goes on",
-        2 => "the program is aborted, prepared blocks are still driven",
-        3 => "the job (loading a list) is aborted",
-        4 => "feed hold for the whole axis group",
-        5 => "the faulty axis stops abruptly, the others feed hold",
-        6 => "all axes stop abruptly",
-        7 => "the faulty axis stops under control, the others feed hold",
-        8 => "the faulty axis stops with its position loop opened, the others feed hold",
-        _ => "not documented",
-    }
-}
-
-fn remedy_class(class: u8) -> &'static str {
-    match class {
-        1 => "nothing to do, remedied internally",
-        3 => "reset of the channel",
-        5 | 6 => "complete reset of the channel",
-        7 => "restart of the control",
-        8 => "restart after power-off",
-        _ => "not documented",
-    }
 }
 
 #[cfg(test)]

@@ -4,10 +4,8 @@
 
 use super::axis::integer;
 use super::{Axis, Machine, issues};
-use crate::diag::Diagnostic;
+use crate::diag::{Condition, Diagnostic};
 
-/// K-0078: outside what the documents recommend.
-const ADVICE: u16 = 78;
 /// Global weight of the feedforward that is recommended (P-AXIS-00228 / P-AXIS-00229).
 const WEIGHT_RATIO: (f64, f64) = (0.7, 1.0);
 /// Settling time that is recommended in us (P-AXIS-00532).
@@ -48,7 +46,13 @@ fn low_passes(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
         };
         let what = format!("{prototype} low-pass on the position overshoots {how}");
         let advice = "CRIT_DAMPING is recommended";
-        diagnostics.push(issues::kontur(axis, ADVICE, &key("prototype"), &what, advice));
+        diagnostics.push(issues::about(
+            axis,
+            Condition::ListAdvice,
+            &key("prototype"),
+            &what,
+            advice,
+        ));
     }
 }
 
@@ -62,7 +66,7 @@ fn weight(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     if keys.iter().any(|key| listed(axis, key)) && !recommended {
         let what = format!("global weight {ratio} of the feedforward");
         let advice = format!("{low} to {high} is recommended, above {high} the axis leads");
-        diagnostics.push(issues::kontur(axis, ADVICE, keys[0], &what, &advice));
+        diagnostics.push(issues::about(axis, Condition::ListAdvice, keys[0], &what, &advice));
     }
 }
 
@@ -74,7 +78,7 @@ fn settling_time(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     if !(low..=high).contains(&time_us) {
         let what = format!("settling time {time_us} us");
         let advice = format!("{low} to {high} us are recommended");
-        diagnostics.push(issues::kontur(axis, ADVICE, key, &what, &advice));
+        diagnostics.push(issues::about(axis, Condition::ListAdvice, key, &what, &advice));
     }
 }
 
@@ -89,7 +93,7 @@ fn window(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     if window < WINDOW_LAGS * lag {
         let what = format!("exact-stop window {window}, lag at standstill up to {lag} (dead band)");
         let advice = format!("at least {WINDOW_LAGS} times the lag is recommended");
-        diagnostics.push(issues::kontur(axis, ADVICE, key, &what, &advice));
+        diagnostics.push(issues::about(axis, Condition::ListAdvice, key, &what, &advice));
     }
 }
 
@@ -111,7 +115,7 @@ fn gantry(axis: &Axis, machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
         if (own - other).abs() > 1e-12 * other.abs() {
             let what = format!("scaling {own} of the gantry slave, {other} of {}", master.name());
             let advice = "the scaling of both is normally the same";
-            diagnostics.push(issues::kontur(axis, ADVICE, numerator, &what, advice));
+            diagnostics.push(issues::about(axis, Condition::ListAdvice, numerator, &what, advice));
         }
     }
 }

@@ -7,215 +7,230 @@ use super::axis::AxisKind;
 use super::key::Key;
 use super::setup::{IPC, has_rotary_motor};
 use super::table::ListKind;
-use crate::diag::{Diagnostic, Id, ValueKind};
+use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use kontur_filters::{
     control::{
-        ErrorId, Issue, fault::IpcParameter, feedforward::FeedforwardConfig, ipc::IpcStageConfig,
+        Issue, fault::IpcParameter, feedforward::FeedforwardConfig, ipc::IpcStageConfig,
         plant::PlantConfig,
     },
-    issue::{Effect, FilterIssue, IssueId, OwnId},
+    issue::{Effect, FilterIssue},
     time::CycleTime,
     vib_guard::{VibGuardError, VibGuardSettings},
 };
 
 /// A diagnostic about one parameter of an axis: what was found, what becomes of it.
-pub(super) fn about(axis: &Axis, id: Id, key: &str, what: &str, effect: &str) -> Diagnostic {
+pub(super) fn about(
+    axis: &Axis,
+    condition: Condition,
+    key: &str,
+    what: &str,
+    effect: &str,
+) -> Diagnostic {
     let row = Key::parse(key).and_then(|key| key.resolve(ListKind::Axis)).map(|(row, _)| row);
     let parameter = row.map(|row| row.id).filter(|id| !id.is_empty());
     let named = parameter.map_or_else(|| key.to_owned(), |id| format!("{key} ({id})"));
     let text = format!("{what}, axis {}, {named}: {effect}", axis.name());
-    let mut diagnostic = Diagnostic::new(id, text).axis(axis.number(), axis.name());
+    let mut diagnostic = Diagnostic::new(condition, text).axis(axis.number(), axis.name());
     diagnostic.parameter = parameter;
     diagnostic.source = axis.parameters().setting(key).and_then(|setting| setting.at.clone());
     diagnostic
 }
 
-/// [`about`] with a number of the vendor's.
-pub(super) fn vendor(axis: &Axis, id: u32, key: &str, what: &str, effect: &str) -> Diagnostic {
-    about(axis, Id::Vendor(id), key, what, effect)
+/// Whose words a setting of a filter or of the Vibration Guard is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Origin<'a> {
+    /// The axis list: keys that begin with `filter[1]`, `filter_fir`, `lr_param.add_interface.filter[0]`, `vib_guard`.
+    List(&'a str),
+    /// The program, perhaps together with the list.
+    Program,
 }
 
-/// [`about`] with a number of kontur's own.
-pub(super) fn kontur(axis: &Axis, id: u16, key: &str, what: &str, effect: &str) -> Diagnostic {
-    about(axis, Id::Kontur(id), key, what, effect)
-}
-
-/// Number of a condition of the filters and of the Vibration Guard.
-pub fn filter_id(id: IssueId) -> Id {
-    match id {
-        IssueId::Vendor(number) => Id::Vendor(number),
-        IssueId::Own(own) => Id::Kontur(match own {
-            OwnId::FilterRange => 33,
-            OwnId::VibGuardRange => 34,
-            OwnId::OrderCorrected => 36,
-            OwnId::AllPassNotBessel => 37,
-            OwnId::RemovesConstantPart => 38,
-            OwnId::HscPrototype => 39,
-            OwnId::HscOnSpindle => 40,
-            OwnId::HscOnInterface => 41,
-        }),
+impl Origin<'_> {
+    /// [`about`] for a setting; a program's place is known to who runs it.
+    fn about(
+        self,
+        axis: &Axis,
+        condition: Condition,
+        name: &str,
+        what: &str,
+        effect: &str,
+    ) -> Diagnostic {
+        match self {
+            Self::List(prefix) => about(axis, condition, &format!("{prefix}.{name}"), what, effect),
+            Self::Program => {
+                let text = format!("{what}, axis {}: {effect}", axis.name());
+                Diagnostic::new(condition, text).axis(axis.number(), axis.name())
+            }
+        }
     }
 }
 
-/// Number of a condition of the controller.
-pub fn control_id(id: ErrorId) -> Id {
-    match id {
-        ErrorId::Vendor(number) => Id::Vendor(number),
-        ErrorId::Kontur(number) => Id::Kontur(number),
+/// The condition of a filter's settings.
+pub const fn filter_condition(issue: &FilterIssue) -> Condition {
+    match issue {
+        FilterIssue::TypeNotPermitted { .. } => Condition::FilterType,
+        FilterIssue::SecondHsc => Condition::SecondHsc,
+        FilterIssue::HscNotFirst => Condition::HscNotFirst,
+        FilterIssue::HscPrototype => Condition::FilterHscPrototype,
+        FilterIssue::HscOnSpindle => Condition::FilterHscSpindle,
+        FilterIssue::HscOnInterface => Condition::FilterHscInterface,
+        FilterIssue::TimeConstant { .. } => Condition::FilterTime,
+        FilterIssue::OrderTimeBelowCycle { .. } => Condition::FilterTimeBelowCycle,
+        FilterIssue::OrderTooHigh { .. } => Condition::FilterOrderTooHigh,
+        FilterIssue::OrderCorrected { .. } => Condition::FilterOrderFixed,
+        FilterIssue::NoOrder => Condition::FilterWithoutOrder,
+        FilterIssue::FrequencyTooLow { .. } => Condition::FilterFrequencyTooLow,
+        FilterIssue::Frequency { .. } | FilterIssue::Quality { .. } | FilterIssue::Share { .. } => {
+            Condition::FilterRange
+        }
+        FilterIssue::AllPassNotBessel => Condition::FilterAllPass,
+        FilterIssue::RemovesConstantPart => Condition::FilterConstantPart,
     }
 }
 
-/// A condition of the filter whose keys begin with `prefix`: `filter[1]`, `filter_fir`,
-/// `lr_param.add_interface.filter[0]`.
-pub fn filter(axis: &Axis, prefix: &str, issue: &FilterIssue) -> Diagnostic {
-    let fir = prefix == "filter_fir";
-    let key = |name: &str| {
-        let name = match name {
-            "share_percent" if fir => "share",
-            "time_constant" if fir => "order_time",
-            "fg_f0" if fir => "fcut",
-            "guete" if fir => "quality",
-            name => name,
-        };
-        format!("{prefix}.{name}")
+/// The condition of settings that give no Vibration Guard.
+const fn guard_condition(error: &VibGuardError) -> Condition {
+    match error {
+        VibGuardError::Mode { .. } => Condition::GuardMode,
+        VibGuardError::Frequency { .. } | VibGuardError::Damping { .. } => Condition::GuardRange,
+        VibGuardError::NotRealisable { .. } => Condition::GuardNotRealisable,
+    }
+}
+
+/// A condition of a filter's settings, with its values.
+pub(crate) fn filter(axis: &Axis, origin: Origin<'_>, issue: &FilterIssue) -> Diagnostic {
+    let fir = matches!(origin, Origin::List("filter_fir"));
+    let condition = match filter_condition(issue) {
+        // spindles have a number of their own for the same
+        Condition::FilterTime if axis.kind() == AxisKind::Spindle => Condition::SpindleFilterTime,
+        condition => condition,
     };
-    let mut id = filter_id(issue.id());
-    if axis.kind() == AxisKind::Spindle && id == Id::Vendor(50663) {
-        id = Id::Vendor(60311);
-    }
-    let effect = match issue.effect() {
+    let effect = issue.effect();
+    let becomes = match effect {
         Effect::Note => "the filter runs as configured",
         Effect::Corrected => "the filter runs with the corrected value",
         Effect::Off => "the filter is off",
     };
-    let about = |name: &str, what: &str| about(axis, id, &key(name), what, effect);
-    match *issue {
-        FilterIssue::TypeNotPermitted { number } => about("type", &format!("filter type {number}, 1 to 12 without 7 and 9 exist"))
-            .value(ValueKind::Wrong, number, "-"),
-        FilterIssue::SecondHsc => about("prototype", "second HSC filter, an axis has one at most"),
-        FilterIssue::HscNotFirst => about("prototype", "HSC filter that is not the first filter")
-            .hint("write it as filter[0]"),
-        FilterIssue::HscPrototype => {
-            about("prototype", "HSC type without the prototype HSC, or the prototype HSC with another type")
-                .hint("prototype HSC goes with type HSC_MEAN (8) or 12")
+    let what = issue.to_string();
+    let about = |name: &str| origin.about(axis, condition, name, &what, becomes);
+    let diagnostic = match *issue {
+        FilterIssue::TypeNotPermitted { number } => {
+            about("type").value(ValueKind::Wrong, number, "-")
         }
-        FilterIssue::HscOnSpindle => about("prototype", "HSC filter of a spindle"),
-        FilterIssue::HscOnInterface => about("type", "HSC filter of the additional interface")
-            .hint("the additional interface has the types LOWPASS to PT1, PT2 and TIME_DELAY"),
-        FilterIssue::TimeConstant { time_constant_us, min_us, max_us } => about(
-            "time_constant",
-            &format!("filter time constant {time_constant_us} us, {min_us} to {max_us} us are allowed"),
-        )
-        .value(ValueKind::Wrong, time_constant_us, "us")
-        .value(ValueKind::LowerLimit, min_us, "us")
-        .value(ValueKind::UpperLimit, max_us, "us"),
-        FilterIssue::OrderTimeBelowCycle { order_time_us, cycle_us } => about(
-            "time_constant",
-            &format!("time that gives the filter order {order_time_us} us, at least the cycle of {cycle_us} us"),
-        )
-        .value(ValueKind::Wrong, order_time_us, "us")
-        .value(ValueKind::LowerLimit, cycle_us, "us"),
-        FilterIssue::OrderTooHigh { order, used } => {
-            about("order", &format!("filter order {order}, at most {used}"))
+        FilterIssue::SecondHsc
+        | FilterIssue::HscNotFirst
+        | FilterIssue::HscPrototype
+        | FilterIssue::HscOnSpindle
+        | FilterIssue::AllPassNotBessel => about("prototype"),
+        FilterIssue::HscOnInterface | FilterIssue::RemovesConstantPart => about("type"),
+        FilterIssue::TimeConstant { time_constant_us, min_us, max_us } => about("time_constant")
+            .value(ValueKind::Wrong, time_constant_us, "us")
+            .value(ValueKind::LowerLimit, min_us, "us")
+            .value(ValueKind::UpperLimit, max_us, "us"),
+        FilterIssue::OrderTimeBelowCycle { order_time_us, cycle_us } => {
+            about(if fir { "order_time" } else { "time_constant" })
+                .value(ValueKind::Wrong, order_time_us, "us")
+                .value(ValueKind::LowerLimit, cycle_us, "us")
+        }
+        FilterIssue::OrderTooHigh { order, used } | FilterIssue::OrderCorrected { order, used } => {
+            about("order")
                 .value(ValueKind::Wrong, order, "-")
                 .value(ValueKind::Corrected, used, "-")
                 .corrected(used)
         }
-        FilterIssue::OrderCorrected { order, used } => {
-            about("order", &format!("filter order {order}, the type has {used}"))
-                .value(ValueKind::Wrong, order, "-")
-                .value(ValueKind::Corrected, used, "-")
-                .corrected(used)
-        }
-        FilterIssue::NoOrder => about("order", "filter order 0 and no time that gives one")
-            .value(ValueKind::Wrong, 0.0, "-"),
-        FilterIssue::FrequencyTooLow { f_hz, used_hz } => {
-            about("fg_f0", &format!("filter frequency {f_hz} Hz, at least {used_hz} Hz"))
+        FilterIssue::NoOrder => about("order").value(ValueKind::Wrong, 0.0, "-"),
+        FilterIssue::FrequencyTooLow { f_hz, used_hz } => about("fg_f0")
+            .value(ValueKind::Wrong, f_hz, "Hz")
+            .value(ValueKind::Corrected, used_hz, "Hz")
+            .corrected(used_hz),
+        FilterIssue::Frequency { f_hz, min_hz, max_hz } => {
+            about(if fir { "fcut" } else { "fg_f0" })
                 .value(ValueKind::Wrong, f_hz, "Hz")
-                .value(ValueKind::Corrected, used_hz, "Hz")
-                .corrected(used_hz)
+                .value(ValueKind::LowerLimit, min_hz, "Hz")
+                .value(ValueKind::UpperLimit, max_hz, "Hz")
         }
-        FilterIssue::Frequency { f_hz, min_hz, max_hz } => about(
-            "fg_f0",
-            &format!("filter frequency {f_hz} Hz, {min_hz} to below {max_hz} Hz are allowed"),
-        )
-        .value(ValueKind::Wrong, f_hz, "Hz")
-        .value(ValueKind::LowerLimit, min_hz, "Hz")
-        .value(ValueKind::UpperLimit, max_hz, "Hz"),
-        FilterIssue::Quality { quality } => {
-            let range = if fir { "above 0 to 1" } else { "1 to 10" };
-            about("guete", &format!("filter quality {quality}, {range} is allowed"))
-                .value(ValueKind::Wrong, quality, "-")
+        FilterIssue::Quality { quality, .. } => {
+            about(if fir { "quality" } else { "guete" }).value(ValueKind::Wrong, quality, "-")
         }
-        FilterIssue::Share { share_ratio } => {
-            let percent = 100.0 * share_ratio;
-            about("share_percent", &format!("filter share {percent} %, 0 to 100 % are allowed"))
-                .value(ValueKind::Wrong, percent, "%")
-        }
-        FilterIssue::AllPassNotBessel => about("prototype", "all-pass that is not BESSEL")
-            .hint("only the prototype BESSEL gives an all-pass with flat delay"),
-        FilterIssue::RemovesConstantPart => about("type", "high-pass or band-pass on a position")
-            .hint("it takes the constant part out: the axis only follows the motion relative to where it stood"),
+        FilterIssue::Share { share_ratio } => about(if fir { "share" } else { "share_percent" })
+            .value(ValueKind::Wrong, 100.0 * share_ratio, "%"),
+    };
+    match (origin, effect) {
+        (Origin::Program, Effect::Note) => diagnostic.severity(Severity::Note),
+        (Origin::Program, Effect::Corrected) => diagnostic.severity(Severity::Warning),
+        (Origin::Program, Effect::Off) | (Origin::List(_), _) => diagnostic,
     }
 }
 
-/// A condition of the Vibration Guard of the list.
-pub fn vib_guard(axis: &Axis, error: &VibGuardError) -> Diagnostic {
-    let id = filter_id(error.id());
-    let effect = "the Vibration Guard is off";
+/// Why an axis has no Vibration Guard, with the values.
+pub(crate) fn vib_guard(
+    axis: &Axis,
+    origin: Origin<'_>,
+    error: &VibGuardError,
+    cycle: CycleTime,
+) -> Diagnostic {
+    let condition = guard_condition(error);
+    let becomes = "the Vibration Guard is off";
+    let what = error.to_string();
+    let about = |name: &str| origin.about(axis, condition, name, &what, becomes);
     match *error {
-        VibGuardError::Mode { mode } => {
-            let what = format!("Vibration Guard mode {mode}, 1 to 4 are allowed");
-            about(axis, id, "vib_guard.mode", &what, effect).value(
-                ValueKind::Wrong,
-                u32::from(mode),
-                "-",
-            )
-        }
+        VibGuardError::Mode { mode } => about("mode").value(ValueKind::Wrong, u32::from(mode), "-"),
         VibGuardError::Frequency { freq_hz } => {
-            let what = format!("Vibration Guard frequency {freq_hz} Hz, at least 1 Hz");
-            about(axis, id, "vib_guard.freq", &what, effect).value(ValueKind::Wrong, freq_hz, "Hz")
+            about("freq").value(ValueKind::Wrong, freq_hz, "Hz")
         }
         VibGuardError::Damping { damping } => {
-            let what = format!("Vibration Guard damping {damping}, 0 to 1 are allowed");
-            about(axis, id, "vib_guard.damping", &what, effect).value(
-                ValueKind::Wrong,
-                damping,
-                "-",
-            )
+            about("damping").value(ValueKind::Wrong, damping, "-")
         }
         VibGuardError::NotRealisable { freq_hz, damping } => {
-            let max = VibGuardSettings::MAX_DAMPING;
-            let what = format!(
-                "Vibration Guard frequency {freq_hz} Hz with damping {damping}, half a damped period is at least \
-                 one cycle and the damping at most {max}"
-            );
-            let key = if damping > max { "vib_guard.damping" } else { "vib_guard.freq" };
-            about(axis, id, key, &what, effect).value(ValueKind::Wrong, freq_hz, "Hz").value(
-                ValueKind::Wrong,
-                damping,
-                "-",
-            )
+            about(if damping > VibGuardSettings::MAX_DAMPING { "damping" } else { "freq" })
+                .value(ValueKind::Wrong, freq_hz, "Hz")
+                .value(ValueKind::Wrong, damping, "-")
+                .value(ValueKind::Limit, cycle.us(), "us")
         }
+    }
+}
+
+/// The condition of the controller's configuration.
+const fn control_condition(issue: &Issue) -> Condition {
+    match issue {
+        Issue::VelocityDelay { .. } => Condition::VelocityDelay,
+        Issue::AccelerationDelay { .. } => Condition::AccelerationDelay,
+        Issue::NoAdditiveVelocity => Condition::NoAdditiveVelocity,
+        Issue::NoAdditiveTorque => Condition::NoAdditiveTorque,
+        Issue::WithoutDelayNeedsVelocityOnly => Condition::WithoutDelayNeedsVelocityOnly,
+        Issue::OutputWithoutActivation | Issue::ActiveAndDisabled => Condition::FeedforwardConflict,
+        Issue::ImplausibleLoad { .. } => Condition::FeedforwardLoad,
+        Issue::TorqueScaleDenominatorZero => Condition::TorqueScaleDenominator,
+        Issue::NoTorqueScale => Condition::TorqueScale,
+        Issue::SimulationDamping { .. } => Condition::SimulationDamping,
+        Issue::DeadTime { .. } => Condition::DeadTime,
+        Issue::IpcGantrySlave => Condition::IpcGantrySlave,
+        Issue::IpcNumerator { .. } => Condition::IpcNumerator,
+        Issue::IpcDenominator { .. } => Condition::IpcDenominator,
+        Issue::IpcRange { .. } => Condition::IpcRange,
+        Issue::IpcNoInput => Condition::IpcNoInput,
+        Issue::IpcNoLimit => Condition::IpcNoLimit,
+        Issue::IpcWeight { .. } => Condition::IpcWeight,
+        Issue::IpcOverlap { .. } => Condition::IpcOverlap,
     }
 }
 
 /// A condition found while the controller was configured.
-pub fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnostic {
-    let id = control_id(issue.id());
-    let about = |key: &str, what: &str, effect: &str| about(axis, id, key, what, effect);
+pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnostic {
+    let condition = control_condition(issue);
+    let about = |key: &str, what: &str, effect: &str| about(axis, condition, key, what, effect);
     let stage_key = |stage: usize, name: &str| format!("{IPC}.stage[{stage}].{name}");
     let mode = "vorsteuer.vorsteuerung";
     let ipc_off = "Improved Position Control is off for the axis";
     match *issue {
         Issue::VelocityDelay { delay_s } => {
-            delay(axis, id, "vorsteuer.velocity_delay_time", "velocity", delay_s, cycle)
+            delay(axis, condition, "vorsteuer.velocity_delay_time", "velocity", delay_s, cycle)
         }
         Issue::AccelerationDelay { delay_s, jerk: false } => {
-            delay(axis, id, "vorsteuer.acceleration_delay_time", "acceleration", delay_s, cycle)
+            delay(axis, condition, "vorsteuer.acceleration_delay_time", "acceleration", delay_s, cycle)
         }
         Issue::AccelerationDelay { delay_s, jerk: true } => {
-            delay(axis, id, "vorsteuer.jerk_delay_time", "jerk", delay_s, cycle)
+            delay(axis, condition, "vorsteuer.jerk_delay_time", "jerk", delay_s, cycle)
         }
         Issue::NoAdditiveVelocity => about(
             mode,
@@ -305,7 +320,7 @@ pub fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnostic {
             ipc_off,
         )
         .value(ValueKind::Wrong, value, "-"),
-        Issue::IpcRange { stage, what, value } => ipc_range(axis, id, stage, what, value, cycle),
+        Issue::IpcRange { stage, what, value } => ipc_range(axis, condition, stage, what, value, cycle),
         Issue::IpcNoInput => about(
             &format!("{IPC}.enable"),
             "Improved Position Control while the drive closes the position loop (P-AXIS-00320) and takes no additive \
@@ -334,15 +349,21 @@ pub fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnostic {
             &format!("pass band of stage {second} that overlaps with that of stage {first}"),
             "they influence each other",
         ),
-        _ => about(mode, "configuration of the controller", "see the ID"),
     }
 }
 
-fn delay(axis: &Axis, id: Id, key: &str, part: &str, delay_s: f64, cycle: CycleTime) -> Diagnostic {
+fn delay(
+    axis: &Axis,
+    condition: Condition,
+    key: &str,
+    part: &str,
+    delay_s: f64,
+    cycle: CycleTime,
+) -> Diagnostic {
     let (delay_us, limit_us) =
         (1e6 * delay_s, f64::from(cycle.us()) * FeedforwardConfig::MAX_DELAY_CYCLES as f64);
     let what = format!("delay of the {part} feedforward {delay_us} us, below {limit_us} us");
-    about(axis, id, key, &what, "0 is used")
+    about(axis, condition, key, &what, "0 is used")
         .value(ValueKind::Wrong, delay_us, "us")
         .value(ValueKind::UpperLimit, limit_us, "us")
         .corrected(0.0)
@@ -351,7 +372,7 @@ fn delay(axis: &Axis, id: Id, key: &str, part: &str, delay_s: f64, cycle: CycleT
 /// K-0025 with the key that states the value.
 fn ipc_range(
     axis: &Axis,
-    id: Id,
+    condition: Condition,
     stage: usize,
     what: IpcParameter,
     value: f64,
@@ -388,7 +409,7 @@ fn ipc_range(
     };
     let of = if unit == "-" { String::new() } else { format!(" {unit}") };
     let text = format!("{name} {value}{of} of stage {stage}, {range}");
-    about(axis, id, &key, &text, "Improved Position Control is off for the axis").value(
+    about(axis, condition, &key, &text, "Improved Position Control is off for the axis").value(
         ValueKind::Wrong,
         value,
         unit,

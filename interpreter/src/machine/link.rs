@@ -6,7 +6,7 @@ use super::chain::Settled;
 use super::channel::Channel;
 use super::parameters::Parameters;
 use super::table::ListKind;
-use crate::diag::{Diagnostic, Location};
+use crate::diag::{Condition, Diagnostic, Location};
 use kontur_filters::time::CycleTime;
 
 /// One axis or spindle of the channel list.
@@ -87,20 +87,24 @@ fn group(
     if given > wanted {
         let message =
             format!("{array}[{}]: {count} is {wanted}, what is beyond is ignored", given - 1);
-        diagnostics.push(error(74, message, name_at(given - 1).and_then(|s| s.at.clone())));
+        diagnostics.push(error(
+            Condition::ListCount,
+            message,
+            name_at(given - 1).and_then(|s| s.at.clone()),
+        ));
     }
     let mut found = Vec::new();
     for i in 0..wanted.min(size) {
         let Some(name) = name_at(i) else {
             let message = format!("{array}[{i}] has no name (bezeichnung), {count} is {wanted}");
             let at = channel.setting(count).and_then(|s| s.at.clone());
-            diagnostics.push(error(31, message, at));
+            diagnostics.push(error(Condition::ListLink, message, at));
             continue;
         };
         let text = name.value.text().unwrap_or_default().to_owned();
         let Some(number) = number_at(i) else {
             let message = format!("{array}[{i}]: axis {text} has no logical number (log_achs_nr)");
-            diagnostics.push(error(31, message, name.at.clone()));
+            diagnostics.push(error(Condition::ListLink, message, name.at.clone()));
             continue;
         };
         let value = integer(number.value.number()).unwrap_or_default();
@@ -122,12 +126,12 @@ fn check_name(name: &str, spindle: bool, at: Option<&Location>, diagnostics: &mu
             "`{name}` is no name of {}: it begins with one of {letters}, then at most 15 letters, digits and _",
             if spindle { "a spindle" } else { "an axis" }
         );
-        diagnostics.push(error(31, message, at.cloned()));
+        diagnostics.push(error(Condition::ListLink, message, at.cloned()));
     }
 }
 
-fn error(id: u16, message: String, at: Option<Location>) -> Diagnostic {
-    let mut diagnostic = Diagnostic::kontur(id, message);
+fn error(condition: Condition, message: String, at: Option<Location>) -> Diagnostic {
+    let mut diagnostic = Diagnostic::new(condition, message);
     diagnostic.source = at;
     diagnostic
 }
@@ -200,7 +204,8 @@ fn kind(parameters: &Parameters, named: &Named, diagnostics: &mut Vec<Diagnostic
         );
         let at = parameters.setting("kenngr.achs_typ").and_then(|s| s.at.clone());
         diagnostics.push(
-            error(31, message, at.or_else(|| named.at.clone())).axis(named.number, &*named.name),
+            error(Condition::ListLink, message, at.or_else(|| named.at.clone()))
+                .axis(named.number, &*named.name),
         );
     }
     kind
@@ -215,7 +220,7 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             let message =
                 format!("{}: axis number {number} is that of {} already", list.file, first.file);
             let at = number_at(&list.parameters);
-            diagnostics.push(error(31, message, at).parameter("P-AXIS-00016"));
+            diagnostics.push(error(Condition::ListLink, message, at).parameter("P-AXIS-00016"));
         }
     }
     for (i, named) in names.named.iter().enumerate() {
@@ -233,7 +238,9 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             None
         };
         if let Some(message) = problem {
-            diagnostics.push(error(31, message, named.at.clone()).axis(*number, name.as_str()));
+            diagnostics.push(
+                error(Condition::ListLink, message, named.at.clone()).axis(*number, name.as_str()),
+            );
         }
     }
     for (number, name) in &names.slaves {
@@ -242,7 +249,8 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
         if !names.named.iter().any(|n| Some(n.number) == master) {
             let master = master.unwrap_or_default();
             let message = format!("{name}: the gantry master {master} is no axis of the channel");
-            diagnostics.push(error(31, message, None).axis(*number, name.as_str()));
+            diagnostics
+                .push(error(Condition::ListLink, message, None).axis(*number, name.as_str()));
         }
     }
 }

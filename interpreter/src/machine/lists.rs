@@ -9,7 +9,7 @@ mod line;
 use super::key::{Indices, Key, with_indices};
 use super::table::{self, ListKind, Row};
 use super::value::{self, Value};
-use crate::diag::{Diagnostic, Location, Severity, ValueKind};
+use crate::diag::{Condition, Diagnostic, Location, Severity, ValueKind};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -68,7 +68,9 @@ pub fn read(kind: ListKind, file: &str, bytes: &[u8], diagnostics: &mut Vec<Diag
         }
         if text.eq_ignore_ascii_case("ende") || text.eq_ignore_ascii_case("end") {
             let message = "the list ends here: what follows the end mark is not read";
-            reader.diagnostics.push(Diagnostic::kontur(72, message).at(line.location(&file, text)));
+            reader
+                .diagnostics
+                .push(Diagnostic::new(Condition::ListEnd, message).at(line.location(&file, text)));
             break;
         }
         reader.entry(&line, text, &file);
@@ -94,7 +96,8 @@ impl Reader<'_> {
         let Some(key) = Key::parse(word) else {
             let message = format!("`{word}` is no key, the line is ignored");
             let hint = "an entry is a key, at least one blank and a value; comments start with #";
-            self.diagnostics.push(Diagnostic::kontur(71, message).at(key_at).hint(hint));
+            self.diagnostics
+                .push(Diagnostic::new(Condition::ListEntry, message).at(key_at).hint(hint));
             return;
         };
         let Some((row, indices)) = key.resolve(self.kind) else {
@@ -103,12 +106,13 @@ impl Reader<'_> {
         };
         if key.empty_index {
             let message = format!("empty index in `{word}`, read as 0");
-            self.diagnostics.push(Diagnostic::kontur(29, message).at(key_at.clone()));
+            self.diagnostics
+                .push(Diagnostic::new(Condition::ListIndex, message).at(key_at.clone()));
         }
         let parts = line::value(row.raw, rest.trim());
         let Some(written) = parts.value else {
             let message = format!("`{word}` has no value, the line is ignored");
-            self.diagnostics.push(Diagnostic::kontur(71, message).at(key_at));
+            self.diagnostics.push(Diagnostic::new(Condition::ListEntry, message).at(key_at));
             return;
         };
         let value_at =
@@ -116,7 +120,7 @@ impl Reader<'_> {
         if let Some(dropped) = parts.dropped {
             let message = format!("`{dropped}` after the text of `{word}` is dropped");
             self.diagnostics.push(
-                Diagnostic::kontur(30, message)
+                Diagnostic::new(Condition::ListString, message)
                     .at(line.location(file, dropped))
                     .hint("put a text with blanks in double quotes, start a comment with ("),
             );
@@ -142,7 +146,9 @@ impl Reader<'_> {
                 entry.key(),
                 earlier.at.line
             );
-            self.diagnostics.push(parameter(Diagnostic::kontur(28, message), row).at(key_at));
+            self.diagnostics.push(
+                parameter(Diagnostic::new(Condition::ListDuplicate, message), row).at(key_at),
+            );
         }
         self.order += 1;
         self.list.insert((row.key, indices), (self.order, entry));
@@ -157,7 +163,7 @@ impl Reader<'_> {
                     let message = format!("unknown element `{shape}`, ignored");
                     let hint = format!("did you mean `{near}`?");
                     self.diagnostics.push(
-                        Diagnostic::vendor(1001119, message)
+                        Diagnostic::new(Condition::ListKeyUnknown, message)
                             .value(ValueKind::Identification, count, "-")
                             .at(at)
                             .hint(hint),
@@ -177,7 +183,7 @@ impl Reader<'_> {
             message = format!("{message} and {more} more");
         }
         self.diagnostics.push(
-            Diagnostic::vendor(1001119, message)
+            Diagnostic::new(Condition::ListKeyUnknown, message)
                 .value(ValueKind::Identification, total, "-")
                 .at(first.clone()),
         );
@@ -196,7 +202,7 @@ pub(super) fn bad_value(row: &Row, bad: &value::BadValue, written: &str) -> Diag
         None => "the earlier value stays".to_owned(),
     };
     let mut diagnostic =
-        Diagnostic::vendor(1001138, format!("{}: {}, {instead}", row.key, bad.reason))
+        Diagnostic::new(Condition::ListNumber, format!("{}: {}, {instead}", row.key, bad.reason))
             .severity(Severity::Warning)
             .value(ValueKind::Wrong, written, "-");
     if let Some(Value::Number(x)) = bad.instead {

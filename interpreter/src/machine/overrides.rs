@@ -5,7 +5,7 @@ use super::lists::parameter;
 use super::parameters::Parameters;
 use super::table::{self, ListKind, Row};
 use super::value;
-use crate::diag::{Diagnostic, Location};
+use crate::diag::{Condition, Diagnostic, Location};
 
 /// One override: target, key and value. Targets are an axis or spindle name, `channel`, `start_up` and `kontur`
 /// (whose keys begin with `kontur.` themselves).
@@ -25,7 +25,9 @@ impl Override {
     pub fn parse(text: &str) -> Result<Self, Box<Diagnostic>> {
         let form = || {
             let hint = "write AXIS.key=value, channel.key=value or kontur.key=value";
-            Box::new(Diagnostic::kontur(73, format!("`{text}` is no setting")).hint(hint))
+            Box::new(
+                Diagnostic::new(Condition::Setting, format!("`{text}` is no setting")).hint(hint),
+            )
         };
         let (left, value) = text.split_once('=').ok_or_else(form)?;
         let (left, value) = (left.trim(), value.trim());
@@ -51,7 +53,10 @@ impl Override {
         let (row, indices) = self.resolve(parameters.kind())?;
         let value = value::read(row.raw, &self.value).map_err(|bad| {
             let message = format!("{}: {}", self.key, bad.reason);
-            Box::new(parameter(Diagnostic::kontur(73, message), row).at(self.location(&self.value)))
+            Box::new(
+                parameter(Diagnostic::new(Condition::Setting, message), row)
+                    .at(self.location(&self.value)),
+            )
         })?;
         parameters.set(row, indices, value, Some(self.location(&self.text)));
         Ok(())
@@ -74,7 +79,8 @@ impl Override {
             return Ok(found);
         }
         let message = format!("`{}` is no parameter of {}", self.key, self.target);
-        let mut diagnostic = Diagnostic::kontur(73, message).at(self.location(&self.key));
+        let mut diagnostic =
+            Diagnostic::new(Condition::Setting, message).at(self.location(&self.key));
         let shape = key.map_or_else(|| self.key.clone(), |key| key.shape);
         if table::by_key(kind, &shape).is_some() {
             diagnostic = diagnostic.hint("the index is beyond the end of the array");
@@ -88,7 +94,7 @@ impl Override {
     pub(super) fn unknown_target(&self, names: &[&str]) -> Diagnostic {
         let message = format!("`{}` is no axis of the machine", self.target);
         let hint = format!("targets are {}, channel, start_up and kontur", names.join(", "));
-        Diagnostic::kontur(73, message).at(self.location(&self.target)).hint(hint)
+        Diagnostic::new(Condition::Setting, message).at(self.location(&self.target)).hint(hint)
     }
 
     fn location(&self, part: &str) -> Location {

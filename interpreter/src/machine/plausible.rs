@@ -9,7 +9,7 @@ use super::lists::parameter;
 use super::parameters::Parameters;
 use super::table::{self, Bound, Correction, Default, ListKind, Raw, Reaction, Row};
 use super::value::Value;
-use crate::diag::{AxisRef, Diagnostic, Id, Severity, ValueKind};
+use crate::diag::{AxisRef, Condition, Diagnostic, Severity, ValueKind};
 use kontur_filters::time::CycleTime;
 
 /// An end of a range in numbers: the value and whether it is allowed itself.
@@ -110,7 +110,7 @@ fn check_value(
         _ if at.is_none() => Severity::Note,
         _ => Severity::Warning,
     };
-    let mut diagnostic = Diagnostic::new(reaction.id, text)
+    let mut diagnostic = Diagnostic::new(reaction.condition, text)
         .severity(severity)
         .value(ValueKind::Wrong, value, unit)
         .value(
@@ -196,18 +196,19 @@ fn check_together(
     axis: Option<&AxisRef>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let mut put = |parameters: &mut Parameters, id: u32, key: &str, text: String, value: f64| {
-        let Some(row) = table::by_key(ListKind::Axis, key) else { return };
-        let wrong = parameters.number(key).unwrap_or_default();
-        let at = parameters.setting(key).and_then(|s| s.at.clone());
-        let unit = unit_of(parameters, row);
-        let diagnostic = Diagnostic::new(Id::Vendor(id), text)
-            .value(ValueKind::Wrong, wrong, unit)
-            .value(ValueKind::Corrected, value, unit)
-            .corrected(value);
-        parameters.set(row, [0; 2], Value::Number(value), at.clone());
-        diagnostics.push(finish(diagnostic, row, at, axis));
-    };
+    let mut put =
+        |parameters: &mut Parameters, condition: Condition, key: &str, text: String, value: f64| {
+            let Some(row) = table::by_key(ListKind::Axis, key) else { return };
+            let wrong = parameters.number(key).unwrap_or_default();
+            let at = parameters.setting(key).and_then(|s| s.at.clone());
+            let unit = unit_of(parameters, row);
+            let diagnostic = Diagnostic::new(condition, text)
+                .value(ValueKind::Wrong, wrong, unit)
+                .value(ValueKind::Corrected, value, unit)
+                .corrected(value);
+            parameters.set(row, [0; 2], Value::Number(value), at.clone());
+            diagnostics.push(finish(diagnostic, row, at, axis));
+        };
     let number = |p: &Parameters, key: &str| p.number(key).unwrap_or_default();
 
     // P-AXIS-00177, P-AXIS-00178: a range without length
@@ -216,8 +217,8 @@ fn check_together(
         let text = format!(
             "kenngr.swe_neg: software limits {low} and {high} leave no range, the defaults are used"
         );
-        put(parameters, 110110, "kenngr.swe_neg", text.clone(), -1e8);
-        put(parameters, 110110, "kenngr.swe_pos", text, 1e8);
+        put(parameters, Condition::SoftwareLimitRange, "kenngr.swe_neg", text.clone(), -1e8);
+        put(parameters, Condition::SoftwareLimitRange, "kenngr.swe_pos", text, 1e8);
     }
 
     // P-AXIS-00566 allows velocity feedforward only
@@ -226,7 +227,13 @@ fn check_together(
         let text = "vorsteuer.vorsteuerung: without the delay of 5 cycles only velocity feedforward is possible, \
                     the acceleration and jerk parts are off"
             .to_owned();
-        put(parameters, 110624, "vorsteuer.vorsteuerung", text, f64::from(flags & 0x101));
+        put(
+            parameters,
+            Condition::WithoutDelayNeedsVelocityOnly,
+            "vorsteuer.vorsteuerung",
+            text,
+            f64::from(flags & 0x101),
+        );
     }
 
     // P-AXIS-00051 / P-AXIS-00050 is the damping of the simulated drive
@@ -236,7 +243,7 @@ fn check_together(
         let text = format!(
             "antr.simu.daempfung_z: damping {z}/{n} of the simulated drive is not below 1, 0.999 is used"
         );
-        put(parameters, 80044, "antr.simu.daempfung_z", text, 0.999 * n);
+        put(parameters, Condition::SimulationDamping, "antr.simu.daempfung_z", text, 0.999 * n);
     }
 }
 
@@ -261,11 +268,9 @@ pub(super) fn check_sampling(
          cycle is used",
         cycle.seconds()
     );
-    let diagnostic = Diagnostic::kontur(32, text).value(ValueKind::Wrong, z / n, "s").value(
-        ValueKind::Corrected,
-        cycle.seconds(),
-        "s",
-    );
+    let diagnostic = Diagnostic::new(Condition::SimulationSampling, text)
+        .value(ValueKind::Wrong, z / n, "s")
+        .value(ValueKind::Corrected, cycle.seconds(), "s");
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), Some(axis)));
 }
 
@@ -279,6 +284,6 @@ pub(super) fn check_presets(channel: &Parameters, diagnostics: &mut Vec<Diagnost
     let text =
         format!("{key}: a preset of G135 has no effect, programs start with feedforward off");
     let hint = "vorsteuer.default_active (P-AXIS-00255) in the axis list keeps feedforward on";
-    let diagnostic = Diagnostic::kontur(75, text).hint(hint);
+    let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::diag::{Id, Severity};
+use crate::diag::{Condition, Severity};
 use kontur_motion::block::{SlopeKind, TransitionJerkMode};
 use std::collections::BTreeMap;
 
@@ -193,11 +193,11 @@ fn overrides_that_name_nothing_are_errors() {
         ("X.filter[7].order=1", "the index is beyond the end of the array"),
     ] {
         let errors = files.load(&[text]).unwrap_err();
-        assert_eq!(errors.iter().map(|d| d.id).collect::<Vec<_>>(), [Id::Kontur(73)], "{text}");
+        assert_eq!(errors.iter().map(|d| d.id).collect::<Vec<_>>(), [Condition::Setting], "{text}");
         assert_eq!(errors[0].hint.as_deref(), Some(hint), "{text}");
     }
     let errors = files.load(&["X.getriebe[0].kv=fast"]).unwrap_err();
-    assert_eq!(errors[0].id, Id::Kontur(73));
+    assert_eq!(errors[0].id, Condition::Setting);
     for text in ["X", "X=1", "X.=1", ".a=1", "X.kv="] {
         assert!(Override::parse(text).is_err(), "{text}");
     }
@@ -236,7 +236,7 @@ fn numbers_that_do_not_fit_together() {
     files.0.remove("m/lists/y.lis");
     assert_eq!(files.ids(&[]), ["K-0013", "K-0031"]);
     let errors = Memory::default().load(&[]).unwrap_err();
-    assert_eq!(errors[0].id, Id::Kontur(13));
+    assert_eq!(errors[0].id, Condition::NoFile);
 }
 
 /// Conformance: F055, F065, F082, F087, F088, V063, V065, V067.
@@ -294,7 +294,7 @@ fn documented_reactions_to_values_out_of_range() {
         files.put("m/lists/y.lis", &format!("kopf.achs_nr 1\n{line}\n"));
         let (machine, mut warnings) = files.load(&[]).unwrap();
         // a corrected value may still be no recommended one
-        warnings.retain(|d| d.id != Id::Kontur(78));
+        warnings.retain(|d| d.id != Condition::ListAdvice);
         let found: Vec<String> = warnings.iter().map(|d| d.id.to_string()).collect();
         assert_eq!(found, [id], "{line}");
         assert_eq!(warnings[0].severity, Severity::Warning, "{line}");
@@ -386,7 +386,7 @@ fn what_has_no_effect_is_said() {
         &files.0["m/hochlauf.lis"].replace("kanal_anzahl 1", "kanal_anzahl 2"),
     );
     let (_, warnings) = files.load(&[]).unwrap();
-    assert_eq!(warnings.iter().map(|d| d.id).collect::<Vec<_>>(), [Id::Kontur(19)]);
+    assert_eq!(warnings.iter().map(|d| d.id).collect::<Vec<_>>(), [Condition::Unsupported]);
     let mut files = Memory::machine();
     files.add("m/hochlauf.lis", "listen BINAER\n");
     assert!(files.load(&[]).is_err());

@@ -7,10 +7,10 @@
 use super::axes::Driver;
 use super::chain::Remaining;
 use super::{Phase, Simulation};
-use crate::diag::{Diagnostic, ValueKind, rounded};
+use crate::diag::{Condition, Diagnostic, Reaction, ValueKind, rounded};
 use crate::exec::SpindleMotion;
 use crate::machine::{Axis, AxisKind, Machine};
-use kontur_filters::control::fault::{Derivative, ErrorId, Fault, Reaction};
+use kontur_filters::control::fault::{Derivative, Fault};
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
 use kontur_motion::contouring::NoContour;
@@ -28,15 +28,15 @@ pub(super) struct Stopping {
     settled_cycles: u32,
     coasting_cycles: u32,
     /// What was told already: an axis that swings meets its limits again and again.
-    told: Vec<(usize, ErrorId)>,
+    told: Vec<(usize, Condition)>,
 }
 
 impl Stopping {
     /// The axis has not said this since the stop began.
-    fn is_new(&mut self, chain: usize, id: ErrorId) -> bool {
-        let new = !self.told.contains(&(chain, id));
+    fn is_new(&mut self, chain: usize, condition: Condition) -> bool {
+        let new = !self.told.contains(&(chain, condition));
         if new {
-            self.told.push((chain, id));
+            self.told.push((chain, condition));
         }
         new
     }
@@ -60,14 +60,15 @@ impl Simulation {
         if self.frozen[chain].is_some() && of_set_position {
             return;
         }
+        let condition = condition(fault, self.is_spindle(chain));
         if let Phase::Stopping(stopping) = &mut self.phase
-            && !stopping.is_new(chain, fault.id())
+            && !stopping.is_new(chain, condition)
         {
             return;
         }
-        let diagnostic = self.describe(chain, fault);
+        let diagnostic = self.describe(chain, condition, fault);
         self.diagnostics.push(diagnostic);
-        let reaction = fault.reaction();
+        let reaction = condition.row().reaction;
         if reaction == Reaction::None {
             return;
         }
@@ -81,7 +82,7 @@ impl Simulation {
             if let Err(e) = self.independent.stop(self.record.k) {
                 self.diagnostics.push(internal(&e));
             }
-            let told = vec![(chain, fault.id())];
+            let told = vec![(chain, condition)];
             self.phase = Phase::Stopping(Stopping { told, ..Stopping::default() });
         }
     }
@@ -136,7 +137,7 @@ impl Simulation {
             rounded(distance_mm),
             rounded(window_mm)
         );
-        let mut d = Diagnostic::kontur(130, text)
+        let mut d = Diagnostic::new(Condition::Standstill, text)
             .value(ValueKind::Current, distance_mm, unit)
             .value(ValueKind::Limit, window_mm, unit)
             .axis(number, name)
@@ -151,110 +152,91 @@ impl Simulation {
         self.phase = Phase::Done;
     }
 
-    fn describe(&mut self, chain: usize, fault: &Fault) -> Diagnostic {
+    fn is_spindle(&self, chain: usize) -> bool {
+        self.machine.all_axes().nth(chain).is_some_and(|axis| axis.kind() == AxisKind::Spindle)
+    }
+
+    fn describe(&mut self, chain: usize, condition: Condition, fault: &Fault) -> Diagnostic {
         let axis = self.machine.all_axes().nth(chain);
         let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
-        let spindle = axis.is_some_and(|a| a.kind() == AxisKind::Spindle);
         let unit = axis.map_or("mm", Axis::unit);
-        let (speed_unit, r) = (per_s(unit, 1), rounded);
-        let base = |text: String| match fault.id() {
-            // spindles have numbers of their own for the same
-            ErrorId::Vendor(50118) if spindle => Diagnostic::vendor(60101, text),
-            ErrorId::Vendor(50119) if spindle => Diagnostic::vendor(60102, text),
-            ErrorId::Vendor(n) => Diagnostic::vendor(n, text),
-            ErrorId::Kontur(n) => Diagnostic::kontur(n, text),
-        };
-        // the monitors watch magnitudes, the vendor's values too
-        let (diagnostic, at) = match *fault {
-            Fault::FollowingError { lag_mm, limit_mm } => (
-                base(format!(
-                    "following error {} {unit} exceeds {} {unit}, axis {name}",
-                    r(lag_mm),
-                    r(limit_mm)
-                ))
-                .value(ValueKind::Current, lag_mm, unit)
-                .value(ValueKind::Limit, limit_mm, unit)
-                .parameter("P-AXIS-00172")
-                .hint("raise slep_max, use feedforward (G135), or lower the feed"),
-                self.current,
-            ),
-            Fault::SettlingTimeout { lag_mm, window_mm, time_s } => (
-                base(format!(
-                    "distance {} {unit} to the target after {} s is outside the exact-stop window of {} {unit}, axis {name}",
-                    r(lag_mm),
-                    r(time_s),
-                    r(window_mm)
-                ))
+        let base = Diagnostic::new(condition, format!("{}, axis {name}", text(fault, unit)));
+        let diagnostic = match *fault {
+            Fault::FollowingError { lag_mm, limit_mm } | Fault::Unstable { lag_mm, limit_mm } => {
+                base.value(ValueKind::Current, lag_mm, unit).value(ValueKind::Limit, limit_mm, unit)
+            }
+            Fault::SettlingTimeout { lag_mm, window_mm, time_s } => base
                 .value(ValueKind::Current, lag_mm, unit)
                 .value(ValueKind::Limit, window_mm, unit)
-                .value(ValueKind::Limit, time_s, "s")
-                .parameter("P-AXIS-00236")
-                .hint("raise position_settling_time (P-AXIS-00532) or window, or the gain kv"),
-                // the next blocks may be running already
-                self.stops_at[chain],
-            ),
-            Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => (
-                base(format!(
-                    "speed command {} {speed_unit} exceeds {} {speed_unit}, axis {name}",
-                    r(speed_mm_s),
-                    r(limit_mm_s)
-                ))
-                .value(ValueKind::Current, speed_mm_s, speed_unit)
-                .value(ValueKind::Limit, limit_mm_s, speed_unit)
-                .parameter("P-AXIS-00407")
-                .hint("an axis that swings up: lower the gain kv or the weights of Improved Position Control"),
-                self.current,
-            ),
-            Fault::SetpointWarning { what, value, limit } | Fault::SetpointError { what, value, limit } => {
-                let (quantity, order, warning, error) = watched(what);
-                let unit = per_s(unit, order);
-                let text = format!(
-                    "{quantity} of the set position {} {unit} exceeds {} {unit}, axis {name}",
-                    r(value),
-                    r(limit)
-                );
-                let d = base(text)
-                    .value(ValueKind::Current, value, unit)
-                    .value(ValueKind::Limit, limit, unit);
-                let d = if matches!(fault, Fault::SetpointWarning { .. }) {
-                    d.parameter(warning)
-                } else {
-                    d.parameter(error)
-                        .hint("lower the dynamics, or raise the threshold if a filter overshoots")
-                };
-                (d, self.current)
-            }
-            Fault::Unstable { lag_mm, limit_mm } => (
-                base(format!(
-                    "following error {} {unit} beyond {} {unit}: the simulated axis {name} is unstable",
-                    r(lag_mm),
-                    r(limit_mm)
-                ))
-                .value(ValueKind::Current, lag_mm, unit)
-                .value(ValueKind::Limit, limit_mm, unit)
-                .parameter("P-AXIS-00099")
-                .hint("lower the gain kv or the weights of Improved Position Control"),
-                self.current,
-            ),
-            _ => (
-                base(format!("parameters of Improved Position Control changed while axis {name} moves")),
-                self.current,
-            ),
+                .value(ValueKind::Limit, time_s, "s"),
+            Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => base
+                .value(ValueKind::Current, speed_mm_s, per_s(unit, 1))
+                .value(ValueKind::Limit, limit_mm_s, per_s(unit, 1)),
+            Fault::SetpointWarning { what, value, limit } => base
+                .value(ValueKind::Current, value, per_s(unit, order(what)))
+                .value(ValueKind::Limit, limit, per_s(unit, order(what)))
+                .parameter(thresholds(what).0),
+            Fault::SetpointError { what, value, limit } => base
+                .value(ValueKind::Current, value, per_s(unit, order(what)))
+                .value(ValueKind::Limit, limit, per_s(unit, order(what)))
+                .parameter(thresholds(what).1),
+            Fault::IpcChangedMoving => base,
         };
         let mut diagnostic = diagnostic.axis(number, name);
         diagnostic.cycle = Some(self.record.k);
         diagnostic.time_s = Some(self.cycle.time_of(self.record.k));
+        // the next blocks may be running when a stop turns out to be late
+        let late = matches!(fault, Fault::SettlingTimeout { .. });
+        let at = if late { self.stops_at[chain] } else { self.current };
         diagnostic.source = self.executor.locate(at);
         diagnostic
     }
 }
 
-/// Quantity, order of the derivative, and the parameters of warning and error.
-const fn watched(what: Derivative) -> (&'static str, usize, &'static str, &'static str) {
+/// What was met, in the unit of the axis, `mm` or `deg`.
+fn text(fault: &Fault, unit: &'static str) -> String {
+    let r = rounded;
+    let speed = per_s(unit, 1);
+    match *fault {
+        Fault::FollowingError { lag_mm, limit_mm } => {
+            format!("following error {} {unit} exceeds {} {unit}", r(lag_mm), r(limit_mm))
+        }
+        Fault::SettlingTimeout { lag_mm, window_mm, time_s } => format!(
+            "distance {} {unit} to the target after {} s is outside the exact-stop window of {} {unit}",
+            r(lag_mm),
+            r(time_s),
+            r(window_mm)
+        ),
+        Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => {
+            format!("speed command {} {speed} exceeds {} {speed}", r(speed_mm_s), r(limit_mm_s))
+        }
+        Fault::SetpointWarning { what, value, limit }
+        | Fault::SetpointError { what, value, limit } => {
+            let unit = per_s(unit, order(what));
+            let quantity = what.name();
+            format!(
+                "{quantity} of the set position {} {unit} exceeds {} {unit}",
+                r(value),
+                r(limit)
+            )
+        }
+        Fault::Unstable { lag_mm, limit_mm } => format!(
+            "following error {} {unit} beyond {} {unit}: the simulated axis is unstable",
+            r(lag_mm),
+            r(limit_mm)
+        ),
+        Fault::IpcChangedMoving => {
+            "parameters of Improved Position Control changed while the axis moves".to_owned()
+        }
+    }
+}
+
+/// Order of a derivative of the position.
+const fn order(what: Derivative) -> usize {
     match what {
-        Derivative::Velocity => ("velocity", 1, "P-AXIS-00439", "P-AXIS-00440"),
-        Derivative::Acceleration => ("acceleration", 2, "P-AXIS-00441", "P-AXIS-00442"),
-        Derivative::Jerk => ("jerk", 3, "P-AXIS-00443", "P-AXIS-00444"),
+        Derivative::Velocity => 1,
+        Derivative::Acceleration => 2,
+        Derivative::Jerk => 3,
     }
 }
 
@@ -265,29 +247,63 @@ fn per_s(unit: &str, order: usize) -> &'static str {
     if unit == "deg" { ROTARY[order] } else { LINEAR[order] }
 }
 
+/// The condition of a fault; spindles have numbers of their own for their speed.
+const fn condition(fault: &Fault, spindle: bool) -> Condition {
+    match fault {
+        Fault::FollowingError { .. } => Condition::FollowingError,
+        Fault::SettlingTimeout { .. } => Condition::SettlingTimeout,
+        Fault::ControllerSpeed { .. } => Condition::ControllerSpeed,
+        Fault::SetpointWarning { what: Derivative::Velocity, .. } if spindle => {
+            Condition::SpindleSpeedWarning
+        }
+        Fault::SetpointError { what: Derivative::Velocity, .. } if spindle => {
+            Condition::SpindleSpeedError
+        }
+        Fault::SetpointWarning { what: Derivative::Velocity, .. } => Condition::SpeedWarning,
+        Fault::SetpointError { what: Derivative::Velocity, .. } => Condition::SpeedError,
+        Fault::SetpointWarning { what: Derivative::Acceleration | Derivative::Jerk, .. } => {
+            Condition::SetpointWarning
+        }
+        Fault::SetpointError { what: Derivative::Acceleration | Derivative::Jerk, .. } => {
+            Condition::SetpointError
+        }
+        Fault::IpcChangedMoving => Condition::IpcChangedMoving,
+        Fault::Unstable { .. } => Condition::Unstable,
+    }
+}
+
+/// Parameters of the warning and of the error.
+const fn thresholds(what: Derivative) -> (&'static str, &'static str) {
+    match what {
+        Derivative::Velocity => ("P-AXIS-00439", "P-AXIS-00440"),
+        Derivative::Acceleration => ("P-AXIS-00441", "P-AXIS-00442"),
+        Derivative::Jerk => ("P-AXIS-00443", "P-AXIS-00444"),
+    }
+}
+
 /// The plant of an axis cannot be simulated.
 pub(super) fn plant(error: &PlantError, machine: &Machine, chain: usize) -> Diagnostic {
     let name = machine.all_axes().nth(chain).map_or("?", |a| a.name());
-    Diagnostic::kontur(70, format!("plant of axis {name}: {error}"))
+    Diagnostic::new(Condition::ListRange, format!("plant of axis {name}: {error}"))
         .severity(crate::diag::Severity::Error)
 }
 
 /// A condition that the look-ahead excludes.
 pub(super) fn internal(error: &Infeasible) -> Diagnostic {
-    Diagnostic::kontur(82, format!("look-ahead: {error}")).hint(
+    Diagnostic::new(Condition::Internal, format!("look-ahead: {error}")).hint(
         "this is an error of kontur itself; the program and the machine lists help to find it",
     )
 }
 
 /// A kernel that was to be swapped while the axis still moves.
 pub(super) fn switch_while_moving() -> Diagnostic {
-    Diagnostic::kontur(82, "filter kernel not switched: the axis still moves")
+    Diagnostic::new(Condition::Internal, "filter kernel not switched: the axis still moves")
 }
 
 /// The program time is used up.
 pub(super) fn out_of_time(k: u64, cycle: CycleTime, max_cycles: u64) -> Diagnostic {
-    let mut d = Diagnostic::kontur(
-        17,
+    let mut d = Diagnostic::new(
+        Condition::Endless,
         format!("program time exceeds {} s: the run was stopped", cycle.time_of(max_cycles)),
     )
     .hint("raise the limit with --max-time");
@@ -302,7 +318,8 @@ pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
         if feedhold { ("feedhold", "feedhold 0") } else { ("override 0", "an override") };
     let text =
         format!("the path is held by {what} and no later input releases it: the run was stopped");
-    let mut d = Diagnostic::kontur(83, text).hint(format!("give {release} a later time stamp"));
+    let mut d =
+        Diagnostic::new(Condition::Held, text).hint(format!("give {release} a later time stamp"));
     d.cycle = Some(k);
     d.time_s = Some(cycle.time_of(k));
     d
@@ -311,13 +328,17 @@ pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
 impl Simulation {
     /// K-0022, each place once.
     pub(super) fn switched_while_moving(&mut self) {
-        let (id, at) = (22, self.current);
-        if self.smoothing.is_new(id, at) {
+        let at = self.current;
+        if self.smoothing.is_new(Condition::FeedforwardSwitchedMoving, at) {
             let v = self.record.path.v_mm_s;
             let text = format!(
                 "feedforward is switched or weighted at the path speed {v:.3} mm/s: the speed command jumps"
             );
-            let mut d = Diagnostic::kontur(22, text).value(ValueKind::Current, v, "mm/s");
+            let mut d = Diagnostic::new(Condition::FeedforwardSwitchedMoving, text).value(
+                ValueKind::Current,
+                v,
+                "mm/s",
+            );
             d.cycle = Some(self.record.k + 1);
             d.time_s = Some(self.cycle.time_of(self.record.k + 1));
             d.source = self.executor.locate(at);
@@ -327,8 +348,8 @@ impl Simulation {
 
     /// The tolerance of a block could not be kept.
     pub(super) fn unkept(&mut self, unkept: &Unkept) -> Diagnostic {
-        let mut d = Diagnostic::kontur(
-            80,
+        let mut d = Diagnostic::new(
+            Condition::AxDevNotKept,
             format!(
                 "deviation {:.6} mm exceeds AX_DEV {:.6} mm and could not be lowered further",
                 unkept.deviation_mm, unkept.tolerance_mm
@@ -346,27 +367,37 @@ impl Simulation {
     /// Reports the corners that were not contoured as asked for, each place once.
     pub(super) fn not_contoured(&mut self) {
         for notice in self.smoothing.take_notices() {
-            let text = match notice.reason {
-                NoContour::BlockTooShort => "a block is too short for contouring",
-                NoContour::DeviationTooSmall { .. } => "PATH_DEV is below the minimum",
-                NoContour::DistanceTooSmall { .. } => "a corner distance is below the minimum",
-                NoContour::NotPossible => "contouring is not possible at the end of this block",
-                NoContour::FeedGroup => "the feed group changes behind this block",
+            let (condition, text) = match notice.reason {
+                NoContour::BlockTooShort => {
+                    (Condition::BlockTooShort, "a block is too short for contouring")
+                }
+                NoContour::DeviationTooSmall { .. } => {
+                    (Condition::PathDevTooSmall, "PATH_DEV is below the minimum")
+                }
+                NoContour::DistanceTooSmall { .. } => {
+                    (Condition::CornerDistanceTooSmall, "a corner distance is below the minimum")
+                }
+                NoContour::NotPossible => (
+                    Condition::ContouringNotPossible,
+                    "contouring is not possible at the end of this block",
+                ),
+                NoContour::FeedGroup => {
+                    (Condition::ContouringFeedGroup, "the feed group changes behind this block")
+                }
                 // at a stop there is no corner to round; MAX_ANGLE asks for it; the executor tells about the mode
                 NoContour::NothingFollows
                 | NoContour::AngleAboveMaximum { .. }
                 | NoContour::ModeReplaced => continue,
             };
-            let Some(id) = notice.id() else { continue };
             let source = self
                 .underway
                 .iter()
                 .find(|u| u.seq == notice.seq)
                 .map_or(self.current, |u| u.source);
-            if self.smoothing.is_new(id, source) {
+            if self.smoothing.is_new(condition, source) {
                 // Assumption: the run goes on, with the corner as programmed, where the control would abort
                 let mut d =
-                    Diagnostic::vendor(id, format!("{text}: the corner stays as programmed"))
+                    Diagnostic::new(condition, format!("{text}: the corner stays as programmed"))
                         .severity(crate::diag::Severity::Warning);
                 d.source = self.executor.locate(source);
                 self.diagnostics.push(d);

@@ -3,7 +3,7 @@
 //! A value holds until the next one of its signal. It acts on an axis from the first cycle on that is not earlier than
 //! its time; the path follows its contour unchanged up to that cycle and bends from there.
 
-use crate::diag::Diagnostic;
+use crate::diag::{Condition, Diagnostic};
 use crate::machine::{Axis, AxisKind, Machine, RapidOverride};
 use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::control::plant::PlantModel;
@@ -61,7 +61,7 @@ impl Signal {
 
     /// Why the signal changes nothing on this machine.
     fn without_effect(self, machine: &Machine) -> Option<Diagnostic> {
-        let warning = |text: String| Diagnostic::kontur(77, text);
+        let warning = |text: String| Diagnostic::new(Condition::InputNoEffect, text);
         match self {
             Self::RapidOverride if machine.channel.rapid_override == RapidOverride::NotUsed => {
                 let text = "rapid override without effect: one override acts on feed and rapid";

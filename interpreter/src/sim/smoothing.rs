@@ -1,5 +1,6 @@
 //! Between program and planner: short blocks become splines, corners become curves.
 
+use crate::diag::Condition;
 use crate::exec::SourceRef;
 use kontur_motion::block::Block;
 use kontur_motion::contouring::{Contouring, Notice};
@@ -13,7 +14,7 @@ pub(super) struct Smoothing {
     splining: Splining,
     contouring: Contouring,
     /// Places of the messages given: number, file, line.
-    said: BTreeSet<(u32, u32, u32)>,
+    said: BTreeSet<(Condition, u32, u32)>,
 }
 
 impl Smoothing {
@@ -43,8 +44,8 @@ impl Smoothing {
         self.contouring.take_notices()
     }
 
-    /// True for the first message with this number about a place.
-    pub(super) fn is_new(&mut self, id: u32, source: SourceRef) -> bool {
-        self.said.insert((id, source.file, source.line))
+    /// True for the first message of this condition about a place.
+    pub(super) fn is_new(&mut self, condition: Condition, source: SourceRef) -> bool {
+        self.said.insert((condition, source.file, source.line))
     }
 }

@@ -1,6 +1,6 @@
 //! What a run adds up beside its records.
 
-use crate::diag::{Diagnostic, Severity};
+use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::{Event, SourceRef};
 use crate::machine::Machine;
 use kontur_motion::block::{Block, Feed};
@@ -95,7 +95,8 @@ impl Totals {
             Event::HFunction { number, .. } => format!("H{number}"),
             Event::Tool { .. } => "tool change (T)".to_owned(),
             Event::Message { text, .. } => {
-                let mut message = Diagnostic::kontur(81, text).severity(Severity::Note);
+                let mut message =
+                    Diagnostic::new(Condition::Message, text).severity(Severity::Note);
                 message.time_s = Some(time_s);
                 return Some(message);
             }

@@ -9,7 +9,7 @@ use super::ast::{
 use super::grammar::Grammar;
 use super::problem::{self, Context, Problem};
 use super::{PROBLEMS_MAX, Rule};
-use crate::diag::Id;
+use crate::diag::Condition;
 use pest::Parser as _;
 use pest::iterators::{Pair, Pairs};
 
@@ -200,7 +200,7 @@ impl<'a> Builder<'a> {
         }
         if head.local && head.name.is_none() {
             let text = "%L without the name of a local subroutine";
-            self.report(Problem::new(Id::Kontur(5), whole, text));
+            self.report(Problem::new(Condition::Percent, whole, text));
         }
         Body::ProgramHead(Box::new(head))
     }

@@ -7,7 +7,7 @@ use super::ast::{
 use super::build::Builder;
 use super::problem::Problem;
 use super::{OPERATORS_MAX, Rule, number};
-use crate::diag::Id;
+use crate::diag::Condition;
 use pest::iterators::Pair;
 
 impl BinaryOp {
@@ -140,7 +140,7 @@ impl Builder<'_> {
         if self.operators == OPERATORS_MAX + 1 {
             let text = format!("more than {OPERATORS_MAX} operators in one block");
             let span = self.span(pair);
-            self.report(Problem::new(Id::Kontur(6), span, text));
+            self.report(Problem::new(Condition::Nesting, span, text));
         }
     }
 

@@ -5,7 +5,7 @@
 
 use super::ast::Span;
 use super::scan;
-use crate::diag::Diagnostic;
+use crate::diag::{Condition, Diagnostic};
 use crate::source::{BLOCK_LENGTH_MAX, Piece, Position, RawBlock};
 use std::ops::Range;
 use std::sync::Arc;
@@ -63,7 +63,7 @@ pub fn expand<'m>(
         if insert(text, 1, lookup, &mut out.text).is_err() {
             let location = raw.locate(file, Span::new(range.start, range.end));
             let text = format!("macros nested more than {MACRO_DEPTH_MAX} deep");
-            return Err(Box::new(Diagnostic::vendor(20734, text).at(location)));
+            return Err(Box::new(Diagnostic::new(Condition::MacroNesting, text).at(location)));
         }
         let place = Span::new(start, out.text.len());
         let home = home(raw, &line, range.start);
@@ -159,7 +159,7 @@ fn copy(raw: &RawBlock<'_>, line: &Arc<str>, range: Range<usize>, out: &mut Expa
 #[cfg(test)]
 mod tests {
     use super::{Expanded, expand};
-    use crate::diag::{Diagnostic, Id};
+    use crate::diag::{Condition, Diagnostic};
     use crate::source::RawBlock;
     use crate::syntax::ast::Span;
     use std::sync::Arc;
@@ -207,7 +207,7 @@ mod tests {
 
     #[test]
     fn endless_and_exploding_macros_end() {
-        assert_eq!(run("\"LOOP\"").unwrap_err().id, Id::Vendor(20734));
+        assert_eq!(run("\"LOOP\"").unwrap_err().id, Condition::MacroNesting);
         assert!(run("\"TWICE\"").unwrap().unwrap().raw().characters > 4096);
     }
 }

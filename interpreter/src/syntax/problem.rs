@@ -2,13 +2,13 @@
 
 use super::ast::Span;
 use super::{Rule, scan};
-use crate::diag::{Diagnostic, Id, Location, Severity};
+use crate::diag::{Condition, Diagnostic, Location, Severity};
 use pest::error::{Error, ErrorVariant, InputLocation};
 
 /// Something wrong with a block, before its place in the program is worked out.
 #[derive(Debug)]
 pub(super) struct Problem {
-    pub(super) id: Id,
+    pub(super) condition: Condition,
     pub(super) span: Span,
     text: String,
     hint: Option<&'static str>,
@@ -16,17 +16,13 @@ pub(super) struct Problem {
 }
 
 impl Problem {
-    pub(super) fn new(id: Id, span: Span, text: impl Into<String>) -> Self {
-        Self { id, span, text: text.into(), hint: None, severity: None }
-    }
-
-    pub(super) fn vendor(id: u32, span: Span, text: impl Into<String>) -> Self {
-        Self::new(Id::Vendor(id), span, text)
+    pub(super) fn new(condition: Condition, span: Span, text: impl Into<String>) -> Self {
+        Self { condition, span, text: text.into(), hint: None, severity: None }
     }
 
     /// K-0002.
     pub(super) fn syntax(span: Span, text: impl Into<String>) -> Self {
-        Self::new(Id::Kontur(2), span, text)
+        Self::new(Condition::Syntax, span, text)
     }
 
     pub(super) fn hint(mut self, hint: &'static str) -> Self {
@@ -40,7 +36,7 @@ impl Problem {
     }
 
     pub(super) fn diagnostic(self, location: Location) -> Diagnostic {
-        let mut diagnostic = Diagnostic::new(self.id, self.text).at(location);
+        let mut diagnostic = Diagnostic::new(self.condition, self.text).at(location);
         if let Some(severity) = self.severity {
             diagnostic = diagnostic.severity(severity);
         }
@@ -55,7 +51,7 @@ impl Problem {
 pub(super) fn invalid(text: &str, span: Span) -> Problem {
     let shown = text.get(span.start as usize..span.end() as usize).unwrap_or("?");
     let shown: String = shown.chars().take(10).flat_map(char::escape_debug).collect();
-    Problem::new(Id::Kontur(1), span, format!("invalid character `{shown}`"))
+    Problem::new(Condition::InvalidCharacter, span, format!("invalid character `{shown}`"))
         .hint("other characters than those of the dialect may stand in comments and strings only")
 }
 
@@ -63,7 +59,7 @@ pub(super) fn invalid(text: &str, span: Span) -> Problem {
 pub(super) fn too_deep(at: usize) -> Problem {
     let limit = super::NESTING_MAX;
     let span = Span::new(at, at + 1);
-    Problem::new(Id::Kontur(6), span, format!("brackets nested more than {limit} deep"))
+    Problem::new(Condition::Nesting, span, format!("brackets nested more than {limit} deep"))
 }
 
 /// What the content of a block is, judged by its first character.
@@ -189,37 +185,46 @@ fn refine(
     expected: &[&str],
 ) -> Problem {
     let content = content(masked);
-    let id = |mut problem: Problem, id| {
-        problem.id = Id::Vendor(id);
-        problem
-    };
+    let raised = |problem: Problem, condition| Problem { condition, ..problem };
     let depth = before.matches('[').count().saturating_sub(before.matches(']').count());
     match context {
         Context::Command if depth > 0 => {
-            let problem = id(problem, 21220);
+            let problem = raised(problem, Condition::TokenUnknown);
             if rest.is_empty() { problem.hint("the bracket is not closed") } else { problem }
         }
         Context::Command if before.trim_end().ends_with(']') => {
-            id(problem, 20207).hint("a # command stands alone in its block")
+            raised(problem, Condition::CommandNotAlone)
+                .hint("a # command stands alone in its block")
         }
-        Context::Control if starts_with(content, "$ELSE") => id(problem, 20215),
-        Context::Control if starts_with(content, "$ELSEIF") => id(problem, 20217),
-        Context::Control if starts_with(content, "$ENDFOR") => id(problem, 20233),
+        Context::Control if starts_with(content, "$ELSE") => {
+            raised(problem, Condition::ElseNotAlone)
+        }
+        Context::Control if starts_with(content, "$ELSEIF") => {
+            raised(problem, Condition::ElseIfTrailing)
+        }
+        Context::Control if starts_with(content, "$ENDFOR") => {
+            raised(problem, Condition::EndForNotAlone)
+        }
         Context::Control if rest.starts_with('=') => problem.hint("`==` compares"),
         Context::Control if rest.starts_with('$') => problem.hint(CONTROL_HINT),
-        Context::Words if starts_with(rest, "$ELSE") => id(problem, 20215),
-        Context::Words if starts_with(rest, "$ENDFOR") => id(problem, 20233),
-        Context::Words if rest.starts_with('#') => {
-            id(problem, 20207).hint("a # command stands alone in its block")
+        Context::Words if starts_with(rest, "$ELSE") => raised(problem, Condition::ElseNotAlone),
+        Context::Words if starts_with(rest, "$ENDFOR") => {
+            raised(problem, Condition::EndForNotAlone)
         }
+        Context::Words if rest.starts_with('#') => raised(problem, Condition::CommandNotAlone)
+            .hint("a # command stands alone in its block"),
         Context::Words if rest.starts_with('$') => {
             problem.hint("a control statement stands at the beginning of its block")
         }
         Context::Words if rest.starts_with('\\') => {
             problem.hint("`\\` continues a block only as the last character of its line")
         }
-        Context::Words if depth > 0 && in_cycle_list(before) => id(problem, 22151),
-        Context::Words if depth > 0 && in_cycle_call(before) => id(problem, 21220),
+        Context::Words if depth > 0 && in_cycle_list(before) => {
+            raised(problem, Condition::CallCharacter)
+        }
+        Context::Words if depth > 0 && in_cycle_call(before) => {
+            raised(problem, Condition::TokenUnknown)
+        }
         Context::Words if expected.contains(&EQUALS) && ends_in_place(before) => {
             without_value(&problem, before)
         }
@@ -276,7 +281,7 @@ fn without_value(problem: &Problem, before: &str) -> Problem {
     let word = trimmed.rsplit([' ', '\t']).next().unwrap_or_default();
     let start = problem.span.start as usize - (before.len() - trimmed.len()) - word.len();
     let text = format!("`{word}` without `=` and a value");
-    Problem::vendor(20194, Span::new(start, start + word.len()), text)
+    Problem::new(Condition::AssignmentExpected, Span::new(start, start + word.len()), text)
         .hint("P1=5 assigns a value: P is a parameter in this dialect, not an address")
 }
 

@@ -130,18 +130,3 @@ pub struct Notice {
     /// What was in the way.
     pub reason: NoContour,
 }
-
-impl Notice {
-    /// The vendor's message number, if there is one.
-    pub fn id(&self) -> Option<u32> {
-        match self.reason {
-            NoContour::BlockTooShort => Some(120_216),
-            NoContour::DeviationTooSmall { .. } => Some(120_129),
-            NoContour::DistanceTooSmall { .. } => Some(120_131),
-            NoContour::NotPossible => Some(120_207),
-            NoContour::FeedGroup => Some(120_566),
-            NoContour::NothingFollows => Some(120_206),
-            NoContour::AngleAboveMaximum { .. } | NoContour::ModeReplaced => None,
-        }
-    }
-}

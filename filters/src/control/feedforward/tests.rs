@@ -1,7 +1,6 @@
 #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
 use super::*;
-use crate::control::fault::ErrorId;
 
 const T: CycleTime = CycleTime::DEFAULT;
 const BOTH: AdditiveInputs = AdditiveInputs { velocity: true, torque: true };
@@ -23,10 +22,6 @@ fn window(v: f64, a: f64, j: f64) -> Window {
         gain: 1.0,
         jerk_limited: true,
     }
-}
-
-fn ids(issues: &[Issue]) -> Vec<ErrorId> {
-    issues.iter().map(Issue::id).collect()
 }
 
 /// Conformance: F049, F057, F072.
@@ -145,26 +140,36 @@ fn corrections() {
     };
     assert!(delayed(5.999e-3).checked(T, BOTH).1.is_empty());
     let (c, issues) = delayed(6e-3).checked(T, BOTH);
-    assert_eq!(ids(&issues), [70349, 70348, 70348].map(ErrorId::Vendor));
+    assert!(matches!(
+        issues[..],
+        [
+            Issue::VelocityDelay { .. },
+            Issue::AccelerationDelay { jerk: false, .. },
+            Issue::AccelerationDelay { jerk: true, .. }
+        ]
+    ));
     assert_eq!((c.velocity_delay_s, c.acceleration_delay_s, c.jerk_delay_s), (0.0, 0.0, 0.0));
 
     let (c, issues) = config(mode).checked(T, NONE);
-    assert_eq!(ids(&issues), [70350, 70351].map(ErrorId::Vendor));
+    assert_eq!(issues, [Issue::NoAdditiveVelocity, Issue::NoAdditiveTorque]);
     assert!(c.mode.is_empty());
     let conventional = config(FeedforwardMode::VEL | FeedforwardMode::ACC);
     assert_eq!(conventional.checked(T, NONE), (conventional, vec![]));
 
     let stray = config(FeedforwardMode::from_bits(0x100 | 0x002).unwrap());
     let (c, issues) = stray.checked(T, BOTH);
-    assert_eq!((c.mode, ids(&issues)), (FeedforwardMode::ACC, vec![ErrorId::Kontur(23)]));
+    assert_eq!((c.mode, issues), (FeedforwardMode::ACC, vec![Issue::OutputWithoutActivation]));
 
     let short = FeedforwardConfig {
         without_delay: true,
         ..config(FeedforwardMode::VEL | FeedforwardMode::ACC)
     };
     let (c, issues) = short.checked(T, BOTH);
-    assert_eq!((c.mode, ids(&issues)), (FeedforwardMode::VEL, vec![ErrorId::Vendor(110624)]));
+    assert_eq!(
+        (c.mode, issues),
+        (FeedforwardMode::VEL, vec![Issue::WithoutDelayNeedsVelocityOnly])
+    );
 
     let both = FeedforwardConfig { default_active: true, global_disable: true, ..conventional };
-    assert_eq!(ids(&both.checked(T, BOTH).1), [ErrorId::Kontur(23)]);
+    assert_eq!(both.checked(T, BOTH).1, [Issue::ActiveAndDisabled]);
 }

@@ -1,7 +1,7 @@
 #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
 use super::*;
-use crate::control::fault::ErrorId;
+use crate::control::fault::IpcParameter;
 
 const T: CycleTime = CycleTime::DEFAULT;
 
@@ -24,39 +24,68 @@ fn config(stages: Vec<IpcStageConfig>) -> IpcConfig {
     IpcConfig { enable: true, limit_ratio: 0.1, stages, ..IpcConfig::default() }
 }
 
-fn ids(config: &IpcConfig) -> Vec<ErrorId> {
-    config.check(T).iter().map(Issue::id).collect()
-}
-
 /// Conformance: I026, I035, I037, I041, I043, I046.
 #[test]
 fn errors_switch_the_axis_off_and_warnings_do_not() {
-    use ErrorId::{Kontur, Vendor};
+    let range = |what, value| Issue::IpcRange { stage: 0, what, value };
     let with = |change: fn(&mut IpcStageConfig)| {
         let mut s = stage(IpcMode::Indirect);
         change(&mut s);
         config(vec![s])
     };
-    let cases: [(&str, IpcConfig, ErrorId, bool); 12] = [
-        ("numerator", with(|s| s.weight_num = 0.0), Vendor(70603), false),
-        ("denominator", with(|s| s.weight_denom = -1.0), Vendor(70604), false),
-        ("order 0", with(|s| s.filters[0].order = 0), Kontur(25), false),
-        ("order 4", with(|s| s.filters[0].order = 4), Kontur(25), false),
-        ("default frequency", with(|s| s.filters[0].frequency_hz = -1.0), Kontur(25), false),
-        ("Nyquist", with(|s| s.filters[0].frequency_hz = 500.0), Kontur(25), false),
-        ("quality", with(|s| s.filters[0].quality = 11.0), Kontur(25), false),
-        ("damping", with(|s| s.oscillator_damping = 1.0), Kontur(25), false),
-        ("no band-pass", with(|s| s.filters[0].kind = IpcFilterType::AllPass), Kontur(25), false),
-        ("weight", with(|s| s.weight_num = 8.0), Kontur(27), true),
-        ("limit", IpcConfig { limit_ratio: 0.0, ..with(|_| ()) }, Kontur(26), true),
-        ("slave", IpcConfig { gantry_slave: true, ..with(|_| ()) }, Vendor(70600), false),
+    let cases: [(&str, IpcConfig, Issue, bool); 12] = [
+        (
+            "numerator",
+            with(|s| s.weight_num = 0.0),
+            Issue::IpcNumerator { stage: 0, value: 0.0 },
+            false,
+        ),
+        (
+            "denominator",
+            with(|s| s.weight_denom = -1.0),
+            Issue::IpcDenominator { stage: 0, value: -1.0 },
+            false,
+        ),
+        ("order 0", with(|s| s.filters[0].order = 0), range(IpcParameter::Order, 0.0), false),
+        ("order 4", with(|s| s.filters[0].order = 4), range(IpcParameter::Order, 4.0), false),
+        (
+            "default frequency",
+            with(|s| s.filters[0].frequency_hz = -1.0),
+            range(IpcParameter::Frequency, -1.0),
+            false,
+        ),
+        (
+            "Nyquist",
+            with(|s| s.filters[0].frequency_hz = 500.0),
+            range(IpcParameter::Frequency, 500.0),
+            false,
+        ),
+        (
+            "quality",
+            with(|s| s.filters[0].quality = 11.0),
+            range(IpcParameter::Quality, 11.0),
+            false,
+        ),
+        ("damping", with(|s| s.oscillator_damping = 1.0), range(IpcParameter::Damping, 1.0), false),
+        (
+            "no band-pass",
+            with(|s| s.filters[0].kind = IpcFilterType::AllPass),
+            range(IpcParameter::BandPass, 1.0),
+            false,
+        ),
+        ("weight", with(|s| s.weight_num = 8.0), Issue::IpcWeight { stage: 0, weight: 8.0 }, true),
+        ("limit", IpcConfig { limit_ratio: 0.0, ..with(|_| ()) }, Issue::IpcNoLimit, true),
+        ("slave", IpcConfig { gantry_slave: true, ..with(|_| ()) }, Issue::IpcGantrySlave, false),
     ];
-    for (what, config, id, active) in cases {
-        assert_eq!(ids(&config), [id], "{what}");
+    for (what, config, issue, active) in cases {
+        assert_eq!(config.check(T), [issue], "{what}");
         assert_eq!(config.active(T), active, "{what}");
-        assert!(ids(&IpcConfig { enable: false, ..config }).is_empty(), "{what}: silent while off");
+        assert!(
+            IpcConfig { enable: false, ..config }.check(T).is_empty(),
+            "{what}: silent while off"
+        );
     }
-    assert!(ids(&with(|_| ())).is_empty());
+    assert!(with(|_| ()).check(T).is_empty());
     let direct = with(|s| {
         s.mode = IpcMode::Direct;
         s.oscillator_damping = -1.0;
@@ -64,7 +93,10 @@ fn errors_switch_the_axis_off_and_warnings_do_not() {
     assert!(direct.active(T), "DIRECT needs no damping");
     let mut near = stage(IpcMode::Direct);
     near.filters[0].frequency_hz = 56.0;
-    assert_eq!(ids(&config(vec![stage(IpcMode::Direct), near])), [Kontur(63)]);
+    assert_eq!(
+        config(vec![stage(IpcMode::Direct), near]).check(T),
+        [Issue::IpcOverlap { stages: (0, 1) }]
+    );
 }
 
 /// Amplitude of the additive speed for a cosine of amplitude 1 at 53 Hz in every speed.
@@ -131,8 +163,7 @@ fn delay_shifts_the_output() {
 fn parameters_change_at_standstill_only() {
     let mut ipc = Ipc::new(&config(vec![stage(IpcMode::Direct)]), 500.0, T);
     let fault = ipc.change(&IpcConfig::default(), 500.0, T, true).unwrap_err();
-    assert_eq!(fault.id(), ErrorId::Vendor(70601));
-    assert_eq!(fault.reaction().class(), 7);
+    assert_eq!(fault, Fault::IpcChangedMoving);
     assert_eq!(ipc.stages.len(), 1, "the old parameters stay");
     ipc.change(&IpcConfig::default(), 500.0, T, false).unwrap();
     assert!(ipc.stages.is_empty());

@@ -137,9 +137,9 @@ impl SetpointMonitor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::fault::ErrorId;
 
-    fn ids(config: SetpointMonitorConfig, steps_mm: &[f64]) -> Vec<Vec<ErrorId>> {
+    /// What is watched, and whether it is an error, of every fault of each step.
+    fn faults(config: SetpointMonitorConfig, steps_mm: &[f64]) -> Vec<Vec<(Derivative, bool)>> {
         let mut m = SetpointMonitor::new(config, CycleTime::DEFAULT);
         m.start(5.0);
         let mut x = 5.0;
@@ -147,7 +147,15 @@ mod tests {
             .iter()
             .map(|d| {
                 x += d;
-                m.step(x).iter().flatten().map(Fault::id).collect()
+                m.step(x)
+                    .iter()
+                    .flatten()
+                    .map(|fault| match *fault {
+                        Fault::SetpointWarning { what, .. } => (what, false),
+                        Fault::SetpointError { what, .. } => (what, true),
+                        _ => panic!("{fault:?}"),
+                    })
+                    .collect()
             })
             .collect()
     }
@@ -156,28 +164,29 @@ mod tests {
     fn velocity_warns_at_five_percent_and_stops_at_nine() {
         let config = SetpointMonitorConfig::new(200.0, 1e12, 1e18);
         let v = [0.200, 0.2099, 0.2101, 0.2105, 0.2181, 0.2185, 0.2, 0.2101];
-        let got = ids(config, &v);
-        let (warning, error) = (vec![ErrorId::Vendor(50119)], vec![ErrorId::Vendor(50118)]);
+        let got = faults(config, &v);
+        let (warning, error) =
+            (vec![(Derivative::Velocity, false)], vec![(Derivative::Velocity, true)]);
         let none = vec![];
         assert_eq!(
             got,
             [&none, &none, &warning, &none, &error, &none, &none, &warning].map(Clone::clone)
         );
-        assert_eq!(ids(config, &[-0.25]), [error], "either direction");
+        assert_eq!(faults(config, &[-0.25]), [error], "either direction");
     }
 
     #[test]
     fn acceleration_and_jerk() {
         let config = SetpointMonitorConfig::new(1e9, 1000.0, 1e5);
         // 0.0016 mm in one cycle from rest: 1600 mm/s2 and 1.6e6 mm/s3, jerk is off
-        assert_eq!(ids(config, &[0.0014]), [vec![]]);
-        assert_eq!(ids(config, &[0.0016]), [vec![ErrorId::Kontur(60)]]);
-        assert_eq!(ids(config, &[0.0021]), [vec![ErrorId::Kontur(61)]]);
+        assert_eq!(faults(config, &[0.0014]), [vec![]]);
+        assert_eq!(faults(config, &[0.0016]), [vec![(Derivative::Acceleration, false)]]);
+        assert_eq!(faults(config, &[0.0021]), [vec![(Derivative::Acceleration, true)]]);
         let off = Thresholds { warn_ratio: 0.0, error_ratio: 0.0 };
         let jerk = Thresholds { warn_ratio: 0.0, error_ratio: 1.0 };
         let config = SetpointMonitorConfig { acceleration: off, jerk, ..config };
-        assert_eq!(ids(config, &[0.00009, 0.00018]), [vec![], vec![]]);
-        assert_eq!(ids(config, &[0.00011]), [vec![ErrorId::Kontur(60)]]);
-        assert_eq!(ids(config, &[0.00021]), [vec![ErrorId::Kontur(61)]]);
+        assert_eq!(faults(config, &[0.00009, 0.00018]), [vec![], vec![]]);
+        assert_eq!(faults(config, &[0.00011]), [vec![(Derivative::Jerk, false)]]);
+        assert_eq!(faults(config, &[0.00021]), [vec![(Derivative::Jerk, true)]]);
     }
 }

@@ -255,8 +255,8 @@ fn corrections_and_refusals() {
     };
     let (config, issues) = config.checked();
     assert_eq!(
-        issues.iter().map(Issue::id).collect::<Vec<_>>(),
-        [80044, 110040].map(crate::control::ErrorId::Vendor)
+        issues,
+        [Issue::SimulationDamping { damping_ratio: 1.2 }, Issue::DeadTime { cycles: 9 }]
     );
     assert_eq!(config.dead_time_cycles, 5);
     assert_eq!(config.model, PlantModel::Simulated { damping_ratio: 0.999, natural_rad_s: 100.0 });

@@ -10,7 +10,7 @@ use kontur::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Total
 use kontur_filters::kernel::{Kernel, Tap};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_interpreter::diag::{Diagnostic, Location, ValueKind};
+use kontur_interpreter::diag::{Condition, Diagnostic, Location, ValueKind};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, PathRecord, SpeedLimit};
 use std::collections::VecDeque;
 
@@ -174,11 +174,13 @@ impl Engine for Synthetic {
                 block: Some(60),
                 text: "N60 G777 X0".into(),
             };
-            messages.push(Diagnostic::vendor(20131, "unknown G function").at(place).value(
-                ValueKind::Current,
-                777.0,
-                "-",
-            ));
+            messages.push(
+                Diagnostic::new(Condition::GUnknown, "unknown G function").at(place).value(
+                    ValueKind::Current,
+                    777.0,
+                    "-",
+                ),
+            );
         }
         let stubborn = name.contains("stubborn");
         let kernel = kernel(if stubborn { &[] } else { &request.settings });

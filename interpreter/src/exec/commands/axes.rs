@@ -6,8 +6,9 @@
 //! Source: TF5200 programming manual, axis exchange; TF5250 Vibration Guard.
 
 use super::Call;
+use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
 use crate::syntax::ast::{Group, Item, ItemKind, ItemValue, Span};
 
@@ -31,7 +32,11 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     for item in call.command.groups.iter().flat_map(|g| &g.items) {
         let ItemKind::Flag(name) = &item.kind else {
-            return Err(Fault::vendor(20797, "an axis name is expected", item.span));
+            return Err(Fault::new(
+                Condition::AxisNameUnknown,
+                "an axis name is expected",
+                item.span,
+            ));
         };
         if let Some(axis) = decoder.axis_of_name(&name.text) {
             release(decoder, axis);
@@ -98,7 +103,13 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
         match &item.kind {
             ItemKind::Flag(name) => members[decoder.axis_in_command(name)?] = true,
             ItemKind::Missing => {}
-            _ => return Err(Fault::vendor(20797, "an axis name is expected", item.span)),
+            _ => {
+                return Err(Fault::new(
+                    Condition::AxisNameUnknown,
+                    "an axis name is expected",
+                    item.span,
+                ));
+            }
         }
     }
     decoder.feed_axes = members;
@@ -112,7 +123,7 @@ fn exchange(decoder: &mut Decoder, span: Span) {
     if decoder.shaping.guard_on == Some(true) {
         let text = "the axis exchange switches the Vibration Guard of the program off";
         let hint = "program #VIB GUARD ON again behind it";
-        decoder.note(Fault::kontur(own::GUARD_EXCHANGED, text, span).hint(hint));
+        decoder.note(Fault::new(Condition::GuardExchanged, text, span).hint(hint));
     }
     if decoder.shaping.guard_on.take().is_some() {
         decoder.shaping.ax_dev_mm = None;
@@ -132,7 +143,7 @@ fn release(decoder: &mut Decoder, axis: usize) {
 fn take_all(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if call.command.groups.is_empty() {
         let text = format!("{} needs [name, number, index]", call.title());
-        return Err(Fault::vendor(21220, text, call.span()));
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     }
     for group in &call.command.groups {
         // `[[X,1,0][Y,2,1]]` and `[X,1,0][Y,2,1]`
@@ -155,10 +166,15 @@ fn take_all(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-fn number(decoder: &Decoder, item: Option<&Item>, missing: (u32, &str), at: Span) -> Outcome<f64> {
+fn number(
+    decoder: &Decoder,
+    item: Option<&Item>,
+    missing: (Condition, &str),
+    at: Span,
+) -> Outcome<f64> {
     match item.map(|i| &i.kind) {
         Some(ItemKind::Value(ItemValue::Expr(expr))) => decoder.number(expr),
-        _ => Err(Fault::vendor(missing.0, missing.1, item.map_or(at, |i| i.span))),
+        _ => Err(Fault::new(missing.0, missing.1, item.map_or(at, |i| i.span))),
     }
 }
 
@@ -169,27 +185,46 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         Some((ItemKind::Flag(name), _)) => name.clone(),
         // `[X 1 2]`: the commas are missing
         Some((ItemKind::Pair { .. }, span)) => {
-            return Err(Fault::vendor(21251, "a comma is missing behind the axis name", span));
+            return Err(Fault::new(
+                Condition::ExchangeComma,
+                "a comma is missing behind the axis name",
+                span,
+            ));
         }
-        _ => return Err(Fault::vendor(20797, "an axis name is expected", group.span)),
+        _ => {
+            return Err(Fault::new(
+                Condition::AxisNameUnknown,
+                "an axis name is expected",
+                group.span,
+            ));
+        }
     };
     let letters = name.text.to_ascii_uppercase();
     let first = letters.as_bytes().first().copied().unwrap_or(b' ');
     if letters.len() > 16 || !b"XYZABCUVWQ".contains(&first) {
         let text = format!("`{}` is no axis name", name.text);
-        return Err(Fault::vendor(20524, text, name.span));
+        return Err(Fault::new(Condition::ExchangeName, text, name.span));
     }
     let at = |i: usize| items.get(i).map_or(group.span, |item| item.span);
-    let logical =
-        number(decoder, items.get(1), (21251, "the logical axis number is missing"), group.span)?;
-    let index = number(decoder, items.get(2), (21252, "the axis index is missing"), group.span)?;
+    let logical = number(
+        decoder,
+        items.get(1),
+        (Condition::ExchangeComma, "the logical axis number is missing"),
+        group.span,
+    )?;
+    let index = number(
+        decoder,
+        items.get(2),
+        (Condition::ExchangeNumber, "the axis index is missing"),
+        group.span,
+    )?;
     let Some(logical) = crate::exec::expr::whole(logical, 1, 65535) else {
         let text = format!("logical axis number {logical} is outside 1 to 65535");
-        return Err(Fault::vendor(21253, text, at(1)));
+        return Err(Fault::new(Condition::ExchangeNumberRange, text, at(1)));
     };
     let Some(index) = crate::exec::expr::whole(index, 0, PLACES - 1) else {
         let text = format!("axis index {index} is outside 0 to {}", PLACES - 1);
-        return Err(Fault::kontur(own::RANGE, text, at(2)));
+        return Err(Fault::new(Condition::Range, text, at(2)));
     };
     for item in items.iter().skip(3) {
         match &item.kind {
@@ -197,13 +232,13 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
             ItemKind::Missing => {}
             _ => {
                 let text = "unknown offset mode of an axis exchange";
-                return Err(Fault::vendor(20521, text, item.span));
+                return Err(Fault::new(Condition::ExchangeMode, text, item.span));
             }
         }
     }
     let Some(axis) = decoder.machine.axes.iter().position(|a| a.number() == logical) else {
         let text = format!("no axis has the logical number {logical}");
-        return Err(Fault::vendor(20312, text, at(1)));
+        return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)));
     };
     if let Some(other) = decoder.axis_of_name(&letters).filter(|other| *other != axis) {
         release(decoder, other);

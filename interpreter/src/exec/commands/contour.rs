@@ -5,11 +5,11 @@
 
 use super::keys::{flag, number};
 use super::{Call, Key, Kind, arguments};
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::contouring::{Contouring, Mode};
 use crate::exec::decoder::Decoder;
 use crate::exec::expr::is_true;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::{Group, ItemKind, ItemValue};
 use kontur_motion::block::{CurveJerk, VectorLimits};
 
@@ -75,7 +75,7 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         let mm = x * unit;
         if mm < PATH_DEV_MIN_MM {
             let text = format!("PATH_DEV={x} is below the minimum of {PATH_DEV_MIN_MM} mm");
-            return Err(Fault::vendor(120129, text, span).with(|d| {
+            return Err(Fault::new(Condition::PathDevTooSmall, text, span).with(|d| {
                 d.value(ValueKind::Wrong, mm * 1e4, "0.1um").value(
                     ValueKind::LowerLimit,
                     1.0,
@@ -90,7 +90,7 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         if let Some((second, _)) = modes.next() {
             let text = format!("#CONTOUR MODE: {first} and {second} are two modes");
             let at = keys.place(second).unwrap_or(call.span());
-            return Err(Fault::kontur(own::DUPLICATE_KEY, text, at));
+            return Err(Fault::new(Condition::DuplicateKey, text, at));
         }
     }
     // POS alone allows a distance of 0
@@ -100,7 +100,7 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
             && x * unit < PATH_DEV_MIN_MM
         {
             let text = format!("{key}={x} is below the minimum of {PATH_DEV_MIN_MM} mm");
-            return Err(Fault::vendor(120131, text, span).with(|d| {
+            return Err(Fault::new(Condition::CornerDistanceTooSmall, text, span).with(|d| {
                 d.value(ValueKind::Wrong, x * unit * 1e4, "0.1um").value(
                     ValueKind::LowerLimit,
                     1.0,
@@ -110,7 +110,7 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         }
     }
     let length = |name: &str, low: f64| {
-        let x = keys.in_range(name, low, f64::MAX, own::RANGE)?;
+        let x = keys.in_range(name, low, f64::MAX, Condition::Range)?;
         Ok::<Option<f64>, Box<Fault>>(x.map(|x| x * unit))
     };
     let set = |slot: &mut f64, new: Option<f64>| *slot = new.unwrap_or(*slot);
@@ -120,16 +120,19 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     set(&mut settings.path_dist_mm, length("PATH_DIST", -1.0)?);
     let common = &mut settings.common;
     set(&mut common.relevant_path_mm, length("RELEVANT_PATH", 0.0)?);
-    set(&mut common.track_dev_deg, keys.in_range("TRACK_DEV", 0.0, 1e6, own::RANGE)?);
-    set(&mut common.relevant_track_deg, keys.in_range("RELEVANT_TRACK", 0.0, 1e6, own::RANGE)?);
-    let remain = keys.in_range("REMAIN_PART", 0.0, 100.0, own::RANGE)?;
+    set(&mut common.track_dev_deg, keys.in_range("TRACK_DEV", 0.0, 1e6, Condition::Range)?);
+    set(
+        &mut common.relevant_track_deg,
+        keys.in_range("RELEVANT_TRACK", 0.0, 1e6, Condition::Range)?,
+    );
+    let remain = keys.in_range("REMAIN_PART", 0.0, 100.0, Condition::Range)?;
     set(&mut common.remain_ratio, remain.map(|p| p / 100.0));
-    set(&mut common.max_angle_deg, keys.in_range("MAX_ANGLE", 0.0, 180.0, own::RANGE)?);
+    set(&mut common.max_angle_deg, keys.in_range("MAX_ANGLE", 0.0, 180.0, Condition::Range)?);
     if keys.has("CONST_VEL") {
         common.constant_velocity = keys.number("CONST_VEL").is_none_or(|(x, _)| is_true(x));
     }
     if keys.has("CHECK_JERK") {
-        let mode = keys.in_range("CHECK_JERK", 0.0, 3.0, own::RANGE)?.unwrap_or(1.0);
+        let mode = keys.in_range("CHECK_JERK", 0.0, 3.0, Condition::Range)?.unwrap_or(1.0);
         common.curve_jerk = Some(match crate::exec::expr::whole(mode, 0, 3) {
             Some(0) => CurveJerk::Unlimited,
             Some(2) => CurveJerk::Ramps,
@@ -140,19 +143,19 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     for action in ["PRE_ACTION", "POST_ACTION"] {
         if let Some(span) = keys.place(action) {
             let text = format!("{action}: functions act at the corner here");
-            decoder.note_once(action, Fault::kontur(own::FALLBACK, text, span));
+            decoder.note_once(action, Fault::new(Condition::Fallback, text, span));
         }
     }
     let soft = matches!(settings.mode, Mode::DistSoft | Mode::DistMaster);
     for key in ["MERGE", "TRACK_DIST", "ACC_MAX", "ACC_MIN", "RAMP_TIME", "DIST_WEIGHT"] {
         if let Some(span) = keys.place(key) {
             let text = format!("#CONTOUR MODE: {key} has no effect");
-            decoder.note_once(key, Fault::kontur(own::FALLBACK, text, span));
+            decoder.note_once(key, Fault::new(Condition::Fallback, text, span));
         }
     }
     if soft {
         let text = "#CONTOUR MODE: the curve of this mode is not published, corners are rounded as with PTP";
-        decoder.note_once("DIST_SOFT", Fault::kontur(own::FALLBACK, text, call.span()));
+        decoder.note_once("DIST_SOFT", Fault::new(Condition::Fallback, text, call.span()));
     }
     if let Some(on) = call.command.on {
         decoder.modal.contouring = on;
@@ -222,7 +225,7 @@ pub(super) fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             Some(_) => return Err(Fault::unsupported("#HSC [OPMODE=2]", span)),
             None => {
                 let text = format!("OPMODE={mode}, allowed are 1 and 2");
-                return Err(Fault::kontur(own::RANGE, text, span));
+                return Err(Fault::new(Condition::Range, text, span));
             }
         }
     }
@@ -231,13 +234,13 @@ pub(super) fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     let set = |slot: &mut f64, new: Option<f64>| *slot = new.unwrap_or(*slot);
     let length = |name: &str| {
-        let x = keys.in_range(name, 0.0, f64::MAX, own::RANGE)?;
+        let x = keys.in_range(name, 0.0, f64::MAX, Condition::Range)?;
         Ok::<Option<f64>, Box<Fault>>(x.map(|x| x * unit))
     };
     set(&mut hsc.spline.path_dev_mm, length("PATH_DEV")?);
-    set(&mut hsc.spline.track_dev_deg, keys.in_range("TRACK_DEV", 0.0, 1e6, own::RANGE)?);
+    set(&mut hsc.spline.track_dev_deg, keys.in_range("TRACK_DEV", 0.0, 1e6, Condition::Range)?);
     set(&mut hsc.spline.max_length_mm, length("MAX_PATH_LENGTH")?);
-    set(&mut hsc.spline.max_angle_deg, keys.in_range("MAX_ANGLE", 0.0, 180.0, own::RANGE)?);
+    set(&mut hsc.spline.max_angle_deg, keys.in_range("MAX_ANGLE", 0.0, 180.0, Condition::Range)?);
     set(&mut hsc.contour_error_mm, length("CONTERROR")?);
     let switch = |name: &str, slot: &mut bool| {
         if keys.has(name) {
@@ -249,7 +252,7 @@ pub(super) fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     switch("AUTO_OFF_G00", &mut hsc.spline.off_at_rapid);
     if let Some(span) = keys.place("MERGE") {
         let text = "#HSC: MERGE has no effect";
-        decoder.note_once("HSC MERGE", Fault::kontur(own::FALLBACK, text, span));
+        decoder.note_once("HSC MERGE", Fault::new(Condition::Fallback, text, span));
     }
     hsc.on = call.command.on.unwrap_or(hsc.on);
     decoder.hsc = hsc;
@@ -273,7 +276,7 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     ];
     let Some(on) = call.command.on else {
         let text = "#VECTOR LIMIT needs ON or OFF";
-        return Err(Fault::vendor(21220, text, call.span()));
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     };
     let listed = decoder.machine.channel.vector;
     match &call.command.tail[..] {
@@ -302,7 +305,7 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         if !on {
             return Ok(keys.has(name).then_some(None));
         }
-        match keys.in_range(name, f64::MIN_POSITIVE, f64::MAX, own::RANGE)? {
+        match keys.in_range(name, f64::MIN_POSITIVE, f64::MAX, Condition::Range)? {
             Some(x) => Ok(Some(Some(x * scale))),
             None => Ok(keys.has(name).then_some(listed)),
         }
@@ -337,15 +340,33 @@ pub(super) fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Out
             [item] => match &item.kind {
                 ItemKind::Value(ItemValue::Expr(expr))
                 | ItemKind::Pair { value: ItemValue::Expr(expr), .. } => decoder.number(expr)?,
-                _ => return Err(Fault::vendor(21220, "a velocity is expected", item.span)),
+                _ => {
+                    return Err(Fault::new(
+                        Condition::TokenUnknown,
+                        "a velocity is expected",
+                        item.span,
+                    ));
+                }
             },
-            _ => return Err(Fault::vendor(21220, "one velocity is expected", group.span)),
+            _ => {
+                return Err(Fault::new(
+                    Condition::TokenUnknown,
+                    "one velocity is expected",
+                    group.span,
+                ));
+            }
         },
-        _ => return Err(Fault::vendor(21220, "#TRANSVELMIN needs ON or OFF", call.span())),
+        _ => {
+            return Err(Fault::new(
+                Condition::TokenUnknown,
+                "#TRANSVELMIN needs ON or OFF",
+                call.span(),
+            ));
+        }
     };
     if !(0.0..=1e9).contains(&value) {
         let text = format!("#TRANSVELMIN: {value} is no velocity");
-        return Err(Fault::kontur(own::RANGE, text, call.span()));
+        return Err(Fault::new(Condition::Range, text, call.span()));
     }
     decoder.modal.transition_min_mm_s = value * decoder.unit_mm() / 60.0;
     decoder.dynamics_changed();

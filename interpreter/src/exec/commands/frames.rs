@@ -4,9 +4,10 @@
 
 use super::keys::number;
 use super::{Call, Key, arguments};
+use crate::diag::Condition;
 use crate::exec::coordinates::SYSTEMS_MAX;
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::frame::Frame;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
 
@@ -29,7 +30,7 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             decoder.coordinates.set_rotation(None);
             Ok(())
         }
-        None => Err(Fault::vendor(21220, "#ROTATION needs ON or OFF", call.span())),
+        None => Err(Fault::new(Condition::TokenUnknown, "#ROTATION needs ON or OFF", call.span())),
     }
 }
 
@@ -37,13 +38,23 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 fn system(decoder: &Decoder, group: &Group) -> Outcome<Frame> {
     let mut values = [0.0; 6];
     if group.items.len() > values.len() {
-        return Err(Fault::vendor(20675, "up to six values: [x,y,z,a,b,c]", group.span));
+        return Err(Fault::new(
+            Condition::CoordinateSystemSyntax,
+            "up to six values: [x,y,z,a,b,c]",
+            group.span,
+        ));
     }
     for (value, item) in values.iter_mut().zip(&group.items) {
         match &item.kind {
             ItemKind::Missing => {}
             ItemKind::Value(ItemValue::Expr(expr)) => *value = decoder.number(expr)?,
-            _ => return Err(Fault::vendor(20675, "a value is expected", item.span)),
+            _ => {
+                return Err(Fault::new(
+                    Condition::CoordinateSystemSyntax,
+                    "a value is expected",
+                    item.span,
+                ));
+            }
         }
     }
     let unit = decoder.unit_mm();
@@ -59,14 +70,20 @@ fn id_of(decoder: &Decoder, group: &Group) -> Outcome<u32> {
                 let most = u32::try_from(SYSTEMS_MAX).unwrap_or(u32::MAX);
                 decoder.whole(expr, "the number of a coordinate system", 1, most)
             }
-            _ => Err(Fault::vendor(20675, "a number is expected", item.span)),
+            _ => Err(Fault::new(
+                Condition::CoordinateSystemSyntax,
+                "a number is expected",
+                item.span,
+            )),
         },
-        _ => Err(Fault::vendor(20675, "one number is expected", group.span)),
+        _ => {
+            Err(Fault::new(Condition::CoordinateSystemSyntax, "one number is expected", group.span))
+        }
     }
 }
 
 fn undefined(id: u32, span: Span) -> Box<Fault> {
-    Fault::kontur(own::UNDEFINED, format!("coordinate system {id} is not defined"), span)
+    Fault::new(Condition::Undefined, format!("coordinate system {id} is not defined"), span)
 }
 
 /// `#CS ON [..]`, `#CS ON [id]`, `#CS OFF`, `#CS OFF ALL`.
@@ -90,7 +107,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
         (Some(true), [], groups) => {
             if decoder.coordinates.systems() >= SYSTEMS_MAX {
                 let text = format!("more than {SYSTEMS_MAX} coordinate systems are active");
-                return Err(Fault::kontur(own::RANGE, text, call.span()));
+                return Err(Fault::new(Condition::Range, text, call.span()));
             }
             let frame = match groups {
                 [] => {
@@ -115,13 +132,19 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
                     store(decoder, id, frame, call.span())?;
                     frame
                 }
-                _ => return Err(Fault::vendor(20675, "too many brackets", call.span())),
+                _ => {
+                    return Err(Fault::new(
+                        Condition::CoordinateSystemSyntax,
+                        "too many brackets",
+                        call.span(),
+                    ));
+                }
             };
             decoder.coordinates.push_system(frame);
             Ok(())
         }
         (_, [word, ..], _) => Err(call.unexpected(word)),
-        _ => Err(Fault::vendor(20675, "#CS needs ON or OFF", call.span())),
+        _ => Err(Fault::new(Condition::CoordinateSystemSyntax, "#CS needs ON or OFF", call.span())),
     }
 }
 
@@ -129,7 +152,7 @@ fn store(decoder: &mut Decoder, id: u32, frame: Frame, span: Span) -> Outcome<()
     let known = decoder.coordinates.stored_system(id).is_some();
     if !known && decoder.coordinates.stored_systems() >= SYSTEMS_MAX {
         let text = format!("more than {SYSTEMS_MAX} coordinate systems are stored");
-        return Err(Fault::kontur(own::RANGE, text, span));
+        return Err(Fault::new(Condition::Range, text, span));
     }
     decoder.coordinates.store_system(id, frame);
     decoder.last_system = id;
@@ -149,7 +172,11 @@ pub(super) fn define_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<(
             let frame = system(decoder, group)?;
             store(decoder, id, frame, call.span())
         }
-        _ => Err(Fault::vendor(20675, "#CS DEF needs [id][x,y,z,a,b,c]", call.span())),
+        _ => Err(Fault::new(
+            Condition::CoordinateSystemSyntax,
+            "#CS DEF needs [id][x,y,z,a,b,c]",
+            call.span(),
+        )),
     }
 }
 
@@ -170,7 +197,7 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
     }
     if decoder.identity_trafo {
         let text = format!("{} is taken as identity: the axes move as programmed", call.title());
-        decoder.note_once(call.name, Fault::kontur(own::FALLBACK, text, call.span()));
+        decoder.note_once(call.name, Fault::new(Condition::Fallback, text, call.span()));
         return Ok(());
     }
     let hint = "--identity-trafo takes transformations as identity";

@@ -1,7 +1,8 @@
 //! Keys of the brackets: read once, checked against the keys that a command knows.
 
+use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::suggest;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 
@@ -88,7 +89,7 @@ impl Arguments {
         name: &str,
         low: f64,
         high: f64,
-        id: u16,
+        condition: Condition,
     ) -> Outcome<Option<f64>> {
         match self.number(name) {
             Some((x, span)) if !(low..=high).contains(&x) => {
@@ -101,7 +102,7 @@ impl Arguments {
                     (false, true) => format!("{low} to {high}"),
                 };
                 let text = format!("{name}={x}, allowed are {range}");
-                Err(Fault::kontur(id, text, span))
+                Err(Fault::new(condition, text, span))
             }
             found => Ok(found.map(|(x, _)| x)),
         }
@@ -128,7 +129,7 @@ pub(in crate::exec) fn arguments(
             Ok(None) => {}
             Ok(Some((name, _))) if arguments.has(name) => {
                 let text = format!("{title}: {name} twice, the second one is left out");
-                decoder.note(Fault::kontur(own::DUPLICATE_KEY, text, item.span));
+                decoder.note(Fault::new(Condition::DuplicateKey, text, item.span));
             }
             Ok(Some((name, found))) => arguments.found.push((name, found, item.span)),
             Err(fault) => decoder.note(fault),
@@ -189,7 +190,7 @@ fn read(
         }
         ItemKind::Value(_) => {
             let text = format!("{title}: a value without a key");
-            Err(Fault::vendor(21220, text, item.span).hint(known(keys)))
+            Err(Fault::new(Condition::TokenUnknown, text, item.span).hint(known(keys)))
         }
     }
 }
@@ -207,7 +208,11 @@ fn known(keys: &[Key]) -> String {
 }
 
 fn unknown(title: &str, ident: &Ident, keys: &[Key]) -> Box<Fault> {
-    let fault = Fault::vendor(21220, format!("{title}: unknown key `{}`", ident.text), ident.span);
+    let fault = Fault::new(
+        Condition::TokenUnknown,
+        format!("{title}: unknown key `{}`", ident.text),
+        ident.span,
+    );
     match suggest::nearest(&ident.text, keys.iter().map(|k| k.name)) {
         Some(near) => fault.hint(format!("did you mean `{near}`?")),
         None => fault.hint(known(keys)),
@@ -221,5 +226,5 @@ fn incomplete(title: &str, key: &Key, span: Span) -> Box<Fault> {
         Kind::Word | Kind::Text => "needs a word",
         Kind::Flag => "takes no value",
     };
-    Fault::vendor(21220, format!("{title}: {} {what}", key.name), span)
+    Fault::new(Condition::TokenUnknown, format!("{title}: {} {what}", key.name), span)
 }

@@ -4,9 +4,9 @@
 
 use super::keys::number;
 use super::{Call, Key, Kind, arguments};
-use crate::diag::{Diagnostic, Id, Severity, ValueKind};
+use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::step::Event;
 use crate::machine::DiagnosisMessages;
@@ -31,38 +31,44 @@ pub(super) fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         save |= word.is("SAVE");
     }
     let Some(group) = call.command.groups.last() else {
-        return Err(Fault::vendor(21220, "#MSG needs [\"text\"]", call.span()));
+        return Err(Fault::new(Condition::TokenUnknown, "#MSG needs [\"text\"]", call.span()));
     };
     let mut items = Vec::new();
     for item in &group.items {
         match &item.kind {
             ItemKind::Value(ItemValue::Expr(expr)) => items.push(expr),
             ItemKind::Missing => {}
-            _ => return Err(Fault::vendor(21220, "#MSG: a text or value is expected", item.span)),
+            _ => {
+                return Err(Fault::new(
+                    Condition::TokenUnknown,
+                    "#MSG: a text or value is expected",
+                    item.span,
+                ));
+            }
         }
     }
     let Some((format, values)) = items.split_first() else {
-        return Err(Fault::vendor(21220, "#MSG needs a text", group.span));
+        return Err(Fault::new(Condition::TokenUnknown, "#MSG needs a text", group.span));
     };
     let Value::Text(format_text) = decoder.value(format)? else {
-        return Err(Fault::vendor(21220, "#MSG: the text comes first", format.span));
+        return Err(Fault::new(Condition::TokenUnknown, "#MSG: the text comes first", format.span));
     };
     let text = formatted(decoder, &format_text, format.span, values)?;
     if receiver.eq_ignore_ascii_case(RECEIVERS[0]) && !save {
-        let discarded = |id| {
+        let discarded = |condition| {
             let hint = "the channel list discards messages to ISG_DIAG_BED; name another receiver";
-            Fault::vendor(id, format!("message discarded: {text}"), call.span()).hint(hint)
+            Fault::new(condition, format!("message discarded: {text}"), call.span()).hint(hint)
         };
         match decoder.machine.channel.diagnosis_messages {
             DiagnosisMessages::Standard => {}
             DiagnosisMessages::Disabled => return Ok(()),
             DiagnosisMessages::Warning => {
-                let fault = discarded(22194).warning().with(|d| d.parameter("P-CHAN-00518"));
+                let fault = discarded(Condition::MessageSuppressed).warning();
                 decoder.note(fault);
                 return Ok(());
             }
             DiagnosisMessages::Error => {
-                return Err(discarded(22195).with(|d| d.parameter("P-CHAN-00518")));
+                return Err(discarded(Condition::MessageForbidden));
             }
         }
     }
@@ -95,16 +101,22 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
         let Some(letter @ ('d' | 'D' | 'f' | 'F' | 's' | 'S')) = letter else {
             let shown = letter.map_or(String::new(), String::from);
             let message = format!("unknown format %{shown}");
-            return Err(Fault::vendor(21232, message, at).hint("formats are %s, %d and %f"));
+            return Err(
+                Fault::new(Condition::MessageFormat, message, at).hint("formats are %s, %d and %f")
+            );
         };
         let Some(expr) = values.next() else {
             let message = format!("no value for %{letter}");
-            return Err(Fault::vendor(21220, message, at));
+            return Err(Fault::new(Condition::TokenUnknown, message, at));
         };
         text.push_str(&one(&decoder.value(expr)?, letter, &precision));
     }
     if let Some(left) = values.next() {
-        return Err(Fault::vendor(21220, "a value without a format in the text", left.span));
+        return Err(Fault::new(
+            Condition::TokenUnknown,
+            "a value without a format in the text",
+            left.span,
+        ));
     }
     Ok(text)
 }
@@ -130,8 +142,8 @@ pub(super) fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     keys.extend(INTEGERS.map(number));
     keys.extend(TEXTS.map(|name| Key { name, kind: Kind::Text }));
     let found = arguments(decoder, "#ERROR", call.command.groups.first(), &keys);
-    let Some(id) = found.in_range("ID", 1.0, 1000.0, own::RANGE)? else {
-        return Err(Fault::vendor(21220, "#ERROR needs ID", call.span()));
+    let Some(id) = found.in_range("ID", 1.0, 1000.0, Condition::Range)? else {
+        return Err(Fault::new(Condition::TokenUnknown, "#ERROR needs ID", call.span()));
     };
     let id = crate::exec::expr::whole(id, 1, 1000).unwrap_or(1);
     let rc = found.number("RC").map_or(2.0, |(rc, _)| rc);
@@ -140,7 +152,7 @@ pub(super) fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         Some(2 | 7) => Severity::Error,
         _ => {
             let text = format!("#ERROR: RC={rc}, allowed are 0, 2 and 7");
-            return Err(Fault::kontur(own::RANGE, text, call.span()));
+            return Err(Fault::new(Condition::Range, text, call.span()));
         }
     };
     let texts: Vec<&str> = TEXTS.iter().filter_map(|t| found.word(t).map(|(w, _)| w)).collect();
@@ -149,15 +161,13 @@ pub(super) fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     } else {
         format!("message of the program: {}", texts.join(", "))
     };
-    let mut diagnostic = Diagnostic::new(Id::Vendor(id), text)
-        .severity(severity)
-        .hint("the program raises it itself, with #ERROR");
+    let mut diagnostic = Diagnostic::programmed(id, text).severity(severity);
     for name in VALUES.iter().chain(&INTEGERS) {
         if let Some((x, _)) = found.number(name) {
             diagnostic = diagnostic.value(ValueKind::Current, x, "-");
         }
     }
-    let fault = Fault::new(diagnostic, call.span());
+    let fault = Fault::of(diagnostic, call.span());
     if severity == Severity::Error {
         Err(fault)
     } else {

@@ -4,8 +4,9 @@
 
 use super::keys::number;
 use super::{Call, Key, Kind, arguments};
+use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
 use crate::syntax::ast::{ExprKind, ItemKind, ItemValue};
 
@@ -26,7 +27,7 @@ pub(super) fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     call.no_more_words()?;
     let Some(group) = call.command.groups.first() else {
         let text = "#CHANNEL INIT needs [CMDPOS] or [ACTPOS]";
-        return Err(Fault::vendor(21220, text, call.span()));
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     };
     let mut actual = None;
     let mut axes = Vec::new();
@@ -37,14 +38,18 @@ pub(super) fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
             ItemKind::Flag(word) => axes.push(decoder.axis_in_command(word)?),
             ItemKind::Missing => {}
             ItemKind::Pair { .. } | ItemKind::Value(_) => {
-                return Err(Fault::vendor(21220, "#CHANNEL INIT: an axis is expected", item.span));
+                return Err(Fault::new(
+                    Condition::TokenUnknown,
+                    "#CHANNEL INIT: an axis is expected",
+                    item.span,
+                ));
             }
         }
     }
     match actual {
         None => {
             let text = "#CHANNEL INIT needs CMDPOS or ACTPOS";
-            Err(Fault::vendor(21220, text, group.span))
+            Err(Fault::new(Condition::TokenUnknown, text, group.span))
         }
         // set positions are what the program already counts with
         Some(false) => {
@@ -72,11 +77,11 @@ pub(super) fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                     let seconds = decoder.number(expr)?;
                     decoder.dwell_for(seconds, expr.span)
                 }
-                _ => Err(Fault::vendor(21220, "#TIME needs a time in s", item.span)),
+                _ => Err(Fault::new(Condition::TokenUnknown, "#TIME needs a time in s", item.span)),
             },
-            _ => Err(Fault::vendor(21220, "#TIME needs one time in s", group.span)),
+            _ => Err(Fault::new(Condition::TokenUnknown, "#TIME needs one time in s", group.span)),
         },
-        _ => Err(Fault::vendor(21220, "#TIME needs one time in s", call.span())),
+        _ => Err(Fault::new(Condition::TokenUnknown, "#TIME needs one time in s", call.span())),
     }
 }
 
@@ -99,12 +104,12 @@ pub(super) fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 return Ok(());
             }
             let text = "the condition is false and nothing outside can make it true";
-            let fault = Fault::kontur(own::WAIT, text, condition.span);
+            let fault = Fault::new(Condition::Wait, text, condition.span);
             Err(fault.with(|d| d.severity(crate::diag::Severity::Error)))
         }
         _ => {
             let text = format!("{} does not wait: there is nothing to wait for", call.title());
-            decoder.note_once("#WAIT", Fault::kontur(own::WAIT, text, call.span()));
+            decoder.note_once("#WAIT", Fault::new(Condition::Wait, text, call.span()));
             Ok(())
         }
     }
@@ -114,7 +119,7 @@ pub(super) fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 pub(super) fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     const KEYS: &[Key] = &[number("ID")];
     let keys = arguments(decoder, "#TIMER", call.command.groups.first(), KEYS);
-    let id = keys.in_range("ID", 0.0, 127.0, own::RANGE)?.unwrap_or(0.0);
+    let id = keys.in_range("ID", 0.0, 127.0, Condition::Range)?.unwrap_or(0.0);
     let id = crate::exec::expr::whole(id, 0, 127).unwrap_or(0);
     match call.rest {
         [word] if word.is("START") || word.is("CLEAR") => {
@@ -123,18 +128,26 @@ pub(super) fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
         [word] if word.is("READ") || word.is("STOP") => Ok(()),
         [word, ..] => Err(call.unexpected(word)),
-        [] => Err(Fault::vendor(21220, "#TIMER needs START, READ or CLEAR", call.span())),
+        [] => Err(Fault::new(
+            Condition::TokenUnknown,
+            "#TIMER needs START, READ or CLEAR",
+            call.span(),
+        )),
     }
 }
 
 /// `#DELETE V.., V..`.
 pub(super) fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if call.command.arguments.is_empty() {
-        return Err(Fault::vendor(21220, "#DELETE needs variables", call.span()));
+        return Err(Fault::new(Condition::TokenUnknown, "#DELETE needs variables", call.span()));
     }
     for expr in &call.command.arguments {
         let ExprKind::Place(place) = &expr.kind else {
-            return Err(Fault::vendor(21220, "#DELETE: a variable is expected", expr.span));
+            return Err(Fault::new(
+                Condition::TokenUnknown,
+                "#DELETE: a variable is expected",
+                expr.span,
+            ));
         };
         let outcome = decoder.delete(place);
         decoder.keep(outcome);
@@ -158,18 +171,30 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             if matches!(item.kind, ItemKind::Missing) {
                 continue;
             }
-            return Err(Fault::vendor(21220, "#FILE NAME: KEY=\"file\" is expected", item.span));
+            return Err(Fault::new(
+                Condition::TokenUnknown,
+                "#FILE NAME: KEY=\"file\" is expected",
+                item.span,
+            ));
         };
         let file = match value {
             ItemValue::Name(name) => name.text.to_string(),
             ItemValue::Expr(expr) => match decoder.value(expr)? {
                 crate::exec::options::Value::Text(text) => text.to_string(),
                 crate::exec::options::Value::Number(_) => {
-                    return Err(Fault::vendor(21220, "a file name is expected", expr.span));
+                    return Err(Fault::new(
+                        Condition::TokenUnknown,
+                        "a file name is expected",
+                        expr.span,
+                    ));
                 }
             },
             ItemValue::List(group) => {
-                return Err(Fault::vendor(21220, "a file name is expected", group.span));
+                return Err(Fault::new(
+                    Condition::TokenUnknown,
+                    "a file name is expected",
+                    group.span,
+                ));
             }
         };
         let number = key.text.strip_prefix('G').and_then(|n| n.parse().ok());
@@ -182,7 +207,7 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             _ if key.is("MSG") => {}
             _ => {
                 let text = format!("#FILE NAME: unknown key {}", key.text);
-                return Err(Fault::vendor(21220, text, key.span));
+                return Err(Fault::new(Condition::TokenUnknown, text, key.span));
             }
         }
     }
@@ -200,14 +225,13 @@ pub(super) fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     let (Some((axis, at)), Some((parameter, span))) = (keys.word("AX"), keys.word("AXPARAM"))
     else {
         let text = "#MACHINE DATA needs AX and AXPARAM";
-        return Err(Fault::vendor(21220, text, call.span()));
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     };
     let axis = crate::syntax::ast::Ident { text: axis.into(), span: at };
     let axis = decoder.axis_in_command(&axis)?;
-    let (key, value) = parameter
-        .trim()
-        .split_once(char::is_whitespace)
-        .ok_or_else(|| Fault::vendor(21220, "AXPARAM: `key value` is expected", span))?;
+    let (key, value) = parameter.trim().split_once(char::is_whitespace).ok_or_else(|| {
+        Fault::new(Condition::TokenUnknown, "AXPARAM: `key value` is expected", span)
+    })?;
     decoder.set_machine_data(axis, key, value.trim(), span)
 }
 

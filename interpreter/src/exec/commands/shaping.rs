@@ -4,10 +4,11 @@
 
 use super::keys::{flag, number};
 use super::{Arguments, Call, Key, arguments};
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
-use crate::exec::shaping::{Family, FilterKeys, guard_error, listed_fir, listed_hsc};
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::shaping::{Family, FilterKeys, listed_fir, listed_hsc};
+use crate::machine::issues::{self, Origin};
 use crate::syntax::ast::Span;
 use kontur_filters::fir::MAX_ORDER;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -26,7 +27,7 @@ impl Decoder {
                     place.file
                 );
                 let lines = (place.line, self.source.line);
-                return Err(Fault::vendor(22060, text, span).with(|d| {
+                return Err(Fault::new(Condition::FilterAndGuard, text, span).with(|d| {
                     d.value(ValueKind::Identification, lines.0, "line").value(
                         ValueKind::Identification,
                         lines.1,
@@ -53,23 +54,25 @@ impl Decoder {
         let Some(axis) = conflict else { return Ok(()) };
         let (id, what, parameter) = match family {
             Family::Filter => (
-                own::FILTER_WITH_LIST_GUARD,
+                Condition::FilterWithListGuard,
                 "the list switches the Vibration Guard on",
                 "P-AXIS-00588",
             ),
-            Family::VibGuard => {
-                (own::GUARD_WITH_LIST_FILTER, "the list configures a filter type", "P-AXIS-00586")
-            }
+            Family::VibGuard => (
+                Condition::GuardWithListFilter,
+                "the list configures a filter type",
+                "P-AXIS-00586",
+            ),
         };
         let text = format!("{}: axis {}: {what}", family.command(), axis.name());
         let (number, name) = (axis.number(), axis.name().to_owned());
-        Err(Fault::kontur(id, text, span).with(|d| d.axis(number, name).parameter(parameter)))
+        Err(Fault::new(id, text, span).with(|d| d.axis(number, name).parameter(parameter)))
     }
 
     /// `AX_DEV` and `ACC_FACT`, common to both commands.
-    fn tolerances(&mut self, keys: &Arguments, id: u16) -> Outcome<()> {
-        let ax_dev = keys.in_range("AX_DEV", 0.0, f64::MAX, id)?;
-        let acc_fact = keys.in_range("ACC_FACT", 1.0, 10.0, id)?;
+    fn tolerances(&mut self, keys: &Arguments, condition: Condition) -> Outcome<()> {
+        let ax_dev = keys.in_range("AX_DEV", 0.0, f64::MAX, condition)?;
+        let acc_fact = keys.in_range("ACC_FACT", 1.0, 10.0, condition)?;
         self.shaping.ax_dev_mm = ax_dev.filter(|x| *x > 0.0).map(|x| x * self.tolerance_unit_mm());
         if acc_fact.is_some() {
             self.shaping.acc_fact = acc_fact;
@@ -87,7 +90,7 @@ impl Decoder {
                     "ACC_FACT={x} has no effect on the axes {}: it needs a valid P-AXIS-00013",
                     without.join(", ")
                 );
-                let fault = Fault::kontur(own::ACC_FACT_IGNORED, text, span);
+                let fault = Fault::new(Condition::AccFactIgnored, text, span);
                 self.note(fault.with(|d| d.parameter("P-AXIS-00013")));
             }
         }
@@ -106,13 +109,13 @@ pub(super) fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some((x, span)) = keys.number("MODE") {
         programmed.mode = Some(mode(x, span)?);
     }
-    if let Some(freq_hz) = keys.in_range("FREQ", 1.0, f64::MAX, own::GUARD_RANGE)? {
+    if let Some(freq_hz) = keys.in_range("FREQ", 1.0, f64::MAX, Condition::GuardRange)? {
         programmed.freq_hz = Some(freq_hz);
     }
-    if let Some(damping) = keys.in_range("DAMPING", 0.0, 1.0, own::GUARD_RANGE)? {
+    if let Some(damping) = keys.in_range("DAMPING", 0.0, 1.0, Condition::GuardRange)? {
         programmed.damping = Some(damping);
     }
-    decoder.tolerances(&keys, own::GUARD_RANGE)?;
+    decoder.tolerances(&keys, Condition::GuardRange)?;
     decoder.shaping.guard = programmed;
     if let Some(on) = call.command.on {
         decoder.shaping.guard_on = Some(on);
@@ -130,7 +133,7 @@ pub(super) fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             )?;
             let text =
                 "the Vibration Guard is off: the values are stored for the next #VIB GUARD ON";
-            decoder.note(Fault::kontur(own::GUARD_STORED, text, call.span()));
+            decoder.note(Fault::new(Condition::GuardStored, text, call.span()));
         }
     }
     decoder.update_shaping(call.span());
@@ -141,7 +144,7 @@ fn mode(x: f64, span: Span) -> Outcome<u8> {
     let whole = crate::exec::expr::whole(x, 1, 4).filter(|m| (f64::from(*m) - x).abs() < 1e-9);
     whole.and_then(|m| u8::try_from(m).ok()).ok_or_else(|| {
         let text = format!("Vibration Guard mode {x} does not exist, allowed are 1 to 4");
-        Fault::vendor(22062, text, span).with(|d| {
+        Fault::new(Condition::GuardMode, text, span).with(|d| {
             d.value(ValueKind::Wrong, x, "-").value(ValueKind::LowerLimit, 1.0, "-").value(
                 ValueKind::UpperLimit,
                 4.0,
@@ -166,7 +169,10 @@ fn realisable(
         damping: damping.unwrap_or(default.damping),
     };
     match (settings.kernel(decoder.machine.cycle), decoder.machine.axes.first()) {
-        (Err(e), Some(axis)) => Err(Fault::new(guard_error(&e, axis, decoder.machine.cycle), span)),
+        (Err(e), Some(axis)) => Err(Fault::of(
+            issues::vib_guard(axis, Origin::Program, &e, decoder.machine.cycle),
+            span,
+        )),
         _ => Ok(()),
     }
 }
@@ -189,12 +195,13 @@ pub(super) fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let keys = arguments(decoder, "#FILTER", call.command.groups.first(), KEYS);
     if let Some((x, span)) = keys.number("MODE") {
         let text = format!("#FILTER has no MODE ({x})");
-        return Err(Fault::vendor(22068, text, span).with(|d| d.value(ValueKind::Wrong, x, "-")));
+        return Err(Fault::new(Condition::FilterMode, text, span)
+            .with(|d| d.value(ValueKind::Wrong, x, "-")));
     }
     let hsc = keys.has("HSC");
     let mut stored = if hsc { decoder.shaping.hsc } else { decoder.shaping.fir };
     filter_keys(&keys, &mut stored)?;
-    decoder.tolerances(&keys, own::FILTER_RANGE)?;
+    decoder.tolerances(&keys, Condition::FilterRange)?;
     let configured = decoder
         .machine
         .axes
@@ -204,7 +211,7 @@ pub(super) fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let (what, parameter) =
             if hsc { ("an HSC filter", "P-AXIS-00153") } else { ("a filter type", "P-AXIS-00586") };
         let text = format!("{}: no axis list configures {what}: no effect", call.title());
-        let fault = Fault::kontur(own::ODD, text, call.span()).warning();
+        let fault = Fault::new(Condition::Odd, text, call.span()).warning();
         decoder.note_once(parameter, fault.with(|d| d.parameter(parameter)));
     }
     if hsc {
@@ -222,11 +229,11 @@ fn filter_keys(keys: &Arguments, stored: &mut FilterKeys) -> Outcome<()> {
     /// Longest time that gives an order.
     const TIME_MAX_US: f64 = 1e8;
     let order_max = f64::from(u16::MAX).max(f64::from(MAX_ORDER));
-    let order = keys.in_range("ORDER", 0.0, order_max, own::FILTER_RANGE)?;
-    let time = keys.in_range("ORDER_TIME", 0.0, TIME_MAX_US, own::FILTER_RANGE)?;
-    let share = keys.in_range("SHARE", 0.0, 100.0, own::FILTER_RANGE)?;
-    let fcut = keys.in_range("FCUT", 1.0, f64::MAX, own::FILTER_RANGE)?;
-    let quality = keys.in_range("QUALITY", f64::MIN_POSITIVE, 1.0, own::FILTER_RANGE)?;
+    let order = keys.in_range("ORDER", 0.0, order_max, Condition::FilterRange)?;
+    let time = keys.in_range("ORDER_TIME", 0.0, TIME_MAX_US, Condition::FilterRange)?;
+    let share = keys.in_range("SHARE", 0.0, 100.0, Condition::FilterRange)?;
+    let fcut = keys.in_range("FCUT", 1.0, f64::MAX, Condition::FilterRange)?;
+    let quality = keys.in_range("QUALITY", f64::MIN_POSITIVE, 1.0, Condition::FilterRange)?;
     let whole = |x: Option<f64>| x.and_then(|x| crate::exec::expr::whole(x, 0, u32::MAX));
     if order.is_some() || time.is_some() {
         // the newer of the two rules; both in one command: the order

@@ -4,8 +4,9 @@
 
 use super::keys::number;
 use super::{Call, Key, Kind, arguments};
+use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use kontur_motion::block::SlopeKind;
 
 /// Types in the order of P-CHAN-00071.
@@ -52,17 +53,18 @@ pub(super) fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     if call.command.groups.iter().all(|group| group.items.is_empty()) {
         let text = "#SLOPE needs [TYPE=..] or DEFAULT";
-        return Err(Fault::vendor(21220, text, call.span()));
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     }
     let keys = arguments(decoder, "#SLOPE", call.command.groups.first(), KEYS);
     if let Some((name, span)) = keys.word("TYPE") {
         let Some(kind) = slope_type(name) else {
             let text = format!("unknown slope type {name}");
-            return Err(Fault::vendor(21629, text, span).hint("types are STEP, TRAPEZ, SIN2, HSC"));
+            return Err(Fault::new(Condition::SlopeType, text, span)
+                .hint("types are STEP, TRAPEZ, SIN2, HSC"));
         };
         decoder.modal.slope.kind = kind;
     }
-    if let Some(x) = keys.in_range("NO_OPT", 0.0, 1.0, own::RANGE)? {
+    if let Some(x) = keys.in_range("NO_OPT", 0.0, 1.0, Condition::Range)? {
         decoder.modal.slope.optimised = x < 0.5;
     }
     set_old(decoder, false);
@@ -78,15 +80,19 @@ pub(super) fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outco
         return Ok(());
     };
     let [item] = &group.items[..] else {
-        return Err(Fault::vendor(21220, "one number is expected: 0 to 3", group.span));
+        return Err(Fault::new(
+            Condition::TokenUnknown,
+            "one number is expected: 0 to 3",
+            group.span,
+        ));
     };
     let ItemKind::Value(ItemValue::Expr(expr)) = &item.kind else {
-        return Err(Fault::vendor(21220, "a number is expected: 0 to 3", item.span));
+        return Err(Fault::new(Condition::TokenUnknown, "a number is expected: 0 to 3", item.span));
     };
     let value = decoder.number(expr)?;
     let Some(i) = crate::exec::expr::whole(value, 0, 3) else {
         let text = format!("slope profile {value} does not exist");
-        return Err(Fault::vendor(120178, text, expr.span).with(|d| {
+        return Err(Fault::new(Condition::SlopeWeighting, text, expr.span).with(|d| {
             use crate::diag::ValueKind::{LowerLimit, UpperLimit, Wrong};
             d.value(Wrong, value, "-").value(LowerLimit, 0.0, "-").value(UpperLimit, 3.0, "-")
         }));

@@ -2,6 +2,7 @@
 
 use super::corner::{side_sweep, trimmed};
 use super::{Fallible, Item, too_tight};
+use crate::diag::Condition;
 use crate::exec::arc::Point;
 use crate::exec::contour::Motion;
 use crate::exec::fault::Fault;
@@ -47,7 +48,9 @@ impl Element {
                         "tool radius {} mm is too large for an arc of radius {radius} mm",
                         distance.abs()
                     );
-                    return Err(Fault::vendor(90031, text, motion.span).in_block(source));
+                    return Err(
+                        Fault::new(Condition::ToolTooLarge, text, motion.span).in_block(source)
+                    );
                 }
                 let sweep_rad = trimmed(&side, start, end);
                 if sweep_rad * side_sweep(&side) <= 0.0 {

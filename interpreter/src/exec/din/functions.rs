@@ -1,9 +1,9 @@
 //! M functions, spindle words and what follows a block.
 
 use super::After;
-use crate::diag::rounded;
+use crate::diag::{Condition, rounded};
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, own};
+use crate::exec::fault::Fault;
 use crate::exec::spindles::Turning;
 use crate::exec::step::{Event, Sync};
 use crate::exec::words::{Code, Words};
@@ -38,7 +38,7 @@ impl Decoder {
     pub(super) fn speed(&mut self, index: usize, value: f64, span: Span) {
         if !(0.0..=1e6).contains(&value) {
             let text = format!("spindle speed {value} is outside 0 to 1000000 rev/min");
-            self.note(Fault::kontur(own::RANGE, text, span));
+            self.note(Fault::new(Condition::Range, text, span));
             return;
         }
         self.set_spindle_speed(index, value, span);
@@ -62,17 +62,17 @@ impl Decoder {
                 rounded(rpm),
                 rounded(most)
             );
-            self.note(Fault::kontur(own::SPINDLE_LIMIT, text, span));
+            self.note(Fault::new(Condition::SpindleLimit, text, span));
         }
     }
 
     pub(in crate::exec) fn spindle_warning(&mut self, index: usize, span: Span) {
         if self.spindles[index].index.is_none() {
             let text = "the machine has no spindle: speeds are remembered, nothing turns";
-            self.note_once("spindle", Fault::kontur(own::IGNORED, text, span));
+            self.note_once("spindle", Fault::new(Condition::Ignored, text, span));
         } else if self.spindles[index].is_turning() && self.spindles[index].rpm == 0.0 {
             let text = "M03 and M04 with the speed 0 turn nothing before an S word";
-            self.note_once("spindle speed", Fault::kontur(own::ODD, text, span));
+            self.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
         }
     }
 
@@ -81,7 +81,7 @@ impl Decoder {
         if let (Some(first), Some(second)) = (spindle.next(), spindle.next()) {
             let (m, n) = (first.number, second.number);
             let text = format!("M{m:02} and M{n:02} in one block: both set the spindle");
-            self.note(Fault::kontur(own::DUPLICATE_GROUP, text, second.span));
+            self.note(Fault::new(Condition::DuplicateGroup, text, second.span));
         }
         for m in &words.m {
             match m_kind(m.number) {
@@ -99,7 +99,7 @@ impl Decoder {
     fn m_function(&mut self, m: &Code) {
         if let Some(text) = crate::exec::dialect::m_function(m.number) {
             let key = format!("M{}", m.number);
-            self.note_once(&key, Fault::kontur(own::DIALECT, text, m.span));
+            self.note_once(&key, Fault::new(Condition::Dialect, text, m.span));
         }
         self.event(Event::MFunction { number: m.number, value: m.value });
     }
@@ -145,7 +145,7 @@ impl Decoder {
             .find(|m| m_kind(m.number) == MKind::ToolChange && self.tool_change_file.is_some());
         if let (Some(m), true) = (tool_change, words.call.is_some() || words.cycle.is_some()) {
             let text = "M06 calls a subroutine: a second call in its block";
-            self.note(Fault::vendor(22008, text, m.span));
+            self.note(Fault::new(Condition::SeveralCalls, text, m.span));
         }
         if let Some((call, span)) = words.call {
             return After::Call(call, span);

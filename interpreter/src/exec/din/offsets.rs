@@ -1,8 +1,8 @@
 //! Tool offsets, zero offsets, presets, mirrors, rotations and software limits of a block.
 
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::groups::{self, Act, Group};
 use crate::exec::modal::Compensation;
 use crate::exec::words::{GWord, Words};
@@ -17,7 +17,7 @@ impl Decoder {
                     "G{} and G{} in one block: both need the axis words",
                     first.row.number, g.row.number
                 );
-                self.note(Fault::kontur(own::SYNTAX, text, g.span));
+                self.note(Fault::new(Condition::Syntax, text, g.span));
             } else {
                 found = Some(*g);
             }
@@ -28,7 +28,7 @@ impl Decoder {
                 "G{:02} beside G{}: the axis words are arguments of G{}, not targets",
                 motion.row.number, g.row.number, g.row.number
             );
-            self.note(Fault::kontur(own::SYNTAX, text, motion.span));
+            self.note(Fault::new(Condition::Syntax, text, motion.span));
         }
         found
     }
@@ -85,7 +85,7 @@ impl Decoder {
             !self.coordinates.frame().is_identity() || self.modal.compensation != Compensation::Off;
         if conflicts {
             let text = "#PSET and #PRESET do not go with mirroring, rotation, #CS or tool radius compensation";
-            self.note(Fault::kontur(own::SYNTAX, text, at));
+            self.note(Fault::new(Condition::Syntax, text, at));
             return true;
         }
         for (axis, value, _) in &words.axes {
@@ -97,7 +97,7 @@ impl Decoder {
                 self.coordinates.preset_position(axis, None);
             }
         } else if words.axes.is_empty() {
-            self.note(Fault::kontur(own::SYNTAX, "#PSET without axis words", at));
+            self.note(Fault::new(Condition::Syntax, "#PSET without axis words", at));
         }
         true
     }
@@ -112,7 +112,7 @@ impl Decoder {
                 Some((low, _)) => *low = value_mm,
                 None => {
                     let text = format!("axis {} has no software limits", self.axis_name(*axis));
-                    self.note(Fault::kontur(own::IGNORED, text, *span));
+                    self.note(Fault::new(Condition::Ignored, text, *span));
                 }
             }
         }
@@ -123,14 +123,14 @@ impl Decoder {
         let value = g.value.unwrap_or_default();
         crate::exec::expr::whole(value, 0, 999).ok_or_else(|| {
             let text = format!("zero-offset group {value} does not exist");
-            Fault::kontur(own::RANGE, text, g.span)
+            Fault::new(Condition::Range, text, g.span)
         })
     }
 
     fn needs_axes(g: &GWord, words: &Words<'_>) -> Outcome<()> {
         if words.axes.is_empty() {
             let text = format!("G{} without axis words", g.row.number);
-            return Err(Fault::vendor(20003, text, g.span));
+            return Err(Fault::new(Condition::AxisMissing, text, g.span));
         }
         Ok(())
     }
@@ -178,7 +178,7 @@ impl Decoder {
                 v if v.total_cmp(&-1.0).is_eq() => true,
                 _ => {
                     let text = format!("mirroring is switched by 1 and -1, not by {value}");
-                    return Err(Fault::vendor(20860, text, *span)
+                    return Err(Fault::new(Condition::MirrorSwitch, text, *span)
                         .with(|d| d.value(ValueKind::Wrong, *value, "-")));
                 }
             };
@@ -198,7 +198,7 @@ impl Decoder {
                     let name = self.axis_name(*axis).to_owned();
                     let text = format!("axis {name} is not in the plane of the rotation");
                     let number = self.machine.axes[*axis].number();
-                    return Err(Fault::vendor(22156, text, *span)
+                    return Err(Fault::new(Condition::RotationAxis, text, *span)
                         .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
                 }
             }

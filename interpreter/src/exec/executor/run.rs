@@ -2,9 +2,9 @@
 
 use super::report::{BLOCKS_BEHIND_ERROR, ERRORS_MAX};
 use super::{Executor, State, file_number};
-use crate::diag::{Diagnostic, Severity};
+use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::din::After;
-use crate::exec::fault::{Fault, own};
+use crate::exec::fault::Fault;
 use crate::exec::files::{Fetched, Parsed, Reading};
 use crate::exec::index::{EntryId, Keyword};
 use crate::exec::step::{EndReason, SourceRef, Sync};
@@ -88,7 +88,7 @@ impl Executor {
                 let at = entry.position;
                 if let Some(location) = self.place(at, entry.span) {
                     let text = "a % block inside a program is taken as a remark";
-                    let d = Diagnostic::kontur(own::PERCENT, text).severity(Severity::Warning);
+                    let d = Diagnostic::new(Condition::Percent, text).severity(Severity::Warning);
                     self.report(d.at(location));
                 }
                 self.jump_behind(at);
@@ -126,7 +126,7 @@ impl Executor {
             }
             Err(e) => {
                 let name = Arc::clone(&self.files.file(file).name);
-                self.report(Diagnostic::kontur(own::NO_FILE, format!("{name}: {e}")));
+                self.report(Diagnostic::new(Condition::NoFile, format!("{name}: {e}")));
                 self.end(EndReason::Aborted);
                 None
             }
@@ -158,7 +158,7 @@ impl Executor {
         } else {
             return true;
         };
-        let diagnostic = Diagnostic::kontur(own::ENDLESS, text);
+        let diagnostic = Diagnostic::new(Condition::Endless, text);
         let location =
             self.levels.last().map(|l| l.at).and_then(|at| self.place(at, Span::default()));
         self.report(match location {
@@ -225,7 +225,7 @@ impl Executor {
             let begins = command.is("VAR");
             if begins == declarations {
                 let text = if begins { "#VAR inside #VAR" } else { "#ENDVAR without #VAR" };
-                self.decoder.note(Fault::kontur(own::SYNTAX, text, command.span));
+                self.decoder.note(Fault::new(Condition::Syntax, text, command.span));
             }
             if let Some(level) = self.levels.last_mut() {
                 level.declarations = begins;
@@ -251,7 +251,7 @@ impl Executor {
             self.decoder.keep(outcome).unwrap_or(false)
         } else {
             let text = "#IF needs one condition";
-            self.decoder.note(Fault::kontur(own::SYNTAX, text, command.span));
+            self.decoder.note(Fault::new(Condition::Syntax, text, command.span));
             false
         };
         if condition {
@@ -295,7 +295,7 @@ impl Executor {
                 } else {
                     format!("{behind} blocks behind the first error: the check stops here")
                 };
-                let d = Diagnostic::kontur(own::TOO_MANY, text).severity(Severity::Note);
+                let d = Diagnostic::new(Condition::TooMany, text).severity(Severity::Note);
                 self.report(d);
                 self.end(EndReason::Aborted);
             }

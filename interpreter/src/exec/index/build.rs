@@ -5,8 +5,7 @@ use super::head::{
 };
 use super::keyword::Keyword;
 use super::{Entry, EntryId, Index, LabelPlace, Section};
-use crate::diag::{Diagnostic, Severity};
-use crate::exec::fault::own;
+use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::options::SkipLevels;
 use crate::source::{BlockReader, Position, RawBlock};
 use crate::syntax::ast::{LabelKind, Span};
@@ -47,7 +46,7 @@ impl Builder<'_> {
         let first = head.rest.bytes().next();
         if let Some(open) = self.comment {
             if first == Some(b'#') && is_command(head.rest, "COMMENT", "END") {
-                self.alone(raw, &head, 20569);
+                self.alone(raw, &head, Condition::CommentEndNotAlone);
                 let id = self.push(raw.position, head.at, Keyword::CommentEnd);
                 self.index.entries[open as usize].end = Some(id);
                 self.comment = None;
@@ -130,13 +129,13 @@ impl Builder<'_> {
             let name = name_of(name);
             if self.has_main {
                 let text = "a local subroutine behind the main program: the control may refuse it";
-                let d = Diagnostic::kontur(own::ODD, text).severity(Severity::Note);
+                let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Note);
                 self.report(raw, raw.text.len() - rest.len(), 2, d);
             }
             let known = self.index.sections.iter().any(|s| s.local && s.name.as_deref() == name);
             if known {
                 let text = format!("local subroutine {} twice", name.unwrap_or(""));
-                let d = Diagnostic::kontur(own::ODD, text).severity(Severity::Warning);
+                let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Warning);
                 self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
             }
             self.open_section(name, true, next);
@@ -173,7 +172,8 @@ impl Builder<'_> {
                 LabelKind::Number(n) => format!("N{n}:"),
                 LabelKind::Name(name) => format!("[{name}]"),
             };
-            let d = Diagnostic::vendor(20836, format!("label {shown} is defined twice"));
+            let d =
+                Diagnostic::new(Condition::LabelTwice, format!("label {shown} is defined twice"));
             self.report(raw, at, shown.len(), d);
             return;
         }
@@ -184,7 +184,7 @@ impl Builder<'_> {
         let name = word(&head.rest[1..]);
         match name.as_str() {
             "COMMENT" if is_command(head.rest, "COMMENT", "BEGIN") => {
-                self.alone(raw, head, 20566);
+                self.alone(raw, head, Condition::CommentBeginNotAlone);
                 self.comment = Some(self.push(raw.position, head.at, Keyword::CommentBegin));
             }
             "IF" => {
@@ -195,7 +195,7 @@ impl Builder<'_> {
             }
             "ELSE" | "ENDIF" => {
                 let Some(open) = self.conditional_open.last().copied() else {
-                    let d = Diagnostic::kontur(own::SYNTAX, format!("#{name} without #IF"));
+                    let d = Diagnostic::new(Condition::Syntax, format!("#{name} without #IF"));
                     self.report(raw, head.at, name.len() + 1, d);
                     return;
                 };
@@ -218,16 +218,16 @@ impl Builder<'_> {
     }
 
     /// `#COMMENT BEGIN` and `#COMMENT END` stand alone in their blocks.
-    fn alone(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, id: u32) {
+    fn alone(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, condition: Condition) {
         let word = |text: &str| {
             text.trim_start_matches(|c: char| c.is_ascii_alphanumeric()).trim_start().len()
         };
         let second = &head.rest[head.rest.len() - word(&head.rest[1..])..];
         let behind = blank(&second[second.len() - word(second)..]);
         if !behind.is_empty() && !behind.starts_with(';') {
-            let name = if id == 20566 { "BEGIN" } else { "END" };
+            let name = if condition == Condition::CommentBeginNotAlone { "BEGIN" } else { "END" };
             let text = format!("#COMMENT {name} does not stand alone in its block");
-            let d = Diagnostic::vendor(id, text);
+            let d = Diagnostic::new(condition, text);
             self.report(raw, head.at, head.rest.trim_end().len(), d);
         }
     }
@@ -244,7 +244,7 @@ impl Builder<'_> {
             self.stack.push(id);
             if self.stack.len() > NESTING_MAX {
                 let text = format!("control statements nested more than {NESTING_MAX} deep");
-                let d = Diagnostic::vendor(20211, text);
+                let d = Diagnostic::new(Condition::ControlNesting, text);
                 self.report(raw, head.at, name.len() + 1, d);
             }
             return;
@@ -257,9 +257,9 @@ impl Builder<'_> {
         let Some(depth) = found else {
             let text = format!("{} without {}", keyword.text(), opener.text());
             let d = match keyword {
-                Keyword::EndFor => Diagnostic::vendor(20232, text),
-                Keyword::ElseIf => Diagnostic::vendor(20216, text),
-                _ => Diagnostic::kontur(own::SYNTAX, text),
+                Keyword::EndFor => Diagnostic::new(Condition::EndForWithoutFor, text),
+                Keyword::ElseIf => Diagnostic::new(Condition::ElseIfWithoutIf, text),
+                _ => Diagnostic::new(Condition::Syntax, text),
             };
             self.report(raw, head.at, name.len() + 1, d);
             return;
@@ -273,7 +273,7 @@ impl Builder<'_> {
                 inner.keyword.text(),
                 inner.position.line
             );
-            let d = Diagnostic::kontur(own::SYNTAX, text);
+            let d = Diagnostic::new(Condition::Syntax, text);
             self.report(raw, head.at, name.len() + 1, d);
             self.stack.truncate(depth + 1);
         }

@@ -1,11 +1,11 @@
 //! Centre, end and faults of a programmed arc.
 
 use super::PlaneImage;
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::arc::{self, ArcError};
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::groups::Group;
 use crate::exec::modal::PathMode;
 use crate::exec::words::{Placed, Words};
@@ -27,7 +27,7 @@ impl Decoder {
         let axis = |m: usize| {
             self.coordinates.main_axis(m).ok_or_else(|| {
                 let text = "the plane of the arc has no axis in the channel";
-                Fault::vendor(20200, text, span)
+                Fault::new(Condition::AxisOrCommandExpected, text, span)
             })
         };
         let plane = [axis(image[0])?, axis(image[1])?];
@@ -39,7 +39,7 @@ impl Decoder {
         if let Some((radius, at)) = words.radius {
             if has_centre {
                 let text = "centre and radius in one block";
-                return Err(Fault::vendor(21024, text, at));
+                return Err(Fault::new(Condition::CentreAndRadius, text, at));
             }
             self.modal.radius_mm = Some(radius * self.unit_mm());
         }
@@ -62,7 +62,7 @@ impl Decoder {
             if pitch == 0.0 || height == 0.0 {
                 if pitch != 0.0 {
                     let text = "a pitch has no meaning without a way along the third axis";
-                    self.note(Fault::kontur(own::ODD, text, at).warning());
+                    self.note(Fault::new(Condition::Odd, text, at).warning());
                 }
             } else {
                 arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch * self.unit_mm());
@@ -118,24 +118,25 @@ impl Decoder {
 fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
     match error {
         ArcError::RadiusZero => {
-            Fault::vendor(20036, "the radius of the arc is 0", span).hint("is I, J or K missing?")
+            Fault::new(Condition::ArcRadiusZero, "the radius of the arc is 0", span)
+                .hint("is I, J or K missing?")
         }
         ArcError::FullCircleWithRadius => {
             let text = "a full circle cannot be programmed with R";
-            Fault::vendor(20034, text, span).hint("use I, J, K")
+            Fault::new(Condition::FullCircleWithRadius, text, span).hint("use I, J, K")
         }
         ArcError::RadiusTooSmall { radius, half_chord } => {
             let text = format!(
                 "radius {} is smaller than half the chord, {half_chord:.6} mm",
                 radius.abs()
             );
-            Fault::kontur(own::RADIUS_TOO_SMALL, text, span)
+            Fault::new(Condition::RadiusTooSmall, text, span)
         }
         ArcError::CentreTooFar { shift, limit } => {
             let text = format!(
                 "start, end and centre do not fit: the centre would have to move by {shift:.6} mm, at most {limit:.6} mm"
             );
-            Fault::kontur(own::ARC_CENTRE, text, span)
+            Fault::new(Condition::ArcCentre, text, span)
                 .with(|d| d.parameter("P-CHAN-00059"))
                 .hint("G161 makes I, J, K absolute, G162 relative to the start point")
         }
@@ -144,7 +145,7 @@ fn arc_fault(error: ArcError, span: Span) -> Box<Fault> {
                 "the radii at start and end differ by {:.6} mm, at most {limit:.6} mm",
                 (start - end).abs()
             );
-            Fault::vendor(21758, text, span).with(|d| {
+            Fault::new(Condition::ArcRadiiDiffer, text, span).with(|d| {
                 d.value(ValueKind::Current, (start - end).abs() * 1e4, "0.1um")
                     .value(ValueKind::Limit, limit * 1e4, "0.1um")
                     .value(ValueKind::StartValue, start * 1e4, "0.1um")

@@ -1,7 +1,8 @@
 //! Feed and end velocity of a block.
 
+use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::modal::{FeedType, PathMode};
 use crate::exec::words::Placed;
 use crate::syntax::ast::Span;
@@ -18,7 +19,7 @@ impl Decoder {
         let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
             let key = "20008".to_owned();
             let text = "the feed is 0: no F word has been programmed";
-            self.note_once(&key, Fault::vendor(20008, text, span));
+            self.note_once(&key, Fault::new(Condition::FeedZero, text, span));
             // the block is left out, the positions go on
             return Ok(Feed::PathVelocity(1.0));
         };
@@ -33,7 +34,7 @@ impl Decoder {
                 let rpm = self.spindles[0].rpm.abs();
                 if rpm == 0.0 {
                     let text = "feed per revolution, but the main spindle has no speed";
-                    return Err(Fault::vendor(60132, text, span));
+                    return Err(Fault::new(Condition::SpindleSpeedZeroAtFeed, text, span));
                 }
                 Feed::PathVelocity(word.value * unit_mm * rpm / 60.0)
             }
@@ -49,7 +50,7 @@ impl Decoder {
             let text = format!(
                 "the block cannot be done in F{time_s} s (G93): its velocity limits need {least_s:.6} s"
             );
-            self.note(Fault::kontur(own::ODD, text, span).warning());
+            self.note(Fault::new(Condition::Odd, text, span).warning());
         }
     }
 
@@ -68,11 +69,11 @@ impl Decoder {
     pub(super) fn end_velocity(&self, (value, span): Placed, feed: Feed) -> Outcome<Option<f64>> {
         let Feed::PathVelocity(v) = feed else {
             let text = "E acts only with G94 and not in rapid traverse";
-            return Err(Fault::kontur(own::SYNTAX, text, span));
+            return Err(Fault::new(Condition::Syntax, text, span));
         };
         if self.modal.feed_type != FeedType::PerMinute || value < 0.0 {
             let text = "E acts only with G94 and is not negative";
-            return Err(Fault::kontur(own::SYNTAX, text, span));
+            return Err(Fault::new(Condition::Syntax, text, span));
         }
         Ok(Some((value * self.feed_unit_mm_s()).min(v)))
     }

@@ -1,6 +1,6 @@
 //! Software limits along a path.
 
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::contour::Driven;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
@@ -80,7 +80,7 @@ impl Decoder {
         let name = self.axis_name(axis).to_owned();
         let number = self.machine.axes[axis].number();
         let text = format!("axis {name}: {what} {x} is outside its limits {least} to {most}");
-        let fault = Fault::vendor(21897, text, span).with(|d| {
+        let fault = Fault::new(Condition::OutsideMotionRange, text, span).with(|d| {
             d.axis(number, name)
                 .value(ValueKind::Current, x * 1e4, "0.1um")
                 .value(ValueKind::LowerLimit, least * 1e4, "0.1um")

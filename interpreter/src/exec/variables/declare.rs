@@ -2,8 +2,9 @@
 
 use super::scopes::{Class, class};
 use super::storage::{DIMENSIONS_MAX, ELEMENTS_MAX, Type, Values, Variable};
+use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::syntax::ast::{Declaration, Expr, ItemKind, ItemValue, Place, PlaceKind, Span};
 use smallvec::SmallVec;
@@ -22,24 +23,24 @@ impl Decoder {
                 let first = segments.first().map_or("", |s| &*s.name);
                 let Some((class, _)) = class(first) else {
                     let text = format!("variables of class V.{first} cannot be declared");
-                    return Err(Fault::vendor(21218, text, span));
+                    return Err(Fault::new(Condition::VariableClass, text, span));
                 };
                 let names: Vec<&str> = segments[1..].iter().map(|s| &*s.name).collect();
                 (names.join("."), Some(class))
             }
             PlaceKind::Cycle(_) => {
-                return Err(Fault::kontur(own::SYNTAX, "a variable is expected", span));
+                return Err(Fault::new(Condition::Syntax, "a variable is expected", span));
             }
         };
         let sizes = self.sizes(&declaration.place)?;
         let count: usize = sizes.iter().product();
         if sizes.len() > DIMENSIONS_MAX {
             let text = format!("arrays have at most {DIMENSIONS_MAX} dimensions");
-            return Err(Fault::kontur(own::RANGE, text, span));
+            return Err(Fault::new(Condition::Range, text, span));
         }
         if !sizes.is_empty() && self.variables.elements.saturating_add(count) > ELEMENTS_MAX {
             let text = format!("all arrays together hold at most {ELEMENTS_MAX} elements");
-            return Err(Fault::kontur(own::RANGE, text, span));
+            return Err(Fault::new(Condition::Range, text, span));
         }
         let values = self.start_values(declaration, kind, &sizes, count)?;
         let variable = Variable { kind: Some(kind), sizes, values };
@@ -58,7 +59,7 @@ impl Decoder {
         };
         if exists {
             let text = "already declared: it keeps its value";
-            self.note_once("redeclared", Fault::kontur(own::ODD, text, span));
+            self.note_once("redeclared", Fault::new(Condition::Odd, text, span));
         }
         Ok(())
     }
@@ -81,7 +82,7 @@ impl Decoder {
         let elements = variable.elements();
         let Some(table) = self.variables.table(class) else {
             let text = "V.CYC variables exist only inside a cycle";
-            return Err(Fault::vendor(21218, text, span));
+            return Err(Fault::new(Condition::VariableClass, text, span));
         };
         if table.contains_key(name) {
             return Ok(true);
@@ -100,7 +101,7 @@ impl Decoder {
             return Ok(if text { Type::Text(126) } else { Type::Real });
         };
         let kind = Type::from_name(&name.text.to_ascii_uppercase()).ok_or_else(|| {
-            Fault::vendor(20908, format!("unknown type {}", name.text), name.span)
+            Fault::new(Condition::VariableType, format!("unknown type {}", name.text), name.span)
                 .hint("types are BOOLEAN, SGN08 to SGN32, UNS08 to UNS32, REAL64, STRING[n]")
         })?;
         match (&declaration.length, kind) {
@@ -136,10 +137,14 @@ impl Decoder {
                 None => kind.zero(),
                 Some(ItemValue::Expr(e)) => one(e)?,
                 Some(ItemValue::Name(n)) => {
-                    return Err(Fault::kontur(own::SYNTAX, "a value is expected", n.span));
+                    return Err(Fault::new(Condition::Syntax, "a value is expected", n.span));
                 }
                 Some(ItemValue::List(g)) => {
-                    return Err(Fault::kontur(own::SYNTAX, "a single value is expected", g.span));
+                    return Err(Fault::new(
+                        Condition::Syntax,
+                        "a single value is expected",
+                        g.span,
+                    ));
                 }
             }));
         }
@@ -153,19 +158,19 @@ impl Decoder {
                         ItemKind::Missing => values.push(kind.zero()),
                         _ => {
                             let text = "a value is expected";
-                            return Err(Fault::kontur(own::SYNTAX, text, item.span));
+                            return Err(Fault::new(Condition::Syntax, text, item.span));
                         }
                     }
                 }
             }
             Some(ItemValue::Expr(e)) => values.push(one(e)?),
             Some(ItemValue::Name(n)) => {
-                return Err(Fault::kontur(own::SYNTAX, "a value is expected", n.span));
+                return Err(Fault::new(Condition::Syntax, "a value is expected", n.span));
             }
         }
         if values.len() > count {
             let text = format!("{} values for {count} elements", values.len());
-            return Err(Fault::kontur(own::RANGE, text, declaration.span));
+            return Err(Fault::new(Condition::Range, text, declaration.span));
         }
         values.resize(count, kind.zero());
         Ok(Values::Many(values))

@@ -1,8 +1,8 @@
 //! A variable, its type and its elements.
 
-use crate::diag::ValueKind;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::expr::{as_number, is_true, whole};
-use crate::exec::fault::{Fault, Outcome, own};
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::syntax::ast::Span;
 use smallvec::SmallVec;
@@ -62,18 +62,18 @@ impl Type {
                 let x = as_number(&value, span)?.round();
                 if x < low as f64 || x > high as f64 {
                     let text = format!("{x} is outside {low} to {high}");
-                    return Err(Fault::kontur(own::RANGE, text, span));
+                    return Err(Fault::new(Condition::Range, text, span));
                 }
                 Value::Number(x + 0.0)
             }
             Self::Text(length) => match value {
                 Value::Text(text) if text.chars().count() > length => {
                     let text = format!("the text is longer than {length} characters");
-                    return Err(Fault::kontur(own::RANGE, text, span));
+                    return Err(Fault::new(Condition::Range, text, span));
                 }
                 Value::Text(text) => Value::Text(text),
                 Value::Number(_) => {
-                    return Err(Fault::kontur(own::SYNTAX, "a text is expected", span));
+                    return Err(Fault::new(Condition::Syntax, "a text is expected", span));
                 }
             },
         })
@@ -125,14 +125,14 @@ impl Variable {
                 subscripts.len(),
                 self.sizes.len()
             );
-            return Err(Fault::kontur(own::RANGE, text, span));
+            return Err(Fault::new(Condition::Range, text, span));
         }
         let mut index = 0;
         for (x, size) in subscripts.iter().zip(&self.sizes) {
             let high = u32::try_from(size - 1).unwrap_or(u32::MAX);
             let Some(i) = whole(*x, 0, high) else {
                 let text = format!("subscript {x} is outside 0 to {high}");
-                return Err(Fault::kontur(own::RANGE, text, span)
+                return Err(Fault::new(Condition::Range, text, span)
                     .with(|d| d.value(ValueKind::Current, *x, "-")));
             };
             index = index * size + i as usize;

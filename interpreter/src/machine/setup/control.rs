@@ -1,7 +1,7 @@
 //! Feedforward, position controller, monitors and drive formats of one axis.
 
 use super::plant;
-use crate::diag::{Diagnostic, Severity};
+use crate::diag::{Condition, Diagnostic, Severity};
 use crate::machine::axis::{AxisKind, integer};
 use crate::machine::{Axis, issues};
 use kontur_filters::control::{
@@ -102,9 +102,9 @@ fn feedforward(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) -> 
     let unknown = flags & !u32::from(mode.bits());
     if unknown != 0 {
         diagnostics.push(
-            issues::kontur(
+            issues::about(
                 axis,
-                70,
+                Condition::ListRange,
                 key,
                 &format!("feedforward {flags:#x}"),
                 "bits that mean nothing are ignored",
@@ -122,9 +122,9 @@ fn feedforward(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) -> 
         if us > 0.0 && !mode.is_empty() && !mode.contains(part) {
             let what = format!("delay of {us} us without the additive feedforward {input}");
             diagnostics.push(
-                issues::kontur(axis, 75, &key, &what, "no effect").hint(format!(
-                    "only additive inputs are delayed: vorsteuer.vorsteuerung {input}"
-                )),
+                issues::about(axis, Condition::ListNoEffect, &key, &what, "no effect").hint(
+                    format!("only additive inputs are delayed: vorsteuer.vorsteuerung {input}"),
+                ),
             );
         }
     }
@@ -179,7 +179,7 @@ fn additive_inputs(
         let key = format!("antr.sercos.mdt[{entry}].nc_ref");
         let (what, effect) = ("additive input S_0_0037", "taken for the additive torque");
         diagnostics.push(
-            issues::vendor(axis, 70351, &key, what, effect)
+            issues::about(axis, Condition::NoAdditiveTorque, &key, what, effect)
                 .severity(Severity::Note)
                 .hint("the additive torque is S_0_0080; the manual's listing prints S_0_0037"),
         );
@@ -202,10 +202,11 @@ fn position_loop(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> PositionLoop
         let effect = "the loop stays closed";
         diagnostics.push(if axis.kind() == AxisKind::Spindle {
             let what = format!("{mode}, a spindle without position control");
-            issues::kontur(axis, 79, key, &what, effect).severity(Severity::Warning)
+            issues::about(axis, Condition::PositionLoop, key, &what, effect)
+                .severity(Severity::Warning)
         } else {
             let what = format!("{mode}, which only spindles can have");
-            issues::vendor(axis, 70345, key, &what, effect)
+            issues::about(axis, Condition::AxisWithoutPositionControl, key, &what, effect)
         });
     }
     if !matches!(integer(axis.raw("kenngr.antr_typ")), Some(2 | 3 | 8))
@@ -216,7 +217,7 @@ fn position_loop(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> PositionLoop
     if !mode.starts_with("OPEN_POSITION_LOOP") {
         let what = "position loop closed in the drive";
         let effect = "simulated with the law of the control and its gain kv (P-AXIS-00099)";
-        diagnostics.push(issues::kontur(axis, 79, key, what, effect).hint(
+        diagnostics.push(issues::about(axis, Condition::PositionLoop, key, what, effect).hint(
             "set kv to the gain of the drive; CNC_POSITION_CONTROL closes the loop in the control",
         ));
     }
@@ -353,7 +354,7 @@ fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
         if feed_given && !one(raw(axis, key)) {
             let what = format!("encoder resolution {} beside a feed constant", raw(axis, key));
             diagnostics.push(
-                issues::kontur(axis, 64, key, &what, "the feed constant rules, it has no effect")
+                issues::about(axis, Condition::ResolutionWithoutEffect, key, &what, "the feed constant rules, it has no effect")
                     .hint("older builds took the gear ratio from it: write gear_fact_num, gear_fact_denom"),
             );
         }
@@ -363,7 +364,7 @@ fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     if !feed_given && (increments - 1024.0).abs() > 0.0 {
         let what = format!("{increments} increments per revolution without a feed constant");
         diagnostics.push(
-            issues::kontur(axis, 65, key, &what, "no effect")
+            issues::about(axis, Condition::IncrementsWithoutEffect, key, &what, "no effect")
                 .hint("set antr.feed_const_num and antr.feed_const_denom as well"),
         );
     }

@@ -1,9 +1,10 @@
 //! Axis filters and the kernel slot of one axis.
 
 use super::control::{converted, raw};
-use crate::diag::Diagnostic;
+use crate::diag::{Condition, Diagnostic};
+use crate::machine::Axis;
 use crate::machine::axis::{AxisKind, integer};
-use crate::machine::{Axis, issues};
+use crate::machine::issues::{self, Origin};
 use kontur_filters::{
     cascade::{Cascade, FilterEntry, ListedPrototype, ListedType},
     fir::{FirConfig, FirKind},
@@ -57,12 +58,9 @@ pub(super) fn cascade(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagn
         entries.push(entry(axis, &format!("filter[{index}]"), diagnostics));
     }
     let cascade = Cascade::design(&entries, axis.kind() == AxisKind::Spindle, cycle);
-    diagnostics.extend(
-        cascade
-            .issues
-            .iter()
-            .map(|(index, issue)| issues::filter(axis, &format!("filter[{index}]"), issue)),
-    );
+    diagnostics.extend(cascade.issues.iter().map(|(index, issue)| {
+        issues::filter(axis, Origin::List(&format!("filter[{index}]")), issue)
+    }));
     cascade
 }
 
@@ -79,7 +77,8 @@ pub(super) fn additional(
         return None;
     }
     let (filter, issues) = entry(axis, ADDITIONAL, diagnostics).additional(cycle);
-    diagnostics.extend(issues.iter().map(|issue| issues::filter(axis, ADDITIONAL, issue)));
+    diagnostics
+        .extend(issues.iter().map(|issue| issues::filter(axis, Origin::List(ADDITIONAL), issue)));
     Some(AdditionalInterface { filter })
 }
 
@@ -97,7 +96,7 @@ fn entry(axis: &Axis, prefix: &str, diagnostics: &mut Vec<Diagnostic>) -> Filter
         None => None,
         Some(Ok(listed)) => Some(listed),
         Some(Err(issue)) => {
-            diagnostics.push(issues::filter(axis, prefix, &issue));
+            diagnostics.push(issues::filter(axis, Origin::List(prefix), &issue));
             enable = false;
             None
         }
@@ -111,7 +110,7 @@ fn entry(axis: &Axis, prefix: &str, diagnostics: &mut Vec<Diagnostic>) -> Filter
         None => {
             let what = format!("prototype {number} of a filter");
             diagnostics.push(
-                issues::kontur(axis, 70, &key("prototype"), &what, "filter off")
+                issues::about(axis, Condition::ListRange, &key("prototype"), &what, "filter off")
                     .hint("CRIT_DAMPING 1, BUTTERWORTH 2, BESSEL 3, HSC 5; 4 is not assigned"),
             );
             enable = false;
@@ -172,17 +171,24 @@ pub(super) fn check_kernels(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec
     let number = raw(axis, "filter_fir.type");
     if number > 4.0 {
         let what = format!("type {number} of the FIR filter, 0 to 4 exist");
-        diagnostics.push(issues::kontur(axis, 70, "filter_fir.type", &what, "no FIR filter"));
+        diagnostics.push(issues::about(
+            axis,
+            Condition::ListRange,
+            "filter_fir.type",
+            &what,
+            "no FIR filter",
+        ));
     }
     let fir = preset.fir.filter(|fir| fir.enable).map(|fir| fir.config.design(cycle).1);
     let hsc = preset.hsc.map(|hsc| hsc.design(cycle).1);
     for (prefix, found) in [("filter_fir", fir), ("filter[0]", hsc)] {
         let found = found.unwrap_or_default();
-        diagnostics.extend(found.iter().map(|issue| issues::filter(axis, prefix, issue)));
+        diagnostics
+            .extend(found.iter().map(|issue| issues::filter(axis, Origin::List(prefix), issue)));
     }
     if preset.vib_guard.active
         && let Err(error) = preset.vib_guard.settings.kernel(cycle)
     {
-        diagnostics.push(issues::vib_guard(axis, &error));
+        diagnostics.push(issues::vib_guard(axis, Origin::List("vib_guard"), &error, cycle));
     }
 }

@@ -1,6 +1,7 @@
 //! Axis lists: position controller, position and lag monitoring, measuring systems.
 
 use super::row::{Bound, Correction, Default, Raw, Row, axis};
+use crate::diag::Condition;
 
 /// Names of P-AXIS-00320.
 const OPERATION_MODES: &[&str] = &[
@@ -20,7 +21,7 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00092", "getriebe[i].incr_per_rev", Raw::Uns32, "encoder increments per motor revolution")
         .range(Bound::At(0.0), Bound::None).default(1024.0).unit("incr/rev", "incr/rev").source("TF5200 feedforward control"),
     axis("P-AXIS-00099", "getriebe[i].kv", Raw::Uns32, "gain of the P position controller in the CNC (1000 = 10/s); 0 gives 110150")
-        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").below(110150, Correction::Default),
+        .range(Bound::At(1.0), Bound::None).default(1000.0).unit("0.01/s", "0.01/s").below(Condition::GainZero, Correction::Default),
     axis("P-AXIS-00128", "getriebe[i].multi_gain_n", Raw::Uns32, "output at 1 m/min (1000 deg/min), denominator")
         .range(Bound::At(1.0), Bound::None).default(1.0).drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").source("TF5200 Improved Position Control"),
     axis("P-AXIS-00129", "getriebe[i].multi_gain_z", Raw::Uns32, "output at 1 m/min (1000 deg/min), numerator")
@@ -40,9 +41,9 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00172", "getriebe[i].slep_ueberw_typ", Raw::Uns32, "lag monitoring: 1 standard, 2 linear, 4 speed-independent, else off")
         .range(Bound::At(0.0), Bound::None).default(0.0),
     axis("P-AXIS-00233", "getriebe[i].wegaufn", Raw::Uns32, "encoder resolution, path (denominator); 0 gives 110086")
-        .range(Bound::At(1.0), Bound::None).default(1.0).unit("0.1um", "0.0001deg").below(110086, Correction::Value(1.0)),
+        .range(Bound::At(1.0), Bound::None).default(1.0).unit("0.1um", "0.0001deg").below(Condition::ResolutionPath, Correction::Value(1.0)),
     axis("P-AXIS-00234", "getriebe[i].wegaufz", Raw::Uns32, "encoder resolution, increments (numerator); 0 gives 110386")
-        .range(Bound::At(1.0), Bound::None).default(1.0).unit("incr", "incr").below(110386, Correction::Value(1.0)),
+        .range(Bound::At(1.0), Bound::None).default(1.0).unit("incr", "incr").below(Condition::ResolutionIncrements, Correction::Value(1.0)),
     axis("P-AXIS-00236", "getriebe[i].window", Raw::Sgn32, "exact-stop window, also for G60")
         .range(Bound::At(0.0), Bound::None).default(500.0).unit("0.1um", "0.0001deg").source("TF5200 position monitoring"),
     axis("P-AXIS-00245", "getriebe[i].dyn_kv.kv1", Raw::Uns32, "dynamic kv: gain at v1")
@@ -56,7 +57,7 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00320", "antr.operation_mode", Raw::Word(OPERATION_MODES), "where the position loop is closed")
         .default_is(Default::Text("DRIVE_DEFAULT")).drives("SERCOS").source("TwinCAT 3 CNC axis commissioning"),
     axis("P-AXIS-00395", "getriebe[i].pos_control_deadband", Raw::Uns32, "lag below which an axis at rest gets no command")
-        .range(Bound::None, Bound::Of("P-AXIS-00236")).default(0.0).unit("0.1um", "0.0001deg").above(110528, Correction::Limit).source("TF5200 diagnosis"),
+        .range(Bound::None, Bound::Of("P-AXIS-00236")).default(0.0).unit("0.1um", "0.0001deg").above(Condition::DeadBand, Correction::Limit).source("TF5200 diagnosis"),
     axis("P-AXIS-00407", "lr_param.dyn_monitoring_v_err", Raw::Uns32, "speed excess allowed in the controller (70382); 0 = off")
         .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1%", "0.1%"),
     axis("P-AXIS-00422", "lr_hw[i].encoder_resolution_num", Raw::Uns32, "resolution of the direct measuring system (i = 1), increments")
@@ -68,7 +69,7 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00511", "getriebe[i].gear_fact_num", Raw::Uns32, "gear ratio, input revolutions")
         .range(Bound::At(1.0), Bound::None).default(1.0).source("TF5200 feedforward control"),
     axis("P-AXIS-00512", "getriebe[i].gear_fact_denom", Raw::Uns32, "gear ratio, output revolutions; 0 gives 110579 (one page of the diagnosis manual prints 110580)")
-        .range(Bound::At(1.0), Bound::None).default(1.0).below(110579, Correction::Value(1.0)).source("TF5200 feedforward control"),
+        .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::GearRatio, Correction::Value(1.0)).source("TF5200 feedforward control"),
     axis("P-AXIS-00532", "getriebe[i].position_settling_time", Raw::Sgn32, "time limit to reach the window; 0 off, < 0 use P-AXIS-00151")
         .default(-1.0).unit("us", "us").source("TF5200 position monitoring"),
 ];

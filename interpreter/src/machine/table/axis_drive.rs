@@ -1,6 +1,7 @@
 //! Axis lists: simulated drive, scaling to the format of a drive, feedforward.
 
 use super::row::{Bound, Correction, Raw, Row, axis};
+use crate::diag::Condition;
 
 /// Kinds of feedforward (P-AXIS-00223).
 const FEEDFORWARD: &[(&str, u32)] = &[
@@ -33,7 +34,7 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00191", "antr.nbr_delay_cycles", Raw::Uns16, "cycles between command output and actual read-in, only for the lag")
         .range(Bound::At(0.0), Bound::At(10.0)).default(4.0).unit("cycles", "cycles").drives("SERCOS, CANopen, KUKA"),
     axis("P-AXIS-00194", "antr.simu.totzeit", Raw::Uns32, "dead time of the plant; more gives 110040")
-        .range(Bound::At(0.0), Bound::At(5.0)).default(0.0).unit("cycles", "cycles").drives("Simulation").above(110040, Correction::Limit),
+        .range(Bound::At(0.0), Bound::At(5.0)).default(0.0).unit("cycles", "cycles").drives("Simulation").above(Condition::DeadTime, Correction::Limit),
     axis("P-AXIS-00205", "antr.v_reso_denom", Raw::Uns32, "speed scaling: path driven per time base when v_reso_num is output")
         .range(Bound::At(1.0), Bound::None).default(36.0).unit("um", "0.001deg").source("TF5200 feedforward control"),
     axis("P-AXIS-00206", "antr.v_reso_num", Raw::Uns32, "speed scaling: increments that are output for the path v_reso_denom per time base")
@@ -45,11 +46,11 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00225", "vorsteuer.vs_a_faktor", Raw::Sgn32, "Ta numerator (conventional); dimensionless weight in the additive variant; 0 is a legal weight")
         .range(Bound::At(0.0), Bound::None).default(1.0).unit("us", "us").source("TF5200 feedforward control"),
     axis("P-AXIS-00226", "vorsteuer.vs_a_nenner", Raw::Sgn32, "Ta denominator; 0 gives 110381")
-        .range(Bound::At(1.0), Bound::None).default(1.0).below(110381, Correction::Value(1.0)).source("TF5200 feedforward control"),
+        .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::AccelerationDenominator, Correction::Value(1.0)).source("TF5200 feedforward control"),
     axis("P-AXIS-00228", "vorsteuer.vs_v_faktor", Raw::Sgn32, "global weight numerator; recommended weight 0.7..1; 0 is a legal weight")
         .range(Bound::At(0.0), Bound::None).default(1.0).source("TF5200 feedforward control"),
     axis("P-AXIS-00229", "vorsteuer.vs_v_nenner", Raw::Sgn32, "global weight denominator; 0 gives 110123")
-        .range(Bound::At(1.0), Bound::None).default(1.0).below(110123, Correction::Value(1.0)).source("TF5200 feedforward control"),
+        .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::FeedforwardDenominator, Correction::Value(1.0)).source("TF5200 feedforward control"),
     axis("P-AXIS-00238", "antr.simu.zeitkonstante_n", Raw::Uns32, "sampling time of the simulated drive in s, denominator")
         .range(Bound::At(1.0), Bound::None).default(100.0).drives("Simulation"),
     axis("P-AXIS-00239", "antr.simu.zeitkonstante_z", Raw::Uns32, "sampling time of the simulated drive in s, numerator; should be the cycle")
@@ -61,19 +62,19 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00325", "antr.torque_scale_num", Raw::Uns32, "value at which the motor gives nominal torque, numerator")
         .range(Bound::At(1.0), Bound::None).default(1.0).drives("SERCOS, Lightbus, CANopen").source("TF5200 feedforward control"),
     axis("P-AXIS-00326", "antr.torque_scale_denom", Raw::Uns32, "value at which the motor gives nominal torque, denominator; 0 switches the torque output off (110465)")
-        .range(Bound::At(1.0), Bound::None).default(1.0).drives("SERCOS, Lightbus, CANopen").below(110465, Correction::Keep).source("TF5200 feedforward control"),
+        .range(Bound::At(1.0), Bound::None).default(1.0).drives("SERCOS, Lightbus, CANopen").below(Condition::TorqueScaleDenominator, Correction::Keep).source("TF5200 feedforward control"),
     axis("P-AXIS-00337", "vorsteuer.jerk_fact_num", Raw::Uns32, "jerk factor numerator")
         .range(Bound::At(0.0), Bound::None).default(1.0).source("TF5200 feedforward control"),
     axis("P-AXIS-00338", "vorsteuer.jerk_fact_denom", Raw::Uns32, "jerk factor denominator; 0 gives 110473, 100")
-        .range(Bound::At(1.0), Bound::None).default(100.0).below(110473, Correction::Default).source("TF5200 feedforward control"),
+        .range(Bound::At(1.0), Bound::None).default(100.0).below(Condition::JerkDenominator, Correction::Default).source("TF5200 feedforward control"),
     axis("P-AXIS-00362", "antr.feed_const_num", Raw::Uns32, "feed constant numerator; if 362 or 363 is not 1 the resolution follows from 92, 511/512, 362/363")
         .range(Bound::At(1.0), Bound::None).default(1.0).unit("0.1um", "0.1um").source("TF5200 feedforward control"),
     axis("P-AXIS-00363", "antr.feed_const_denom", Raw::Uns32, "feed constant denominator; 0 gives 110472")
-        .range(Bound::At(1.0), Bound::None).default(1.0).unit("rev", "rev").below(110472, Correction::Refuse).source("TF5200 feedforward control"),
+        .range(Bound::At(1.0), Bound::None).default(1.0).unit("rev", "rev").below(Condition::FeedConstantDenominator, Correction::Refuse).source("TF5200 feedforward control"),
     axis("P-AXIS-00389", "vorsteuer.velocity_delay_time", Raw::Uns16, "delay of the additive velocity; too large gives 70349, 0")
-        .range(Bound::None, Bound::BeyondCycles(6.0)).default(0.0).unit("us", "us").drives("SERCOS, Profidrive, CANopen").above(70349, Correction::Value(0.0)).source("TF5200 feedforward control"),
+        .range(Bound::None, Bound::BeyondCycles(6.0)).default(0.0).unit("us", "us").drives("SERCOS, Profidrive, CANopen").above(Condition::VelocityDelay, Correction::Value(0.0)).source("TF5200 feedforward control"),
     axis("P-AXIS-00390", "vorsteuer.acceleration_delay_time", Raw::Uns16, "delay of the additive torque; too large gives 70348, 0")
-        .range(Bound::None, Bound::BeyondCycles(6.0)).default(0.0).unit("us", "us").drives("SERCOS, Lightbus, Profidrive, CANopen").above(70348, Correction::Value(0.0)).source("TF5200 feedforward control"),
+        .range(Bound::None, Bound::BeyondCycles(6.0)).default(0.0).unit("us", "us").drives("SERCOS, Lightbus, Profidrive, CANopen").above(Condition::AccelerationDelay, Correction::Value(0.0)).source("TF5200 feedforward control"),
     axis("P-AXIS-00391", "getriebe[i].load", Raw::Real64, "total inertia at the motor shaft (or moved mass)")
         .range(Bound::At(0.0), Bound::None).default(1e-06).unit("kg", "kg*m2").drives("SERCOS").source("TF5200 feedforward control"),
     axis("P-AXIS-00392", "antr.acc_reference_value", Raw::Real64, "stall (nominal) torque of the motor; one overview of the manual misprints the key as feed_const_denom")
@@ -83,11 +84,11 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00513", "", Raw::Uns32, "named in the block diagram of the additive variant only, meaning unknown")
         .source("TF5200 feedforward control"),
     axis("P-AXIS-00514", "vorsteuer.feedforward_v_add_num", Raw::Uns32, "velocity-only weight numerator")
-        .range(Bound::At(1.0), Bound::None).default(1.0).below(110122, Correction::Value(1.0)).source("TF5200 feedforward control"),
+        .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::FeedforwardNumerator, Correction::Value(1.0)).source("TF5200 feedforward control"),
     axis("P-AXIS-00515", "vorsteuer.feedforward_v_add_denom", Raw::Uns32, "velocity-only weight denominator; 0 gives 110122/110123, both set to 1")
-        .range(Bound::At(1.0), Bound::None).default(1.0).below(110123, Correction::Value(1.0)),
+        .range(Bound::At(1.0), Bound::None).default(1.0).below(Condition::FeedforwardDenominator, Correction::Value(1.0)),
     axis("P-AXIS-00547", "vorsteuer.jerk_delay_time", Raw::Uns16, "delay of the jerk part; too large gives 70348, 0")
-        .range(Bound::None, Bound::BeyondCycles(6.0)).default(0.0).unit("us", "us").drives("SERCOS, Profidrive, CANopen").above(70348, Correction::Value(0.0)),
+        .range(Bound::None, Bound::BeyondCycles(6.0)).default(0.0).unit("us", "us").drives("SERCOS, Profidrive, CANopen").above(Condition::AccelerationDelay, Correction::Value(0.0)),
     axis("P-AXIS-00566", "vorsteuer.feedforward_without_delay", Raw::Boolean, "no 5-cycle buffer, velocity feedforward only (else 110624)")
         .default(0.0),
     axis("P-AXIS-00833", "antr.feed_forward_v_weighting", Raw::Sgn16, "weight of velocity feedforward inside the drive (1000 = 100 %), replaces 00766")

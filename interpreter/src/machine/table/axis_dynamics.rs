@@ -1,6 +1,7 @@
 //! Axis lists: velocity, acceleration and ramp times.
 
 use super::row::{Bound, Correction, Default, Raw, Row, axis};
+use crate::diag::Condition;
 
 /// The rows.
 #[rustfmt::skip]
@@ -46,7 +47,7 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00200", "getriebe[i].slope_profil.tr_grenz", Raw::Uns32, "ramp time in rapid (replaces the four)")
         .range(Bound::Of("P-AXIS-00201"), Bound::None).default(10000.0).unit("us", "us"),
     axis("P-AXIS-00201", "getriebe[i].dynamik.tr_min", Raw::Uns32, "shortest ramp time = jerk limit of the axis")
-        .range(Bound::At(0.0), Bound::None).default(10000.0).unit("us", "us").below(110083, Correction::Limit),
+        .range(Bound::At(0.0), Bound::None).default(10000.0).unit("us", "us").below(Condition::ShortestRampTime, Correction::Limit),
     axis("P-AXIS-00202", "getriebe[i].beschl_kennlinie.typ", Raw::Uns32, "spindle acceleration curve 0 none 1 hyperbola 2 polynomial 3 asynchronous drive")
         .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).axes("S"),
     axis("P-AXIS-00208", "", Raw::Uns32, "not found in any public document; read and ignored"),
@@ -55,13 +56,13 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00211", "getriebe[i].lslope_profil.vb_grenz_stufe_1_2", Raw::Uns32, "STEP slope in rapid, switching speed")
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00212")).default(100000.0).unit("um/s", "0.001deg/s"),
     axis("P-AXIS-00212", "getriebe[i].dynamik.vb_max", Raw::Uns32, "maximum axis speed")
-        .range(Bound::At(1.0), Bound::At(2000000000.0)).default(200000.0).unit("um/s", "0.001deg/s").below(110079, Correction::Default),
+        .range(Bound::At(1.0), Bound::At(2000000000.0)).default(200000.0).unit("um/s", "0.001deg/s").below(Condition::AxisSpeedZero, Correction::Default),
     axis("P-AXIS-00214", "getriebe[i].vb_max_red", Raw::Uns32, "reduced speed, not active headless")
         .unit("um/s", "0.001deg/s"),
     axis("P-AXIS-00221", "getriebe[i].lslope_profil.vb_stufe_1_2", Raw::Uns32, "STEP slope switching speed")
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00212")).default(100000.0).unit("um/s", "0.001deg/s"),
     axis("P-AXIS-00270", "getriebe[i].slope_type", Raw::Uns16, "slope of single axes, homing, spindles; not of the path")
-        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).above(60226, Correction::Default),
+        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).above(Condition::SpindleSlopeType, Correction::Default),
     axis("P-AXIS-00280", "getriebe[i].lslope_profil.d_grenz_stufe_1", Raw::Uns32, "STEP deceleration in rapid, stage 1; 0 = P-AXIS-00005")
         .range(Bound::At(1.0), Bound::Of("P-AXIS-00008")).default(0.0).unit("mm/s2", "deg/s2").special(0.0),
     axis("P-AXIS-00281", "getriebe[i].lslope_profil.d_grenz_stufe_2", Raw::Uns32, "STEP slope in rapid, deceleration step 2; 0 = P-AXIS-00006")
@@ -77,5 +78,5 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00292", "getriebe[i].dynamik.a_w_max", Raw::Uns32, "maximum acceleration under G130/G131 weighting")
         .range(Bound::GreatestOf(&["P-AXIS-00001", "P-AXIS-00002"]), Bound::Of("P-AXIS-00008")).default_is(Default::Of("P-AXIS-00008")).unit("mm/s2", "deg/s2").axes("TR"),
     axis("P-AXIS-00293", "getriebe[i].dynamik.tr_w_min", Raw::Uns32, "floor of the ramp time under G132/G133 (110406)")
-        .range(Bound::Of("P-AXIS-00201"), Bound::LeastOf(&["P-AXIS-00195", "P-AXIS-00196", "P-AXIS-00197", "P-AXIS-00198"])).default(0.0).unit("us", "us").axes("TR").special(0.0).below(110406, Correction::Limit),
+        .range(Bound::Of("P-AXIS-00201"), Bound::LeastOf(&["P-AXIS-00195", "P-AXIS-00196", "P-AXIS-00197", "P-AXIS-00198"])).default(0.0).unit("us", "us").axes("TR").special(0.0).below(Condition::WeightedRampFloor, Correction::Limit),
 ];

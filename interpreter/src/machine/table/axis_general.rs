@@ -1,6 +1,7 @@
 //! Axis lists: head, general data, limits of the range, monitors of the set position.
 
 use super::row::{Bound, Correction, Default, Raw, Row, axis};
+use crate::diag::Condition;
 
 /// Axis types (P-AXIS-00018).
 const AXIS_TYPES: &[(&str, u32)] =
@@ -14,7 +15,7 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Uns32, "operating mode, sum of bits: linear 0x1, modulo 0x4, gantry slave 0x20000")
         .default(1.0),
     axis("P-AXIS-00016", "kopf.achs_nr", Raw::Uns16, "logical axis number, unique in the whole system, 0 not allowed; the link between axis list and channel list; changed only by restart")
-        .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0).below(110597, Correction::Refuse),
+        .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0).below(Condition::AxisNumberZero, Correction::Refuse),
     axis("P-AXIS-00018", "kenngr.achs_typ", Raw::Names(AXIS_TYPES), "ACHSTYP_TRANSLATOR 0x1, ACHSTYP_ROTATOR 0x2, ACHSTYP_SPINDEL 0x4")
         .default(1.0),
     axis("P-AXIS-00020", "kenngr.antr_typ", Raw::Uns16, "drive: 1 conventional, 2 SERCOS, 3 PROFIdrive, 4 simulation, 5 Lightbus, 6 terminal, 7 RT Ethernet, 8 CANopen, 16 virtual, 32 CAN")
@@ -24,7 +25,7 @@ pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00086", "", Raw::Uns32, "stroke of the probe; to be raised for measuring moves, whose distance shrinks by what the feedforward buffer holds")
         .axes("TR").source("TF5200 feedforward control"),
     axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "override ceiling of single axes and spindles")
-        .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(110111, Correction::Limit),
+        .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(Condition::OverrideRange, Correction::Limit),
     axis("P-AXIS-00176", "kenngr.suppress_pos_lag_error", Raw::Boolean, "the lag is monitored and traced but raises no error; no document prints the prefix of the key, kenngr., lr_param., getriebe[0]. and none are taken")
         .default(0.0).axes("TR"),
     axis("P-AXIS-00177", "kenngr.swe_neg", Raw::Sgn32, "negative software limit for setpoints; actuals may pass it by swe_toleranz")

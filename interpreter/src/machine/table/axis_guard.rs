@@ -1,6 +1,7 @@
 //! Axis lists: Vibration Guard and Improved Position Control.
 
 use super::row::{Bound, Correction, Default, Raw, Row, axis};
+use crate::diag::Condition;
 
 /// Modes of a stage (P-AXIS-00753).
 const IPC_MODES: &[(&str, u32)] =
@@ -10,13 +11,13 @@ const IPC_MODES: &[(&str, u32)] =
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
     axis("P-AXIS-00568", "vib_guard.damping", Raw::Real64, "damping of the frequency to suppress")
-        .range(Bound::At(0.0), Bound::At(1.0)).default(0.1).outside(34, Correction::Default).source("TF5250 Vibration Guard"),
+        .range(Bound::At(0.0), Bound::At(1.0)).default(0.1).outside(Condition::GuardRange, Correction::Default).source("TF5250 Vibration Guard"),
     axis("P-AXIS-00571", "vib_guard.mode", Raw::Uns32, "mode 1-3 asymmetric, rising robustness; 4 symmetric")
-        .range(Bound::At(1.0), Bound::At(4.0)).default(1.0).outside(34, Correction::Default).source("TF5250 Vibration Guard"),
+        .range(Bound::At(1.0), Bound::At(4.0)).default(1.0).outside(Condition::GuardRange, Correction::Default).source("TF5250 Vibration Guard"),
     axis("P-AXIS-00588", "vib_guard.active", Raw::Boolean, "Vibration Guard permanently on from program start")
         .default(0.0).source("TF5250 Vibration Guard"),
     axis("P-AXIS-00589", "vib_guard.freq", Raw::Real64, "natural frequency to suppress")
-        .range(Bound::At(1.0), Bound::None).default(30.0).unit("Hz", "Hz").outside(34, Correction::Default).source("TF5250 Vibration Guard"),
+        .range(Bound::At(1.0), Bound::None).default(30.0).unit("Hz", "Hz").outside(Condition::GuardRange, Correction::Default).source("TF5250 Vibration Guard"),
     axis("P-AXIS-00750", "lr_param.improved_position_control.stage[i].filter[k].order", Raw::Uns32, "order of the band-pass")
         .range(Bound::At(1.0), Bound::At(3.0)).default(0.0).drives("SERCOS, Profidrive, CANopen").at_setup().source("TF5200 Improved Position Control"),
     axis("P-AXIS-00751", "lr_param.improved_position_control.stage[i].filter[k].fg_f0", Raw::Real64, "damped frequency")

@@ -1,6 +1,7 @@
 //! Channel lists.
 
 use super::row::{Bound, Correction, Default, Raw, Row, chan};
+use crate::diag::Condition;
 
 /// The rows.
 #[rustfmt::skip]
@@ -45,9 +46,9 @@ pub(super) const ROWS: &[Row] = &[
     chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters survive the start of a program")
         .default(0.0),
     chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Sgn16, "slope at program start: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC")
-        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(70, Correction::Default),
+        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(Condition::ListRange, Correction::Default),
     chan("P-CHAN-00073", "prog_start.slope.ramp_time", Raw::Sgn16, "which ramp times G132/G133 weight: 0 all, 1 acc up, 2 acc down, 3 dec up, 4 dec down")
-        .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(120178, Correction::Refuse).below(120178, Correction::Refuse),
+        .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(Condition::SlopeWeighting, Correction::Refuse).below(Condition::SlopeWeighting, Correction::Refuse),
     chan("P-CHAN-00090", "vector.velocity", Raw::Real64, "path speed limit")
         .default(2000000000.0).unit("mm/min", "mm/min"),
     chan("P-CHAN-00097", "use_drive_curr_limit", Raw::Boolean, "feedhold uses its own parameters")
@@ -55,7 +56,7 @@ pub(super) const ROWS: &[Row] = &[
     chan("P-CHAN-00099", "prog_start.feedrate", Raw::Real64, "F at program start; 0 means F must be programmed (20008)")
         .default(0.0).unit("mm/min", "mm/min"),
     chan("P-CHAN-00108", "prog_start.feedrate_factor", Raw::Real64, "100 mm/min, 0.1 m/min; 0 warns and becomes 100")
-        .range(Bound::Beyond(0.0), Bound::None).default(100.0).special(-1.0).outside(70, Correction::Default),
+        .range(Bound::Beyond(0.0), Bound::None).default(100.0).special(-1.0).outside(Condition::ListRange, Correction::Default),
     chan("P-CHAN-00110", "check_jerk_on_poly_path", Raw::Uns32, "jerk check in polynomials")
         .range(Bound::At(0.0), Bound::At(3.0)).default(1.0),
     chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, effective from their place")

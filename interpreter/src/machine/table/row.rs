@@ -1,6 +1,6 @@
 //! What one row of the parameter table holds, and the words it is written with.
 
-use crate::diag::Id;
+use crate::diag::Condition;
 
 /// Which list a parameter stands in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -135,7 +135,7 @@ pub enum Correction {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reaction {
     /// ID of the message.
-    pub id: Id,
+    pub condition: Condition,
     /// What happens with the value.
     pub correction: Correction,
 }
@@ -195,7 +195,8 @@ pub struct Row {
 }
 
 /// Reaction where no document names an ID: limited, with kontur's own number.
-const UNDOCUMENTED: Reaction = Reaction { id: Id::Kontur(70), correction: Correction::Limit };
+const UNDOCUMENTED: Reaction =
+    Reaction { condition: Condition::ListRange, correction: Correction::Limit };
 
 const fn row(
     list: ListKind,
@@ -300,20 +301,20 @@ impl Row {
     }
 
     /// Documented reaction below the range.
-    pub(super) const fn below(mut self, id: u32, correction: Correction) -> Self {
-        self.below = Reaction { id: Id::Vendor(id), correction };
+    pub(super) const fn below(mut self, condition: Condition, correction: Correction) -> Self {
+        self.below = Reaction { condition, correction };
         self
     }
 
     /// Documented reaction above the range.
-    pub(super) const fn above(mut self, id: u32, correction: Correction) -> Self {
-        self.above = Reaction { id: Id::Vendor(id), correction };
+    pub(super) const fn above(mut self, condition: Condition, correction: Correction) -> Self {
+        self.above = Reaction { condition, correction };
         self
     }
 
     /// kontur's own reaction on both sides of the range.
-    pub(super) const fn outside(mut self, id: u16, correction: Correction) -> Self {
-        self.below = Reaction { id: Id::Kontur(id), correction };
+    pub(super) const fn outside(mut self, condition: Condition, correction: Correction) -> Self {
+        self.below = Reaction { condition, correction };
         self.above = self.below;
         self
     }

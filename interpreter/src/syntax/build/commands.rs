@@ -1,7 +1,7 @@
 //! Commands with their groups, declarations and control statements.
 
 use super::Builder;
-use crate::diag::Severity;
+use crate::diag::{Condition, Severity};
 use crate::syntax::Rule;
 use crate::syntax::ast::{
     Block, Body, Command, Control, ControlKind, Declaration, Group, Item, ItemKind, ItemValue,
@@ -115,16 +115,18 @@ impl Builder<'_> {
         match words.as_slice() {
             ["COMMENT", "BEGIN", rest @ ..] if !rest.is_empty() || !bare => {
                 let text = "#COMMENT BEGIN does not stand alone in its block";
-                self.report(Problem::vendor(20566, command.span, text));
+                self.report(Problem::new(Condition::CommentBeginNotAlone, command.span, text));
             }
             ["COMMENT", "END", rest @ ..] if !rest.is_empty() || !bare => {
                 let text = "#COMMENT END does not stand alone in its block";
-                self.report(Problem::vendor(20569, command.span, text));
+                self.report(Problem::new(Condition::CommentEndNotAlone, command.span, text));
             }
             ["IF" | "ELSE" | "ENDIF", ..] if block.number.is_some() || block.label.is_some() => {
                 let text = format!("#{} behind a block number", words.join(" "));
                 let hint = "only a skip mark may stand before it";
-                self.report(Problem::vendor(20593, command.span, text).hint(hint));
+                self.report(
+                    Problem::new(Condition::ConditionalNotFirst, command.span, text).hint(hint),
+                );
             }
             _ => {}
         }
@@ -162,7 +164,7 @@ impl Builder<'_> {
                     let at = self.span(&part);
                     let text = format!("`{}` cannot count a $FOR loop", part.as_str());
                     let hint = "the counter is a P parameter or a variable that may be written";
-                    self.report(Problem::vendor(20227, at, text).hint(hint));
+                    self.report(Problem::new(Condition::ForCounter, at, text).hint(hint));
                     // the executor says the same of this place, once is enough
                     place = Some(Place { kind: PlaceKind::Variable(Vec::new()), span: at });
                 }

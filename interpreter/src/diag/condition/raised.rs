@@ -1,0 +1,306 @@
+//! Conditions that kontur raises, one row each.
+
+use super::{Reaction, Row};
+use crate::diag::{
+    Id::{Kontur, Vendor},
+    Severity::{Error, Note, Warning},
+};
+
+/// Makes the conditions out of their rows. A row reads
+///
+/// ```text
+/// Condition = Vendor 20008: SEVERITY REACTION REMEDY ROOT, "meaning", cause "..", hint "..", parameter "..";
+/// Condition = Kontur 9 "K-RANGE": ...
+/// ```
+macro_rules! conditions {
+    ($(
+        $condition:ident = $space:ident $number:literal $($name:literal)?:
+        $severity:ident $reaction:ident $remedy:literal $root:literal,
+        $meaning:literal $(, cause $cause:literal)? $(, hint $hint:literal)? $(, parameter $parameter:literal)?;
+    )*) => {
+        /// A condition that is raised; its row says everything that is always true of it.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Condition {
+            $(
+                #[doc = concat!(stringify!($space), " ", stringify!($number), ": ", $meaning)]
+                $condition,
+            )*
+        }
+
+        /// The rows in the order of the conditions.
+        pub(super) const ROWS: &[Row] = &[
+            $(Row {
+                id: $space($number),
+                name: first([$($name)?]),
+                severity: $severity,
+                reaction: Reaction::$reaction,
+                remedy: $remedy,
+                root: $root,
+                meaning: $meaning,
+                cause: first([$($cause)?]),
+                hint: optional([$($hint)?]),
+                parameter: optional([$($parameter)?]),
+            },)*
+        ];
+    };
+}
+
+impl Condition {
+    /// Everything that is always true of it.
+    pub const fn row(self) -> &'static Row {
+        &ROWS[self as usize]
+    }
+}
+
+/// The text of a column that may be left out.
+const fn first<const N: usize>(texts: [&'static str; N]) -> &'static str {
+    if N == 0 { "" } else { texts[0] }
+}
+
+/// The same for columns whose absence means something.
+const fn optional<const N: usize>(texts: [&'static str; N]) -> Option<&'static str> {
+    if N == 0 { None } else { Some(texts[0]) }
+}
+
+conditions! {
+    AxisMissing = Vendor 20003: Warning None 1 1, "G function needs an axis", cause "e.g. G160=2 without axis", hint "the function acts on the axes written beside it: G160=2 X1";
+    SpindleSpeedZero = Vendor 20007: Error ProgramAbort 3 1, "spindle speed 0", cause "G63 with S0", hint "program the speed before: S1000 M3";
+    FeedZero = Vendor 20008: Error ProgramAbort 3 1, "feed is 0 in a motion block", cause "first G01/G02/G03 without F (P-CHAN-00099 = 0)", hint "write F in this block or before it";
+    InsertionWithoutSize = Vendor 20012: Error ProgramAbort 3 1, "chamfer or rounding without size", cause "I missing or 0 at G301/G302", hint "write the size: G301 I2; it holds for the following ones too";
+    DwellTwoTimes = Vendor 20013: Error ProgramAbort 3 1, "G04 in both forms at once", cause "G04 2 X3", hint "leave one of the two times out";
+    DwellWrongAxis = Vendor 20014: Error ProgramAbort 3 1, "G04 names a wrong axis", cause "only the first main axis", hint "write G04 2.5, or the time behind the first main axis";
+    FullCircleWithRadius = Vendor 20034: Error ProgramAbort 3 1, "full circle with R", cause "end = start with radius", hint "write the centre with I, J, K, without R";
+    ArcRadiusZero = Vendor 20036: Error ProgramAbort 3 1, "circle radius 0", cause "G164, centre missing or end = start", hint "is I, J or K missing?";
+    VariableNotReadable = Vendor 20097: Error ProgramAbort 3 1, "variable may not be read", hint "its access rights allow writing only";
+    VariableNotWritable = Vendor 20100: Error ProgramAbort 3 1, "variable may not be written", hint "assign to a P parameter or to a variable of the classes V.P, V.L, V.S";
+    GNumberTooLarge = Vendor 20107: Error ProgramAbort 3 1, "G number outside the data format", hint "G functions have numbers up to 999";
+    TwoMotionModes = Vendor 20108: Error ProgramAbort 3 1, "two motion modes in one block", cause "G01 … G00", hint "one of G00, G01, G02, G03, G04 per block";
+    TwoFeedInterpolations = Vendor 20109: Error ProgramAbort 3 1, "two of G08/G193/G293", hint "one of G08, G193, G293 per block";
+    TwoCompensationFeeds = Vendor 20110: Error ProgramAbort 3 1, "two of G10/G11", hint "one of G10, G11 per block";
+    TwoMirrors = Vendor 20112: Error ProgramAbort 3 1, "two mirror functions", hint "one of G20 to G23, G351 per block";
+    TwoCompensations = Vendor 20114: Error ProgramAbort 3 1, "two of G40/G41/G42", hint "one of G40, G41, G42 per block";
+    TwoDiameters = Vendor 20115: Error ProgramAbort 3 1, "two of G51/G52", hint "one of G51, G52 per block";
+    TwoZeroOffsets = Vendor 20116: Error ProgramAbort 3 1, "two zero offsets G53-G59, G159", hint "one of G53 to G59, G159 per block";
+    TwoTransitions = Vendor 20117: Error ProgramAbort 3 1, "two block transitions G60/G61/G260/G261/G359/G360", hint "one of G60, G61, G260, G261, G359, G360 per block";
+    TwoUnits = Vendor 20118: Error ProgramAbort 3 1, "two of G70/G71", hint "one of G70, G71 per block";
+    TwoFeedTypes = Vendor 20121: Error ProgramAbort 3 1, "two of G93/G94/G95/G194", hint "one of G93, G94, G95, G194 per block";
+    TwoMeasurings = Vendor 20123: Error ProgramAbort 3 1, "two measuring functions G100-G108", hint "one of G100 to G108 per block";
+    TwoLookAheads = Vendor 20124: Error ProgramAbort 3 1, "two of G115/G116/G117", hint "one of G115, G116, G117 per block";
+    TwoCompensationSelections = Vendor 20126: Error ProgramAbort 3 1, "two selection modes of tool radius compensation", cause "G138, G139, G236 to G239", hint "one of G138, G139, G236 to G239 per block";
+    TwoCentreTypes = Vendor 20127: Error ProgramAbort 3 1, "two of G161/G162", hint "one of G161, G162 per block";
+    TwoCentreCorrections = Vendor 20128: Error ProgramAbort 3 1, "two of G164/G165", hint "one of G164, G165 per block";
+    TwoManuals = Vendor 20129: Error ProgramAbort 3 1, "two of G200-G202", hint "one of G200, G201, G202 per block";
+    TwoInsertions = Vendor 20130: Error ProgramAbort 3 1, "two of G301/G302", hint "one of G301, G302 per block";
+    GUnknown = Vendor 20131: Error ProgramAbort 3 1, "unknown G function", hint "the number is not assigned in this dialect: kontur explain G<number> tells about those that are";
+    PlaneWithCompensation = Vendor 20133: Error ProgramAbort 3 1, "plane selection with active tool radius compensation", hint "switch the compensation off with G40 before G17, G18, G19";
+    LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
+    FeedTwice = Vendor 20175: Error ProgramAbort 3 1, "F twice in one block", hint "the feed holds for the whole block: leave one F out";
+    ONotImplemented = Vendor 20191: Error ProgramAbort 3 1, "O word not implemented";
+    AssignmentExpected = Vendor 20194: Error ProgramAbort 3 1, "assignment operator missing or unknown", cause "V.G.X without =", hint "write = between the parameter and its value";
+    AxisOrCommandExpected = Vendor 20200: Error ProgramAbort 3 1, "axis name or command expected", cause "axis not in the channel, or letter not X Y Z A B C U V W Q", hint "the axes of the channel stand in the channel list";
+    AxisTwice = Vendor 20203: Error ProgramAbort 3 1, "axis twice in one block", cause "X10 Y20 X10", hint "write a second block for the second target";
+    CentreTwice = Vendor 20205: Error ProgramAbort 3 1, "I, J or K twice", hint "leave one of the two out";
+    CommandNotAlone = Vendor 20207: Error ProgramAbort 3 1, "# command must stand alone in its block", cause "exceptions #ADD, #SUPPRESS OFFSETS", hint "a # command stands alone in its block";
+    ControlNesting = Vendor 20211: Error ProgramAbort 3 1, "control statements nested too deeply", hint "move an inner part into a subroutine";
+    ElseNotAlone = Vendor 20215: Error ProgramAbort 3 1, "$ELSE does not stand alone", hint "put the words into the block behind $ELSE";
+    ElseIfWithoutIf = Vendor 20216: Error ProgramAbort 3 1, "$ELSEIF without $IF", hint "write $IF before it, or is an $ENDIF too many?";
+    ElseIfTrailing = Vendor 20217: Error ProgramAbort 3 1, "trailing words after $ELSEIF", hint "only the condition stands behind $ELSEIF; put the words into the next block";
+    ForCounter = Vendor 20227: Error ProgramAbort 3 1, "$FOR counter is wrong", hint "the counter is a P parameter or a variable that may be written: $FOR P1=0,4,1";
+    EndForWithoutFor = Vendor 20232: Error ProgramAbort 3 1, "$ENDFOR without $FOR", hint "write $FOR before it, or is an $ENDFOR too many?";
+    EndForNotAlone = Vendor 20233: Error ProgramAbort 3 1, "$ENDFOR does not stand alone", hint "put the words into the block behind $ENDFOR";
+    LineTooLong = Vendor 20301: Error ProgramAbort 3 1, "line too long", cause "over 4096 characters", hint "a block has up to 4000 characters: split it, long comments into lines of their own";
+    AxisNumberUnknown = Vendor 20312: Error ProgramAbort 3 1, "logical axis number unknown", cause "axis exchange", hint "the logical axis numbers stand in the axis lists (kopf.achs_nr)";
+    InsertionWithoutMotion = Vendor 20351: Warning None 1 1, "no motion before a chamfer or rounding", cause "G301/G302 stand between two motion blocks", hint "write a motion before it";
+    InsertionFlushed = Vendor 20352: Warning None 1 1, "flush inside chamfer/rounding, nothing inserted", hint "write the flush before the insertion or behind the motion that follows it";
+    OpenControlAtEnd = Vendor 20375: Warning None 1 1, "open control blocks at program end", cause "$IF true, no $ENDIF", hint "write the closing statement before the end of the program";
+    DivisionByZero = Vendor 20396: Error ProgramAbort 3 1, "division by zero in expression", hint "test the divisor with $IF before; SIN, COS and TAN are exactly 0 at multiples of 90 and 180 degrees";
+    Logarithm = Vendor 20399: Error ProgramAbort 3 1, "logarithm of a value ≤ 0", hint "logarithms exist for values above 0";
+    RadiusName = Vendor 20402: Error ProgramAbort 3 1, "unknown radius name", hint "write R=..";
+    CommandUnknown = Vendor 20509: Error ProgramAbort 3 1, "unknown # command", hint "kontur explain '#NAME' tells about the commands that exist";
+    ExchangeMode = Vendor 20521: Error ProgramAbort 3 1, "axis exchange: offset mode unknown", hint "offset modes are CMDPOS, ACTPOS, OFFSETS, NO_OFFSETS, ALL";
+    ExchangeName = Vendor 20524: Error ProgramAbort 3 1, "axis exchange: axis name wrong", hint "axis names begin with X, Y, Z, A, B, C, U, V, W or Q and have up to 16 characters";
+    CommentBeginNotAlone = Vendor 20566: Error ProgramAbort 3 1, "#COMMENT BEGIN does not stand alone", hint "put the words into the next block";
+    CommentEndNotAlone = Vendor 20569: Error ProgramAbort 3 1, "#COMMENT END does not stand alone", hint "put the words into the next block";
+    ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may stand before it";
+    FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 before";
+    CoordinateSystemSyntax = Vendor 20675: Error ProgramAbort 3 1, "syntax error in #CS ON[...]", hint "#CS ON [x,y,z,a,b,c], #CS ON [number], #CS DEF [number][x,y,z,a,b,c], #CS OFF [ALL]";
+    DwellOtherAxes = Vendor 20685: Warning None 1 1, "G04 with further axes", hint "the time stands behind the first main axis; write the motion in a block of its own";
+    InsertionsWithoutMotion = Vendor 20701: Warning None 1 1, "two of G301/G302 without motion between them", hint "leave one of the two out";
+    MacroNesting = Vendor 20734: Error ProgramAbort 3 1, "nesting stack exhausted", hint "does the macro use itself?";
+    DwellRange = Vendor 20752: Error ProgramAbort 3 1, "dwell time out of range", hint "the time stands in seconds";
+    AxisNameUnknown = Vendor 20797: Error ProgramAbort 3 1, "unknown axis designation in a command", hint "write the name of an axis of the channel";
+    LabelTwice = Vendor 20836: Error ProgramAbort 3 1, "label defined twice", hint "give one of the two another name";
+    MirrorSwitch = Vendor 20860: Error ProgramAbort 3 1, "mirroring is switched by 1 and -1 only", cause "G351 X2", hint "-1 mirrors the axis, 1 does not";
+    VariableType = Vendor 20908: Error ProgramAbort 3 1, "variable type cannot be declared", hint "types are BOOLEAN, SGN08, UNS08, SGN16, UNS16, SGN32, UNS32, REAL64, STRING[n]";
+    ArrayNotDeclared = Vendor 20921: Error ProgramAbort 3 1, "P array not declared", hint "declare it between #VAR and #ENDVAR";
+    SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before";
+    CentreAndRadius = Vendor 21024: Error ProgramAbort 3 1, "centre and radius both given", hint "leave R out, or I, J and K";
+    IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax of an independent axis";
+    VariableClass = Vendor 21218: Error ProgramAbort 3 1, "variable type not available", cause "V.L.", hint "V.P, V.L, V.S and, in a cycle, V.CYC can be declared";
+    TokenUnknown = Vendor 21220: Error ProgramAbort 3 1, "unknown or incomplete token in a # command", cause "misspelt or misplaced keyword", hint "kontur explain '#NAME' shows how the command is written";
+    MessageFormat = Vendor 21232: Error ProgramAbort 3 1, "unknown format in #MSG", cause "only %s %S %d %D %f %F", hint "formats are %s, %d and %f";
+    ExchangeComma = Vendor 21251: Error ProgramAbort 3 1, "axis exchange: comma missing", hint "write [name, number, index]";
+    ExchangeNumber = Vendor 21252: Error ProgramAbort 3 1, "axis exchange: axis number wrong", hint "write [name, number, index]";
+    ExchangeNumberRange = Vendor 21253: Error ProgramAbort 3 1, "axis exchange: axis number outside the data format", hint "the logical axis numbers stand in the axis lists (kopf.achs_nr)";
+    CycleKeyTwice = Vendor 21379: Error ProgramAbort 3 1, "keyword twice in L CYCLE[...]", hint "leave one of the two out";
+    OpenIfLocal = Vendor 21500: Error ProgramAbort 3 1, "open $IF in a local subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
+    OpenIfMain = Vendor 21501: Error ProgramAbort 3 1, "open $IF in the main program", cause "the branch is not taken", hint "write $ENDIF before the end of the program";
+    OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
+    ParameterOutsideCycle = Vendor 21544: Error ProgramAbort 3 1, "V.G.@P[i].VALID outside a cycle", hint "ask for it inside the cycle";
+    SlopeType = Vendor 21629: Error ProgramAbort 3 1, "unknown identifier in #SLOPE[TYPE=..]", hint "types are STEP, TRAPEZ, SIN2, HSC";
+    SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
+    ArcRadiiDiffer = Vendor 21758: Error ProgramAbort 3 1, "circle radii differ too much", cause "G164; limits P-CHAN-00171/172", hint "G165 moves the centre so that it fits; check I, J and the end point", parameter "P-CHAN-00171";
+    SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, G135, G136=, G137 stand in a spindle bracket";
+    OutsideMotionRange = Vendor 21897: Error ProgramAbort 3 1, "position outside the motion range", hint "kenngr.swe_neg and kenngr.swe_pos of the axis list (P-AXIS-00177, P-AXIS-00178) set the limits", parameter "P-AXIS-00177";
+    AxisIdentifier = Vendor 21947: Error ProgramAbort 3 1, "unknown axis identifier", hint "write the name of an axis or spindle of the channel";
+    SeveralCalls = Vendor 22008: Error ProgramAbort 3 1, "several implicit calls at one block end", hint "write the second call in a block of its own";
+    FilterAndGuard = Vendor 22060: Error ProgramAbort 3 1, "#FILTER and #VIB GUARD in one program", cause "the two may not be mixed", hint "use one of the two in a program; the OFF forms count too";
+    GuardMode = Vendor 22062: Error ProgramAbort 3 1, "Vibration Guard mode not allowed", cause "MODE outside 1…4", hint "modes are 1 to 4";
+    FilterMode = Vendor 22068: Error ProgramAbort 3 1, "invalid MODE in #FILTER", hint "keys are HSC, ORDER, ORDER_TIME, SHARE, AX_DEV, FCUT, ACC_FACT, QUALITY";
+    CallCharacter = Vendor 22151: Error ProgramAbort 3 1, "wrong character in an implicit call", cause "G80 [..]", hint "values stand behind each other with commas: G80 [1, 2, , 4]";
+    RotationAxis = Vendor 22156: Error ProgramAbort 3 1, "axis outside the plane of a contour rotation", cause "G68 with the third main axis", hint "the centre of the rotation stands behind the two axes of the plane";
+    MessageSuppressed = Vendor 22194: Warning None 1 1, "#MSG to the diagnosis receiver is suppressed, warning", cause "P-CHAN-00518", parameter "P-CHAN-00518";
+    MessageForbidden = Vendor 22195: Error ProgramAbort 3 1, "#MSG to the diagnosis receiver is suppressed, error", cause "P-CHAN-00518", parameter "P-CHAN-00518";
+    SpeedError = Vendor 50118: Error FeedHold 6 0, "axis speed above the limit", cause "> vb_max·(1+P-AXIS-00440/1000), default +9 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
+    SpeedWarning = Vendor 50119: Warning None 1 0, "axis speed above the warning level", cause "P-AXIS-00439, +5 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
+    DynamicsLimited = Vendor 50130: Warning None 1 0, "dynamics limited", cause "weighting G130-G133, G231, G233 beyond the limit", hint "lower the weight, or raise what the axis list allows (P-AXIS-00008 for accelerations)";
+    FilterTime = Vendor 50663: Error JobAbort 7 0, "filter time constant not allowed", cause "P-AXIS-00357: PT1 and PT2 at least one cycle, delay below 6 cycles", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
+    GuardNotRealisable = Vendor 50820: Error FeedHold 6 0, "frequency and damping do not fit Vibration Guard", cause "frequency too high or damping too large for T", hint "a smaller cycle, less damping or a higher frequency, as the manual puts it; kontur tune proposes both";
+    FilterTimeBelowCycle = Vendor 50910: Warning None 1 0, "order_time/time_constant below the cycle time", hint "the filter gets at least one cycle: raise the time, or give ORDER";
+    FilterOrderTooHigh = Vendor 50911: Warning None 1 0, "filter order too high", hint "lower the order";
+    FilterWithoutOrder = Vendor 50989: Warning ProgramAbort 3 0, "FIR filter without order", cause "#FILTER ON, P-AXIS-00587 = 0", hint "give ORDER or ORDER_TIME, or P-AXIS-00587 in the axis list";
+    SpindleSpeedError = Vendor 60101: Error AllStop 6 0, "spindle speed limit exceeded", cause "+9 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
+    SpindleSpeedWarning = Vendor 60102: Warning None 1 0, "spindle speed above the warning level", cause "+5 %", hint "lower the speed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
+    SpindleSpeedZeroAtFeed = Vendor 60132: Error AllStop 6 0, "spindle speed 0 while feed per revolution is active", hint "program the speed before: S1000 M3";
+    SpindleSlopeType = Vendor 60226: Warning None 1 0, "slope type of a spindle invalid", cause "P-AXIS-00270", hint "getriebe[i].slope_type is 0 to 3 (P-AXIS-00270)";
+    SpindleFilterTime = Vendor 60311: Error JobAbort 7 0, "filter time constant (spindle)", cause "as 50663", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
+    FollowingError = Vendor 70020: Error OpenLoopStop 6 11, "following error too large", cause "limits 00167…00172, 00191", hint "raise slep_max, use feedforward (G135), or lower the feed", parameter "P-AXIS-00172";
+    SettlingTimeout = Vendor 70082: Error AbruptStop 6 11, "exact-stop window not reached in time", cause "00236, 00532", hint "raise position_settling_time (P-AXIS-00532) or window, or the gain kv", parameter "P-AXIS-00236";
+    AxisWithoutPositionControl = Vendor 70345: Error AbruptStop 7 11, "axis without position control that is no spindle", cause "P-AXIS-00320", hint "antr.operation_mode CNC_POSITION_CONTROL or DRIVE_DEFAULT for axes of the path";
+    AccelerationDelay = Vendor 70348: Warning None 1 11, "acceleration (or jerk) feedforward delay too large, set to 0", cause "P-AXIS-00390, P-AXIS-00547", hint "the delay is below 6 cycles (P-AXIS-00390, P-AXIS-00547)";
+    VelocityDelay = Vendor 70349: Warning None 1 11, "velocity feedforward delay too large, set to 0", cause "P-AXIS-00389", hint "the delay is below 6 cycles (P-AXIS-00389)";
+    NoAdditiveVelocity = Vendor 70350: Warning None 1 11, "additive velocity not in the process data", cause "P-AXIS-00223 ADD_VEL", hint "name S_0_0037 in antr.sercos.mdt[i].nc_ref";
+    NoAdditiveTorque = Vendor 70351: Warning None 1 11, "additive torque not in the process data", cause "P-AXIS-00223 ADD_ACC", hint "name S_0_0080 in antr.sercos.mdt[i].nc_ref";
+    ControllerSpeed = Vendor 70382: Error ControlledStop 6 11, "axis speed above the limit in the controller", cause "00407 (default 100 % over vb_max; 0 = off)", hint "lower the gain kv or the feed, or raise lr_param.dyn_monitoring_v_err; 0 switches the monitor off", parameter "P-AXIS-00407";
+    IpcGantrySlave = Vendor 70600: Warning None 7 11, "Improved Position Control enabled in a gantry slave", cause "P-AXIS-00758", hint "write the parameters into the list of the master";
+    IpcChangedMoving = Vendor 70601: Error ControlledStop 6 11, "IPC parameters changed while moving", hint "change them at standstill";
+    IpcNumerator = Vendor 70603: Warning None 1 11, "weight numerator of Improved Position Control is not above 0", cause "P-AXIS-00754", hint "write a value above 0 (P-AXIS-00754)";
+    IpcDenominator = Vendor 70604: Warning None 1 11, "weight denominator of Improved Position Control is not above 0", cause "P-AXIS-00755", hint "write a value above 0 (P-AXIS-00755)";
+    SimulationDamping = Vendor 80044: Warning None 1 11, "damping of the simulated drive ≥ 1", cause "00051/00050", hint "write daempfung_z below daempfung_n (P-AXIS-00051, P-AXIS-00050)";
+    CompensationInArc = Vendor 90008: Error ProgramAbort 6 1, "tool radius compensation selected in a circular block", cause "a linear block must follow G41 and G42", hint "write a linear block behind G41 and G42";
+    ToolTooLarge = Vendor 90031: Error ProgramAbort 6 1, "tool radius compensation: tool too large", hint "use a smaller tool, or a larger radius of the contour";
+    DeadTime = Vendor 110040: Warning None 1 2, "dead time of the simulated drive above the maximum, limited to 5", cause "P-AXIS-00194", hint "write 0 to 5 cycles";
+    AxisSpeedZero = Vendor 110079: Warning None 1 2, "maximum axis speed is 0, default used", cause "P-AXIS-00212", hint "write the maximum speed of the axis";
+    ShortestRampTime = Vendor 110083: Warning None 1 2, "shortest ramp time below its limit, limited", cause "P-AXIS-00201";
+    ResolutionPath = Vendor 110086: Warning None 1 2, "encoder resolution (path) is 0, set to 1", cause "P-AXIS-00233", hint "write 1 or more";
+    SoftwareLimitRange = Vendor 110110: Warning None 1 2, "software limits leave no range, corrected", cause "P-AXIS-00177, P-AXIS-00178", hint "write kenngr.swe_neg below kenngr.swe_pos";
+    OverrideRange = Vendor 110111: Warning None 1 2, "greatest override below the least one, limited", cause "P-AXIS-00109", hint "write 1 to 2000 (0.1 %)";
+    FeedforwardNumerator = Vendor 110122: Warning None 1 2, "weight numerator of the velocity feedforward is 0, set to 1", cause "P-AXIS-00514; printed for P-AXIS-00228 too", hint "write 1 or more";
+    FeedforwardDenominator = Vendor 110123: Warning None 1 2, "weight denominator of the feedforward is 0, set to 1", cause "P-AXIS-00229, P-AXIS-00515", hint "write 1 or more; a numerator of 0 gives the weight 0";
+    GainZero = Vendor 110150: Warning None 1 2, "gain of the position controller is 0, default used", cause "P-AXIS-00099", hint "write 1 or more, in 0.01/s";
+    FilterType = Vendor 110239: Error JobAbort 7 2, "unknown filter type, filter off", cause "P-AXIS-00204", hint "types are LOWPASS, HIGHPASS, BANDPASS, BANDSTOP, ALLPASS, PT1, TIME_DELAY, PT2, HSC_MEAN";
+    FilterFrequencyTooLow = Vendor 110361: Warning None 1 2, "filter frequency below the lowest possible one, lowest frequency used", cause "P-AXIS-00067", hint "write a frequency above it, and below half the sampling rate";
+    AccelerationDenominator = Vendor 110381: Warning None 1 2, "denominator of the acceleration feedforward is 0, set to 1", cause "P-AXIS-00226", hint "write 1 or more; a numerator of 0 switches the part off";
+    ResolutionIncrements = Vendor 110386: Warning None 1 2, "encoder resolution (increments) is 0, set to 1", cause "P-AXIS-00234", hint "write 1 or more";
+    WeightedRampFloor = Vendor 110406: Warning None 1 2, "floor of weighted ramp times below the shortest ramp time, corrected", cause "P-AXIS-00293", hint "write 0, or a time between tr_min and the ramp times";
+    TorqueScaleDenominator = Vendor 110465: Warning None 1 2, "denominator of the torque scaling is 0, no torque output", cause "P-AXIS-00326", hint "write the value at which the motor gives its nominal torque";
+    FeedConstantDenominator = Vendor 110472: Error JobAbort 7 2, "denominator of the feed constant is 0", cause "P-AXIS-00363", hint "write the revolutions of the feed constant, 1 or more";
+    JerkDenominator = Vendor 110473: Warning None 1 2, "denominator of the jerk feedforward is 0, set to 100", cause "P-AXIS-00338", hint "write 1 or more";
+    SecondHsc = Vendor 110500: Warning None 1 2, "more than one HSC filter on an axis, the wrong one is off", cause "P-AXIS-00153", hint "leave one HSC filter";
+    HscNotFirst = Vendor 110501: Warning None 1 2, "HSC filter is not filter[0], filter off", cause "P-AXIS-00153", hint "write it as filter[0]";
+    DeadBand = Vendor 110528: Warning None 1 2, "dead band of the position controller above the window, limited", cause "P-AXIS-00395, P-AXIS-00236", hint "write a dead band up to getriebe[i].window";
+    GearRatio = Vendor 110579: Warning None 1 2, "gear ratio: output revolutions are 0, set to 1", cause "P-AXIS-00512", hint "write 1 or more";
+    AxisNumberZero = Vendor 110597: Error JobAbort 7 2, "list for axis number 0, not loaded", cause "P-AXIS-00016", hint "kopf.achs_nr is 1 or more";
+    WithoutDelayNeedsVelocityOnly = Vendor 110624: Warning None 1 2, "feedforward without delay together with acceleration or jerk, these are switched off", cause "P-AXIS-00566, P-AXIS-00223", hint "allow velocity feedforward only (P-AXIS-00223 VEL), or drop feedforward_without_delay";
+    PathDevTooSmall = Vendor 120129: Error ProgramAbort 3 0, "PATH_DEV below the minimum", hint "write 0.0001 mm or more";
+    CornerDistanceTooSmall = Vendor 120131: Error ProgramAbort 3 0, "corner distance below the minimum", hint "write 0.0001 mm or more";
+    SlopeWeighting = Vendor 120178: Error ProgramAbort 6 0, "unknown ramp-time weighting mode", cause "#SET SLOPE PROFIL, P-CHAN-00073", hint "profiles are 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC";
+    ContouringAtEnd = Vendor 120206: Warning None 1 0, "program ends with contouring on", hint "write G260 or #CONTOUR MODE OFF before the end";
+    ContouringNotPossible = Vendor 120207: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "exclude the corner with G260";
+    BlockTooShort = Vendor 120216: Warning None 1 0, "block too short for contouring", hint "lower PATH_DEV or the corner distances, or join the short blocks";
+    ContouringFeedGroup = Vendor 120566: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "switch contouring off before the feed group changes";
+    ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY tells about a key; --strict refuses unknown ones";
+    ListNumber = Vendor 1001138: Warning None 1 2, "bad number format or value outside the type's range", cause "value limited to min/max, or 0 if not a number; loading goes on", hint "numbers are written 10, -10, 1.5 or 0x101";
+    InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "other characters than those of the dialect may stand in comments and strings only";
+    Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "block does not parse", hint "kontur explain tells how words and commands are written";
+    NoEnd = Kontur 3 "K-NOEND": Warning None 1 0, "no M02/M30/M29 before the end of the file", hint "write M30";
+    Percent = Kontur 5 "K-PERCENT": Error ProgramAbort 3 0, "`%` head malformed", hint "comments begin with ; or (, a program with %NAME in its first block";
+    Nesting = Kontur 6 "K-NESTING": Error ProgramAbort 3 0, "call or control nesting beyond the limit", hint "does a subroutine call itself? A parameter can hold a part of a long expression";
+    DuplicateKey = Kontur 7 "K-DUPKEY": Error ProgramAbort 3 0, "key twice in one command (no vendor ID known)", hint "leave one of the two out";
+    DuplicateGroup = Kontur 8 "K-DUPGROUP": Error ProgramAbort 3 0, "two functions of one group (no vendor ID known)", hint "write the second one in a block of its own";
+    Range = Kontur 9 "K-RANGE": Error ProgramAbort 3 0, "value outside the range of a command key", hint "write a value within the range";
+    RadiusTooSmall = Kontur 10 "K-RADIUS-TOO-SMALL": Error ProgramAbort 3 0, "R smaller than half the chord", hint "check the end point and R; the smallest arc is the half circle over the chord";
+    Sqrt = Kontur 11 "K-SQRT": Error ProgramAbort 3 0, "root of a negative number", hint "test the value with $IF before";
+    Undefined = Kontur 12 "K-UNDEF": Error ProgramAbort 3 0, "variable or parameter not defined", hint "assign a value before it is read";
+    NoFile = Kontur 13 "K-NOFILE": Error ProgramAbort 3 0, "file cannot be opened", hint "check the name; --path adds folders";
+    NoSubroutine = Kontur 14 "K-NOSUB": Error ProgramAbort 3 0, "subroutine not found", hint "local subroutines begin with %L NAME";
+    Label = Kontur 15 "K-LABEL": Error ProgramAbort 3 0, "jump label not found", hint "labels are N50: and [NAME] at the beginning of a block of the same program";
+    LabelInto = Kontur 16 "K-LABEL-INTO": Error ProgramAbort 3 0, "jump into a control block", hint "jumps lead out of control blocks, not into them";
+    Endless = Kontur 17 "K-ENDLESS": Error ProgramAbort 3 0, "iteration limit reached", hint "does a condition never become true?";
+    Wait = Kontur 18 "K-WAIT": Warning None 1 0, "wait condition that cannot come true headless", hint "nothing outside the program is simulated";
+    Unsupported = Kontur 19 "K-UNSUPPORTED": Error ProgramAbort 3 0, "legal command the tool does not execute", hint "it would change the path: program the motion without it";
+    FeedforwardLimit = Kontur 20 "K-G136-LIMIT": Warning None 1 0, "weight above 100 %, limited", hint "100 % feeds the whole value forward";
+    FeedforwardNegative = Kontur 21 "K-G136-NEGATIVE": Error ProgramAbort 3 0, "negative weight", hint "weights are 0 to 100 %";
+    FeedforwardSwitchedMoving = Kontur 22 "K-FF-SWITCH-MOVING": Warning None 1 0, "feedforward switched or weighted at path speed > 0", hint "switch it at standstill: the setpoint of the controller jumps by the lag";
+    FeedforwardConflict = Kontur 23 "K-FF-CONFLICT": Warning None 1 0, "default_active and global_disable both set; output bit without activation bit", hint "decide for one of the two";
+    FeedforwardLoad = Kontur 24 "K-FF-LOAD": Warning None 1 0, "torque at a_max more than 10 × reference torque: check the unit of `load`", hint "check the unit of the load";
+    IpcRange = Kontur 25 "K-IPC-RANGE": Error ProgramAbort 3 0, "IPC order, f0, Q, damping or mode out of range: IPC off for the axis", hint "write a value within the range";
+    IpcNoLimit = Kontur 26 "K-IPC-NOLIMIT": Warning None 1 0, "IPC enabled with v_add_max_fact 0: no effect", hint "write v_add_max_fact, the largest additive speed";
+    IpcWeight = Kontur 27 "K-IPC-WEIGHT": Warning None 1 0, "weight above 7.0, limited", hint "write a weight up to 7.0";
+    ListDuplicate = Kontur 28 "K-LIST-DUP": Warning None 1 0, "key twice in a list, last wins", hint "leave one of the two out";
+    ListIndex = Kontur 29 "K-LIST-INDEX": Warning None 1 0, "empty index read as 0", hint "write the index: [0]";
+    ListString = Kontur 30 "K-LIST-STRING": Warning None 1 0, "second word after an unquoted string dropped", hint "put a text with blanks in double quotes, start a comment with (";
+    ListLink = Kontur 31 "K-LIST-LINK": Error ProgramAbort 3 0, "log_achs_nr without axis list, or number used twice", hint "every axis of the channel list needs one axis list with its kopf.achs_nr";
+    SimulationSampling = Kontur 32 "K-SIMU-SAMPLE": Warning None 1 0, "sampling time of the simulated drive differs from the cycle", hint "write the cycle time, or leave the sampling time out";
+    FilterRange = Kontur 33 "K-FILTER-RANGE": Error ProgramAbort 3 0, "filter order, Q, share or frequency out of range, filter off", hint "kontur explain '#FILTER' tells the ranges of its keys";
+    GuardRange = Kontur 34 "K-VIB-RANGE": Error ProgramAbort 3 0, "Vibration Guard FREQ, DAMPING, AX_DEV or ACC_FACT out of range", hint "kontur explain '#VIB GUARD' tells the ranges of its keys";
+    Unstable = Kontur 35 "K-UNSTABLE": Error AllStop 6 0, "simulated plant diverged (lag beyond ±10 × slep_max or not finite), run stopped", hint "lower the gain kv or the weights of Improved Position Control", parameter "P-AXIS-00099";
+    FilterOrderFixed = Kontur 36 "K-FILTER-ORDER": Warning None 1 2, "order of a filter whose type has a fixed one, corrected", cause "P-AXIS-00140: PT1 has the order 1, PT2 the order 2", hint "leave the order out";
+    FilterAllPass = Kontur 37 "K-FILTER-ALLPASS": Warning None 1 2, "all-pass that is not BESSEL", cause "only BESSEL gives a flat group delay", hint "only the prototype BESSEL gives an all-pass with flat delay";
+    FilterConstantPart = Kontur 38 "K-FILTER-CONSTANT": Warning None 1 2, "high-pass or band-pass on a position", cause "the filter takes the constant part out of the position", hint "it takes the constant part out: the axis only follows the motion relative to where it stood";
+    FilterHscPrototype = Kontur 39 "K-FILTER-HSC": Warning None 1 2, "HSC type without the prototype HSC, or the reverse, filter off", cause "P-AXIS-00153, P-AXIS-00204", hint "prototype HSC goes with type HSC_MEAN (8) or 12";
+    FilterHscSpindle = Kontur 40 "K-FILTER-HSC-SPINDLE": Warning None 1 2, "HSC filter of a spindle, off", cause "HSC filters exist for path axes only", hint "use another filter for the spindle";
+    FilterHscInterface = Kontur 41 "K-FILTER-HSC-ADD": Warning None 1 2, "HSC filter of the additional interface, off", cause "P-AXIS-00738: the additional interface has standard filters only", hint "the additional interface has the types LOWPASS to PT1, PT2 and TIME_DELAY";
+    SetpointWarning = Kontur 60 "K-SETPOINT-WARNING": Warning None 1 11, "acceleration or jerk of the set position above the warning level", cause "P-AXIS-00441, P-AXIS-00443; the vendor's ID is not known", hint "lower the dynamics, or raise the threshold if a filter overshoots";
+    SetpointError = Kontur 61 "K-SETPOINT-ERROR": Error FeedHold 6 11, "acceleration or jerk of the set position above the limit", cause "P-AXIS-00442, P-AXIS-00444; the vendor's ID is not known", hint "lower the dynamics, or raise the threshold if a filter overshoots";
+    TorqueScale = Kontur 62 "K-FF-SCALE": Warning None 1 2, "reference torque or torque scale 0, no torque output", cause "P-AXIS-00392, P-AXIS-00325", hint "write P-AXIS-00392 and P-AXIS-00325";
+    IpcOverlap = Kontur 63 "K-IPC-OVERLAP": Warning None 1 2, "pass bands of two stages of Improved Position Control overlap", cause "their dampings influence each other", hint "raise the quality or move the frequencies apart";
+    ResolutionWithoutEffect = Kontur 64 "K-FF-RESOLUTION": Warning None 1 2, "encoder resolution beside a feed constant, without effect", cause "P-AXIS-00233, P-AXIS-00234 are 1 where P-AXIS-00362, P-AXIS-00363 are used", hint "set P-AXIS-00233 and P-AXIS-00234 to 1";
+    IncrementsWithoutEffect = Kontur 65 "K-FF-INCREMENTS": Warning None 1 2, "increments per revolution without a feed constant, without effect", cause "P-AXIS-00092 needs P-AXIS-00362, P-AXIS-00363 and P-AXIS-00511, P-AXIS-00512", hint "write P-AXIS-00362, P-AXIS-00363 and P-AXIS-00511, P-AXIS-00512";
+    IpcNoInput = Kontur 66 "K-IPC-LOOP": Warning None 1 2, "Improved Position Control without a way into the position loop, off for the axis", cause "a drive that closes the loop needs the additive velocity in its process data; P-AXIS-00320", hint "name S_0_0037 in antr.sercos.mdt[i].nc_ref, or antr.operation_mode CNC_POSITION_CONTROL";
+    ListRange = Kontur 70 "K-LIST-RANGE": Warning None 1 2, "list parameter outside its range, corrected", cause "the vendor's ID for this parameter is not known", hint "kontur explain tells the range of the parameter";
+    ListEntry = Kontur 71 "K-LIST-ENTRY": Warning None 1 2, "line of a list that is no entry, ignored", cause "no key or no value", hint "an entry is a key, at least one blank and a value; comments start with #";
+    ListEnd = Kontur 72 "K-LIST-END": Note None 1 2, "end mark in a list, the rest is not read", cause "a line with END or Ende only";
+    Setting = Kontur 73 "K-SETTING": Error JobAbort 3 0, "setting names no axis, parameter or value", cause "--set TARGET.key=value", hint "write AXIS.key=value, channel.key=value or kontur.key=value";
+    ListCount = Kontur 74 "K-LIST-COUNT": Warning None 1 2, "more entries than the list's own count, ignored", cause "zahl_mds, achs_anzahl, spdl_anzahl", hint "raise the count, or remove the entries", parameter "P-STUP-00014";
+    ListNoEffect = Kontur 75 "K-LIST-NOEFFECT": Warning None 1 2, "list value without effect", cause "P-CHAN-00063 presets G135", hint "vorsteuer.default_active (P-AXIS-00255) in the axis list keeps feedforward on";
+    InputFile = Kontur 76 "K-INPUT": Error JobAbort 3 0, "file of real-time inputs wrong or not readable", cause "--input FILE: CSV with the columns t_s and signals, times rising";
+    InputNoEffect = Kontur 77 "K-INPUT-NOEFFECT": Warning None 1 0, "real-time input without effect", cause "the message says what is off in the machine";
+    ListAdvice = Kontur 78 "K-LIST-ADVICE": Note None 1 2, "list value outside what the documents recommend", cause "a recommendation: nothing is changed";
+    PositionLoop = Kontur 79 "K-LOOP": Note None 1 2, "position loop simulated in another way than the list says", cause "P-AXIS-00320: loop in the drive, or none", hint "set kv (P-AXIS-00099) to the gain of the loop it stands for";
+    AxDevNotKept = Kontur 80 "K-AX-DEV": Warning None 1 1, "tolerance AX_DEV could not be kept", cause "axes with unequal kernels, or a corner that is final already", hint "axes with unequal filters cannot keep a tolerance; program MODE, FREQ and DAMPING";
+    Message = Kontur 81 "K-MSG": Note None 1 1, "message of the program (#MSG)";
+    Internal = Kontur 82 "K-INTERNAL": Error AllStop 8 0, "internal error of kontur", hint "this is an error of kontur itself; the program and the machine lists help to find it";
+    Held = Kontur 83 "K-HELD": Error ProgramAbort 3 0, "path held for ever by feedhold or override 0, run stopped", cause "no later time stamp of the inputs releases it";
+    Ignored = Kontur 100 "K-IGNORED": Warning None 1 1, "word without effect here, ignored", cause "it has no influence on set positions, or its function is not simulated", hint "the result is the same without it";
+    Dialect = Kontur 101 "K-DIALECT": Warning None 1 1, "word that other dialects give another meaning", cause "e.g. G21 mirrors here; metric is G71", hint "was the file written for another control?";
+    GuardExchanged = Kontur 102 "K-GUARD-EXCHANGED": Warning None 1 1, "axis exchange switched the Vibration Guard of the program off", cause "program it again", hint "program #VIB GUARD ON again behind it";
+    GuardStored = Kontur 103 "K-GUARD-STORED": Note None 1 1, "values of #VIB GUARD stored while it is off", cause "they act with the next #VIB GUARD ON";
+    ListFirAndGuard = Kontur 104 "K-LIST-FIR-GUARD": Error ProgramAbort 3 1, "FIR filter and Vibration Guard active in one axis", cause "P-AXIS-00586 and P-AXIS-00588; the Vibration Guard of the axis is off", hint "leave one of the two out of the list";
+    FilterWithListGuard = Kontur 105 "K-FILTER-LIST-GUARD": Error ProgramAbort 3 1, "#FILTER while a list activates the Vibration Guard", cause "P-AXIS-00588", hint "set vib_guard.active to 0, or use #VIB GUARD";
+    GuardWithListFilter = Kontur 106 "K-GUARD-LIST-FILTER": Error ProgramAbort 3 1, "#VIB GUARD while a list configures a filter type", cause "P-AXIS-00586, P-AXIS-00153", hint "leave the filter type out of the list, or use #FILTER";
+    AccFactIgnored = Kontur 107 "K-ACC-FACT": Warning None 1 1, "ACC_FACT without effect", cause "it needs a valid P-AXIS-00013", hint "write getriebe[i].dynamik.a_trans_weight (P-AXIS-00013)", parameter "P-AXIS-00013";
+    SpindleFeedforward = Kontur 108 "K-SPINDLE-FF": Error ProgramAbort 3 1, "feedforward beside other commands of a spindle", cause "S[G135 M3 REV1000]", hint "write S[G135] in a bracket of its own";
+    Odd = Kontur 109 "K-ODD": Note None 1 1, "legal but unusual, worth a look", hint "is it what was meant?";
+    ExternalCreated = Kontur 110 "K-EXTERNAL": Warning None 1 1, "external variable created by its first write", cause "V.E. variables are configured with --external", hint "is the name right?";
+    Fallback = Kontur 111 "K-FALLBACK": Warning None 1 1, "function replaced by a simpler one", cause "the message says which", hint "the message tells what the path does instead";
+    UnequalKernels = Kontur 112 "K-ASYNCHRONOUS": Warning None 1 1, "axes of one group are shaped with different delays", cause "settings of filters or Vibration Guard differ", hint "give all axes of the path the same settings";
+    NoTool = Kontur 114 "K-NO-TOOL": Warning None 1 1, "tool data missing", cause "D without data: length and radius are 0", hint "V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
+    Compensation = Kontur 115 "K-COMPENSATION": Error ProgramAbort 3 1, "tool radius compensation not possible", cause "contour too tight for the tool, or a word that does not go with it", hint "use a smaller tool, or open the contour";
+    TooMany = Kontur 116 "K-TOO-MANY": Note None 1 1, "more errors than are reported";
+    ArcCentre = Kontur 117 "K-ARC-CENTRE": Error ProgramAbort 3 1, "start, end and centre of an arc do not fit", cause "G165; P-CHAN-00059, P-CHAN-00060", hint "G161 makes I, J, K absolute, G162 relative to the start point", parameter "P-CHAN-00059";
+    Unreached = Kontur 118 "K-UNREACHED": Warning None 3 1, "syntax error in a part of the program that does not run", cause "branch not taken, block jumped over, subroutine not called";
+    Bottleneck = Kontur 119 "K-BOTTLENECK": Warning None 3 1, "a compensated tool cuts its own contour at a bottleneck", cause "gap narrower than the tool, loop over several blocks";
+    Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop stands or swings outside the window, and no input is left that could move it", hint "raise the window or the gain kv, or take the force away";
+    SpindleLimit = Kontur 131 "K-SPINDLE-LIMIT": Warning None 1 1, "spindle speed above the limit of the spindle, limited", cause "S word or REV above P-AXIS-00212", hint "the limit is getriebe[0].dynamik.vb_max of the spindle", parameter "P-AXIS-00212";
+}
