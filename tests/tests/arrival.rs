@@ -24,7 +24,7 @@ const G60: &str = "%P\nG90\nG60 G01 X10 F6000\nY5\nM30\n";
 #[test]
 fn a_wait_that_cannot_end() {
     let off = "X.getriebe[0].position_settling_time=0";
-    let run = run_with_inputs(machine(&[off]), G60, &[(0.0, "X_force_mm_s2", 1000.0)]);
+    let run = run_with_inputs(machine(&[off]), G60, &[(0.0, "X_force_mm_s2", -1000.0)]);
     assert_eq!(only(&run), (Id::Kontur(130), "X".to_owned(), 3));
     assert!(run.totals.aborted);
     let d = errors(&run)[0];
@@ -33,11 +33,11 @@ fn a_wait_that_cannot_end() {
         text.contains("axis X") && text.contains("0.1 mm") && text.contains("0.01 mm"),
         "{text}"
     );
-    let rest = run.records.iter().rposition(|r| (r.axes[0].lag + 0.1).abs() > 1e-4).unwrap();
+    let rest = run.records.iter().rposition(|r| (r.axes[0].lag - 0.1).abs() > 1e-4).unwrap();
     let said = usize::try_from(d.cycle.unwrap()).unwrap();
     assert!(said - rest < 2000, "{said} {rest}: 1 s is the settling time of a list without one");
     // the force of the plant itself, and one that swings about 0.1 mm without end
-    for disturbance in [&["amplitude=1000"][..], &["amplitude=1000", "frequency=0"]] {
+    for disturbance in [&["amplitude=-1000"][..], &["amplitude=-1000", "frequency=0"]] {
         let settings: Vec<String> =
             disturbance.iter().map(|d| format!("kontur.axis[1].plant.disturbance.{d}")).collect();
         let mut all: Vec<&str> = settings.iter().map(String::as_str).collect();
@@ -118,7 +118,7 @@ fn an_axis_with_an_error_stops() {
     assert!((here - run.records[at].axes[0].set).abs() > 1.0, "far from its target");
     for r in &run.records[at..] {
         // v Ta is what the drive needs to stop
-        assert!((r.axes[0].act - here).abs() < 0.06, "{} {here}", r.axes[0].act);
+        assert!((r.axes[0].act - here).abs() < 0.08, "{} {here}", r.axes[0].act);
     }
     assert!((run.records.last().unwrap().axes[0].act - here).abs() < 0.01);
 }

@@ -205,6 +205,8 @@ pub enum Issue {
 /// A parameter of a stage of Improved Position Control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IpcParameter {
+    /// P-AXIS-00753, 0..=3.
+    Mode,
     /// P-AXIS-00750, 1..=3.
     Order,
     /// P-AXIS-00751, above 0, at most 500 Hz and below half the sampling rate.

@@ -208,6 +208,11 @@ impl Axis {
         self.stage("dynamik.tr_min")
     }
 
+    /// The list names something to feed forward (P-AXIS-00223).
+    pub fn has_feedforward(&self) -> bool {
+        self.raw("vorsteuer.vorsteuerung").is_some_and(|flags| flags > 0.0)
+    }
+
     /// Gain of the position controller in 1/s (P-AXIS-00099).
     pub fn kv_1_s(&self) -> f64 {
         self.stage("kv")

@@ -77,7 +77,12 @@ impl Machine {
 
     /// Improved Position Control of an axis; of a gantry slave that of its master, without effect if there is none.
     fn ipc(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> IpcConfig {
-        let own = ipc::config(axis);
+        let mut own = ipc::config(axis);
+        if own.enable {
+            let found = ipc::out_of_range(axis, self.cycle);
+            own.enable = found.is_empty();
+            diagnostics.extend(found);
+        }
         let Some(master) = axis.gantry_master() else { return own };
         if own.enable {
             diagnostics.push(issues::control(axis, &Issue::IpcGantrySlave, self.cycle));

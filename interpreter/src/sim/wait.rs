@@ -29,7 +29,8 @@ enum Until {
     Arrived(Vec<usize>),
     /// Flushed, and the actual positions in their windows (P-AXIS-00236).
     InPosition,
-    /// The same for everything that moves, independent axes and spindles on their way to a position too.
+    /// The same for everything that moves, independent axes and spindles on their way to a position too, and seen by the
+    /// monitors: the last row of the trace shows the axes inside their windows.
     AllInPosition,
 }
 
@@ -124,6 +125,8 @@ impl Wait {
         !matches!(self.until, Until::Cycles(1..))
             && !self.under_way(parts)
             && self.awaited(parts).all(|(i, c)| self.remaining(c).is_none() && ready(i, c))
+            && (self.until != Until::AllInPosition
+                || self.awaited(parts).all(|(_, c)| !c.settles()))
     }
 
     /// One cycle in which the wait is not over and no input will change any more: the chain that will never arrive, and

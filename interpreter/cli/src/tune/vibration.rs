@@ -146,7 +146,13 @@ fn unclipped(samples: &[f64]) -> Vec<bool> {
 }
 
 /// A piece of a record, averaged over so many samples that it is not too long.
-fn piece(samples: &[f64], valid: &[bool], rate_hz: f64, range: &Range<usize>, top_hz: f64) -> (Piece, usize) {
+fn piece(
+    samples: &[f64],
+    valid: &[bool],
+    rate_hz: f64,
+    range: &Range<usize>,
+    top_hz: f64,
+) -> (Piece, usize) {
     // twelve samples per period of the highest frequency of interest are kept
     let most = (rate_hz / (12.0 * top_hz.max(1.0))) as usize;
     let stride = range.len().div_ceil(MOST_SAMPLES).min(most.max(1));
@@ -167,7 +173,9 @@ fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64)) -> Fit {
         let Some(next) = detect::strongest(&residual, piece.rate_hz, range_hz) else { break };
         let wider = fit.with(piece, next.freq_hz, next.decay);
         let sound = wider.vibrations(piece, |_| 1.0).iter().all(|v| {
-            v.amplitude < 20.0 * largest && v.freq.value.is_finite() && v.freq.value < 0.5 * piece.rate_hz
+            v.amplitude < 20.0 * largest
+                && v.freq.value.is_finite()
+                && v.freq.value < 0.5 * piece.rate_hz
         });
         // a vibration that takes next to nothing is the misfit of another one
         if !sound || wider.noise(piece) > 0.999 * fit.noise(piece) {
@@ -225,7 +233,8 @@ fn of_decay(
         .collect();
     modes.sort_by(|a, b| peak(b).total_cmp(&peak(a)));
     let highest = modes.first().map_or(1.0, |v| peak(v));
-    let lasting = found.iter().filter(|v| !decays(v, used.seconds()) && v.damping.value < MOST_DAMPING);
+    let lasting =
+        found.iter().filter(|v| !decays(v, used.seconds()) && v.damping.value < MOST_DAMPING);
     Analysis {
         noise: fit.noise(&used),
         swing: modes.iter().map(|v| v.amplitude).sum(),
@@ -281,7 +290,8 @@ impl Analysis {
             let Some(same) = same else { continue };
             let far = (same.freq.value - mode.freq.value).abs();
             if far > 1.5 * libm::hypot(same.freq.half_width, mode.freq.half_width) {
-                let (low, high) = (mode.freq.value.min(same.freq.value), mode.freq.value.max(same.freq.value));
+                let (low, high) =
+                    (mode.freq.value.min(same.freq.value), mode.freq.value.max(same.freq.value));
                 let (l, h) = self.disagree.unwrap_or((low, high));
                 self.disagree = Some((l.min(low), h.max(high)));
             }
@@ -295,3 +305,6 @@ impl Analysis {
         self.decays.extend(other.decays);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -107,17 +107,6 @@ impl Fit {
         next
     }
 
-    /// The fit without some vibrations, improved.
-    pub(super) fn without(&self, piece: &Piece, out: impl Fn(usize) -> bool) -> Self {
-        let mut next = Self { p: self.p[..DRIFT].to_vec(), seconds: self.seconds };
-        for i in (0..self.modes()).filter(|i| !out(*i)) {
-            next.p.extend(self.mode(i));
-        }
-        next.linear(piece);
-        next.improve(piece);
-        next
-    }
-
     /// Value at a time, and its derivatives by the coefficients.
     fn at(&self, t: f64, row: &mut [f64]) -> f64 {
         let u = t / self.seconds;
@@ -140,9 +129,11 @@ impl Fit {
         let mut row = vec![0.0; self.p.len()];
         let samples = piece.samples.iter().zip(&piece.valid).enumerate();
         samples
-            .map(|(i, (x, valid))| {
-                if *valid { x - self.at(i as f64 / piece.rate_hz, &mut row) } else { 0.0 }
-            })
+            .map(
+                |(i, (x, valid))| {
+                    if *valid { x - self.at(i as f64 / piece.rate_hz, &mut row) } else { 0.0 }
+                },
+            )
             .collect()
     }
 
@@ -159,7 +150,9 @@ impl Fit {
     /// Normal equations of the coefficients in `used`.
     fn normal(&self, piece: &Piece, used: &[usize]) -> (DMatrix<f64>, DVector<f64>) {
         let n = used.len();
-        let (mut matrix, mut right) = (DMatrix::zeros(n, n), DVector::zeros(n));
+        let mut right = DVector::zeros(n);
+        // lower triangle, row by row: this is where the time goes
+        let mut sums = vec![0.0; n * (n + 1) / 2];
         let mut row = vec![0.0; self.p.len()];
         let mut picked = vec![0.0; n];
         for (i, x) in piece.samples.iter().enumerate().filter(|(i, _)| piece.valid[*i]) {
@@ -167,19 +160,18 @@ impl Fit {
             for (p, u) in picked.iter_mut().zip(used) {
                 *p = row[*u];
             }
+            let mut rest = sums.as_mut_slice();
             for (i, a) in picked.iter().enumerate() {
                 right[i] += a * e;
-                for (j, b) in picked[..=i].iter().enumerate() {
-                    matrix[(i, j)] += a * b;
+                let (line, behind) = rest.split_at_mut(i + 1);
+                for (sum, b) in line.iter_mut().zip(&picked) {
+                    *sum += a * b;
                 }
+                rest = behind;
             }
         }
-        for i in 0..n {
-            for j in 0..i {
-                matrix[(j, i)] = matrix[(i, j)];
-            }
-        }
-        (matrix, right)
+        let at = |i: usize, j: usize| sums[i * (i + 1) / 2 + j];
+        (DMatrix::from_fn(n, n, |i, j| at(i.max(j), i.min(j))), right)
     }
 
     fn step(&mut self, used: &[usize], step: &DVector<f64>) {
@@ -237,16 +229,13 @@ impl Fit {
 
     /// The vibrations with their intervals. `density` tells how much denser than on average the residual is at a
     /// frequency: where the model is not the whole truth the intervals grow with it.
-    pub(super) fn vibrations(
-        &self,
-        piece: &Piece,
-        density: impl Fn(f64) -> f64,
-    ) -> Vec<Vibration> {
+    pub(super) fn vibrations(&self, piece: &Piece, density: impl Fn(f64) -> f64) -> Vec<Vibration> {
         let all: Vec<usize> = (0..self.p.len()).collect();
         let (matrix, _) = self.normal(piece, &all);
         let noise = self.noise(piece);
         let scale = matrix.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 });
-        let scaled = DMatrix::from_fn(all.len(), all.len(), |i, j| matrix[(i, j)] * scale[i] * scale[j]);
+        let scaled =
+            DMatrix::from_fn(all.len(), all.len(), |i, j| matrix[(i, j)] * scale[i] * scale[j]);
         let Some(inverse) = scaled.try_inverse() else { return Vec::new() };
         let covariance = |i: usize, j: usize| inverse[(i, j)] * scale[i] * scale[j] * noise * noise;
         (0..self.modes())

@@ -50,7 +50,13 @@ fn without_drift(samples: &[f64]) -> Vec<f64> {
 }
 
 /// Complex amplitude of a frequency in a part of a record, under a Hann window; phases count from its first sample.
-fn amplitude(samples: &[f64], from: usize, rate_hz: f64, freq_hz: f64, part: &Range<usize>) -> [f64; 2] {
+fn amplitude(
+    samples: &[f64],
+    from: usize,
+    rate_hz: f64,
+    freq_hz: f64,
+    part: &Range<usize>,
+) -> [f64; 2] {
     let n = part.len() as f64;
     let mut sum = [0.0, 0.0];
     for (j, i) in part.clone().enumerate() {
@@ -158,7 +164,8 @@ pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec
             let near = *start..(start + one + 1).min(end);
             let top = near.reduce(|a, b| if clean[b].abs() > clean[a].abs() { b } else { a })?;
             // the sharp front of the next blow begins a little before its energy
-            let end = if end < n { end.saturating_sub((0.05 * window as f64) as usize) } else { end };
+            let end =
+                if end < n { end.saturating_sub((0.05 * window as f64) as usize) } else { end };
             (end > top + LEAST_SAMPLES).then(|| (sums[end] - sums[top], top + 1..end))
         })
         .collect();
