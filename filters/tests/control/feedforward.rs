@@ -265,7 +265,7 @@ fn own_simulation(profile: &Profile, counts_per_n: f64, believed: f64, real: f64
 }
 
 /// The torque acts on the real inertia: a list that is wrong by half leaves half of the lag, a list of 0 all of it, and
-/// coarse counts show. Conformance: F060, F065.
+/// coarse counts show.
 #[test]
 fn a_wrong_inertia_shows_as_lag() {
     let profile = move_profile(0.4);

@@ -34,7 +34,7 @@ fn config(row: &Row) -> FilterConfig {
     let f_hz = row.optional("fg_f0_hz").unwrap_or(default.f_hz);
     // the reference states the quality of the analog filter; this is the listed one that leads to it
     let centre = PI * f_hz * 0.001;
-    let listed = |q: f64| centre / ((2.0 * centre).sin() / (2.0 * q)).atan();
+    let listed = |q: f64| centre / libm::atan(libm::sin(2.0 * centre) / (2.0 * q));
     FilterConfig {
         kind,
         prototype,

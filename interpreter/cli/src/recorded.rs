@@ -90,7 +90,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Channel>, Error> {
     }
     let bytes = std::fs::read(path).map_err(|e| Error::io(name.clone(), e))?;
     let text = String::from_utf8_lossy(&bytes);
-    parse(text.trim_start_matches('\u{feff}')).map_err(|e| Error::Usage(format!("{name}: {e}")))
+    parse(&text).map_err(|e| Error::Usage(format!("{name}: {e}")))
 }
 
 /// A number with a decimal point, or with a comma where that is not the separator.
@@ -107,10 +107,12 @@ fn cells(line: &str, separator: char) -> Vec<&str> {
     line.split(separator).map(|c| c.trim().trim_matches('"')).collect()
 }
 
-/// All cells that hold something are numbers, and there is one.
+/// A row of the table: it begins with a number, and most of what it holds are numbers.
 fn numeric(cells: &[&str], separator: char) -> bool {
-    let mut filled = cells.iter().filter(|c| !c.is_empty()).peekable();
-    filled.peek().is_some() && filled.all(|c| number(c, separator).is_some())
+    let filled: Vec<bool> =
+        cells.iter().filter(|c| !c.is_empty()).map(|c| number(c, separator).is_some()).collect();
+    let numbers = filled.iter().filter(|n| **n).count();
+    filled.first() == Some(&true) && 2 * numbers >= filled.len()
 }
 
 /// The separator that makes the most of the lines with numbers.
@@ -131,6 +133,7 @@ fn separator(lines: &[&str]) -> char {
 }
 
 fn parse(text: &str) -> Result<Vec<Channel>, String> {
+    let text = text.trim_start_matches('\u{feff}');
     let lines: Vec<&str> =
         text.lines().filter(|l| !l.trim().is_empty() && l.trim() != "EOF").collect();
     let separator = separator(&lines);
@@ -219,7 +222,9 @@ fn scope(
             _ => 1e-3,
         };
         let first = times.first().copied().unwrap_or(0.0);
-        times.iter_mut().for_each(|t| *t = (*t - first) * unit_s);
+        for t in &mut times {
+            *t = (*t - first) * unit_s;
+        }
         channels.push(Channel { name: channel.name, times_s: times, values, step_s });
     }
     if channels.is_empty() { Err("no channel".to_owned()) } else { Ok(channels) }
@@ -260,17 +265,18 @@ fn plain(
             continue;
         }
         // a column of words (the line, what limits) is no signal
-        if data
-            .iter()
-            .take(3)
-            .any(|row| row.get(i).is_some_and(|c| !c.is_empty() && number(c, separator).is_none()))
-        {
+        let word = |row: &&Vec<&str>| {
+            row.get(i).is_some_and(|c| !c.is_empty() && number(c, separator).is_none())
+        };
+        if data.first().filter(word).is_some() {
             continue;
         }
         let (mut times, values) =
             column(data, time.map(|t| t.0), i, separator, header.len() + 1, name)?;
         let first = times.first().copied().unwrap_or(0.0);
-        times.iter_mut().for_each(|t| *t = (*t - first) * time.map_or(1.0, |t| t.1));
+        for t in &mut times {
+            *t = (*t - first) * time.map_or(1.0, |t| t.1);
+        }
         channels.push(Channel { name: name.clone(), times_s: times, values, step_s: None });
     }
     if channels.is_empty() {

@@ -235,7 +235,7 @@ impl Task {
             let mut row =
                 vec![choice.settings.mode.to_string(), format!("{}", choice.settings.freq_hz)];
             let real = self.freqs_hz.iter().map(|f| (*f, self.band.damping));
-            let all = real.chain(self.others.iter().map(|m| self.vibration(m)));
+            let all = real.chain(self.others.iter().map(Self::vibration));
             row.extend(all.map(|real| {
                 let left = self.left_of(choice, real);
                 left.map_or_else(String::new, |left| format!("{} %", number(100.0 * left, 2)))
@@ -246,7 +246,7 @@ impl Task {
     }
 
     /// Frequency in Hz and damping of a weaker vibration.
-    fn vibration(&self, mode: &Mode) -> (f64, f64) {
+    fn vibration(mode: &Mode) -> (f64, f64) {
         (mode.freq.value, mode.damping.value)
     }
 
@@ -259,11 +259,11 @@ impl Task {
     /// Weaker vibrations of which a choice leaves more than the limit of the strongest one.
     fn beside(&self, choice: &Choice) -> String {
         let loud = |m: &&Mode| {
-            self.left_of(choice, self.vibration(m))
+            self.left_of(choice, Self::vibration(m))
                 .is_some_and(|left| left * m.peak_ratio > self.limit_ratio)
         };
         let line = |mode: &Mode| {
-            let left = self.left_of(choice, self.vibration(mode)).unwrap_or(1.0);
+            let left = self.left_of(choice, Self::vibration(mode)).unwrap_or(1.0);
             let all = self.freqs_hz.iter().chain([&mode.freq.value]).map(|f| number(*f, 2));
             format!(
                 "warning   {} Hz, {} % as strong, keeps {} % of its vibration; --freq {} tunes for both\n",

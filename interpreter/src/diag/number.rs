@@ -8,7 +8,7 @@ pub fn rounded(x: f64) -> String {
         return format!("{x}");
     }
     let magnitude = libm::floor(libm::log10(x.abs())) as i32;
-    if magnitude < -6 || magnitude > 14 {
+    if !(-6..=14).contains(&magnitude) {
         return format!("{x:.4e}");
     }
     let decimals = usize::try_from(4 - magnitude).unwrap_or(0);

@@ -215,7 +215,7 @@ impl Channel {
             end_program: program("final_prog_file"),
             tool_change_program: program("m6_prog_file"),
             main_spindle: Some(choice("main_spindle_ax_nr")).filter(|n| *n != 0),
-            main_spindle_name: p.text("main_spindle_name").unwrap_or_default().to_string(),
+            main_spindle_name: p.text("main_spindle_name").unwrap_or_default(),
             parameters,
             start_up,
         }

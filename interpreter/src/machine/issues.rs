@@ -157,9 +157,10 @@ pub(crate) fn filter(axis: &Axis, origin: Origin<'_>, issue: &FilterIssue) -> Di
     };
     match (origin, effect) {
         (Origin::Program, Effect::Note) => diagnostic.severity(Severity::Note),
-        (Origin::Program, Effect::Corrected) => diagnostic.severity(Severity::Warning),
-        // as the documents say: that part is off, the run goes on
-        (Origin::List(_), Effect::Off) => diagnostic.severity(Severity::Warning),
+        // of a list, as the documents say: that part is off, the run goes on
+        (Origin::Program, Effect::Corrected) | (Origin::List(_), Effect::Off) => {
+            diagnostic.severity(Severity::Warning)
+        }
         (Origin::Program, Effect::Off) | (Origin::List(_), _) => diagnostic,
     }
 }

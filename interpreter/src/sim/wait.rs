@@ -85,13 +85,13 @@ impl Wait {
         parts: Parts<'a>,
     ) -> impl Iterator<Item = (usize, &'a AxisChain)> + 'a {
         let concerns = move |driver: Driver| match (&self.until, driver) {
-            (Until::Now | Until::Cycles(_), _) | (_, Driver::Standing) => false,
             (Until::Arrived(axes), Driver::Path(p)) => axes.contains(&p),
             // axes on their way alone have no exact stop here
             (Until::InPosition, Driver::Path(p)) => !parts.independent.is_moving(p),
             (Until::Flushed | Until::AllInPosition, Driver::Path(_)) => true,
             (Until::AllInPosition, Driver::Spindle(s)) => parts.spindles[s].positions(),
-            (_, Driver::Spindle(_)) => false,
+            (Until::Now | Until::Cycles(_), Driver::Path(_))
+            | (_, Driver::Spindle(_) | Driver::Standing) => false,
         };
         let chains = parts.chains.iter().zip(parts.drivers).enumerate();
         chains.filter(move |(_, (_, driver))| concerns(**driver)).map(|(i, (chain, _))| (i, chain))

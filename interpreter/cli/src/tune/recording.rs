@@ -104,17 +104,16 @@ fn interval(e: Estimate, decimals: usize) -> String {
 /// What is to be said about one recording beside its vibrations.
 fn remarks(recording: &Recording, gaps: &[DropOut]) -> String {
     let Recording { name, found, rate_hz, .. } = recording;
-    let mut out = String::new();
-    let mut note = |text: String| out.push_str(&format!("note      {name}: {text}\n"));
+    let mut notes = Vec::new();
     let missing: usize = gaps.iter().map(|g| g.1).sum();
     if let Some((first_s, _)) = gaps.first() {
-        note(format!(
+        notes.push(format!(
             "{missing} samples missing in {} places, the first behind {first_s:.3} s; bridged by straight lines",
             gaps.len()
         ));
     }
     if found.clipped > 0 {
-        note(format!("{} samples at the limit of the recorder, left out", found.clipped));
+        notes.push(format!("{} samples at the limit of the recorder, left out", found.clipped));
     }
     if found.decays.len() > 1 {
         let times: Vec<String> = found
@@ -122,12 +121,12 @@ fn remarks(recording: &Recording, gaps: &[DropOut]) -> String {
             .iter()
             .map(|d| format!("{:.2} s", d.samples.start as f64 / rate_hz))
             .collect();
-        note(format!("{} decays, from {}", times.len(), times.join(", ")));
+        notes.push(format!("{} decays, from {}", times.len(), times.join(", ")));
     }
     if let Some((low, high)) = found.disagree {
-        note(format!("its decays disagree: {} to {} Hz", number(low, 2), number(high, 2)));
+        notes.push(format!("its decays disagree: {} to {} Hz", number(low, 2), number(high, 2)));
     }
-    out
+    notes.iter().map(|text| format!("note      {name}: {text}\n")).collect::<Vec<_>>().concat()
 }
 
 /// Whether several recordings agree about a quantity.
@@ -236,13 +235,14 @@ mod tests {
         let path = folder.path().join("a.csv");
         std::fs::write(&path, text).unwrap();
         let file = path.display().to_string();
-        let line = ["tune", "--recording", &file].iter().chain(words).map(|w| (*w).to_owned());
+        let start = ["tune", "--recording", &file];
+        let line = start.iter().chain(words).map(|w| (*w).to_owned());
         read(&path, &Line::try_parse_from(line).unwrap().tune).map(|r| r.0)
     }
 
     fn rows(times: impl Fn(u32) -> f64) -> String {
-        let rows: String = (0..100).map(|i| format!("{},{i},1\n", times(i))).collect();
-        format!("t_s,a,b\n{rows}")
+        let rows: Vec<String> = (0..100).map(|i| format!("{},{i},1", times(i))).collect();
+        format!("t_s,a,b\n{}\n", rows.join("\n"))
     }
 
     #[test]

@@ -88,9 +88,9 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
         tell(&key, &what, "gear stages are not changed: getriebe[0] is used");
     }
     let key = "vorsteuer.shift_time";
-    if drive != Drive::Profidrive
-        && axis.parameters().setting(key).is_some_and(|s| s.value.number() != Some(0.0))
-    {
+    // the default of the vendor's lists says nothing about another drive
+    let said = axis.parameters().setting(key).and_then(|s| s.value.number());
+    if drive != Drive::Profidrive && said.is_some_and(|x| x > 0.0 && (x - 3.0).abs() > 0.0) {
         tell(
             key,
             "time offset of the feedforward without PROFIdrive",

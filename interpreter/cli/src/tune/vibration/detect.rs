@@ -61,9 +61,9 @@ pub(super) fn strongest(residual: &[f64], rate_hz: f64, range_hz: (f64, f64)) ->
     let high_hz = range_hz.1.min(0.45 * rate_hz);
     let mut best: Option<(f64, Candidate)> = None;
     let mut noise = 0.0;
-    let mut decay = 0.0;
     let mut tried = 0.0;
-    while decay < 0.25 * rate_hz {
+    let first = std::iter::successors(Some(1.0 / seconds), |s| Some(DECAY_FACTOR * s));
+    for decay in std::iter::once(0.0).chain(first.take_while(|s| *s < 0.25 * rate_hz)) {
         let e = |i: usize| libm::exp(-decay * i as f64 / rate_hz);
         let energy: f64 = (0..n).map(|i| e(i) * e(i)).sum();
         let of = lines(residual.iter().enumerate().map(|(i, x)| x * e(i)), n, energy, rate_hz);
@@ -81,7 +81,6 @@ pub(super) fn strongest(residual: &[f64], rate_hz: f64, range_hz: (f64, f64)) ->
                 best = Some((*power, Candidate { freq_hz, decay }));
             }
         }
-        decay = if decay > 0.0 { DECAY_FACTOR * decay } else { 1.0 / seconds };
     }
     let (power, candidate) = best?;
     (power / noise > libm::log(tried / FALSE_ALARM)).then_some(candidate)

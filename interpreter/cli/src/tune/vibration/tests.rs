@@ -94,7 +94,9 @@ fn record(kind: &str, r: &mut Random) -> Record {
         })
         .collect();
     if kind == "clip" {
-        samples.iter_mut().for_each(|x| *x = x.clamp(drift[0] - 0.5, drift[0] + 0.5));
+        for x in &mut samples {
+            *x = x.clamp(drift[0] - 0.5, drift[0] + 0.5);
+        }
     }
     let truth = std::iter::once((f, z)).chain(second.map(|s| s.0)).collect();
     Record { samples, rate_hz, truth }
