@@ -190,7 +190,7 @@ fn the_prototype_matters_little_for_bands() {
         let pass = filter(FilterKind::BandPass, prototype, 2, 20.0, listed(1.0, 20.0));
         assert_close(db(&pass, 10.0), at_10_hz, 6e-3, &prototype);
         assert_close(
-            overshoot(band_stop(prototype, 2, 20.0, 4.0)),
+            overshoot(band_stop(prototype, 2, 20.0, listed(4.0, 20.0))),
             overshoot_percent,
             0.06,
             &prototype,

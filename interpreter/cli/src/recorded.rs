@@ -268,7 +268,7 @@ fn plain(
         let word = |row: &&Vec<&str>| {
             row.get(i).is_some_and(|c| !c.is_empty() && number(c, separator).is_none())
         };
-        if data.first().filter(word).is_some() {
+        if data.first().is_some_and(|row| word(&row)) {
             continue;
         }
         let (mut times, values) =
