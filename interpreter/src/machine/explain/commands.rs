@@ -43,7 +43,7 @@ const COMMANDS: &[Command] = &[
         "#FILTER ON [ORDER=20 AX_DEV=0.001]", &["22060", "50989", "P-AXIS-00586", "P-AXIS-00587", "P-AXIS-00573", "#VIB GUARD"]),
     row(&["#SLOPE"], "#SLOPE [TYPE=STEP|TRAPEZ|SIN2|HSC NO_OPT=0|1]   #SLOPE DEFAULT",
         "shape of the acceleration; modal, reset at program start",
-        "TYPE default prog_start.slope.profile; NO_OPT default 1: the profile of each block is planned by itself, 0: across blocks",
+        "TYPE default prog_start.slope.profile; NO_OPT default 1; 0 matters with constant ramp times (P-CHAN-00349) alone: there the profile of each run of blocks is planned by itself, else across blocks",
         "", "#SLOPE [TYPE=SIN2]", &["21629", "P-CHAN-00071", "P-CHAN-00349"]),
     row(&["#SET SLOPE PROFIL"], "#SET SLOPE PROFIL [n]", "older form of #SLOPE: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC", "", "", "#SET SLOPE PROFIL [1]", &["#SLOPE", "P-CHAN-00071"]),
     row(&["#CONTOUR MODE"], "#CONTOUR MODE [ON|OFF] [DEV|DIST|DIST_SOFT|DIST_MASTER|POS|PTP keys]",
