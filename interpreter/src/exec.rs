@@ -48,7 +48,7 @@ mod unreached;
 mod variables;
 mod words;
 
-pub use check::{UNREACHED, check};
+pub use check::{LIMIT, UNREACHED, check};
 pub use executor::Executor;
 pub use options::{Access, External, Options, SkipLevels, Value};
 pub use step::{

@@ -9,10 +9,13 @@
 //! Source: TE13xx TC3 Scope View, export in csv.
 
 use crate::Error;
+use crate::text::Text;
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
-/// Largest file that is read, in bytes: an hour of some channels at 4 kHz.
-const MOST_BYTES: u64 = 1 << 30;
+/// Largest file that is read, in bytes: two minutes of many channels at 4 kHz.
+const MOST_BYTES: u64 = 1 << 28;
 /// Steps longer than this many sampling times are drop-outs.
 const GAP: f64 = 1.5;
 /// Header keys whose cells are names, the better one first.
@@ -84,11 +87,13 @@ impl Channel {
 /// [`Error`] if the file cannot be read or holds no table of numbers.
 pub(crate) fn read(path: &Path) -> Result<Vec<Channel>, Error> {
     let name = path.display().to_string();
-    let size = std::fs::metadata(path).map_err(|e| Error::io(name.clone(), e))?.len();
-    if size > MOST_BYTES {
+    let io = |e| Error::io(name.clone(), e);
+    let text = File::open(path).and_then(Text::new).map_err(io)?;
+    let mut bytes = Vec::new();
+    text.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(io)?;
+    if bytes.len() as u64 > MOST_BYTES {
         return Err(Error::Usage(format!("{name}: larger than {} MiB", MOST_BYTES >> 20)));
     }
-    let bytes = std::fs::read(path).map_err(|e| Error::io(name.clone(), e))?;
     let text = String::from_utf8_lossy(&bytes);
     parse(&text).map_err(|e| Error::Usage(format!("{name}: {e}")))
 }

@@ -10,8 +10,8 @@ use std::path::Path;
 
 /// Shorter recordings hold no decay.
 const LEAST_SAMPLES: usize = 64;
-/// Longer ones are refused: an hour at 4 kHz.
-const MOST_SAMPLES: usize = 1 << 24;
+/// Longer ones are refused: two minutes at 4 kHz. Their spectra take 130 MB.
+const MOST_SAMPLES: usize = 1 << 19;
 /// A rate that is given may differ from that of the times by this share.
 const RATE_RATIO: f64 = 0.01;
 /// Steps may differ from a multiple of the sampling time by this share of it.

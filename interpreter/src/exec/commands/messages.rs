@@ -72,7 +72,8 @@ pub(super) fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             }
         }
     }
-    decoder.event(Event::Message { receiver, text, save });
+    let source = decoder.source;
+    decoder.event(Event::Message { receiver, text, save, source });
     Ok(())
 }
 
