@@ -329,7 +329,7 @@ impl Decoder {
         }
         let number = machine.axes[axis].number();
         self.dynamics_changed();
-        self.sync(Sync::MachineData { axis: number, key: key.to_owned(), value: value.to_owned() });
+        self.sync(Sync::MachineData { axis: number });
         self.update_shaping(span);
         Ok(())
     }

@@ -252,6 +252,11 @@ impl Executor {
         &self.decoder.shaping.setup
     }
 
+    /// The machine as the program has it: with the values of `#MACHINE DATA` up to the step handed out last.
+    pub fn machine(&self) -> &Arc<Machine> {
+        &self.decoder.machine
+    }
+
     /// Blocks executed so far.
     pub fn blocks(&self) -> u64 {
         self.blocks

@@ -58,7 +58,7 @@ const ROWS: &[Row] = &[
     Row { name: &["A", "-SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).0) },
     Row { name: &["A", "+SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).1) },
     Row { name: &["A", "REF", "*"], read: |d, p| { p.axis(d, 2)?; number(0.0) } },
-    Row { name: &["A", "MODE", "*"], read: |d, p| { let a = p.axis(d, 2)?; number(d.machine.axes[a].raw("kenngr.achs_mode").unwrap_or(1.0)) } },
+    Row { name: &["A", "MODE", "*"], read: |d, p| { let a = p.axis(d, 2)?; number(f64::from(d.machine.axes[a].mode_bits())) } },
     Row { name: &["A", "MODULO_VALUE", "*"], read: |d, p| { let a = p.axis(d, 2)?; number(if d.machine.axes[a].is_modulo() { 360.0 } else { 0.0 }) } },
     Row { name: &["G", "BLOCK_NR"], read: |d, _| number(d.info.block_number as f64) },
     Row { name: &["G", "SATZ_NR"], read: |d, _| number(d.info.block_number as f64) },

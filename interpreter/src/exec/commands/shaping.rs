@@ -7,8 +7,8 @@ use super::{Arguments, Call, Key, arguments};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::shaping::{Family, FilterKeys, listed_fir, listed_hsc};
-use crate::machine::issues::{self, Origin};
+use crate::exec::shaping::{Family, FilterKeys, GuardKeys};
+use crate::machine::issues;
 use crate::syntax::ast::Span;
 use kontur_filters::fir::MAX_ORDER;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -47,9 +47,13 @@ impl Decoder {
 
     /// Conflicts of a command with the axis lists.
     fn list_conflict(&mut self, family: Family, span: Span) -> Outcome<()> {
-        let conflict = self.machine.axes.iter().find(|axis| match family {
-            Family::Filter => axis.flag("vib_guard.active"),
-            Family::VibGuard => listed_fir(axis).is_some() || listed_hsc(axis).is_some(),
+        let cycle = self.machine.cycle;
+        let conflict = self.machine.axes.iter().find(|axis| {
+            let listed = axis.kernel_preset(cycle);
+            match family {
+                Family::Filter => listed.vib_guard.active,
+                Family::VibGuard => listed.fir.is_some() || listed.hsc.is_some(),
+            }
         });
         let Some(axis) = conflict else { return Ok(()) };
         let (id, what, parameter) = match family {
@@ -109,7 +113,9 @@ pub(super) fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some((x, span)) = keys.number("MODE") {
         programmed.mode = Some(mode(x, span)?);
     }
-    if let Some(freq_hz) = keys.in_range("FREQ", 1.0, f64::MAX, Condition::GuardRange)? {
+    if let Some(freq_hz) =
+        keys.in_range("FREQ", VibGuardSettings::MIN_FREQ_HZ, f64::MAX, Condition::GuardRange)?
+    {
         programmed.freq_hz = Some(freq_hz);
     }
     if let Some(damping) = keys.in_range("DAMPING", 0.0, 1.0, Condition::GuardRange)? {
@@ -120,17 +126,12 @@ pub(super) fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some(on) = call.command.on {
         decoder.shaping.guard_on = Some(on);
     } else {
+        let cycle = decoder.machine.cycle;
         let on = |a: &crate::machine::Axis| {
-            decoder.shaping.guard_on.unwrap_or(a.flag("vib_guard.active"))
+            decoder.shaping.guard_on.unwrap_or(a.kernel_preset(cycle).vib_guard.active)
         };
         if !decoder.machine.axes.iter().any(on) {
-            realisable(
-                decoder,
-                programmed.mode,
-                programmed.freq_hz,
-                programmed.damping,
-                call.span(),
-            )?;
+            realisable(decoder, programmed, call.span())?;
             let text =
                 "the Vibration Guard is off: the values are stored for the next #VIB GUARD ON";
             decoder.note(Fault::new(Condition::GuardStored, text, call.span()));
@@ -155,24 +156,11 @@ fn mode(x: f64, span: Span) -> Outcome<u8> {
 }
 
 /// 50820 for settings that are stored while the guard is off.
-fn realisable(
-    decoder: &Decoder,
-    mode: Option<u8>,
-    freq_hz: Option<f64>,
-    damping: Option<f64>,
-    span: Span,
-) -> Outcome<()> {
-    let default = VibGuardSettings::default();
-    let settings = VibGuardSettings {
-        mode: mode.unwrap_or(default.mode),
-        freq_hz: freq_hz.unwrap_or(default.freq_hz),
-        damping: damping.unwrap_or(default.damping),
-    };
-    match (settings.kernel(decoder.machine.cycle), decoder.machine.axes.first()) {
-        (Err(e), Some(axis)) => Err(Fault::of(
-            issues::vib_guard(axis, Origin::Program, &e, decoder.machine.cycle),
-            span,
-        )),
+fn realisable(decoder: &Decoder, programmed: GuardKeys, span: Span) -> Outcome<()> {
+    let settings = programmed.over(VibGuardSettings::default());
+    let cycle = decoder.machine.cycle;
+    match (settings.kernel(cycle), decoder.machine.axes.first()) {
+        (Err(e), Some(axis)) => Err(Fault::of(issues::vib_guard(axis, false, &e, cycle), span)),
         _ => Ok(()),
     }
 }
@@ -202,11 +190,11 @@ pub(super) fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let mut stored = if hsc { decoder.shaping.hsc } else { decoder.shaping.fir };
     filter_keys(&keys, &mut stored)?;
     decoder.tolerances(&keys, Condition::FilterRange)?;
-    let configured = decoder
-        .machine
-        .axes
-        .iter()
-        .any(|axis| if hsc { listed_hsc(axis).is_some() } else { listed_fir(axis).is_some() });
+    let cycle = decoder.machine.cycle;
+    let configured = decoder.machine.axes.iter().any(|axis| {
+        let listed = axis.kernel_preset(cycle);
+        if hsc { listed.hsc.is_some() } else { listed.fir.is_some() }
+    });
     if !configured {
         let (what, parameter) =
             if hsc { ("an HSC filter", "P-AXIS-00153") } else { ("a filter type", "P-AXIS-00586") };

@@ -87,7 +87,6 @@ impl Decoder {
                 .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
                 .parameter("P-AXIS-00177")
         });
-        let behaviour = self.machine.axes[axis].text("kenngr.swe_behaviour");
-        if behaviour.as_deref() == Some("WARNING") { fault.warning() } else { fault }
+        if self.machine.axes[axis].software_limits_only_warn() { fault.warning() } else { fault }
     }
 }
