@@ -10,7 +10,7 @@ mod bottleneck;
 mod brackets;
 mod calls;
 mod check;
-mod commands;
+pub(crate) mod commands;
 mod compensation;
 mod contour;
 mod contouring;

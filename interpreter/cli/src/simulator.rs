@@ -5,7 +5,8 @@ use crate::files::{Lists, ProgramFiles, STANDARD, STANDARD_INPUT, standard_input
 use crate::inputs;
 use kontur_interpreter::diag::{Condition, Diagnostic, Severity};
 use kontur_interpreter::exec::{self, Access, External, Options, SkipLevels, Value};
-use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override, explain};
+use kontur_interpreter::explain;
+use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::sim::{Limits, Simulation};
 use std::path::Path;

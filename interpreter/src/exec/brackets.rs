@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 programming manual; TF5200 feedforward control (spindles); 21738, 21867.
 
-use super::commands::{Key, Kind, arguments};
+use super::commands::keys::{arguments, between};
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::words::Words;
@@ -22,6 +22,14 @@ enum SpindleItem {
     Feedforward(bool),
     /// G136=.
     Weight(f64),
+}
+
+arguments! {
+    /// Keys of `#OVERRIDE` and `X[OVERRIDE]`.
+    pub(super) struct OverrideArguments {
+        feed: Number "FEED_FACT" in between(0.1, 200.0), "%", "";
+        rapid: Number "RAPID_FACT" in between(0.1, 200.0), "%", "";
+    }
 }
 
 impl Decoder {
@@ -70,18 +78,14 @@ impl Decoder {
         title: &str,
         span: Span,
     ) -> Outcome<()> {
-        const KEYS: &[Key] = &[
-            Key { name: "FEED_FACT", kind: Kind::Number },
-            Key { name: "RAPID_FACT", kind: Kind::Number },
-        ];
-        let keys = arguments(self, title, group, KEYS);
-        let feed = keys.in_range("FEED_FACT", 0.1, 200.0, Condition::Range)?;
-        let rapid = keys.in_range("RAPID_FACT", 0.1, 200.0, Condition::Range)?;
+        let keys = OverrideArguments::read(self, title, group)?;
+        let ratio = |key: Option<(f64, Span)>| key.map(|(percent, _)| percent / 100.0);
+        let (feed, rapid) = (ratio(keys.feed), ratio(keys.rapid));
         if feed.is_none() && rapid.is_none() {
             let text = format!("{title} needs FEED_FACT or RAPID_FACT");
             return Err(Fault::new(Condition::TokenUnknown, text, span));
         }
-        self.overrides.set(axis, feed.map(|p| p / 100.0), rapid.map(|p| p / 100.0));
+        self.overrides.set(axis, feed, rapid);
         Ok(())
     }
 

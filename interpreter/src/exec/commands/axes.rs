@@ -5,7 +5,7 @@
 //!
 //! Source: TF5200 programming manual, axis exchange; TF5250 Vibration Guard.
 
-use super::Call;
+use super::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -17,6 +17,16 @@ const OPTIONS: &[&str] = &["CMDPOS", "ACTPOS", "OFFSETS", "NO_OFFSETS", "ALL"];
 
 /// Places of an axis in the channel.
 const PLACES: u32 = 32;
+
+/// Row of `#PUT AX`.
+pub(super) const PUT_AX: Row = Row::run("PUT AX", put)
+    .form("#PUT AX [name]")
+    .example("#PUT AX [X]")
+    .meaning("axis exchange: takes axes into the channel or gives them back")
+    .note(
+        "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %",
+    )
+    .related(&["20312", "21251", "21372", "#VIB GUARD"]);
 
 /// `#PUT AX [X, ..]`, `#PUT AX ALL`: an axis that is not there is legal.
 pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
@@ -46,6 +56,16 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
+/// Row of `#CALL AX`.
+pub(super) const CALL_AX: Row = Row::run("CALL AX", call)
+    .form("#CALL AX [name,number,index]")
+    .example("#CALL AX [X,1,0]")
+    .meaning("axis exchange: takes axes into the channel or gives them back")
+    .note(
+        "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %",
+    )
+    .related(&["20312", "21251", "21372", "#VIB GUARD"]);
+
 /// `#CALL AX [FAST] [name, number, index, options]..`.
 pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     exchange(decoder, call.span());
@@ -54,6 +74,16 @@ pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     take_all(decoder, call)
 }
+
+/// Row of `#SET AX`.
+pub(super) const SET_AX: Row = Row::run("SET AX", set)
+    .form("#SET AX [name,number,index]")
+    .example("#SET AX [X,1,0]")
+    .meaning("axis exchange: takes axes into the channel or gives them back")
+    .note(
+        "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %",
+    )
+    .related(&["20312", "21251", "21372", "#VIB GUARD"]);
 
 /// `#SET AX [name, number, index, options]..`: a new set of axes.
 pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {

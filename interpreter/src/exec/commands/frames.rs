@@ -2,8 +2,8 @@
 //!
 //! Source: TF5200 programming manual, coordinate systems; P-CHAN-00394 (rotations ZYX).
 
-use super::keys::number;
-use super::{Call, Key, arguments};
+use super::Call;
+use super::keys::arguments;
 use crate::diag::Condition;
 use crate::exec::coordinates::SYSTEMS_MAX;
 use crate::exec::decoder::Decoder;
@@ -11,19 +11,27 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::frame::Frame;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
 
+arguments! {
+    /// Keys of `#ROTATION`.
+    struct RotationArguments {
+        angle: Number "ANGLE", "deg", "default 0";
+        centre_1: Number "CENTER1", "mm", "default 0; from the origin of the program";
+        centre_2: Number "CENTER2", "mm", "default 0";
+    }
+}
+
 /// `#ROTATION ON [ANGLE= CENTER1= CENTER2=]`, `OFF`.
 pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] = &[number("ANGLE"), number("CENTER1"), number("CENTER2")];
     call.no_more_words()?;
-    let keys = arguments(decoder, "#ROTATION", call.command.groups.first(), KEYS);
+    let keys = RotationArguments::read(decoder, &call.title(), call.command.groups.first())?;
     match call.command.on {
         Some(true) => {
             let unit = decoder.unit_mm();
-            let value = |name: &str| keys.number(name).map(|(x, _)| x);
+            let value = |key: Option<(f64, Span)>| key.map_or(0.0, |(x, _)| x);
             // offsets of the centre from the origin of the program; 0 if not written
-            let centre = ["CENTER1", "CENTER2"].map(|n| Some(value(n).unwrap_or(0.0) * unit));
+            let centre = [keys.centre_1, keys.centre_2].map(|key| Some(value(key) * unit));
             let main = decoder.modal.plane.main_axes();
-            let deg = value("ANGLE").unwrap_or(0.0);
+            let deg = value(keys.angle);
             decoder.set_rotation([main[0], main[1]], deg, centre, call.span())
         }
         Some(false) => {

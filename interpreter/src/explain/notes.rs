@@ -111,7 +111,7 @@ pub(super) fn of_message(id: Id) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::NOTES;
-    use crate::machine::explain::explain;
+    use crate::explain::explain;
     use crate::machine::table;
 
     #[test]

@@ -1,14 +1,14 @@
-//! What `kontur explain THING` tells: about an ID, a parameter, a command, an object or word of the documents.
+//! What `kontur explain THING` tells, from the tables of conditions, parameters and commands: about an ID, a parameter, a command, an object or word of the documents.
 
 mod commands;
 mod notes;
 mod words;
 
-use super::key::Key;
-use super::table::{self, Bound, Correction, Default, ListKind, Raw, Row};
-use super::value::{self, Value};
 use crate::diag::condition;
 use crate::diag::{Condition, Id};
+use crate::machine::key::{self, Key};
+use crate::machine::table::{self, Bound, Correction, Default, ListKind, Raw, Row};
+use crate::machine::value::{self, Value};
 
 /// What a thing is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,8 +103,9 @@ fn probably(thing: &str) -> Vec<String> {
     let mut found: Vec<String> =
         table::suggestions(None, &shape).into_iter().map(str::to_owned).collect();
     let wanted = thing.to_ascii_uppercase();
-    let near = |name: &&str| table::edit_distance(&name.to_ascii_uppercase(), &wanted, 2).is_some();
-    found.extend(commands::names().chain(words::names()).filter(near).map(str::to_owned));
+    let near =
+        |name: &String| table::edit_distance(&name.to_ascii_uppercase(), &wanted, 2).is_some();
+    found.extend(commands::names().chain(words::names().map(str::to_owned)).filter(near));
     found.truncate(5);
     found
 }
@@ -227,7 +228,7 @@ fn example(row: &Row) -> Option<String> {
     if row.key.is_empty() {
         return None;
     }
-    let key = super::key::with_indices(row.key, [0; 2]);
+    let key = key::with_indices(row.key, [0; 2]);
     let value = match (notes::example(row.id), row.raw) {
         (Some(value), _) => value.to_owned(),
         (None, Raw::Word(words)) => words.first().copied().unwrap_or_default().to_owned(),

@@ -1,6 +1,7 @@
-//! Commands and G functions, one row each.
+//! G functions and words in brackets, one row each; what `#` commands say of themselves stands in their own rows.
 
 use super::{Explanation, Kind};
+use crate::exec::commands;
 
 /// One command.
 struct Command {
@@ -31,43 +32,10 @@ const fn row(
 /// Source: TF5200 programming manual, TF5200 feedforward control, TF5200 FIR filter, TF5250 Vibration Guard.
 #[rustfmt::skip]
 const COMMANDS: &[Command] = &[
-    row(&["#VIB GUARD"], "#VIB GUARD [ON|OFF] [MODE=.. FREQ=.. DAMPING=.. AX_DEV=.. ACC_FACT=..]",
-        "shapes the set position of all axes of the channel so that one natural frequency of the machine is not excited; modal",
-        "MODE 1..4, default 1 (list vib_guard.mode); FREQ >= 1 Hz, default 30 (vib_guard.freq); DAMPING 0..1, default 0.1 (vib_guard.damping); AX_DEV >= 0 mm, default 0 = no tolerance monitoring (no list key); ACC_FACT 1..10, default 1 (no list key); ON from program start: vib_guard.active",
-        "independent of the FIR filter (#FILTER), which smooths a broad band: the two may not stand in one program (22060). AX_DEV missing in a command switches the tolerance monitoring off again, the other keys keep their last value. Without ON or OFF the values are stored",
-        "#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]", &["22060", "22062", "50820", "P-AXIS-00588", "P-AXIS-00571", "P-AXIS-00589", "P-AXIS-00568", "P-AXIS-00013"]),
-    row(&["#FILTER"], "#FILTER [ON|OFF] [ORDER=.. ORDER_TIME=.. SHARE=.. AX_DEV=.. FCUT=.. ACC_FACT=.. QUALITY=..]   #FILTER ON|OFF [HSC]",
-        "switches the FIR filters of all axes of the channel; they smooth a broad band. With [HSC]: the older HSC filter prepared as filter[0] of the axis list; modal",
-        "ORDER 0..200; ORDER_TIME in us; SHARE 0..100 %, default 100; AX_DEV >= 0 mm, default 0 = no monitoring; FCUT >= 1 Hz, default 30; ACC_FACT 1..10, default 1; QUALITY above 0 to 1, default 1",
-        "needs a filter type in the axis list (filter_fir.type). Independent of the Vibration Guard (#VIB GUARD): not both in one program (22060). FIR filters are recommended instead of HSC filters from V3.1.3075.02 on",
-        "#FILTER ON [ORDER=20 AX_DEV=0.001]", &["22060", "50989", "P-AXIS-00586", "P-AXIS-00587", "P-AXIS-00573", "#VIB GUARD"]),
-    row(&["#SLOPE"], "#SLOPE [TYPE=STEP|TRAPEZ|SIN2|HSC NO_OPT=0|1]   #SLOPE DEFAULT",
-        "shape of the acceleration; modal, reset at program start",
-        "TYPE default prog_start.slope.profile; NO_OPT default 1: the profile of each block is planned by itself, 0: across blocks",
-        "", "#SLOPE [TYPE=SIN2]", &["21629", "P-CHAN-00071", "P-CHAN-00349"]),
-    row(&["#SET SLOPE PROFIL"], "#SET SLOPE PROFIL [n]", "older form of #SLOPE: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC", "", "", "#SET SLOPE PROFIL [1]", &["#SLOPE", "P-CHAN-00071"]),
-    row(&["#CONTOUR MODE"], "#CONTOUR MODE [ON|OFF] [DEV|DIST|DIST_SOFT|DIST_MASTER|POS|PTP keys]",
-        "how corners are rounded by polynomials; ON also switches contouring on (G261), OFF off (G260)",
-        "DEV: PATH_DEV, default 1 mm; TRACK_DEV deg, 0; DIST: PRE_DIST and POST_DIST, default 1 mm; POS: an interim point X Y Z besides (X2.7 or X=2.7); PTP: PATH_DEV, PATH_DIST; all: RELEVANT_PATH mm and RELEVANT_TRACK deg, 0, shorter blocks are skipped; REMAIN_PART 0..100 %, 0, part of a block that stays; MAX_ANGLE 0..180 deg; CONST_VEL; CHECK_JERK 0..3",
-        "program start: DEV with PATH_DEV 1; a key that is not written keeps its value. DIST_SOFT and DIST_MASTER are rounded as PTP (K-0111)", "#CONTOUR MODE [DEV PATH_DEV=0.05]", &["G261", "120129", "120206", "120216", "P-CHAN-00439"]),
-    row(&["#HSC"], "#HSC [ON|OFF] [BSPLINE keys]   #HSC [ON|OFF] [OPMODE=1 CONTERROR=..]", "puts a B-spline through short blocks; OPMODE=1 rounds corners within CONTERROR",
-        "PATH_DEV default 0.2 mm; TRACK_DEV default 5 deg; 0: not monitored; MAX_PATH_LENGTH mm and MAX_ANGLE deg: longer blocks and sharper corners stay; AUTO_OFF_PATH, AUTO_OFF_TRACK, AUTO_OFF_G00: ends the spline; CONTERROR default 0.1 mm", "BSPLINE is the first key; MERGE has no effect", "#HSC ON [BSPLINE PATH_DEV=0.05]", &["120393", "120396"]),
-    row(&["#VECTOR LIMIT"], "#VECTOR LIMIT ON [VEL=.. ACC=.. DEC=.. JERK=.. RADIAL_ACC=.. RADIAL_JERK=.. TRANS_ACC=.. FEED RAPID]   #VECTOR LIMIT ON ALL   #VECTOR LIMIT OFF",
-        "limits speed and acceleration along the path", "a key without value takes the configured limit; FEED, RAPID: for these blocks alone", "", "#VECTOR LIMIT ON [ACC=2000]", &["P-CHAN-00002", "P-CHAN-00090", "P-CHAN-00208", "P-CHAN-00361", "P-CHAN-00351"]),
-    row(&["#TRANSVELMIN"], "#TRANSVELMIN ON|OFF", "least speed at block transitions", "", "", "#TRANSVELMIN ON", &["P-AXIS-00013"]),
-    row(&["#OVERRIDE"], "#OVERRIDE [FEED_FACT=.. RAPID_FACT=..]", "multiplies F and the rapid speed", "FEED_FACT, RAPID_FACT 0.1..200 %", "", "#OVERRIDE [FEED_FACT=50]", &["P-CHAN-00066", "P-CHAN-00181", "G166"]),
     row(&["INDP_SYN", "INDP_ASYN"], "X[INDP_SYN|INDP_ASYN G90|G91 G00|G01 FEED=..|TIME=..|FEED_MAX_WEIGHT=.. POS=.. SLOPE_TYPE=..]",
         "moves one axis beside the path on a profile of its own; with INDP_SYN the next block begins when it has arrived, with INDP_ASYN it goes on over several blocks",
         "FEED in the unit of F; TIME in s from rest to rest; FEED_MAX_WEIGHT above 0 to 100 % of P-AXIS-00212; SLOPE_TYPE STEP, TRAPEZ, SIN2, default P-CHAN-00071",
         "no offsets, no weights of G130 to G133, no override. A path that moves the axis waits for it", "X[INDP_ASYN G90 G01 FEED=1000 POS=50]", &["21068", "#WAIT", "P-AXIS-00212", "P-CHAN-00071"]),
-    row(&["#WAIT"], "#WAIT INDP [X, Y]   #WAIT INDP ALL   #WAIT FOR condition", "the path stops until these independent axes have arrived; of conditions: tested once", "", "", "#WAIT INDP [X]", &["INDP_ASYN", "K-0018"]),
-    row(&["#TIME"], "#TIME t", "dwell of t seconds, as G04", "", "", "#TIME 2.5", &["G04", "20752"]),
-    row(&["#FLUSH"], "#FLUSH [CONTINUE|WAIT]", "stops at the end of the block before it; CONTINUE only if no more blocks are known", "", "", "#FLUSH WAIT", &[]),
-    row(&["#CHANNEL INIT"], "#CHANNEL INIT [CMDPOS|ACTPOS]", "the programmed position becomes the command or actual position", "", "", "#CHANNEL INIT [CMDPOS]", &[]),
-    row(&["#CALL AX", "#PUT AX", "#SET AX"], "#CALL AX [name,number,index]   #PUT AX [name]   #SET AX [..]",
-        "axis exchange: takes axes into the channel or gives them back", "", "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %", "#CALL AX [X,1,0]", &["20312", "21251", "21372", "#VIB GUARD"]),
-    row(&["#MSG"], "#MSG [\"text\", values]", "message of the program", "formats %s %S %d %D %f %F", "", "#MSG [\"part %d done\", P1]", &["21232", "P-CHAN-00518"]),
-    row(&["#ERROR"], "#ERROR [ID=.. RC=..]", "message of the user with an ID of 1 to 1000", "RC 0 warning, 2 error (the program aborts), 7 fatal", "", "#ERROR [ID=455 RC=2]", &[]),
     row(&["G00", "G0"], "G00 X.. Y..", "straight line at rapid: at least one axis at its rapid speed", "", "", "G00 X10 Y20", &["P-AXIS-00209", "P-AXIS-00004", "P-AXIS-00200", "G129"]),
     row(&["G01", "G1"], "G01 X.. F..", "straight line at feed F", "", "without any F: 20008", "G01 X10 F2000", &["20008", "P-CHAN-00099", "P-CHAN-00108"]),
     row(&["G02", "G03", "G2", "G3"], "G02 X.. Y.. I.. J..   G02 X.. Y.. R..", "arc in the plane, clockwise (G02) or counter-clockwise (G03)", "", "full circles need the centre, not R (20034)", "G02 X10 Y0 I5 J0 F1000", &["20034", "20036", "21024", "21758", "G161", "G164", "P-CHAN-00059", "P-CHAN-00171"]),
@@ -101,8 +69,9 @@ const COMMANDS: &[Command] = &[
 ];
 
 /// Names of all commands.
-pub(super) fn names() -> impl Iterator<Item = &'static str> {
-    COMMANDS.iter().flat_map(|c| c.names.iter().copied())
+pub(super) fn names() -> impl Iterator<Item = String> {
+    let functions = COMMANDS.iter().flat_map(|c| c.names.iter().map(|name| (*name).to_owned()));
+    commands::explained().map(|row| format!("#{}", row.name)).chain(functions)
 }
 
 /// The command with a name; blanks and case do not count, what follows the name is ignored (`#VIB GUARD ON`).
@@ -110,21 +79,48 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
     let words: Vec<String> = thing.split_whitespace().map(str::to_ascii_uppercase).collect();
     let wanted = words.join(" ");
     let wanted = wanted.split('[').next().unwrap_or_default().trim_end();
-    let command = COMMANDS.iter().find(|c| {
-        c.names.iter().any(|name| {
-            wanted == *name || wanted.strip_prefix(name).is_some_and(|rest| rest.starts_with(' '))
-        })
-    })?;
+    let is_named = |name: &str| {
+        wanted == name || wanted.strip_prefix(name).is_some_and(|rest| rest.starts_with(' '))
+    };
+    if let Some(function) = COMMANDS.iter().find(|c| c.names.iter().any(|name| is_named(name))) {
+        return Some(explained(
+            function.names.join(", "),
+            [function.syntax, function.meaning, function.note, function.example],
+            function.keys.to_owned(),
+            function.related,
+        ));
+    }
+    // the longest name: `#CS DEF` is not `#CS`
+    let row = commands::explained()
+        .filter(|row| is_named(&format!("#{}", row.name)))
+        .max_by_key(|row| row.name.len())?;
+    let keys: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
+    Some(explained(
+        format!("#{}", row.name),
+        [row.form, row.meaning, row.note, row.example],
+        keys.join("; "),
+        row.related,
+    ))
+}
+
+fn explained(
+    title: String,
+    [form, meaning, note, example]: [&'static str; 4],
+    keys: String,
+    related: &[&'static str],
+) -> Explanation {
     let text = |s: &'static str| (!s.is_empty()).then(|| s.to_owned());
-    let mut facts = vec![("form", command.syntax.to_owned())];
-    facts.extend(text(command.keys).map(|keys| ("keys", keys)));
-    Some(Explanation {
+    let mut facts = vec![("form", form.to_owned())];
+    if !keys.is_empty() {
+        facts.push(("keys", keys));
+    }
+    Explanation {
         kind: Kind::Command,
-        title: command.names.join(", "),
-        meaning: command.meaning.to_owned(),
+        title,
+        meaning: meaning.to_owned(),
         facts,
-        notes: text(command.note).into_iter().collect(),
-        example: text(command.example),
-        related: command.related.iter().map(|s| (*s).to_owned()).collect(),
-    })
+        notes: text(note).into_iter().collect(),
+        example: text(example),
+        related: related.iter().map(|s| (*s).to_owned()).collect(),
+    }
 }

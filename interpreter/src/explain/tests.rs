@@ -98,7 +98,7 @@ fn commands_and_words() {
         assert_eq!(explain(word).unwrap().kind, Kind::Word, "{word}");
     }
     for name in commands::names() {
-        for thing in explain(name).unwrap().related {
+        for thing in explain(&name).unwrap().related {
             assert!(explain(&thing).is_ok(), "{name} -> {thing}");
         }
     }
