@@ -1,9 +1,14 @@
 //! From programmed motions to steps: holds a motion back until the next one is known, where something may come between.
 
-use super::bottleneck::Cut;
-use super::compensation::{Compensator, Item, Rest};
+pub(super) mod bottleneck;
+pub(super) mod compensation;
+pub(super) mod contouring;
+pub(super) mod insertion;
+
+use self::bottleneck::Cut;
+use self::compensation::{Compensator, Item, Rest};
+use self::insertion::Insertion;
 use super::fault::Fault;
-use super::insertion::{self, Insertion};
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;

@@ -2,24 +2,24 @@
 //!
 //! The decoder knows blocks, not files: where the next block comes from is the business of the executor.
 
-use super::calls::ModalCycle;
+use super::block::dialect::Seen;
+use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane};
 use super::contour::Contour;
-use super::contouring::{Contouring, Hsc};
-use super::coordinates::Coordinates;
-use super::dialect::Seen;
-use super::dynamics::{Weights, channel_dynamics};
+use super::contour::contouring::{Contouring, Hsc};
 use super::fault::Fault;
-use super::independent::Independent;
-use super::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane};
+use super::geometry::coordinates::Coordinates;
+use super::geometry::tools::Tools;
+use super::motion::dynamics::{Weights, channel_dynamics};
+use super::motion::independent::Independent;
+use super::motion::overrides::Overrides;
+use super::motion::spindles::Spindle;
 use super::options::Options;
-use super::overrides::Overrides;
-use super::program::ProgramInfo;
+use super::program::calls::ModalCycle;
+use super::program::info::ProgramInfo;
 use super::shaping::{ShapingState, Worked};
-use super::spindles::Spindle;
 use super::step::{Event, Feedback, SourceRef, Sync};
-use super::system::Timers;
-use super::tools::Tools;
-use super::variables::Variables;
+use super::values::system::Timers;
+use super::values::variables::Variables;
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::{Ident, Span};

@@ -1,19 +1,23 @@
 //! The motion of a block: target, path, feed and limits; or the dwell.
 
 mod arcs;
+pub(super) mod dynamics;
 mod feed;
+pub(super) mod independent;
 mod limits;
+pub(super) mod overrides;
+pub(super) mod spindles;
 
+use super::block::groups::{Act, Group};
+use super::block::modal::{Compensation, Corners, PathMode};
+use super::block::words::{GWord, Words};
+use super::contour::insertion::{Insertion, Kind};
 use super::contour::{Compensated, Motion};
-use super::coordinates::Target;
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
-use super::groups::{Act, Group};
-use super::insertion::{Insertion, Kind};
-use super::modal::{Compensation, Corners, PathMode};
-use super::modulo;
+use super::geometry::coordinates::Target;
+use super::geometry::modulo;
 use super::step::Sync;
-use super::words::{GWord, Words};
 use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;

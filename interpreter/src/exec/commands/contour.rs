@@ -6,10 +6,10 @@
 use super::keys::{above_zero, arguments, at_least, between};
 use super::{Call, Row};
 use crate::diag::{Condition, ValueKind};
-use crate::exec::contouring::{Contouring, Mode};
+use crate::exec::contour::contouring::{Contouring, Mode};
 use crate::exec::decoder::Decoder;
-use crate::exec::expr::is_true;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::values::expr::is_true;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
 use kontur_motion::block::{CurveJerk, VectorLimits};
 
@@ -152,11 +152,12 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     set(&mut common.max_angle_deg, keys.max_angle, 1.0);
     switch(&mut common.constant_velocity, keys.const_vel);
     if let Some((mode, _)) = keys.check_jerk {
-        common.curve_jerk = Some(match crate::exec::expr::whole(mode.unwrap_or(1.0), 0, 3) {
-            Some(0) => CurveJerk::Unlimited,
-            Some(2) => CurveJerk::Ramps,
-            _ => CurveJerk::Geometric,
-        });
+        common.curve_jerk =
+            Some(match crate::exec::values::expr::whole(mode.unwrap_or(1.0), 0, 3) {
+                Some(0) => CurveJerk::Unlimited,
+                Some(2) => CurveJerk::Ramps,
+                _ => CurveJerk::Geometric,
+            });
     }
     decoder.contouring = settings;
     for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
@@ -262,7 +263,7 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let keys = HscArguments::read(decoder, &call.title(), call.command.groups.first())?;
     let mut hsc = decoder.hsc;
     if let Some((mode, span)) = keys.opmode {
-        match crate::exec::expr::whole(mode, 1, 2) {
+        match crate::exec::values::expr::whole(mode, 1, 2) {
             Some(1) => hsc.rounds_corners = true,
             Some(_) => return Err(Fault::unsupported("#HSC [OPMODE=2]", span)),
             None => {
@@ -432,7 +433,7 @@ fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 pub(super) const OVERRIDE: Row = Row::run("OVERRIDE", path_override)
     .form("#OVERRIDE [FEED_FACT=.. RAPID_FACT=..]")
     .meaning("multiplies F and the rapid speed")
-    .keys(crate::exec::brackets::OverrideArguments::KEYS)
+    .keys(crate::exec::block::brackets::OverrideArguments::KEYS)
     .example("#OVERRIDE [FEED_FACT=50]")
     .related(&["P-CHAN-00066", "P-CHAN-00181", "G166"]);
 

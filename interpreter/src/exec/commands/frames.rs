@@ -5,10 +5,10 @@
 use super::Call;
 use super::keys::arguments;
 use crate::diag::Condition;
-use crate::exec::coordinates::SYSTEMS_MAX;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::frame::Frame;
+use crate::exec::geometry::coordinates::SYSTEMS_MAX;
+use crate::exec::geometry::frame::Frame;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
 
 arguments! {

@@ -158,7 +158,7 @@ pub(super) const TIMER: Row = Row::run("TIMER", timer)
 /// `#TIMER START|READ|CLEAR|STOP [ID=i]`.
 fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let keys = TimerArguments::read(decoder, &call.title(), call.command.groups.first())?;
-    let id = keys.id.and_then(|(id, _)| crate::exec::expr::whole(id, 0, 127)).unwrap_or(0);
+    let id = keys.id.and_then(|(id, _)| crate::exec::values::expr::whole(id, 0, 127)).unwrap_or(0);
     match call.rest {
         [word] if word.is("START") || word.is("CLEAR") => {
             decoder.timers.start(id, decoder.feedback.time_s);
@@ -237,7 +237,7 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         };
         let number = key.text.strip_prefix('G').and_then(|n| n.parse().ok());
         match number {
-            Some(n) if crate::exec::groups::is_cycle_call(n) => {
+            Some(n) if crate::exec::block::groups::is_cycle_call(n) => {
                 decoder.cycle_files.insert(n, file);
             }
             _ if key.is("M6") || key.is("M06") => decoder.tool_change_file = Some(file),

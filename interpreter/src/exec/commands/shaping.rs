@@ -156,7 +156,8 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 }
 
 fn mode(x: f64, span: Span) -> Outcome<u8> {
-    let whole = crate::exec::expr::whole(x, 1, 4).filter(|m| (f64::from(*m) - x).abs() < 1e-9);
+    let whole =
+        crate::exec::values::expr::whole(x, 1, 4).filter(|m| (f64::from(*m) - x).abs() < 1e-9);
     whole.and_then(|m| u8::try_from(m).ok()).ok_or_else(|| {
         let text = format!("Vibration Guard mode {x} does not exist, allowed are 1 to 4");
         Fault::new(Condition::GuardMode, text, span).with(|d| {
@@ -252,7 +253,7 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 fn filter_keys(keys: &FilterArguments, stored: &mut FilterKeys) {
     let number = |key: Option<(f64, Span)>| key.map(|(x, _)| x);
-    let whole = |key| number(key).and_then(|x| crate::exec::expr::whole(x, 0, u32::MAX));
+    let whole = |key| number(key).and_then(|x| crate::exec::values::expr::whole(x, 0, u32::MAX));
     if keys.order.is_some() || keys.order_time.is_some() {
         // the newer of the two rules; both in one command: the order
         (stored.order, stored.order_time_us) = (whole(keys.order), whole(keys.order_time));

@@ -2,13 +2,13 @@
 
 use super::PlaneImage;
 use crate::diag::{Condition, ValueKind};
-use crate::exec::arc::{self, ArcError};
+use crate::exec::block::groups::Group;
+use crate::exec::block::modal::PathMode;
+use crate::exec::block::words::{Placed, Words};
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::groups::Group;
-use crate::exec::modal::PathMode;
-use crate::exec::words::{Placed, Words};
+use crate::exec::geometry::arc::{self, ArcError};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};

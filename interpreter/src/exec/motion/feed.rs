@@ -1,10 +1,10 @@
 //! Feed and end velocity of a block.
 
 use crate::diag::Condition;
+use crate::exec::block::modal::{FeedType, PathMode};
+use crate::exec::block::words::Placed;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::modal::{FeedType, PathMode};
-use crate::exec::words::Placed;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};

@@ -1,10 +1,10 @@
 //! Software limits along a path.
 
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::words::Words;
 use crate::exec::contour::Driven;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
-use crate::exec::words::Words;
 use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
 
