@@ -7,6 +7,7 @@ pub(super) mod insertion;
 
 use self::bottleneck::Cut;
 use self::compensation::{Compensator, Item, Rest};
+use self::contouring::{Contouring, Hsc};
 use self::insertion::Insertion;
 use super::fault::Fault;
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
@@ -121,6 +122,10 @@ pub(super) struct Driven {
 /// Motions and events on their way to the simulation.
 #[derive(Debug, Default)]
 pub(super) struct Contour {
+    /// `#CONTOUR MODE`.
+    pub(super) contouring: Contouring,
+    /// `#HSC`.
+    pub(super) hsc: Hsc,
     /// Steps in their order, still without the numbers of their blocks.
     queue: VecDeque<Item>,
     /// The end, behind the queue.

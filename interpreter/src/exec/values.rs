@@ -7,3 +7,13 @@ pub(super) mod expr;
 pub(super) mod functions;
 pub(super) mod system;
 pub(super) mod variables;
+
+use system::Timers;
+use variables::Variables;
+
+/// What the room owns.
+#[derive(Debug)]
+pub(super) struct Values {
+    pub(super) variables: Variables,
+    pub(super) timers: Timers,
+}

@@ -85,7 +85,7 @@ impl Decoder {
             let text = format!("{title} needs FEED_FACT or RAPID_FACT");
             return Err(Fault::new(Condition::TokenUnknown, text, span));
         }
-        self.overrides.set(axis, feed, rapid);
+        self.motion.overrides.set(axis, feed, rapid);
         Ok(())
     }
 
@@ -168,17 +168,18 @@ impl Decoder {
                 return Err(Fault::new(Condition::Range, text, span));
             }
             SpindleItem::Speed(rpm) => {
-                self.spindles[spindle].rpm = rpm;
-                if let (true, Some(event)) =
-                    (self.spindles[spindle].is_turning(), self.spindles[spindle].motion_event())
-                {
+                self.motion.spindles[spindle].rpm = rpm;
+                if let (true, Some(event)) = (
+                    self.motion.spindles[spindle].is_turning(),
+                    self.motion.spindles[spindle].motion_event(),
+                ) {
                     self.event(event);
                 }
             }
             SpindleItem::Position(deg) => self.turn_spindle(spindle, 19, Some(deg)),
             SpindleItem::Feedforward(on) => {
-                self.spindles[spindle].feedforward = on;
-                if let Some(event) = self.spindles[spindle].feedforward_event() {
+                self.motion.spindles[spindle].feedforward = on;
+                if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
                     self.event(event);
                 }
             }
@@ -188,8 +189,8 @@ impl Decoder {
             }
             SpindleItem::Weight(percent) => {
                 let percent = self.limited_weight(percent, span);
-                self.spindles[spindle].weight_ratio = percent / 100.0;
-                if let Some(event) = self.spindles[spindle].feedforward_event() {
+                self.motion.spindles[spindle].weight_ratio = percent / 100.0;
+                if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
                     self.event(event);
                 }
             }

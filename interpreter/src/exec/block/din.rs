@@ -82,10 +82,10 @@ impl Decoder {
             self.note(Fault::new(Condition::PlaneWithCompensation, text, span));
             return;
         }
-        if plane != self.modal.plane && self.coordinates.rotation().is_some() {
+        if plane != self.modal.plane && self.geometry.coordinates.rotation().is_some() {
             let text = "the change of plane switches the contour rotation off";
             self.note(Fault::new(Condition::Odd, text, span).warning());
-            self.coordinates.set_rotation(None);
+            self.geometry.coordinates.set_rotation(None);
         }
         self.modal.plane = plane;
     }
@@ -149,8 +149,8 @@ impl Decoder {
                 let ratio = Self::weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
                 self.set_weight(weight, None, ratio, g.span);
             }
-            Act::Feedforward(on) if self.feedforward.on != on => {
-                self.feedforward.on = on;
+            Act::Feedforward(on) if self.motion.feedforward.on != on => {
+                self.motion.feedforward.on = on;
                 self.feedforward_event();
             }
             Act::StopAtTransitions(stop) => {

@@ -35,7 +35,7 @@ impl Decoder {
         span: Span,
     ) {
         let before = self.capped_axes();
-        self.weights.set(weight, axis, ratio);
+        self.motion.weights.set(weight, axis, ratio);
         self.dynamics_changed();
         for axis in self.capped_axes() {
             if before.contains(&axis) && (ratio - 1.0).abs() < 1e-12 {
@@ -55,7 +55,7 @@ impl Decoder {
     }
 
     fn capped_axes(&self) -> Vec<usize> {
-        channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector[0]).1
+        channel_dynamics(&self.machine, &self.motion.weights, &self.modal, self.motion.vector[0]).1
     }
 
     /// G127, G130, G132, G230.
@@ -91,7 +91,7 @@ impl Decoder {
         }
         for (axis, value, span) in &words.axes {
             let percent = self.limited_weight(*value, *span);
-            self.feedforward.weight_ratios[*axis] = percent / 100.0;
+            self.motion.feedforward.weight_ratios[*axis] = percent / 100.0;
         }
         self.feedforward_event();
         Ok(())
@@ -110,8 +110,8 @@ impl Decoder {
 
     pub(in crate::exec) fn feedforward_event(&mut self) {
         let event = Event::Feedforward {
-            on: self.feedforward.on,
-            weight_ratios: self.feedforward.weight_ratios.clone(),
+            on: self.motion.feedforward.on,
+            weight_ratios: self.motion.feedforward.weight_ratios.clone(),
         };
         self.event(event);
     }
@@ -119,7 +119,7 @@ impl Decoder {
     /// T.
     pub(in crate::exec) fn select_tool(&mut self, number: f64, span: Span) {
         if let Some(number) = crate::exec::values::expr::whole(number, 0, u32::MAX) {
-            self.tools.tool = number;
+            self.geometry.tools.tool = number;
             self.event(Event::Tool { number });
         } else {
             let text = format!("T{number} is no tool number");
@@ -134,8 +134,8 @@ impl Decoder {
             self.note(Fault::new(Condition::Range, text, span));
             return;
         };
-        self.tools.data = number;
-        self.tools.active = if let Some(tool) = self.tools.table.get(&number) {
+        self.geometry.tools.data = number;
+        self.geometry.tools.active = if let Some(tool) = self.geometry.tools.table.get(&number) {
             tool.clone()
         } else {
             if number != 0 {
@@ -152,13 +152,13 @@ impl Decoder {
     pub(in crate::exec) fn tool_offsets(&mut self) {
         let mut offsets = AxisVec::zeros(self.machine.axes.len());
         let normal = self.modal.plane.main_axes()[2];
-        if let Some(axis) = self.coordinates.main_axis(normal) {
-            offsets[axis] = self.tools.active.length_mm;
+        if let Some(axis) = self.geometry.coordinates.main_axis(normal) {
+            offsets[axis] = self.geometry.tools.active.length_mm;
         }
-        for (axis, value) in &self.tools.active.offsets_mm {
+        for (axis, value) in &self.geometry.tools.active.offsets_mm {
             offsets[*axis] += value;
         }
-        self.coordinates.set_tool(offsets);
+        self.geometry.coordinates.set_tool(offsets);
     }
 
     /// Contour rotation about a centre; coordinates that are not given are the present ones.
@@ -173,18 +173,21 @@ impl Decoder {
             return Err(Fault::new(Condition::Range, "the angle is no number", span));
         }
         // the centre is given in the system without rotation
-        self.coordinates.set_rotation(None);
+        self.geometry.coordinates.set_rotation(None);
         let here = |m: usize| {
-            self.coordinates.main_axis(m).map_or(0.0, |axis| self.coordinates.programmed(axis))
+            self.geometry
+                .coordinates
+                .main_axis(m)
+                .map_or(0.0, |axis| self.geometry.coordinates.programmed(axis))
         };
         let centre = [centre[0].unwrap_or(here(plane[0])), centre[1].unwrap_or(here(plane[1]))];
-        self.coordinates.set_rotation(Some(Rotation { plane, deg, centre }));
+        self.geometry.coordinates.set_rotation(Some(Rotation { plane, deg, centre }));
         Ok(())
     }
 
     /// G40, G41, G42.
     pub(in crate::exec) fn compensation(&mut self, side: Compensation, span: Span) {
-        if side != Compensation::Off && self.tools.active.radius_mm == 0.0 {
+        if side != Compensation::Off && self.geometry.tools.active.radius_mm == 0.0 {
             let text = "the tool has the radius 0: the path is the programmed contour";
             let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
             self.note_once("G41", Fault::new(Condition::NoTool, text, span).hint(hint));

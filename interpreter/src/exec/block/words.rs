@@ -128,12 +128,12 @@ impl Decoder {
             }
             WordKind::Assign(assign) => self.assign(assign),
             WordKind::MacroDefinition(definition) => {
-                self.macros.insert(definition.name.clone(), definition.text.clone());
+                self.calls.macros.insert(definition.name.clone(), definition.text.clone());
                 Ok(())
             }
             WordKind::MacroUse(name) => {
                 let text = format!("macro \"{name}\" is not defined");
-                let known = self.macros.keys().map(|k| &**k);
+                let known = self.calls.macros.keys().map(|k| &**k);
                 let fault = Fault::new(Condition::Undefined, text, span);
                 Err(match suggest::hint(name, known) {
                     Some(hint) => fault.hint(hint),
@@ -268,7 +268,7 @@ impl Decoder {
         span: Span,
         block: &mut Words<'_>,
     ) -> Outcome<()> {
-        if !self.cycle_files.contains_key(&number) {
+        if !self.calls.cycle_files.contains_key(&number) {
             let text = format!("G{number}: no subroutine is configured");
             let hint = "P-CHAN-00160 to 00169 or #FILE NAME [G80=\"file\"] configure one";
             let fault = Fault::new(Condition::GUnknown, text, span)

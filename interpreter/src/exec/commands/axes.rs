@@ -33,9 +33,9 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     exchange(decoder, call.span());
     let all = call.rest.iter().chain(&call.command.tail).any(|w| w.is("ALL"));
     if all {
-        decoder.axis_names.fill(None);
+        decoder.names.axes.fill(None);
         for main in 0..3 {
-            decoder.coordinates.set_main_axis(main, None);
+            decoder.geometry.coordinates.set_main_axis(main, None);
         }
     } else if let Some(word) = call.rest.first() {
         return Err(call.unexpected(word));
@@ -91,9 +91,9 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
-    decoder.axis_names.fill(None);
+    decoder.names.axes.fill(None);
     for main in 0..3 {
-        decoder.coordinates.set_main_axis(main, None);
+        decoder.geometry.coordinates.set_main_axis(main, None);
     }
     take_all(decoder, call)
 }
@@ -104,11 +104,11 @@ pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [word] if word.is("DEFAULT") => {
             for axis in 0..decoder.machine.axes.len() {
-                decoder.axis_names[axis] = Some(decoder.machine.axes[axis].name().to_owned());
+                decoder.names.axes[axis] = Some(decoder.machine.axes[axis].name().to_owned());
             }
             for main in 0..3 {
                 let axis = (main < decoder.machine.axes.len()).then_some(main);
-                decoder.coordinates.set_main_axis(main, axis);
+                decoder.geometry.coordinates.set_main_axis(main, axis);
             }
             decoder.names_changed();
             Ok(())
@@ -125,7 +125,7 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
     call.no_more_words()?;
     let mut members = vec![false; decoder.machine.axes.len()];
     let Some(group) = call.command.groups.first() else {
-        decoder.feed_axes = decoder.machine.channel.feed_axes.clone();
+        decoder.motion.feed_axes = decoder.machine.channel.feed_axes.clone();
         decoder.dynamics_changed();
         return Ok(());
     };
@@ -142,7 +142,7 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
             }
         }
     }
-    decoder.feed_axes = members;
+    decoder.motion.feed_axes = members;
     decoder.dynamics_changed();
     Ok(())
 }
@@ -164,9 +164,9 @@ fn exchange(decoder: &mut Decoder, span: Span) {
 }
 
 fn release(decoder: &mut Decoder, axis: usize) {
-    decoder.axis_names[axis] = None;
-    if let Some(main) = decoder.coordinates.main_index(axis) {
-        decoder.coordinates.set_main_axis(main, None);
+    decoder.names.axes[axis] = None;
+    if let Some(main) = decoder.geometry.coordinates.main_index(axis) {
+        decoder.geometry.coordinates.set_main_axis(main, None);
     }
 }
 
@@ -273,11 +273,11 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
     if let Some(other) = decoder.axis_of_name(&letters).filter(|other| *other != axis) {
         release(decoder, other);
     }
-    decoder.axis_names[axis] = Some(letters);
+    decoder.names.axes[axis] = Some(letters);
     if index < 3 {
-        decoder.coordinates.set_main_axis(index as usize, Some(axis));
+        decoder.geometry.coordinates.set_main_axis(index as usize, Some(axis));
     }
     // weights of feedforward of an exchanged axis return to 100 %
-    decoder.feedforward.weight_ratios[axis] = 1.0;
+    decoder.motion.feedforward.weight_ratios[axis] = 1.0;
     Ok(())
 }

@@ -116,7 +116,7 @@ fn at_least_an_increment(
 fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let unit = decoder.tolerance_unit_mm();
-    let mut settings = decoder.contouring;
+    let mut settings = decoder.contour.contouring;
     let group = points(decoder, call.command.groups.first(), &mut settings)?;
     let keys = ContourArguments::read(decoder, &call.title(), group.as_ref())?;
     let unsupported = keys.auto_vel.map(|(_, at)| at).or(keys.sym_dist.map(|(_, at)| at));
@@ -159,7 +159,7 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 _ => CurveJerk::Geometric,
             });
     }
-    decoder.contouring = settings;
+    decoder.contour.contouring = settings;
     for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
         if let Some(span) = at {
             let text = format!("{action}: functions act at the corner here");
@@ -220,12 +220,12 @@ fn points(
             rest.items.push(item.clone());
             continue;
         };
-        if !decoder.coordinates.frame().is_identity() {
+        if !decoder.geometry.coordinates.frame().is_identity() {
             let what = "an interim point of #CONTOUR MODE in a frame";
             return Err(Fault::unsupported(what, item.span));
         }
         let value = value * decoder.axis_unit(axis);
-        settings.point_mm[axis] = Some(value + decoder.coordinates.active_offset(axis));
+        settings.point_mm[axis] = Some(value + decoder.geometry.coordinates.active_offset(axis));
     }
     Ok(Some(rest))
 }
@@ -261,7 +261,7 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let unit = decoder.tolerance_unit_mm();
     let keys = HscArguments::read(decoder, &call.title(), call.command.groups.first())?;
-    let mut hsc = decoder.hsc;
+    let mut hsc = decoder.contour.hsc;
     if let Some((mode, span)) = keys.opmode {
         match crate::exec::values::expr::whole(mode, 1, 2) {
             Some(1) => hsc.rounds_corners = true,
@@ -288,7 +288,7 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         decoder.note_once("HSC MERGE", Fault::new(Condition::Fallback, text, span));
     }
     hsc.on = call.command.on.unwrap_or(hsc.on);
-    decoder.hsc = hsc;
+    decoder.contour.hsc = hsc;
     Ok(())
 }
 
@@ -328,7 +328,7 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match &call.command.tail[..] {
         [] => {}
         [word] if word.is("ALL") => {
-            decoder.vector = [if on { listed } else { VectorLimits::default() }; 2];
+            decoder.motion.vector = [if on { listed } else { VectorLimits::default() }; 2];
             decoder.dynamics_changed();
             return Ok(());
         }
@@ -347,7 +347,7 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         keys.trans_acc,
     ];
     if !on && limits.iter().all(Option::is_none) {
-        for (vector, _) in decoder.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
+        for (vector, _) in decoder.motion.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
             *vector = VectorLimits::default();
         }
         decoder.dynamics_changed();
@@ -366,7 +366,7 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let radial_acc = value(keys.radial_acc, unit, listed.radial_acc_mm_s2);
     let radial_jerk = value(keys.radial_jerk, unit, listed.radial_jerk_mm_s3);
     let trans_acc = value(keys.trans_acc, unit, listed.trans_acc_mm_s2);
-    for (v, _) in decoder.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
+    for (v, _) in decoder.motion.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
         v.vel_mm_s = vel.unwrap_or(v.vel_mm_s);
         v.acc_mm_s2 = acc.unwrap_or(v.acc_mm_s2);
         v.dec_mm_s2 = dec.unwrap_or(v.dec_mm_s2);

@@ -35,7 +35,7 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             decoder.set_rotation([main[0], main[1]], deg, centre, call.span())
         }
         Some(false) => {
-            decoder.coordinates.set_rotation(None);
+            decoder.geometry.coordinates.set_rotation(None);
             Ok(())
         }
         None => Err(Fault::new(Condition::TokenUnknown, "#ROTATION needs ON or OFF", call.span())),
@@ -105,22 +105,23 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
     let command = call.command;
     match (command.on, &command.tail[..], &command.groups[..]) {
         (Some(false), [], []) => {
-            decoder.coordinates.pop_system();
+            decoder.geometry.coordinates.pop_system();
             Ok(())
         }
         (Some(false), [word], _) if word.is("ALL") => {
-            decoder.coordinates.clear_systems();
+            decoder.geometry.coordinates.clear_systems();
             Ok(())
         }
         (Some(true), [], groups) => {
-            if decoder.coordinates.systems() >= SYSTEMS_MAX {
+            if decoder.geometry.coordinates.systems() >= SYSTEMS_MAX {
                 let text = format!("more than {SYSTEMS_MAX} coordinate systems are active");
                 return Err(Fault::new(Condition::Range, text, call.span()));
             }
             let frame = match groups {
                 [] => {
-                    let id = decoder.last_system;
+                    let id = decoder.geometry.last_system;
                     decoder
+                        .geometry
                         .coordinates
                         .stored_system(id)
                         .ok_or_else(|| undefined(id, call.span()))?
@@ -129,6 +130,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
                 [group] if group.items.len() == 1 => {
                     let id = id_of(decoder, group)?;
                     decoder
+                        .geometry
                         .coordinates
                         .stored_system(id)
                         .ok_or_else(|| undefined(id, group.span))?
@@ -148,7 +150,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
                     ));
                 }
             };
-            decoder.coordinates.push_system(frame);
+            decoder.geometry.coordinates.push_system(frame);
             Ok(())
         }
         (_, [word, ..], _) => Err(call.unexpected(word)),
@@ -157,13 +159,13 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
 }
 
 fn store(decoder: &mut Decoder, id: u32, frame: Frame, span: Span) -> Outcome<()> {
-    let known = decoder.coordinates.stored_system(id).is_some();
-    if !known && decoder.coordinates.stored_systems() >= SYSTEMS_MAX {
+    let known = decoder.geometry.coordinates.stored_system(id).is_some();
+    if !known && decoder.geometry.coordinates.stored_systems() >= SYSTEMS_MAX {
         let text = format!("more than {SYSTEMS_MAX} coordinate systems are stored");
         return Err(Fault::new(Condition::Range, text, span));
     }
-    decoder.coordinates.store_system(id, frame);
-    decoder.last_system = id;
+    decoder.geometry.coordinates.store_system(id, frame);
+    decoder.geometry.last_system = id;
     Ok(())
 }
 
@@ -191,7 +193,7 @@ pub(super) fn define_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<(
 /// `#MCS ON|OFF`: nothing to do while no frame is active.
 pub(super) fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    if call.command.on == Some(true) && !decoder.coordinates.frame().is_identity() {
+    if call.command.on == Some(true) && !decoder.geometry.coordinates.frame().is_identity() {
         let what = "#MCS ON with an active coordinate system, rotation or mirroring";
         return Err(Fault::unsupported(what, call.span()));
     }

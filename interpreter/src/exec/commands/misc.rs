@@ -161,7 +161,7 @@ fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let id = keys.id.and_then(|(id, _)| crate::exec::values::expr::whole(id, 0, 127)).unwrap_or(0);
     match call.rest {
         [word] if word.is("START") || word.is("CLEAR") => {
-            decoder.timers.start(id, decoder.feedback.time_s);
+            decoder.values.timers.start(id, decoder.feedback.time_s);
             Ok(())
         }
         [word] if word.is("READ") || word.is("STOP") => Ok(()),
@@ -196,8 +196,8 @@ pub(super) fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// `#INIT MACRO TAB`.
 pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.macros.clear();
-    decoder.macros_changed = true;
+    decoder.calls.macros.clear();
+    decoder.calls.macros_changed = true;
     Ok(())
 }
 
@@ -238,9 +238,9 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let number = key.text.strip_prefix('G').and_then(|n| n.parse().ok());
         match number {
             Some(n) if crate::exec::block::groups::is_cycle_call(n) => {
-                decoder.cycle_files.insert(n, file);
+                decoder.calls.cycle_files.insert(n, file);
             }
-            _ if key.is("M6") || key.is("M06") => decoder.tool_change_file = Some(file),
+            _ if key.is("M6") || key.is("M06") => decoder.calls.tool_change_file = Some(file),
             // messages go to the log, whatever the name of their file
             _ if key.is("MSG") => {}
             _ => {
@@ -288,13 +288,13 @@ fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// `#DISABLE MODAL CYCLE`.
 pub(super) fn disable_modal_cycle(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.modal_cycle = None;
+    decoder.calls.modal_cycle = None;
     Ok(())
 }
 
 /// `#RETAIN CYCLE CHANGES`.
 pub(super) fn retain_cycle_changes(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.retain_cycle_changes = true;
+    decoder.calls.retain_cycle_changes = true;
     Ok(())
 }

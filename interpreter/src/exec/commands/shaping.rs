@@ -26,7 +26,7 @@ impl Decoder {
                     place.line,
                     place.file
                 );
-                let lines = (place.line, self.source.line);
+                let lines = (place.line, self.report.source.line);
                 return Err(Fault::new(Condition::FilterAndGuard, text, span).with(|d| {
                     d.value(ValueKind::Identification, lines.0, "line").value(
                         ValueKind::Identification,
@@ -37,7 +37,7 @@ impl Decoder {
             }
             Some(_) => {}
             None => {
-                if let Some(place) = self.location.clone() {
+                if let Some(place) = self.report.location.clone() {
                     self.shaping.used = Some((family, place));
                 }
             }

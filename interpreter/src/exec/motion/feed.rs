@@ -31,7 +31,7 @@ impl Decoder {
             FeedType::Time => Feed::Duration(word.value),
             FeedType::ShareOfMaximum => Feed::ShareOfMaximum(word.value / 100.0),
             FeedType::PerRevolution => {
-                let rpm = self.spindles[0].rpm.abs();
+                let rpm = self.motion.spindles[0].rpm.abs();
                 if rpm == 0.0 {
                     let text = "feed per revolution, but the main spindle has no speed";
                     return Err(Fault::new(Condition::SpindleSpeedZeroAtFeed, text, span));

@@ -86,15 +86,19 @@ impl Decoder {
                 return Err(wrong(text, span));
             }
         };
-        if self.independent.open.contains(&axis) {
+        if self.motion.independent.open.contains(&axis) {
             self.join(vec![axis]);
         }
-        let start = self.coordinates.target().clone();
+        let start = self.geometry.coordinates.target().clone();
         let relative = words.relative.unwrap_or(!self.modal.absolute);
         let way = position * self.axis_unit(axis);
         let target = if relative { start[axis] + way } else { way };
         // the offsets of the program do not act on independent axes
-        self.coordinates.program_without_offsets(&[Target { axis, value: target, absolute: true }]);
+        self.geometry.coordinates.program_without_offsets(&[Target {
+            axis,
+            value: target,
+            absolute: true,
+        }]);
         self.check_limit(axis, target, at);
         if let IndependentSpeed::Time(time_s) = speed {
             let least_s = (target - start[axis]).abs() / self.dynamics(false).axes[axis].v_max_mm_s;
@@ -105,14 +109,14 @@ impl Decoder {
                 self.note(Fault::new(Condition::Odd, text, span).warning());
             }
         }
-        self.independent.way[axis] += target - start[axis];
+        self.motion.independent.way[axis] += target - start[axis];
         let slope = words.slope.unwrap_or(self.machine.channel.slope);
         let motion = IndependentMotion { from_mm: start[axis], to_mm: target, speed, slope };
         self.event(Event::Independent { axis, motion });
         let list = if synchronous {
-            &mut self.independent.synchronous
+            &mut self.motion.independent.synchronous
         } else {
-            &mut self.independent.open
+            &mut self.motion.independent.open
         };
         list.push(axis);
         Ok(())
@@ -215,21 +219,21 @@ impl Decoder {
 
     /// The path stops until these axes have arrived.
     fn join(&mut self, axes: Vec<usize>) {
-        self.independent.open.retain(|axis| !axes.contains(axis));
+        self.motion.independent.open.retain(|axis| !axes.contains(axis));
         self.sync(Sync::Independent { axes });
     }
 
     /// Behind a block with INDP_SYN: the next one begins when all have arrived.
     pub(in crate::exec) fn join_synchronous(&mut self) {
-        if !self.independent.synchronous.is_empty() {
-            let axes = std::mem::take(&mut self.independent.synchronous);
+        if !self.motion.independent.synchronous.is_empty() {
+            let axes = std::mem::take(&mut self.motion.independent.synchronous);
             self.join(axes);
         }
     }
 
     /// A path that moves an axis which may be on its way alone waits for it.
     pub(in crate::exec) fn join_for(&mut self, path: &Path) {
-        if self.independent.open.is_empty() {
+        if self.motion.independent.open.is_empty() {
             return;
         }
         let plane = match path {
@@ -240,7 +244,7 @@ impl Decoder {
         let moves = |axis: &usize| {
             path.start()[*axis].to_bits() != path.end()[*axis].to_bits() || plane.contains(axis)
         };
-        let axes: Vec<usize> = self.independent.open.iter().copied().filter(moves).collect();
+        let axes: Vec<usize> = self.motion.independent.open.iter().copied().filter(moves).collect();
         if !axes.is_empty() {
             self.join(axes);
         }

@@ -4,6 +4,7 @@
 //! at its end, plain subroutines share everything with their caller.
 
 use super::executor::{Executor, Level};
+use super::info::ProgramInfo;
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::exec::block::words::CycleCall;
 use crate::exec::fault::Fault;
@@ -13,6 +14,23 @@ use crate::exec::suggest;
 use crate::syntax::ast::{Call, CallKind, Group, Ident, ItemKind, ItemValue, Span};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+/// What calls own: subroutines that words call, and what is called behind every block.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Calls {
+    pub(in crate::exec) info: ProgramInfo,
+    pub(in crate::exec) macros: BTreeMap<Box<str>, Box<str>>,
+    /// The table of macros has changed: parsed blocks are out of date.
+    pub(in crate::exec) macros_changed: bool,
+    /// Subroutines of G80 to G89 and G800 to G839.
+    pub(in crate::exec) cycle_files: BTreeMap<u32, String>,
+    /// Subroutine of M06.
+    pub(in crate::exec) tool_change_file: Option<String>,
+    /// Cycle that is called behind every motion or block.
+    pub(in crate::exec) modal_cycle: Option<ModalCycle>,
+    /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
+    pub(in crate::exec) retain_cycle_changes: bool,
+}
 
 /// Program levels. Assumption: the vendor prints no number.
 const LEVELS_MAX: usize = 32;
@@ -47,15 +65,15 @@ impl Executor {
         let index = Arc::clone(&self.files.file(file).index);
         let part = &index.sections[section];
         let (at, end) = (part.start, part.end);
-        let info = &mut self.decoder.info;
+        let info = &mut self.decoder.calls.info;
         info.file = Arc::clone(&self.files.file(file).name);
         info.program = part.name.clone().unwrap_or_else(|| Arc::clone(&info.file));
         let saved = cycle.map(|passed| {
-            self.decoder.variables.enter_cycle(passed);
+            self.decoder.values.variables.enter_cycle(passed);
             Box::new(self.decoder.modal.clone())
         });
         if !self.levels.is_empty() {
-            self.decoder.variables.enter_level();
+            self.decoder.values.variables.enter_level();
         }
         self.levels.push(Level {
             file,
@@ -68,16 +86,16 @@ impl Executor {
             declarations: false,
             cut: false,
         });
-        self.decoder.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
+        self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
     }
 
     /// Leaves a subroutine.
     fn pop_level(&mut self) {
         let Some(level) = self.levels.pop() else { return };
-        self.decoder.variables.leave_level();
+        self.decoder.values.variables.leave_level();
         if let Some(modal) = level.cycle {
-            self.decoder.variables.leave_cycle();
-            if !std::mem::take(&mut self.decoder.retain_cycle_changes)
+            self.decoder.values.variables.leave_cycle();
+            if !std::mem::take(&mut self.decoder.calls.retain_cycle_changes)
                 && self.decoder.modal != *modal
             {
                 self.decoder.modal = *modal;
@@ -85,12 +103,12 @@ impl Executor {
             }
         }
         if let Some(level) = self.levels.last() {
-            let info = &mut self.decoder.info;
+            let info = &mut self.decoder.calls.info;
             info.file = Arc::clone(&self.files.file(level.file).name);
             let name = level.index.sections[level.section].name.clone();
             info.program = name.unwrap_or_else(|| Arc::clone(&info.file));
         }
-        self.decoder.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
+        self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
     }
 
     /// The text of a level ends.
@@ -322,7 +340,7 @@ impl Executor {
             return;
         };
         if let Some(every_block) = modal {
-            self.decoder.modal_cycle = Some(ModalCycle { name, local, passed, every_block });
+            self.decoder.calls.modal_cycle = Some(ModalCycle { name, local, passed, every_block });
             return;
         }
         self.call_named(&name, local, Some(passed));
@@ -355,7 +373,7 @@ impl Executor {
 
     /// G80 to G89, G800 to G839.
     pub(in crate::exec) fn implicit_call(&mut self, call: &CycleCall) {
-        let Some(file) = self.decoder.cycle_files.get(&call.number).cloned() else { return };
+        let Some(file) = self.decoder.calls.cycle_files.get(&call.number).cloned() else { return };
         let passed = call
             .values
             .iter()
@@ -382,7 +400,7 @@ impl Executor {
 
     /// M06 with a program of its own.
     pub(in crate::exec) fn tool_change(&mut self, span: Span) {
-        if let Some(file) = self.decoder.tool_change_file.clone() {
+        if let Some(file) = self.decoder.calls.tool_change_file.clone() {
             self.call_of_list(&file, "P-CHAN-00118", span);
         }
     }
@@ -390,7 +408,7 @@ impl Executor {
     /// The modal cycle behind a block; not inside cycles.
     pub(in crate::exec) fn modal_cycle(&mut self) {
         let inside = self.levels.iter().any(|l| l.cycle.is_some());
-        let Some(cycle) = &self.decoder.modal_cycle else { return };
+        let Some(cycle) = &self.decoder.calls.modal_cycle else { return };
         if inside || self.has_ended() || !(cycle.every_block || self.decoder.moved) {
             return;
         }

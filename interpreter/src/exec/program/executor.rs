@@ -134,7 +134,7 @@ impl Executor {
             end_program_called: false,
             reason: EndReason::Finished,
         };
-        diagnostics.append(&mut executor.decoder.unplaced);
+        diagnostics.append(&mut executor.decoder.report.unplaced);
         for diagnostic in diagnostics {
             executor.report(diagnostic);
         }
@@ -159,12 +159,12 @@ impl Executor {
             self.end(if refused { EndReason::Aborted } else { EndReason::Finished });
             return;
         };
-        let info = &mut self.decoder.info;
+        let info = &mut self.decoder.calls.info;
         info.main_program = index.sections[section].name.clone().unwrap_or_else(|| Arc::from(""));
         info.main_file = name;
         self.push_level(file, section, None);
         self.position = index.sections[section].start;
-        self.decoder.source.file = file_number(file);
+        self.decoder.report.source.file = file_number(file);
         if let Some(name) = self.decoder.machine.channel.start_program.clone() {
             self.call_of_list(&name, "P-CHAN-00119", Span::default());
             self.settle(false);
@@ -214,7 +214,7 @@ impl Executor {
             }
             match self.state {
                 State::Ended => {
-                    let (reason, source) = (self.reason, self.decoder.source);
+                    let (reason, source) = (self.reason, self.decoder.report.source);
                     return Step::End { reason, source, events: Vec::new() };
                 }
                 State::Running => self.advance(false),
@@ -269,7 +269,7 @@ impl Executor {
 
     /// Targets of the axes behind the last block.
     pub fn target(&self) -> &AxisVec {
-        self.decoder.coordinates.target()
+        self.decoder.geometry.coordinates.target()
     }
 }
 

@@ -91,7 +91,7 @@ impl Executor {
     /// Looks at the syntax of everything that was not executed.
     pub(in crate::exec) fn check_unreached(&mut self) {
         self.reached.store();
-        self.decoder.source.block = None;
+        self.decoder.report.source.block = None;
         let mut left = REPORTS_MAX;
         for file in 0..self.files.names().len() {
             let index = std::sync::Arc::clone(&self.files.file(file).index);
@@ -132,8 +132,14 @@ impl Executor {
                 (false, false) => Look::Block,
             };
             let mut found = Vec::new();
-            let parsed =
-                self.files.look(file, at, look, &self.parser, &self.decoder.macros, &mut found);
+            let parsed = self.files.look(
+                file,
+                at,
+                look,
+                &self.parser,
+                &self.decoder.calls.macros,
+                &mut found,
+            );
             // the file was read before: what cannot be read now has been reported
             let Ok(Some((block, next))) = parsed else { return };
             if let Body::Command(command) = &block.body {

@@ -45,23 +45,23 @@ fn text(s: &str) -> Outcome<Value> {
 
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
-    Row { name: &["A", "ABS", "*"], read: |d, p| p.position(d, 2, |d, a| d.coordinates.programmed(a)) },
-    Row { name: &["A", "PROG", "*"], read: |d, p| p.position(d, 2, |d, a| d.coordinates.last_word(a)) },
+    Row { name: &["A", "ABS", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.programmed(a)) },
+    Row { name: &["A", "PROG", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.last_word(a)) },
     Row { name: &["A", "MENT", "*"], read: |d, p| p.position(d, 2, |d, a| {
-        if d.coordinates.mirrored(a) { -d.coordinates.programmed(a) } else { d.coordinates.programmed(a) }
+        if d.geometry.coordinates.mirrored(a) { -d.geometry.coordinates.programmed(a) } else { d.geometry.coordinates.programmed(a) }
     }) },
-    Row { name: &["A", "ACT_POS", "*"], read: |d, p| p.position(d, 2, |d, a| d.feedback.actual_mm.get(a).copied().unwrap_or_else(|| d.coordinates.target()[a])) },
-    Row { name: &["A", "ACS", "ABS", "*"], read: |d, p| p.position(d, 3, |d, a| d.coordinates.target()[a]) },
-    Row { name: &["A", "BZP", "*"], read: |d, p| p.position(d, 2, |d, a| d.coordinates.preset(a)) },
-    Row { name: &["A", "-SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.limits_mm[a]).0) },
-    Row { name: &["A", "+SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.limits_mm[a]).1) },
+    Row { name: &["A", "ACT_POS", "*"], read: |d, p| p.position(d, 2, |d, a| d.feedback.actual_mm.get(a).copied().unwrap_or_else(|| d.geometry.coordinates.target()[a])) },
+    Row { name: &["A", "ACS", "ABS", "*"], read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.target()[a]) },
+    Row { name: &["A", "BZP", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.preset(a)) },
+    Row { name: &["A", "-SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).0) },
+    Row { name: &["A", "+SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).1) },
     Row { name: &["A", "-SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).0) },
     Row { name: &["A", "+SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).1) },
     Row { name: &["A", "REF", "*"], read: |d, p| { p.axis(d, 2)?; number(0.0) } },
     Row { name: &["A", "MODE", "*"], read: |d, p| { let a = p.axis(d, 2)?; number(f64::from(d.machine.axes[a].mode_bits())) } },
     Row { name: &["A", "MODULO_VALUE", "*"], read: |d, p| { let a = p.axis(d, 2)?; number(if d.machine.axes[a].is_modulo() { 360.0 } else { 0.0 }) } },
-    Row { name: &["G", "BLOCK_NR"], read: |d, _| number(d.info.block_number as f64) },
-    Row { name: &["G", "SATZ_NR"], read: |d, _| number(d.info.block_number as f64) },
+    Row { name: &["G", "BLOCK_NR"], read: |d, _| number(d.calls.info.block_number as f64) },
+    Row { name: &["G", "SATZ_NR"], read: |d, _| number(d.calls.info.block_number as f64) },
     Row { name: &["G", "FEEDRATE"], read: |d, _| number(d.modal.feed().map_or(0.0, |f| f.value)) },
     Row { name: &["G", "FEEDRATE_MODE"], read: |d, _| number(f64::from(d.modal.feed_type.g())) },
     Row { name: &["G", "FEEDRATE_SCALE"], read: |d, _| number(d.machine.channel.feed_unit_mm_min) },
@@ -70,49 +70,49 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "I"], read: |d, _| centre(d, 0) },
     Row { name: &["G", "J"], read: |d, _| centre(d, 1) },
     Row { name: &["G", "K"], read: |d, _| centre(d, 2) },
-    Row { name: &["G", "R"], read: |d, _| number(d.last_arc.radius_mm / d.unit_mm()) },
+    Row { name: &["G", "R"], read: |d, _| number(d.geometry.last_arc.radius_mm / d.unit_mm()) },
     Row { name: &["G", "MERR"], read: |d, p| {
         let i = p.index(d, 1, 2)?;
-        let place = d.last_arc.plane.iter().position(|m| *m == i as usize);
-        number(place.map_or(0.0, |k| d.last_arc.shift_mm[k]) / d.unit_mm())
+        let place = d.geometry.last_arc.plane.iter().position(|m| *m == i as usize);
+        number(place.map_or(0.0, |k| d.geometry.last_arc.shift_mm[k]) / d.unit_mm())
     } },
-    Row { name: &["G", "NP", "V", "*"], read: |d, p| { let g = p.index(d, 1, 999)?; p.position(d, 3, |d, a| d.coordinates.zero_entry(g, a)) } },
-    Row { name: &["G", "NP_AKT", "V", "*"], read: |d, p| p.position(d, 3, |d, a| d.coordinates.zero_offset(a)) },
+    Row { name: &["G", "NP", "V", "*"], read: |d, p| { let g = p.index(d, 1, 999)?; p.position(d, 3, |d, a| d.geometry.coordinates.zero_entry(g, a)) } },
+    Row { name: &["G", "NP_AKT", "V", "*"], read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.zero_offset(a)) },
     Row { name: &["G", "NP_DEFAULT"], read: |_, _| number(0.0) },
-    Row { name: &["G", "WZ_AKT", "R"], read: |d, _| number(d.tools.active.radius_mm) },
-    Row { name: &["G", "WZ_AKT", "L"], read: |d, _| number(d.tools.active.length_mm) },
-    Row { name: &["G", "WZ_AKT", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&d.tools.active, a)) } },
-    Row { name: &["G", "WZ_AKT", "P"], read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&d.tools.active, i)) } },
+    Row { name: &["G", "WZ_AKT", "R"], read: |d, _| number(d.geometry.tools.active.radius_mm) },
+    Row { name: &["G", "WZ_AKT", "L"], read: |d, _| number(d.geometry.tools.active.length_mm) },
+    Row { name: &["G", "WZ_AKT", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&d.geometry.tools.active, a)) } },
+    Row { name: &["G", "WZ_AKT", "P"], read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&d.geometry.tools.active, i)) } },
     Row { name: &["G", "WZ", "R"], read: |d, p| number(p.tool(d)?.radius_mm) },
     Row { name: &["G", "WZ", "L"], read: |d, p| number(p.tool(d)?.length_mm) },
     Row { name: &["G", "WZ", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&p.tool(d)?, a)) } },
     Row { name: &["G", "WZ", "P"], read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&p.tool(d)?, i)) } },
-    Row { name: &["G", "T_AKT"], read: |d, _| number(f64::from(d.tools.tool)) },
-    Row { name: &["G", "D_AKT"], read: |d, _| number(f64::from(d.tools.data)) },
-    Row { name: &["G", "TIMER"], read: |d, p| { let i = p.index(d, 1, 127)?; number(d.timers.read(i, d.feedback.time_s)) } },
+    Row { name: &["G", "T_AKT"], read: |d, _| number(f64::from(d.geometry.tools.tool)) },
+    Row { name: &["G", "D_AKT"], read: |d, _| number(f64::from(d.geometry.tools.data)) },
+    Row { name: &["G", "TIMER"], read: |d, p| { let i = p.index(d, 1, 127)?; number(d.values.timers.read(i, d.feedback.time_s)) } },
     Row { name: &["G", "RANDOM"], read: |_, _| number(0.5) },
-    Row { name: &["G", "MAIN_FILE_NAME"], read: |d, _| text(&d.info.main_file) },
-    Row { name: &["G", "MAIN_PROG_NAME"], read: |d, _| text(&d.info.main_program) },
-    Row { name: &["G", "FILE_NAME"], read: |d, _| text(&d.info.file) },
-    Row { name: &["G", "PROG_NAME"], read: |d, _| text(&d.info.program) },
+    Row { name: &["G", "MAIN_FILE_NAME"], read: |d, _| text(&d.calls.info.main_file) },
+    Row { name: &["G", "MAIN_PROG_NAME"], read: |d, _| text(&d.calls.info.main_program) },
+    Row { name: &["G", "FILE_NAME"], read: |d, _| text(&d.calls.info.file) },
+    Row { name: &["G", "PROG_NAME"], read: |d, _| text(&d.calls.info.program) },
     Row { name: &["G", "PROG_NR"], read: |_, _| number(0.0) },
-    Row { name: &["G", "PROG_LEVEL"], read: |d, _| number(f64::from(d.info.level)) },
-    Row { name: &["G", "FILE_OFFSET"], read: |d, _| number(d.info.offset as f64) },
+    Row { name: &["G", "PROG_LEVEL"], read: |d, _| number(f64::from(d.calls.info.level)) },
+    Row { name: &["G", "FILE_OFFSET"], read: |d, _| number(d.calls.info.offset as f64) },
     Row { name: &["G", "@P", "VALID"], read: |d, p| p.passed(d) },
     Row { name: &["G", "CNC_VERSION", "MAJOR"], read: |_, _| number(3.0) },
     Row { name: &["G", "CNC_VERSION", "MINOR"], read: |_, _| number(1.0) },
     Row { name: &["G", "CNC_VERSION", "BUILD"], read: |_, _| number(3079.0) },
     Row { name: &["G", "CNC_VERSION", "PATCH"], read: |_, _| number(0.0) },
-    Row { name: &["G", "ROT_ACTIVE"], read: |d, _| truth(d.coordinates.rotation().is_some()) },
-    Row { name: &["G", "ROT_ANGLE"], read: |d, _| number(d.coordinates.rotation().map_or(0.0, |r| r.deg)) },
-    Row { name: &["G", "ROT_CENTER1"], read: |d, _| number(d.coordinates.rotation().map_or(0.0, |r| r.centre[0]) / d.unit_mm()) },
-    Row { name: &["G", "ROT_CENTER2"], read: |d, _| number(d.coordinates.rotation().map_or(0.0, |r| r.centre[1]) / d.unit_mm()) },
-    Row { name: &["G", "CS_ACTIVE"], read: |d, _| truth(d.coordinates.systems() > 0) },
-    Row { name: &["G", "CS_COUNT"], read: |d, _| number(d.coordinates.systems() as f64) },
-    Row { name: &["SPDL_PROG", "SPEED", "s"], read: |d, p| { let i = p.spindle(d, 2)?; number(d.spindles[i].rpm) } },
+    Row { name: &["G", "ROT_ACTIVE"], read: |d, _| truth(d.geometry.coordinates.rotation().is_some()) },
+    Row { name: &["G", "ROT_ANGLE"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.deg)) },
+    Row { name: &["G", "ROT_CENTER1"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[0]) / d.unit_mm()) },
+    Row { name: &["G", "ROT_CENTER2"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[1]) / d.unit_mm()) },
+    Row { name: &["G", "CS_ACTIVE"], read: |d, _| truth(d.geometry.coordinates.systems() > 0) },
+    Row { name: &["G", "CS_COUNT"], read: |d, _| number(d.geometry.coordinates.systems() as f64) },
+    Row { name: &["SPDL_PROG", "SPEED", "s"], read: |d, p| { let i = p.spindle(d, 2)?; number(d.motion.spindles[i].rpm) } },
     Row { name: &["SPDL", "LOG_AX_NR", "s"], read: |d, p| {
         let i = p.spindle(d, 2)?;
-        number(d.spindles[i].index.map_or(0.0, |i| f64::from(d.machine.spindles[i].number())))
+        number(d.motion.spindles[i].index.map_or(0.0, |i| f64::from(d.machine.spindles[i].number())))
     } },
 ];
 
@@ -130,8 +130,8 @@ fn parameter(tool: &Tool, index: u32) -> f64 {
 
 /// Centre of the last arc relative to its start, along a main axis.
 fn centre(d: &Decoder, main: usize) -> Outcome<Value> {
-    let place = d.last_arc.plane.iter().position(|m| *m == main);
-    number(place.map_or(0.0, |k| d.last_arc.centre_mm[k]) / d.unit_mm())
+    let place = d.geometry.last_arc.plane.iter().position(|m| *m == main);
+    number(place.map_or(0.0, |k| d.geometry.last_arc.centre_mm[k]) / d.unit_mm())
 }
 
 impl Path<'_> {
@@ -178,13 +178,13 @@ impl Path<'_> {
 
     fn tool(&self, d: &Decoder) -> Outcome<Tool> {
         let index = self.index(d, 1, u32::MAX)?;
-        Ok(d.tools.table.get(&index).cloned().unwrap_or_default())
+        Ok(d.geometry.tools.table.get(&index).cloned().unwrap_or_default())
     }
 
     /// `V.G.@P[i].VALID`.
     fn passed(&self, d: &Decoder) -> Outcome<Value> {
         let name = format!("P{}", self.index(d, 1, 200)?);
-        if let Some(passed) = d.variables.passed(&name) {
+        if let Some(passed) = d.values.variables.passed(&name) {
             truth(passed)
         } else {
             let text = "V.G.@P[i].VALID is known only inside a cycle";
@@ -227,7 +227,7 @@ fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
     if matches!(class.as_str(), "TOOL" | "TLM" | "RTG" | "RTA" | "I") {
         return Fault::unsupported(format!("variables V.{class}."), span);
     }
-    let axis = d.axis_names.iter().flatten().next().map_or("X", String::as_str);
+    let axis = d.names.axes.iter().flatten().next().map_or("X", String::as_str);
     let names: Vec<String> =
         ROWS.iter().map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S")).collect();
     let fault = Fault::new(Condition::Undefined, format!("unknown variable V.{name}"), span);
@@ -252,23 +252,25 @@ pub(in crate::exec) fn write(
         ["G", "NP", "V", _] | ["G", "NP", "V"] => {
             let group = path.index(d, 1, 999)?;
             let axis = path.axis(d, 3)?;
-            d.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
+            d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
         }
         ["G", "WZ_AKT", ..] => {
-            let mut tool = d.tools.active.clone();
+            let mut tool = d.geometry.tools.active.clone();
             write_tool(d, &path, &names[2..], &mut tool, x()?)?;
-            d.tools.active = tool;
+            d.geometry.tools.active = tool;
             d.tool_offsets();
         }
         ["G", "WZ", ..] => {
             let index = path.index(d, 1, u32::MAX)?;
-            if d.tools.table.len() >= 10_000 && !d.tools.table.contains_key(&index) {
+            if d.geometry.tools.table.len() >= 10_000
+                && !d.geometry.tools.table.contains_key(&index)
+            {
                 let text = "the tool table holds at most 10000 tools";
                 return Err(Fault::new(Condition::Range, text, span));
             }
             let mut tool = path.tool(d)?;
             write_tool(d, &path, &names[2..], &mut tool, x()?)?;
-            d.tools.table.insert(index, tool);
+            d.geometry.tools.table.insert(index, tool);
         }
         _ if find(segments).is_some() => {
             let text = format!("V.{} may not be written", written(segments));

@@ -119,7 +119,7 @@ impl Decoder {
             ParameterIndex::Computed(expr) => checked(self.number(expr)?)?,
         };
         for _ in 0..indirections {
-            let value = match self.variables.parameters().get(&index) {
+            let value = match self.values.variables.parameters().get(&index) {
                 Some(variable) => variable.get(&[], span)?,
                 None => return Err(undefined_parameter(index, span)),
             };
@@ -132,20 +132,25 @@ impl Decoder {
     pub(in crate::exec) fn read(&self, place: &Place) -> Outcome<Value> {
         let span = place.span;
         match self.resolve(place)? {
-            Target::Parameter(index, subscripts) => match self.variables.parameters().get(&index) {
-                Some(variable) => variable.get(&subscripts, span),
-                None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
-                None if self.machine.channel.keep_p_parameters => {
-                    let hint = "P-CHAN-00067 keeps parameters of earlier programs; here none ran";
-                    Err(undefined_parameter(index, span).hint(hint))
+            Target::Parameter(index, subscripts) => {
+                match self.values.variables.parameters().get(&index) {
+                    Some(variable) => variable.get(&subscripts, span),
+                    None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
+                    None if self.machine.channel.keep_p_parameters => {
+                        let hint =
+                            "P-CHAN-00067 keeps parameters of earlier programs; here none ran";
+                        Err(undefined_parameter(index, span).hint(hint))
+                    }
+                    None => Err(undefined_parameter(index, span)),
                 }
-                None => Err(undefined_parameter(index, span)),
-            },
-            Target::Own(class, name, subscripts) => match self.variables.find(class, &name) {
-                Some(variable) => variable.get(&subscripts, span),
-                None => Err(self.unknown(class, &name, span)),
-            },
-            Target::External(name) => match self.variables.external.get(&name) {
+            }
+            Target::Own(class, name, subscripts) => {
+                match self.values.variables.find(class, &name) {
+                    Some(variable) => variable.get(&subscripts, span),
+                    None => Err(self.unknown(class, &name, span)),
+                }
+            }
+            Target::External(name) => match self.values.variables.external.get(&name) {
                 Some(External { access: Access::WriteOnly, .. }) => Err(Fault::new(
                     Condition::VariableNotReadable,
                     format!("V.E.{name} may not be read"),
@@ -153,7 +158,7 @@ impl Decoder {
                 )),
                 Some(external) => Ok(external.value.clone()),
                 None => {
-                    let known = self.variables.external.keys().map(String::as_str);
+                    let known = self.values.variables.external.keys().map(String::as_str);
                     let hint = suggest::hint(&name, known);
                     let fault = undefined(&format!("V.E.{name}"), span);
                     Err(match hint {
@@ -168,7 +173,7 @@ impl Decoder {
     }
 
     fn cycle_parameter(&self, name: &str, span: Span) -> Outcome<Value> {
-        let Some(scope) = self.variables.cycles.last() else {
+        let Some(scope) = self.values.variables.cycles.last() else {
             let text = format!("@{name} exists only inside a cycle");
             return Err(Fault::new(Condition::Undefined, text, span));
         };
@@ -185,7 +190,7 @@ impl Decoder {
             Class::Cycle => "CYC",
         };
         let fault = undefined(&format!("V.{letter}.{name}"), span);
-        match suggest::nearest(name, self.variables.names(class)) {
+        match suggest::nearest(name, self.values.variables.names(class)) {
             Some(near) => fault.hint(format!("did you mean `V.{letter}.{near}`?")),
             None => fault,
         }
@@ -202,7 +207,7 @@ impl Decoder {
         match self.resolve(place)? {
             Target::Parameter(index, subscripts) => {
                 let number = Value::Number(as_number(&value, value_span)?);
-                let table = self.variables.parameters_mut();
+                let table = self.values.variables.parameters_mut();
                 match table.get_mut(&index) {
                     Some(variable) => variable.set(&subscripts, number, span),
                     None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
@@ -213,7 +218,7 @@ impl Decoder {
                 }
             }
             Target::Own(class, name, subscripts) => {
-                if let Some(variable) = self.variables.find_mut(class, &name) {
+                if let Some(variable) = self.values.variables.find_mut(class, &name) {
                     return variable.set(&subscripts, value, value_span);
                 }
                 let by_write = matches!(class, Class::Program | Class::Shared);
@@ -221,7 +226,7 @@ impl Decoder {
                     let fault = self.unknown(class, &name, span);
                     return Err(fault.hint("declare it between #VAR and #ENDVAR"));
                 }
-                if let Some(table) = self.variables.table(class) {
+                if let Some(table) = self.values.variables.table(class) {
                     table.insert((&*name).into(), Variable::created(value));
                 }
                 Ok(())
@@ -236,7 +241,7 @@ impl Decoder {
     }
 
     fn write_external(&mut self, name: String, value: Value, span: Span) -> Outcome<()> {
-        match self.variables.external.get_mut(&name) {
+        match self.values.variables.external.get_mut(&name) {
             Some(External { access: Access::ReadOnly, .. }) => Err(Fault::new(
                 Condition::VariableNotWritable,
                 format!("V.E.{name} may not be written"),
@@ -250,7 +255,7 @@ impl Decoder {
                 let text = format!("V.E.{name} is not configured, the program created it");
                 self.note(Fault::new(Condition::ExternalCreated, text, span));
                 let access = Access::ReadWrite;
-                self.variables.external.insert(name, External { value, access });
+                self.values.variables.external.insert(name, External { value, access });
                 Ok(())
             }
         }
@@ -259,10 +264,10 @@ impl Decoder {
     /// Whether a variable or parameter exists.
     pub(in crate::exec) fn exists(&self, place: &Place) -> Outcome<bool> {
         Ok(match self.resolve(place)? {
-            Target::Parameter(index, _) => self.variables.parameters().contains_key(&index),
-            Target::Own(class, name, _) => self.variables.find(class, &name).is_some(),
-            Target::External(name) => self.variables.external.contains_key(&name),
-            Target::Cycle(name) => self.variables.passed(name).unwrap_or(false),
+            Target::Parameter(index, _) => self.values.variables.parameters().contains_key(&index),
+            Target::Own(class, name, _) => self.values.variables.find(class, &name).is_some(),
+            Target::External(name) => self.values.variables.external.contains_key(&name),
+            Target::Cycle(name) => self.values.variables.passed(name).unwrap_or(false),
             Target::System(segments) => system::read(self, segments, place.span).is_ok(),
         })
     }
@@ -270,8 +275,8 @@ impl Decoder {
     /// Sizes of the dimensions of an array; none for a scalar.
     pub(in crate::exec) fn dimensions(&self, place: &Place) -> Outcome<Vec<usize>> {
         let found = match self.resolve(place)? {
-            Target::Parameter(index, _) => self.variables.parameters().get(&index),
-            Target::Own(class, name, _) => self.variables.find(class, &name),
+            Target::Parameter(index, _) => self.values.variables.parameters().get(&index),
+            Target::Own(class, name, _) => self.values.variables.find(class, &name),
             _ => None,
         };
         Ok(found.map(|v| v.sizes.to_vec()).unwrap_or_default())
@@ -281,9 +286,10 @@ impl Decoder {
     pub(in crate::exec) fn delete(&mut self, place: &Place) -> Outcome<()> {
         let span = place.span;
         let removed = match self.resolve(place)? {
-            Target::Parameter(index, _) => self.variables.parameters_mut().remove(&index),
+            Target::Parameter(index, _) => self.values.variables.parameters_mut().remove(&index),
             Target::Own(class, name, _) => {
-                let gone = self.variables.table(class).and_then(|table| table.remove(&*name));
+                let gone =
+                    self.values.variables.table(class).and_then(|table| table.remove(&*name));
                 if gone.is_none() {
                     return Err(self.unknown(class, &name, span));
                 }
@@ -294,7 +300,7 @@ impl Decoder {
                 return Err(Fault::new(Condition::VariableNotWritable, text, span));
             }
         };
-        self.variables.elements -= removed.map_or(0, |v| v.elements());
+        self.values.variables.elements -= removed.map_or(0, |v| v.elements());
         Ok(())
     }
 }

@@ -41,9 +41,9 @@ impl Decoder {
             self.note(Fault::new(Condition::Range, text, span));
             return;
         }
-        self.spindles[index].rpm = value;
-        if self.spindles[index].is_turning()
-            && let Some(event) = self.spindles[index].motion_event()
+        self.motion.spindles[index].rpm = value;
+        if self.motion.spindles[index].is_turning()
+            && let Some(event) = self.motion.spindles[index].motion_event()
         {
             self.event(event);
         }
@@ -51,10 +51,11 @@ impl Decoder {
     }
 
     pub(in crate::exec) fn spindle_warning(&mut self, index: usize, span: Span) {
-        if self.spindles[index].index.is_none() {
+        if self.motion.spindles[index].index.is_none() {
             let text = "the machine has no spindle: speeds are remembered, nothing turns";
             self.note_once("spindle", Fault::new(Condition::Ignored, text, span));
-        } else if self.spindles[index].is_turning() && self.spindles[index].rpm == 0.0 {
+        } else if self.motion.spindles[index].is_turning() && self.motion.spindles[index].rpm == 0.0
+        {
             let text = "M03 and M04 with the speed 0 turn nothing before an S word";
             self.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
         }
@@ -70,7 +71,7 @@ impl Decoder {
         for m in &words.m {
             match m_kind(m.number) {
                 MKind::Before => self.m_function(m),
-                MKind::ToolChange if self.tool_change_file.is_none() => self.m_function(m),
+                MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
                 MKind::Spindle => self.turn_main_spindle(m),
                 _ => {}
             }
@@ -91,20 +92,20 @@ impl Decoder {
     fn turn_main_spindle(&mut self, m: &Code) {
         self.turn_spindle(0, m.number, m.value);
         self.spindle_warning(0, m.span);
-        if self.spindles[0].index.is_none() {
+        if self.motion.spindles[0].index.is_none() {
             self.event(Event::MFunction { number: m.number, value: m.value });
         }
     }
 
     /// M3, M4, M5, M19 of one spindle.
     pub(in crate::exec) fn turn_spindle(&mut self, index: usize, number: u32, value: Option<f64>) {
-        self.spindles[index].turning = match number {
+        self.motion.spindles[index].turning = match number {
             3 => Turning::Clockwise,
             4 => Turning::CounterClockwise,
             19 => Turning::Positioned { deg: value.unwrap_or(0.0) },
             _ => Turning::Stopped,
         };
-        if let Some(event) = self.spindles[index].motion_event() {
+        if let Some(event) = self.motion.spindles[index].motion_event() {
             self.event(event);
         }
     }
@@ -115,7 +116,7 @@ impl Decoder {
             match m_kind(m.number) {
                 MKind::After => {
                     self.turn_spindle(0, m.number, m.value);
-                    if self.spindles[0].index.is_none() {
+                    if self.motion.spindles[0].index.is_none() {
                         self.event(Event::MFunction { number: m.number, value: m.value });
                     }
                 }
@@ -128,10 +129,9 @@ impl Decoder {
         if !matches!(after, After::Next) {
             return after;
         }
-        let tool_change = words
-            .m
-            .iter()
-            .find(|m| m_kind(m.number) == MKind::ToolChange && self.tool_change_file.is_some());
+        let tool_change = words.m.iter().find(|m| {
+            m_kind(m.number) == MKind::ToolChange && self.calls.tool_change_file.is_some()
+        });
         if let (Some(m), true) = (tool_change, words.call.is_some() || words.cycle.is_some()) {
             let text = "M06 calls a subroutine: a second call in its block";
             self.note(Fault::new(Condition::SeveralCalls, text, m.span));

@@ -43,18 +43,18 @@ impl Decoder {
         for g in &words.g {
             let outcome = match g.row.act {
                 Act::ZeroGroup(group) => {
-                    self.coordinates.select_zero_group(group);
+                    self.geometry.coordinates.select_zero_group(group);
                     Ok(())
                 }
                 Act::ZeroGroupValue => Self::zero_group(g).map(|group| {
-                    self.coordinates.select_zero_group(group);
+                    self.geometry.coordinates.select_zero_group(group);
                 }),
                 Act::Mirror(first, second) => {
                     self.mirror(first, second);
                     Ok(())
                 }
                 Act::RotateOff => {
-                    self.coordinates.set_rotation(None);
+                    self.geometry.coordinates.set_rotation(None);
                     Ok(())
                 }
                 _ => Ok(()),
@@ -81,8 +81,8 @@ impl Decoder {
             (None, Some((_, _, at))) => (false, *at),
             (None, None) => return false,
         };
-        let conflicts =
-            !self.coordinates.frame().is_identity() || self.modal.compensation != Compensation::Off;
+        let conflicts = !self.geometry.coordinates.frame().is_identity()
+            || self.modal.compensation != Compensation::Off;
         if conflicts {
             let text = "#PSET and #PRESET do not go with mirroring, rotation, #CS or tool radius compensation";
             self.note(Fault::new(Condition::Syntax, text, at));
@@ -90,11 +90,11 @@ impl Decoder {
         }
         for (axis, value, _) in &words.axes {
             let value = sets.then(|| value * self.axis_unit(*axis));
-            self.coordinates.preset_position(*axis, value);
+            self.geometry.coordinates.preset_position(*axis, value);
         }
         if words.axes.is_empty() && !sets {
             for axis in 0..self.machine.axes.len() {
-                self.coordinates.preset_position(axis, None);
+                self.geometry.coordinates.preset_position(axis, None);
             }
         } else if words.axes.is_empty() {
             self.note(Fault::new(Condition::Syntax, "#PSET without axis words", at));
@@ -107,7 +107,7 @@ impl Decoder {
         Self::needs_axes(g, words)?;
         for (axis, value, span) in &words.axes {
             let value_mm = value * self.axis_unit(*axis);
-            match &mut self.limits_mm[*axis] {
+            match &mut self.geometry.limits_mm[*axis] {
                 Some((_, high)) if positive => *high = value_mm,
                 Some((low, _)) => *low = value_mm,
                 None => {
@@ -141,7 +141,7 @@ impl Decoder {
         // 0 takes the offset of the axis in, 1 leaves it out
         for (axis, value, _) in &words.axes {
             let masked = crate::exec::values::expr::is_true(*value);
-            self.coordinates.mask_zero_entry(group, *axis, masked);
+            self.geometry.coordinates.mask_zero_entry(group, *axis, masked);
         }
         Ok(())
     }
@@ -151,21 +151,22 @@ impl Decoder {
         Self::needs_axes(g, words)?;
         for (axis, value, _) in &words.axes {
             let value_mm = value * self.axis_unit(*axis);
-            let before = if self.modal.absolute { 0.0 } else { self.coordinates.preset(*axis) };
-            self.coordinates.set_preset(*axis, before + value_mm);
+            let before =
+                if self.modal.absolute { 0.0 } else { self.geometry.coordinates.preset(*axis) };
+            self.geometry.coordinates.set_preset(*axis, before + value_mm);
         }
         Ok(())
     }
 
     fn mirror(&mut self, first: bool, second: bool) {
         for (main, mirrored) in [(0, first), (1, second)] {
-            if let Some(axis) = self.coordinates.main_axis(main) {
-                self.coordinates.set_mirrored(axis, mirrored);
+            if let Some(axis) = self.geometry.coordinates.main_axis(main) {
+                self.geometry.coordinates.set_mirrored(axis, mirrored);
             }
         }
         if !first && !second {
             for axis in 0..self.machine.axes.len() {
-                self.coordinates.set_mirrored(axis, false);
+                self.geometry.coordinates.set_mirrored(axis, false);
             }
         }
     }
@@ -182,7 +183,7 @@ impl Decoder {
                         .with(|d| d.value(ValueKind::Wrong, *value, "-")));
                 }
             };
-            self.coordinates.set_mirrored(*axis, mirrored);
+            self.geometry.coordinates.set_mirrored(*axis, mirrored);
         }
         Ok(())
     }
@@ -191,7 +192,7 @@ impl Decoder {
         let main = self.modal.plane.main_axes();
         let mut centre: [Option<f64>; 2] = [None; 2];
         for (axis, value, span) in &words.axes {
-            match self.coordinates.main_index(*axis) {
+            match self.geometry.coordinates.main_index(*axis) {
                 Some(m) if m == main[0] => centre[0] = Some(value * self.axis_unit(*axis)),
                 Some(m) if m == main[1] => centre[1] = Some(value * self.axis_unit(*axis)),
                 _ => {

@@ -34,7 +34,7 @@ impl Executor {
     /// Place of a span of the block in work, also if it has left its level or entered another.
     pub(in crate::exec) fn here(&mut self, span: Span) -> Option<Location> {
         let Position { offset, line } = self.position;
-        self.place_in(SourceRef { line, offset, ..self.decoder.source }, span)
+        self.place_in(SourceRef { line, offset, ..self.decoder.report.source }, span)
     }
 
     fn place_in(&mut self, block: SourceRef, span: Span) -> Option<Location> {
@@ -43,7 +43,7 @@ impl Executor {
             return None;
         }
         let position = Position { offset: block.offset, line: block.line };
-        let mut location = self.files.locate(file, position, span, &self.decoder.macros)?;
+        let mut location = self.files.locate(file, position, span, &self.decoder.calls.macros)?;
         location.block = block.block;
         Some(location)
     }
@@ -51,7 +51,7 @@ impl Executor {
     /// Place of a span of a block of the present level.
     pub(in crate::exec) fn place(&mut self, position: Position, span: Span) -> Option<Location> {
         let file = self.levels.last()?.file;
-        self.files.locate(file, position, span, &self.decoder.macros)
+        self.files.locate(file, position, span, &self.decoder.calls.macros)
     }
 
     /// Adds a diagnostic, once per place; words of other dialects once per program.
@@ -69,7 +69,7 @@ impl Executor {
             return;
         }
         if let Some(location) = &mut diagnostic.source {
-            location.block = location.block.or(self.decoder.source.block);
+            location.block = location.block.or(self.decoder.report.source.block);
         }
         if diagnostic.is_error() {
             self.errors += 1;
@@ -86,7 +86,7 @@ impl Executor {
         self.state = State::Ended;
         let aborted = reason == EndReason::Aborted || (self.errors > 0 && !self.decoder.checking);
         self.reason = if aborted { EndReason::Aborted } else { EndReason::Finished };
-        let source = self.decoder.source;
+        let source = self.decoder.report.source;
         let contour: &mut Contour = &mut self.decoder.contour;
         let mut faults = contour.end(self.reason, source);
         faults.extend(self.decoder.limits_of_compensated());

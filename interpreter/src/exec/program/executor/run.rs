@@ -56,12 +56,12 @@ impl Executor {
     }
 
     fn names_or_macros_changed(&mut self) -> bool {
-        let names = std::mem::take(&mut self.decoder.names_changed);
+        let names = std::mem::take(&mut self.decoder.names.changed);
         if names {
             let names = self.decoder.long_names();
             self.parser = Parser::new(names.iter().map(String::as_str));
         }
-        std::mem::take(&mut self.decoder.macros_changed) || names
+        std::mem::take(&mut self.decoder.calls.macros_changed) || names
     }
 
     /// Comment blocks, inactive branches and remarks: true if the entry needs no parsing.
@@ -113,8 +113,14 @@ impl Executor {
         let reading =
             Reading { keep: keep && !level.declarations, declaration: level.declarations };
         let mut found = Vec::new();
-        let block =
-            self.files.block(file, at, reading, &self.parser, &self.decoder.macros, &mut found);
+        let block = self.files.block(
+            file,
+            at,
+            reading,
+            &self.parser,
+            &self.decoder.calls.macros,
+            &mut found,
+        );
         for diagnostic in found {
             self.report(diagnostic);
         }
@@ -135,10 +141,12 @@ impl Executor {
 
     fn wait_for_actual(&mut self, at: Position) {
         self.state = State::WaitsForActual;
-        let file =
-            self.levels.last().map_or(self.decoder.source.file, |level| file_number(level.file));
+        let file = self
+            .levels
+            .last()
+            .map_or(self.decoder.report.source.file, |level| file_number(level.file));
         let source = SourceRef { file, line: at.line, offset: at.offset, block: None };
-        self.decoder.source = source;
+        self.decoder.report.source = source;
         let faults = self.decoder.contour.sync(Sync::ReadActual, source);
         self.position = at;
         for fault in faults {
@@ -179,11 +187,11 @@ impl Executor {
             }
         };
         let file = file_number(file);
-        self.decoder.source = SourceRef { file, line: at.line, offset: at.offset, block };
-        self.decoder.location = None;
-        self.decoder.info.offset = at.offset;
+        self.decoder.report.source = SourceRef { file, line: at.line, offset: at.offset, block };
+        self.decoder.report.location = None;
+        self.decoder.calls.info.offset = at.offset;
         if let Some(block) = block {
-            self.decoder.info.block_number = block;
+            self.decoder.calls.info.block_number = block;
         }
     }
 
@@ -239,7 +247,7 @@ impl Executor {
             }
             return;
         }
-        self.decoder.location = self.here(command.span);
+        self.decoder.report.location = self.here(command.span);
         let outcome = self.decoder.execute_command(command);
         self.decoder.keep(outcome);
     }

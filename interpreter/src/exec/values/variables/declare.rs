@@ -38,7 +38,8 @@ impl Decoder {
             let text = format!("arrays have at most {DIMENSIONS_MAX} dimensions");
             return Err(Fault::new(Condition::Range, text, span));
         }
-        if !sizes.is_empty() && self.variables.elements.saturating_add(count) > ELEMENTS_MAX {
+        if !sizes.is_empty() && self.values.variables.elements.saturating_add(count) > ELEMENTS_MAX
+        {
             let text = format!("all arrays together hold at most {ELEMENTS_MAX} elements");
             return Err(Fault::new(Condition::Range, text, span));
         }
@@ -47,7 +48,7 @@ impl Decoder {
         let exists = match class_of {
             None => {
                 let index = target.parse().unwrap_or(0);
-                let table = self.variables.parameters_mut();
+                let table = self.values.variables.parameters_mut();
                 // a parameter created by a write may become an array
                 let known = table.get(&index).is_some_and(|v| v.sizes == variable.sizes);
                 if !known {
@@ -65,9 +66,9 @@ impl Decoder {
     }
 
     fn insert_parameter(&mut self, index: u32, variable: Variable) {
-        self.variables.elements += variable.elements();
-        if let Some(old) = self.variables.parameters_mut().insert(index, variable) {
-            self.variables.elements -= old.elements();
+        self.values.variables.elements += variable.elements();
+        if let Some(old) = self.values.variables.parameters_mut().insert(index, variable) {
+            self.values.variables.elements -= old.elements();
         }
     }
 
@@ -80,7 +81,7 @@ impl Decoder {
         span: Span,
     ) -> Outcome<bool> {
         let elements = variable.elements();
-        let Some(table) = self.variables.table(class) else {
+        let Some(table) = self.values.variables.table(class) else {
             let text = "V.CYC variables exist only inside a cycle";
             return Err(Fault::new(Condition::VariableClass, text, span));
         };
@@ -88,7 +89,7 @@ impl Decoder {
             return Ok(true);
         }
         table.insert(name.into(), variable);
-        self.variables.elements += elements;
+        self.values.variables.elements += elements;
         Ok(false)
     }
 
