@@ -22,7 +22,8 @@ macro_rules! conditions {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Condition {
             $(
-                #[doc = concat!(stringify!($space), " ", stringify!($number), ": ", $meaning)]
+                // a block of text, since meanings hold brackets that would be links
+                #[doc = concat!(stringify!($space), " ", stringify!($number), "\n\n```text\n", $meaning, "\n```")]
                 $condition,
             )*
         }
