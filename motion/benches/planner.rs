@@ -1,4 +1,4 @@
-//! Blocks per second through look-ahead and sampling: a wavy CAM contour of short straight blocks.
+//! Blocks per second through smoothing, look-ahead and sampling: a wavy CAM contour of short straight blocks.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -9,8 +9,10 @@ use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::{AxisVec, FeedSlope};
 use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
+use kontur_motion::contouring::{ContourMode, ContourSettings, Contouring};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
+use kontur_motion::spline::{SplineSettings, Splining};
 use kontur_motion::tolerance::Kernels;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -84,5 +86,56 @@ fn blocks(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, blocks);
+/// The straight blocks of the surface, the coordinates rounded to three decimals.
+fn lines(count: usize) -> Vec<Block> {
+    let dynamics = dynamics();
+    let rounded =
+        |i: usize| -> AxisVec { point(i).iter().map(|x| libm::round(x * 1e3) / 1e3).collect() };
+    let block = |i: usize| {
+        let line = LinePath::new(rounded(i), rounded(i + 1), &dynamics.feed_axes)?;
+        let feed = Feed::PathVelocity(100.0);
+        Some(Block::new(i as u64, Path::Line(line), feed, Arc::clone(&dynamics)))
+    };
+    (0..count).filter_map(block).collect()
+}
+
+fn smoothing(c: &mut Criterion) {
+    let count = 2_000;
+    let mut group = c.benchmark_group("smoothing");
+    group.throughput(Throughput::Elements(count as u64));
+    let spline = Some(SplineSettings { path_dev_mm: 0.02, ..SplineSettings::default() });
+    let splined: Vec<Block> = lines(count).into_iter().map(|b| Block { spline, ..b }).collect();
+    group.bench_function("BSPLINE", |b| {
+        b.iter(|| {
+            let mut stage = Splining::new();
+            for block in &splined {
+                for out in stage.push(block.clone()) {
+                    black_box(out);
+                }
+            }
+            for out in stage.flush() {
+                black_box(out);
+            }
+        });
+    });
+    let mode = ContourMode::Dev { path_dev_mm: 0.02 };
+    let contour = Some(ContourSettings { mode, ..ContourSettings::default() });
+    let rounded: Vec<Block> = lines(count).into_iter().map(|b| Block { contour, ..b }).collect();
+    group.bench_function("G261", |b| {
+        b.iter(|| {
+            let mut stage = Contouring::new();
+            for block in &rounded {
+                for out in stage.push(block.clone()) {
+                    black_box(out);
+                }
+            }
+            for out in stage.flush() {
+                black_box(out);
+            }
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, smoothing, blocks);
 criterion_main!(benches);

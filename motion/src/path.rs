@@ -4,6 +4,7 @@
 //! measured over all axes that move (Assumption: the documents are silent; every axis then counts alike).
 
 mod arc;
+mod extremes;
 mod line;
 pub(crate) mod piece;
 mod poly;

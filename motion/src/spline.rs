@@ -1,6 +1,6 @@
 //! B-spline through runs of short linear blocks (`#HSC ON [BSPLINE]`): a stage between program and planner.
 //!
-//! The programmed points are the control points of a cubic B-spline whose knots lie at their distances along the
+//! The programmed points, freed from the noise of rounding ([`fairing`]), are the control points of a cubic B-spline whose knots lie at their distances along the
 //! polygon (source: TF5200, extended HSC programming, control points; Assumption: degree and knots). In Bezier form the
 //! piece of an edge has both inner points on that edge, and its ends lie on the lines that cut the corners. So every
 //! piece belongs to one block, and is never further from its edge than its ends are: the deviation of the whole spline is
@@ -21,8 +21,11 @@
 //! costs speed, as its root: the edges get straighter and the corners sharper, and the path speed has a ripple. A corner
 //! just short of a reversal stays a corner, as in contouring.
 //!
+//! `PATH_DEV` and `TRACK_DEV` hold for both together: what fairing takes is missing for the corners.
+//!
 //! An edge becomes several blocks with the number of the programmed one where its parts allow different speeds.
 
+mod fairing;
 mod pace;
 mod polygon;
 
@@ -30,6 +33,7 @@ use crate::axis::AxisVec;
 use crate::block::{Block, Feed};
 use crate::contouring::NEEDLE_RAD;
 use crate::path::{Path, PolyPath, piece};
+use fairing::Fairing;
 use polygon::ControlPolygon;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
@@ -102,9 +106,10 @@ impl Corner {
     const FREE: Self = Self { reach: f64::INFINITY, e: None };
 }
 
-/// The stage. It holds at most [`AHEAD`] blocks, and what it needs of the [`BEHIND`] before them.
+/// The stage. It holds at most [`AHEAD`] blocks behind those of [`fairing`], and what it needs of the [`BEHIND`] before them.
 #[derive(Debug, Default)]
 pub struct Splining {
+    fairing: Fairing,
     run: VecDeque<Edge>,
     /// Edges at the front that have been put out.
     done: usize,
@@ -121,12 +126,21 @@ impl Splining {
 
     /// Takes a block; what is final comes back.
     pub fn push(&mut self, block: Block) -> impl Iterator<Item = Block> + '_ {
-        self.take(block);
+        let mut fairing = std::mem::take(&mut self.fairing);
+        for block in fairing.push(block) {
+            self.take(block);
+        }
+        self.fairing = fairing;
         self.ready.drain(..)
     }
 
     /// The path stops behind the last block: everything comes back.
     pub fn flush(&mut self) -> impl Iterator<Item = Block> + '_ {
+        let mut fairing = std::mem::take(&mut self.fairing);
+        for block in fairing.flush() {
+            self.take(block);
+        }
+        self.fairing = fairing;
         self.end_run();
         self.ready.drain(..)
     }
@@ -264,11 +278,18 @@ fn is_feed(block: &Block, i: usize) -> bool {
     block.dynamics.feed_axes.get(i).copied().unwrap_or(true)
 }
 
-/// Judges the corner between two edges of a run; `None` where the spline ends.
-fn corner(a: &Edge, b: &Edge) -> Option<Corner> {
-    if a.block.dynamics.feed_axes != b.block.dynamics.feed_axes {
-        return None;
-    }
+/// How two edges differ in direction.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    /// Length of the change of direction over the feed axes.
+    jump: f64,
+    /// Angle between the directions over the feed axes in rad.
+    angle_rad: f64,
+    /// Largest change of `dq/ds` of an axis outside the feed group.
+    track: f64,
+}
+
+fn turn(a: &Edge, b: &Edge) -> Turn {
     let (mut jump2, mut sum2, mut track) = (0.0, 0.0, 0.0_f64);
     for i in 0..a.direction.len() {
         let (u, w) = (a.direction[i], b.direction[i]);
@@ -280,7 +301,15 @@ fn corner(a: &Edge, b: &Edge) -> Option<Corner> {
         }
     }
     let jump = jump2.sqrt();
-    let angle = 2.0 * libm::atan2(jump, sum2.sqrt());
+    Turn { jump, angle_rad: 2.0 * libm::atan2(jump, sum2.sqrt()), track }
+}
+
+/// Judges the corner between two edges of a run; `None` where the spline ends.
+fn corner(a: &Edge, b: &Edge) -> Option<Corner> {
+    if a.block.dynamics.feed_axes != b.block.dynamics.feed_axes {
+        return None;
+    }
+    let Turn { jump, angle_rad: angle, track } = turn(a, b);
     let settings = &b.settings;
     if angle.to_degrees() > settings.max_angle_deg || angle >= PI - NEEDLE_RAD {
         return None;

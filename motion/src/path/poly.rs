@@ -4,6 +4,7 @@
 //! five points on sub-intervals that are halved until the whole and the two halves agree; `s` is turned into `x` by
 //! Newton on the table of sub-intervals.
 
+use super::extremes;
 use super::piece::{self, PolyPiece, bend, slope, twist, value};
 use crate::axis::AxisVec;
 use smallvec::SmallVec;
@@ -14,7 +15,7 @@ use std::sync::Arc;
 const SPLIT: f64 = 1e-13;
 /// Depth of halving at which the speed of the parameter has to be smooth enough.
 const DEPTH: u32 = 12;
-/// Samples per sub-interval in the search for the extremes and for the nearest point.
+/// Samples per sub-interval in the search for the nearest point.
 const SAMPLES: usize = 8;
 
 /// Gauss-Legendre on `-1..=1`: nodes and weights of five points.
@@ -281,48 +282,21 @@ impl PolyPath {
         &self.extremes
     }
 
-    /// Samples every sub-interval and refines each local maximum that could be the greatest one by golden section.
     fn find_extremes(&mut self, cells: &mut [Cell]) {
-        let n = self.start.len();
-        for cell in cells {
-            let piece = cell.piece;
-            let at = |k: usize| cell.from + (cell.to - cell.from) * k as f64 / SAMPLES as f64;
-            let paces: [Pace; SAMPLES + 1] = std::array::from_fn(|k| self.pace(piece, at(k)));
-            let mut bend = 0.0_f64;
-            for i in 0..n {
-                let axis = &self.pieces[piece][i];
-                let mut orders = [[0.0; SAMPLES + 1]; 3];
-                for (k, pace) in paces.iter().enumerate() {
-                    for (samples, d) in orders.iter_mut().zip(pace.derivatives(axis, at(k))) {
-                        samples[k] = d.abs();
-                    }
-                }
-                for (order, samples) in orders.iter().enumerate() {
-                    let get = |k: usize| samples[k];
-                    let extreme = &mut self.extremes[order][i];
-                    for k in 0..=SAMPLES {
-                        let here = get(k);
-                        *extreme = extreme.max(here);
-                        let (low, high) = (k.saturating_sub(1), (k + 1).min(SAMPLES));
-                        // the vertex of a parabola through three samples is at most this much higher
-                        let mid = k.clamp(1, SAMPLES - 1);
-                        let [l, m, r] = [mid - 1, mid, mid + 1].map(get);
-                        let bound = here + (2.0 * m - l - r).abs();
-                        if order == 1 {
-                            bend = bend.max(bound);
-                        }
-                        if here < get(low) || here < get(high) || bound <= *extreme {
-                            continue;
-                        }
-                        let peak = golden(at(low), at(high), |x| {
-                            let pace = Pace::at(&self.pieces[piece], &self.measured, x);
-                            pace.derivatives(axis, x)[order].abs()
-                        });
-                        *extreme = extreme.max(peak);
-                    }
+        // what is reached at the ends spares most of the search inside
+        let last = cells.last().map(|c| (c.piece, c.to));
+        for (piece, x) in cells.iter().map(|c| (c.piece, c.from)).chain(last) {
+            let Derivatives { first, second, third } = self.derivatives(piece, x);
+            for (extreme, d) in self.extremes.iter_mut().zip([first, second, third]) {
+                for (extreme, d) in extreme.iter_mut().zip(d.iter()) {
+                    *extreme = extreme.max(d.abs());
                 }
             }
-            cell.bend = bend;
+        }
+        for cell in cells {
+            let piece = &self.pieces[cell.piece];
+            let part = (cell.from, cell.to);
+            cell.bend = extremes::raise(&mut self.extremes, piece, &self.measured, part);
         }
     }
 
@@ -405,26 +379,6 @@ impl PolyPath {
         }
         x
     }
-}
-
-/// Largest value of a function with one maximum between two points.
-fn golden(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    const RATIO: f64 = 0.618_033_988_749_894_9;
-    let (mut a, mut b) = (high - RATIO * (high - low), low + RATIO * (high - low));
-    let (mut fa, mut fb) = (f(a), f(b));
-    // the value is flat at the maximum: half the digits of x give all digits of it
-    for _ in 0..36 {
-        if fa > fb {
-            (high, b, fb) = (b, a, fa);
-            a = high - RATIO * (high - low);
-            fa = f(a);
-        } else {
-            (low, a, fa) = (a, b, fb);
-            b = low + RATIO * (high - low);
-            fb = f(b);
-        }
-    }
-    fa.max(fb)
 }
 
 #[cfg(test)]

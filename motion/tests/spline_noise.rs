@@ -1,0 +1,255 @@
+//! Rounded coordinates under the B-spline: speed, ripple, jerk, and the tolerance in both directions.
+
+mod common;
+
+use common::random::Random;
+use common::{Job, channel};
+use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
+use kontur_motion::block::Block;
+use kontur_motion::block::SlopeKind::Hsc;
+use kontur_motion::path::{LinePath, Path};
+use kontur_motion::planner::Setpoint;
+use kontur_motion::spline::{SplineSettings, Splining};
+
+fn machine(axes: usize) -> Job {
+    let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
+    let axis = AxisDynamics { a_max_mm_s2: 6000.0, feed, ..common::axis(1.0) };
+    Job { dynamics: channel(vec![axis; axes]), window: 400, ..Job::new(1.0, Hsc) }
+}
+
+fn rounded(points: &[Vec<f64>], decimals: i32) -> Vec<Vec<f64>> {
+    let scale = libm::pow(10.0, f64::from(decimals));
+    points.iter().map(|p| p.iter().map(|x| libm::round(x * scale) / scale).collect()).collect()
+}
+
+fn circle(radius: f64, chord: f64) -> Vec<Vec<f64>> {
+    let n = libm::round(2.0 * std::f64::consts::PI * radius / chord);
+    (0..=2 * n as usize)
+        .map(|k| {
+            let (sin, cos) = libm::sincos(2.0 * std::f64::consts::PI * k as f64 / n);
+            vec![radius * cos, radius * sin]
+        })
+        .collect()
+}
+
+fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) -> Vec<Block> {
+    let mut stage = Splining::new();
+    let mut out = Vec::new();
+    for (i, w) in points.windows(2).enumerate() {
+        let (from, to) = (AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]));
+        let Some(line) = LinePath::new(from, to, &job.dynamics.feed_axes) else { continue };
+        let block = job.block(i as u64, Path::Line(line), feed);
+        out.extend(stage.push(Block { spline: Some(settings), ..block }));
+    }
+    out.extend(stage.flush());
+    out
+}
+
+struct Judged {
+    cycles: usize,
+    ripple: f64,
+    jerk: f64,
+}
+
+fn judged(out: &[Setpoint]) -> Judged {
+    let middle = &out[out.len() / 5..4 * out.len() / 5];
+    let low = middle.iter().map(|s| s.v_mm_s).fold(f64::INFINITY, f64::min);
+    let high = middle.iter().map(|s| s.v_mm_s).fold(0.0, f64::max);
+    let mut jerk = 0.0_f64;
+    for w in middle.windows(4) {
+        for i in 0..w[0].position.len() {
+            let p = |k: usize| w[k].position[i];
+            jerk = jerk.max((p(3) - 3.0 * p(2) + 3.0 * p(1) - p(0)).abs() / 1e-9);
+        }
+    }
+    Judged { cycles: out.len(), ripple: (high - low) / high, jerk }
+}
+
+/// Rounded to three or four decimals a circle runs as with all of them: at the full feed, without ripple, with the same jerk.
+#[test]
+fn a_rounded_circle_runs_as_an_exact_one() {
+    let job = machine(2);
+    let settings = SplineSettings { path_dev_mm: 0.05, ..SplineSettings::default() };
+    for chord in [0.01, 0.05, 0.1, 0.3] {
+        let run = |points: &[Vec<f64>]| {
+            let blocks = splined(&job, settings, points, 100.0);
+            judged(&job.run(&points[0], blocks.into_iter()))
+        };
+        let exact = circle(10.0, chord);
+        let want = run(&exact);
+        for decimals in [3, 4] {
+            let here = run(&rounded(&exact, decimals));
+            let what = format!("chord {chord}, {decimals} decimals");
+            assert!(here.ripple < 1e-3, "{what}: {}", here.ripple);
+            assert!(here.cycles <= want.cycles + 2, "{what}: {} {}", here.cycles, want.cycles);
+            assert!(here.jerk < 1.1 * want.jerk, "{what}: {} {}", here.jerk, want.jerk);
+        }
+    }
+}
+
+/// A surface row with two rotary axes beside it: rounding of all five costs no time.
+#[test]
+fn rounded_rotary_axes_cost_no_time() {
+    let mut job = machine(5);
+    let mut dynamics = (*job.dynamics).clone();
+    dynamics.feed_axes = vec![true, true, true, false, false];
+    job.dynamics = std::sync::Arc::new(dynamics);
+    let exact: Vec<Vec<f64>> = (0..1500)
+        .map(|k| 0.05 * f64::from(k))
+        .map(|x| {
+            let z = 2.0 * libm::sin(0.2 * x);
+            vec![x, 0.1 * x, z, 20.0 * libm::cos(0.2 * x), 0.4 * x + 5.0 * libm::sin(0.1 * x)]
+        })
+        .collect();
+    let run = |points: &[Vec<f64>]| {
+        let blocks = splined(&job, SplineSettings::default(), points, 80.0);
+        judged(&job.run(&points[0], blocks.into_iter()))
+    };
+    let (want, here) = (run(&exact), run(&rounded(&exact, 3)));
+    assert!(here.cycles <= want.cycles + 3, "{} {}", here.cycles, want.cycles);
+    assert!(here.jerk < 1.3 * want.jerk, "{} {}", here.jerk, want.jerk);
+}
+
+/// Smooth stretches, corners of any angle, tiny edges and long ones, with the noise of rounding.
+fn contour(seed: u64, decimals: i32) -> Vec<Vec<f64>> {
+    let mut random = Random(seed);
+    let (mut heading, mut p) = (0.0_f64, [0.0, 0.0, 0.0]);
+    let mut points = vec![p.to_vec()];
+    for _ in 0..12 {
+        let chord = random.log(0.008, 0.4);
+        let bend = random.between(-0.4, 0.4) * chord.min(0.3);
+        for _ in 0..(random.between(5.0, 90.0) as usize) {
+            heading += bend;
+            let step = if random.chance(0.05) { 0.002 } else { chord * random.between(0.9, 1.1) };
+            let (sin, cos) = libm::sincos(heading);
+            p = [p[0] + step * cos, p[1] + step * sin, p[2] + 0.1 * step];
+            points.push(p.to_vec());
+        }
+        if random.chance(0.3) {
+            p[0] += 3.0;
+            points.push(p.to_vec());
+        }
+        heading += if random.chance(0.5) { random.between(-3.1, 3.1) } else { 0.0 };
+    }
+    let mut points = rounded(&points, decimals);
+    points.dedup();
+    points
+}
+
+/// Distance of a point from a polyline.
+fn distance(p: &[f64], line: &[Vec<f64>]) -> f64 {
+    let mut best = f64::INFINITY;
+    for w in line.windows(2) {
+        let d: Vec<f64> = w[0].iter().zip(&w[1]).map(|(a, b)| b - a).collect();
+        let length2: f64 = d.iter().map(|c| c * c).sum();
+        let dot: f64 = d.iter().zip(p).zip(&w[0]).map(|((d, p), a)| d * (p - a)).sum();
+        let u = if length2 > 0.0 { (dot / length2).clamp(0.0, 1.0) } else { 0.0 };
+        let off2 = (0..p.len()).map(|i| p[i] - w[0][i] - u * d[i]).map(|e| e * e).sum::<f64>();
+        best = best.min(off2);
+    }
+    best.sqrt()
+}
+
+/// Points of the path over every programmed edge, `n + 1` of each.
+fn traced(blocks: &[Block], edges: usize, n: usize) -> Vec<Vec<Vec<f64>>> {
+    let mut of_edge: Vec<Vec<&Path>> = vec![Vec::new(); edges];
+    for b in blocks {
+        of_edge[b.seq as usize].push(&b.path);
+    }
+    let points = |parts: &Vec<&Path>| -> Vec<Vec<f64>> {
+        let whole: f64 = parts.iter().map(|p| p.length()).sum();
+        let mut q = parts[0].start().to_vec();
+        let at = |k: usize| {
+            let mut s = whole * k as f64 / n as f64;
+            let mut i = 0;
+            while i + 1 < parts.len() && s > parts[i].length() {
+                s -= parts[i].length();
+                i += 1;
+            }
+            parts[i].position(s, &mut q);
+            q.clone()
+        };
+        (0..=n).map(at).collect()
+    };
+    of_edge.iter().map(points).collect()
+}
+
+/// What fairing and spline do together stays within `PATH_DEV`: every point of the path lies so near to the programmed edges
+/// around, and every programmed point so near to the path there. `COUNT` raises the number of contours.
+#[test]
+fn the_whole_stays_within_the_tolerance() {
+    let job = machine(3);
+    let count = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(8);
+    let mut used = 0.0_f64;
+    for seed in 0..count {
+        let points = contour(seed, if seed % 2 == 0 { 3 } else { 2 });
+        for path_dev_mm in [0.0005, 0.003, 0.01, 0.03, 0.2] {
+            let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+            let blocks = splined(&job, settings, &points, 50.0);
+            let path = traced(&blocks, points.len() - 1, 12);
+            for i in 0..path.len() {
+                let around = i.saturating_sub(2)..(i + 3).min(path.len());
+                let edges = &points[around.start..=around.end];
+                for q in &path[i] {
+                    let off = distance(q, edges);
+                    used = used.max(off / path_dev_mm);
+                    assert!(off <= path_dev_mm + 1e-9, "{seed} {path_dev_mm} edge {i}: {off}");
+                }
+                let there: Vec<Vec<f64>> = path[around].concat();
+                for k in 0..=4 {
+                    let u = f64::from(k) / 4.0;
+                    let p: Vec<f64> = points[i]
+                        .iter()
+                        .zip(&points[i + 1])
+                        .map(|(a, b)| a + u * (b - a))
+                        .collect();
+                    let off = distance(&p, &there);
+                    // twelve chords of the path stand for it
+                    assert!(
+                        off <= 1.01 * path_dev_mm + 1e-9,
+                        "{seed} {path_dev_mm} edge {i}: {off}"
+                    );
+                }
+            }
+        }
+    }
+    println!("of the tolerance at most {used:.4}");
+    assert!(used > 0.9);
+}
+
+/// The reversed, mirrored or permuted contour gives the reversed, mirrored or permuted path.
+#[test]
+fn the_path_is_the_same_seen_otherwise() {
+    let job = machine(3);
+    let settings = SplineSettings { path_dev_mm: 0.02, ..SplineSettings::default() };
+    for seed in 20..26 {
+        let points = contour(seed, 3);
+        let edges = points.len() - 1;
+        let path = |p: &[Vec<f64>]| traced(&splined(&job, settings, p, 50.0), edges, 6);
+        let want = path(&points);
+        let same = |got: &[Vec<Vec<f64>>], what: &str| {
+            for (i, (p, q)) in want.iter().zip(got).enumerate() {
+                for (p, q) in p.iter().zip(q) {
+                    let off = p.iter().zip(q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                    assert!(off < 1e-6, "{seed} {what} edge {i}: {off}");
+                }
+            }
+        };
+        let each = |p: &[Vec<f64>], f: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<Vec<f64>> {
+            p.iter().map(|p| f(p)).collect()
+        };
+        let mut reversed = path(&points.iter().rev().cloned().collect::<Vec<_>>());
+        reversed.reverse();
+        for edge in &mut reversed {
+            edge.reverse();
+        }
+        same(&reversed, "reversed");
+        let mirror = |p: &[f64]| vec![-p[0], p[1], p[2]];
+        let back = path(&each(&points, &mirror));
+        same(&back.iter().map(|e| each(e, &mirror)).collect::<Vec<_>>(), "mirrored");
+        let (there, back) =
+            (|p: &[f64]| vec![p[2], p[0], p[1]], |p: &[f64]| vec![p[1], p[2], p[0]]);
+        let permuted = path(&each(&points, &there));
+        same(&permuted.iter().map(|e| each(e, &back)).collect::<Vec<_>>(), "permuted");
+    }
+}
