@@ -74,8 +74,9 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
     }
 }
 
+/// Both in the units of the list.
 fn quotient(axis: &Axis, numerator: Param<Number>, denominator: Param<Number>) -> f64 {
-    axis.get(numerator) / axis.get(denominator)
+    axis.listed(numerator) / axis.listed(denominator)
 }
 
 fn feedforward(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) -> FeedforwardConfig {
@@ -274,8 +275,8 @@ fn setpoint(
 
 fn resolution(axis: &Axis) -> SpeedFormat {
     SpeedFormat::Resolution {
-        increments: axis.get(of::SPEED_INCREMENTS),
-        path_um: axis.get(of::SPEED_PATH),
+        increments: axis.listed(of::SPEED_INCREMENTS),
+        path_um: axis.listed(of::SPEED_PATH),
         time_base: match axis.get(of::SPEED_TIME_BASE) {
             1 => TimeBase::Second,
             2 => TimeBase::Cycle,
@@ -338,9 +339,9 @@ fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     }
     TorqueFormat {
         motor,
-        load: axis.get(of::LOAD),
-        reference: axis.get(of::TORQUE_REFERENCE),
-        scale_num: axis.get(of::TORQUE_SCALE_NUM),
-        scale_denom: axis.get(of::TORQUE_SCALE_DENOM),
+        load: axis.listed(of::LOAD),
+        reference: axis.listed(of::TORQUE_REFERENCE),
+        scale_num: axis.listed(of::TORQUE_SCALE_NUM),
+        scale_denom: axis.listed(of::TORQUE_SCALE_DENOM),
     }
 }

@@ -41,10 +41,10 @@ fn model(axis: &Axis) -> PlantModel {
         }
         _ if axis.get(axis_drive::SIMU_FOLLOWS) => PlantModel::Follow,
         _ => PlantModel::Simulated {
-            damping_ratio: axis.get(axis_drive::SIMU_DAMPING_NUM)
-                / axis.get(axis_drive::SIMU_DAMPING_DENOM),
-            natural_rad_s: axis.get(axis_drive::SIMU_FREQUENCY_NUM)
-                / axis.get(axis_drive::SIMU_FREQUENCY_DENOM),
+            damping_ratio: axis.listed(axis_drive::SIMU_DAMPING_NUM)
+                / axis.listed(axis_drive::SIMU_DAMPING_DENOM),
+            natural_rad_s: axis.listed(axis_drive::SIMU_FREQUENCY_NUM)
+                / axis.listed(axis_drive::SIMU_FREQUENCY_DENOM),
         },
     }
 }
