@@ -47,6 +47,14 @@ impl Course {
         self.at(self.duration())
     }
 
+    /// Acceleration in mm/s2 with which the path goes on behind the end.
+    pub(crate) fn left_with(&self) -> f64 {
+        match self {
+            Self::Span(p) => p.left_with(),
+            Self::Change(_) => 0.0,
+        }
+    }
+
     /// Time in s at which path length `s_mm` is reached.
     pub(crate) fn time_at(&self, s_mm: f64) -> f64 {
         match self {

@@ -270,6 +270,10 @@ pub fn path_slope(block: &Block, x: &PathExtremes, cycle: CycleTime) -> SlopeLim
     let dec_of = |a: &AxisDynamics| if rapid { a.rapid.acc_mm_s2 } else { a.feed.dec_mm_s2 };
     let acc = weakest(&d.axes, &x.first, acc_of).min(vector.acc_mm_s2.unwrap_or(f64::INFINITY));
     let dec = weakest(&d.axes, &x.first, dec_of).min(vector.dec_mm_s2.unwrap_or(f64::INFINITY));
+    let shape =
+        if block.slope.kind == SlopeKind::Sin2 { RampShape::Sin2 } else { RampShape::Trapez };
+    // the jerk of a limit is the largest one, that of a ramp time the mean one
+    let vector_jerk = vector.jerk_mm_s3.map_or(f64::INFINITY, |jerk| jerk / shape.peak_jerk());
     let ramp = |k: usize| -> f64 {
         let path = if k < 2 { acc } else { dec };
         let jerk = weakest(&d.axes, &x.first, |a| {
@@ -286,10 +290,8 @@ pub fn path_slope(block: &Block, x: &PathExtremes, cycle: CycleTime) -> SlopeLim
                 (if k < 2 { acc_of(a) } else { dec_of(a) }) / t
             }
         });
-        path / jerk.min(vector.jerk_mm_s3.unwrap_or(f64::INFINITY))
+        path / jerk.min(vector_jerk)
     };
-    let shape =
-        if block.slope.kind == SlopeKind::Sin2 { RampShape::Sin2 } else { RampShape::Trapez };
     let constant_ramp_time = block.slope.constant_ramp_time && !rapid;
     let ramps = [ramp(0), ramp(1), ramp(2), ramp(3)];
     SlopeLimits::Ramped(RampedLimits::new(shape, constant_ramp_time, acc, dec, ramps))

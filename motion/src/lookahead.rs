@@ -3,12 +3,13 @@
 //! Stages, each reads what the ones before guarantee:
 //! 1. *caps* (caller): the velocity that each boundary allows for itself, see [`crate::corner`];
 //! 2. *knots*: boundaries where the acceleration is zero. STEP: every boundary (its acceleration may jump anyway).
-//!    TRAPEZ and SIN2: every boundary except those inside a run of blocks with equal feed, (nearly) equal slope and no
-//!    binding cap - such a run is one span. HSC and `NO_OPT=0`: the local minima of the speed, unless they are so close
-//!    to each other that a stop of the acceleration costs speed. Where braking under G901 begins, see [`late`];
+//!    Constant ramp times (P-CHAN-00349): every boundary except those inside a run of blocks with equal feed, (nearly)
+//!    equal slope and no binding cap - such a run is one span. TRAPEZ, SIN2, HSC: the local minima of the speed, unless
+//!    they are so close to each other that a stop of the acceleration costs speed. Where braking under G901 begins, see
+//!    [`late`];
 //! 3. *backward pass*: no knot is faster than what can still be braked to the next one, so the window ends at rest;
 //! 4. *forward pass*: no knot is faster than what can be reached from the one before;
-//! 5. *check* (HSC, `NO_OPT=0`): a span that exceeds a limit inside, or whose blocks differ in acceleration, is planned
+//! 5. *check* (TRAPEZ, SIN2, HSC): a span that exceeds a limit inside, or whose blocks differ in acceleration, is planned
 //!    along its limits, see [`crate::ride`]; where that is refused, the boundary that is exceeded most becomes a knot, and
 //!    3 to 5 are repeated.
 //!
@@ -30,6 +31,12 @@ const NEARLY_EQUAL: f64 = 0.1;
 
 /// Relative difference of path acceleration from which on blocks planned across are not planned with the weakest of them.
 const UNEVEN: f64 = 0.01;
+
+/// Relative difference of speeds that is rounding.
+const ROUNDING: f64 = 1e-7;
+
+/// Acceleration that is zero but for rounding.
+const FLAT_MM_S2: f64 = 1e-6;
 
 /// A velocity with its reason.
 pub type Cap = (f64, SpeedLimit);
@@ -73,6 +80,7 @@ struct Window<'a> {
     caps: &'a [Cap],
     forced: &'a [bool],
     v_start: Cap,
+    a_start: f64,
     end: SpeedLimit,
     /// Speed at which a block may be entered: its feed, or more under G901.
     entries: Vec<Cap>,
@@ -80,7 +88,8 @@ struct Window<'a> {
     carried: Vec<bool>,
 }
 
-/// Plans a window of blocks from `v_start` to rest.
+/// Plans a window of blocks from `v_start` to rest. An acceleration at the start (mm/s2) is the one at which a plan of
+/// constant jerk was left.
 ///
 /// `caps[i]` belongs to the boundary before block `i`; `caps[0]` is not read. `forced` boundaries are knots.
 ///
@@ -91,14 +100,17 @@ pub fn plan(
     feeds: &[Cap],
     caps: &[Cap],
     forced: &[bool],
-    v_start: Cap,
+    (v_start, a_start): (Cap, f64),
     end: SpeedLimit,
 ) -> Result<Plan, Infeasible> {
     if blocks.is_empty() {
         return Ok(Plan::default());
     }
     let (entries, carried) = (feeds.to_vec(), vec![false; blocks.len()]);
-    let early = Window { blocks, feeds, caps, forced, v_start, end, entries, carried };
+    // where a plan was left inside, its speed has been computed in another way
+    let rounded = !is_above(v_start.0, feeds[0].0) && a_start.abs() > FLAT_MM_S2;
+    let v_start = if rounded { (v_start.0.min(feeds[0].0), v_start.1) } else { v_start };
+    let early = Window { blocks, feeds, caps, forced, v_start, a_start, end, entries, carried };
     match late::entries(blocks, feeds) {
         Some(entries) => late::plan(&early, entries),
         None => early.plan(),
@@ -147,13 +159,31 @@ impl Window<'_> {
                 }
                 #[cfg(test)]
                 crate::work::add();
+                let a0 = if k == 0 { self.a_start } else { 0.0 };
+                if a0.abs() > FLAT_MM_S2 {
+                    let going_on = cells(blocks, feeds, caps, s.first, s.end)
+                        .and_then(|cells| ride(&cells, (from.0, a0), to.0));
+                    let Some(chain) = going_on else {
+                        if s.end < blocks.len() && soft[s.end] && !knot[s.end] {
+                            soft[s.end] = false;
+                            again = true;
+                            break;
+                        }
+                        return Err(Infeasible { length_mm: s.length, needed_mm: f64::INFINITY });
+                    };
+                    let (first, end) = (s.first, s.end);
+                    let (why_up, why_down) = (from.1, to.1);
+                    let profile = SpanProfile::from_chain(chain);
+                    spans.push(Span { first, end, profile, why_up, why_down });
+                    continue;
+                }
                 let mut profile = s.profile(from.0, to.0)?;
                 if s.end - s.first > 1 && blocks[s.first].plans_across() && !s.is_above(from.0) {
                     let worst = most_exceeded(blocks, feeds, caps, s, &profile);
                     let chain = (worst.is_some() || s.is_uneven(blocks, profile.peak()))
                         .then(|| cells(blocks, feeds, caps, s.first, s.end))
                         .flatten()
-                        .and_then(|cells| ride(&cells, from.0, to.0));
+                        .and_then(|cells| ride(&cells, (from.0, 0.0), to.0));
                     match (chain.map(SpanProfile::from_chain), worst) {
                         (Some(ride), None) if ride.duration() >= profile.duration() => {}
                         (Some(ride), _) => profile = ride,
@@ -320,7 +350,12 @@ impl Window<'_> {
             v[k].0 = self.entry_speed(s, v[k].0, v[k + 1].0);
         }
         for k in 1..m {
-            let reach = stretches[k - 1].slope.reach_up(v[k - 1].0, stretches[k - 1].length);
+            let s = &stretches[k - 1];
+            let reach = if k == 1 {
+                s.reach_from(self.v_start.0, self.a_start)
+            } else {
+                s.slope.reach_up(v[k - 1].0, s.length)
+            };
             if reach < v[k].0 {
                 v[k] = (reach, v[k - 1].1);
             }
@@ -339,6 +374,14 @@ impl Stretch {
             feed: second.feed,
             slope: self.slope.weaker(&second.slope),
         }
+    }
+
+    /// Largest speed at its end, acceleration zero, from a speed and an acceleration at its start: the acceleration is
+    /// reduced to zero first.
+    fn reach_from(&self, v: f64, a: f64) -> f64 {
+        let settled = self.slope.settled(v, a);
+        let length = self.slope.change(v, a, settled).map_or(0.0, |c| c.length());
+        self.slope.reach_up(settled.max(0.0), (self.length - length).max(0.0))
     }
 
     /// True if one of its blocks allows more than all of them together, and is long enough at this speed to use it.
@@ -365,7 +408,7 @@ impl Stretch {
 
 /// True if a speed exceeds a feed by more than rounding.
 fn is_above(v: f64, feed: f64) -> bool {
-    v > feed * (1.0 + 1e-9)
+    v > feed * (1.0 + ROUNDING)
 }
 
 /// The span of the last round, if neither its ends nor its speeds have changed.

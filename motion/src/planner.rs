@@ -3,7 +3,8 @@
 //! Up to two windows of blocks are collected (P-STUP-00071 gives the size of one); then [`crate::lookahead`] plans all
 //! of them with a stop at the end of what is known, and all but the last window becomes final. So every block that is
 //! executed had at least one window of look-ahead behind it, and planning costs a constant number of closed forms per
-//! block. What is final lies on a [`crate::timeline`] that is sampled cycle by cycle.
+//! block. A plan of constant jerk is left inside, at the end of a block, with the acceleration that it has there; where no
+//! new plan starts from such a state the old one goes on for a few blocks. What is final lies on a [`crate::timeline`] that is sampled cycle by cycle.
 //!
 //! Override and feedhold take back what is final from the next cycle on, bring the speed to its new value and have the
 //! rest planned again, see `replan`.
@@ -77,6 +78,8 @@ pub struct Planner {
     cursor: Moment,
     /// Speed there, and what holds it down.
     speed: Cap,
+    /// Path acceleration there in mm/s2.
+    acceleration: f64,
     /// Path length there.
     travelled: f64,
     setpoint: Setpoint,
@@ -116,6 +119,7 @@ impl Planner {
             timeline: Timeline::default(),
             cursor: Moment::default(),
             speed: (0.0, SpeedLimit::Stop),
+            acceleration: 0.0,
             travelled: 0.0,
             state: PathState::at_rest(&position),
             setpoint: Setpoint { position, ..Setpoint::default() },

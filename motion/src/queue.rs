@@ -169,6 +169,7 @@ impl Queued {
     /// True if the profile of this block may run on across its ends with a non-zero acceleration.
     pub fn plans_across(&self) -> bool {
         let s = self.block.slope;
-        s.kind == SlopeKind::Hsc || (s.optimised && s.kind != SlopeKind::Step)
+        let scales = s.optimised || !s.constant_ramp_time;
+        s.kind == SlopeKind::Hsc || s.kind != SlopeKind::Step && scales
     }
 }

@@ -1,35 +1,29 @@
 //! The speed over a stretch of blocks whose limits vary: along the limits where they change slowly, below them where
 //! acceleration or jerk do not allow more.
 //!
-//! 1. *rise*: from the start, as fast as the blocks allow, never reducing the speed: in steps of one ramp each, with the
-//!    largest acceleration from which the ramp down to zero still stays below every limit ahead. Where a limit drops
-//!    the speed is cut, its acceleration zero.
+//! 1. *rise*: from the start, as fast as the blocks allow, never reducing the speed. Where a limit drops the speed is cut,
+//!    its acceleration zero, unless it was lowered before to pass the drop with an acceleration ([`climb`]).
 //! 2. *fall*: the same from the end, backwards.
-//! 3. *join*: the lower one of both is the speed. Where it changes from rise to fall the acceleration would jump, so there
-//!    the fastest third-order profile connects a state before with one behind, as close to each other as the limits
-//!    allow. At a local minimum both are at the limit with zero acceleration and meet by themselves. Where no connection
-//!    fits, or it would crawl, both are planned anew below a lower *hill*.
+//! 3. the lower one of both is the speed. Where it changes from rise to fall the acceleration would jump; there the rise is
+//!    left early enough to run into the fall with a falling acceleration ([`meet`]). At a local minimum both are at the
+//!    limit with zero acceleration and meet by themselves.
 //!
-//! TRAPEZ: every ramp has a constant jerk. SIN2: it has the shape of a sine square, over the time that TRAPEZ would take;
-//! so the jerk is zero between any two of them and its peak is that of SIN2 (`pi/2 a/t`).
+//! Constant jerk (TRAPEZ, HSC): every block has its own jerk and acceleration, at the place where it lies. At a limit that
+//! is reached the acceleration is zero, except where the way to it leaves no room for that; a limit that is not reached
+//! has no say. Sine-square ramps (SIN2) cannot be cut at a limit; for them the same is done in steps, see [`sine`].
 //!
-//! Nothing is promised before it has been measured: every connection is checked against every limit it passes, and a
-//! stretch for which no connection fits is refused; the caller then stops accelerating at its boundaries.
+//! A stretch for which rise and fall do not meet is refused; the caller then stops accelerating at its boundaries.
 
-mod hill;
-mod join;
-mod rise;
+mod climb;
+mod meet;
+mod sine;
 
 use crate::profile::{Chain, Phase, RampShape, Rates};
-use join::join;
-use rise::Rise;
+use climb::climb;
+use meet::Meet;
 
-/// Steps per longest ramp.
-const STEPS_PER_RAMP: f64 = 8.0;
-/// Shortest step in s; ramps below it are taken as one step.
-const SHORTEST_STEP_S: f64 = 1e-4;
-/// Blocks ahead and behind that a step is thought to run through at most.
-const REACH: usize = 64;
+/// Shortest ramp in s.
+const SHORTEST_RAMP_S: f64 = 1e-4;
 /// Relative slack of a limit: rounding.
 const SLACK: f64 = 1e-9;
 /// Relative gain of speed from which on a hill between two equal limits at the ends of a block is driven.
@@ -48,7 +42,7 @@ pub(crate) struct Cell {
     pub(crate) rates: Rates,
 }
 
-/// Block of a stretch with the jerks that hold for a step that touches it.
+/// Block of a stretch with its jerks.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     end: f64,
@@ -61,57 +55,63 @@ struct Block {
 }
 
 impl Block {
+    /// True if its end and the block behind change nothing.
+    fn goes_on_as(&self, next: &Self) -> bool {
+        let same = |a: f64, b: f64| (a - b).abs() <= SLACK * a;
+        self.cap >= self.v * (1.0 - SLACK)
+            && same(self.v, next.v)
+            && same(self.acc, next.acc)
+            && same(self.dec, next.dec)
+            && self.jerks.iter().zip(next.jerks).all(|(a, b)| same(*a, b))
+    }
+
     fn least_jerk(&self) -> f64 {
         self.jerks.into_iter().fold(f64::INFINITY, f64::min)
     }
 }
 
-/// A step may run through several blocks: its jerk is the least one of those within `reach_s` behind a block.
-fn blocks(cells: &[Cell], dt: f64, reach_s: f64) -> Vec<Block> {
-    let own = |r: &Rates| {
-        let [t1, t2, t3, t4] = r.ramps.map(|t| t.max(dt));
-        [r.acc / t1, r.acc / t2, r.dec / t3, r.dec / t4]
+/// The blocks, each with its own jerk.
+fn own(cells: &[Cell]) -> Vec<Block> {
+    let block = |c: &Cell| {
+        let Rates { acc, dec, ramps, .. } = c.rates;
+        let [t1, t2, t3, t4] = ramps.map(|t| t.max(SHORTEST_RAMP_S));
+        let jerks = [acc / t1, acc / t2, dec / t3, dec / t4];
+        Block { end: c.end, v: c.v, cap: c.cap, acc, dec, jerks }
     };
-    let mut out: Vec<Block> = cells
-        .iter()
-        .map(|c| {
-            let Rates { acc, dec, .. } = c.rates;
-            Block { end: c.end, v: c.v, cap: c.cap, acc, dec, jerks: own(&c.rates) }
-        })
-        .collect();
-    for (i, cell) in cells.iter().enumerate() {
-        let near = |k: &usize| cells[k - 1].end <= cell.end + cell.v * reach_s;
-        for k in (i + 1..cells.len()).take(REACH).take_while(near) {
-            for (far, j) in [(i, k), (k, i)] {
-                let jerks = own(&cells[j].rates);
-                for (mine, theirs) in out[far].jerks.iter_mut().zip(jerks) {
-                    *mine = mine.min(theirs);
-                }
-            }
+    cells.iter().map(block).collect()
+}
+
+/// Blocks between which nothing changes as one, so that a line in two parts is driven as a whole one.
+fn joined(blocks: Vec<Block>) -> Vec<Block> {
+    let mut out: Vec<Block> = Vec::with_capacity(blocks.len());
+    for block in blocks {
+        match out.last_mut().filter(|last| last.goes_on_as(&block)) {
+            Some(last) => (last.end, last.cap) = (block.end, block.cap),
+            None => out.push(block),
         }
     }
     out
 }
 
-/// The fastest speed found from `v0` to `v1`, acceleration zero at both ends; `None` if the limits leave no way.
-pub(crate) fn ride(cells: &[Cell], v0: f64, v1: f64) -> Option<Chain> {
+/// The fastest speed found from `v0` with acceleration `a0` (constant jerk only) to `v1` with acceleration zero; `None` if
+/// the limits leave no way.
+pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Chain> {
     let last = cells.last()?;
-    let (length, shape) = (last.end, last.rates.shape);
-    let longest = cells.iter().flat_map(|c| c.rates.ramps).fold(0.0, f64::max);
-    let dt = (longest / STEPS_PER_RAMP).max(SHORTEST_STEP_S);
-    // sine-square ramps are not cut into steps
-    let reach_s = if shape == RampShape::Sin2 { longest.max(dt) } else { dt };
-    let cells = &blocks(cells, dt, reach_s)[..];
-    let mirrored = &mirror(cells)[..];
-    let forward = Rise { cells, dt, shape }.run(v0)?;
-    let backward = Rise { cells: mirrored, dt, shape }.run(v1)?;
-    let turn = |list: &[Phase]| list.iter().rev().map(|p| p.reversed(length)).collect::<Vec<_>>();
-    // joined from either end, so that a reversed contour takes the same time
-    let there = join(cells, shape, dt, forward.clone(), turn(&backward), v0);
-    let back = join(mirrored, shape, dt, backward, turn(&forward), v1).map(|out| turn(&out));
-    let time = |list: &Vec<Phase>| list.iter().map(|p| p.t).sum::<f64>();
-    let best = [there, back].into_iter().flatten().min_by(|a, b| time(a).total_cmp(&time(b)))?;
-    Some(Chain::new(best, length))
+    let length = last.end;
+    if last.rates.shape == RampShape::Sin2 {
+        let speed = if a0.abs() > 0.0 { None } else { sine::speed(cells, v0, v1) };
+        return speed.map(|speed| Chain::new(speed, length));
+    }
+    let cells = &joined(own(cells))[..];
+    let rise = climb(cells, v0, a0)?;
+    let fall = turned(&climb(&mirror(cells), v1, 0.0)?, length);
+    let speed = Meet { cells, rise: &rise, fall: &fall, v1 }.speed()?;
+    Some(Chain::new(speed, length))
+}
+
+/// Phases run backwards from the other end.
+fn turned(list: &[Phase], length: f64) -> Vec<Phase> {
+    list.iter().rev().map(|p| p.reversed(length)).collect()
 }
 
 /// The blocks seen from the end: braking becomes accelerating.
@@ -140,11 +140,37 @@ fn is_hill(length: f64, v: f64, acc: f64, jerk: f64) -> bool {
     (jerk * time * time / 16.0).min(acc * time / 4.0) >= HILL * v
 }
 
+/// True if a limit is below the present speed: the fall towards it is none of the rise's business.
+fn is_drop(limit: f64, v: f64) -> bool {
+    limit < v * (1.0 - 10.0 * SLACK)
+}
+
+/// True if a speed reached at `s` in block `c` may be kept up to its end, or be braked from there, or is cut; `v` is the
+/// speed at which the rise to it began.
+fn is_level(cells: &[Block], c: usize, s: f64, reached: f64, v: f64) -> bool {
+    let cell = &cells[c];
+    let Some(behind) = cells.get(c + 1) else { return true };
+    let limit = cell.cap.min(behind.v);
+    if reached <= limit * (1.0 + SLACK) || is_drop(limit, v) {
+        return true;
+    }
+    let whole = cell.end - c.checked_sub(1).map_or(0.0, |b| cells[b].end);
+    let Block { acc, dec, jerks: [.., j3, j4], .. } = *cell;
+    if !is_hill(whole, limit, acc.min(dec), cell.least_jerk()) {
+        return false;
+    }
+    let ramps = dec / j3 + dec / j4;
+    let loss = reached - limit;
+    let full = 0.5 * dec * ramps;
+    let time = if loss >= full { loss / dec + 0.5 * ramps } else { (loss / full).sqrt() * ramps };
+    0.5 * (reached + limit) * time <= cell.end - s
+}
+
 /// As [`is_hill`], for a block with these rates.
 pub(crate) fn has_hill(length: f64, v: f64, rates: &Rates) -> bool {
     let Rates { acc, dec, ramps, .. } = *rates;
     let least = acc.min(dec);
-    is_hill(length, v, least, least / ramps.into_iter().fold(SHORTEST_STEP_S, f64::max))
+    is_hill(length, v, least, least / ramps.into_iter().fold(SHORTEST_RAMP_S, f64::max))
 }
 
 #[cfg(test)]
@@ -188,7 +214,7 @@ mod tests {
                 (0.02, RampShape::Sin2, FRAC_PI_2),
             ] {
                 let cells = cells(seed, ramp, shape);
-                let Some(chain) = ride(&cells, 0.0, 0.0) else { continue };
+                let Some(chain) = ride(&cells, (0.0, 0.0), 0.0) else { continue };
                 found += 1;
                 let length = cells[cells.len() - 1].end;
                 let profile = SpanProfile::from_chain(chain);

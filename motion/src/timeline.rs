@@ -150,6 +150,28 @@ impl Entry {
         self.cut_s.map_or_else(|| self.profile.end(), |t| self.profile.at(t))
     }
 
+    /// The parts before and behind block `n`, the acceleration between them as it is; `None` where the profile cannot be
+    /// parted.
+    pub(crate) fn split(&self, n: usize) -> Option<[Self; 2]> {
+        let Course::Span(profile) = &self.profile else { return None };
+        let s = self.blocks[n - 1].1;
+        let (before, behind) = profile.split(s)?;
+        let mut parts = [self.clone(), self.clone()];
+        let [first, second] = &mut parts;
+        first.end = first.start.plus(before.duration());
+        (second.start, second.s0) = (first.end, first.s0 + s);
+        (first.profile, second.profile) = (Course::Span(before), Course::Span(behind));
+        first.blocks.truncate(n);
+        first.feeds.truncate(n);
+        first.stops = false;
+        second.blocks.drain(..n);
+        second.feeds.drain(..n.min(self.feeds.len()));
+        for block in &mut second.blocks {
+            block.1 -= s;
+        }
+        Some(parts)
+    }
+
     /// Puts parts in the place of a block.
     pub(crate) fn divide(&mut self, block: usize, parts: &[Arc<Queued>]) {
         let mut end = self.blocks[block].1;

@@ -11,13 +11,14 @@ mod common;
 use common::{Job, axis, channel};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::SlopeKind::{Step, Trapez};
+use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, SlopeKind, TransitionJerkMode};
 use kontur_motion::corner::{Ends, transition};
 use kontur_motion::limit::SpeedLimit;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use kontur_motion::queue::Queued;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 const CYCLE: CycleTime = CycleTime::DEFAULT;
 
@@ -141,5 +142,19 @@ fn oblique_lines() {
         let queued = Queued::new(job.block(0, line(&[0.0, 0.0], &end), 200.0), CYCLE);
         let profile = queued.slope.plan(0.0, 0.0, queued.velocity.0, queued.length).unwrap();
         assert!((profile.duration() - duration).abs() < 1e-9, "{}", profile.duration());
+    }
+}
+
+/// `#VECTOR LIMIT` JERK is the largest jerk of the path, in the middle of a sine-square ramp too.
+#[test]
+fn path_jerk_limit() {
+    for kind in [Trapez, Sin2, Hsc] {
+        let mut job = Job::new(1.0, kind);
+        let mut dynamics = (*job.dynamics).clone();
+        dynamics.vector.jerk_mm_s3 = Some(5000.0);
+        job.dynamics = Arc::new(dynamics);
+        let out = job.drive(&[&[0.0, 0.0], &[200.0, 0.0]], &[300.0]);
+        let most = out.iter().map(|p| p.j_mm_s3.abs()).fold(0.0, f64::max);
+        assert!(most <= 5000.0 * (1.0 + 1e-9) && most > 4990.0, "{kind:?}: {most}");
     }
 }

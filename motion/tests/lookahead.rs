@@ -2,8 +2,9 @@
 
 mod common;
 
-use common::Job;
-use kontur_motion::block::SlopeKind::{Sin2, Step, Trapez};
+use common::{Job, axis, channel};
+use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 
 const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];
 
@@ -70,5 +71,34 @@ fn samples_of_a_short_block() {
         let out = Job::new(0.0, kind).drive(&[&[0.0, 0.0], &[1.0, 0.0]], &[4000.0 / 60.0]);
         assert_eq!(out.len() - 1, 117);
         assert!((out[30].position[0] - at30).abs() < 1e-8, "{kind:?}: {}", out[30].position[0]);
+    }
+}
+
+/// Polygons of a circle: whatever the window ends at, the path goes on behind it without a rest.
+#[test]
+fn a_smooth_contour_never_rests() {
+    let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
+    let limits = AxisDynamics { feed, ..axis(1.0) };
+    for (radius, chord) in [(1.0, 0.02), (5.0, 0.1 / 3.0), (5.0, 0.1), (20.0, 0.05)] {
+        let points: Vec<[f64; 2]> = (0..700)
+            .map(|i| {
+                let (sin, cos) = libm::sincos(f64::from(i) * chord / radius);
+                [radius * cos, radius * sin]
+            })
+            .collect();
+        let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        for (kind, window, feed) in [
+            (Hsc, 120, 200.0),
+            (Hsc, 120, 80.0),
+            (Hsc, 30, 200.0),
+            (Trapez, 120, 200.0),
+            (Trapez, 10, 50.0),
+            (Sin2, 120, 200.0),
+        ] {
+            let dynamics = channel(vec![limits; 2]);
+            let out = Job { dynamics, window, ..Job::new(1.0, kind) }.drive(&points, &[feed]);
+            let rest = out[1..out.len() - 1].iter().find(|p| p.v_mm_s <= 0.0);
+            assert!(rest.is_none(), "r {radius} {chord} {kind:?} {window} F{feed}: {rest:?}");
+        }
     }
 }

@@ -10,6 +10,9 @@ use crate::tolerance::{Demands, Trial, Unkept, Verdict};
 use smallvec::SmallVec;
 use std::sync::Arc;
 
+/// Parts in which a span of the last plan becomes final where there is no new one.
+const FALL_BACK_PARTS: usize = 8;
+
 impl Planner {
     /// Plans what is queued and makes all but the last window final, or divides queued blocks first.
     pub(super) fn extend(&mut self) -> Result<(), Infeasible> {
@@ -50,6 +53,8 @@ impl Planner {
                 Verdict::GivenUp(unkept) => self.unkept.push(unkept),
             }
             let rests = end != SpeedLimit::Lookahead;
+            let entries =
+                if rests { entries } else { self.part(entries, self.last_window(&window)) };
             let Some(count) = self.final_entries(&entries, &window, rests) else {
                 // one span over more than a window: it is cut where the last window begins
                 forced[self.last_window(&window)] = true;
@@ -153,7 +158,8 @@ impl Planner {
             .collect();
         let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
         let gentle = demands.soften(window);
-        let plan = plan(&gentle, &feeds, &caps, &forced, self.speed, end)?;
+        let from = (self.speed, self.acceleration);
+        let plan = plan(&gentle, &feeds, &caps, &forced, from, end)?;
         // behind a rest the start may have to wait until the filters have left the corner in front of it
         let mut at = match demands.stop[0] {
             Some(wait) => Moment::tick(start.next_tick(self.cycle) + u64::from(wait)),
@@ -190,6 +196,33 @@ impl Planner {
             at -= 1;
         }
         at
+    }
+
+    /// The entries with the one that reaches over the start of block `limit` in two, where its blocks may be left with an
+    /// acceleration.
+    fn part(&self, entries: Vec<Entry>, limit: usize) -> Vec<Entry> {
+        let mut out = Vec::with_capacity(entries.len() + 1);
+        let mut first = 0;
+        for entry in entries {
+            let n = entry.blocks.len();
+            let parts = (first < limit && limit < first + n && self.may_part(&entry))
+                .then(|| entry.split(limit - first))
+                .flatten();
+            first += n;
+            match parts {
+                Some(parts) => out.extend(parts),
+                None => out.push(entry),
+            }
+        }
+        out
+    }
+
+    /// True if a plan may start inside an entry: braking under G901 and what keeps a tolerance are planned as a whole.
+    fn may_part(&self, entry: &Entry) -> bool {
+        let whole = |q: &Queued| {
+            q.block.late_braking || self.kernels.any() && q.block.tolerance.ax_dev_mm.is_some()
+        };
+        !entry.blocks.iter().map(|b| &b.0).chain(&self.queue).any(|q| whole(q))
     }
 
     /// Takes planned blocks out of the queue.
@@ -239,12 +272,21 @@ impl Planner {
         }
     }
 
-    /// Makes the next span of the last plan final, because there is no new plan from where it starts.
+    /// Makes the next span of the last plan, or the first blocks of it, final, because there is no new plan from where it
+    /// starts.
     ///
     /// New blocks can make the window infeasible: with ramps, braking to the crawl that they ask for may be longer than
     /// braking to the rest that was planned, and runs of blocks are joined anew from the cursor on.
     pub(super) fn fall_back(&mut self) -> Option<()> {
         let mut entry = self.reserve.pop_front()?;
+        let few = entry.blocks.len().div_ceil(FALL_BACK_PARTS);
+        if few < entry.blocks.len()
+            && self.may_part(&entry)
+            && let Some([now, later]) = entry.split(few)
+        {
+            self.reserve.push_front(later);
+            entry = now;
+        }
         entry.stops |= self.reserve.is_empty();
         let blocks = entry.blocks.len();
         entry.caps = self.caps.drain(..blocks).collect();
@@ -275,10 +317,11 @@ impl Planner {
         }
         self.travelled = entry.s0 + entry.profile.length();
         self.speed = (entry.profile.end().v_mm_s, entry.why_down);
+        self.acceleration = entry.profile.left_with();
         self.cursor = entry.end;
         if entry.stops {
             self.cursor = Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell));
-            self.speed = (0.0, entry.why_down);
+            (self.speed, self.acceleration) = ((0.0, entry.why_down), 0.0);
         }
         self.timeline.push(entry);
     }

@@ -269,7 +269,7 @@ impl Planner {
         next.contour.forget_from(spot.moment.cycles(self.cycle) - SLACK);
         next.cursor = spot.moment;
         next.travelled = spot.s;
-        next.speed = (spot.v, spot.why);
+        (next.speed, next.acceleration) = ((spot.v, spot.why), 0.0);
         let why = if self.active.hold.is_some() { SpeedLimit::Stop } else { SpeedLimit::Feed };
         for course in leg {
             let length = course.length();
@@ -378,5 +378,6 @@ fn goes_on(rest: &[(Arc<Queued>, Cap)], v: f64) -> bool {
     caps.push((0.0, SpeedLimit::Stop));
     let free = vec![false; caps.len()];
     !blocks.is_empty()
-        && plan(&blocks, &feeds, &caps, &free, (v, SpeedLimit::Feed), SpeedLimit::Stop).is_ok()
+        && plan(&blocks, &feeds, &caps, &free, ((v, SpeedLimit::Feed), 0.0), SpeedLimit::Stop)
+            .is_ok()
 }

@@ -163,6 +163,20 @@ impl Chain {
         Self { phases: timed, duration, length }
     }
 
+    /// The parts before and behind path length `s`; `None` if that cuts a sine-square ramp.
+    pub(super) fn split(&self, s: f64) -> Option<(Self, Self)> {
+        let i = self.phases.partition_point(|p| p.1.s <= s).checked_sub(1)?;
+        let phase = self.phases[i].1;
+        let t = phase.time_at(s);
+        if phase.sine.is_some() {
+            return None;
+        }
+        let before = self.phases[..i].iter().map(|p| p.1).chain([phase.until(t)]);
+        let behind = [phase.rest(t)].into_iter().chain(self.phases[i + 1..].iter().map(|p| p.1));
+        let moved = behind.map(|p| Phase { s: (p.s - s).max(0.0), ..p });
+        Some((Self::new(before, s), Self::new(moved, self.length - s)))
+    }
+
     pub(super) fn duration(&self) -> f64 {
         self.duration
     }

@@ -3,6 +3,7 @@
 //! A leg always runs from the lower to the higher velocity. A braking leg is its mirror in time, so the
 //! same formulas serve both; only ramp times and plateau differ.
 
+use super::chain::Phase;
 use super::ramp::{RampShape, RampState};
 use super::roots::{increasing_root, monotone_cubic};
 use super::span::State;
@@ -340,6 +341,20 @@ impl RampLeg {
 
     pub(super) fn times(&self) -> [f64; 3] {
         [self.t1, self.tc, self.t2]
+    }
+
+    /// The leg as phases from a place, with constant jerk; `None` for SIN2.
+    pub(super) fn phases(&self, s: f64) -> Option<[Phase; 3]> {
+        if self.shape != RampShape::Trapez {
+            return None;
+        }
+        let jerk = |t: f64| if t > 0.0 { self.a / t } else { 0.0 };
+        let rise = Phase::state(s, self.v_low, 0.0).ramp(self.shape, jerk(self.t1), self.t1);
+        // a ramp that takes no time is a jump
+        let end = rise.end();
+        let hold = Phase::state(end.s, end.v, self.a).ramp(self.shape, 0.0, self.tc);
+        let fall = hold.end().ramp(self.shape, -jerk(self.t2), self.t2);
+        Some([rise, hold, fall])
     }
 
     pub(super) fn duration(&self) -> f64 {

@@ -21,6 +21,14 @@ pub(super) struct RampState {
 }
 
 impl RampShape {
+    /// Largest jerk of a ramp over its mean one.
+    pub(crate) fn peak_jerk(self) -> f64 {
+        match self {
+            Self::Trapez => 1.0,
+            Self::Sin2 => 0.5 * PI,
+        }
+    }
+
     /// Distance gained by a whole rising ramp, over `a t²`.
     pub(super) fn rise_factor(self) -> f64 {
         match self {

@@ -1,6 +1,6 @@
 //! The planned speed over one span.
 
-use super::chain::Chain;
+use super::chain::{Chain, Phase};
 use super::leg::RampLeg;
 use super::step::StepLeg;
 use smallvec::SmallVec;
@@ -130,6 +130,25 @@ impl SpanProfile {
         Self(Shape::Chain(chain))
     }
 
+    /// The parts before and behind a path length, the acceleration there as it is; `None` with STEP, where a sine-square
+    /// ramp would be cut, and with constant ramp times.
+    pub(crate) fn split(&self, s_mm: f64) -> Option<(Self, Self)> {
+        let (before, behind) = match &self.0 {
+            Shape::Legs(p) => p.chain()?.split(s_mm),
+            Shape::BrakeFirst(_) => None,
+            Shape::Chain(p) => p.split(s_mm),
+        }?;
+        Some((Self(Shape::Chain(before)), Self(Shape::Chain(behind))))
+    }
+
+    /// Acceleration in mm/s2 with which the path goes on behind the end: zero, but where the profile was parted.
+    pub(crate) fn left_with(&self) -> f64 {
+        match &self.0 {
+            Shape::Legs(_) | Shape::BrakeFirst(_) => 0.0,
+            Shape::Chain(p) => p.at(p.duration()).a_mm_s2,
+        }
+    }
+
     /// Duration in s.
     pub fn duration(&self) -> f64 {
         match &self.0 {
@@ -257,6 +276,16 @@ impl Legs {
     /// Duration in s.
     fn duration(&self) -> f64 {
         self.up_s + self.cruise_s + self.down_s
+    }
+
+    /// The same as phases of constant jerk, if it has any.
+    fn chain(&self) -> Option<Chain> {
+        let (Leg::Ramp(up), Leg::Ramp(down)) = (&self.up, &self.down) else { return None };
+        let top = up.distance();
+        let cruise = Phase::state(top, self.peak, 0.0).until(self.cruise_s);
+        let down = down.phases(0.0)?.map(|p| p.reversed(self.length)).into_iter().rev();
+        let phases = up.phases(0.0)?.into_iter().chain([cruise]).chain(down);
+        Some(Chain::new(phases.filter(|p| p.t > 0.0), self.length))
     }
 
     /// Highest velocity in mm/s between two path lengths.

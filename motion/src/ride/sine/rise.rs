@@ -1,6 +1,6 @@
 //! The rise: as fast as the blocks allow, never reducing the speed.
 
-use super::{Block, SLACK, is_hill};
+use super::super::{Block, SLACK, is_drop, is_level};
 use crate::profile::{Phase, RampShape};
 
 /// Steps per stretch beyond which it is refused, plus as many per block: a crawl is no ride.
@@ -14,7 +14,6 @@ const LONG_STEPS: [f64; 3] = [8.0, 4.0, 2.0];
 pub(super) struct Rise<'a> {
     pub(super) cells: &'a [Block],
     pub(super) dt: f64,
-    pub(super) shape: RampShape,
 }
 
 impl Rise<'_> {
@@ -33,7 +32,7 @@ impl Rise<'_> {
             if flat && here.v <= 0.0 {
                 return None;
             }
-            let to_end = || here.ramp(self.shape, 0.0, (cells[c].end - here.s) / here.v);
+            let to_end = || here.ramp(RampShape::Sin2, 0.0, (cells[c].end - here.s) / here.v);
             let mut phase = step.unwrap_or_else(to_end);
             let mut end = phase.end();
             loop {
@@ -71,15 +70,13 @@ impl Rise<'_> {
     fn step(&self, c: usize, here: &Phase) -> Option<Phase> {
         let Block { acc, jerks: [up, down, ..], .. } = self.cells[c];
         let (a, dt) = (here.a, self.dt);
-        let to = |next: f64, t: f64| here.ramp(self.shape, (next - a) / t, t);
+        let to = |next: f64, t: f64| here.ramp(RampShape::Sin2, (next - a) / t, t);
         let safe = |phase: &Phase| self.is_safe(c, phase, here.v);
-        if self.shape == RampShape::Sin2 {
-            for steps in LONG_STEPS {
-                let t = (steps * dt).min((acc - a) / up);
-                let phase = to(a + up * t, t);
-                if t > dt && safe(&phase) {
-                    return Some(phase);
-                }
+        for steps in LONG_STEPS {
+            let t = (steps * dt).min((acc - a) / up);
+            let phase = to(a + up * t, t);
+            if t > dt && safe(&phase) {
+                return Some(phase);
             }
         }
         let least = (a - down * dt).max(0.0);
@@ -103,7 +100,6 @@ impl Rise<'_> {
             Some(next) if a > 0.0 || next > 2e-3 * up * dt => Some(to(next, dt)),
             // the ramp down that the step before has been checked with
             _ if a <= 0.0 => None,
-            _ if least > 0.0 && self.shape == RampShape::Trapez => Some(to(least, dt)),
             _ => Some(to(0.0, a / down)),
         }
     }
@@ -113,67 +109,38 @@ impl Rise<'_> {
     fn is_safe(&self, mut c: usize, step: &Phase, v: f64) -> bool {
         #[cfg(test)]
         crate::work::add();
-        let mut phase = *step;
-        loop {
-            let end = phase.end();
-            if end.s >= self.cells[c].end || end.v > self.cells[c].v * (1.0 + SLACK) {
-                loop {
-                    let cell = &self.cells[c];
-                    if end.s < cell.end {
-                        if end.v > cell.v * (1.0 + SLACK) {
-                            return false;
-                        }
-                        break;
-                    }
-                    if cell.is_exceeded(&phase) {
+        let end = step.end();
+        if end.s >= self.cells[c].end || end.v > self.cells[c].v * (1.0 + SLACK) {
+            loop {
+                let cell = &self.cells[c];
+                if end.s < cell.end {
+                    if end.v > cell.v * (1.0 + SLACK) {
                         return false;
                     }
-                    let Some(behind) = self.cells.get(c + 1) else { return true };
-                    let limit = cell.cap.min(behind.v);
-                    if end.v > limit {
-                        let here = phase.after(phase.time_at(cell.end));
-                        if here.v > limit * (1.0 + SLACK) {
-                            return is_drop(limit, v);
-                        }
-                    }
-                    if phase.a.max(end.a) > behind.acc * (1.0 + SLACK) {
-                        return false;
-                    }
-                    c += 1;
+                    break;
                 }
+                if cell.is_exceeded(step) {
+                    return false;
+                }
+                let Some(behind) = self.cells.get(c + 1) else { return true };
+                let limit = cell.cap.min(behind.v);
+                if end.v > limit {
+                    let here = step.after(step.time_at(cell.end));
+                    if here.v > limit * (1.0 + SLACK) {
+                        return is_drop(limit, v);
+                    }
+                }
+                if step.a.max(end.a) > behind.acc * (1.0 + SLACK) {
+                    return false;
+                }
+                c += 1;
             }
-            if end.a <= 0.0 {
-                return self.is_level(c, end.s, end.v, v);
-            }
-            let [_, down, ..] = self.cells[c].jerks;
-            let whole = end.a / down;
-            // the last part of the ramp is shorter than a step; sine-square ramps are not cut
-            if whole < self.dt || self.shape == RampShape::Sin2 {
-                return self.lands(c, &end.ramp(self.shape, -down, whole), v);
-            }
-            phase = end.ramp(self.shape, -down, self.dt);
         }
-    }
-
-    /// True if a speed reached at `s` in block `c` may be kept up to its end, or be braked from there, or is cut.
-    fn is_level(&self, c: usize, s: f64, reached: f64, v: f64) -> bool {
-        let cell = &self.cells[c];
-        let Some(behind) = self.cells.get(c + 1) else { return true };
-        let limit = cell.cap.min(behind.v);
-        if reached <= limit * (1.0 + SLACK) || is_drop(limit, v) {
-            return true;
+        if end.a <= 0.0 {
+            return is_level(self.cells, c, end.s, end.v, v);
         }
-        let whole = cell.end - c.checked_sub(1).map_or(0.0, |b| self.cells[b].end);
-        let Block { acc, dec, jerks: [.., j3, j4], .. } = *cell;
-        if !is_hill(whole, limit, acc.min(dec), cell.least_jerk()) {
-            return false;
-        }
-        let ramps = dec / j3 + dec / j4;
-        let loss = reached - limit;
-        let full = 0.5 * dec * ramps;
-        let time =
-            if loss >= full { loss / dec + 0.5 * ramps } else { (loss / full).sqrt() * ramps };
-        0.5 * (reached + limit) * time <= cell.end - s
+        let [_, down, ..] = self.cells[c].jerks;
+        self.lands(c, &end.ramp(RampShape::Sin2, -down, end.a / down), v)
     }
 
     /// The last part of a ramp to zero acceleration.
@@ -182,7 +149,7 @@ impl Rise<'_> {
         loop {
             let cell = &self.cells[c];
             if end.s < cell.end {
-                return end.v <= cell.v * (1.0 + SLACK) && self.is_level(c, end.s, end.v, v);
+                return end.v <= cell.v * (1.0 + SLACK) && is_level(self.cells, c, end.s, end.v, v);
             }
             if cell.is_exceeded(phase) {
                 return false;
@@ -209,9 +176,4 @@ impl Block {
         let most = self.v * (1.0 + SLACK);
         phase.end().v > most && phase.after(phase.time_at(self.end)).v > most
     }
-}
-
-/// True if a limit is below the present speed: the fall towards it is none of the rise's business.
-fn is_drop(limit: f64, v: f64) -> bool {
-    limit < v * (1.0 - 10.0 * SLACK)
 }

@@ -1,7 +1,8 @@
 //! The lower one of rise and fall, connected where the one changes to the other.
 
+use super::super::{Block, SLACK};
+use super::STEPS_PER_RAMP;
 use super::hill::Hill;
-use super::{Block, SLACK, STEPS_PER_RAMP};
 use crate::profile::{MotionState, Phase, RampShape, ThirdOrderLimits, ThirdOrderProfile};
 
 /// Relative excess of the rise over the fall from which on they cross: both may miss a limit they run along by less.
@@ -19,13 +20,12 @@ const MISS_MM: f64 = 1e-11;
 /// The speed from `v0` along the rise and the fall; `None` if no connection fits.
 pub(super) fn join(
     cells: &[Block],
-    shape: RampShape,
     dt: f64,
     rise: Vec<Phase>,
     fall: Vec<Phase>,
     v0: f64,
 ) -> Option<Vec<Phase>> {
-    let mut join = Join { cells, shape, rise, fall, out: Vec::new(), dt, base: 0 };
+    let mut join = Join { cells, rise, fall, out: Vec::new(), dt, base: 0 };
     join.run(v0)?;
     Some(join.out)
 }
@@ -44,7 +44,6 @@ struct Way {
 
 struct Join<'a> {
     cells: &'a [Block],
-    shape: RampShape,
     rise: Vec<Phase>,
     fall: Vec<Phase>,
     out: Vec<Phase>,
@@ -164,7 +163,6 @@ impl Join<'_> {
         let last = self.base.checked_sub(1).and_then(|last| self.out.get(last));
         let hill = Hill {
             cells: self.cells,
-            shape: self.shape,
             dt: self.dt,
             from: last.map_or(Phase::state(0.0, v0, 0.0), Phase::end),
             to: self.fall[cut - 1].end(),
@@ -212,7 +210,7 @@ impl Join<'_> {
             a_min_mm_s2: -dec.max(-from.a).max(-to.a) * (1.0 + 1e-12),
             jerk_mm_s3: jerk,
         };
-        let phases = self.fastest(from, to, &limits)?;
+        let phases = Self::fastest(from, to, &limits)?;
         let mut c = first;
         for phase in &phases {
             let end = phase.end();
@@ -250,7 +248,7 @@ impl Join<'_> {
     ///
     /// With sine-square ramps in the place of its ramps it gains the same speed over another length; so it is asked for
     /// the length that makes up for the difference.
-    fn fastest(&self, from: &Phase, to: &Phase, limits: &ThirdOrderLimits) -> Option<Vec<Phase>> {
+    fn fastest(from: &Phase, to: &Phase, limits: &ThirdOrderLimits) -> Option<Vec<Phase>> {
         let state = |p: &Phase| MotionState { p_mm: p.s, v_mm_s: p.v, a_mm_s2: p.a };
         let mut target = state(to);
         for _ in 0..ROUNDS {
@@ -258,12 +256,12 @@ impl Join<'_> {
             let mut at = *from;
             let mut phases = Vec::with_capacity(7);
             for (t, j) in profile.phases() {
-                let phase = at.ramp(self.shape, j, t);
+                let phase = at.ramp(RampShape::Sin2, j, t);
                 phases.push(phase);
                 at = phase.end();
             }
             let miss = at.s - to.s;
-            if self.shape == RampShape::Trapez || miss.abs() <= MISS_MM {
+            if miss.abs() <= MISS_MM {
                 return Some(phases);
             }
             target.p_mm -= miss;

@@ -4,9 +4,9 @@
 //! end below the fall; a connection then crawls along the lowest limit. Here rise and fall are planned anew below a
 //! height, the highest one at which they meet; the lower it is, the more room is between them.
 
+use super::super::{Block, SLACK, mirror};
 use super::rise::Rise;
-use super::{Block, SLACK, mirror};
-use crate::profile::{Phase, RampShape};
+use crate::profile::Phase;
 
 /// Halvings of the range of heights.
 const ROUNDS: u32 = 12;
@@ -16,7 +16,6 @@ const LEVEL: f64 = 0.02;
 /// A part of a stretch with the states at its ends, their accelerations zero.
 pub(super) struct Hill<'a> {
     pub(super) cells: &'a [Block],
-    pub(super) shape: RampShape,
     pub(super) dt: f64,
     pub(super) from: Phase,
     pub(super) to: Phase,
@@ -65,9 +64,9 @@ impl Hill<'_> {
     ) -> Option<Vec<Phase>> {
         let (start, length) = (self.from.s, self.to.s - self.from.s);
         let cells: Vec<Block> = cells.iter().map(|c| Block { v: c.v.min(height), ..*c }).collect();
-        let (dt, shape) = (self.dt, self.shape);
-        let up = Rise { cells: &cells, dt, shape }.run(self.from.v)?;
-        let down = Rise { cells: &mirror(&cells), dt, shape }.run(self.to.v)?;
+        let dt = self.dt;
+        let up = Rise { cells: &cells, dt }.run(self.from.v)?;
+        let down = Rise { cells: &mirror(&cells), dt }.run(self.to.v)?;
         let (mut out, top) = climb(up, self.from.v, height)?;
         let (down, far) = climb(down, self.to.v, height)?;
         for phase in &mut out {

@@ -1,0 +1,309 @@
+//! The rise with constant jerk: ramps that begin and end exactly where the limits ask for it, each block with its own.
+//!
+//! From a state the acceleration grows, or stays at its limit, as long as the ramp down to zero behind it stays below
+//! every limit ahead. The last such moment is found by bisection; from there the ramp down is followed to the limit that
+//! it touches, and the next rise starts at that place.
+
+use super::{Block, SLACK, is_drop, is_level};
+use crate::profile::{Phase, RampShape};
+
+/// Phases per block, and in addition, beyond which a rise is refused.
+const MOST_PHASES: [usize; 2] = [12, 20_000];
+/// Rounds of bisection of the time of a phase.
+const ROUNDS: u32 = 40;
+/// Time in s that a phase needs to be worth it: rounding.
+const WORTH_S: f64 = 1e-7;
+
+/// Phases of the rise that are looked back over for a place from which a limit is passed.
+const MOST_BACK: usize = 64;
+
+/// The limit ahead that a ramp down to zero touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Touch {
+    /// The velocity inside a block: the acceleration has to reach zero.
+    Inside,
+    /// Velocity or acceleration at the end of this block.
+    End(usize),
+}
+
+/// A rise under way.
+pub(super) struct Climb<'a> {
+    cells: &'a [Block],
+    out: Vec<Phase>,
+    /// Block of the present state.
+    c: usize,
+    here: Phase,
+    /// Number of phases put out up to the last place at which the speed was cut.
+    base: usize,
+}
+
+/// Phases from `v0` with acceleration `a0` to the end; cut where a limit drops. `None`: a crawl.
+pub(super) fn climb(cells: &[Block], v0: f64, a0: f64) -> Option<Vec<Phase>> {
+    let out = Vec::with_capacity(4 * cells.len());
+    let mut climb = Climb { cells, out, c: 0, here: Phase::state(0.0, v0, a0), base: 0 };
+    climb.settle()?;
+    while climb.c < cells.len() {
+        if climb.out.len() > MOST_PHASES[0] * cells.len() + MOST_PHASES[1] {
+            return None;
+        }
+        climb.step()?;
+    }
+    Some(climb.out)
+}
+
+impl Climb<'_> {
+    /// Ends a deceleration at the start; `None`: it comes to rest before.
+    fn settle(&mut self) -> Option<()> {
+        while let Some(cell) = self.cells.get(self.c).filter(|_| self.here.a < 0.0) {
+            let here = self.here;
+            let up = cell.jerks[3];
+            let mut ramp = here.ramp(RampShape::Trapez, up, -here.a / up);
+            if ramp.lowest() < 0.0 {
+                return None;
+            }
+            let whole = ramp.end().s >= cell.end;
+            if whole {
+                ramp.t = ramp.time_at(cell.end);
+            }
+            let end = ramp.end();
+            self.out.push(ramp);
+            self.here = Phase::state(end.s, end.v, if whole { end.a } else { 0.0 });
+            if whole {
+                self.here.s = cell.end;
+                self.c += 1;
+                let next = self.cells.get(self.c).map_or(f64::INFINITY, |n| n.v);
+                let limit = cell.cap.min(next);
+                if end.v > limit * (1.0 + SLACK) {
+                    self.here = Phase::state(cell.end, limit, 0.0);
+                    self.base = self.out.len();
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// The next piece of the rise.
+    fn step(&mut self) -> Option<()> {
+        let cells = self.cells;
+        let (c, here) = (self.c, self.here);
+        let cell = &cells[c];
+        let v_ref = here.v;
+        let left = cell.end - here.s;
+        let mut phase = if here.a < cell.acc * (1.0 - SLACK) {
+            here.ramp(RampShape::Trapez, cell.jerks[0], (cell.acc - here.a) / cell.jerks[0])
+        } else {
+            let t = 2.0 * left / (here.v + (here.v * here.v + 2.0 * here.a * left).sqrt());
+            here.ramp(RampShape::Trapez, 0.0, t)
+        };
+        if phase.j == 0.0 || phase.end().s >= cell.end {
+            phase.t = if phase.j == 0.0 { phase.t } else { phase.time_at(cell.end) };
+            match self.enter(c, &phase.end(), v_ref) {
+                Ok(()) => {
+                    self.take(phase, true);
+                    return Some(());
+                }
+                Err(touch) => return self.bend(&phase, touch, v_ref),
+            }
+        }
+        match self.lands(c, phase.end(), v_ref) {
+            Ok(()) => {
+                self.take(phase, false);
+                Some(())
+            }
+            Err(touch) => self.bend(&phase, touch, v_ref),
+        }
+    }
+
+    /// Puts out a phase; `whole`: it ends at the end of the block.
+    fn take(&mut self, phase: Phase, whole: bool) {
+        let end = phase.end();
+        self.here = Phase::state(end.s, end.v, end.a.max(0.0));
+        if phase.t > 0.0 {
+            self.out.push(phase);
+        }
+        if whole {
+            let cell = &self.cells[self.c];
+            self.here.s = cell.end;
+            self.c += 1;
+            let Some(next) = self.cells.get(self.c) else { return };
+            let limit = cell.cap.min(next.v);
+            if self.here.v > limit * (1.0 + SLACK) && !self.lower(self.c - 1, limit) {
+                self.here.a = 0.0;
+                self.base = self.out.len();
+            }
+            self.here.v = self.here.v.min(limit);
+            self.here.a = self.here.a.min(next.acc);
+        }
+    }
+
+    /// Leaves the rise early enough to pass the end of block `k`, where it is too fast, at the limit with the acceleration
+    /// that is left there; false, and nothing is changed, if that is none: then the fall from the limit leaves room above.
+    fn lower(&mut self, k: usize, limit: f64) -> bool {
+        let Some(i) = (self.base..self.out.len())
+            .rev()
+            .take(MOST_BACK)
+            .find(|i| self.passes(&self.out[*i], k).v <= limit)
+        else {
+            return false;
+        };
+        let phase = self.out[i];
+        let (mut low, mut high) = (0.0, phase.t);
+        for _ in 0..ROUNDS {
+            let mid = 0.5 * (low + high);
+            if self.passes(&phase.after(mid), k).v <= limit { low = mid } else { high = mid }
+        }
+        let there = self.passes(&phase.after(low), k);
+        if there.a <= 0.0 {
+            return false;
+        }
+        self.out.truncate(i);
+        if low > 0.0 {
+            self.out.push(phase.until(low));
+        }
+        let mut at = phase.after(low);
+        for c in self.block_at(at.s)..=k {
+            let (ramp, flat) = self.ramp_in(c, &at);
+            at = flat.end();
+            self.out.extend([ramp, flat].into_iter().filter(|p| p.t > 0.0));
+        }
+        self.here = Phase::state(self.cells[k].end, at.v, at.a);
+        true
+    }
+
+    fn block_at(&self, s: f64) -> usize {
+        self.cells.partition_point(|c| c.end <= s)
+    }
+
+    /// The end of block `k` in a ramp down to zero from a state.
+    fn passes(&self, from: &Phase, k: usize) -> Phase {
+        let mut at = Phase::state(from.s, from.v, from.a);
+        for c in self.block_at(at.s)..=k {
+            at = self.ramp_in(c, &at).1.end();
+        }
+        at
+    }
+
+    /// A ramp down to zero, and what follows it, up to the end of block `c`.
+    fn ramp_in(&self, c: usize, at: &Phase) -> (Phase, Phase) {
+        let cell = &self.cells[c];
+        let down = cell.jerks[1];
+        let mut ramp = at.ramp(RampShape::Trapez, -down, at.a.max(0.0) / down);
+        let end = ramp.end();
+        if end.s >= cell.end {
+            ramp.t = ramp.time_at(cell.end);
+            let end = ramp.end();
+            return (ramp, Phase::state(cell.end, end.v, end.a));
+        }
+        let flat = Phase::state(end.s, end.v, 0.0).ramp(
+            RampShape::Trapez,
+            0.0,
+            (cell.end - end.s) / end.v,
+        );
+        (ramp, flat)
+    }
+
+    /// The part of a phase that leaves a way, and the ramp down behind it to the limit that it touches.
+    fn bend(&mut self, phase: &Phase, mut touch: Touch, v_ref: f64) -> Option<()> {
+        let (mut low, mut high) = (0.0, phase.t);
+        for _ in 0..ROUNDS {
+            if high - low <= 1e-3 * WORTH_S {
+                break;
+            }
+            let mid = 0.5 * (low + high);
+            match self.lands(self.c, phase.after(mid), v_ref) {
+                Ok(()) => low = mid,
+                Err(other) => (high, touch) = (mid, other),
+            }
+        }
+        if low > WORTH_S {
+            self.take(phase.until(low), false);
+        }
+        let until = match touch {
+            Touch::Inside => usize::MAX,
+            Touch::End(c) => c,
+        };
+        // down to the touch
+        loop {
+            let (c, here) = (self.c, self.here);
+            if here.a <= 0.0 {
+                break;
+            }
+            let Some(cell) = self.cells.get(c) else { return Some(()) };
+            let down = cell.jerks[1];
+            let mut ramp = here.ramp(RampShape::Trapez, -down, here.a / down);
+            let whole = ramp.end().s >= cell.end;
+            if whole {
+                ramp.t = ramp.time_at(cell.end);
+            }
+            self.take(ramp, whole);
+            if !whole {
+                self.here.a = 0.0;
+            } else if c >= until {
+                return Some(());
+            }
+        }
+        // as fast as allowed: to the end of the block
+        let Some(cell) = self.cells.get(self.c) else { return Some(()) };
+        if low <= WORTH_S || until != usize::MAX || self.here.v >= cell.v * (1.0 - SLACK) {
+            if self.here.v <= 0.0 {
+                return None;
+            }
+            let flat = self.here.ramp(
+                RampShape::Trapez,
+                0.0,
+                ((cell.end - self.here.s) / self.here.v).max(0.0),
+            );
+            self.take(flat, true);
+        }
+        Some(())
+    }
+
+    /// What a ramp down to zero that begins at the end of block `c` touches.
+    fn enter(&self, c: usize, end: &Phase, v_ref: f64) -> Result<(), Touch> {
+        let cell = &self.cells[c];
+        if end.v > cell.v * (1.0 + SLACK) {
+            return Err(Touch::Inside);
+        }
+        let Some(next) = self.cells.get(c + 1) else { return Ok(()) };
+        let limit = cell.cap.min(next.v);
+        if end.v > limit * (1.0 + SLACK) {
+            return if is_drop(limit, v_ref) { Ok(()) } else { Err(Touch::End(c)) };
+        }
+        if end.a > next.acc * (1.0 + SLACK) {
+            return Err(Touch::End(c));
+        }
+        self.lands(c + 1, Phase::state(cell.end, end.v, end.a), v_ref)
+    }
+
+    /// What a ramp down to zero touches that begins at a state in block `c`.
+    fn lands(&self, mut c: usize, mut at: Phase, v_ref: f64) -> Result<(), Touch> {
+        #[cfg(test)]
+        crate::work::add();
+        loop {
+            let cell = &self.cells[c];
+            let down = cell.jerks[1];
+            let ramp = at.ramp(RampShape::Trapez, -down, at.a.max(0.0) / down);
+            let end = ramp.end();
+            if end.s < cell.end {
+                if end.v > cell.v * (1.0 + SLACK) {
+                    return Err(Touch::Inside);
+                }
+                let level = is_level(self.cells, c, end.s, end.v, v_ref);
+                return if level { Ok(()) } else { Err(Touch::End(c)) };
+            }
+            let end = ramp.after(ramp.time_at(cell.end));
+            if end.v > cell.v * (1.0 + SLACK) {
+                return Err(Touch::Inside);
+            }
+            let Some(next) = self.cells.get(c + 1) else { return Ok(()) };
+            let limit = cell.cap.min(next.v);
+            if end.v > limit * (1.0 + SLACK) {
+                return if is_drop(limit, v_ref) { Ok(()) } else { Err(Touch::End(c)) };
+            }
+            if end.a > next.acc * (1.0 + SLACK) {
+                return Err(Touch::End(c));
+            }
+            (c, at) = (c + 1, Phase::state(cell.end, end.v, end.a));
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! The lower one of rise and fall with constant jerk, connected where the one changes to the other.
+//!
+//! The rise never gets slower and the fall never faster, but for their cuts; so they cross once between two places at
+//! which both are cut. In front of the crossing the rise is left: from there the acceleration falls with the jerk of the
+//! blocks until velocity and acceleration are those of the fall. The later it is left the closer this gets to the fall;
+//! the last moment is found by bisection. A fall that keeps the limits brakes harder than such a connection anywhere, so
+//! the connection keeps them too.
+
+use super::Block;
+use crate::profile::{Phase, RampShape};
+
+/// Relative difference of speeds that is rounding.
+const SAME: f64 = 1e-8;
+/// Relative gap that a connection may leave where it meets the fall.
+const MISS: f64 = 1e-7;
+/// Acceleration that is zero but for rounding.
+const FLAT_MM_S2: f64 = 1e-6;
+/// Rounds of bisection of the moment in which the rise is left.
+const ROUNDS: u32 = 50;
+
+/// A rise and a fall over the same blocks.
+pub(super) struct Meet<'a> {
+    pub(super) cells: &'a [Block],
+    pub(super) rise: &'a [Phase],
+    pub(super) fall: &'a [Phase],
+    /// Speed at the end.
+    pub(super) v1: f64,
+}
+
+/// Where a connection ends: phase of the fall and time in it.
+#[derive(Clone, Copy, Debug)]
+struct Joint {
+    phase: usize,
+    time: f64,
+    gap: f64,
+}
+
+/// A connection and where it ends on the fall; `None`: it stays below the fall without meeting it.
+struct Way {
+    phases: Vec<Phase>,
+    joint: Option<Joint>,
+}
+
+impl Meet<'_> {
+    /// The speed along the rise and the fall; `None` if no connection fits.
+    pub(super) fn speed(&self) -> Option<Vec<Phase>> {
+        let mut out: Vec<Phase> = Vec::with_capacity(self.rise.len());
+        // place up to which both are cut, phases put out up to it
+        let (mut r, mut f, mut base) = (0, 0, 0);
+        let same = self.same_mm();
+        loop {
+            let Some(next) = self.rise.get(r) else {
+                // the rise alone
+                let end = out.last()?.end();
+                return (end.v >= self.v1 * (1.0 - MISS)).then_some(out);
+            };
+            let end = next.end();
+            while f + 1 < self.fall.len() && self.fall[f].end().s < end.s - same {
+                f += 1;
+            }
+            let on_fall = &self.fall[f];
+            let below = on_fall.after(on_fall.time_at(end.s));
+            // at the end the acceleration is zero
+            let overshoots = r + 1 == self.rise.len() && end.a > FLAT_MM_S2;
+            if end.v <= below.v * (1.0 + SAME) && !overshoots {
+                out.push(*next);
+                r += 1;
+                continue;
+            }
+            out.push(*next);
+            let joint = self.connect(&mut out, base)?;
+            // on the fall, until it is cut
+            let entered = &self.fall[joint.phase];
+            if joint.time < entered.t {
+                out.push(entered.rest(joint.time));
+            }
+            let is_cut = |k: &usize| {
+                let (before, behind) = (self.fall[k - 1].end(), &self.fall[*k]);
+                behind.v > before.v * (1.0 + MISS) + 1e-12
+            };
+            let cut = (joint.phase + 1..self.fall.len()).find(is_cut).unwrap_or(self.fall.len());
+            out.extend_from_slice(&self.fall[joint.phase + 1..cut]);
+            if cut == self.fall.len() {
+                return Some(out);
+            }
+            let at = self.fall[cut].s;
+            r = self.rise.partition_point(|p| p.s < at - same);
+            (base, f) = (out.len(), cut);
+            // both are cut there
+            let (end, next) = (out.last()?.end(), self.rise.get(r)?);
+            if (next.v - end.v).abs() > MISS * end.v + 1e-9 || next.a > FLAT_MM_S2 {
+                return None;
+            }
+        }
+    }
+
+    /// Distance in mm between places that are the same but for rounding.
+    fn same_mm(&self) -> f64 {
+        1e-13 * self.cells.last().map_or(0.0, |c| c.end)
+    }
+
+    /// Replaces the end of what has been put out, behind `base`, by a connection to the fall.
+    fn connect(&self, out: &mut Vec<Phase>, base: usize) -> Option<Joint> {
+        // the last phase from whose start a connection stays below the fall
+        let (mut k, mut stride) = (out.len() - 1, 1);
+        let mut late = out.len();
+        while self.way(&out[k]).is_none() {
+            if k == base {
+                return None;
+            }
+            late = k;
+            k = k.saturating_sub(stride).max(base);
+            stride *= 2;
+        }
+        while late - k > 1 {
+            let mid = usize::midpoint(late, k);
+            if self.way(&out[mid]).is_some() { k = mid } else { late = mid }
+        }
+        let left = out[k];
+        let (mut low, mut high) = (0.0, left.t);
+        let mut best = self.way(&left)?;
+        for _ in 0..ROUNDS {
+            let mid = 0.5 * (low + high);
+            match self.way(&left.after(mid)) {
+                Some(way) => (low, best) = (mid, way),
+                None => high = mid,
+            }
+            if best.joint.is_some_and(|j| j.gap <= 0.0) && high - low <= 1e-12 * left.t {
+                break;
+            }
+        }
+        let joint = best.joint.filter(|j| j.gap <= MISS)?;
+        out.truncate(k);
+        if low > 0.0 {
+            out.push(left.until(low));
+        }
+        out.extend(best.phases);
+        Some(joint)
+    }
+
+    /// The connection from a state; `None` if it crosses the fall.
+    fn way(&self, from: &Phase) -> Option<Way> {
+        #[cfg(test)]
+        crate::work::add();
+        let mut phases = Vec::new();
+        let mut at = Phase::state(from.s, from.v, from.a);
+        let same = self.same_mm();
+        let mut c = self.cells.partition_point(|b| b.end <= at.s + same);
+        let mut f = self.fall.partition_point(|p| p.s <= at.s + same).max(1) - 1;
+        loop {
+            let (Some(cell), Some(fall)) = (self.cells.get(c), self.fall.get(f)) else {
+                return Some(Way { phases, joint: None });
+            };
+            let jerk = if at.a > 0.0 { cell.jerks[1] } else { cell.jerks[2] };
+            // to acceleration zero, or to rest
+            let t = if at.a > 0.0 {
+                at.a / jerk
+            } else {
+                (at.a + (at.a * at.a + 2.0 * jerk * at.v).sqrt()) / jerk
+            };
+            let piece = at.ramp(RampShape::Trapez, -jerk, t);
+            let fall_end = fall.end().s;
+            let stop = cell.end.min(fall_end);
+            let whole = piece.end().s <= stop;
+            let t = if whole { t } else { piece.time_at(stop) };
+            let end = piece.after(t);
+            if let Some((time, joint)) = self.lowest(&piece.until(t), f) {
+                if joint.gap < -SAME {
+                    return None;
+                }
+                phases.push(piece.until(time));
+                return Some(Way { phases, joint: Some(joint) });
+            }
+            let on_fall = fall.after(fall.time_at(end.s));
+            if end.v > on_fall.v * (1.0 + SAME) {
+                return None;
+            }
+            if end.v <= 0.0 {
+                return Some(Way { phases, joint: None });
+            }
+            phases.push(piece.until(t));
+            if end.s >= cell.end - same {
+                c += 1;
+            }
+            if end.s >= fall_end - same {
+                f += 1;
+            }
+            at = Phase::state(end.s, end.v, if whole && at.a > 0.0 { 0.0 } else { end.a });
+        }
+    }
+
+    /// Where, inside a phase of a connection, the fall begins to brake less: there they are closest. Time in the phase.
+    fn lowest(&self, piece: &Phase, f: usize) -> Option<(f64, Joint)> {
+        let fall = &self.fall[f];
+        let compare = |t: f64| {
+            let here = piece.after(t);
+            let time = fall.time_at(here.s);
+            let there = fall.after(time);
+            // difference of the slopes over the path
+            let slope = here.a * there.v - there.a * here.v;
+            (slope, Joint { phase: f, time, gap: (there.v - here.v) / there.v })
+        };
+        let (slope, joint) = compare(0.0);
+        if slope <= 0.0 {
+            return Some((0.0, joint));
+        }
+        let (slope, mut joint) = compare(piece.t);
+        if slope > 0.0 {
+            return None;
+        }
+        let (mut low, mut high) = (0.0, piece.t);
+        for _ in 0..ROUNDS {
+            let mid = 0.5 * (low + high);
+            let (slope, at) = compare(mid);
+            if slope > 0.0 {
+                low = mid;
+            } else {
+                (high, joint) = (mid, at);
+            }
+            if high - low <= 1e-13 * piece.t {
+                break;
+            }
+        }
+        Some((high, joint))
+    }
+}

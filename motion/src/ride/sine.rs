@@ -1,0 +1,57 @@
+//! Rise, fall and their connection with sine-square ramps.
+//!
+//! A ramp has the shape of a sine square, over the time that a constant jerk would take, and is never cut; so the jerk is
+//! zero between any two of them and its peak is that of SIN2 (`pi/2 a/t`). The rise goes in steps of one ramp each, with
+//! the largest acceleration from which the ramp down to zero still stays below every limit ahead. Rise and fall are
+//! connected by the fastest third-order profile between a state before and one behind, as close to each other as the
+//! limits allow; where none fits, or it would crawl, both are planned anew below a lower *hill*.
+//!
+//! Every connection is checked against every limit it passes.
+
+mod hill;
+mod join;
+mod rise;
+
+use super::{Block, Cell, SHORTEST_RAMP_S, mirror, own, turned};
+use crate::profile::Phase;
+use join::join;
+use rise::Rise;
+
+/// Steps per longest ramp.
+const STEPS_PER_RAMP: f64 = 8.0;
+/// Blocks ahead and behind that a step is thought to run through at most.
+const REACH: usize = 64;
+
+/// A ramp may run through several blocks: its jerk is the least one of those within `reach_s` behind a block.
+fn blocks(cells: &[Cell], reach_s: f64) -> Vec<Block> {
+    let each = own(cells);
+    let mut out = each.clone();
+    for (i, cell) in each.iter().enumerate() {
+        let near = |k: &usize| each[k - 1].end <= cell.end + cell.v * reach_s;
+        for k in (i + 1..each.len()).take(REACH).take_while(near) {
+            for (far, j) in [(i, k), (k, i)] {
+                for (mine, theirs) in out[far].jerks.iter_mut().zip(each[j].jerks) {
+                    *mine = mine.min(theirs);
+                }
+            }
+        }
+    }
+    out
+}
+
+/// The fastest speed found from `v0` to `v1`, acceleration zero at both ends; `None` if the limits leave no way.
+pub(super) fn speed(cells: &[Cell], v0: f64, v1: f64) -> Option<Vec<Phase>> {
+    let length = cells.last()?.end;
+    let longest = cells.iter().flat_map(|c| c.rates.ramps).fold(SHORTEST_RAMP_S, f64::max);
+    let dt = (longest / STEPS_PER_RAMP).max(SHORTEST_RAMP_S);
+    let cells = &blocks(cells, longest)[..];
+    let mirrored = &mirror(cells)[..];
+    let forward = Rise { cells, dt }.run(v0)?;
+    let backward = Rise { cells: mirrored, dt }.run(v1)?;
+    // joined from either end, so that a reversed contour takes the same time
+    let there = join(cells, dt, forward.clone(), turned(&backward, length), v0);
+    let back = join(mirrored, dt, backward, turned(&forward, length), v1);
+    let time = |list: &Vec<Phase>| list.iter().map(|p| p.t).sum::<f64>();
+    let candidates = [there, back.map(|out| turned(&out, length))];
+    candidates.into_iter().flatten().min_by(|a, b| time(a).total_cmp(&time(b)))
+}

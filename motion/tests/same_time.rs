@@ -1,0 +1,140 @@
+//! The time of a contour does not depend on what does not matter, and more of what helps never costs any.
+
+mod common;
+
+use common::random::Random;
+use common::{Job, axis, channel};
+use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
+
+/// Cycle in us and s, with kinks weighted so that they may use the velocity jump of 1 ms.
+const CYCLE_US: u32 = 100;
+const CYCLE_S: f64 = 1e-4;
+const KINK_WEIGHT: f64 = 10.0;
+/// Part of the time that another form of the same contour may differ by.
+const SAME: f64 = 1e-3;
+
+type Points = Vec<[f64; 3]>;
+
+fn machine(r: &mut Random) -> Vec<AxisDynamics> {
+    let even = r.chance(0.5);
+    let one = (r.log(500.0, 5000.0), r.log(0.01, 0.08));
+    (0..3)
+        .map(|_| {
+            let (acc, ramp) = if even { one } else { (r.log(500.0, 5000.0), r.log(0.01, 0.08)) };
+            let feed = FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] };
+            AxisDynamics { feed, ..axis(KINK_WEIGHT) }
+        })
+        .collect()
+}
+
+/// Lines; corners, gentle bends or chords of arcs.
+fn contour(r: &mut Random) -> Points {
+    let (turn, low, high) = r.pick(&[(2.8, 0.05, 20.0), (0.2, 0.05, 5.0), (0.03, 0.1, 0.3)]);
+    let count = 3 + (r.next() * if high < 1.0 { 150.0 } else { 20.0 }) as usize;
+    let (mut at, mut heading) = ([0.0_f64; 3], 6.3 * r.next());
+    let curve = turn * r.between(-0.5, 0.5);
+    let mut out = vec![at];
+    for _ in 0..count {
+        heading += curve + turn * r.between(-0.5, 0.5);
+        let (sin, cos) = libm::sincos(heading);
+        let l = r.log(low, high);
+        at = [at[0] + l * cos, at[1] + l * sin, at[2] + 0.2 * l * r.between(-1.0, 1.0)];
+        out.push(at);
+    }
+    out
+}
+
+struct Case {
+    axes: Vec<AxisDynamics>,
+    points: Points,
+    feed: f64,
+}
+
+impl Case {
+    fn new(r: &mut Random) -> Self {
+        Self { axes: machine(r), points: contour(r), feed: r.log(10.0, 300.0) }
+    }
+
+    fn time(&self, kind: SlopeKind, points: &Points, feed: f64, window: usize) -> f64 {
+        let job = Job {
+            dynamics: channel(self.axes.clone()),
+            cycle_us: CYCLE_US,
+            window,
+            ..Job::new(KINK_WEIGHT, kind)
+        };
+        let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        (job.drive(&points, &[feed]).len() - 1) as f64 * CYCLE_S
+    }
+}
+
+fn cases() -> impl Iterator<Item = (usize, Case)> {
+    let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(60);
+    let mut r = Random(21);
+    (0..count).map(move |n| (n, Case::new(&mut r)))
+}
+
+/// Reversed, mirrored, every line in two, every point moved by up to 1e-9 mm.
+#[test]
+fn another_form_of_a_contour_takes_the_same_time() {
+    let mut most = 0.0_f64;
+    for (n, case) in cases() {
+        let mut r = Random(n as u64);
+        let each = |f: &mut dyn FnMut(&[f64; 3]) -> [f64; 3]| -> Points {
+            case.points.iter().map(f).collect()
+        };
+        let mut split = vec![case.points[0]];
+        for w in case.points.windows(2) {
+            let u = r.between(0.1, 0.9);
+            split.push([0, 1, 2].map(|i| w[0][i] + u * (w[1][i] - w[0][i])));
+            split.push(w[1]);
+        }
+        let mut moved = |p: &[f64; 3]| p.map(|c| c + 1e-9 * r.between(-1.0, 1.0));
+        let forms = [
+            ("reversed", case.points.iter().rev().copied().collect()),
+            ("mirrored", each(&mut |p| [-p[0], p[1], p[2]])),
+            ("moved", each(&mut moved)),
+            ("in two", split),
+        ];
+        for kind in [Hsc, Trapez] {
+            let time = case.time(kind, &case.points, case.feed, 500);
+            for (name, points) in &forms {
+                let other = case.time(kind, points, case.feed, 500);
+                let differs = ((other - time).abs() - 2.0 * CYCLE_S).max(0.0) / time;
+                println!("{n} {kind:?} {name}: {time} s, {other} s");
+                assert!(differs <= SAME, "{n} {kind:?} {name}: {other} s instead of {time} s");
+                most = most.max(differs);
+            }
+        }
+    }
+    println!("at most {most:.5}");
+}
+
+/// By no more than a cycle per corner.
+#[test]
+fn a_higher_feed_or_more_look_ahead_is_never_slower() {
+    let mut most = 0.0_f64;
+    for (n, case) in cases() {
+        let corners = (case.points.len() - 1) as f64 * CYCLE_S;
+        for kind in [Hsc, Trapez] {
+            let mut best = f64::INFINITY;
+            for step in 0..6 {
+                let feed = case.feed * libm::pow(1.6, f64::from(step));
+                let time = case.time(kind, &case.points, feed, 500);
+                println!("{n} {kind:?} feed {feed}: {time} s, {best} s with less");
+                assert!(time <= best + corners, "{n} {kind:?} feed {feed}: {time} s, {best} s");
+                most = most.max((time - best) / corners);
+                best = best.min(time);
+            }
+            best = f64::INFINITY;
+            for window in [10, 20, 40, 80, 160] {
+                let time = case.time(kind, &case.points, case.feed, window);
+                println!("{n} {kind:?} window {window}: {time} s, {best} s with less");
+                assert!(time <= best + corners, "{n} {kind:?} window {window}: {time} s, {best} s");
+                most = most.max((time - best) / corners);
+                best = best.min(time);
+            }
+        }
+    }
+    println!("at most {most:.3} cycles per corner");
+}
