@@ -43,6 +43,36 @@ fn parse(c: &mut Criterion) {
     group.finish();
 }
 
+/// Nested brackets: the time per character is the same at any length and depth.
+fn brackets(c: &mut Criterion) {
+    let parser = Parser::new([]);
+    let file = Arc::from("brackets.nc");
+    let mut group = c.benchmark_group("brackets");
+    for depth in [8, 32] {
+        for length in [512, 4096] {
+            // lists that are never closed, and lists that are none
+            for (name, level) in [("open", "[A "), ("closed", "[1-")] {
+                let unit = match name {
+                    "open" => level.repeat(depth),
+                    _ => level.repeat(depth) + "1" + &"]".repeat(depth) + ",",
+                };
+                let mut text = format!("#FOO [{}", unit.repeat(length / unit.len() + 1));
+                text.truncate(length);
+                let raw = RawBlock::from_line(&text);
+                let mut diagnostics = Vec::new();
+                group.throughput(Throughput::Bytes(length as u64));
+                group.bench_function(format!("{name}/{depth} deep/{length}"), |b| {
+                    b.iter(|| {
+                        diagnostics.clear();
+                        parser.block(black_box(&raw), &file, &mut diagnostics)
+                    });
+                });
+            }
+        }
+    }
+    group.finish();
+}
+
 fn decode(c: &mut Criterion) {
     let sources = MemorySources::new().with("waves.nc", program());
     let Ok((machine, _)) = Machine::builtin(&[]) else { return };
@@ -59,5 +89,5 @@ fn decode(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, parse, decode);
+criterion_group!(benches, parse, brackets, decode);
 criterion_main!(benches);

@@ -172,6 +172,24 @@ pub struct Diagnostic {
     pub hint: Option<String>,
 }
 
+/// Characters of a word that a message quotes.
+const QUOTED_MAX: usize = 80;
+
+/// A message in which what stands between backticks has at most [`QUOTED_MAX`] characters.
+fn shortened(text: &str) -> String {
+    let mut out = String::new();
+    for (i, part) in text.split('`').enumerate() {
+        if i > 0 {
+            out.push('`');
+        }
+        match part.char_indices().nth(QUOTED_MAX).filter(|_| i % 2 == 1) {
+            Some((end, _)) => out.extend([&part[..end], "..."]),
+            None => out.push_str(part),
+        }
+    }
+    out
+}
+
 impl Diagnostic {
     /// A diagnostic with severity, hint and parameter of its condition's row and the given message.
     pub fn new(condition: Condition, text: impl Into<String>) -> Self {
@@ -188,7 +206,7 @@ impl Diagnostic {
         Self {
             id,
             severity: row.severity,
-            text,
+            text: if text.len() > QUOTED_MAX { shortened(&text) } else { text },
             source: None,
             cycle: None,
             time_s: None,

@@ -19,7 +19,7 @@ mod suggest;
 mod values;
 
 pub use options::{Access, External, Options, SkipLevels, Value};
-pub use program::check::{UNREACHED, check};
+pub use program::check::{LIMIT, UNREACHED, check};
 pub use program::executor::Executor;
 pub use step::{
     AxisShaping, EndReason, Event, Feedback, IndependentMotion, ShapingSettings, ShapingSetup,

@@ -221,6 +221,11 @@ impl Simulation {
         Totals { blocks: self.executor.blocks(), ..self.totals.clone() }
     }
 
+    /// The cycle computed last; before the first one the state at time zero.
+    pub fn record(&self) -> &CycleRecord {
+        &self.record
+    }
+
     /// Computes the next cycle; `None` when the program has ended or was stopped and the axes are at rest.
     pub fn next_cycle(&mut self) -> Option<&CycleRecord> {
         loop {

@@ -3,6 +3,7 @@
 pub mod command;
 pub mod geometry;
 pub mod random;
+pub mod targets;
 
 use kontur_interpreter::diag::{Diagnostic, Id};
 use kontur_interpreter::exec::{self, Options};

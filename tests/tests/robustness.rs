@@ -35,6 +35,7 @@ fn refused(text: &str, options: &[&str]) -> Vec<String> {
 #[test]
 fn loops_without_motion_end() {
     let limit = ["--max-blocks", "2000"];
+    // the run meets what the check has seen, and says it once
     for text in ["$WHILE 1\n$ENDWHILE\nM30\n", "N1: P1=1\n$GOTO N1\nM30\n", "$DO\n$ENDDO 1\nM30\n"]
     {
         let said = refused(text, &limit);
@@ -45,6 +46,50 @@ fn loops_without_motion_end() {
     let (exit, said, _) = call("run", text, &["--max-blocks", "2000", "--max-time", "1"]);
     assert_eq!(exit, Exit::Aborted);
     assert!(said[0].starts_with("K-0017 "), "{said:?}");
+}
+
+/// A program without end starts, runs to its limit, and leaves a trace and a summary that are complete up to there.
+#[test]
+fn limits_stop_a_program_and_do_not_refuse_it() {
+    let endless = "F6000\n$WHILE 1\nG01 X10\nX0\n$ENDWHILE\nM30\n";
+    for (options, limit) in [(["--max-time", "2.5"], 2.5), (["--max-blocks", "100"], f64::MAX)] {
+        let folder = tempfile::tempdir().unwrap();
+        let (program, trace) = (folder.path().join("a.nc"), folder.path().join("a.csv"));
+        std::fs::write(&program, endless).unwrap();
+        let words: [OsString; 8] = [
+            "run".into(),
+            program.clone().into(),
+            "-o".into(),
+            trace.clone().into(),
+            "--summary".into(),
+            "json".into(),
+            options[0].into(),
+            options[1].into(),
+        ];
+        let output = command(words);
+        assert_eq!(output.exit, Exit::Aborted, "{}", output.err);
+        assert_eq!(output.err.matches("error[K-0017]").count(), 1, "{}", output.err);
+        let summary: serde_json::Value = serde_json::from_str(&output.out).unwrap();
+        assert_eq!(summary["state"], "aborted");
+        let rows = std::fs::read_to_string(&trace).unwrap().lines().count() - 1;
+        assert_eq!(summary["cycles"], rows);
+        let duration = summary["duration_s"].as_f64().unwrap();
+        assert!(duration > 2.0 && duration <= limit, "{options:?}: {duration}");
+        // of 100 blocks one is F, and every pass has $WHILE, two motions of 10 mm and $ENDWHILE
+        let path = summary["path_length_mm"].as_f64().unwrap();
+        assert!(limit < 3.0 || (480.0..=500.0).contains(&path), "{options:?}: {path}");
+        let (exit, said, _) = call("check", endless, &options);
+        let is_error = exit == Exit::Aborted;
+        assert!(said.len() == 1 && said[0].starts_with("K-0017 "), "{said:?}");
+        assert_eq!(is_error, options[0] == "--max-blocks");
+    }
+    // what the check sees before the limit still refuses
+    refused("F6000\nG7\n$WHILE 1\nG01 X10\nX0\n$ENDWHILE\nM30\n", &["--max-time", "1"]);
+    // and what it cannot see ends the run where it is met
+    let behind = "F6000\nP1=0\n$WHILE P1<9000\nG01 X10\nX0\nP1=P1+1\n$ENDWHILE\nG7\nM30\n";
+    let (exit, said, out) = call("run", behind, &["--max-time", "1"]);
+    assert_eq!((exit, said.len()), (Exit::Aborted, 1), "{said:?} {out}");
+    assert!(said[0].starts_with("K-0017 ") && out.contains("aborted"), "{said:?} {out}");
 }
 
 /// A mistake in a program that moves without end: the check does not go on to the limit of blocks.

@@ -79,6 +79,10 @@ pub struct SimulationArgs {
     #[arg(long, value_name = "DIR")]
     pub path: Vec<PathBuf>,
 
+    /// Let subroutines lie outside the program's folder and --path
+    #[arg(long)]
+    pub allow_outside: bool,
+
     /// Real-time inputs: CSV with the columns `t_s` and signals (`override_percent`, `rapid_override_percent`,
     /// `feedhold`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value holds until the next time stamp. May be
     /// given several times
@@ -130,6 +134,7 @@ impl SimulationArgs {
             machine: self.machine.clone(),
             settings: self.set.clone(),
             path: self.path.clone(),
+            allow_outside: self.allow_outside,
             inputs: self.input.clone(),
             cycle_us: self.cycle_us,
             start: self.start.clone(),

@@ -2,7 +2,7 @@
 
 use crate::args::CheckArgs;
 use crate::console::Console;
-use crate::engine::Engine;
+use crate::engine::{Engine, OpenError};
 use crate::run::announce;
 use crate::{Error, Exit};
 
@@ -15,7 +15,7 @@ pub fn check(
     engine: &mut dyn Engine,
     console: &mut Console,
 ) -> Result<Exit, Error> {
-    let mut refused = false;
+    let mut exit = Exit::Finished;
     for program in &args.programs {
         let form = args.simulation.diagnostics;
         let mut failed = false;
@@ -24,8 +24,16 @@ pub fn check(
             announce(&d, form, console);
         };
         let done = engine.check(&args.simulation.request(program), &mut report);
-        done.map_err(|e| crate::run::announce_lists(e, form, console))?;
-        refused |= failed;
+        match done {
+            Ok(()) if failed && exit == Exit::Finished => exit = Exit::Aborted,
+            Ok(()) => {}
+            // one file that cannot be read says nothing about the others
+            Err(e @ OpenError::Io(..)) => {
+                console.error_text(&format!("error: {}", Error::from(e)));
+                exit = Exit::Io;
+            }
+            Err(e) => return Err(crate::run::announce_lists(e, form, console)),
+        }
     }
-    Ok(if refused { Exit::Aborted } else { Exit::Finished })
+    Ok(exit)
 }

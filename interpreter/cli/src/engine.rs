@@ -20,6 +20,8 @@ pub struct Request {
     pub settings: Vec<String>,
     /// Folders of global subroutines, in the order of search.
     pub path: Vec<PathBuf>,
+    /// Subroutines may lie outside the program's folder and those.
+    pub allow_outside: bool,
     /// Files of real-time inputs.
     pub inputs: Vec<PathBuf>,
     /// Cycle time in microseconds in place of the machine's.
@@ -83,6 +85,8 @@ impl AxisFacts {
 pub trait Source {
     /// What stays the same.
     fn facts(&self) -> &Facts;
+    /// Every file that the run reads: programs, lists, inputs.
+    fn reads(&self) -> Vec<PathBuf>;
     /// Computes the next cycle; none at the end of the program or after an abort.
     fn next_cycle(&mut self) -> Option<&CycleRecord>;
     /// The diagnostics raised since the last call, by cycle, then in the order of raising.

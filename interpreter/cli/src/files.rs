@@ -1,49 +1,62 @@
 //! The file system behind the library's two doors: NC programs and parameter lists.
 
+use crate::text::Text;
 use kontur_interpreter::machine::ListFiles;
-use kontur_interpreter::source::{MemorySources, OpenError, Source, Sources};
-use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom};
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use kontur_interpreter::source::{OpenError, Source, Sources};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::fs::{File, Metadata};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::SystemTime;
 
 /// The name that stands for standard input or output in place of a file.
 pub const STANDARD: &str = "-";
 /// What messages call a program from standard input.
 pub const STANDARD_INPUT: &str = "<stdin>";
 
-/// Bytes on standard input at most, 256 MiB (about ten million blocks): they are kept in memory, where a file is not.
-const MOST_STANDARD_BYTES: u64 = 1 << 28;
+/// Bytes of a program at most that comes through a pipe, 256 MiB (about ten million blocks): it is copied to a temporary
+/// file, where a program in a file is not.
+const MOST_PIPED_BYTES: u64 = 1 << 28;
 
-/// The program on standard input. That can be read only once, a program is read again and again: by the check, by the
-/// run, and by every run of a sweep.
+/// Bytes of a list at most, 16 MiB.
+const MOST_LIST_BYTES: u64 = 1 << 24;
+
+/// NC programs in files: subroutines relative to the caller, then in the folders given; the program `-` is standard input.
 ///
-/// # Errors
-/// The system's, and more than 256 MiB.
-pub fn standard_input() -> io::Result<&'static MemorySources> {
-    static PROGRAM: OnceLock<MemorySources> = OnceLock::new();
-    if let Some(program) = PROGRAM.get() {
-        return Ok(program);
-    }
-    let mut text = Vec::new();
-    io::stdin().lock().take(MOST_STANDARD_BYTES + 1).read_to_end(&mut text)?;
-    if text.len() as u64 > MOST_STANDARD_BYTES {
-        let text = "more than 256 MiB; only a file may be of any length";
-        return Err(io::Error::other(text));
-    }
-    Ok(PROGRAM.get_or_init(|| MemorySources::new().with(STANDARD_INPUT, text)))
-}
-
-/// NC programs in files: relative to the caller, then in the folders given; the program `-` is standard input.
-#[derive(Clone, Debug, Default)]
+/// Copies share what they have opened.
+#[derive(Clone, Debug)]
 pub struct ProgramFiles {
+    /// The main program.
+    program: PathBuf,
+    /// Its folder: no subroutine lies outside it and `folders`.
+    home: PathBuf,
     /// Folders of global subroutines, in the order of search.
-    pub folders: Vec<PathBuf>,
+    folders: Vec<PathBuf>,
+    /// Subroutines may lie anywhere.
+    anywhere: bool,
+    opened: Arc<Mutex<BTreeMap<PathBuf, State>>>,
 }
 
+/// What tells that a file is another one than before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct State {
+    length: u64,
+    modified: Option<SystemTime>,
+}
+
+impl State {
+    fn of(metadata: &Metadata) -> Self {
+        Self { length: metadata.len(), modified: metadata.modified().ok() }
+    }
+}
+
+/// A program in a file.
 struct ProgramFile {
     name: Arc<str>,
     file: File,
+    state: State,
     at: u64,
 }
 
@@ -58,39 +71,196 @@ impl Source for ProgramFile {
         }
         let count = self.file.read(buffer)?;
         self.at = offset + count as u64;
-        Ok(count)
+        // what was read last may be of the new file already
+        if State::of(&self.file.metadata()?) == self.state { Ok(count) } else { Err(changed()) }
     }
+}
+
+fn changed() -> io::Error {
+    io::Error::other("the file was changed while it was read")
+}
+
+/// A program that came through a pipe.
+struct PipedProgram {
+    name: Arc<str>,
+    copy: Arc<Mutex<File>>,
+}
+
+impl Source for PipedProgram {
+    fn name(&self) -> Arc<str> {
+        Arc::clone(&self.name)
+    }
+
+    fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+        let mut file = self.copy.lock().unwrap_or_else(PoisonError::into_inner);
+        file.seek(SeekFrom::Start(offset))?;
+        file.read(buffer)
+    }
+}
+
+/// The copy of a program that can be read only once (standard input, a FIFO), while a program is read again and again: by
+/// the check, by the run, and by every run of a sweep.
+///
+/// # Errors
+/// The system's, and more than 256 MiB.
+fn piped(path: &Path) -> io::Result<Arc<Mutex<File>>> {
+    static COPIES: Mutex<BTreeMap<PathBuf, Arc<Mutex<File>>>> = Mutex::new(BTreeMap::new());
+    let mut copies = COPIES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(copy) = copies.get(path) {
+        return Ok(Arc::clone(copy));
+    }
+    let mut copy = tempfile::tempfile()?;
+    let source: &mut dyn Read =
+        if is_standard(path) { &mut io::stdin().lock() } else { &mut File::open(path)? };
+    let length = io::copy(&mut source.take(MOST_PIPED_BYTES + 1), &mut copy)?;
+    if length > MOST_PIPED_BYTES {
+        return Err(io::Error::other("more than 256 MiB; only a file may be of any length"));
+    }
+    copy.flush()?;
+    let copy = Arc::new(Mutex::new(copy));
+    copies.insert(path.to_owned(), Arc::clone(&copy));
+    Ok(copy)
+}
+
+/// True for `-`, standard input or output.
+pub fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == STANDARD
+}
+
+/// True for what is read like a pipe: once, from the beginning.
+fn is_pipe(path: &Path) -> bool {
+    is_standard(path) || path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
+}
+
+/// A program on the command line that must be readable, or the command fails before it decodes anything.
+///
+/// # Errors
+/// The system's, and more than 256 MiB from a pipe.
+pub fn readable(program: &Path) -> io::Result<()> {
+    if is_pipe(program) {
+        return piped(program).map(|_| ());
+    }
+    if File::open(program)?.metadata()?.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    Ok(())
+}
+
+impl ProgramFiles {
+    /// The files of a program on the command line.
+    pub fn new(program: &Path, folders: Vec<PathBuf>, anywhere: bool) -> Self {
+        let home = if is_pipe(program) { None } else { program.parent() };
+        let home = home.unwrap_or_else(|| Path::new("")).to_owned();
+        Self { program: program.to_owned(), home, folders, anywhere, opened: Arc::default() }
+    }
+
+    /// The files opened so far.
+    pub fn opened(&self) -> Vec<PathBuf> {
+        self.opened.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect()
+    }
+
+    /// A file that is not what it was when it was opened first.
+    pub fn changed(&self) -> Option<(PathBuf, io::Error)> {
+        let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        opened.iter().find_map(|(path, state)| match path.metadata() {
+            Ok(now) if State::of(&now) == *state => None,
+            Ok(_) => Some((path.clone(), changed())),
+            Err(e) => Some((path.clone(), e)),
+        })
+    }
+
+    /// The main program.
+    fn main(&self, name: &str) -> Result<Box<dyn Source>, OpenError> {
+        // its name in messages need not lead to it: names of files may hold what is no text
+        let path = &self.program;
+        let name = if is_standard(path) { STANDARD_INPUT } else { name };
+        let error = |e: io::Error| OpenError {
+            name: name.to_owned(),
+            reason: e.to_string(),
+            searched: vec![name.to_owned()],
+        };
+        if is_pipe(path) {
+            return Ok(Box::new(PipedProgram {
+                name: name.into(),
+                copy: piped(path).map_err(error)?,
+            }));
+        }
+        self.file(path).map_err(error)
+    }
+
+    fn file(&self, path: &Path) -> io::Result<Box<dyn Source>> {
+        let file = File::open(path)?;
+        let metadata = file.metadata()?;
+        if !metadata.is_file() {
+            return Err(io::Error::other("not a file"));
+        }
+        let now = State::of(&metadata);
+        let mut opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        let state = *opened.entry(path.to_owned()).or_insert(now);
+        drop(opened);
+        if state != now {
+            return Err(changed());
+        }
+        Ok(Box::new(ProgramFile { name: path.display().to_string().into(), file, state, at: 0 }))
+    }
+
+    /// True if a subroutine may lie there: in or below the folder of the main program, or one of `--path`. What does not
+    /// exist is judged by its name alone, so that nothing is told about other folders.
+    fn is_inside(&self, place: &Path) -> bool {
+        if self.anywhere {
+            return true;
+        }
+        let folders = || std::iter::once(&self.home).chain(&self.folders);
+        let name = plain(place);
+        if !folders().any(|folder| {
+            name.as_ref().is_some_and(|n| n.starts_with(plain(folder).unwrap_or_default()))
+        }) {
+            return false;
+        }
+        // links may lead elsewhere
+        match place.canonicalize() {
+            Ok(real) => folders().any(|folder| {
+                let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+                folder.canonicalize().is_ok_and(|folder| real.starts_with(folder))
+            }),
+            Err(_) => true,
+        }
+    }
+}
+
+/// A path from the root, without `.` and `..`; `None` if there is no such path.
+fn plain(path: &Path) -> Option<PathBuf> {
+    let mut plain = PathBuf::new();
+    for part in std::path::absolute(path).ok()?.components() {
+        match part {
+            Component::ParentDir => {
+                plain.pop();
+            }
+            Component::CurDir => {}
+            part => plain.push(part),
+        }
+    }
+    Some(plain)
 }
 
 impl Sources for ProgramFiles {
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError> {
-        if caller.is_none() && name == STANDARD {
-            let error = |e: io::Error| OpenError {
-                name: STANDARD_INPUT.to_owned(),
-                reason: e.to_string(),
-                searched: Vec::new(),
-            };
-            return standard_input().map_err(error)?.open(STANDARD_INPUT, None);
-        }
+        let Some(caller) = caller else { return self.main(name) };
         // programs written on Windows name their subroutines with backslashes
-        let wanted =
-            PathBuf::from(if caller.is_some() { name.replace('\\', "/") } else { name.to_owned() });
-        let beside = caller.and_then(|c| Path::new(c).parent()).map(|p| p.join(&wanted));
-        let places = beside
-            .into_iter()
-            .chain(caller.is_none().then(|| wanted.clone()))
-            .chain(self.folders.iter().map(|f| f.join(&wanted)));
+        let wanted = PathBuf::from(name.replace('\\', "/"));
+        let beside = Path::new(caller).parent().map(|folder| folder.join(&wanted));
         let mut searched = Vec::new();
         let mut reason = "no such file".to_owned();
-        for place in places {
-            match File::open(&place) {
-                Ok(file) if place.is_file() => {
-                    let name = place.display().to_string().into();
-                    return Ok(Box::new(ProgramFile { name, file, at: 0 }));
+        for place in beside.into_iter().chain(self.folders.iter().map(|f| f.join(&wanted))) {
+            if self.is_inside(&place) {
+                match self.file(&place) {
+                    Ok(file) => return Ok(file),
+                    Err(e) if e.kind() == io::ErrorKind::NotFound => {}
+                    Err(e) => reason = e.to_string(),
                 }
-                Ok(_) => "not a file".clone_into(&mut reason),
-                Err(e) if e.kind() == io::ErrorKind::NotFound => {}
-                Err(e) => reason = e.to_string(),
+            } else {
+                "outside the program's folder and --path; --allow-outside permits it"
+                    .clone_into(&mut reason);
             }
             searched.push(place.display().to_string());
         }
@@ -99,15 +269,33 @@ impl Sources for ProgramFiles {
 }
 
 /// Parameter lists in files.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Lists;
+#[derive(Clone, Debug, Default)]
+pub struct Lists {
+    read: RefCell<Vec<PathBuf>>,
+}
+
+impl Lists {
+    /// The lists that were read.
+    pub fn read_so_far(self) -> Vec<PathBuf> {
+        self.read.into_inner()
+    }
+}
 
 impl ListFiles for Lists {
     fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
-        match std::fs::read(path) {
-            Ok(bytes) => Ok(Some(bytes)),
-            Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(e) => Err(e.to_string()),
+        let file = match File::open(path) {
+            Ok(file) => file,
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(e) => return Err(e.to_string()),
+        };
+        self.read.borrow_mut().push(path.into());
+        let mut bytes = Vec::new();
+        Text::new(file)
+            .and_then(|text| text.take(MOST_LIST_BYTES + 1).read_to_end(&mut bytes))
+            .map_err(|e| e.to_string())?;
+        if bytes.len() as u64 > MOST_LIST_BYTES {
+            return Err("more than 16 MiB, too long for a list".to_owned());
         }
+        Ok(Some(bytes))
     }
 }

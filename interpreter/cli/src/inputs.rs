@@ -5,17 +5,15 @@
 //! run before its first cycle; then it is read again, line by line, as the run goes on.
 
 use crate::engine::OpenError;
+use crate::text::Text;
 use kontur_interpreter::diag::{Condition, Diagnostic, Location};
 use kontur_interpreter::machine::Machine;
 use kontur_interpreter::sim::{Change, Changes, Signal};
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Bytes of a line; a longer one is no line of numbers.
-const LINE_MAX: u64 = 65_536;
 
 /// Changes of all files in the order of time.
 ///
@@ -61,7 +59,7 @@ impl Problem {
 /// One file, read line by line.
 struct InputFile {
     name: Arc<str>,
-    reader: BufReader<File>,
+    reader: BufReader<Text<File>>,
     /// Signal of every column behind the time.
     columns: Vec<Signal>,
     line: u32,
@@ -84,7 +82,7 @@ impl InputFile {
         }
         let mut input = Self {
             name: path.display().to_string().into(),
-            reader: BufReader::new(file),
+            reader: BufReader::new(Text::new(file).map_err(Problem::Io)?),
             columns: Vec::new(),
             line: 0,
             offset: 0,
@@ -127,20 +125,20 @@ impl InputFile {
     /// Takes the next line; false at the end of the file.
     fn next_line(&mut self) -> Result<bool, Problem> {
         self.offset = self.end;
-        let mut bytes = Vec::new();
-        let read = Read::by_ref(&mut self.reader)
-            .take(LINE_MAX)
-            .read_until(b'\n', &mut bytes)
-            .map_err(Problem::Io)?;
         self.line += 1;
+        let mut bytes = Vec::new();
+        let read = match self.reader.read_until(b'\n', &mut bytes) {
+            Ok(read) => read,
+            Err(e) if e.kind() == io::ErrorKind::InvalidData => {
+                self.text = "".into();
+                return Err(self.wrong(0, "", &e.to_string()));
+            }
+            Err(e) => return Err(Problem::Io(e)),
+        };
         self.end += read as u64;
         let text = String::from_utf8_lossy(&bytes);
         // a byte order mark in front of the header
         self.text = text.trim_start_matches('\u{feff}').trim_end_matches(['\r', '\n']).into();
-        if read as u64 == LINE_MAX {
-            self.text = self.text.chars().take(80).collect::<String>().into();
-            return Err(self.wrong(0, "", "the line is too long"));
-        }
         Ok(read > 0)
     }
 

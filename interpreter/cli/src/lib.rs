@@ -21,6 +21,8 @@ mod spectrum;
 pub mod summary;
 pub mod sweep;
 mod table;
+pub mod target;
+pub mod text;
 pub mod trace;
 pub mod tune;
 pub mod vary;
@@ -61,6 +63,9 @@ pub enum Error {
         /// Program time of the last row in seconds.
         time_s: f64,
     },
+    /// Ctrl-C stopped a sweep; finished rows are kept in its journal.
+    #[error("interrupted; the same sweep goes on behind its finished rows")]
+    Stopped,
     /// Nobody reads stdout any more; nothing is left to say.
     #[error("stdout is closed")]
     ClosedPipe,
@@ -84,7 +89,7 @@ impl Error {
     pub const fn exit(&self) -> Exit {
         match self {
             Self::Usage(_) | Self::Lists | Self::Inputs => Exit::Usage,
-            Self::Interrupted { .. } => Exit::Aborted,
+            Self::Interrupted { .. } | Self::Stopped => Exit::Aborted,
             Self::ClosedPipe | Self::Io { .. } => Exit::Io,
         }
     }

@@ -16,6 +16,7 @@ use crate::console::Console;
 use crate::engine::{Engine, Request};
 use crate::files::STANDARD;
 use crate::summary::{Collector, State, Summary};
+use crate::target::keep_apart;
 use crate::vary::{combinations, settings};
 use crate::{Error, Exit};
 use recording::Recording;
@@ -40,7 +41,7 @@ pub fn report(
     };
     let mut read = args.programs.clone();
     read.extend_from_slice(&args.simulation.input);
-    crate::run::keep_apart(&read, std::slice::from_ref(&output))?;
+    keep_apart(&read, std::slice::from_ref(&output))?;
     if let Some(names) = &args.signals {
         return signals::report(args, names, &output, engine, console);
     }
@@ -50,6 +51,7 @@ pub fn report(
         let form = args.simulation.diagnostics;
         let mut source =
             engine.open(&request).map_err(|e| crate::run::announce_lists(e, form, console))?;
+        keep_apart(&source.reads(), std::slice::from_ref(&output))?;
         let mut summary = Collector::new(source.facts());
         let mut recording = Recording::new(source.facts());
         crate::run::drive(source.as_mut(), console, form, &mut summary, &mut |record| {
@@ -61,7 +63,10 @@ pub fn report(
         let program = if values.is_empty() { program } else { format!("{program}, {values}") };
         runs.push((recording, Summary { program, ..summary }));
     }
-    std::fs::write(&output, draw(&runs)).map_err(|e| Error::io(output.display().to_string(), e))?;
+    // of refused programs there is nothing to draw
+    if runs.iter().any(|(_, s)| s.cycles > 0) {
+        crate::target::write(&output, draw(&runs).as_bytes())?;
+    }
     let aborted = runs.iter().any(|(_, s)| s.state == State::Aborted);
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
 }

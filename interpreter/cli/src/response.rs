@@ -26,7 +26,7 @@ pub fn response(args: &ResponseArgs, console: &mut Console) -> Result<Exit, Erro
     for output in &args.output {
         kind(output)?;
     }
-    crate::run::keep_apart(&[], &args.output)?;
+    crate::target::keep_apart(&[], &args.output)?;
     let (curves, cycle) = select::curves(args, console)?;
     let view = view::view(args, &curves, cycle)?;
     if args.output.is_empty() {
@@ -37,7 +37,7 @@ pub fn response(args: &ResponseArgs, console: &mut Console) -> Result<Exit, Erro
             Kind::Table => view.table.csv(),
             Kind::Picture => view.plot.draw(),
         };
-        std::fs::write(output, text).map_err(|e| Error::io(output.display().to_string(), e))?;
+        crate::target::write(output, text.as_bytes())?;
     }
     Ok(Exit::Finished)
 }

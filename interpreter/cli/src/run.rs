@@ -3,13 +3,13 @@
 use crate::args::{MessageForm, RunArgs, SummaryForm};
 use crate::console::{Console, Progress};
 use crate::engine::{Engine, OpenError, Source, Totals};
-use crate::files::STANDARD;
+use crate::files::is_standard;
 use crate::interrupt::Running;
 use crate::summary::Collector;
+use crate::target::keep_apart;
 use crate::trace::Trace;
 use crate::{Error, Exit, render};
 use kontur_interpreter::diag::Diagnostic;
-use std::path::{Path, PathBuf};
 
 /// Cycles between two looks at the clock and at new messages.
 const LOOK_EVERY: u64 = 1024;
@@ -19,19 +19,25 @@ const LOOK_EVERY: u64 = 1024;
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or a trace cannot be written.
 pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Result<Exit, Error> {
-    let mut read = vec![args.program.clone()];
-    read.extend_from_slice(&args.simulation.input);
-    keep_apart(&read, &args.output)?;
     let form = args.simulation.diagnostics;
     let mut source = engine
         .open(&args.simulation.request(&args.program))
         .map_err(|e| announce_lists(e, form, console))?;
+    keep_apart(&source.reads(), &args.output)?;
     let create = |path| Trace::create(path, &args.signals, args.decimate, source.facts(), console);
     let mut traces: Vec<Trace> =
         args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
     let mut summary = Collector::new(source.facts());
+    let alone = traces.len() == 1;
     let written = drive(source.as_mut(), console, form, &mut summary, &mut |record| {
-        traces.iter_mut().try_for_each(|t| t.write(record))
+        traces.iter_mut().try_for_each(|t| match t.write(record) {
+            // nobody reads stdout any more: the files go on
+            Err(Error::ClosedPipe) if !alone => {
+                t.close();
+                Ok(())
+            }
+            other => other,
+        })
     });
     // every trace is brought to its file even if another one failed
     let finished: Vec<_> = traces.into_iter().map(|t| t.finish(source.as_ref())).collect();
@@ -65,32 +71,6 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
         Totals { aborted: true, .. } => Exit::Aborted,
         _ => Exit::Finished,
     })
-}
-
-/// Refuses to write over what is read, or two traces into one file.
-///
-/// # Errors
-/// [`Error::Usage`] that names the file.
-pub fn keep_apart(programs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error> {
-    // a file that does not exist yet has no canonical name, and its given name serves
-    let name = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    // standard input is not standard output
-    let files = programs.iter().filter(|p| !is_standard(p));
-    let mut taken: Vec<PathBuf> = files.map(|p| name(p)).collect();
-    for output in outputs {
-        let name = name(output);
-        if taken.contains(&name) && !output.starts_with("/dev") {
-            let message = format!("-o {}: the file is used twice", output.display());
-            return Err(Error::Usage(message));
-        }
-        taken.push(name);
-    }
-    Ok(())
-}
-
-/// True for `-`, standard input or output.
-fn is_standard(path: &Path) -> bool {
-    path.as_os_str() == STANDARD
 }
 
 /// Drives a source to its end: every record to `take` and to the summary, every message to the console.

@@ -1,7 +1,7 @@
 //! The simulation of this workspace behind the commands' questions.
 
 use crate::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
-use crate::files::{Lists, ProgramFiles, STANDARD, STANDARD_INPUT, standard_input};
+use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
 use crate::inputs;
 use kontur_interpreter::diag::{Condition, Diagnostic, Severity};
 use kontur_interpreter::exec::{self, Access, External, Options, SkipLevels, Value};
@@ -9,18 +9,18 @@ use kontur_interpreter::explain;
 use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::sim::{Limits, Simulation};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The simulation of this workspace.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Kontur;
 
-/// A machine as a request describes it, with the warnings of its lists.
+/// A machine as a request describes it, with the warnings of its lists, which are read through `lists`.
 ///
 /// # Errors
 /// [`OpenError`] if a setting is wrong or the lists are refused.
-pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenError> {
+pub fn machine(request: &Request, lists: &Lists) -> Result<(Machine, Vec<Diagnostic>), OpenError> {
     let mut overrides = Vec::new();
     for setting in &request.settings {
         overrides.push(Override::parse(setting).map_err(|d| OpenError::Lists(vec![*d]))?);
@@ -33,7 +33,12 @@ pub fn machine(request: &Request) -> Result<(Machine, Vec<Diagnostic>), OpenErro
         None => Machine::builtin(&overrides),
         Some(path) => {
             let start_up = if path.is_dir() { path.join("hochlauf.lis") } else { path.clone() };
-            Machine::load(&Lists, &start_up.to_string_lossy(), &overrides)
+            let Some(name) = start_up.to_str() else {
+                let e =
+                    std::io::Error::other("lists refer to each other by name: it has to be UTF-8");
+                return Err(OpenError::Io(path.clone(), e));
+            };
+            Machine::load(lists, name, &overrides)
         }
     };
     let (machine, mut messages) = loaded.map_err(OpenError::Lists)?;
@@ -101,6 +106,7 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         start: request.start.clone(),
         skip,
         max_blocks: request.max_blocks,
+        max_time_s: request.max_time_s,
         identity_trafo: request.identity_trafo,
         external: request.external.iter().map(external).collect(),
         ..Options::default()
@@ -116,19 +122,13 @@ fn external((name, value): &(String, String)) -> (String, External) {
 }
 
 fn sources(request: &Request) -> ProgramFiles {
-    ProgramFiles { folders: request.path.clone() }
+    ProgramFiles::new(&request.program, request.path.clone(), request.allow_outside)
 }
 
-/// A program that must be a readable file, or the command fails before it decodes anything.
+/// A program that must be readable, or the command fails before it decodes anything.
 fn readable(program: &Path) -> Result<(), OpenError> {
-    if program.as_os_str() == STANDARD {
-        let read = standard_input().map(|_| ());
-        return read.map_err(|e| OpenError::Io("standard input".into(), e));
-    }
-    let open = std::fs::File::open(program).and_then(|f| {
-        if f.metadata()?.is_dir() { Err(std::io::ErrorKind::IsADirectory.into()) } else { Ok(()) }
-    });
-    open.map_err(|e| OpenError::Io(program.to_path_buf(), e))
+    let name = if is_standard(program) { Path::new("standard input") } else { program };
+    files::readable(program).map_err(|e| OpenError::Io(name.to_path_buf(), e))
 }
 
 fn facts(request: &Request, machine: &Machine, simulation: &Simulation) -> Facts {
@@ -143,7 +143,7 @@ fn facts(request: &Request, machine: &Machine, simulation: &Simulation) -> Facts
         settling_s: stop(i).settling_s,
     });
     Facts {
-        program: if request.program.as_os_str() == STANDARD {
+        program: if is_standard(&request.program) {
             STANDARD_INPUT.to_owned()
         } else {
             request.program.display().to_string()
@@ -159,8 +159,28 @@ fn facts(request: &Request, machine: &Machine, simulation: &Simulation) -> Facts
 struct Run {
     facts: Facts,
     simulation: Simulation,
+    sources: ProgramFiles,
+    /// Lists and inputs.
+    others: Vec<PathBuf>,
     messages: Vec<Diagnostic>,
     refused: bool,
+    ended: bool,
+    changed: bool,
+}
+
+impl Run {
+    /// A program that was changed while it ran, also behind what was read of it, is another one than the trace shows.
+    fn look_for_changes(&mut self) {
+        if std::mem::replace(&mut self.ended, true) {
+            return;
+        }
+        if let Some((path, e)) = self.sources.changed() {
+            let text = format!("{}: {e}", path.display());
+            let hint = "the trace does not belong to the program as it is now: run it again";
+            self.messages.push(Diagnostic::new(Condition::NoFile, text).hint(hint));
+            self.changed = true;
+        }
+    }
 }
 
 impl Source for Run {
@@ -168,8 +188,19 @@ impl Source for Run {
         &self.facts
     }
 
+    fn reads(&self) -> Vec<PathBuf> {
+        self.others.iter().cloned().chain(self.sources.opened()).collect()
+    }
+
     fn next_cycle(&mut self) -> Option<&CycleRecord> {
-        if self.refused { None } else { self.simulation.next_cycle() }
+        if self.refused {
+            return None;
+        }
+        if self.simulation.next_cycle().is_none() {
+            self.look_for_changes();
+            return None;
+        }
+        Some(self.simulation.record())
     }
 
     fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
@@ -183,7 +214,8 @@ impl Source for Run {
 
     fn totals(&self) -> Totals {
         let totals = self.simulation.totals();
-        Totals { aborted: self.refused || totals.aborted, ..totals }
+        let aborted = self.refused || self.changed || totals.aborted;
+        Totals { aborted, input_failed: self.changed || totals.input_failed, ..totals }
     }
 }
 
@@ -191,28 +223,27 @@ impl Engine for Kontur {
     fn open(&self, request: &Request) -> Result<Box<dyn Source>, OpenError> {
         readable(&request.program)?;
         folders(request)?;
-        let (machine, mut messages) = machine(request)?;
+        let lists = Lists::default();
+        let (machine, mut messages) = machine(request, &lists)?;
         let options = options(request, &machine)?;
         let machine = Arc::new(machine);
         let program = request.program.display().to_string();
         let limits = Limits { max_time_s: request.max_time_s };
+        let sources = sources(request);
         let open = |options: Options| {
             Simulation::new(
                 Arc::clone(&machine),
-                Box::new(sources(request)),
+                Box::new(sources.clone()),
                 &program,
                 options,
                 &limits,
             )
         };
         // what a check can see refuses the program before its first cycle
-        let found = exec::check(
-            Box::new(sources(request)),
-            &program,
-            Arc::clone(&machine),
-            options.clone(),
-        );
-        let refused = found.iter().any(Diagnostic::is_error);
+        let found =
+            exec::check(Box::new(sources.clone()), &program, Arc::clone(&machine), options.clone());
+        // a limit stops a run where it is met: it does not refuse the program
+        let refused = found.iter().any(|d| d.is_error() && d.id != exec::LIMIT);
         if refused {
             messages.extend(machine.chains().1);
         }
@@ -222,7 +253,18 @@ impl Engine for Kontur {
         let changes = inputs::open(&request.inputs, &machine)?;
         let simulation = open(options).map_err(OpenError::Lists)?.with_inputs(changes);
         let facts = facts(request, &machine, &simulation);
-        Ok(Box::new(Run { facts, simulation, messages, refused }))
+        let others = lists.read_so_far().into_iter().chain(request.inputs.clone()).collect();
+        let run = Run {
+            facts,
+            simulation,
+            sources,
+            others,
+            messages,
+            refused,
+            ended: false,
+            changed: false,
+        };
+        Ok(Box::new(run))
     }
 
     fn check(
@@ -232,7 +274,7 @@ impl Engine for Kontur {
     ) -> Result<(), OpenError> {
         readable(&request.program)?;
         folders(request)?;
-        let (machine, messages) = machine(request)?;
+        let (machine, messages) = machine(request, &Lists::default())?;
         messages.into_iter().chain(machine.chains().1).for_each(&mut *report);
         let options = options(request, &machine)?;
         // a mistake in the inputs comes back here

@@ -5,23 +5,31 @@
 
 pub mod args;
 mod columns;
+mod journal;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod picture;
 
 use crate::console::Console;
 use crate::engine::{Engine, OpenError, Request};
-use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
-use crate::summary::{Collector, State, Summary};
+use crate::interrupt::Running;
+use crate::spectrum::AmplitudeSpectrum;
+use crate::summary::{Collector, Summary};
 use crate::table::Table;
+use crate::target::{Target, keep_apart};
 use crate::trace::columns::Column;
 use crate::vary::{combinations, settings};
 use crate::{Error, Exit};
 use args::{Amplitude, SweepArgs};
 use columns::Cell;
+use journal::Journal;
 use rayon::prelude::*;
-use std::path::Path;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc;
+
+/// Cycles that a spectrum is made of at most: four minutes at 1 ms, and 60 MB for each run under way.
+const MOST_SAMPLES: usize = 1 << 18;
 
 /// What one run leaves behind.
 #[derive(Clone, Debug)]
@@ -31,63 +39,110 @@ struct Outcome {
     amplitudes: Vec<f64>,
 }
 
-/// Why there is no outcome.
+/// The row of one run under its header.
+type Row = (Vec<String>, Vec<Cell>);
+
+/// Why there is no row.
 enum Failure {
     Open(OpenError),
     Usage(String),
+    Interrupted,
 }
 
 /// All rows of a sweep.
 struct Rows {
+    /// Program and machine.
+    title: String,
     header: Vec<String>,
     cells: Vec<Vec<Cell>>,
 }
 
 /// Runs every combination and writes the rows: as a table on stdout, or to each `-o` as CSV, Parquet or picture.
 ///
+/// A sweep that was stopped goes on where it stopped: finished rows wait in a journal beside the first `-o`.
+///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or an output cannot be written.
 pub fn sweep(args: &SweepArgs, engine: &dyn Engine, console: &mut Console) -> Result<Exit, Error> {
-    crate::run::keep_apart(std::slice::from_ref(&args.program), &args.output)?;
     let combinations = combinations(&args.vary)?;
-    let outcomes = outcomes(args, &combinations, engine, console)?;
-    let rows = columns::rows(args, &combinations, &outcomes)?;
     let (standard, files): (Vec<_>, Vec<_>) =
-        args.output.iter().partition(|o| o.as_os_str() == crate::files::STANDARD);
+        args.output.iter().partition(|o| crate::files::is_standard(o));
+    // a file that cannot be written ends the sweep before its first run
+    let (title, reads) = first(args, &combinations, engine, console)?;
+    keep_apart(&reads, &args.output)?;
+    let mut targets = Vec::new();
+    for path in files {
+        let target = Target::create(path).map_err(|e| Error::io(path.display().to_string(), e))?;
+        targets.push((path, target));
+    }
+    let mut journal = match targets.first() {
+        Some((path, _)) => Some(Journal::open(path, args, &reads)?),
+        None => None,
+    };
+    let rows = run_all(args, &combinations, journal.as_mut(), engine, console)?;
+    let rows = Rows { title, ..rows };
     if args.output.is_empty() || !standard.is_empty() {
         console.print(&rows.table().csv())?;
     }
-    for output in files {
-        write(output, args, &combinations, &outcomes, &rows)?;
+    for (path, mut target) in targets {
+        write(path, &mut target, args, &combinations, &rows)?;
     }
-    let all_aborted = outcomes.iter().all(|o| o.summary.state == State::Aborted);
-    Ok(if all_aborted { Exit::Aborted } else { Exit::Finished })
+    if let Some(journal) = journal {
+        journal.remove();
+    }
+    let finished = Cell::Word(columns::FINISHED.to_owned());
+    let any_finished = rows.cells.iter().any(|row| row[args.vary.len()] == finished);
+    Ok(if any_finished { Exit::Finished } else { Exit::Aborted })
+}
+
+/// Program and machine of the first combination, and the files that its run reads.
+fn first(
+    args: &SweepArgs,
+    combinations: &[Vec<usize>],
+    engine: &dyn Engine,
+    console: &mut Console,
+) -> Result<(String, Vec<PathBuf>), Error> {
+    let Some(first) = combinations.first() else { return Ok(Default::default()) };
+    let mut request = args.simulation.request(&args.program);
+    request.settings.extend(settings(&args.vary, first));
+    match engine.open(&request) {
+        Ok(source) => {
+            let facts = source.facts();
+            Ok((format!("{}, machine {}", facts.program, facts.machine), source.reads()))
+        }
+        Err(e) => Err(refused(args, first, e, console)),
+    }
+}
+
+/// The error of a combination that cannot be run.
+fn refused(args: &SweepArgs, combination: &[usize], e: OpenError, console: &mut Console) -> Error {
+    console.error_text(&settings(&args.vary, combination).join(" "));
+    crate::run::announce_lists(e, args.simulation.diagnostics, console)
 }
 
 fn write(
     output: &Path,
+    target: &mut Target,
     args: &SweepArgs,
     combinations: &[Vec<usize>],
-    outcomes: &[Outcome],
     rows: &Rows,
 ) -> Result<(), Error> {
     let is = |end: &str| output.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
     let to_error = |e| Error::io(output.display().to_string(), e);
     if is("parquet") {
         #[cfg(feature = "parquet")]
-        return parquet::write(output, rows).map_err(to_error);
+        target.file().and_then(|file| parquet::write(file, rows)).map_err(to_error)?;
         #[cfg(not(feature = "parquet"))]
         return Err(Error::Usage(format!(
             "{}: built without Parquet, use a .csv file",
             output.display()
         )));
-    }
-    let text = if is("svg") {
-        picture::draw(args, combinations, outcomes, rows)?
     } else {
-        rows.table().csv()
-    };
-    std::fs::write(output, text).map_err(to_error)
+        let text =
+            if is("svg") { picture::draw(args, combinations, rows)? } else { rows.table().csv() };
+        target.file().and_then(|file| file.write_all(text.as_bytes())).map_err(to_error)?;
+    }
+    target.show().map_err(to_error)
 }
 
 impl Rows {
@@ -100,30 +155,51 @@ impl Rows {
     }
 }
 
-/// Runs everything, with a count of what is done on the terminal.
-fn outcomes(
+/// Runs what the journal does not have, with a count of what is done on the terminal.
+fn run_all(
     args: &SweepArgs,
     combinations: &[Vec<usize>],
+    mut journal: Option<&mut Journal>,
     engine: &dyn Engine,
     console: &mut Console,
-) -> Result<Vec<Outcome>, Error> {
+) -> Result<Rows, Error> {
     let mut progress = console.progress();
-    let mut done: Vec<Option<Outcome>> = vec![None; combinations.len()];
+    let _running = Running::start();
+    let mut done: Vec<Option<Row>> = vec![None; combinations.len()];
+    for (i, row) in journal.as_mut().map(|j| j.take_rows()).unwrap_or_default() {
+        if let Some(place) = done.get_mut(i) {
+            *place = Some(row);
+        }
+    }
+    let open: Vec<usize> = (0..done.len()).filter(|i| done[*i].is_none()).collect();
+    let before = done.len() - open.len();
     let mut failed: Option<(usize, Failure)> = None;
+    let mut written = Ok(());
     std::thread::scope(|scope| {
         let (send, receive) = mpsc::channel();
         scope.spawn(move || {
-            combinations.par_iter().enumerate().for_each_with(send, |send, (i, combination)| {
+            open.par_iter().for_each_with(send, |send, &i| {
                 let mut request = args.simulation.request(&args.program);
-                request.settings.extend(settings(&args.vary, combination));
+                request.settings.extend(settings(&args.vary, &combinations[i]));
+                if Running::is_interrupted() {
+                    return;
+                }
+                let row = one(args, &request, engine).and_then(|outcome| {
+                    columns::row(args, &combinations[i], &outcome).map_err(Failure::Usage)
+                });
                 // the receiver lives until the last sender is gone
-                let _ = send.send((i, one(args, &request, engine)));
+                let _ = send.send((i, row));
             });
         });
-        for (count, (i, outcome)) in receive.into_iter().enumerate() {
-            progress.show(|| format!("{} of {} runs", count + 1, combinations.len()));
-            match outcome {
-                Ok(outcome) => done[i] = Some(outcome),
+        for (count, (i, row)) in receive.into_iter().enumerate() {
+            progress.show(|| format!("{} of {} runs", before + count + 1, combinations.len()));
+            match row {
+                Ok(row) => {
+                    if let (Some(journal), Ok(())) = (&mut journal, &written) {
+                        written = journal.write(i, &row);
+                    }
+                    done[i] = Some(row);
+                }
                 // the first combination that fails, not the first to say so
                 Err(e) if failed.as_ref().is_none_or(|(first, _)| i < *first) => {
                     failed = Some((i, e));
@@ -133,14 +209,22 @@ fn outcomes(
         }
     });
     drop(progress);
-    match failed {
-        None => Ok(done.into_iter().flatten().collect()),
-        Some((_, Failure::Usage(text))) => Err(Error::Usage(text)),
-        Some((i, Failure::Open(e))) => {
-            console.error_text(&settings(&args.vary, &combinations[i]).join(" "));
-            Err(crate::run::announce_lists(e, args.simulation.diagnostics, console))
-        }
+    written?;
+    if Running::is_interrupted() {
+        failed = failed.or(Some((0, Failure::Interrupted)));
     }
+    match failed {
+        None => {}
+        Some((_, Failure::Usage(text))) => return Err(Error::Usage(text)),
+        Some((_, Failure::Interrupted)) => return Err(Error::Stopped),
+        Some((i, Failure::Open(e))) => return Err(refused(args, &combinations[i], e, console)),
+    }
+    let mut rows = Rows { title: String::new(), header: Vec::new(), cells: Vec::new() };
+    for (header, cells) in done.into_iter().flatten() {
+        rows.header = header;
+        rows.cells.push(cells);
+    }
+    Ok(rows)
 }
 
 /// One run.
@@ -158,11 +242,20 @@ fn one(args: &SweepArgs, request: &Request, engine: &dyn Engine) -> Result<Outco
     while let Some(record) = source.next_cycle() {
         summary.add(record);
         for (amplitude, column, samples) in &mut wanted {
-            if amplitude.holds(record.k as f64 * cycle_s) && samples.len() < MOST_SAMPLES {
+            if amplitude.holds(record.k as f64 * cycle_s) {
+                if samples.len() == MOST_SAMPLES {
+                    return Err(Failure::Usage(format!(
+                        "--amplitude {}: more than {MOST_SAMPLES} cycles; {}@0..10 takes a part",
+                        amplitude.text, amplitude.text
+                    )));
+                }
                 samples.push(column.number(record).unwrap_or_default());
             }
         }
         if record.k.is_multiple_of(1024) {
+            if Running::is_interrupted() {
+                return Err(Failure::Interrupted);
+            }
             messages.extend(source.take_diagnostics());
         }
     }

@@ -12,8 +12,8 @@ use crate::Error;
 use crate::console::Console;
 use crate::engine::{Facts, Source};
 use crate::files::STANDARD;
+use crate::target::Target;
 use kontur_interpreter::record::CycleRecord;
-use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -30,10 +30,12 @@ enum Writer {
     Csv(csv::CsvWriter),
     #[cfg(feature = "parquet")]
     Parquet(Box<parquet::ParquetWriter>),
+    /// Its reader has gone.
+    Closed,
 }
 
 impl Trace {
-    /// Creates the file, `-` is stdout, and writes the header.
+    /// Begins the file, `-` is stdout; it gets its name with its first rows (CSV) or when it is finished (Parquet).
     ///
     /// # Errors
     /// [`Error::Usage`] for an unknown signal, [`Error::Io`] if the file cannot be created.
@@ -58,17 +60,17 @@ impl Trace {
             let writer = Writer::Csv(csv::CsvWriter::new(target, csv::Rows::new(columns, facts)));
             return Ok(Self { path: "stdout".into(), writer, decimate });
         }
-        let file = File::create(path).map_err(to_error)?;
+        let target = Target::create(path).map_err(to_error)?;
         let writer = match is_parquet {
             #[cfg(feature = "parquet")]
             true => {
-                let writer = parquet::ParquetWriter::new(file, columns, facts).map_err(to_error)?;
-                Writer::Parquet(Box::new(writer))
+                let writer = parquet::ParquetWriter::new(path, target, columns, facts);
+                Writer::Parquet(Box::new(writer.map_err(to_error)?))
             }
-            _ => Writer::Csv(csv::CsvWriter::new(
-                csv::Target::File(file),
-                csv::Rows::new(columns, facts),
-            )),
+            _ => {
+                let rows = csv::Rows::new(columns, facts);
+                Writer::Csv(csv::CsvWriter::new(csv::Target::File(target), rows))
+            }
         };
         Ok(Self { path: path.to_owned(), writer, decimate })
     }
@@ -85,11 +87,17 @@ impl Trace {
             Writer::Csv(w) => w.write(record),
             #[cfg(feature = "parquet")]
             Writer::Parquet(w) => w.write(record),
+            Writer::Closed => Ok(()),
         };
         written.map_err(|e| error(&self.path, e))
     }
 
-    /// Brings everything to the file.
+    /// Writes no more.
+    pub fn close(&mut self) {
+        self.writer = Writer::Closed;
+    }
+
+    /// Brings everything to the file; without a record none is written.
     ///
     /// # Errors
     /// As [`Trace::write`].
@@ -98,6 +106,7 @@ impl Trace {
             Writer::Csv(ref mut w) => w.flush(),
             #[cfg(feature = "parquet")]
             Writer::Parquet(w) => w.finish(source.facts(), &source.totals()),
+            Writer::Closed => Ok(()),
         };
         // only Parquet has a place for what is known at the end
         #[cfg(not(feature = "parquet"))]

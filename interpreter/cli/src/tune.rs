@@ -13,6 +13,7 @@ pub mod recording;
 
 use crate::console::Console;
 use crate::engine::Engine;
+use crate::files::Lists;
 use crate::table::{Table, number};
 use crate::{Error, Exit, simulator};
 use args::TuneArgs;
@@ -91,7 +92,7 @@ pub fn tune(
 /// The cycle of the machine, if one is named, else that of the option.
 fn cycle(args: &TuneArgs, console: &mut Console) -> Result<CycleTime, Error> {
     let form = args.simulation.diagnostics;
-    let loaded = simulator::machine(&args.simulation.request(""));
+    let loaded = simulator::machine(&args.simulation.request(""), &Lists::default());
     let (machine, messages) = loaded.map_err(|e| crate::run::announce_lists(e, form, console))?;
     // with a program the run repeats them
     if args.program.is_none() {

@@ -67,6 +67,9 @@ pub struct Options {
     pub max_blocks: u64,
     /// Blocks without motion or dwell after which a program counts as endless (K-0017), default 1e7.
     pub max_blocks_at_rest: u64,
+    /// Program time in s behind which a check does not look (K-0017), by the programmed speeds and dwells; default
+    /// unlimited. A simulation counts its cycles itself.
+    pub max_time_s: f64,
     /// Takes `#TRAFO ON` and relatives as identity, with a warning, instead of refusing them.
     pub identity_trafo: bool,
     /// External variables by their name behind `V.E.`.
@@ -80,6 +83,7 @@ impl Default for Options {
             skip: SkipLevels::NONE,
             max_blocks: 1_000_000_000,
             max_blocks_at_rest: 10_000_000,
+            max_time_s: f64::INFINITY,
             identity_trafo: false,
             external: BTreeMap::new(),
         }

@@ -189,6 +189,8 @@ pub enum Event {
         text: String,
         /// `#MSG SAVE`: also for the message file.
         save: bool,
+        /// The block that says it.
+        source: SourceRef,
     },
 }
 

@@ -4,6 +4,8 @@ use super::Machine;
 use super::axis::{Axis, AxisKind, kind_of, logical_number};
 use super::chain::Settled;
 use super::channel::Channel;
+use super::key::with_indices;
+use super::overrides::OVERRIDE;
 use super::parameters::Parameters;
 use super::table::param::{Place, whole};
 use super::table::{ListKind, axis_general, channel as of};
@@ -273,6 +275,18 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
             diagnostics.push(
                 error(Condition::ListLink, message, named.at.clone()).axis(*number, name.as_str()),
             );
+        }
+    }
+    for (indices, setting) in settled.own.settings() {
+        // a list may describe more axes than the channel has
+        let is_set = setting.at.as_ref().is_some_and(|at| &*at.file == OVERRIDE);
+        let number = indices[0];
+        let of_axis = setting.row.key.starts_with("kontur.axis[i]");
+        if is_set && of_axis && names.name(number).is_none() {
+            let key = with_indices(setting.row.key, indices);
+            let message = format!("{key}: no axis of the channel has the logical number {number}");
+            let hint = "the index is the logical number of the axis (kopf.achs_nr)";
+            diagnostics.push(error(Condition::Setting, message, setting.at.clone()).hint(hint));
         }
     }
     for (number, name) in &names.slaves {

@@ -7,6 +7,9 @@ use super::table::{self, ListKind, Row};
 use super::value;
 use crate::diag::{Condition, Diagnostic, Location};
 
+/// What messages name in place of a file.
+pub(super) const OVERRIDE: &str = "--set";
+
 /// One override: target, key and value. Targets are an axis or spindle name, `channel`, `start_up` and `kontur`
 /// (whose keys begin with `kontur.` themselves).
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,7 +104,7 @@ impl Override {
         let start = self.text.find(part).unwrap_or_default();
         let column = self.text[..start].chars().count() + 1;
         Location {
-            file: "--set".into(),
+            file: OVERRIDE.into(),
             line: 1,
             column: u32::try_from(column).unwrap_or(u32::MAX),
             offset: start as u64,

@@ -28,8 +28,15 @@ impl Simulation {
                 }
             }
             other => {
+                let block = match &other {
+                    Event::Message { source, .. } => Some(*source),
+                    _ => None,
+                };
                 let time_s = self.cycle.time_of(self.planner.setpoint().k);
-                self.diagnostics.extend(self.totals.note(other, &self.machine, time_s));
+                if let Some(mut message) = self.totals.note(other, &self.machine, time_s) {
+                    message.source = block.and_then(|block| self.executor.locate(block));
+                    self.diagnostics.push(message);
+                }
             }
         }
     }

@@ -8,6 +8,7 @@ use super::ast::{
 };
 use super::grammar::Grammar;
 use super::problem::{self, Context, Problem};
+use super::scan;
 use super::{PROBLEMS_MAX, Rule};
 use crate::diag::Condition;
 use pest::Parser as _;
@@ -44,6 +45,11 @@ impl<'a> Builder<'a> {
         let last = rest.starts_with(['#', '$']);
         self.reported = if last { u32::MAX } else { problem.span.start };
         self.report(problem);
+    }
+
+    /// Reports a list where a value is calculated with.
+    pub(super) fn report_list(&mut self, span: Span) {
+        self.report(problem::list_among_values(self.masked, span));
     }
 
     /// Place of a rule; the grammar's own spans may end in blanks.
@@ -90,6 +96,9 @@ impl<'a> Builder<'a> {
         }
         // The first piece is the error that the grammar itself reported.
         for (span, after_word) in junk.into_iter().skip(1) {
+            if self.problems.len() == PROBLEMS_MAX {
+                break;
+            }
             if span.start >= self.reported && (after_word || self.begins_word(span)) {
                 self.explain_junk(span);
             }
@@ -190,7 +199,7 @@ impl<'a> Builder<'a> {
                 continue;
             }
             let span = part.as_span();
-            let text = part.as_str();
+            let text = &*part.as_str().replace(scan::UNCLOSED, "\"");
             head.text = text.trim_ascii().into();
             if let Some(name) = text.split_ascii_whitespace().next() {
                 let start = span.start() + text.len() - text.trim_ascii_start().len();

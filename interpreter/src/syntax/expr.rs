@@ -90,7 +90,7 @@ impl BinaryOp {
 }
 
 impl Builder<'_> {
-    /// `expression`: signs, atoms and operators in a row.
+    /// `expression` or `chain`: signs, atoms and operators in a row.
     pub(super) fn expression(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let mut operands = Vec::new();
         let mut operators: Vec<BinaryOp> = Vec::new();
@@ -164,6 +164,12 @@ impl Builder<'_> {
             Rule::string => ExprKind::Text(self.string(&pair)),
             Rule::function => self.function(pair),
             Rule::place => ExprKind::Place(Box::new(self.place(pair))),
+            Rule::group => {
+                return self.bracket(pair).unwrap_or_else(|_| {
+                    self.report_list(span);
+                    Expr { span, ..Builder::zero() }
+                });
+            }
             _ => {
                 let inner = pair.into_inner().find(|p| p.as_rule() == Rule::expression);
                 let inner = inner.map_or_else(Builder::zero, |p| self.expression(p));

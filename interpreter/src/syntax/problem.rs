@@ -62,6 +62,17 @@ pub(super) fn too_deep(at: usize) -> Problem {
     Problem::new(Condition::Nesting, span, format!("brackets nested more than {limit} deep"))
 }
 
+/// Something like `[1,2] + 3` in the brackets of a command.
+pub(super) fn list_among_values(masked: &str, span: Span) -> Problem {
+    let text = "a list in brackets has no value to calculate with";
+    let before = masked.get(..span.start as usize).unwrap_or_default();
+    if Context::of(masked) == Context::Command || in_cycle_call(before) {
+        Problem::new(Condition::TokenUnknown, span, text)
+    } else {
+        Problem::syntax(span, text)
+    }
+}
+
 /// What the content of a block is, judged by its first character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Context {
@@ -123,11 +134,12 @@ pub(super) fn from_error(
         ErrorVariant::ParsingError { positives, .. } => expected(positives),
         ErrorVariant::CustomError { .. } => Vec::new(),
     };
-    if let Some(quote) = scan::unclosed_string(masked).filter(|q| (offset..=at).contains(q)) {
+    let unclosed = masked[offset..].find(scan::UNCLOSED).map(|quote| offset + quote);
+    if let Some(quote) = unclosed.filter(|quote| *quote <= at) {
         let problem = Problem::syntax(Span::new(quote, quote + 1), "string without closing `\"`");
         return refine(problem, &masked[offset..quote], "\"", context, masked, &expected);
     }
-    let rest = &masked[at..];
+    let rest = masked[at..].trim_ascii_end();
     let mut text = if rest.is_empty() {
         "the block ends too early".to_owned()
     } else {
@@ -323,6 +335,7 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::function_name
         | Rule::signed_number
         | Rule::value
+        | Rule::chain
         | Rule::value_name => (0, VALUE),
         Rule::digits | Rule::code_number | Rule::code_digits => (1, "a number"),
         Rule::equals => (2, EQUALS),

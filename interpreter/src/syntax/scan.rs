@@ -10,6 +10,9 @@ use std::ops::Range;
 /// Byte that stands in the masked text for every character of a configured name.
 pub(super) const MARK: u8 = 1;
 
+/// Stands in the masked text for a quote that is never closed.
+pub(super) const UNCLOSED: char = '\u{2}';
+
 /// Deepest nesting of square brackets; deeper blocks get K-0006. Far beyond anything written by hand or post-processor,
 /// and small enough for the stack of every platform.
 pub const NESTING_MAX: usize = 64;
@@ -30,6 +33,8 @@ enum Region {
 struct Regions<'a> {
     bytes: &'a [u8],
     at: usize,
+    /// A quote was never closed: no later one is, and none of them is looked for.
+    unclosed: bool,
 }
 
 impl Iterator for Regions<'_> {
@@ -41,10 +46,11 @@ impl Iterator for Regions<'_> {
         let (region, length) = match rest.first()? {
             b';' => (Region::Comment { closed: false }, rest.len()),
             b'(' => comment(rest),
-            b'"' => match string(rest) {
-                Some(length) => (Region::Text, length),
-                None => (Region::Code, 1),
-            },
+            b'"' => {
+                let length = if self.unclosed { None } else { string(rest) };
+                self.unclosed = length.is_none();
+                length.map_or((Region::Code, 1), |length| (Region::Text, length))
+            }
             _ => {
                 let length = memchr::memchr3(b';', b'(', b'"', rest).unwrap_or(rest.len());
                 (Region::Code, length)
@@ -56,7 +62,7 @@ impl Iterator for Regions<'_> {
 }
 
 fn regions(text: &str) -> Regions<'_> {
-    Regions { bytes: text.as_bytes(), at: 0 }
+    Regions { bytes: text.as_bytes(), at: 0, unclosed: false }
 }
 
 /// Length of a comment in round brackets.
@@ -116,13 +122,6 @@ pub(super) fn strings(text: &str) -> impl Iterator<Item = Range<usize>> {
     regions(text).filter(|(region, _)| *region == Region::Text).map(|(_, range)| range)
 }
 
-/// Place of the first string that is never closed.
-pub(super) fn unclosed_string(text: &str) -> Option<usize> {
-    regions(text)
-        .find(|(region, range)| *region == Region::Code && text[range.clone()].starts_with('"'))
-        .map(|(_, range)| range.start)
-}
-
 /// Text as the grammar sees it.
 pub(super) struct Masked {
     /// Same length in bytes as the block.
@@ -154,6 +153,7 @@ pub(super) fn mask(text: &str, names: &[Box<str>]) -> Masked {
                             }
                         }
                         b']' => depth = depth.saturating_sub(1),
+                        b'"' => out[i] = UNCLOSED as u8, // not closed, or it were a string
                         byte if is_valid(byte) => {}
                         _ => {
                             out[i] = b' ';
@@ -287,7 +287,7 @@ mod tests {
         assert_eq!(masked("( N010 #SLOPE[TYPE=HSC]", &[]).trim(), "");
         assert_eq!(masked(r#"["(a;\"" ;x"#, &[]), r#"["(a;\""   "#);
         assert_eq!(masked("X1 ;(Y2)", &[]).trim_end(), "X1");
-        assert_eq!(masked("\"a ;b", &[]), "\"a   ");
+        assert_eq!(masked("\"a ;b", &[]), "\u{2}a   ");
     }
 
     #[test]

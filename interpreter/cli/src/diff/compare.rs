@@ -262,6 +262,10 @@ fn excess(a: &[u8], b: &[u8], tolerance: Option<f64>) -> Option<Excess> {
     }
     let number = |cell: &[u8]| std::str::from_utf8(cell).ok()?.parse::<f64>().ok();
     match (tolerance, number(a), number(b)) {
+        (Some(_), Some(a), Some(b)) if !(a.is_finite() && b.is_finite()) => {
+            let same = a.is_nan() && b.is_nan() || a.total_cmp(&b).is_eq();
+            (!same).then_some(Excess { size: None })
+        }
         (Some(tolerance), Some(a), Some(b)) => {
             let difference = (a - b).abs();
             // a difference of 1e-6 between printed numbers is a little more or less in binary
@@ -370,6 +374,17 @@ mod tests {
         let o =
             outcome("t_s,a_mm,b_mm", &["0,1,2".to_owned()], "t_s,b_mm,a_mm", &["0,2,1".to_owned()]);
         assert!(o.equal, "order does not matter");
+    }
+
+    #[test]
+    fn what_is_no_number_equals_itself_alone() {
+        let values = ["1", "1e300", "inf", "-inf", "nan", "NaN", ""];
+        for a in values {
+            for b in values {
+                let o = outcome("v_mm_s", &[a.to_owned()], "v_mm_s", &[b.to_owned()]);
+                assert_eq!(o.equal, a.eq_ignore_ascii_case(b), "{a} {b}");
+            }
+        }
     }
 
     #[test]

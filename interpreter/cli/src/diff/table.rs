@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::engine::Source;
+use crate::text::Text;
 use crate::trace::columns;
 use crate::trace::csv::Rows;
 use csv::ByteRecord;
@@ -22,7 +23,7 @@ pub(super) struct Table {
 }
 
 enum Origin {
-    File(Box<csv::Reader<File>>),
+    File(Box<csv::Reader<Text<File>>>),
     Run(Box<Fresh>),
 }
 
@@ -35,20 +36,30 @@ struct Fresh {
 /// True if a file is a trace, false if it is an NC program.
 ///
 /// # Errors
-/// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a Parquet trace or a foreign table.
+/// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a Parquet trace or a table of another form.
 pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
     let io = |e| Error::io(path.display().to_string(), e);
+    let refused = |text: &str| Err(Error::Usage(format!("{}: {text}", path.display())));
+    let is = |end: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
+    if !std::fs::metadata(path).map_err(io)?.is_file() {
+        // what can be read only once is a program, but for its name
+        return if is("csv") { refused("no regular file") } else { Ok(false) };
+    }
     let mut start = Vec::new();
-    File::open(path).map_err(io)?.take(4).read_to_end(&mut start).map_err(io)?;
-    if start == b"PAR1" {
-        return Err(Error::Usage(format!("{}: diff reads CSV traces", path.display())));
+    File::open(path).map_err(io)?.take(8).read_to_end(&mut start).map_err(io)?;
+    let text = start.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&start);
+    match text {
+        [b'P', b'A', b'R', b'1', ..] => refused("diff reads CSV traces"),
+        [b't', b'_', b's', b',' | b'\r' | b'\n', ..] | b"t_s" => Ok(true),
+        [b't', b'_', b's', b';' | b'\t', ..] => refused(
+            "its columns are not separated by commas; diff reads CSV with commas and decimal points",
+        ),
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => refused("the text is UTF-16; save it as UTF-8"),
+        // an empty or foreign table must not pass for a program that does nothing
+        [b'#', ..] if is("csv") => refused("it starts with a `#` line; a trace starts with `t_s`"),
+        _ if is("csv") => refused("no trace, it starts without `t_s`"),
+        _ => Ok(false),
     }
-    let trace = start == b"t_s,";
-    // an empty or foreign table must not pass for a program that does nothing
-    if !trace && path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
-        return Err(Error::Usage(format!("{}: no trace, it starts without `t_s`", path.display())));
-    }
-    Ok(trace)
 }
 
 impl Table {
@@ -59,9 +70,13 @@ impl Table {
     pub(super) fn read(path: &Path) -> Result<Self, Error> {
         let name = path.display().to_string();
         let file = File::open(path).map_err(|e| Error::io(&name, e))?;
-        let mut reader = csv::ReaderBuilder::new().buffer_capacity(1 << 18).from_reader(file);
+        let text = Text::new(file).map_err(|e| Error::io(&name, e))?;
+        let mut reader = csv::ReaderBuilder::new().buffer_capacity(1 << 18).from_reader(text);
         let header = reader.headers().map_err(|e| Error::io(&name, e.into()))?;
-        let header = header.iter().map(str::to_owned).collect();
+        let header: Vec<String> = header.iter().map(str::to_owned).collect();
+        if let Some(i) = (1..header.len()).find(|i| header[..*i].contains(&header[*i])) {
+            return Err(Error::Usage(format!("{name}: column `{}` stands twice", header[i])));
+        }
         let rows = Origin::File(Box::new(reader));
         Ok(Self { name, header, row: ByteRecord::new(), rows })
     }

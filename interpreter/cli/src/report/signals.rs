@@ -54,6 +54,7 @@ pub(super) fn report(
         };
         let mut source =
             engine.open(&request).map_err(|e| crate::run::announce_lists(e, form, console))?;
+        crate::target::keep_apart(&source.reads(), &[output.to_owned()])?;
         let mut summary = Collector::new(source.facts());
         let mut run = Recorded::new(label, names, source.facts())?;
         crate::run::drive(source.as_mut(), console, form, &mut summary, &mut |record| {
@@ -86,8 +87,11 @@ pub(super) fn report(
         }
         runs.push(run);
     }
-    let text = if is("csv") { table(args, &runs).csv() } else { plot(args, &runs).draw() };
-    std::fs::write(output, text).map_err(|e| Error::io(output.display().to_string(), e))?;
+    // of refused programs there is nothing to show
+    if runs.iter().any(|run| !run.times.is_empty()) {
+        let text = if is("csv") { table(args, &runs).csv() } else { plot(args, &runs).draw() };
+        crate::target::write(output, text.as_bytes())?;
+    }
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
 }
 

@@ -4,6 +4,7 @@ use super::args::ResponseArgs;
 use super::curve::Curve;
 use crate::console::Console;
 use crate::engine::Request;
+use crate::files::Lists;
 use crate::{Error, args::MessageForm, run, simulator};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::time::CycleTime;
@@ -25,7 +26,7 @@ pub(super) fn curves(
         ..Request::default()
     };
     let form = MessageForm::Text;
-    let loaded = simulator::machine(&request);
+    let loaded = simulator::machine(&request, &Lists::default());
     let (machine, mut messages) = loaded.map_err(|e| run::announce_lists(e, form, console))?;
     let (chains, found) = machine.chains();
     messages.extend(found);

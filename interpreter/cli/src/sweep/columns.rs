@@ -1,17 +1,17 @@
 //! The rows of a sweep: parameters, how the run ended, results.
 
+use super::Outcome;
 use super::args::SweepArgs;
-use super::{Outcome, Rows};
-use crate::Error;
 use crate::summary::{AxisSummary, State, Summary};
 use crate::table::number;
 use kontur_interpreter::diag::{Diagnostic, Severity};
+use serde::{Deserialize, Serialize};
 
 /// A value of a row.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Cell {
-    /// Not finite: nothing.
-    Number(f64, usize),
+    /// With its decimals in a text table; not finite: nothing.
+    Number(#[serde(with = "bits")] f64, usize),
     Word(String),
 }
 
@@ -33,6 +33,23 @@ impl Cell {
     }
 }
 
+/// A number by its bits: the text of a number need not come back to the same.
+mod bits {
+    use serde::{Deserialize as _, Deserializer, Serializer};
+
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "the form that serde asks for")]
+    pub(super) fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_u64(x.to_bits())
+    }
+
+    pub(super) fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<f64, D::Error> {
+        u64::deserialize(from).map(f64::from_bits)
+    }
+}
+
+/// The word in the column `state` of a run that came to its end.
+pub(super) const FINISHED: &str = "finished";
+
 /// What every row has behind its parameters.
 const STATE: [&str; 3] = ["state", "error", "warnings"];
 
@@ -48,38 +65,35 @@ const OF_AXIS: [OfAxis; 6] = [
     ("lag", "", |a| a.max_lag, 7),
 ];
 
-/// The rows: parameters, state, ID of the first error, number of warnings, and the results that were asked for.
+/// The row of a run under its header: parameters, state, ID of the first error, number of warnings, and the results that
+/// were asked for.
 ///
 /// # Errors
-/// [`Error::Usage`] for the name of a result that does not exist.
-pub(super) fn rows(
+/// The names of all results, if one was asked for that does not exist.
+pub(super) fn row(
     args: &SweepArgs,
-    combinations: &[Vec<usize>],
-    outcomes: &[Outcome],
-) -> Result<Rows, Error> {
-    let results: Vec<Vec<(String, Cell)>> = outcomes.iter().map(|o| results(args, o)).collect();
-    let names: Vec<&String> = results
-        .first()
-        .map(|first| first.iter().map(|(name, _)| name).collect())
-        .unwrap_or_default();
-    if let Some(unknown) = args.columns.iter().find(|wanted| !names.contains(wanted)) {
-        let known: Vec<&str> = names.iter().map(|n| n.as_str()).collect();
-        let text = format!("--columns: `{unknown}` is no result; they are {}", known.join(", "));
-        return Err(Error::Usage(text));
+    combination: &[usize],
+    outcome: &Outcome,
+) -> Result<(Vec<String>, Vec<Cell>), String> {
+    let results = results(args, outcome);
+    if let Some(unknown) =
+        args.columns.iter().find(|wanted| !results.iter().any(|(name, _)| name == *wanted))
+    {
+        let known: Vec<&str> = results.iter().map(|(name, _)| name.as_str()).collect();
+        let known = known.join(", ");
+        return Err(format!("--columns: `{unknown}` is no result; they are {known}"));
     }
-    let wanted = |name: &String| args.columns.is_empty() || args.columns.contains(name);
     let mut header: Vec<String> = args.vary.iter().map(|v| v.key.clone()).collect();
     header.extend(STATE.map(str::to_owned));
-    header.extend(names.into_iter().filter(|name| wanted(name)).cloned());
-    let mut cells = Vec::with_capacity(outcomes.len());
-    for ((combination, outcome), results) in combinations.iter().zip(outcomes).zip(&results) {
-        let values = args.vary.iter().zip(combination).map(|(v, &i)| value(&v.values[i]));
-        let mut row: Vec<Cell> = values.collect();
-        row.extend(state(&outcome.summary));
-        row.extend(results.iter().filter(|(name, _)| wanted(name)).map(|(_, cell)| cell.clone()));
-        cells.push(row);
+    let mut row: Vec<Cell> =
+        args.vary.iter().zip(combination).map(|(v, &i)| value(&v.values[i])).collect();
+    row.extend(state(&outcome.summary));
+    let wanted = |name: &String| args.columns.is_empty() || args.columns.contains(name);
+    for (name, cell) in results.into_iter().filter(|(name, _)| wanted(name)) {
+        header.push(name);
+        row.push(cell);
     }
-    Ok(Rows { header, cells })
+    Ok((header, row))
 }
 
 /// A parameter as a number if it is one, with the decimals that it was given with.
@@ -92,7 +106,7 @@ fn value(text: &str) -> Cell {
 }
 
 fn state(summary: &Summary) -> [Cell; 3] {
-    let word = if summary.state == State::Finished { "finished" } else { "aborted" };
+    let word = if summary.state == State::Finished { FINISHED } else { "aborted" };
     let error = summary.messages.iter().find(|m| m.is_error());
     let warnings = summary.messages.iter().filter(|m| m.severity == Severity::Warning).count();
     [

@@ -9,14 +9,13 @@ use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::schema::types::Type;
 use std::fs::File;
 use std::io;
-use std::path::Path;
 use std::sync::Arc;
 
 /// Writes the file.
 ///
 /// # Errors
 /// The system's, e.g. a full disk.
-pub(super) fn write(path: &Path, rows: &Rows) -> io::Result<()> {
+pub(super) fn write(file: &mut File, rows: &Rows) -> io::Result<()> {
     let properties = WriterProperties::builder()
         .set_created_by(concat!("kontur ", env!("CARGO_PKG_VERSION")).to_owned())
         .set_compression(Compression::SNAPPY)
@@ -35,7 +34,6 @@ pub(super) fn write(path: &Path, rows: &Rows) -> io::Result<()> {
         fields.push(Arc::new(field.build().map_err(to_io)?));
     }
     let schema = Type::group_type_builder("sweep").with_fields(fields).build().map_err(to_io)?;
-    let file = File::create(path)?;
     let mut writer =
         SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties)).map_err(to_io)?;
     let mut group = writer.next_row_group().map_err(to_io)?;
@@ -76,6 +74,7 @@ mod tests {
     #[test]
     fn reads_back() {
         let rows = Rows {
+            title: String::new(),
             header: ["X.a", "state", "t"].map(str::to_owned).to_vec(),
             cells: vec![
                 vec![Cell::Number(1.5, 1), Cell::Word("finished".to_owned()), Cell::Number(0.1, 2)],
@@ -88,7 +87,7 @@ mod tests {
         };
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.parquet");
-        write(&path, &rows).unwrap();
+        write(&mut File::create(&path).unwrap(), &rows).unwrap();
         let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
         let read: Vec<_> = reader.get_row_iter(None).unwrap().map(|r| r.unwrap()).collect();
         assert_eq!(read.len(), 2);

@@ -1,10 +1,10 @@
 //! The picture of a sweep: results over the first parameter, one curve for each combination of the others.
 
+use super::Rows;
 use super::args::SweepArgs;
-use super::{Outcome, Rows};
+use super::columns::{Cell, FINISHED};
 use crate::Error;
 use crate::report::plot::{Diagram, Line, Plot, Scale, around};
-use crate::summary::State;
 
 /// Shown if no results are named.
 const USUAL: [&str; 2] = ["duration_s", "contour_err_mm"];
@@ -25,7 +25,6 @@ struct Series<'a> {
 pub(super) fn draw(
     args: &SweepArgs,
     combinations: &[Vec<usize>],
-    outcomes: &[Outcome],
     rows: &Rows,
 ) -> Result<String, Error> {
     let (first, others) = args
@@ -51,7 +50,9 @@ pub(super) fn draw(
     for s in &mut series {
         s.points.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
-    let finished = |row: usize| outcomes[row].summary.state == State::Finished;
+    // behind the parameters
+    let state = args.vary.len();
+    let finished = |row: usize| rows.cells[row][state] == Cell::Word(FINISHED.to_owned());
     let legend = series.iter().map(|s| {
         let names =
             others.iter().zip(s.rest).map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
@@ -100,11 +101,9 @@ pub(super) fn draw(
             }
         });
     let panels = panels.collect();
-    let summary = outcomes.first().map(|o| &o.summary);
     let plot = Plot {
-        title: summary
-            .map_or_else(String::new, |s| format!("{}, machine {}", s.program, s.machine)),
-        subtitle: format!("over {}; {} runs", first.key, outcomes.len()),
+        title: rows.title.clone(),
+        subtitle: format!("over {}; {} runs", first.key, rows.cells.len()),
         legend,
         columns: 1,
         row_height: 340.0,

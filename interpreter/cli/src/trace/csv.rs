@@ -4,9 +4,10 @@ use super::columns::{Column, Content};
 use super::fixed::{push_fixed, push_integer, push_seconds};
 use crate::console::Output;
 use crate::engine::Facts;
+use crate::target;
 use kontur_interpreter::record::CycleRecord;
-use std::fs::File;
 use std::io::{self, Write};
+use std::time::{Duration, Instant};
 
 /// Turns records into lines of CSV.
 #[derive(Clone, Debug)]
@@ -64,6 +65,14 @@ impl Rows {
     }
 }
 
+#[expect(
+    clippy::disallowed_methods,
+    reason = "what waits too long could be lost; no value depends on it"
+)]
+fn now() -> Instant {
+    Instant::now()
+}
+
 /// A cell as CSV wants it: quoted only if it has to be.
 fn quoted(cell: &str) -> String {
     if cell.contains([',', '"', '\n', '\r']) {
@@ -77,7 +86,7 @@ fn quoted(cell: &str) -> String {
 #[derive(Debug)]
 pub enum Target {
     /// A file.
-    File(File),
+    File(target::Target),
     /// Stdout.
     Standard(Output),
 }
@@ -85,21 +94,24 @@ pub enum Target {
 impl Target {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
-            Self::File(file) => file.write(bytes),
+            Self::File(target) => target.file()?.write(bytes),
             Self::Standard(out) => out.write(bytes),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         match self {
-            Self::File(file) => file.flush(),
+            // the run has begun well: the file gets its name
+            Self::File(target) => target.show(),
             Self::Standard(out) => out.flush(),
         }
     }
 
     /// Takes a torn line away. Not every target can be cut (a pipe, a device): there it stays, and the error is reported.
-    fn cut(&self, length: u64) {
-        if let Self::File(file) = self {
+    fn cut(&mut self, length: u64) {
+        if let Self::File(target) = self
+            && let Ok(file) = target.file()
+        {
             let _ = file.set_len(length);
         }
     }
@@ -111,18 +123,27 @@ pub struct CsvWriter {
     rows: Rows,
     target: Target,
     buffer: Vec<u8>,
+    /// Bytes handed over.
     written: u64,
+    /// Records in the buffer.
+    waiting: u64,
+    /// When lines were handed over last.
+    flushed: Instant,
 }
 
 impl CsvWriter {
-    /// Lines are handed to the system in pieces of this size; what a kill can lose is at most one piece.
+    /// Lines are handed to the system in pieces of this size.
     const PIECE: usize = 256 * 1024;
+    /// And at least so often: what a kill can lose is not more.
+    const PERIOD: Duration = Duration::from_millis(900);
+    /// Records between two looks at the clock.
+    const LOOK_EVERY: u64 = 16;
 
     /// Starts a trace with its header.
     pub fn new(target: Target, rows: Rows) -> Self {
         let mut buffer = Vec::with_capacity(Self::PIECE + 4096);
         rows.push_header(&mut buffer);
-        Self { rows, target, buffer, written: 0 }
+        Self { rows, target, buffer, written: 0, waiting: 0, flushed: now() }
     }
 
     /// Adds a record.
@@ -131,14 +152,21 @@ impl CsvWriter {
     /// The system's, e.g. a full disk; what stands in the file then ends with a whole line.
     pub fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
         self.rows.push_row(&mut self.buffer, record);
-        if self.buffer.len() >= Self::PIECE { self.flush() } else { Ok(()) }
+        self.waiting += 1;
+        let late =
+            self.waiting.is_multiple_of(Self::LOOK_EVERY) && self.flushed.elapsed() >= Self::PERIOD;
+        if self.buffer.len() >= Self::PIECE || late { self.flush() } else { Ok(()) }
     }
 
-    /// Hands every line to the system.
+    /// Hands every line to the system; a header without a record stays where it is.
     ///
     /// # Errors
     /// As [`CsvWriter::write`].
     pub fn flush(&mut self) -> io::Result<()> {
+        self.flushed = now();
+        if std::mem::take(&mut self.waiting) == 0 {
+            return Ok(());
+        }
         let mut done = 0;
         let result = loop {
             match self.target.write(&self.buffer[done..]) {
@@ -213,7 +241,7 @@ mod tests {
         let rows = Rows::new(columns::select(columns::DEFAULT_SIGNALS, &facts).unwrap(), &facts);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
-        let mut writer = CsvWriter::new(Target::File(File::create(&path).unwrap()), rows);
+        let mut writer = CsvWriter::new(Target::File(target::Target::create(&path).unwrap()), rows);
         for k in 0..20_000 {
             writer.write(&record(k)).unwrap();
         }
@@ -230,8 +258,8 @@ mod tests {
     fn a_full_disk_is_an_error() {
         let facts = facts(&["a.nc"]);
         let rows = Rows::new(columns::select("ipo", &facts).unwrap(), &facts);
-        let file = File::options().write(true).open("/dev/full").unwrap();
-        let mut writer = CsvWriter::new(Target::File(file), rows);
+        let full = target::Target::create("/dev/full".as_ref()).unwrap();
+        let mut writer = CsvWriter::new(Target::File(full), rows);
         writer.write(&record(0)).unwrap();
         assert_eq!(writer.flush().unwrap_err().kind(), io::ErrorKind::StorageFull);
     }

@@ -2,22 +2,30 @@
 //!
 //! Numbers are stored as byte streams (all first bytes, all second bytes, ...), which is what makes smooth curves
 //! compress; a dictionary of 64 K different values would cost time and save nothing. Snappy is the codec because it
-//! is plain Rust and every reader knows it. A Parquet file is readable only once its footer stands: a killed run
-//! leaves none, where CSV does.
+//! is plain Rust and every reader knows it.
+//!
+//! A Parquet file is readable only once its footer stands. So each group of rows goes to a file of its own in the folder
+//! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
+//! leaves is a folder of whole Parquet files, which readers take as one table.
 
 use super::columns::{Column, Content};
 use crate::engine::{Facts, Totals};
+use crate::target::{Target, folder_of};
 use ::parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
+use ::parquet::column::writer::ColumnCloseResult;
 use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::WriterProperties;
+use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
 use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::{ColumnPath, Type};
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 use std::fs::File;
 use std::io;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tempfile::TempDir;
 
 /// Rows that are gathered before they are written.
 const ROWS_PER_GROUP: usize = 65_536;
@@ -39,7 +47,12 @@ pub struct ParquetWriter {
     cycle_us: u64,
     files: Vec<ByteArray>,
     limits: Vec<(SpeedLimit, ByteArray)>,
-    writer: SerializedFileWriter<File>,
+    schema: Arc<Type>,
+    properties: Arc<WriterProperties>,
+    target: Target,
+    /// Where the groups before are.
+    folder: TempDir,
+    parts: Vec<PathBuf>,
 }
 
 impl std::fmt::Debug for ParquetWriter {
@@ -53,7 +66,12 @@ impl ParquetWriter {
     ///
     /// # Errors
     /// The system's.
-    pub fn new(file: File, columns: Vec<Column>, facts: &Facts) -> io::Result<Self> {
+    pub fn new(
+        path: &Path,
+        target: Target,
+        columns: Vec<Column>,
+        facts: &Facts,
+    ) -> io::Result<Self> {
         let mut properties = WriterProperties::builder()
             .set_created_by(concat!("kontur ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_compression(Compression::SNAPPY);
@@ -82,7 +100,11 @@ impl ParquetWriter {
         }
         let schema = Type::group_type_builder("trace").with_fields(fields).build();
         let schema = Arc::new(schema.map_err(to_io)?);
-        let writer = SerializedFileWriter::new(file, schema, Arc::new(properties.build()));
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let folder = tempfile::Builder::new()
+            .prefix(&format!(".{name}."))
+            .suffix(".parts")
+            .tempdir_in(folder_of(path))?;
         let empty = |c: &Column| match c.content {
             Content::Line => Values::Integer(Vec::new()),
             Content::Block => Values::Optional(Vec::new(), Vec::new()),
@@ -95,7 +117,11 @@ impl ParquetWriter {
             cycle_us: u64::from(facts.cycle_us),
             files: facts.files.iter().map(|f| ByteArray::from(f.as_str())).collect(),
             limits: SpeedLimit::ALL.map(|l| (l, ByteArray::from(l.name()))).into(),
-            writer: writer.map_err(to_io)?,
+            schema,
+            properties: Arc::new(properties.build()),
+            target,
+            folder,
+            parts: Vec::new(),
         })
     }
 
@@ -125,11 +151,21 @@ impl ParquetWriter {
             }
         }
         self.rows += 1;
-        if self.rows >= ROWS_PER_GROUP { self.write_group() } else { Ok(()) }
+        if self.rows < ROWS_PER_GROUP {
+            return Ok(());
+        }
+        self.write_group().map_err(|e| self.kept(e))
     }
 
+    /// Writes the rows that wait to a file of their own.
     fn write_group(&mut self) -> io::Result<()> {
-        let mut group = self.writer.next_row_group().map_err(to_io)?;
+        let path = self.folder.path().join(format!("{:06}.parquet", self.parts.len() + 1));
+        // until it is whole it has another name
+        let unfinished = path.with_extension("part");
+        let file = File::create(&unfinished)?;
+        let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
+        let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(to_io)?;
+        let mut group = writer.next_row_group().map_err(to_io)?;
         for (_, values) in &mut self.columns {
             match values {
                 Values::Number(v) => put::<DoubleType>(&mut group, v, None)?,
@@ -142,20 +178,65 @@ impl ParquetWriter {
             }
         }
         group.close().map_err(to_io)?;
+        writer.close().map_err(to_io)?;
+        std::fs::rename(&unfinished, &path)?;
+        self.parts.push(path);
         self.rows = 0;
         Ok(())
     }
 
-    /// Writes what waits, the metadata and the footer.
+    /// Puts everything together under the name of the trace; without a row nothing is written.
     ///
     /// # Errors
-    /// The system's, e.g. a full disk.
+    /// The system's, e.g. a full disk; what was written stays in the folder that the error names.
     pub fn finish(mut self, facts: &Facts, totals: &Totals) -> io::Result<()> {
-        if self.rows > 0 {
-            self.write_group()?;
+        let written = if self.rows > 0 { self.write_group() } else { Ok(()) };
+        let done = written.and_then(|()| self.join(facts, totals));
+        done.map_err(|e| {
+            let e = self.kept(e);
+            if !self.parts.is_empty() {
+                self.folder.disable_cleanup(true);
+            }
+            e
+        })
+    }
+
+    /// An error that says where the parts are.
+    fn kept(&self, e: io::Error) -> io::Error {
+        if self.parts.is_empty() {
+            return e;
+        }
+        let folder = self.folder.path().display();
+        io::Error::new(e.kind(), format!("{e}; the rows up to there are in {folder}"))
+    }
+
+    fn join(&mut self, facts: &Facts, totals: &Totals) -> io::Result<()> {
+        if self.parts.is_empty() {
+            return Ok(());
+        }
+        let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
+        let file = self.target.file()?;
+        let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(to_io)?;
+        for part in &self.parts {
+            let part = File::open(part)?;
+            let reader = SerializedFileReader::new(part.try_clone()?).map_err(to_io)?;
+            let mut group = writer.next_row_group().map_err(to_io)?;
+            let metadata = reader.metadata().row_group(0);
+            for column in metadata.columns() {
+                let closed = ColumnCloseResult {
+                    bytes_written: column.compressed_size().cast_unsigned(),
+                    rows_written: metadata.num_rows().cast_unsigned(),
+                    metadata: column.clone(),
+                    bloom_filter: None,
+                    column_index: None,
+                    offset_index: None,
+                };
+                group.append_column(&part, closed).map_err(to_io)?;
+            }
+            group.close().map_err(to_io)?;
         }
         let mut note = |key: &str, value: String| {
-            self.writer.append_key_value_metadata(KeyValue::new(key.to_owned(), value));
+            writer.append_key_value_metadata(KeyValue::new(key.to_owned(), value));
         };
         note("kontur.program", facts.program.clone());
         note("kontur.machine", facts.machine.clone());
@@ -163,8 +244,8 @@ impl ParquetWriter {
         for (axis, delay) in facts.axes.iter().zip(&totals.filter_delay_cycles) {
             note(&format!("kontur.filter_delay_cycles.{}", axis.name), delay.to_string());
         }
-        self.writer.close().map_err(to_io)?;
-        Ok(())
+        writer.close().map_err(to_io)?;
+        self.target.show()
     }
 }
 
@@ -214,7 +295,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.parquet");
         let columns = columns::select("v_limit,ipo", &facts).unwrap();
-        let mut writer = ParquetWriter::new(File::create(&path).unwrap(), columns, &facts).unwrap();
+        let target = Target::create(&path).unwrap();
+        let mut writer = ParquetWriter::new(&path, target, columns, &facts).unwrap();
         let rows = 2 * ROWS_PER_GROUP as u64 + 5;
         for k in 0..rows {
             let record = CycleRecord {

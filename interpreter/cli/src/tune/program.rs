@@ -14,6 +14,7 @@ use super::own::{Commands, copy};
 use super::{Choice, Row, Task, command};
 use crate::console::Console;
 use crate::engine::{Engine, Request};
+use crate::files::Lists;
 use crate::summary::{Collector, State, Summary};
 use crate::table::{Table, number};
 use crate::{Error, Exit, run, simulator};
@@ -58,7 +59,7 @@ pub(super) fn answer(
         request
     };
     let first = plain.as_ref().map_or_else(|| request.clone(), &instead);
-    let loaded = simulator::machine(&request);
+    let loaded = simulator::machine(&request, &Lists::default());
     let (machine, _) =
         loaded.map_err(|e| run::announce_lists(e, args.simulation.diagnostics, console))?;
     console.print(&assumed(&machine, &own, max_dev_mm))?;

@@ -9,15 +9,17 @@ use super::fit;
 use crate::Error;
 use crate::console::Console;
 use crate::table::{Table, number};
+use crate::text::Text;
 use kontur_filters::analysis::decay::Decay;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
+use std::fs::File;
 use std::path::Path;
 
 /// Shorter recordings hold no decay.
 const LEAST_SAMPLES: usize = 64;
-/// Longer ones are refused: an hour at 4 kHz.
-const MOST_SAMPLES: usize = 1 << 24;
+/// Longer ones are refused: two minutes at 4 kHz. Their spectra take 130 MB.
+const MOST_SAMPLES: usize = 1 << 19;
 /// Peaks lower than this share of the highest one are noise.
 const LEAST_PEAK_RATIO: f64 = 0.15;
 /// Peaks shown.
@@ -88,10 +90,25 @@ fn read(path: &Path, column: Option<&str>, rate_hz: Option<f64>) -> Result<(Vec<
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));
     let io = |e: csv::Error| match e.into_kind() {
         csv::ErrorKind::Io(e) => Error::io(name.clone(), e),
-        other => Error::Usage(format!("{name}: no CSV table: {other:?}")),
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+            let line = pos.map_or_else(String::new, |pos| format!("line {}: ", pos.line()));
+            wrong(format!("{line}{len} columns, the header has {expected_len}"))
+        }
+        csv::ErrorKind::Utf8 { pos, .. } => {
+            let line = pos.map_or_else(String::new, |pos| format!("line {}: ", pos.line()));
+            wrong(format!("{line}the text is not UTF-8"))
+        }
+        _ => wrong("no CSV table".to_owned()),
     };
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(io)?;
+    let file = File::open(path).and_then(Text::new).map_err(|e| Error::io(name.clone(), e))?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
     let header: Vec<String> = reader.headers().map_err(io)?.iter().map(str::to_owned).collect();
+    if let [one] = &header[..]
+        && one.contains(';')
+    {
+        let text = "its columns are separated by `;`; commas and decimal points are expected";
+        return Err(wrong(text.to_owned()));
+    }
     let place = |wanted: &str| header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
     let known = || format!("its columns are {}", header.join(", "));
     let value = match column {
@@ -115,7 +132,7 @@ fn read(path: &Path, column: Option<&str>, rate_hz: Option<f64>) -> Result<(Vec<
             times.push(number(time)?);
         }
         if samples.len() > MOST_SAMPLES {
-            return Err(wrong(format!("more than {MOST_SAMPLES} samples")));
+            return Err(wrong(format!("more than {MOST_SAMPLES} samples; cut out the decay")));
         }
     }
     if samples.len() < LEAST_SAMPLES {

@@ -23,6 +23,7 @@ pub(crate) struct Synthetic;
 
 #[derive(Debug)]
 struct Square {
+    program: std::path::PathBuf,
     facts: Facts,
     rows: VecDeque<CycleRecord>,
     now: CycleRecord,
@@ -187,7 +188,8 @@ impl Engine for Synthetic {
         let rows = square(slow, late, bad, &kernel);
         let delay_cycles = kernel.delay_cycles();
         let now = CycleRecord::default();
-        Ok(Box::new(Square { facts, rows, now, messages, bad, delay_cycles }))
+        let program = request.program.clone();
+        Ok(Box::new(Square { program, facts, rows, now, messages, bad, delay_cycles }))
     }
 
     fn check(
@@ -213,6 +215,10 @@ impl Engine for Synthetic {
 impl Source for Square {
     fn facts(&self) -> &Facts {
         &self.facts
+    }
+
+    fn reads(&self) -> Vec<std::path::PathBuf> {
+        vec![self.program.clone()]
     }
 
     fn next_cycle(&mut self) -> Option<&CycleRecord> {

@@ -178,8 +178,8 @@ impl Decoder {
         const HIGHEST: u32 = 65535;
         let number = match number {
             CodeNumber::Literal(n) if *n <= HIGHEST => *n,
-            CodeNumber::Literal(n) => {
-                let text = format!("{letter}{n} is above {letter}{HIGHEST}");
+            CodeNumber::Literal(_) => {
+                let text = format!("the number of the {letter} function is above {HIGHEST}");
                 return Err(Fault::new(Condition::Range, text, span));
             }
             CodeNumber::Computed(expr) => {
@@ -204,13 +204,12 @@ impl Decoder {
             return self.cycle_word(number, value, span, block);
         }
         if number > groups::NUMBER_MAX {
-            let text = format!("G{number} is above G{}", groups::NUMBER_MAX);
+            let text = format!("the number of the G function is above {}", groups::NUMBER_MAX);
             return Err(Fault::new(Condition::GNumberTooLarge, text, span).with(|d| {
-                d.value(ValueKind::Wrong, number, "-").value(
-                    ValueKind::UpperLimit,
-                    groups::NUMBER_MAX,
-                    "-",
-                )
+                // more digits than a number of the tree holds
+                let known = number < u32::MAX;
+                let d = if known { d.value(ValueKind::Wrong, number, "-") } else { d };
+                d.value(ValueKind::UpperLimit, groups::NUMBER_MAX, "-")
             }));
         }
         let Some(row) = groups::row(number) else {

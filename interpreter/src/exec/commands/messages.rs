@@ -80,7 +80,8 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             }
         }
     }
-    decoder.event(Event::Message { receiver, text, save });
+    let source = decoder.report.source;
+    decoder.event(Event::Message { receiver, text, save, source });
     Ok(())
 }
 

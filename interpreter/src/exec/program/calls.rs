@@ -35,6 +35,9 @@ pub(in crate::exec) struct Calls {
 /// Program levels. Assumption: the vendor prints no number.
 const LEVELS_MAX: usize = 32;
 
+/// Local subroutines that a hint names.
+const NAMED_MAX: usize = 12;
+
 /// Values of a cycle by the name behind `@`.
 type Passed = BTreeMap<Box<str>, Value>;
 
@@ -85,6 +88,7 @@ impl Executor {
             cycle: saved,
             declarations: false,
             cut: false,
+            again: None,
         });
         self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
     }
@@ -228,24 +232,19 @@ impl Executor {
 
     fn local(&mut self, name: &Ident) -> Option<Target> {
         let level = self.levels.last()?;
-        let subs = || {
-            let all = level.index.sections.iter().enumerate();
-            all.filter(|(_, s)| s.local)
-        };
-        let named =
-            |(_, s): &(usize, &super::index::Section)| s.name.as_deref() == Some(&*name.text);
-        let found = subs()
-            .find(named)
-            .or_else(|| subs().find(|(_, s)| s.name.as_deref().is_some_and(|n| name.is(n))));
-        if let Some((section, _)) = found {
+        if let Some(section) = level.index.local(&name.text) {
             return Some(Target { file: level.file, section });
         }
-        let known: Vec<&str> = subs().filter_map(|(_, s)| s.name.as_deref()).collect();
+        let subs = level.index.sections.iter().filter(|s| s.local);
+        let known: Vec<&str> = subs.filter_map(|s| s.name.as_deref()).collect();
         let text = format!("this file has no local subroutine {}", name.text);
         let fault = Fault::new(Condition::NoSubroutine, text, name.span);
         let hint = match suggest::hint(&name.text, known.iter().copied()) {
             Some(hint) => hint,
             None if known.is_empty() => "local subroutines begin with %L NAME".to_owned(),
+            None if known.len() > NAMED_MAX => {
+                format!("local subroutines: {} and others", known[..NAMED_MAX].join(", "))
+            }
             None => format!("local subroutines: {}", known.join(", ")),
         };
         self.decoder.note(fault.hint(hint));
@@ -266,8 +265,7 @@ impl Executor {
     }
 
     fn open_called(&mut self, path: &str, caller: Option<usize>, span: Span) -> Option<usize> {
-        use super::files::FileError;
-        match self.files.open(&*self.sources, path, caller, self.skip) {
+        match self.files.open(&*self.sources, path, caller, self.skip, &self.parser) {
             Ok((file, diagnostics)) => {
                 for diagnostic in diagnostics {
                     self.report(diagnostic);
@@ -275,17 +273,12 @@ impl Executor {
                 Some(file)
             }
             Err(error) => {
-                let fault = match error {
-                    FileError::Open(e) => {
-                        let text = format!("subroutine {}: {}", e.name, e.reason);
-                        Fault::new(Condition::NoFile, text, span)
-                            .hint(format!("searched: {}", e.searched.join(", ")))
-                    }
-                    FileError::Read(e) => {
-                        Fault::new(Condition::NoFile, format!("subroutine {path}: {e}"), span)
-                    }
-                };
-                self.decoder.note(fault);
+                let (text, hint) = error.text(path);
+                let fault = Fault::new(Condition::NoFile, format!("subroutine {text}"), span);
+                self.decoder.note(match hint {
+                    Some(hint) => fault.hint(hint),
+                    None => fault,
+                });
                 None
             }
         }

@@ -3,7 +3,7 @@
 mod report;
 mod run;
 
-use super::files::{FileError, Files};
+use super::files::Files;
 use super::flow::Frame;
 use super::index::Index;
 use super::unreached::Reached;
@@ -37,6 +37,8 @@ pub(in crate::exec) struct Level {
     pub(in crate::exec) declarations: bool,
     /// A control block without its end took the rest of the text.
     pub(in crate::exec) cut: bool,
+    /// First and last block that jumps back lead through again, by their offsets.
+    pub(in crate::exec) again: Option<(u64, u64)>,
 }
 
 /// Where the execution stands.
@@ -67,6 +69,8 @@ pub struct Executor {
     blocks_at_rest: u64,
     max_blocks: u64,
     max_blocks_at_rest: u64,
+    /// A limit ended the program before its own end.
+    limited: bool,
     /// Place of the block in work.
     pub(in crate::exec) position: Position,
     /// What was executed, while checking.
@@ -129,6 +133,7 @@ impl Executor {
             blocks_at_rest: 0,
             max_blocks,
             max_blocks_at_rest,
+            limited: false,
             position: Position::START,
             reached: Reached::default(),
             end_program_called: false,
@@ -154,7 +159,11 @@ impl Executor {
             let text = format!("{name} holds no main program");
             let severity =
                 if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
-            self.report(Diagnostic::new(Condition::NoEnd, text).severity(severity));
+            let diagnostic = Diagnostic::new(Condition::NoEnd, text).severity(severity);
+            let (file, text) = (name, Arc::from(""));
+            let (line, column, offset, length, block) = (1, 1, 0, 1, None);
+            let beginning = Location { file, line, column, offset, length, block, text };
+            self.report(diagnostic.at(beginning));
             let refused = severity == Severity::Error;
             self.end(if refused { EndReason::Aborted } else { EndReason::Finished });
             return;
@@ -176,7 +185,7 @@ impl Executor {
 
     /// Opens a file; what is wrong is reported.
     pub(in crate::exec) fn open(&mut self, name: &str, caller: Option<usize>) -> Option<usize> {
-        match self.files.open(&*self.sources, name, caller, self.skip) {
+        match self.files.open(&*self.sources, name, caller, self.skip, &self.parser) {
             Ok((file, diagnostics)) => {
                 for diagnostic in diagnostics {
                     self.report(diagnostic);
@@ -184,16 +193,9 @@ impl Executor {
                 Some(file)
             }
             Err(error) => {
-                let diagnostic = match error {
-                    FileError::Open(e) => {
-                        let searched = e.searched.join(", ");
-                        Diagnostic::new(Condition::NoFile, format!("{}: {}", e.name, e.reason))
-                            .hint(format!("searched: {searched}"))
-                    }
-                    FileError::Read(e) => {
-                        Diagnostic::new(Condition::NoFile, format!("{name}: {e}"))
-                    }
-                };
+                let (text, hint) = error.text(name);
+                let mut diagnostic = Diagnostic::new(Condition::NoFile, text);
+                diagnostic.hint = hint.or(diagnostic.hint);
                 let diagnostic = match (self.levels.is_empty(), self.here(Span::default())) {
                     (false, Some(location)) => diagnostic.at(location),
                     _ => diagnostic,

@@ -4,7 +4,7 @@ use super::index::{Index, build};
 use crate::diag::{Diagnostic, Location};
 use crate::exec::options::SkipLevels;
 use crate::exec::values::system;
-use crate::source::{BlockReader, OpenError, Position, RawBlock, Sources};
+use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position, RawBlock, Sources};
 use crate::syntax::Parser;
 use crate::syntax::ast::{
     Block, Body, ControlKind, Expr, ExprKind, GValue, Group, ItemKind, ItemValue, Place, PlaceKind,
@@ -95,6 +95,55 @@ pub(in crate::exec) struct Files {
 pub(in crate::exec) enum FileError {
     Open(OpenError),
     Read(io::Error),
+    /// Most of its text is none of the language; the name of the file.
+    Foreign(Arc<str>),
+}
+
+impl FileError {
+    /// K-0013 for a file that is called `name` in the program, with a hint.
+    pub(super) fn text(self, name: &str) -> (String, Option<String>) {
+        match self {
+            Self::Open(e) => {
+                let hint = format!("searched: {}", e.searched.join(", "));
+                (format!("{}: {}", e.name, e.reason), Some(hint))
+            }
+            Self::Read(e) => (format!("{name}: {e}"), None),
+            Self::Foreign(file) => {
+                let hint = format!("`check {file}` shows what is wrong with its lines");
+                (format!("{name}: most of its lines are no NC blocks"), Some(hint))
+            }
+        }
+    }
+}
+
+/// Blocks of a called file by which it is judged.
+const JUDGED_MAX: u32 = 64;
+
+/// True if most blocks at the beginning of a file are no NC blocks: its text is not for messages.
+fn is_foreign(reader: &mut BlockReader, name: &Arc<str>, parser: &Parser) -> io::Result<bool> {
+    reader.seek(Position::START);
+    let (mut judged, mut wrong, mut comment) = (0, 0, false);
+    let mut found = Vec::new();
+    let is_wrong = |found: &mut Vec<Diagnostic>| found.drain(..).any(|d| d.is_error());
+    while judged < JUDGED_MAX {
+        let Some(raw) = reader.next_block()? else { break };
+        // of what is too long nothing is known
+        if raw.text.trim_ascii().is_empty() || raw.characters > BLOCK_LENGTH_MAX {
+            continue;
+        }
+        let block = parser.block(&raw, name, &mut found);
+        let mut fails = is_wrong(&mut found);
+        if let Body::Command(command) = &block.body {
+            comment = (comment || command.is("COMMENT BEGIN")) && !command.is("COMMENT END");
+        }
+        if fails && !comment {
+            parser.declaration(&raw, name, &mut found);
+            fails = is_wrong(&mut found);
+        }
+        judged += 1;
+        wrong += u32::from(fails && !comment);
+    }
+    Ok(2 * wrong > judged)
 }
 
 impl Files {
@@ -117,6 +166,7 @@ impl Files {
         name: &str,
         caller: Option<usize>,
         skip: SkipLevels,
+        parser: &Parser,
     ) -> Result<(usize, Vec<Diagnostic>), FileError> {
         if let Some(caller) = caller
             && let Some(file) = self.resolved.get(&(caller, Box::from(name)))
@@ -131,6 +181,12 @@ impl Files {
             (file, Vec::new())
         } else {
             let mut reader = BlockReader::new(source);
+            // the main program was named by the user
+            if caller.is_some()
+                && is_foreign(&mut reader, &full, parser).map_err(FileError::Read)?
+            {
+                return Err(FileError::Foreign(full));
+            }
             let (index, diagnostics) = build(&mut reader, &full, skip).map_err(FileError::Read)?;
             let index = Arc::new(index);
             self.names.push(Arc::clone(&full));

@@ -472,6 +472,15 @@ impl Executor {
         if let Some(depth) = depth {
             level.frames.truncate(depth);
             level.at = place.position;
+            // a jump back is a loop: its blocks are parsed once
+            let (to, from) = (place.position.offset, self.position.offset);
+            if to <= from {
+                let known = level.again.unwrap_or((to, from));
+                let again = (known.0.min(to), known.1.max(from));
+                if level.again.replace(again) != Some(again) {
+                    self.files.make_room();
+                }
+            }
         } else {
             let text = format!("label {shown} stands inside a control block");
             self.decoder.note(Fault::new(Condition::LabelInto, text, label.span));

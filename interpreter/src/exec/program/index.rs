@@ -61,6 +61,10 @@ pub(in crate::exec) struct Index {
     pub(in crate::exec) entries: Vec<Entry>,
     pub(in crate::exec) sections: Vec<Section>,
     labels: BTreeMap<(usize, LabelKind), LabelPlace>,
+    /// First local subroutine of each name.
+    locals: BTreeMap<Arc<str>, usize>,
+    /// The same without regard to case: names in upper case.
+    locals_upper: BTreeMap<String, usize>,
 }
 
 impl Index {
@@ -78,6 +82,12 @@ impl Index {
     pub(in crate::exec) fn label(&self, section: usize, label: &LabelKind) -> Option<&LabelPlace> {
         // a range of one key would need an owned label: labels are short
         self.labels.get(&(section, label.clone()))
+    }
+
+    /// The local subroutine of a name: as written, or else without regard to case.
+    pub(super) fn local(&self, name: &str) -> Option<usize> {
+        let exact = self.locals.get(name);
+        exact.or_else(|| self.locals_upper.get(&name.to_ascii_uppercase())).copied()
     }
 
     /// The section that is not local.

@@ -90,11 +90,16 @@ impl Reached {
 impl Executor {
     /// Looks at the syntax of everything that was not executed.
     pub(in crate::exec) fn check_unreached(&mut self) {
+        // what lies behind the limit might run
+        if self.is_limited() {
+            return;
+        }
         self.reached.store();
         self.decoder.report.source.block = None;
         let mut left = REPORTS_MAX;
         for file in 0..self.files.names().len() {
             let index = std::sync::Arc::clone(&self.files.file(file).index);
+            let silence = Silence::of(&index);
             for section in &index.sections {
                 let end = if section.local {
                     section.end
@@ -103,7 +108,7 @@ impl Executor {
                     last.unwrap_or(section.start.offset)
                 };
                 for (from, to) in self.reached.gaps(file, section.start, end) {
-                    self.check_gap(file, &index, from, to, &mut left);
+                    self.check_gap(file, (&index, &silence), from, to, &mut left);
                     if left == 0 {
                         return;
                     }
@@ -112,11 +117,18 @@ impl Executor {
         }
     }
 
-    fn check_gap(&mut self, file: usize, index: &Index, from: Position, to: u64, left: &mut usize) {
+    fn check_gap(
+        &mut self,
+        file: usize,
+        (index, silence): (&Index, &Silence),
+        from: Position,
+        to: u64,
+        left: &mut usize,
+    ) {
         let mut at = from;
         let mut declarations = false;
         // end of what is not looked at
-        let mut silent = silence_around(index, from);
+        let mut silent = silence.around(from);
         while at.offset < to && *left > 0 {
             if let Some(id) = index.at(at) {
                 let entry = index.entry(id);
@@ -156,14 +168,30 @@ impl Executor {
     }
 }
 
-/// End of an inactive `#IF` branch or comment around a place.
-fn silence_around(index: &Index, at: Position) -> Option<u64> {
-    let around = |keyword| matches!(keyword, Keyword::CommentBegin | Keyword::ConditionalIf);
-    let entries = index.entries.iter().filter(|e| around(e.keyword) && e.position < at);
-    entries
-        .map(|e| e.end.map_or(u64::MAX, |end| index.entry(end).position.offset))
-        .filter(|end| *end >= at.offset)
-        .max()
+/// Inactive `#IF` branches and comments of a file.
+struct Silence {
+    /// Where each of them begins, and the end furthest behind of all up to there.
+    ends: Vec<(Position, u64)>,
+}
+
+impl Silence {
+    fn of(index: &Index) -> Self {
+        let around = |keyword| matches!(keyword, Keyword::CommentBegin | Keyword::ConditionalIf);
+        let mut furthest = 0;
+        let entries = index.entries.iter().filter(|e| around(e.keyword)).map(|e| {
+            let end = e.end.map_or(u64::MAX, |end| index.entry(end).position.offset);
+            furthest = end.max(furthest);
+            (e.position, furthest)
+        });
+        Self { ends: entries.collect() }
+    }
+
+    /// End of what lies around a place, if anything does.
+    fn around(&self, at: Position) -> Option<u64> {
+        let before = self.ends.partition_point(|(begin, _)| *begin < at);
+        let (_, end) = self.ends.get(before.checked_sub(1)?)?;
+        (*end >= at.offset).then_some(*end)
+    }
 }
 
 /// As a warning that says where it is wrong.

@@ -171,6 +171,24 @@ fn a_million_passes() {
     assert!((run.end[0] - 333.333).abs() < 1e-12);
 }
 
+/// A jump back parses nothing again: the second million passes cost what `$WHILE` costs, and give the same.
+#[test]
+fn jumps_back_are_loops() {
+    let body = "P1=P1+1\n$IF P1 MOD 3 == 0\nP2=P2+1\n$ENDIF\n";
+    let end = "X P2/1000 F100\nM30\n";
+    let by_while = clean(&format!("P1=0 P2=0\n$WHILE P1<100000\n{body}$ENDWHILE\n{end}"));
+    let by_goto = clean(&format!("P1=0 P2=0\nN10:\n{body}$IF P1<100000 $GOTO N10\n{end}"));
+    assert_eq!(by_goto.end, by_while.end);
+    // two loops that overlap, and one inside another
+    let crossed = clean(
+        "P1=0 P2=0\n[A] P1=P1+1\n[B] P2=P2+1\n$IF P1<20 $GOTO [A]\n$IF P2<100 $GOTO [B]\nX P1 Y P2 F100\nM30\n",
+    );
+    assert_eq!(crossed.end[..2], [20.0, 100.0]);
+    // what a loop declares anew is read anew
+    let macros = clean("P1=0\n\"M\" = \"1\"\n[A] P2=P2+\"M\" P1=P1+1\n\"M\" = \"10\"\n$IF P1<4 $GOTO [A]\nX P2 F100\nM30\n".replace("P1=0\n", "P1=0 P2=0\n").as_str());
+    assert!((macros.end[0] - 31.0).abs() < 1e-12);
+}
+
 #[test]
 fn loops_without_end_are_stopped() {
     use super::{Options, machine, run_with};

@@ -4,8 +4,8 @@ use super::Builder;
 use crate::diag::{Condition, Severity};
 use crate::syntax::Rule;
 use crate::syntax::ast::{
-    Block, Body, Command, Control, ControlKind, Declaration, Group, Item, ItemKind, ItemValue,
-    Place, PlaceKind, Span,
+    Block, Body, Command, Control, ControlKind, Declaration, Expr, Group, Item, ItemKind,
+    ItemValue, Place, PlaceKind, Span,
 };
 use crate::syntax::problem::Problem;
 use pest::iterators::Pair;
@@ -13,12 +13,47 @@ use pest::iterators::Pair;
 impl Builder<'_> {
     /// `group` or `cycle_group`.
     pub(super) fn group(&mut self, pair: Pair<'_, Rule>) -> Group {
+        self.contents(pair).0
+    }
+
+    /// `chain`: an expression, or a list if nothing but one bracket is written.
+    fn chain(&mut self, pair: Pair<'_, Rule>) -> ItemValue {
+        let mut parts = pair.clone().into_inner();
+        match (parts.next(), parts.next()) {
+            (Some(only), None) if only.as_rule() == Rule::group => {
+                self.bracket(only).map_or_else(ItemValue::List, ItemValue::Expr)
+            }
+            _ => ItemValue::Expr(self.expression(pair)),
+        }
+    }
+
+    /// A bracket as an expression if it holds one and nothing else, or else as a list.
+    pub(in crate::syntax) fn bracket(&mut self, pair: Pair<'_, Rule>) -> Result<Expr, Group> {
+        let (mut group, separated) = self.contents(pair);
+        if separated || group.items.len() != 1 {
+            return Err(group);
+        }
+        match group.items.pop() {
+            Some(Item { kind: ItemKind::Value(ItemValue::Expr(inner)), .. }) => {
+                Ok(Expr { span: group.span, ..inner })
+            }
+            other => {
+                group.items.extend(other);
+                Err(group)
+            }
+        }
+    }
+
+    /// What stands in a bracket, and whether commas or bars do.
+    fn contents(&mut self, pair: Pair<'_, Rule>) -> (Group, bool) {
         let span = self.span(&pair);
+        let mut separated = false;
         let mut items: Vec<Item> = Vec::new();
         // True where an item would be missing if a comma came now.
         let mut bare = true;
         for part in pair.into_inner() {
             let place = self.span(&part);
+            separated |= matches!(part.as_rule(), Rule::comma | Rule::bar);
             match part.as_rule() {
                 Rule::comma => {
                     if bare {
@@ -39,7 +74,7 @@ impl Builder<'_> {
                 _ => {}
             }
         }
-        Group { items, span }
+        (Group { items, span }, separated)
     }
 
     fn item(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
@@ -68,8 +103,7 @@ impl Builder<'_> {
 
     fn item_value(&mut self, pair: Pair<'_, Rule>) -> ItemValue {
         match pair.as_rule() {
-            Rule::expression => ItemValue::Expr(self.expression(pair)),
-            Rule::group => ItemValue::List(self.group(pair)),
+            Rule::chain => self.chain(pair),
             Rule::value => match pair.into_inner().next() {
                 Some(inner) => self.item_value(inner),
                 None => ItemValue::Expr(Self::zero()),

@@ -109,6 +109,7 @@ impl Executor {
         let loops = |id: EntryId| level.index.entry(id).keyword.is_loop();
         let keep = self.levels.len() > 1
             || level.frames.iter().any(|f| f.keyword.is_loop())
+            || level.again.is_some_and(|(first, last)| (first..=last).contains(&at.offset))
             || level.index.at(at).is_some_and(loops);
         let reading =
             Reading { keep: keep && !level.declarations, declaration: level.declarations };
@@ -166,7 +167,20 @@ impl Executor {
         } else {
             return true;
         };
-        let diagnostic = Diagnostic::new(Condition::Endless, text);
+        self.end_by_limit(Diagnostic::new(Condition::Endless, text));
+        false
+    }
+
+    /// The program time of a check is over.
+    pub(in crate::exec) fn end_by_time(&mut self, max_time_s: f64) {
+        let text = format!("the program takes more than {max_time_s} s: the check ends here");
+        let diagnostic = Diagnostic::new(Condition::Endless, text).severity(Severity::Warning);
+        self.end_by_limit(diagnostic.hint("raise the limit with --max-time"));
+    }
+
+    /// Ends the program at the block that comes next.
+    fn end_by_limit(&mut self, diagnostic: Diagnostic) {
+        self.limited = true;
         let location =
             self.levels.last().map(|l| l.at).and_then(|at| self.place(at, Span::default()));
         self.report(match location {
@@ -174,7 +188,11 @@ impl Executor {
             None => diagnostic,
         });
         self.end(EndReason::Aborted);
-        false
+    }
+
+    /// True if a limit ended the program before its own end.
+    pub(in crate::exec) fn is_limited(&self) -> bool {
+        self.limited
     }
 
     fn source_of(&mut self, file: usize, at: Position, parsed: &Parsed) {

@@ -7,7 +7,7 @@ use super::keyword::Keyword;
 use super::{Entry, EntryId, Index, LabelPlace, Section};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::options::SkipLevels;
-use crate::source::{BlockReader, Position, RawBlock};
+use crate::source::{BLOCK_LENGTH_MAX, BlockReader, Position, RawBlock};
 use crate::syntax::ast::{LabelKind, Span};
 use std::collections::BTreeMap;
 use std::io;
@@ -15,6 +15,9 @@ use std::sync::Arc;
 
 /// Deepest nesting of control statements. Assumption: the vendor prints no number for 20211.
 const NESTING_MAX: usize = 64;
+
+/// Control statements, labels and programs of one file: its structure is all that is kept of it, up to 100 MB.
+const STRUCTURE_MAX: usize = 500_000;
 
 /// Mistakes of structure that are reported for one file.
 const DIAGNOSTICS_MAX: usize = 100;
@@ -60,8 +63,11 @@ impl Builder<'_> {
             self.program_head(raw, head.rest);
             return;
         }
-        let content =
-            first.is_some_and(|b| b != b';') || head.number.is_some() || head.label.is_some();
+        // of a block that is too long something may stand behind what is looked at
+        let content = first.is_some_and(|b| b != b';')
+            || head.number.is_some()
+            || head.label.is_some()
+            || raw.characters > BLOCK_LENGTH_MAX;
         if self.section.is_none() && content {
             self.open_section(None, false, raw.position);
         }
@@ -74,6 +80,11 @@ impl Builder<'_> {
             Some(_) if self.has_main => self.end_seen |= ends_program(raw.text),
             _ => {}
         }
+    }
+
+    fn is_full(&self) -> bool {
+        let Index { entries, sections, labels, .. } = &self.index;
+        entries.len() + sections.len() + labels.len() > STRUCTURE_MAX
     }
 
     fn push(&mut self, position: Position, at: usize, keyword: Keyword) -> EntryId {
@@ -101,7 +112,11 @@ impl Builder<'_> {
     fn open_section(&mut self, name: Option<&str>, local: bool, start: Position) {
         self.section = Some(self.index.sections.len());
         self.has_main |= !local;
-        let name = name.map(Arc::from);
+        let name: Option<Arc<str>> = name.map(Arc::from);
+        if let (Some(name), true, Some(section)) = (&name, local, self.section) {
+            self.index.locals_upper.entry(name.to_ascii_uppercase()).or_insert(section);
+            self.index.locals.entry(Arc::clone(name)).or_insert(section);
+        }
         self.index.sections.push(Section { name, local, start, end: u64::MAX });
     }
 
@@ -132,8 +147,7 @@ impl Builder<'_> {
                 let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Note);
                 self.report(raw, raw.text.len() - rest.len(), 2, d);
             }
-            let known = self.index.sections.iter().any(|s| s.local && s.name.as_deref() == name);
-            if known {
+            if name.is_some_and(|name| self.index.locals.contains_key(name)) {
                 let text = format!("local subroutine {} twice", name.unwrap_or(""));
                 let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Warning);
                 self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
@@ -333,6 +347,14 @@ pub(in crate::exec) fn build(
         }
         let Some(raw) = reader.next_block()? else { break };
         builder.block(&raw, skip);
+        if builder.is_full() {
+            let text = format!(
+                "more than {STRUCTURE_MAX} control statements, labels and subroutines in one file"
+            );
+            let location = raw.locate(file, Span::new(0, raw.text.len()));
+            builder.diagnostics.push(Diagnostic::new(Condition::Nesting, text).at(location));
+            break;
+        }
     }
     builder.close(reader.position().offset);
     builder.decide_remarks();

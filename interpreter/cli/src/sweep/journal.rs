@@ -1,0 +1,145 @@
+//! The finished rows of a sweep that is under way, so that one that was stopped goes on where it stopped.
+//!
+//! A file of JSON lines, `NAME.rows` beside the output NAME: the first line says what is swept, every other line is a row,
+//! written when its run has ended. A journal of another sweep, or of files that were changed since, is begun anew.
+
+use super::Row;
+use super::args::SweepArgs;
+use crate::Error;
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, BufRead as _, BufReader, Write as _};
+use std::path::{Path, PathBuf};
+
+/// The journal of one sweep.
+pub(super) struct Journal {
+    path: PathBuf,
+    file: File,
+    rows: Vec<(usize, Row)>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Line {
+    run: usize,
+    row: Row,
+}
+
+impl Journal {
+    /// Opens the journal of an output and reads what an earlier sweep of the same left.
+    ///
+    /// # Errors
+    /// The system's.
+    pub(super) fn open(output: &Path, args: &SweepArgs, reads: &[PathBuf]) -> Result<Self, Error> {
+        let mut name = output.file_name().unwrap_or_default().to_owned();
+        name.push(".rows");
+        let path = output.with_file_name(name);
+        let head = head(args, reads);
+        Self::begin(path.clone(), &head).map_err(|e| Error::io(path.display().to_string(), e))
+    }
+
+    fn begin(path: PathBuf, head: &str) -> io::Result<Self> {
+        let (mut rows, mut kept) = (Vec::new(), 0);
+        if let Ok(file) = File::open(&path) {
+            let mut lines = BufReader::new(file);
+            let mut line = String::new();
+            // a line without its end was cut off
+            while lines.read_line(&mut line)? > 0 && line.ends_with('\n') {
+                let text = line.trim_end();
+                if kept == 0 && text != head {
+                    break;
+                }
+                if kept > 0 {
+                    let Ok(Line { run, row }) = serde_json::from_str(text) else { break };
+                    rows.push((run, row));
+                }
+                kept += line.len() as u64;
+                line.clear();
+            }
+        }
+        let mut file = File::options().create(true).truncate(false).write(true).open(&path)?;
+        file.set_len(kept)?;
+        io::Seek::seek(&mut file, io::SeekFrom::End(0))?;
+        if kept == 0 {
+            writeln!(file, "{head}")?;
+        }
+        Ok(Self { path, file, rows })
+    }
+
+    /// Number of the run and row of what an earlier sweep finished.
+    pub(super) fn take_rows(&mut self) -> Vec<(usize, Row)> {
+        std::mem::take(&mut self.rows)
+    }
+
+    /// Keeps a row.
+    ///
+    /// # Errors
+    /// The system's, e.g. a full disk.
+    pub(super) fn write(&mut self, run: usize, row: &Row) -> Result<(), Error> {
+        let line = serde_json::to_string(&Line { run, row: row.clone() }).unwrap_or_default();
+        // in one piece: a kill leaves whole lines
+        let written = self.file.write_all(format!("{line}\n").as_bytes());
+        written.map_err(|e| Error::io(self.path.display().to_string(), e))
+    }
+
+    /// The rows stand in the outputs.
+    pub(super) fn remove(self) {
+        drop(self.file);
+        // what stays does no harm: it says which sweep it belongs to
+        let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+/// What makes a sweep another one: the version, the options, and the files as they are.
+fn head(args: &SweepArgs, reads: &[PathBuf]) -> String {
+    let mut reads = reads.to_vec();
+    reads.sort();
+    let files: Vec<String> = reads
+        .iter()
+        .map(|path| match path.metadata() {
+            Ok(m) => format!("{} {} {:?}", path.display(), m.len(), m.modified().ok()),
+            Err(_) => path.display().to_string(),
+        })
+        .collect();
+    let options = format!("{:?}", (&args.vary, &args.columns, &args.amplitude, &args.simulation));
+    let version = env!("CARGO_PKG_VERSION");
+    serde_json::json!({ "sweep": version, "options": options, "files": files }).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Journal;
+    use crate::sweep::columns::Cell;
+
+    #[test]
+    fn what_was_cut_off_is_done_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv.rows");
+        let row = |x: f64| {
+            (vec!["a".to_owned(), "b".to_owned()], vec![Cell::Number(x, 3), Cell::Word("w".into())])
+        };
+        let mut journal = Journal::begin(path.clone(), "{1}").unwrap();
+        for (run, x) in [(2, 0.1), (0, f64::NAN), (7, -1e-300)] {
+            journal.write(run, &row(x)).unwrap();
+        }
+        drop(journal);
+        let whole = std::fs::read(&path).unwrap();
+        for cut in 0..=whole.len() {
+            std::fs::write(&path, &whole[..cut]).unwrap();
+            let lines = memchr::memchr_iter(b'\n', &whole[..cut]).count();
+            let mut journal = Journal::begin(path.clone(), "{1}").unwrap();
+            let found = journal.take_rows();
+            assert_eq!(found.len(), lines.saturating_sub(1), "{cut}");
+            if let Some((run, (_, cells))) = found.last()
+                && found.len() == 3
+            {
+                let Cell::Number(x, 3) = cells[0] else { panic!() };
+                assert_eq!((*run, x.to_bits()), (7, (-1e-300_f64).to_bits()));
+            }
+            // and goes on behind the last whole line
+            journal.write(9, &row(4.0)).unwrap();
+            let again = Journal::begin(path.clone(), "{1}").unwrap().take_rows();
+            assert_eq!(again.len(), lines.saturating_sub(1) + 1);
+        }
+        assert!(Journal::begin(path, "{2}").unwrap().take_rows().is_empty());
+    }
+}

@@ -1,0 +1,230 @@
+//! Files that commands write.
+//!
+//! A file is written under a temporary name beside its target (`.NAME.*.part`) and gets its name when it is worth it:
+//! until then, and if the command fails, an existing file stays as it was.
+
+use crate::Error;
+use crate::files::is_standard;
+use std::fs::{File, OpenOptions, Permissions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// A file to be written.
+#[derive(Debug)]
+pub struct Target {
+    path: PathBuf,
+    place: Place,
+}
+
+#[derive(Debug)]
+enum Place {
+    /// Under its temporary name.
+    Hidden(NamedTempFile),
+    /// Under its own name; a device or pipe always is.
+    Shown(File),
+    /// On the way from one to the other.
+    Between,
+}
+
+impl Target {
+    /// Begins a file.
+    ///
+    /// # Errors
+    /// The system's; also if an existing file of this name may not be written.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        // a link stays, and what it leads to is replaced
+        let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let existing = match path.metadata() {
+            Ok(metadata) if !metadata.is_file() => {
+                let file = OpenOptions::new().write(true).open(&path)?;
+                return Ok(Self { path, place: Place::Shown(file) });
+            }
+            Ok(metadata) => {
+                drop(OpenOptions::new().write(true).open(&path)?);
+                Some(metadata.permissions())
+            }
+            Err(_) => None,
+        };
+        let hidden = hidden(&path, existing)?;
+        Ok(Self { path, place: Place::Hidden(hidden) })
+    }
+
+    /// What the bytes go to.
+    ///
+    /// # Errors
+    /// Never, but between two names.
+    pub fn file(&mut self) -> io::Result<&mut File> {
+        match &mut self.place {
+            Place::Hidden(hidden) => Ok(hidden.as_file_mut()),
+            Place::Shown(file) => Ok(file),
+            Place::Between => Err(io::ErrorKind::NotFound.into()),
+        }
+    }
+
+    /// Gives the file its name, in place of an existing one.
+    ///
+    /// # Errors
+    /// The system's; the existing file is as it was then.
+    pub fn show(&mut self) -> io::Result<()> {
+        match std::mem::replace(&mut self.place, Place::Between) {
+            Place::Hidden(hidden) => {
+                self.place = Place::Shown(hidden.persist(&self.path).map_err(|e| e.error)?);
+            }
+            other => self.place = other,
+        }
+        Ok(())
+    }
+}
+
+/// A file under a temporary name beside a path.
+fn hidden(path: &Path, permissions: Option<Permissions>) -> io::Result<NamedTempFile> {
+    let name = path.file_name().ok_or(io::ErrorKind::IsADirectory)?.to_string_lossy();
+    let prefix = format!(".{name}.");
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(".part");
+    #[cfg(unix)]
+    let permissions = {
+        use std::os::unix::fs::PermissionsExt as _;
+        // as usual, not as temporary files are
+        permissions.or_else(|| Some(Permissions::from_mode(0o666)))
+    };
+    if let Some(permissions) = permissions {
+        builder.permissions(permissions);
+    }
+    builder.tempfile_in(folder_of(path))
+}
+
+/// The folder in which a file lies.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."))
+}
+
+/// Writes a whole file, or leaves an existing one as it was.
+///
+/// # Errors
+/// [`Error::Io`], e.g. a full disk.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let written = || {
+        let mut target = Target::create(path)?;
+        target.file()?.write_all(bytes)?;
+        target.show()
+    };
+    written().map_err(|e| Error::io(path.display().to_string(), e))
+}
+
+/// Refuses to write over what is read, or two outputs into one file, whatever the names.
+///
+/// # Errors
+/// [`Error::Usage`] that names the file.
+pub fn keep_apart(read: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error> {
+    let files = read.iter().filter(|p| !is_standard(p));
+    let mut taken: Vec<Identity> = files.map(|p| Identity::of(p)).collect();
+    for output in outputs {
+        let this = Identity::of(output);
+        if taken.contains(&this) && this != Identity::Device {
+            let message = format!("-o {}: the file is used twice", output.display());
+            return Err(Error::Usage(message));
+        }
+        taken.push(this);
+    }
+    Ok(())
+}
+
+/// What makes two names one file.
+#[derive(PartialEq)]
+enum Identity {
+    /// An existing file, by whatever link.
+    File(same_file::Handle),
+    /// One that does not exist yet: its folder and name.
+    Name(PathBuf),
+    /// Pipes and devices may be used several times.
+    Device,
+}
+
+impl Identity {
+    fn of(path: &Path) -> Self {
+        match path.metadata() {
+            Ok(metadata) if !metadata.is_file() => Self::Device,
+            Ok(_) if let Ok(handle) = same_file::Handle::from_path(path) => Self::File(handle),
+            _ => {
+                let folder = folder_of(path);
+                let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+                Self::Name(folder.join(path.file_name().unwrap_or_default()))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Target, keep_apart, write};
+    use std::fs;
+    use std::io::Write as _;
+
+    #[test]
+    fn a_file_that_is_not_shown_leaves_no_trace() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        let names = || {
+            let names = fs::read_dir(folder.path()).unwrap();
+            names.map(|e| e.unwrap().file_name().into_string().unwrap()).collect::<Vec<_>>()
+        };
+        fs::write(&path, "old").unwrap();
+        let mut target = Target::create(&path).unwrap();
+        target.file().unwrap().write_all(b"new").unwrap();
+        assert_eq!(names().len(), 2);
+        drop(target);
+        assert_eq!(
+            (names(), fs::read(&path).unwrap()),
+            (vec!["a.csv".to_owned()], b"old".to_vec())
+        );
+        write(&path, b"new").unwrap();
+        assert_eq!(
+            (names(), fs::read(&path).unwrap()),
+            (vec!["a.csv".to_owned()], b"new".to_vec())
+        );
+        // and goes on behind the name
+        let mut target = Target::create(&path).unwrap();
+        target.file().unwrap().write_all(b"1").unwrap();
+        target.show().unwrap();
+        target.file().unwrap().write_all(b"2").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"12");
+        assert!(write(&folder.path().join("no/such/a.csv"), b"").is_err());
+        assert!(write(folder.path(), b"").is_err());
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn links_stay_and_devices_are_written() {
+        use std::os::unix::fs::{PermissionsExt as _, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let [file, link] = ["a", "b"].map(|name| folder.path().join(name));
+        fs::write(&file, "old").unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+        symlink(&file, &link).unwrap();
+        write(&link, b"new").unwrap();
+        assert!(link.symlink_metadata().unwrap().is_symlink());
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+        assert_eq!(file.metadata().unwrap().permissions().mode() & 0o777, 0o640);
+        write("/dev/null".as_ref(), b"x").unwrap();
+    }
+
+    #[test]
+    fn one_file_has_many_names() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::write(path("a.nc"), "").unwrap();
+        fs::hard_link(path("a.nc"), path("hard")).unwrap();
+        let apart = |read: &str, outputs: &[&str]| {
+            let outputs: Vec<_> = outputs.iter().map(|o| path(o)).collect();
+            keep_apart(&[path(read)], &outputs).is_ok()
+        };
+        assert!(apart("a.nc", &["b", "c"]) && apart("-", &["b"]));
+        assert!(!apart("a.nc", &["a.nc"]) && !apart("a.nc", &["./a.nc"]));
+        assert!(!apart("a.nc", &["hard"]));
+        assert!(!apart("a.nc", &["b", "./b"]) && !apart("x", &["hard", "a.nc"]));
+        #[cfg(unix)]
+        assert!(keep_apart(&[], &["/dev/null".into(), "/dev/null".into()]).is_ok());
+    }
+}

@@ -1,0 +1,16 @@
+//! Time budget of the fuzz targets.
+
+use std::time::{Duration, Instant};
+
+/// What any input may take.
+const BASE: Duration = Duration::from_secs(4);
+/// What each byte of it may take in addition; instrumented code is ten times slower than usual.
+const PER_BYTE: Duration = Duration::from_micros(500);
+
+/// Calls a target and panics if it takes longer than its input allows.
+pub fn within_budget(data: &[u8], target: impl FnOnce(&[u8])) {
+    let start = Instant::now();
+    target(data);
+    let (taken, length) = (start.elapsed(), u32::try_from(data.len()).unwrap_or(u32::MAX));
+    assert!(taken < BASE + PER_BYTE * length, "{length} bytes took {taken:?}");
+}

@@ -1,0 +1,365 @@
+//! What the fuzzer calls: one function per door that a file or a word of a stranger comes in by.
+//!
+//! Each takes any bytes and panics if something holds no longer that always has to: a call returns; what it reports has an
+//! exit code that fits; numbers are finite; axes keep their velocity limit. The folder `fuzz` beside this one feeds them
+//! with coverage-guided input and a time budget, `tests/hostile_input.rs` with bounded random input.
+
+use crate::command::{Output, command};
+use crate::random::Random;
+use kontur::Exit;
+use kontur::args::Args;
+use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::exec::{self, Options};
+use kontur_interpreter::machine::{ListFiles, Machine};
+use kontur_interpreter::sim::{Limits, Simulation};
+use kontur_interpreter::source::{MemorySources, Sources};
+use std::ffi::OsString;
+use std::path::Path;
+use std::sync::{Arc, LazyLock};
+
+/// A target: its name and its function.
+pub type Target = (&'static str, fn(&[u8]));
+
+/// All targets.
+pub const TARGETS: [Target; 8] = [
+    ("check", check),
+    ("run", run),
+    ("lists", lists),
+    ("inputs", inputs),
+    ("recording", recording),
+    ("diff", diff),
+    ("command_line", command_line),
+    ("report", report),
+];
+
+/// Stands between the parts of an input that is several files.
+pub const BETWEEN: &[u8] = b"\n====\n";
+
+/// Program time of a run in s.
+const TIME_S: f64 = 2.0;
+/// Diagnostics of one program: the limits of the executor, and 10 of its last block.
+const MESSAGES_MAX: usize = 2000;
+
+static MACHINE: LazyLock<Arc<Machine>> =
+    LazyLock::new(|| Arc::new(Machine::builtin(&[]).expect("the built-in machine").0));
+
+fn options() -> Options {
+    Options {
+        max_blocks: 20_000,
+        max_blocks_at_rest: 10_000,
+        max_time_s: TIME_S,
+        ..Options::default()
+    }
+}
+
+/// The program, and itself under the names that it may call.
+fn sources(program: &[u8]) -> Box<dyn Sources> {
+    Box::new(MemorySources::new().with("main.nc", program).with("sub.nc", program))
+}
+
+fn checked(program: &[u8]) -> Vec<Diagnostic> {
+    let found = exec::check(sources(program), "main.nc", Arc::clone(&MACHINE), options());
+    assert!(found.len() <= MESSAGES_MAX, "{} messages", found.len());
+    for d in &found {
+        assert!(!d.text.is_empty(), "{d:?}");
+        if let Some(place) = &d.source {
+            let characters = place.text.chars().count() as u64;
+            assert!(place.offset <= program.len() as u64, "{d:?}");
+            assert!(place.line > 0 && u64::from(place.column) <= characters + 1, "{d:?}");
+        }
+    }
+    found
+}
+
+/// A program is decoded.
+pub fn check(data: &[u8]) {
+    checked(data);
+}
+
+/// A program runs for two seconds, unless the check refuses it.
+pub fn run(data: &[u8]) {
+    let refused = |d: &Diagnostic| d.is_error() && d.id != exec::LIMIT;
+    if checked(data).iter().any(refused) {
+        return;
+    }
+    let limits = Limits { max_time_s: TIME_S };
+    let machine = Arc::clone(&MACHINE);
+    let cycle_s = machine.cycle.seconds();
+    let opened = Simulation::new(machine, sources(data), "main.nc", options(), &limits);
+    let mut simulation = opened.expect("a machine without plants of its own");
+    let v_max: Vec<f64> = MACHINE.axes.iter().map(|a| a.dynamics().v_max_mm_s).collect();
+    let mut before: Option<Vec<f64>> = None;
+    let mut cycles = 0_u64;
+    while let Some(record) = simulation.next_cycle() {
+        assert_eq!(record.k, cycles, "rows are cycles");
+        cycles += 1;
+        // braking after a limit takes its time
+        assert!(cycles as f64 * cycle_s < TIME_S + 60.0, "the run does not end");
+        for (i, axis) in record.axes.iter().enumerate() {
+            let values =
+                [axis.ipo, axis.set, axis.vel, axis.acc, axis.jerk, axis.reference, axis.act];
+            assert!(
+                values.iter().all(|v| v.is_finite()),
+                "axis {i} in cycle {}: {axis:?}",
+                record.k
+            );
+        }
+        let path = &record.path;
+        let values = [path.s_mm, path.v_mm_s, path.a_mm_s2, path.j_mm_s3];
+        assert!(values.iter().all(|v| v.is_finite()), "cycle {}: {path:?}", record.k);
+        let now: Vec<f64> = record.axes.iter().take(v_max.len()).map(|a| a.ipo).collect();
+        if let Some(before) = &before {
+            for (i, v_max) in v_max.iter().enumerate() {
+                let v = (now[i] - before[i]).abs() / cycle_s;
+                assert!(
+                    v <= v_max * (1.0 + 1e-6) + 1e-6,
+                    "axis {i} at {v} mm/s, cycle {}",
+                    record.k
+                );
+            }
+        }
+        before = Some(now);
+    }
+    let aborted = simulation.totals().aborted;
+    let said = simulation.take_diagnostics();
+    assert_eq!(aborted, said.iter().any(Diagnostic::is_error), "{said:?}");
+}
+
+/// The parts of an input.
+fn parts(data: &[u8]) -> Vec<&[u8]> {
+    let mut parts = Vec::new();
+    let mut rest = data;
+    while let Some(at) = rest.windows(BETWEEN.len()).position(|w| w == BETWEEN) {
+        parts.push(&rest[..at]);
+        rest = &rest[at + BETWEEN.len()..];
+    }
+    parts.push(rest);
+    parts
+}
+
+struct InMemory<'a>(Vec<&'a [u8]>);
+
+impl ListFiles for InMemory<'_> {
+    fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        let name = path.rsplit('/').next().unwrap_or(path);
+        let i =
+            ["hochlauf.lis", "channel.lis", "x.lis", "kontur.lis"].iter().position(|n| *n == name);
+        Ok(i.and_then(|i| self.0.get(i)).map(|bytes| bytes.to_vec()))
+    }
+}
+
+/// Lists of a machine, which is built and moved.
+pub fn lists(data: &[u8]) {
+    let files = InMemory(parts(data));
+    let Ok((machine, said)) = Machine::load(&files, "m/hochlauf.lis", &[]) else { return };
+    let (_, chains) = machine.chains();
+    if said.iter().chain(&chains).any(Diagnostic::is_error) {
+        return;
+    }
+    let axis = machine.axes.first().map_or("X", |a| a.name()).to_owned();
+    let program = format!("G01 {axis}=0.5 F600\nG00 {axis}=0\nM30\n");
+    let limits = Limits { max_time_s: TIME_S };
+    let cycles = (TIME_S / machine.cycle.seconds()) as u64;
+    if cycles > 100_000 {
+        // a cycle of microseconds is a long run of another kind
+        return;
+    }
+    let machine = Arc::new(machine);
+    let Ok(mut simulation) =
+        Simulation::new(machine, sources(program.as_bytes()), "main.nc", options(), &limits)
+    else {
+        return;
+    };
+    while let Some(record) = simulation.next_cycle() {
+        for (i, axis) in record.axes.iter().enumerate() {
+            let values = [axis.ipo, axis.set];
+            assert!(
+                values.iter().all(|v| v.is_finite()),
+                "axis {i} in cycle {}: {axis:?}",
+                record.k
+            );
+        }
+    }
+}
+
+/// Calls the command line on files of its own; words that begin with `@` name them.
+fn call(files: &[(&str, &[u8])], words: &[&str]) -> Output {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, bytes) in files {
+        std::fs::write(folder.path().join(name), bytes).expect("a temporary file");
+    }
+    let word = |w: &&str| match w.strip_prefix('@') {
+        Some(name) => folder.path().join(name).into_os_string(),
+        None => OsString::from(*w),
+    };
+    let said = command(words.iter().map(word));
+    assert!(!said.err.contains("panicked"), "{}", said.err);
+    let told = said.err.contains("error");
+    assert!(said.exit == Exit::Finished || told || !said.out.is_empty(), "{words:?} says nothing");
+    let names = std::fs::read_dir(folder.path()).expect("the folder").flatten();
+    let left = names.map(|e| e.file_name()).find(|n| n.to_string_lossy().starts_with('.'));
+    assert_eq!(left, None, "{words:?} leaves a temporary file");
+    said
+}
+
+const LIMITS: [&str; 4] = ["--max-time", "2", "--max-blocks", "20000"];
+
+/// Real-time inputs of a run.
+pub fn inputs(data: &[u8]) {
+    let program = b"#VIB GUARD ON [MODE=2 FREQ=40]\nG01 X5 Y3 F3000\nG04 0.1\nX0\nM30\n";
+    let words = [&["run", "@a.nc", "--input", "@in.csv", "-o", "@a.csv"], &LIMITS[..]].concat();
+    let files = [("a.nc", &program[..]), ("in.csv", data)];
+    let folder = call(&files, &words);
+    assert!(!folder.out.contains("NaN") && !folder.out.contains("inf "), "{}", folder.out);
+}
+
+/// A recording of a vibration.
+pub fn recording(data: &[u8]) {
+    let said = call(&[("r.csv", data)], &["tune", "--recording", "@r.csv"]);
+    assert!(said.exit != Exit::Aborted && !said.out.contains("NaN"), "{}", said.out);
+}
+
+/// Two traces are compared, in both directions.
+pub fn diff(data: &[u8]) {
+    let parts = parts(data);
+    let (a, b) = (parts[0], parts.get(1).copied().unwrap_or_default());
+    let files = [("a.csv", a), ("b.csv", b)];
+    let there = call(&files, &["diff", "@a.csv", "@b.csv"]).exit;
+    let back = call(&files, &["diff", "@b.csv", "@a.csv"]).exit;
+    assert_eq!(there, back);
+    // what can be read equals itself
+    if there == Exit::Finished || there == Exit::Aborted {
+        assert_eq!(call(&files, &["diff", "@a.csv", "@a.csv"]).exit, Exit::Finished);
+    }
+}
+
+/// The words of a command line, one per line, are taken apart; nothing is carried out.
+pub fn command_line(data: &[u8]) {
+    use clap::Parser as _;
+    let text = String::from_utf8_lossy(data);
+    let words = std::iter::once("kontur").chain(text.lines());
+    match Args::try_parse_from(words) {
+        Ok(args) => drop(format!("{args:?}")),
+        Err(e) => drop(e.to_string()),
+    }
+}
+
+/// A program becomes a picture and a page.
+pub fn report(data: &[u8]) {
+    for output in ["@a.svg", "@a.html"] {
+        let words = [&["report", "@a.nc", "-o", output], &LIMITS[..]].concat();
+        call(&[("a.nc", data)], &words);
+    }
+}
+
+/// Inputs to begin with for a target: what the repository has of its kind.
+pub fn corpus(target: &str) -> Vec<Vec<u8>> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let programs = || {
+        let mut found = Vec::new();
+        for folder in ["programs", "programs/fail", "tests/suite/faults"] {
+            found.extend(files(&root.join(folder), "nc").into_iter().filter(|f| f.len() < 20_000));
+        }
+        found
+    };
+    match target {
+        "check" | "run" | "report" => programs(),
+        "lists" => {
+            let machine = |name: &str| {
+                let read = |list: &str| {
+                    let path = root.join("programs/machines").join(name).join(list);
+                    std::fs::read(path).unwrap_or_default()
+                };
+                ["hochlauf.lis", "channel.lis", "x.lis", "kontur.lis"].map(read).join(BETWEEN)
+            };
+            ["xyz", "rack_and_pinion", "vendor_defaults", "gantry", "xyz_hsc"].map(machine).to_vec()
+        }
+        "inputs" => files(&root.join("programs"), "csv"),
+        "recording" => {
+            let wave = |t: f64| libm::exp(-3.0 * t) * libm::sin(200.0 * t);
+            let rows = (0..200).map(|k| f64::from(k) * 1e-3).map(|t| format!("{t},{}\n", wave(t)));
+            vec![("t_s,a\n".to_owned() + &rows.collect::<String>()).into_bytes()]
+        }
+        "diff" => {
+            let trace = b"t_s,line,block,v_limit,X_set_mm\n0,1,,feed,0.5\n0.001,1,10,stop,inf\n";
+            vec![[&trace[..], &trace[..]].join(BETWEEN), [&trace[..], b"t_s\n"].join(BETWEEN)]
+        }
+        _ => [
+            "run\na.nc\n-o\na.csv\n--set\nX.getriebe[0].kv=5000\n--start\nX10,Y5\n--skip\n1,3",
+            "sweep\na.nc\n--vary\nX.getriebe[0].kv=1000..5000:500\n--amplitude\nX_lag_mm@50..56@1..2",
+            "tune\n--freq\n40,50\n--damping\n0.05\n--max-residual\n3",
+            "response\n--filter\nLOWPASS,BESSEL,4,50\n--freq\n1..100",
+            "report\na.nc\n--signals\nipo\n--spectrum\n2..80\n--window\n0.7..1.9",
+        ]
+        .map(|words| words.as_bytes().to_vec())
+        .to_vec(),
+    }
+}
+
+/// Files of a folder with an extension, in the order of their names.
+fn files(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
+    let entries = std::fs::read_dir(folder).expect("a folder of the repository").flatten();
+    let mut paths: Vec<_> = entries.map(|e| e.path()).collect();
+    paths.retain(|p| p.extension().is_some_and(|e| e == extension));
+    paths.sort();
+    paths.iter().map(|p| std::fs::read(p).expect("a file of the repository")).collect()
+}
+
+/// Words that the readers know: of the grammar, of the parameter tables, of the programs of the suite.
+pub fn dictionary() -> Vec<String> {
+    let mut words = std::collections::BTreeSet::new();
+    let grammar = include_str!("../../interpreter/src/nc.pest");
+    // every second piece between quotes is a literal
+    for line in grammar.lines().filter(|line| !line.starts_with("//")) {
+        words.extend(line.split('"').skip(1).step_by(2).map(str::to_owned));
+    }
+    words.extend(kontur_interpreter::machine::table::rows().map(|row| row.key.to_owned()));
+    for program in corpus("check") {
+        let text = String::from_utf8_lossy(&program);
+        let code = text.lines().filter_map(|line| line.split([';', '(']).next());
+        for word in code
+            .flat_map(|line| line.split(|c: char| !(c.is_ascii_alphabetic() || "#$_".contains(c))))
+        {
+            words.insert(word.to_owned());
+        }
+    }
+    words.retain(|w| {
+        w.len() > 1 && w.bytes().all(|b| (b' '..=b'~').contains(&b) && !b"\\\"".contains(&b))
+    });
+    words.into_iter().collect()
+}
+
+/// An input with a few changes: characters, lines, words of the dictionary, or pieces of another input.
+pub fn mutated(input: &[u8], other: &[u8], words: &[String], random: &mut Random) -> Vec<u8> {
+    let mut out = input.to_vec();
+    for _ in 0..=random.below(4) {
+        let at = random.below(out.len() + 1);
+        let end = (at + 1 + random.below(8)).min(out.len());
+        match random.below(7) {
+            0 => drop(out.drain(at.min(end)..end)),
+            1 => out.insert(at, random.below(256) as u8),
+            2 => {
+                let word = words[random.below(words.len())].as_bytes();
+                drop(out.splice(at..at, word.iter().copied()));
+            }
+            3 => {
+                let piece = out[at.min(end)..end].to_vec();
+                let many = piece.repeat(1 + random.below(40));
+                drop(out.splice(at..at, many));
+            }
+            4 => {
+                let from = random.below(other.len() + 1);
+                let to = (from + random.below(60)).min(other.len());
+                drop(out.splice(at..at, other[from.min(to)..to].iter().copied()));
+            }
+            5 => {
+                let signs = b"[]()\"-+=;,.#$%@/\\ \n0123456789";
+                let sign = signs[random.below(signs.len())];
+                drop(out.splice(at..end.max(at), [sign]));
+            }
+            _ => out.truncate(at.max(out.len() / 2)),
+        }
+    }
+    out.truncate(64 * 1024);
+    out
+}

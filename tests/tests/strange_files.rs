@@ -1,0 +1,224 @@
+//! Files that are not what they seem: programs, subroutines, traces and lists, through the command line.
+
+use kontur::Exit;
+use kontur_tests::command::{Output, command};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn with(self, name: &str, text: impl AsRef<[u8]>) -> Self {
+        if let Some(folder) = Path::new(name).parent() {
+            fs::create_dir_all(self.path("").join(folder)).unwrap();
+        }
+        fs::write(self.path(name), text).unwrap();
+        self
+    }
+
+    /// Words that start with `@` are files of the folder.
+    fn call(&self, words: &[&str]) -> Output {
+        command(words.iter().map(|w| match w.strip_prefix('@') {
+            Some(name) => self.path(name).into_os_string(),
+            None => (*w).into(),
+        }))
+    }
+}
+
+/// The beginning of the block is a blank or a comment, and what would move stands behind the limit.
+#[test]
+fn a_first_block_that_is_too_long_does_not_vanish() {
+    for begin in [" ".repeat(4100), format!("({})", "x".repeat(4100)), ";".repeat(4100)] {
+        let f = Folder::new()
+            .with("a.nc", format!("{begin}X1\nM30\n"))
+            .with("sub.nc", format!("{begin}X1\n"))
+            .with("b.nc", "L sub.nc\nM30\n");
+        for program in ["@a.nc", "@b.nc"] {
+            for verb in ["check", "run"] {
+                let said = f.call(&[verb, program]);
+                assert_eq!(said.exit, Exit::Aborted, "{}", said.err);
+                assert!(said.err.contains("error[20301]"), "{}", said.err);
+            }
+        }
+    }
+}
+
+#[test]
+fn settings_name_axes_that_exist() {
+    let f = Folder::new().with("a.nc", "M30\n");
+    let run = |setting: &str| f.call(&["run", "@a.nc", "--set", setting]);
+    assert_eq!(run("kontur.axis[1].plant.ta_us=500").exit, Exit::Finished);
+    let said = run("kontur.axis[9].plant.ta_us=500");
+    assert_eq!(said.exit, Exit::Usage);
+    assert!(said.err.contains("K-0073") && said.err.contains("logical number 9"), "{}", said.err);
+}
+
+#[test]
+fn one_unreadable_program_does_not_end_a_check() {
+    let f = Folder::new().with("a.nc", "G7\nM30\n").with("c.nc", "G8888\nM30\n");
+    let said = f.call(&["check", "@a.nc", "@b.nc", "@c.nc"]);
+    assert_eq!(said.exit, Exit::Io);
+    for part in ["20131", "b.nc: ", "20107"] {
+        assert!(said.err.contains(part), "{part}: {}", said.err);
+    }
+    assert_eq!(f.call(&["check", "@a.nc", "@c.nc"]).exit, Exit::Aborted);
+}
+
+/// A place for every message, also of an empty program and of one that speaks.
+#[test]
+fn messages_have_places_and_no_numbers_of_their_own() {
+    let f = Folder::new()
+        .with("empty.nc", "")
+        .with("msg.nc", "G01 X1 F6000\n#MSG [\"hello\"]\nM30\n")
+        .with("g.nc", "G99999999999999999999\nM30\n");
+    assert!(f.call(&["check", "@empty.nc"]).err.contains("empty.nc:1:1"));
+    assert!(f.call(&["run", "@msg.nc"]).err.contains("msg.nc:2:1"));
+    let said = f.call(&["check", "@g.nc"]).err;
+    assert!(said.contains("20107") && !said.contains("4294967295"), "{said}");
+    // and they quote the beginning of a word
+    let long = format!("L CYCLE [NAME={}]\nM30\n", "y".repeat(3000));
+    let said = Folder::new().with("a.nc", format!("#{}\n{long}", "X".repeat(3000)));
+    let said = said.call(&["check", "@a.nc", "--diagnostics", "json"]).err;
+    for line in said.lines() {
+        let json: serde_json::Value = serde_json::from_str(line).unwrap();
+        let text = json["text"].as_str().or(json["message"].as_str()).unwrap();
+        assert!(text.chars().count() < 3200, "{text}");
+    }
+}
+
+#[test]
+fn subroutines_stay_in_the_folder_of_the_program() {
+    let sub = "G01 X1 F6000\n";
+    let f = Folder::new()
+        .with("out.nc", sub)
+        .with("lib/in_lib.nc", sub)
+        .with("jobs/beside.nc", sub)
+        .with("jobs/deep/up.nc", "L ../beside.nc\n")
+        .with("jobs/ok.nc", "L beside.nc\nL deep/up.nc\nL deep/../beside.nc\nM30\n")
+        .with("jobs/lib.nc", "L in_lib.nc\nM30\n")
+        .with("jobs/up.nc", "L ../out.nc\nM30\n")
+        .with("jobs/windows.nc", "L CYCLE [NAME=..\\out.nc]\nM30\n")
+        .with("jobs/link.nc", "L linked.nc\nM30\n");
+    let absolute = format!("L \"{}\"\nM30\n", f.path("out.nc").display());
+    let f = f.with("jobs/absolute.nc", absolute);
+    assert_eq!(f.call(&["check", "@jobs/ok.nc"]).exit, Exit::Finished);
+    let lib = f.path("lib").display().to_string();
+    assert_eq!(f.call(&["check", "@jobs/lib.nc", "--path", &lib]).exit, Exit::Finished);
+    let mut leaving = vec!["@jobs/up.nc", "@jobs/windows.nc", "@jobs/absolute.nc"];
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(f.path("out.nc"), f.path("jobs/linked.nc")).unwrap();
+        leaving.push("@jobs/link.nc");
+    }
+    for program in leaving {
+        let said = f.call(&["check", program]);
+        assert_eq!(said.exit, Exit::Aborted, "{program}");
+        assert!(
+            said.err.contains("K-0013") && said.err.contains("--allow-outside"),
+            "{}",
+            said.err
+        );
+        let said = f.call(&["check", program, "--allow-outside"]);
+        assert_eq!(said.exit, Exit::Finished, "{program}: {}", said.err);
+    }
+}
+
+#[test]
+fn text_that_is_no_program_is_not_shown() {
+    let f = Folder::new()
+        .with("keys", "token: s3cret!\nuser = s3cret?\n")
+        .with("a.nc", "L keys\nM30\n")
+        .with(
+            "sub.nc",
+            "#VAR\nV.P.A : REAL64 = 5\n#ENDVAR\n#COMMENT BEGIN\na! b?\n#COMMENT END\nG7\n",
+        )
+        .with("b.nc", "L sub.nc\nM30\n");
+    for verb in ["check", "run"] {
+        let said = f.call(&[verb, "@a.nc"]);
+        assert_eq!(said.exit, Exit::Aborted);
+        assert!(said.err.contains("K-0013") && !said.err.contains("s3cret"), "{}", said.err);
+        // a program with a mistake is shown
+        let said = f.call(&[verb, "@b.nc"]);
+        assert!(said.err.contains("| G7"), "{}", said.err);
+    }
+}
+
+#[test]
+fn tables_of_another_form_are_refused_in_plain_words() {
+    let trace = "t_s,line,X_set_mm\n0,1,0.5\n0.001,1,0.5\n";
+    let utf16: Vec<u8> =
+        trace.encode_utf16().fold(vec![0xFF, 0xFE], |v, c| [v, c.to_le_bytes().to_vec()].concat());
+    let f = Folder::new()
+        .with("a.csv", trace)
+        .with("bom.csv", format!("\u{feff}{trace}"))
+        .with("semicolon.csv", trace.replace(',', ";").replace('.', ","))
+        .with("comment.csv", format!("# a trace\n{trace}"))
+        .with("utf16.csv", utf16)
+        .with("twice.csv", trace.replace("line", "X_set_mm"))
+        .with("ragged.csv", format!("{trace}0.002,1\n"))
+        .with("endless.csv", format!("t_s,{}", "1".repeat(1 << 20)))
+        .with("zeros.csv", b"t_s,line\n0\0,1\n");
+    assert_eq!(f.call(&["diff", "@a.csv", "@bom.csv"]).exit, Exit::Finished);
+    for (name, exit, reason) in [
+        ("@semicolon.csv", Exit::Usage, "not separated by commas"),
+        ("@comment.csv", Exit::Usage, "`#` line"),
+        ("@utf16.csv", Exit::Usage, "UTF-16"),
+        ("@twice.csv", Exit::Usage, "`X_set_mm` stands twice"),
+        ("@ragged.csv", Exit::Io, "fields"),
+        ("@endless.csv", Exit::Io, "longer than 65536 bytes"),
+        ("@zeros.csv", Exit::Io, "code 0"),
+    ] {
+        for words in [["diff", "@a.csv", name], ["diff", name, "@a.csv"]] {
+            let said = f.call(&words);
+            assert_eq!(said.exit, exit, "{name}: {}", said.err);
+            assert!(said.err.contains(reason), "{name}: {}", said.err);
+            assert!(!said.err.contains("Some(") && !said.err.contains("{ "), "{}", said.err);
+        }
+    }
+    for name in ["@semicolon.csv", "@utf16.csv", "@endless.csv", "@ragged.csv"] {
+        let said = f.call(&["tune", "--recording", name]);
+        assert!(said.exit == Exit::Usage || said.exit == Exit::Io, "{name}");
+        assert!(!said.err.contains("Some(") && !said.err.contains("{ "), "{}", said.err);
+    }
+    let said = f.call(&["run", "@a.csv", "--input", "@endless.csv"]);
+    assert!(said.err.contains("longer than 65536 bytes"), "{}", said.err);
+}
+
+/// Larger than what is read at once: the change is met while the program is read.
+#[test]
+fn a_program_that_changes_while_it_runs_ends_as_an_error() {
+    use kontur::engine::{Engine as _, Request};
+    let f = Folder::new();
+    let line = "G01 X1 F6000\nX0\n".repeat(20_000);
+    for text in ["G01 X9 F600\nM30\n".to_owned(), format!("{line}M30\n")] {
+        for change in [None, Some(String::new()), Some(text.replace("X1", "X2") + "\n")] {
+            let f = f.path("a.nc");
+            fs::write(&f, &text).unwrap();
+            let request = Request {
+                program: f.clone(),
+                max_time_s: 5.0,
+                max_blocks: 1_000_000,
+                ..Request::default()
+            };
+            let mut source = kontur::simulator::Kontur.open(&request).unwrap();
+            source.next_cycle();
+            if let Some(change) = &change {
+                fs::write(&f, change).unwrap();
+            }
+            while source.next_cycle().is_some() {}
+            let said = source.take_diagnostics();
+            let told = said.iter().any(|d| d.text.contains("changed while it was read"));
+            assert_eq!(told, change.is_some(), "{said:?}");
+            let totals = source.totals();
+            assert_eq!(totals.input_failed, change.is_some());
+        }
+    }
+}
