@@ -5,6 +5,7 @@
 use super::commands::{Key, Kind, arguments};
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
+use super::spindles::Turning;
 use super::words::Words;
 use crate::diag::Condition;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
@@ -115,8 +116,22 @@ impl Decoder {
                 return Err(Fault::new(Condition::DuplicateGroup, text, *span));
             }
         }
+        let motion = |i: &SpindleItem| {
+            matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_) | SpindleItem::Position(_))
+        };
+        let moves = items.iter().any(|(i, _)| motion(i));
+        let turns = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(_)));
+        // one event for the whole bracket, in whatever order its words stand: POS is the angle of M19, REV the speed
+        items.sort_by_key(|(i, _)| !matches!(i, SpindleItem::Turn(_)));
         for (item, span) in items {
             self.spindle_action(spindle, &item, span)?;
+        }
+        let state = &self.spindles[spindle];
+        if moves
+            && (turns || state.turning != Turning::Stopped)
+            && let Some(event) = state.motion_event()
+        {
+            self.event(event);
         }
         self.spindle_warning(spindle, group.span);
         Ok(())
@@ -158,20 +173,17 @@ impl Decoder {
 
     fn spindle_action(&mut self, spindle: usize, item: &SpindleItem, span: Span) -> Outcome<()> {
         match *item {
-            SpindleItem::Turn(number) => self.turn_spindle(spindle, number, None),
+            SpindleItem::Turn(number) => {
+                self.spindles[spindle].turning = Turning::of(number, None);
+            }
             SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
                 let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
                 return Err(Fault::new(Condition::Range, text, span));
             }
-            SpindleItem::Speed(rpm) => {
-                self.spindles[spindle].rpm = rpm;
-                if let (true, Some(event)) =
-                    (self.spindles[spindle].is_turning(), self.spindles[spindle].motion_event())
-                {
-                    self.event(event);
-                }
+            SpindleItem::Speed(rpm) => self.set_spindle_speed(spindle, rpm, span),
+            SpindleItem::Position(deg) => {
+                self.spindles[spindle].turning = Turning::Positioned { deg };
             }
-            SpindleItem::Position(deg) => self.turn_spindle(spindle, 19, Some(deg)),
             SpindleItem::Feedforward(on) => {
                 self.spindles[spindle].feedforward = on;
                 if let Some(event) = self.spindles[spindle].feedforward_event() {

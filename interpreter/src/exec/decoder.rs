@@ -413,15 +413,21 @@ impl Decoder {
         if self.machine.channel.contouring_consider_inch { self.unit_mm() } else { 1.0 }
     }
 
-    /// Spindle of a name in either case.
+    /// Spindle of a name in either case: that of its list, and for the main spindle P-CHAN-00053.
     pub(super) fn spindle_of_name(&self, name: &str) -> Option<usize> {
-        self.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name))
+        let main = name.eq_ignore_ascii_case(&self.machine.channel.main_spindle_name);
+        let listed = self.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name));
+        if main { Some(0) } else { listed }
     }
 
     /// Names of several characters that the parser has to know.
     pub(super) fn long_names(&self) -> Vec<String> {
         let axes = self.axis_names.iter().flatten().cloned();
-        axes.chain(self.spindles.iter().map(|s| s.name.clone())).filter(|n| n.len() > 1).collect()
+        let main = [self.machine.channel.main_spindle_name.clone()];
+        axes.chain(self.spindles.iter().map(|s| s.name.clone()))
+            .chain(main)
+            .filter(|n| n.len() > 1)
+            .collect()
     }
 
     /// Works the shaping out anew; a changed kernel needs the path at rest.

@@ -13,6 +13,7 @@ use super::insertion::Kind;
 use super::modal::{Compensation, FeedType, FeedWord, LookAhead, Plane};
 use super::words::{CycleCall, GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
+use crate::machine::Axis;
 use crate::syntax::ast::{Call, Label, Span, Word};
 
 /// What follows a block.
@@ -146,6 +147,10 @@ impl Decoder {
                 self.set_weight(weight, None, ratio, g.span);
             }
             Act::Feedforward(on) if self.feedforward.on != on => {
+                if on && !self.machine.axes.iter().any(Axis::has_feedforward) {
+                    let text = "G135 without effect: no axis of the channel has feedforward (P-AXIS-00223)";
+                    self.note_once("G135", Fault::new(Condition::ListNoEffect, text, g.span));
+                }
                 self.feedforward.on = on;
                 self.feedforward_event();
             }

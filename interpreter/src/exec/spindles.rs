@@ -25,6 +25,18 @@ pub(super) enum Turning {
     Positioned { deg: f64 },
 }
 
+impl Turning {
+    /// What M3, M4, M19 (with its angle in deg, 0 without one) or M5 asks for.
+    pub(super) fn of(number: u32, deg: Option<f64>) -> Self {
+        match number {
+            3 => Self::Clockwise,
+            4 => Self::CounterClockwise,
+            19 => Self::Positioned { deg: deg.unwrap_or(0.0) },
+            _ => Self::Stopped,
+        }
+    }
+}
+
 impl Spindle {
     pub(super) fn new(name: &str, index: Option<usize>) -> Self {
         Self {
@@ -44,7 +56,10 @@ impl Spindle {
             Turning::Stopped => SpindleMotion::Stop,
             Turning::Clockwise => SpindleMotion::Clockwise { rpm },
             Turning::CounterClockwise => SpindleMotion::CounterClockwise { rpm },
-            Turning::Positioned { deg } => SpindleMotion::Position { deg },
+            // Assumption: the programmed speed holds for positioning too; a spindle without one goes as fast as it can
+            Turning::Positioned { deg } => {
+                SpindleMotion::Position { deg, rpm: Some(rpm).filter(|r| *r > 0.0) }
+            }
         };
         self.index.map(|spindle| Event::Spindle { spindle, motion })
     }

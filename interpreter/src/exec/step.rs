@@ -233,6 +233,8 @@ pub enum SpindleMotion {
     Position {
         /// Angle in deg.
         deg: f64,
+        /// Speed in rev/min, above 0; none: as fast as the spindle can.
+        rpm: Option<f64>,
     },
 }
 

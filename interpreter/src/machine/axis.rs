@@ -55,6 +55,11 @@ impl Axis {
         self.number
     }
 
+    /// Unit of its positions: `mm` or `deg`.
+    pub fn unit(&self) -> &'static str {
+        if self.kind == AxisKind::Linear { "mm" } else { "deg" }
+    }
+
     /// Linear, rotary or spindle.
     pub fn kind(&self) -> AxisKind {
         self.kind
@@ -201,6 +206,11 @@ impl Axis {
     /// Shortest ramp time in s (P-AXIS-00201): with `a_max` the jerk limit of the monitor.
     pub fn tr_min_s(&self) -> f64 {
         self.stage("dynamik.tr_min")
+    }
+
+    /// The list names something to feed forward (P-AXIS-00223).
+    pub fn has_feedforward(&self) -> bool {
+        self.raw("vorsteuer.vorsteuerung").is_some_and(|flags| flags > 0.0)
     }
 
     /// Gain of the position controller in 1/s (P-AXIS-00099).

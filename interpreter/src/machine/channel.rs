@@ -133,6 +133,8 @@ pub struct Channel {
     pub tool_change_program: Option<String>,
     /// Logical number of the main spindle (P-CHAN-00051), `None`: the first one.
     pub main_spindle: Option<u32>,
+    /// Name that addresses the main spindle in the NC program (P-CHAN-00053).
+    pub main_spindle_name: String,
     parameters: Parameters,
     start_up: Parameters,
 }
@@ -213,6 +215,7 @@ impl Channel {
             end_program: program("final_prog_file"),
             tool_change_program: program("m6_prog_file"),
             main_spindle: Some(choice("main_spindle_ax_nr")).filter(|n| *n != 0),
+            main_spindle_name: p.text("main_spindle_name").unwrap_or_default(),
             parameters,
             start_up,
         }

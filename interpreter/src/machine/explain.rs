@@ -93,9 +93,32 @@ fn message_of(thing: &str) -> Option<&'static condition::Row> {
 fn key_of(thing: &str) -> Option<&'static Row> {
     // the table's own spelling of indices, `filter[i].order`, reads as an empty index
     let plain = thing.replace("[i]", "[]").replace("[j]", "[]").replace("[k]", "[]");
-    let key = Key::parse(&plain)?;
+    let key = Key::parse(&printed(&plain))?;
     let kinds = [ListKind::Axis, ListKind::Channel, ListKind::StartUp, ListKind::Kontur];
     kinds.iter().find_map(|kind| table::by_key(*kind, &key.shape))
+}
+
+/// The key that a printed variant stands for: misprints of the documents, and keys printed without what is in front.
+fn printed(key: &str) -> String {
+    const WORDS: [(&str, &str); 3] =
+        [("jerk_fact_nom", "jerk_fact_num"), ("v_time_bae", "v_time_base"), ("stages[", "stage[")];
+    const FRONTS: [(&str, &str); 5] = [
+        ("jerk_fact_", "vorsteuer."),
+        ("v_time_base", "antr."),
+        ("stage[", "lr_param.improved_position_control."),
+        ("filter.order", "lr_param.improved_position_control.stage[]."),
+        ("filter.", "lr_param.improved_position_control.stage[]."),
+    ];
+    let mut key = WORDS.iter().fold(key.to_owned(), |key, (from, to)| key.replace(from, to));
+    if let Some((_, front)) = FRONTS.iter().find(|(start, _)| key.starts_with(start)) {
+        key.insert_str(0, front);
+    }
+    // the newer builds number the filters of a stage
+    if key.contains("improved_position_control") {
+        key.replace("].filter.", "].filter[].")
+    } else {
+        key
+    }
 }
 
 fn probably(thing: &str) -> Vec<String> {
@@ -116,7 +139,10 @@ fn parameter(row: &'static Row) -> Explanation {
     if row.key.is_empty() {
         facts.push(("key", "printed in no public document; a list cannot set it here".to_owned()));
     } else {
-        facts.push(("type", row.raw.name().to_owned()));
+        // the tables print STRING where a number is accepted too
+        let printed = ["P-AXIS-00153", "P-AXIS-00737", "P-AXIS-00738"].contains(&row.id);
+        let name = if printed { "STRING (numbers accepted)" } else { row.raw.name() };
+        facts.push(("type", name.to_owned()));
         facts.push(("range", range(row)));
         facts.push(("default", default(row)));
         facts.push(("unit", unit(row)));
@@ -181,6 +207,10 @@ fn range(row: &Row) -> String {
 }
 
 fn default(row: &Row) -> String {
+    if row.id == "P-AXIS-00204" {
+        return "LOWPASS 1 with the prototypes 1 to 3, HSC_MEAN 8 with the prototype HSC"
+            .to_owned();
+    }
     match row.default {
         Default::None => "none".to_owned(),
         Default::Number(x) => value::write(row.raw, &Value::Number(x)),

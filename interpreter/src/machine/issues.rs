@@ -157,9 +157,36 @@ pub(crate) fn filter(axis: &Axis, origin: Origin<'_>, issue: &FilterIssue) -> Di
     };
     match (origin, effect) {
         (Origin::Program, Effect::Note) => diagnostic.severity(Severity::Note),
-        (Origin::Program, Effect::Corrected) => diagnostic.severity(Severity::Warning),
+        // of a list, as the documents say: that part is off, the run goes on
+        (Origin::Program, Effect::Corrected) | (Origin::List(_), Effect::Off) => {
+            diagnostic.severity(Severity::Warning)
+        }
         (Origin::Program, Effect::Off) | (Origin::List(_), _) => diagnostic,
     }
+}
+
+/// A filter, or Improved Position Control, that a list describes and that is off because it cannot be built.
+pub fn leaves_out(diagnostic: &Diagnostic) -> bool {
+    [
+        Condition::FilterType,
+        Condition::SecondHsc,
+        Condition::HscNotFirst,
+        Condition::FilterHscPrototype,
+        Condition::FilterHscSpindle,
+        Condition::FilterHscInterface,
+        Condition::FilterTime,
+        Condition::SpindleFilterTime,
+        Condition::FilterTimeBelowCycle,
+        Condition::FilterWithoutOrder,
+        Condition::FilterRange,
+        Condition::GuardNotRealisable,
+        Condition::IpcRange,
+        Condition::IpcNumerator,
+        Condition::IpcDenominator,
+        Condition::IpcNoInput,
+    ]
+    .iter()
+    .any(|condition| diagnostic.id == *condition)
 }
 
 /// Why an axis has no Vibration Guard, with the values.
@@ -237,13 +264,13 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
             "additive velocity feedforward, the drive has no such input",
             "the velocity part is off",
         )
-        .hint("name S_0_0037 in antr.sercos.mdt[i].nc_ref; simulated drive: kontur.axis[n].additive.velocity 1"),
+        .hint(additive_hint(axis, "S_0_0037", "velocity")),
         Issue::NoAdditiveTorque => about(
             mode,
             "additive torque feedforward, the drive has no such input",
             "the acceleration and jerk parts are off",
         )
-        .hint("name S_0_0080 in antr.sercos.mdt[i].nc_ref; simulated drive: kontur.axis[n].additive.torque 1"),
+        .hint(additive_hint(axis, "S_0_0080", "torque")),
         Issue::WithoutDelayNeedsVelocityOnly => about(
             mode,
             "acceleration or jerk feedforward without the delay of 5 cycles",
@@ -352,6 +379,22 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
     }
 }
 
+/// How the drive of an axis gets an additive input, and which ones it has.
+fn additive_hint(axis: &Axis, ident: &str, input: &str) -> String {
+    let simulated = axis.raw("kenngr.antr_typ").is_none_or(|x| (x - 4.0).abs() <= 0.0);
+    if simulated {
+        let n = axis.number();
+        return format!(
+            "the simulated drive (type 4) gets the input by kontur.axis[{n}].additive.{input} 1"
+        );
+    }
+    let named =
+        axis.parameters().settings().filter(|(_, s)| s.row.key == "antr.sercos.mdt[i].nc_ref");
+    let names: Vec<&str> = named.filter_map(|(_, s)| s.value.text()).collect();
+    let present = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
+    format!("name {ident} in antr.sercos.mdt[i].nc_ref; the telegram carries {present}")
+}
+
 fn delay(
     axis: &Axis,
     condition: Condition,
@@ -403,15 +446,14 @@ fn ipc_range(
             let key = if used { newer } else { key("filter[0].damping") };
             (key, "damping of the oscillator", "above 0 and below 1".to_owned(), "-")
         }
+        IpcParameter::Mode => (key("mode"), "mode", "0 to 3".to_owned(), "-"),
         IpcParameter::BandPass => {
             (key("filter[0].type"), "filters", "at least one band-pass".to_owned(), "-")
         }
     };
     let of = if unit == "-" { String::new() } else { format!(" {unit}") };
     let text = format!("{name} {value}{of} of stage {stage}, {range}");
-    about(axis, condition, &key, &text, "Improved Position Control is off for the axis").value(
-        ValueKind::Wrong,
-        value,
-        unit,
-    )
+    about(axis, condition, &key, &text, "Improved Position Control is off for the axis")
+        .severity(Severity::Warning)
+        .value(ValueKind::Wrong, value, unit)
 }

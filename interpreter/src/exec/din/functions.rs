@@ -1,7 +1,7 @@
 //! M functions, spindle words and what follows a block.
 
 use super::After;
-use crate::diag::Condition;
+use crate::diag::{Condition, rounded};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::spindles::Turning;
@@ -41,13 +41,29 @@ impl Decoder {
             self.note(Fault::new(Condition::Range, text, span));
             return;
         }
-        self.spindles[index].rpm = value;
+        self.set_spindle_speed(index, value, span);
         if self.spindles[index].is_turning()
             && let Some(event) = self.spindles[index].motion_event()
         {
             self.event(event);
         }
         self.spindle_warning(index, span);
+    }
+
+    /// Takes the speed of a spindle in rev/min; K-0131 if the spindle is slower.
+    pub(in crate::exec) fn set_spindle_speed(&mut self, index: usize, rpm: f64, span: Span) {
+        self.spindles[index].rpm = rpm;
+        let listed = self.spindles[index].index.and_then(|i| self.machine.spindles.get(i));
+        let Some(most) = listed.map(|s| s.dynamics().v_max_mm_s / 6.0) else { return };
+        if rpm > most {
+            let name = &self.spindles[index].name;
+            let text = format!(
+                "spindle speed {} rev/min of {name} is above its limit (P-AXIS-00212): {} rev/min are used",
+                rounded(rpm),
+                rounded(most)
+            );
+            self.note(Fault::new(Condition::SpindleLimit, text, span));
+        }
     }
 
     pub(in crate::exec) fn spindle_warning(&mut self, index: usize, span: Span) {
@@ -97,13 +113,8 @@ impl Decoder {
     }
 
     /// M3, M4, M5, M19 of one spindle.
-    pub(in crate::exec) fn turn_spindle(&mut self, index: usize, number: u32, value: Option<f64>) {
-        self.spindles[index].turning = match number {
-            3 => Turning::Clockwise,
-            4 => Turning::CounterClockwise,
-            19 => Turning::Positioned { deg: value.unwrap_or(0.0) },
-            _ => Turning::Stopped,
-        };
+    fn turn_spindle(&mut self, index: usize, number: u32, value: Option<f64>) {
+        self.spindles[index].turning = Turning::of(number, value);
         if let Some(event) = self.spindles[index].motion_event() {
             self.event(event);
         }

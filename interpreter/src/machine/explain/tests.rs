@@ -106,7 +106,7 @@ fn commands_and_words() {
 
 #[test]
 fn unknown_things_get_suggestions() {
-    assert_eq!(explain("vorsteuer.jerk_fact_nom").unwrap_err()[0], "vorsteuer.jerk_fact_num");
+    assert_eq!(explain("vorsteuer.jerk_fact_nmu").unwrap_err()[0], "vorsteuer.jerk_fact_num");
     assert_eq!(explain("#VIB GARD").unwrap_err(), ["#VIB GUARD"]);
     assert!(explain("kv").unwrap_err().contains(&"getriebe[i].kv".to_owned()));
     assert!(explain("nothing like this").unwrap_err().is_empty());

@@ -17,7 +17,7 @@ use kontur_filters::control::{
 /// Kind of drive (P-AXIS-00020), as far as it matters here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Drive {
-    /// 1 and 6: analogue speed command.
+    /// 1 and 6: analogue speed command; 5: Lightbus, scaled alike (P-AXIS-00128, 00129).
     Conventional,
     /// 4: the vendor's simulation.
     Simulated,
@@ -30,7 +30,7 @@ enum Drive {
 impl Drive {
     fn of(axis: &Axis) -> Self {
         match integer(axis.raw("kenngr.antr_typ")) {
-            Some(1 | 6) => Self::Conventional,
+            Some(1 | 5 | 6) => Self::Conventional,
             Some(3) => Self::Profidrive,
             Some(4) | None => Self::Simulated,
             Some(_) => Self::Bus,
@@ -44,6 +44,7 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
     let j_max_mm_s3 = limits.a_max_mm_s2 / axis.tr_min_s();
     let drive = Drive::of(axis);
     let feedforward = feedforward(axis, drive, diagnostics);
+    without_effect(axis, drive, diagnostics);
     let command_format = match drive {
         Drive::Conventional | Drive::Simulated => SpeedFormat::Gain(quotient(
             axis,
@@ -69,6 +70,41 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
         command_format,
         torque: torque(axis, diagnostics),
         ..AxisControlConfig::new(limits.v_max_mm_s, limits.a_max_mm_s2, j_max_mm_s3)
+    }
+}
+
+/// Keys that say something about another gear stage or another kind of drive (K-0075).
+fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) {
+    let mut tell = |key: &str, what: &str, hint: &str| {
+        let condition = Condition::ListNoEffect;
+        diagnostics.push(issues::about(axis, condition, key, what, "no effect").hint(hint));
+    };
+    let of_gear = |key: &str| key.starts_with("getriebe[i]");
+    let other = axis.parameters().settings().find(|([gear, _], s)| *gear > 0 && of_gear(s.row.key));
+    if let Some(([gear, _], setting)) = other {
+        let key =
+            setting.row.key.replacen("[i]", &format!("[{gear}]"), 1).replacen("[j]", "[0]", 1);
+        let what = format!("parameters of gear stage {gear}");
+        tell(&key, &what, "gear stages are not changed: getriebe[0] is used");
+    }
+    let key = "vorsteuer.shift_time";
+    // the default of the vendor's lists says nothing about another drive
+    let said = axis.parameters().setting(key).and_then(|s| s.value.number());
+    if drive != Drive::Profidrive && said.is_some_and(|x| x > 0.0 && (x - 3.0).abs() > 0.0) {
+        tell(
+            key,
+            "time offset of the feedforward without PROFIdrive",
+            "it holds for kenngr.antr_typ 3 only",
+        );
+    }
+    if drive != Drive::Simulated {
+        for input in ["additive.velocity", "additive.torque"] {
+            if axis.own(input).is_some_and(|x| x > 0.0) {
+                let key = format!("kontur.axis[{}].{input}", axis.number());
+                let hint = "a bus drive has the inputs that antr.sercos.mdt[i].nc_ref names";
+                tell(&key, "additive input of the simulated drive, for another drive", hint);
+            }
+        }
     }
 }
 
@@ -371,6 +407,7 @@ fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     TorqueFormat {
         motor,
         load: raw(axis, "getriebe[0].load"),
+        real_load: axis.own("plant.inertia").filter(|x| *x > 0.0),
         reference: raw(axis, "antr.acc_reference_value"),
         scale_num: raw(axis, "antr.torque_scale_num"),
         scale_denom: raw(axis, "antr.torque_scale_denom"),

@@ -1,12 +1,18 @@
 //! Improved Position Control of one axis.
 
 use super::control::{converted, cycles, raw};
-use crate::machine::Axis;
+use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::machine::axis::integer;
+use crate::machine::{Axis, issues};
+use kontur_filters::control::Issue;
+use kontur_filters::control::fault::IpcParameter;
 use kontur_filters::control::ipc::{
     IpcConfig, IpcFilterConfig, IpcFilterType, IpcMode, IpcStageConfig,
 };
+use kontur_filters::time::CycleTime;
 
+/// Largest P-AXIS-00757.
+const MOST_LIMIT: f64 = 2000.0;
 /// Keys of the function begin with this.
 pub(in crate::machine) const PREFIX: &str = "lr_param.improved_position_control";
 
@@ -19,6 +25,31 @@ pub(super) fn config(axis: &Axis) -> IpcConfig {
         stages: (0..IpcConfig::MAX_STAGES).map(|index| stage(axis, index)).collect(),
         gantry_slave: false,
     }
+}
+
+/// What no configuration can hold: modes that do not exist, and a limit above the range of P-AXIS-00757.
+pub(super) fn out_of_range(axis: &Axis, cycle: CycleTime) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    for stage in 0..IpcConfig::MAX_STAGES {
+        let value = raw(axis, &format!("{PREFIX}.stage[{stage}].mode"));
+        if !(0.0..=3.0).contains(&value) {
+            let issue = Issue::IpcRange { stage, what: IpcParameter::Mode, value };
+            found.push(issues::control(axis, &issue, cycle));
+        }
+    }
+    let key = format!("{PREFIX}.v_add_max_fact");
+    let value = raw(axis, &key);
+    if value > MOST_LIMIT {
+        let what = format!("limit {value} of the additive speed, 0 to {MOST_LIMIT} (0.1 %)");
+        let effect = "Improved Position Control is off for the axis";
+        found.push(
+            issues::about(axis, Condition::IpcRange, &key, &what, effect)
+                .severity(Severity::Warning)
+                .value(ValueKind::Wrong, value, "0.1%")
+                .value(ValueKind::UpperLimit, MOST_LIMIT, "0.1%"),
+        );
+    }
+    found
 }
 
 fn stage(axis: &Axis, index: usize) -> IpcStageConfig {

@@ -41,7 +41,7 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(0.0), Bound::None).default(1.0).unit("incr", "incr").source("TF5200 feedforward control"),
     axis("P-AXIS-00207", "antr.v_time_base", Raw::Uns16, "0 per minute, 1 per second, 2 per sampling interval")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0).drives("SERCOS").source("TF5200 feedforward control"),
-    axis("P-AXIS-00223", "vorsteuer.vorsteuerung", Raw::Flags(FEEDFORWARD), "which parts are fed forward, names joined by |: VEL 0x1, ACC 0x2, JERK 0x4, ADD_VEL 0x101, ADD_ACC 0x202, ADD_JERK 0x804")
+    axis("P-AXIS-00223", "vorsteuer.vorsteuerung", Raw::Flags(FEEDFORWARD), "what is fed forward and where it enters, names joined by |: NONE 0; VEL 0x1, ACC 0x2, JERK 0x4 at the output of the position controller; ADD_VEL 0x101 as additive velocity, ADD_ACC 0x202 and ADD_JERK 0x804 as additive torque or current of the drive")
         .default(0.0).source("TF5200 feedforward control"),
     axis("P-AXIS-00225", "vorsteuer.vs_a_faktor", Raw::Sgn32, "Ta numerator (conventional); dimensionless weight in the additive variant; 0 is a legal weight")
         .range(Bound::At(0.0), Bound::None).default(1.0).unit("us", "us").source("TF5200 feedforward control"),

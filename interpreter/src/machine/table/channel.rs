@@ -119,6 +119,8 @@ pub(super) const ROWS: &[Row] = &[
         .default(0.0).unit("us", "us"),
     chan("P-CHAN-00051", "main_spindle_ax_nr", Raw::Uns16, "logical axis number of the main spindle; 0: the first spindle")
         .default(0.0),
+    chan("P-CHAN-00053", "main_spindle_name", Raw::Text, "name that addresses the main spindle in the NC program")
+        .default_is(Default::Text("S")).source("TF5200 channel parameters"),
     chan("P-CHAN-00080", "spindel[i].s_prozess_zeit", Raw::Uns32, "duration of an S word, counted with --techno-times")
         .default(0.0).unit("us", "us"),
     chan("P-CHAN-00082", "spdl_anzahl", Raw::Uns16, "number of spindles of the channel")

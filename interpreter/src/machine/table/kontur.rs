@@ -21,6 +21,8 @@ pub(super) const ROWS: &[Row] = &[
         .range(Bound::At(1.0), Bound::None).default(30000.0).unit("us", "us").outside(Condition::ListRange, Correction::Refuse),
     own("kontur.axis[i].plant.ti_us", Raw::Uns32, "TWO_MASS, MODAL: time constant of the current loop")
         .range(Bound::At(1.0), Bound::None).default(500.0).unit("us", "us").outside(Condition::ListRange, Correction::Refuse),
+    own("kontur.axis[i].plant.inertia", Raw::Real64, "inertia at the motor shaft, or moved mass of a linear motor, on which an additive torque really acts; 0: that of the axis list (P-AXIS-00391)")
+        .range(Bound::At(0.0), Bound::None).default(0.0).unit("kg m2 or kg", "kg m2").outside(Condition::ListRange, Correction::Refuse),
     own("kontur.axis[i].plant.mass_motor", Raw::Real64, "TWO_MASS: inertia on the motor side, relative to the whole")
         .range(Bound::Beyond(0.0), Bound::None).default(0.5).outside(Condition::ListRange, Correction::Refuse),
     own("kontur.axis[i].plant.mass_load", Raw::Real64, "TWO_MASS: inertia on the load side, relative to the whole")
