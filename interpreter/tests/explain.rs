@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
-use kontur_interpreter::machine::explain::explain;
+use kontur_interpreter::explain::explain;
 
 /// Fails unless the explanation of `thing` contains every one of `parts`.
 #[track_caller]
