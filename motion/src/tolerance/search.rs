@@ -221,7 +221,8 @@ impl View<'_> {
         let mut at = marks.partition_point(|m| m.cycles < from as f64 - reach - 2.0);
         let mut bucket: Option<Violation> = None;
         let mut between = AxisVec::zeros(n);
-        let (mut hint, mut looked) = (first + delay, f64::NEG_INFINITY);
+        let newest_passed = from.saturating_sub(length + 1);
+        let (mut hint, mut looked) = (newest_passed + delay, f64::NEG_INFINITY);
         let half = (length / 2).max(1);
         let mut note = |v: Violation, record: &Record| {
             if worst.as_ref().is_none_or(|w| w.deviation_mm < v.deviation_mm) {
@@ -274,13 +275,18 @@ impl View<'_> {
                 }
             }
             // points of the contour that the filters hold no longer
-            let mut missed = |point: &[f64], among: (u64, u64), moment: f64, s: f64| {
+            let mut missed = |point: &[f64], near: (u64, u64), moment: f64, s: f64| {
                 let tolerance_mm = self.tolerance(moment, moment + reach);
-                let mut out = Excursion::none(n);
                 let wary_mm = DOUBT * tolerance_mm;
-                let Some(cycle) = set.misses(point, among, wary_mm, &mut out) else {
-                    return among.0;
-                };
+                let first = moment.floor().max(0.0) as u64;
+                let all = (first, first + length + 2);
+                let mut out = Excursion::none(n);
+                let mut cycle = set.misses(point, near, wary_mm, &mut out);
+                if out.length > wary_mm && near != all {
+                    out = Excursion::none(n);
+                    cycle = set.misses(point, all, wary_mm, &mut out);
+                }
+                let Some(cycle) = cycle else { return near.0 };
                 let deviation_mm = out.largest();
                 if deviation_mm > within(tolerance_mm) {
                     let axis = out.axis();
@@ -297,7 +303,8 @@ impl View<'_> {
                 let mark = &marks[at];
                 if at > 0 && mark.jump > 1e-9 {
                     let first = mark.cycles.floor().max(0.0) as u64;
-                    missed(&mark.point, (first, first + length + 2), mark.cycles, mark.s_mm);
+                    let all = (first, first + length + 2);
+                    missed(&mark.point, all, mark.cycles, mark.s_mm);
                 }
                 at += 1;
             }
