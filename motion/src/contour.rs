@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub(crate) const SAME_START_MM: f64 = 1e-9;
 
 /// Share by which a vector may be longer than the shortest one and still be taken for it.
-pub(crate) const WARY: f64 = 0.05;
+const WARY: f64 = 0.05;
 
 /// Blocks as the interpolator entered them. One that a change of speed divides is entered once more for its rest.
 #[derive(Clone, Debug, Default)]

@@ -24,10 +24,14 @@
 //! have the same filter; otherwise the interpolated points count there, too.
 
 use crate::axis::AxisVec;
-use crate::contour::{Contour, WARY};
+use crate::contour::Contour;
 
 /// Parts into which the line between two set points is divided where it passes a border of blocks.
 const PARTS: u32 = 8;
+
+/// Share by which a vector to a point of the contour may be longer than the shortest one and still be taken for it. On a
+/// straight set path that is 4.5 % of the vector along the path.
+const ALIKE: f64 = 1e-3;
 
 /// Halvings in the search for the point where the nearest block changes.
 const HALVINGS: u32 = 8;
@@ -192,7 +196,7 @@ impl SetPath {
         self.to_line(k, point, &mut vector);
         out.take(&vector);
         if d2 > wary_mm * wary_mm {
-            let within = (1.0 + WARY) * (1.0 + WARY) * d2;
+            let within = (1.0 + ALIKE) * (1.0 + ALIKE) * d2;
             for k in first..last {
                 if self.to_line(k, point, &mut vector) <= within {
                     out.take(&vector);

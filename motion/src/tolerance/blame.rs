@@ -192,7 +192,10 @@ impl View<'_> {
             at(m, 0.0, asked)
         });
         let present = blocks.chain(kinks).fold(0.0, f64::max);
-        let speed = if even < 0.995 * present {
+        let speed = if present <= 0.0 {
+            // the path rests while the filters swing: no speed is the cause
+            f64::INFINITY
+        } else if even < 0.995 * present {
             even
         } else {
             // where the speed is even already, or a change of speed is the cause
