@@ -243,6 +243,7 @@ impl Network {
             FilterKind::Pt1 | FilterKind::Pt2 => libm::tan(0.5 * period_s / tau_s),
             _ => libm::tan(PI * config.f_hz * period_s),
         };
+        let quality = || transform::warped_quality(config.f_hz, config.q, period_s);
         let sections = match config.kind {
             FilterKind::LowPass => transform::low_pass(&config.prototype.terms(config.order), g),
             FilterKind::HighPass => transform::high_pass(&config.prototype.terms(config.order), g),
@@ -250,10 +251,10 @@ impl Network {
                 transform::all_pass(&config.prototype.all_pass_terms(config.order), g)
             }
             FilterKind::BandPass => {
-                transform::band_pass(&config.prototype.terms(config.order), g, config.q)
+                transform::band_pass(&config.prototype.terms(config.order), g, quality())
             }
             FilterKind::BandStop => {
-                transform::band_stop(&config.prototype.terms(config.order), g, config.q)
+                transform::band_stop(&config.prototype.terms(config.order), g, quality())
             }
             FilterKind::Pt1 => transform::lags(1, g),
             FilterKind::Pt2 => transform::lags(2, g),

@@ -163,7 +163,7 @@ fn no_allocation_in_the_control_chain() {
                     let force_mm_s2 = if k % 100 < 50 { 300.0 } else { 0.0 };
                     axis.set_inputs(AxisInputs { force_mm_s2, ..AxisInputs::default() });
                     let out = axis.step(set_mm(k), 0.9, true);
-                    std::hint::black_box((out, axis.in_position(0.001)));
+                    std::hint::black_box((out, axis.distance_mm()));
                     std::hint::black_box(out.faults.iter().count());
                 }
             });

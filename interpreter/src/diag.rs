@@ -4,8 +4,10 @@
 //! vendor's space. Everything that is always true of a condition stands in one table, [`condition`].
 
 pub mod condition;
+mod number;
 
 pub use condition::{Condition, Reaction};
+pub use number::rounded;
 
 use serde::{Serialize, Serializer};
 use std::sync::Arc;

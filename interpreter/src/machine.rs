@@ -6,7 +6,6 @@ mod axis;
 mod builtin;
 mod chain;
 mod channel;
-pub mod explain;
 mod hints;
 pub(crate) mod issues;
 pub mod key;
@@ -21,7 +20,7 @@ pub mod value;
 
 pub use axis::{Axis, AxisKind};
 pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, OverrideMode, RapidOverride};
-pub use issues::filter_condition;
+pub use issues::{filter_condition, leaves_out};
 pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};

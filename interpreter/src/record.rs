@@ -38,12 +38,14 @@ pub struct AxisRecord {
     /// Largest component of what the line to the set position leaves the contour by, and of what the set path has missed of
     /// the contour that the filters have just let go, in mm (deg): the two directions that `AX_DEV` bounds.
     pub dev_both_ways: f64,
-    /// Feedforward speed.
+    /// Feedforward speed, at the controller output or as additive velocity of the drive.
     pub ff: f64,
     /// Speed command.
     pub cmd: f64,
     /// Additional speed of Improved Position Control.
     pub vadd: f64,
+    /// 1 while it is at its limit (P-AXIS-00757), else 0.
+    pub vadd_limited: f64,
     /// Reference position of the position controller.
     pub reference: f64,
     /// Actual position (motor encoder).
@@ -52,8 +54,13 @@ pub struct AxisRecord {
     pub load: f64,
     /// `reference - act`.
     pub lag: f64,
+    /// Permitted lag of the following-error monitoring (70020), 0 while it is off.
+    pub lag_limit: f64,
     /// Additional interface.
     pub add: f64,
+    /// Time in s since the set position reached the target of a stop (t1) until the actual position is inside the window
+    /// (t2); then t2 - t1 of the last stop.
+    pub settling_s: f64,
     /// Position of the tool point (modal plants; else equal to `load`).
     pub tcp: f64,
     /// Acceleration of the tool point.

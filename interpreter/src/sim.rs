@@ -11,13 +11,14 @@ mod chain;
 mod fault;
 mod independent;
 mod inputs;
+mod patience;
 mod smoothing;
 mod spindle;
 mod totals;
 mod wait;
 
 pub use inputs::{Change, Changes, Signal};
-pub use totals::Totals;
+pub use totals::{SettledStop, Stops, Totals};
 
 use crate::diag::Diagnostic;
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
@@ -39,7 +40,7 @@ use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use wait::Wait;
+use wait::{Parts, Wait};
 
 /// Limits of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,6 +99,10 @@ pub struct Simulation {
     current: SourceRef,
     /// Block that the path waits for at rest.
     waits_at: SourceRef,
+    /// Cycle in which the path came to rest last.
+    ends_k: u64,
+    /// Block of the last stop of every chain.
+    stops_at: Vec<SourceRef>,
     jerk_limited: bool,
     pending: Option<(After, SourceRef, Vec<Event>)>,
     phase: Phase,
@@ -149,6 +154,8 @@ impl Simulation {
             gains: vec![0.0; chains.len()],
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
             frozen: vec![None; chains.len()],
+            ends_k: 0,
+            stops_at: vec![SourceRef::default(); chains.len()],
             inputs: Inputs::none(chains.len()),
             independent: IndependentAxes::new(n),
             chains,
@@ -250,20 +257,32 @@ impl Simulation {
                     }
                 },
                 Phase::Waiting(wait) => {
-                    if wait.is_over(&self.chains[..self.vector.len()], &self.independent) {
+                    let parts = Parts {
+                        chains: &self.chains,
+                        drivers: &self.drivers,
+                        spindles: &self.spindles,
+                        independent: &self.independent,
+                    };
+                    if wait.is_over(parts) {
                         self.go_on();
-                    } else {
-                        wait.count();
-                        self.planner.hold(SpeedLimit::Stop);
-                        break;
+                        continue;
                     }
+                    if self.inputs.is_over()
+                        && let Some((chain, lacks)) = wait.hopeless(parts, self.cycle)
+                    {
+                        self.never_arrives(chain, lacks);
+                        return None;
+                    }
+                    wait.count();
+                    self.planner.hold(SpeedLimit::Stop);
+                    break;
                 }
                 Phase::Stopping(stopping) => {
-                    let path = &self.chains[..self.vector.len()];
                     let set_rests = self.planner.brake_is_over()
                         && !self.independent.any_moving()
-                        && path.iter().all(AxisChain::settled);
-                    let axes_stand = path.iter().all(AxisChain::stands);
+                        && self.spindles.iter().all(Spindle::rests)
+                        && self.chains.iter().all(AxisChain::settled);
+                    let axes_stand = self.chains.iter().all(AxisChain::stands);
                     if stopping.is_over(set_rests, axes_stand, self.cycle) {
                         self.phase = Phase::Done;
                         return None;
@@ -360,15 +379,17 @@ impl Simulation {
         };
         self.waits_at = source;
         let k = self.planner.setpoint().k;
+        self.ends_k = k;
         for event in events {
             self.act(event, k);
         }
-        for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
-            if let Driver::Path(p) = *driver
+        for (i, chain) in self.chains.iter_mut().enumerate() {
+            if let Driver::Path(p) = self.drivers[i]
                 && !self.independent.is_moving(p)
             {
                 let way_mm = self.independent.done_mm(p);
                 chain.expect_stop(self.planner.setpoint().position[p] + way_mm);
+                self.stops_at[i] = self.current;
             }
         }
         self.phase = Phase::Waiting(match after {
@@ -385,10 +406,9 @@ impl Simulation {
         match wait.into_action() {
             wait::Action::None => {}
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
-            wait::Action::MachineData { axis, key, value } => {
-                self.machine_data(axis, &key, &value);
-            }
+            wait::Action::MachineData { axis } => self.machine_data(axis),
             wait::Action::End(reason) => {
+                self.totals.arrival_cycles = self.planner.setpoint().k - self.ends_k;
                 self.totals.aborted |= reason == EndReason::Aborted;
                 self.phase = Phase::Done;
             }

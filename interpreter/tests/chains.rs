@@ -63,7 +63,6 @@ fn is_xyz_axis(chain: &ChainSetup) {
     near(c.position.v_excess_ratio, 1.0);
     near(c.setpoint.a_max_mm_s2, 6000.0);
     near(c.setpoint.j_max_mm_s3, 6000.0 / 0.005);
-    near(chain.window_mm, 0.01);
     near(c.exact_stop.window_mm, 0.01);
     near(c.exact_stop.settling_s.unwrap(), 0.2);
     near(chain.filter_window_mm, 0.4e-4);
@@ -83,7 +82,7 @@ fn xyz() {
     assert_eq!(chains.len(), 4);
     chains[..3].iter().for_each(is_xyz_axis);
     near(chains[3].control.position.v_max_mm_s, 72_000.0);
-    near(chains[3].window_mm, 0.5);
+    near(chains[3].control.exact_stop.window_mm, 0.5);
     assert_eq!(chains[3].control.delay_cycles, 5);
     // no axis with feedforward: no delay; one of them: all wait
     let none = ["X", "Y", "Z", "S"].map(|axis| format!("{axis}.vorsteuer.vorsteuerung=NONE"));

@@ -247,13 +247,7 @@ impl Gauge {
     /// Takes the set point and the interpolated point of cycle `k`. Finds the largest components of what the line to the
     /// set point leaves the contour by, and of what the points of the contour that the filters have just let go were
     /// missed by.
-    pub(crate) fn step(
-        &mut self,
-        contour: &Contour,
-        k: u64,
-        set: &[f64],
-        path: &[f64],
-    ) {
+    pub(crate) fn step(&mut self, contour: &Contour, k: u64, set: &[f64], path: &[f64]) {
         let axes = set.len();
         if self.set.end() != k {
             // nothing was filtered in between: the set point was the path

@@ -21,12 +21,12 @@ use crate::axis::AxisVec;
 use crate::contour::Contour;
 use crate::queue::Queued;
 use crate::timeline::Timeline;
+use blame::Findings;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use blame::Findings;
 use view::View;
 
 /// Part of the tolerance kept in hand, in mm: two digits below the last one of a trace.
@@ -151,7 +151,8 @@ impl Demands {
             }
             let u = &queued.ends.tangent_in;
             let norm: f64 = u.iter().map(|c| c * c).sum();
-            let along: f64 = u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
+            let along: f64 =
+                u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
             let aside = |(i, c): (usize, &f64)| (c * (delay(i) - along)).abs();
             let speed = tolerance / u.iter().enumerate().map(aside).fold(0.0, f64::max);
             if speed * f64::from(kernels.length()) * cycle.seconds() <= queued.length {

@@ -4,6 +4,10 @@
 //! over polylines. `COUNT=2000 SEED=7 cargo test --release -p kontur-motion --test promise` takes more contours.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
+#![expect(
+    clippy::disallowed_methods,
+    reason = "computing times are printed, nothing depends on them"
+)]
 
 mod common;
 
@@ -119,29 +123,29 @@ fn aside(p: Point, polyline: &[Point]) -> f64 {
     nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, e)| largest(e))
 }
 
-/// Largest deviation of the joined set points from the contour, and of the contour from them, in order.
-fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> (f64, f64) {
+/// Largest deviation of the joined set points from the contour with its cycle, and of the contour from them, in order,
+/// with its block.
+fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
     let set = filtered(path, &case.kernels);
     let reach = case.kernels.iter().map(|k| k.length() as usize).max().unwrap();
     let last = seqs.len() - 1;
     let block = |k: usize| seqs[k.min(last)];
-    let mut leaves = 0.0_f64;
+    let mut leaves = (0.0_f64, 0);
     for k in 1..set.len() {
         let lately = &case.points[block(k.saturating_sub(reach + 3))..=block(k) + 1];
         for sub in 1..=16 {
             let u = f64::from(sub) / 16.0;
             let p = [0, 1, 2].map(|i| set[k - 1][i] + u * (set[k][i] - set[k - 1][i]));
             let near = aside(p, lately);
-            if near > leaves {
+            if near > leaves.0 {
                 let new = near.min(aside(p, &case.points));
-                if new > case.tolerance_mm * 1.000001 && new > leaves && std::env::var("ONLY").is_ok() {
-                    println!("  leaves at {k} - {sub}/16: {new} blocks {}..{}, {p:?}", block(k.saturating_sub(reach)), block(k));
+                if new > leaves.0 {
+                    leaves = (new, k);
                 }
-                leaves = leaves.max(new);
             }
         }
     }
-    let mut misses = 0.0_f64;
+    let mut misses = (0.0_f64, 0);
     let mut entered = 0;
     for (i, w) in case.points.windows(2).enumerate() {
         while entered < last && block(entered) < i {
@@ -156,19 +160,19 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> (f64, f64) {
             let u = f64::from(sub) / 8.0;
             let p = [0, 1, 2].map(|k| w[0][k] + u * (w[1][k] - w[0][k]));
             let new = aside(p, around);
-            if new > case.tolerance_mm * 1.000001 && new > misses && std::env::var("ONLY").is_ok() {
-                println!("  misses block {i} {sub}/8 from {entered} to {left}: {new}");
+            if new > misses.0 {
+                misses = (new, i);
             }
-            misses = misses.max(new);
         }
     }
-    (leaves, misses)
+    [leaves, misses]
 }
 
 /// Duration of the contour run through at one speed, the best one at most `feed` that keeps the tolerance. The speed
 /// counts on a grid of one part in a hundred.
 fn best_even_time(case: &Case) -> f64 {
-    let lengths: Vec<f64> = case.points.windows(2).map(|w| to_segment(w[0], w[1], w[1]).0.sqrt()).collect();
+    let lengths: Vec<f64> =
+        case.points.windows(2).map(|w| to_segment(w[0], w[1], w[1]).0.sqrt()).collect();
     let length: f64 = lengths.iter().sum();
     let cycle_s = 1e-6 * f64::from(case.cycle_us);
     let keeps = |v: f64| {
@@ -186,14 +190,14 @@ fn best_even_time(case: &Case) -> f64 {
             path.push([0, 1, 2].map(|c| a[c] + u * (b[c] - a[c])));
             seqs.push(i);
         }
-        let (a, b) = both_ways(case, &path, &seqs);
-        a.max(b) <= case.tolerance_mm
+        both_ways(case, &path, &seqs).iter().all(|found| found.0 <= case.tolerance_mm)
     };
     let (mut low, mut high) = (1e-3 * case.feed_mm_s, case.feed_mm_s);
     if keeps(high) {
         return length / high;
     }
-    while high / low > 1.01 {
+    // a thousand to one in ten halvings of its logarithm: a hundredth
+    for _ in 0..10 {
         let mid = (low * high).sqrt();
         if keeps(mid) { low = mid } else { high = mid }
     }
@@ -226,7 +230,11 @@ fn contour(r: &mut Random, kind: usize) -> (&'static str, Vec<Point>) {
     let (name, points): (_, Vec<Point>) = match kind {
         0 => ("circle", {
             let radius = r.log(0.5, 20.0);
-            polygon_circle(radius, (r.log(0.02, 2.0)).min(radius).max(radius / 60.0), r.between(0.3, 1.2))
+            polygon_circle(
+                radius,
+                (r.log(0.02, 2.0)).min(radius).max(radius / 60.0),
+                r.between(0.3, 1.2),
+            )
         }),
         1 => ("spiral", {
             let (step, chord) = (r.log(0.05, 1.0), r.log(0.05, 0.5));
@@ -273,18 +281,20 @@ fn contour(r: &mut Random, kind: usize) -> (&'static str, Vec<Point>) {
         }),
         5 => ("stairs", {
             let step = r.log(0.01, 1.0);
-            (0..40).map(|i| [step * ((i + 1) / 2) as f64, step * (i / 2) as f64, 0.0]).collect()
+            (0..40).map(|i| [step * f64::from((i + 1) / 2), step * f64::from(i / 2), 0.0]).collect()
         }),
         6 => ("acute", {
             let (width, height) = (r.log(0.01, 0.5), r.log(0.2, 5.0));
-            (0..20).map(|i| [width * i as f64, if i % 2 == 0 { 0.0 } else { height }, 0.0]).collect()
+            (0..20)
+                .map(|i| [width * f64::from(i), if i % 2 == 0 { 0.0 } else { height }, 0.0])
+                .collect()
         }),
         _ => ("surface", {
             let (chord, amplitude) = (r.log(0.05, 0.5), r.log(0.1, 2.0));
             let wave = r.log(2.0, 20.0);
             (0..150)
                 .map(|i| {
-                    let x = chord * i as f64;
+                    let x = chord * f64::from(i);
                     [x, 0.3 * libm::sin(0.7 * x), amplitude * libm::sin(TAU * x / wave)]
                 })
                 .collect()
@@ -324,9 +334,10 @@ fn environment(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|c| c.parse().ok()).unwrap_or(default)
 }
 
+/// Prints what it finds; `VERBOSE=1` every contour, `ONLY=17` that one alone, `EVEN=1` the time of the best even speed.
 #[test]
 fn random_contours_are_kept_both_ways() {
-    let (count, seed) = (environment("COUNT", 120), environment("SEED", 1));
+    let (count, seed) = (environment("COUNT", 48), environment("SEED", 1));
     let mut failed = 0;
     let mut most = [0.0_f64; 8];
     for n in 0..count {
@@ -340,24 +351,32 @@ fn random_contours_are_kept_both_ways() {
         let start = std::time::Instant::now();
         let d = drive(&case);
         let spent = start.elapsed().as_secs_f64();
-        if d.points.len() > 60_000 {
-            println!("{n} {name}: {} cycles in {spent:.2} s, not measured", d.points.len());
-            continue;
-        }
-        let (a, b) = both_ways(&case, &d.points, &d.seqs);
+        let [leaves, misses] = both_ways(&case, &d.points, &d.seqs);
         let tol = case.tolerance_mm;
-        most[kind] = most[kind].max(a.max(b) / tol);
-        let time = 1e-6 * f64::from(case.cycle_us) * (d.points.len() - 1) as f64;
-        let even = if environment("EVEN", 0) > 0 && a.max(b) > 0.5 * tol { best_even_time(&case) } else { 0.0 };
-        let differ = case.kernels[0] != case.kernels[1];
-        let bad = a.max(b) > tol + 1e-9 || !d.unkept.is_empty();
+        let used = leaves.0.max(misses.0) / tol;
+        most[kind] = most[kind].max(used);
+        let bad = used > 1.0 + 1e-9 / tol || !d.unkept.is_empty();
         if bad || environment("VERBOSE", 0) > 0 {
-            let f = |k: &Kernel| k.length();
+            let time = 1e-6 * f64::from(case.cycle_us) * (d.points.len() - 1) as f64;
             println!(
-                "{n} {name} {:?} {} us, {} blocks, F {:.1}, L {} d{differ}: {:.3} {:.3} of {tol:.4}; {time:.3} s, even {even:.3} ({:.2}); computed {spent:.2} s{}",
-                case.kind, case.cycle_us, case.points.len() - 1, case.feed_mm_s, f(&case.kernels[0]), a / tol, b / tol, time / even,
-                if bad { format!(" BAD {:?}", d.unkept.iter().map(|u| u.deviation_mm / tol).collect::<Vec<_>>()) } else { String::new() }
+                "{n} {name} {:?} {} us, {} blocks, F {:.1}, {} taps, unequal {}: leaves {:.3} in cycle {}, misses {:.3} in block {} of {tol:.4}; {time:.3} s, computed in {spent:.2} s",
+                case.kind,
+                case.cycle_us,
+                case.points.len() - 1,
+                case.feed_mm_s,
+                case.kernels[0].length(),
+                case.kernels[0] != case.kernels[1],
+                leaves.0 / tol,
+                leaves.1,
+                misses.0 / tol,
+                misses.1,
             );
+            if environment("EVEN", 0) > 0 && used > 0.5 {
+                println!("    against the best even speed {:.3}", time / best_even_time(&case));
+            }
+            if bad {
+                println!("    BAD: {:?}", d.unkept);
+            }
         }
         failed += usize::from(bad);
     }

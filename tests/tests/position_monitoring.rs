@@ -1,6 +1,6 @@
 //! Exact stop and its time limit in runs of programs. The names of the rows are those of the ledger.
 
-use kontur_interpreter::machine::explain::explain;
+use kontur_interpreter::explain::explain;
 use kontur_tests::{Run, programs, run};
 
 /// A gain of 10/s: from 100 mm/s it takes half a second into a window of 0.05 mm.

@@ -361,6 +361,7 @@ fn sample_of_inputs_of_axes() {
         "X.lr_param.add_interface.enable=1",
         &format!("{filter}.enable=1"),
         &format!("{filter}.time_constant=20000"),
+        "Y.getriebe[0].window=2000",
     ];
     let inputs = [
         (0.1, "X_add_mm", 0.1),

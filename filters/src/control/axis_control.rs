@@ -110,6 +110,8 @@ impl AxisControlConfig {
         let (plant, found) = self.plant.checked();
         self.plant = plant;
         issues.extend(found);
+        self.exact_stop.window_mm =
+            self.exact_stop.window_mm.max(ExactStopConfig::HALF_INCREMENT_MM);
         issues.extend(self.ipc.check(cycle));
         let in_drive = self.position.closed_in == PositionLoop::Drive;
         if self.ipc.enable && in_drive && !self.additive_inputs.velocity {
@@ -190,6 +192,8 @@ pub struct AxisControl {
     diverged: bool,
     moving: bool,
     open: bool,
+    /// Where a reaction keeps the axis.
+    held_mm: Option<f64>,
 }
 
 impl AxisControl {
@@ -226,6 +230,7 @@ impl AxisControl {
             diverged: false,
             moving: false,
             open: false,
+            held_mm: None,
         };
         control.start(0.0);
         Ok(control)
@@ -254,6 +259,7 @@ impl AxisControl {
         self.diverged = false;
         self.moving = false;
         self.open = false;
+        self.held_mm = None;
     }
 
     /// The configuration in use.
@@ -282,9 +288,21 @@ impl AxisControl {
         self.exact_stop.expect(target_mm);
     }
 
-    /// The actual position is within `window_mm` of the newest set position.
-    pub fn in_position(&self, window_mm: f64) -> bool {
-        (self.position_mm - self.controlled_mm()).abs() <= window_mm
+    /// Distance of the actual position from the newest set position in mm, signed.
+    pub fn distance_mm(&self) -> f64 {
+        self.position_mm - self.controlled_mm()
+    }
+
+    /// Exact-stop monitor.
+    pub const fn exact_stop(&self) -> &ExactStopMonitor {
+        &self.exact_stop
+    }
+
+    /// Keeps the axis where it is (reaction class 5): until the next start the controller gets the actual position of this
+    /// moment, with its loop closed and without feedforward, whatever the set position does.
+    pub fn halt(&mut self) {
+        let here = self.controlled_mm();
+        self.held_mm.get_or_insert(here);
     }
 
     /// Opens the position loop until the next start: the drive gets the speed 0, whatever the set position does (reaction
@@ -338,12 +356,17 @@ impl AxisControl {
         let actual_mm = self.controlled_mm();
 
         self.buffer.push(Setpoint { position_mm, gain, jerk_limited });
-        let reference_mm = self.buffer.reference_mm();
+        let (reference_mm, reference_step_mm) = match self.held_mm {
+            Some(held_mm) => (held_mm, 0.0),
+            None => (self.buffer.reference_mm(), self.buffer.reference_step_mm()),
+        };
         let position = &self.config.position;
-        let reference_step_mm = self.buffer.reference_step_mm();
         let kv = position.gain_at(reference_step_mm / cycle_s);
         let error_mm = position.error_mm(reference_mm - actual_mm, reference_step_mm.abs() <= 0.0);
         let mut feedforward = self.feedforward.step(&self.buffer.window(), kv);
+        if self.held_mm.is_some() {
+            feedforward = FeedforwardOutput::default();
+        }
         let mut wanted = kv * error_mm + feedforward.speed_mm_s;
         let mut additive = self.ipc.step(&IpcInput {
             motor_mm_s: measured.motor_mm_s,
@@ -364,8 +387,8 @@ impl AxisControl {
         faults.push(self.exact_stop.step(set_mm, actual_mm - self.inputs.additional_mm));
         faults.push(self.advance(
             PlantInput {
-                speed_mm_s: command_mm_s + feedforward.additive_speed_mm_s,
-                acc_mm_s2: feedforward.additive_acc_mm_s2,
+                speed_mm_s: self.felt_mm_s(command_mm_s, feedforward.additive_speed_mm_s),
+                acc_mm_s2: self.felt_mm_s2(feedforward.additive_acc_mm_s2),
                 force_mm_s2: self.inputs.force_mm_s2,
                 reference_mm,
             },
@@ -413,6 +436,26 @@ impl AxisControl {
         }
         self.diverged = true;
         Some(Fault::Unstable { lag_mm, limit_mm })
+    }
+
+    /// Speed that the drive follows: what it was sent in its format.
+    ///
+    /// A drive that closes the position loop itself makes its own command.
+    fn felt_mm_s(&self, command: f64, additive: f64) -> f64 {
+        let c = &self.config;
+        let cycle_s = self.cycle.seconds();
+        let command = match c.position.closed_in {
+            PositionLoop::Cnc => c.command_format.sent(command, cycle_s),
+            PositionLoop::Drive => command,
+        };
+        command
+            + if additive.abs() > 0.0 { c.feedforward_format.sent(additive, cycle_s) } else { 0.0 }
+    }
+
+    /// Acceleration that an additive torque gives the axis.
+    fn felt_mm_s2(&self, wanted: f64) -> f64 {
+        let torque = &self.config.torque;
+        if wanted.abs() > 0.0 { torque.acceleration(torque.torque(wanted)) } else { 0.0 }
     }
 
     fn drive_values(&self, command: f64, ff: &FeedforwardOutput, additive: f64) -> DriveValues {

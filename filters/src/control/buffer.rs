@@ -33,9 +33,9 @@ pub fn channel_delay_cycles<'a>(axes: impl IntoIterator<Item = &'a FeedforwardCo
 pub struct Window {
     /// Two and one cycles before, this cycle, one, two and three cycles after; mm.
     pub positions_mm: [f64; 6],
-    /// Gain of this cycle.
+    /// Gain of the motion in the window.
     pub gain: f64,
-    /// Jerk limitation of this cycle.
+    /// Jerk limitation of the motion in the window.
     pub jerk_limited: bool,
 }
 
@@ -95,20 +95,35 @@ impl SetpointBuffer {
     }
 
     /// The setpoints feedforward is computed from.
+    ///
+    /// A flag belongs to the motion that leads to its setpoint. The window reaches three cycles ahead: where one flag holds
+    /// for everything that moves in it, that flag counts, so that a motion out of rest is fed forward from its first
+    /// difference on. If the flags change while the axis moves, those of the coming cycle count.
     pub fn window(&self) -> Window {
         let centre = self.delay - self.shift;
-        let here = self.at(centre, 0);
+        let all = [
+            self.at(centre + 2, 0),
+            self.at(centre + 1, 0),
+            self.at(centre, 0),
+            self.at(centre, 1),
+            self.at(centre, 2),
+            self.at(centre, 3),
+        ];
+        let moves = |pair: &&[&Setpoint]| (pair[1].position_mm - pair[0].position_mm).abs() > 0.0;
+        let same = |a: &Setpoint, b: &Setpoint| {
+            a.gain.to_bits() == b.gain.to_bits() && a.jerk_limited == b.jerk_limited
+        };
+        let mut flags = all[3];
+        let mut moving = all.windows(2).filter(moves).map(|pair| pair[1]);
+        if let Some(first) = moving.next()
+            && moving.all(|other| same(first, other))
+        {
+            flags = first;
+        }
         Window {
-            positions_mm: [
-                self.at(centre + 2, 0).position_mm,
-                self.at(centre + 1, 0).position_mm,
-                here.position_mm,
-                self.at(centre, 1).position_mm,
-                self.at(centre, 2).position_mm,
-                self.at(centre, 3).position_mm,
-            ],
-            gain: here.gain,
-            jerk_limited: here.jerk_limited,
+            positions_mm: all.map(|s| s.position_mm),
+            gain: flags.gain,
+            jerk_limited: flags.jerk_limited,
         }
     }
 }
@@ -141,10 +156,30 @@ mod tests {
         assert_eq!(window.positions_mm, [12.0, 13.0, 14.0, 15.0, 16.0, 17.0]);
         assert_eq!(
             (window.gain, window.jerk_limited),
-            (0.14, true),
-            "flags travel with the position"
+            (0.15, true),
+            "flags of the coming cycle while they change"
         );
         assert_eq!(buffer.reference_step_mm(), 1.0);
+    }
+
+    /// Out of rest the flags of the motion hold from its first appearance in the window on, and until its last.
+    #[test]
+    fn flags_belong_to_the_motion() {
+        let mut buffer = SetpointBuffer::new(5, 0);
+        buffer.start(0.0);
+        let mut gains = Vec::new();
+        for k in 0..20_u32 {
+            let moving = (5..10).contains(&k);
+            let position_mm = f64::from(k.clamp(4, 9) - 4);
+            let gain = if moving { 0.8 } else { 0.0 };
+            buffer.push(Setpoint { position_mm, gain, jerk_limited: moving });
+            let window = buffer.window();
+            let moves = window.positions_mm.windows(2).any(|w| w[0] != w[1]);
+            gains.push((moves, window.gain, window.jerk_limited));
+        }
+        for (moves, gain, limited) in gains {
+            assert_eq!((gain, limited), if moves { (0.8, true) } else { (0.0, false) });
+        }
     }
 
     #[test]

@@ -23,22 +23,12 @@ impl Derivative {
             Self::Jerk => "jerk",
         }
     }
-
-    /// Unit of a linear axis.
-    pub const fn unit(self) -> &'static str {
-        match self {
-            Self::Velocity => "mm/s",
-            Self::Acceleration => "mm/s2",
-            Self::Jerk => "mm/s3",
-        }
-    }
 }
 
 /// A condition met while the axis runs. Raised once when it begins, not in every cycle it lasts.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
     /// 70020: the following error exceeds the permitted lag.
-    #[error("following error {lag_mm:.4} mm exceeds {limit_mm:.4} mm")]
     FollowingError {
         /// Following error in mm, signed.
         lag_mm: f64,
@@ -46,9 +36,6 @@ pub enum Fault {
         limit_mm: f64,
     },
     /// 70082: the axis did not reach the exact-stop window in time (P-AXIS-00236, P-AXIS-00532).
-    #[error(
-        "distance {lag_mm:.4} mm to the target after {time_s:.6} s is outside the exact-stop window of {window_mm:.4} mm"
-    )]
     SettlingTimeout {
         /// Distance to the target in mm, signed.
         lag_mm: f64,
@@ -58,7 +45,6 @@ pub enum Fault {
         time_s: f64,
     },
     /// 70382: speed command of the position controller above the limit (P-AXIS-00407); the limit is output.
-    #[error("speed command {speed_mm_s:.3} mm/s exceeds {limit_mm_s:.3} mm/s")]
     ControllerSpeed {
         /// Speed before limiting in mm/s.
         speed_mm_s: f64,
@@ -66,7 +52,6 @@ pub enum Fault {
         limit_mm_s: f64,
     },
     /// Setpoint above its warning threshold: 50119 for velocity, for acceleration and jerk K-0060.
-    #[error("{} of the set position {value:.3} {unit} exceeds {limit:.3} {unit}", what.name(), unit = what.unit())]
     SetpointWarning {
         /// What was watched.
         what: Derivative,
@@ -76,7 +61,6 @@ pub enum Fault {
         limit: f64,
     },
     /// Setpoint above its error threshold: 50118 for velocity, for acceleration and jerk K-0061.
-    #[error("{} of the set position {value:.3} {unit} exceeds {limit:.3} {unit}", what.name(), unit = what.unit())]
     SetpointError {
         /// What was watched.
         what: Derivative,
@@ -86,12 +70,8 @@ pub enum Fault {
         limit: f64,
     },
     /// 70601: parameters of Improved Position Control changed while the axis moves; the old ones stay.
-    #[error("parameters of Improved Position Control changed while the axis moves")]
     IpcChangedMoving,
     /// K-0035: the simulated plant diverged; it is held where it was.
-    #[error(
-        "following error of an unstable simulated axis {lag_mm:.3} mm, beyond {limit_mm:.3} mm"
-    )]
     Unstable {
         /// Following error in mm, the last finite one.
         lag_mm: f64,
@@ -225,6 +205,8 @@ pub enum Issue {
 /// A parameter of a stage of Improved Position Control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IpcParameter {
+    /// P-AXIS-00753, 0..=3.
+    Mode,
     /// P-AXIS-00750, 1..=3.
     Order,
     /// P-AXIS-00751, above 0, at most 500 Hz and below half the sampling rate.

@@ -41,6 +41,18 @@ impl Default for SpeedFormat {
 }
 
 impl SpeedFormat {
+    /// The speed in mm/s that a drive takes from the value that was sent for one: bus drives get whole counts, analogue and
+    /// simulated ones any value.
+    pub fn sent(&self, speed_mm_s: f64, cycle_s: f64) -> f64 {
+        match self {
+            Self::Gain(_) => speed_mm_s,
+            Self::Resolution { .. } => {
+                let scale = self.counts_per_mm_s(cycle_s);
+                if scale.abs() > 0.0 { libm::round(speed_mm_s * scale) / scale } else { 0.0 }
+            }
+        }
+    }
+
     /// Counts for 1 mm/s (1 deg/s).
     pub fn counts_per_mm_s(&self, cycle_s: f64) -> f64 {
         match *self {
@@ -77,8 +89,11 @@ pub enum Motor {
 pub struct TorqueFormat {
     /// Kind of motor.
     pub motor: Motor,
-    /// Total inertia at the motor shaft in kg m2, or moved mass in kg (P-AXIS-00391), default 1e-6.
+    /// Total inertia at the motor shaft in kg m2, or moved mass in kg, as the control believes (P-AXIS-00391), default
+    /// 1e-6.
     pub load: f64,
+    /// The same as it really is; none: as the control believes.
+    pub real_load: Option<f64>,
     /// Stall torque in N m or force in N (P-AXIS-00392), default 1.
     pub reference: f64,
     /// Value that is output for the stall torque: numerator (P-AXIS-00325), default 1.
@@ -89,19 +104,41 @@ pub struct TorqueFormat {
 
 impl Default for TorqueFormat {
     fn default() -> Self {
-        Self { motor: Motor::Linear, load: 1e-6, reference: 1.0, scale_num: 1.0, scale_denom: 1.0 }
+        Self {
+            motor: Motor::Linear,
+            load: 1e-6,
+            real_load: None,
+            reference: 1.0,
+            scale_num: 1.0,
+            scale_denom: 1.0,
+        }
     }
 }
 
 impl TorqueFormat {
     /// Torque in N m (force in N) for an axis acceleration.
     pub fn torque(&self, acc_mm_s2: f64) -> f64 {
+        self.load * (acc_mm_s2 * self.motor_side())
+    }
+
+    /// Acceleration of the motor in rad/s2 (m/s2) for 1 mm/s2 of the axis.
+    fn motor_side(&self) -> f64 {
         match self.motor {
             // revolutions per mm of travel, one revolution is 2 pi
-            Motor::Rotary { feed_mm, gear_ratio } => {
-                self.load * (acc_mm_s2 / feed_mm * gear_ratio * TAU)
-            }
-            Motor::Linear => self.load * (acc_mm_s2 / 1000.0),
+            Motor::Rotary { feed_mm, gear_ratio } => gear_ratio * TAU / feed_mm,
+            Motor::Linear => 1e-3,
+        }
+    }
+
+    /// Acceleration in mm/s2 that the axis gets from a torque: the drive is sent whole counts and takes them by the scale
+    /// of the list, and what it gives acts on the real inertia.
+    pub fn acceleration(&self, torque: f64) -> f64 {
+        let load = self.real_load.unwrap_or(self.load);
+        let counts = libm::round(self.counts(torque));
+        if counts.abs() > 0.0 && load > 0.0 {
+            counts * self.reference * self.scale_denom / self.scale_num / load / self.motor_side()
+        } else {
+            0.0
         }
     }
 
@@ -183,6 +220,7 @@ mod tests {
         TorqueFormat {
             motor: Motor::Rotary { feed_mm: 5.0, gear_ratio: 3.0 },
             load: 0.48e-4,
+            real_load: None,
             reference: 0.45,
             scale_num: 500.0,
             scale_denom: 1.0,
@@ -200,6 +238,27 @@ mod tests {
         assert!((encoder_resolution(1_048_576.0, 5.0, 3.0) - 62.91).abs() < 5e-3);
         let linear = TorqueFormat { motor: Motor::Linear, load: 200.0, ..example() };
         assert!((linear.torque(1000.0) - 200.0).abs() < 1e-12, "F = m a");
+    }
+
+    /// 201.06 counts are sent as 201; the axis gets the acceleration of that torque on its real inertia.
+    #[test]
+    fn the_drive_gives_what_it_was_sent() {
+        let sent = |f: TorqueFormat| f.acceleration(f.torque(1000.0));
+        assert!((sent(example()) - 1000.0 * 201.0 / 201.0619).abs() < 1e-2);
+        let heavy = TorqueFormat { real_load: Some(0.96e-4), ..example() };
+        assert!((sent(heavy) - 0.5 * sent(example())).abs() < 1e-9);
+        for none in [
+            TorqueFormat { load: 0.0, ..example() },
+            TorqueFormat { scale_denom: 0.0, ..example() },
+            TorqueFormat { load: 1e-8, ..example() },
+        ] {
+            assert_eq!(sent(none).to_bits(), 0.0_f64.to_bits(), "{none:?}");
+        }
+        // 5 counts for 1 mm/s: whole counts; an analogue value has no steps
+        let format =
+            SpeedFormat::Resolution { increments: 5.0, path_um: 1.0, time_base: TimeBase::Cycle };
+        assert!((format.sent(1.13, T) - 1.2).abs() < 1e-12);
+        assert!((SpeedFormat::default().sent(1.13, T) - 1.13).abs() < 1e-15);
     }
 
     /// Conformance: F063, F080, F086.

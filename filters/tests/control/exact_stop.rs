@@ -41,7 +41,7 @@ fn stop(mut axis: AxisControl, set: impl Fn(u32) -> f64, last: u32) -> (u32, Vec
             entered.get_or_insert(k - last);
         }
     }
-    assert!(axis.in_position(0.05));
+    assert!(axis.distance_mm().abs() <= 0.05);
     (entered.unwrap(), faults)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::profile::Profile;
 use kontur_filters::control::plant::{PlantConfig, PlantModel};
+use kontur_filters::control::scaling::TorqueFormat;
 use kontur_filters::control::{
     AxisControl, AxisControlConfig, ControlOutput, FeedforwardConfig, FeedforwardMode as Mode,
 };
@@ -17,9 +18,15 @@ fn axis(kv_per_s: f64, ta_s: f64, feedforward: FeedforwardConfig) -> AxisControl
     config.feedforward = feedforward;
     config.additive_inputs.velocity = true;
     config.additive_inputs.torque = true;
+    config.torque = fine();
     let (config, issues) = config.checked(CycleTime::DEFAULT);
     assert_eq!(issues, []);
     AxisControl::new(config, CycleTime::DEFAULT).unwrap()
+}
+
+/// A moved mass of 200 kg and a drive that takes a millionth of 10 kN.
+fn fine() -> TorqueFormat {
+    TorqueFormat { load: 200.0, reference: 1e5, scale_num: 1e9, ..TorqueFormat::default() }
 }
 
 fn fed(mode: Mode, ta_s: f64) -> FeedforwardConfig {
@@ -189,7 +196,11 @@ fn weight_travels_through_the_buffer() {
     for k in 0..400_u32 {
         let gain = if k < 300 { 0.0 } else { 1.0 };
         let out = axis.step(profile.at(f64::from(k) * 1e-3), gain, true);
-        assert_eq!(out.feedforward.speed_mm_s != 0.0, k >= 305, "cycle {k}");
+        assert_eq!(
+            out.feedforward.speed_mm_s != 0.0,
+            k >= 304,
+            "cycle {k}: the speed that leads to setpoint 300"
+        );
     }
 }
 
@@ -197,7 +208,7 @@ fn weight_travels_through_the_buffer() {
 /// Conformance: F052, F064, F066, I023.
 #[test]
 fn drive_formats() {
-    use kontur_filters::control::scaling::{Motor, SpeedFormat, TimeBase, TorqueFormat};
+    use kontur_filters::control::scaling::{Motor, SpeedFormat, TimeBase};
     let mut config = AxisControlConfig::new(500.0, 1e6, 1e9);
     config.position.kv_per_s = 50.0;
     config.plant.model = PlantModel::FirstOrder { time_constant_s: 0.005 };
@@ -213,6 +224,7 @@ fn drive_formats() {
     config.torque = TorqueFormat {
         motor: Motor::Rotary { feed_mm: 5.0, gear_ratio: 3.0 },
         load: 0.48e-4,
+        real_load: None,
         reference: 0.45,
         scale_num: 500.0,
         scale_denom: 1.0,
@@ -224,4 +236,97 @@ fn drive_formats() {
     assert!((constant.feedforward - 6_000_000.0).abs() < 0.01);
     assert!((constant.command - 12_000.0).abs() < 0.01, "6 m/min");
     assert!(constant.torque.abs() < 1e-4);
+}
+
+/// Lag in um of a loop with velocity and torque feedforward, integrated in steps of 10 us: position controller and
+/// feedforward once per cycle, the torque in whole counts acting on the real mass.
+fn own_simulation(profile: &Profile, counts_per_n: f64, believed: f64, real: f64) -> Vec<f64> {
+    let (kv, ta, t, fine) = (50.0, 0.005, 1e-3, 100);
+    let at = |k: i32| profile.at(f64::from(k.max(0)) * t);
+    let (mut x, mut v) = (0.0, 0.0);
+    (0..600)
+        .map(|k| {
+            let lag = at(k) - x;
+            let u = kv * lag + (at(k + 1) - at(k)) / t;
+            let speed =
+                |k: i32| ((at(k - 2) - at(k + 2)) - 8.0 * (at(k - 1) - at(k + 1))) / (12.0 * t);
+            let newton = believed * (speed(k + 1) - speed(k)) / t / 1e3;
+            let a = (newton * counts_per_n).round() / counts_per_n / real * 1e3;
+            for _ in 0..fine {
+                let h = t / f64::from(fine);
+                // midpoint
+                let vm = v + 0.5 * h * ((u - v) / ta + a);
+                x += h * vm;
+                v += h * ((u - vm) / ta + a);
+            }
+            lag * 1e3
+        })
+        .collect()
+}
+
+/// The torque acts on the real inertia: a list that is wrong by half leaves half of the lag, a list of 0 all of it, and
+/// coarse counts show.
+#[test]
+fn a_wrong_inertia_shows_as_lag() {
+    let profile = move_profile(0.4);
+    let additive = |torque: TorqueFormat| {
+        let feedforward = FeedforwardConfig {
+            mode: Mode::VEL | Mode::ADD_ACC,
+            acceleration_quotient: 1.0,
+            ..FeedforwardConfig::default()
+        };
+        let mut config = axis(50.0, 0.005, feedforward).config().clone();
+        config.torque = torque;
+        let (config, _) = config.checked(CycleTime::DEFAULT);
+        run(AxisControl::new(config, CycleTime::DEFAULT).unwrap(), &profile, 1.0)
+    };
+    for (load, scale_num, constant_um) in [
+        (200.0, 1e9, 0.0),
+        (100.0, 1e9, 50.0),
+        (300.0, 1e9, -50.0),
+        (1.0, 1e9, 99.5),
+        (200.0, 7000.0, f64::NAN),
+    ] {
+        let format = TorqueFormat { load, real_load: Some(200.0), scale_num, ..fine() };
+        let out = additive(format);
+        let own = own_simulation(&profile, scale_num / 1e5, load, 200.0);
+        for (k, (out, own)) in out.iter().zip(&own).enumerate() {
+            let is = out.lag_mm * 1e3;
+            assert!((is - own).abs() < 0.02, "{load} kg, cycle {k}: {is} {own}");
+        }
+        // 100 um, a Ta / Kv, is what no torque would leave
+        let at = out[99].lag_mm * 1e3;
+        assert!(constant_um.is_nan() || (at - constant_um).abs() < 1.0, "{load} kg: {at}");
+    }
+    let none = additive(TorqueFormat { scale_denom: 0.0, ..fine() });
+    let plain = run(axis(50.0, 0.005, fed(Mode::VEL, 0.005)), &profile, 1.0);
+    for (a, b) in none.iter().zip(&plain) {
+        assert!((a.lag_mm - b.lag_mm).abs() < 1e-12, "a scale of 0: no torque");
+    }
+}
+
+/// Feedforward switched on for a motion out of rest is complete from its first difference on: as if it had always been
+/// on. STEP slope, velocity and acceleration.
+#[test]
+fn switched_on_before_a_step_motion() {
+    // 20 ms at rest, 1000 mm/s2 at once, constant speed
+    let x = |k: u32| {
+        let t = (f64::from(k) * 1e-3 - 0.02).max(0.0);
+        if t < 0.1 { 500.0 * t * t } else { 100.0 * t - 5.0 }
+    };
+    let lag = |on_from: u32| -> Vec<f64> {
+        let mut axis = axis(50.0, 0.005, fed(Mode::VEL | Mode::ACC, 0.005));
+        (0..200)
+            .map(|k| {
+                let gain = if k >= on_from { 1.0 } else { 0.0 };
+                axis.step(x(k), gain, false).lag_mm
+            })
+            .collect()
+    };
+    let first = (0..200_u32).find(|k| x(*k) > 0.0).unwrap();
+    let (always, switched) = (lag(0), lag(first));
+    for (a, b) in always.iter().zip(&switched) {
+        assert_eq!(a.to_bits(), b.to_bits());
+    }
+    assert!(always.iter().all(|lag| lag.abs() < 1e-3), "less than 1 um");
 }

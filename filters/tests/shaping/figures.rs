@@ -42,6 +42,12 @@ fn of(kernel: Kernel) -> KernelFilter {
 }
 
 /// The frequency in `from..to` where the filter crosses -3.0103 dB.
+/// Quality of a list that leads to the analog quality for which a value was computed, at 1 ms.
+fn listed(analog: f64, f_hz: f64) -> f64 {
+    let centre = std::f64::consts::PI * f_hz * 1e-3;
+    centre / libm::atan(libm::sin(2.0 * centre) / (2.0 * analog))
+}
+
 fn edge(filter: &AxisFilter, from: f64, to: f64) -> f64 {
     let over = |f| db(filter, f) > -3.0103;
     let (mut a, mut b) = (from, to);
@@ -69,7 +75,7 @@ fn pass_and_stop_ranges() {
         (FilterKind::BandPass, Prototype::Butterworth, 2, 20.0, &[(20.0, 0.0), (10.0, -31.16)]),
     ];
     for (kind, prototype, order, f_hz, points) in rows {
-        let q = if f_hz > 15.0 { 4.0 } else { 1.0 };
+        let q = if f_hz > 15.0 { listed(4.0, f_hz) } else { 1.0 };
         for (at, want) in points {
             let digit = if *want < -31.0 { 5e-3 } else { 5e-4 };
             assert_close(
@@ -181,10 +187,10 @@ fn the_prototype_matters_little_for_bands() {
         (Prototype::Bessel, -6.38, 19.4),
         (Prototype::Butterworth, -7.85, 21.5),
     ] {
-        let pass = filter(FilterKind::BandPass, prototype, 2, 20.0, 1.0);
+        let pass = filter(FilterKind::BandPass, prototype, 2, 20.0, listed(1.0, 20.0));
         assert_close(db(&pass, 10.0), at_10_hz, 6e-3, &prototype);
         assert_close(
-            overshoot(band_stop(prototype, 2, 20.0, 4.0)),
+            overshoot(band_stop(prototype, 2, 20.0, listed(4.0, 20.0))),
             overshoot_percent,
             0.06,
             &prototype,
@@ -200,7 +206,49 @@ fn band_stops_over_quality() {
         edge(&stop, 20.01, 100.0) - edge(&stop, 1.0, 19.99)
     };
     for q in [1.0, 2.0, 4.0, 10.0] {
-        assert_close(width(q), 20.0 / q, 0.2 / q, &q);
+        assert_close(width(q), 20.0 / q, 1e-6, &q);
+    }
+}
+
+/// Bandwidth `f0 / Q` and edges of band filters at any `f0 T`, found on the magnitude itself: f0 100 Hz, Q 1 and T 1 ms
+/// had a real Q of 1.099.
+#[test]
+fn band_filters_keep_their_quality() {
+    for kind in [FilterKind::BandPass, FilterKind::BandStop] {
+        for prototype in Prototype::ALL {
+            for (order, f_hz, q) in [
+                (1, 100.0, 1.0),
+                (2, 100.0, 1.0),
+                (3, 20.0, 4.0),
+                (2, 250.0, 2.0),
+                (1, 400.0, 3.0),
+                (2, 5.0, 10.0),
+            ] {
+                let band = filter(kind, prototype, order, f_hz, q);
+                let at =
+                    |f: f64| band.response(Angle::of(f, MS)).magnitude_db() + 3.010_299_956_639_812;
+                // bisection on either side of the centre
+                let found = |mut inside: f64, mut outside: f64| {
+                    let passes = at(outside) > 0.0;
+                    for _ in 0..200 {
+                        let middle = 0.5 * (inside + outside);
+                        if (at(middle) > 0.0) == passes {
+                            outside = middle;
+                        } else {
+                            inside = middle;
+                        }
+                    }
+                    inside
+                };
+                let near = f_hz * 1e-6;
+                let (low, high) = (found(f_hz - near, 1e-3), found(f_hz + near, 499.9));
+                let context = (kind, prototype, order, f_hz, q);
+                assert_close(high - low, f_hz / q, 1e-6 * f_hz, &context);
+                let said = kontur_filters::iir::transform::band_edges_hz(f_hz, q, 1e-3);
+                assert_close(said.0, low, 1e-6 * f_hz, &context);
+                assert_close(said.1, high, 1e-6 * f_hz, &context);
+            }
+        }
     }
 }
 

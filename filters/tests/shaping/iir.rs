@@ -31,12 +31,16 @@ fn config(row: &Row) -> FilterConfig {
         other => panic!("{other}"),
     };
     let default = FilterConfig::default();
+    let f_hz = row.optional("fg_f0_hz").unwrap_or(default.f_hz);
+    // the reference states the quality of the analog filter; this is the listed one that leads to it
+    let centre = PI * f_hz * 0.001;
+    let listed = |q: f64| centre / libm::atan(libm::sin(2.0 * centre) / (2.0 * q));
     FilterConfig {
         kind,
         prototype,
         order: row.text("order").parse().unwrap(),
-        f_hz: row.optional("fg_f0_hz").unwrap_or(default.f_hz),
-        q: row.optional("guete").unwrap_or(default.q),
+        f_hz,
+        q: row.optional("guete").map_or(default.q, listed),
         time_constant_us: row.text("time_constant_us").parse().unwrap_or(default.time_constant_us),
         ..default
     }

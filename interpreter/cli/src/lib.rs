@@ -12,6 +12,7 @@ pub mod explain;
 pub mod files;
 pub mod inputs;
 mod interrupt;
+mod recorded;
 pub mod render;
 pub mod report;
 pub mod response;

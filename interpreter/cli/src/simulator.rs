@@ -5,7 +5,8 @@ use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
 use crate::inputs;
 use kontur_interpreter::diag::{Condition, Diagnostic, Severity};
 use kontur_interpreter::exec::{self, Access, External, Options, SkipLevels, Value};
-use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override, explain};
+use kontur_interpreter::explain;
+use kontur_interpreter::machine::{Axis, AxisKind, Machine, Override, leaves_out};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::sim::{Limits, Simulation};
 use std::path::{Path, PathBuf};
@@ -55,7 +56,16 @@ pub fn machine(request: &Request, lists: &Lists) -> Result<(Machine, Vec<Diagnos
     }
     // a filter or a controller that the list describes and that cannot be: the axis would move without it
     let chains = machine.chains().1;
-    if chains.iter().any(Diagnostic::is_error) {
+    let left_out = |d: &Diagnostic| request.strict && leaves_out(d);
+    if chains.iter().any(|d| d.is_error() || left_out(d)) {
+        let refused = |d: Diagnostic| {
+            if left_out(&d) {
+                d.severity(Severity::Error).hint("--strict refuses parts that cannot be built")
+            } else {
+                d
+            }
+        };
+        let chains = chains.into_iter().map(refused);
         return Err(OpenError::Lists(messages.into_iter().chain(chains).collect()));
     }
     Ok((machine, messages))

@@ -5,6 +5,7 @@ mod ripple;
 use crate::engine::{Facts, Totals};
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, SpeedLimit};
+use kontur_interpreter::sim::SettledStop;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -45,6 +46,27 @@ pub struct AxisSummary {
     pub max_lag: f64,
     /// Largest delay of filters or Vibration Guard in cycles.
     pub filter_delay_cycles: f64,
+    /// Exact stops.
+    pub stops: u64,
+    /// The slowest of them; none without a stop.
+    pub slowest_stop: Option<StopSummary>,
+}
+
+/// An exact stop of one axis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StopSummary {
+    /// Axis.
+    pub axis: String,
+    /// Program time in seconds at which the actual position was inside the window (t2).
+    pub time_s: f64,
+    /// Seconds from the set position at its target to the actual position inside the window (t2 - t1).
+    pub settling_s: f64,
+    /// File of the block whose stop it was.
+    pub file: String,
+    /// Line of the file.
+    pub line: u32,
+    /// N number.
+    pub block: Option<u64>,
 }
 
 /// Where the contour error was largest.
@@ -81,6 +103,10 @@ pub struct Summary {
     pub ideal_duration_s: f64,
     /// Time in seconds for which feedhold or override 0 kept the path at rest.
     pub held_s: f64,
+    /// Time in seconds from the end of the last motion until every axis was in its exact-stop window.
+    pub arrival_s: f64,
+    /// Exact stops of the axes, the first thousand, in the order in which they ended.
+    pub stops: Vec<StopSummary>,
     /// What the duration does not contain.
     pub not_counted: Vec<String>,
     /// Blocks decoded.
@@ -177,12 +203,26 @@ impl Collector {
         let (k, path_length_mm) = self.last.unwrap_or_default();
         let (mm, at, file, line, block) = self.worst;
         let axes = self.axes.iter().zip(&facts.axes).enumerate();
+        let name = |file: u32| {
+            let i = usize::try_from(file).ok();
+            i.and_then(|i| facts.files.get(i).cloned()).unwrap_or_default()
+        };
+        let stop = |stop: &SettledStop| StopSummary {
+            axis: facts.axes.get(stop.axis).map(|a| a.name.clone()).unwrap_or_default(),
+            time_s: seconds(stop.k),
+            settling_s: stop.settling_s,
+            file: name(stop.source.file),
+            line: stop.source.line,
+            block: stop.source.block,
+        };
         Summary {
             state: if totals.aborted { State::Aborted } else { State::Finished },
             cycles: self.cycles,
             duration_s: seconds(k),
             ideal_duration_s: totals.ideal_duration_s,
             held_s: seconds(totals.held_cycles),
+            arrival_s: seconds(totals.arrival_cycles),
+            stops: totals.stops.first.iter().map(stop).collect(),
             not_counted: totals.not_counted.clone(),
             blocks: totals.blocks,
             path_length_mm,
@@ -198,15 +238,14 @@ impl Collector {
                     max_dev: most.dev,
                     max_lag: most.lag,
                     filter_delay_cycles: totals.filter_delay_cycles.get(i).copied().unwrap_or(0.0),
+                    stops: totals.stops.axes.get(&i).map_or(0, |(count, _)| *count),
+                    slowest_stop: totals.stops.axes.get(&i).map(|(_, slowest)| stop(slowest)),
                 })
                 .collect(),
             max_contour_error: (self.cycles > 0).then(|| ContourError {
                 mm,
                 time_s: seconds(at),
-                file: usize::try_from(file)
-                    .ok()
-                    .and_then(|i| facts.files.get(i).cloned())
-                    .unwrap_or_default(),
+                file: name(file),
                 line,
                 block,
             }),
@@ -251,6 +290,10 @@ impl Summary {
         writeln!(out, "  ideal          {:.3} s (path / feed)", self.ideal_duration_s)?;
         if self.held_s > 0.0 {
             writeln!(out, "  held           {:.3} s (feedhold or override 0)", self.held_s)?;
+        }
+        if self.arrival_s > 0.0 {
+            let text = "end of the last motion until the axes were in position";
+            writeln!(out, "  arrival        {:.3} s ({text})", self.arrival_s)?;
         }
         for what in &self.not_counted {
             writeln!(out, "  not counted    {what}")?;
@@ -323,6 +366,20 @@ impl Summary {
                 a.max_lag,
                 delay_ms
             )?;
+        }
+        for a in &self.axes {
+            if let Some(slowest) = &a.slowest_stop {
+                let block = slowest.block.map_or_else(String::new, |n| format!(", N{n}"));
+                writeln!(
+                    out,
+                    "  settling {:<5} {}, t2 - t1 at most {:.3} s at t = {:.3} s, line {}{block}",
+                    a.name,
+                    many(usize::try_from(a.stops).unwrap_or(usize::MAX), "stop"),
+                    slowest.settling_s,
+                    slowest.time_s,
+                    slowest.line
+                )?;
+            }
         }
         Ok(())
     }

@@ -5,11 +5,13 @@
 //! answer.
 
 pub mod args;
-mod fit;
+mod combined;
 mod order;
 mod own;
+mod picture;
 mod program;
-pub mod recording;
+mod recording;
+pub mod vibration;
 
 use crate::console::Console;
 use crate::engine::Engine;
@@ -20,13 +22,16 @@ use args::TuneArgs;
 use kontur_filters::analysis::tuning::{Choice, VibrationBand};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use recording::{Measured, Mode};
+use recording::Measured;
+use vibration::{Estimate, Mode};
 
 /// What the table of the modes is computed for.
 #[derive(Clone, Debug)]
 struct Task {
     /// Measured natural frequencies in Hz.
     freqs_hz: Vec<f64>,
+    /// Where the real ones lie for sure: lower and upper end of the interval of each in Hz.
+    bands_hz: Vec<(f64, f64)>,
     /// Weaker vibrations of the recordings.
     others: Vec<Mode>,
     band: VibrationBand,
@@ -60,17 +65,29 @@ pub fn tune(
     if let Some(tolerance_mm) = args.order_for {
         return order::answer(tolerance_mm, args.feed, cycle, console);
     }
-    let Measured { freqs_hz, damping: measured_damping, others } = if args.recording.is_empty() {
-        Measured { freqs_hz: args.freq.clone(), ..Measured::default() }
-    } else {
-        recording::measured(args, console)?
-    };
+    let Measured { freqs, damping: measured_damping, others, recordings } =
+        if args.recording.is_empty() {
+            let exact = |value: &f64| Estimate { value: *value, half_width: 0.0 };
+            Measured { freqs: args.freq.iter().map(exact).collect(), ..Measured::default() }
+        } else {
+            recording::measured(args, console)?
+        };
+    if let Some(output) = &args.output {
+        std::fs::write(output, picture::draw(&recordings))
+            .map_err(|e| Error::io(output.display().to_string(), e))?;
+    }
     // what is judged is what stands in the command to paste
     let damping = args.damping.or(measured_damping.map(rounded));
     let damping = damping.unwrap_or(VibGuardSettings::default().damping);
-    let band = VibrationBand::of(&freqs_hz, damping)
+    let bands_hz: Vec<(f64, f64)> =
+        freqs.iter().map(|f| (f.value - f.half_width, f.value + f.half_width)).collect();
+    let ends: Vec<f64> = bands_hz.iter().flat_map(|(low, high)| [*low, *high]).collect();
+    // the proposal holds for the whole interval of every measured frequency
+    let band = VibrationBand::of(&ends, damping)
         .ok_or_else(|| Error::Usage("no natural frequency to tune for".to_owned()))?;
+    let freqs_hz: Vec<f64> = freqs.iter().map(|f| f.value).collect();
     let task = Task {
+        bands_hz,
         at_hz: args.at.unwrap_or_else(|| (100.0 * median(&freqs_hz)).round() / 100.0),
         freqs_hz,
         others,
@@ -160,9 +177,12 @@ impl Task {
         };
         let mut out = format!(
             "measured  {} Hz, damping {}\n\
+             margin    {} to {} Hz with the accuracy of the measurement\n\
              assumed   cycle {} ms; 90 degree corner at F{} without slowing down; residual at most {} %\n\n",
             list(&self.freqs_hz),
             self.band.damping,
+            number(self.band.low_hz, 3),
+            number(self.band.high_hz, 3),
             f64::from(self.cycle.us()) / 1000.0,
             self.feed_mm_min,
             100.0 * self.limit_ratio,
@@ -209,14 +229,14 @@ impl Task {
         let mut header = vec!["mode".to_owned(), "f_set Hz".to_owned()];
         let rounded = |f: f64| (f * 1e3).round() / 1e3;
         header.extend(self.freqs_hz.iter().map(|f| format!("f_real {} Hz", rounded(*f))));
-        header.extend(self.others.iter().map(|m| format!("other {} Hz", rounded(m.freq_hz))));
+        header.extend(self.others.iter().map(|m| format!("other {} Hz", rounded(m.freq.value))));
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
         let mut table = Table::new(&header);
         for Row { choice, .. } in rows {
             let mut row =
                 vec![choice.settings.mode.to_string(), format!("{}", choice.settings.freq_hz)];
             let real = self.freqs_hz.iter().map(|f| (*f, self.band.damping));
-            let all = real.chain(self.others.iter().map(|m| self.vibration(m)));
+            let all = real.chain(self.others.iter().map(Self::vibration));
             row.extend(all.map(|real| {
                 let left = self.left_of(choice, real);
                 left.map_or_else(String::new, |left| format!("{} %", number(100.0 * left, 2)))
@@ -227,8 +247,8 @@ impl Task {
     }
 
     /// Frequency in Hz and damping of a weaker vibration.
-    fn vibration(&self, mode: &Mode) -> (f64, f64) {
-        (mode.freq_hz, mode.damping.unwrap_or(self.band.damping))
+    fn vibration(mode: &Mode) -> (f64, f64) {
+        (mode.freq.value, mode.damping.value)
     }
 
     /// Share of a vibration of this frequency in Hz and damping that a choice leaves.
@@ -240,15 +260,15 @@ impl Task {
     /// Weaker vibrations of which a choice leaves more than the limit of the strongest one.
     fn beside(&self, choice: &Choice) -> String {
         let loud = |m: &&Mode| {
-            self.left_of(choice, self.vibration(m))
+            self.left_of(choice, Self::vibration(m))
                 .is_some_and(|left| left * m.peak_ratio > self.limit_ratio)
         };
         let line = |mode: &Mode| {
-            let left = self.left_of(choice, self.vibration(mode)).unwrap_or(1.0);
-            let all = self.freqs_hz.iter().chain([&mode.freq_hz]).map(|f| number(*f, 2));
+            let left = self.left_of(choice, Self::vibration(mode)).unwrap_or(1.0);
+            let all = self.freqs_hz.iter().chain([&mode.freq.value]).map(|f| number(*f, 2));
             format!(
                 "warning   {} Hz, {} % as strong, keeps {} % of its vibration; --freq {} tunes for both\n",
-                number(mode.freq_hz, 2),
+                number(mode.freq.value, 2),
                 number(100.0 * mode.peak_ratio, 0),
                 number(100.0 * left, 0),
                 all.collect::<Vec<_>>().join(",")
@@ -280,13 +300,15 @@ impl Task {
                 },
                 self.beside(&choice)
             ),
-            None => format!(
-                "\nproposal  none: no mode keeps {} % over {} to {} Hz; settings per position or a larger \
-                 --max-residual are what is left\n",
-                100.0 * self.limit_ratio,
-                self.band.low_hz,
-                self.band.high_hz
-            ),
+            None => combined::answer(self).unwrap_or_else(|| {
+                format!(
+                    "\nproposal  none: no mode keeps {} % over {} to {} Hz; settings per position or a larger \
+                     --max-residual are what is left\n",
+                    100.0 * self.limit_ratio,
+                    number(self.band.low_hz, 2),
+                    number(self.band.high_hz, 2)
+                )
+            }),
         }
     }
 }
@@ -297,6 +319,7 @@ mod tests {
 
     fn task(freqs_hz: &[f64]) -> Task {
         Task {
+            bands_hz: freqs_hz.iter().map(|f| (*f, *f)).collect(),
             at_hz: median(freqs_hz),
             freqs_hz: freqs_hz.to_vec(),
             others: Vec::new(),
@@ -350,18 +373,54 @@ mod tests {
         assert!(bounded.proposal(&rows).contains(" DAMPING=0.1 AX_DEV=0.01]\n"));
     }
 
+    /// 4 and 16 Hz: no mode keeps 5 % of both. Guard and band stop together, judged by their steady responses here:
+    /// the product of both magnitudes bounds what is left.
     #[test]
-    fn a_band_too_wide_for_every_mode_gets_no_proposal() {
+    fn two_far_vibrations_get_a_combined_answer() {
         let task = task(&[4.0, 16.0]);
         let rows = task.rows();
         assert_eq!(task.proposed(&rows), None);
-        assert!(task.proposal(&rows).contains("none"));
+        let text = task.proposal(&rows);
+        assert!(
+            text.contains("#VIB GUARD ON [MODE=") && text.contains("filter[0].enable 1"),
+            "{text}"
+        );
+        let left: Vec<f64> = text
+            .split(" leave ")
+            .nth(1)
+            .unwrap()
+            .split_whitespace()
+            .filter_map(|w| w.parse().ok())
+            .take(2)
+            .collect();
+        assert!(left.iter().all(|l| *l <= 5.0), "{text}");
+        assert!(!text.contains("none"));
+    }
+
+    /// The interval of a measured frequency widens what the proposal has to hold.
+    #[test]
+    fn the_accuracy_of_the_measurement_is_a_margin() {
+        let exact = task(&[6.0]);
+        let mut blurred = task(&[6.0]);
+        blurred.band = VibrationBand::of(&[5.1, 6.9], 0.1).unwrap();
+        let [a, b] = [&exact, &blurred].map(|t| t.proposed(&t.rows()).unwrap());
+        assert!(b.corner_error_s > a.corner_error_s);
+        assert!(
+            blurred.keeps(&b)
+                && blurred
+                    .band
+                    .judge(a.settings, blurred.cycle)
+                    .is_some_and(|c| !blurred.keeps(&c))
+        );
     }
 
     /// Half of a vibration of the other frequency is far more than 5 % of the strongest one; a tenth as strong it is not.
     #[test]
     fn a_second_vibration_that_stays_is_told() {
-        let other = |peak_ratio| Mode { freq_hz: 31.0, damping: Some(0.1), peak_ratio };
+        let other = |peak_ratio| {
+            let e = |value| Estimate { value, half_width: 0.0 };
+            Mode { freq: e(31.0), damping: e(0.1), peak_ratio }
+        };
         let with = |peak_ratio| Task { others: vec![other(peak_ratio)], ..task(&[20.0]) };
         let said = with(0.5).proposal(&with(0.5).rows());
         assert!(said.contains("warning   31.00 Hz, 50 % as strong"), "{said}");

@@ -7,7 +7,7 @@
 mod line;
 
 use super::key::{Indices, Key, with_indices};
-use super::table::{self, ListKind, Row};
+use super::table::{self, ListKind, Raw, Row};
 use super::value::{self, Value};
 use crate::diag::{Condition, Diagnostic, Location, Severity, ValueKind};
 use std::collections::BTreeMap;
@@ -119,10 +119,15 @@ impl Reader<'_> {
             if written.is_empty() { key_at.clone() } else { line.location(file, written) };
         if let Some(dropped) = parts.dropped {
             let message = format!("`{dropped}` after the text of `{word}` is dropped");
+            let hint = if matches!(row.raw, Raw::Flags(_)) {
+                "join flags with |: VEL | ACC"
+            } else {
+                "put a text with blanks in double quotes, start a comment with ("
+            };
             self.diagnostics.push(
                 Diagnostic::new(Condition::ListString, message)
                     .at(line.location(file, dropped))
-                    .hint("put a text with blanks in double quotes, start a comment with ("),
+                    .hint(hint),
             );
         }
         let value = match value::read(row.raw, written) {

@@ -9,8 +9,8 @@ mod ipc;
 mod plant;
 
 pub(super) use control::has_rotary_motor;
+pub(super) use filters::FilterKeys;
 pub use filters::{AdditionalInterface, FirPreset, KernelPreset, VibGuardPreset};
-pub(super) use ipc::PREFIX as IPC;
 
 use super::{Axis, Machine, issues};
 use crate::diag::Diagnostic;
@@ -32,8 +32,6 @@ pub struct ChainSetup {
     pub control: AxisControlConfig,
     /// Difference of input and output below which the filters count as settled, in mm (P-AXIS-00351).
     pub filter_window_mm: f64,
-    /// Exact-stop window in mm (P-AXIS-00236).
-    pub window_mm: f64,
 }
 
 impl Machine {
@@ -74,13 +72,17 @@ impl Machine {
             additional: filters::additional(axis, self.cycle, diagnostics),
             control,
             filter_window_mm: axis.filter_window_mm(),
-            window_mm: axis.window_mm(),
         }
     }
 
     /// Improved Position Control of an axis; of a gantry slave that of its master, without effect if there is none.
     fn ipc(&self, axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> IpcConfig {
-        let own = ipc::config(axis);
+        let mut own = ipc::config(axis);
+        if own.enable {
+            let found = ipc::out_of_range(axis, self.cycle);
+            own.enable = found.is_empty();
+            diagnostics.extend(found);
+        }
         let Some(master) = axis.gantry_master() else { return own };
         if own.enable {
             diagnostics.push(issues::control(axis, &Issue::IpcGantrySlave, self.cycle));

@@ -1,6 +1,6 @@
 //! One cycle through all axes: from the setpoints of path and spindles to the records.
 
-use super::{Phase, Simulation};
+use super::{Phase, SettledStop, Simulation};
 use crate::machine::{Axis, Machine};
 use crate::record::PathRecord;
 use kontur_motion::axis::AxisVec;
@@ -52,6 +52,12 @@ impl Simulation {
         let spindles: SmallVec<[f64; 4]> =
             self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
         for (i, chain) in self.chains.iter_mut().enumerate() {
+            if let Driver::Spindle(s) = self.drivers[i]
+                && let Some(target_deg) = self.spindles[s].take_target()
+            {
+                chain.expect_stop(target_deg);
+                self.stops_at[i] = self.current;
+            }
             let ipo = match (self.frozen[i], self.drivers[i]) {
                 (Some(x), _) => x,
                 (None, Driver::Path(p)) => positions[p],
@@ -59,8 +65,12 @@ impl Simulation {
                 (None, Driver::Standing) => chain.set_mm(),
             };
             let record = &mut self.record.axes[i];
+            let settled = chain.settles();
             if let Some(found) = chain.step(ipo, self.gains[i], self.jerk_limited, record) {
                 faults.extend(found.iter().map(|f| (i, *f)));
+            } else if settled && chain.arrived() {
+                let (source, settling_s) = (self.stops_at[i], record.settling_s);
+                self.totals.stops.add(SettledStop { axis: i, source, k, settling_s });
             }
         }
         let shaped = self.record.axes[..n].iter().any(|a| a.set.to_bits() != a.ipo.to_bits());

@@ -15,6 +15,24 @@ use std::sync::Arc;
 /// Speed of the motor in mm/s (deg/s) below which an axis stands.
 const STANDSTILL_MM_S: f64 = 0.1;
 
+/// What an axis lacks to be where a wait wants it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Remaining {
+    /// Distance in mm (deg), signed.
+    pub(crate) distance_mm: f64,
+    /// Half width of the window in mm (deg).
+    pub(crate) window_mm: f64,
+    /// The filters have not settled (P-AXIS-00351); otherwise the actual position is outside its window.
+    pub(crate) filters: bool,
+}
+
+impl Remaining {
+    /// Distance beyond the window in mm (deg).
+    pub(crate) fn excess_mm(&self) -> f64 {
+        self.distance_mm.abs() - self.window_mm
+    }
+}
+
 /// Shaping and control of one axis with what the trace derives from them.
 #[derive(Debug)]
 pub(crate) struct AxisChain {
@@ -23,7 +41,6 @@ pub(crate) struct AxisChain {
     additional: Option<AdditionalInterface>,
     inputs: AxisInputs,
     filter_window_mm: f64,
-    window_mm: f64,
     delay_cycles: f64,
     /// Interpolated setpoints as far back as the delay reaches, newest last.
     ipo: VecDeque<f64>,
@@ -58,7 +75,6 @@ impl AxisChain {
             additional,
             inputs,
             filter_window_mm: setup.filter_window_mm,
-            window_mm: setup.window_mm,
             delay_cycles: 0.0,
             ipo: VecDeque::new(),
             set: x,
@@ -102,9 +118,39 @@ impl AxisChain {
         self.shaping.settled(self.filter_window_mm)
     }
 
-    /// The actual position is inside the exact-stop window (P-AXIS-00236).
-    pub(crate) fn in_position(&self) -> bool {
-        self.control.in_position(self.window_mm)
+    /// What the filters lack to have arrived.
+    pub(crate) fn unsettled(&self) -> Option<Remaining> {
+        let distance_mm = self.ipo.back().copied().unwrap_or(self.set) - self.set;
+        let window_mm = self.filter_window_mm;
+        (!self.settled()).then_some(Remaining { distance_mm, window_mm, filters: true })
+    }
+
+    /// What the actual position lacks to be inside the exact-stop window (P-AXIS-00236).
+    pub(crate) fn out_of_position(&self) -> Option<Remaining> {
+        let distance_mm = self.control.distance_mm();
+        let window_mm = self.control.exact_stop().config().window_mm;
+        let remaining = Remaining { distance_mm, window_mm, filters: false };
+        (remaining.excess_mm() > 0.0).then_some(remaining)
+    }
+
+    /// The set position is at the target of a stop, the actual one not yet inside the window.
+    pub(crate) fn settles(&self) -> bool {
+        self.control.exact_stop().settles()
+    }
+
+    /// No stop is awaited.
+    pub(crate) fn arrived(&self) -> bool {
+        self.control.exact_stop().rests()
+    }
+
+    /// Time limit of the exact stop in s, none if it is not monitored.
+    pub(crate) fn settling_limit_s(&self) -> Option<f64> {
+        self.control.exact_stop().config().settling_s
+    }
+
+    /// Keeps the axis where it is: reaction class 5.
+    pub(crate) fn halt(&mut self) {
+        self.control.halt();
     }
 
     /// Opens the position loop: reaction class 8.
@@ -205,14 +251,17 @@ impl AxisChain {
             err: set - self.aligned(),
             dev: 0.0,
             dev_both_ways: 0.0,
-            ff: out.feedforward.speed_mm_s,
+            ff: out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s,
             cmd: out.command_mm_s,
             vadd: out.additive_speed_mm_s,
+            vadd_limited: f64::from(u8::from(out.additive_speed_limited)),
             reference: out.reference_mm,
             act: out.act_mm,
             load: out.load_mm,
             lag: out.lag_mm,
+            lag_limit: self.control.lag_monitor().limit_mm().unwrap_or(0.0),
             add: additional_mm,
+            settling_s: self.control.exact_stop().settling_s(),
             tcp: out.tcp_mm,
             tcp_acc: out.tcp_acc_mm_s2,
             cmd_drive: out.drive.command,

@@ -4,9 +4,12 @@
 //! where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7), the others brake along the path with
 //! P-AXIS-00003. The run goes on until the axes themselves stand.
 
+use super::axes::Driver;
+use super::chain::Remaining;
 use super::{Phase, Simulation};
-use crate::diag::{Condition, Diagnostic, Reaction, ValueKind};
-use crate::machine::{AxisKind, Machine};
+use crate::diag::{Condition, Diagnostic, Reaction, ValueKind, rounded};
+use crate::exec::SpindleMotion;
+use crate::machine::{Axis, AxisKind, Machine};
 use kontur_filters::control::fault::{Derivative, Fault};
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
@@ -69,22 +72,7 @@ impl Simulation {
         if reaction == Reaction::None {
             return;
         }
-        let frozen = match reaction {
-            Reaction::AbruptStop | Reaction::OpenLoopStop => chain..chain + 1,
-            Reaction::AllStop => 0..self.chains.len(),
-            Reaction::None
-            | Reaction::ProgramAbort
-            | Reaction::JobAbort
-            | Reaction::FeedHold
-            | Reaction::ControlledStop => 0..0,
-        };
-        for i in frozen {
-            let here = self.record.axes[i].ipo;
-            self.frozen[i].get_or_insert(here);
-        }
-        if reaction == Reaction::OpenLoopStop {
-            self.chains[chain].open_loop();
-        }
+        self.react(chain, reaction);
         self.stop(vec![(chain, condition)]);
     }
 
@@ -92,12 +80,80 @@ impl Simulation {
     fn stop(&mut self, told: Vec<(usize, Condition)>) {
         self.totals.aborted = true;
         if !matches!(self.phase, Phase::Stopping(_)) {
+            for spindle in &mut self.spindles {
+                spindle.command(SpindleMotion::Stop);
+            }
             self.planner.brake();
             if let Err(e) = self.independent.stop(self.record.k) {
                 self.diagnostics.push(internal(&e));
             }
             self.phase = Phase::Stopping(Stopping { told, ..Stopping::default() });
         }
+    }
+
+    /// What the axis concerned does at once.
+    ///
+    /// Both sides of a gantry bridge stop alike: kept where they are once their set position stands, with the limits of the
+    /// path while it moves. Stopping one of them alone would rack the bridge.
+    fn react(&mut self, chain: usize, reaction: Reaction) {
+        let driver = self.drivers[chain];
+        let together =
+            |i: usize| i == chain || matches!(driver, Driver::Path(_)) && self.drivers[i] == driver;
+        let concerned: Vec<usize> = match reaction {
+            Reaction::AbruptStop | Reaction::OpenLoopStop => {
+                (0..self.chains.len()).filter(|i| together(*i)).collect()
+            }
+            Reaction::AllStop => (0..self.chains.len()).collect(),
+            _ => return,
+        };
+        let bridge = reaction != Reaction::AllStop && concerned.len() > 1;
+        if bridge && self.record.path.v_mm_s > 0.0 {
+            return;
+        }
+        for i in concerned {
+            let here = self.record.axes[i].ipo;
+            self.frozen[i].get_or_insert(here);
+            match reaction {
+                Reaction::OpenLoopStop => self.chains[i].open_loop(),
+                Reaction::AbruptStop => self.chains[i].halt(),
+                _ => {}
+            }
+        }
+    }
+
+    /// Nothing will ever bring an axis to where the program waits for it: the end of the run.
+    pub(super) fn never_arrives(&mut self, chain: usize, lacks: Remaining) {
+        let axis = self.machine.all_axes().nth(chain);
+        let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
+        let unit = axis.map_or("mm", Axis::unit);
+        let Remaining { distance_mm, window_mm, filters } = lacks;
+        let (window, parameter, help) = if filters {
+            ("the window of its filters", "P-AXIS-00351", "raise filter_position_window")
+        } else {
+            (
+                "the exact-stop window",
+                "P-AXIS-00236",
+                "raise window or the gain kv, or take the force away",
+            )
+        };
+        let text = format!(
+            "axis {name} stands {} {unit} from its target, {window} is {} {unit}, and nothing moves it any more",
+            rounded(distance_mm),
+            rounded(window_mm)
+        );
+        let mut d = Diagnostic::new(Condition::Standstill, text)
+            .value(ValueKind::Current, distance_mm, unit)
+            .value(ValueKind::Limit, window_mm, unit)
+            .axis(number, name)
+            .parameter(parameter)
+            .hint(help);
+        let k = self.planner.setpoint().k;
+        (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
+        let at = self.stops_at[chain];
+        d.source = self.executor.locate(if at.line > 0 { at } else { self.waits_at });
+        self.diagnostics.push(d);
+        self.totals.aborted = true;
+        self.phase = Phase::Done;
     }
 
     fn is_spindle(&self, chain: usize) -> bool {
@@ -107,34 +163,92 @@ impl Simulation {
     fn describe(&mut self, chain: usize, condition: Condition, fault: &Fault) -> Diagnostic {
         let axis = self.machine.all_axes().nth(chain);
         let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
-        let base = Diagnostic::new(condition, format!("{fault}, axis {name}"));
+        let unit = axis.map_or("mm", Axis::unit);
+        let base = Diagnostic::new(condition, format!("{}, axis {name}", text(fault, unit)));
         let diagnostic = match *fault {
             Fault::FollowingError { lag_mm, limit_mm } | Fault::Unstable { lag_mm, limit_mm } => {
-                base.value(ValueKind::Current, lag_mm, "mm").value(ValueKind::Limit, limit_mm, "mm")
+                base.value(ValueKind::Current, lag_mm, unit).value(ValueKind::Limit, limit_mm, unit)
             }
             Fault::SettlingTimeout { lag_mm, window_mm, time_s } => base
-                .value(ValueKind::Current, lag_mm, "mm")
-                .value(ValueKind::Limit, window_mm, "mm")
+                .value(ValueKind::Current, lag_mm, unit)
+                .value(ValueKind::Limit, window_mm, unit)
                 .value(ValueKind::Limit, time_s, "s"),
             Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => base
-                .value(ValueKind::Current, speed_mm_s, "mm/s")
-                .value(ValueKind::Limit, limit_mm_s, "mm/s"),
+                .value(ValueKind::Current, speed_mm_s, per_s(unit, 1))
+                .value(ValueKind::Limit, limit_mm_s, per_s(unit, 1)),
             Fault::SetpointWarning { what, value, limit } => base
-                .value(ValueKind::Current, value, what.unit())
-                .value(ValueKind::Limit, limit, what.unit())
+                .value(ValueKind::Current, value, per_s(unit, order(what)))
+                .value(ValueKind::Limit, limit, per_s(unit, order(what)))
                 .parameter(thresholds(what).0),
             Fault::SetpointError { what, value, limit } => base
-                .value(ValueKind::Current, value, what.unit())
-                .value(ValueKind::Limit, limit, what.unit())
+                .value(ValueKind::Current, value, per_s(unit, order(what)))
+                .value(ValueKind::Limit, limit, per_s(unit, order(what)))
                 .parameter(thresholds(what).1),
             Fault::IpcChangedMoving => base,
         };
         let mut diagnostic = diagnostic.axis(number, name);
         diagnostic.cycle = Some(self.record.k);
         diagnostic.time_s = Some(self.cycle.time_of(self.record.k));
-        diagnostic.source = self.executor.locate(self.current);
+        // the next blocks may be running when a stop turns out to be late
+        let late = matches!(fault, Fault::SettlingTimeout { .. });
+        let at = if late { self.stops_at[chain] } else { self.current };
+        diagnostic.source = self.executor.locate(at);
         diagnostic
     }
+}
+
+/// What was met, in the unit of the axis, `mm` or `deg`.
+fn text(fault: &Fault, unit: &'static str) -> String {
+    let r = rounded;
+    let speed = per_s(unit, 1);
+    match *fault {
+        Fault::FollowingError { lag_mm, limit_mm } => {
+            format!("following error {} {unit} exceeds {} {unit}", r(lag_mm), r(limit_mm))
+        }
+        Fault::SettlingTimeout { lag_mm, window_mm, time_s } => format!(
+            "distance {} {unit} to the target after {} s is outside the exact-stop window of {} {unit}",
+            r(lag_mm),
+            r(time_s),
+            r(window_mm)
+        ),
+        Fault::ControllerSpeed { speed_mm_s, limit_mm_s } => {
+            format!("speed command {} {speed} exceeds {} {speed}", r(speed_mm_s), r(limit_mm_s))
+        }
+        Fault::SetpointWarning { what, value, limit }
+        | Fault::SetpointError { what, value, limit } => {
+            let unit = per_s(unit, order(what));
+            let quantity = what.name();
+            format!(
+                "{quantity} of the set position {} {unit} exceeds {} {unit}",
+                r(value),
+                r(limit)
+            )
+        }
+        Fault::Unstable { lag_mm, limit_mm } => format!(
+            "following error {} {unit} beyond {} {unit}: the simulated axis is unstable",
+            r(lag_mm),
+            r(limit_mm)
+        ),
+        Fault::IpcChangedMoving => {
+            "parameters of Improved Position Control changed while the axis moves".to_owned()
+        }
+    }
+}
+
+/// Order of a derivative of the position.
+const fn order(what: Derivative) -> usize {
+    match what {
+        Derivative::Velocity => 1,
+        Derivative::Acceleration => 2,
+        Derivative::Jerk => 3,
+    }
+}
+
+/// Unit of a derivative of a position in `mm` or `deg`.
+fn per_s(unit: &str, order: usize) -> &'static str {
+    const LINEAR: [&str; 4] = ["mm", "mm/s", "mm/s2", "mm/s3"];
+    const ROTARY: [&str; 4] = ["deg", "deg/s", "deg/s2", "deg/s3"];
+    if unit == "deg" { ROTARY[order] } else { LINEAR[order] }
 }
 
 /// The condition of a fault; spindles have numbers of their own for their speed.

@@ -14,6 +14,7 @@ struct Positioning {
     profile: SpanProfile,
     from_deg: f64,
     cycles: u64,
+    arrived: bool,
 }
 
 /// One spindle.
@@ -26,6 +27,8 @@ pub(super) struct Spindle {
     speed_deg_s: f64,
     wanted: SpindleMotion,
     positioning: Option<Positioning>,
+    /// Where a positioning that has just begun will end.
+    target_deg: Option<f64>,
 }
 
 impl Spindle {
@@ -44,12 +47,34 @@ impl Spindle {
             speed_deg_s: 0.0,
             wanted: SpindleMotion::Stop,
             positioning: None,
+            target_deg: None,
         }
     }
 
+    /// A new motion; what turned goes on from its present speed.
     pub(super) fn command(&mut self, motion: SpindleMotion) {
         self.wanted = motion;
         self.positioning = None;
+    }
+
+    /// It is told to stand at an angle.
+    pub(super) fn positions(&self) -> bool {
+        matches!(self.wanted, SpindleMotion::Position { .. })
+    }
+
+    /// The set position is still on its way to an angle.
+    pub(super) fn approaches(&self) -> bool {
+        self.positions() && self.positioning.as_ref().is_none_or(|p| !p.arrived)
+    }
+
+    /// The set position stands.
+    pub(super) fn rests(&self) -> bool {
+        self.speed_deg_s.abs() <= 0.0 && !self.approaches()
+    }
+
+    /// Where the positioning that began in the last cycle will end, once.
+    pub(super) fn take_target(&mut self) -> Option<f64> {
+        self.target_deg.take()
     }
 
     fn target_deg_s(&self) -> f64 {
@@ -64,26 +89,42 @@ impl Spindle {
     /// Set position of the next cycle in deg, counted on over the turns.
     pub(super) fn step(&mut self, cycle: CycleTime) -> f64 {
         let t = cycle.seconds();
-        if let SpindleMotion::Position { deg } = self.wanted {
-            if self.speed_deg_s.abs() <= 0.0 && self.positioning.is_none() {
-                let way = (deg - self.position_deg).rem_euclid(360.0);
-                let profile = self.limits.plan(0.0, 0.0, self.v_max_deg_s, way);
-                self.positioning = profile.ok().map(|profile| Positioning {
-                    profile,
-                    from_deg: self.position_deg,
-                    cycles: 0,
-                });
-            }
-            if let Some(p) = &mut self.positioning {
-                p.cycles += 1;
-                self.position_deg = p.from_deg + p.profile.at(cycle.time_of(p.cycles)).s_mm;
-                return self.position_deg;
-            }
+        if let SpindleMotion::Position { deg, rpm } = self.wanted
+            && (self.positioning.is_some() || self.speed_deg_s.abs() <= 0.0)
+        {
+            self.approach(deg, rpm, cycle);
+            return self.position_deg;
         }
         let step = self.acc_deg_s2 * t;
         let speed = self.speed_deg_s + (self.target_deg_s() - self.speed_deg_s).clamp(-step, step);
         self.position_deg += 0.5 * (self.speed_deg_s + speed) * t;
         self.speed_deg_s = speed;
         self.position_deg
+    }
+
+    /// One cycle of the way from rest to an angle, in positive direction.
+    fn approach(&mut self, deg: f64, rpm: Option<f64>, cycle: CycleTime) {
+        if self.positioning.is_none() {
+            let way = (deg - self.position_deg).rem_euclid(360.0);
+            let speed = rpm.map_or(self.v_max_deg_s, |rpm| (rpm * 6.0).min(self.v_max_deg_s));
+            let profile = self.limits.plan(0.0, 0.0, speed, way);
+            self.positioning = profile.ok().map(|profile| Positioning {
+                profile,
+                from_deg: self.position_deg,
+                cycles: 0,
+                arrived: false,
+            });
+            self.target_deg = Some(self.position_deg + way);
+        }
+        if let Some(p) = &mut self.positioning {
+            p.cycles += 1;
+            let time_s = cycle.time_of(p.cycles);
+            let state = p.profile.at(time_s);
+            p.arrived = time_s >= p.profile.duration();
+            (self.position_deg, self.speed_deg_s) = (p.from_deg + state.s_mm, state.v_mm_s);
+            if p.arrived {
+                self.speed_deg_s = 0.0;
+            }
+        }
     }
 }

@@ -1,9 +1,49 @@
 //! What a run adds up beside its records.
 
 use crate::diag::{Condition, Diagnostic, Severity};
-use crate::exec::Event;
+use crate::exec::{Event, SourceRef};
 use crate::machine::Machine;
 use kontur_motion::block::{Block, Feed};
+use std::collections::BTreeMap;
+
+/// An exact stop of one axis that reached its window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SettledStop {
+    /// Index into the axes of a record.
+    pub axis: usize,
+    /// Block whose stop it was.
+    pub source: SourceRef,
+    /// Cycle of t2: the actual position is inside the window.
+    pub k: u64,
+    /// t2 - t1 in s.
+    pub settling_s: f64,
+}
+
+/// The exact stops of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stops {
+    /// The first of them, at most [`Self::KEPT`].
+    pub first: Vec<SettledStop>,
+    /// Per axis: how many, and the slowest.
+    pub axes: BTreeMap<usize, (u64, SettledStop)>,
+}
+
+impl Stops {
+    /// Stops that are kept one by one; a program may stop without end.
+    pub const KEPT: usize = 1000;
+
+    /// Adds a stop.
+    pub(super) fn add(&mut self, stop: SettledStop) {
+        if self.first.len() < Self::KEPT {
+            self.first.push(stop);
+        }
+        let (count, slowest) = self.axes.entry(stop.axis).or_insert((0, stop));
+        *count += 1;
+        if stop.settling_s > slowest.settling_s {
+            *slowest = stop;
+        }
+    }
+}
 
 /// What is known when the last cycle has been computed and what no record holds.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,6 +54,10 @@ pub struct Totals {
     pub input_failed: bool,
     /// Cycles in which feedhold or override 0 kept the path at rest.
     pub held_cycles: u64,
+    /// Cycles from the end of the last motion until every axis was in position.
+    pub arrival_cycles: u64,
+    /// Exact stops.
+    pub stops: Stops,
     /// Blocks executed.
     pub blocks: u64,
     /// Sum of path length / programmed feed over the feed blocks in s.

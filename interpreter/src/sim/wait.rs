@@ -1,7 +1,10 @@
 //! What the machine waits for while the path is at rest, and what happens then.
 
-use super::chain::AxisChain;
+use super::axes::Driver;
+use super::chain::{AxisChain, Remaining};
 use super::independent::IndependentAxes;
+use super::patience::Patience;
+use super::spindle::Spindle;
 use crate::exec::{EndReason, ShapingSetup, Sync};
 use kontur_filters::time::CycleTime;
 
@@ -10,7 +13,7 @@ use kontur_filters::time::CycleTime;
 pub(super) enum Action {
     None,
     Shaping(Box<ShapingSetup>),
-    MachineData { axis: u32, key: String, value: String },
+    MachineData { axis: u32 },
     End(EndReason),
 }
 
@@ -26,6 +29,22 @@ enum Until {
     Arrived(Vec<usize>),
     /// Flushed, and the actual positions in their windows (P-AXIS-00236).
     InPosition,
+    /// The same for everything that moves, independent axes and spindles on their way to a position too, and seen by the
+    /// monitors: the last row of the trace shows the axes inside their windows.
+    AllInPosition,
+}
+
+/// The moving parts that a wait looks at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts<'a> {
+    /// Path axes, spindles, gantry slaves.
+    pub(super) chains: &'a [AxisChain],
+    /// Their drivers.
+    pub(super) drivers: &'a [Driver],
+    /// Spindles of the machine.
+    pub(super) spindles: &'a [Spindle],
+    /// Independent axes.
+    pub(super) independent: &'a IndependentAxes,
 }
 
 /// A wait with what follows it.
@@ -33,6 +52,7 @@ enum Until {
 pub(super) struct Wait {
     until: Until,
     action: Action,
+    patience: Patience,
 }
 
 impl Wait {
@@ -46,40 +66,82 @@ impl Wait {
             Sync::Independent { axes } => (Until::Arrived(axes), Action::None),
             Sync::FlushWait | Sync::ReadActual => (Until::Flushed, Action::None),
             Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
-            Sync::MachineData { axis, key, value } => {
-                (Until::Flushed, Action::MachineData { axis, key, value })
-            }
+            Sync::MachineData { axis } => (Until::Flushed, Action::MachineData { axis }),
         };
-        Self { until, action }
+        Self { until, action, patience: Patience::default() }
     }
 
+    /// The end of the program: every axis has arrived.
     pub(super) fn for_end(reason: EndReason) -> Self {
-        Self { until: Until::Flushed, action: Action::End(reason) }
+        let action = Action::End(reason);
+        Self { until: Until::AllInPosition, action, patience: Patience::default() }
     }
 
-    /// `chains`: those of the path axes.
-    pub(super) fn is_over(&self, chains: &[AxisChain], independent: &IndependentAxes) -> bool {
+    /// The chains that the wait looks at, with their numbers.
+    fn awaited<'a>(
+        &'a self,
+        parts: Parts<'a>,
+    ) -> impl Iterator<Item = (usize, &'a AxisChain)> + 'a {
+        let concerns = move |driver: Driver| match (&self.until, driver) {
+            (Until::Arrived(axes), Driver::Path(p)) => axes.contains(&p),
+            // axes on their way alone have no exact stop here
+            (Until::InPosition, Driver::Path(p)) => !parts.independent.is_moving(p),
+            (Until::Flushed | Until::AllInPosition, Driver::Path(_)) => true,
+            (Until::AllInPosition, Driver::Spindle(s)) => parts.spindles[s].positions(),
+            (Until::Now | Until::Cycles(_), Driver::Path(_))
+            | (_, Driver::Spindle(_) | Driver::Standing) => false,
+        };
+        let chains = parts.chains.iter().zip(parts.drivers).enumerate();
+        chains.filter(move |(_, (_, driver))| concerns(**driver)).map(|(i, (chain, _))| (i, chain))
+    }
+
+    /// Something that the wait looks at is on its way by itself.
+    fn under_way(&self, parts: Parts<'_>) -> bool {
+        match &self.until {
+            Until::Now | Until::Cycles(_) | Until::InPosition => false,
+            Until::Arrived(axes) => axes.iter().any(|axis| parts.independent.is_moving(*axis)),
+            Until::Flushed => parts.independent.any_moving(),
+            Until::AllInPosition => {
+                parts.independent.any_moving() || parts.spindles.iter().any(Spindle::approaches)
+            }
+        }
+    }
+
+    /// What keeps a chain from being where the wait wants it.
+    fn remaining(&self, chain: &AxisChain) -> Option<Remaining> {
+        let position = matches!(self.until, Until::InPosition | Until::AllInPosition);
+        chain.unsettled().or_else(|| position.then(|| chain.out_of_position()).flatten())
+    }
+
+    pub(super) fn is_over(&self, parts: Parts<'_>) -> bool {
         let ready = |i: usize, chain: &AxisChain| match &self.action {
             Action::Shaping(setup) => {
                 setup.axes.get(i).is_none_or(|a| chain.ready_for(a.kernel.as_deref()))
             }
             _ => true,
         };
-        let flushed = |(i, c): (usize, &AxisChain)| c.settled() && ready(i, c);
-        match &self.until {
-            Until::Now | Until::Cycles(0) => true,
-            Until::Cycles(_) => false,
-            Until::Flushed => !independent.any_moving() && chains.iter().enumerate().all(flushed),
-            Until::Arrived(axes) => axes.iter().all(|axis| {
-                !independent.is_moving(*axis) && chains.get(*axis).is_none_or(AxisChain::settled)
-            }),
-            // axes on their way alone have no exact stop here
-            Until::InPosition => chains
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| !independent.is_moving(*i))
-                .all(|(i, c)| flushed((i, c)) && c.in_position()),
+        !matches!(self.until, Until::Cycles(1..))
+            && !self.under_way(parts)
+            && self.awaited(parts).all(|(i, c)| self.remaining(c).is_none() && ready(i, c))
+            && (self.until != Until::AllInPosition
+                || self.awaited(parts).all(|(_, c)| !c.settles()))
+    }
+
+    /// One cycle in which the wait is not over and no input will change any more: the chain that will never arrive, and
+    /// what it lacks.
+    pub(super) fn hopeless(
+        &mut self,
+        parts: Parts<'_>,
+        cycle: CycleTime,
+    ) -> Option<(usize, Remaining)> {
+        if self.under_way(parts) {
+            self.patience = Patience::default();
+            return None;
         }
+        let lacks = self.awaited(parts).filter_map(|(i, c)| Some((i, self.remaining(c)?)));
+        let (i, worst) = lacks.max_by(|(_, a), (_, b)| a.excess_mm().total_cmp(&b.excess_mm()))?;
+        let settling_s = parts.chains[i].settling_limit_s();
+        self.patience.is_over(worst.distance_mm, settling_s, cycle).then_some((i, worst))
     }
 
     /// A dwell: its cycles belong to its own block, not to the motion before.

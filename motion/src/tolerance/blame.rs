@@ -10,9 +10,9 @@
 //! same stretch, run through evenly, keeps the tolerance. Kinks further apart than the path runs at that speed while the
 //! filter holds them are isolated again: between them it is faster to speed up and to brake.
 
+use super::Demands;
 use super::search::{Record, Violation, within};
 use super::view::View;
-use super::Demands;
 use crate::axis::AxisVec;
 use crate::deviation::Excursion;
 use kontur_filters::kernel::Kernel;
@@ -60,6 +60,15 @@ impl Findings {
             last: [None; 2],
         }
     }
+
+    /// Asks for an even speed on a block because of a violation.
+    fn evenly(&mut self, block: usize, speed: f64, v: &Violation) {
+        self.even[block] = self.even[block].min(speed);
+        let slot = &mut self.block[block];
+        if slot.is_none_or(|(e, _)| e < v.excess()) {
+            *slot = Some((v.excess(), v.tolerance_mm));
+        }
+    }
 }
 
 /// A kink or a bent block within reach.
@@ -92,8 +101,7 @@ impl View<'_> {
         let Self { trial, marks, .. } = self;
         let length = u64::from(trial.kernels.length());
         let oldest = v.cycle.saturating_sub(length);
-        let first =
-            marks.partition_point(|m| m.cycles <= oldest as f64).saturating_sub(1);
+        let first = marks.partition_point(|m| m.cycles <= oldest as f64).saturating_sub(1);
         let last = marks.partition_point(|m| m.cycles <= v.cycle as f64);
         if first >= last {
             return;
@@ -112,7 +120,8 @@ impl View<'_> {
             if p.bend {
                 m.block.is_some()
             } else {
-                m.boundary.is_some_and(|b| demands.stop[b].is_none_or(|dwell| u64::from(dwell) < length))
+                m.boundary
+                    .is_some_and(|b| demands.stop[b].is_none_or(|dwell| u64::from(dwell) < length))
             }
         };
         let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
@@ -120,14 +129,13 @@ impl View<'_> {
             parts.iter().filter(|p| free(p) && p.size > 0.0 && p.size >= ALIKE * largest).collect();
         let even = self.even_speed(v, record);
         let apart = even * length as f64 * trial.cycle.seconds();
-        let isolated =
-            |i: usize| -> bool {
-                let p = alike[i];
-                let near = |q: &&Part| (p.s - q.s).abs() <= apart;
-                !p.bend
-                    && i.checked_sub(1).is_none_or(|b| !near(&alike[b]))
-                    && alike.get(i + 1).is_none_or(|q| !near(q))
-            };
+        let isolated = |i: usize| -> bool {
+            let p = alike[i];
+            let near = |q: &&Part| (p.s - q.s).abs() <= apart;
+            !p.bend
+                && i.checked_sub(1).is_none_or(|b| !near(&alike[b]))
+                && alike.get(i + 1).is_none_or(|q| !near(q))
+        };
         let mut shared = Shared::default();
         let mut blamed = false;
         for (i, part) in alike.iter().enumerate() {
@@ -204,7 +212,7 @@ impl View<'_> {
         };
         for m in &shared.marks {
             if let Some(b) = marks[*m].block {
-                self.evenly(b, speed, v, findings);
+                findings.evenly(b, speed, v);
             }
         }
         for b in shared.kinks.iter().filter_map(|m| marks[*m].boundary) {
@@ -219,14 +227,6 @@ impl View<'_> {
         let inside = cycles.filter(|k| record.s(k + 1) >= from && record.s(*k) <= to);
         let steps = inside.map(|k| record.s(k + 1) - record.s(k));
         steps.fold(0.0, f64::max) / self.trial.cycle.seconds()
-    }
-
-    fn evenly(&self, block: usize, speed: f64, v: &Violation, findings: &mut Findings) {
-        findings.even[block] = findings.even[block].min(speed);
-        let slot = &mut findings.block[block];
-        if slot.is_none_or(|(e, _)| e < v.excess()) {
-            *slot = Some((v.excess(), v.tolerance_mm));
-        }
     }
 
     /// Parts in a deviation that push the way it points, in order of the path.
@@ -248,8 +248,7 @@ impl View<'_> {
         let sign = if v.positive { 1.0 } else { -1.0 };
         let mut curvature = AxisVec::zeros(marks[first].point.len());
         let mut parts = Vec::new();
-        for m in first..last {
-            let mark = &marks[m];
+        for (m, mark) in marks.iter().enumerate().take(last).skip(first) {
             if m > first {
                 let size = sign * self.turn(m, v.axis) * weight(mark.s_mm);
                 parts.push(Part { mark: m, bend: false, size, s: mark.s_mm });
@@ -261,7 +260,10 @@ impl View<'_> {
                 let mut size = 0.0;
                 for i in 0..BEND_POINTS {
                     let s = from + (f64::from(i) + 0.5) * step;
-                    mark.queued.block.path.curvature(mark.queued.offset + s - mark.s_mm, &mut curvature);
+                    mark.queued
+                        .block
+                        .path
+                        .curvature(mark.queued.offset + s - mark.s_mm, &mut curvature);
                     size += sign * curvature[v.axis] * weight(s) * step;
                 }
                 if step > 0.0 {
@@ -297,7 +299,11 @@ impl View<'_> {
             most = most.min(rising);
             for _ in 0..HALVINGS {
                 let mid = 0.5 * (least + most);
-                if keeps(mid) { least = mid } else { most = mid }
+                if keeps(mid) {
+                    least = mid;
+                } else {
+                    most = mid;
+                }
                 if most - least <= 1e-3 * least {
                     break;
                 }
@@ -323,9 +329,8 @@ impl View<'_> {
                     best = Some((d2, vector));
                 }
             }
-            return best.map_or(0.0, |(_, vector)| {
-                vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()))
-            });
+            return best
+                .map_or(0.0, |(_, vector)| vector.iter().fold(0.0, |m: f64, c| m.max(c.abs())));
         }
         self.even_set_point(middle, step, &mut x);
         let mut vector = out.vector.clone();
@@ -341,16 +346,16 @@ impl View<'_> {
         let mut position = out.clone();
         out.fill(0.0);
         // equal kernels share their taps
-        if !kernels.unequal {
-            if let Some(kernel) = kernels.longest() {
-                for (weight, delay) in coarse(kernel) {
-                    self.contour.position(s + step * (middle - delay), &mut position);
-                    for (o, p) in out.iter_mut().zip(position.iter()) {
-                        *o += weight * p;
-                    }
+        if !kernels.unequal
+            && let Some(kernel) = kernels.longest()
+        {
+            for (weight, delay) in coarse(kernel) {
+                self.contour.position(s + step * (middle - delay), &mut position);
+                for (o, p) in out.iter_mut().zip(position.iter()) {
+                    *o += weight * p;
                 }
-                return;
             }
+            return;
         }
         for i in 0..out.len() {
             match kernels.get(i) {

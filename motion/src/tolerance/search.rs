@@ -233,7 +233,11 @@ impl View<'_> {
             }
             bucket = Some(match bucket.take() {
                 Some(b) if b.cycle / half == v.cycle / half => {
-                    if v.excess() > b.excess() { v } else { b }
+                    if v.excess() > b.excess() {
+                        v
+                    } else {
+                        b
+                    }
                 }
                 Some(b) => {
                     found(&b, record);
@@ -330,7 +334,8 @@ impl View<'_> {
                 hint = best;
                 continue;
             }
-            let parts = ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
+            let parts =
+                ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
             for part in 1..=parts {
                 let s = from + f64::from(part) / f64::from(parts) * (to - from);
                 contour.position(s, &mut between);
@@ -345,7 +350,8 @@ impl View<'_> {
 
     /// Least tolerance of the blocks interpolated between two moments.
     fn tolerance(&self, from: f64, to: f64) -> f64 {
-        let bounds = self.contour.between(from, to).filter_map(|p| p.queued.block.tolerance.ax_dev_mm);
+        let bounds =
+            self.contour.between(from, to).filter_map(|p| p.queued.block.tolerance.ax_dev_mm);
         bounds.fold(f64::INFINITY, f64::min)
     }
 

@@ -213,5 +213,4 @@ impl<'a> Buffer<'a> {
     pub(super) fn s(&self) -> f64 {
         self.s_mm[self.head]
     }
-
 }

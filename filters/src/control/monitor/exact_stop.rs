@@ -2,6 +2,9 @@
 //!
 //! Source: TF5200 position monitoring. The timer starts (t1) in the cycle in which the set position, behind all
 //! filters, reaches the target of the stop; it ends (t2) when the actual position is inside the window.
+//!
+//! A window of 0 means half an increment: the vendor compares whole increments, and an actual position that is off by
+//! less counts as the same one.
 
 use crate::control::fault::Fault;
 use crate::time::CycleTime;
@@ -9,11 +12,17 @@ use crate::time::CycleTime;
 /// Window and time of the exact stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactStopConfig {
-    /// Half width of the window in mm (P-AXIS-00236), default 0.05; recommended: three times the lag at rest.
+    /// Half width of the window in mm (P-AXIS-00236), default 0.05, at least half an increment; recommended: three times
+    /// the lag at rest.
     pub window_mm: f64,
     /// Time in s to reach it (P-AXIS-00532, if negative P-AXIS-00151), default 1; none: not monitored (value 0).
     /// Recommended 0.010 to 0.200.
     pub settling_s: Option<f64>,
+}
+
+impl ExactStopConfig {
+    /// Half of the vendor's position increment of 0.1 um (0.0001 deg).
+    pub const HALF_INCREMENT_MM: f64 = 0.5e-4;
 }
 
 impl Default for ExactStopConfig {
@@ -28,8 +37,8 @@ enum State {
     Idle,
     /// The set position is on its way to the target.
     Approaching { target_mm: f64 },
-    /// The set position is at the target since so many cycles.
-    Settling { target_mm: f64, cycles: u64 },
+    /// The set position is at the target.
+    Settling { target_mm: f64 },
 }
 
 /// Timer of the exact stop.
@@ -41,22 +50,51 @@ pub struct ExactStopMonitor {
     rest_mm: f64,
     last_mm: f64,
     moved: bool,
+    /// Cycles from t1 until now or until t2.
+    cycles: u64,
 }
 
 impl ExactStopMonitor {
-    /// Distance below which a set position has reached its target: half of the vendor's position increment of 0.1 um.
-    /// Recursive filters only approach it.
-    const REACHED_MM: f64 = 0.5e-4;
+    /// Distance below which a set position has reached its target: recursive filters only approach it.
+    const REACHED_MM: f64 = ExactStopConfig::HALF_INCREMENT_MM;
 
     /// A monitor at rest.
     pub fn new(config: ExactStopConfig, cycle: CycleTime) -> Self {
-        Self { config, cycle, state: State::Idle, rest_mm: 0.0, last_mm: 0.0, moved: false }
+        Self {
+            config,
+            cycle,
+            state: State::Idle,
+            rest_mm: 0.0,
+            last_mm: 0.0,
+            moved: false,
+            cycles: 0,
+        }
+    }
+
+    /// Window and time in use.
+    pub const fn config(&self) -> &ExactStopConfig {
+        &self.config
+    }
+
+    /// Time in s since t1 while the axis settles, then t2 - t1 of the last stop; 0 before the first one.
+    pub fn settling_s(&self) -> f64 {
+        self.cycle.time_of(self.cycles)
+    }
+
+    /// No stop is awaited.
+    pub const fn rests(&self) -> bool {
+        matches!(self.state, State::Idle)
+    }
+
+    /// The set position is at the target of a stop, the actual one not yet inside the window.
+    pub const fn settles(&self) -> bool {
+        matches!(self.state, State::Settling { .. })
     }
 
     /// Axis at rest at a position.
     pub fn start(&mut self, position_mm: f64) {
         (self.rest_mm, self.last_mm) = (position_mm, position_mm);
-        (self.state, self.moved) = (State::Idle, false);
+        (self.state, self.moved, self.cycles) = (State::Idle, false, 0);
     }
 
     /// The path comes to a stop, for this axis at `target_mm`; told at the latest right behind the cycle in which the
@@ -65,7 +103,7 @@ impl ExactStopMonitor {
         if (target_mm - self.last_mm).abs() > Self::REACHED_MM {
             self.state = State::Approaching { target_mm };
         } else if self.moved {
-            self.state = State::Settling { target_mm, cycles: 0 };
+            self.begin(target_mm);
         }
     }
 
@@ -78,22 +116,28 @@ impl ExactStopMonitor {
             State::Idle => None,
             State::Approaching { target_mm } => {
                 if at(target_mm) {
-                    self.state = State::Settling { target_mm, cycles: 0 };
+                    self.begin(target_mm);
                 }
                 None
             }
-            State::Settling { target_mm, .. } if !at(target_mm) => {
+            State::Settling { target_mm } if !at(target_mm) => {
                 self.state = State::Approaching { target_mm };
                 None
             }
-            State::Settling { target_mm, cycles } => self.settle(target_mm, cycles + 1, actual_mm),
+            State::Settling { target_mm } => self.settle(target_mm, actual_mm),
         }
     }
 
-    fn settle(&mut self, target_mm: f64, cycles: u64, actual_mm: f64) -> Option<Fault> {
+    /// t1.
+    fn begin(&mut self, target_mm: f64) {
+        (self.state, self.cycles) = (State::Settling { target_mm }, 0);
+    }
+
+    fn settle(&mut self, target_mm: f64, actual_mm: f64) -> Option<Fault> {
+        self.cycles += 1;
         let lag_mm = target_mm - actual_mm;
         let window_mm = self.config.window_mm;
-        let late = self.config.settling_s.filter(|t| self.cycle.time_of(cycles) >= *t - 1e-9);
+        let late = self.config.settling_s.filter(|t| self.settling_s() >= *t - 1e-9);
         if lag_mm.abs() <= window_mm {
             self.finish(target_mm);
             None
@@ -101,7 +145,6 @@ impl ExactStopMonitor {
             self.finish(target_mm);
             Some(Fault::SettlingTimeout { lag_mm, window_mm, time_s })
         } else {
-            self.state = State::Settling { target_mm, cycles };
             None
         }
     }

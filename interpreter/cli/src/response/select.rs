@@ -5,9 +5,11 @@ use super::curve::Curve;
 use super::describe;
 use crate::Error;
 use crate::console::Console;
+use crate::table::number;
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::hsc::{HscConfig, HscKind};
 use kontur_filters::iir::prototype::Prototype;
+use kontur_filters::iir::transform::band_edges_hz;
 use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};
 use kontur_filters::issue::{Effect, FilterIssue};
 use kontur_filters::kernel::Kernel;
@@ -121,6 +123,15 @@ impl Found<'_> {
         let Some(filter) = filter else {
             return Err(Error::Usage(format!("{label}: order 0 is no filter")));
         };
+        if matches!(config.kind, FilterKind::BandPass | FilterKind::BandStop) {
+            let FilterConfig { f_hz, q, .. } = *config;
+            let (low, high) = band_edges_hz(f_hz, q, self.cycle.seconds());
+            self.console.error_text(&format!(
+                "note: {label}: f0 {f_hz} Hz, Q {q}, -3 dB at {} and {} Hz",
+                number(low, 3),
+                number(high, 3)
+            ));
+        }
         self.curves.push(Curve {
             label,
             shaping: Shaping::new(vec![filter], 0.0),

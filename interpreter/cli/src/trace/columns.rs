@@ -65,6 +65,9 @@ enum Unit {
     Jerk,
     Drive,
     Torque,
+    Time,
+    /// 0 or 1.
+    Flag,
 }
 
 impl Unit {
@@ -76,15 +79,18 @@ impl Unit {
             Self::Jerk => format!("_{base}_s3"),
             Self::Drive => "_drive".to_owned(),
             Self::Torque => "_nm".to_owned(),
+            Self::Time => "_s".to_owned(),
+            Self::Flag => String::new(),
         }
     }
 
     const fn decimals(self) -> u8 {
         match self {
             Self::Length => POSITION_DECIMALS,
-            Self::Speed | Self::Torque => 6,
+            Self::Speed | Self::Torque | Self::Time => 6,
             Self::Acceleration | Self::Drive => 4,
             Self::Jerk => 2,
+            Self::Flag => 0,
         }
     }
 }
@@ -93,7 +99,7 @@ impl Unit {
 type Quantity = (&'static str, &'static str, Unit, fn(&AxisRecord) -> f64);
 
 /// Every quantity of an axis, in the order of the trace.
-const QUANTITIES: [Quantity; 22] = [
+const QUANTITIES: [Quantity; 25] = [
     ("ipo", "ipo", Unit::Length, |a| a.ipo),
     ("set", "set", Unit::Length, |a| a.set),
     ("kin", "vel", Unit::Speed, |a| a.vel),
@@ -104,6 +110,7 @@ const QUANTITIES: [Quantity; 22] = [
     ("ctrl", "ff", Unit::Speed, |a| a.ff),
     ("ctrl", "cmd", Unit::Speed, |a| a.cmd),
     ("ctrl", "vadd", Unit::Speed, |a| a.vadd),
+    ("ctrl", "vadd_limited", Unit::Flag, |a| a.vadd_limited),
     ("drive", "cmd", Unit::Drive, |a| a.cmd_drive),
     ("drive", "vff", Unit::Drive, |a| a.vff_drive),
     ("drive", "vadd", Unit::Drive, |a| a.vadd_drive),
@@ -114,6 +121,8 @@ const QUANTITIES: [Quantity; 22] = [
     ("axis", "load", Unit::Length, |a| a.load),
     ("axis", "lag", Unit::Length, |a| a.lag),
     ("axis", "add", Unit::Length, |a| a.add),
+    ("ctrl", "lag_limit", Unit::Length, |a| a.lag_limit),
+    ("axis", "settling", Unit::Time, |a| a.settling_s),
     ("axis", "tcp", Unit::Length, |a| a.tcp),
     ("axis", "tcp_acc", Unit::Acceleration, |a| a.tcp_acc),
 ];
@@ -225,7 +234,7 @@ mod tests {
             names(DEFAULT_SIGNALS).join(","),
             "t_s,line,block,s_mm,v_mm_s,a_mm_s2,j_mm_s3,v_limit,X_ipo_mm,C_ipo_deg,X_set_mm,C_set_deg,\
              X_err_mm,X_dev_mm,C_err_deg,C_dev_deg,contour_err_mm,X_ref_mm,X_act_mm,X_load_mm,X_lag_mm,\
-             X_add_mm,C_ref_deg,C_act_deg,C_load_deg,C_lag_deg,C_add_deg"
+             X_add_mm,X_settling_s,C_ref_deg,C_act_deg,C_load_deg,C_lag_deg,C_add_deg,C_settling_s"
         );
     }
 

@@ -26,7 +26,8 @@ pub struct TuneArgs {
     #[arg(long, value_name = "HZ,..", value_delimiter = ',', value_parser = above_zero)]
     pub freq: Vec<f64>,
 
-    /// Acceleration recording of a decaying vibration as CSV with a header line; one per position
+    /// Acceleration recording of a decaying vibration, one per position: CSV with comma, semicolon or tab, any header, or
+    /// a CSV export of TwinCAT Scope
     #[arg(long, value_name = "FILE")]
     pub recording: Vec<PathBuf>,
 
@@ -37,6 +38,18 @@ pub struct TuneArgs {
     /// Samples per second of the recordings [default: from their column `t_s`, `time` or `t` in seconds]
     #[arg(long, value_name = "HZ", requires = "recording", value_parser = above_zero)]
     pub rate: Option<f64>,
+
+    /// Look at these frequencies of the recordings only
+    #[arg(long, value_name = "HZ..HZ", requires = "recording", value_parser = crate::sweep::args::span)]
+    pub range: Option<(f64, f64)>,
+
+    /// Look at this part of the recordings only, in seconds from their first sample
+    #[arg(long, value_name = "S..S", requires = "recording", value_parser = crate::sweep::args::span)]
+    pub window: Option<(f64, f64)>,
+
+    /// Draw the recordings, their spectra and what was seen in them (.svg)
+    #[arg(short, long, value_name = "FILE", requires = "recording", value_parser = picture)]
+    pub output: Option<PathBuf>,
 
     /// Damping ratio of the vibration [default: that of the recordings, else 0.1]
     #[arg(long, value_name = "RATIO", value_parser = damping)]
@@ -83,4 +96,10 @@ fn damping(text: &str) -> Result<f64, String> {
         Ok(v) if (0.0..=0.99).contains(&v) => Ok(v),
         _ => Err("a damping ratio from 0 to 0.99 is expected".to_owned()),
     }
+}
+
+fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let svg = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
+    if svg { Ok(path) } else { Err("a picture is an .svg file".to_owned()) }
 }

@@ -19,7 +19,7 @@ use crate::summary::{Collector, State, Summary};
 use crate::table::{Table, number};
 use crate::{Error, Exit, run, simulator};
 use kontur_interpreter::machine::Machine;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Deviations are kept to this in mm, as everywhere.
 const SLACK_MM: f64 = 1e-9;
@@ -55,7 +55,7 @@ pub(super) fn answer(
         let mut request = request.clone();
         request.program.clone_from(&copy.program);
         // what is not beside the copy is beside the original
-        request.path.extend(file.parent().map(Path::to_path_buf));
+        request.path.extend(beside(file));
         request
     };
     let first = plain.as_ref().map_or_else(|| request.clone(), &instead);
@@ -92,6 +92,12 @@ pub(super) fn answer(
     console.print(&verdict(task, &outcomes, max_dev_mm, &own))?;
     let all_aborted = outcomes.iter().all(|o| o.summary.state == State::Aborted);
     Ok(if all_aborted { Exit::Aborted } else { Exit::Finished })
+}
+
+/// The folder of a file; that of a bare name is the present one.
+fn beside(file: &Path) -> Option<PathBuf> {
+    let folder = file.parent()?;
+    Some(if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_path_buf() })
 }
 
 /// Mode by mode the best and the given frequency, and the highest one that keeps the residual: a higher frequency is a

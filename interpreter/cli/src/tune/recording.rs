@@ -1,394 +1,277 @@
-//! Natural frequencies and damping from the recording of a decaying vibration.
-//!
-//! The spectrum names the frequencies. Around each of them the record is band-limited without a shift in time, and the
-//! logarithmic decrement of its decay gives a first damping (P-AXIS-00568); a fit of all vibrations to the record itself
-//! improves it.
+//! Natural frequencies and damping from recordings: which column and times of which file, and what they tell together.
 
 use super::args::TuneArgs;
-use super::fit;
+use super::vibration::{Analysis, Estimate, Focus, Mode, analyse};
 use crate::Error;
 use crate::console::Console;
+use crate::recorded::{self, Channel, DropOut};
 use crate::table::{Table, number};
-use crate::text::Text;
-use kontur_filters::analysis::decay::Decay;
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex;
-use std::fs::File;
 use std::path::Path;
 
 /// Shorter recordings hold no decay.
 const LEAST_SAMPLES: usize = 64;
 /// Longer ones are refused: two minutes at 4 kHz. Their spectra take 130 MB.
 const MOST_SAMPLES: usize = 1 << 19;
-/// Peaks lower than this share of the highest one are noise.
-const LEAST_PEAK_RATIO: f64 = 0.15;
-/// Peaks shown.
-const MOST_PEAKS: usize = 5;
-/// Two peaks are two only if the spectrum between them falls below this share of the lower one.
-const VALLEY_RATIO: f64 = 0.5;
-/// Sampling intervals may differ from their mean by this share.
-const JITTER_RATIO: f64 = 0.01;
+/// A rate that is given may differ from that of the times by this share.
+const RATE_RATIO: f64 = 0.01;
+/// Steps may differ from a multiple of the sampling time by this share of it.
+const JITTER_RATIO: f64 = 0.25;
 
-/// One natural frequency of a recording.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mode {
-    /// Undamped natural frequency in Hz; the peak of the spectrum if no decay was found.
-    pub freq_hz: f64,
-    /// Damping ratio, if the record decays.
-    pub damping: Option<f64>,
-    /// Height of its peak, 1 for the highest one.
-    pub peak_ratio: f64,
+/// One recording with what it tells.
+#[derive(Clone, Debug)]
+pub(super) struct Recording {
+    /// File.
+    pub(super) name: String,
+    /// Samples in equal steps.
+    pub(super) samples: Vec<f64>,
+    /// Samples per second.
+    pub(super) rate_hz: f64,
+    /// Result.
+    pub(super) found: Analysis,
 }
 
-/// What recordings tell.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// What recordings tell together.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Measured {
-    /// The strongest natural frequency of each recording in Hz.
-    pub(super) freqs_hz: Vec<f64>,
+    /// The strongest vibration of each recording in Hz.
+    pub(super) freqs: Vec<Estimate>,
     /// Mean of their dampings.
     pub(super) damping: Option<f64>,
     /// The weaker vibrations of all recordings.
     pub(super) others: Vec<Mode>,
+    /// The recordings.
+    pub(super) recordings: Vec<Recording>,
 }
 
 /// The natural frequencies of the recordings.
 ///
 /// # Errors
-/// [`Error`] if a file cannot be read, has no such column, or holds no vibration.
+/// [`Error`] if a file cannot be read, has no such column, or holds no decaying vibration.
 pub(super) fn measured(args: &TuneArgs, console: &mut Console) -> Result<Measured, Error> {
-    let mut table = Table::new(&["recording", "peak", "frequency", "damping", ""]);
-    let (mut found, mut dampings) = (Measured::default(), Vec::new());
+    let mut table = Table::new(&["recording", "peak", "frequency Hz", "damping", ""]);
+    let (mut all, mut notes, mut dampings) = (Measured::default(), String::new(), Vec::new());
+    let mut silent = Vec::new();
     for path in &args.recording {
-        let (samples, rate_hz) = read(path, args.column.as_deref(), args.rate)?;
-        let modes = modes(&samples, rate_hz);
-        let Some(strongest) = modes.first() else {
-            let text = format!("{}: no vibration stands out of its spectrum", path.display());
-            return Err(Error::Usage(text));
-        };
-        found.freqs_hz.push(strongest.freq_hz);
-        found.others.extend(&modes[1..]);
-        dampings.extend(strongest.damping);
-        for (i, mode) in modes.iter().enumerate() {
+        let (recording, gaps) = read(path, args)?;
+        notes.push_str(&remarks(&recording, &gaps));
+        let found = &recording.found;
+        if let Some(strongest) = found.modes.first() {
+            all.freqs.push(strongest.freq);
+            dampings.push(strongest.damping);
+            all.others.extend(&found.modes[1..]);
+        } else {
+            silent.push(recording.name.clone());
+        }
+        for (i, mode) in found.modes.iter().enumerate() {
             table.push(vec![
-                path.display().to_string(),
+                recording.name.clone(),
                 format!("{} %", number(100.0 * mode.peak_ratio, 0)),
-                format!("{} Hz", number(mode.freq_hz, 3)),
-                mode.damping.map_or_else(|| "no decay".to_owned(), |z| number(z, 4)),
+                interval(mode.freq, 3),
+                interval(mode.damping, 4),
                 if i == 0 { "used" } else { "other" }.to_owned(),
             ]);
         }
+        for lasting in &found.lasting {
+            let what = if lasting.hum { "mains hum, left out" } else { "does not decay, left out" };
+            table.push(vec![
+                recording.name.clone(),
+                String::new(),
+                number(lasting.freq_hz, 3),
+                String::new(),
+                what.to_owned(),
+            ]);
+        }
+        all.recordings.push(recording);
     }
-    console.print(&format!("{}\n", table.text()))?;
-    let mean = dampings.iter().sum::<f64>() / dampings.len() as f64;
-    found.damping = (!dampings.is_empty()).then_some(mean);
-    Ok(found)
+    if !silent.is_empty() {
+        console.print(&notes)?;
+        let text = format!("{}: no decaying vibration found", silent.join(", "));
+        return Err(Error::Usage(text));
+    }
+    notes.push_str(&together(&all.freqs, "frequency", "Hz", 3));
+    notes.push_str(&together(&dampings, "damping", "", 4));
+    console.print(&format!("{}{notes}\n", table.text()))?;
+    let mean = dampings.iter().map(|d| d.value).sum::<f64>() / dampings.len() as f64;
+    all.damping = (!dampings.is_empty()).then_some(mean);
+    Ok(all)
 }
 
-/// Samples and sampling rate of a CSV file.
-fn read(path: &Path, column: Option<&str>, rate_hz: Option<f64>) -> Result<(Vec<f64>, f64), Error> {
+/// `6.01 +- 0.02`.
+fn interval(e: Estimate, decimals: usize) -> String {
+    format!("{} +- {}", number(e.value, decimals), number(e.half_width, decimals))
+}
+
+/// What is to be said about one recording beside its vibrations.
+fn remarks(recording: &Recording, gaps: &[DropOut]) -> String {
+    let Recording { name, found, rate_hz, .. } = recording;
+    let mut notes = Vec::new();
+    let missing: usize = gaps.iter().map(|g| g.1).sum();
+    if let Some((first_s, _)) = gaps.first() {
+        notes.push(format!(
+            "{missing} samples missing in {} places, the first behind {first_s:.3} s; bridged by straight lines",
+            gaps.len()
+        ));
+    }
+    if found.clipped > 0 {
+        notes.push(format!("{} samples at the limit of the recorder, left out", found.clipped));
+    }
+    if found.decays.len() > 1 {
+        let times: Vec<String> = found
+            .decays
+            .iter()
+            .map(|d| format!("{:.2} s", d.samples.start as f64 / rate_hz))
+            .collect();
+        notes.push(format!("{} decays, from {}", times.len(), times.join(", ")));
+    }
+    if let Some((low, high)) = found.disagree {
+        notes.push(format!("its decays disagree: {} to {} Hz", number(low, 2), number(high, 2)));
+    }
+    notes.iter().map(|text| format!("note      {name}: {text}\n")).collect::<Vec<_>>().concat()
+}
+
+/// Whether several recordings agree about a quantity.
+fn together(found: &[Estimate], what: &str, unit: &str, decimals: usize) -> String {
+    let (Some(low), Some(high)) = (
+        found.iter().copied().reduce(|a, b| if b.value < a.value { b } else { a }),
+        found.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a }),
+    ) else {
+        return String::new();
+    };
+    if found.len() < 2 {
+        return String::new();
+    }
+    let apart = high.value - low.value;
+    let agree = apart <= 1.3 * libm::hypot(low.half_width, high.half_width);
+    let [a, b] = [low, high].map(|e| number(e.value, decimals));
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    if agree {
+        format!("agree     {what} {a} to {b}{unit}: the same within the accuracy\n")
+    } else {
+        format!(
+            "disagree  {what} {a} to {b}{unit}: more than the accuracy allows, it depends on the position\n"
+        )
+    }
+}
+
+/// A file, the part of it that was asked for, and what it tells.
+fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Vec<DropOut>), Error> {
     let name = path.display().to_string();
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));
-    let io = |e: csv::Error| match e.into_kind() {
-        csv::ErrorKind::Io(e) => Error::io(name.clone(), e),
-        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-            let line = pos.map_or_else(String::new, |pos| format!("line {}: ", pos.line()));
-            wrong(format!("{line}{len} columns, the header has {expected_len}"))
-        }
-        csv::ErrorKind::Utf8 { pos, .. } => {
-            let line = pos.map_or_else(String::new, |pos| format!("line {}: ", pos.line()));
-            wrong(format!("{line}the text is not UTF-8"))
-        }
-        _ => wrong("no CSV table".to_owned()),
+    let channels = recorded::read(path)?;
+    let known = || {
+        let names: Vec<&str> = channels.iter().map(|c| c.name.as_str()).collect();
+        format!("its columns are {}", names.join(", "))
     };
-    let file = File::open(path).and_then(Text::new).map_err(|e| Error::io(name.clone(), e))?;
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
-    let header: Vec<String> = reader.headers().map_err(io)?.iter().map(str::to_owned).collect();
-    if let [one] = &header[..]
-        && one.contains(';')
-    {
-        let text = "its columns are separated by `;`; commas and decimal points are expected";
-        return Err(wrong(text.to_owned()));
-    }
-    let place = |wanted: &str| header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
-    let known = || format!("its columns are {}", header.join(", "));
-    let value = match column {
-        Some(wanted) => {
-            place(wanted).ok_or_else(|| wrong(format!("no column `{wanted}`; {}", known())))?
-        }
-        None => header.len().checked_sub(1).ok_or_else(|| wrong("no columns".to_owned()))?,
+    let channel = match &args.column {
+        Some(wanted) => recorded::find(&channels, wanted)
+            .ok_or_else(|| wrong(format!("no column `{wanted}`; {}", known())))?,
+        None => channels.last().ok_or_else(|| wrong("no columns".to_owned()))?,
     };
-    let time = ["t_s", "time", "t"].iter().find_map(|name| place(name));
-    let (mut samples, mut times) = (Vec::new(), Vec::new());
-    for (row, record) in reader.records().enumerate() {
-        let record = record.map_err(io)?;
-        let number = |column: usize| {
-            let cell = record.get(column).unwrap_or_default();
-            cell.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| {
-                wrong(format!("row {}, column {}: `{cell}` is no number", row + 2, header[column]))
-            })
-        };
-        samples.push(number(value)?);
-        if let (Some(time), None) = (time, rate_hz) {
-            times.push(number(time)?);
-        }
-        if samples.len() > MOST_SAMPLES {
-            return Err(wrong(format!("more than {MOST_SAMPLES} samples; cut out the decay")));
-        }
+    let (samples, rate_hz, gaps) = even(channel, args.rate, &known).map_err(wrong)?;
+    let wrong = |text: String| Error::Usage(format!("{name}: {text}"));
+    if samples.len() < LEAST_SAMPLES || samples.len() > MOST_SAMPLES {
+        let text =
+            format!("{} samples, {LEAST_SAMPLES} to {MOST_SAMPLES} are expected", samples.len());
+        return Err(wrong(text));
     }
-    if samples.len() < LEAST_SAMPLES {
-        return Err(wrong(format!("{} samples, {LEAST_SAMPLES} at least", samples.len())));
-    }
-    let rate_hz = match rate_hz {
-        Some(rate_hz) => rate_hz,
-        None if times.is_empty() => {
-            let text = format!(
+    let whole = Focus::default();
+    let focus = Focus {
+        range_hz: args.range.unwrap_or(whole.range_hz),
+        window_s: args.window.unwrap_or(whole.window_s),
+    };
+    let found = analyse(&samples, rate_hz, &focus);
+    Ok((Recording { name, samples, rate_hz, found }, gaps))
+}
+
+/// Samples in equal steps and their rate, by the times of the file or the rate that was given.
+fn even(
+    channel: &Channel,
+    rate_hz: Option<f64>,
+    known: &dyn Fn() -> String,
+) -> Result<(Vec<f64>, f64, Vec<DropOut>), String> {
+    let Some(step) = channel.step_s() else {
+        return match rate_hz {
+            Some(rate_hz) => Ok((channel.values.clone(), rate_hz, Vec::new())),
+            None => Err(format!(
                 "no column t_s, time or t; --rate names the samples per second; {}",
                 known()
-            );
-            return Err(wrong(text));
-        }
-        None => uniform_rate(&times).ok_or_else(|| {
-            wrong(
-                "its times do not rise in equal steps; --rate names the samples per second"
-                    .to_owned(),
-            )
-        })?,
+            )),
+        };
     };
-    Ok((samples, rate_hz))
-}
-
-/// The rate of times in s in equal steps.
-fn uniform_rate(times: &[f64]) -> Option<f64> {
-    let step = (times.last()? - times.first()?) / (times.len() - 1) as f64;
-    let equal = |pair: &[f64]| (pair[1] - pair[0] - step).abs() <= JITTER_RATIO * step;
-    (step > 0.0 && times.windows(2).all(equal)).then(|| 1.0 / step)
-}
-
-/// The natural frequencies of a record, strongest first.
-pub fn modes(samples: &[f64], rate_hz: f64) -> Vec<Mode> {
-    let mean = samples.iter().sum::<f64>() / samples.len().max(1) as f64;
-    let centred: Vec<f64> = samples.iter().map(|x| x - mean).collect();
-    let spectrum = ComplexSpectrum::of(&centred, rate_hz);
-    let peaks = spectrum.peaks(samples.len());
-    let highest = peaks.first().map_or(1.0, |p| p.height);
-    let mut modes: Vec<Mode> = Vec::new();
-    for peak in &peaks {
-        // the band reaches half way to the neighbours
-        let others = || peaks.iter().map(|p| p.freq_hz);
-        let below = others().filter(|f| *f < peak.freq_hz).fold(peak.freq_hz / 9.0, f64::max);
-        let above = others().filter(|f| *f > peak.freq_hz).fold(peak.freq_hz * 9.0, f64::min);
-        let band = [below, above].map(|f| (f * peak.freq_hz).sqrt());
-        let decay = Decay::of(&spectrum.band(band, samples.len()), rate_hz);
-        modes.push(Mode {
-            freq_hz: decay.map_or(peak.freq_hz, |decay| decay.freq_hz),
-            damping: decay.map(|decay| decay.damping),
-            peak_ratio: peak.height / highest,
-        });
+    if let Some(given) = rate_hz.filter(|given| (given * step - 1.0).abs() > RATE_RATIO) {
+        return Err(format!(
+            "--rate {given} Hz disagrees with its times, which are {} Hz apart; leave one of them out",
+            number(1.0 / step, 3)
+        ));
     }
-    let start: Vec<fit::Vibration> =
-        modes.iter().filter_map(|m| Some((m.freq_hz, m.damping?))).collect();
-    let decaying = modes.iter_mut().filter(|m| m.damping.is_some());
-    for (mode, found) in decaying.zip(fit::refine(&centred, rate_hz, &start)) {
-        if let Some((freq_hz, damping)) = found {
-            (mode.freq_hz, mode.damping) = (freq_hz, Some(damping));
-        }
+    let off = |pair: &[f64]| {
+        let steps = (pair[1] - pair[0]) / step;
+        steps < 0.5 || (steps - steps.round()).abs() > JITTER_RATIO
+    };
+    if channel.times_s.windows(2).any(off) {
+        return Err("its times do not rise in equal steps".to_owned());
     }
-    modes
-}
-
-/// Spectrum of a record with its phases, with zeros behind it so that filtering does not wrap around.
-struct ComplexSpectrum {
-    values: Vec<Complex<f64>>,
-    /// Samples transformed.
-    length: usize,
-    step_hz: f64,
-}
-
-struct Peak {
-    freq_hz: f64,
-    height: f64,
-}
-
-impl ComplexSpectrum {
-    fn of(samples: &[f64], rate_hz: f64) -> Self {
-        let length = (4 * samples.len()).next_power_of_two();
-        let mut padded = samples.to_vec();
-        padded.resize(length, 0.0);
-        let transform = RealFftPlanner::new().plan_fft_forward(length);
-        let mut values = transform.make_output_vec();
-        // both buffers have the lengths that the plan asks for
-        let done = transform.process(&mut padded, &mut values);
-        debug_assert!(done.is_ok());
-        Self { values, length, step_hz: rate_hz / length as f64 }
-    }
-
-    /// Peaks that stand out, highest first. Below two periods per record nothing is a vibration.
-    fn peaks(&self, samples: usize) -> Vec<Peak> {
-        let height = |i: usize| libm::hypot(self.values[i].re, self.values[i].im);
-        let first = (2 * self.length / samples.max(1)).max(1);
-        let mut tops: Vec<usize> = (first..self.values.len().saturating_sub(1))
-            .filter(|&i| height(i) > height(i - 1) && height(i) >= height(i + 1))
-            .collect();
-        tops.sort_by(|a, b| height(*b).total_cmp(&height(*a)));
-        let floor = tops.first().map_or(0.0, |&i| LEAST_PEAK_RATIO * height(i));
-        let mut found: Vec<usize> = Vec::new();
-        for top in tops {
-            if found.len() == MOST_PEAKS || height(top) <= floor {
-                break;
-            }
-            let apart = found.iter().all(|&other| {
-                let valley = (top.min(other)..top.max(other)).map(height).fold(f64::MAX, f64::min);
-                // the side lobes of a short record lie within some of its resolution
-                let far = top.abs_diff(other) > 4 * self.length / samples.max(1);
-                far && valley < VALLEY_RATIO * height(top)
-            });
-            if apart {
-                found.push(top);
-            }
-        }
-        let peak = |i: usize| {
-            let [a, b, c] = [i - 1, i, i + 1].map(|i| libm::log(height(i).max(f64::MIN_POSITIVE)));
-            let shift = 0.5 * (a - c) / (a - 2.0 * b + c);
-            let shift = if shift.abs() < 1.0 { shift } else { 0.0 };
-            Peak { freq_hz: (i as f64 + shift) * self.step_hz, height: height(i) }
-        };
-        found.into_iter().map(peak).collect()
-    }
-
-    /// The record between two frequencies, without a shift in time.
-    fn band(&self, [low, high]: [f64; 2], samples: usize) -> Vec<f64> {
-        let weight = |f_hz: f64| {
-            // raised cosines over the logarithm of the frequency keep the ringing of the band short
-            let edge = |octaves: f64| {
-                0.5 - 0.5 * libm::cos(std::f64::consts::PI * octaves.clamp(0.0, 1.0))
-            };
-            let octaves = |ratio: f64| libm::log2(ratio.max(f64::MIN_POSITIVE));
-            edge(octaves(f_hz / low) + 0.5)
-                * edge(octaves(high / f_hz.max(f64::MIN_POSITIVE)) + 0.5)
-        };
-        let mut values: Vec<Complex<f64>> = self
-            .values
-            .iter()
-            .enumerate()
-            .map(|(i, v)| *v * weight(i as f64 * self.step_hz))
-            .collect();
-        // the inverse of a real record needs real ends
-        if let Some(last) = values.last_mut() {
-            last.im = 0.0;
-        }
-        values[0].im = 0.0;
-        let transform = RealFftPlanner::new().plan_fft_inverse(self.length);
-        let mut record = transform.make_output_vec();
-        let done = transform.process(&mut values, &mut record);
-        debug_assert!(done.is_ok());
-        record.truncate(samples);
-        record
-    }
+    let (samples, step, gaps) =
+        channel.even().ok_or_else(|| "its times do not rise in equal steps".to_owned())?;
+    // the mean step is more accurate than a printed one
+    let last = channel.times_s.last().copied().unwrap_or(0.0);
+    let mean = if last > 0.0 { last / (samples.len() - 1) as f64 } else { step };
+    Ok((samples, 1.0 / mean, gaps))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kontur_filters::analysis::decay::damping_of_decrement;
-    use std::f64::consts::PI;
+    use clap::Parser;
 
-    /// Decaying vibrations after a blow at 0.1 s, with a constant offset and noise.
-    fn record(modes: &[(f64, f64, f64)], noise: f64, rate_hz: f64, seconds: f64) -> Vec<f64> {
-        let mut state = 1_u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
-        (0..100_000)
-            .map(|i| f64::from(i) / rate_hz)
-            .take_while(|t| *t < seconds)
-            .map(|t| t - 0.1)
-            .map(|t| {
-                let sum: f64 = modes
-                    .iter()
-                    .filter(|_| t >= 0.0)
-                    .map(|&(f, z, a)| {
-                        let w = 2.0 * PI * f;
-                        a * libm::exp(-z * w * t) * libm::sin(w * (1.0 - z * z).sqrt() * t)
-                    })
-                    .sum();
-                0.3 + sum + noise * random()
-            })
-            .collect()
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        tune: TuneArgs,
     }
 
-    /// Damping to 5 %, with noise of 2.5 % of the swing. Conformance: I034.
-    #[test]
-    fn one_mode_with_noise() {
-        for (f, z) in [(6.0, 0.05), (6.9, 0.1), (40.0, 0.02), (23.0, 0.15), (11.0, 0.01)] {
-            let found = modes(&record(&[(f, z, 2.0)], 0.05, 2000.0, 4.0), 2000.0);
-            let first = found[0];
-            assert!((first.freq_hz / f - 1.0).abs() < 0.005, "{f} {z}: {found:?}");
-            assert!((first.damping.unwrap() / z - 1.0).abs() < 0.05, "{f} {z}: {found:?}");
-        }
-    }
-
-    /// Successive maxima in the ratio 2 are a damping of 0.1097. Conformance: V064.
-    #[test]
-    fn maxima_that_halve() {
-        let damping = 1.0 / libm::hypot(1.0, 2.0 * PI / std::f64::consts::LN_2);
-        assert!((damping - 0.1097).abs() < 5e-5);
-        assert!((damping_of_decrement(std::f64::consts::LN_2) - damping).abs() < 1e-15);
-        // e^(-d) per period by the maxima themselves, whatever the formula says
-        let period_s = 0.1;
-        let decay = std::f64::consts::LN_2 / period_s;
-        let samples: Vec<f64> = (0..2000)
-            .map(|i| f64::from(i) * 1e-3)
-            .map(|t| libm::exp(-decay * t) * libm::cos(2.0 * PI * t / period_s))
-            .collect();
-        let found = modes(&samples, 1000.0)[0];
-        assert!((found.damping.unwrap() / damping - 1.0).abs() < 0.05, "{found:?}");
-        let undamped_hz = 10.0 / (1.0 - damping * damping).sqrt();
-        assert!((found.freq_hz / undamped_hz - 1.0).abs() < 0.005, "{found:?}");
-    }
-
-    #[test]
-    fn two_modes() {
-        let found =
-            modes(&record(&[(8.0, 0.03, 2.0), (35.0, 0.02, 1.0)], 0.02, 1000.0, 5.0), 1000.0);
-        assert_eq!(found.len(), 2, "{found:?}");
-        for (mode, (f, z)) in found.iter().zip([(8.0, 0.03), (35.0, 0.02)]) {
-            assert!((mode.freq_hz / f - 1.0).abs() < 0.01, "{found:?}");
-            assert!((mode.damping.unwrap() / z - 1.0).abs() < 0.05, "{found:?}");
-        }
-        assert!(found[1].peak_ratio < 1.0);
-    }
-
-    #[test]
-    fn what_is_no_vibration() {
-        assert!(modes(&[1.0; 500], 1000.0).is_empty());
-        assert!(modes(&[0.0; 64], 1000.0).is_empty());
-    }
-
-    #[test]
-    fn files() {
+    fn read_with(text: &str, words: &[&str]) -> Result<Recording, Error> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
-        let row = |i: u32| format!("{}, {}, 1\n", f64::from(i) / 500.0, i % 7);
-        let text = format!("t_s, a, b\n{}", (0..200).map(row).collect::<String>());
-        std::fs::write(&path, &text).unwrap();
-        let (samples, rate_hz) = read(&path, Some("A"), None).unwrap();
-        assert_eq!(samples.len(), 200);
-        assert!((samples[8] - 1.0).abs() < 1e-12);
-        assert!((rate_hz - 500.0).abs() < 1e-6);
-        assert!((read(&path, None, Some(100.0)).unwrap().1 - 100.0).abs() < 1e-12);
-        let message = |e: Error| e.to_string();
-        assert!(message(read(&path, Some("c"), None).unwrap_err()).contains("t_s, a, b"));
-        std::fs::write(&path, "a\n1\n2\n").unwrap();
-        assert!(message(read(&path, None, None).unwrap_err()).contains("64 at least"));
-        std::fs::write(&path, text.replace("t_s", "x")).unwrap();
-        assert!(message(read(&path, None, None).unwrap_err()).contains("--rate"));
-        std::fs::write(&path, text.replace("0.002,", "0.0035,")).unwrap();
-        assert!(message(read(&path, Some("a"), None).unwrap_err()).contains("equal steps"));
-        std::fs::write(&path, text.replace("0.002, 1", "0.002, one")).unwrap();
-        assert!(message(read(&path, Some("a"), None).unwrap_err()).contains("row 3, column a"));
-        assert!(matches!(read(&folder.path().join("no.csv"), None, None), Err(Error::Io { .. })));
+        std::fs::write(&path, text).unwrap();
+        let file = path.display().to_string();
+        let start = ["tune", "--recording", &file];
+        let line = start.iter().chain(words).map(|w| (*w).to_owned());
+        read(&path, &Line::try_parse_from(line).unwrap().tune).map(|r| r.0)
+    }
+
+    fn rows(times: impl Fn(u32) -> f64) -> String {
+        let rows: Vec<String> = (0..100).map(|i| format!("{},{i},1", times(i))).collect();
+        format!("t_s,a,b\n{}\n", rows.join("\n"))
+    }
+
+    #[test]
+    fn columns_and_rates() {
+        let text = rows(|i| f64::from(i) / 500.0);
+        let got = read_with(&text, &["--column", "a"]).unwrap();
+        assert!(
+            (got.rate_hz - 500.0).abs() < 1e-9 && got.samples[7].to_bits() == 7.0_f64.to_bits()
+        );
+        assert!(read_with(&text, &["--column", "a", "--rate", "500"]).is_ok());
+        let message = |r: Result<Recording, Error>| r.unwrap_err().to_string();
+        let other = message(read_with(&text, &["--column", "a", "--rate", "1000"]));
+        assert!(other.contains("disagrees") && other.contains("500.000 Hz"), "{other}");
+        assert!(message(read_with(&text, &["--column", "x"])).contains("a, b"));
+        assert!(message(read_with(&text.replace("t_s", "x"), &[])).contains("--rate"));
+        assert!(message(read_with("a\n1\n2\n", &["--rate", "100"])).contains("64 to"));
+        let bent = rows(|i| f64::from(i) / 500.0 + if i > 50 { 0.0009 } else { 0.0 });
+        assert!(message(read_with(&bent, &["--column", "a"])).contains("equal steps"));
+        let word = text.replace("0.002,1,", "0.002,one,");
+        assert!(message(read_with(&word, &["--column", "a"])).contains("row 3, column a"));
+        assert!(matches!(recorded::read(Path::new("no.csv")), Err(Error::Io { .. })));
+    }
+
+    #[test]
+    fn agreement_is_told() {
+        let e = |value, half_width| Estimate { value, half_width };
+        let same = together(&[e(6.0, 0.02), e(6.01, 0.02)], "frequency", "Hz", 2);
+        assert!(same.starts_with("agree"), "{same}");
+        let apart = together(&[e(6.0, 0.02), e(6.9, 0.02), e(5.4, 0.02)], "frequency", "Hz", 2);
+        assert!(apart.starts_with("disagree  frequency 5.40 to 6.90 Hz"), "{apart}");
     }
 }

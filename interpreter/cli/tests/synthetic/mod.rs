@@ -206,7 +206,7 @@ impl Engine for Synthetic {
     fn explain(&self, thing: &str) -> Result<String, Vec<String>> {
         match thing {
             "#VIB GUARD" => Ok("smooths the setpoints".to_owned()),
-            _ => kontur_interpreter::machine::explain::explain(thing)
+            _ => kontur_interpreter::explain::explain(thing)
                 .map(|found| found.to_string())
                 .map_err(|_| vec!["#VIB GUARD".to_owned()]),
         }

@@ -302,4 +302,6 @@ conditions! {
     ArcCentre = Kontur 117 "K-ARC-CENTRE": Error ProgramAbort 3 1, "start, end and centre of an arc do not fit", cause "G165; P-CHAN-00059, P-CHAN-00060", hint "G161 makes I, J, K absolute, G162 relative to the start point", parameter "P-CHAN-00059";
     Unreached = Kontur 118 "K-UNREACHED": Warning None 3 1, "syntax error in a part of the program that does not run", cause "branch not taken, block jumped over, subroutine not called";
     Bottleneck = Kontur 119 "K-BOTTLENECK": Warning None 3 1, "a compensated tool cuts its own contour at a bottleneck", cause "gap narrower than the tool, loop over several blocks";
+    Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop stands or swings outside the window, and no input is left that could move it", hint "raise the window or the gain kv, or take the force away";
+    SpindleLimit = Kontur 131 "K-SPINDLE-LIMIT": Warning None 1 1, "spindle speed above the limit of the spindle, limited", cause "S word or REV above P-AXIS-00212", hint "the limit is getriebe[0].dynamik.vb_max of the spindle", parameter "P-AXIS-00212";
 }

@@ -69,6 +69,7 @@ fn is_comment(text: &str) -> bool {
 
 /// Takes the rest of a line (without blanks at its ends) behind the key apart.
 pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
+    let rest = if raw == Raw::Text { rest } else { behind_remarks(rest) };
     if rest.is_empty() || is_comment(rest) {
         return Parts { value: None, dropped: None };
     }
@@ -76,8 +77,16 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
         let (value, tail) = quoted.split_once('"').unwrap_or((quoted, ""));
         return Parts { value: Some(value.trim_end()), dropped: leftover(raw, tail) };
     }
-    if let Raw::Flags(_) = raw {
-        return Parts { value: Some(flags(rest)), dropped: None };
+    if let Raw::Flags(names) = raw {
+        let value = flags(rest);
+        // a further flag that nothing joins is not meant as a comment
+        let next = rest[value.len()..].split_whitespace().next();
+        let flag = |word: &&str| {
+            names
+                .iter()
+                .any(|(name, _)| name.eq_ignore_ascii_case(word.trim_end_matches([',', ';'])))
+        };
+        return Parts { value: Some(value), dropped: next.filter(flag) };
     }
     let (word, tail) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
     if raw == Raw::Text {
@@ -85,6 +94,18 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     }
     let end = word.find('#').unwrap_or(word.len());
     Parts { value: Some(&word[..end]), dropped: None }
+}
+
+/// What follows remarks in closed brackets: the documents print some between key and value.
+fn behind_remarks(mut rest: &str) -> &str {
+    while let Some((_, behind)) = rest.strip_prefix('(').and_then(|r| r.split_once(')')) {
+        let behind = behind.trim_start();
+        if behind.is_empty() {
+            break;
+        }
+        rest = behind;
+    }
+    rest
 }
 
 /// Behind numbers and names any text is a comment, behind a text a comment needs its opener.
@@ -132,7 +153,12 @@ mod tests {
         let names = |rest| value(Raw::Flags(&[]), rest).value;
         assert_eq!(names("VEL | ACC"), Some("VEL | ACC"));
         assert_eq!(names("VEL|ACC and more"), Some("VEL|ACC"));
-        assert_eq!(names("VEL ACC"), Some("VEL"));
+        assert_eq!(names("(from V3.1 on) ADD_VEL | ADD_ACC"), Some("ADD_VEL | ADD_ACC"));
+        assert_eq!(names("(only a remark)"), None);
+        let both = value(Raw::Flags(&[("VEL", 1), ("ACC", 2)]), "VEL ACC");
+        assert_eq!(both, Parts { value: Some("VEL"), dropped: Some("ACC") });
+        let remark = value(Raw::Flags(&[("VEL", 1)]), "VEL and more");
+        assert_eq!(remark, Parts { value: Some("VEL"), dropped: None });
         assert_eq!(names("VEL |ACC  # both"), Some("VEL |ACC"));
         assert_eq!(names("0x101 #0x001: Activation velocity feedforward"), Some("0x101"));
     }

@@ -1,0 +1,310 @@
+//! What vibrates in a recorded signal: frequency and damping with their 95 % intervals, hum, blows, noise.
+//!
+//! A record is cut into its free decays. In each of them vibrations are found one by one ([`detect`]) and fitted
+//! together with offset and drift ([`fit`]) until nothing but noise is left. What does not decay is no vibration of the
+//! machine's structure: mains hum and motors are named and left out.
+
+mod detect;
+mod fit;
+mod hits;
+
+pub use fit::Estimate;
+use fit::{Fit, Piece, Vibration};
+use std::ops::Range;
+
+/// Vibrations that are looked for, hum and its harmonics included.
+const MOST_MODES: usize = 10;
+/// Decays that are fitted.
+const MOST_DECAYS: usize = 4;
+/// Samples that are fitted; longer pieces are averaged.
+const MOST_SAMPLES: usize = 16_384;
+/// Weaker vibrations than this share of the strongest one are not told.
+const LEAST_PEAK_RATIO: f64 = 0.15;
+/// A vibration that loses less over the whole piece lasts.
+const LASTING: f64 = 0.3;
+/// More than this is no vibration to be shaped away but a transient.
+const MOST_DAMPING: f64 = 0.3;
+/// A fit that leaves this many times the white noise of the piece is not its whole truth.
+const MISFIT: f64 = 1.25;
+/// How often a piece is halved until a fit is.
+const HALVINGS: usize = 3;
+/// Samples in a row at the limit that are clipped.
+const CLIPPED: usize = 3;
+
+/// A decaying vibration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode {
+    /// Undamped natural frequency in Hz.
+    pub freq: Estimate,
+    /// Damping ratio.
+    pub damping: Estimate,
+    /// Height of its peak in a spectrum (amplitude / decay), 1 for the highest one.
+    pub peak_ratio: f64,
+}
+
+/// Something that does not decay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lasting {
+    /// Frequency in Hz.
+    pub freq_hz: f64,
+    /// Amplitude.
+    pub amplitude: f64,
+    /// The mains (50 or 60 Hz) or one of its harmonics.
+    pub hum: bool,
+}
+
+/// What to look at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Focus {
+    /// Frequencies in Hz.
+    pub range_hz: (f64, f64),
+    /// Times in s from the first sample.
+    pub window_s: (f64, f64),
+}
+
+impl Default for Focus {
+    fn default() -> Self {
+        Self { range_hz: (0.0, f64::INFINITY), window_s: (0.0, f64::INFINITY) }
+    }
+}
+
+/// One free decay: where it is, and the curve that was fitted to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decay {
+    /// First sample and the one behind the last.
+    pub samples: Range<usize>,
+    /// The fit, every so many samples.
+    pub curve: Vec<f64>,
+    /// Samples from one value of the curve to the next.
+    pub stride: usize,
+}
+
+/// What a record tells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Analysis {
+    /// Decaying vibrations, strongest first; empty: there is none.
+    pub modes: Vec<Mode>,
+    /// What lasts.
+    pub lasting: Vec<Lasting>,
+    /// The decays that were fitted, the most energetic first.
+    pub decays: Vec<Decay>,
+    /// Root mean square of what is left.
+    pub noise: f64,
+    /// Largest swing of the fitted vibrations in the first decay.
+    pub swing: f64,
+    /// Samples at the limit of the recorder.
+    pub clipped: usize,
+    /// Frequencies that the decays disagree about: lowest and highest in Hz.
+    pub disagree: Option<(f64, f64)>,
+}
+
+/// Looks for vibrations in a record.
+pub fn analyse(samples: &[f64], rate_hz: f64, focus: &Focus) -> Analysis {
+    let place = |s: f64| ((s * rate_hz).round().max(0.0) as usize).min(samples.len());
+    let (first, last) = (place(focus.window_s.0), place(focus.window_s.1));
+    let samples = &samples[first..last.max(first)];
+    if samples.len() < 64 || !(samples.iter().any(|x| (x - samples[0]).abs() > 0.0)) {
+        return Analysis::default();
+    }
+    let valid = unclipped(samples);
+    let clipped = valid.iter().filter(|v| !**v).count();
+    let mut all: Vec<(Analysis, f64)> = Vec::new();
+    for decay in hits::decays(samples, rate_hz, focus.range_hz).into_iter().take(MOST_DECAYS) {
+        let mut found = of_decay(samples, &valid, rate_hz, focus.range_hz, decay);
+        for decay in &mut found.decays {
+            decay.samples = decay.samples.start + first..decay.samples.end + first;
+        }
+        let energy = found.swing;
+        all.push((found, energy));
+    }
+    let mut all = all.into_iter().map(|(found, _)| found);
+    let mut result = all.next().unwrap_or_default();
+    result.clipped = clipped;
+    for other in all {
+        result.merge(other);
+    }
+    result
+}
+
+/// False where a recorder was at its limit: several samples in a row that are exactly the largest or smallest value.
+fn unclipped(samples: &[f64]) -> Vec<bool> {
+    let high = samples.iter().copied().fold(f64::MIN, f64::max);
+    let low = samples.iter().copied().fold(f64::MAX, f64::min);
+    let mut valid = vec![true; samples.len()];
+    for limit in [low, high] {
+        let at = |i: usize| (samples[i] - limit).abs() <= 0.0;
+        let mut i = 0;
+        while i < samples.len() {
+            let run = (i..samples.len()).take_while(|j| at(*j)).count();
+            if run >= CLIPPED {
+                valid[i..i + run].fill(false);
+            }
+            i += run.max(1);
+        }
+    }
+    valid
+}
+
+/// A piece of a record, averaged over so many samples that it is not too long.
+fn piece(
+    samples: &[f64],
+    valid: &[bool],
+    rate_hz: f64,
+    range: &Range<usize>,
+    top_hz: f64,
+) -> (Piece, usize) {
+    // twelve samples per period of the highest frequency of interest are kept
+    let most = (rate_hz / (12.0 * top_hz.max(1.0))) as usize;
+    let stride = range.len().div_ceil(MOST_SAMPLES).min(most.max(1));
+    let starts = range.clone().step_by(stride).filter(|i| i + stride <= range.end);
+    let (mut averaged, mut good) = (Vec::new(), Vec::new());
+    for i in starts {
+        averaged.push(samples[i..i + stride].iter().sum::<f64>() / stride as f64);
+        good.push(valid[i..i + stride].iter().all(|v| *v));
+    }
+    (Piece { samples: averaged, valid: good, rate_hz: rate_hz / stride as f64 }, stride)
+}
+
+/// Adds vibrations to a fit until noise is left.
+fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64)) -> Fit {
+    let largest = piece.samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+    while fit.modes() < MOST_MODES {
+        let residual = fit.residual(piece);
+        let Some(next) = detect::strongest(&residual, piece.rate_hz, range_hz) else { break };
+        let wider = fit.with(piece, next.freq_hz, next.decay);
+        let sound = wider.vibrations(piece, |_| 1.0).iter().all(|v| {
+            v.amplitude < 20.0 * largest
+                && v.freq.value.is_finite()
+                && v.freq.value < 0.5 * piece.rate_hz
+        });
+        // a vibration that takes next to nothing is the misfit of another one
+        if !sound || wider.noise(piece) > 0.999 * fit.noise(piece) {
+            break;
+        }
+        fit = wider;
+    }
+    fit
+}
+
+fn of_decay(
+    samples: &[f64],
+    valid: &[bool],
+    rate_hz: f64,
+    range_hz: (f64, f64),
+    range: Range<usize>,
+) -> Analysis {
+    let top_hz = range_hz.1.min(400.0).min(0.4 * rate_hz);
+    let cut = |range: &Range<usize>| piece(samples, valid, rate_hz, range, top_hz);
+    let (mut range, (mut used, mut stride)) = (range.clone(), cut(&range));
+    let mut fit = complete(Fit::new(&used), &used, range_hz);
+    // a blow that was not seen spoils the fit of the whole piece, not that of its first part
+    for halvings in 1..=HALVINGS {
+        let whole = fit.noise(&used) < MISFIT * detect::white(&fit.residual(&used), used.rate_hz);
+        let shorter = range.start..range.start + (range.len() >> halvings);
+        if whole || shorter.len() < 256 {
+            break;
+        }
+        let (part, part_stride) = cut(&shorter);
+        let part_fit = complete(Fit::new(&part), &part, range_hz);
+        if part_fit.noise(&part) < MISFIT * detect::white(&part_fit.residual(&part), part.rate_hz) {
+            (range, used, stride, fit) = (shorter, part, part_stride, part_fit);
+        }
+    }
+    // behind the decay there is only noise, and drift that no parabola follows
+    let slowest = fit
+        .vibrations(&used, |_| 1.0)
+        .iter()
+        .filter(|v| decays(v, used.seconds()))
+        .map(|v| v.decay.value)
+        .fold(f64::INFINITY, f64::min);
+    let length = (7.0 / slowest * rate_hz) as usize;
+    if slowest.is_finite() && length < range.len() / 2 {
+        range = range.start..range.start + length.max(64);
+        (used, stride) = cut(&range);
+        fit = complete(fit.again(&used), &used, range_hz);
+    }
+    let density = detect::density(&fit.residual(&used), used.rate_hz);
+    let found = fit.vibrations(&used, density);
+    let peak = |v: &Vibration| v.amplitude / v.decay.value.max(1e-9);
+    let mut modes: Vec<&Vibration> = found
+        .iter()
+        .filter(|v| decays(v, used.seconds()) && v.damping.value < MOST_DAMPING)
+        .filter(|v| v.freq.value > range_hz.0 && v.freq.value < range_hz.1)
+        .collect();
+    modes.sort_by(|a, b| peak(b).total_cmp(&peak(a)));
+    let highest = modes.first().map_or(1.0, |v| peak(v));
+    let lasting =
+        found.iter().filter(|v| !decays(v, used.seconds()) && v.damping.value < MOST_DAMPING);
+    Analysis {
+        noise: fit.noise(&used),
+        swing: modes.iter().map(|v| v.amplitude).sum(),
+        lasting: lasting
+            .map(|v| Lasting {
+                freq_hz: v.freq.value,
+                amplitude: v.amplitude,
+                hum: is_hum(v.freq.value),
+            })
+            .collect(),
+        modes: modes
+            .iter()
+            .map(|v| Mode { freq: v.freq, damping: v.damping, peak_ratio: peak(v) / highest })
+            .filter(|m| m.peak_ratio >= LEAST_PEAK_RATIO)
+            .collect(),
+        decays: vec![Decay { samples: range, curve: fit.curve(&used), stride }],
+        clipped: 0,
+        disagree: None,
+    }
+}
+
+/// It is damped, and not just within the accuracy.
+fn decays(v: &Vibration, seconds: f64) -> bool {
+    v.decay.value > 1.5 * v.decay.half_width && v.decay.value * seconds > LASTING
+}
+
+fn is_hum(freq_hz: f64) -> bool {
+    hits::MAINS_HZ.iter().any(|mains| {
+        let k = (freq_hz / mains).round().max(1.0);
+        (freq_hz / (k * mains) - 1.0).abs() < hits::MAINS_RATIO
+    })
+}
+
+/// Two estimates of the same, weighted by their accuracy; where they exclude each other the interval holds both.
+fn joined(a: Estimate, b: Estimate) -> Estimate {
+    let weight = |e: Estimate| 1.0 / (e.half_width * e.half_width).max(f64::MIN_POSITIVE);
+    let (wa, wb) = (weight(a), weight(b));
+    let value = (wa * a.value + wb * b.value) / (wa + wb);
+    let spread = (a.value - b.value).abs();
+    let own = 1.0 / (wa + wb).sqrt();
+    let excluded = spread > libm::hypot(a.half_width, b.half_width) * 1.3;
+    Estimate { value, half_width: if excluded { own.max(spread) } else { own } }
+}
+
+impl Analysis {
+    /// Takes over what another decay of the same record tells about the same vibrations.
+    fn merge(&mut self, other: Self) {
+        for mode in &mut self.modes {
+            let same = other.modes.iter().find(|m| {
+                let far = (m.freq.value - mode.freq.value).abs();
+                far < 0.03 * mode.freq.value + libm::hypot(m.freq.half_width, mode.freq.half_width)
+            });
+            let Some(same) = same else { continue };
+            let far = (same.freq.value - mode.freq.value).abs();
+            if far > 1.5 * libm::hypot(same.freq.half_width, mode.freq.half_width) {
+                let (low, high) =
+                    (mode.freq.value.min(same.freq.value), mode.freq.value.max(same.freq.value));
+                let (l, h) = self.disagree.unwrap_or((low, high));
+                self.disagree = Some((l.min(low), h.max(high)));
+            }
+            mode.freq = joined(mode.freq, same.freq);
+            mode.damping = joined(mode.damping, same.damping);
+        }
+        if self.modes.is_empty() {
+            self.modes = other.modes;
+            self.swing = other.swing;
+        }
+        self.decays.extend(other.decays);
+    }
+}
+
+#[cfg(test)]
+mod tests;

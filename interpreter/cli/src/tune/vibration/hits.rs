@@ -1,0 +1,176 @@
+//! Where the free decays of a record are: drift and hum taken out for the purpose, then the blows by their energy.
+//!
+//! A blow is where the energy of the time behind rises against that of the time before. The windows are longer than the
+//! beats of neighbouring vibrations, so that a beat is no blow.
+
+use super::detect;
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// Nominal frequencies of the mains in Hz.
+pub(super) const MAINS_HZ: [f64; 2] = [50.0, 60.0];
+/// Relative distance from a multiple of the mains that counts as one: what grids keep.
+pub(super) const MAINS_RATIO: f64 = 0.006;
+/// Multiples of the mains looked at.
+const HARMONICS: u32 = 20;
+/// Parts of a record in which a hum must be equally strong.
+const PARTS: usize = 8;
+/// Shortest window of the energies in s.
+const WINDOW_S: f64 = 0.4;
+/// Length in s of the pieces in which a short vibration is looked for.
+const PART_S: f64 = 0.5;
+/// Rise of the energy at a blow.
+const RISE: f64 = 1.8;
+/// Shorter pieces hold no decay.
+const LEAST_SAMPLES: usize = 64;
+/// Blows weaker than this share of the strongest one's energy are not looked at.
+const LEAST_ENERGY: f64 = 0.1;
+
+/// Takes offset, linear and quadratic drift out of a record.
+fn without_drift(samples: &[f64]) -> Vec<f64> {
+    let n = samples.len() as f64;
+    // Legendre polynomials over -1 .. 1: nearly orthogonal on a fine grid
+    let basis = |i: usize| {
+        let u = 2.0 * (i as f64 + 0.5) / n - 1.0;
+        [1.0, u, 1.5 * u * u - 0.5]
+    };
+    let weights: Vec<f64> = (0..3)
+        .map(|k| {
+            let (mut sum, mut norm) = (0.0, 0.0);
+            for (i, x) in samples.iter().enumerate() {
+                let b = basis(i)[k];
+                sum += b * x;
+                norm += b * b;
+            }
+            sum / norm
+        })
+        .collect();
+    let drift = |i: usize| basis(i).iter().zip(&weights).map(|(b, w)| b * w).sum::<f64>();
+    samples.iter().enumerate().map(|(i, x)| x - drift(i)).collect()
+}
+
+/// Complex amplitude of a frequency in a part of a record, under a Hann window; phases count from its first sample.
+fn amplitude(
+    samples: &[f64],
+    from: usize,
+    rate_hz: f64,
+    freq_hz: f64,
+    part: &Range<usize>,
+) -> [f64; 2] {
+    let n = part.len() as f64;
+    let mut sum = [0.0, 0.0];
+    for (j, i) in part.clone().enumerate() {
+        let window = 1.0 - libm::cos(TAU * (j as f64 + 0.5) / n);
+        let (sin, cos) = libm::sincos(TAU * freq_hz * (i - from) as f64 / rate_hz);
+        sum[0] += window * samples[i] * cos;
+        sum[1] -= window * samples[i] * sin;
+    }
+    sum.map(|x| 2.0 * x / n)
+}
+
+/// Takes multiples of the mains out of a record that are equally strong everywhere.
+fn without_hum(samples: &mut [f64], rate_hz: f64) {
+    let n = samples.len();
+    let parts: Vec<Range<usize>> = (0..PARTS).map(|p| p * n / PARTS..(p + 1) * n / PARTS).collect();
+    for base in MAINS_HZ {
+        for k in 1..=HARMONICS {
+            let freq_hz = base * f64::from(k);
+            let periods = freq_hz * (n / PARTS) as f64 / rate_hz;
+            if freq_hz > 0.45 * rate_hz || periods < 4.0 {
+                continue;
+            }
+            let parts_of: Vec<[f64; 2]> =
+                parts.iter().map(|p| amplitude(samples, 0, rate_hz, freq_hz, p)).collect();
+            let mut sizes: Vec<f64> = parts_of.iter().map(|a| libm::hypot(a[0], a[1])).collect();
+            sizes.sort_by(f64::total_cmp);
+            let median = sizes[PARTS / 2];
+            if median <= 0.0 || sizes[0] < 0.6 * median || sizes[PARTS - 1] > 1.6 * median {
+                continue;
+            }
+            // the mean step of the phase from part to part is what the grid is off by
+            let mut turn = [0.0, 0.0];
+            for pair in parts_of.windows(2) {
+                turn[0] += pair[1][0] * pair[0][0] + pair[1][1] * pair[0][1];
+                turn[1] += pair[1][1] * pair[0][0] - pair[1][0] * pair[0][1];
+            }
+            let part_s = n as f64 / PARTS as f64 / rate_hz;
+            let real_hz = freq_hz + libm::atan2(turn[1], turn[0]) / (TAU * part_s);
+            if (real_hz / freq_hz - 1.0).abs() > MAINS_RATIO {
+                continue;
+            }
+            let [re, im] = amplitude(samples, 0, rate_hz, real_hz, &(0..n));
+            for (i, x) in samples.iter_mut().enumerate() {
+                let (sin, cos) = libm::sincos(TAU * real_hz * i as f64 / rate_hz);
+                *x -= re * cos - im * sin;
+            }
+        }
+    }
+}
+
+/// Free decays of a record, the most energetic first: from behind a blow to the next one.
+pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec<Range<usize>> {
+    let mut clean = without_drift(samples);
+    without_hum(&mut clean, rate_hz);
+    let n = clean.len();
+    // a short vibration drowns in the noise of a long record: then piece by piece
+    let part = ((PART_S * rate_hz) as usize).clamp(LEAST_SAMPLES, n);
+    let parts = || (0..=n - part).step_by((part / 2).max(1)).map(|i| &clean[i..i + part]);
+    let loudest = detect::strongest(&clean, rate_hz, range_hz)
+        .or_else(|| parts().find_map(|part| detect::strongest(part, rate_hz, range_hz)));
+    let Some(loudest) = loudest else { return std::iter::once(0..n).collect() };
+    let period = (rate_hz / loudest.freq_hz).max(1.0);
+    let window = ((4.0 * period).max(WINDOW_S * rate_hz) as usize).clamp(1, (n / 4).max(1));
+    let mut sums = vec![0.0; n + 1];
+    for (i, x) in clean.iter().enumerate() {
+        sums[i + 1] = sums[i] + x * x;
+    }
+    // mean power of what was left of the samples in a range
+    let power = |from: usize, to: usize| (sums[to] - sums[from]) / (to - from).max(1) as f64;
+    let after = |i: usize| power(i, (i + window).min(n));
+    let quiet = (0..n - window).step_by((window / 2).max(1)).map(after).fold(f64::MAX, f64::min);
+    // a record that begins with its vibration has nothing before it
+    let before = |i: usize| {
+        let seen = i.min(window);
+        let unseen = (window - seen) as f64 * quiet;
+        (unseen + seen as f64 * power(i - seen, i)) / window as f64
+    };
+    let rise = |i: usize| after(i) / (before(i) + f64::MIN_POSITIVE);
+    let loud = (0..n - window).map(after).fold(0.0, f64::max);
+    // one period beginning with the blow has more energy than any other; the long windows only say that there is one
+    let one = (period as usize).max(1);
+    let front = |i: usize| power(i, (i + one).min(n));
+    let last = n - LEAST_SAMPLES.min(n);
+    let mut starts: Vec<usize> = Vec::new();
+    let mut i = 0;
+    while i < last {
+        if rise(i) > RISE && after(i) - before(i) > LEAST_ENERGY * loud {
+            let end = (i + window).min(last);
+            let top = (i..end).reduce(|a, b| if front(b) > front(a) { b } else { a });
+            starts.push(top.unwrap_or(i));
+            i = end;
+        }
+        i += 1;
+    }
+    if starts.is_empty() {
+        let top = (0..last).reduce(|a, b| if front(b) > front(a) { b } else { a });
+        starts.push(top.unwrap_or(0));
+    }
+    let ends: Vec<usize> = starts.iter().skip(1).copied().chain([n]).collect();
+    let mut pieces: Vec<(f64, Range<usize>)> = starts
+        .iter()
+        .zip(ends)
+        .filter_map(|(start, end)| {
+            // behind the largest swing the blow itself is over
+            let near = *start..(start + one + 1).min(end);
+            let top = near.reduce(|a, b| if clean[b].abs() > clean[a].abs() { b } else { a })?;
+            // the sharp front of the next blow begins a little before its energy
+            let end =
+                if end < n { end.saturating_sub((0.05 * window as f64) as usize) } else { end };
+            (end > top + LEAST_SAMPLES).then(|| (sums[end] - sums[top], top + 1..end))
+        })
+        .collect();
+    let most = pieces.iter().map(|p| p.0).fold(0.0, f64::max);
+    pieces.retain(|p| p.0 >= LEAST_ENERGY * most);
+    pieces.sort_by(|a, b| b.0.total_cmp(&a.0));
+    pieces.into_iter().map(|p| p.1).collect()
+}

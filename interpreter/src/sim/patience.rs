@@ -1,0 +1,124 @@
+//! When a wait for axes to arrive has become hopeless: the loop stands still, or swings on undiminished.
+//!
+//! The loop is linear and nobody moves its input. What still settles comes closer by at least the share `P / tau` of its
+//! distance in a period `P`; the slowest loop that a list can state (kv = 0.01/s) has `tau` = 100 s, so that a change
+//! of less than a thousandth means standing still. A vibration that settles loses more than a thousandth of its
+//! amplitude in one of ten periods.
+
+use kontur_filters::time::CycleTime;
+
+/// Shortest and longest period in s for standing still.
+const PERIOD_S: (f64, f64) = (0.2, 1.0);
+/// Period in s over which vibrations are compared: slower ones than 1 Hz are no vibrations of a machine.
+const SWING_S: f64 = 1.0;
+/// Relative change in a period below which nothing changes any more.
+const CHANGE: f64 = 1e-3;
+/// Periods without a smaller amplitude after which a vibration is lasting.
+const SWINGS: u32 = 10;
+
+/// Distances of one period.
+#[derive(Clone, Copy, Debug)]
+struct Period {
+    cycles: u64,
+    low_mm: f64,
+    high_mm: f64,
+}
+
+impl Period {
+    const EMPTY: Self = Self { cycles: 0, low_mm: f64::INFINITY, high_mm: f64::NEG_INFINITY };
+
+    /// Takes one cycle; the range of the distances at the end of the period.
+    fn add(&mut self, distance_mm: f64, length_s: f64, cycle: CycleTime) -> Option<(f64, f64)> {
+        self.cycles += 1;
+        self.low_mm = self.low_mm.min(distance_mm);
+        self.high_mm = self.high_mm.max(distance_mm);
+        let Self { low_mm, high_mm, .. } = *self;
+        let over = cycle.time_of(self.cycles) >= length_s;
+        over.then(|| {
+            *self = Self::EMPTY;
+            (low_mm, high_mm)
+        })
+    }
+}
+
+/// What was seen of an axis that does not arrive.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Patience {
+    still: Period,
+    swing: Period,
+    peak_mm: f64,
+    swings: u32,
+}
+
+impl Default for Patience {
+    fn default() -> Self {
+        Self { still: Period::EMPTY, swing: Period::EMPTY, peak_mm: f64::INFINITY, swings: 0 }
+    }
+}
+
+impl Patience {
+    /// One cycle at a distance from where the axis shall be (signed); true when it will not get there. Standing still is
+    /// watched over the settling time, 1 s without one.
+    pub(super) fn is_over(
+        &mut self,
+        distance_mm: f64,
+        settling_s: Option<f64>,
+        cycle: CycleTime,
+    ) -> bool {
+        let length_s = settling_s.unwrap_or(PERIOD_S.1).clamp(PERIOD_S.0, PERIOD_S.1);
+        let peak = |(low, high): (f64, f64)| low.abs().max(high.abs());
+        if let Some(range) = self.swing.add(distance_mm, SWING_S, cycle) {
+            let lasts = peak(range) >= (1.0 - CHANGE) * self.peak_mm;
+            self.swings = if lasts { self.swings + 1 } else { 0 };
+            self.peak_mm = peak(range);
+        }
+        let still = self
+            .still
+            .add(distance_mm, length_s, cycle)
+            .is_some_and(|range| range.1 - range.0 <= CHANGE * peak(range));
+        still || self.swings >= SWINGS
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cycles until the patience ends, at most 100 s.
+    fn ends(settling_s: Option<f64>, distance_mm: impl Fn(f64) -> f64) -> Option<u32> {
+        let mut patience = Patience::default();
+        (0..100_000_u32).find(|k| {
+            patience.is_over(distance_mm(f64::from(*k) * 1e-3), settling_s, CycleTime::DEFAULT)
+        })
+    }
+
+    #[test]
+    fn standing_still_is_seen_within_a_settling_time() {
+        assert_eq!(ends(Some(0.3), |_| 0.02), Some(299));
+        assert_eq!(ends(None, |_| -0.02), Some(999));
+        // settles at 0.02 mm with 20 ms: stands after some 0.2 s
+        let settles = |t: f64| 0.02 + 2.0 * libm::exp(-t / 0.02);
+        let k = ends(Some(0.2), settles).unwrap();
+        assert!((399..800).contains(&k), "{k}");
+    }
+
+    #[test]
+    fn what_still_settles_is_waited_for() {
+        // the slowest gain of a list, and vibrations down to a damping of 0.001
+        assert_eq!(ends(Some(0.2), |t| 2.0 * libm::exp(-t / 100.0)), None);
+        for (f, d) in [(1.0, 0.001), (11.0, 0.02), (53.0, 0.001)] {
+            let w = std::f64::consts::TAU * f;
+            let swings = |t: f64| 0.5 * libm::exp(-d * w * t) * libm::cos(w * t);
+            // below a micrometre it has arrived
+            let arrived = libm::log(500.0) / (d * w) * 1e3;
+            let k = ends(Some(0.2), swings).map_or(f64::INFINITY, f64::from);
+            assert!(k > arrived, "{f} Hz: {k} {arrived}");
+        }
+    }
+
+    #[test]
+    fn a_lasting_vibration_is_hopeless() {
+        let k = ends(Some(0.2), |t| 0.1 + 0.05 * libm::sin(300.0 * t)).unwrap();
+        assert!(k < 12_000, "{k}");
+    }
+}

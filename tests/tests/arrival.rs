@@ -1,0 +1,229 @@
+//! What happens when the path has come to rest: arrival of the axes, waits that cannot end, stops after an error.
+
+use kontur_interpreter::diag::{Diagnostic, Id};
+use kontur_tests::{Run, machine, run, run_on, run_with_inputs, sample_machine};
+
+fn errors(run: &Run) -> Vec<&Diagnostic> {
+    run.diagnostics.iter().filter(|d| d.is_error()).collect()
+}
+
+fn line(d: &Diagnostic) -> u32 {
+    d.source.as_ref().map_or(0, |s| s.line)
+}
+
+/// The only error of a run: its kontur number, axis and line.
+fn only(run: &Run) -> (Id, String, u32) {
+    let [d] = errors(run)[..] else { panic!("{:?}", run.diagnostics) };
+    (d.id, d.axis.as_ref().unwrap().name.clone(), line(d))
+}
+
+const G60: &str = "%P\nG90\nG60 G01 X10 F6000\nY5\nM30\n";
+
+/// A force that never goes away keeps the axis 0.1 mm from its target (force x Ta / Kv): said within one settling time of
+/// standing still, where the wait had no end.
+#[test]
+fn a_wait_that_cannot_end() {
+    let off = "X.getriebe[0].position_settling_time=0";
+    let run = run_with_inputs(machine(&[off]), G60, &[(0.0, "X_force_mm_s2", -1000.0)]);
+    assert_eq!(only(&run), (Id::Kontur(130), "X".to_owned(), 3));
+    assert!(run.totals.aborted);
+    let d = errors(&run)[0];
+    let text = d.text.as_str();
+    assert!(
+        text.contains("axis X") && text.contains("0.1 mm") && text.contains("0.01 mm"),
+        "{text}"
+    );
+    let rest = run.records.iter().rposition(|r| (r.axes[0].lag - 0.1).abs() > 1e-4).unwrap();
+    let said = usize::try_from(d.cycle.unwrap()).unwrap();
+    assert!(said - rest < 2000, "{said} {rest}: 1 s is the settling time of a list without one");
+    // the force of the plant itself, and one that swings about 0.1 mm without end
+    for disturbance in [&["amplitude=-1000"][..], &["amplitude=-1000", "frequency=0"]] {
+        let settings: Vec<String> =
+            disturbance.iter().map(|d| format!("kontur.axis[1].plant.disturbance.{d}")).collect();
+        let mut all: Vec<&str> = settings.iter().map(String::as_str).collect();
+        all.push(off);
+        assert_eq!(only(&kontur_tests::run(G60, &all)).0, Id::Kontur(130));
+    }
+}
+
+/// An axis that the block does not move has no stop of its own; a force on it holds the program all the same.
+#[test]
+fn an_axis_beside_the_block_that_stands_outside() {
+    let run = run_with_inputs(machine(&[]), G60, &[(0.0, "Z_force_mm_s2", 1000.0)]);
+    assert_eq!(only(&run).0, Id::Kontur(130));
+    assert_eq!(only(&run).1, "Z");
+}
+
+/// An input that is still to come may release the axis: the wait goes on.
+#[test]
+fn an_input_to_come_is_waited_for() {
+    let force = [(0.0, "X_force_mm_s2", 1000.0), (5.0, "X_force_mm_s2", 0.0)];
+    let run = run_with_inputs(machine(&["X.getriebe[0].position_settling_time=0"]), G60, &force);
+    assert_eq!(run.diagnostics, []);
+    let last = run.records.last().unwrap();
+    assert!(run.cycle_s * last.k as f64 > 5.0 && (last.axes[1].act - 5.0).abs() <= 0.01);
+}
+
+/// A window of 0 is half an increment: the loop gets there.
+#[test]
+fn a_window_of_zero_is_half_an_increment() {
+    let run = run(G60, &["X.getriebe[0].window=0", "X.getriebe[0].position_settling_time=0"]);
+    assert_eq!(run.diagnostics, []);
+    let begins = run.records.iter().position(|r| r.axes[1].ipo > 0.0).unwrap();
+    assert!(run.records[begins].axes[0].lag.abs() <= 0.5e-4);
+    assert!(run.records[begins - 2].axes[0].lag.abs() > 0.5e-4);
+}
+
+/// The trace ends when the axes have arrived; the totals tell how long that took: ln(lag / window) / Kv within some
+/// cycles of the drive's lag.
+#[test]
+fn the_end_waits_for_the_axes() {
+    let run = run("%P\nG90\nG01 X100 F6000\nM30\n", &[]);
+    assert_eq!(run.diagnostics, []);
+    let last = run.records.last().unwrap();
+    assert!((last.axes[0].act - 100.0).abs() <= 0.01, "{}", last.axes[0].act);
+    let rest = run.records.iter().position(|r| r.axes[0].set >= 100.0).unwrap();
+    assert_eq!(run.totals.arrival_cycles as usize, run.records.len() - 1 - rest);
+    let stop = &run.totals.stops.axes[&0];
+    assert_eq!((stop.0, stop.1.source.line), (1, 3));
+    // t2 - t1 is what the trace shows, and what the positions say
+    assert!((stop.1.settling_s - last.axes[0].settling_s).abs() < 1e-12);
+    assert!((stop.1.settling_s - run.totals.arrival_cycles as f64 * run.cycle_s).abs() < 2e-3);
+    let ramp = &run.records[rest..];
+    assert!(ramp.windows(2).all(|w| w[1].axes[0].settling_s > w[0].axes[0].settling_s - 1e-12));
+}
+
+/// Gain 10/s and a limit of 1 ms: the last motion is monitored too. The message points to the block whose stop it was.
+#[test]
+fn the_last_motion_is_monitored() {
+    let slow = ["X.getriebe[0].kv=1000", "X.getriebe[0].position_settling_time=1000"];
+    let late = run("%P\nG90\nG01 X100 F6000\nM30\n", &slow);
+    assert_eq!(only(&late), (Id::Vendor(70082), "X".to_owned(), 3));
+    assert!(late.totals.aborted);
+    // a stop without waiting: the next block runs when the message comes
+    let late = run("%P\nG90\nG01 X10 F6000\nM00\nY20\nM30\n", &["X.getriebe[0].kv=1000"]);
+    assert_eq!(only(&late), (Id::Vendor(70082), "X".to_owned(), 3));
+    let at = usize::try_from(errors(&late)[0].cycle.unwrap()).unwrap();
+    assert!(late.records[at].axes[1].ipo > 0.0, "Y is on its way");
+}
+
+/// After the error the axis stays where it is: no creeping to the target.
+#[test]
+fn an_axis_with_an_error_stops() {
+    let text =
+        std::fs::read_to_string(kontur_tests::programs().join("exact_stop_timeout.nc")).unwrap();
+    let run = run(&text, &[]);
+    let at = usize::try_from(errors(&run)[0].cycle.unwrap()).unwrap();
+    let here = run.records[at].axes[0].act;
+    assert!((here - run.records[at].axes[0].set).abs() > 1.0, "far from its target");
+    for r in &run.records[at..] {
+        // v Ta is what the drive needs to stop
+        assert!((r.axes[0].act - here).abs() < 0.08, "{} {here}", r.axes[0].act);
+    }
+    let [.., before, last] = run.records.as_slice() else { panic!("an empty trace") };
+    assert!((last.axes[0].act - before.axes[0].act).abs() < 1.1e-4, "it stands: 0.1 mm/s");
+}
+
+/// G60 waits for both sides of a bridge; an error of one brakes both along the path.
+#[test]
+fn both_sides_of_a_gantry() {
+    let on = |settings: &[&str], text: &str| run_on(sample_machine("gantry", settings), text);
+    let soft = "X2.getriebe[0].kv=2000";
+    let waits = on(&[soft, "X2.getriebe[0].position_settling_time=0"], G60);
+    assert_eq!(waits.diagnostics, []);
+    let begins = waits.records.iter().position(|r| r.axes[1].ipo > 0.0).unwrap();
+    let slave = waits.records[begins].axes.last().unwrap();
+    assert!(slave.lag.abs() <= 0.01, "{}", slave.lag);
+    // a following error of the slave in full motion
+    let lag = ["slep_ueberw_typ=4", "slep_max=10000", "slep_min=10000"]
+        .map(|s| format!("X2.getriebe[0].{s}"));
+    let mut settings: Vec<&str> = lag.iter().map(String::as_str).collect();
+    settings.push(soft);
+    let run = on(&settings, "%P\nG90\nG01 X400 F30000\nM30\n");
+    assert_eq!(only(&run).0, Id::Vendor(70020));
+    let most = |axis: usize| run.records.iter().map(|r| r.axes[axis].acc.abs()).fold(0.0, f64::max);
+    let slave = run.records[0].axes.len() - 1;
+    for axis in [0, slave] {
+        assert!(most(axis) <= 6000.0 * 1.0001, "axis {axis}: {} mm/s2", most(axis));
+    }
+    for r in &run.records {
+        assert!((r.axes[0].set - r.axes[slave].set).abs() < 1e-9, "they stay together");
+    }
+}
+
+/// Largest magnitude of the speed of the spindle in rev/min.
+fn most_rpm(run: &Run) -> f64 {
+    run.axis(3, |a| a.vel / 6.0).iter().fold(0.0, |most: f64, v| most.max(v.abs()))
+}
+
+/// M19 turns with the speed of its bracket, in whatever order the words stand, and the program ends when it stands there.
+#[test]
+fn spindle_positioning_with_a_speed() {
+    for bracket in ["M19 POS=90 REV=100", "REV=100 POS=90 M19", "POS=90 REV=100 M19"] {
+        let run = run(&format!("%P\nS[{bracket}]\nM30\n"), &[]);
+        assert_eq!(run.diagnostics, [], "{bracket}");
+        let most = most_rpm(&run);
+        assert!((most - 100.0).abs() < 1e-6, "{bracket}: {most} rev/min");
+        let end = run.records.last().unwrap().axes[3];
+        assert!((end.act - 90.0).abs() <= 0.5 && (end.set - 90.0).abs() < 1e-9, "{end:?}");
+    }
+}
+
+/// P-AXIS-00236 and P-AXIS-00532 of a spindle: a stop that takes too long, in degrees.
+#[test]
+fn a_spindle_that_does_not_arrive() {
+    let late = run(
+        "%P\nS[M19 POS=90]\nG04 5\nM30\n",
+        &["S.getriebe[0].kv=100", "S.getriebe[0].position_settling_time=10000"],
+    );
+    assert_eq!(only(&late).0, Id::Vendor(70082));
+    let text = &errors(&late)[0].text;
+    assert!(text.contains("deg") && !text.contains("mm"), "{text}");
+}
+
+/// A speed above P-AXIS-00212 is limited, and said.
+#[test]
+fn a_speed_above_the_limit_is_said() {
+    let run = run("%P\nM3 S15000\nG04 2\nM30\n", &[]);
+    let [d] = &run.diagnostics[..] else { panic!("{:?}", run.diagnostics) };
+    assert_eq!((d.id, d.is_error(), line(d)), (Id::Kontur(131), false, 2));
+    assert!(d.text.contains("15000") && d.text.contains("12000"), "{}", d.text);
+    assert!((most_rpm(&run) - 12_000.0).abs() < 1e-6);
+}
+
+/// An error of an axis: the spindle runs down with its own deceleration, and the trace goes on until it stands.
+#[test]
+fn spindles_stop_with_the_axes() {
+    let run = run(
+        "%P\nM3 S3000\nG04 1\nG90 G60 G01 X10 F6000\nX20\nM30\n",
+        &["X.getriebe[0].kv=1000", "X.getriebe[0].position_settling_time=20000"],
+    );
+    assert_eq!(only(&run).0, Id::Vendor(70082));
+    let last = run.records.last().unwrap().axes[3];
+    assert!(last.vel.abs() < 1e-9, "{} deg/s", last.vel);
+    assert!(run.axis(3, |a| a.acc).iter().all(|a| a.abs() <= 60_000.0 * 1.0001));
+}
+
+/// `main_spindle_name` addresses the main spindle beside its own name.
+#[test]
+fn a_named_main_spindle() {
+    let machine = || {
+        sample_machine(
+            "two_spindles",
+            &[
+                "channel.spindel[1].bezeichnung=S1",
+                "channel.main_spindle_ax_nr=5",
+                "channel.main_spindle_name=S",
+            ],
+        )
+    };
+    let (m, _) = machine();
+    let numbers: Vec<_> = m.all_axes().map(|a| (a.name().to_owned(), a.number())).collect();
+    assert!(numbers.contains(&("S1".to_owned(), 5)), "{numbers:?}");
+    let index = numbers.iter().position(|n| n.0 == "S1").unwrap();
+    for text in ["S1000 M3", "S1=1000 M3", "S[M3 REV1000]", "S1[M3 REV1000]"] {
+        let run = run_on(machine(), &format!("%P\n{text}\nG04 2\nM30\n"));
+        let most = run.axis(index, |a| a.vel / 6.0).iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        assert!((most - 1000.0).abs() < 1e-6, "{text}: {most} {:?}", run.diagnostics);
+    }
+}
