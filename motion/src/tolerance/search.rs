@@ -14,6 +14,8 @@ use kontur_filters::kernel::Kernel;
 
 /// Cycles around the set point nearest to the last point of the contour among which that of the next one is looked for.
 const HINT: u64 = 3;
+/// Halvings in the search for the point of the contour where the nearest set point changes.
+const HALVINGS: u32 = 6;
 /// Points of the contour looked at in a cycle in which it may be missed.
 const PARTS: f64 = 4.0;
 /// Cycles on both sides of the last one among which the nearest set point is looked for.
@@ -325,22 +327,37 @@ impl View<'_> {
             }
             looked = to;
             hint = hint.max(passed);
-            contour.position(to, &mut between);
-            let off = |k: &u64| set.get(*k).map_or(f64::INFINITY, |p| distance(p, &between));
-            let around = hint.saturating_sub(HINT)..=hint + HINT;
-            let best = around.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(hint);
-            // a set point near enough spares the search for the nearest one; the next one is found close to the last
-            if off(&best) <= DOUBT * tolerance {
-                hint = best;
-                continue;
-            }
             let parts =
                 ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
             for part in 1..=parts {
                 let s = from + f64::from(part) / f64::from(parts) * (to - from);
                 contour.position(s, &mut between);
-                let among = (hint.saturating_sub(AROUND).max(passed), hint + AROUND);
-                hint = missed(&between, among, passed as f64, s);
+                let off = |k: &u64| set.get(*k).map_or(f64::INFINITY, |p| distance(p, &between));
+                let around = hint.saturating_sub(HINT)..=hint + HINT;
+                let best = around.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(hint);
+                // a set point near enough spares the search for the nearest one, which is found close to the last
+                if off(&best) <= DOUBT * tolerance {
+                    hint = best;
+                    continue;
+                }
+                let near = |hint: u64| (hint.saturating_sub(AROUND).max(passed), hint + AROUND);
+                let before = hint;
+                hint = missed(&between, near(before), passed as f64, s);
+                if hint.abs_diff(before) <= HINT {
+                    continue;
+                }
+                // the vector is largest where the nearest set point passes to another part of the set path
+                let (mut low, mut high) = (s - (to - from) / f64::from(parts), s);
+                for _ in 0..HALVINGS {
+                    let mid = 0.5 * (low + high);
+                    contour.position(mid, &mut between);
+                    let found = missed(&between, near(before), passed as f64, mid);
+                    if found.abs_diff(before) <= found.abs_diff(hint) {
+                        low = mid;
+                    } else {
+                        high = mid;
+                    }
+                }
             }
         }
         if let Some(v) = bucket {
