@@ -26,6 +26,8 @@ const SPACING: f64 = 0.02;
 const CHUNK: u64 = 8192;
 /// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be.
 const DOUBT: f64 = 0.9;
+/// Share by which the way of one cycle may differ from that of another on a stretch of constant speed.
+const EVEN: f64 = 1e-7;
 /// Part of the tolerance up to which the bound excuses a stretch from being measured.
 const CERTAIN: f64 = 0.9;
 
@@ -87,18 +89,25 @@ impl View<'_> {
         };
         let mut reader = self.trial.timeline.reader();
         let mut active: Vec<(u64, u64)> = Vec::new();
+        let calm = self.calm();
         for m in 0..self.marks.len() {
             let Some((from, to)) = self.active(m) else { continue };
             let from = from.max(self.trial.now + 1);
-            if self.marks[m].queued.bend <= 0.0 || !self.calm() {
+            if self.marks[m].queued.bend <= 0.0 && calm {
                 active.push((from, to));
                 continue;
             }
-            // of a bent block only where it bends
+            // of a bent block only where it bends, of a straight one only where its speed changes
             let mut k = from;
             while k <= to {
                 let until = to.min(k + reach.max(8));
-                if !self.straightens(k.saturating_sub(reach + 2), until, &mut reader) {
+                let passed_over = if calm {
+                    self.straightens(k.saturating_sub(reach + 2), until, &mut reader)
+                } else {
+                    k > from
+                        && self.is_steady(m, k.saturating_sub(2 * reach + 4), until, &mut reader)
+                };
+                if !passed_over {
                     active.push((k, until));
                 }
                 k = until + 1;
@@ -172,6 +181,31 @@ impl View<'_> {
         }
         let axes = trial.kernels.axes.len() as f64;
         axes.sqrt() * bend * (to - from) * (to - from) / 8.0 <= 0.5 * tolerance
+    }
+
+    /// True if the path runs evenly along the straight block of mark `m` in the cycles `first..=last`: the set points that
+    /// depend on nothing else are aside by the same vector. A speed that rises and falls at most once has the same value at
+    /// both ends, and as its mean, only if it is constant.
+    fn is_steady(&self, m: usize, first: u64, last: u64, reader: &mut Reader<'_>) -> bool {
+        let Self { trial, marks, .. } = self;
+        let ends = marks.get(m + 1).map_or_else(|| self.rest(), |next| next.cycles);
+        let inside = marks[m].cycles <= first as f64 && last as f64 <= ends;
+        if !inside || !marks[m].queued.block.path.is_straight() {
+            return false;
+        }
+        let mut state = PathState::at_rest(&marks[m].point);
+        let [from, to] = [first, last].map(|k| {
+            self.state(k, reader, &mut state);
+            state.s
+        });
+        let step = (to - from) / (last - first) as f64;
+        let steps = [first, first + (last - first) / 2, last - 1].map(|k| {
+            self.state(k, reader, &mut state);
+            let s = state.s;
+            self.state(k + 1, reader, &mut state);
+            state.s - s
+        });
+        steps.iter().all(|other| (other - step).abs() <= EVEN * step + 1e-9 * trial.cycle.seconds())
     }
 
     /// True if the changes of direction between two moments are too small to exceed the tolerance.
