@@ -31,7 +31,7 @@ const PARTS: u32 = 8;
 
 /// Share by which a vector to a point of the contour may be longer than the shortest one and still be taken for it. On a
 /// straight set path that is 4.5 % of the vector along the path.
-const ALIKE: f64 = 1e-3;
+pub(crate) const ALIKE: f64 = 1e-3;
 
 /// Halvings in the search for the point where the nearest block changes.
 const HALVINGS: u32 = 8;
@@ -171,8 +171,8 @@ impl SetPath {
         })
     }
 
-    /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest. Beyond `wary_mm` whatever could be called the
-    /// shortest vector counts.
+    /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest. Beyond
+    /// `wary_mm` whatever could be called the shortest vector counts.
     pub(crate) fn misses(
         &self,
         point: &[f64],

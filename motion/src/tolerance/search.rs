@@ -8,7 +8,7 @@
 use super::view::{Buffer, View};
 use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
 use crate::axis::AxisVec;
-use crate::deviation::{Excursion, SetPath};
+use crate::deviation::{ALIKE, Excursion, SetPath};
 use crate::timeline::{PathState, Reader};
 use kontur_filters::kernel::Kernel;
 
@@ -56,6 +56,11 @@ impl Violation {
 /// What a plan is held to, a little below the tolerance.
 pub(super) fn within(tolerance_mm: f64) -> f64 {
     tolerance_mm - MARGIN_MM.min(0.1 * tolerance_mm)
+}
+
+/// Length in mm up to which no component of a vector, or of what could be taken for it, exceeds a tolerance.
+fn certain(tolerance_mm: f64) -> f64 {
+    within(tolerance_mm) / (1.0 + ALIKE)
 }
 
 /// Path lengths and set points of a stretch of cycles.
@@ -317,7 +322,7 @@ impl View<'_> {
             // points of the contour that the filters hold no longer
             let mut missed = |point: &[f64], near: (u64, u64), moment: f64, s: f64| {
                 let tolerance_mm = self.tolerance(moment, moment + reach);
-                let wary_mm = DOUBT * tolerance_mm;
+                let wary_mm = certain(tolerance_mm);
                 let first = moment.floor().max(0.0) as u64;
                 let all = (first, first + length + 2);
                 let mut out = Excursion::none(n);
@@ -370,7 +375,7 @@ impl View<'_> {
                 let around = hint.saturating_sub(HINT)..=hint + HINT;
                 let best = around.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(hint);
                 // a set point near enough spares the search for the nearest one, which is found close to the last
-                if off(&best) <= DOUBT * tolerance {
+                if off(&best) <= certain(tolerance) {
                     hint = best;
                     continue;
                 }
