@@ -13,7 +13,7 @@ use kontur_filters::control::{
         ExactStopConfig, LagMonitorConfig, LagMonitorType, SetpointMonitorConfig, Thresholds,
     },
     position::DynamicKv,
-    scaling::{Motor, SpeedFormat, TimeBase, TorqueFormat},
+    scaling::{self, Motor, SpeedFormat, TimeBase, TorqueFormat, encoder_resolution},
 };
 
 /// Kind of drive (P-AXIS-00020), as far as it matters here.
@@ -65,6 +65,7 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
         feedforward,
         position: position(axis, limits.v_max_mm_s, diagnostics),
         encoder: encoder(axis),
+        increment_mm: increment_mm(axis),
         plant: plant::config(axis),
         lag: lag(axis, drive),
         exact_stop: exact_stop(axis),
@@ -259,6 +260,40 @@ fn encoder(axis: &Axis) -> Encoder {
     if listed || axis.get(kontur::LOAD_ENCODER) { Encoder::Direct } else { Encoder::Motor }
 }
 
+/// Smallest step of the measuring system of the position loop in mm: P-AXIS-00422/00423 of a direct one, else
+/// `R = incr_per_rev i / f` as soon as P-AXIS-00362 or P-AXIS-00363 is not 1, else P-AXIS-00234/00233.
+///
+/// Assumption: an axis whose list says nothing about its measuring system reads without steps, so that what a trace shows
+/// are the effects that the list asks for.
+fn increment_mm(axis: &Axis) -> f64 {
+    let quotient_of_set = |numerator: Place, denominator: Place| {
+        let set = [numerator, denominator].iter().any(|place| axis.set_by(*place).is_some());
+        let quotient = axis.listed(numerator) / axis.listed(denominator);
+        if set { quotient } else { 0.0 }
+    };
+    let resolution = if encoder(axis) == Encoder::Direct {
+        quotient_of_set(
+            axis_control::ENCODER_NUM.at(1).place(),
+            axis_control::ENCODER_DENOM.at(1).place(),
+        )
+    } else if feed_constant_given(axis) {
+        let (feed, gear) = (feed_constant(axis), gear(axis));
+        let increments = axis.listed(axis_control::INCREMENTS_PER_REV);
+        encoder_resolution(increments, feed[0] / feed[1] / 1e4, gear[0] / gear[1])
+    } else {
+        quotient_of_set(
+            axis_control::RESOLUTION_INCREMENTS.place(),
+            axis_control::RESOLUTION_PATH.place(),
+        )
+    };
+    scaling::increment_mm(resolution, axis.get(of::DROPPED_BITS))
+}
+
+/// P-AXIS-00362 or P-AXIS-00363 is not 1: the feed constant rules the resolution.
+fn feed_constant_given(axis: &Axis) -> bool {
+    !feed_constant(axis).into_iter().all(one)
+}
+
 fn lag(axis: &Axis, drive: Drive) -> LagMonitorConfig {
     // P-AXIS-00191: the default holds for digital drives
     let digital = matches!(drive, Drive::Bus | Drive::Profidrive);
@@ -342,7 +377,7 @@ pub(in crate::machine) fn has_rotary_motor(axis: &Axis) -> bool {
 /// Assumption: a rotary axis without feed constant turns by 360 degrees per revolution of the gear output.
 fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     let (feed, gear) = (feed_constant(axis), gear(axis));
-    let feed_given = !feed.into_iter().all(one);
+    let feed_given = feed_constant_given(axis);
     let motor = if has_rotary_motor(axis) {
         let turn = !feed_given && axis.kind() != AxisKind::Linear;
         Motor::Rotary {

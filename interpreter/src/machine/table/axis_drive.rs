@@ -79,7 +79,7 @@ parameters! {
     axis("P-AXIS-00392", "antr.acc_reference_value", Raw::Real64, "stall (nominal) torque of the motor; one overview of the manual misprints the key as feed_const_denom")
         .range(Bound::At(0.0), Bound::None).default(1.0).unit("N", "Nm").drives("SERCOS, CANopen").source("TF5200 feedforward control"), as TORQUE_REFERENCE: Number;
     axis("P-AXIS-00405", "antr.encoder_coarsening_factor", Raw::Uns16, "low encoder bits dropped")
-        .range(Bound::At(0.0), Bound::At(20.0)).default(0.0).drives("SERCOS, CANopen");
+        .range(Bound::At(0.0), Bound::At(20.0)).default(0.0).drives("SERCOS, CANopen"), as DROPPED_BITS: Whole;
     axis("P-AXIS-00513", "", Raw::Uns32, "named in the block diagram of the additive variant only, meaning unknown")
         .source("TF5200 feedforward control");
     axis("P-AXIS-00514", "vorsteuer.feedforward_v_add_num", Raw::Uns32, "velocity-only weight numerator")
