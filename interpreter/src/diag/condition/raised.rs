@@ -289,7 +289,7 @@ conditions! {
     InputNoEffect = Kontur 77 "K-INPUT-NOEFFECT": Warning None 1 0, "real-time input without effect", cause "the message says what is off in the machine";
     ListAdvice = Kontur 78 "K-LIST-ADVICE": Note None 1 2, "list value outside what the documents recommend", cause "a recommendation: nothing is changed";
     PositionLoop = Kontur 79 "K-LOOP": Note None 1 2, "position loop simulated in another way than the list says", cause "P-AXIS-00320: loop in the drive, or none", hint "set kv (P-AXIS-00099) to the gain of the loop it stands for";
-    AxDevNotKept = Kontur 80 "K-AX-DEV": Warning None 1 1, "tolerance AX_DEV could not be kept", cause "axes with unequal kernels, or a corner that is final already", hint "axes with unequal filters cannot keep a tolerance; program MODE, FREQ and DAMPING";
+    AxDevNotKept = Kontur 80 "K-AX-DEV": Error ProgramAbort 3 0, "tolerance AX_DEV could not be kept", cause "neither a lower speed nor a rest keeps it", hint "give the axes the same filter, or allow more AX_DEV";
     Message = Kontur 81 "K-MSG": Note None 1 1, "message of the program (#MSG)";
     Internal = Kontur 82 "K-INTERNAL": Error AllStop 8 0, "internal error of kontur", hint "this is an error of kontur itself; the program and the machine lists help to find it";
     Held = Kontur 83 "K-HELD": Error ProgramAbort 3 0, "path held for ever by feedhold or override 0, run stopped", cause "no later time stamp of the inputs releases it";
