@@ -3,6 +3,7 @@
 use crate::axis::AxisVec;
 use crate::corner::TANGENT;
 use crate::queue::Queued;
+use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::Arc;
@@ -41,6 +42,13 @@ impl Passed {
 }
 
 impl Passed {
+    /// Distance of a point from the path of the block; `q` becomes the nearest point.
+    fn distance(&self, point: &[f64], q: &mut AxisVec) -> f64 {
+        let path = &self.queued.block.path;
+        path.position(path.nearest(point), q);
+        q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum::<f64>().sqrt()
+    }
+
     /// True if the direction of an axis changes between two blocks.
     fn turns_into(&self, next: &Self) -> bool {
         let (out, into) = (&self.queued.ends.tangent_out, &next.queued.ends.tangent_in);
@@ -106,8 +114,47 @@ impl Contour {
         to: f64,
         out: &mut [f64],
     ) -> Option<Nearest> {
+        nearest(self.blocks.range(self.numbers(from, to)), point, out)
+    }
+
+    /// The blocks that can be the nearest one of those interpolated between two moments (cycles) to a point of the line
+    /// between two points, or be taken for it; also of those interpolated up to `slack` cycles before and behind. Half the
+    /// length of the line from its middle a block is nearer, or further, by that much at most.
+    pub(crate) fn around(
+        &self,
+        line: (&[f64], &[f64]),
+        (from, to): (f64, f64),
+        slack: (f64, f64),
+    ) -> Around<'_> {
+        let among = self.numbers(from, to);
+        let all = self.numbers(from - slack.0, to + slack.1);
+        let (mut middle, mut half) = (AxisVec::zeros(line.0.len()), 0.0);
+        for ((m, a), b) in middle.iter_mut().zip(line.0).zip(line.1) {
+            *m = 0.5 * (a + b);
+            half += 0.25 * (b - a) * (b - a);
+        }
+        let half: f64 = f64::sqrt(half);
+        let mut q = AxisVec::zeros(middle.len());
+        let mut least = f64::INFINITY;
+        let mut blocks: SmallVec<[(usize, f64, &Passed); 16]> = SmallVec::new();
+        for (i, passed) in all.clone().zip(self.blocks.range(all)) {
+            // the parts of one path are all as near as the whole of it
+            let same = blocks.last().filter(|(_, _, b)| b.is_part_of_the_same(passed));
+            let distance = same.map_or_else(|| passed.distance(&middle, &mut q), |b| b.1);
+            if among.contains(&i) {
+                least = least.min(distance);
+            }
+            blocks.push((i, distance, passed));
+        }
+        let within = (1.0 + WARY) * (least + half) + half;
+        blocks.retain(|(_, distance, _)| *distance <= within);
+        Around { blocks }
+    }
+
+    /// Numbers of the blocks that [`Self::nearest`] looks at.
+    pub(crate) fn numbers(&self, from: f64, to: f64) -> Range<usize> {
         let Range { start, end } = self.entries(from, to);
-        nearest(self.blocks.range(start..self.whole(end)), point, out)
+        start..self.whole(end)
     }
 
     /// As [`Self::nearest`] for the blocks that the path lengths `from..=to` lie in.
@@ -144,26 +191,38 @@ impl Contour {
             queued.block.path.position(queued.offset + s, out);
         }
     }
+}
 
-    /// Largest component of all vectors to a point that could be called the shortest: those that are longer by at most
-    /// `WARY`, from blocks interpolated between two moments or within `slack` cycles of them. Between points that are
-    /// looked at, and with another idea of what is within reach, another block may be the nearest.
-    pub(crate) fn worst_component(&self, point: &[f64], from: f64, to: f64, slack: f64) -> f64 {
+/// Blocks of a contour, see [`Contour::around`].
+pub(crate) struct Around<'a> {
+    /// Number in the contour, distance from the middle of the line, and the block.
+    blocks: SmallVec<[(usize, f64, &'a Passed); 16]>,
+}
+
+impl Around<'_> {
+    /// As [`Contour::nearest`], of those blocks whose numbers are among these.
+    pub(crate) fn nearest(
+        &self,
+        point: &[f64],
+        among: &Range<usize>,
+        out: &mut [f64],
+    ) -> Option<Nearest> {
+        let blocks = self.blocks.iter().filter(|(i, _, _)| among.contains(i));
+        nearest(blocks.map(|(_, _, passed)| *passed), point, out)
+    }
+
+    /// Largest component of all vectors to a point that could be called the shortest: those from any of the blocks that are
+    /// longer by at most `WARY` than the shortest one from the blocks whose numbers are `among` these. Between points that
+    /// are looked at, and with another idea of what is within reach, another block may be the nearest.
+    pub(crate) fn worst_component(&self, point: &[f64], among: &Range<usize>) -> f64 {
         let mut vector = AxisVec::zeros(point.len());
-        let Some(nearest) = self.nearest(point, from, to, &mut vector) else { return 0.0 };
+        let Some(nearest) = self.nearest(point, among, &mut vector) else { return 0.0 };
         let within = (1.0 + WARY) * nearest.distance;
         let mut worst = vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        let Range { start, end } = self.entries(from - slack, to + slack);
-        for passed in self.blocks.range(start..self.whole(end)) {
-            let path = &passed.queued.block.path;
-            path.position(path.nearest(point), &mut vector);
-            let (mut d2, mut largest) = (0.0, 0.0_f64);
-            for (q, p) in vector.iter().zip(point) {
-                d2 += (q - p) * (q - p);
-                largest = largest.max((q - p).abs());
-            }
-            if d2 <= within * within {
-                worst = worst.max(largest);
+        for (_, _, passed) in &self.blocks {
+            if passed.distance(point, &mut vector) <= within {
+                let aside = vector.iter().zip(point).map(|(q, p)| (q - p).abs());
+                worst = aside.fold(worst, f64::max);
             }
         }
         worst

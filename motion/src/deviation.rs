@@ -25,6 +25,7 @@
 
 use crate::axis::AxisVec;
 use crate::contour::Contour;
+use smallvec::SmallVec;
 
 /// Parts into which the line between two set points is divided where it passes a border of blocks.
 const PARTS: u32 = 8;
@@ -121,10 +122,16 @@ impl SetPath {
     ) {
         let Some(here) = self.get(k) else { return };
         let mut vector = AxisVec::zeros(self.axes);
-        let now = contour.nearest(here, from, to, &mut vector);
+        let Some(before) = k.checked_sub(1).and_then(|k| self.get(k)) else {
+            contour.nearest(here, from, to, &mut vector);
+            out.take(&vector);
+            return;
+        };
+        let around = contour.around((before, here), (from, to), (1.0, 0.0));
+        let now = around.nearest(here, &contour.numbers(from, to), &mut vector);
         out.take(&vector);
-        let Some(before) = k.checked_sub(1).and_then(|k| self.get(k)) else { return };
-        let then = contour.nearest(before, from - 1.0, to, &mut vector);
+        let all = 0..usize::MAX;
+        let then = around.nearest(before, &all, &mut vector);
         let parts = match (now, then) {
             (Some(now), Some(then)) if now.block == then.block => {
                 if now.straight {
@@ -138,7 +145,7 @@ impl SetPath {
         // the largest distance lies where the nearest point passes from one block to another
         let mut look = |u: f64| {
             let point: AxisVec = before.iter().zip(here).map(|(a, b)| a + u * (b - a)).collect();
-            let found = contour.nearest(&point, from - 1.0, to, &mut vector).map(|n| n.block);
+            let found = around.nearest(&point, &all, &mut vector).map(|n| n.block);
             out.take(&vector);
             found
         };
@@ -157,18 +164,28 @@ impl SetPath {
         }
     }
 
-    /// Points of the line from the set point of cycle `k - 1` to that of cycle `k`, the latter included, at most `apart` mm
-    /// from each other as long as `PARTS` of them are enough.
-    pub(crate) fn between(&self, k: u64, apart: f64) -> impl Iterator<Item = AxisVec> + '_ {
+    /// Largest component of (a) between cycle `k - 1` and cycle `k`, whatever could be called the shortest vector: from
+    /// blocks within `slack` cycles of the two moments, too. Points of the line count at most `apart` mm from each other,
+    /// as long as `PARTS` of them are enough.
+    pub(crate) fn doubtful(
+        &self,
+        contour: &Contour,
+        k: u64,
+        (from, to): (f64, f64),
+        (slack, apart): (f64, f64),
+    ) -> f64 {
         let ends = k.checked_sub(1).and_then(|before| Some((self.get(before)?, self.get(k)?)));
-        ends.into_iter().flat_map(move |(a, b)| {
-            let length = a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt();
-            let parts = (length / apart).ceil().clamp(1.0, f64::from(PARTS)) as u32;
-            (1..=parts).map(move |part| {
-                let u = f64::from(part) / f64::from(parts);
-                a.iter().zip(b).map(|(a, b)| a + u * (b - a)).collect()
-            })
-        })
+        let Some((a, b)) = ends else { return 0.0 };
+        let around = contour.around((a, b), (from, to), (slack, slack));
+        let among = contour.numbers(from, to);
+        let length = a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt();
+        let parts = (length / apart).ceil().clamp(1.0, f64::from(PARTS)) as u32;
+        let component = |part: u32| {
+            let u = f64::from(part) / f64::from(parts);
+            let point: AxisVec = a.iter().zip(b).map(|(a, b)| a + u * (b - a)).collect();
+            around.worst_component(&point, &among)
+        };
+        (1..=parts).map(component).fold(0.0, f64::max)
     }
 
     /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest. Beyond
@@ -181,10 +198,11 @@ impl SetPath {
         out: &mut Excursion,
     ) -> Option<u64> {
         let (first, last) = (first.max(self.first), last.min(self.end().checked_sub(1)?));
-        let mut vector = AxisVec::zeros(self.axes);
         let mut best = (f64::INFINITY, first);
+        let mut distances: SmallVec<[f64; 64]> = SmallVec::new();
         for k in first..last {
-            let d2 = self.to_line(k, point, &mut vector);
+            let d2 = self.to_line(k, point).0;
+            distances.push(d2);
             if d2 < best.0 {
                 best = (d2, k);
             }
@@ -193,12 +211,14 @@ impl SetPath {
         if d2.is_infinite() {
             return None;
         }
-        self.to_line(k, point, &mut vector);
+        let mut vector = AxisVec::zeros(self.axes);
+        self.aside(k, point, &mut vector);
         out.take(&vector);
         if d2 > wary_mm * wary_mm {
             let within = (1.0 + ALIKE) * (1.0 + ALIKE) * d2;
-            for k in first..last {
-                if self.to_line(k, point, &mut vector) <= within {
+            for (k, d2) in (first..last).zip(distances) {
+                if d2 <= within {
+                    self.aside(k, point, &mut vector);
                     out.take(&vector);
                 }
             }
@@ -206,19 +226,36 @@ impl SetPath {
         Some(k + 1)
     }
 
-    /// Square of the distance of a point from the line between cycle `k` and cycle `k + 1`, and the vector from the point.
-    fn to_line(&self, k: u64, point: &[f64], vector: &mut [f64]) -> f64 {
-        let (Some(a), Some(b)) = (self.get(k), self.get(k + 1)) else { return f64::INFINITY };
+    /// Square of the distance of a point from the line between cycle `k` and cycle `k + 1`, and where along the line.
+    fn to_line(&self, k: u64, point: &[f64]) -> (f64, f64) {
+        let n = point.len();
+        let ends = k.checked_sub(self.first).and_then(|at| {
+            let at = at as usize * n;
+            self.values.get(at..at + 2 * n)
+        });
+        let Some((a, b)) = ends.map(|ends| ends.split_at(n)) else { return (f64::INFINITY, 0.0) };
         let (mut dot, mut norm) = (0.0, 0.0);
-        for ((p, a), b) in point.iter().zip(a).zip(b) {
-            dot += (p - a) * (b - a);
-            norm += (b - a) * (b - a);
+        for i in 0..n {
+            let d = b[i] - a[i];
+            dot += (point[i] - a[i]) * d;
+            norm += d * d;
         }
         let u = if norm > 0.0 { (dot / norm).clamp(0.0, 1.0) } else { 0.0 };
+        let mut d2 = 0.0;
+        for i in 0..n {
+            let c = a[i] + u * (b[i] - a[i]) - point[i];
+            d2 += c * c;
+        }
+        (d2, u)
+    }
+
+    /// The shortest vector from a point to the line between cycle `k` and cycle `k + 1`.
+    fn aside(&self, k: u64, point: &[f64], vector: &mut [f64]) {
+        let u = self.to_line(k, point).1;
+        let (Some(a), Some(b)) = (self.get(k), self.get(k + 1)) else { return };
         for (((v, p), a), b) in vector.iter_mut().zip(point).zip(a).zip(b) {
             *v = a + u * (b - a) - p;
         }
-        vector.iter().map(|c| c * c).sum()
     }
 }
 

@@ -18,8 +18,6 @@ const HINT: u64 = 3;
 const HALVINGS: u32 = 6;
 /// Points of the contour looked at in a cycle in which it may be missed.
 const PARTS: f64 = 4.0;
-/// Cycles on both sides of the last one among which the nearest set point is looked for.
-const AROUND: u64 = 24;
 /// Distance between the points of the contour that are looked at, in tolerances.
 const SPACING: f64 = 0.02;
 /// Cycles measured in one go, so that long stretches need little memory.
@@ -302,11 +300,13 @@ impl View<'_> {
                 let mut deviation_mm = out.largest();
                 if out.length > DOUBT * tolerance && deviation_mm <= within(tolerance) {
                     // the components depend on what counts as within reach
-                    let doubtful = |point: &[f64]| {
-                        contour.worst_component(point, moment - reach, moment, BORDER_CYCLES)
-                    };
-                    let points = set.between(k, 10.0 * SPACING * tolerance);
-                    deviation_mm = points.map(|p| doubtful(&p)).fold(deviation_mm, f64::max);
+                    let doubtful = set.doubtful(
+                        contour,
+                        k,
+                        (moment - reach, moment),
+                        (BORDER_CYCLES, 10.0 * SPACING * tolerance),
+                    );
+                    deviation_mm = deviation_mm.max(doubtful);
                 }
                 if deviation_mm > within(tolerance) {
                     let axis = out.axis();
@@ -320,11 +320,14 @@ impl View<'_> {
                 }
             }
             // points of the contour that the filters hold no longer
+            let all = |moment: f64| {
+                let first = moment.floor().max(0.0) as u64;
+                (first, first + length + 2)
+            };
             let mut missed = |point: &[f64], near: (u64, u64), moment: f64, s: f64| {
                 let tolerance_mm = self.tolerance(moment, moment + reach);
                 let wary_mm = certain(tolerance_mm);
-                let first = moment.floor().max(0.0) as u64;
-                let all = (first, first + length + 2);
+                let all = all(moment);
                 let mut out = Excursion::none(n);
                 let mut cycle = set.misses(point, near, wary_mm, &mut out);
                 if out.length > wary_mm && near != all {
@@ -347,9 +350,7 @@ impl View<'_> {
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
                 if at > 0 && mark.jump > 1e-9 {
-                    let first = mark.cycles.floor().max(0.0) as u64;
-                    let all = (first, first + length + 2);
-                    missed(&mark.point, all, mark.cycles, mark.s_mm);
+                    missed(&mark.point, all(mark.cycles), mark.cycles, mark.s_mm);
                 }
                 at += 1;
             }
@@ -371,17 +372,10 @@ impl View<'_> {
             for part in 1..=parts {
                 let s = from + f64::from(part) / f64::from(parts) * (to - from);
                 contour.position(s, &mut between);
-                let off = |k: &u64| set.get(*k).map_or(f64::INFINITY, |p| distance(p, &between));
-                let around = hint.saturating_sub(HINT)..=hint + HINT;
-                let best = around.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(hint);
-                // a set point near enough spares the search for the nearest one, which is found close to the last
-                if off(&best) <= certain(tolerance) {
-                    hint = best;
-                    continue;
-                }
-                let near = |hint: u64| (hint.saturating_sub(AROUND).max(passed), hint + AROUND);
+                // the nearest set point is found close to the last one
                 let before = hint;
-                hint = missed(&between, near(before), passed as f64, s);
+                let near = (before.saturating_sub(HINT).max(passed), before + HINT);
+                hint = missed(&between, near, passed as f64, s);
                 if hint.abs_diff(before) <= HINT {
                     continue;
                 }
@@ -390,7 +384,7 @@ impl View<'_> {
                 for _ in 0..HALVINGS {
                     let mid = 0.5 * (low + high);
                     contour.position(mid, &mut between);
-                    let found = missed(&between, near(before), passed as f64, mid);
+                    let found = missed(&between, near, passed as f64, mid);
                     if found.abs_diff(before) <= found.abs_diff(hint) {
                         low = mid;
                     } else {
@@ -419,8 +413,4 @@ impl View<'_> {
         }
         self.marks[m].queued.ends.tangent_in[axis] - before.queued.ends.tangent_out[axis]
     }
-}
-
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
