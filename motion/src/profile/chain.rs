@@ -45,15 +45,21 @@ impl Phase {
 
     /// The state `t` s after the start, as the start of a phase without duration.
     pub(crate) fn after(&self, t: f64) -> Self {
-        let Self { s, v, a, j, .. } = *self;
+        let (way, v, a) = self.way_after(t);
+        Self::state(self.s + way, v, a)
+    }
+
+    /// Path length run through in the first `t` s, velocity and acceleration then.
+    fn way_after(&self, t: f64) -> (f64, f64, f64) {
+        let Self { v, a, j, .. } = *self;
         let Some(sine) = self.sine else {
-            let distance = t * (v + t * (0.5 * a + t * j / 6.0));
-            return Self::state(s + distance, v + t * (a + 0.5 * t * j), a + t * j);
+            let way = t * (v + t * (0.5 * a + t * j / 6.0));
+            return (way, v + t * (a + 0.5 * t * j), a + t * j);
         };
         let (from, to) = (self.on_ramp(sine, 0.0), self.on_ramp(sine, t));
         let base = a - from.a;
-        let distance = t * (v - from.v + 0.5 * t * base) + (to.s - from.s);
-        Self::state(s + distance, v + t * base + (to.v - from.v), base + to.a)
+        let way = t * (v - from.v + 0.5 * t * base) + (to.s - from.s);
+        (way, v + t * base + (to.v - from.v), base + to.a)
     }
 
     fn on_ramp(&self, sine: Sine, t: f64) -> RampState {
@@ -94,26 +100,26 @@ impl Phase {
         if want <= 0.0 {
             return 0.0;
         }
-        let whole = self.end().s - self.s;
+        let whole = self.way_after(self.t).0;
         if want >= whole {
             return self.t;
         }
         let (mut low, mut high) = (0.0, self.t);
         let mut t = self.t * want / whole;
         for _ in 0..60 {
-            let at = self.after(t);
-            let miss = at.s - self.s - want;
+            let (way, v, _) = self.way_after(t);
+            let miss = way - want;
             if miss > 0.0 {
                 high = t;
             } else {
                 low = t;
             }
-            let newton = t - miss / at.v;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - t).abs() <= 1e-16 * self.t {
-                return next;
+            let newton = t - miss / v;
+            // what is left is rounding
+            if (newton - t).abs() <= 2.0 * f64::EPSILON * self.t {
+                return newton.clamp(low, high);
             }
-            t = next;
+            t = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         }
         t
     }

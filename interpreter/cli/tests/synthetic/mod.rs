@@ -122,6 +122,7 @@ fn square(slow: bool, late: bool, bad: bool, kernel: &Kernel) -> VecDeque<CycleR
                 vel,
                 acc,
                 dev: dev[i],
+                dev_both_ways: dev[i].abs(),
                 reference: set[i],
                 act: act[i],
                 load: act[i],
