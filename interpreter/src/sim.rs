@@ -273,6 +273,7 @@ impl Simulation {
                         self.never_arrives(chain, lacks);
                         return None;
                     }
+                    self.totals.dwell_cycles += u64::from(wait.is_dwell());
                     wait.count();
                     self.planner.hold(SpeedLimit::Stop);
                     break;
