@@ -126,3 +126,55 @@ fn declared_durations_are_named() {
         assert!(named.contains(&w), "{w}: {named:?}");
     }
 }
+
+/// Rows of a sweep over a square, by columns.
+fn sweep(program: &str, vary: &[&str]) -> (Vec<Vec<String>>, String) {
+    let folder = Folder::new(&[("part.nc", program)]);
+    let part = folder.path("part.nc");
+    let mut words = vec!["sweep", &part, "--columns", "duration_s,contour_err_mm"];
+    words.extend(vary.iter().flat_map(|v| ["--vary", v]));
+    let done = command(&words);
+    assert_eq!(done.exit, Exit::Finished, "{}", done.err);
+    let rows = done.out.lines().skip(1);
+    (rows.map(|l| l.split(',').map(str::to_owned).collect()).collect(), done.err)
+}
+
+const SQUARE: &str = "G01 X1 F4000\nY1\nX0\nY0\nM30\n";
+
+/// All axes vary together with `*` and with a list of names, as with one `--set` each.
+#[test]
+fn axes_vary_together() {
+    let square = format!("#VIB GUARD ON\n{SQUARE}");
+    let (rows, err) = sweep(&square, &["*.vib_guard.freq=20,40"]);
+    assert!(!err.contains("every value gives the same"), "{err}");
+    for (row, hz) in rows.iter().zip(["20", "40"]) {
+        let each: Vec<String> = ["X", "Y", "Z"].map(|a| format!("{a}.vib_guard.freq={hz}")).into();
+        let (one, _) = sweep(&square, &each.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(row[1..], one[0][3..], "{hz} Hz");
+        let (named, _) = sweep(&square, &[&format!("X,Y,Z.vib_guard.freq={hz}")]);
+        // the key has commas: its cell is quoted, the results are the last ones
+        assert_eq!(row[1..], named[0][named[0].len() - row.len() + 1..], "{hz} Hz");
+    }
+    assert_ne!(rows[0][1..], rows[1][1..]);
+}
+
+/// What a program sets itself does not vary: the sweep says so.
+#[test]
+fn a_value_that_the_program_sets_itself_is_told() {
+    let own = format!("#VIB GUARD ON [MODE=1 FREQ=30]\n{SQUARE}");
+    let (rows, err) = sweep(&own, &["*.vib_guard.freq=20,40"]);
+    assert_eq!(rows[0][1..], rows[1][1..]);
+    assert!(err.contains("*.vib_guard.freq: every value gives the same results"), "{err}");
+}
+
+/// External variables carry the words of a command.
+#[test]
+fn values_of_a_program_vary() {
+    let with = |value: &str| format!("#VIB GUARD ON [MODE=1 FREQ={value}]\n{SQUARE}");
+    let (rows, err) = sweep(&with("V.E.HZ"), &["V.E.HZ=20,40"]);
+    assert!(!err.contains("every value"), "{err}");
+    for (row, hz) in rows.iter().zip(["20", "40"]) {
+        let (fixed, _) = sweep(&with(hz), &["X.vib_guard.freq=33"]);
+        assert_eq!(row[1..], fixed[0][1..]);
+    }
+}
