@@ -114,7 +114,7 @@ impl View<'_> {
             return;
         }
         *told = Some((place, excess));
-        let parts = self.parts_of(v, record, first, last);
+        let mut parts = self.parts_of(v, record, first, last);
         let free = |p: &Part| {
             let m = &marks[p.mark];
             if p.bend {
@@ -124,6 +124,10 @@ impl View<'_> {
                     .is_some_and(|b| demands.stop[b].is_none_or(|dwell| u64::from(dwell) < length))
             }
         };
+        // far off the contour the nearest point is not the middle of what the filters hold, and no part may point the same way
+        if !parts.iter().any(|p| free(p) && p.size > 0.0) {
+            parts.iter_mut().for_each(|p| p.size = p.size.abs());
+        }
         let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
         let alike: Vec<&Part> =
             parts.iter().filter(|p| free(p) && p.size > 0.0 && p.size >= ALIKE * largest).collect();
