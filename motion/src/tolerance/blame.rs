@@ -29,6 +29,8 @@ const HALVINGS: u32 = 24;
 const LITTLE_MORE: f64 = 1.05;
 /// Share of the tolerance by which an even speed aims below it.
 const AIM: f64 = 0.01;
+/// Least part of the speed planned that one round leaves of it.
+const LEAST_OF_ROUND: f64 = 0.5;
 /// Largest reduction of an even speed in one round.
 const MOST: f64 = 0.25;
 /// Places around a point of the contour at which an even run is looked at for the point.
@@ -208,7 +210,8 @@ impl View<'_> {
             // the path rests while the filters swing: no speed is the cause
             f64::INFINITY
         } else if even < 0.995 * present {
-            even
+            // a plan that is far too fast says little about who is to blame in a slower one
+            even.max(LEAST_OF_ROUND * present)
         } else {
             // where the speed is even already, or a change of speed is the cause
             let aim = within(v.tolerance_mm) - AIM * v.tolerance_mm;
