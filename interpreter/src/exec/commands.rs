@@ -11,8 +11,10 @@ mod frames;
 pub(in crate::exec) mod keys;
 mod messages;
 mod misc;
+mod positions;
 mod shaping;
 mod slope;
+mod spindles;
 
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
@@ -156,6 +158,9 @@ const ROWS: &[Row] = &[
     // waiting and synchronising
     misc::FLUSH,
     misc::CHANNEL_INIT,
+    positions::GET_CMDPOS,
+    positions::GET_ACTPOS,
+    positions::SET_IPO_SOLLPOS,
     misc::TIME,
     misc::WAIT,
     misc::TIMER,
@@ -202,6 +207,7 @@ const ROWS: &[Row] = &[
     run("ORI MODE", frames::transformation),
     off_only("PTP"),
     off_only("CYL"),
+    off_only("TLC"),
     off_only("FACE"),
     off_only("CAX"),
     off_only("CAXTRACK"),
@@ -218,21 +224,22 @@ const ROWS: &[Row] = &[
     unsupported("VOLCOMP"),
     unsupported("JOG"),
     unsupported("HANDWHEEL"),
-    unsupported("SET IPO SOLLPOS"),
+    // spindles
+    spindles::MAIN_SPINDLE,
     // cycles
     run("DISABLE MODAL CYCLE", misc::disable_modal_cycle),
     run("RETAIN CYCLE CHANGES", misc::retain_cycle_changes),
     // no influence on set positions
-    ignored("GET CMDPOS"),
-    ignored("GET ACTPOS"),
     ignored("SINGLE STEP"),
     ignored("BLOCKSEARCH"),
-    ignored("TOOL"),
+    ignored("TOOL DATA"),
+    ignored("TOOL PREP"),
+    ignored("TOOL REFRESH"),
+    unsupported("TOOL"),
     ignored("EXPL SYN"),
-    ignored("MAIN SPINDLE"),
-    ignored("LOAD CONFIG"),
+    unsupported("LOAD CONFIG"),
     ignored("SAVE CONFIG"),
-    ignored("CLEAR CONFIG"),
+    unsupported("CLEAR CONFIG"),
     ignored("CACHE"),
     ignored("CONTROL AREA"),
     ignored("DISTANCE PROG START"),
@@ -245,7 +252,6 @@ const ROWS: &[Row] = &[
     ignored("OPTIONAL EXECUTION"),
     ignored("BACKWARD"),
     ignored("FF"),
-    ignored("TLC"),
     ignored("LAH"),
     ignored("DIAGNOSIS"),
     ignored("SCENE"),

@@ -89,11 +89,6 @@ impl Decoder {
         if spindles.is_empty() {
             spindles.push(Spindle::new("S", None));
         }
-        if let Some(main) = machine.channel.main_spindle
-            && let Some(i) = machine.spindles.iter().position(|s| s.number() == main)
-        {
-            spindles.swap(0, i);
-        }
         let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
         let mut decoder = Self {
             identity_trafo: options.identity_trafo,
@@ -111,6 +106,7 @@ impl Decoder {
                 limits_mm: machine.axes.iter().map(Axis::software_limits_mm).collect(),
                 last_arc: LastArc::default(),
                 last_system: 1,
+                transformation_on: false,
                 tools: Tools::default(),
             },
             contour: Contour::default(),
@@ -137,6 +133,8 @@ impl Decoder {
             moved: false,
             machine,
         };
+        let main = decoder.listed_main_spindle();
+        decoder.motion.spindles.swap(0, main);
         decoder.axis_names_changed();
         decoder.presets();
         let Worked { setup, diagnostics } = decoder.shaping.work_out(&decoder.machine);
@@ -377,6 +375,17 @@ impl Decoder {
     /// Unit of tolerance words in mm (P-CHAN-00439).
     pub(super) fn tolerance_unit_mm(&self) -> f64 {
         if self.machine.channel.contouring_consider_inch { self.unit_mm() } else { 1.0 }
+    }
+
+    /// Where the spindle of P-CHAN-00051 stands among the spindles, or else the first one of the lists.
+    pub(super) fn listed_main_spindle(&self) -> usize {
+        let listed = self
+            .machine
+            .channel
+            .main_spindle
+            .and_then(|main| self.machine.spindles.iter().position(|s| s.number() == main));
+        let is = |spindle: &Spindle| spindle.index == Some(listed.unwrap_or(0));
+        self.motion.spindles.iter().position(is).unwrap_or(0)
     }
 
     /// Spindle of a name in either case: that of its list, and for the main spindle P-CHAN-00053.

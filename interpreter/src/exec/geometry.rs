@@ -34,5 +34,7 @@ pub(super) struct Geometry {
     pub(super) last_arc: LastArc,
     /// Coordinate system stored last.
     pub(super) last_system: u32,
+    /// `#TRAFO` or `#RTCP` is on.
+    pub(super) transformation_on: bool,
     pub(super) tools: Tools,
 }

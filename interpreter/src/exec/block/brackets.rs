@@ -117,7 +117,11 @@ impl Decoder {
             let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
             if items[..i].iter().any(same) {
                 let text = "two words of a spindle bracket that set the same";
-                return Err(Fault::new(Condition::DuplicateGroup, text, *span));
+                let condition = match item {
+                    SpindleItem::Turn(_) => Condition::SpindleMTwice,
+                    _ => Condition::DuplicateGroup,
+                };
+                return Err(Fault::new(condition, text, *span));
             }
         }
         let motion = |i: &SpindleItem| {
@@ -159,7 +163,9 @@ impl Decoder {
                 (key.text.to_ascii_uppercase(), Some(self.number(expr)?))
             }
             ItemKind::Pair { key, .. } => return Err(unknown(&key.text)),
-            ItemKind::Value(_) | ItemKind::Missing => return Err(unknown("value")),
+            ItemKind::Value(_) | ItemKind::Target { .. } | ItemKind::Missing => {
+                return Err(unknown("value"));
+            }
         };
         Ok(match (word.as_str(), value) {
             ("M3" | "M03", None) => SpindleItem::Turn(3),

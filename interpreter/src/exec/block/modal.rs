@@ -79,8 +79,6 @@ pub(in crate::exec) enum Compensation {
 /// G25, G26.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum Corners {
-    /// Neither was programmed: as [`Round`](Self::Round).
-    Unsaid,
     Straight,
     Round,
 }
@@ -145,7 +143,7 @@ impl Modal {
             old_slope: false,
             look_ahead: LookAhead::Complete,
             compensation: Compensation::Off,
-            corners: Corners::Unsaid,
+            corners: Corners::Straight,
             perpendicular_selection: false,
             insertion_mm: None,
             transition_min_mm_s: 0.0,

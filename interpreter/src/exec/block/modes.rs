@@ -1,6 +1,6 @@
 //! Weights, feedforward, tools, rotation and tool radius compensation: words that change how later blocks move.
 
-use super::modal::{Compensation, Corners};
+use super::modal::Compensation;
 use super::words::{GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
@@ -191,11 +191,6 @@ impl Decoder {
             let text = "the tool has the radius 0: the path is the programmed contour";
             let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
             self.note_once("G41", Fault::new(Condition::NoTool, text, span).hint(hint));
-        }
-        if side != Compensation::Off && self.modal.corners == Corners::Unsaid {
-            let text = "outer corners are rounded (G26); the control starts with lines (G25)";
-            let hint = "write G25 or G26 before G41 and G42";
-            self.note_once("G26", Fault::new(Condition::Odd, text, span).hint(hint));
         }
         self.modal.compensation = side;
     }

@@ -9,9 +9,10 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::suggest;
+use crate::exec::values::system;
 use crate::syntax::ast::{
-    Assign, Bracket, Call, CodeNumber, Expr, ExprKind, GValue, HashWord, Label, Name, Sign, Span,
-    Word, WordKind,
+    Assign, Bracket, Call, CodeNumber, Expr, ExprKind, GValue, HashWord, Label, Name, PlaceKind,
+    Sign, Span, Word, WordKind,
 };
 use smallvec::SmallVec;
 
@@ -63,6 +64,8 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) speeds: SmallVec<[(usize, f64, Span); 1]>,
     pub(in crate::exec) tool: Option<Placed>,
     pub(in crate::exec) tool_data: Option<Placed>,
+    /// A write to `V.G.WZ_AKT`.
+    pub(in crate::exec) tool_written: Option<Span>,
     pub(in crate::exec) m: SmallVec<[Code; 4]>,
     pub(in crate::exec) h: SmallVec<[Code; 1]>,
     pub(in crate::exec) cycle: Option<CycleCall>,
@@ -96,12 +99,23 @@ impl Decoder {
         for word in words {
             if let Err(fault) = self.collect_word(word, block) {
                 self.note(fault);
+                if block.call.is_some() {
+                    break;
+                }
             }
+        }
+        if let (Some(_), Some(span)) = (block.tool_data, block.tool_written) {
+            let text = "D and a write to V.G.WZ_AKT in one block: both set the tool data in use";
+            self.note(Fault::new(Condition::ToolTwice, text, span));
         }
     }
 
     fn collect_word<'b>(&mut self, word: &'b Word, block: &mut Words<'b>) -> Outcome<()> {
         let span = word.span;
+        if block.call.is_some() && !matches!(word.kind, WordKind::Call(_)) {
+            let text = "nothing stands behind a subroutine or cycle call in its block";
+            return Err(Fault::new(Condition::BehindCall, text, span));
+        }
         match &word.kind {
             WordKind::Address { name, sign, value } => {
                 self.address(name, *sign, value, span, block)
@@ -111,14 +125,19 @@ impl Decoder {
                 let code = self.code(number, value.as_deref(), "M", span)?;
                 if block.m.iter().any(|m| m.number == code.number) {
                     let text = format!("M{} twice in one block", code.number);
-                    self.note(Fault::new(Condition::Odd, text, span).warning());
-                } else {
-                    block.m.push(code);
+                    return Err(Fault::new(Condition::MTwice, text, span)
+                        .with(|d| d.value(ValueKind::Current, code.number, "-")));
                 }
+                block.m.push(code);
                 Ok(())
             }
             WordKind::H(number, value) => {
                 let code = self.code(number, value.as_deref(), "H", span)?;
+                if block.h.iter().any(|h| h.number == code.number) {
+                    let text = format!("H{} twice in one block", code.number);
+                    return Err(Fault::new(Condition::HTwice, text, span)
+                        .with(|d| d.value(ValueKind::Current, code.number, "-")));
+                }
                 block.h.push(code);
                 Ok(())
             }
@@ -126,7 +145,14 @@ impl Decoder {
                 block.brackets.push(bracket);
                 Ok(())
             }
-            WordKind::Assign(assign) => self.assign(assign),
+            WordKind::Assign(assign) => {
+                if let PlaceKind::Variable(segments) = &assign.target.kind
+                    && system::is_active_tool(segments)
+                {
+                    block.tool_written = Some(span);
+                }
+                self.assign(assign)
+            }
             WordKind::MacroDefinition(definition) => {
                 self.calls.macros.insert(definition.name.clone(), definition.text.clone());
                 Ok(())

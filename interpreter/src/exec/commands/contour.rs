@@ -159,6 +159,12 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 _ => CurveJerk::Geometric,
             });
     }
+    let old = decoder.contour.contouring.mode;
+    let soft = old == Mode::DistSoft || settings.mode == Mode::DistSoft;
+    if decoder.modal.contouring && soft && old != settings.mode {
+        let text = "#CONTOUR MODE to or from DIST_SOFT while contouring is active (G261)";
+        return Err(Fault::new(Condition::SoftContouringActive, text, call.span()));
+    }
     decoder.contour.contouring = settings;
     for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
         if let Some(span) = at {

@@ -202,6 +202,13 @@ pub(super) fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Out
 
 /// `#TRAFO`, `#RTCP`, `#KIN ID`, `#ORI MODE`: kinematics.
 pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if call.name == "KIN ID" && decoder.geometry.transformation_on {
+        let text = "#KIN ID under an active kinematic transformation";
+        return Err(Fault::new(Condition::KinematicsWhileActive, text, call.span()));
+    }
+    if ["TRAFO", "RTCP"].contains(&call.name) {
+        decoder.geometry.transformation_on = call.command.on != Some(false);
+    }
     if call.command.on == Some(false) {
         return Ok(());
     }

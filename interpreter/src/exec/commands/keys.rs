@@ -354,7 +354,7 @@ fn read(
             };
             Ok(Some((key.name, written)))
         }
-        ItemKind::Value(_) => {
+        ItemKind::Value(_) | ItemKind::Target { .. } => {
             let text = format!("{title}: a value without a key");
             Err(Fault::new(Condition::TokenUnknown, text, item.span).hint(known(keys)))
         }

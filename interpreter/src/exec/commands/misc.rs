@@ -49,7 +49,7 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             ItemKind::Flag(word) if word.is("ACTPOS") => actual = Some(true),
             ItemKind::Flag(word) => axes.push(decoder.axis_in_command(word)?),
             ItemKind::Missing => {}
-            ItemKind::Pair { .. } | ItemKind::Value(_) => {
+            ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {
                 return Err(Fault::new(
                     Condition::TokenUnknown,
                     "#CHANNEL INIT: an axis is expected",

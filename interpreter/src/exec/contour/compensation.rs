@@ -6,9 +6,8 @@
 //! contour does both, and the contour may begin and end with arcs.
 //!
 //! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G139, G237); generation of
-//! compensation blocks; 90008, 90031, 20651. A program starts with G26, while the control starts with G25: arcs keep the
-//! distance to the contour, and a note says so. Derived: the lines of G25 from the numbers of inserted blocks that the
-//! manual lists by angle.
+//! compensation blocks; 90008, 90031, 20651. Derived: the lines of G25 from the numbers of inserted blocks that the manual
+//! lists by angle.
 //! Assumption: the approach for every angle between approach and first element.
 
 mod corner;

@@ -43,12 +43,18 @@ impl Decoder {
             }
             self.modal.radius_mm = Some(radius * self.unit_mm());
         }
-        let found = if let (false, Some(radius)) = (has_centre, self.modal.radius_mm) {
-            arc::by_radius(s, e, radius, ccw)
-        } else {
+        let found = if has_centre {
             let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
             let limits = &self.machine.channel.arc_centre;
             arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
+        } else if let Some(radius) = self.modal.radius_mm {
+            arc::by_radius(s, e, radius, ccw)
+        } else {
+            // radius programming is expected where no centre is given: no arc that the centre's correction would find
+            let text = "neither a centre (I, J, K) nor a radius (R): the arc is not defined";
+            let g = words.group(Group::Path).map_or(span, |g| g.span);
+            return Err(Fault::new(Condition::ArcRadiusZero, text, g)
+                .hint("write I, J, K or R; R holds until the next one"));
         };
         let at = words.radius.or(centre_words[0]).or(centre_words[1]);
         let g = words.group(Group::Path).map_or(span, |g| g.span);

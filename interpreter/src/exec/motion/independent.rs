@@ -139,7 +139,7 @@ impl Decoder {
                     };
                     words.slope = Some(kind);
                 }
-                ItemKind::Pair { .. } | ItemKind::Value(_) => {
+                ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {
                     return Err(wrong("a word of independent axes is expected", item.span));
                 }
             }

@@ -369,7 +369,8 @@ fn needs_actual(block: &Block) -> bool {
             _ => false,
         }),
         Body::Command(command) => {
-            command.is("CHANNEL INIT") && command.groups.iter().any(|g| g.has("ACTPOS"))
+            command.is("GET ACTPOS")
+                || command.is("CHANNEL INIT") && command.groups.iter().any(|g| g.has("ACTPOS"))
                 || command.arguments.iter().any(expr_needs_actual)
                 || command.groups.iter().any(group_needs_actual)
         }
@@ -393,6 +394,7 @@ fn needs_actual(block: &Block) -> bool {
 
 fn group_needs_actual(group: &Group) -> bool {
     group.items.iter().any(|item| match &item.kind {
+        ItemKind::Target { place, value } => place_needs_actual(place) || item_needs_actual(value),
         ItemKind::Pair { value, .. } | ItemKind::Value(value) => item_needs_actual(value),
         ItemKind::Flag(_) | ItemKind::Missing => false,
     })

@@ -309,6 +309,13 @@ pub(in crate::exec) fn needs_actual(segments: &[Segment]) -> bool {
     is(0, "A") && is(1, "ACT_POS")
 }
 
+/// True for `V.G.WZ_AKT`: the tool data in use.
+pub(in crate::exec) fn is_active_tool(segments: &[Segment]) -> bool {
+    let is =
+        |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
+    is(0, "G") && is(1, "WZ_AKT")
+}
+
 /// Timers of `#TIMER`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::exec) struct Timers {

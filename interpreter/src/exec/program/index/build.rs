@@ -64,8 +64,8 @@ impl Builder<'_> {
             return;
         }
         // of a block that is too long something may stand behind what is looked at
-        let content = first.is_some_and(|b| b != b';')
-            || head.number.is_some()
+        let comment = first == Some(b'#') && is_command(head.rest, "COMMENT", "BEGIN");
+        let content = first.is_some_and(|b| b != b';' && !comment)
             || head.label.is_some()
             || raw.characters > BLOCK_LENGTH_MAX;
         if self.section.is_none() && content {

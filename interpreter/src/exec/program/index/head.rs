@@ -5,7 +5,6 @@ use crate::syntax::ast::LabelKind;
 /// Beginning of a block: what an index has to know.
 pub(super) struct Head<'t> {
     pub(super) skip: Option<u8>,
-    pub(super) number: Option<&'t str>,
     pub(super) label: Option<LabelKind>,
     /// Where the label begins.
     pub(super) label_at: usize,
@@ -23,17 +22,16 @@ pub(super) fn head(text: &str) -> Head<'_> {
         skip = Some(behind[..digits].parse().unwrap_or(1));
         rest = blank(&behind[digits..]);
     }
-    let mut number = None;
     let mut label = None;
     let mut label_at = text.len() - rest.len();
     if let Some(behind) = rest.strip_prefix(['N', 'n']) {
         let behind = blank(behind);
         let length = digits(behind);
         if length > 0 {
-            number = Some(&behind[..length]);
+            let number = &behind[..length];
             rest = blank(&behind[length..]);
             if let Some(behind) = rest.strip_prefix(':') {
-                label = number.and_then(|n| n.parse().ok()).map(LabelKind::Number);
+                label = number.parse().ok().map(LabelKind::Number);
                 rest = blank(behind);
             }
         }
@@ -49,7 +47,7 @@ pub(super) fn head(text: &str) -> Head<'_> {
             rest = blank(&rest[end + 1..]);
         }
     }
-    Head { skip, number, label, label_at, rest, at: text.len() - rest.len() }
+    Head { skip, label, label_at, rest, at: text.len() - rest.len() }
 }
 
 fn digits(text: &str) -> usize {

@@ -59,8 +59,8 @@ impl Decoder {
             Some(class) => self.insert_variable(class, &target, variable, span)?,
         };
         if exists {
-            let text = "already declared: it keeps its value";
-            self.note_once("redeclared", Fault::new(Condition::Odd, text, span));
+            let text = format!("{} exists already", declaration.place);
+            return Err(Fault::new(Condition::VariableExists, text, span));
         }
         Ok(())
     }
