@@ -128,7 +128,9 @@ impl View<'_> {
         };
         // far off the contour the nearest point is not the middle of what the filters hold, and no part may point the same way
         if !parts.iter().any(|p| free(p) && p.size > 0.0) {
-            parts.iter_mut().for_each(|p| p.size = p.size.abs());
+            for part in &mut parts {
+                part.size = part.size.abs();
+            }
         }
         let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
         let alike: Vec<&Part> =
