@@ -213,10 +213,12 @@ impl Chain<'_> {
                     Some(number) => logical_number(axis) == number,
                     None => kind_of(axis) != AxisKind::Spindle,
                 };
-                for axis in settled.axes.iter_mut().filter(|a| is_meant(&a.parameters)) {
-                    if let Err(diagnostic) = wanted.apply(&mut axis.parameters) {
-                        self.diagnostics.push(*diagnostic);
-                    }
+                let mut meant = settled.axes.iter_mut().filter(|a| is_meant(&a.parameters));
+                if let Some(diagnostic) =
+                    meant.find_map(|axis| wanted.apply(&mut axis.parameters).err())
+                {
+                    self.diagnostics.push(*diagnostic);
+                    break;
                 }
             }
         }
