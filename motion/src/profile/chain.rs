@@ -1,9 +1,13 @@
 //! A speed over path length as a chain of phases, each with one ramp of the acceleration.
 
 use super::ramp::{RampShape, RampState};
+use super::roots::increasing_root;
 use super::span::State;
 use smallvec::SmallVec;
 use std::f64::consts::FRAC_1_PI;
+
+/// Last step to a root, relative to it: the error is its square.
+const ROOT: f64 = 1e-9;
 
 /// A phase in which the acceleration runs along one ramp, or stays, from its state at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,28 +98,18 @@ impl Phase {
         if want <= 0.0 {
             return 0.0;
         }
-        let whole = self.end().s - self.s;
+        // as if the phase began at zero: far along a path the place would round away what a short phase is cut by
+        let here = Self { s: 0.0, ..*self };
+        let whole = here.end().s;
         if want >= whole {
             return self.t;
         }
-        let (mut low, mut high) = (0.0, self.t);
-        let mut t = self.t * want / whole;
-        for _ in 0..60 {
-            let at = self.after(t);
-            let miss = at.s - self.s - want;
-            if miss > 0.0 {
-                high = t;
-            } else {
-                low = t;
-            }
-            let newton = t - miss / at.v;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - t).abs() <= 1e-16 * self.t {
-                return next;
-            }
-            t = next;
-        }
-        t
+        increasing_root(0.0, self.t, self.t * want / whole, ROOT, |t| {
+            #[cfg(test)]
+            crate::work::add();
+            let at = here.after(t);
+            (at.s - want, at.v)
+        })
     }
 
     /// Velocity where the acceleration passes through zero inside the phase.
