@@ -58,6 +58,7 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         ("sub.nc", "G01 X1 F6000\n"),
         ("bad.nc", "G01 X1 F6000\nG7\nM30\n"),
         ("in.csv", "t_s,override_percent\n0,100\n"),
+        ("rec.csv", "t_s,a\n0,1\n"),
         ("old.csv", "old"),
         ("old.parquet", "old"),
         ("old.html", "old"),
@@ -70,6 +71,9 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         [("a.nc", "1"), ("sub.nc", "2"), ("m/x.lis", "3"), ("in.csv", "4"), ("old.csv", "5")]
     {
         fs::hard_link(f.join(name), f.join(link)).unwrap();
+    }
+    for (name, link) in [("m/x.lis", "x.csv"), ("m/x.lis", "x.svg"), ("rec.csv", "rec.svg")] {
+        std::os::unix::fs::symlink(name, f.join(link)).unwrap();
     }
     let run_a = ["run", "a.nc", "-m", "m", "--input", "in.csv", "-o"];
     let with = |more: &[&'static str]| [&run_a[..], more].concat();
@@ -95,6 +99,9 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         ([&["sweep", "a.nc", "-m", "m"], &vary[..], &["sub.nc"]].concat(), 2),
         ([&["sweep", "a.nc", "-m", "m"], &vary[..], &["old.csv", "-o", "no/such.svg"]].concat(), 3),
         ([&["sweep", "a.nc"], &vary[..], &["old.csv", "--columns", "nothing"]].concat(), 2),
+        (vec!["response", "-m", "m", "--axis", "X", "-o", "x.csv"], 2),
+        (vec!["tune", "-m", "m", "--freq", "40", "-o", "x.svg"], 2),
+        (vec!["tune", "--recording", "rec.csv", "-o", "rec.svg"], 2),
     ];
     for (words, exit) in cases {
         let said = run(f, &words);
@@ -103,6 +110,8 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         for (name, text) in texts {
             assert_eq!(fs::read_to_string(f.join(name)).unwrap(), text, "{words:?}: {name}");
         }
+        assert!(!err.contains(".part"), "{words:?}: {err}");
+        assert!(fs::read_to_string(f.join("m/x.lis")).unwrap().contains("kopf."), "{words:?}");
         let left = [names(f, "new"), names(f, ".")].concat();
         assert!(left.is_empty(), "{words:?}: {left:?}");
         let _ = fs::remove_file(f.join("old.csv.rows"));

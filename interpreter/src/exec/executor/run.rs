@@ -127,7 +127,8 @@ impl Executor {
             }
             Err(e) => {
                 let name = Arc::clone(&self.files.file(file).name);
-                self.report(Diagnostic::new(Condition::NoFile, format!("{name}: {e}")));
+                let hint = "it was executed up to there";
+                self.report(Diagnostic::new(Condition::NoFile, format!("{name}: {e}")).hint(hint));
                 self.end(EndReason::Aborted);
                 None
             }
