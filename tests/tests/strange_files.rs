@@ -196,6 +196,28 @@ fn tables_of_another_form_are_refused_in_plain_words() {
     assert!(said.err.contains("longer than 65536 bytes"), "{}", said.err);
 }
 
+/// Nobody writes to a pipe that lies in a folder: a subroutine, a list or an input that is one would wait for ever.
+#[test]
+#[cfg(unix)]
+fn pipes_are_no_subroutines_lists_or_inputs() {
+    let f = Folder::new().with("a.nc", "L pipe.nc\nM30\n").with("b.nc", "M30\n");
+    for name in ["pipe.nc", "pipe.lis", "pipe.csv"] {
+        let made = std::process::Command::new("mkfifo").arg(f.path(name)).status().unwrap();
+        assert!(made.success());
+    }
+    let cases: [(&[&str], Exit); 4] = [
+        (&["check", "@a.nc"], Exit::Aborted),
+        (&["run", "@a.nc"], Exit::Aborted),
+        (&["run", "@b.nc", "-m", "@pipe.lis"], Exit::Usage),
+        (&["run", "@b.nc", "--input", "@pipe.csv"], Exit::Io),
+    ];
+    for (words, exit) in cases {
+        let said = f.call(words);
+        assert_eq!(said.exit, exit, "{words:?}: {}", said.err);
+        assert!(said.err.contains("not a regular file"), "{words:?}: {}", said.err);
+    }
+}
+
 /// Cells and names of columns come from the file: they move no cursor and fill no screen.
 #[test]
 fn cells_are_quoted_on_one_line_and_shortened() {
