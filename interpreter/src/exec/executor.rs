@@ -9,7 +9,7 @@ use super::flow::Frame;
 use super::index::Index;
 use super::modal::Modal;
 use super::options::{Options, SkipLevels};
-use super::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step};
+use super::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
 use super::unreached::Reached;
 use crate::diag::{Condition, Diagnostic, Id, Location, Severity};
 use crate::machine::Machine;
@@ -211,7 +211,10 @@ impl Executor {
         self.decoder.feedback = feedback;
         loop {
             if let Some(step) = self.decoder.contour.pop() {
-                self.blocks_at_rest = 0;
+                // a stop takes no time
+                if !matches!(step, Step::Sync { what: Sync::Stop, .. }) {
+                    self.blocks_at_rest = 0;
+                }
                 return step;
             }
             match self.state {
