@@ -41,8 +41,11 @@ pub enum VibGuardError {
         /// The mode asked for.
         mode: u8,
     },
-    /// K-VIB-RANGE: the frequency is below 1 Hz or no number.
-    #[error("Vibration Guard frequency {freq_hz} Hz, at least 1 Hz")]
+    /// K-VIB-RANGE: the frequency is below [`VibGuardSettings::MIN_FREQ_HZ`] or no number.
+    #[error(
+        "Vibration Guard frequency {freq_hz} Hz, at least {} Hz",
+        VibGuardSettings::MIN_FREQ_HZ
+    )]
     Frequency {
         /// The frequency asked for.
         freq_hz: f64,
@@ -68,6 +71,8 @@ pub enum VibGuardError {
 }
 
 impl VibGuardSettings {
+    /// Lowest frequency in Hz. Source: P-AXIS-00589.
+    pub const MIN_FREQ_HZ: f64 = 1.0;
     /// Largest damping with a kernel: towards 1 the damped period, and with it the kernel, grows without bound.
     pub const MAX_DAMPING: f64 = 0.99;
     /// Longest kernel in taps. Assumption: a bound against exhausted memory, 16 s at 1 ms.
@@ -87,7 +92,7 @@ impl VibGuardSettings {
         if !(1..=4).contains(&mode) {
             return Err(VibGuardError::Mode { mode });
         }
-        if !(freq_hz.is_finite() && freq_hz >= 1.0) {
+        if !(freq_hz.is_finite() && freq_hz >= Self::MIN_FREQ_HZ) {
             return Err(VibGuardError::Frequency { freq_hz });
         }
         if !(0.0..=1.0).contains(&damping) {
@@ -114,7 +119,7 @@ impl VibGuardSettings {
     /// the powers of `(1 + K) / (1 + K)`, mode 4 mode 1 and its time reverse in series.
     pub fn ideal_impulses(&self) -> Option<Vec<Impulse>> {
         let usable = self.freq_hz.is_finite()
-            && self.freq_hz >= 1.0
+            && self.freq_hz >= Self::MIN_FREQ_HZ
             && (0.0..=Self::MAX_DAMPING).contains(&self.damping);
         let root = ((1.0 - self.damping) * (1.0 + self.damping)).sqrt();
         let k = libm::exp(-self.damping * PI / root);

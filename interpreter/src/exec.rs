@@ -4,53 +4,23 @@
 //! program levels and the words in between; it knows neither time nor speed. Meaning stands in tables, one row per G
 //! function, `#` command and key.
 
-mod angle;
-mod arc;
-mod bottleneck;
-mod brackets;
-mod calls;
-mod check;
-mod commands;
-mod compensation;
+mod block;
+pub(crate) mod commands;
 mod contour;
-mod contouring;
-mod coordinates;
 mod decoder;
-mod dialect;
-mod din;
-mod dynamics;
-mod executor;
-mod expr;
 mod fault;
-mod files;
-mod flow;
-mod frame;
-mod functions;
-mod groups;
-mod independent;
-mod index;
-mod insertion;
-mod modal;
-mod modes;
-mod modulo;
+mod geometry;
 mod motion;
 mod options;
-mod overrides;
-mod planar;
 mod program;
 mod shaping;
-mod spindles;
 mod step;
 mod suggest;
-mod system;
-mod tools;
-mod unreached;
-mod variables;
-mod words;
+mod values;
 
-pub use check::{LIMIT, UNREACHED, check};
-pub use executor::Executor;
 pub use options::{Access, External, Options, SkipLevels, Value};
+pub use program::check::{LIMIT, UNREACHED, check};
+pub use program::executor::Executor;
 pub use step::{
     AxisShaping, EndReason, Event, Feedback, IndependentMotion, ShapingSettings, ShapingSetup,
     SourceRef, SpindleMotion, Step, Sync,

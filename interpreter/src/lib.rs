@@ -4,6 +4,7 @@
 
 pub mod diag;
 pub mod exec;
+pub mod explain;
 pub mod machine;
 pub mod record;
 pub mod sim;

@@ -6,7 +6,6 @@ mod axis;
 mod builtin;
 mod chain;
 mod channel;
-pub mod explain;
 mod hints;
 pub(crate) mod issues;
 pub mod key;

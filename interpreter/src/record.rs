@@ -35,6 +35,9 @@ pub struct AxisRecord {
     pub err: f64,
     /// Component of the shortest vector from the set point to the contour.
     pub dev: f64,
+    /// Largest component of what the line to the set position leaves the contour by, and of what the set path has missed of
+    /// the contour that the filters have just let go, in mm (deg): the two directions that `AX_DEV` bounds.
+    pub dev_both_ways: f64,
     /// Feedforward speed, at the controller output or as additive velocity of the drive.
     pub ff: f64,
     /// Speed command.

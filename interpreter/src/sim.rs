@@ -414,9 +414,7 @@ impl Simulation {
         match wait.into_action() {
             wait::Action::None => {}
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
-            wait::Action::MachineData { axis, key, value } => {
-                self.machine_data(axis, &key, &value);
-            }
+            wait::Action::MachineData { axis } => self.machine_data(axis),
             wait::Action::End(reason) => {
                 self.totals.arrival_cycles = self.planner.setpoint().k - self.ends_k;
                 self.totals.aborted |= reason == EndReason::Aborted;

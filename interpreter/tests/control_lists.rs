@@ -272,6 +272,14 @@ fn ranges_of_the_stages() {
     ] {
         assert_eq!(ids(&stage(&more)).join(" "), id, "{more}");
     }
+    // the limit 0 leaves nothing of the additive speed
+    let shaken = |settings: &str| {
+        let mut axis = axis(settings);
+        let at = |k: u32| 0.1 * libm::sin(std::f64::consts::TAU * 53e-3 * f64::from(k));
+        (0..200).map(|k| axis.step(at(k), 0.0, true).additive_speed_mm_s.abs()).fold(0.0, f64::max)
+    };
+    assert!(shaken(&stage("")) > 0.1);
+    assert!(shaken(&stage(&format!("{IPC}.v_add_max_fact=0"))) <= 0.0);
 }
 
 /// Of X alone; limit P-AXIS-00757 of P-AXIS-00212; disabled, the axis is one without. Conformance: I003, I044, I045, I047.
@@ -507,5 +515,47 @@ fn delays_without_an_additive_input() {
         assert!(!told(own), "{key}");
         // without feedforward nobody expects an effect
         assert!(!told("0x0"), "{key}");
+    }
+}
+
+/// What the controller reads goes in steps of the measuring system: `R = incr_per_rev i / f` of the manual's example, or
+/// P-AXIS-00234/00233, or P-AXIS-00422/00423 of a direct one; P-AXIS-00405 drops bits. Conformance: F060.
+#[test]
+fn steps_of_the_measuring_system() {
+    let manual = "X.getriebe[0].incr_per_rev=1048576 X.getriebe[0].gear_fact_num=3 X.antr.feed_const_num=50000";
+    for (settings, increments_per_100_nm) in [
+        (manual.to_owned(), 62.914_56),
+        (format!("{manual} X.antr.encoder_coarsening_factor=10"), 62.914_56 / 1024.0),
+        ("X.getriebe[0].wegaufz=1 X.getriebe[0].wegaufn=200".to_owned(), 0.005),
+        (
+            "X.lr_hw[1].encoder_resolution_num=1 X.lr_hw[1].encoder_resolution_denom=50".to_owned(),
+            0.02,
+        ),
+    ] {
+        let step_mm = 1e-4 / increments_per_100_nm;
+        let out = drive(&settings, 1.0);
+        let mut steps = 0;
+        for o in &out {
+            let read = if settings.contains("lr_hw") { o.load_mm } else { o.act_mm };
+            near((read / step_mm - (read / step_mm).round()).abs(), 0.0, 1e-6);
+            steps += u32::from((read - out[0].act_mm).abs() > 0.0);
+        }
+        assert!(steps > 900, "{settings}: {steps}");
+        // of coarse steps every one occurs: the smallest distance of two readings is one step
+        let mut readings: Vec<f64> = out
+            .iter()
+            .map(|o| if settings.contains("lr_hw") { o.load_mm } else { o.act_mm })
+            .collect();
+        readings.sort_by(f64::total_cmp);
+        let distances = readings.windows(2).map(|w| w[1] - w[0]).filter(|d| *d > 1e-12);
+        if increments_per_100_nm < 0.1 {
+            near(distances.fold(f64::INFINITY, f64::min), step_mm, 1e-9);
+        }
+    }
+    // without a word about the measuring system there are no steps: the same to the last digit as one so fine that
+    // a reading is rounded below a picometre
+    let fine = drive("X.getriebe[0].wegaufz=1000000000", 1.0);
+    for (k, o) in drive("", 1.0).iter().enumerate() {
+        near(o.act_mm, fine[k].act_mm, 1e-11);
     }
 }

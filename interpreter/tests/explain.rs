@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
-use kontur_interpreter::machine::explain::explain;
+use kontur_interpreter::explain::explain;
 
 /// Fails unless the explanation of `thing` contains every one of `parts`.
 #[track_caller]
@@ -180,6 +180,10 @@ fn table_of_feedforward() {
     is("P-AXIS-00325", "antr.torque_scale_num", "UNS32", &from_1, "1", "-");
     says("P-AXIS-00325", &["SERCOS, Lightbus, CANopen"]);
     is("P-AXIS-00337", "vorsteuer.jerk_fact_num", "UNS32", &from_0, "1", "-");
+    says(
+        "jerk_fact_nom",
+        &["P-AXIS-00337", "vorsteuer.jerk_fact_num", "spells the key jerk_fact_nom"],
+    );
     is("P-AXIS-00362", "antr.feed_const_num", "UNS32", &from_1, "1", "0.1um");
     is("P-AXIS-00363", "antr.feed_const_denom", "UNS32", &from_1, "1", "rev");
     for (id, key, drives) in [

@@ -1,7 +1,9 @@
 //! The programmed contour that is still within reach of the filters, and the distance of a set point from it.
 
 use crate::axis::AxisVec;
+use crate::corner::TANGENT;
 use crate::queue::Queued;
+use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,9 +11,12 @@ use std::sync::Arc;
 /// Entries whose paths begin closer together than this, in mm of path length, have the same path.
 pub(crate) const SAME_START_MM: f64 = 1e-9;
 
+/// Share by which a vector may be longer than the shortest one and still be taken for it.
+const WARY: f64 = 0.05;
+
 /// Blocks as the interpolator entered them. One that a change of speed divides is entered once more for its rest.
 #[derive(Clone, Debug, Default)]
-pub struct Contour {
+pub(crate) struct Contour {
     blocks: VecDeque<Passed>,
 }
 
@@ -33,6 +38,21 @@ impl Passed {
         let start = |p: &Self| p.s_mm - p.queued.offset;
         self.queued.block.seq == other.queued.block.seq
             && (start(self) - start(other)).abs() < SAME_START_MM
+    }
+}
+
+impl Passed {
+    /// Distance of a point from the path of the block; `q` becomes the nearest point.
+    fn distance(&self, point: &[f64], q: &mut AxisVec) -> f64 {
+        let path = &self.queued.block.path;
+        path.position(path.nearest(point), q);
+        q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum::<f64>().sqrt()
+    }
+
+    /// True if the direction of an axis changes between two blocks.
+    fn turns_into(&self, next: &Self) -> bool {
+        let (out, into) = (&self.queued.ends.tangent_out, &next.queued.ends.tangent_in);
+        out.iter().zip(into.iter()).any(|(a, b)| (a - b).abs() > TANGENT)
     }
 }
 
@@ -85,41 +105,148 @@ impl Contour {
         count + self.blocks.range(count..).take_while(same).count()
     }
 
-    /// Components of the shortest vector from the contour between two moments to `point`; returns its length. The block
-    /// of the second moment counts as a whole.
-    ///
-    /// Zero if there is no contour yet.
-    pub fn deviation(&self, point: &[f64], from: f64, to: f64, out: &mut [f64]) -> f64 {
-        let Range { start, end } = self.entries(from, to);
-        nearest(self.blocks.range(start..self.whole(end)), point, out)
+    /// Components of the shortest vector from the contour between two moments (cycles) to `point`, and where it starts. The
+    /// block of the second moment counts as a whole. `None`, and zero, if there is no contour yet.
+    pub(crate) fn nearest(
+        &self,
+        point: &[f64],
+        from: f64,
+        to: f64,
+        out: &mut [f64],
+    ) -> Option<Nearest> {
+        nearest(self.blocks.range(self.numbers(from, to)), point, out)
     }
 
-    /// Largest component of the shortest vector, whichever way a border within `slack` cycles of the two moments is
-    /// counted (a sample that lies on the border of two blocks belongs to both), and with or without the rest of the
-    /// block of the second moment.
-    pub(crate) fn worst_component(&self, point: &[f64], from: f64, to: f64, slack: f64) -> f64 {
+    /// The blocks that can be the nearest one of those interpolated between two moments (cycles) to a point of the line
+    /// between two points, or be taken for it; also of those interpolated up to `slack` cycles before and behind. Half the
+    /// length of the line from its middle a block is nearer, or further, by that much at most.
+    pub(crate) fn around(
+        &self,
+        line: (&[f64], &[f64]),
+        (from, to): (f64, f64),
+        slack: (f64, f64),
+    ) -> Around<'_> {
+        let among = self.numbers(from, to);
+        let all = self.numbers(from - slack.0, to + slack.1);
+        let (mut middle, mut half) = (AxisVec::zeros(line.0.len()), 0.0);
+        for ((m, a), b) in middle.iter_mut().zip(line.0).zip(line.1) {
+            *m = 0.5 * (a + b);
+            half += 0.25 * (b - a) * (b - a);
+        }
+        let half: f64 = f64::sqrt(half);
+        let mut q = AxisVec::zeros(middle.len());
+        let mut least = f64::INFINITY;
+        let mut blocks: SmallVec<[(usize, f64, &Passed); 16]> = SmallVec::new();
+        for (i, passed) in all.clone().zip(self.blocks.range(all)) {
+            // the parts of one path are all as near as the whole of it
+            let same = blocks.last().filter(|(_, _, b)| b.is_part_of_the_same(passed));
+            let distance = same.map_or_else(|| passed.distance(&middle, &mut q), |b| b.1);
+            if among.contains(&i) {
+                least = least.min(distance);
+            }
+            blocks.push((i, distance, passed));
+        }
+        let within = (1.0 + WARY) * (least + half) + half;
+        blocks.retain(|(_, distance, _)| *distance <= within);
+        Around { blocks }
+    }
+
+    /// Numbers of the blocks that [`Self::nearest`] looks at.
+    pub(crate) fn numbers(&self, from: f64, to: f64) -> Range<usize> {
+        let Range { start, end } = self.entries(from, to);
+        start..self.whole(end)
+    }
+
+    /// As [`Self::nearest`] for the blocks that the path lengths `from..=to` lie in.
+    pub(crate) fn nearest_along(&self, point: &[f64], from: f64, to: f64, out: &mut [f64]) {
+        let first = self.blocks.partition_point(|b| b.s_mm <= from).saturating_sub(1);
+        let last = self.blocks.partition_point(|b| b.s_mm <= to).max(first);
+        nearest(self.blocks.range(first..self.whole(last)), point, out);
+    }
+
+    /// Moments in cycles and places of the kinks that were passed behind `from`, up to `to`.
+    pub(crate) fn kinks(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, AxisVec)> + '_ {
         let count = |t: f64| self.blocks.partition_point(|b| b.cycles <= t);
-        let first = |t: f64| count(t).saturating_sub(1);
-        let firsts = first(from - slack)..=first(from + 1e-6);
-        let lasts = count(to - 1e-6).max(1)..=count(to + 1e-6).max(1);
+        let pairs = (count(from).max(1)..count(to)).map(|i| (&self.blocks[i - 1], &self.blocks[i]));
+        pairs.filter(|(a, b)| !a.is_part_of_the_same(b) && a.turns_into(b)).map(|(_, passed)| {
+            let queued = &passed.queued;
+            let mut point = queued.block.path.start().clone();
+            queued.block.path.position(queued.offset, &mut point);
+            (passed.cycles, point)
+        })
+    }
+
+    /// True if the block interpolated at a moment bends.
+    pub(crate) fn is_bent(&self, moment: f64) -> bool {
+        let i = self.blocks.partition_point(|b| b.cycles <= moment);
+        i.checked_sub(1).and_then(|i| self.blocks.get(i)).is_some_and(|b| b.queued.bend > 0.0)
+    }
+
+    /// Point of the contour at a path length of the program; the ends of what is known beyond them.
+    pub(crate) fn position(&self, s_mm: f64, out: &mut [f64]) {
+        let i = self.blocks.partition_point(|b| b.s_mm <= s_mm).saturating_sub(1);
+        if let Some(passed) = self.blocks.get(i) {
+            let queued = &passed.queued;
+            let s = (s_mm - passed.s_mm).clamp(0.0, queued.length);
+            queued.block.path.position(queued.offset + s, out);
+        }
+    }
+}
+
+/// Blocks of a contour, see [`Contour::around`].
+pub(crate) struct Around<'a> {
+    /// Number in the contour, distance from the middle of the line, and the block.
+    blocks: SmallVec<[(usize, f64, &'a Passed); 16]>,
+}
+
+impl Around<'_> {
+    /// As [`Contour::nearest`], of those blocks whose numbers are among these.
+    pub(crate) fn nearest(
+        &self,
+        point: &[f64],
+        among: &Range<usize>,
+        out: &mut [f64],
+    ) -> Option<Nearest> {
+        let blocks = self.blocks.iter().filter(|(i, _, _)| among.contains(i));
+        nearest(blocks.map(|(_, _, passed)| *passed), point, out)
+    }
+
+    /// Largest component of all vectors to a point that could be called the shortest: those from any of the blocks that are
+    /// longer by at most `WARY` than the shortest one from the blocks whose numbers are `among` these. Between points that
+    /// are looked at, and with another idea of what is within reach, another block may be the nearest.
+    pub(crate) fn worst_component(&self, point: &[f64], among: &Range<usize>) -> f64 {
         let mut vector = AxisVec::zeros(point.len());
-        let mut worst = 0.0;
-        for begin in firsts {
-            let whole = lasts.clone().map(|end| self.whole(end)).max();
-            let more = whole.filter(|whole| whole > lasts.end());
-            for end in lasts.clone().chain(more) {
-                let blocks = self.blocks.range(begin..end.max(begin + 1).min(self.blocks.len()));
-                nearest(blocks, point, &mut vector);
-                worst = vector.iter().fold(worst, |m: f64, c| m.max(c.abs()));
+        let Some(nearest) = self.nearest(point, among, &mut vector) else { return 0.0 };
+        let within = (1.0 + WARY) * nearest.distance;
+        let mut worst = vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        for (_, _, passed) in &self.blocks {
+            if passed.distance(point, &mut vector) <= within {
+                let aside = vector.iter().zip(point).map(|(q, p)| (q - p).abs());
+                worst = aside.fold(worst, f64::max);
             }
         }
         worst
     }
 }
 
-/// Shortest vector from the paths of the blocks to a point.
-fn nearest<'a>(blocks: impl Iterator<Item = &'a Passed>, point: &[f64], out: &mut [f64]) -> f64 {
-    let mut best = f64::INFINITY;
+/// Where on the contour the shortest vector starts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    /// Length of the vector in mm.
+    pub(crate) distance: f64,
+    /// Programmed block, the same for all parts of it.
+    pub(crate) block: u64,
+    /// The block is a straight line.
+    pub(crate) straight: bool,
+}
+
+/// Shortest vector from the paths of the blocks to a point; `None`, and no vector, if there are no blocks.
+fn nearest<'a>(
+    blocks: impl Iterator<Item = &'a Passed>,
+    point: &[f64],
+    out: &mut [f64],
+) -> Option<Nearest> {
+    let mut best: Option<(f64, &Passed)> = None;
     let mut q = AxisVec::zeros(point.len());
     let mut before: Option<&Passed> = None;
     for passed in blocks {
@@ -131,17 +258,19 @@ fn nearest<'a>(blocks: impl Iterator<Item = &'a Passed>, point: &[f64], out: &mu
         let path = &passed.queued.block.path;
         path.position(path.nearest(point), &mut q);
         let d2: f64 = q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
-        if d2 < best {
-            best = d2;
+        if best.is_none_or(|(least, _)| d2 < least) {
+            best = Some((d2, passed));
             for ((o, q), p) in out.iter_mut().zip(q.iter()).zip(point) {
                 *o = p - q;
             }
         }
     }
-    if best.is_finite() {
-        best.sqrt()
-    } else {
+    if best.is_none() {
         out.fill(0.0);
-        0.0
     }
+    best.map(|(d2, passed)| Nearest {
+        distance: d2.sqrt(),
+        block: passed.queued.block.seq,
+        straight: passed.queued.block.path.is_straight(),
+    })
 }

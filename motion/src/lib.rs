@@ -6,10 +6,11 @@
 pub mod axis;
 pub mod block;
 mod brake;
-pub mod contour;
+mod contour;
 pub mod contouring;
 pub mod corner;
 mod course;
+mod deviation;
 pub mod independent;
 pub mod limit;
 pub mod limits;

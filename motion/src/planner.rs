@@ -17,6 +17,7 @@ use crate::block::Block;
 use crate::brake::Brake;
 use crate::contour::Contour;
 use crate::corner::transition;
+use crate::deviation::Gauge;
 use crate::limit::SpeedLimit;
 use crate::lookahead::Cap;
 use crate::profile::Infeasible;
@@ -87,6 +88,7 @@ pub struct Planner {
     kernels: Kernels,
     monitor: Monitor,
     contour: Contour,
+    gauge: Gauge,
     reach_cycles: u32,
     unkept: Vec<Unkept>,
     brake: Option<Brake>,
@@ -126,6 +128,7 @@ impl Planner {
             kernels: Kernels::default(),
             monitor: Monitor::default(),
             contour: Contour::default(),
+            gauge: Gauge::default(),
             reach_cycles: 0,
             unkept: Vec::new(),
             brake: None,
@@ -147,6 +150,7 @@ impl Planner {
         self.reach_cycles = reach_cycles.max(kernels.length());
         self.monitor.rest(&self.setpoint.position, self.setpoint.s_mm, kernels.length());
         self.kernels = kernels;
+        self.gauge = Gauge::new(self.reach_cycles, self.kernels.differ());
     }
 
     /// Sets what the override is a percentage of (P-CHAN-00066), from the next cycle on.
@@ -282,10 +286,19 @@ impl Planner {
         self.setpoint.limit = SpeedLimit::Stop;
     }
 
-    /// Components of the shortest vector from the contour within reach of the filters to `point`; returns its length.
-    pub fn deviation(&self, point: &[f64], out: &mut [f64]) -> f64 {
-        let now = self.setpoint.k as f64;
-        self.contour.deviation(point, now - f64::from(self.reach_cycles), now, out)
+    /// Components of the shortest vector from the contour within reach of the filters to the set point of the present
+    /// cycle; returns its length in mm. Called once in a cycle, it keeps [`Self::excursion`] up to date.
+    pub fn deviation(&mut self, point: &[f64], out: &mut [f64]) -> f64 {
+        let k = self.setpoint.k;
+        self.gauge.step(&self.contour, k, point, &self.setpoint.position);
+        let (from, to) = (k as f64 - f64::from(self.reach_cycles), k as f64);
+        self.contour.nearest(point, from, to, out).map_or(0.0, |n| n.distance)
+    }
+
+    /// Largest components in mm of what the set path leaves the contour by in this cycle, and of what it has missed of the
+    /// contour that the filters have just let go: the two directions that `AX_DEV` bounds.
+    pub fn excursion(&self) -> &[f64] {
+        self.gauge.found()
     }
 
     /// Blocks whose tolerance could not be kept since the last call.

@@ -12,6 +12,7 @@
 //! negative weights (windowed sinc) swing beyond the end even there, and no dwell helps; the blocks on both sides start
 //! and stop with a lower acceleration, see [`crate::overshoot`].
 
+mod blame;
 mod search;
 mod tighten;
 mod view;
@@ -20,6 +21,7 @@ use crate::axis::AxisVec;
 use crate::contour::Contour;
 use crate::queue::Queued;
 use crate::timeline::Timeline;
+use blame::Findings;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use std::borrow::Cow;
@@ -32,10 +34,14 @@ const MARGIN_MM: f64 = 2e-7;
 /// How far behind the kernel a block may have been left and still count as within reach, in cycles: nobody can tell
 /// from a trace on which side of a sample a border lies.
 const BORDER_CYCLES: f64 = 5.0;
+/// Raw setpoints kept, in lengths of the kernel: set points of one length, and one more in front of a stretch.
+const HELD: usize = 3;
 /// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
-const ROUNDS_OF_SPEED: usize = 32;
+const ROUNDS_OF_SPEED: usize = 64;
+/// Rounds more for every block.
+const ROUNDS_PER_BLOCK: usize = 2;
 /// Rounds of planning after which the tolerance is given up with a message.
-const ROUNDS: usize = 60;
+const ROUNDS: usize = 96;
 
 /// The filter kernels of the axes of a channel.
 #[derive(Clone, Debug, Default)]
@@ -64,6 +70,15 @@ impl Kernels {
     /// Cycles until every axis is constant after the path has come to rest.
     pub fn length(&self) -> u32 {
         self.axes.iter().flatten().map(|k| k.length()).max().unwrap_or(0)
+    }
+
+    /// True if not all axes have the same kernel.
+    pub(crate) fn differ(&self) -> bool {
+        self.unequal
+    }
+
+    fn longest(&self) -> Option<&Kernel> {
+        self.axes.iter().flatten().max_by_key(|k| k.length()).map(|k| &**k)
     }
 
     fn get(&self, i: usize) -> Option<&Kernel> {
@@ -121,6 +136,32 @@ impl Demands {
         }
     }
 
+    /// What is known before a plan: axes whose filters have different delays leave a straight line by the speed times the
+    /// difference, so a line long enough to be run through evenly has a speed of its own.
+    pub(crate) fn of(window: &[Arc<Queued>], kernels: &Kernels, cycle: CycleTime) -> Self {
+        let mut demands = Self::none(window.len());
+        if !kernels.unequal {
+            return demands;
+        }
+        let delay = |i: usize| kernels.get(i).map_or(0.0, Kernel::delay_cycles) * cycle.seconds();
+        for (queued, feed) in window.iter().zip(&mut demands.feed) {
+            let Some(tolerance) = queued.block.tolerance.ax_dev_mm else { continue };
+            if !queued.block.path.is_straight() {
+                continue;
+            }
+            let u = &queued.ends.tangent_in;
+            let norm: f64 = u.iter().map(|c| c * c).sum();
+            let along: f64 =
+                u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
+            let aside = |(i, c): (usize, &f64)| (c * (delay(i) - along)).abs();
+            let speed = tolerance / u.iter().enumerate().map(aside).fold(0.0, f64::max);
+            if speed * f64::from(kernels.length()) * cycle.seconds() <= queued.length {
+                *feed = speed;
+            }
+        }
+        demands
+    }
+
     /// The blocks with the acceleration that is left to them.
     pub(crate) fn soften<'a>(&self, window: &'a [Arc<Queued>]) -> Cow<'a, [Arc<Queued>]> {
         if self.acceleration.iter().all(|ratio| *ratio >= 1.0) {
@@ -164,13 +205,13 @@ pub(crate) struct Trial<'a> {
 impl Monitor {
     /// The path rests at `position`; the kernels reach `length` cycles back.
     pub(crate) fn rest(&mut self, position: &AxisVec, s_mm: f64, length: u32) {
-        self.length = length as usize + 1;
+        self.length = if length > 0 { HELD * length as usize + 8 } else { 0 };
         self.history = std::iter::repeat_n((position.clone(), s_mm), self.length).collect();
     }
 
     /// Takes the setpoint of a cycle.
     pub(crate) fn record(&mut self, position: &AxisVec, s_mm: f64) {
-        if self.length > 1 {
+        if self.length > 0 {
             self.history.push_back((position.clone(), s_mm));
             if self.history.len() > self.length {
                 self.history.pop_front();
@@ -180,8 +221,7 @@ impl Monitor {
 
     /// What of the final part of a trial does not keep the tolerance.
     pub(crate) fn excess(&self, trial: &Trial<'_>) -> Option<Unkept> {
-        let none = Demands::none(trial.window.len());
-        View::new(trial, self).search(0.5, &none).worst
+        View::new(trial, self).search(|_, _| ())
     }
 
     /// Examines a plan, and tightens the demands if it does not keep the tolerance.
@@ -192,20 +232,22 @@ impl Monitor {
         demands: &mut Demands,
     ) -> Verdict {
         let view = View::new(trial, self);
-        // after many rounds every corner and curve in reach counts as a cause
-        let share = if round < ROUNDS_OF_SPEED { 0.5 } else { 0.0 };
-        let findings = view.search(share, demands);
-        let Some(worst) = findings.worst else {
+        let mut findings = Findings::none(trial.window.len());
+        // after many rounds everything in reach counts as a cause
+        let all = round >= ROUNDS_OF_SPEED + ROUNDS_PER_BLOCK * trial.window.len();
+        let worst = view.search(|v, record| view.blame(v, record, all, demands, &mut findings));
+        let Some(worst) = worst else {
             return Verdict::Kept;
         };
         let parts = view.parts(&findings);
         if !parts.is_empty() {
             return Verdict::Divided(parts);
         }
-        if round >= ROUNDS {
+        // an answer at one corner can make another one necessary at the next
+        if round >= ROUNDS + ROUNDS_PER_BLOCK * trial.window.len() {
             return Verdict::GivenUp(worst);
         }
-        view.tighten(&findings, round, demands);
+        view.tighten(&findings, all, demands);
         Verdict::Tightened
     }
 }

@@ -107,7 +107,7 @@ fn the_last_motion_is_monitored() {
     assert!(late.records[at].axes[1].ipo > 0.0, "Y is on its way");
 }
 
-/// After the error the axis stays where it is: no creeping to the target.
+/// After the error the axis stays where it is: no creeping to the target. Conformance: P010.
 #[test]
 fn an_axis_with_an_error_stops() {
     let text =

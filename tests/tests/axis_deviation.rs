@@ -5,6 +5,7 @@
 //! another kind.
 
 use kontur_interpreter::diag::Condition;
+use kontur_interpreter::record::AxisRecord;
 use kontur_tests::geometry::{Piece, Point, deviation, direction, dot, minus, norm};
 use kontur_tests::random::{Random, count, seed};
 use kontur_tests::{Run, machine, run, run_with_inputs};
@@ -375,10 +376,14 @@ fn the_tolerance_holds_over_random_programs() {
         assert!(unkept.is_empty(), "{unkept:?}\n{}", about());
         let off = off_contour(&run, &case);
         assert!(off <= case.off_mm + SLACK_MM, "setpoints {off} mm off the contour\n{}", about());
-        let own = run.records.iter().flat_map(|r| &r.axes[..3]).map(|a| a.dev.abs());
-        let own = own.fold(0.0, f64::max);
+        let own = |of: fn(&AxisRecord) -> f64| {
+            run.records.iter().flat_map(|r| &r.axes[..3]).map(of).fold(0.0, f64::max)
+        };
+        let both = own(|a| a.dev_both_ways);
+        let own = own(|a| a.dev.abs());
         let limit = case.tolerance_mm + SLACK_MM;
         assert!(own <= limit, "X_dev_mm {own}, AX_DEV {}\n{}", case.tolerance_mm, about());
+        assert!(both <= limit, "both ways {both}, AX_DEV {}\n{}", case.tolerance_mm, about());
         let (dev, k) = recomputed(&run, &case);
         assert!(
             dev <= case.within_mm() + SLACK_MM,
@@ -458,8 +463,8 @@ fn override_and_feedhold_on_a_rounded_square() {
                 assert!(moved <= step + 1e-7, "{slope}: {moved} of {step} mm, {}", pair[1].k);
             }
             if changed.diagnostics.iter().all(|d| d.id != Condition::AxDevNotKept) {
-                let own = changed.records.iter().flat_map(|r| &r.axes[..3]).map(|a| a.dev.abs());
-                let own = own.fold(0.0, f64::max);
+                let axes = changed.records.iter().flat_map(|r| &r.axes[..3]);
+                let own = axes.map(|a| a.dev_both_ways).fold(0.0, f64::max);
                 assert!(own <= 0.005 + SLACK_MM, "{slope}: {own}");
             } else {
                 println!("{slope} {program}: not kept in front of a change, said so");

@@ -50,6 +50,20 @@ fn delay(run: &Run, line: u32) -> f64 {
     (middle.axes[0].ipo - middle.axes[0].set) / (middle.path.v_mm_s * run.cycle_s)
 }
 
+/// `TIME_DELAY` of 2000 us in an axis: the interpolated position two cycles later, bit for bit. Conformance: A065.
+#[test]
+fn an_axis_is_two_cycles_late() {
+    let delay = ["enable=1", "type=TIME_DELAY", "order=1", "time_constant=2000"];
+    let settings = delay.map(|entry| format!("X.filter[0].{entry}"));
+    let run = on("%P\nG90 G01 X10 Y10 F6000\nG02 X20 Y0 J-10\nG01 X0 Y0\nM30\n", &settings);
+    let (x, set_x) = (ipo(&run, 0), set(&run, 0));
+    assert!(x.len() > 300, "{}", x.len());
+    assert!(equal(&run, 1), "Y has no filter");
+    for k in 2..x.len() {
+        assert_eq!(set_x[k].to_bits(), x[k - 2].to_bits(), "cycle {k}");
+    }
+}
+
 /// Behind the interpolator, on the axis that has the filter. Conformance: A001, A003.
 #[test]
 fn set_follows_the_interpolated_position() {

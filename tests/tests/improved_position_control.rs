@@ -33,6 +33,28 @@ fn an_unstable_axis_ends_the_run() {
     }
 }
 
+/// `#MACHINE DATA` between two motions: the axis stands before it takes the new weight, and has it from then on.
+/// Conformance: I024.
+#[test]
+fn new_parameters_wait_for_standstill() {
+    let stage = "lr_param.improved_position_control.stage[0]";
+    let with = |line: &str| {
+        on("rack_and_pinion", &[], &format!("%P\nG90 G01 X100 F16362\n{line}\nG01 X200\nM30\n"))
+    };
+    let changed = with(&format!("#MACHINE DATA [AX=X AXPARAM=\"{stage}.weight_fact_num 0\"]"));
+    let plain = with("G04 0.5");
+    // 70603: a weight of 0 turns the function off
+    let additive = |run: &Run, line| {
+        let of_line = run.records.iter().filter(|r| r.line == line);
+        of_line.map(|r| r.axes[0].vadd.abs()).fold(0.0, f64::max)
+    };
+    assert!(additive(&changed, 2) > 1.0 && additive(&plain, 4) > 1.0);
+    assert!(additive(&changed, 4) <= 0.0, "{}", additive(&changed, 4));
+    let first = changed.records.iter().position(|r| r.line == 4).unwrap();
+    let before = &changed.records[first - 1];
+    assert!(before.path.v_mm_s.abs() <= 0.0 && (before.axes[0].set - 100.0).abs() <= 0.0);
+}
+
 /// The slave of a gantry pair gets an additive speed of its own by its master's parameters. Conformance: I027.
 #[test]
 fn a_gantry_slave_has_its_additive_speed() {

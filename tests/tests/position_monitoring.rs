@@ -1,6 +1,6 @@
 //! Exact stop and its time limit in runs of programs. The names of the rows are those of the ledger.
 
-use kontur_interpreter::machine::explain::explain;
+use kontur_interpreter::explain::explain;
 use kontur_tests::{Run, programs, run};
 
 /// A gain of 10/s: from 100 mm/s it takes half a second into a window of 0.05 mm.
@@ -19,7 +19,7 @@ fn stop(program: &str, settling_us: i32) -> Run {
 }
 
 /// The message, the class of its reaction, the frozen axis and what follows: nothing.
-/// Conformance: P001, P002, P010, P011, P012.
+/// Conformance: P001, P002, P011, P012.
 #[test]
 fn an_axis_that_does_not_arrive_ends_the_program() {
     let run = stop("%P\nG90 G60 G01 X50 Y20 F6000\nG60 X60 Y30\nM30\n", 200_000);

@@ -65,6 +65,9 @@ pub struct AxisControlConfig {
     pub position: PositionConfig,
     /// Measuring system of the position loop.
     pub encoder: Encoder,
+    /// Smallest step of that measuring system in mm ([`increment_mm`](super::scaling::increment_mm)); 0: it reads
+    /// without steps.
+    pub increment_mm: f64,
     /// Improved Position Control.
     pub ipc: IpcConfig,
     /// Drive and mechanics.
@@ -92,6 +95,7 @@ impl AxisControlConfig {
             delay_cycles: 0,
             position: PositionConfig { v_max_mm_s, ..PositionConfig::default() },
             encoder: Encoder::Motor,
+            increment_mm: 0.0,
             ipc: IpcConfig::default(),
             plant: PlantConfig::default(),
             lag: LagMonitorConfig::default(),
@@ -110,8 +114,11 @@ impl AxisControlConfig {
         let (plant, found) = self.plant.checked();
         self.plant = plant;
         issues.extend(found);
-        self.exact_stop.window_mm =
-            self.exact_stop.window_mm.max(ExactStopConfig::HALF_INCREMENT_MM);
+        self.exact_stop.window_mm = self
+            .exact_stop
+            .window_mm
+            .max(ExactStopConfig::HALF_INCREMENT_MM)
+            .max(0.5 * self.increment_mm);
         issues.extend(self.ipc.check(cycle));
         let in_drive = self.position.closed_in == PositionLoop::Drive;
         if self.ipc.enable && in_drive && !self.additive_inputs.velocity {
@@ -338,7 +345,15 @@ impl AxisControl {
             Encoder::Motor => m.motor_mm,
             Encoder::Direct => m.load_mm,
         };
-        true_mm + self.inputs.encoder_offset_mm
+        self.read_mm(true_mm + self.inputs.encoder_offset_mm)
+    }
+
+    /// A position as the measuring system of the position loop reads it.
+    ///
+    /// Assumption: the nearest increment, counted from the machine's zero; homing takes any constant part out.
+    fn read_mm(&self, mm: f64) -> f64 {
+        let step_mm = self.config.increment_mm;
+        if step_mm > 0.0 { (mm / step_mm).round() * step_mm } else { mm }
     }
 
     /// One cycle: set position behind filters or Vibration Guard, feedforward gain of this motion

@@ -171,6 +171,16 @@ impl TorqueFormat {
     }
 }
 
+/// Smallest step in mm of a measuring system with `resolution` increments per 0.1 um (0.0001 deg) whose lowest
+/// `dropped_bits` (P-AXIS-00405) are dropped; 0 for a resolution that is not above 0.
+pub fn increment_mm(resolution: f64, dropped_bits: u32) -> f64 {
+    if resolution > 0.0 {
+        1e-4 / resolution * f64::from(1_u32 << dropped_bits.min(20))
+    } else {
+        0.0
+    }
+}
+
 /// Encoder resolution in increments per 0.1 um: `R = increments i / f`.
 ///
 /// `increments_per_rev` per motor revolution (P-AXIS-00092), `feed_mm` per revolution of the gear output, `gear_ratio`

@@ -194,8 +194,14 @@ pub struct DiffArgs {
     /// A CSV trace, or an NC program to run now
     pub a: PathBuf,
 
-    /// A CSV trace, or an NC program to run now
+    /// A CSV trace, or an NC program to run now; with --map a recording
     pub b: PathBuf,
+
+    /// B is a recording of a machine (CSV with comma, semicolon or tab, any header, or an export of TwinCAT Scope): the column
+    /// of A that a channel recorded, with a factor for unit and sign, e.g. `X_act_mm=MAIN.fActX` or `X_act_mm=-1000*Axis1.Pos`.
+    /// The shift in time is found; positions count as equal up to 0.1 um at least
+    #[arg(long, value_name = "COLUMN=CHANNEL")]
+    pub map: Vec<crate::diff::Pairing>,
 
     /// Tolerances by unit
     #[command(flatten)]

@@ -2,8 +2,11 @@
 //!
 //! Positions may differ by 1e-6 mm, a hundredth of the vendor's increment of 0.1 um; a speed by that divided by 1 ms,
 //! and so on for every further derivative. Neither trace is ever held in memory.
+//!
+//! With `--map` B is a recording of a machine ([`recording`]).
 
 mod compare;
+mod recording;
 mod table;
 
 use crate::args::{DiffArgs, OutputForm};
@@ -13,6 +16,8 @@ use crate::render::printable;
 use crate::{Error, Exit};
 use compare::{Comparison, Difference, Outcome};
 use kontur_interpreter::diag::QUOTED_MAX;
+pub use recording::Pairing;
+use serde::Serialize;
 use std::fmt::Write as _;
 use table::Table;
 
@@ -69,24 +74,35 @@ pub fn diff(
     console: &mut Console,
 ) -> Result<Exit, Error> {
     let form = args.simulation.diagnostics;
-    // a fresh run gives the columns of the trace that it is compared with
-    let (is_a, is_b) = (table::is_trace(&args.a)?, table::is_trace(&args.b)?);
-    let mut open = |path: &std::path::Path, trace: bool, like: Option<&Table>| {
+    let is_a = table::is_trace(&args.a)?;
+    let mut open = |path: &std::path::Path, trace: bool, like: Option<&[String]>| {
         if trace {
             return Table::read(path);
         }
         let source = engine
             .open(&args.simulation.request(path))
             .map_err(|e| crate::run::announce_lists(e, form, console))?;
-        Table::run(source, like.map(Table::header))
+        Table::run(source, like)
     };
+    let names = [args.a.display().to_string(), args.b.display().to_string()];
+    if !args.map.is_empty() {
+        let mut a = open(&args.a, is_a, Some(&recording::columns(&args.map)))?;
+        let outcome = recording::compare(&mut a, &args.b, &args.map, args.tolerance)?;
+        for message in a.take_messages() {
+            crate::run::announce(&message, form, console);
+        }
+        let text = || recording::text(&names, &outcome);
+        return report(args.format, &names, (&outcome, outcome.equal), text, console);
+    }
+    // a fresh run gives the columns of the trace that it is compared with
+    let is_b = table::is_trace(&args.b)?;
     let (mut a, mut b) = if is_a || !is_b {
         let a = open(&args.a, is_a, None)?;
-        let b = open(&args.b, is_b, Some(&a))?;
+        let b = open(&args.b, is_b, Some(a.header()))?;
         (a, b)
     } else {
         let b = open(&args.b, is_b, None)?;
-        (open(&args.a, is_a, Some(&b))?, b)
+        (open(&args.a, is_a, Some(b.header()))?, b)
     };
     let mut progress = console.progress();
     let mut comparison = Comparison::new(a.header(), b.header(), args.tolerance);
@@ -100,15 +116,24 @@ pub fn diff(
         crate::run::announce(message, form, console);
     }
     let outcome = comparison.finish();
-    let names = [args.a.display().to_string(), args.b.display().to_string()];
-    match args.format {
-        OutputForm::Text => console.print(&text(&names, &outcome))?,
+    report(args.format, &names, (&outcome, outcome.equal), || text(&names, &outcome), console)
+}
+
+fn report<O: Serialize>(
+    format: OutputForm,
+    names: &[String; 2],
+    (outcome, equal): (&O, bool),
+    text: impl FnOnce() -> String,
+    console: &mut Console,
+) -> Result<Exit, Error> {
+    match format {
+        OutputForm::Text => console.print(&text())?,
         OutputForm::Json => {
             let json = serde_json::json!({ "a": names[0], "b": names[1], "result": outcome });
             console.print(&json.to_string())?;
         }
     }
-    Ok(if outcome.equal { Exit::Finished } else { Exit::Aborted })
+    Ok(if equal { Exit::Finished } else { Exit::Aborted })
 }
 
 fn text(names: &[String; 2], outcome: &Outcome) -> String {

@@ -4,7 +4,9 @@
 //! hint. A diagnostic of the running machine has a time in place of a source line.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet};
-use kontur_interpreter::diag::{Datum, Diagnostic, Location, Severity, ValueKind, condition};
+use kontur_interpreter::diag::{
+    Datum, Diagnostic, Location, Severity, ValueKind, condition, rounded,
+};
 
 /// One JSON object on one line.
 pub fn json(d: &Diagnostic) -> String {
@@ -119,9 +121,14 @@ fn datum(data: &Datum, unit: &str) -> String {
         (Datum::Text(t), _) => printable(t),
         (Datum::Number(v), "0.1um") => format!("{:.4} mm", v / 1e4),
         (Datum::Number(v), "1e-4deg" | "0.0001deg") => format!("{:.4} deg", v / 1e4),
-        (Datum::Number(v), "" | "-") => v.to_string(),
-        (Datum::Number(v), unit) => format!("{v} {unit}"),
+        (Datum::Number(v), "" | "-") => number(*v),
+        (Datum::Number(v), unit) => format!("{} {unit}", number(*v)),
     }
+}
+
+/// Whole numbers as they are (counts, lines, increments), others rounded; the JSON form has every digit.
+fn number(v: f64) -> String {
+    if v.fract().abs() > 0.0 { rounded(v) } else { v.to_string() }
 }
 
 /// A user's file may hold anything: what would move a terminal's cursor is shown as a replacement character.
@@ -193,7 +200,9 @@ error[20131]: unknown G function
         .value(ValueKind::Limit, 500.0, "0.1um");
         d.cycle = Some(1834);
         d.time_s = Some(1.834);
+        d = d.value(ValueKind::Current, 0.475_431_558_039_517_2, "mm");
         let text = text(&d, false);
+        assert!(text.contains("current value 0.47543 mm"), "{text}");
         assert!(text.starts_with("error[70082]: axis Y not in"), "{text}");
         assert!(text.contains("at cycle 1834 (t = 1.834000 s), axis 2 (Y)"), "{text}");
         assert!(text.contains("current value 0.1210 mm, limit 0.0500 mm"), "{text}");

@@ -164,7 +164,7 @@ impl Collector {
             most.acc = most.acc.max(axis.acc.abs());
             most.jerk = most.jerk.max(axis.jerk.abs());
             most.err = most.err.max(axis.err.abs());
-            most.dev = most.dev.max(axis.dev.abs());
+            most.dev = most.dev.max(axis.dev_both_ways);
             most.lag = most.lag.max(axis.lag.abs());
         }
         if self.cycles == 0 || record.contour_err_mm > self.worst.0 {

@@ -1,22 +1,27 @@
 //! Plain-text commands: one row each, found by their words; the longest row wins.
 //!
+//! A new command is a file with its arguments, its row and its function, and the name of the row in [`ROWS`]. What the row
+//! says of form, keys and meaning is all that `explain`, the search for misspelt names and the documentation know.
+//!
 //! Source: TF5200 programming manual, list of commands.
 
 mod axes;
 mod contour;
 mod frames;
-mod keys;
+pub(in crate::exec) mod keys;
 mod messages;
 mod misc;
+mod positions;
 mod shaping;
 mod slope;
+mod spindles;
 
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::suggest;
 use crate::diag::Condition;
 use crate::syntax::ast::{Command, Ident, Span};
-pub(super) use keys::{Arguments, Key, Kind, arguments};
+pub(crate) use keys::Key;
 pub(super) use slope::{slope_of_number, slope_type};
 
 /// What a command does.
@@ -31,10 +36,58 @@ enum Act {
     Unsupported,
 }
 
-/// One row.
-struct Row {
-    name: &'static str,
+/// One row: what a command does and what there is to say about it.
+pub(crate) struct Row {
+    /// Words of the name without `#`.
+    pub(crate) name: &'static str,
     act: Act,
+    /// How it is written; empty if there is nothing to explain.
+    pub(crate) form: &'static str,
+    /// What it does, in one sentence.
+    pub(crate) meaning: &'static str,
+    /// Its keys.
+    pub(crate) keys: &'static [Key],
+    /// What else to know.
+    pub(crate) note: &'static str,
+    /// A line for a program.
+    pub(crate) example: &'static str,
+    /// Things to look up next.
+    pub(crate) related: &'static [&'static str],
+}
+
+impl Row {
+    const fn of(name: &'static str, act: Act) -> Self {
+        Self { name, act, form: "", meaning: "", keys: &[], note: "", example: "", related: &[] }
+    }
+
+    /// A command that does something.
+    const fn run(name: &'static str, f: fn(&mut Decoder, &Call<'_>) -> Outcome<()>) -> Self {
+        Self::of(name, Act::Run(f))
+    }
+
+    const fn form(self, form: &'static str) -> Self {
+        Self { form, ..self }
+    }
+
+    const fn meaning(self, meaning: &'static str) -> Self {
+        Self { meaning, ..self }
+    }
+
+    const fn keys(self, keys: &'static [Key]) -> Self {
+        Self { keys, ..self }
+    }
+
+    const fn note(self, note: &'static str) -> Self {
+        Self { note, ..self }
+    }
+
+    const fn example(self, example: &'static str) -> Self {
+        Self { example, ..self }
+    }
+
+    const fn related(self, related: &'static [&'static str]) -> Self {
+        Self { related, ..self }
+    }
 }
 
 /// A command with the words that are not part of its name.
@@ -72,46 +125,49 @@ impl Call<'_> {
 }
 
 const fn run(name: &'static str, f: fn(&mut Decoder, &Call<'_>) -> Outcome<()>) -> Row {
-    Row { name, act: Act::Run(f) }
+    Row::run(name, f)
 }
 
 const fn ignored(name: &'static str) -> Row {
-    Row { name, act: Act::Ignored }
+    Row::of(name, Act::Ignored)
 }
 
 const fn off_only(name: &'static str) -> Row {
-    Row { name, act: Act::OffOnly }
+    Row::of(name, Act::OffOnly)
 }
 
 const fn unsupported(name: &'static str) -> Row {
-    Row { name, act: Act::Unsupported }
+    Row::of(name, Act::Unsupported)
 }
 
 /// Every row.
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
     // shape of acceleration
-    run("SLOPE", slope::slope),
-    run("SET SLOPE PROFIL", slope::set_slope_profile),
+    slope::SLOPE,
+    slope::SET_SLOPE_PROFIL,
     // smoothing of set positions
-    run("VIB GUARD", shaping::vib_guard),
-    run("FILTER", shaping::filter),
+    shaping::VIB_GUARD,
+    shaping::FILTER,
     // contour
-    run("CONTOUR MODE", contour::contour_mode),
-    run("HSC", contour::hsc),
-    run("VECTOR LIMIT", contour::vector_limit),
-    run("TRANSVELMIN", contour::transition_velocity),
-    run("OVERRIDE", contour::path_override),
+    contour::CONTOUR_MODE,
+    contour::HSC,
+    contour::VECTOR_LIMIT,
+    contour::TRANSVELMIN,
+    contour::OVERRIDE,
     // waiting and synchronising
-    run("FLUSH", misc::flush),
-    run("CHANNEL INIT", misc::channel_init),
-    run("TIME", misc::time),
-    run("WAIT", misc::wait),
-    run("TIMER", misc::timer),
+    misc::FLUSH,
+    misc::CHANNEL_INIT,
+    positions::GET_CMDPOS,
+    positions::GET_ACTPOS,
+    positions::SET_IPO_SOLLPOS,
+    misc::TIME,
+    misc::WAIT,
+    misc::TIMER,
     ignored("SIGNAL"),
     // messages
-    run("MSG", messages::message),
-    run("ERROR", messages::error),
+    messages::MSG,
+    messages::ERROR,
     // variables, files, macros
     run("DELETE", misc::delete),
     run("INIT MACRO TAB", misc::init_macros),
@@ -120,11 +176,11 @@ const ROWS: &[Row] = &[
     unsupported("FILE EXIST"),
     unsupported("FILE RENAME"),
     unsupported("FILE DELETE"),
-    run("MACHINE DATA", misc::machine_data),
+    misc::MACHINE_DATA,
     // axis exchange
-    run("PUT AX", axes::put),
-    run("CALL AX", axes::call),
-    run("SET AX", axes::set),
+    axes::PUT_AX,
+    axes::CALL_AX,
+    axes::SET_AX,
     run("AX REQUEST", axes::call),
     run("AX RELEASE", axes::put),
     run("AX DEF", axes::define),
@@ -151,6 +207,7 @@ const ROWS: &[Row] = &[
     run("ORI MODE", frames::transformation),
     off_only("PTP"),
     off_only("CYL"),
+    off_only("TLC"),
     off_only("FACE"),
     off_only("CAX"),
     off_only("CAXTRACK"),
@@ -167,21 +224,22 @@ const ROWS: &[Row] = &[
     unsupported("VOLCOMP"),
     unsupported("JOG"),
     unsupported("HANDWHEEL"),
-    unsupported("SET IPO SOLLPOS"),
+    // spindles
+    spindles::MAIN_SPINDLE,
     // cycles
     run("DISABLE MODAL CYCLE", misc::disable_modal_cycle),
     run("RETAIN CYCLE CHANGES", misc::retain_cycle_changes),
     // no influence on set positions
-    ignored("GET CMDPOS"),
-    ignored("GET ACTPOS"),
     ignored("SINGLE STEP"),
     ignored("BLOCKSEARCH"),
-    ignored("TOOL"),
+    ignored("TOOL DATA"),
+    ignored("TOOL PREP"),
+    ignored("TOOL REFRESH"),
+    unsupported("TOOL"),
     ignored("EXPL SYN"),
-    ignored("MAIN SPINDLE"),
-    ignored("LOAD CONFIG"),
+    unsupported("LOAD CONFIG"),
     ignored("SAVE CONFIG"),
-    ignored("CLEAR CONFIG"),
+    unsupported("CLEAR CONFIG"),
     ignored("CACHE"),
     ignored("CONTROL AREA"),
     ignored("DISTANCE PROG START"),
@@ -194,11 +252,15 @@ const ROWS: &[Row] = &[
     ignored("OPTIONAL EXECUTION"),
     ignored("BACKWARD"),
     ignored("FF"),
-    ignored("TLC"),
     ignored("LAH"),
     ignored("DIAGNOSIS"),
     ignored("SCENE"),
 ];
+
+/// Every row there is something to explain about.
+pub(crate) fn explained() -> impl Iterator<Item = &'static Row> {
+    ROWS.iter().filter(|row| !row.form.is_empty())
+}
 
 /// The row of a command and how many of its words belong to the name.
 fn find(command: &Command) -> Option<(&'static Row, usize)> {

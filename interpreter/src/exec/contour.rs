@@ -1,9 +1,15 @@
 //! From programmed motions to steps: holds a motion back until the next one is known, where something may come between.
 
-use super::bottleneck::Cut;
-use super::compensation::{Compensator, Item, Rest};
+pub(super) mod bottleneck;
+pub(super) mod compensation;
+pub(super) mod contouring;
+pub(super) mod insertion;
+
+use self::bottleneck::Cut;
+use self::compensation::{Compensator, Item, Rest};
+use self::contouring::{Contouring, Hsc};
+use self::insertion::Insertion;
 use super::fault::Fault;
-use super::insertion::{self, Insertion};
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
@@ -116,6 +122,10 @@ pub(super) struct Driven {
 /// Motions and events on their way to the simulation.
 #[derive(Debug, Default)]
 pub(super) struct Contour {
+    /// `#CONTOUR MODE`.
+    pub(super) contouring: Contouring,
+    /// `#HSC`.
+    pub(super) hsc: Hsc,
     /// Steps in their order, still without the numbers of their blocks.
     queue: VecDeque<Item>,
     /// The end, behind the queue.

@@ -2,105 +2,47 @@
 //!
 //! The decoder knows blocks, not files: where the next block comes from is the business of the executor.
 
-use super::calls::ModalCycle;
+use super::block::dialect::Seen;
+use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane};
 use super::contour::Contour;
-use super::contouring::{Contouring, Hsc};
-use super::coordinates::Coordinates;
-use super::dialect::Seen;
-use super::dynamics::{Weights, channel_dynamics};
 use super::fault::Fault;
-use super::independent::Independent;
-use super::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane};
+use super::geometry::coordinates::Coordinates;
+use super::geometry::tools::Tools;
+use super::geometry::{Geometry, LastArc};
+use super::motion::dynamics::{Weights, channel_dynamics};
+use super::motion::independent::Independent;
+use super::motion::overrides::Overrides;
+use super::motion::spindles::Spindle;
+use super::motion::{Feedforward, MotionState};
 use super::options::Options;
-use super::overrides::Overrides;
-use super::program::ProgramInfo;
+use super::program::calls::Calls;
 use super::shaping::{ShapingState, Worked};
-use super::spindles::Spindle;
 use super::step::{Event, Feedback, SourceRef, Sync};
-use super::system::Timers;
-use super::tools::Tools;
-use super::variables::Variables;
+use super::values::Values;
+use super::values::system::Timers;
+use super::values::variables::Variables;
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::{Ident, Span};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{ChannelDynamics, VectorLimits};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Feedforward of the path axes.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Feedforward {
-    pub(super) on: bool,
-    pub(super) weight_ratios: AxisVec,
-}
-
-/// The last arc, for system variables.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct LastArc {
-    /// Main axes of its plane.
-    pub(super) plane: [usize; 2],
-    /// Centre relative to the start point.
-    pub(super) centre_mm: [f64; 2],
-    /// Shift of the centre by G165.
-    pub(super) shift_mm: [f64; 2],
-    pub(super) radius_mm: f64,
-}
-
-/// State of a running program.
+/// Names of the axes in the program.
 #[derive(Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "independent conditions of the block in work")]
-pub(super) struct Decoder {
-    pub(super) machine: Arc<Machine>,
-    pub(super) identity_trafo: bool,
-    pub(super) modal: Modal,
-    pub(super) coordinates: Coordinates,
-    pub(super) variables: Variables,
-    pub(super) weights: Weights,
-    /// Software limits of the axes (G98, G99), `None` for an axis without.
-    pub(super) limits_mm: Vec<Option<(f64, f64)>>,
-    /// Members of the feed group (`#FGROUP`).
-    pub(super) feed_axes: Vec<bool>,
-    /// `#VECTOR LIMIT` in force in feed and in rapid blocks.
-    pub(super) vector: [VectorLimits; 2],
-    /// Dynamics in feed and in rapid blocks; the same while the limits are.
-    dynamics: [Option<Arc<ChannelDynamics>>; 2],
-    pub(super) overrides: Overrides,
-    pub(super) independent: Independent,
-    pub(super) shaping: ShapingState,
-    pub(super) feedforward: Feedforward,
-    pub(super) spindles: Vec<Spindle>,
-    pub(super) tools: Tools,
-    pub(super) contour: Contour,
-    pub(super) contouring: Contouring,
-    pub(super) hsc: Hsc,
-    /// Names of the axes in the program; `None` for an axis that was given away.
-    pub(super) axis_names: Vec<Option<String>>,
+pub(super) struct AxisNames {
+    /// `None` for an axis that was given away.
+    pub(super) axes: Vec<Option<String>>,
     /// Letters of one-letter axes.
     letters: [Option<u8>; 26],
-    pub(super) info: ProgramInfo,
-    pub(super) macros: BTreeMap<Box<str>, Box<str>>,
-    /// Subroutines of G80 to G89 and G800 to G839.
-    pub(super) cycle_files: BTreeMap<u32, String>,
-    /// Subroutine of M06.
-    pub(super) tool_change_file: Option<String>,
-    pub(super) timers: Timers,
-    pub(super) feedback: Feedback,
-    pub(super) last_arc: LastArc,
-    /// Coordinate system stored last.
-    pub(super) last_system: u32,
-    pub(super) dialect: Seen,
-    /// Cycle that is called behind every motion or block.
-    pub(super) modal_cycle: Option<ModalCycle>,
-    /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
-    pub(super) retain_cycle_changes: bool,
-    /// Names of axes or the table of macros have changed: parsed blocks are out of date.
-    pub(super) names_changed: bool,
-    pub(super) macros_changed: bool,
-    /// Syntax check: blocks with errors are carried out as far as possible.
-    pub(super) checking: bool,
-    /// A motion of the block in work went out.
-    pub(super) moved: bool,
+    /// Parsed blocks are out of date.
+    pub(super) changed: bool,
+}
+
+/// What the program is told, and about which block.
+#[derive(Debug, Default)]
+pub(super) struct Report {
     /// Place of the block in work.
     pub(super) source: SourceRef,
     /// Its first line, for conditions that name an earlier place.
@@ -110,6 +52,28 @@ pub(super) struct Decoder {
     /// Conditions without a place in a block.
     pub(super) unplaced: Vec<Diagnostic>,
     said: BTreeSet<String>,
+}
+
+/// State of a running program: what the rooms own, and what all of them read.
+#[derive(Debug)]
+pub(super) struct Decoder {
+    pub(super) machine: Arc<Machine>,
+    pub(super) identity_trafo: bool,
+    pub(super) feedback: Feedback,
+    pub(super) names: AxisNames,
+    pub(super) report: Report,
+    pub(super) modal: Modal,
+    pub(super) dialect: Seen,
+    pub(super) values: Values,
+    pub(super) geometry: Geometry,
+    pub(super) contour: Contour,
+    pub(super) motion: MotionState,
+    pub(super) shaping: ShapingState,
+    pub(super) calls: Calls,
+    /// Syntax check: blocks with errors are carried out as far as possible.
+    pub(super) checking: bool,
+    /// A motion of the block in work went out.
+    pub(super) moved: bool,
 }
 
 impl Decoder {
@@ -125,58 +89,52 @@ impl Decoder {
         if spindles.is_empty() {
             spindles.push(Spindle::new("S", None));
         }
-        if let Some(main) = machine.channel.main_spindle
-            && let Some(i) = machine.spindles.iter().position(|s| s.number() == main)
-        {
-            spindles.swap(0, i);
-        }
         let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
         let mut decoder = Self {
             identity_trafo: options.identity_trafo,
-            modal: Modal::start(machine.channel.slope, machine.channel.constant_ramp_time),
-            coordinates: Coordinates::new(start),
-            variables: Variables::new(options.external),
-            weights: Weights::new(n),
-            limits_mm: machine.axes.iter().map(Axis::software_limits_mm).collect(),
-            feed_axes: machine.channel.feed_axes.clone(),
-            vector: [VectorLimits::default(); 2],
-            dynamics: [None, None],
-            overrides: Overrides::new(n),
-            independent: Independent::new(n),
-            shaping: ShapingState::default(),
-            feedforward: Feedforward {
-                on: false,
-                weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
-            },
-            spindles,
-            tools: Tools::default(),
-            contour: Contour::default(),
-            contouring: Contouring::default(),
-            hsc: Hsc::default(),
-            axis_names,
-            letters: [None; 26],
-            info: ProgramInfo::default(),
-            macros: BTreeMap::new(),
-            cycle_files: machine.channel.g8x_programs.clone(),
-            tool_change_file: machine.channel.tool_change_program.clone(),
-            timers: Timers::default(),
             feedback: Feedback::default(),
-            last_arc: LastArc::default(),
-            last_system: 1,
+            names: AxisNames { axes: axis_names, letters: [None; 26], changed: false },
+            report: Report::default(),
+            modal: Modal::start(machine.channel.slope, machine.channel.constant_ramp_time),
             dialect: Seen::default(),
-            modal_cycle: None,
-            retain_cycle_changes: false,
-            names_changed: false,
-            macros_changed: false,
+            values: Values {
+                variables: Variables::new(options.external),
+                timers: Timers::default(),
+            },
+            geometry: Geometry {
+                coordinates: Coordinates::new(start),
+                limits_mm: machine.axes.iter().map(Axis::software_limits_mm).collect(),
+                last_arc: LastArc::default(),
+                last_system: 1,
+                transformation_on: false,
+                tools: Tools::default(),
+            },
+            contour: Contour::default(),
+            motion: MotionState {
+                weights: Weights::new(n),
+                feed_axes: machine.channel.feed_axes.clone(),
+                vector: [VectorLimits::default(); 2],
+                dynamics: [None, None],
+                overrides: Overrides::new(n),
+                independent: Independent::new(n),
+                feedforward: Feedforward {
+                    on: false,
+                    weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
+                },
+                spindles,
+            },
+            shaping: ShapingState::default(),
+            calls: Calls {
+                cycle_files: machine.channel.g8x_programs.clone(),
+                tool_change_file: machine.channel.tool_change_program.clone(),
+                ..Calls::default()
+            },
             checking: false,
             moved: false,
-            source: SourceRef::default(),
-            location: None,
-            faults: Vec::new(),
-            unplaced: Vec::new(),
-            said: BTreeSet::new(),
             machine,
         };
+        let main = decoder.listed_main_spindle();
+        decoder.motion.spindles.swap(0, main);
         decoder.axis_names_changed();
         decoder.presets();
         let Worked { setup, diagnostics } = decoder.shaping.work_out(&decoder.machine);
@@ -184,6 +142,7 @@ impl Decoder {
         // what the lists say about single filters is told, with its place, when the chains are set up
         let of_several = [Condition::ListFirAndGuard, Condition::UnequalKernels];
         decoder
+            .report
             .unplaced
             .extend(diagnostics.into_iter().filter(|d| of_several.iter().any(|c| d.id == *c)));
         decoder
@@ -227,7 +186,7 @@ impl Decoder {
                 (group, g) => {
                     let text = format!("prog_start.g_gruppe[{group}].nr {g} is not simulated");
                     let d = Diagnostic::new(Condition::Fallback, text).parameter("P-CHAN-00063");
-                    self.unplaced.push(d);
+                    self.report.unplaced.push(d);
                 }
             }
         }
@@ -235,36 +194,36 @@ impl Decoder {
 
     /// Adds a condition of the block in work.
     pub(super) fn note(&mut self, fault: Box<Fault>) {
-        self.faults.push(*fault);
+        self.report.faults.push(*fault);
     }
 
     /// Adds a condition unless one with this key was added before in this program.
     pub(super) fn note_once(&mut self, key: &str, fault: Box<Fault>) {
-        if self.said.insert(key.to_owned()) {
-            self.faults.push(*fault);
+        if self.report.said.insert(key.to_owned()) {
+            self.report.faults.push(*fault);
         }
     }
 
     /// Forgets that something was said.
     pub(super) fn unsay(&mut self, key: &str) {
-        self.said.remove(key);
+        self.report.said.remove(key);
     }
 
     pub(super) fn take_faults(&mut self) -> Vec<Fault> {
-        std::mem::take(&mut self.faults)
+        std::mem::take(&mut self.report.faults)
     }
 
     /// Adds to the condition noted last.
     pub(super) fn amend(&mut self, f: impl FnOnce(Diagnostic) -> Diagnostic) {
-        if let Some(fault) = self.faults.pop() {
+        if let Some(fault) = self.report.faults.pop() {
             let diagnostic = f(fault.diagnostic);
-            self.faults.push(Fault { diagnostic, ..fault });
+            self.report.faults.push(Fault { diagnostic, ..fault });
         }
     }
 
     /// True if the block in work has an error.
     pub(super) fn failed(&self) -> bool {
-        self.faults.iter().any(Fault::is_error)
+        self.report.faults.iter().any(Fault::is_error)
     }
 
     /// Takes over an outcome: a fault becomes a condition of the block.
@@ -272,7 +231,7 @@ impl Decoder {
         match outcome {
             Ok(value) => Some(value),
             Err(fault) => {
-                self.faults.push(*fault);
+                self.report.faults.push(*fault);
                 None
             }
         }
@@ -289,29 +248,29 @@ impl Decoder {
             return;
         }
         if matches!(what, Sync::FlushWait) {
-            self.independent.all_arrived();
+            self.motion.independent.all_arrived();
         }
-        let faults = self.contour.sync(what, self.source);
-        self.faults.extend(faults);
+        let faults = self.contour.sync(what, self.report.source);
+        self.report.faults.extend(faults);
         let outside = self.limits_of_compensated();
-        self.faults.extend(outside);
+        self.report.faults.extend(outside);
     }
 
     /// Names of axes have changed.
     pub(super) fn names_changed(&mut self) {
         self.axis_names_changed();
-        self.names_changed = true;
+        self.names.changed = true;
     }
 
     /// Axes take over where they really are; all of them if none is named.
     pub(super) fn take_actual_positions(&mut self, axes: &[usize]) {
-        let mut target = self.coordinates.target().clone();
+        let mut target = self.geometry.coordinates.target().clone();
         for (axis, position) in target.iter_mut().enumerate() {
             if axes.is_empty() || axes.contains(&axis) {
                 *position = self.feedback.actual_mm.get(axis).copied().unwrap_or(*position);
             }
         }
-        self.coordinates.set_target(&target);
+        self.geometry.coordinates.set_target(&target);
     }
 
     /// `#MACHINE DATA`: one value of an axis list.
@@ -329,36 +288,40 @@ impl Decoder {
         }
         let number = machine.axes[axis].number();
         self.dynamics_changed();
-        self.sync(Sync::MachineData { axis: number, key: key.to_owned(), value: value.to_owned() });
+        self.sync(Sync::MachineData { axis: number });
         self.update_shaping(span);
         Ok(())
     }
 
     /// Dynamics in force in feed or rapid blocks; rebuilt when something changed.
     pub(super) fn dynamics(&mut self, rapid: bool) -> Arc<ChannelDynamics> {
-        let mode = usize::from(rapid && self.vector[0] != self.vector[1]);
-        if let Some(dynamics) = &self.dynamics[mode] {
+        let mode = usize::from(rapid && self.motion.vector[0] != self.motion.vector[1]);
+        if let Some(dynamics) = &self.motion.dynamics[mode] {
             return Arc::clone(dynamics);
         }
-        let (mut dynamics, _) =
-            channel_dynamics(&self.machine, &self.weights, &self.modal, self.vector[mode]);
-        dynamics.feed_axes.clone_from(&self.feed_axes);
+        let (mut dynamics, _) = channel_dynamics(
+            &self.machine,
+            &self.motion.weights,
+            &self.modal,
+            self.motion.vector[mode],
+        );
+        dynamics.feed_axes.clone_from(&self.motion.feed_axes);
         let dynamics = Arc::new(dynamics);
-        self.dynamics[mode] = Some(Arc::clone(&dynamics));
+        self.motion.dynamics[mode] = Some(Arc::clone(&dynamics));
         dynamics
     }
 
     /// Something the dynamics are made from has changed.
     pub(super) fn dynamics_changed(&mut self) {
-        self.dynamics = [None, None];
+        self.motion.dynamics = [None, None];
     }
 
     /// Names have changed.
     pub(super) fn axis_names_changed(&mut self) {
-        self.letters = [None; 26];
-        for (i, name) in self.axis_names.iter().enumerate() {
+        self.names.letters = [None; 26];
+        for (i, name) in self.names.axes.iter().enumerate() {
             if let Some([letter @ b'A'..=b'Z']) = name.as_deref().map(str::as_bytes) {
-                self.letters[usize::from(letter - b'A')] = u8::try_from(i).ok();
+                self.names.letters[usize::from(letter - b'A')] = u8::try_from(i).ok();
             }
         }
     }
@@ -366,12 +329,13 @@ impl Decoder {
     /// Axis of a letter.
     pub(super) fn axis_of_letter(&self, letter: u8) -> Option<usize> {
         let i = usize::from(letter.wrapping_sub(b'A'));
-        self.letters.get(i).copied().flatten().map(usize::from)
+        self.names.letters.get(i).copied().flatten().map(usize::from)
     }
 
     /// Axis of a name in either case.
     pub(super) fn axis_of_name(&self, name: &str) -> Option<usize> {
-        self.axis_names
+        self.names
+            .axes
             .iter()
             .position(|n| n.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name)))
     }
@@ -386,12 +350,12 @@ impl Decoder {
 
     /// Which axes there are.
     pub(super) fn axis_hint(&self) -> String {
-        let names: Vec<&str> = self.axis_names.iter().filter_map(|n| n.as_deref()).collect();
+        let names: Vec<&str> = self.names.axes.iter().filter_map(|n| n.as_deref()).collect();
         format!("axes of the channel: {}", names.join(", "))
     }
 
     pub(super) fn axis_name(&self, axis: usize) -> &str {
-        self.axis_names[axis].as_deref().unwrap_or("?")
+        self.names.axes[axis].as_deref().unwrap_or("?")
     }
 
     pub(super) fn is_linear(&self, axis: usize) -> bool {
@@ -413,18 +377,29 @@ impl Decoder {
         if self.machine.channel.contouring_consider_inch { self.unit_mm() } else { 1.0 }
     }
 
+    /// Where the spindle of P-CHAN-00051 stands among the spindles, or else the first one of the lists.
+    pub(super) fn listed_main_spindle(&self) -> usize {
+        let listed = self
+            .machine
+            .channel
+            .main_spindle
+            .and_then(|main| self.machine.spindles.iter().position(|s| s.number() == main));
+        let is = |spindle: &Spindle| spindle.index == Some(listed.unwrap_or(0));
+        self.motion.spindles.iter().position(is).unwrap_or(0)
+    }
+
     /// Spindle of a name in either case: that of its list, and for the main spindle P-CHAN-00053.
     pub(super) fn spindle_of_name(&self, name: &str) -> Option<usize> {
         let main = name.eq_ignore_ascii_case(&self.machine.channel.main_spindle_name);
-        let listed = self.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name));
+        let listed = self.motion.spindles.iter().position(|s| s.name.eq_ignore_ascii_case(name));
         if main { Some(0) } else { listed }
     }
 
     /// Names of several characters that the parser has to know.
     pub(super) fn long_names(&self) -> Vec<String> {
-        let axes = self.axis_names.iter().flatten().cloned();
+        let axes = self.names.axes.iter().flatten().cloned();
         let main = [self.machine.channel.main_spindle_name.clone()];
-        axes.chain(self.spindles.iter().map(|s| s.name.clone()))
+        axes.chain(self.motion.spindles.iter().map(|s| s.name.clone()))
             .chain(main)
             .filter(|n| n.len() > 1)
             .collect()

@@ -1,24 +1,57 @@
 //! The motion of a block: target, path, feed and limits; or the dwell.
 
 mod arcs;
+pub(super) mod dynamics;
 mod feed;
+pub(super) mod independent;
 mod limits;
+pub(super) mod overrides;
+pub(super) mod spindles;
 
+use self::dynamics::Weights;
+use self::independent::Independent;
+use self::overrides::Overrides;
+use self::spindles::Spindle;
+use super::block::groups::{Act, Group};
+use super::block::modal::{Compensation, Corners, PathMode};
+use super::block::words::{GWord, Words};
+use super::contour::insertion::{Insertion, Kind};
 use super::contour::{Compensated, Motion};
-use super::coordinates::Target;
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
-use super::groups::{Act, Group};
-use super::insertion::{Insertion, Kind};
-use super::modal::{Compensation, Corners, PathMode};
-use super::modulo;
+use super::geometry::coordinates::Target;
+use super::geometry::modulo;
 use super::step::Sync;
-use super::words::{GWord, Words};
 use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed, SlopeKind};
+use kontur_motion::block::{ChannelDynamics, VectorLimits};
 use kontur_motion::path::{LinePath, Path, Tilt};
+use std::sync::Arc;
+
+/// Feedforward of the path axes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Feedforward {
+    pub(super) on: bool,
+    pub(super) weight_ratios: AxisVec,
+}
+
+/// What the room owns.
+#[derive(Debug)]
+pub(super) struct MotionState {
+    pub(super) weights: Weights,
+    /// Members of the feed group (`#FGROUP`).
+    pub(super) feed_axes: Vec<bool>,
+    /// `#VECTOR LIMIT` in force in feed and in rapid blocks.
+    pub(super) vector: [VectorLimits; 2],
+    /// Dynamics in feed and in rapid blocks; the same while the limits are.
+    pub(super) dynamics: [Option<Arc<ChannelDynamics>>; 2],
+    pub(super) overrides: Overrides,
+    pub(super) independent: Independent,
+    pub(super) feedforward: Feedforward,
+    pub(super) spindles: Vec<Spindle>,
+}
 
 /// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
 const DWELL_MAX_S: f64 = 4294.967295;
@@ -104,7 +137,7 @@ impl Decoder {
     }
 
     fn dwell(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        let main = self.coordinates.main_axis(0);
+        let main = self.geometry.coordinates.main_axis(0);
         let of_axis = words.axes.iter().find(|(axis, _, _)| Some(*axis) == main);
         let revolutions = words.speeds.first();
         let forms = [g.value.is_some(), of_axis.is_some(), revolutions.is_some()];
@@ -117,7 +150,7 @@ impl Decoder {
         } else if let Some((_, value, span)) = of_axis {
             (*value, *span)
         } else if let Some((spindle, turns, span)) = revolutions {
-            let rpm = self.spindles[*spindle].rpm.abs();
+            let rpm = self.motion.spindles[*spindle].rpm.abs();
             if rpm == 0.0 {
                 let text = "G04 S: the spindle has no speed";
                 return Err(Fault::new(Condition::SpindleSpeedZero, text, *span));
@@ -172,7 +205,7 @@ impl Decoder {
     }
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
-        let start = self.coordinates.target().clone();
+        let start = self.geometry.coordinates.target().clone();
         let mut targets: smallvec::SmallVec<[Target; 8]> = words
             .axes
             .iter()
@@ -190,7 +223,7 @@ impl Decoder {
                 let turn = turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?;
                 let offset = match suppressed {
                     Some(_) => 0.0,
-                    None => self.coordinates.active_offset(target.axis),
+                    None => self.geometry.coordinates.active_offset(target.axis),
                 };
                 target.value = modulo::unwrapped(target.value, turn, start[target.axis] - offset);
             }
@@ -200,17 +233,17 @@ impl Decoder {
                 let text = "#SUPPRESS OFFSETS acts only with G90";
                 return Err(Fault::new(Condition::SuppressWithIncremental, text, *at));
             }
-            Some((_, _, at)) if !self.coordinates.frame().is_identity() => {
+            Some((_, _, at)) if !self.geometry.coordinates.frame().is_identity() => {
                 let what = "#SUPPRESS OFFSETS in a frame";
                 return Err(Fault::unsupported(what, *at));
             }
-            Some(_) => self.coordinates.program_without_offsets(&targets),
-            None => self.coordinates.program(&targets),
+            Some(_) => self.geometry.coordinates.program_without_offsets(&targets),
+            None => self.geometry.coordinates.program(&targets),
         }
         let path = if is_arc {
             Some(self.arc(start, words, span)?)
         } else {
-            let end = self.coordinates.target().clone();
+            let end = self.geometry.coordinates.target().clone();
             if let Some((_, at)) = words.centre.iter().flatten().next()
                 && words.group(Group::Insertion).is_none()
             {
@@ -226,7 +259,7 @@ impl Decoder {
                 }
             }
             let (start, end) = (self.on_path(start), self.on_path(end));
-            LinePath::new(start, end, &self.feed_axes).map(Path::Line)
+            LinePath::new(start, end, &self.motion.feed_axes).map(Path::Line)
         };
         // a block without way needs no feed
         let Some(path) = path else { return Ok(()) };
@@ -246,8 +279,8 @@ impl Decoder {
         let moves = |axis: &usize| {
             path.extent(*axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
         };
-        let moved = (0..self.feed_axes.len()).filter(moves);
-        let feed_ratio = if full { 1.0 } else { self.overrides.ratio(rapid, moved) };
+        let moved = (0..self.motion.feed_axes.len()).filter(moves);
+        let feed_ratio = if full { 1.0 } else { self.motion.overrides.ratio(rapid, moved) };
         let once = |act: Act| words.g.iter().any(|g| g.row.act == act);
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
@@ -268,13 +301,17 @@ impl Decoder {
             slope: self.modal.slope,
             dynamics: self.dynamics(rapid),
             tolerance: self.shaping.tolerance(),
-            contour: if rounds { Some(self.contouring.settings()) } else { self.hsc.contour() },
-            spline: self.hsc.spline(),
+            contour: if rounds {
+                Some(self.contour.contouring.settings())
+            } else {
+                self.contour.hsc.contour()
+            },
+            spline: self.contour.hsc.spline(),
         });
         self.check_time(&block, at);
         let motion = Box::new(Motion {
             block,
-            source: self.source,
+            source: self.report.source,
             events: self.contour.take_events(),
             plane,
             tilt,
@@ -294,7 +331,7 @@ impl Decoder {
 
     /// Axes of the active plane, its coordinate system if it lies askew to the axes, and the compensation.
     fn in_plane(&self, span: Span) -> Outcome<InPlane> {
-        let axis = |m: usize| self.coordinates.main_axis(m);
+        let axis = |m: usize| self.geometry.coordinates.main_axis(m);
         let compensated = self.modal.compensation != Compensation::Off;
         let PlaneImage { main, keeps_sense, tilt } = self.image_of_plane(span)?;
         let (Some(first), Some(second)) = (axis(main[0]), axis(main[1])) else {
@@ -305,7 +342,7 @@ impl Decoder {
             return Ok(InPlane { plane: [0, 0], tilt, compensation: None });
         };
         let left = (self.modal.compensation == Compensation::Left) == keeps_sense;
-        let radius = self.tools.active.radius_mm;
+        let radius = self.geometry.tools.active.radius_mm;
         let compensation = compensated.then_some(Compensated {
             distance_mm: if left { radius } else { -radius },
             straight_corners: self.modal.corners == Corners::Straight,
@@ -317,24 +354,24 @@ impl Decoder {
     /// Where the frame puts the active plane.
     fn image_of_plane(&self, span: Span) -> Outcome<PlaneImage> {
         let [a, b, _] = self.modal.plane.main_axes();
-        let frame = self.coordinates.frame();
+        let frame = self.geometry.coordinates.frame();
         if let Some((main, keeps_sense)) = frame.image_of_plane(a, b) {
             return Ok(PlaneImage { main, keeps_sense, tilt: None });
         }
-        let axis = |m: usize| self.coordinates.main_axis(m);
+        let axis = |m: usize| self.geometry.coordinates.main_axis(m);
         let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
             let text = "a coordinate system turned in space needs three main axes";
             return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
         };
-        let (axes, origin) = ([x, y, z], self.coordinates.to_machine([0.0; 3]));
-        let t_mm = std::array::from_fn(|i| origin[i] - self.independent.way[axes[i]]);
+        let (axes, origin) = ([x, y, z], self.geometry.coordinates.to_machine([0.0; 3]));
+        let t_mm = std::array::from_fn(|i| origin[i] - self.motion.independent.way[axes[i]]);
         let tilt = Some(Box::new(Tilt { axes, m: frame.m, t_mm }));
         Ok(PlaneImage { main: [a, b], keeps_sense: true, tilt })
     }
 
     /// Position of the axes without the ways that they have gone as independent axes.
     fn on_path(&self, mut position: AxisVec) -> AxisVec {
-        for (x, way) in position.iter_mut().zip(self.independent.way.iter()) {
+        for (x, way) in position.iter_mut().zip(self.motion.independent.way.iter()) {
             *x -= way;
         }
         position
@@ -342,7 +379,7 @@ impl Decoder {
 
     /// Chamfer or rounding in front of the next motion.
     pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed_mm_s: Option<f64>, span: Span) {
-        let insertion = Insertion { kind, size_mm, feed_mm_s, span, source: self.source };
+        let insertion = Insertion { kind, size_mm, feed_mm_s, span, source: self.report.source };
         if let Some(fault) = self.contour.insert(insertion) {
             self.note(fault);
         }

@@ -1,36 +1,13 @@
-//! What system variables tell about the running program.
+//! Which block is next: files, levels, loops, branches and calls.
+//!
+//! Owns the open files, their indices and the levels of the program; it hands blocks to the decoder and reads nothing of
+//! its state but values of conditions and what a call has left behind.
 
-use std::sync::Arc;
-
-/// Names and place of the running program.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct ProgramInfo {
-    pub(super) main_file: Arc<str>,
-    pub(super) main_program: Arc<str>,
-    pub(super) file: Arc<str>,
-    pub(super) program: Arc<str>,
-    /// 1 for the main program.
-    pub(super) level: u32,
-    /// Last block number.
-    pub(super) block_number: u64,
-    /// Offset of the block in its file.
-    pub(super) offset: u64,
-    /// Nesting depth of cycles.
-    pub(super) cycles: u32,
-}
-
-impl Default for ProgramInfo {
-    fn default() -> Self {
-        let empty: Arc<str> = Arc::from("");
-        Self {
-            main_file: Arc::clone(&empty),
-            main_program: Arc::clone(&empty),
-            file: Arc::clone(&empty),
-            program: empty,
-            level: 1,
-            block_number: 0,
-            offset: 0,
-            cycles: 0,
-        }
-    }
-}
+pub(super) mod calls;
+pub(super) mod check;
+pub(super) mod executor;
+pub(super) mod files;
+pub(super) mod flow;
+pub(super) mod index;
+pub(super) mod info;
+pub(super) mod unreached;

@@ -6,10 +6,10 @@
 //! Source: TF5250 Vibration Guard, TF5200 FIR filter, TF5200 axis filters.
 use super::step::{AxisShaping, ShapingSettings, ShapingSetup};
 use crate::diag::{Condition, Diagnostic, Location};
-use crate::machine::issues::{self, Origin};
+use crate::machine::issues;
 use crate::machine::{Axis, Machine};
-use kontur_filters::fir::{FirConfig, FirKind};
-use kontur_filters::hsc::{HscConfig, HscKind};
+use kontur_filters::fir::FirConfig;
+use kontur_filters::hsc::HscConfig;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -22,6 +22,17 @@ pub(super) struct GuardKeys {
     pub(super) mode: Option<u8>,
     pub(super) freq_hz: Option<f64>,
     pub(super) damping: Option<f64>,
+}
+
+impl GuardKeys {
+    /// What the program gave, and the rest as listed.
+    pub(super) fn over(&self, listed: VibGuardSettings) -> VibGuardSettings {
+        VibGuardSettings {
+            mode: self.mode.unwrap_or(listed.mode),
+            freq_hz: self.freq_hz.unwrap_or(listed.freq_hz),
+            damping: self.damping.unwrap_or(listed.damping),
+        }
+    }
 }
 
 /// Keys of `#FILTER` that persist.
@@ -102,9 +113,10 @@ impl ShapingState {
     }
 
     fn axis(&self, axis: &Axis, cycle: CycleTime, found: &mut Vec<Diagnostic>) -> AxisShaping {
-        let guard_on = self.guard_on.unwrap_or(axis.flag("vib_guard.active"));
-        let fir = self.fir(axis);
-        let fir_on = self.fir_on.unwrap_or(axis.flag("filter_fir.enable"));
+        let listed = axis.kernel_preset(cycle);
+        let guard_on = self.guard_on.unwrap_or(listed.vib_guard.active);
+        let fir = listed.fir.map(|fir| self.fir(fir.config));
+        let fir_on = self.fir_on.unwrap_or(listed.fir.is_some_and(|fir| fir.enable));
         if let (Some(config), true) = (fir, fir_on) {
             if guard_on {
                 let text = "the list switches the Vibration Guard on and a FIR filter is active: \
@@ -113,44 +125,35 @@ impl ShapingState {
                 found.push(d.axis(axis.number(), axis.name()));
             }
             let (kernel, issues) = config.design(cycle);
-            found.extend(issues.iter().map(|i| issues::filter(axis, Origin::Program, i)));
+            found.extend(issues.iter().map(|i| issues::filter(axis, None, i)));
             return shaped(ShapingSettings::Fir(config), kernel);
         }
-        if let (Some(config), true) = (self.hsc(axis), self.hsc_on) {
+        if let (Some(config), true) = (listed.hsc.map(|hsc| self.hsc(hsc)), self.hsc_on) {
             let (kernel, issues) = config.design(cycle);
-            found.extend(issues.iter().map(|i| issues::filter(axis, Origin::Program, i)));
+            found.extend(issues.iter().map(|i| issues::filter(axis, None, i)));
             return shaped(ShapingSettings::Hsc(config), kernel);
         }
         if guard_on {
-            let settings = self.guard_settings(axis);
+            let settings = self.guard.over(listed.vib_guard.settings);
             match settings.kernel(cycle) {
                 Ok(kernel) => return shaped(ShapingSettings::VibGuard(settings), Some(kernel)),
-                Err(e) => found.push(issues::vib_guard(axis, Origin::Program, &e, cycle)),
+                Err(e) => found.push(issues::vib_guard(axis, false, &e, cycle)),
             }
         }
         AxisShaping::default()
     }
 
-    fn guard_settings(&self, axis: &Axis) -> VibGuardSettings {
-        let list = listed_guard(axis);
-        VibGuardSettings {
-            mode: self.guard.mode.unwrap_or(list.mode),
-            freq_hz: self.guard.freq_hz.unwrap_or(list.freq_hz),
-            damping: self.guard.damping.unwrap_or(list.damping),
-        }
-    }
-
-    fn fir(&self, axis: &Axis) -> Option<FirConfig> {
-        let mut config = listed_fir(axis)?;
+    fn fir(&self, listed: FirConfig) -> FirConfig {
+        let mut config = listed;
         config.program_order(self.fir.order, self.fir.order_time_us);
         config.share_ratio = self.fir.share_ratio.unwrap_or(config.share_ratio);
         config.fcut_hz = self.fir.fcut_hz.unwrap_or(config.fcut_hz);
         config.quality = self.fir.quality.unwrap_or(config.quality);
-        Some(config)
+        config
     }
 
-    fn hsc(&self, axis: &Axis) -> Option<HscConfig> {
-        let mut config = listed_hsc(axis)?;
+    fn hsc(&self, listed: HscConfig) -> HscConfig {
+        let mut config = listed;
         if let Some(order) = self.hsc.order {
             (config.order, config.time_constant_us) = (order, 0);
         } else if let Some(time_us) = self.hsc.order_time_us {
@@ -158,7 +161,7 @@ impl ShapingState {
         }
         config.share_ratio = self.hsc.share_ratio.unwrap_or(config.share_ratio);
         config.f_hz = self.hsc.fcut_hz.unwrap_or(config.f_hz);
-        Some(config)
+        config
     }
 }
 
@@ -167,67 +170,6 @@ fn shaped(settings: ShapingSettings, kernel: Option<Kernel>) -> AxisShaping {
         Some(kernel) => AxisShaping { settings, kernel: Some(Arc::new(kernel)) },
         None => AxisShaping::default(),
     }
-}
-
-/// Number of a list as an integer; lists are checked when they are loaded.
-fn integer(axis: &Axis, key: &str) -> u32 {
-    let x = axis.raw(key).unwrap_or_default();
-    super::expr::whole(x, 0, u32::MAX).unwrap_or_default()
-}
-
-/// Vibration Guard of an axis list.
-pub(super) fn listed_guard(axis: &Axis) -> VibGuardSettings {
-    let default = VibGuardSettings::default();
-    VibGuardSettings {
-        mode: u8::try_from(integer(axis, "vib_guard.mode")).unwrap_or(default.mode),
-        freq_hz: axis.raw("vib_guard.freq").unwrap_or(default.freq_hz),
-        damping: axis.raw("vib_guard.damping").unwrap_or(default.damping),
-    }
-}
-
-/// FIR filter of an axis list; `None` without a type (P-AXIS-00586).
-pub(super) fn listed_fir(axis: &Axis) -> Option<FirConfig> {
-    let kind = match integer(axis, "filter_fir.type") {
-        1 => FirKind::MovingAverage,
-        2 => FirKind::Gauss,
-        3 => FirKind::WindowedSinc,
-        4 => FirKind::TimeDelay,
-        _ => return None,
-    };
-    let default = FirConfig::new(kind);
-    Some(FirConfig {
-        kind,
-        order: integer(axis, "filter_fir.order"),
-        order_time_us: integer(axis, "filter_fir.order_time"),
-        share_ratio: axis.raw("filter_fir.share").map_or(default.share_ratio, |p| p / 100.0),
-        fcut_hz: axis.raw("filter_fir.fcut").unwrap_or(default.fcut_hz),
-        quality: axis.raw("filter_fir.quality").unwrap_or(default.quality),
-    })
-}
-
-/// HSC filter of an axis list: entry 0 with the prototype HSC.
-pub(super) fn listed_hsc(axis: &Axis) -> Option<HscConfig> {
-    /// Number of the prototype HSC (P-AXIS-00153).
-    const HSC: u32 = 5;
-    if integer(axis, "filter[0].prototype") != HSC {
-        return None;
-    }
-    // P-AXIS-00204: 8 mean, 12 NoVib; the default of an HSC filter is 8
-    let kind = match axis.parameters().setting("filter[0].type") {
-        None => HscKind::Mean,
-        Some(_) => match integer(axis, "filter[0].type") {
-            8 => HscKind::Mean,
-            12 => HscKind::NoVib,
-            _ => return None,
-        },
-    };
-    Some(HscConfig {
-        kind,
-        order: integer(axis, "filter[0].order"),
-        time_constant_us: integer(axis, "filter[0].time_constant"),
-        f_hz: axis.raw("filter[0].fg_f0").unwrap_or(30.0),
-        share_ratio: axis.raw("filter[0].share_percent").map_or(1.0, |p| p / 100.0),
-    })
 }
 
 fn with_axis(axis: &Axis, text: &str) -> String {

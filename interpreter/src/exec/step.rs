@@ -83,14 +83,10 @@ pub enum Sync {
     Shaping(Box<ShapingSetup>),
     /// The next call of [`Executor::next`](super::Executor::next) needs actual positions of the machine at rest.
     ReadActual,
-    /// `#MACHINE DATA`: a parameter of an axis list changed.
+    /// `#MACHINE DATA`: a parameter of an axis list has changed in [`Executor::machine`](super::Executor::machine).
     MachineData {
         /// Logical axis number.
         axis: u32,
-        /// Key of the list.
-        key: String,
-        /// Value as it would stand in the list.
-        value: String,
     },
 }
 

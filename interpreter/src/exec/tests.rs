@@ -9,6 +9,7 @@ mod first_cases;
 mod flow;
 mod frames;
 mod modes;
+mod positions;
 mod random;
 mod shaping;
 

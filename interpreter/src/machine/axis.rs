@@ -2,7 +2,8 @@
 
 use super::key::{Indices, Key};
 use super::parameters::{Parameters, Setting};
-use super::table::ListKind;
+use super::table::param::{Kind, Number, Param, Place};
+use super::table::{ListKind, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general};
 use super::value;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 
@@ -28,9 +29,6 @@ pub struct Axis {
     /// Worked out when the parameters change: every motion asks for them.
     software_limits_mm: Option<(f64, f64)>,
 }
-
-/// Gear stage that is used; the others are stored only.
-const STAGE: &str = "getriebe[0]";
 
 impl Axis {
     pub(super) fn new(
@@ -70,13 +68,14 @@ impl Axis {
         self.kind != AxisKind::Linear && self.mode_bits() & 0x4 != 0
     }
 
-    /// Logical number of the gantry master (P-AXIS-00070), `None` if the axis is no slave.
-    pub fn gantry_master(&self) -> Option<u32> {
-        integer(self.raw("kenngr.gantry_ax_nr")).filter(|n| *n != 0)
+    /// Mode of the axis in bits (P-AXIS-00015).
+    pub fn mode_bits(&self) -> u32 {
+        self.get(axis_general::MODE)
     }
 
-    fn mode_bits(&self) -> u32 {
-        integer(self.raw("kenngr.achs_mode")).unwrap_or_default()
+    /// Logical number of the gantry master (P-AXIS-00070), `None` if the axis is no slave.
+    pub fn gantry_master(&self) -> Option<u32> {
+        Some(self.get(axis_general::GANTRY_MASTER)).filter(|n| *n != 0)
     }
 
     /// All parameters of the axis list.
@@ -86,34 +85,28 @@ impl Axis {
 
     /// Number of a key (`getriebe[0].kv`) in the units of the list; `None` for an unknown key, a text, and a
     /// parameter without default that no list names.
+    ///
+    /// For keys that a user names; what the code itself reads is a [`Param`].
     pub fn raw(&self, key: &str) -> Option<f64> {
-        self.parameters.number(key)
+        self.parameters.raw(key)?.number()
     }
 
-    /// Number of a key in mm (deg), s and ratios.
-    pub fn converted(&self, key: &str) -> Option<f64> {
-        self.parameters.converted(key)
+    /// The value of a parameter of the axis list, or of this axis in `kontur.lis`, in mm (deg), s and ratios.
+    pub(super) fn get<K: Kind>(&self, param: Param<K>) -> K::Value {
+        match param.place().row.list {
+            ListKind::Kontur => self.own.get(param.at(self.number)),
+            ListKind::Axis | ListKind::Channel | ListKind::StartUp => self.parameters.get(param),
+        }
     }
 
-    /// Text of a key.
-    pub fn text(&self, key: &str) -> Option<String> {
-        self.parameters.text(key)
+    /// A number in the units of the axis list.
+    pub(super) fn listed(&self, param: impl Into<Place>) -> f64 {
+        self.parameters.listed(param).unwrap_or_default()
     }
 
-    /// Switch of a key: set and not 0.
-    pub fn flag(&self, key: &str) -> bool {
-        self.parameters.flag(key)
-    }
-
-    /// Number of a key of `kontur.lis` for this axis (`plant.ta_us` stands for `kontur.axis[n].plant.ta_us`), in mm
-    /// (deg), s and ratios.
-    pub fn own(&self, key: &str) -> Option<f64> {
-        self.own.converted(&self.own_key(key))
-    }
-
-    /// Text of a key of `kontur.lis` for this axis.
-    pub fn own_text(&self, key: &str) -> Option<String> {
-        self.own.text(&self.own_key(key))
+    /// What set a parameter of the axis list, `None` if nothing did.
+    pub(super) fn set_by(&self, param: impl Into<Place>) -> Option<&Setting> {
+        self.parameters.set_by(param)
     }
 
     /// Everything that `kontur.lis` sets for this axis.
@@ -121,73 +114,61 @@ impl Axis {
         self.own.settings()
     }
 
-    fn own_key(&self, key: &str) -> String {
-        format!("kontur.axis[{}].{key}", self.number)
-    }
-
-    /// A number of gear stage 0 in mm (deg), s and ratios. Every key used has a default.
-    fn stage(&self, key: &str) -> f64 {
-        let value = self.converted(&format!("{STAGE}.{key}"));
-        debug_assert!(value.is_some(), "{key} is no number with a default");
-        value.unwrap_or_default()
-    }
-
-    /// As [`stage`](Self::stage), 0 stands for another value.
-    fn stage_or(&self, key: &str, other: f64) -> f64 {
-        let value = self.stage(key);
+    /// A number, 0 stands for another value.
+    fn get_or(&self, param: Param<Number>, other: f64) -> f64 {
+        let value = self.get(param);
         if value > 0.0 { value } else { other }
     }
 
     /// Dynamic limits as the lists state them, weighted by 100 %.
     pub fn dynamics(&self) -> AxisDynamics {
-        let a_max_mm_s2 = self.stage("dynamik.a_max");
-        let step = |acc: [&str; 2], dec: [&str; 2], change: &str| {
-            let acc_mm_s2 = acc.map(|key| self.stage(&format!("lslope_profil.{key}")));
-            let dec = dec.map(|key| format!("lslope_profil.{key}"));
+        use axis_dynamics as of;
+        let a_max_mm_s2 = self.get(of::ACC_MAX);
+        let step = |acc: [Param<Number>; 2], dec: [Param<Number>; 2], change: Param<Number>| {
+            let acc_mm_s2 = acc.map(|param| self.get(param));
             StepSlope {
                 acc_mm_s2,
-                dec_mm_s2: [
-                    self.stage_or(&dec[0], acc_mm_s2[0]),
-                    self.stage_or(&dec[1], acc_mm_s2[1]),
-                ],
-                change_mm_s: self.stage(&format!("lslope_profil.{change}")),
+                dec_mm_s2: [self.get_or(dec[0], acc_mm_s2[0]), self.get_or(dec[1], acc_mm_s2[1])],
+                change_mm_s: self.get(change),
             }
         };
-        let rapid = RapidSlope {
-            acc_mm_s2: self.stage("slope_profil.a_grenz"),
-            ramp_s: self.stage("slope_profil.tr_grenz"),
-        };
+        let rapid =
+            RapidSlope { acc_mm_s2: self.get(of::RAPID_ACC), ramp_s: self.get(of::RAPID_RAMP) };
         let step_rapid = step(
-            ["a_grenz_stufe_1", "a_grenz_stufe_2"],
-            ["d_grenz_stufe_1", "d_grenz_stufe_2"],
-            "vb_grenz_stufe_1_2",
+            [of::STEP_RAPID_ACC_1, of::STEP_RAPID_ACC_2],
+            [of::STEP_RAPID_DEC_1, of::STEP_RAPID_DEC_2],
+            of::STEP_RAPID_CHANGE,
         );
         let rapid_step = step_rapid.acc_mm_s2;
         AxisDynamics {
-            v_max_mm_s: self.stage("dynamik.vb_max"),
-            v_rapid_mm_s: self.stage("vb_eilgang"),
+            v_max_mm_s: self.get(of::SPEED_MAX),
+            v_rapid_mm_s: self.get(of::RAPID_SPEED),
             a_max_mm_s2,
-            a_emergency_mm_s2: self.stage_or("dynamik.a_emergency", a_max_mm_s2),
-            tr_geom_s: self.stage("dynamik.tr_geom"),
+            a_emergency_mm_s2: self.get_or(of::EMERGENCY_DEC, a_max_mm_s2),
+            tr_geom_s: self.get(of::GEOMETRIC_RAMP),
             feed: FeedSlope {
-                acc_mm_s2: self.stage("slope_profil.a_beschl"),
-                dec_mm_s2: self.stage("slope_profil.a_brems"),
-                ramps_s: ["tr_beschl_zu", "tr_beschl_ab", "tr_brems_zu", "tr_brems_ab"]
-                    .map(|key| self.stage(&format!("slope_profil.{key}"))),
+                acc_mm_s2: self.get(of::FEED_ACC),
+                dec_mm_s2: self.get(of::FEED_DEC),
+                ramps_s: [of::RAMP_ACC_UP, of::RAMP_ACC_DOWN, of::RAMP_DEC_UP, of::RAMP_DEC_DOWN]
+                    .map(|param| self.get(param)),
             },
             rapid,
-            step_feed: step(["a_stufe_1", "a_stufe_2"], ["d_stufe_1", "d_stufe_2"], "vb_stufe_1_2"),
+            step_feed: step(
+                [of::STEP_ACC_1, of::STEP_ACC_2],
+                [of::STEP_DEC_1, of::STEP_DEC_2],
+                of::STEP_CHANGE,
+            ),
             step_rapid,
             feedhold: FeedholdSlope {
                 step_dec_mm_s2: self
-                    .stage_or("lslope_profil.a_feedh", rapid_step[0].min(rapid_step[1])),
-                dec_mm_s2: self.stage_or("slope_profil.a_feedh", rapid.acc_mm_s2),
-                ramp_s: self.stage_or("slope_profil.tr_feedh", rapid.ramp_s),
+                    .get_or(of::STEP_FEEDHOLD_DEC, rapid_step[0].min(rapid_step[1])),
+                dec_mm_s2: self.get_or(of::FEEDHOLD_DEC, rapid.acc_mm_s2),
+                ramp_s: self.get_or(of::FEEDHOLD_RAMP, rapid.ramp_s),
             },
-            a_trans_ratio: self.stage("dynamik.a_trans_weight"),
-            r_trans_ratio: self.stage("dynamik.r_trans_weight"),
-            j_trans_kink_mm_s3: self.stage("dynamik.j_trans_c0"),
-            j_trans_tangential_mm_s3: self.stage("dynamik.j_trans_c1"),
+            a_trans_ratio: self.get(of::KINK_ACC_WEIGHT),
+            r_trans_ratio: self.get(of::TANGENTIAL_JERK_WEIGHT),
+            j_trans_kink_mm_s3: self.get(of::KINK_JERK),
+            j_trans_tangential_mm_s3: self.get(of::TANGENTIAL_JERK),
         }
     }
 
@@ -195,27 +176,27 @@ impl Axis {
     ///
     /// Assumption: without an entry the ceiling is `a_max`; the table prints no default.
     pub fn a_w_max_mm_s2(&self) -> f64 {
-        self.stage("dynamik.a_w_max")
+        self.get(axis_dynamics::WEIGHTED_ACC_MAX)
     }
 
     /// Floor of ramp times under G132 and G133 in s: P-AXIS-00293, never below the shortest ramp time P-AXIS-00201.
     pub fn tr_w_min_s(&self) -> f64 {
-        self.stage("dynamik.tr_w_min").max(self.tr_min_s())
+        self.get(axis_dynamics::WEIGHTED_RAMP_MIN).max(self.tr_min_s())
     }
 
     /// Shortest ramp time in s (P-AXIS-00201): with `a_max` the jerk limit of the monitor.
     pub fn tr_min_s(&self) -> f64 {
-        self.stage("dynamik.tr_min")
+        self.get(axis_dynamics::SHORTEST_RAMP)
     }
 
     /// The list names something to feed forward (P-AXIS-00223).
     pub fn has_feedforward(&self) -> bool {
-        self.raw("vorsteuer.vorsteuerung").is_some_and(|flags| flags > 0.0)
+        self.get(axis_drive::FEEDFORWARD) > 0
     }
 
     /// Gain of the position controller in 1/s (P-AXIS-00099).
     pub fn kv_1_s(&self) -> f64 {
-        self.stage("kv")
+        self.get(axis_control::GAIN)
     }
 
     /// Software limits in mm (P-AXIS-00177, P-AXIS-00178); `None` for spindles and modulo axes.
@@ -227,20 +208,30 @@ impl Axis {
         if self.kind == AxisKind::Spindle || self.is_modulo() {
             return None;
         }
-        Some((self.converted("kenngr.swe_neg")?, self.converted("kenngr.swe_pos")?))
+        Some((self.get(axis_general::LOWER_LIMIT), self.get(axis_general::UPPER_LIMIT)))
     }
 
     /// Exact-stop window in mm (P-AXIS-00236).
     pub fn window_mm(&self) -> f64 {
-        self.stage("window")
+        self.get(axis_control::WINDOW)
+    }
+
+    /// A position outside the software limits is a warning (P-AXIS-00554).
+    pub fn software_limits_only_warn(&self) -> bool {
+        self.get(axis_general::LIMIT_BEHAVIOUR).as_deref() == Some("WARNING")
+    }
+
+    /// The additional interface takes positions from outside (`lr_param.add_interface.enable`).
+    pub fn has_additional_interface(&self) -> bool {
+        self.get(axis_filters::ADDITIONAL_INTERFACE)
     }
 
     /// Difference of input and output below which the filters count as settled, in mm (P-AXIS-00351).
     pub fn filter_window_mm(&self) -> f64 {
-        self.converted("kenngr.filter_position_window").unwrap_or_default()
+        self.get(axis_filters::SETTLED_WINDOW)
     }
 
-    /// Puts a value over the list, as `#MACHINE DATA` does at run time.
+    /// Puts a value over the list, as `#MACHINE DATA` does at run time; the executor owns the machine it changes.
     ///
     /// # Errors
     /// What is wrong with key or value; the axis is unchanged.
@@ -256,19 +247,14 @@ impl Axis {
 
 /// Logical axis number of an axis list.
 pub(super) fn logical_number(parameters: &Parameters) -> u32 {
-    integer(parameters.number("kopf.achs_nr")).unwrap_or_default()
+    parameters.get(axis_general::NUMBER)
 }
 
 /// Kind of axis of an axis list.
 pub(super) fn kind_of(parameters: &Parameters) -> AxisKind {
-    match integer(parameters.number("kenngr.achs_typ")) {
-        Some(2) => AxisKind::Rotary,
-        Some(4) => AxisKind::Spindle,
+    match parameters.get(axis_general::KIND) {
+        2 => AxisKind::Rotary,
+        4 => AxisKind::Spindle,
         _ => AxisKind::Linear,
     }
-}
-
-/// A list number that is a whole number of the type UNS32.
-pub(super) fn integer(x: Option<f64>) -> Option<u32> {
-    x.filter(|x| (0.0..=f64::from(u32::MAX)).contains(x)).map(|x| x as u32)
 }

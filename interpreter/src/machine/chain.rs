@@ -5,7 +5,8 @@ use super::lists::{self, List, ListFiles};
 use super::overrides::Override;
 use super::parameters::Parameters;
 use super::plausible;
-use super::table::ListKind;
+use super::table::param::{Param, Text, whole};
+use super::table::{ListKind, kontur, start_up as stup};
 use super::{Machine, hints, link};
 use crate::diag::{AxisRef, Condition, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
@@ -93,8 +94,13 @@ impl Chain<'_> {
     }
 
     /// Reads the list that a text entry of the start-up list names; an absent entry is no error.
-    fn read_named(&mut self, start_up: &Parameters, kind: ListKind, key: &str) -> Option<List> {
-        let setting = start_up.setting(key)?;
+    fn read_named(
+        &mut self,
+        start_up: &Parameters,
+        kind: ListKind,
+        param: Param<Text>,
+    ) -> Option<List> {
+        let setting = start_up.set_by(param)?;
         let named = setting.value.text().filter(|name| !name.is_empty())?;
         self.read(kind, &self.path(named), setting.at.clone())
     }
@@ -103,43 +109,43 @@ impl Chain<'_> {
         let mut start_up = Parameters::new(ListKind::StartUp);
         start_up.apply(&self.read(ListKind::StartUp, self.start_up, None)?);
         self.override_list(&mut start_up, "start_up", overrides);
-        if start_up.text("listen").as_deref() == Some("BINAER") {
+        if start_up.get(stup::LIST_FORMAT).as_deref() == Some("BINAER") {
             let message = "listen: binary lists are not read, export the lists as ASCII";
             self.diagnostics
                 .push(Diagnostic::new(Condition::Unsupported, message).parameter("P-STUP-00008"));
             return None;
         }
-        if start_up.number("kanal_anzahl").is_some_and(|n| n > 1.0) {
+        if start_up.get(stup::CHANNEL_COUNT).is_some_and(|n| n > 1.0) {
             let message = "kanal_anzahl: one channel is simulated, that of sda_mds[0]";
             let mut diagnostic = Diagnostic::new(Condition::Unsupported, message)
                 .severity(Severity::Warning)
                 .parameter("P-STUP-00001");
-            diagnostic.source = start_up.setting("kanal_anzahl").and_then(|s| s.at.clone());
+            diagnostic.source = start_up.set_by(stup::CHANNEL_COUNT).and_then(|s| s.at.clone());
             self.diagnostics.push(diagnostic);
         }
         let mut channel = Parameters::new(ListKind::Channel);
-        for key in ["default_sda_mds", "sda_mds[0]"] {
-            if let Some(list) = self.read_named(&start_up, ListKind::Channel, key) {
+        for param in [stup::CHANNEL_DEFAULTS, stup::CHANNEL_LIST] {
+            if let Some(list) = self.read_named(&start_up, ListKind::Channel, param) {
                 channel.apply(&list);
             }
         }
-        if start_up.setting("sda_mds[0]").is_none() {
+        if start_up.set_by(stup::CHANNEL_LIST).is_none() {
             let message =
                 format!("{}: the start-up list names no channel list (sda_mds[0])", self.start_up);
             self.diagnostics
                 .push(Diagnostic::new(Condition::ListLink, message).parameter("P-STUP-00009"));
         }
         self.override_list(&mut channel, "channel", overrides);
-        let defaults = self.read_named(&start_up, ListKind::Axis, "default_achs_mds");
+        let defaults = self.read_named(&start_up, ListKind::Axis, stup::AXIS_DEFAULTS);
         let mut axes = Vec::new();
         for file in self.axis_files(&start_up) {
-            let Some(list) = self.read_named(&start_up, ListKind::Axis, &file) else { continue };
+            let Some(list) = self.read_named(&start_up, ListKind::Axis, file) else { continue };
             let mut parameters = Parameters::new(ListKind::Axis);
             if let Some(defaults) = &defaults {
                 parameters.apply(defaults);
             }
             parameters.apply(&list);
-            let named = start_up.text(&file).unwrap_or_default();
+            let named = start_up.get(file).unwrap_or_default();
             axes.push(AxisList { file: self.path(&named), parameters });
         }
         let mut own = Parameters::new(ListKind::Kontur);
@@ -159,26 +165,23 @@ impl Chain<'_> {
     }
 
     /// Keys of the axis lists in ascending order, at most P-STUP-00014.
-    fn axis_files(&mut self, start_up: &Parameters) -> Vec<String> {
-        let mut files: Vec<String> = (0..32)
-            .map(|i| format!("achs_mds[{i}]"))
-            .filter(|key| start_up.setting(key).is_some())
+    fn axis_files(&mut self, start_up: &Parameters) -> Vec<Param<Text>> {
+        let mut files: Vec<Param<Text>> = (0..32)
+            .map(|i| stup::AXIS_LIST.at(i))
+            .filter(|file| start_up.set_by(*file).is_some())
             .collect();
-        let limit = start_up.number("zahl_mds").unwrap_or(f64::INFINITY);
-        let more: Vec<String> = (files.len() as f64 > limit)
-            .then(|| {
-                files.drain(
-                    files.len().min(super::axis::integer(Some(limit)).unwrap_or(0) as usize)..,
-                )
-            })
+        let limit = start_up.get(stup::AXIS_LIST_COUNT).unwrap_or(f64::INFINITY);
+        let more: Vec<Param<Text>> = (files.len() as f64 > limit)
+            .then(|| files.drain(files.len().min(whole(limit).unwrap_or(0) as usize)..))
             .into_iter()
             .flatten()
             .collect();
-        for key in more {
-            let message = format!("{key}: more axis lists than zahl_mds = {limit}, ignored");
+        for file in more {
+            let message =
+                format!("{}: more axis lists than zahl_mds = {limit}, ignored", file.place());
             let mut diagnostic =
                 Diagnostic::new(Condition::ListCount, message).parameter("P-STUP-00014");
-            diagnostic.source = start_up.setting(&key).and_then(|s| s.at.clone());
+            diagnostic.source = start_up.set_by(file).and_then(|s| s.at.clone());
             self.diagnostics.push(diagnostic);
         }
         files
@@ -217,8 +220,8 @@ impl Chain<'_> {
         let diagnostics = &mut self.diagnostics;
         // the cycle first: it limits delay times
         plausible::check(&mut settled.own, CycleTime::DEFAULT, None, diagnostics);
-        let cycle = super::axis::integer(settled.own.number("kontur.cycle_time_us"));
-        let cycle = cycle.and_then(CycleTime::from_us).unwrap_or(CycleTime::DEFAULT);
+        let cycle =
+            CycleTime::from_us(settled.own.get(kontur::CYCLE_TIME)).unwrap_or(CycleTime::DEFAULT);
         plausible::check(&mut settled.start_up, cycle, None, diagnostics);
         plausible::check(&mut settled.channel, cycle, None, diagnostics);
         plausible::check_presets(&settled.channel, diagnostics);

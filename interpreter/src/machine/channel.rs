@@ -1,7 +1,9 @@
 //! The channel: start values of a program and limits of the path.
 
-use super::axis::integer;
 use super::parameters::Parameters;
+use super::table::channel as of;
+use super::table::param::{Number, Optional, Param, Text, Whole, whole};
+use super::table::start_up as from;
 use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
 use std::collections::BTreeMap;
 
@@ -139,83 +141,95 @@ pub struct Channel {
     start_up: Parameters,
 }
 
+/// Subroutines of G80 to G89.
+const CYCLE_PROGRAMS: [Param<Text>; 10] = [
+    of::G80_PROGRAM,
+    of::G81_PROGRAM,
+    of::G82_PROGRAM,
+    of::G83_PROGRAM,
+    of::G84_PROGRAM,
+    of::G85_PROGRAM,
+    of::G86_PROGRAM,
+    of::G87_PROGRAM,
+    of::G88_PROGRAM,
+    of::G89_PROGRAM,
+];
+
 impl Channel {
     pub(super) fn new(parameters: Parameters, start_up: Parameters, feed_axes: Vec<bool>) -> Self {
         let p = &parameters;
-        let program = |key: &str| p.text(key).filter(|name| !name.is_empty());
-        let choice = |key: &str| integer(p.number(key)).unwrap_or_default();
-        let table = |array: &str, last: &str| -> BTreeMap<u32, f64> {
-            let rows = p.settings().filter(|(_, s)| s.row.key == format!("{array}[i]{last}"));
-            rows.filter_map(|(i, s)| Some((i[0], s.value.number()?))).collect()
+        let program = |param: Param<Text>| p.get(param).filter(|name| !name.is_empty());
+        let choice = |param: Param<Whole>| p.get(param);
+        let table = |array: Param<Optional>| -> BTreeMap<u32, f64> {
+            let listed = p.settings().filter(|(_, s)| s.row.key == array.place().row.key);
+            listed.filter_map(|(i, _)| Some((i[0], p.get(array.at(i[0]))?))).collect()
         };
-        let seconds = |array| table(array, "").into_iter().map(|(i, us)| (i, us / 1e6)).collect();
         Self {
-            slope: slope(choice("prog_start.slope.profile")),
-            constant_ramp_time: p.flag("prog_start.slope.mode_ramp_time"),
-            ramp_selection: choice("prog_start.slope.ramp_time"),
-            acc_selection: choice("prog_start.slope.acceleration"),
-            feed_mm_s: p.number("prog_start.feedrate").filter(|f| *f > 0.0).map(|f| f / 60.0),
-            feed_unit_mm_min: feed_unit(p.number("prog_start.feedrate_factor")),
+            slope: slope(choice(of::SLOPE)),
+            constant_ramp_time: p.get(of::CONSTANT_RAMP_TIME),
+            ramp_selection: choice(of::RAMP_SELECTION),
+            acc_selection: choice(of::ACC_SELECTION),
+            feed_mm_s: Some(p.get(of::FEED)).filter(|f| *f > 0.0).map(|f| f / 60.0),
+            feed_unit_mm_min: feed_unit(p.get(of::FEED_UNIT)),
             feed_axes,
-            limit_tangential_jerk: p.flag("corr_v_trans_jerk"),
-            transition_jerk: match choice("mode_trans_jerk") {
+            limit_tangential_jerk: p.get(of::LIMIT_TANGENTIAL_JERK),
+            transition_jerk: match choice(of::TRANSITION_JERK) {
                 0 => TransitionJerkMode::Coupled,
                 1 => TransitionJerkMode::Independent,
                 _ => TransitionJerkMode::DirectJerk,
             },
-            curvature_estimate: u8::try_from(choice("trans_limit_with_curvature")).unwrap_or(3),
-            curve_jerk: match choice("check_jerk_on_poly_path") {
+            curvature_estimate: u8::try_from(choice(of::CURVATURE_ESTIMATE)).unwrap_or(3),
+            curve_jerk: match choice(of::CURVE_JERK) {
                 0 => CurveJerk::Unlimited,
                 2 => CurveJerk::Ramps,
                 _ => CurveJerk::Geometric,
             },
             vector: vector(p),
-            vector_acc_on_arcs: p.flag("vector.cir_radial_acc_limit"),
+            vector_acc_on_arcs: p.get(of::PATH_ACC_ON_ARCS),
             arc_centre: ArcCentre {
-                shift_mm: p.converted("mittelpkt_diff").unwrap_or_default(),
-                shift_ratio: p.converted("mittelpkt_faktor").unwrap_or_default(),
-                radius_difference_mm: p.converted("max_radius_diff_circle").unwrap_or_default(),
-                radius_difference_ratio: p
-                    .converted("max_proz_radius_diff_circle")
-                    .unwrap_or_default(),
+                shift_mm: p.get(of::CENTRE_SHIFT),
+                shift_ratio: p.get(of::CENTRE_SHIFT_RATIO),
+                radius_difference_mm: p.get(of::RADIUS_DIFFERENCE),
+                radius_difference_ratio: p.get(of::RADIUS_DIFFERENCE_RATIO),
             },
             look_ahead: look_ahead(&start_up),
-            inch: p.flag("mass_einh"),
-            contouring_consider_inch: p.flag("contouring_consider_inch"),
-            exact_stop_after_g00: p.flag("exact_stop_after_g00"),
-            own_feed_hold: p.flag("use_drive_curr_limit"),
-            several_dimensions: p.flag("multi_dimension_in_block"),
-            keep_p_parameters: p.flag("p_param_haltend"),
-            override_mode: match choice("override_weight_prog_feed") {
+            inch: p.get(of::INCH),
+            contouring_consider_inch: p.get(of::CONTOURING_INCH),
+            exact_stop_after_g00: p.get(of::EXACT_STOP_AFTER_G00),
+            own_feed_hold: p.get(of::OWN_FEEDHOLD),
+            several_dimensions: p.get(of::SEVERAL_DIMENSIONS),
+            keep_p_parameters: p.get(of::KEEP_P_PARAMETERS),
+            override_mode: match choice(of::OVERRIDE_MODE) {
                 0 => OverrideMode::Result,
                 1 => OverrideMode::Programmed,
                 _ => OverrideMode::ProgrammedWhileReduced,
             },
-            rapid_override: match p.text("g00_override_mode").as_deref() {
+            rapid_override: match p.get(of::RAPID_OVERRIDE).as_deref() {
                 Some("MINIMUM_OF_G0_G1") => RapidOverride::Minimum,
                 Some("ACTIVE") => RapidOverride::Active,
                 _ => RapidOverride::NotUsed,
             },
-            g_groups: table("prog_start.g_gruppe", ".nr")
+            g_groups: table(of::G_GROUP)
                 .into_iter()
-                .filter_map(|(group, g)| Some((group, integer(Some(g))?)))
+                .filter_map(|(group, g)| Some((group, whole(g)?)))
                 .collect(),
-            m_durations_s: seconds("m_prozess_zeit"),
-            h_durations_s: seconds("h_prozess_zeit"),
-            g8x_programs: (80..90)
-                .filter_map(|g| Some((g, p.text(&format!("g{g}_prog_file"))?)))
+            m_durations_s: table(of::M_DURATION),
+            h_durations_s: table(of::H_DURATION),
+            g8x_programs: (80..)
+                .zip(CYCLE_PROGRAMS)
+                .filter_map(|(g, param)| Some((g, p.get(param)?)))
                 .collect(),
-            diagnosis_messages: match p.text("configuration.decoder.msg_to_default").as_deref() {
+            diagnosis_messages: match p.get(of::DIAGNOSIS_MESSAGES).as_deref() {
                 Some("DISABLED") => DiagnosisMessages::Disabled,
                 Some("WARNING") => DiagnosisMessages::Warning,
                 Some("ERROR") => DiagnosisMessages::Error,
                 _ => DiagnosisMessages::Standard,
             },
-            start_program: program("start_init_prog_file"),
-            end_program: program("final_prog_file"),
-            tool_change_program: program("m6_prog_file"),
-            main_spindle: Some(choice("main_spindle_ax_nr")).filter(|n| *n != 0),
-            main_spindle_name: p.text("main_spindle_name").unwrap_or_default(),
+            start_program: program(of::START_PROGRAM),
+            end_program: program(of::END_PROGRAM),
+            tool_change_program: program(of::TOOL_CHANGE_PROGRAM),
+            main_spindle: Some(choice(of::MAIN_SPINDLE)).filter(|n| *n != 0),
+            main_spindle_name: p.get(of::MAIN_SPINDLE_NAME).unwrap_or_default(),
             parameters,
             start_up,
         }
@@ -230,24 +244,6 @@ impl Channel {
     pub fn start_up(&self) -> &Parameters {
         &self.start_up
     }
-
-    /// Number of a key in the units of the list, see [`Parameters::number`].
-    pub fn raw(&self, key: &str) -> Option<f64> {
-        self.parameters.number(key)
-    }
-
-    /// Text of a key.
-    pub fn text(&self, key: &str) -> Option<String> {
-        self.parameters.text(key)
-    }
-
-    /// Duration in s of a function of the spindle in place `i` of the channel list: `m3`, `m4`, `m5`, `m19` or `s`
-    /// (P-CHAN-00044, 00046, 00048, 00042, 00080); 0 if the list names none.
-    pub fn spindle_duration_s(&self, i: usize, function: &str) -> f64 {
-        self.parameters
-            .converted(&format!("spindel[{i}].{function}_prozess_zeit"))
-            .unwrap_or_default()
-    }
 }
 
 fn slope(profile: u32) -> SlopeKind {
@@ -260,11 +256,8 @@ fn slope(profile: u32) -> SlopeKind {
 }
 
 /// P-CHAN-00108: 100 is mm/min, 0.1 is m/min, -1 the same as 100.
-fn feed_unit(factor: Option<f64>) -> f64 {
-    match factor {
-        Some(factor) if factor > 0.0 => 100.0 / factor,
-        _ => 1.0,
-    }
+fn feed_unit(factor: f64) -> f64 {
+    if factor > 0.0 { 100.0 / factor } else { 1.0 }
 }
 
 /// Start values of the path limits, in mm/s and mm/s2.
@@ -272,26 +265,26 @@ fn feed_unit(factor: Option<f64>) -> f64 {
 /// Assumption: without P-CHAN-00351 the accelerations are mm/min2, the unit of the older builds; their default of 1e8
 /// is 27.8 m/s2 then.
 fn vector(p: &Parameters) -> VectorLimits {
-    let per_second = p.text("vector.acc_dec_unit").as_deref() == Some("MM_S2");
-    let acc = |key| p.number(key).map(|a| if per_second { a } else { a / 3600.0 });
+    let per_second = p.get(of::PATH_ACC_UNIT).as_deref() == Some("MM_S2");
+    let acc = |param: Param<Number>| {
+        let a = p.get(param);
+        Some(if per_second { a } else { a / 3600.0 })
+    };
     VectorLimits {
-        vel_mm_s: p.number("vector.velocity").map(|v| v / 60.0),
-        acc_mm_s2: acc("vector.acceleration"),
-        dec_mm_s2: acc("vector.deceleration"),
-        radial_acc_mm_s2: acc("vector.radial_acceleration"),
+        vel_mm_s: Some(p.get(of::PATH_SPEED) / 60.0),
+        acc_mm_s2: acc(of::PATH_ACC),
+        dec_mm_s2: acc(of::PATH_DEC),
+        radial_acc_mm_s2: acc(of::PATH_RADIAL_ACC),
         ..VectorLimits::default()
     }
 }
 
 /// Size of the look-ahead of channel 0; P-STUP-00071 acts only with the function `_CUSTOM`.
 fn look_ahead(start_up: &Parameters) -> LookAhead {
-    let interpolator = "configuration.channel[0].interpolator";
-    let blocks = match start_up.text(&format!("{interpolator}.function")).as_deref() {
+    let blocks = match start_up.get(from::LOOK_AHEAD).as_deref() {
         Some("FCT_LOOK_AHEAD_LOW") => 30,
         Some("FCT_LOOK_AHEAD_STANDARD") => 70,
-        Some("FCT_LOOK_AHEAD_CUSTOM") => {
-            integer(start_up.number(&format!("{interpolator}.number_blocks_lah"))).unwrap_or(120)
-        }
+        Some("FCT_LOOK_AHEAD_CUSTOM") => start_up.get(from::LOOK_AHEAD_BLOCKS),
         _ => 120,
     };
     LookAhead { blocks }

@@ -2,7 +2,8 @@
 //!
 //! Only what a list states is judged; the vendor's defaults are not.
 
-use super::axis::integer;
+use super::table::param::{Number, Param, Place};
+use super::table::{axis_control, axis_drive, axis_filters};
 use super::{Axis, Machine, issues};
 use crate::diag::{Condition, Diagnostic};
 
@@ -24,8 +25,8 @@ pub(super) fn check(machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-fn listed(axis: &Axis, key: &str) -> bool {
-    axis.parameters().setting(key).is_some()
+fn listed(axis: &Axis, param: impl Into<Place>) -> bool {
+    axis.set_by(param).is_some()
 }
 
 /// BESSEL and BUTTERWORTH low-passes overshoot; from order 2 on they differ from CRIT_DAMPING.
@@ -33,52 +34,46 @@ fn listed(axis: &Axis, key: &str) -> bool {
 /// Source: TF5200 axis filters.
 fn low_passes(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
     for index in 0..3 {
-        let key = |name: &str| format!("filter[{index}].{name}");
-        let whole = |name: &str| integer(axis.raw(&key(name)));
-        let low_pass = !listed(axis, &key("type")) || whole("type") == Some(1);
-        if !axis.flag(&key("enable")) || !low_pass || whole("order").is_none_or(|n| n < 2) {
+        let kind = axis_filters::TYPE.at(index);
+        let prototype = axis_filters::PROTOTYPE.at(index);
+        let low_pass = !listed(axis, kind) || axis.get(kind) == 1;
+        let on = axis.get(axis_filters::ENABLE.at(index));
+        if !on || !low_pass || axis.get(axis_filters::ORDER.at(index)) < 2 {
             continue;
         }
-        let (prototype, how) = match whole("prototype") {
-            Some(2) => ("BUTTERWORTH", "considerably, the more the higher its order"),
-            Some(3) => ("BESSEL", "slightly"),
+        let (name, how) = match axis.get(prototype) {
+            2 => ("BUTTERWORTH", "considerably, the more the higher its order"),
+            3 => ("BESSEL", "slightly"),
             _ => continue,
         };
-        let what = format!("{prototype} low-pass on the position overshoots {how}");
+        let what = format!("{name} low-pass on the position overshoots {how}");
         let advice = "CRIT_DAMPING is recommended";
-        diagnostics.push(issues::about(
-            axis,
-            Condition::ListAdvice,
-            &key("prototype"),
-            &what,
-            advice,
-        ));
+        diagnostics.push(issues::about(axis, Condition::ListAdvice, prototype, &what, advice));
     }
 }
 
 /// 0 is a weight of its own: no feedforward. Source: TF5200 feedforward control.
 fn weight(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
-    let keys = ["vorsteuer.vs_v_faktor", "vorsteuer.vs_v_nenner"];
-    let [Some(numerator), Some(denominator)] = keys.map(|key| axis.raw(key)) else { return };
-    let ratio = numerator / denominator;
+    let weight = [axis_drive::FF_WEIGHT_NUM, axis_drive::FF_WEIGHT_DENOM];
+    let ratio = axis.listed(weight[0]) / axis.listed(weight[1]);
     let (low, high) = WEIGHT_RATIO;
     let recommended = ratio <= 0.0 || (low..=high).contains(&ratio);
-    if keys.iter().any(|key| listed(axis, key)) && !recommended {
+    if weight.iter().any(|param| listed(axis, *param)) && !recommended {
         let what = format!("global weight {ratio} of the feedforward");
         let advice = format!("{low} to {high} is recommended, above {high} the axis leads");
-        diagnostics.push(issues::about(axis, Condition::ListAdvice, keys[0], &what, &advice));
+        diagnostics.push(issues::about(axis, Condition::ListAdvice, weight[0], &what, &advice));
     }
 }
 
 /// Source: TF5200 position monitoring.
 fn settling_time(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
-    let key = "getriebe[0].position_settling_time";
-    let Some(time_us) = axis.raw(key).filter(|us| listed(axis, key) && *us > 0.0) else { return };
+    let param = axis_control::SETTLING_TIME;
+    let time_us = axis.listed(param);
     let (low, high) = SETTLING_US;
-    if !(low..=high).contains(&time_us) {
+    if listed(axis, param) && time_us > 0.0 && !(low..=high).contains(&time_us) {
         let what = format!("settling time {time_us} us");
         let advice = format!("{low} to {high} us are recommended");
-        diagnostics.push(issues::about(axis, Condition::ListAdvice, key, &what, &advice));
+        diagnostics.push(issues::about(axis, Condition::ListAdvice, param, &what, &advice));
     }
 }
 
@@ -87,30 +82,39 @@ fn settling_time(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
 /// Source: TF5200 position monitoring (three times the lag). Assumption: the lag at standstill; what friction adds to it
 /// is in no list.
 fn window(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
-    let key = "getriebe[0].window";
-    let lag = axis.raw("getriebe[0].pos_control_deadband").unwrap_or_default();
-    let window = axis.raw(key).unwrap_or_default();
+    let param = axis_control::WINDOW;
+    let lag = axis.listed(axis_control::DEAD_BAND);
+    let window = axis.listed(param);
     if window < WINDOW_LAGS * lag {
         let what = format!("exact-stop window {window}, lag at standstill up to {lag} (dead band)");
         let advice = format!("at least {WINDOW_LAGS} times the lag is recommended");
-        diagnostics.push(issues::about(axis, Condition::ListAdvice, key, &what, &advice));
+        diagnostics.push(issues::about(axis, Condition::ListAdvice, param, &what, &advice));
     }
 }
 
 /// Source: TF5200 Improved Position Control (gantry: scaling of master and slave normally identical).
 fn gantry(axis: &Axis, machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
-    const SCALINGS: [(&str, &str); 6] = [
-        ("getriebe[0].wegaufz", "getriebe[0].wegaufn"),
-        ("getriebe[0].multi_gain_z", "getriebe[0].multi_gain_n"),
-        ("antr.v_reso_num", "antr.v_reso_denom"),
-        ("antr.feed_const_num", "antr.feed_const_denom"),
-        ("lr_hw[0].encoder_resolution_num", "lr_hw[0].encoder_resolution_denom"),
-        ("lr_hw[1].encoder_resolution_num", "lr_hw[1].encoder_resolution_denom"),
+    const SCALINGS: [[Place; 2]; 6] = [
+        pair(axis_control::RESOLUTION_INCREMENTS, axis_control::RESOLUTION_PATH),
+        pair(axis_control::COMMAND_GAIN_NUM, axis_control::COMMAND_GAIN_DENOM),
+        pair(axis_drive::SPEED_INCREMENTS, axis_drive::SPEED_PATH),
+        pair(axis_drive::FEED_CONSTANT_PATH, axis_drive::FEED_CONSTANT_REVS),
+        encoder(0),
+        encoder(1),
     ];
+    const fn pair(numerator: Param<Number>, denominator: Param<Number>) -> [Place; 2] {
+        [numerator.place(), denominator.place()]
+    }
+    const fn encoder(index: u32) -> [Place; 2] {
+        [axis_control::ENCODER_NUM.at(index).place(), axis_control::ENCODER_DENOM.at(index).place()]
+    }
     let Some(number) = axis.gantry_master() else { return };
     let Some(master) = machine.all_axes().find(|a| a.number() == number) else { return };
-    for (numerator, denominator) in SCALINGS {
-        let quotient = |axis: &Axis| Some(axis.raw(numerator)? / axis.raw(denominator)?);
+    for [numerator, denominator] in SCALINGS {
+        let quotient = |axis: &Axis| {
+            let number = |place| axis.parameters().listed(place);
+            Some(number(numerator)? / number(denominator)?)
+        };
         let (Some(own), Some(other)) = (quotient(axis), quotient(master)) else { continue };
         if (own - other).abs() > 1e-12 * other.abs() {
             let what = format!("scaling {own} of the gantry slave, {other} of {}", master.name());

@@ -4,9 +4,9 @@
 
 use super::Axis;
 use super::axis::AxisKind;
-use super::key::Key;
-use super::setup::{IPC, has_rotary_motor};
-use super::table::ListKind;
+use super::setup::{FilterKeys, has_rotary_motor};
+use super::table::param::{Number, Param, Place};
+use super::table::{axis_drive, axis_general, axis_guard};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use kontur_filters::{
     control::{
@@ -22,47 +22,33 @@ use kontur_filters::{
 pub(super) fn about(
     axis: &Axis,
     condition: Condition,
-    key: &str,
+    param: impl Into<Place>,
     what: &str,
     effect: &str,
 ) -> Diagnostic {
-    let row = Key::parse(key).and_then(|key| key.resolve(ListKind::Axis)).map(|(row, _)| row);
-    let parameter = row.map(|row| row.id).filter(|id| !id.is_empty());
-    let named = parameter.map_or_else(|| key.to_owned(), |id| format!("{key} ({id})"));
+    let place = param.into();
+    let parameter = Some(place.row.id).filter(|id| !id.is_empty());
+    let named = parameter.map_or_else(|| place.to_string(), |id| format!("{place} ({id})"));
     let text = format!("{what}, axis {}, {named}: {effect}", axis.name());
     let mut diagnostic = Diagnostic::new(condition, text).axis(axis.number(), axis.name());
     diagnostic.parameter = parameter;
-    diagnostic.source = axis.parameters().setting(key).and_then(|setting| setting.at.clone());
+    diagnostic.source = axis.set_by(place).and_then(|setting| setting.at.clone());
     diagnostic
 }
 
-/// Whose words a setting of a filter or of the Vibration Guard is.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Origin<'a> {
-    /// The axis list: keys that begin with `filter[1]`, `filter_fir`, `lr_param.add_interface.filter[0]`, `vib_guard`.
-    List(&'a str),
-    /// The program, perhaps together with the list.
-    Program,
-}
-
-impl Origin<'_> {
-    /// [`about`] for a setting; a program's place is known to who runs it.
-    fn about(
-        self,
-        axis: &Axis,
-        condition: Condition,
-        name: &str,
-        what: &str,
-        effect: &str,
-    ) -> Diagnostic {
-        match self {
-            Self::List(prefix) => about(axis, condition, &format!("{prefix}.{name}"), what, effect),
-            Self::Program => {
-                let text = format!("{what}, axis {}: {effect}", axis.name());
-                Diagnostic::new(condition, text).axis(axis.number(), axis.name())
-            }
-        }
+/// [`about`] a parameter of the list; `None` is for the words of a program, whose place is known to who runs it.
+fn listed_or_programmed(
+    axis: &Axis,
+    condition: Condition,
+    place: Option<Place>,
+    what: &str,
+    effect: &str,
+) -> Diagnostic {
+    if let Some(place) = place {
+        return about(axis, condition, place, what, effect);
     }
+    let text = format!("{what}, axis {}: {effect}", axis.name());
+    Diagnostic::new(condition, text).axis(axis.number(), axis.name())
 }
 
 /// The condition of a filter's settings.
@@ -97,9 +83,8 @@ const fn guard_condition(error: &VibGuardError) -> Condition {
     }
 }
 
-/// A condition of a filter's settings, with its values.
-pub(crate) fn filter(axis: &Axis, origin: Origin<'_>, issue: &FilterIssue) -> Diagnostic {
-    let fir = matches!(origin, Origin::List("filter_fir"));
+/// A condition of a filter's settings, with its values; `keys` of the list, `None` for the words of a program.
+pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue) -> Diagnostic {
     let condition = match filter_condition(issue) {
         // spindles have a number of their own for the same
         Condition::FilterTime if axis.kind() == AxisKind::Spindle => Condition::SpindleFilterTime,
@@ -112,56 +97,55 @@ pub(crate) fn filter(axis: &Axis, origin: Origin<'_>, issue: &FilterIssue) -> Di
         Effect::Off => "the filter is off",
     };
     let what = issue.to_string();
-    let about = |name: &str| origin.about(axis, condition, name, &what, becomes);
+    let about = |place: fn(&FilterKeys) -> Place| {
+        listed_or_programmed(axis, condition, keys.map(place), &what, becomes)
+    };
     let diagnostic = match *issue {
         FilterIssue::TypeNotPermitted { number } => {
-            about("type").value(ValueKind::Wrong, number, "-")
+            about(|k| k.kind.place()).value(ValueKind::Wrong, number, "-")
         }
         FilterIssue::SecondHsc
         | FilterIssue::HscNotFirst
         | FilterIssue::HscPrototype
         | FilterIssue::HscOnSpindle
-        | FilterIssue::AllPassNotBessel => about("prototype"),
-        FilterIssue::HscOnInterface | FilterIssue::RemovesConstantPart => about("type"),
-        FilterIssue::TimeConstant { time_constant_us, min_us, max_us } => about("time_constant")
+        | FilterIssue::AllPassNotBessel => about(|k| k.prototype.place()),
+        FilterIssue::HscOnInterface | FilterIssue::RemovesConstantPart => about(|k| k.kind.place()),
+        FilterIssue::TimeConstant { time_constant_us, min_us, max_us } => about(|k| k.time.place())
             .value(ValueKind::Wrong, time_constant_us, "us")
             .value(ValueKind::LowerLimit, min_us, "us")
             .value(ValueKind::UpperLimit, max_us, "us"),
-        FilterIssue::OrderTimeBelowCycle { order_time_us, cycle_us } => {
-            about(if fir { "order_time" } else { "time_constant" })
-                .value(ValueKind::Wrong, order_time_us, "us")
-                .value(ValueKind::LowerLimit, cycle_us, "us")
-        }
+        FilterIssue::OrderTimeBelowCycle { order_time_us, cycle_us } => about(|k| k.time.place())
+            .value(ValueKind::Wrong, order_time_us, "us")
+            .value(ValueKind::LowerLimit, cycle_us, "us"),
         FilterIssue::OrderTooHigh { order, used } | FilterIssue::OrderCorrected { order, used } => {
-            about("order")
+            about(|k| k.order.place())
                 .value(ValueKind::Wrong, order, "-")
                 .value(ValueKind::Corrected, used, "-")
                 .corrected(used)
         }
-        FilterIssue::NoOrder => about("order").value(ValueKind::Wrong, 0.0, "-"),
-        FilterIssue::FrequencyTooLow { f_hz, used_hz } => about("fg_f0")
+        FilterIssue::NoOrder => about(|k| k.order.place()).value(ValueKind::Wrong, 0.0, "-"),
+        FilterIssue::FrequencyTooLow { f_hz, used_hz } => about(|k| k.frequency.place())
             .value(ValueKind::Wrong, f_hz, "Hz")
             .value(ValueKind::Corrected, used_hz, "Hz")
             .corrected(used_hz),
-        FilterIssue::Frequency { f_hz, min_hz, max_hz } => {
-            about(if fir { "fcut" } else { "fg_f0" })
-                .value(ValueKind::Wrong, f_hz, "Hz")
-                .value(ValueKind::LowerLimit, min_hz, "Hz")
-                .value(ValueKind::UpperLimit, max_hz, "Hz")
-        }
+        FilterIssue::Frequency { f_hz, min_hz, max_hz } => about(|k| k.frequency.place())
+            .value(ValueKind::Wrong, f_hz, "Hz")
+            .value(ValueKind::LowerLimit, min_hz, "Hz")
+            .value(ValueKind::UpperLimit, max_hz, "Hz"),
         FilterIssue::Quality { quality, .. } => {
-            about(if fir { "quality" } else { "guete" }).value(ValueKind::Wrong, quality, "-")
+            about(|k| k.quality.place()).value(ValueKind::Wrong, quality, "-")
         }
-        FilterIssue::Share { share_ratio } => about(if fir { "share" } else { "share_percent" })
-            .value(ValueKind::Wrong, 100.0 * share_ratio, "%"),
+        FilterIssue::Share { share_ratio } => {
+            about(|k| k.share.place()).value(ValueKind::Wrong, 100.0 * share_ratio, "%")
+        }
     };
-    match (origin, effect) {
-        (Origin::Program, Effect::Note) => diagnostic.severity(Severity::Note),
+    match (keys, effect) {
+        (None, Effect::Note) => diagnostic.severity(Severity::Note),
         // of a list, as the documents say: that part is off, the run goes on
-        (Origin::Program, Effect::Corrected) | (Origin::List(_), Effect::Off) => {
+        (None, Effect::Corrected) | (Some(_), Effect::Off) => {
             diagnostic.severity(Severity::Warning)
         }
-        (Origin::Program, Effect::Off) | (Origin::List(_), _) => diagnostic,
+        (None, Effect::Off) | (Some(_), _) => diagnostic,
     }
 }
 
@@ -189,29 +173,35 @@ pub fn leaves_out(diagnostic: &Diagnostic) -> bool {
     .any(|condition| diagnostic.id == *condition)
 }
 
-/// Why an axis has no Vibration Guard, with the values.
+/// Why an axis has no Vibration Guard, with the values; `listed` by the axis list or by words of a program.
 pub(crate) fn vib_guard(
     axis: &Axis,
-    origin: Origin<'_>,
+    listed: bool,
     error: &VibGuardError,
     cycle: CycleTime,
 ) -> Diagnostic {
     let condition = guard_condition(error);
     let becomes = "the Vibration Guard is off";
     let what = error.to_string();
-    let about = |name: &str| origin.about(axis, condition, name, &what, becomes);
+    let about = |place: Place| {
+        listed_or_programmed(axis, condition, listed.then_some(place), &what, becomes)
+    };
+    let [mode, frequency, damping] =
+        [axis_guard::MODE.place(), axis_guard::FREQUENCY.place(), axis_guard::DAMPING.place()];
     match *error {
-        VibGuardError::Mode { mode } => about("mode").value(ValueKind::Wrong, u32::from(mode), "-"),
+        VibGuardError::Mode { mode: wrong } => {
+            about(mode).value(ValueKind::Wrong, u32::from(wrong), "-")
+        }
         VibGuardError::Frequency { freq_hz } => {
-            about("freq").value(ValueKind::Wrong, freq_hz, "Hz")
+            about(frequency).value(ValueKind::Wrong, freq_hz, "Hz")
         }
-        VibGuardError::Damping { damping } => {
-            about("damping").value(ValueKind::Wrong, damping, "-")
+        VibGuardError::Damping { damping: wrong } => {
+            about(damping).value(ValueKind::Wrong, wrong, "-")
         }
-        VibGuardError::NotRealisable { freq_hz, damping } => {
-            about(if damping > VibGuardSettings::MAX_DAMPING { "damping" } else { "freq" })
+        VibGuardError::NotRealisable { freq_hz, damping: given } => {
+            about(if given > VibGuardSettings::MAX_DAMPING { damping } else { frequency })
                 .value(ValueKind::Wrong, freq_hz, "Hz")
-                .value(ValueKind::Wrong, damping, "-")
+                .value(ValueKind::Wrong, given, "-")
                 .value(ValueKind::Limit, cycle.us(), "us")
         }
     }
@@ -245,19 +235,19 @@ const fn control_condition(issue: &Issue) -> Condition {
 /// A condition found while the controller was configured.
 pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnostic {
     let condition = control_condition(issue);
-    let about = |key: &str, what: &str, effect: &str| about(axis, condition, key, what, effect);
-    let stage_key = |stage: usize, name: &str| format!("{IPC}.stage[{stage}].{name}");
-    let mode = "vorsteuer.vorsteuerung";
+    let about =
+        |place: Place, what: &str, effect: &str| about(axis, condition, place, what, effect);
+    let mode = axis_drive::FEEDFORWARD.place();
     let ipc_off = "Improved Position Control is off for the axis";
     match *issue {
         Issue::VelocityDelay { delay_s } => {
-            delay(axis, condition, "vorsteuer.velocity_delay_time", "velocity", delay_s, cycle)
+            delay(axis, condition, axis_drive::FF_SPEED_DELAY, "velocity", delay_s, cycle)
         }
         Issue::AccelerationDelay { delay_s, jerk: false } => {
-            delay(axis, condition, "vorsteuer.acceleration_delay_time", "acceleration", delay_s, cycle)
+            delay(axis, condition, axis_drive::FF_ACC_DELAY, "acceleration", delay_s, cycle)
         }
         Issue::AccelerationDelay { delay_s, jerk: true } => {
-            delay(axis, condition, "vorsteuer.jerk_delay_time", "jerk", delay_s, cycle)
+            delay(axis, condition, axis_drive::FF_JERK_DELAY, "jerk", delay_s, cycle)
         }
         Issue::NoAdditiveVelocity => about(
             mode,
@@ -283,14 +273,14 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
         )
         .hint("0x101, 0x202 and 0x804 are the additive parts with both bits"),
         Issue::ActiveAndDisabled => about(
-            "vorsteuer.global_disable",
+            axis_drive::FF_NEVER_ON.place(),
             "feedforward always on (P-AXIS-00255) and never on (P-AXIS-00256)",
             "it is off",
         ),
         Issue::ImplausibleLoad { torque, reference } => {
             let unit = if has_rotary_motor(axis) { "N m" } else { "N" };
             about(
-                "getriebe[0].load",
+                axis_drive::LOAD.place(),
                 &format!("torque at the largest acceleration {torque} {unit}, ten times the reference is {}", 10.0 * reference),
                 "used as it is",
             )
@@ -299,21 +289,20 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
             .hint("check the unit of the load: kg m2 at the motor shaft, or kg of a linear motor; 1 kg cm2 is 1e-4 kg m2")
         }
         Issue::TorqueScaleDenominatorZero => {
-            about("antr.torque_scale_denom", "torque scale denominator 0", "no torque output")
+            about(axis_drive::TORQUE_SCALE_DENOM.place(), "torque scale denominator 0", "no torque output")
                 .value(ValueKind::Wrong, 0.0, "-")
         }
         Issue::NoTorqueScale => {
-            let reference = "antr.acc_reference_value";
-            let zero = axis.raw(reference).is_none_or(|x| x <= 0.0);
-            let (key, what) = if zero {
+            let reference = axis_drive::TORQUE_REFERENCE;
+            let (param, what) = if axis.listed(reference) <= 0.0 {
                 (reference, "reference torque 0")
             } else {
-                ("antr.torque_scale_num", "torque scale numerator 0")
+                (axis_drive::TORQUE_SCALE_NUM, "torque scale numerator 0")
             };
-            about(key, what, "no torque output").value(ValueKind::Wrong, 0.0, "-")
+            about(param.place(), what, "no torque output").value(ValueKind::Wrong, 0.0, "-")
         }
         Issue::SimulationDamping { damping_ratio } => about(
-            "antr.simu.daempfung_z",
+            axis_drive::SIMU_DAMPING_NUM.place(),
             &format!("damping {damping_ratio} of the simulated drive, below 1"),
             "0.999 is used",
         )
@@ -322,7 +311,7 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
         Issue::DeadTime { cycles } => {
             let max = PlantConfig::MAX_DEAD_TIME as f64;
             about(
-                "antr.simu.totzeit",
+                axis_drive::SIMU_DEAD_TIME.place(),
                 &format!("dead time {cycles} cycles of the simulated drive, at most {max}"),
                 &format!("{max} is used"),
             )
@@ -331,39 +320,39 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
             .corrected(max)
         }
         Issue::IpcGantrySlave => about(
-            &format!("{IPC}.enable"),
+            axis_guard::IPC_ENABLE.place(),
             "Improved Position Control switched on in a gantry slave",
             "the parameters of the master apply",
         ),
         Issue::IpcNumerator { stage, value } => about(
-            &stage_key(stage, "weight_fact_num"),
+            axis_guard::IPC_WEIGHT_NUM.at(stage as u32).place(),
             &format!("weight numerator {value}, it must be above 0"),
             ipc_off,
         )
         .value(ValueKind::Wrong, value, "-"),
         Issue::IpcDenominator { stage, value } => about(
-            &stage_key(stage, "weight_fact_denom"),
+            axis_guard::IPC_WEIGHT_DENOM.at(stage as u32).place(),
             &format!("weight denominator {value}, it must be above 0"),
             ipc_off,
         )
         .value(ValueKind::Wrong, value, "-"),
         Issue::IpcRange { stage, what, value } => ipc_range(axis, condition, stage, what, value, cycle),
         Issue::IpcNoInput => about(
-            &format!("{IPC}.enable"),
+            axis_guard::IPC_ENABLE.place(),
             "Improved Position Control while the drive closes the position loop (P-AXIS-00320) and takes no additive \
              velocity",
             ipc_off,
         )
         .hint("name S_0_0037 in antr.sercos.mdt[i].nc_ref, or antr.operation_mode CNC_POSITION_CONTROL"),
         Issue::IpcNoLimit => about(
-            &format!("{IPC}.v_add_max_fact"),
+            axis_guard::IPC_SPEED_MAX.place(),
             "Improved Position Control with the limit 0 of its additive speed",
             "no effect",
         ),
         Issue::IpcWeight { stage, weight } => {
             let max = IpcStageConfig::MAX_WEIGHT;
             about(
-                &stage_key(stage, "weight_fact_num"),
+                axis_guard::IPC_WEIGHT_NUM.at(stage as u32).place(),
                 &format!("weight {weight}, at most {max}"),
                 &format!("{max} is used"),
             )
@@ -372,7 +361,7 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
             .corrected(max)
         }
         Issue::IpcOverlap { stages: (first, second) } => about(
-            &stage_key(second, "filter[0].fg_f0"),
+            axis_guard::IPC_FREQUENCY.at(second as u32).place(),
             &format!("pass band of stage {second} that overlaps with that of stage {first}"),
             "they influence each other",
         ),
@@ -381,15 +370,15 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
 
 /// How the drive of an axis gets an additive input, and which ones it has.
 fn additive_hint(axis: &Axis, ident: &str, input: &str) -> String {
-    let simulated = axis.raw("kenngr.antr_typ").is_none_or(|x| (x - 4.0).abs() <= 0.0);
+    let simulated = axis.get(axis_general::DRIVE) == 4;
     if simulated {
         let n = axis.number();
         return format!(
             "the simulated drive (type 4) gets the input by kontur.axis[{n}].additive.{input} 1"
         );
     }
-    let named =
-        axis.parameters().settings().filter(|(_, s)| s.row.key == "antr.sercos.mdt[i].nc_ref");
+    let telegram = axis_drive::TELEGRAM.place().row;
+    let named = axis.parameters().settings().filter(|(_, s)| s.row.key == telegram.key);
     let names: Vec<&str> = named.filter_map(|(_, s)| s.value.text()).collect();
     let present = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
     format!("name {ident} in antr.sercos.mdt[i].nc_ref; the telegram carries {present}")
@@ -398,7 +387,7 @@ fn additive_hint(axis: &Axis, ident: &str, input: &str) -> String {
 fn delay(
     axis: &Axis,
     condition: Condition,
-    key: &str,
+    param: Param<Number>,
     part: &str,
     delay_s: f64,
     cycle: CycleTime,
@@ -406,7 +395,7 @@ fn delay(
     let (delay_us, limit_us) =
         (1e6 * delay_s, f64::from(cycle.us()) * FeedforwardConfig::MAX_DELAY_CYCLES as f64);
     let what = format!("delay of the {part} feedforward {delay_us} us, below {limit_us} us");
-    about(axis, condition, key, &what, "0 is used")
+    about(axis, condition, param, &what, "0 is used")
         .value(ValueKind::Wrong, delay_us, "us")
         .value(ValueKind::UpperLimit, limit_us, "us")
         .corrected(0.0)
@@ -421,39 +410,51 @@ fn ipc_range(
     value: f64,
     cycle: CycleTime,
 ) -> Diagnostic {
-    let key = |name: &str| format!("{IPC}.stage[{stage}].{name}");
+    let stage_index = stage as u32;
     // the first filter that has the value, so that the second one of a stage is named too
-    let of_filter = |name: &str| {
-        let keys = [key(&format!("filter[0].{name}")), key(&format!("filter[1].{name}"))];
-        let found = keys.iter().find(|key| axis.raw(key).is_some_and(|x| (x - value).abs() <= 0.0));
-        found.unwrap_or(&keys[0]).clone()
+    let of_filter = |first: Place| {
+        let second = Place { indices: [first.indices[0], 1], ..first };
+        let has = |place: &Place| {
+            axis.parameters().listed(*place).is_some_and(|x| (x - value).abs() <= 0.0)
+        };
+        if !has(&first) && has(&second) { second } else { first }
     };
-    let (key, name, range, unit) = match what {
-        IpcParameter::Order => (of_filter("order"), "order", "1 to 3".to_owned(), "-"),
+    let (place, name, range, unit) = match what {
+        IpcParameter::Order => {
+            let place = of_filter(axis_guard::IPC_ORDER.at(stage_index).place());
+            (place, "order", "1 to 3".to_owned(), "-")
+        }
         IpcParameter::Frequency => {
             let max = (0.5 / cycle.seconds()).min(500.0);
             (
-                of_filter("fg_f0"),
+                of_filter(axis_guard::IPC_FREQUENCY.at(stage_index).place()),
                 "frequency",
                 format!("above 0, at most {max} Hz, below half the sampling rate"),
                 "Hz",
             )
         }
-        IpcParameter::Quality => (of_filter("q_factor"), "quality", "1 to 10".to_owned(), "-"),
-        IpcParameter::Damping => {
-            let newer = key("osc_damping");
-            let used = axis.parameters().setting(&newer).is_some();
-            let key = if used { newer } else { key("filter[0].damping") };
-            (key, "damping of the oscillator", "above 0 and below 1".to_owned(), "-")
+        IpcParameter::Quality => {
+            let place = of_filter(axis_guard::IPC_QUALITY.at(stage_index).place());
+            (place, "quality", "1 to 10".to_owned(), "-")
         }
-        IpcParameter::Mode => (key("mode"), "mode", "0 to 3".to_owned(), "-"),
+        IpcParameter::Damping => {
+            let newer = axis_guard::IPC_DAMPING.at(stage_index);
+            let older = axis_guard::IPC_FILTER_DAMPING.at(stage_index);
+            let used = if axis.set_by(newer).is_some() { newer } else { older };
+            let range = "above 0 and below 1".to_owned();
+            (used.place(), "damping of the oscillator", range, "-")
+        }
+        IpcParameter::Mode => {
+            (axis_guard::IPC_MODE.at(stage_index).place(), "mode", "0 to 3".to_owned(), "-")
+        }
         IpcParameter::BandPass => {
-            (key("filter[0].type"), "filters", "at least one band-pass".to_owned(), "-")
+            let place = axis_guard::IPC_TYPE.at(stage_index).place();
+            (place, "filters", "at least one band-pass".to_owned(), "-")
         }
     };
     let of = if unit == "-" { String::new() } else { format!(" {unit}") };
     let text = format!("{name} {value}{of} of stage {stage}, {range}");
-    about(axis, condition, &key, &text, "Improved Position Control is off for the axis")
+    about(axis, condition, place, &text, "Improved Position Control is off for the axis")
         .severity(Severity::Warning)
         .value(ValueKind::Wrong, value, unit)
 }

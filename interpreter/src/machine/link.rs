@@ -1,13 +1,14 @@
 //! Ties channel list and axis lists together: `log_achs_nr` = `kopf.achs_nr`.
 
 use super::Machine;
-use super::axis::{Axis, AxisKind, integer, kind_of, logical_number};
+use super::axis::{Axis, AxisKind, kind_of, logical_number};
 use super::chain::Settled;
 use super::channel::Channel;
 use super::key::with_indices;
 use super::overrides::OVERRIDE;
 use super::parameters::Parameters;
-use super::table::ListKind;
+use super::table::param::{Place, whole};
+use super::table::{ListKind, axis_general, channel as of};
 use crate::diag::{Condition, Diagnostic, Location};
 use kontur_filters::time::CycleTime;
 
@@ -53,37 +54,68 @@ impl Names {
 /// Reads names and numbers from the channel list.
 pub(super) fn names(settled: &Settled, diagnostics: &mut Vec<Diagnostic>) -> Names {
     let channel = &settled.channel;
-    let mut named = group(channel, "gruppe[0].achse", "gruppe[0].achs_anzahl", 32, diagnostics);
-    let mut spindles = group(channel, "spindel", "spdl_anzahl", 16, diagnostics);
-    for spindle in &mut spindles {
-        spindle.spindle = true;
-    }
-    named.append(&mut spindles);
+    let mut named = group(channel, &AXES, diagnostics);
+    named.append(&mut group(channel, &SPINDLES, diagnostics));
     let mut slaves = Vec::new();
     for list in &settled.axes {
         let number = logical_number(&list.parameters);
-        let is_slave = list.parameters.flag("kenngr.gantry_ax_nr");
+        let is_slave = list.parameters.get(axis_general::GANTRY_MASTER) != 0;
         if is_slave && !named.iter().any(|n| n.number == number) {
-            let name = list.parameters.text("kopf.log_achs_name");
+            let name = list.parameters.get(axis_general::NAME);
             slaves.push((number, name.unwrap_or_else(|| format!("axis {number}"))));
         }
     }
     Names { named, slaves }
 }
 
-/// One array of names. The count of the list decides; Assumption: without a count all named entries are taken.
-fn group(
-    channel: &Parameters,
-    array: &str,
-    count: &str,
+/// Name and number of one entry of an array of names.
+struct EntryKeys {
+    name: Place,
+    number: Place,
+}
+
+/// An array of names in the channel list.
+struct GroupKeys {
+    /// Its key in messages.
+    array: &'static str,
+    /// Most entries.
     size: u32,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Named> {
-    let name_at = |i: u32| channel.setting(&format!("{array}[{i}].bezeichnung"));
-    let number_at = |i: u32| channel.setting(&format!("{array}[{i}].log_achs_nr"));
+    spindles: bool,
+    count: Place,
+    entry: fn(u32) -> EntryKeys,
+}
+
+const AXES: GroupKeys = GroupKeys {
+    array: "gruppe[0].achse",
+    size: 32,
+    spindles: false,
+    count: of::AXIS_COUNT.place(),
+    entry: |i| EntryKeys {
+        name: of::AXIS_NAME.and(i).place(),
+        number: of::AXIS_NUMBER.and(i).place(),
+    },
+};
+
+const SPINDLES: GroupKeys = GroupKeys {
+    array: "spindel",
+    size: 16,
+    spindles: true,
+    count: of::SPINDLE_COUNT.place(),
+    entry: |i| EntryKeys {
+        name: of::SPINDLE_NAME.at(i).place(),
+        number: of::SPINDLE_NUMBER.at(i).place(),
+    },
+};
+
+/// One array of names. The count of the list decides; Assumption: without a count all named entries are taken.
+fn group(channel: &Parameters, group: &GroupKeys, diagnostics: &mut Vec<Diagnostic>) -> Vec<Named> {
+    let GroupKeys { array, size, spindles, .. } = *group;
+    let (count, entry) = (group.count, group.entry);
+    let name_at = |i: u32| channel.set_by(entry(i).name);
+    let number_at = |i: u32| channel.set_by(entry(i).number);
     let given = (0..size).filter(|i| name_at(*i).is_some()).map(|i| i + 1).max().unwrap_or(0);
-    let wanted = match channel.setting(count) {
-        Some(_) => integer(channel.number(count)).unwrap_or_default(),
+    let wanted = match channel.set_by(count) {
+        Some(_) => channel.listed(count).and_then(whole).unwrap_or_default(),
         None => given,
     };
     if given > wanted {
@@ -99,7 +131,7 @@ fn group(
     for i in 0..wanted.min(size) {
         let Some(name) = name_at(i) else {
             let message = format!("{array}[{i}] has no name (bezeichnung), {count} is {wanted}");
-            let at = channel.setting(count).and_then(|s| s.at.clone());
+            let at = channel.set_by(count).and_then(|s| s.at.clone());
             diagnostics.push(error(Condition::ListLink, message, at));
             continue;
         };
@@ -109,11 +141,11 @@ fn group(
             diagnostics.push(error(Condition::ListLink, message, name.at.clone()));
             continue;
         };
-        let value = integer(number.value.number()).unwrap_or_default();
+        let value = number.value.number().and_then(whole).unwrap_or_default();
         let at = number.at.clone().or_else(|| name.at.clone());
-        check_name(&text, array == "spindel", name.at.as_ref(), diagnostics);
-        let feed = channel.flag(&format!("{array}[{i}].default_feed_axis"));
-        found.push(Named { name: text, number: value, spindle: false, feed, at });
+        check_name(&text, spindles, name.at.as_ref(), diagnostics);
+        let feed = !spindles && channel.get(of::FEED_AXIS.and(i));
+        found.push(Named { name: text, number: value, spindle: spindles, feed, at });
     }
     found
 }
@@ -204,7 +236,7 @@ fn kind(parameters: &Parameters, named: &Named, diagnostics: &mut Vec<Diagnostic
             "{} is {is} in the channel list and {list} in its axis list (kenngr.achs_typ)",
             named.name
         );
-        let at = parameters.setting("kenngr.achs_typ").and_then(|s| s.at.clone());
+        let at = parameters.set_by(axis_general::KIND).and_then(|s| s.at.clone());
         diagnostics.push(
             error(Condition::ListLink, message, at.or_else(|| named.at.clone()))
                 .axis(named.number, &*named.name),
@@ -214,7 +246,7 @@ fn kind(parameters: &Parameters, named: &Named, diagnostics: &mut Vec<Diagnostic
 }
 
 fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
-    let number_at = |p: &Parameters| p.setting("kopf.achs_nr").and_then(|s| s.at.clone());
+    let number_at = |p: &Parameters| p.set_by(axis_general::NUMBER).and_then(|s| s.at.clone());
     for (i, list) in settled.axes.iter().enumerate() {
         let number = logical_number(&list.parameters);
         let earlier = &settled.axes[..i];
@@ -259,7 +291,7 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
     }
     for (number, name) in &names.slaves {
         let list = settled.axes.iter().find(|l| logical_number(&l.parameters) == *number);
-        let master = list.and_then(|l| integer(l.parameters.number("kenngr.gantry_ax_nr")));
+        let master = list.map(|l| l.parameters.get(axis_general::GANTRY_MASTER));
         if !names.named.iter().any(|n| Some(n.number) == master) {
             let master = master.unwrap_or_default();
             let message = format!("{name}: the gantry master {master} is no axis of the channel");

@@ -2,6 +2,7 @@
 
 use super::key::{Indices, Key};
 use super::lists::List;
+use super::table::param::{Kind, Param, Place};
 use super::table::{self, Default, ListKind, Row};
 use super::value::Value;
 use crate::diag::Location;
@@ -55,38 +56,41 @@ impl Parameters {
         self.settings.iter().map(|((_, indices), setting)| (*indices, setting))
     }
 
+    /// Value of a key such as `getriebe[0].kv` in the units of the list: what was set, else the default; `None` for
+    /// an unknown key and for a parameter without default that nothing set.
+    ///
+    /// For keys that a user names; what the code itself reads is a [`Param`].
+    pub fn raw(&self, key: &str) -> Option<Value> {
+        let (row, indices) = Key::parse(key)?.resolve(self.kind)?;
+        self.of(row, indices)
+    }
+
     /// The setting of a key such as `getriebe[0].kv`, `None` if nothing set it.
     pub fn setting(&self, key: &str) -> Option<&Setting> {
         let (row, indices) = Key::parse(key)?.resolve(self.kind)?;
         self.settings.get(&(row.key, indices))
     }
 
-    /// Value of a key such as `getriebe[0].kv` in the units of the list: what was set, else the default; `None` for
-    /// an unknown key and for a parameter without default that nothing set.
-    pub fn raw(&self, key: &str) -> Option<Value> {
-        let (row, indices) = Key::parse(key)?.resolve(self.kind)?;
-        self.of(row, indices)
+    /// The value of a parameter in mm (deg), s and ratios.
+    pub(crate) fn get<K: Kind>(&self, param: Param<K>) -> K::Value {
+        K::read(self, param.place())
     }
 
-    /// Number of a key in the units of the list, see [`raw`](Self::raw).
-    pub fn number(&self, key: &str) -> Option<f64> {
-        self.raw(key)?.number()
+    /// The number of a parameter in the units of the list; `None` if neither list nor row has one.
+    pub(crate) fn listed(&self, at: impl Into<Place>) -> Option<f64> {
+        let at = at.into();
+        self.of(at.row, at.indices)?.number()
     }
 
-    /// Text of a key, see [`raw`](Self::raw).
-    pub fn text(&self, key: &str) -> Option<String> {
-        self.raw(key)?.text().map(str::to_owned)
+    /// What set a parameter, `None` if nothing did.
+    pub(crate) fn set_by(&self, at: impl Into<Place>) -> Option<&Setting> {
+        let at = at.into();
+        self.settings.get(&(at.row.key, at.indices))
     }
 
-    /// Switch of a key: true if it is set to something else than 0.
-    pub fn flag(&self, key: &str) -> bool {
-        self.number(key).is_some_and(|x| x.abs() > 0.0)
-    }
-
-    /// Number of a key in mm (deg), s and ratios instead of 0.1 um, us and 0.1 %.
-    pub fn converted(&self, key: &str) -> Option<f64> {
-        let (row, indices) = Key::parse(key)?.resolve(self.kind)?;
-        Some(convert(row, self.of(row, indices)?.number()?))
+    /// The number of a parameter in mm (deg), s and ratios instead of 0.1 um, us and 0.1 %.
+    pub(super) fn converted(&self, at: Place) -> Option<f64> {
+        Some(convert(at.row, self.listed(at)?))
     }
 
     /// Value of a row, see [`raw`](Self::raw).

@@ -3,11 +3,13 @@
 //! Rows whose range depends on other words of a function (filters, Improved Position Control) are checked where that
 //! function is set up.
 
-use super::axis::{AxisKind, integer, kind_of};
+use super::axis::{AxisKind, kind_of};
 use super::key::{Indices, with_indices};
 use super::lists::parameter;
 use super::parameters::Parameters;
+use super::table::param::{Number, Param, Place, whole};
 use super::table::{self, Bound, Correction, Default, ListKind, Raw, Reaction, Row};
+use super::table::{axis_drive, axis_general, channel, kontur};
 use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic, Severity, ValueKind};
 use kontur_filters::time::CycleTime;
@@ -53,11 +55,11 @@ pub(super) fn check(
     if kind == ListKind::Axis {
         check_together(parameters, axis, diagnostics);
         // P-AXIS-00515: if one of the two velocity weights is 0, both become 1
-        let weights = ["vorsteuer.feedforward_v_add_num", "vorsteuer.feedforward_v_add_denom"];
+        let weights = [axis_drive::FF_SPEED_NUM, axis_drive::FF_SPEED_DENOM];
         let wrong = |d: &Diagnostic| matches!(d.parameter, Some("P-AXIS-00514" | "P-AXIS-00515"));
         if diagnostics.iter().skip(first).any(wrong) {
-            for row in weights.iter().filter_map(|key| table::by_key(kind, key)) {
-                parameters.set(row, [0; 2], Value::Number(1.0), None);
+            for param in weights {
+                parameters.set(param.place().row, [0; 2], Value::Number(1.0), None);
             }
         }
     }
@@ -85,7 +87,7 @@ fn check_value(
         _ => return,
     };
     let key = with_indices(row.key, indices);
-    let at = parameters.setting(&key).and_then(|s| s.at.clone());
+    let at = parameters.set_by(Place { row, indices }).and_then(|s| s.at.clone());
     let corrected = correction(row, reaction, bound, below);
     let range = match (low, high) {
         (Some(l), Some(h)) => {
@@ -196,54 +198,59 @@ fn check_together(
     axis: Option<&AxisRef>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let mut put =
-        |parameters: &mut Parameters, condition: Condition, key: &str, text: String, value: f64| {
-            let Some(row) = table::by_key(ListKind::Axis, key) else { return };
-            let wrong = parameters.number(key).unwrap_or_default();
-            let at = parameters.setting(key).and_then(|s| s.at.clone());
-            let unit = unit_of(parameters, row);
-            let diagnostic = Diagnostic::new(condition, text)
-                .value(ValueKind::Wrong, wrong, unit)
-                .value(ValueKind::Corrected, value, unit)
-                .corrected(value);
-            parameters.set(row, [0; 2], Value::Number(value), at.clone());
-            diagnostics.push(finish(diagnostic, row, at, axis));
-        };
-    let number = |p: &Parameters, key: &str| p.number(key).unwrap_or_default();
+    let mut put = |parameters: &mut Parameters,
+                   condition: Condition,
+                   place: Place,
+                   text: String,
+                   value: f64| {
+        let row = place.row;
+        let wrong = parameters.listed(place).unwrap_or_default();
+        let at = parameters.set_by(place).and_then(|s| s.at.clone());
+        let unit = unit_of(parameters, row);
+        let diagnostic = Diagnostic::new(condition, text)
+            .value(ValueKind::Wrong, wrong, unit)
+            .value(ValueKind::Corrected, value, unit)
+            .corrected(value);
+        parameters.set(row, [0; 2], Value::Number(value), at.clone());
+        diagnostics.push(finish(diagnostic, row, at, axis));
+    };
+    let number = |p: &Parameters, param: Param<Number>| p.listed(param).unwrap_or_default();
 
     // P-AXIS-00177, P-AXIS-00178: a range without length
-    let (low, high) = (number(parameters, "kenngr.swe_neg"), number(parameters, "kenngr.swe_pos"));
+    let (lower, upper) = (axis_general::LOWER_LIMIT, axis_general::UPPER_LIMIT);
+    let (low, high) = (number(parameters, lower), number(parameters, upper));
     if low >= high {
         let text = format!(
             "kenngr.swe_neg: software limits {low} and {high} leave no range, the defaults are used"
         );
-        put(parameters, Condition::SoftwareLimitRange, "kenngr.swe_neg", text.clone(), -1e8);
-        put(parameters, Condition::SoftwareLimitRange, "kenngr.swe_pos", text, 1e8);
+        put(parameters, Condition::SoftwareLimitRange, lower.place(), text.clone(), -1e8);
+        put(parameters, Condition::SoftwareLimitRange, upper.place(), text, 1e8);
     }
 
     // P-AXIS-00566 allows velocity feedforward only
-    let flags = integer(parameters.number("vorsteuer.vorsteuerung")).unwrap_or_default();
-    if parameters.flag("vorsteuer.feedforward_without_delay") && flags & 0x6 != 0 {
+    let flags = parameters.get(axis_drive::FEEDFORWARD);
+    if parameters.get(axis_drive::FF_WITHOUT_DELAY) && flags & 0x6 != 0 {
         let text = "vorsteuer.vorsteuerung: without the delay of 5 cycles only velocity feedforward is possible, \
                     the acceleration and jerk parts are off"
             .to_owned();
         put(
             parameters,
             Condition::WithoutDelayNeedsVelocityOnly,
-            "vorsteuer.vorsteuerung",
+            axis_drive::FEEDFORWARD.place(),
             text,
             f64::from(flags & 0x101),
         );
     }
 
     // P-AXIS-00051 / P-AXIS-00050 is the damping of the simulated drive
+    let numerator = axis_drive::SIMU_DAMPING_NUM;
     let (z, n) =
-        (number(parameters, "antr.simu.daempfung_z"), number(parameters, "antr.simu.daempfung_n"));
+        (number(parameters, numerator), number(parameters, axis_drive::SIMU_DAMPING_DENOM));
     if z >= n {
         let text = format!(
             "antr.simu.daempfung_z: damping {z}/{n} of the simulated drive is not below 1, 0.999 is used"
         );
-        put(parameters, Condition::SimulationDamping, "antr.simu.daempfung_z", text, 0.999 * n);
+        put(parameters, Condition::SimulationDamping, numerator.place(), text, 0.999 * n);
     }
 }
 
@@ -256,10 +263,10 @@ pub(super) fn check_sampling(
     axis: &AxisRef,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let keys = ["antr.simu.zeitkonstante_z", "antr.simu.zeitkonstante_n"];
-    let [z, n] = keys.map(|key| parameters.number(key).unwrap_or_default());
-    let Some(setting) = keys.iter().find_map(|key| parameters.setting(key)) else { return };
-    let model = own.text(&format!("kontur.axis[{}].plant.model", axis.number));
+    let sampling = [axis_drive::SIMU_SAMPLING_NUM, axis_drive::SIMU_SAMPLING_DENOM];
+    let [z, n] = sampling.map(|param| parameters.listed(param).unwrap_or_default());
+    let Some(setting) = sampling.iter().find_map(|param| parameters.set_by(*param)) else { return };
+    let model = own.get(kontur::PLANT_MODEL.at(axis.number));
     if model.as_deref() != Some("SIMU") || (z / n - cycle.seconds()).abs() <= 1e-9 {
         return;
     }
@@ -274,15 +281,20 @@ pub(super) fn check_sampling(
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), Some(axis)));
 }
 
+/// Group of G135, G136 and G137 (P-CHAN-00063).
+const FEEDFORWARD_GROUP: u32 = 21;
+
 /// K-0075: every program starts with G137, whatever P-CHAN-00063 presets for the group of the feedforward.
-pub(super) fn check_presets(channel: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
-    let key = "prog_start.g_gruppe[21].nr";
-    let Some(setting) = channel.setting(key) else { return };
-    if integer(setting.value.number()) != Some(135) {
+pub(super) fn check_presets(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
+    let preset = channel::G_GROUP.at(FEEDFORWARD_GROUP);
+    let Some(setting) = parameters.set_by(preset) else { return };
+    if setting.value.number().and_then(whole) != Some(135) {
         return;
     }
-    let text =
-        format!("{key}: a preset of G135 has no effect, programs start with feedforward off");
+    let text = format!(
+        "{}: a preset of G135 has no effect, programs start with feedforward off",
+        preset.place()
+    );
     let hint = "vorsteuer.default_active (P-AXIS-00255) in the axis list keeps feedforward on";
     let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));

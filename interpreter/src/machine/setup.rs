@@ -9,8 +9,8 @@ mod ipc;
 mod plant;
 
 pub(super) use control::has_rotary_motor;
+pub(super) use filters::FilterKeys;
 pub use filters::{AdditionalInterface, FirPreset, KernelPreset, VibGuardPreset};
-pub(super) use ipc::PREFIX as IPC;
 
 use super::{Axis, Machine, issues};
 use crate::diag::Diagnostic;

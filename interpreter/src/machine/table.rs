@@ -3,17 +3,18 @@
 //! A row states what the vendor's manuals state about one parameter, in the units of the lists (0.1 um, us, 0.1 %);
 //! conversion to mm and s happens once, in [`Axis`](super::Axis) and [`Channel`](super::Channel).
 
-mod axis_control;
-mod axis_drive;
-mod axis_dynamics;
-mod axis_filters;
-mod axis_general;
-mod axis_guard;
-mod channel;
-mod kontur;
+pub(super) mod axis_control;
+pub(super) mod axis_drive;
+pub(super) mod axis_dynamics;
+pub(super) mod axis_filters;
+pub(super) mod axis_general;
+pub(super) mod axis_guard;
+pub(super) mod channel;
+pub(super) mod kontur;
 mod lookup;
+pub(crate) mod param;
 mod row;
-mod start_up;
+pub(super) mod start_up;
 
 pub(crate) use lookup::edit_distance;
 pub use lookup::{by_id, by_key, misspelt, rows, suggestions};

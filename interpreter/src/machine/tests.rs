@@ -1,3 +1,4 @@
+use super::table::kontur;
 use super::*;
 use crate::diag::{Condition, Severity};
 use kontur_motion::block::{SlopeKind, TransitionJerkMode};
@@ -106,10 +107,7 @@ fn vendor_defaults_in_mm_and_s() {
     assert!(close(d.step_feed.dec_mm_s2[0], 1000.0) && close(d.step_feed.change_mm_s, 100.0));
     assert!(close(d.a_trans_ratio, 0.0) && close(d.r_trans_ratio, 1.0));
     assert!(close(machine.axis("X").unwrap().a_w_max_mm_s2(), 1000.0));
-    let filter = |k| {
-        let key = format!("lr_param.improved_position_control.stage[1].filter[{k}].type");
-        machine.axis("X").unwrap().text(&key)
-    };
+    let filter = |k| machine.axis("X").unwrap().get(table::axis_guard::IPC_TYPE.at(1).and(k));
     assert_eq!((filter(0).as_deref(), filter(1).as_deref()), (Some("BANDPASS"), Some("NO_FILTER")));
     assert!(close(machine.axis("X").unwrap().tr_w_min_s(), 0.01));
     assert!(close(machine.axis("S").unwrap().kv_1_s(), 10.0));
@@ -146,7 +144,7 @@ fn channel_values_are_converted() {
     assert!(close(c.feed_mm_s.unwrap(), 50.0) && close(c.feed_unit_mm_min, 1000.0));
     assert!(close(c.vector.vel_mm_s.unwrap(), 100.0) && close(c.vector.acc_mm_s2.unwrap(), 1500.0));
     assert!(close(c.arc_centre.shift_mm, 0.01));
-    assert!(close(c.m_durations_s[&7], 0.5) && close(c.spindle_duration_s(0, "m3"), 1.5));
+    assert!(close(c.m_durations_s[&7], 0.5));
     assert_eq!((c.g_groups[&14], c.g8x_programs[&85].as_str()), (91, "drill.nc"));
     assert!(c.keep_p_parameters);
     assert_eq!(c.feed_axes, [false, true]);
@@ -179,7 +177,7 @@ fn an_override_gives_the_bits_of_a_list_value() {
         for key in ["getriebe[0].kv", "filter[0].fg_f0", "getriebe[0].dynamik.vb_max"] {
             assert_eq!(a.raw(key).map(f64::to_bits), b.raw(key).map(f64::to_bits));
         }
-        assert_eq!(a.own("plant.ta_us").map(f64::to_bits), b.own("plant.ta_us").map(f64::to_bits));
+        assert_eq!(a.get(kontur::TIME_CONSTANT).to_bits(), b.get(kontur::TIME_CONSTANT).to_bits());
     }
 }
 
@@ -411,8 +409,8 @@ fn the_builtin_machine_loads_without_a_message() {
     assert_eq!(names, [("X", 1), ("Y", 2), ("Z", 3), ("S", 4)]);
     assert_eq!(machine.channel.slope, SlopeKind::Trapez);
     let x = machine.axis("X").unwrap();
-    assert!(close(x.kv_1_s(), 50.0) && close(x.own("plant.ta_us").unwrap(), 0.005));
-    assert_eq!(x.own_text("plant.model").as_deref(), Some("PT1"));
+    assert!(close(x.kv_1_s(), 50.0) && close(x.get(kontur::TIME_CONSTANT), 0.005));
+    assert_eq!(x.get(kontur::PLANT_MODEL).as_deref(), Some("PT1"));
     // the square-corner program needs a jump of speed at kinks that does not depend on the cycle
     assert!(close(x.dynamics().a_trans_ratio, 1.0));
 }

@@ -89,14 +89,10 @@ impl Simulation {
     }
 
     /// `#MACHINE DATA`: the axis concerned gets a new chain at its present position; it is at rest.
-    pub(super) fn machine_data(&mut self, axis: u32, key: &str, value: &str) {
-        let machine = Arc::make_mut(&mut self.machine);
-        let Some(i) = machine.axes.iter().position(|a| a.number() == axis) else { return };
-        if machine.axes[i].set(key, value).is_err() {
-            // the program was refused by the executor, which checks the same
-            return;
-        }
-        let (mut setups, _) = machine.chains();
+    pub(super) fn machine_data(&mut self, axis: u32) {
+        self.machine = Arc::clone(self.executor.machine());
+        let Some(i) = self.machine.axes.iter().position(|a| a.number() == axis) else { return };
+        let (mut setups, _) = self.machine.chains();
         let x = self.chains[i].set_mm();
         match AxisChain::new(setups.swap_remove(i), x, self.inputs.axes[i], self.cycle) {
             Ok(chain) => {

@@ -85,16 +85,6 @@ impl Simulation {
                 self.record.axes[p].set - way_mm
             };
         }
-        // on the contour bit for bit: nothing to search
-        self.record.contour_err_mm = if shaped {
-            self.planner.deviation(&self.set, &mut self.vector)
-        } else {
-            self.vector.fill(0.0);
-            0.0
-        };
-        for (axis, dev) in self.record.axes.iter_mut().zip(self.vector.iter()) {
-            axis.dev = *dev;
-        }
         self.record.k = k;
         let at = match &self.phase {
             Phase::Waiting(wait) if wait.is_dwell() => self.waits_at,
@@ -110,9 +100,20 @@ impl Simulation {
             j_mm_s3: setpoint.j_mm_s3,
             limit: setpoint.limit,
         };
+        // on the contour bit for bit: nothing to search
+        self.record.contour_err_mm = if shaped {
+            self.planner.deviation(&self.set, &mut self.vector)
+        } else {
+            self.vector.fill(0.0);
+            0.0
+        };
+        let both_ways = if shaped { self.planner.excursion() } else { &[] };
+        for (i, (axis, dev)) in self.record.axes.iter_mut().zip(self.vector.iter()).enumerate() {
+            axis.dev = *dev;
+            axis.dev_both_ways = both_ways.get(i).map_or(dev.abs(), |d| d.abs().max(dev.abs()));
+        }
         for unkept in self.planner.take_unkept() {
-            let diagnostic = self.unkept(&unkept);
-            self.diagnostics.push(diagnostic);
+            self.unkept(&unkept);
         }
         for (i, f) in faults {
             self.fault(i, &f);

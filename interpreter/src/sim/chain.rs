@@ -250,6 +250,7 @@ impl AxisChain {
             jerk,
             err: set - self.aligned(),
             dev: 0.0,
+            dev_both_ways: 0.0,
             ff: out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s,
             cmd: out.command_mm_s,
             vadd: out.additive_speed_mm_s,

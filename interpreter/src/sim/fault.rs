@@ -72,8 +72,13 @@ impl Simulation {
         if reaction == Reaction::None {
             return;
         }
-        self.totals.aborted = true;
         self.react(chain, reaction);
+        self.stop(vec![(chain, condition)]);
+    }
+
+    /// Brakes everything and ends the run.
+    fn stop(&mut self, told: Vec<(usize, Condition)>) {
+        self.totals.aborted = true;
         if !matches!(self.phase, Phase::Stopping(_)) {
             for spindle in &mut self.spindles {
                 spindle.command(SpindleMotion::Stop);
@@ -82,7 +87,6 @@ impl Simulation {
             if let Err(e) = self.independent.stop(self.record.k) {
                 self.diagnostics.push(internal(&e));
             }
-            let told = vec![(chain, condition)];
             self.phase = Phase::Stopping(Stopping { told, ..Stopping::default() });
         }
     }
@@ -346,8 +350,8 @@ impl Simulation {
         }
     }
 
-    /// The tolerance of a block could not be kept.
-    pub(super) fn unkept(&mut self, unkept: &Unkept) -> Diagnostic {
+    /// The tolerance of a block could not be kept: an error, never a broken promise.
+    pub(super) fn unkept(&mut self, unkept: &Unkept) {
         let mut d = Diagnostic::new(
             Condition::AxDevNotKept,
             format!(
@@ -356,12 +360,12 @@ impl Simulation {
             ),
         )
         .value(ValueKind::Current, unkept.deviation_mm, "mm")
-        .value(ValueKind::Limit, unkept.tolerance_mm, "mm")
-        .hint("axes with unequal filters cannot keep a tolerance; program MODE, FREQ and DAMPING");
+        .value(ValueKind::Limit, unkept.tolerance_mm, "mm");
         let source =
             self.underway.iter().find(|u| u.seq == unkept.seq).map_or(self.current, |u| u.source);
         d.source = self.executor.locate(source);
-        d
+        self.diagnostics.push(d);
+        self.stop(Vec::new());
     }
 
     /// Reports the corners that were not contoured as asked for, each place once.

@@ -77,7 +77,7 @@ impl Signal {
                     let hint = format!("set {name}.lr_param.add_interface.enable=1");
                     warning(text).axis(axis.number(), name).hint(hint)
                 };
-                let on = |a: &&Axis| !a.flag("lr_param.add_interface.enable");
+                let on = |a: &&Axis| !a.has_additional_interface();
                 machine.all_axes().nth(i).filter(on).map(of)
             }
             Self::Force(i) => {

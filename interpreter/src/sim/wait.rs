@@ -13,7 +13,7 @@ use kontur_filters::time::CycleTime;
 pub(super) enum Action {
     None,
     Shaping(Box<ShapingSetup>),
-    MachineData { axis: u32, key: String, value: String },
+    MachineData { axis: u32 },
     End(EndReason),
 }
 
@@ -66,9 +66,7 @@ impl Wait {
             Sync::Independent { axes } => (Until::Arrived(axes), Action::None),
             Sync::FlushWait | Sync::ReadActual => (Until::Flushed, Action::None),
             Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
-            Sync::MachineData { axis, key, value } => {
-                (Until::Flushed, Action::MachineData { axis, key, value })
-            }
+            Sync::MachineData { axis } => (Until::Flushed, Action::MachineData { axis }),
         };
         Self { until, action, patience: Patience::default() }
     }

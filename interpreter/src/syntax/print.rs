@@ -212,6 +212,7 @@ impl Display for Item {
         match &self.kind {
             ItemKind::Flag(flag) => f.write_str(&flag.text),
             ItemKind::Pair { key, value } => write!(f, "{}={value}", key.text),
+            ItemKind::Target { place, value } => write!(f, "{place}={value}"),
             ItemKind::Value(value) => write!(f, "{value}"),
             ItemKind::Missing => Ok(()),
         }

@@ -33,7 +33,7 @@ impl Planner {
         } else {
             SpeedLimit::Lookahead
         };
-        let mut demands = Demands::none(n);
+        let mut demands = Demands::of(&window, &self.kernels, self.cycle);
         let mut forced = vec![false; n + 1];
         let mut round = 0;
         loop {
@@ -50,6 +50,8 @@ impl Planner {
                     return Ok(());
                 }
                 Verdict::Tightened => continue,
+                // the plan before this one keeps the tolerance
+                Verdict::GivenUp(_) if self.fall_back().is_some() => return Ok(()),
                 Verdict::GivenUp(unkept) => self.unkept.push(unkept),
             }
             let rests = end != SpeedLimit::Lookahead;
@@ -115,7 +117,7 @@ impl Planner {
         loop {
             let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
             let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
-            let mut demands = Demands::none(window.len());
+            let mut demands = Demands::of(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
             let mut round = 0;
             let parts = loop {

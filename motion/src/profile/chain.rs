@@ -49,15 +49,21 @@ impl Phase {
 
     /// The state `t` s after the start, as the start of a phase without duration.
     pub(crate) fn after(&self, t: f64) -> Self {
-        let Self { s, v, a, j, .. } = *self;
+        let (way, v, a) = self.way_after(t);
+        Self::state(self.s + way, v, a)
+    }
+
+    /// Path length run through in the first `t` s, velocity and acceleration then.
+    fn way_after(&self, t: f64) -> (f64, f64, f64) {
+        let Self { v, a, j, .. } = *self;
         let Some(sine) = self.sine else {
-            let distance = t * (v + t * (0.5 * a + t * j / 6.0));
-            return Self::state(s + distance, v + t * (a + 0.5 * t * j), a + t * j);
+            let way = t * (v + t * (0.5 * a + t * j / 6.0));
+            return (way, v + t * (a + 0.5 * t * j), a + t * j);
         };
         let (from, to) = (self.on_ramp(sine, 0.0), self.on_ramp(sine, t));
         let base = a - from.a;
-        let distance = t * (v - from.v + 0.5 * t * base) + (to.s - from.s);
-        Self::state(s + distance, v + t * base + (to.v - from.v), base + to.a)
+        let way = t * (v - from.v + 0.5 * t * base) + (to.s - from.s);
+        (way, v + t * base + (to.v - from.v), base + to.a)
     }
 
     fn on_ramp(&self, sine: Sine, t: f64) -> RampState {
@@ -98,17 +104,15 @@ impl Phase {
         if want <= 0.0 {
             return 0.0;
         }
-        // as if the phase began at zero: far along a path the place would round away what a short phase is cut by
-        let here = Self { s: 0.0, ..*self };
-        let whole = here.end().s;
+        let whole = self.way_after(self.t).0;
         if want >= whole {
             return self.t;
         }
         increasing_root(0.0, self.t, self.t * want / whole, ROOT, |t| {
             #[cfg(test)]
             crate::work::add();
-            let at = here.after(t);
-            (at.s - want, at.v)
+            let (way, v, _) = self.way_after(t);
+            (way - want, v)
         })
     }
 

@@ -1,230 +1,416 @@
-//! Measures a plan: where it exceeds the tolerance, and what causes it.
+//! Measures a plan: where it exceeds the tolerance.
+//!
+//! Only cycles are measured whose filters can leave the contour at all: those that hold kinks or bends of the path. A
+//! bound passes over most of these too: a set point is a mean of path points, so an axis is aside by at most the sum of
+//! the changes of its direction within reach, times the speed, times the first moment of its kernel (derived; weights
+//! positive).
 
-use super::tighten::on_a_bend;
-use super::view::{Buffer, Mark, View};
-use super::{BORDER_CYCLES, Demands, MARGIN_MM, Unkept};
+use super::view::{Buffer, View};
+use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
+use crate::axis::AxisVec;
+use crate::deviation::{ALIKE, Excursion, SetPath};
 use crate::timeline::{PathState, Reader};
 use kontur_filters::kernel::Kernel;
 
-/// Part of the tolerance that a corner has to use up to be slowed down in place of the curves beside it: less than that
-/// the curves give up easier.
-const LEAST_PART: f64 = 0.25;
+/// Cycles around the set point nearest to the last point of the contour among which that of the next one is looked for.
+const HINT: u64 = 3;
+/// Halvings in the search for the point of the contour where the nearest set point changes.
+const HALVINGS: u32 = 6;
+/// Points of the contour looked at in a cycle in which it may be missed.
+const PARTS: f64 = 4.0;
+/// Distance between the points of the contour that are looked at, in tolerances.
+const SPACING: f64 = 0.02;
+/// Cycles measured in one go, so that long stretches need little memory.
+const CHUNK: u64 = 8192;
+/// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be.
+const DOUBT: f64 = 0.9;
+/// Share by which the way of one cycle may differ from that of another on a stretch of constant speed.
+const EVEN: f64 = 1e-7;
+/// Part of the tolerance up to which the bound excuses a stretch from being measured.
+const CERTAIN: f64 = 0.9;
 
-/// What exceeded the tolerance in one round.
-pub(super) struct Findings {
-    /// Part of the largest cause from which on a cause is blamed.
-    pub(super) share: f64,
-    /// Largest excess in mm blamed on each boundary.
-    pub(super) corner: Vec<f64>,
-    /// Largest excess in mm and tolerance blamed on each block.
-    pub(super) curve: Vec<Option<(f64, f64)>>,
-    pub(super) worst: Option<Unkept>,
+/// A moment at which the tolerance is exceeded.
+#[derive(Clone, Debug)]
+pub(super) struct Violation {
+    /// Cycle of the set point that is too far away, or that comes nearest to the point that is missed.
+    pub(super) cycle: u64,
+    /// Largest component in mm.
+    pub(super) deviation_mm: f64,
+    /// Its tolerance in mm.
+    pub(super) tolerance_mm: f64,
+    pub(super) axis: usize,
+    /// The component points to larger positions.
+    pub(super) positive: bool,
+    /// Point of the contour that the set path misses, with its path length; `None`: the set path leaves the contour.
+    pub(super) missed: Option<(AxisVec, f64)>,
+}
+
+impl Violation {
+    pub(super) fn excess(&self) -> f64 {
+        self.deviation_mm - within(self.tolerance_mm)
+    }
+}
+
+/// What a plan is held to, a little below the tolerance.
+pub(super) fn within(tolerance_mm: f64) -> f64 {
+    tolerance_mm - MARGIN_MM.min(0.1 * tolerance_mm)
+}
+
+/// Length in mm up to which no component of a vector, or of what could be taken for it, exceeds a tolerance.
+fn certain(tolerance_mm: f64) -> f64 {
+    within(tolerance_mm) / (1.0 + ALIKE)
+}
+
+/// Path lengths and set points of a stretch of cycles.
+pub(super) struct Record {
+    first: u64,
+    s_mm: Vec<f64>,
+}
+
+impl Record {
+    /// Path length in cycle `k`, which is one of the stretch or of the reach in front of it.
+    pub(super) fn s(&self, k: u64) -> f64 {
+        let at = k.saturating_sub(self.first) as usize;
+        self.s_mm.get(at).or(self.s_mm.last()).copied().unwrap_or(0.0)
+    }
 }
 
 impl View<'_> {
-    /// Measures every cycle whose kernel support holds a corner or a curve.
-    pub(super) fn search(&self, share: f64, demands: &Demands) -> Findings {
-        let Self { trial, marks, .. } = self;
-        let reach = u64::from(trial.kernels.length());
-        let mut findings = Findings {
-            share,
-            corner: vec![0.0; trial.window.len() + 1],
-            curve: vec![None; trial.window.len()],
-            worst: None,
+    /// Measures the plan and hands every stretch's worst violations, at most one for half a kernel, to `found`; returns
+    /// the worst of all.
+    pub(super) fn search(&self, mut found: impl FnMut(&Violation, &Record)) -> Option<Unkept> {
+        let reach = u64::from(self.trial.kernels.length());
+        let mut worst: Option<Unkept> = None;
+        let mut stretch: Option<(u64, u64)> = None;
+        let mut measure = |(from, to): (u64, u64)| {
+            let mut from = from;
+            while from <= to {
+                let until = to.min(from + CHUNK);
+                self.measure(from, until, &mut found, &mut worst);
+                from = until + 1;
+            }
         };
-        let mut buffer = Buffer::new(self);
-        let mut reader = trial.timeline.reader();
-        let calm = !trial.kernels.unequal && !trial.kernels.overshoot;
-        let mut next = trial.now + 1;
-        for (m, mark) in marks.iter().enumerate() {
-            let bent = mark.queued.bend > 0.0 || trial.kernels.unequal || trial.kernels.overshoot;
-            if mark.jump <= 1e-9 && !bent {
+        let mut reader = self.trial.timeline.reader();
+        let mut active: Vec<(u64, u64)> = Vec::new();
+        let calm = self.calm();
+        for m in 0..self.marks.len() {
+            let Some((from, to)) = self.active(m) else { continue };
+            let from = from.max(self.trial.now + 1);
+            if self.marks[m].queued.bend <= 0.0 && calm {
+                active.push((from, to));
                 continue;
             }
-            // the entry, what lies between, and the way out of the kernels' reach
-            let entered = mark.cycles.ceil() as u64 + reach;
-            let until = marks.get(m + 1).map_or_else(|| self.rest(), |n| n.cycles);
-            let left = (until.ceil() as u64).max(entered);
-            let parts = if bent { [entered, left, left + reach] } else { [entered; 3] };
-            next = next.max(mark.cycles.floor() as u64 + 1);
-            for last in parts {
-                while next <= last {
-                    let until = last.min(next + reach);
-                    if calm && self.quiet(next, until, &mut reader) {
-                        next = until + 1;
-                        continue;
-                    }
-                    buffer.seek(next);
-                    for k in next..=until {
-                        buffer.step(k);
-                        self.judge(k, &buffer, demands, &mut findings);
-                    }
-                    next = until + 1;
+            // of a bent block only where it bends, of a straight one only where its speed changes
+            let mut k = from;
+            while k <= to {
+                let until = to.min(k + reach.max(8));
+                let passed_over = if calm {
+                    self.straightens(k.saturating_sub(reach + 2), until, &mut reader)
+                } else {
+                    k > from
+                        && self.is_steady(m, k.saturating_sub(2 * reach + 4), until, &mut reader)
+                };
+                if !passed_over {
+                    active.push((k, until));
                 }
+                k = until + 1;
             }
         }
-        findings
-    }
-
-    fn judge(&self, k: u64, buffer: &Buffer<'_>, demands: &Demands, findings: &mut Findings) {
-        let Self { trial, marks, contour, .. } = self;
-        let reach = f64::from(trial.kernels.length());
-        let (from, to) = (k as f64 - reach, k as f64);
-        let Some(tolerance) = contour
-            .between(from, to)
-            .filter_map(|p| p.queued.block.tolerance.ax_dev_mm)
-            .min_by(f64::total_cmp)
-        else {
-            return;
-        };
-        let deviation = contour.worst_component(&buffer.set, from, to, BORDER_CYCLES);
-        let excess = deviation - (tolerance - MARGIN_MM.min(0.1 * tolerance));
-        if excess <= 0.0 {
-            return;
-        }
-        let first = marks.partition_point(|m| m.cycles <= from).saturating_sub(1);
-        let last = marks.partition_point(|m| m.cycles <= to);
-        let support = &marks[first..last];
-        if findings.worst.is_none_or(|w| w.deviation_mm < deviation) {
-            let seq = support.last().map_or(0, |m| m.queued.block.seq);
-            findings.worst = Some(Unkept { seq, deviation_mm: deviation, tolerance_mm: tolerance });
-        }
-        // shares of the error by geometry: a corner with its shorter leg in the kernel's reach, and a curve as many small
-        // corners; over the whole reach that is the sagitta
-        let (oldest, newest) = buffer.stretch();
-        let leg = |s: f64| (s - oldest).min(newest - s).max(0.0);
-        let share = |i: usize| -> (f64, f64) {
-            let m = &support[i];
-            let (mut from, mut turn) = (m.s_mm, 0.0);
-            for (end, bend) in m.queued.bends() {
-                let to = m.s_mm + end;
-                turn += bend * legs(from, to, (oldest, newest));
-                from = to;
+        active.sort_unstable();
+        for (from, to) in active {
+            if to < from {
+                continue;
             }
-            (0.5 * m.jump * leg(m.s_mm), 0.5 * turn)
-        };
-        let largest = (0..support.len()).map(share).fold(0.0_f64, |x, (a, b)| x.max(a).max(b));
-        let mut blamed = false;
-        // a corner that is alone to blame is slowed down alone, not the curve beside it
-        let alone = |m: &Mark| {
-            m.boundary.is_some_and(|b| self.is_alone_to_blame(m, b, support, demands, excess))
-        };
-        for b in support.iter().filter(|m| alone(m)).filter_map(|m| m.boundary) {
-            findings.corner[b] = findings.corner[b].max(excess);
-            blamed = true;
-        }
-        let others = if blamed { &[] } else { support };
-        for (i, m) in others.iter().enumerate() {
-            let (corner, curve) = share(i);
-            if let Some(b) =
-                m.boundary.filter(|_| corner > 0.0 && corner >= findings.share * largest)
-            {
-                findings.corner[b] = findings.corner[b].max(excess);
-                blamed = true;
-            }
-            if let Some(b) = m.block.filter(|_| curve > 0.0 && curve >= findings.share * largest) {
-                note(&mut findings.curve[b], excess, tolerance);
-                blamed = true;
-            }
-        }
-        // a cause in front of a stop is final already, but what follows the stop can wait for the filters
-        let waits = (0..support.len()).any(|i| support[i].boundary == Some(0) && i > 0)
-            && (0..support.len()).any(|i| {
-                let (corner, curve) = share(i);
-                support[i].block.is_none() && corner.max(curve) >= findings.share * largest
+            stretch = Some(match stretch {
+                Some((begin, end)) if from <= end + reach => (begin, end.max(to)),
+                Some(done) => {
+                    measure(done);
+                    (from, to)
+                }
+                None => (from, to),
             });
-        if waits {
-            findings.corner[0] = findings.corner[0].max(excess);
-            blamed = true;
         }
-        // kernels that differ between the axes, or a cause that is final already: slow down what still can be
-        if !blamed {
-            for m in support {
-                if let Some(b) = m.block {
-                    note(&mut findings.curve[b], excess, tolerance);
-                }
-            }
-        }
+        stretch.into_iter().for_each(&mut measure);
+        worst
     }
 
-    /// True if a corner next to curves that keep the tolerance by themselves explains an excess, by the closed forms, or
-    /// if it rests already but does not dwell for the whole kernel.
-    fn is_alone_to_blame(
-        &self,
-        corner: &Mark,
-        boundary: usize,
-        support: &[Mark],
-        demands: &Demands,
-        excess: f64,
-    ) -> bool {
-        let Self { trial, .. } = self;
-        let tolerance = corner.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
-        let curves = || support.iter().filter(|m| m.queued.bend > 0.0);
-        let calm = |m: &Mark| {
-            let speed = m.speed.min(m.block.map_or(f64::INFINITY, |b| demands.feed[b]));
-            speed <= on_a_bend(trial, m.queued.bend, tolerance)
-        };
-        if boundary == 0 || curves().next().is_none() || !curves().all(calm) {
-            return false;
-        }
-        if let Some(dwell) = demands.stop[boundary] {
-            return dwell < trial.kernels.length();
-        }
-        let m1 = trial.kernels.get(corner.axis).map_or(0.0, Kernel::m1_cycles);
-        let own = m1 * trial.cycle.seconds() * corner.jump * self.speed_at(boundary);
-        own >= excess.max(LEAST_PART * tolerance)
-    }
-
-    /// True if no set point of the cycles `first..=last` can leave the contour by half the tolerance.
-    ///
-    /// A set point is a mean of points of the path with positive weights (not so with kernels that overshoot). Expanded
-    /// around their mean path length the linear part lies on the path, and what is left of an axis is at most `bend / 2`
-    /// times the variance of the path length, itself at most a quarter of the stretch squared (derived).
-    fn quiet(&self, first: u64, last: u64, reader: &mut Reader<'_>) -> bool {
+    /// Cycles in which the filters hold the entry of a mark's block, or the block itself if that bends; `None` where they
+    /// cannot leave the contour by more than the tolerance.
+    fn active(&self, m: usize) -> Option<(u64, u64)> {
         let Self { trial, marks, .. } = self;
-        let length = u64::from(trial.kernels.length());
-        let reach = length as f64;
-        let begin =
-            marks.partition_point(|m| m.cycles <= first as f64 - reach - 1.0).saturating_sub(1);
+        let kernels = trial.kernels;
+        let (mark, reach) = (&marks[m], f64::from(kernels.length()));
+        let restless = kernels.unequal || kernels.overshoot;
+        let lasts = restless || mark.queued.bend > 0.0;
+        if !lasts && mark.jump <= 1e-9 {
+            return None;
+        }
+        let until = if lasts {
+            marks.get(m + 1).map_or_else(|| self.rest(), |next| next.cycles)
+        } else {
+            mark.cycles
+        };
+        let (from, to) = (mark.cycles, until + reach + 2.0);
+        if !restless && self.quiet(from - reach - 2.0, to) {
+            return None;
+        }
+        Some((from.floor().max(0.0) as u64, to.ceil() as u64))
+    }
+
+    /// The kernels are equal and pull nothing beyond an end: only kinks and bends leave the contour.
+    fn calm(&self) -> bool {
+        !self.trial.kernels.unequal && !self.trial.kernels.overshoot
+    }
+
+    /// True if no set point of the cycles `first..=last` can leave the contour by the tolerance: expanded around their
+    /// mean path length the linear part of the path points lies on the path, and what is left of an axis is at most
+    /// `bend / 2` times their variance, itself at most a quarter of the stretch squared (derived).
+    fn straightens(&self, first: u64, last: u64, reader: &mut Reader<'_>) -> bool {
+        let Self { trial, marks, .. } = self;
+        let begin = marks.partition_point(|m| m.cycles <= first as f64 - 1.0).saturating_sub(1);
         let end = marks.partition_point(|m| m.cycles <= last as f64);
-        let support = &marks[begin..end];
-        if support.iter().skip(1).any(|m| m.jump > 1e-9) {
+        if (begin + 1..end).any(|m| marks[m].jump > 1e-9) {
             return false;
         }
-        let mut state = PathState::at_rest(marks[begin].queued.block.path.start());
-        let [from, to] = [first.saturating_sub(length + 1), last].map(|k| {
+        let mut state = PathState::at_rest(&marks[begin].point);
+        let [from, to] = [first, last].map(|k| {
             self.state(k, reader, &mut state);
             state.s
         });
-        let (mut bend, mut speed, mut tolerance) = (0.0_f64, 0.0_f64, f64::INFINITY);
-        for m in support {
+        let (mut bend, mut tolerance) = (0.0_f64, f64::INFINITY);
+        for m in &marks[begin..end] {
             bend = bend.max(m.queued.bend_between(from - m.s_mm, to - m.s_mm));
-            speed = speed.max(m.speed);
             tolerance = tolerance.min(m.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY));
         }
-        let stretch = (speed * trial.cycle.seconds() * reach).min(to - from);
         let axes = trial.kernels.axes.len() as f64;
-        axes.sqrt() * bend * stretch * stretch / 8.0 < 0.5 * tolerance
+        axes.sqrt() * bend * (to - from) * (to - from) / 8.0 <= 0.5 * tolerance
     }
-}
 
-/// Integral over `from..=to` of the distance to the nearer end of a stretch, inside of it.
-fn legs(from: f64, to: f64, (oldest, newest): (f64, f64)) -> f64 {
-    let half = 0.5 * (newest - oldest);
-    let below = |s: f64| {
-        let x = (s - oldest).clamp(0.0, 2.0 * half);
-        if x <= half {
-            0.5 * x * x
-        } else {
-            half * half - 0.5 * (2.0 * half - x) * (2.0 * half - x)
+    /// True if the path runs evenly along the straight block of mark `m` in the cycles `first..=last`: the set points that
+    /// depend on nothing else are aside by the same vector. A speed that rises and falls at most once has the same value at
+    /// both ends, and as its mean, only if it is constant.
+    fn is_steady(&self, m: usize, first: u64, last: u64, reader: &mut Reader<'_>) -> bool {
+        let Self { trial, marks, .. } = self;
+        let ends = marks.get(m + 1).map_or_else(|| self.rest(), |next| next.cycles);
+        let inside = marks[m].cycles <= first as f64 && last as f64 <= ends;
+        if !inside || !marks[m].queued.block.path.is_straight() {
+            return false;
         }
-    };
-    below(to) - below(from)
-}
+        let mut state = PathState::at_rest(&marks[m].point);
+        let [from, to] = [first, last].map(|k| {
+            self.state(k, reader, &mut state);
+            state.s
+        });
+        let step = (to - from) / (last - first) as f64;
+        let steps = [first, first + (last - first) / 2, last - 1].map(|k| {
+            self.state(k, reader, &mut state);
+            let s = state.s;
+            self.state(k + 1, reader, &mut state);
+            state.s - s
+        });
+        steps.iter().all(|other| (other - step).abs() <= EVEN * step + 1e-9 * trial.cycle.seconds())
+    }
 
-/// Keeps the larger excess.
-pub(super) fn note(slot: &mut Option<(f64, f64)>, excess: f64, tolerance: f64) {
-    if slot.is_none_or(|(e, _)| e < excess) {
-        *slot = Some((excess, tolerance));
+    /// True if the changes of direction between two moments are too small to exceed the tolerance.
+    fn quiet(&self, from: f64, to: f64) -> bool {
+        let Self { trial, marks, .. } = self;
+        let first = marks.partition_point(|m| m.cycles <= from).saturating_sub(1);
+        let last = marks.partition_point(|m| m.cycles <= to);
+        let reach = f64::from(trial.kernels.length()) + 2.0;
+        let seconds = trial.cycle.seconds();
+        let mut tolerance = f64::INFINITY;
+        let mut speed = 0.0_f64;
+        for m in &marks[first..last] {
+            tolerance = tolerance.min(m.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY));
+            speed = speed.max(m.speed);
+        }
+        if tolerance.is_infinite() {
+            return true;
+        }
+        (0..trial.kernels.axes.len()).all(|i| {
+            let m1 = trial.kernels.get(i).map_or(0.0, Kernel::m1_cycles) + 0.25;
+            let turn: f64 = (first..last)
+                .map(|m| {
+                    let kink = if m > first { self.turn(m, i).abs() } else { 0.0 };
+                    let q = &marks[m].queued;
+                    kink + q.bend * q.length.min(2.0 * speed * reach * seconds)
+                })
+                .sum();
+            turn * speed * m1 * seconds <= CERTAIN * tolerance
+        })
+    }
+
+    fn measure(
+        &self,
+        from: u64,
+        to: u64,
+        found: &mut impl FnMut(&Violation, &Record),
+        worst: &mut Option<Unkept>,
+    ) {
+        let Self { trial, marks, contour, .. } = self;
+        let length = u64::from(trial.kernels.length());
+        let reach = length as f64;
+        let mut buffer = Buffer::new(self);
+        let n = buffer.set.len();
+        let delay = trial.kernels.longest().map_or(0, |k| k.delay_cycles().round() as u64);
+        let first = from.saturating_sub(2 * length + 4);
+        let mut record = Record { first, s_mm: Vec::with_capacity((to - first) as usize + 1) };
+        let mut set = SetPath::starting(first, n);
+        buffer.seek(first);
+        let mut at = marks.partition_point(|m| m.cycles < from as f64 - reach - 2.0);
+        let mut bucket: Option<Violation> = None;
+        let mut between = AxisVec::zeros(n);
+        let newest_passed = from.saturating_sub(length + 1);
+        let (mut hint, mut looked) = (newest_passed + delay, f64::NEG_INFINITY);
+        let half = (length / 2).max(1);
+        let mut note = |v: Violation, record: &Record| {
+            if worst.as_ref().is_none_or(|w| w.deviation_mm < v.deviation_mm) {
+                let i = marks.partition_point(|m| m.cycles <= v.cycle as f64).max(1) - 1;
+                let seq = marks[i].queued.block.seq;
+                let Violation { deviation_mm, tolerance_mm, .. } = v;
+                *worst = Some(Unkept { seq, deviation_mm, tolerance_mm });
+            }
+            bucket = Some(match bucket.take() {
+                Some(b) if b.cycle / half == v.cycle / half => {
+                    if v.excess() > b.excess() {
+                        v
+                    } else {
+                        b
+                    }
+                }
+                Some(b) => {
+                    found(&b, record);
+                    v
+                }
+                None => v,
+            });
+        };
+        for k in first..=to {
+            buffer.step(k);
+            record.s_mm.push(buffer.s());
+            set.push(&buffer.set);
+            if k < from {
+                continue;
+            }
+            let moment = k as f64;
+            let tolerance = self.tolerance(moment - reach, moment);
+            if tolerance.is_finite() {
+                let mut out = Excursion::none(n);
+                set.leaves(contour, k, (moment - reach, moment), &mut out);
+                let mut deviation_mm = out.largest();
+                if out.length > DOUBT * tolerance && deviation_mm <= within(tolerance) {
+                    // the components depend on what counts as within reach
+                    let doubtful = set.doubtful(
+                        contour,
+                        k,
+                        (moment - reach, moment),
+                        (BORDER_CYCLES, 10.0 * SPACING * tolerance),
+                    );
+                    deviation_mm = deviation_mm.max(doubtful);
+                }
+                if deviation_mm > within(tolerance) {
+                    let axis = out.axis();
+                    let positive = out.vector[axis] > 0.0;
+                    let missed = None;
+                    let tolerance_mm = tolerance;
+                    note(
+                        Violation { cycle: k, deviation_mm, tolerance_mm, axis, positive, missed },
+                        &record,
+                    );
+                }
+            }
+            // points of the contour that the filters hold no longer
+            let all = |moment: f64| {
+                let first = moment.floor().max(0.0) as u64;
+                (first, first + length + 2)
+            };
+            let mut missed = |point: &[f64], near: (u64, u64), moment: f64, s: f64| {
+                let tolerance_mm = self.tolerance(moment, moment + reach);
+                let wary_mm = certain(tolerance_mm);
+                let all = all(moment);
+                let mut out = Excursion::none(n);
+                let mut cycle = set.misses(point, near, wary_mm, &mut out);
+                if out.length > wary_mm && near != all {
+                    out = Excursion::none(n);
+                    cycle = set.misses(point, all, wary_mm, &mut out);
+                }
+                let Some(cycle) = cycle else { return near.0 };
+                let deviation_mm = out.largest();
+                if deviation_mm > within(tolerance_mm) {
+                    let axis = out.axis();
+                    let positive = out.vector[axis] > 0.0;
+                    let missed = Some((AxisVec::from_slice(point), s));
+                    note(
+                        Violation { cycle, deviation_mm, tolerance_mm, axis, positive, missed },
+                        &record,
+                    );
+                }
+                cycle
+            };
+            while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
+                let mark = &marks[at];
+                if at > 0 && mark.jump > 1e-9 {
+                    missed(&mark.point, all(mark.cycles), mark.cycles, mark.s_mm);
+                }
+                at += 1;
+            }
+            // the other points of the contour, as far apart as matters
+            let passed = k.saturating_sub(length + 1);
+            if passed <= first {
+                continue;
+            }
+            let tolerance = self.tolerance(passed as f64, moment);
+            let (from, to) = (looked.max(record.s(passed - 1)), record.s(passed));
+            if to - from < SPACING * tolerance && tolerance.is_finite() {
+                looked = from;
+                continue;
+            }
+            looked = to;
+            hint = hint.max(passed);
+            let parts =
+                ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
+            for part in 1..=parts {
+                let s = from + f64::from(part) / f64::from(parts) * (to - from);
+                contour.position(s, &mut between);
+                // the nearest set point is found close to the last one
+                let before = hint;
+                let near = (before.saturating_sub(HINT).max(passed), before + HINT);
+                hint = missed(&between, near, passed as f64, s);
+                if hint.abs_diff(before) <= HINT {
+                    continue;
+                }
+                // the vector is largest where the nearest set point passes to another part of the set path
+                let (mut low, mut high) = (s - (to - from) / f64::from(parts), s);
+                for _ in 0..HALVINGS {
+                    let mid = 0.5 * (low + high);
+                    contour.position(mid, &mut between);
+                    let found = missed(&between, near, passed as f64, mid);
+                    if found.abs_diff(before) <= found.abs_diff(hint) {
+                        low = mid;
+                    } else {
+                        high = mid;
+                    }
+                }
+            }
+        }
+        if let Some(v) = bucket {
+            found(&v, &record);
+        }
+    }
+
+    /// Least tolerance of the blocks interpolated between two moments.
+    fn tolerance(&self, from: f64, to: f64) -> f64 {
+        let bounds =
+            self.contour.between(from, to).filter_map(|p| p.queued.block.tolerance.ax_dev_mm);
+        bounds.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Change of direction of an axis at the entry of a mark's block.
+    pub(super) fn turn(&self, m: usize, axis: usize) -> f64 {
+        let Some(before) = m.checked_sub(1).map(|b| &self.marks[b]) else { return 0.0 };
+        if self.marks[m].goes_on_from(before) {
+            return 0.0;
+        }
+        self.marks[m].queued.ends.tangent_in[axis] - before.queued.ends.tangent_out[axis]
     }
 }

@@ -1,9 +1,10 @@
 //! Answers an excess: lower speeds, stops, dwells and accelerations for the next round.
 
-use super::search::{Findings, note};
+use super::blame::Findings;
+use super::search::within;
 use super::view::{Buffer, Mark, View};
-use super::{Demands, MARGIN_MM, ROUNDS_OF_SPEED, Trial};
-use crate::axis::AxisVec;
+use super::{Demands, Trial};
+use crate::deviation::{Excursion, SetPath};
 use crate::overshoot::gentle;
 use crate::queue::Queued;
 use kontur_filters::kernel::{Kernel, Tap};
@@ -21,7 +22,7 @@ impl View<'_> {
     pub(super) fn parts(&self, findings: &Findings) -> Vec<(usize, Vec<Arc<Queued>>)> {
         let Self { trial, .. } = self;
         let blamed =
-            findings.curve.iter().enumerate().filter_map(|(b, found)| Some((b, (*found)?)));
+            findings.block.iter().enumerate().filter_map(|(b, found)| Some((b, (*found)?)));
         blamed
             .map(|(b, (_, tolerance))| {
                 let queued = &trial.window[b];
@@ -32,7 +33,7 @@ impl View<'_> {
             .collect()
     }
 
-    pub(super) fn tighten(&self, findings: &Findings, round: usize, demands: &mut Demands) {
+    pub(super) fn tighten(&self, findings: &Findings, all: bool, demands: &mut Demands) {
         let Self { trial, marks, .. } = self;
         let full = trial.kernels.length();
         let mut soften = vec![None; trial.window.len()];
@@ -54,7 +55,7 @@ impl View<'_> {
                 note(&mut soften[b], excess, tolerance);
                 continue;
             }
-            if round >= ROUNDS_OF_SPEED {
+            if all {
                 (demands.cap[b], demands.stop[b]) = (0.0, Some(full));
                 continue;
             }
@@ -85,27 +86,23 @@ impl View<'_> {
             }
         }
         for mark in marks {
+            if let Some(b) = mark.boundary {
+                demands.cap[b] = demands.cap[b].min(findings.even_at[b]);
+            }
             let Some(b) = mark.block else { continue };
             let queued = &trial.window[b];
-            let haste = if round < ROUNDS_OF_SPEED { 1.0 } else { 0.7 };
-            if let Some((excess, tolerance)) = findings.curve[b] {
-                let left = tolerance / (tolerance + excess);
+            if let Some((excess, tolerance)) = findings.block[b] {
                 if trial.kernels.overshoot {
                     note(&mut soften[b], excess, tolerance);
                 }
                 // on a straight block with equal kernels only starts and stops leave the contour
-                if queued.bend > 0.0 || trial.kernels.unequal || !trial.kernels.overshoot {
-                    // the deviation on a curve grows with the square of the speed
-                    let ratio = haste * 0.999 * left.sqrt();
-                    let now = demands.feed[b].min(queued.velocity.0).min(mark.speed);
-                    // at first what the curve itself is to blame for: a corner may have a part in the excess; and
-                    // slower than a fiftieth of that is never needed
-                    let own = on_a_bend(trial, queued.bend, tolerance);
-                    let floor = if now > own { 0.98 * own } else { 0.02 * own };
-                    demands.feed[b] = (now * ratio.max(0.3)).max(floor.min(now));
+                let starts_only = trial.kernels.overshoot && !trial.kernels.unequal;
+                if queued.bend > 0.0 || !starts_only || findings.even[b].is_finite() {
+                    demands.feed[b] = demands.feed[b].min(findings.even[b]);
                 }
             }
             if let Some((excess, tolerance)) = soften[b] {
+                let haste = if all { 0.7 } else { 1.0 };
                 let now = demands.acceleration[b];
                 let ratio = haste * 0.99 * tolerance / (tolerance + excess);
                 let gentle = gentle_ratio(trial, mark, queued, tolerance);
@@ -136,16 +133,24 @@ impl View<'_> {
         let full = self.trial.kernels.length();
         let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
         let (from, to) = (rest as f64 - f64::from(full), start as f64 + f64::from(full));
+        let before = rest.saturating_sub(u64::from(full));
         let mut buffer = Buffer::new(self);
-        buffer.seek(rest);
-        let mut vector = AxisVec::zeros(buffer.set.len());
-        (rest..=rest + u64::from(cycles + full)).all(|k| {
+        let n = buffer.set.len();
+        let mut set = SetPath::starting(before, n);
+        let mut out = Excursion::none(n);
+        buffer.seek(before);
+        for k in before..=rest + u64::from(cycles + full) {
             // before the rest as planned, behind it as planned after the present dwell
             let behind = k.saturating_sub(rest + u64::from(cycles));
             buffer.step(if behind > 0 { start + behind } else { k.min(rest) });
-            self.contour.deviation(&buffer.set, from, to, &mut vector);
-            vector.iter().all(|c| c.abs() <= tolerance - MARGIN_MM.min(0.1 * tolerance))
-        })
+            set.push(&buffer.set);
+            if k >= rest {
+                set.leaves(&self.contour, k, (from, to), &mut out);
+            }
+        }
+        let among = (rest, rest + u64::from(cycles + full) + 1);
+        set.misses(&mark.point, among, tolerance, &mut out);
+        out.largest() <= within(tolerance)
     }
 }
 
@@ -180,4 +185,11 @@ fn gentle_ratio(trial: &Trial<'_>, mark: &Mark, queued: &Queued, tolerance: f64)
         })
         .fold(a, f64::min);
     gentlest / a
+}
+
+/// Keeps the larger excess.
+fn note(slot: &mut Option<(f64, f64)>, excess: f64, tolerance: f64) {
+    if slot.is_none_or(|(e, _)| e < excess) {
+        *slot = Some((excess, tolerance));
+    }
 }

@@ -23,6 +23,16 @@ pub(super) struct Mark {
     /// Largest jump of direction of an axis with a kernel, and that axis.
     pub(super) jump: f64,
     pub(super) axis: usize,
+    /// Where it is entered.
+    pub(super) point: AxisVec,
+}
+
+impl Mark {
+    /// True if the path goes on without a corner: it is the rest of the block before.
+    pub(super) fn goes_on_from(&self, before: &Self) -> bool {
+        let start = |m: &Self| m.s_mm - m.queued.offset;
+        (start(before) - start(self)).abs() < SAME_START_MM
+    }
 }
 
 /// A plan with the setpoints before it.
@@ -100,10 +110,14 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
             }
         }
         let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
+        let mut point = queued.block.path.start().clone();
+        if queued.offset > 0.0 {
+            queued.block.path.position(queued.offset, &mut point);
+        }
         // at the start of the path itself only a wait is possible
         let boundary = block.filter(|b| *b > 0 || trial.at_rest);
         let queued = Arc::clone(queued);
-        out.push(Mark { cycles, boundary, block, queued, s_mm: s, speed, jump, axis });
+        out.push(Mark { cycles, boundary, block, queued, s_mm: s, speed, jump, axis, point });
     };
     let now = trial.now as f64;
     for passed in trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY) {
@@ -195,8 +209,8 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// Path lengths of the oldest and the newest setpoint in reach.
-    pub(super) fn stretch(&self) -> (f64, f64) {
-        (self.s_mm[(self.head + 1) % self.s_mm.len()], self.s_mm[self.head])
+    /// Path length of the cycle taken last.
+    pub(super) fn s(&self) -> f64 {
+        self.s_mm[self.head]
     }
 }

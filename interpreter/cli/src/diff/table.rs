@@ -53,12 +53,15 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
         _ if is("parquet") => refused("diff reads CSV traces"),
         [b't', b'_', b's', b',' | b'\r' | b'\n', ..] | b"t_s" => Ok(true),
         [b't', b'_', b's', b';' | b'\t', ..] => refused(
-            "its columns are not separated by commas; diff reads CSV with commas and decimal points",
+            "its columns are not separated by commas; a trace has commas and decimal points, and a recording is the second file \
+             with --map COLUMN=CHANNEL",
         ),
         [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => refused("the text is UTF-16; save it as UTF-8"),
         // an empty or foreign table must not pass for a program that does nothing
         [b'#', ..] if is("csv") => refused("it starts with a `#` line; a trace starts with `t_s`"),
-        _ if is("csv") => refused("no trace, it starts without `t_s`"),
+        _ if is("csv") => refused(
+            "no trace, it starts without `t_s`; a recording is the second file with --map COLUMN=CHANNEL",
+        ),
         _ => Ok(false),
     }
 }

@@ -47,7 +47,7 @@ pub(super) fn draw(recordings: &[Recording]) -> String {
     let plot = Plot {
         title: "Recorded vibration and what was seen in it".to_owned(),
         subtitle: list.join("; "),
-        legend: vec!["recording".to_owned(), "fitted decays".to_owned()],
+        legend: vec!["recording".to_owned(), "fit: decays, drift, hum".to_owned()],
         columns: 1,
         row_height: 300.0,
         panels,
@@ -74,7 +74,7 @@ fn over_time(recording: &Recording) -> Diagram {
     Diagram {
         title: name.clone(),
         x: Scale::linear("s", (0.0, end)),
-        y: Scale::linear("as recorded", around(samples.iter().copied(), 1e-9)),
+        y: Scale::linear("recorded", around(samples.iter().copied(), 1e-9)),
         equal: false,
         lines,
         levels: Vec::new(),
@@ -86,7 +86,8 @@ fn spectrum(recording: &Recording) -> Diagram {
     let range = found.decays.first().map_or(0..samples.len(), |d| d.samples.clone());
     let range = range.start..range.end.min(range.start + crate::spectrum::MOST_SAMPLES);
     let highest = found.modes.iter().map(|m| m.freq.value).fold(0.0, f64::max);
-    let top = (4.0 * highest).clamp(10.0, 0.5 * rate_hz);
+    let lasting = found.lasting.iter().map(|l| l.freq_hz).fold(0.0, f64::max);
+    let top = (4.0 * highest).max(1.2 * lasting).max(10.0).min(0.5 * rate_hz);
     let of = |x: &[f64], step_s: f64| -> Vec<[f64; 2]> {
         AmplitudeSpectrum::of(x, step_s).lines((0.0, top)).collect()
     };

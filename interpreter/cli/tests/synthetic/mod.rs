@@ -122,6 +122,7 @@ fn square(slow: bool, late: bool, bad: bool, kernel: &Kernel) -> VecDeque<CycleR
                 vel,
                 acc,
                 dev: dev[i],
+                dev_both_ways: dev[i].abs(),
                 reference: set[i],
                 act: act[i],
                 load: act[i],
@@ -205,7 +206,7 @@ impl Engine for Synthetic {
     fn explain(&self, thing: &str) -> Result<String, Vec<String>> {
         match thing {
             "#VIB GUARD" => Ok("smooths the setpoints".to_owned()),
-            _ => kontur_interpreter::machine::explain::explain(thing)
+            _ => kontur_interpreter::explain::explain(thing)
                 .map(|found| found.to_string())
                 .map_err(|_| vec!["#VIB GUARD".to_owned()]),
         }

@@ -95,7 +95,9 @@ conditions! {
     GUnknown = Vendor 20131: Error ProgramAbort 3 1, "unknown G function", hint "the number is not assigned in this dialect: kontur explain G<number> tells about those that are";
     PlaneWithCompensation = Vendor 20133: Error ProgramAbort 3 1, "plane selection with active tool radius compensation", hint "switch the compensation off with G40 before G17, G18, G19";
     LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
+    SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
     FeedTwice = Vendor 20175: Error ProgramAbort 3 1, "F twice in one block", hint "the feed holds for the whole block: leave one F out";
+    PositionRequest = Vendor 20186: Error ProgramAbort 3 1, "syntax behind #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", cause "[P1=X P2=Y], [P1 X]", hint "write [variable=axis, variable=axis]: #GET CMDPOS [P1=X, V.P.POS=Y]";
     ONotImplemented = Vendor 20191: Error ProgramAbort 3 1, "O word not implemented";
     AssignmentExpected = Vendor 20194: Error ProgramAbort 3 1, "assignment operator missing or unknown", cause "V.G.X without =", hint "write = between the parameter and its value";
     AxisOrCommandExpected = Vendor 20200: Error ProgramAbort 3 1, "axis name or command expected", cause "axis not in the channel, or letter not X Y Z A B C U V W Q", hint "the axes of the channel stand in the channel list";
@@ -117,6 +119,7 @@ conditions! {
     DivisionByZero = Vendor 20396: Error ProgramAbort 3 1, "division by zero in expression", hint "test the divisor with $IF before; SIN, COS and TAN are exactly 0 at multiples of 90 and 180 degrees";
     Logarithm = Vendor 20399: Error ProgramAbort 3 1, "logarithm of a value ≤ 0", hint "logarithms exist for values above 0";
     RadiusName = Vendor 20402: Error ProgramAbort 3 1, "unknown radius name", hint "write R=..";
+    PositionRequests = Vendor 20500: Error ProgramAbort 3 1, "too many values in #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", hint "write the rest into a second command";
     CommandUnknown = Vendor 20509: Error ProgramAbort 3 1, "unknown # command", hint "kontur explain '#NAME' tells about the commands that exist";
     ExchangeMode = Vendor 20521: Error ProgramAbort 3 1, "axis exchange: offset mode unknown", hint "offset modes are CMDPOS, ACTPOS, OFFSETS, NO_OFFSETS, ALL";
     ExchangeName = Vendor 20524: Error ProgramAbort 3 1, "axis exchange: axis name wrong", hint "axis names begin with X, Y, Z, A, B, C, U, V, W or Q and have up to 16 characters";
@@ -126,13 +129,18 @@ conditions! {
     FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 before";
     CoordinateSystemSyntax = Vendor 20675: Error ProgramAbort 3 1, "syntax error in #CS ON[...]", hint "#CS ON [x,y,z,a,b,c], #CS ON [number], #CS DEF [number][x,y,z,a,b,c], #CS OFF [ALL]";
     DwellOtherAxes = Vendor 20685: Warning None 1 1, "G04 with further axes", hint "the time stands behind the first main axis; write the motion in a block of its own";
+    KinematicsWhileActive = Vendor 20687: Error ProgramAbort 3 1, "kinematics changed under an active transformation", cause "#KIN ID under #TRAFO ON", hint "write #TRAFO OFF before #KIN ID";
     InsertionsWithoutMotion = Vendor 20701: Warning None 1 1, "two of G301/G302 without motion between them", hint "leave one of the two out";
     MacroNesting = Vendor 20734: Error ProgramAbort 3 1, "nesting stack exhausted", hint "does the macro use itself?";
+    ToolTwice = Vendor 20738: Error ProgramAbort 3 1, "D and V.G.WZ_AKT in one block", hint "write one of the two into a block of its own";
     DwellRange = Vendor 20752: Error ProgramAbort 3 1, "dwell time out of range", hint "the time stands in seconds";
+    MTwice = Vendor 20765: Error ProgramAbort 3 1, "M function twice in one block", cause "M10 M10", hint "leave one of the two out";
+    HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "leave one of the two out";
     AxisNameUnknown = Vendor 20797: Error ProgramAbort 3 1, "unknown axis designation in a command", hint "write the name of an axis of the channel";
     LabelTwice = Vendor 20836: Error ProgramAbort 3 1, "label defined twice", hint "give one of the two another name";
     MirrorSwitch = Vendor 20860: Error ProgramAbort 3 1, "mirroring is switched by 1 and -1 only", cause "G351 X2", hint "-1 mirrors the axis, 1 does not";
     VariableType = Vendor 20908: Error ProgramAbort 3 1, "variable type cannot be declared", hint "types are BOOLEAN, SGN08, UNS08, SGN16, UNS16, SGN32, UNS32, REAL64, STRING[n]";
+    VariableExists = Vendor 20909: Error ProgramAbort 3 1, "variable exists already", cause "two #VAR of one name", hint "leave the second #VAR out, or remove the variable by #DELETE before it";
     ArrayNotDeclared = Vendor 20921: Error ProgramAbort 3 1, "P array not declared", hint "declare it between #VAR and #ENDVAR";
     SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before";
     CentreAndRadius = Vendor 21024: Error ProgramAbort 3 1, "centre and radius both given", hint "leave R out, or I, J and K";
@@ -147,6 +155,7 @@ conditions! {
     OpenIfLocal = Vendor 21500: Error ProgramAbort 3 1, "open $IF in a local subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
     OpenIfMain = Vendor 21501: Error ProgramAbort 3 1, "open $IF in the main program", cause "the branch is not taken", hint "write $ENDIF before the end of the program";
     OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
+    BehindCall = Vendor 21542: Error ProgramAbort 3 1, "NC command behind a subroutine or cycle call", cause "LL SUB Z300", hint "write it before the call or into the next block";
     ParameterOutsideCycle = Vendor 21544: Error ProgramAbort 3 1, "V.G.@P[i].VALID outside a cycle", hint "ask for it inside the cycle";
     SlopeType = Vendor 21629: Error ProgramAbort 3 1, "unknown identifier in #SLOPE[TYPE=..]", hint "types are STEP, TRAPEZ, SIN2, HSC";
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
@@ -220,6 +229,7 @@ conditions! {
     ContouringNotPossible = Vendor 120207: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "exclude the corner with G260";
     BlockTooShort = Vendor 120216: Warning None 1 0, "block too short for contouring", hint "lower PATH_DEV or the corner distances, or join the short blocks";
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "switch contouring off before the feed group changes";
+    SoftContouringActive = Vendor 120698: Error ProgramAbort 6 1, "contouring mode changed to or from DIST_SOFT while contouring is active", cause "#CONTOUR MODE [DIST_SOFT] under G261 of another mode", hint "write G260 before #CONTOUR MODE and G261 behind it";
     ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY tells about a key; --strict refuses unknown ones";
     ListNumber = Vendor 1001138: Warning None 1 2, "bad number format or value outside the type's range", cause "value limited to min/max, or 0 if not a number; loading goes on", hint "numbers are written 10, -10, 1.5 or 0x101";
     InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "other characters than those of the dialect may stand in comments and strings only";
@@ -279,7 +289,7 @@ conditions! {
     InputNoEffect = Kontur 77 "K-INPUT-NOEFFECT": Warning None 1 0, "real-time input without effect", cause "the message says what is off in the machine";
     ListAdvice = Kontur 78 "K-LIST-ADVICE": Note None 1 2, "list value outside what the documents recommend", cause "a recommendation: nothing is changed";
     PositionLoop = Kontur 79 "K-LOOP": Note None 1 2, "position loop simulated in another way than the list says", cause "P-AXIS-00320: loop in the drive, or none", hint "set kv (P-AXIS-00099) to the gain of the loop it stands for";
-    AxDevNotKept = Kontur 80 "K-AX-DEV": Warning None 1 1, "tolerance AX_DEV could not be kept", cause "axes with unequal kernels, or a corner that is final already", hint "axes with unequal filters cannot keep a tolerance; program MODE, FREQ and DAMPING";
+    AxDevNotKept = Kontur 80 "K-AX-DEV": Error ProgramAbort 3 0, "tolerance AX_DEV could not be kept", cause "neither a lower speed nor a rest keeps it", hint "give the axes the same filter, or allow more AX_DEV";
     Message = Kontur 81 "K-MSG": Note None 1 1, "message of the program (#MSG)";
     Internal = Kontur 82 "K-INTERNAL": Error AllStop 8 0, "internal error of kontur", hint "this is an error of kontur itself; the program and the machine lists help to find it";
     Held = Kontur 83 "K-HELD": Error ProgramAbort 3 0, "path held for ever by feedhold or override 0, run stopped", cause "no later time stamp of the inputs releases it";

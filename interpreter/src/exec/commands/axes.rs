@@ -5,7 +5,7 @@
 //!
 //! Source: TF5200 programming manual, axis exchange; TF5250 Vibration Guard.
 
-use super::Call;
+use super::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -18,14 +18,24 @@ const OPTIONS: &[&str] = &["CMDPOS", "ACTPOS", "OFFSETS", "NO_OFFSETS", "ALL"];
 /// Places of an axis in the channel.
 const PLACES: u32 = 32;
 
+/// Row of `#PUT AX`.
+pub(super) const PUT_AX: Row = Row::run("PUT AX", put)
+    .form("#PUT AX [name]")
+    .example("#PUT AX [X]")
+    .meaning("axis exchange: takes axes into the channel or gives them back")
+    .note(
+        "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %",
+    )
+    .related(&["20312", "21251", "21372", "#VIB GUARD"]);
+
 /// `#PUT AX [X, ..]`, `#PUT AX ALL`: an axis that is not there is legal.
 pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     exchange(decoder, call.span());
     let all = call.rest.iter().chain(&call.command.tail).any(|w| w.is("ALL"));
     if all {
-        decoder.axis_names.fill(None);
+        decoder.names.axes.fill(None);
         for main in 0..3 {
-            decoder.coordinates.set_main_axis(main, None);
+            decoder.geometry.coordinates.set_main_axis(main, None);
         }
     } else if let Some(word) = call.rest.first() {
         return Err(call.unexpected(word));
@@ -46,6 +56,16 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
+/// Row of `#CALL AX`.
+pub(super) const CALL_AX: Row = Row::run("CALL AX", call)
+    .form("#CALL AX [name,number,index]")
+    .example("#CALL AX [X,1,0]")
+    .meaning("axis exchange: takes axes into the channel or gives them back")
+    .note(
+        "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %",
+    )
+    .related(&["20312", "21251", "21372", "#VIB GUARD"]);
+
 /// `#CALL AX [FAST] [name, number, index, options]..`.
 pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     exchange(decoder, call.span());
@@ -55,15 +75,25 @@ pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     take_all(decoder, call)
 }
 
+/// Row of `#SET AX`.
+pub(super) const SET_AX: Row = Row::run("SET AX", set)
+    .form("#SET AX [name,number,index]")
+    .example("#SET AX [X,1,0]")
+    .meaning("axis exchange: takes axes into the channel or gives them back")
+    .note(
+        "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %",
+    )
+    .related(&["20312", "21251", "21372", "#VIB GUARD"]);
+
 /// `#SET AX [name, number, index, options]..`: a new set of axes.
 pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     exchange(decoder, call.span());
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
-    decoder.axis_names.fill(None);
+    decoder.names.axes.fill(None);
     for main in 0..3 {
-        decoder.coordinates.set_main_axis(main, None);
+        decoder.geometry.coordinates.set_main_axis(main, None);
     }
     take_all(decoder, call)
 }
@@ -74,11 +104,11 @@ pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [word] if word.is("DEFAULT") => {
             for axis in 0..decoder.machine.axes.len() {
-                decoder.axis_names[axis] = Some(decoder.machine.axes[axis].name().to_owned());
+                decoder.names.axes[axis] = Some(decoder.machine.axes[axis].name().to_owned());
             }
             for main in 0..3 {
                 let axis = (main < decoder.machine.axes.len()).then_some(main);
-                decoder.coordinates.set_main_axis(main, axis);
+                decoder.geometry.coordinates.set_main_axis(main, axis);
             }
             decoder.names_changed();
             Ok(())
@@ -95,7 +125,7 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
     call.no_more_words()?;
     let mut members = vec![false; decoder.machine.axes.len()];
     let Some(group) = call.command.groups.first() else {
-        decoder.feed_axes = decoder.machine.channel.feed_axes.clone();
+        decoder.motion.feed_axes = decoder.machine.channel.feed_axes.clone();
         decoder.dynamics_changed();
         return Ok(());
     };
@@ -112,7 +142,7 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
             }
         }
     }
-    decoder.feed_axes = members;
+    decoder.motion.feed_axes = members;
     decoder.dynamics_changed();
     Ok(())
 }
@@ -134,9 +164,9 @@ fn exchange(decoder: &mut Decoder, span: Span) {
 }
 
 fn release(decoder: &mut Decoder, axis: usize) {
-    decoder.axis_names[axis] = None;
-    if let Some(main) = decoder.coordinates.main_index(axis) {
-        decoder.coordinates.set_main_axis(main, None);
+    decoder.names.axes[axis] = None;
+    if let Some(main) = decoder.geometry.coordinates.main_index(axis) {
+        decoder.geometry.coordinates.set_main_axis(main, None);
     }
 }
 
@@ -218,11 +248,11 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         (Condition::ExchangeNumber, "the axis index is missing"),
         group.span,
     )?;
-    let Some(logical) = crate::exec::expr::whole(logical, 1, 65535) else {
+    let Some(logical) = crate::exec::values::expr::whole(logical, 1, 65535) else {
         let text = format!("logical axis number {logical} is outside 1 to 65535");
         return Err(Fault::new(Condition::ExchangeNumberRange, text, at(1)));
     };
-    let Some(index) = crate::exec::expr::whole(index, 0, PLACES - 1) else {
+    let Some(index) = crate::exec::values::expr::whole(index, 0, PLACES - 1) else {
         let text = format!("axis index {index} is outside 0 to {}", PLACES - 1);
         return Err(Fault::new(Condition::Range, text, at(2)));
     };
@@ -243,11 +273,11 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
     if let Some(other) = decoder.axis_of_name(&letters).filter(|other| *other != axis) {
         release(decoder, other);
     }
-    decoder.axis_names[axis] = Some(letters);
+    decoder.names.axes[axis] = Some(letters);
     if index < 3 {
-        decoder.coordinates.set_main_axis(index as usize, Some(axis));
+        decoder.geometry.coordinates.set_main_axis(index as usize, Some(axis));
     }
     // weights of feedforward of an exchanged axis return to 100 %
-    decoder.feedforward.weight_ratios[axis] = 1.0;
+    decoder.motion.feedforward.weight_ratios[axis] = 1.0;
     Ok(())
 }

@@ -3,157 +3,180 @@
 //!
 //! Source: TF5200 programming manual.
 
-use super::keys::{flag, number};
-use super::{Call, Key, Kind, arguments};
+use super::keys::{above_zero, arguments, at_least, between};
+use super::{Call, Row};
 use crate::diag::{Condition, ValueKind};
-use crate::exec::contouring::{Contouring, Mode};
+use crate::exec::contour::contouring::{Contouring, Mode};
 use crate::exec::decoder::Decoder;
-use crate::exec::expr::is_true;
 use crate::exec::fault::{Fault, Outcome};
-use crate::syntax::ast::{Group, ItemKind, ItemValue};
+use crate::exec::values::expr::is_true;
+use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
 use kontur_motion::block::{CurveJerk, VectorLimits};
 
-const fn maybe(name: &'static str) -> Key {
-    Key { name, kind: Kind::MaybeNumber }
+arguments! {
+    /// Keys of `#CONTOUR MODE`.
+    struct ContourArguments {
+        dev: Flag "DEV", "", "corners within PATH_DEV, the mode at program start";
+        dist: Flag "DIST", "", "corners from PRE_DIST to POST_DIST";
+        dist_soft: Flag "DIST_SOFT", "", "rounded as PTP (K-0111)";
+        dist_master: Flag "DIST_MASTER", "", "rounded as PTP (K-0111)";
+        pos: Flag "POS", "", "as DIST, through an interim point X Y Z (X2.7 or X=2.7)";
+        ptp: Flag "PTP", "", "PATH_DEV or PATH_DIST";
+        auto_dev: Flag "AUTO_DEV", "", "as DEV";
+        auto_vel: MaybeNumber "AUTO_VEL", "", "not supported";
+        path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default 1";
+        pre_dist: Number "PRE_DIST" in at_least(0.0), "mm", "default 1";
+        post_dist: Number "POST_DIST" in at_least(0.0), "mm", "default 1";
+        path_dist: Number "PATH_DIST" in at_least(-1.0), "mm", "";
+        relevant_path: Number "RELEVANT_PATH" in at_least(0.0), "mm", "default 0; shorter blocks are skipped";
+        track_dev: Number "TRACK_DEV" in between(0.0, 1e6), "deg", "default 0";
+        relevant_track: Number "RELEVANT_TRACK" in between(0.0, 1e6), "deg", "default 0";
+        remain_part: Number "REMAIN_PART" in between(0.0, 100.0), "%", "default 0; part of a block that stays";
+        max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "";
+        const_vel: MaybeNumber "CONST_VEL", "", "constant velocity in the corner";
+        check_jerk: MaybeNumber "CHECK_JERK" in between(0.0, 3.0), "", "as P-CHAN-00110";
+        track_dist: Number "TRACK_DIST", "", "no effect";
+        merge: MaybeNumber "MERGE", "", "no effect";
+        sym_dist: Number "SYM_DIST", "", "not supported";
+        acc_max: Number "ACC_MAX", "", "no effect";
+        acc_min: Number "ACC_MIN", "", "no effect";
+        ramp_time: Number "RAMP_TIME", "", "no effect";
+        dist_weight: Number "DIST_WEIGHT", "", "no effect";
+        pre_action: Flag "PRE_ACTION", "", "functions act at the corner (K-0111)";
+        _inter_action: Flag "INTER_ACTION", "", "functions act at the corner";
+        post_action: Flag "POST_ACTION", "", "functions act at the corner (K-0111)";
+    }
 }
 
-/// Modes that take a word.
-const MODES: &[(&str, Mode)] = &[
-    ("DEV", Mode::Dev),
-    ("AUTO_DEV", Mode::Dev),
-    ("DIST", Mode::Dist),
-    ("POS", Mode::Pos),
-    ("PTP", Mode::Ptp),
-    ("DIST_SOFT", Mode::DistSoft),
-    ("DIST_MASTER", Mode::DistMaster),
-];
+impl ContourArguments {
+    /// Modes that are written, with their words and places.
+    fn modes(&self) -> Vec<(&'static str, Mode, Span)> {
+        let modes = [
+            ("DEV", Mode::Dev, self.dev),
+            ("AUTO_DEV", Mode::Dev, self.auto_dev),
+            ("DIST", Mode::Dist, self.dist),
+            ("POS", Mode::Pos, self.pos),
+            ("PTP", Mode::Ptp, self.ptp),
+            ("DIST_SOFT", Mode::DistSoft, self.dist_soft),
+            ("DIST_MASTER", Mode::DistMaster, self.dist_master),
+        ];
+        modes.into_iter().filter_map(|(word, mode, at)| Some((word, mode, at?))).collect()
+    }
 
-/// `#CONTOUR MODE [ON|OFF] [DEV .. ]`: a key that is not written keeps its value.
-pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    /// Smallest `PATH_DEV` in mm: one increment of the language.
-    const PATH_DEV_MIN_MM: f64 = 1e-4;
-    const KEYS: &[Key] = &[
-        flag("DEV"),
-        flag("DIST"),
-        flag("DIST_SOFT"),
-        flag("DIST_MASTER"),
-        flag("POS"),
-        flag("PTP"),
-        flag("AUTO_DEV"),
-        maybe("AUTO_VEL"),
-        number("PATH_DEV"),
-        number("RELEVANT_PATH"),
-        number("TRACK_DEV"),
-        number("RELEVANT_TRACK"),
-        number("REMAIN_PART"),
-        maybe("CHECK_JERK"),
-        number("MAX_ANGLE"),
-        maybe("CONST_VEL"),
-        number("PRE_DIST"),
-        number("POST_DIST"),
-        number("PATH_DIST"),
-        number("TRACK_DIST"),
-        maybe("MERGE"),
-        number("SYM_DIST"),
-        number("ACC_MAX"),
-        number("ACC_MIN"),
-        number("RAMP_TIME"),
-        number("DIST_WEIGHT"),
-        flag("PRE_ACTION"),
-        flag("INTER_ACTION"),
-        flag("POST_ACTION"),
-    ];
-    call.no_more_words()?;
-    let unit = decoder.tolerance_unit_mm();
-    let mut settings = decoder.contouring;
-    let group = points(decoder, call.command.groups.first(), &mut settings)?;
-    let keys = arguments(decoder, "#CONTOUR MODE", group.as_ref(), KEYS);
-    if let Some(span) = keys.place("AUTO_VEL").or(keys.place("SYM_DIST")) {
-        return Err(Fault::unsupported("#CONTOUR MODE [AUTO_VEL] and [SYM_DIST]", span));
+    /// Keys without effect that are written.
+    fn without_effect(&self) -> Vec<(&'static str, Span)> {
+        let number = |key: Option<(f64, Span)>| key.map(|(_, span)| span);
+        let keys = [
+            ("MERGE", self.merge.map(|(_, span)| span)),
+            ("TRACK_DIST", number(self.track_dist)),
+            ("ACC_MAX", number(self.acc_max)),
+            ("ACC_MIN", number(self.acc_min)),
+            ("RAMP_TIME", number(self.ramp_time)),
+            ("DIST_WEIGHT", number(self.dist_weight)),
+        ];
+        keys.into_iter().filter_map(|(key, at)| Some((key, at?))).collect()
     }
-    if let Some((x, span)) = keys.number("PATH_DEV") {
-        let mm = x * unit;
-        if mm < PATH_DEV_MIN_MM {
-            let text = format!("PATH_DEV={x} is below the minimum of {PATH_DEV_MIN_MM} mm");
-            return Err(Fault::new(Condition::PathDevTooSmall, text, span).with(|d| {
-                d.value(ValueKind::Wrong, mm * 1e4, "0.1um").value(
-                    ValueKind::LowerLimit,
-                    1.0,
-                    "0.1um",
-                )
-            }));
-        }
-    }
-    let mut modes = MODES.iter().filter(|(name, _)| keys.has(name));
-    if let Some((first, mode)) = modes.next() {
-        settings.mode = *mode;
-        if let Some((second, _)) = modes.next() {
-            let text = format!("#CONTOUR MODE: {first} and {second} are two modes");
-            let at = keys.place(second).unwrap_or(call.span());
-            return Err(Fault::new(Condition::DuplicateKey, text, at));
-        }
-    }
-    // POS alone allows a distance of 0
-    for key in ["PRE_DIST", "POST_DIST"] {
-        if let Some((x, span)) = keys.number(key)
-            && settings.mode != Mode::Pos
-            && x * unit < PATH_DEV_MIN_MM
-        {
-            let text = format!("{key}={x} is below the minimum of {PATH_DEV_MIN_MM} mm");
-            return Err(Fault::new(Condition::CornerDistanceTooSmall, text, span).with(|d| {
+}
+
+/// Row of `#CONTOUR MODE`.
+pub(super) const CONTOUR_MODE: Row = Row::run("CONTOUR MODE", contour_mode)
+    .form("#CONTOUR MODE [ON|OFF] [DEV|DIST|DIST_SOFT|DIST_MASTER|POS|PTP keys]")
+    .meaning("how corners are rounded by polynomials; ON also switches contouring on (G261), OFF off (G260)")
+    .keys(ContourArguments::KEYS)
+    .note("program start: DEV with PATH_DEV 1; a key that is not written keeps its value")
+    .example("#CONTOUR MODE [DEV PATH_DEV=0.05]")
+    .related(&["G261", "120129", "120206", "120216", "P-CHAN-00439"]);
+
+/// Smallest `PATH_DEV` and distance in mm: one increment of the language.
+const LEAST_MM: f64 = 1e-4;
+
+/// 120129, 120131 for a length below the least one.
+fn at_least_an_increment(
+    condition: Condition,
+    key: &str,
+    given: Option<(f64, Span)>,
+    unit: f64,
+) -> Outcome<()> {
+    match given {
+        Some((x, span)) if x * unit < LEAST_MM => {
+            let text = format!("{key}={x} is below the minimum of {LEAST_MM} mm");
+            Err(Fault::new(condition, text, span).with(|d| {
                 d.value(ValueKind::Wrong, x * unit * 1e4, "0.1um").value(
                     ValueKind::LowerLimit,
                     1.0,
                     "0.1um",
                 )
-            }));
+            }))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// `#CONTOUR MODE [ON|OFF] [DEV .. ]`: a key that is not written keeps its value.
+fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let unit = decoder.tolerance_unit_mm();
+    let mut settings = decoder.contour.contouring;
+    let group = points(decoder, call.command.groups.first(), &mut settings)?;
+    let keys = ContourArguments::read(decoder, &call.title(), group.as_ref())?;
+    let unsupported = keys.auto_vel.map(|(_, at)| at).or(keys.sym_dist.map(|(_, at)| at));
+    if let Some(span) = unsupported {
+        return Err(Fault::unsupported("#CONTOUR MODE [AUTO_VEL] and [SYM_DIST]", span));
+    }
+    at_least_an_increment(Condition::PathDevTooSmall, "PATH_DEV", keys.path_dev, unit)?;
+    match keys.modes()[..] {
+        [] => {}
+        [(_, mode, _)] => settings.mode = mode,
+        [(first, _, _), (second, _, at), ..] => {
+            let text = format!("#CONTOUR MODE: {first} and {second} are two modes");
+            return Err(Fault::new(Condition::DuplicateKey, text, at));
         }
     }
-    let length = |name: &str, low: f64| {
-        let x = keys.in_range(name, low, f64::MAX, Condition::Range)?;
-        Ok::<Option<f64>, Box<Fault>>(x.map(|x| x * unit))
-    };
-    let set = |slot: &mut f64, new: Option<f64>| *slot = new.unwrap_or(*slot);
-    set(&mut settings.path_dev_mm, length("PATH_DEV", 0.0)?);
-    set(&mut settings.pre_mm, length("PRE_DIST", 0.0)?);
-    set(&mut settings.post_mm, length("POST_DIST", 0.0)?);
-    set(&mut settings.path_dist_mm, length("PATH_DIST", -1.0)?);
+    // POS alone allows a distance of 0
+    if settings.mode != Mode::Pos {
+        let condition = Condition::CornerDistanceTooSmall;
+        at_least_an_increment(condition, "PRE_DIST", keys.pre_dist, unit)?;
+        at_least_an_increment(condition, "POST_DIST", keys.post_dist, unit)?;
+    }
+    set(&mut settings.path_dev_mm, keys.path_dev, unit);
+    set(&mut settings.pre_mm, keys.pre_dist, unit);
+    set(&mut settings.post_mm, keys.post_dist, unit);
+    set(&mut settings.path_dist_mm, keys.path_dist, unit);
     let common = &mut settings.common;
-    set(&mut common.relevant_path_mm, length("RELEVANT_PATH", 0.0)?);
-    set(&mut common.track_dev_deg, keys.in_range("TRACK_DEV", 0.0, 1e6, Condition::Range)?);
-    set(
-        &mut common.relevant_track_deg,
-        keys.in_range("RELEVANT_TRACK", 0.0, 1e6, Condition::Range)?,
-    );
-    let remain = keys.in_range("REMAIN_PART", 0.0, 100.0, Condition::Range)?;
-    set(&mut common.remain_ratio, remain.map(|p| p / 100.0));
-    set(&mut common.max_angle_deg, keys.in_range("MAX_ANGLE", 0.0, 180.0, Condition::Range)?);
-    if keys.has("CONST_VEL") {
-        common.constant_velocity = keys.number("CONST_VEL").is_none_or(|(x, _)| is_true(x));
+    set(&mut common.relevant_path_mm, keys.relevant_path, unit);
+    set(&mut common.track_dev_deg, keys.track_dev, 1.0);
+    set(&mut common.relevant_track_deg, keys.relevant_track, 1.0);
+    if let Some((percent, _)) = keys.remain_part {
+        common.remain_ratio = percent / 100.0;
     }
-    if keys.has("CHECK_JERK") {
-        let mode = keys.in_range("CHECK_JERK", 0.0, 3.0, Condition::Range)?.unwrap_or(1.0);
-        common.curve_jerk = Some(match crate::exec::expr::whole(mode, 0, 3) {
-            Some(0) => CurveJerk::Unlimited,
-            Some(2) => CurveJerk::Ramps,
-            _ => CurveJerk::Geometric,
-        });
+    set(&mut common.max_angle_deg, keys.max_angle, 1.0);
+    switch(&mut common.constant_velocity, keys.const_vel);
+    if let Some((mode, _)) = keys.check_jerk {
+        common.curve_jerk =
+            Some(match crate::exec::values::expr::whole(mode.unwrap_or(1.0), 0, 3) {
+                Some(0) => CurveJerk::Unlimited,
+                Some(2) => CurveJerk::Ramps,
+                _ => CurveJerk::Geometric,
+            });
     }
-    decoder.contouring = settings;
-    for action in ["PRE_ACTION", "POST_ACTION"] {
-        if let Some(span) = keys.place(action) {
+    let old = decoder.contour.contouring.mode;
+    let soft = old == Mode::DistSoft || settings.mode == Mode::DistSoft;
+    if decoder.modal.contouring && soft && old != settings.mode {
+        let text = "#CONTOUR MODE to or from DIST_SOFT while contouring is active (G261)";
+        return Err(Fault::new(Condition::SoftContouringActive, text, call.span()));
+    }
+    decoder.contour.contouring = settings;
+    for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
+        if let Some(span) = at {
             let text = format!("{action}: functions act at the corner here");
             decoder.note_once(action, Fault::new(Condition::Fallback, text, span));
         }
     }
-    let soft = matches!(settings.mode, Mode::DistSoft | Mode::DistMaster);
-    for key in ["MERGE", "TRACK_DIST", "ACC_MAX", "ACC_MIN", "RAMP_TIME", "DIST_WEIGHT"] {
-        if let Some(span) = keys.place(key) {
-            let text = format!("#CONTOUR MODE: {key} has no effect");
-            decoder.note_once(key, Fault::new(Condition::Fallback, text, span));
-        }
+    for (key, span) in keys.without_effect() {
+        let text = format!("#CONTOUR MODE: {key} has no effect");
+        decoder.note_once(key, Fault::new(Condition::Fallback, text, span));
     }
-    if soft {
+    if matches!(settings.mode, Mode::DistSoft | Mode::DistMaster) {
         let text = "#CONTOUR MODE: the curve of this mode is not published, corners are rounded as with PTP";
         decoder.note_once("DIST_SOFT", Fault::new(Condition::Fallback, text, call.span()));
     }
@@ -162,6 +185,20 @@ pub(super) fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
         decoder.modal.exact_stop &= !on;
     }
     Ok(())
+}
+
+/// Takes over a number that is written, in its unit.
+fn set(slot: &mut f64, written: Option<(f64, Span)>, unit: f64) {
+    if let Some((x, _)) = written {
+        *slot = x * unit;
+    }
+}
+
+/// Takes over a switch that is written: a key alone switches on.
+fn switch(slot: &mut bool, written: Option<(Option<f64>, Span)>) {
+    if let Some((x, _)) = written {
+        *slot = x.is_none_or(is_true);
+    }
 }
 
 /// Takes the coordinates of an interim point out of the bracket; the rest is keys.
@@ -189,38 +226,51 @@ fn points(
             rest.items.push(item.clone());
             continue;
         };
-        if !decoder.coordinates.frame().is_identity() {
+        if !decoder.geometry.coordinates.frame().is_identity() {
             let what = "an interim point of #CONTOUR MODE in a frame";
             return Err(Fault::unsupported(what, item.span));
         }
         let value = value * decoder.axis_unit(axis);
-        settings.point_mm[axis] = Some(value + decoder.coordinates.active_offset(axis));
+        settings.point_mm[axis] = Some(value + decoder.geometry.coordinates.active_offset(axis));
     }
     Ok(Some(rest))
 }
 
+arguments! {
+    /// Keys of `#HSC`.
+    struct HscArguments {
+        bspline: Flag "BSPLINE", "", "the first key: a B-spline through short blocks";
+        path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default 0.2";
+        track_dev: Number "TRACK_DEV" in between(0.0, 1e6), "deg", "default 5; 0: not monitored";
+        merge: MaybeNumber "MERGE", "", "no effect";
+        auto_off_path: MaybeNumber "AUTO_OFF_PATH", "", "ends the spline";
+        auto_off_track: MaybeNumber "AUTO_OFF_TRACK", "", "ends the spline";
+        auto_off_g00: MaybeNumber "AUTO_OFF_G00", "", "ends the spline";
+        _auto_off_g60: MaybeNumber "AUTO_OFF_G60", "", "always so here";
+        max_path_length: Number "MAX_PATH_LENGTH" in at_least(0.0), "mm", "longer blocks stay";
+        max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "sharper corners stay";
+        opmode: Number "OPMODE", "", "1: corners within CONTERROR";
+        conterror: Number "CONTERROR" in at_least(0.0), "mm", "default 0.1";
+    }
+}
+
+/// Row of `#HSC`.
+pub(super) const HSC: Row = Row::run("HSC", hsc)
+    .form("#HSC [ON|OFF] [BSPLINE keys]   #HSC [ON|OFF] [OPMODE=1 CONTERROR=..]")
+    .meaning("puts a B-spline through short blocks; OPMODE=1 rounds corners within CONTERROR")
+    .keys(HscArguments::KEYS)
+    .note("BSPLINE takes the noise of rounded coordinates out first, a tenth of the tolerances and 3 um at most")
+    .example("#HSC ON [BSPLINE PATH_DEV=0.05]")
+    .related(&["120393", "120396"]);
+
 /// `#HSC [ON|OFF] [BSPLINE ..]`, `#HSC [..] [OPMODE= CONTERROR=]`.
-pub(super) fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] = &[
-        flag("BSPLINE"),
-        number("PATH_DEV"),
-        number("TRACK_DEV"),
-        maybe("MERGE"),
-        maybe("AUTO_OFF_PATH"),
-        maybe("AUTO_OFF_TRACK"),
-        maybe("AUTO_OFF_G00"),
-        maybe("AUTO_OFF_G60"),
-        number("MAX_PATH_LENGTH"),
-        number("MAX_ANGLE"),
-        number("OPMODE"),
-        number("CONTERROR"),
-    ];
+fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let unit = decoder.tolerance_unit_mm();
-    let keys = arguments(decoder, "#HSC", call.command.groups.first(), KEYS);
-    let mut hsc = decoder.hsc;
-    if let Some((mode, span)) = keys.number("OPMODE") {
-        match crate::exec::expr::whole(mode, 1, 2) {
+    let keys = HscArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    let mut hsc = decoder.contour.hsc;
+    if let Some((mode, span)) = keys.opmode {
+        match crate::exec::values::expr::whole(mode, 1, 2) {
             Some(1) => hsc.rounds_corners = true,
             Some(_) => return Err(Fault::unsupported("#HSC [OPMODE=2]", span)),
             None => {
@@ -229,51 +279,54 @@ pub(super) fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             }
         }
     }
-    if keys.has("BSPLINE") {
+    if keys.bspline.is_some() {
         hsc.rounds_corners = false;
     }
-    let set = |slot: &mut f64, new: Option<f64>| *slot = new.unwrap_or(*slot);
-    let length = |name: &str| {
-        let x = keys.in_range(name, 0.0, f64::MAX, Condition::Range)?;
-        Ok::<Option<f64>, Box<Fault>>(x.map(|x| x * unit))
-    };
-    set(&mut hsc.spline.path_dev_mm, length("PATH_DEV")?);
-    set(&mut hsc.spline.track_dev_deg, keys.in_range("TRACK_DEV", 0.0, 1e6, Condition::Range)?);
-    set(&mut hsc.spline.max_length_mm, length("MAX_PATH_LENGTH")?);
-    set(&mut hsc.spline.max_angle_deg, keys.in_range("MAX_ANGLE", 0.0, 180.0, Condition::Range)?);
-    set(&mut hsc.contour_error_mm, length("CONTERROR")?);
-    let switch = |name: &str, slot: &mut bool| {
-        if keys.has(name) {
-            *slot = keys.number(name).is_none_or(|(x, _)| is_true(x));
-        }
-    };
-    switch("AUTO_OFF_PATH", &mut hsc.spline.off_at_path_dev);
-    switch("AUTO_OFF_TRACK", &mut hsc.spline.off_at_track_dev);
-    switch("AUTO_OFF_G00", &mut hsc.spline.off_at_rapid);
-    if let Some(span) = keys.place("MERGE") {
+    set(&mut hsc.spline.path_dev_mm, keys.path_dev, unit);
+    set(&mut hsc.spline.track_dev_deg, keys.track_dev, 1.0);
+    set(&mut hsc.spline.max_length_mm, keys.max_path_length, unit);
+    set(&mut hsc.spline.max_angle_deg, keys.max_angle, 1.0);
+    set(&mut hsc.contour_error_mm, keys.conterror, unit);
+    switch(&mut hsc.spline.off_at_path_dev, keys.auto_off_path);
+    switch(&mut hsc.spline.off_at_track_dev, keys.auto_off_track);
+    switch(&mut hsc.spline.off_at_rapid, keys.auto_off_g00);
+    if let Some((_, span)) = keys.merge {
         let text = "#HSC: MERGE has no effect";
         decoder.note_once("HSC MERGE", Fault::new(Condition::Fallback, text, span));
     }
     hsc.on = call.command.on.unwrap_or(hsc.on);
-    decoder.hsc = hsc;
+    decoder.contour.hsc = hsc;
     Ok(())
 }
+
+arguments! {
+    /// Keys of `#VECTOR LIMIT`; without a value the configured limit.
+    struct VectorArguments {
+        vel: MaybeNumber "VEL" in above_zero(), "mm/min", "P-CHAN-00090";
+        acc: MaybeNumber "ACC" in above_zero(), "mm/s2", "P-CHAN-00002";
+        dec: MaybeNumber "DEC" in above_zero(), "mm/s2", "P-CHAN-00208";
+        jerk: MaybeNumber "JERK" in above_zero(), "mm/s3", "";
+        radial_acc: MaybeNumber "RADIAL_ACC" in above_zero(), "mm/s2", "P-CHAN-00361";
+        radial_jerk: MaybeNumber "RADIAL_JERK" in above_zero(), "mm/s3", "";
+        trans_acc: MaybeNumber "TRANS_ACC" in above_zero(), "mm/s2", "";
+        feed: Flag "FEED", "", "for feed blocks alone";
+        rapid: Flag "RAPID", "", "for rapid blocks alone";
+    }
+}
+
+/// Row of `#VECTOR LIMIT`.
+pub(super) const VECTOR_LIMIT: Row = Row::run("VECTOR LIMIT", vector_limit)
+    .form("#VECTOR LIMIT ON [VEL=.. ACC=.. DEC=.. JERK=.. RADIAL_ACC=.. RADIAL_JERK=.. TRANS_ACC=.. FEED RAPID]   #VECTOR LIMIT ON ALL   #VECTOR LIMIT OFF")
+    .meaning("limits speed and acceleration along the path")
+    .keys(VectorArguments::KEYS)
+    .note("a key without value takes the configured limit")
+    .example("#VECTOR LIMIT ON [ACC=2000]")
+    .related(&["P-CHAN-00002", "P-CHAN-00090", "P-CHAN-00208", "P-CHAN-00361", "P-CHAN-00351"]);
 
 /// `#VECTOR LIMIT ON [..]`, `ON ALL`, `OFF [VEL]`, `OFF`. FEED or RAPID restrict what is said to these blocks.
 ///
 /// Assumption: the meaning of FEED and RAPID, from their names; without them, or with both, all blocks are meant.
-pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] = &[
-        maybe("VEL"),
-        maybe("ACC"),
-        maybe("DEC"),
-        maybe("JERK"),
-        maybe("RADIAL_ACC"),
-        maybe("RADIAL_JERK"),
-        maybe("TRANS_ACC"),
-        flag("FEED"),
-        flag("RAPID"),
-    ];
+fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let Some(on) = call.command.on else {
         let text = "#VECTOR LIMIT needs ON or OFF";
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
@@ -282,18 +335,26 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     match &call.command.tail[..] {
         [] => {}
         [word] if word.is("ALL") => {
-            decoder.vector = [if on { listed } else { VectorLimits::default() }; 2];
+            decoder.motion.vector = [if on { listed } else { VectorLimits::default() }; 2];
             decoder.dynamics_changed();
             return Ok(());
         }
         [word, ..] => return Err(call.unexpected(word)),
     }
-    let keys = arguments(decoder, "#VECTOR LIMIT", call.command.groups.first(), KEYS);
-    let named = [keys.has("FEED"), keys.has("RAPID")];
+    let keys = VectorArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    let named = [keys.feed.is_some(), keys.rapid.is_some()];
     let meant = if named == [false, false] { [true, true] } else { named };
-    let limits = keys.count() - named.iter().filter(|n| **n).count();
-    if !on && limits == 0 {
-        for (vector, _) in decoder.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
+    let limits = [
+        keys.vel,
+        keys.acc,
+        keys.dec,
+        keys.jerk,
+        keys.radial_acc,
+        keys.radial_jerk,
+        keys.trans_acc,
+    ];
+    if !on && limits.iter().all(Option::is_none) {
+        for (vector, _) in decoder.motion.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
             *vector = VectorLimits::default();
         }
         decoder.dynamics_changed();
@@ -301,23 +362,18 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     }
     let unit = decoder.unit_mm();
     // VEL in mm/min, the others in mm/s2 and mm/s3
-    let value = |name: &str, scale: f64, listed: Option<f64>| -> Outcome<Option<Option<f64>>> {
-        if !on {
-            return Ok(keys.has(name).then_some(None));
-        }
-        match keys.in_range(name, f64::MIN_POSITIVE, f64::MAX, Condition::Range)? {
-            Some(x) => Ok(Some(Some(x * scale))),
-            None => Ok(keys.has(name).then_some(listed)),
-        }
+    let value = |key: Option<(Option<f64>, Span)>, scale: f64, listed: Option<f64>| {
+        let (x, _) = key?;
+        Some(if on { x.map(|x| x * scale).or(listed) } else { None })
     };
-    let vel = value("VEL", unit / 60.0, listed.vel_mm_s)?;
-    let acc = value("ACC", unit, listed.acc_mm_s2)?;
-    let dec = value("DEC", unit, listed.dec_mm_s2)?;
-    let jerk = value("JERK", unit, listed.jerk_mm_s3)?;
-    let radial_acc = value("RADIAL_ACC", unit, listed.radial_acc_mm_s2)?;
-    let radial_jerk = value("RADIAL_JERK", unit, listed.radial_jerk_mm_s3)?;
-    let trans_acc = value("TRANS_ACC", unit, listed.trans_acc_mm_s2)?;
-    for (v, _) in decoder.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
+    let vel = value(keys.vel, unit / 60.0, listed.vel_mm_s);
+    let acc = value(keys.acc, unit, listed.acc_mm_s2);
+    let dec = value(keys.dec, unit, listed.dec_mm_s2);
+    let jerk = value(keys.jerk, unit, listed.jerk_mm_s3);
+    let radial_acc = value(keys.radial_acc, unit, listed.radial_acc_mm_s2);
+    let radial_jerk = value(keys.radial_jerk, unit, listed.radial_jerk_mm_s3);
+    let trans_acc = value(keys.trans_acc, unit, listed.trans_acc_mm_s2);
+    for (v, _) in decoder.motion.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
         v.vel_mm_s = vel.unwrap_or(v.vel_mm_s);
         v.acc_mm_s2 = acc.unwrap_or(v.acc_mm_s2);
         v.dec_mm_s2 = dec.unwrap_or(v.dec_mm_s2);
@@ -330,8 +386,15 @@ pub(super) fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     Ok(())
 }
 
+/// Row of `#TRANSVELMIN`.
+pub(super) const TRANSVELMIN: Row = Row::run("TRANSVELMIN", transition_velocity)
+    .form("#TRANSVELMIN ON|OFF")
+    .meaning("least speed at block transitions")
+    .example("#TRANSVELMIN ON")
+    .related(&["P-AXIS-00013"]);
+
 /// `#TRANSVELMIN ON [v]`, `OFF`: lower bound of the velocity at kinks in mm/min.
-pub(super) fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let value = match (call.command.on, &call.command.arguments[..], call.command.groups.first()) {
         (Some(false), _, _) | (Some(true), [], None) => 0.0,
         (Some(true), [expr], _) => decoder.number(expr)?,
@@ -373,8 +436,16 @@ pub(super) fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Out
     Ok(())
 }
 
+/// Row of `#OVERRIDE`.
+pub(super) const OVERRIDE: Row = Row::run("OVERRIDE", path_override)
+    .form("#OVERRIDE [FEED_FACT=.. RAPID_FACT=..]")
+    .meaning("multiplies F and the rapid speed")
+    .keys(crate::exec::block::brackets::OverrideArguments::KEYS)
+    .example("#OVERRIDE [FEED_FACT=50]")
+    .related(&["P-CHAN-00066", "P-CHAN-00181", "G166"]);
+
 /// `#OVERRIDE [FEED_FACT= RAPID_FACT=]`.
-pub(super) fn path_override(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+fn path_override(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     decoder.set_overrides(None, call.command.groups.first(), "#OVERRIDE", call.span())
 }

@@ -2,32 +2,40 @@
 //!
 //! Source: TF5200 programming manual, coordinate systems; P-CHAN-00394 (rotations ZYX).
 
-use super::keys::number;
-use super::{Call, Key, arguments};
+use super::Call;
+use super::keys::arguments;
 use crate::diag::Condition;
-use crate::exec::coordinates::SYSTEMS_MAX;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::frame::Frame;
+use crate::exec::geometry::coordinates::SYSTEMS_MAX;
+use crate::exec::geometry::frame::Frame;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
+
+arguments! {
+    /// Keys of `#ROTATION`.
+    struct RotationArguments {
+        angle: Number "ANGLE", "deg", "default 0";
+        centre_1: Number "CENTER1", "mm", "default 0; from the origin of the program";
+        centre_2: Number "CENTER2", "mm", "default 0";
+    }
+}
 
 /// `#ROTATION ON [ANGLE= CENTER1= CENTER2=]`, `OFF`.
 pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] = &[number("ANGLE"), number("CENTER1"), number("CENTER2")];
     call.no_more_words()?;
-    let keys = arguments(decoder, "#ROTATION", call.command.groups.first(), KEYS);
+    let keys = RotationArguments::read(decoder, &call.title(), call.command.groups.first())?;
     match call.command.on {
         Some(true) => {
             let unit = decoder.unit_mm();
-            let value = |name: &str| keys.number(name).map(|(x, _)| x);
+            let value = |key: Option<(f64, Span)>| key.map_or(0.0, |(x, _)| x);
             // offsets of the centre from the origin of the program; 0 if not written
-            let centre = ["CENTER1", "CENTER2"].map(|n| Some(value(n).unwrap_or(0.0) * unit));
+            let centre = [keys.centre_1, keys.centre_2].map(|key| Some(value(key) * unit));
             let main = decoder.modal.plane.main_axes();
-            let deg = value("ANGLE").unwrap_or(0.0);
+            let deg = value(keys.angle);
             decoder.set_rotation([main[0], main[1]], deg, centre, call.span())
         }
         Some(false) => {
-            decoder.coordinates.set_rotation(None);
+            decoder.geometry.coordinates.set_rotation(None);
             Ok(())
         }
         None => Err(Fault::new(Condition::TokenUnknown, "#ROTATION needs ON or OFF", call.span())),
@@ -97,22 +105,23 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
     let command = call.command;
     match (command.on, &command.tail[..], &command.groups[..]) {
         (Some(false), [], []) => {
-            decoder.coordinates.pop_system();
+            decoder.geometry.coordinates.pop_system();
             Ok(())
         }
         (Some(false), [word], _) if word.is("ALL") => {
-            decoder.coordinates.clear_systems();
+            decoder.geometry.coordinates.clear_systems();
             Ok(())
         }
         (Some(true), [], groups) => {
-            if decoder.coordinates.systems() >= SYSTEMS_MAX {
+            if decoder.geometry.coordinates.systems() >= SYSTEMS_MAX {
                 let text = format!("more than {SYSTEMS_MAX} coordinate systems are active");
                 return Err(Fault::new(Condition::Range, text, call.span()));
             }
             let frame = match groups {
                 [] => {
-                    let id = decoder.last_system;
+                    let id = decoder.geometry.last_system;
                     decoder
+                        .geometry
                         .coordinates
                         .stored_system(id)
                         .ok_or_else(|| undefined(id, call.span()))?
@@ -121,6 +130,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
                 [group] if group.items.len() == 1 => {
                     let id = id_of(decoder, group)?;
                     decoder
+                        .geometry
                         .coordinates
                         .stored_system(id)
                         .ok_or_else(|| undefined(id, group.span))?
@@ -140,7 +150,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
                     ));
                 }
             };
-            decoder.coordinates.push_system(frame);
+            decoder.geometry.coordinates.push_system(frame);
             Ok(())
         }
         (_, [word, ..], _) => Err(call.unexpected(word)),
@@ -149,13 +159,13 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
 }
 
 fn store(decoder: &mut Decoder, id: u32, frame: Frame, span: Span) -> Outcome<()> {
-    let known = decoder.coordinates.stored_system(id).is_some();
-    if !known && decoder.coordinates.stored_systems() >= SYSTEMS_MAX {
+    let known = decoder.geometry.coordinates.stored_system(id).is_some();
+    if !known && decoder.geometry.coordinates.stored_systems() >= SYSTEMS_MAX {
         let text = format!("more than {SYSTEMS_MAX} coordinate systems are stored");
         return Err(Fault::new(Condition::Range, text, span));
     }
-    decoder.coordinates.store_system(id, frame);
-    decoder.last_system = id;
+    decoder.geometry.coordinates.store_system(id, frame);
+    decoder.geometry.last_system = id;
     Ok(())
 }
 
@@ -183,7 +193,7 @@ pub(super) fn define_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<(
 /// `#MCS ON|OFF`: nothing to do while no frame is active.
 pub(super) fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    if call.command.on == Some(true) && !decoder.coordinates.frame().is_identity() {
+    if call.command.on == Some(true) && !decoder.geometry.coordinates.frame().is_identity() {
         let what = "#MCS ON with an active coordinate system, rotation or mirroring";
         return Err(Fault::unsupported(what, call.span()));
     }
@@ -192,6 +202,13 @@ pub(super) fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Out
 
 /// `#TRAFO`, `#RTCP`, `#KIN ID`, `#ORI MODE`: kinematics.
 pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if call.name == "KIN ID" && decoder.geometry.transformation_on {
+        let text = "#KIN ID under an active kinematic transformation";
+        return Err(Fault::new(Condition::KinematicsWhileActive, text, call.span()));
+    }
+    if ["TRAFO", "RTCP"].contains(&call.name) {
+        decoder.geometry.transformation_on = call.command.on != Some(false);
+    }
     if call.command.on == Some(false) {
         return Ok(());
     }

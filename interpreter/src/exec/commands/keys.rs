@@ -1,4 +1,5 @@
-//! Keys of the brackets: read once, checked against the keys that a command knows.
+//! Keys of the brackets: one description per command, from which its arguments are read into a struct, checked, and
+//! explained.
 
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
@@ -6,40 +7,249 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::suggest;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 
+/// The arguments of a command: a struct with one field per key, and the description of the keys.
+///
+/// ```text
+/// arguments! {
+///     /// Keys of `#TIMER`.
+///     struct TimerKeys {
+///         id: Number "ID" in between(0.0, 127.0), "", "default 0";
+///     }
+/// }
+/// ```
+///
+/// A row is the field, the kind of its value, the key, perhaps the range (checked while reading, in the order of the
+/// rows), the unit and what is to be said besides. A field that begins with `_` is a key that is known and does nothing.
+macro_rules! arguments {
+    (
+        $(#[$doc:meta])*
+        $vis:vis struct $name:ident {
+            $($field:ident: $kind:ident $key:literal $(in $range:expr)?, $unit:literal, $text:literal;)*
+        }
+    ) => {
+        $(#[$doc])*
+        #[derive(Debug)]
+        $vis struct $name {
+            $($vis $field: Option<<$crate::exec::commands::keys::$kind as $crate::exec::commands::keys::Argument>::Value>,)*
+        }
+
+        impl $name {
+            /// What is known about the keys.
+            $vis const KEYS: &'static [$crate::exec::commands::keys::Key] = &[
+                $($crate::exec::commands::keys::Key {
+                    name: $key,
+                    kind: <$crate::exec::commands::keys::$kind as $crate::exec::commands::keys::Argument>::KIND,
+                    range: $crate::exec::commands::keys::optional([$($range)?]),
+                    unit: $unit,
+                    text: $text,
+                },)*
+            ];
+
+            /// Reads the bracket. Unknown keys are 21220, a key twice is K-DUPKEY; both are reported and left out.
+            ///
+            /// # Errors
+            /// The first key whose number is outside its range.
+            $vis fn read(
+                decoder: &mut $crate::exec::decoder::Decoder,
+                title: &str,
+                group: Option<&$crate::syntax::ast::Group>,
+            ) -> $crate::exec::fault::Outcome<Self> {
+                let found = $crate::exec::commands::keys::read_all(decoder, title, group, Self::KEYS)?;
+                Ok(Self {
+                    $($field: <$crate::exec::commands::keys::$kind as $crate::exec::commands::keys::Argument>::take(&found, $key),)*
+                })
+            }
+        }
+    };
+}
+pub(in crate::exec) use arguments;
+
 /// What stands behind a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::exec) enum Kind {
+pub(crate) enum KeyKind {
+    /// A number.
     Number,
     /// A number, or nothing.
     MaybeNumber,
-    /// An identifier.
+    /// An identifier or text.
     Word,
     /// Nothing.
     Flag,
-    /// A text or identifier.
-    Text,
+}
+
+/// A range of numbers and the condition of those outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Range {
+    low: f64,
+    high: f64,
+    /// The lower end does not belong to it.
+    open: bool,
+    condition: Condition,
+}
+
+/// From `low` to `high`.
+pub(in crate::exec) const fn between(low: f64, high: f64) -> Range {
+    Range { low, high, open: false, condition: Condition::Range }
+}
+
+/// From `low` upwards.
+pub(in crate::exec) const fn at_least(low: f64) -> Range {
+    between(low, f64::MAX)
+}
+
+/// Above 0.
+pub(in crate::exec) const fn above_zero() -> Range {
+    Range { open: true, ..at_least(0.0) }
+}
+
+/// Above 0, up to `high`.
+pub(in crate::exec) const fn above_zero_to(high: f64) -> Range {
+    Range { open: true, ..between(0.0, high) }
+}
+
+impl Range {
+    /// Another condition than K-RANGE.
+    pub(in crate::exec) const fn or(self, condition: Condition) -> Self {
+        Self { condition, ..self }
+    }
+
+    fn contains(&self, x: f64) -> bool {
+        (self.low..=self.high).contains(&x) && !(self.open && x <= self.low)
+    }
+
+    /// For the message of a wrong value.
+    fn allowed(&self) -> String {
+        let Self { low, high, .. } = self;
+        match (self.open, *high < f64::MAX) {
+            (true, false) => format!("values above {low}"),
+            (true, true) => format!("values above {low}, up to {high}"),
+            (false, false) => format!("{low} upwards"),
+            (false, true) => format!("{low} to {high}"),
+        }
+    }
+
+    /// For `explain`.
+    fn short(&self) -> String {
+        let Self { low, high, .. } = self;
+        match (self.open, *high < f64::MAX) {
+            (true, false) => format!("above {low}"),
+            (true, true) => format!("above {low} to {high}"),
+            (false, false) => format!(">= {low}"),
+            (false, true) => format!("{low}..{high}"),
+        }
+    }
 }
 
 /// A key that a command knows.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::exec) struct Key {
-    pub(in crate::exec) name: &'static str,
-    pub(in crate::exec) kind: Kind,
+pub(crate) struct Key {
+    /// As it is written.
+    pub(crate) name: &'static str,
+    /// What stands behind it.
+    pub(crate) kind: KeyKind,
+    /// Range of its number, `None`: any, or checked by the command.
+    pub(crate) range: Option<Range>,
+    /// Unit, empty if it has none.
+    pub(crate) unit: &'static str,
+    /// What else there is to say: default, key of the list.
+    pub(crate) text: &'static str,
 }
 
-/// A key with a number.
-pub(in crate::exec) const fn number(name: &'static str) -> Key {
-    Key { name, kind: Kind::Number }
+impl std::fmt::Display for Key {
+    /// `FREQ >= 1 Hz, default 30 (vib_guard.freq)`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)?;
+        if let Some(range) = &self.range {
+            write!(f, " {}", range.short())?;
+        }
+        if !self.unit.is_empty() {
+            write!(f, " {}", self.unit)?;
+        }
+        if !self.text.is_empty() {
+            let separator = if self.range.is_some() || !self.unit.is_empty() { "," } else { "" };
+            write!(f, "{separator} {}", self.text)?;
+        }
+        Ok(())
+    }
 }
 
-/// A key without a value.
-pub(in crate::exec) const fn flag(name: &'static str) -> Key {
-    Key { name, kind: Kind::Flag }
+/// The entry of an array that has one or none.
+pub(in crate::exec) const fn optional<const N: usize>(ranges: [Range; N]) -> Option<Range> {
+    if N == 0 { None } else { Some(ranges[0]) }
+}
+
+/// A kind of key with the type of its values.
+pub(in crate::exec) trait Argument {
+    /// What the command gets.
+    type Value;
+    /// The kind.
+    const KIND: KeyKind;
+
+    /// The value of a key that is written.
+    fn take(found: &Found, name: &str) -> Option<Self::Value>;
+}
+
+/// A number and its place.
+#[derive(Debug)]
+pub(in crate::exec) struct Number;
+/// A number or nothing, and the place.
+#[derive(Debug)]
+pub(in crate::exec) struct MaybeNumber;
+/// A word or text, and its place.
+#[derive(Debug)]
+pub(in crate::exec) struct Word;
+/// The place of a key without value.
+#[derive(Debug)]
+pub(in crate::exec) struct Flag;
+
+impl Argument for Number {
+    type Value = (f64, Span);
+    const KIND: KeyKind = KeyKind::Number;
+
+    fn take(found: &Found, name: &str) -> Option<(f64, Span)> {
+        match found.get(name)? {
+            (Written::Number(x), span) => Some((*x, *span)),
+            (Written::Word(_) | Written::Nothing, _) => None,
+        }
+    }
+}
+
+impl Argument for MaybeNumber {
+    type Value = (Option<f64>, Span);
+    const KIND: KeyKind = KeyKind::MaybeNumber;
+
+    fn take(found: &Found, name: &str) -> Option<(Option<f64>, Span)> {
+        match found.get(name)? {
+            (Written::Number(x), span) => Some((Some(*x), *span)),
+            (Written::Word(_) | Written::Nothing, span) => Some((None, *span)),
+        }
+    }
+}
+
+impl Argument for Word {
+    type Value = (Box<str>, Span);
+    const KIND: KeyKind = KeyKind::Word;
+
+    fn take(found: &Found, name: &str) -> Option<(Box<str>, Span)> {
+        match found.get(name)? {
+            (Written::Word(word), span) => Some((word.clone(), *span)),
+            (Written::Number(_) | Written::Nothing, _) => None,
+        }
+    }
+}
+
+impl Argument for Flag {
+    type Value = Span;
+    const KIND: KeyKind = KeyKind::Flag;
+
+    fn take(found: &Found, name: &str) -> Option<Span> {
+        found.get(name).map(|(_, span)| *span)
+    }
 }
 
 /// Value of a key.
 #[derive(Clone, Debug, PartialEq)]
-enum Found {
+enum Written {
     Number(f64),
     Word(Box<str>),
     Nothing,
@@ -47,76 +257,24 @@ enum Found {
 
 /// The keys that are written.
 #[derive(Debug, Default)]
-pub(in crate::exec) struct Arguments {
-    found: Vec<(&'static str, Found, Span)>,
+pub(in crate::exec) struct Found {
+    found: Vec<(&'static str, Written, Span)>,
 }
 
-impl Arguments {
-    /// Number and place of a key.
-    pub(in crate::exec) fn number(&self, name: &str) -> Option<(f64, Span)> {
-        self.found.iter().find_map(|(n, found, span)| match found {
-            Found::Number(x) if *n == name => Some((*x, *span)),
-            _ => None,
-        })
-    }
-
-    /// Word and place of a key.
-    pub(in crate::exec) fn word(&self, name: &str) -> Option<(&str, Span)> {
-        self.found.iter().find_map(|(n, found, span)| match found {
-            Found::Word(word) if *n == name => Some((&**word, *span)),
-            _ => None,
-        })
-    }
-
-    /// Place of a key, with or without value.
-    pub(in crate::exec) fn place(&self, name: &str) -> Option<Span> {
-        self.found.iter().find(|(n, _, _)| *n == name).map(|(_, _, span)| *span)
-    }
-
-    /// How many keys are written.
-    pub(in crate::exec) fn count(&self) -> usize {
-        self.found.len()
-    }
-
-    /// True if the key is written.
-    pub(in crate::exec) fn has(&self, name: &str) -> bool {
-        self.place(name).is_some()
-    }
-
-    /// A number within a range; outside it is K-RANGE, or the ID given.
-    pub(in crate::exec) fn in_range(
-        &self,
-        name: &str,
-        low: f64,
-        high: f64,
-        condition: Condition,
-    ) -> Outcome<Option<f64>> {
-        match self.number(name) {
-            Some((x, span)) if !(low..=high).contains(&x) => {
-                // the least positive number stands for an open end
-                let open = low.to_bits() == f64::MIN_POSITIVE.to_bits();
-                let range = match (open, high < f64::MAX) {
-                    (true, false) => "values above 0".to_owned(),
-                    (true, true) => format!("values above 0, up to {high}"),
-                    (false, false) => format!("{low} upwards"),
-                    (false, true) => format!("{low} to {high}"),
-                };
-                let text = format!("{name}={x}, allowed are {range}");
-                Err(Fault::new(condition, text, span))
-            }
-            found => Ok(found.map(|(x, _)| x)),
-        }
+impl Found {
+    fn get(&self, name: &str) -> Option<(&Written, &Span)> {
+        self.found.iter().find(|(n, _, _)| *n == name).map(|(_, written, span)| (written, span))
     }
 }
 
-/// Reads the keys of a bracket. Unknown ones are 21220, a key twice is K-DUPKEY; both are reported and left out.
-pub(in crate::exec) fn arguments(
+/// Reads and checks the keys of a bracket.
+pub(in crate::exec) fn read_all(
     decoder: &mut Decoder,
     title: &str,
     group: Option<&Group>,
     keys: &[Key],
-) -> Arguments {
-    let mut arguments = Arguments::default();
+) -> Outcome<Found> {
+    let mut found = Found::default();
     let items: &[Item] = group.map_or(&[], |g| &g.items);
     let mut at = 0;
     while let Some(item) = items.get(at) {
@@ -127,15 +285,23 @@ pub(in crate::exec) fn arguments(
         let item = pair.as_ref().unwrap_or(item);
         match read(decoder, title, item, keys) {
             Ok(None) => {}
-            Ok(Some((name, _))) if arguments.has(name) => {
+            Ok(Some((name, _))) if found.get(name).is_some() => {
                 let text = format!("{title}: {name} twice, the second one is left out");
                 decoder.note(Fault::new(Condition::DuplicateKey, text, item.span));
             }
-            Ok(Some((name, found))) => arguments.found.push((name, found, item.span)),
+            Ok(Some((name, written))) => found.found.push((name, written, item.span)),
             Err(fault) => decoder.note(fault),
         }
     }
-    arguments
+    for Key { name, range, .. } in keys {
+        if let (Some(range), Some((Written::Number(x), span))) = (range, found.get(name))
+            && !range.contains(*x)
+        {
+            let text = format!("{name}={x}, allowed are {}", range.allowed());
+            return Err(Fault::new(range.condition, text, *span));
+        }
+    }
+    Ok(found)
 }
 
 /// A key for a word and a word behind it as one item.
@@ -143,7 +309,7 @@ fn pair_of_words(item: &Item, next: Option<&Item>, keys: &[Key]) -> Option<Item>
     let (ItemKind::Flag(key), ItemKind::Flag(word)) = (&item.kind, &next?.kind) else {
         return None;
     };
-    keys.iter().find(|k| key.is(k.name) && matches!(k.kind, Kind::Word | Kind::Text))?;
+    keys.iter().find(|k| key.is(k.name) && k.kind == KeyKind::Word)?;
     let value = ItemValue::Name(word.clone());
     Some(Item { kind: ItemKind::Pair { key: key.clone(), value }, span: item.span.to(word.span) })
 }
@@ -153,23 +319,23 @@ fn read(
     title: &str,
     item: &Item,
     keys: &[Key],
-) -> Outcome<Option<(&'static str, Found)>> {
+) -> Outcome<Option<(&'static str, Written)>> {
     match &item.kind {
         ItemKind::Missing => Ok(None),
         ItemKind::Flag(ident) => {
             if let Some(key) = keys.iter().find(|k| ident.is(k.name)) {
                 return match key.kind {
-                    Kind::Flag | Kind::MaybeNumber => Ok(Some((key.name, Found::Nothing))),
-                    _ => Err(incomplete(title, key, item.span)),
+                    KeyKind::Flag | KeyKind::MaybeNumber => Ok(Some((key.name, Written::Nothing))),
+                    KeyKind::Number | KeyKind::Word => Err(incomplete(title, key, item.span)),
                 };
             }
             // `ID455`: a key and its number written together
             if let Some((name, number)) = ident.split_number() {
                 let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
                 if let Some(key) =
-                    key.filter(|k| matches!(k.kind, Kind::Number | Kind::MaybeNumber))
+                    key.filter(|k| matches!(k.kind, KeyKind::Number | KeyKind::MaybeNumber))
                 {
-                    return Ok(Some((key.name, Found::Number(number))));
+                    return Ok(Some((key.name, Written::Number(number))));
                 }
             }
             Err(unknown(title, ident, keys))
@@ -178,17 +344,17 @@ fn read(
             let Some(key) = keys.iter().find(|k| ident.is(k.name)) else {
                 return Err(unknown(title, ident, keys));
             };
-            let found = match (key.kind, value) {
-                (Kind::Number | Kind::MaybeNumber, ItemValue::Expr(e)) => {
-                    Found::Number(decoder.number(e)?)
+            let written = match (key.kind, value) {
+                (KeyKind::Number | KeyKind::MaybeNumber, ItemValue::Expr(e)) => {
+                    Written::Number(decoder.number(e)?)
                 }
-                (Kind::Word | Kind::Text, ItemValue::Name(word)) => Found::Word(word.text.clone()),
-                (Kind::Text | Kind::Word, ItemValue::Expr(e)) => Found::Word(text(decoder, e)?),
+                (KeyKind::Word, ItemValue::Name(word)) => Written::Word(word.text.clone()),
+                (KeyKind::Word, ItemValue::Expr(e)) => Written::Word(text(decoder, e)?),
                 _ => return Err(incomplete(title, key, item.span)),
             };
-            Ok(Some((key.name, found)))
+            Ok(Some((key.name, written)))
         }
-        ItemKind::Value(_) => {
+        ItemKind::Value(_) | ItemKind::Target { .. } => {
             let text = format!("{title}: a value without a key");
             Err(Fault::new(Condition::TokenUnknown, text, item.span).hint(known(keys)))
         }
@@ -221,10 +387,10 @@ fn unknown(title: &str, ident: &Ident, keys: &[Key]) -> Box<Fault> {
 
 fn incomplete(title: &str, key: &Key, span: Span) -> Box<Fault> {
     let what = match key.kind {
-        Kind::Number => "needs a number",
-        Kind::MaybeNumber => "takes a number or nothing",
-        Kind::Word | Kind::Text => "needs a word",
-        Kind::Flag => "takes no value",
+        KeyKind::Number => "needs a number",
+        KeyKind::MaybeNumber => "takes a number or nothing",
+        KeyKind::Word => "needs a word",
+        KeyKind::Flag => "takes no value",
     };
     Fault::new(Condition::TokenUnknown, format!("{title}: {} {what}", key.name), span)
 }

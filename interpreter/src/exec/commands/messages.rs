@@ -2,8 +2,8 @@
 //!
 //! Source: TF5200 programming manual; 21232 for an unknown format.
 
-use super::keys::number;
-use super::{Call, Key, Kind, arguments};
+use super::keys::{arguments, between};
+use super::{Call, Row};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -18,8 +18,16 @@ const RECEIVERS: &[&str] = &["ISG_DIAG_BED", "HMI", "PLC", "DIAG", "EVENT_LOGGER
 /// Modes and destinations; the log is the same for all of them.
 const MODES: &[&str] = &["SYN", "SYN_ACK", "ACK", "SAVE", "EXCLUSIVE", "INFO"];
 
+/// Row of `#MSG`.
+pub(super) const MSG: Row = Row::run("MSG", message)
+    .form("#MSG [\"text\", values]")
+    .meaning("message of the program")
+    .note("formats %s %S %d %D %f %F")
+    .example("#MSG [\"part %d done\", P1]")
+    .related(&["21232", "P-CHAN-00518"]);
+
 /// `#MSG [SYN|..] [receiver] ["text", values]`.
-pub(super) fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let mut receiver = RECEIVERS[0].to_owned();
     let mut save = false;
     for word in call.rest {
@@ -72,7 +80,7 @@ pub(super) fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             }
         }
     }
-    let source = decoder.source;
+    let source = decoder.report.source;
     decoder.event(Event::Message { receiver, text, save, source });
     Ok(())
 }
@@ -132,23 +140,47 @@ fn one(value: &Value, letter: char, precision: &str) -> String {
     }
 }
 
+arguments! {
+    /// Keys of `#ERROR`.
+    struct ErrorArguments {
+        id: Number "ID" in between(1.0, 1000.0), "", "number of the message";
+        rc: Number "RC", "", "0 warning, 2 error (the program aborts), 7 fatal; default 2";
+        _mid: Number "MID", "", "no effect";
+        pv1: Number "PV1", "", "a value";
+        pv2: Number "PV2", "", "a value";
+        pv3: Number "PV3", "", "a value";
+        pv4: Number "PV4", "", "a value";
+        pv5: Number "PV5", "", "a value";
+        piv1: Number "PIV1", "", "a whole number";
+        piv2: Number "PIV2", "", "a whole number";
+        piv3: Number "PIV3", "", "a whole number";
+        piv4: Number "PIV4", "", "a whole number";
+        piv5: Number "PIV5", "", "a whole number";
+        pm1: Word "PM1", "", "a text";
+        pm2: Word "PM2", "", "a text";
+        pm3: Word "PM3", "", "a text";
+        pm4: Word "PM4", "", "a text";
+        pm5: Word "PM5", "", "a text";
+    }
+}
+
+/// Row of `#ERROR`.
+pub(super) const ERROR: Row = Row::run("ERROR", error)
+    .form("#ERROR [ID=.. RC=..]")
+    .meaning("message of the user with an ID of 1 to 1000")
+    .keys(ErrorArguments::KEYS)
+    .example("#ERROR [ID=455 RC=2]");
+
 /// `#ERROR [ID=1..1000 RC=0|2|7 MID= PV1..5= PM1..5= PIV..=]`.
-pub(super) fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const TEXTS: [&str; 5] = ["PM1", "PM2", "PM3", "PM4", "PM5"];
-    const VALUES: [&str; 5] = ["PV1", "PV2", "PV3", "PV4", "PV5"];
-    const INTEGERS: [&str; 5] = ["PIV1", "PIV2", "PIV3", "PIV4", "PIV5"];
+fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    let mut keys = vec![number("ID"), number("RC"), number("MID")];
-    keys.extend(VALUES.map(number));
-    keys.extend(INTEGERS.map(number));
-    keys.extend(TEXTS.map(|name| Key { name, kind: Kind::Text }));
-    let found = arguments(decoder, "#ERROR", call.command.groups.first(), &keys);
-    let Some(id) = found.in_range("ID", 1.0, 1000.0, Condition::Range)? else {
+    let keys = ErrorArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    let Some((id, _)) = keys.id else {
         return Err(Fault::new(Condition::TokenUnknown, "#ERROR needs ID", call.span()));
     };
-    let id = crate::exec::expr::whole(id, 1, 1000).unwrap_or(1);
-    let rc = found.number("RC").map_or(2.0, |(rc, _)| rc);
-    let severity = match crate::exec::expr::whole(rc, 0, 7) {
+    let id = crate::exec::values::expr::whole(id, 1, 1000).unwrap_or(1);
+    let rc = keys.rc.map_or(2.0, |(rc, _)| rc);
+    let severity = match crate::exec::values::expr::whole(rc, 0, 7) {
         Some(0) => Severity::Warning,
         Some(2 | 7) => Severity::Error,
         _ => {
@@ -156,17 +188,18 @@ pub(super) fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::new(Condition::Range, text, call.span()));
         }
     };
-    let texts: Vec<&str> = TEXTS.iter().filter_map(|t| found.word(t).map(|(w, _)| w)).collect();
+    let texts = [&keys.pm1, &keys.pm2, &keys.pm3, &keys.pm4, &keys.pm5];
+    let texts: Vec<&str> = texts.into_iter().flatten().map(|(text, _)| &**text).collect();
     let text = if texts.is_empty() {
         "message of the program".to_owned()
     } else {
         format!("message of the program: {}", texts.join(", "))
     };
     let mut diagnostic = Diagnostic::programmed(id, text).severity(severity);
-    for name in VALUES.iter().chain(&INTEGERS) {
-        if let Some((x, _)) = found.number(name) {
-            diagnostic = diagnostic.value(ValueKind::Current, x, "-");
-        }
+    let values = [keys.pv1, keys.pv2, keys.pv3, keys.pv4, keys.pv5];
+    let integers = [keys.piv1, keys.piv2, keys.piv3, keys.piv4, keys.piv5];
+    for (x, _) in values.into_iter().chain(integers).flatten() {
+        diagnostic = diagnostic.value(ValueKind::Current, x, "-");
     }
     let fault = Fault::of(diagnostic, call.span());
     if severity == Severity::Error {

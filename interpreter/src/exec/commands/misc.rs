@@ -2,16 +2,22 @@
 //!
 //! Source: TF5200 programming manual.
 
-use super::keys::number;
-use super::{Call, Key, Kind, arguments};
+use super::keys::{arguments, between};
+use super::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
 use crate::syntax::ast::{ExprKind, ItemKind, ItemValue};
 
+/// Row of `#FLUSH`.
+pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
+    .form("#FLUSH [CONTINUE|WAIT]")
+    .meaning("stops at the end of the block before it; CONTINUE only if no more blocks are known")
+    .example("#FLUSH WAIT");
+
 /// `#FLUSH`, `#FLUSH CONTINUE`, `#FLUSH WAIT`.
-pub(super) fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [] => decoder.sync(Sync::Stop),
         [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),
@@ -22,8 +28,14 @@ pub(super) fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
+/// Row of `#CHANNEL INIT`.
+pub(super) const CHANNEL_INIT: Row = Row::run("CHANNEL INIT", channel_init)
+    .form("#CHANNEL INIT [CMDPOS|ACTPOS]")
+    .meaning("the programmed position becomes the command or actual position")
+    .example("#CHANNEL INIT [CMDPOS]");
+
 /// `#CHANNEL INIT [CMDPOS|ACTPOS, axes]`.
-pub(super) fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let Some(group) = call.command.groups.first() else {
         let text = "#CHANNEL INIT needs [CMDPOS] or [ACTPOS]";
@@ -37,7 +49,7 @@ pub(super) fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
             ItemKind::Flag(word) if word.is("ACTPOS") => actual = Some(true),
             ItemKind::Flag(word) => axes.push(decoder.axis_in_command(word)?),
             ItemKind::Missing => {}
-            ItemKind::Pair { .. } | ItemKind::Value(_) => {
+            ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {
                 return Err(Fault::new(
                     Condition::TokenUnknown,
                     "#CHANNEL INIT: an axis is expected",
@@ -63,8 +75,15 @@ pub(super) fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
     }
 }
 
+/// Row of `#TIME`.
+pub(super) const TIME: Row = Row::run("TIME", time)
+    .form("#TIME t")
+    .meaning("dwell of t seconds, as G04")
+    .example("#TIME 2.5")
+    .related(&["G04", "20752"]);
+
 /// `#TIME t`.
-pub(super) fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     match (&call.command.arguments[..], call.command.groups.first()) {
         ([expr], None) => {
@@ -85,8 +104,15 @@ pub(super) fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
 }
 
+/// Row of `#WAIT`.
+pub(super) const WAIT: Row = Row::run("WAIT", wait)
+    .form("#WAIT INDP [X, Y]   #WAIT INDP ALL   #WAIT FOR condition")
+    .meaning("the path stops until these independent axes have arrived; of conditions: tested once")
+    .example("#WAIT INDP [X]")
+    .related(&["INDP_ASYN", "K-0018"]);
+
 /// `#WAIT INDP ..` joins independent axes; of `#WAIT ..` else, headless a condition is tested once.
-pub(super) fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let [word, more @ ..] = call.rest
         && word.is("INDP")
     {
@@ -115,15 +141,27 @@ pub(super) fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
 }
 
+arguments! {
+    /// Keys of `#TIMER`.
+    struct TimerArguments {
+        id: Number "ID" in between(0.0, 127.0), "", "default 0";
+    }
+}
+
+/// Row of `#TIMER`.
+pub(super) const TIMER: Row = Row::run("TIMER", timer)
+    .form("#TIMER START|READ|CLEAR|STOP [ID=i]")
+    .meaning("starts a timer that V.G.TIMER[i] reads in ms")
+    .keys(TimerArguments::KEYS)
+    .example("#TIMER START [ID=3]");
+
 /// `#TIMER START|READ|CLEAR|STOP [ID=i]`.
-pub(super) fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] = &[number("ID")];
-    let keys = arguments(decoder, "#TIMER", call.command.groups.first(), KEYS);
-    let id = keys.in_range("ID", 0.0, 127.0, Condition::Range)?.unwrap_or(0.0);
-    let id = crate::exec::expr::whole(id, 0, 127).unwrap_or(0);
+fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let keys = TimerArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    let id = keys.id.and_then(|(id, _)| crate::exec::values::expr::whole(id, 0, 127)).unwrap_or(0);
     match call.rest {
         [word] if word.is("START") || word.is("CLEAR") => {
-            decoder.timers.start(id, decoder.feedback.time_s);
+            decoder.values.timers.start(id, decoder.feedback.time_s);
             Ok(())
         }
         [word] if word.is("READ") || word.is("STOP") => Ok(()),
@@ -158,8 +196,8 @@ pub(super) fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// `#INIT MACRO TAB`.
 pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.macros.clear();
-    decoder.macros_changed = true;
+    decoder.calls.macros.clear();
+    decoder.calls.macros_changed = true;
     Ok(())
 }
 
@@ -199,10 +237,10 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         };
         let number = key.text.strip_prefix('G').and_then(|n| n.parse().ok());
         match number {
-            Some(n) if crate::exec::groups::is_cycle_call(n) => {
-                decoder.cycle_files.insert(n, file);
+            Some(n) if crate::exec::block::groups::is_cycle_call(n) => {
+                decoder.calls.cycle_files.insert(n, file);
             }
-            _ if key.is("M6") || key.is("M06") => decoder.tool_change_file = Some(file),
+            _ if key.is("M6") || key.is("M06") => decoder.calls.tool_change_file = Some(file),
             // messages go to the log, whatever the name of their file
             _ if key.is("MSG") => {}
             _ => {
@@ -214,20 +252,32 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
+arguments! {
+    /// Keys of `#MACHINE DATA`.
+    struct MachineDataArguments {
+        axis: Word "AX", "", "the axis";
+        parameter: Word "AXPARAM", "", "key and value as in the axis list";
+    }
+}
+
+/// Row of `#MACHINE DATA`.
+pub(super) const MACHINE_DATA: Row = Row::run("MACHINE DATA", machine_data)
+    .form("#MACHINE DATA [SYN] [AX=.. AXPARAM=\"key value\"]")
+    .meaning("changes a parameter of an axis list from here on; the path stops")
+    .keys(MachineDataArguments::KEYS)
+    .example("#MACHINE DATA [AX=Z AXPARAM=\"getriebe[0].kv 3000\"]");
+
 /// `#MACHINE DATA [SYN] [AX=Z AXPARAM="key value"]`.
-pub(super) fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] =
-        &[Key { name: "AX", kind: Kind::Word }, Key { name: "AXPARAM", kind: Kind::Text }];
+fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some(word) = call.rest.iter().find(|w| !w.is("SYN")) {
         return Err(call.unexpected(word));
     }
-    let keys = arguments(decoder, "#MACHINE DATA", call.command.groups.first(), KEYS);
-    let (Some((axis, at)), Some((parameter, span))) = (keys.word("AX"), keys.word("AXPARAM"))
-    else {
+    let keys = MachineDataArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    let (Some((text, at)), Some((parameter, span))) = (keys.axis, keys.parameter) else {
         let text = "#MACHINE DATA needs AX and AXPARAM";
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     };
-    let axis = crate::syntax::ast::Ident { text: axis.into(), span: at };
+    let axis = crate::syntax::ast::Ident { text, span: at };
     let axis = decoder.axis_in_command(&axis)?;
     let (key, value) = parameter.trim().split_once(char::is_whitespace).ok_or_else(|| {
         Fault::new(Condition::TokenUnknown, "AXPARAM: `key value` is expected", span)
@@ -238,13 +288,13 @@ pub(super) fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()
 /// `#DISABLE MODAL CYCLE`.
 pub(super) fn disable_modal_cycle(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.modal_cycle = None;
+    decoder.calls.modal_cycle = None;
     Ok(())
 }
 
 /// `#RETAIN CYCLE CHANGES`.
 pub(super) fn retain_cycle_changes(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.retain_cycle_changes = true;
+    decoder.calls.retain_cycle_changes = true;
     Ok(())
 }

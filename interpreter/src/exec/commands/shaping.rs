@@ -2,13 +2,13 @@
 //!
 //! Source: TF5250 Vibration Guard; TF5200 FIR filter and axis filters (HSC).
 
-use super::keys::{flag, number};
-use super::{Arguments, Call, Key, arguments};
+use super::keys::{above_zero_to, arguments, at_least, between};
+use super::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::shaping::{Family, FilterKeys, listed_fir, listed_hsc};
-use crate::machine::issues::{self, Origin};
+use crate::exec::shaping::{Family, FilterKeys, GuardKeys};
+use crate::machine::issues;
 use crate::syntax::ast::Span;
 use kontur_filters::fir::MAX_ORDER;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -26,7 +26,7 @@ impl Decoder {
                     place.line,
                     place.file
                 );
-                let lines = (place.line, self.source.line);
+                let lines = (place.line, self.report.source.line);
                 return Err(Fault::new(Condition::FilterAndGuard, text, span).with(|d| {
                     d.value(ValueKind::Identification, lines.0, "line").value(
                         ValueKind::Identification,
@@ -37,7 +37,7 @@ impl Decoder {
             }
             Some(_) => {}
             None => {
-                if let Some(place) = self.location.clone() {
+                if let Some(place) = self.report.location.clone() {
                     self.shaping.used = Some((family, place));
                 }
             }
@@ -47,9 +47,13 @@ impl Decoder {
 
     /// Conflicts of a command with the axis lists.
     fn list_conflict(&mut self, family: Family, span: Span) -> Outcome<()> {
-        let conflict = self.machine.axes.iter().find(|axis| match family {
-            Family::Filter => axis.flag("vib_guard.active"),
-            Family::VibGuard => listed_fir(axis).is_some() || listed_hsc(axis).is_some(),
+        let cycle = self.machine.cycle;
+        let conflict = self.machine.axes.iter().find(|axis| {
+            let listed = axis.kernel_preset(cycle);
+            match family {
+                Family::Filter => listed.vib_guard.active,
+                Family::VibGuard => listed.fir.is_some() || listed.hsc.is_some(),
+            }
         });
         let Some(axis) = conflict else { return Ok(()) };
         let (id, what, parameter) = match family {
@@ -70,14 +74,13 @@ impl Decoder {
     }
 
     /// `AX_DEV` and `ACC_FACT`, common to both commands.
-    fn tolerances(&mut self, keys: &Arguments, condition: Condition) -> Outcome<()> {
-        let ax_dev = keys.in_range("AX_DEV", 0.0, f64::MAX, condition)?;
-        let acc_fact = keys.in_range("ACC_FACT", 1.0, 10.0, condition)?;
-        self.shaping.ax_dev_mm = ax_dev.filter(|x| *x > 0.0).map(|x| x * self.tolerance_unit_mm());
-        if acc_fact.is_some() {
-            self.shaping.acc_fact = acc_fact;
+    fn tolerances(&mut self, ax_dev: Option<(f64, Span)>, acc_fact: Option<(f64, Span)>) {
+        let unit = self.tolerance_unit_mm();
+        self.shaping.ax_dev_mm = ax_dev.map(|(x, _)| x * unit).filter(|mm| *mm > 0.0);
+        if let Some((x, _)) = acc_fact {
+            self.shaping.acc_fact = Some(x);
         }
-        if let Some((x, span)) = keys.number("ACC_FACT").filter(|(x, _)| *x > 1.0) {
+        if let Some((x, span)) = acc_fact.filter(|(x, _)| *x > 1.0) {
             let without: Vec<String> = self
                 .machine
                 .axes
@@ -91,46 +94,58 @@ impl Decoder {
                     without.join(", ")
                 );
                 let fault = Fault::new(Condition::AccFactIgnored, text, span);
-                self.note(fault.with(|d| d.parameter("P-AXIS-00013")));
+                self.note(fault);
             }
         }
-        Ok(())
     }
 }
 
+arguments! {
+    /// Keys of `#VIB GUARD`.
+    struct GuardArguments {
+        mode: Number "MODE", "", "1..4, default 1 (list vib_guard.mode)";
+        freq: Number "FREQ" in at_least(VibGuardSettings::MIN_FREQ_HZ).or(Condition::GuardRange), "Hz", "default 30 (vib_guard.freq)";
+        damping: Number "DAMPING" in between(0.0, 1.0).or(Condition::GuardRange), "", "default 0.1 (vib_guard.damping)";
+        ax_dev: Number "AX_DEV" in at_least(0.0).or(Condition::GuardRange), "mm", "default 0 = no tolerance monitoring (no list key)";
+        acc_fact: Number "ACC_FACT" in between(1.0, 10.0).or(Condition::GuardRange), "", "default 1 (no list key)";
+    }
+}
+
+/// Row of `#VIB GUARD`.
+pub(super) const VIB_GUARD: Row = Row::run("VIB GUARD", vib_guard)
+    .form("#VIB GUARD [ON|OFF] [MODE=.. FREQ=.. DAMPING=.. AX_DEV=.. ACC_FACT=..]")
+    .meaning(
+        "shapes the set position of all axes of the channel so that one natural frequency of the machine is not excited; modal",
+    )
+    .keys(GuardArguments::KEYS)
+    .note(
+        "independent of the FIR filter (#FILTER), which smooths a broad band: the two may not stand in one program (22060). ON from program start: vib_guard.active. AX_DEV missing in a command switches the tolerance monitoring off again, the other keys keep their last value. Without ON or OFF the values are stored",
+    )
+    .example("#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]")
+    .related(&["22060", "22062", "50820", "P-AXIS-00588", "P-AXIS-00571", "P-AXIS-00589", "P-AXIS-00568", "P-AXIS-00013"]);
+
 /// `#VIB GUARD [ON|OFF] [MODE= FREQ= DAMPING= AX_DEV= ACC_FACT=]`.
-pub(super) fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] =
-        &[number("MODE"), number("FREQ"), number("DAMPING"), number("AX_DEV"), number("ACC_FACT")];
+fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     decoder.use_family(Family::VibGuard, call.span())?;
-    let keys = arguments(decoder, "#VIB GUARD", call.command.groups.first(), KEYS);
+    let keys = GuardArguments::read(decoder, &call.title(), call.command.groups.first())?;
     let mut programmed = decoder.shaping.guard;
-    if let Some((x, span)) = keys.number("MODE") {
+    if let Some((x, span)) = keys.mode {
         programmed.mode = Some(mode(x, span)?);
     }
-    if let Some(freq_hz) = keys.in_range("FREQ", 1.0, f64::MAX, Condition::GuardRange)? {
-        programmed.freq_hz = Some(freq_hz);
-    }
-    if let Some(damping) = keys.in_range("DAMPING", 0.0, 1.0, Condition::GuardRange)? {
-        programmed.damping = Some(damping);
-    }
-    decoder.tolerances(&keys, Condition::GuardRange)?;
+    programmed.freq_hz = keys.freq.map(|(x, _)| x).or(programmed.freq_hz);
+    programmed.damping = keys.damping.map(|(x, _)| x).or(programmed.damping);
+    decoder.tolerances(keys.ax_dev, keys.acc_fact);
     decoder.shaping.guard = programmed;
     if let Some(on) = call.command.on {
         decoder.shaping.guard_on = Some(on);
     } else {
+        let cycle = decoder.machine.cycle;
         let on = |a: &crate::machine::Axis| {
-            decoder.shaping.guard_on.unwrap_or(a.flag("vib_guard.active"))
+            decoder.shaping.guard_on.unwrap_or(a.kernel_preset(cycle).vib_guard.active)
         };
         if !decoder.machine.axes.iter().any(on) {
-            realisable(
-                decoder,
-                programmed.mode,
-                programmed.freq_hz,
-                programmed.damping,
-                call.span(),
-            )?;
+            realisable(decoder, programmed, call.span())?;
             let text =
                 "the Vibration Guard is off: the values are stored for the next #VIB GUARD ON";
             decoder.note(Fault::new(Condition::GuardStored, text, call.span()));
@@ -141,7 +156,8 @@ pub(super) fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 }
 
 fn mode(x: f64, span: Span) -> Outcome<u8> {
-    let whole = crate::exec::expr::whole(x, 1, 4).filter(|m| (f64::from(*m) - x).abs() < 1e-9);
+    let whole =
+        crate::exec::values::expr::whole(x, 1, 4).filter(|m| (f64::from(*m) - x).abs() < 1e-9);
     whole.and_then(|m| u8::try_from(m).ok()).ok_or_else(|| {
         let text = format!("Vibration Guard mode {x} does not exist, allowed are 1 to 4");
         Fault::new(Condition::GuardMode, text, span).with(|d| {
@@ -155,58 +171,68 @@ fn mode(x: f64, span: Span) -> Outcome<u8> {
 }
 
 /// 50820 for settings that are stored while the guard is off.
-fn realisable(
-    decoder: &Decoder,
-    mode: Option<u8>,
-    freq_hz: Option<f64>,
-    damping: Option<f64>,
-    span: Span,
-) -> Outcome<()> {
-    let default = VibGuardSettings::default();
-    let settings = VibGuardSettings {
-        mode: mode.unwrap_or(default.mode),
-        freq_hz: freq_hz.unwrap_or(default.freq_hz),
-        damping: damping.unwrap_or(default.damping),
-    };
-    match (settings.kernel(decoder.machine.cycle), decoder.machine.axes.first()) {
-        (Err(e), Some(axis)) => Err(Fault::of(
-            issues::vib_guard(axis, Origin::Program, &e, decoder.machine.cycle),
-            span,
-        )),
+fn realisable(decoder: &Decoder, programmed: GuardKeys, span: Span) -> Outcome<()> {
+    let settings = programmed.over(VibGuardSettings::default());
+    let cycle = decoder.machine.cycle;
+    match (settings.kernel(cycle), decoder.machine.axes.first()) {
+        (Err(e), Some(axis)) => Err(Fault::of(issues::vib_guard(axis, false, &e, cycle), span)),
         _ => Ok(()),
     }
 }
 
+/// Greatest order that a program may ask for; the filters correct what is too high for their type (50911).
+const ORDER_MAX: f64 = {
+    let most = MAX_ORDER as f64;
+    if most > u16::MAX as f64 { most } else { u16::MAX as f64 }
+};
+
+arguments! {
+    /// Keys of `#FILTER`.
+    struct FilterArguments {
+        hsc: Flag "HSC", "", "the HSC filter of the axis list";
+        mode: Number "MODE", "", "does not exist here (22068)";
+        order: Number "ORDER" in between(0.0, ORDER_MAX).or(Condition::FilterRange), "", "used up to 200";
+        order_time: Number "ORDER_TIME" in between(0.0, 1e8).or(Condition::FilterRange), "us", "";
+        share: Number "SHARE" in between(0.0, 100.0).or(Condition::FilterRange), "%", "default 100";
+        ax_dev: Number "AX_DEV" in at_least(0.0).or(Condition::FilterRange), "mm", "default 0 = no monitoring";
+        fcut: Number "FCUT" in at_least(1.0).or(Condition::FilterRange), "Hz", "default 30";
+        acc_fact: Number "ACC_FACT" in between(1.0, 10.0).or(Condition::FilterRange), "", "default 1";
+        quality: Number "QUALITY" in above_zero_to(1.0).or(Condition::FilterRange), "", "default 1";
+    }
+}
+
+/// Row of `#FILTER`.
+pub(super) const FILTER: Row = Row::run("FILTER", filter)
+    .form("#FILTER [ON|OFF] [ORDER=.. ORDER_TIME=.. SHARE=.. AX_DEV=.. FCUT=.. ACC_FACT=.. QUALITY=..]   #FILTER ON|OFF [HSC]")
+    .meaning(
+        "switches the FIR filters of all axes of the channel; they smooth a broad band. With [HSC]: the older HSC filter prepared as filter[0] of the axis list; modal",
+    )
+    .keys(FilterArguments::KEYS)
+    .note(
+        "needs a filter type in the axis list (filter_fir.type). Independent of the Vibration Guard (#VIB GUARD): not both in one program (22060). FIR filters are recommended instead of HSC filters from V3.1.3075.02 on",
+    )
+    .example("#FILTER ON [ORDER=20 AX_DEV=0.001]")
+    .related(&["22060", "50989", "P-AXIS-00586", "P-AXIS-00587", "P-AXIS-00573", "#VIB GUARD"]);
+
 /// `#FILTER [ON|OFF] [[HSC] ORDER= ORDER_TIME= SHARE= AX_DEV= FCUT= ACC_FACT= QUALITY=]`.
-pub(super) fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] = &[
-        flag("HSC"),
-        number("MODE"),
-        number("ORDER"),
-        number("ORDER_TIME"),
-        number("SHARE"),
-        number("AX_DEV"),
-        number("FCUT"),
-        number("ACC_FACT"),
-        number("QUALITY"),
-    ];
+fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     decoder.use_family(Family::Filter, call.span())?;
-    let keys = arguments(decoder, "#FILTER", call.command.groups.first(), KEYS);
-    if let Some((x, span)) = keys.number("MODE") {
+    let keys = FilterArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    if let Some((x, span)) = keys.mode {
         let text = format!("#FILTER has no MODE ({x})");
         return Err(Fault::new(Condition::FilterMode, text, span)
             .with(|d| d.value(ValueKind::Wrong, x, "-")));
     }
-    let hsc = keys.has("HSC");
+    let hsc = keys.hsc.is_some();
     let mut stored = if hsc { decoder.shaping.hsc } else { decoder.shaping.fir };
-    filter_keys(&keys, &mut stored)?;
-    decoder.tolerances(&keys, Condition::FilterRange)?;
-    let configured = decoder
-        .machine
-        .axes
-        .iter()
-        .any(|axis| if hsc { listed_hsc(axis).is_some() } else { listed_fir(axis).is_some() });
+    filter_keys(&keys, &mut stored);
+    decoder.tolerances(keys.ax_dev, keys.acc_fact);
+    let cycle = decoder.machine.cycle;
+    let configured = decoder.machine.axes.iter().any(|axis| {
+        let listed = axis.kernel_preset(cycle);
+        if hsc { listed.hsc.is_some() } else { listed.fir.is_some() }
+    });
     if !configured {
         let (what, parameter) =
             if hsc { ("an HSC filter", "P-AXIS-00153") } else { ("a filter type", "P-AXIS-00586") };
@@ -225,22 +251,14 @@ pub(super) fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
-fn filter_keys(keys: &Arguments, stored: &mut FilterKeys) -> Outcome<()> {
-    /// Longest time that gives an order.
-    const TIME_MAX_US: f64 = 1e8;
-    let order_max = f64::from(u16::MAX).max(f64::from(MAX_ORDER));
-    let order = keys.in_range("ORDER", 0.0, order_max, Condition::FilterRange)?;
-    let time = keys.in_range("ORDER_TIME", 0.0, TIME_MAX_US, Condition::FilterRange)?;
-    let share = keys.in_range("SHARE", 0.0, 100.0, Condition::FilterRange)?;
-    let fcut = keys.in_range("FCUT", 1.0, f64::MAX, Condition::FilterRange)?;
-    let quality = keys.in_range("QUALITY", f64::MIN_POSITIVE, 1.0, Condition::FilterRange)?;
-    let whole = |x: Option<f64>| x.and_then(|x| crate::exec::expr::whole(x, 0, u32::MAX));
-    if order.is_some() || time.is_some() {
+fn filter_keys(keys: &FilterArguments, stored: &mut FilterKeys) {
+    let number = |key: Option<(f64, Span)>| key.map(|(x, _)| x);
+    let whole = |key| number(key).and_then(|x| crate::exec::values::expr::whole(x, 0, u32::MAX));
+    if keys.order.is_some() || keys.order_time.is_some() {
         // the newer of the two rules; both in one command: the order
-        (stored.order, stored.order_time_us) = (whole(order), whole(time));
+        (stored.order, stored.order_time_us) = (whole(keys.order), whole(keys.order_time));
     }
-    stored.share_ratio = share.map(|p| p / 100.0).or(stored.share_ratio);
-    stored.fcut_hz = fcut.or(stored.fcut_hz);
-    stored.quality = quality.or(stored.quality);
-    Ok(())
+    stored.share_ratio = number(keys.share).map(|p| p / 100.0).or(stored.share_ratio);
+    stored.fcut_hz = number(keys.fcut).or(stored.fcut_hz);
+    stored.quality = number(keys.quality).or(stored.quality);
 }

@@ -2,8 +2,8 @@
 //!
 //! Source: TF5200 programming manual; 21629 for an unknown type.
 
-use super::keys::number;
-use super::{Call, Key, Kind, arguments};
+use super::keys::{arguments, between};
+use super::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -40,9 +40,24 @@ fn set_old(decoder: &mut Decoder, old: bool) {
     }
 }
 
+arguments! {
+    /// Keys of `#SLOPE`.
+    struct SlopeArguments {
+        kind: Word "TYPE", "", "STEP, TRAPEZ, SIN2 or HSC; default prog_start.slope.profile";
+        no_opt: Number "NO_OPT" in between(0.0, 1.0), "", "default 1; 0 matters with constant ramp times (P-CHAN-00349) alone: there the profile of each run of blocks is planned by itself, else across blocks";
+    }
+}
+
+/// Row of `#SLOPE`.
+pub(super) const SLOPE: Row = Row::run("SLOPE", slope)
+    .form("#SLOPE [TYPE=STEP|TRAPEZ|SIN2|HSC NO_OPT=0|1]   #SLOPE DEFAULT")
+    .meaning("shape of the acceleration; modal, reset at program start")
+    .keys(SlopeArguments::KEYS)
+    .example("#SLOPE [TYPE=SIN2]")
+    .related(&["21629", "P-CHAN-00071", "P-CHAN-00349"]);
+
 /// `#SLOPE [TYPE=.. NO_OPT=..]`, `#SLOPE DEFAULT`.
-pub(super) fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    const KEYS: &[Key] = &[Key { name: "TYPE", kind: Kind::Word }, number("NO_OPT")];
+fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [] => {}
         [word] if word.is("DEFAULT") => {
@@ -55,24 +70,31 @@ pub(super) fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = "#SLOPE needs [TYPE=..] or DEFAULT";
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     }
-    let keys = arguments(decoder, "#SLOPE", call.command.groups.first(), KEYS);
-    if let Some((name, span)) = keys.word("TYPE") {
-        let Some(kind) = slope_type(name) else {
+    let keys = SlopeArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    if let Some((name, span)) = keys.kind {
+        let Some(kind) = slope_type(&name) else {
             let text = format!("unknown slope type {name}");
             return Err(Fault::new(Condition::SlopeType, text, span)
                 .hint("types are STEP, TRAPEZ, SIN2, HSC"));
         };
         decoder.modal.slope.kind = kind;
     }
-    if let Some(x) = keys.in_range("NO_OPT", 0.0, 1.0, Condition::Range)? {
+    if let Some((x, _)) = keys.no_opt {
         decoder.modal.slope.optimised = x < 0.5;
     }
     set_old(decoder, false);
     Ok(())
 }
 
+/// Row of `#SET SLOPE PROFIL`.
+pub(super) const SET_SLOPE_PROFIL: Row = Row::run("SET SLOPE PROFIL", set_slope_profile)
+    .form("#SET SLOPE PROFIL [n]")
+    .meaning("older form of #SLOPE: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC")
+    .example("#SET SLOPE PROFIL [1]")
+    .related(&["#SLOPE", "P-CHAN-00071"]);
+
 /// `#SET SLOPE PROFIL [n]`; without number as `#SLOPE DEFAULT`.
-pub(super) fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     use crate::syntax::ast::{ItemKind, ItemValue};
     call.no_more_words()?;
     let Some(group) = call.command.groups.first() else {
@@ -90,7 +112,7 @@ pub(super) fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outco
         return Err(Fault::new(Condition::TokenUnknown, "a number is expected: 0 to 3", item.span));
     };
     let value = decoder.number(expr)?;
-    let Some(i) = crate::exec::expr::whole(value, 0, 3) else {
+    let Some(i) = crate::exec::values::expr::whole(value, 0, 3) else {
         let text = format!("slope profile {value} does not exist");
         return Err(Fault::new(Condition::SlopeWeighting, text, expr.span).with(|d| {
             use crate::diag::ValueKind::{LowerLimit, UpperLimit, Wrong};

@@ -2,13 +2,13 @@
 
 use super::PlaneImage;
 use crate::diag::{Condition, ValueKind};
-use crate::exec::arc::{self, ArcError};
+use crate::exec::block::groups::Group;
+use crate::exec::block::modal::PathMode;
+use crate::exec::block::words::{Placed, Words};
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::groups::Group;
-use crate::exec::modal::PathMode;
-use crate::exec::words::{Placed, Words};
+use crate::exec::geometry::arc::{self, ArcError};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
@@ -16,7 +16,7 @@ use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
 impl Decoder {
     pub(super) fn arc(&mut self, from: AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
         let from = &self.on_path(from);
-        let target = self.on_path(self.coordinates.target().clone());
+        let target = self.on_path(self.geometry.coordinates.target().clone());
         let main = self.modal.plane.main_axes();
         // askew to the axes the arc is one of the coordinate system
         let PlaneImage { main: image, keeps_sense, tilt } = self.image_of_plane(span)?;
@@ -25,7 +25,7 @@ impl Decoder {
             None => (from.clone(), target.clone()),
         };
         let axis = |m: usize| {
-            self.coordinates.main_axis(m).ok_or_else(|| {
+            self.geometry.coordinates.main_axis(m).ok_or_else(|| {
                 let text = "the plane of the arc has no axis in the channel";
                 Fault::new(Condition::AxisOrCommandExpected, text, span)
             })
@@ -43,12 +43,18 @@ impl Decoder {
             }
             self.modal.radius_mm = Some(radius * self.unit_mm());
         }
-        let found = if let (false, Some(radius)) = (has_centre, self.modal.radius_mm) {
-            arc::by_radius(s, e, radius, ccw)
-        } else {
+        let found = if has_centre {
             let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
             let limits = &self.machine.channel.arc_centre;
             arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
+        } else if let Some(radius) = self.modal.radius_mm {
+            arc::by_radius(s, e, radius, ccw)
+        } else {
+            // radius programming is expected where no centre is given: no arc that the centre's correction would find
+            let text = "neither a centre (I, J, K) nor a radius (R): the arc is not defined";
+            let g = words.group(Group::Path).map_or(span, |g| g.span);
+            return Err(Fault::new(Condition::ArcRadiusZero, text, g)
+                .hint("write I, J, K or R; R holds until the next one"));
         };
         let at = words.radius.or(centre_words[0]).or(centre_words[1]);
         let g = words.group(Group::Path).map_or(span, |g| g.span);
@@ -56,8 +62,9 @@ impl Decoder {
         let mut arc = found.map_err(|e| arc_fault(e, at))?;
         let pitch_word = words.centre[main[2]];
         if let Some((pitch, at)) = pitch_word {
-            let normal =
-                (0..3).find(|i| !image.contains(i)).and_then(|m| self.coordinates.main_axis(m));
+            let normal = (0..3)
+                .find(|i| !image.contains(i))
+                .and_then(|m| self.geometry.coordinates.main_axis(m));
             let height = normal.map_or(0.0, |axis| end[axis] - start[axis]);
             if pitch == 0.0 || height == 0.0 {
                 if pitch != 0.0 {
@@ -68,13 +75,13 @@ impl Decoder {
                 arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch * self.unit_mm());
             }
         }
-        self.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
-        self.last_arc.plane = image;
-        self.last_arc.shift_mm = arc.shift;
-        self.last_arc.radius_mm =
-            libm::hypot(self.last_arc.centre_mm[0], self.last_arc.centre_mm[1]);
+        self.geometry.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
+        self.geometry.last_arc.plane = image;
+        self.geometry.last_arc.shift_mm = arc.shift;
+        self.geometry.last_arc.radius_mm =
+            libm::hypot(self.geometry.last_arc.centre_mm[0], self.geometry.last_arc.centre_mm[1]);
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
-        let arc = ArcPath::new(start, end, shape, &self.feed_axes)
+        let arc = ArcPath::new(start, end, shape, &self.motion.feed_axes)
             .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))?;
         Ok(match tilt {
             Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
@@ -92,7 +99,8 @@ impl Decoder {
         words: [Option<Placed>; 2],
     ) -> [f64; 2] {
         let value = |w: Option<Placed>| w.map_or(0.0, |(v, _)| v * self.unit_mm());
-        let from = |m: usize| self.coordinates.main_axis(m).map_or(0.0, |axis| start[axis]);
+        let from =
+            |m: usize| self.geometry.coordinates.main_axis(m).map_or(0.0, |axis| start[axis]);
         if tilted {
             let c = words.map(value);
             if self.modal.centre_absolute {
@@ -103,13 +111,16 @@ impl Decoder {
         let mut p = [0.0; 3];
         (p[main[0]], p[main[1]]) = (value(words[0]), value(words[1]));
         if self.modal.centre_absolute {
-            let q = self.coordinates.to_machine(p);
+            let q = self.geometry.coordinates.to_machine(p);
             let way = |m: usize| {
-                self.coordinates.main_axis(m).map_or(0.0, |axis| self.independent.way[axis])
+                self.geometry
+                    .coordinates
+                    .main_axis(m)
+                    .map_or(0.0, |axis| self.motion.independent.way[axis])
             };
             return [q[image[0]] - way(image[0]), q[image[1]] - way(image[1])];
         }
-        let d = self.coordinates.frame().direction(p);
+        let d = self.geometry.coordinates.frame().direction(p);
         [from(image[0]) + d[image[0]], from(image[1]) + d[image[1]]]
     }
 }

@@ -1,10 +1,10 @@
 //! Feed and end velocity of a block.
 
 use crate::diag::Condition;
+use crate::exec::block::modal::{FeedType, PathMode};
+use crate::exec::block::words::Placed;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::modal::{FeedType, PathMode};
-use crate::exec::words::Placed;
 use crate::syntax::ast::Span;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
@@ -31,7 +31,7 @@ impl Decoder {
             FeedType::Time => Feed::Duration(word.value),
             FeedType::ShareOfMaximum => Feed::ShareOfMaximum(word.value / 100.0),
             FeedType::PerRevolution => {
-                let rpm = self.spindles[0].rpm.abs();
+                let rpm = self.motion.spindles[0].rpm.abs();
                 if rpm == 0.0 {
                     let text = "feed per revolution, but the main spindle has no speed";
                     return Err(Fault::new(Condition::SpindleSpeedZeroAtFeed, text, span));

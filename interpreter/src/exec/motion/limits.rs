@@ -1,17 +1,17 @@
 //! Software limits along a path.
 
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::words::Words;
 use crate::exec::contour::Driven;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
-use crate::exec::words::Words;
 use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
 
 impl Decoder {
     /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round.
     pub(super) fn check_limits(&mut self, path: &Path, words: &Words<'_>, span: Span) {
-        for axis in 0..self.limits_mm.len() {
+        for axis in 0..self.geometry.limits_mm.len() {
             let Some((low, high)) = path.extent(axis) else { return };
             let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
             let end = path.end()[axis];
@@ -45,10 +45,10 @@ impl Decoder {
         if low.to_bits() == high.to_bits() {
             return None;
         }
-        let limits @ (least, most) = self.limits_mm[axis]?;
+        let limits @ (least, most) = self.geometry.limits_mm[axis]?;
         let outside = |x: f64| !(least..=most).contains(&x);
         // the path leaves out what the axis has gone as an independent axis
-        let way = self.independent.way[axis];
+        let way = self.motion.independent.way[axis];
         let (low, high) = (low + way, high + way);
         // the end of the block is what the program says
         let (what, x) = match end.map(|end| end + way).filter(|end| outside(*end)) {
@@ -62,7 +62,7 @@ impl Decoder {
 
     /// 21897 for a target outside the software limits of its axis.
     pub(in crate::exec) fn check_limit(&mut self, axis: usize, target: f64, at: Span) {
-        let Some(limits @ (low, high)) = self.limits_mm[axis] else { return };
+        let Some(limits @ (low, high)) = self.geometry.limits_mm[axis] else { return };
         if !(low..=high).contains(&target) {
             let fault = self.limit_fault(axis, "target", target, limits, at);
             self.note(fault);
@@ -87,7 +87,6 @@ impl Decoder {
                 .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
                 .parameter("P-AXIS-00177")
         });
-        let behaviour = self.machine.axes[axis].text("kenngr.swe_behaviour");
-        if behaviour.as_deref() == Some("WARNING") { fault.warning() } else { fault }
+        if self.machine.axes[axis].software_limits_only_warn() { fault.warning() } else { fault }
     }
 }

@@ -126,15 +126,14 @@ fn outer_corners_by_lines() {
 }
 
 #[test]
-fn without_a_word_corners_are_round_and_a_note_says_so() {
+fn without_a_word_corners_are_lines() {
     let run = run("V.G.WZ_AKT.R=2\nG41 X0 Y-10 F100\nY0\nX10\nG40 Y-20\nM30\n");
-    assert_eq!(super::places(&run.diagnostics), ["K-0109 2:1"]);
-    assert!(run.blocks().iter().any(|b| matches!(b.path, Path::Arc(_))));
-    let straight = super::machine(&["channel.prog_start.g_gruppe[6].nr=25"]);
+    assert!(run.diagnostics.is_empty() && run.blocks().iter().all(|b| b.path.is_straight()));
+    let round = super::machine(&["channel.prog_start.g_gruppe[6].nr=26"]);
     let text = "V.G.WZ_AKT.R=2\nG41 X0 Y-10 F100\nY0\nX10\nG40 Y-20\nM30\n";
     let sources = crate::source::MemorySources::new().with("main.nc", text);
-    let run = super::run_with(sources, straight, super::Options::default());
-    assert!(run.diagnostics.is_empty() && run.blocks().iter().all(|b| b.path.is_straight()));
+    let run = super::run_with(sources, round, super::Options::default());
+    assert!(run.blocks().iter().any(|b| matches!(b.path, Path::Arc(_))));
     let wrong = super::machine(&["channel.prog_start.g_gruppe[8].nr=51"]);
     let sources = crate::source::MemorySources::new().with("main.nc", "M30\n");
     let run = super::run_with(sources, wrong, super::Options::default());

@@ -4,7 +4,7 @@ use super::{assert_near, checked, clean, places, run};
 
 #[test]
 fn words_that_are_only_ignored_warn_once() {
-    let run = run("G08 X1 F100\nG08 X2\n#TOOL DATA\n#LAH [1]\n#INIT V.E.\n#TLC ON\nM30\n");
+    let run = run("G08 X1 F100\nG08 X2\n#TOOL DATA\n#LAH [1]\n#INIT V.E.\n#CACHE CLEAR\nM30\n");
     assert_eq!(run.ids(), ["K-0100"; 5]);
     assert_eq!(run.end[0], 2.0);
 }

@@ -26,6 +26,12 @@ fn programs_without_heads_and_ends() {
     assert_eq!(run.end, [1.0, 0.0, 0.0]);
     assert_end("%L UP\nX1\n%MAIN\nX2 F100", [2.0, 0.0, 0.0]);
     assert_end("%\nX2 F100", [2.0, 0.0, 0.0]);
+    // what says nothing in front of a subroutine is no main program
+    for front in ["#COMMENT BEGIN\n%L X\nX9\n#COMMENT END", "(text)\n; more\n\n", "N10\nN20 (text)"]
+    {
+        assert_end(&format!("{front}\n%L UP\nX1\n%MAIN\nX2 F100"), [2.0, 0.0, 0.0]);
+        assert_end(&format!("{front}\nX2 F100"), [2.0, 0.0, 0.0]);
+    }
 }
 
 #[test]
@@ -45,7 +51,7 @@ fn order_of_execution() {
     assert_end("X1 G70 F100", [25.4, 0.0, 0.0]);
     assert_end("P1=1 X P1 P1=2 Y P1 F100", [1.0, 2.0, 0.0]);
     // the jump and the call come last
-    assert_end("%L A\nX P1\n%MAIN\nF100 LL A P1=3 Y1", [3.0, 1.0, 0.0]);
+    assert_end("%L A\nX P1\n%MAIN\nF100 P1=3 Y1 LL A", [3.0, 1.0, 0.0]);
 }
 
 #[test]
@@ -107,7 +113,7 @@ fn the_list_of_first_cases() {
         ("O100", Id("20191 1:1")),
         ("G21", Id("K-0101 1:1")),
         ("G21\nX5 F100", End([-5.0, 0.0, 0.0])),
-        ("%L UP\nX1\n%MAIN\nLL UP F100", End([1.0, 0.0, 0.0])),
+        ("%L UP\nX1\n%MAIN\nF100 LL UP", End([1.0, 0.0, 0.0])),
     ] {
         let run = run(&format!("{text}\nM30\n"));
         match expected {

@@ -2,7 +2,9 @@
 
 use super::plant;
 use crate::diag::{Condition, Diagnostic, Severity};
-use crate::machine::axis::{AxisKind, integer};
+use crate::machine::axis::AxisKind;
+use crate::machine::table::param::{Number, Param, Place};
+use crate::machine::table::{Row, axis_control, axis_drive as of, axis_general, kontur};
 use crate::machine::{Axis, issues};
 use kontur_filters::control::{
     AxisControlConfig, Encoder, FeedforwardConfig, FeedforwardMode, PositionConfig, PositionLoop,
@@ -11,7 +13,7 @@ use kontur_filters::control::{
         ExactStopConfig, LagMonitorConfig, LagMonitorType, SetpointMonitorConfig, Thresholds,
     },
     position::DynamicKv,
-    scaling::{Motor, SpeedFormat, TimeBase, TorqueFormat},
+    scaling::{self, Motor, SpeedFormat, TimeBase, TorqueFormat, encoder_resolution},
 };
 
 /// Kind of drive (P-AXIS-00020), as far as it matters here.
@@ -29,11 +31,11 @@ enum Drive {
 
 impl Drive {
     fn of(axis: &Axis) -> Self {
-        match integer(axis.raw("kenngr.antr_typ")) {
-            Some(1 | 5 | 6) => Self::Conventional,
-            Some(3) => Self::Profidrive,
-            Some(4) | None => Self::Simulated,
-            Some(_) => Self::Bus,
+        match axis.get(axis_general::DRIVE) {
+            1 | 5 | 6 => Self::Conventional,
+            3 => Self::Profidrive,
+            4 => Self::Simulated,
+            _ => Self::Bus,
         }
     }
 }
@@ -48,8 +50,8 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
     let command_format = match drive {
         Drive::Conventional | Drive::Simulated => SpeedFormat::Gain(quotient(
             axis,
-            "getriebe[0].multi_gain_z",
-            "getriebe[0].multi_gain_n",
+            axis_control::COMMAND_GAIN_NUM,
+            axis_control::COMMAND_GAIN_DENOM,
         )),
         Drive::Profidrive | Drive::Bus => resolution(axis),
     };
@@ -63,6 +65,7 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
         feedforward,
         position: position(axis, limits.v_max_mm_s, diagnostics),
         encoder: encoder(axis),
+        increment_mm: increment_mm(axis),
         plant: plant::config(axis),
         lag: lag(axis, drive),
         exact_stop: exact_stop(axis),
@@ -75,65 +78,44 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
 
 /// Keys that say something about another gear stage or another kind of drive (K-0075).
 fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) {
-    let mut tell = |key: &str, what: &str, hint: &str| {
+    let mut tell = |place: Place, what: &str, hint: &str| {
         let condition = Condition::ListNoEffect;
-        diagnostics.push(issues::about(axis, condition, key, what, "no effect").hint(hint));
+        diagnostics.push(issues::about(axis, condition, place, what, "no effect").hint(hint));
     };
-    let of_gear = |key: &str| key.starts_with("getriebe[i]");
-    let other = axis.parameters().settings().find(|([gear, _], s)| *gear > 0 && of_gear(s.row.key));
-    if let Some(([gear, _], setting)) = other {
-        let key =
-            setting.row.key.replacen("[i]", &format!("[{gear}]"), 1).replacen("[j]", "[0]", 1);
-        let what = format!("parameters of gear stage {gear}");
-        tell(&key, &what, "gear stages are not changed: getriebe[0] is used");
+    let of_gear = |row: &Row| row.key.starts_with("getriebe[i]");
+    let other = axis.parameters().settings().find(|([gear, _], s)| *gear > 0 && of_gear(s.row));
+    if let Some((indices, setting)) = other {
+        let what = format!("parameters of gear stage {}", indices[0]);
+        let hint = "gear stages are not changed: getriebe[0] is used";
+        tell(Place { row: setting.row, indices }, &what, hint);
     }
-    let key = "vorsteuer.shift_time";
     // the default of the vendor's lists says nothing about another drive
-    let said = axis.parameters().setting(key).and_then(|s| s.value.number());
+    let said = axis.set_by(of::FF_SHIFT).and_then(|s| s.value.number());
     if drive != Drive::Profidrive && said.is_some_and(|x| x > 0.0 && (x - 3.0).abs() > 0.0) {
         tell(
-            key,
+            of::FF_SHIFT.place(),
             "time offset of the feedforward without PROFIdrive",
             "it holds for kenngr.antr_typ 3 only",
         );
     }
     if drive != Drive::Simulated {
-        for input in ["additive.velocity", "additive.torque"] {
-            if axis.own(input).is_some_and(|x| x > 0.0) {
-                let key = format!("kontur.axis[{}].{input}", axis.number());
+        for input in [kontur::ADDITIVE_VELOCITY, kontur::ADDITIVE_TORQUE] {
+            if axis.get(input) {
                 let hint = "a bus drive has the inputs that antr.sercos.mdt[i].nc_ref names";
-                tell(&key, "additive input of the simulated drive, for another drive", hint);
+                let what = "additive input of the simulated drive, for another drive";
+                tell(input.at(axis.number()).place(), what, hint);
             }
         }
     }
 }
 
-/// Number of a key in the units of the list; every key used has a default.
-pub(super) fn raw(axis: &Axis, key: &str) -> f64 {
-    let value = axis.raw(key);
-    debug_assert!(value.is_some(), "{key} is no number with a default");
-    value.unwrap_or_default()
-}
-
-/// The same in mm (deg), s and ratios.
-pub(super) fn converted(axis: &Axis, key: &str) -> f64 {
-    let value = axis.converted(key);
-    debug_assert!(value.is_some(), "{key} is no number with a default");
-    value.unwrap_or_default()
-}
-
-fn quotient(axis: &Axis, numerator: &str, denominator: &str) -> f64 {
-    raw(axis, numerator) / raw(axis, denominator)
-}
-
-/// A whole number of cycles; loading has checked its range.
-pub(super) fn cycles(value: Option<f64>) -> usize {
-    integer(value).unwrap_or_default() as usize
+/// Both in the units of the list.
+fn quotient(axis: &Axis, numerator: Param<Number>, denominator: Param<Number>) -> f64 {
+    axis.listed(numerator) / axis.listed(denominator)
 }
 
 fn feedforward(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) -> FeedforwardConfig {
-    let key = "vorsteuer.vorsteuerung";
-    let flags = integer(axis.raw(key)).unwrap_or_default();
+    let flags = axis.get(of::FEEDFORWARD);
     let mode = FeedforwardMode::from_bits_truncate((flags & 0xFFFF) as u16);
     let unknown = flags & !u32::from(mode.bits());
     if unknown != 0 {
@@ -141,49 +123,42 @@ fn feedforward(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) -> 
             issues::about(
                 axis,
                 Condition::ListRange,
-                key,
+                of::FEEDFORWARD,
                 &format!("feedforward {flags:#x}"),
                 "bits that mean nothing are ignored",
             )
             .hint("VEL 0x1, ACC 0x2, JERK 0x4, ADD_VEL 0x101, ADD_ACC 0x202, ADD_JERK 0x804"),
         );
     }
-    for (name, part, input) in [
-        ("velocity_delay_time", FeedforwardMode::ADD_VEL, "ADD_VEL"),
-        ("acceleration_delay_time", FeedforwardMode::ADD_ACC, "ADD_ACC"),
-        ("jerk_delay_time", FeedforwardMode::ADD_JERK, "ADD_JERK"),
+    for (delay, part, input) in [
+        (of::FF_SPEED_DELAY, FeedforwardMode::ADD_VEL, "ADD_VEL"),
+        (of::FF_ACC_DELAY, FeedforwardMode::ADD_ACC, "ADD_ACC"),
+        (of::FF_JERK_DELAY, FeedforwardMode::ADD_JERK, "ADD_JERK"),
     ] {
-        let key = format!("vorsteuer.{name}");
-        let us = raw(axis, &key);
+        let us = axis.listed(delay);
         if us > 0.0 && !mode.is_empty() && !mode.contains(part) {
             let what = format!("delay of {us} us without the additive feedforward {input}");
             diagnostics.push(
-                issues::about(axis, Condition::ListNoEffect, &key, &what, "no effect").hint(
+                issues::about(axis, Condition::ListNoEffect, delay, &what, "no effect").hint(
                     format!("only additive inputs are delayed: vorsteuer.vorsteuerung {input}"),
                 ),
             );
         }
     }
-    let weight =
-        |n: &str, d: &str| quotient(axis, &format!("vorsteuer.{n}"), &format!("vorsteuer.{d}"));
     FeedforwardConfig {
         mode,
-        global_ratio: weight("vs_v_faktor", "vs_v_nenner"),
-        velocity_ratio: weight("feedforward_v_add_num", "feedforward_v_add_denom"),
-        acceleration_quotient: weight("vs_a_faktor", "vs_a_nenner"),
-        jerk_ratio: weight("jerk_fact_num", "jerk_fact_denom"),
-        velocity_delay_s: converted(axis, "vorsteuer.velocity_delay_time"),
-        acceleration_delay_s: converted(axis, "vorsteuer.acceleration_delay_time"),
-        jerk_delay_s: converted(axis, "vorsteuer.jerk_delay_time"),
-        default_active: axis.flag("vorsteuer.default_active"),
-        global_disable: axis.flag("vorsteuer.global_disable"),
-        without_delay: axis.flag("vorsteuer.feedforward_without_delay"),
+        global_ratio: quotient(axis, of::FF_WEIGHT_NUM, of::FF_WEIGHT_DENOM),
+        velocity_ratio: quotient(axis, of::FF_SPEED_NUM, of::FF_SPEED_DENOM),
+        acceleration_quotient: quotient(axis, of::FF_ACC_NUM, of::FF_ACC_DENOM),
+        jerk_ratio: quotient(axis, of::FF_JERK_NUM, of::FF_JERK_DENOM),
+        velocity_delay_s: axis.get(of::FF_SPEED_DELAY),
+        acceleration_delay_s: axis.get(of::FF_ACC_DELAY),
+        jerk_delay_s: axis.get(of::FF_JERK_DELAY),
+        default_active: axis.get(of::FF_ALWAYS_ON),
+        global_disable: axis.get(of::FF_NEVER_ON),
+        without_delay: axis.get(of::FF_WITHOUT_DELAY),
         // P-AXIS-00165 holds for PROFIdrive only, whatever the default
-        shift_cycles: if drive == Drive::Profidrive {
-            cycles(axis.raw("vorsteuer.shift_time"))
-        } else {
-            0
-        },
+        shift_cycles: if drive == Drive::Profidrive { axis.get(of::FF_SHIFT) as usize } else { 0 },
     }
 }
 
@@ -197,13 +172,14 @@ fn additive_inputs(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> AdditiveInputs {
     if drive == Drive::Simulated {
-        let on = |key: &str| axis.own(key).is_some_and(|x| x > 0.0);
-        return AdditiveInputs { velocity: on("additive.velocity"), torque: on("additive.torque") };
+        return AdditiveInputs {
+            velocity: axis.get(kontur::ADDITIVE_VELOCITY),
+            torque: axis.get(kontur::ADDITIVE_TORQUE),
+        };
     }
-    let key = "antr.sercos.mdt[i].nc_ref";
     let named = |name: &str| {
         axis.parameters().settings().find(|(_, setting)| {
-            setting.row.key == key
+            setting.row.key == of::TELEGRAM.place().row.key
                 && setting.value.text().is_some_and(|text| text.eq_ignore_ascii_case(name))
         })
     };
@@ -212,10 +188,10 @@ fn additive_inputs(
         || mode.intersects(FeedforwardMode::ADD_JERK - FeedforwardMode::JERK);
     let copied = torque.is_none() && uses_torque && !mode.contains(FeedforwardMode::ADD_VEL);
     if let Some(([entry, _], _)) = velocity.filter(|_| copied) {
-        let key = format!("antr.sercos.mdt[{entry}].nc_ref");
+        let telegram = of::TELEGRAM.at(entry);
         let (what, effect) = ("additive input S_0_0037", "taken for the additive torque");
         diagnostics.push(
-            issues::about(axis, Condition::NoAdditiveTorque, &key, what, effect)
+            issues::about(axis, Condition::NoAdditiveTorque, telegram, what, effect)
                 .severity(Severity::Note)
                 .hint("the additive torque is S_0_0080; the manual's listing prints S_0_0037"),
         );
@@ -232,28 +208,26 @@ fn additive_inputs(
 /// (PROFIdrive, CANopen), so `operation_mode` decides for them as the manual says it does for SERCOS, and
 /// `DRIVE_DEFAULT` means what the commissioning manual prints as the usual case of each bus.
 fn position_loop(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> PositionLoop {
-    let key = "antr.operation_mode";
-    let mode = axis.text(key).unwrap_or_default();
+    let param = axis_control::OPERATION_MODE;
+    let mode = axis.get(param).unwrap_or_default();
     if mode.starts_with("OPEN_POSITION_LOOP") {
         let effect = "the loop stays closed";
         diagnostics.push(if axis.kind() == AxisKind::Spindle {
             let what = format!("{mode}, a spindle without position control");
-            issues::about(axis, Condition::PositionLoop, key, &what, effect)
+            issues::about(axis, Condition::PositionLoop, param, &what, effect)
                 .severity(Severity::Warning)
         } else {
             let what = format!("{mode}, which only spindles can have");
-            issues::about(axis, Condition::AxisWithoutPositionControl, key, &what, effect)
+            issues::about(axis, Condition::AxisWithoutPositionControl, param, &what, effect)
         });
     }
-    if !matches!(integer(axis.raw("kenngr.antr_typ")), Some(2 | 3 | 8))
-        || mode == "CNC_POSITION_CONTROL"
-    {
+    if !matches!(axis.get(axis_general::DRIVE), 2 | 3 | 8) || mode == "CNC_POSITION_CONTROL" {
         return PositionLoop::Cnc;
     }
     if !mode.starts_with("OPEN_POSITION_LOOP") {
         let what = "position loop closed in the drive";
         let effect = "simulated with the law of the control and its gain kv (P-AXIS-00099)";
-        diagnostics.push(issues::about(axis, Condition::PositionLoop, key, what, effect).hint(
+        diagnostics.push(issues::about(axis, Condition::PositionLoop, param, what, effect).hint(
             "set kv to the gain of the drive; CNC_POSITION_CONTROL closes the loop in the control",
         ));
     }
@@ -262,62 +236,89 @@ fn position_loop(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> PositionLoop
 
 /// Assumption: the gain depends on speed if its two values differ; the manual names no switch.
 fn position(axis: &Axis, v_max_mm_s: f64, diagnostics: &mut Vec<Diagnostic>) -> PositionConfig {
-    let dynamic = |key: &str| converted(axis, &format!("getriebe[0].dyn_kv.{key}"));
     let dynamic_kv = DynamicKv {
-        v1_mm_s: dynamic("v1"),
-        kv1_per_s: dynamic("kv1"),
-        v2_mm_s: dynamic("v2"),
-        kv2_per_s: dynamic("kv2"),
+        v1_mm_s: axis.get(axis_control::GAIN_SPEED_1),
+        kv1_per_s: axis.get(axis_control::GAIN_1),
+        v2_mm_s: axis.get(axis_control::GAIN_SPEED_2),
+        kv2_per_s: axis.get(axis_control::GAIN_2),
     };
     PositionConfig {
         kv_per_s: axis.kv_1_s(),
         dynamic_kv: Some(dynamic_kv).filter(|d| (d.kv1_per_s - d.kv2_per_s).abs() > 0.0),
         v_max_mm_s,
-        v_excess_ratio: converted(axis, "lr_param.dyn_monitoring_v_err"),
-        dead_band_mm: converted(axis, "getriebe[0].pos_control_deadband"),
+        v_excess_ratio: axis.get(axis_control::SPEED_EXCESS),
+        dead_band_mm: axis.get(axis_control::DEAD_BAND),
         closed_in: position_loop(axis, diagnostics),
     }
 }
 
 /// Direct if the list configures a second measuring system or `kontur.lis` says so.
 fn encoder(axis: &Axis) -> Encoder {
-    let keys = ["lr_hw[1].encoder_resolution_num", "lr_hw[1].encoder_resolution_denom"];
-    let listed = keys.iter().any(|key| axis.parameters().setting(key).is_some());
-    if listed || axis.own("load_encoder").is_some_and(|x| x > 0.0) {
-        Encoder::Direct
+    let listed = [axis_control::ENCODER_NUM, axis_control::ENCODER_DENOM]
+        .iter()
+        .any(|param| axis.set_by(param.at(1)).is_some());
+    if listed || axis.get(kontur::LOAD_ENCODER) { Encoder::Direct } else { Encoder::Motor }
+}
+
+/// Smallest step of the measuring system of the position loop in mm: P-AXIS-00422/00423 of a direct one, else
+/// `R = incr_per_rev i / f` as soon as P-AXIS-00362 or P-AXIS-00363 is not 1, else P-AXIS-00234/00233.
+///
+/// Assumption: an axis whose list says nothing about its measuring system reads without steps, so that what a trace shows
+/// are the effects that the list asks for.
+fn increment_mm(axis: &Axis) -> f64 {
+    let quotient_of_set = |numerator: Place, denominator: Place| {
+        let set = [numerator, denominator].iter().any(|place| axis.set_by(*place).is_some());
+        let quotient = axis.listed(numerator) / axis.listed(denominator);
+        if set { quotient } else { 0.0 }
+    };
+    let resolution = if encoder(axis) == Encoder::Direct {
+        quotient_of_set(
+            axis_control::ENCODER_NUM.at(1).place(),
+            axis_control::ENCODER_DENOM.at(1).place(),
+        )
+    } else if feed_constant_given(axis) {
+        let (feed, gear) = (feed_constant(axis), gear(axis));
+        let increments = axis.listed(axis_control::INCREMENTS_PER_REV);
+        encoder_resolution(increments, feed[0] / feed[1] / 1e4, gear[0] / gear[1])
     } else {
-        Encoder::Motor
-    }
+        quotient_of_set(
+            axis_control::RESOLUTION_INCREMENTS.place(),
+            axis_control::RESOLUTION_PATH.place(),
+        )
+    };
+    scaling::increment_mm(resolution, axis.get(of::DROPPED_BITS))
+}
+
+/// P-AXIS-00362 or P-AXIS-00363 is not 1: the feed constant rules the resolution.
+fn feed_constant_given(axis: &Axis) -> bool {
+    !feed_constant(axis).into_iter().all(one)
 }
 
 fn lag(axis: &Axis, drive: Drive) -> LagMonitorConfig {
     // P-AXIS-00191: the default holds for digital drives
-    let delay_key = "antr.nbr_delay_cycles";
     let digital = matches!(drive, Drive::Bus | Drive::Profidrive);
-    let delay = digital || axis.parameters().setting(delay_key).is_some();
-    let number = |key: &str| converted(axis, &format!("getriebe[0].{key}"));
+    let delay = digital || axis.set_by(of::LAG_DELAY).is_some();
     LagMonitorConfig {
-        kind: match integer(axis.raw("getriebe[0].slep_ueberw_typ")) {
-            Some(1) => LagMonitorType::Standard,
-            Some(2) => LagMonitorType::Linear,
-            Some(4) => LagMonitorType::VelocityIndependent,
+        kind: match axis.get(axis_control::LAG_MONITOR) {
+            1 => LagMonitorType::Standard,
+            2 => LagMonitorType::Linear,
+            4 => LagMonitorType::VelocityIndependent,
             _ => LagMonitorType::Off,
         },
-        dynamics: number("slep_dyn"),
-        lag_max_mm: number("slep_max"),
-        lag_min_mm: number("slep_min"),
-        shift_s: number("slep_time_const"),
-        tolerance_s: number("pos_lag_mon_error_delay_time"),
-        delay_cycles: if delay { cycles(axis.raw(delay_key)) } else { 0 },
-        suppress: axis.flag("kenngr.suppress_pos_lag_error"),
+        dynamics: axis.get(axis_control::LAG_DYNAMICS),
+        lag_max_mm: axis.get(axis_control::LAG_MAX),
+        lag_min_mm: axis.get(axis_control::LAG_MIN),
+        shift_s: axis.get(axis_control::LAG_SHIFT),
+        tolerance_s: axis.get(axis_control::LAG_TOLERANCE),
+        delay_cycles: if delay { axis.get(of::LAG_DELAY) as usize } else { 0 },
+        suppress: axis.get(axis_general::LAG_SUPPRESSED),
     }
 }
 
 /// P-AXIS-00532 rules; below 0 the older P-AXIS-00151 does. 0 of either switches off.
 fn exact_stop(axis: &Axis) -> ExactStopConfig {
-    let time_s = converted(axis, "getriebe[0].position_settling_time");
-    let time_s =
-        if time_s < 0.0 { converted(axis, "getriebe[0].pos_einschw_zeit") } else { time_s };
+    let time_s = axis.get(axis_control::SETTLING_TIME);
+    let time_s = if time_s < 0.0 { axis.get(axis_control::SETTLING_TIME_OLD) } else { time_s };
     ExactStopConfig { window_mm: axis.window_mm(), settling_s: Some(time_s).filter(|t| *t > 0.0) }
 }
 
@@ -327,27 +328,27 @@ fn setpoint(
     a_max_mm_s2: f64,
     j_max_mm_s3: f64,
 ) -> SetpointMonitorConfig {
-    let thresholds = |letter: char| Thresholds {
-        warn_ratio: converted(axis, &format!("kenngr.dyn_monitoring_{letter}_warn")),
-        error_ratio: converted(axis, &format!("kenngr.dyn_monitoring_{letter}_err")),
+    let thresholds = |warning: Param<Number>, error: Param<Number>| Thresholds {
+        warn_ratio: axis.get(warning),
+        error_ratio: axis.get(error),
     };
     SetpointMonitorConfig {
         v_max_mm_s,
         a_max_mm_s2,
         j_max_mm_s3,
-        velocity: thresholds('v'),
-        acceleration: thresholds('a'),
-        jerk: thresholds('j'),
+        velocity: thresholds(axis_general::SPEED_WARNING, axis_general::SPEED_ERROR),
+        acceleration: thresholds(axis_general::ACC_WARNING, axis_general::ACC_ERROR),
+        jerk: thresholds(axis_general::JERK_WARNING, axis_general::JERK_ERROR),
     }
 }
 
 fn resolution(axis: &Axis) -> SpeedFormat {
     SpeedFormat::Resolution {
-        increments: raw(axis, "antr.v_reso_num"),
-        path_um: raw(axis, "antr.v_reso_denom"),
-        time_base: match integer(axis.raw("antr.v_time_base")) {
-            Some(1) => TimeBase::Second,
-            Some(2) => TimeBase::Cycle,
+        increments: axis.listed(of::SPEED_INCREMENTS),
+        path_um: axis.listed(of::SPEED_PATH),
+        time_base: match axis.get(of::SPEED_TIME_BASE) {
+            1 => TimeBase::Second,
+            2 => TimeBase::Cycle,
             _ => TimeBase::Minute,
         },
     }
@@ -359,12 +360,12 @@ fn one(x: f64) -> bool {
 
 /// Feed constant: path in 0.1 um and the revolutions of the gear output for it.
 fn feed_constant(axis: &Axis) -> [f64; 2] {
-    ["antr.feed_const_num", "antr.feed_const_denom"].map(|key| raw(axis, key))
+    [of::FEED_CONSTANT_PATH, of::FEED_CONSTANT_REVS].map(|param| axis.listed(param))
 }
 
 /// Gear ratio: revolutions of input and output.
 fn gear(axis: &Axis) -> [f64; 2] {
-    ["getriebe[0].gear_fact_num", "getriebe[0].gear_fact_denom"].map(|key| raw(axis, key))
+    [axis_control::GEAR_IN, axis_control::GEAR_OUT].map(|param| axis.listed(param))
 }
 
 /// Motor-side scaling (a feed constant or gear ratio other than 1) means a rotary motor, otherwise the motor of a linear
@@ -376,7 +377,7 @@ pub(in crate::machine) fn has_rotary_motor(axis: &Axis) -> bool {
 /// Assumption: a rotary axis without feed constant turns by 360 degrees per revolution of the gear output.
 fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     let (feed, gear) = (feed_constant(axis), gear(axis));
-    let feed_given = !feed.into_iter().all(one);
+    let feed_given = feed_constant_given(axis);
     let motor = if has_rotary_motor(axis) {
         let turn = !feed_given && axis.kind() != AxisKind::Linear;
         Motor::Rotary {
@@ -386,30 +387,31 @@ fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     } else {
         Motor::Linear
     };
-    for key in ["getriebe[0].wegaufz", "getriebe[0].wegaufn"] {
-        if feed_given && !one(raw(axis, key)) {
-            let what = format!("encoder resolution {} beside a feed constant", raw(axis, key));
+    for param in [axis_control::RESOLUTION_INCREMENTS, axis_control::RESOLUTION_PATH] {
+        let resolution = axis.listed(param);
+        if feed_given && !one(resolution) {
+            let what = format!("encoder resolution {resolution} beside a feed constant");
             diagnostics.push(
-                issues::about(axis, Condition::ResolutionWithoutEffect, key, &what, "the feed constant rules, it has no effect")
+                issues::about(axis, Condition::ResolutionWithoutEffect, param, &what, "the feed constant rules, it has no effect")
                     .hint("older builds took the gear ratio from it: write gear_fact_num, gear_fact_denom"),
             );
         }
     }
-    let key = "getriebe[0].incr_per_rev";
-    let increments = raw(axis, key);
+    let param = axis_control::INCREMENTS_PER_REV;
+    let increments = axis.listed(param);
     if !feed_given && (increments - 1024.0).abs() > 0.0 {
         let what = format!("{increments} increments per revolution without a feed constant");
         diagnostics.push(
-            issues::about(axis, Condition::IncrementsWithoutEffect, key, &what, "no effect")
+            issues::about(axis, Condition::IncrementsWithoutEffect, param, &what, "no effect")
                 .hint("set antr.feed_const_num and antr.feed_const_denom as well"),
         );
     }
     TorqueFormat {
         motor,
-        load: raw(axis, "getriebe[0].load"),
-        real_load: axis.own("plant.inertia").filter(|x| *x > 0.0),
-        reference: raw(axis, "antr.acc_reference_value"),
-        scale_num: raw(axis, "antr.torque_scale_num"),
-        scale_denom: raw(axis, "antr.torque_scale_denom"),
+        load: axis.listed(of::LOAD),
+        real_load: Some(axis.get(kontur::INERTIA)).filter(|x| *x > 0.0),
+        reference: axis.listed(of::TORQUE_REFERENCE),
+        scale_num: axis.listed(of::TORQUE_SCALE_NUM),
+        scale_denom: axis.listed(of::TORQUE_SCALE_DENOM),
     }
 }

@@ -1,10 +1,12 @@
 //! Axis filters and the kernel slot of one axis.
 
-use super::control::{converted, raw};
 use crate::diag::{Condition, Diagnostic};
 use crate::machine::Axis;
-use crate::machine::axis::{AxisKind, integer};
-use crate::machine::issues::{self, Origin};
+use crate::machine::axis::AxisKind;
+use crate::machine::issues;
+use crate::machine::table::axis_filters as of;
+use crate::machine::table::axis_guard;
+use crate::machine::table::param::{Number, Param, Switch, Whole};
 use kontur_filters::{
     cascade::{Cascade, FilterEntry, ListedPrototype, ListedType},
     fir::{FirConfig, FirKind},
@@ -51,21 +53,70 @@ pub struct KernelPreset {
     pub hsc: Option<HscConfig>,
 }
 
-/// The standard filters of an axis, designed, and its HSC filter.
-pub(super) fn cascade(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagnostic>) -> Cascade {
-    let mut entries = Vec::new();
-    for index in 0..3 {
-        entries.push(entry(axis, &format!("filter[{index}]"), diagnostics));
-    }
-    let cascade = Cascade::design(&entries, axis.kind() == AxisKind::Spindle, cycle);
-    diagnostics.extend(cascade.issues.iter().map(|(index, issue)| {
-        issues::filter(axis, Origin::List(&format!("filter[{index}]")), issue)
-    }));
-    cascade
+/// The parameters of one filter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FilterKeys {
+    pub(in crate::machine) enable: Param<Switch>,
+    pub(in crate::machine) kind: Param<Whole>,
+    /// Of a FIR filter, which has none, its type.
+    pub(in crate::machine) prototype: Param<Whole>,
+    pub(in crate::machine) order: Param<Whole>,
+    pub(in crate::machine) time: Param<Whole>,
+    pub(in crate::machine) frequency: Param<Number>,
+    pub(in crate::machine) quality: Param<Number>,
+    pub(in crate::machine) share: Param<Number>,
 }
 
-/// Keys of the filter of the additional interface.
-const ADDITIONAL: &str = "lr_param.add_interface.filter[0]";
+/// A standard filter, or the HSC filter.
+const fn standard(index: u32) -> FilterKeys {
+    FilterKeys {
+        enable: of::ENABLE.at(index),
+        kind: of::TYPE.at(index),
+        prototype: of::PROTOTYPE.at(index),
+        order: of::ORDER.at(index),
+        time: of::TIME.at(index),
+        frequency: of::FREQUENCY.at(index),
+        quality: of::QUALITY.at(index),
+        share: of::SHARE.at(index),
+    }
+}
+
+/// The FIR filter.
+const FIR: FilterKeys = FilterKeys {
+    enable: of::FIR_ENABLE,
+    kind: of::FIR_TYPE,
+    prototype: of::FIR_TYPE,
+    order: of::FIR_ORDER,
+    time: of::FIR_TIME,
+    frequency: of::FIR_FREQUENCY,
+    quality: of::FIR_QUALITY,
+    share: of::FIR_SHARE,
+};
+
+/// The filter of the additional interface.
+const ADDITIONAL: FilterKeys = FilterKeys {
+    enable: of::ADDITIONAL_ENABLE,
+    kind: of::ADDITIONAL_TYPE,
+    prototype: of::ADDITIONAL_PROTOTYPE,
+    order: of::ADDITIONAL_ORDER,
+    time: of::ADDITIONAL_TIME,
+    frequency: of::ADDITIONAL_FREQUENCY,
+    quality: of::ADDITIONAL_QUALITY,
+    share: of::ADDITIONAL_SHARE,
+};
+
+/// The standard filters of an axis, designed, and its HSC filter.
+pub(super) fn cascade(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagnostic>) -> Cascade {
+    let keys = [standard(0), standard(1), standard(2)];
+    // `filter[i]` without a type is no low-pass: with the prototype HSC it means the mean
+    let entries: Vec<FilterEntry> =
+        keys.iter().map(|k| entry(axis, k, axis.set_by(k.kind).is_some(), diagnostics)).collect();
+    let cascade = Cascade::design(&entries, axis.kind() == AxisKind::Spindle, cycle);
+    for (index, issue) in &cascade.issues {
+        diagnostics.push(issues::filter(axis, keys.get(*index), issue));
+    }
+    cascade
+}
 
 /// The additional interface of an axis, `None` if the list leaves it off.
 pub(super) fn additional(
@@ -73,44 +124,41 @@ pub(super) fn additional(
     cycle: CycleTime,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<AdditionalInterface> {
-    if !axis.flag("lr_param.add_interface.enable") {
+    if !axis.has_additional_interface() {
         return None;
     }
-    let (filter, issues) = entry(axis, ADDITIONAL, diagnostics).additional(cycle);
-    diagnostics
-        .extend(issues.iter().map(|issue| issues::filter(axis, Origin::List(ADDITIONAL), issue)));
+    let (filter, issues) = entry(axis, &ADDITIONAL, true, diagnostics).additional(cycle);
+    diagnostics.extend(issues.iter().map(|issue| issues::filter(axis, Some(&ADDITIONAL), issue)));
     Some(AdditionalInterface { filter })
 }
 
-/// The filter whose keys begin with `prefix`; what no entry of the list can mean leaves it off.
-fn entry(axis: &Axis, prefix: &str, diagnostics: &mut Vec<Diagnostic>) -> FilterEntry {
-    let key = |name: &str| format!("{prefix}.{name}");
-    let mut enable = axis.flag(&key("enable"));
-    // `filter[i]` without a type is no low-pass: with the prototype HSC it means the mean
-    let value = match axis.parameters().setting(&key("type")) {
-        None if prefix != ADDITIONAL => None,
-        _ => axis.raw(&key("type")),
-    };
-    let number = integer(value);
-    let listed_type = match number.map(ListedType::from_number) {
+/// One filter of the list, with a type if it is `typed`; what no entry of the list can mean leaves it off.
+fn entry(
+    axis: &Axis,
+    keys: &FilterKeys,
+    typed: bool,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> FilterEntry {
+    let mut enable = axis.get(keys.enable);
+    let listed_type = match typed.then(|| ListedType::from_number(axis.get(keys.kind))) {
         None => None,
         Some(Ok(listed)) => Some(listed),
         Some(Err(issue)) => {
-            diagnostics.push(issues::filter(axis, Origin::List(prefix), &issue));
+            diagnostics.push(issues::filter(axis, Some(keys), &issue));
             enable = false;
             None
         }
     };
     let default = FilterEntry::default();
-    let wrong_type = number.is_some() && listed_type.is_none();
-    let number = integer(axis.raw(&key("prototype"))).unwrap_or_default();
+    let wrong_type = typed && listed_type.is_none();
+    let number = axis.get(keys.prototype);
     let prototype = match ListedPrototype::from_number(number) {
         Some(ListedPrototype::Hsc) if wrong_type => default.prototype,
         Some(prototype) => prototype,
         None => {
             let what = format!("prototype {number} of a filter");
             diagnostics.push(
-                issues::about(axis, Condition::ListRange, &key("prototype"), &what, "filter off")
+                issues::about(axis, Condition::ListRange, keys.prototype, &what, "filter off")
                     .hint("CRIT_DAMPING 1, BUTTERWORTH 2, BESSEL 3, HSC 5; 4 is not assigned"),
             );
             enable = false;
@@ -121,24 +169,23 @@ fn entry(axis: &Axis, prefix: &str, diagnostics: &mut Vec<Diagnostic>) -> Filter
         enable,
         listed_type,
         prototype,
-        order: integer(axis.raw(&key("order"))).unwrap_or_default(),
-        f_hz: raw(axis, &key("fg_f0")),
-        q: raw(axis, &key("guete")),
-        share_ratio: converted(axis, &key("share_percent")),
-        time_constant_us: integer(axis.raw(&key("time_constant"))).unwrap_or_default(),
+        order: axis.get(keys.order),
+        f_hz: axis.get(keys.frequency),
+        q: axis.get(keys.quality),
+        share_ratio: axis.get(keys.share),
+        time_constant_us: axis.get(keys.time),
     }
 }
 
 /// The kernel slot as the list states it.
 pub(super) fn preset(axis: &Axis, cycle: CycleTime) -> KernelPreset {
-    let mode = integer(axis.raw("vib_guard.mode")).and_then(|mode| u8::try_from(mode).ok());
     KernelPreset {
         vib_guard: VibGuardPreset {
-            active: axis.flag("vib_guard.active"),
+            active: axis.get(axis_guard::ACTIVE),
             settings: VibGuardSettings {
-                mode: mode.unwrap_or_default(),
-                freq_hz: raw(axis, "vib_guard.freq"),
-                damping: raw(axis, "vib_guard.damping"),
+                mode: u8::try_from(axis.get(axis_guard::MODE)).unwrap_or(u8::MAX),
+                freq_hz: axis.get(axis_guard::FREQUENCY),
+                damping: axis.get(axis_guard::DAMPING),
             },
         },
         fir: fir(axis),
@@ -147,48 +194,42 @@ pub(super) fn preset(axis: &Axis, cycle: CycleTime) -> KernelPreset {
 }
 
 fn fir(axis: &Axis) -> Option<FirPreset> {
-    let kind = match integer(axis.raw("filter_fir.type")) {
-        Some(1) => FirKind::MovingAverage,
-        Some(2) => FirKind::Gauss,
-        Some(3) => FirKind::WindowedSinc,
-        Some(4) => FirKind::TimeDelay,
+    let kind = match axis.get(FIR.kind) {
+        1 => FirKind::MovingAverage,
+        2 => FirKind::Gauss,
+        3 => FirKind::WindowedSinc,
+        4 => FirKind::TimeDelay,
         _ => return None,
     };
     let config = FirConfig {
         kind,
-        order: integer(axis.raw("filter_fir.order")).unwrap_or_default(),
-        order_time_us: integer(axis.raw("filter_fir.order_time")).unwrap_or_default(),
-        share_ratio: converted(axis, "filter_fir.share"),
-        fcut_hz: raw(axis, "filter_fir.fcut"),
-        quality: raw(axis, "filter_fir.quality"),
+        order: axis.get(FIR.order),
+        order_time_us: axis.get(FIR.time),
+        share_ratio: axis.get(FIR.share),
+        fcut_hz: axis.get(FIR.frequency),
+        quality: axis.get(FIR.quality),
     };
-    Some(FirPreset { enable: axis.flag("filter_fir.enable"), config })
+    Some(FirPreset { enable: axis.get(FIR.enable), config })
 }
 
 /// What is wrong with the kernels that are on from program start, and with the HSC filter.
 pub(super) fn check_kernels(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagnostic>) {
     let preset = preset(axis, cycle);
-    let number = raw(axis, "filter_fir.type");
-    if number > 4.0 {
+    let number = axis.get(FIR.kind);
+    if number > 4 {
         let what = format!("type {number} of the FIR filter, 0 to 4 exist");
-        diagnostics.push(issues::about(
-            axis,
-            Condition::ListRange,
-            "filter_fir.type",
-            &what,
-            "no FIR filter",
-        ));
+        let effect = "no FIR filter";
+        diagnostics.push(issues::about(axis, Condition::ListRange, FIR.kind, &what, effect));
     }
     let fir = preset.fir.filter(|fir| fir.enable).map(|fir| fir.config.design(cycle).1);
     let hsc = preset.hsc.map(|hsc| hsc.design(cycle).1);
-    for (prefix, found) in [("filter_fir", fir), ("filter[0]", hsc)] {
+    for (keys, found) in [(FIR, fir), (standard(0), hsc)] {
         let found = found.unwrap_or_default();
-        diagnostics
-            .extend(found.iter().map(|issue| issues::filter(axis, Origin::List(prefix), issue)));
+        diagnostics.extend(found.iter().map(|issue| issues::filter(axis, Some(&keys), issue)));
     }
     if preset.vib_guard.active
         && let Err(error) = preset.vib_guard.settings.kernel(cycle)
     {
-        diagnostics.push(issues::vib_guard(axis, Origin::List("vib_guard"), &error, cycle));
+        diagnostics.push(issues::vib_guard(axis, true, &error, cycle));
     }
 }

@@ -1,8 +1,7 @@
 //! Improved Position Control of one axis.
 
-use super::control::{converted, cycles, raw};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
-use crate::machine::axis::integer;
+use crate::machine::table::{axis_guard as of, kontur};
 use crate::machine::{Axis, issues};
 use kontur_filters::control::Issue;
 use kontur_filters::control::fault::IpcParameter;
@@ -13,16 +12,14 @@ use kontur_filters::time::CycleTime;
 
 /// Largest P-AXIS-00757.
 const MOST_LIMIT: f64 = 2000.0;
-/// Keys of the function begin with this.
-pub(in crate::machine) const PREFIX: &str = "lr_param.improved_position_control";
 
 /// The function as the list states it.
 pub(super) fn config(axis: &Axis) -> IpcConfig {
     IpcConfig {
-        enable: axis.flag(&format!("{PREFIX}.enable")),
-        limit_ratio: converted(axis, &format!("{PREFIX}.v_add_max_fact")),
-        delay_cycles: cycles(axis.own("ipc.delay_cycles")),
-        stages: (0..IpcConfig::MAX_STAGES).map(|index| stage(axis, index)).collect(),
+        enable: axis.get(of::IPC_ENABLE),
+        limit_ratio: axis.get(of::IPC_SPEED_MAX),
+        delay_cycles: axis.get(kontur::IPC_DELAY) as usize,
+        stages: (0..IpcConfig::MAX_STAGES as u32).map(|index| stage(axis, index)).collect(),
         gantry_slave: false,
     }
 }
@@ -31,19 +28,18 @@ pub(super) fn config(axis: &Axis) -> IpcConfig {
 pub(super) fn out_of_range(axis: &Axis, cycle: CycleTime) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for stage in 0..IpcConfig::MAX_STAGES {
-        let value = raw(axis, &format!("{PREFIX}.stage[{stage}].mode"));
+        let value = axis.listed(of::IPC_MODE.at(stage as u32));
         if !(0.0..=3.0).contains(&value) {
             let issue = Issue::IpcRange { stage, what: IpcParameter::Mode, value };
             found.push(issues::control(axis, &issue, cycle));
         }
     }
-    let key = format!("{PREFIX}.v_add_max_fact");
-    let value = raw(axis, &key);
+    let value = axis.listed(of::IPC_SPEED_MAX);
     if value > MOST_LIMIT {
         let what = format!("limit {value} of the additive speed, 0 to {MOST_LIMIT} (0.1 %)");
         let effect = "Improved Position Control is off for the axis";
         found.push(
-            issues::about(axis, Condition::IpcRange, &key, &what, effect)
+            issues::about(axis, Condition::IpcRange, of::IPC_SPEED_MAX, &what, effect)
                 .severity(Severity::Warning)
                 .value(ValueKind::Wrong, value, "0.1%")
                 .value(ValueKind::UpperLimit, MOST_LIMIT, "0.1%"),
@@ -52,31 +48,29 @@ pub(super) fn out_of_range(axis: &Axis, cycle: CycleTime) -> Vec<Diagnostic> {
     found
 }
 
-fn stage(axis: &Axis, index: usize) -> IpcStageConfig {
-    let key = |name: &str| format!("{PREFIX}.stage[{index}].{name}");
+fn stage(axis: &Axis, index: u32) -> IpcStageConfig {
     // older builds have the damping in the filter, newer ones in the stage
-    let damping = [key("osc_damping"), key("filter[0].damping")];
-    let damping = damping
-        .iter()
-        .find(|key| axis.parameters().setting(key).is_some_and(|s| s.value.number() != Some(-1.0)));
+    let damping = [of::IPC_DAMPING.at(index), of::IPC_FILTER_DAMPING.at(index)]
+        .into_iter()
+        .find(|param| axis.set_by(*param).is_some_and(|s| s.value.number() != Some(-1.0)));
     IpcStageConfig {
-        mode: match integer(axis.raw(&key("mode"))) {
-            Some(1) => IpcMode::Direct,
-            Some(2) => IpcMode::Indirect,
-            Some(3) => IpcMode::SetPoint,
+        mode: match axis.get(of::IPC_MODE.at(index)) {
+            1 => IpcMode::Direct,
+            2 => IpcMode::Indirect,
+            3 => IpcMode::SetPoint,
             _ => IpcMode::NotActive,
         },
-        weight_num: raw(axis, &key("weight_fact_num")),
-        weight_denom: raw(axis, &key("weight_fact_denom")),
-        filters: (0..2).filter_map(|k| filter(axis, &key(&format!("filter[{k}]")), k)).collect(),
-        oscillator_damping: damping.map_or(-1.0, |key| raw(axis, key)),
+        weight_num: axis.get(of::IPC_WEIGHT_NUM.at(index)),
+        weight_denom: axis.get(of::IPC_WEIGHT_DENOM.at(index)),
+        filters: (0..2).filter_map(|k| filter(axis, index, k)).collect(),
+        oscillator_damping: damping.map_or(-1.0, |param| axis.get(param)),
     }
 }
 
 /// Filter `k` of a stage; without a type filter 0 is the band-pass and filter 1 does not exist.
-fn filter(axis: &Axis, prefix: &str, k: u32) -> Option<IpcFilterConfig> {
-    let typed = format!("{prefix}.type");
-    let text = axis.text(&typed).filter(|_| k == 0 || axis.parameters().setting(&typed).is_some());
+fn filter(axis: &Axis, stage: u32, k: u32) -> Option<IpcFilterConfig> {
+    let typed = of::IPC_TYPE.at(stage).and(k);
+    let text = axis.get(typed).filter(|_| k == 0 || axis.set_by(typed).is_some());
     let kind = match text.as_deref() {
         Some("BANDPASS") => IpcFilterType::BandPass,
         Some("ALLPASS") => IpcFilterType::AllPass,
@@ -84,8 +78,8 @@ fn filter(axis: &Axis, prefix: &str, k: u32) -> Option<IpcFilterConfig> {
     };
     Some(IpcFilterConfig {
         kind,
-        order: integer(axis.raw(&format!("{prefix}.order"))).unwrap_or_default(),
-        frequency_hz: raw(axis, &format!("{prefix}.fg_f0")),
-        quality: raw(axis, &format!("{prefix}.q_factor")),
+        order: axis.get(of::IPC_ORDER.at(stage).and(k)),
+        frequency_hz: axis.get(of::IPC_FREQUENCY.at(stage).and(k)),
+        quality: axis.get(of::IPC_QUALITY.at(stage).and(k)),
     })
 }

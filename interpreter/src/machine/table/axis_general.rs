@@ -1,57 +1,56 @@
 //! Axis lists: head, general data, limits of the range, monitors of the set position.
 
-use super::row::{Bound, Correction, Default, Raw, Row, axis};
+use super::param::parameters;
+use super::row::{Bound, Correction, Default, Raw, axis};
 use crate::diag::Condition;
 
 /// Axis types (P-AXIS-00018).
 const AXIS_TYPES: &[(&str, u32)] =
     &[("ACHSTYP_TRANSLATOR", 1), ("ACHSTYP_ROTATOR", 2), ("ACHSTYP_SPINDEL", 4)];
 
-/// The rows.
-#[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+parameters! {
     axis("P-AXIS-00014", "kenngr.abs_pos_gueltig", Raw::Boolean, "1: absolute measuring system, no homing needed")
-        .default(0.0).drives("Simulation, SERCOS, CANopen"),
+        .default(0.0).drives("Simulation, SERCOS, CANopen");
     axis("P-AXIS-00015", "kenngr.achs_mode", Raw::Uns32, "operating mode, sum of bits: linear 0x1, modulo 0x4, gantry slave 0x20000")
-        .default(1.0),
+        .default(1.0), as MODE: Whole;
     axis("P-AXIS-00016", "kopf.achs_nr", Raw::Uns16, "logical axis number, unique in the whole system, 0 not allowed; the link between axis list and channel list; changed only by restart")
-        .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0).below(Condition::AxisNumberZero, Correction::Refuse),
+        .range(Bound::At(1.0), Bound::At(65534.0)).default(1.0).below(Condition::AxisNumberZero, Correction::Refuse), as NUMBER: Whole;
     axis("P-AXIS-00018", "kenngr.achs_typ", Raw::Names(AXIS_TYPES), "ACHSTYP_TRANSLATOR 0x1, ACHSTYP_ROTATOR 0x2, ACHSTYP_SPINDEL 0x4")
-        .default(1.0),
+        .default(1.0), as KIND: Whole;
     axis("P-AXIS-00020", "kenngr.antr_typ", Raw::Uns16, "drive: 1 conventional, 2 SERCOS, 3 PROFIdrive, 4 simulation, 5 Lightbus, 6 terminal, 7 RT Ethernet, 8 CANopen, 16 virtual, 32 CAN")
-        .range(Bound::At(1.0), Bound::At(32.0)).default(4.0),
+        .range(Bound::At(1.0), Bound::At(32.0)).default(4.0), as DRIVE: Whole;
     axis("P-AXIS-00070", "kenngr.gantry_ax_nr", Raw::Uns16, "gantry slave: logical number of its master")
-        .range(Bound::At(1.0), Bound::None).default(0.0).axes("TR").special(0.0).source("TF5200 gantry"),
+        .range(Bound::At(1.0), Bound::None).default(0.0).axes("TR").special(0.0).source("TF5200 gantry"), as GANTRY_MASTER: Whole;
     axis("P-AXIS-00086", "", Raw::Uns32, "stroke of the probe; to be raised for measuring moves, whose distance shrinks by what the feedforward buffer holds")
-        .axes("TR").source("TF5200 feedforward control"),
+        .axes("TR").source("TF5200 feedforward control");
     axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "override ceiling of single axes and spindles")
-        .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(Condition::OverrideRange, Correction::Limit),
+        .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(Condition::OverrideRange, Correction::Limit);
     axis("P-AXIS-00176", "kenngr.suppress_pos_lag_error", Raw::Boolean, "the lag is monitored and traced but raises no error; no document prints the prefix of the key, kenngr., lr_param., getriebe[0]. and none are taken")
-        .default(0.0).axes("TR"),
+        .default(0.0).axes("TR"), as LAG_SUPPRESSED: Switch;
     axis("P-AXIS-00177", "kenngr.swe_neg", Raw::Sgn32, "negative software limit for setpoints; actuals may pass it by swe_toleranz")
-        .default(-100000000.0).unit("0.1um", "0.0001deg").axes("TR"),
+        .default(-100000000.0).unit("0.1um", "0.0001deg").axes("TR"), as LOWER_LIMIT: Number;
     axis("P-AXIS-00178", "kenngr.swe_pos", Raw::Sgn32, "positive software limit")
-        .default(100000000.0).unit("0.1um", "0.0001deg").axes("TR"),
+        .default(100000000.0).unit("0.1um", "0.0001deg").axes("TR"), as UPPER_LIMIT: Number;
     axis("P-AXIS-00179", "kenngr.swe_toleranz", Raw::Uns32, "extra range for actual values")
-        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1um", "0.0001deg").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").axes("TR"),
-    axis("P-AXIS-00297", "kopf.log_achs_name", Raw::Text, "default (alias) name of the axis"),
+        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1um", "0.0001deg").drives("Simulation, Conventional, Terminal, Lightbus, Profidrive").axes("TR");
+    axis("P-AXIS-00297", "kopf.log_achs_name", Raw::Text, "default (alias) name of the axis"), as NAME: Text;
     axis("P-AXIS-00439", "kenngr.dyn_monitoring_v_warn", Raw::Uns32, "warning when setpoint speed > vb_max by this (50119)")
-        .range(Bound::At(0.0), Bound::None).default(50.0).unit("0.1%", "0.1%"),
+        .range(Bound::At(0.0), Bound::None).default(50.0).unit("0.1%", "0.1%"), as SPEED_WARNING: Number;
     axis("P-AXIS-00440", "kenngr.dyn_monitoring_v_err", Raw::Uns32, "error threshold of the same (50118); raise it when band-stop filters overshoot")
-        .range(Bound::At(0.0), Bound::None).default(90.0).unit("0.1%", "0.1%"),
+        .range(Bound::At(0.0), Bound::None).default(90.0).unit("0.1%", "0.1%"), as SPEED_ERROR: Number;
     axis("P-AXIS-00441", "kenngr.dyn_monitoring_a_warn", Raw::Uns32, "warning when setpoint acceleration > a_max by this")
-        .range(Bound::At(0.0), Bound::None).default(500.0).unit("0.1%", "0.1%"),
+        .range(Bound::At(0.0), Bound::None).default(500.0).unit("0.1%", "0.1%"), as ACC_WARNING: Number;
     axis("P-AXIS-00442", "kenngr.dyn_monitoring_a_err", Raw::Uns32, "error threshold; 441 = 442 = 0 switches it off")
-        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1%", "0.1%"),
+        .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1%", "0.1%"), as ACC_ERROR: Number;
     axis("P-AXIS-00443", "kenngr.dyn_monitoring_j_warn", Raw::Uns32, "jerk warning, reference a_max/tr_min")
-        .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1%", "0.1%"),
+        .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1%", "0.1%"), as JERK_WARNING: Number;
     axis("P-AXIS-00444", "kenngr.dyn_monitoring_j_err", Raw::Uns32, "jerk error; 443 = 444 = 0 off")
-        .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1%", "0.1%"),
+        .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1%", "0.1%"), as JERK_ERROR: Number;
     axis("P-AXIS-00520", "lr_param.check_pos_command_limit", Raw::Boolean, "monitor setpoints against the positive limit in the controller every cycle (70195)")
-        .default(0.0).axes("T"),
+        .default(0.0).axes("T");
     axis("P-AXIS-00521", "", Raw::Boolean, "the same for the negative limit")
-        .default(0.0).axes("T"),
+        .default(0.0).axes("T");
     axis("P-AXIS-00554", "kenngr.swe_behaviour", Raw::Word(&["ERROR", "ERROR_LR", "WARNING"]), "ERROR | ERROR_LR (warning in preparation, error in controller) | WARNING")
-        .default_is(Default::Text("ERROR")).axes("TR"),
-    axis("P-AXIS-00627", "error_filter[i].reason", Raw::Text, "IDs or texts an error filter matches, i = 0..3"),
-];
+        .default_is(Default::Text("ERROR")).axes("TR"), as LIMIT_BEHAVIOUR: Text;
+    axis("P-AXIS-00627", "error_filter[i].reason", Raw::Text, "IDs or texts an error filter matches, i = 0..3");
+}

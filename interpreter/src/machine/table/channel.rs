@@ -1,137 +1,136 @@
 //! Channel lists.
 
-use super::row::{Bound, Correction, Default, Raw, Row, chan};
+use super::param::parameters;
+use super::row::{Bound, Correction, Default, Raw, chan};
 use crate::diag::Condition;
 
-/// The rows.
-#[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+parameters! {
     chan("P-CHAN-00001", "prog_start.slope.acceleration", Raw::Sgn16, "which accelerations G130 and G131 weight: 0 all, 1 a_beschl, 2 a_brems")
-        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
+        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as ACC_SELECTION: Whole;
     chan("P-CHAN-00002", "vector.acceleration", Raw::Real64, "path acceleration limit, unit by P-CHAN-00351, after #VECTOR LIMIT ON")
-        .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"),
+        .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"), as PATH_ACC: Number;
     chan("P-CHAN-00003", "gruppe[i].achs_anzahl", Raw::Uns16, "axes in the group")
-        .range(Bound::At(0.0), Bound::At(32.0)).default(0.0),
-    chan("P-CHAN-00005", "gruppe[i].bezeichnung", Raw::Text, "name of the group"),
-    chan("P-CHAN-00006", "gruppe[i].achse[j].bezeichnung", Raw::Text, "axis name in the NC program; first letter A B C U V W X Y Z Q, then letters, digits (and _), unique"),
-    chan("P-CHAN-00007", "spindel[i].bezeichnung", Raw::Text, "spindle name"),
+        .range(Bound::At(0.0), Bound::At(32.0)).default(0.0), as AXIS_COUNT: Whole;
+    chan("P-CHAN-00005", "gruppe[i].bezeichnung", Raw::Text, "name of the group");
+    chan("P-CHAN-00006", "gruppe[i].achse[j].bezeichnung", Raw::Text, "axis name in the NC program; first letter A B C U V W X Y Z Q, then letters, digits (and _), unique"), as AXIS_NAME: Text;
+    chan("P-CHAN-00007", "spindel[i].bezeichnung", Raw::Text, "spindle name"), as SPINDLE_NAME: Text;
     chan("P-CHAN-00009", "corr_v_trans_jerk", Raw::Boolean, "limit the jerk at tangential transitions")
-        .default(0.0),
+        .default(0.0), as LIMIT_TANGENTIAL_JERK: Switch;
     chan("P-CHAN-00011", "gruppe[i].achse[j].default_feed_axis", Raw::Boolean, "member of the feed group; none given = the first three main axes")
-        .default(0.0),
-    chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC: distance behind the corner; read and ignored"),
+        .default(0.0), as FEED_AXIS: Switch;
+    chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC: distance behind the corner; read and ignored");
     chan("P-CHAN-00019", "syn_chk.errors_total", Raw::Uns16, "syntax check: stop after this many errors (old key syn_chk.fehler_gesamt)")
-        .range(Bound::At(0.0), Bound::At(65535.0)).default(0.0),
+        .range(Bound::At(0.0), Bound::At(65535.0)).default(0.0);
     chan("P-CHAN-00020", "syn_chk.errors_per_block", Raw::Uns16, "errors per line before going to the next (old key syn_chk.fehler_pro_zeile)")
-        .range(Bound::At(0.0), Bound::At(65535.0)).default(0.0),
+        .range(Bound::At(0.0), Bound::At(65535.0)).default(0.0);
     chan("P-CHAN-00023", "grp_anzahl", Raw::Uns16, "number of axis groups, always 1")
-        .range(Bound::At(0.0), Bound::At(1.0)).default(1.0),
+        .range(Bound::At(0.0), Bound::At(1.0)).default(1.0);
     chan("P-CHAN-00028", "syn_chk.interaktiv", Raw::Uns16, "0 automatic, 1 step by step; newer key name not seen")
-        .range(Bound::At(0.0), Bound::At(1.0)),
+        .range(Bound::At(0.0), Bound::At(1.0));
     chan("P-CHAN-00035", "gruppe[i].achse[j].log_achs_nr", Raw::Uns16, "logical axis number: ties the name to the axis list with the same kopf.achs_nr; 0 not allowed, no number twice")
-        .range(Bound::At(0.0), Bound::At(65535.0)),
+        .range(Bound::At(0.0), Bound::At(65535.0)), as AXIS_NUMBER: Whole;
     chan("P-CHAN-00036", "spindel[i].log_achs_nr", Raw::Uns16, "logical axis number of the spindle")
-        .range(Bound::At(1.0), Bound::At(65535.0)),
+        .range(Bound::At(1.0), Bound::At(65535.0)), as SPINDLE_NUMBER: Whole;
     chan("P-CHAN-00054", "mass_einh", Raw::Uns08, "0 mm, 1 inch for all linear axes")
-        .range(Bound::At(0.0), Bound::At(1.0)).default(0.0),
+        .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
     chan("P-CHAN-00059", "mittelpkt_diff", Raw::Uns32, "G165: largest centre shift, absolute")
-        .default(20000.0).unit("0.0001mm", "0.0001mm").source("TF5200 programming"),
+        .default(20000.0).unit("0.0001mm", "0.0001mm").source("TF5200 programming"), as CENTRE_SHIFT: Number;
     chan("P-CHAN-00060", "mittelpkt_faktor", Raw::Uns16, "G165: largest centre shift relative to the radius")
-        .default(50.0).unit("0.1%", "0.1%"),
-    chan("P-CHAN-00062", "", Raw::Uns32, "not found in any public document; read and ignored"),
+        .default(50.0).unit("0.1%", "0.1%"), as CENTRE_SHIFT_RATIO: Number;
+    chan("P-CHAN-00062", "", Raw::Uns32, "not found in any public document; read and ignored");
     chan("P-CHAN-00063", "prog_start.g_gruppe[i].nr", Raw::Sgn16, "start value of G group i (0..37), -1: built-in start value; a preset 135 of group 21 has no effect, see P-AXIS-00255")
-        .range(Bound::At(-1.0), Bound::None).default(-1.0),
+        .range(Bound::At(-1.0), Bound::None).default(-1.0), as G_GROUP: Optional;
     chan("P-CHAN-00066", "override_weight_prog_feed", Raw::Uns16, "what the override multiplies")
-        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
+        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as OVERRIDE_MODE: Whole;
     chan("P-CHAN-00067", "p_param_haltend", Raw::Boolean, "P parameters survive the start of a program")
-        .default(0.0),
+        .default(0.0), as KEEP_P_PARAMETERS: Switch;
     chan("P-CHAN-00071", "prog_start.slope.profile", Raw::Sgn16, "slope at program start: 0 STEP, 1 TRAPEZ, 2 SIN2, 3 HSC")
-        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(Condition::ListRange, Correction::Default),
+        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0).outside(Condition::ListRange, Correction::Default), as SLOPE: Whole;
     chan("P-CHAN-00073", "prog_start.slope.ramp_time", Raw::Sgn16, "which ramp times G132/G133 weight: 0 all, 1 acc up, 2 acc down, 3 dec up, 4 dec down")
-        .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(Condition::SlopeWeighting, Correction::Refuse).below(Condition::SlopeWeighting, Correction::Refuse),
+        .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(Condition::SlopeWeighting, Correction::Refuse).below(Condition::SlopeWeighting, Correction::Refuse), as RAMP_SELECTION: Whole;
     chan("P-CHAN-00090", "vector.velocity", Raw::Real64, "path speed limit")
-        .default(2000000000.0).unit("mm/min", "mm/min"),
+        .default(2000000000.0).unit("mm/min", "mm/min"), as PATH_SPEED: Number;
     chan("P-CHAN-00097", "use_drive_curr_limit", Raw::Boolean, "feedhold uses its own parameters")
-        .default(0.0),
+        .default(0.0), as OWN_FEEDHOLD: Switch;
     chan("P-CHAN-00099", "prog_start.feedrate", Raw::Real64, "F at program start; 0 means F must be programmed (20008)")
-        .default(0.0).unit("mm/min", "mm/min"),
+        .default(0.0).unit("mm/min", "mm/min"), as FEED: Number;
     chan("P-CHAN-00108", "prog_start.feedrate_factor", Raw::Real64, "100 mm/min, 0.1 m/min; 0 warns and becomes 100")
-        .range(Bound::Beyond(0.0), Bound::None).default(100.0).special(-1.0).outside(Condition::ListRange, Correction::Default),
+        .range(Bound::Beyond(0.0), Bound::None).default(100.0).special(-1.0).outside(Condition::ListRange, Correction::Default), as FEED_UNIT: Number;
     chan("P-CHAN-00110", "check_jerk_on_poly_path", Raw::Uns32, "jerk check in polynomials")
-        .range(Bound::At(0.0), Bound::At(3.0)).default(1.0),
+        .range(Bound::At(0.0), Bound::At(3.0)).default(1.0), as CURVE_JERK: Whole;
     chan("P-CHAN-00116", "multi_dimension_in_block", Raw::Boolean, "several G90/G91 per block, effective from their place")
-        .default(0.0),
+        .default(0.0), as SEVERAL_DIMENSIONS: Switch;
     chan("P-CHAN-00117", "mode_trans_jerk", Raw::Uns32, "0: 00013 not below 00154, 1: independent weights, 2: P-AXIS-00339/340 act")
-        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
-    chan("P-CHAN-00118", "m6_prog_file", Raw::Text, "global subroutine called by M06"),
-    chan("P-CHAN-00119", "start_init_prog_file", Raw::Text, "global subroutine called at program start"),
+        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as TRANSITION_JERK: Whole;
+    chan("P-CHAN-00118", "m6_prog_file", Raw::Text, "global subroutine called by M06"), as TOOL_CHANGE_PROGRAM: Text;
+    chan("P-CHAN-00119", "start_init_prog_file", Raw::Text, "global subroutine called at program start"), as START_PROGRAM: Text;
     chan("P-CHAN-00136", "", Raw::Uns32, "secant error of HSC segmentation (with 00138)")
-        .default(50.0).unit("0.1um", "0.1um"),
+        .default(50.0).unit("0.1um", "0.1um");
     chan("P-CHAN-00141", "jerk_monitoring_mode", Raw::Uns32, "parameter speed of polynomials in the jerk check")
-        .range(Bound::At(0.0), Bound::At(2.0)).default(1.0),
+        .range(Bound::At(0.0), Bound::At(2.0)).default(1.0);
     chan("P-CHAN-00147", "soft_limit_warning_axes", Raw::Uns32, "bit mask of channel axes with warning instead of error at setpoint limits")
-        .default(0.0),
-    chan("P-CHAN-00160", "g80_prog_file", Raw::Text, "global subroutine called by G80"),
+        .default(0.0);
+    chan("P-CHAN-00160", "g80_prog_file", Raw::Text, "global subroutine called by G80"), as G80_PROGRAM: Text;
     chan("P-CHAN-00171", "max_radius_diff_circle", Raw::Uns32, "G164: limit of the radius difference (21758)")
-        .default(50.0).unit("0.1um", "0.1um"),
+        .default(50.0).unit("0.1um", "0.1um"), as RADIUS_DIFFERENCE: Number;
     chan("P-CHAN-00172", "max_proz_radius_diff_circle", Raw::Uns32, "G164: the same relative to the radius; printed default 0.1")
-        .default(1.0).unit("0.1%", "0.1%"),
+        .default(1.0).unit("0.1%", "0.1%"), as RADIUS_DIFFERENCE_RATIO: Number;
     chan("P-CHAN-00181", "g00_override_mode", Raw::Word(&["NOT_USED", "MINIMUM_OF_G0_G1", "ACTIVE"]), "override in G00")
-        .default_is(Default::Text("NOT_USED")),
+        .default_is(Default::Text("NOT_USED")), as RAPID_OVERRIDE: Text;
     chan("P-CHAN-00208", "vector.deceleration", Raw::Real64, "path deceleration limit")
-        .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"),
+        .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"), as PATH_DEC: Number;
     chan("P-CHAN-00235", "exact_stop_after_g00", Raw::Boolean, "implicit G60 after G00")
-        .default(0.0),
+        .default(0.0), as EXACT_STOP_AFTER_G00: Switch;
     chan("P-CHAN-00245", "trans_limit_with_curvature", Raw::Uns32, "extra limit between lines from estimated curvature")
-        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0),
-    chan("P-CHAN-00252", "final_prog_file", Raw::Text, "subroutine at program end"),
+        .range(Bound::At(0.0), Bound::At(3.0)).default(0.0), as CURVATURE_ESTIMATE: Whole;
+    chan("P-CHAN-00252", "final_prog_file", Raw::Text, "subroutine at program end"), as END_PROGRAM: Text;
     chan("P-CHAN-00259", "opt_contour_mode", Raw::Uns32, "smoother curvature at arcs in DEV contouring")
-        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0),
+        .range(Bound::At(0.0), Bound::At(2.0)).default(0.0);
     chan("P-CHAN-00297", "", Raw::Uns32, "join of asynchronous axes with or without exact stop")
-        .source("TF5200 programming"),
+        .source("TF5200 programming");
     chan("P-CHAN-00349", "prog_start.slope.mode_ramp_time", Raw::Boolean, "TRAPEZ and SIN2, not G00: 0 constant jerk, 1 constant ramp time")
-        .default(0.0),
+        .default(0.0), as CONSTANT_RAMP_TIME: Switch;
     chan("P-CHAN-00350", "vector.cir_radial_acc_limit", Raw::Boolean, "P-CHAN-00002 also limits arcs")
-        .default(0.0),
+        .default(0.0), as PATH_ACC_ON_ARCS: Switch;
     chan("P-CHAN-00351", "vector.acc_dec_unit", Raw::Word(&["MM_S2", "MM_MIN2"]), "unit of the path accelerations vector.*")
-        .default_is(Default::Text("MM_MIN2")),
+        .default_is(Default::Text("MM_MIN2")), as PATH_ACC_UNIT: Text;
     chan("P-CHAN-00361", "vector.radial_acceleration", Raw::Real64, "v2/r limit on curves")
-        .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"),
+        .default(100000000.0).unit("mm/min2 or mm/s2", "mm/min2 or mm/s2"), as PATH_RADIAL_ACC: Number;
     chan("P-CHAN-00439", "contouring_consider_inch", Raw::Boolean, "with G70 the tolerance words (AX_DEV, PATH_DEV) are inch")
-        .default(0.0),
+        .default(0.0), as CONTOURING_INCH: Switch;
     chan("P-CHAN-00518", "configuration.decoder.msg_to_default", Raw::Word(&["STANDARD", "DISABLED", "WARNING", "ERROR"]), "#MSG to the diagnosis receiver: STANDARD, DISABLED, WARNING (22194), ERROR (22195)")
-        .default_is(Default::Text("STANDARD")),
-    chan("P-CHAN-00013", "speed_limit_look_ahead.dist_to_corner", Raw::Real64, "velocity look-ahead for the PLC: distance before the corner; read and ignored"),
-    chan("P-CHAN-00017", "speed_limit_look_ahead.f_enable", Raw::Boolean, "velocity look-ahead for the PLC; read and ignored"),
-    chan("P-CHAN-00018", "speed_limit_look_ahead.f_time", Raw::Real64, "velocity look-ahead for the PLC: time; read and ignored"),
-    chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs in the path compound"),
+        .default_is(Default::Text("STANDARD")), as DIAGNOSIS_MESSAGES: Text;
+    chan("P-CHAN-00013", "speed_limit_look_ahead.dist_to_corner", Raw::Real64, "velocity look-ahead for the PLC: distance before the corner; read and ignored");
+    chan("P-CHAN-00017", "speed_limit_look_ahead.f_enable", Raw::Boolean, "velocity look-ahead for the PLC; read and ignored");
+    chan("P-CHAN-00018", "speed_limit_look_ahead.f_time", Raw::Real64, "velocity look-ahead for the PLC: time; read and ignored");
+    chan("P-CHAN-00010", "default_ax_name_of_spindle", Raw::Text, "axis name of a spindle that runs in the path compound");
     chan("P-CHAN-00026", "h_prozess_zeit[i]", Raw::Uns32, "duration of H function i, counted with --techno-times")
-        .default(0.0).unit("us", "us"),
+        .default(0.0).unit("us", "us"), as H_DURATION: Optional;
     chan("P-CHAN-00040", "m_prozess_zeit[i]", Raw::Uns32, "duration of M function i, counted with --techno-times")
-        .default(0.0).unit("us", "us"),
+        .default(0.0).unit("us", "us"), as M_DURATION: Optional;
     chan("P-CHAN-00042", "spindel[i].m19_prozess_zeit", Raw::Uns32, "duration of M19, counted with --techno-times")
-        .default(0.0).unit("us", "us"),
+        .default(0.0).unit("us", "us");
     chan("P-CHAN-00044", "spindel[i].m3_prozess_zeit", Raw::Uns32, "duration of M3, counted with --techno-times")
-        .default(0.0).unit("us", "us"),
+        .default(0.0).unit("us", "us");
     chan("P-CHAN-00046", "spindel[i].m4_prozess_zeit", Raw::Uns32, "duration of M4, counted with --techno-times")
-        .default(0.0).unit("us", "us"),
+        .default(0.0).unit("us", "us");
     chan("P-CHAN-00048", "spindel[i].m5_prozess_zeit", Raw::Uns32, "duration of M5, counted with --techno-times")
-        .default(0.0).unit("us", "us"),
+        .default(0.0).unit("us", "us");
     chan("P-CHAN-00051", "main_spindle_ax_nr", Raw::Uns16, "logical axis number of the main spindle; 0: the first spindle")
-        .default(0.0),
+        .default(0.0), as MAIN_SPINDLE: Whole;
     chan("P-CHAN-00053", "main_spindle_name", Raw::Text, "name that addresses the main spindle in the NC program")
-        .default_is(Default::Text("S")).source("TF5200 channel parameters"),
+        .default_is(Default::Text("S")).source("TF5200 channel parameters"), as MAIN_SPINDLE_NAME: Text;
     chan("P-CHAN-00080", "spindel[i].s_prozess_zeit", Raw::Uns32, "duration of an S word, counted with --techno-times")
-        .default(0.0).unit("us", "us"),
+        .default(0.0).unit("us", "us");
     chan("P-CHAN-00082", "spdl_anzahl", Raw::Uns16, "number of spindles of the channel")
-        .range(Bound::None, Bound::At(16.0)).default(0.0),
-    chan("P-CHAN-00161", "g81_prog_file", Raw::Text, "global subroutine called by G81"),
-    chan("P-CHAN-00162", "g82_prog_file", Raw::Text, "global subroutine called by G82"),
-    chan("P-CHAN-00163", "g83_prog_file", Raw::Text, "global subroutine called by G83"),
-    chan("P-CHAN-00164", "g84_prog_file", Raw::Text, "global subroutine called by G84"),
-    chan("P-CHAN-00165", "g85_prog_file", Raw::Text, "global subroutine called by G85"),
-    chan("P-CHAN-00166", "g86_prog_file", Raw::Text, "global subroutine called by G86"),
-    chan("P-CHAN-00167", "g87_prog_file", Raw::Text, "global subroutine called by G87"),
-    chan("P-CHAN-00168", "g88_prog_file", Raw::Text, "global subroutine called by G88"),
-    chan("P-CHAN-00169", "g89_prog_file", Raw::Text, "global subroutine called by G89"),
-];
+        .range(Bound::None, Bound::At(16.0)).default(0.0), as SPINDLE_COUNT: Whole;
+    chan("P-CHAN-00161", "g81_prog_file", Raw::Text, "global subroutine called by G81"), as G81_PROGRAM: Text;
+    chan("P-CHAN-00162", "g82_prog_file", Raw::Text, "global subroutine called by G82"), as G82_PROGRAM: Text;
+    chan("P-CHAN-00163", "g83_prog_file", Raw::Text, "global subroutine called by G83"), as G83_PROGRAM: Text;
+    chan("P-CHAN-00164", "g84_prog_file", Raw::Text, "global subroutine called by G84"), as G84_PROGRAM: Text;
+    chan("P-CHAN-00165", "g85_prog_file", Raw::Text, "global subroutine called by G85"), as G85_PROGRAM: Text;
+    chan("P-CHAN-00166", "g86_prog_file", Raw::Text, "global subroutine called by G86"), as G86_PROGRAM: Text;
+    chan("P-CHAN-00167", "g87_prog_file", Raw::Text, "global subroutine called by G87"), as G87_PROGRAM: Text;
+    chan("P-CHAN-00168", "g88_prog_file", Raw::Text, "global subroutine called by G88"), as G88_PROGRAM: Text;
+    chan("P-CHAN-00169", "g89_prog_file", Raw::Text, "global subroutine called by G89"), as G89_PROGRAM: Text;
+}

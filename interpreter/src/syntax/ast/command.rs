@@ -1,6 +1,6 @@
 //! Commands: words, switches and groups of keys.
 
-use super::{Expr, Span};
+use super::{Expr, Place, Span};
 
 /// A name with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,6 +110,13 @@ pub enum ItemKind {
         /// Key.
         key: Ident,
         /// Value.
+        value: ItemValue,
+    },
+    /// A variable that gets something: `P1=X`, `V.P.POS=Z` of `#GET CMDPOS`.
+    Target {
+        /// The variable.
+        place: Place,
+        /// What it gets.
         value: ItemValue,
     },
     /// A value alone: `["text", P1]`, `[0,0,0]`.

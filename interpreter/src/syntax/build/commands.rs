@@ -44,6 +44,18 @@ impl Builder<'_> {
         }
     }
 
+    /// Groups of a command; those that ask for positions have commas between their items.
+    fn command_group(&mut self, pair: Pair<'_, Rule>, command: &Command) -> Group {
+        let asks = ["GET CMDPOS", "GET ACTPOS", "SET IPO SOLLPOS"].iter().any(|n| command.is(n));
+        let commas = pair.clone().into_inner().filter(|p| p.as_rule() == Rule::comma).count();
+        let group = self.group(pair);
+        if asks && commas + 1 < group.items.len() {
+            let text = "a comma is missing between two positions";
+            self.report(Problem::new(Condition::PositionRequest, group.span, text));
+        }
+        group
+    }
+
     /// What stands in a bracket, and whether commas or bars do.
     fn contents(&mut self, pair: Pair<'_, Rule>) -> (Group, bool) {
         let span = self.span(&pair);
@@ -86,12 +98,17 @@ impl Builder<'_> {
         }
         let mut key = None;
         let mut value = None;
+        let mut target = None;
         for part in whole.into_inner() {
             match part.as_rule() {
+                Rule::place => target = Some(self.place(part)),
                 Rule::key | Rule::cycle_key | Rule::name_key => key = Some(self.upper(&part)),
                 Rule::equals => {}
                 _ => value = Some(self.item_value(part)),
             }
+        }
+        if let (Some(place), Some(value)) = (target, &value) {
+            return ItemKind::Target { place, value: value.clone() };
         }
         match (key, value) {
             (Some(key), Some(value)) => ItemKind::Pair { key, value },
@@ -127,7 +144,10 @@ impl Builder<'_> {
                         (_, Some(_)) => command.tail.push(word),
                     }
                 }
-                Rule::group => command.groups.push(self.group(part)),
+                Rule::group => {
+                    let group = self.command_group(part, &command);
+                    command.groups.push(group);
+                }
                 Rule::arguments => {
                     for argument in part.into_inner() {
                         if argument.as_rule() == Rule::expression {

@@ -1,0 +1,273 @@
+//! A trace or a fresh run against a recording of a machine, such as an export of TwinCAT Scope.
+//!
+//! The recording has its own names, units, signs, sampling times and beginning. Names and units come from the user
+//! ([`Pairing`]); by how much it begins earlier is found: the shift at which the speeds of all paired signals correlate
+//! best, then refined below one cycle. Where the recording has no samples nothing is compared.
+
+mod shift;
+mod signals;
+
+use super::Tolerance;
+use super::table::Table;
+use crate::Error;
+use crate::recorded;
+use serde::Serialize;
+use signals::{MOST_CYCLES, Recorded, Trace, rows, statistics};
+use std::path::Path;
+
+/// Finest difference of positions that a recording can show, in mm or deg: one increment of the control, 0.1 um.
+const FLOOR_MM: f64 = 1e-4;
+/// A column of the trace and the channel that recorded it: `X_act_mm=MAIN.fAct`, `X_act_mm=-1000*Axis1.Pos`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pairing {
+    column: String,
+    channel: String,
+    factor: f64,
+}
+
+impl std::str::FromStr for Pairing {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = || "COLUMN=CHANNEL or COLUMN=FACTOR*CHANNEL is expected".to_owned();
+        let (column, right) = text.split_once('=').ok_or_else(form)?;
+        let (factor, channel) = match right.split_once('*') {
+            Some((factor, channel)) => (factor.trim().parse::<f64>().map_err(|_| form())?, channel),
+            None => match right.trim().strip_prefix('-') {
+                Some(channel) => (-1.0, channel),
+                None => (1.0, right),
+            },
+        };
+        let (column, channel) = (column.trim().to_owned(), channel.trim().to_owned());
+        if column.is_empty() || channel.is_empty() || !factor.is_finite() || factor.abs() <= 0.0 {
+            return Err(form());
+        }
+        Ok(Self { column, channel, factor })
+    }
+}
+
+/// What one pair of signals shows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct PairOutcome {
+    /// Column of the trace.
+    pub(super) column: String,
+    /// Channel of the recording.
+    pub(super) channel: String,
+    /// What the channel was multiplied by.
+    pub(super) factor: f64,
+    /// Rows compared.
+    pub(super) rows: usize,
+    /// Rows that differ by more than the tolerance.
+    pub(super) different: usize,
+    /// What counts as equal.
+    pub(super) tolerance: f64,
+    /// Mean of recording - trace: an offset of the zero points.
+    pub(super) mean: f64,
+    /// Root mean square of the difference without that mean.
+    pub(super) rms: f64,
+    /// First row that differs.
+    pub(super) first: Option<At>,
+    /// Row with the largest difference.
+    pub(super) worst: Option<At>,
+    /// Stretches without samples: begin in s from the first sample, samples missing.
+    pub(super) drop_outs: Vec<(f64, usize)>,
+    /// The trace moves where the recording has nothing.
+    pub(super) trace_goes_on: bool,
+    /// The recording moves where the trace has nothing.
+    pub(super) recording_goes_on: bool,
+}
+
+/// One row.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct At {
+    /// Time of the trace in s.
+    pub(super) time_s: f64,
+    /// NC line.
+    pub(super) line: Option<String>,
+    /// Value of the trace.
+    pub(super) a: f64,
+    /// Value of the recording, times its factor.
+    pub(super) b: f64,
+}
+
+/// The result.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct Outcome {
+    /// Every pair agrees over the whole motion.
+    pub(super) equal: bool,
+    /// Cycles by which the recording begins before the trace (negative: after it).
+    pub(super) shift_cycles: f64,
+    /// Cycle of the trace in s.
+    pub(super) cycle_s: f64,
+    /// Each pair.
+    pub(super) pairs: Vec<PairOutcome>,
+}
+
+/// Compares.
+///
+/// # Errors
+/// [`Error::Usage`] for columns or channels that do not exist, and signals too long or too short to be compared.
+pub(super) fn compare(
+    trace: &mut Table,
+    path: &Path,
+    pairings: &[Pairing],
+    tolerance: Tolerance,
+) -> Result<Outcome, Error> {
+    let name = path.display().to_string();
+    let recorded = signals::channels(&recorded::read(path)?, pairings, &name)?;
+    let trace = signals::read(trace, pairings)?;
+    let wrong = |text: String| Err(Error::Usage(text));
+    let Some(cycle_s) = shift::cycle_of(&trace.times_s) else {
+        return wrong("the trace has fewer than three rows with rising times".to_owned());
+    };
+    let longest = recorded.iter().map(|r| r.end_s() / cycle_s).fold(0.0, f64::max);
+    if trace.times_s.len() > MOST_CYCLES || longest > MOST_CYCLES as f64 {
+        return wrong(format!("signals of more than {MOST_CYCLES} cycles are not compared"));
+    }
+    let shift_cycles = shift::find(&trace, &recorded, cycle_s);
+    let pairs: Vec<PairOutcome> = pairings
+        .iter()
+        .enumerate()
+        .map(|(i, p)| {
+            let tolerance = permitted(&p.column, tolerance, cycle_s);
+            pair(p, (&trace, i), &recorded[i], shift_cycles * cycle_s, tolerance)
+        })
+        .collect();
+    let agrees = |p: &PairOutcome| {
+        p.rows > 0 && p.different == 0 && !p.trace_goes_on && !p.recording_goes_on
+    };
+    Ok(Outcome { equal: pairs.iter().all(agrees), shift_cycles, cycle_s, pairs })
+}
+
+/// What counts as equal: what the user asks for, but never finer than one increment and its differences.
+fn permitted(column: &str, asked: Tolerance, cycle_s: f64) -> f64 {
+    let floor = Tolerance {
+        mm: FLOOR_MM,
+        mm_s: FLOOR_MM / cycle_s,
+        mm_s2: FLOOR_MM / (cycle_s * cycle_s),
+        mm_s3: FLOOR_MM / (cycle_s * cycle_s * cycle_s),
+        other: 0.0,
+    };
+    let of = |t: Tolerance| t.of(column).unwrap_or_default();
+    of(asked).max(of(floor))
+}
+
+fn pair(
+    p: &Pairing,
+    (trace, column): (&Trace, usize),
+    recorded: &Recorded,
+    shift_s: f64,
+    tolerance: f64,
+) -> PairOutcome {
+    let (times_s, a) = (&trace.times_s, &trace.columns[column]);
+    let found = statistics(times_s, a, recorded, shift_s);
+    let mut outcome = PairOutcome {
+        column: p.column.clone(),
+        channel: p.channel.clone(),
+        factor: p.factor,
+        rows: found.rows,
+        different: 0,
+        tolerance,
+        mean: found.mean,
+        rms: found.rms,
+        first: None,
+        worst: None,
+        drop_outs: recorded.drop_outs.clone(),
+        trace_goes_on: false,
+        recording_goes_on: false,
+    };
+    let (mut edges, mut size): (Option<[usize; 2]>, f64) = (None, tolerance);
+    for (row, a, b) in rows(times_s, a, recorded, shift_s) {
+        edges = Some([edges.map_or(row, |e| e[0]), row]);
+        if (b - a).abs() <= tolerance {
+            continue;
+        }
+        let at = || Some(At { time_s: times_s[row], line: trace.line(row), a, b });
+        outcome.different += 1;
+        if outcome.first.is_none() {
+            outcome.first = at();
+        }
+        if (b - a).abs() > size {
+            (size, outcome.worst) = ((b - a).abs(), at());
+        }
+    }
+    let Some([first, last]) = edges else { return outcome };
+    let leaves = |values: &[f64], from: f64| values.iter().any(|x| (x - from).abs() > tolerance);
+    outcome.trace_goes_on = leaves(&a[..first], a[first]) || leaves(&a[last + 1..], a[last]);
+    let begin_s = times_s[0];
+    let place = |row: usize| (times_s[row] - begin_s + shift_s) / recorded.step_s;
+    let values = &recorded.values;
+    let (head, tail) = (place(first).floor().max(0.0) as usize, place(last).ceil() as usize);
+    let (head, tail) = (head.min(values.len() - 1), tail.min(values.len() - 1));
+    outcome.recording_goes_on =
+        leaves(&values[..head], values[head]) || leaves(&values[tail + 1..], values[tail]);
+    outcome
+}
+
+/// Columns that a comparison needs.
+pub(super) fn columns(pairings: &[Pairing]) -> Vec<String> {
+    let mut names = vec!["t_s".to_owned(), "line".to_owned()];
+    names.extend(pairings.iter().map(|p| p.column.clone()));
+    names
+}
+
+/// The result in words.
+pub(super) fn text(names: &[String; 2], outcome: &Outcome) -> String {
+    let mut out = String::new();
+    // writing to a String cannot fail
+    let _ = write_text(&mut out, names, outcome);
+    out
+}
+
+fn write_text(
+    out: &mut impl std::fmt::Write,
+    [a, b]: &[String; 2],
+    o: &Outcome,
+) -> std::fmt::Result {
+    let verdict = if o.equal { "equal" } else { "different" };
+    writeln!(out, "{verdict}: {a} (A) and the recording {b} (B)")?;
+    let shift_s = o.shift_cycles.abs() * o.cycle_s;
+    let cycles = format!("{:.2}", o.shift_cycles.abs());
+    let cycles = cycles.trim_end_matches('0').trim_end_matches('.');
+    let side = if o.shift_cycles > 0.0 { "before" } else { "after" };
+    if o.shift_cycles.abs() > 0.0 {
+        writeln!(out, "  shift  B begins {cycles} cycles ({shift_s:.6} s) {side} A")?;
+    } else {
+        writeln!(out, "  shift  none")?;
+    }
+    for p in &o.pairs {
+        let factor =
+            if (p.factor - 1.0).abs() > 0.0 { format!("{}*", p.factor) } else { String::new() };
+        writeln!(out, "  {} = {factor}{}", p.column, p.channel)?;
+        writeln!(
+            out,
+            "    {} rows compared, {} differ by more than {:e}; mean {:.3e}, rms around it {:.3e}",
+            p.rows, p.different, p.tolerance, p.mean, p.rms
+        )?;
+        for (name, at) in [("first", &p.first), ("worst", &p.worst)] {
+            if let Some(at) = at {
+                let line = at.line.as_ref().map_or_else(String::new, |l| format!(", line {l}"));
+                let (a, b) = (at.a, at.b);
+                writeln!(
+                    out,
+                    "    {name}  t = {:.6} s{line}: {a:.7} in A, {b:.7} in B",
+                    at.time_s
+                )?;
+            }
+        }
+        for (begin_s, count) in &p.drop_outs {
+            let samples = if *count == 1 { "sample" } else { "samples" };
+            writeln!(
+                out,
+                "    drop-out  {count} {samples} missing after {begin_s:.6} s of B: not compared"
+            )?;
+        }
+        if p.trace_goes_on {
+            writeln!(out, "    A moves where B has no samples")?;
+        }
+        if p.recording_goes_on {
+            writeln!(out, "    B moves where A has no rows")?;
+        }
+    }
+    Ok(())
+}

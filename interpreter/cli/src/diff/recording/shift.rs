@@ -1,0 +1,103 @@
+//! By how much a recording begins before the trace.
+
+use super::signals::{Recorded, Trace, statistics};
+use realfft::RealFftPlanner;
+
+/// Steps of the search for the part of a cycle: 2 cycles shrink to a ten-thousandth.
+const GOLDEN_STEPS: usize = 21;
+/// A shift between two cycles is taken if it lowers the difference to this part.
+const BETTER: f64 = 0.95;
+
+/// Cycles by which the recording begins earlier, in whole cycles unless a part of one fits better.
+pub(super) fn find(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
+    fine_shift(trace, recorded, cycle_s, coarse_shift(trace, recorded, cycle_s))
+}
+
+/// Median step of the times.
+pub(super) fn cycle_of(times_s: &[f64]) -> Option<f64> {
+    let mut steps: Vec<f64> = times_s.windows(2).map(|w| w[1] - w[0]).collect();
+    if steps.len() < 2 {
+        return None;
+    }
+    let middle = steps.len() / 2;
+    let (_, median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
+    Some(*median).filter(|s| *s > 0.0)
+}
+
+/// Differences of a signal in equal steps; what is no number stands still.
+fn speeds(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let values: Vec<f64> = values.collect();
+    let step = |w: &[f64]| if (w[1] - w[0]).is_finite() { w[1] - w[0] } else { 0.0 };
+    values.windows(2).map(step).collect()
+}
+
+/// Whole cycles by which the recording begins earlier, where the speeds correlate best over all pairs.
+///
+/// Of every pair both signals count by their energy, so that a fast axis does not drown the others.
+fn coarse_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
+    let rows = trace.times_s.len();
+    let longest =
+        recorded.iter().map(|r| (r.end_s() / cycle_s) as usize + 1).max().unwrap_or_default();
+    let length = (rows + longest).next_power_of_two();
+    let mut planner = RealFftPlanner::<f64>::new();
+    let (forward, back) = (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
+    let mut product = forward.make_output_vec();
+    for (column, r) in trace.columns.iter().zip(recorded) {
+        let count = (r.end_s() / cycle_s) as usize + 1;
+        let b = (0..count).map(|k| r.between(k as f64 * cycle_s).unwrap_or(f64::NAN));
+        let signals = [speeds(column.iter().copied()), speeds(b)];
+        let energy: f64 = signals.iter().map(|s| s.iter().map(|v| v * v).sum::<f64>()).product();
+        if energy <= 0.0 {
+            continue;
+        }
+        let [a, b] = signals.map(|mut signal| {
+            signal.resize(length, 0.0);
+            let mut spectrum = forward.make_output_vec();
+            // both buffers have the lengths that the plan asks for
+            let done = forward.process(&mut signal, &mut spectrum);
+            debug_assert!(done.is_ok());
+            spectrum
+        });
+        let weight = 1.0 / libm::sqrt(energy);
+        for ((p, a), b) in product.iter_mut().zip(&a).zip(&b) {
+            *p += a.conj() * b * weight;
+        }
+    }
+    let mut correlation = back.make_output_vec();
+    // the two lines without a partner are real but for rounding
+    for edge in [0, product.len() - 1] {
+        product[edge].im = 0.0;
+    }
+    let done = back.process(&mut product, &mut correlation);
+    debug_assert!(done.is_ok());
+    let best = correlation.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+    let place = best.map_or(0, |(i, _)| i);
+    if place > longest { place as f64 - length as f64 } else { place as f64 }
+}
+
+/// The same with a part of a cycle, if that fits better than the whole number.
+fn fine_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64, whole: f64) -> f64 {
+    let misfit = |shift_cycles: f64| -> f64 {
+        let pairs = trace.columns.iter().zip(recorded);
+        pairs.map(|(a, r)| statistics(&trace.times_s, a, r, shift_cycles * cycle_s).rms).sum()
+    };
+    // golden section: near the best fit the misfit has one minimum
+    let ratio = 0.5 * (libm::sqrt(5.0) - 1.0);
+    let (mut low, mut high) = (whole - 1.0, whole + 1.0);
+    let (mut inner, mut outer) = (high - ratio * (high - low), low + ratio * (high - low));
+    let (mut at_inner, mut at_outer) = (misfit(inner), misfit(outer));
+    for _ in 0..GOLDEN_STEPS {
+        if at_inner <= at_outer {
+            (high, outer, at_outer) = (outer, inner, at_inner);
+            inner = high - ratio * (high - low);
+            at_inner = misfit(inner);
+        } else {
+            (low, inner, at_inner) = (inner, outer, at_outer);
+            outer = low + ratio * (high - low);
+            at_outer = misfit(outer);
+        }
+    }
+    let between = 0.5 * (low + high);
+    let nearest = between.round();
+    if misfit(between) < BETTER * misfit(nearest) { between } else { nearest }
+}

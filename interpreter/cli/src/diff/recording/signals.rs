@@ -1,0 +1,159 @@
+//! The signals of a comparison with a recording: columns of the trace, channels of the recording, and both row by row.
+
+use super::Pairing;
+use crate::Error;
+use crate::diff::table::Table;
+use crate::recorded::{self, Channel};
+
+/// Longest signals that are compared, in cycles: more than an hour at 1 ms.
+pub(super) const MOST_CYCLES: usize = 1 << 22;
+
+/// The paired columns of a trace.
+pub(super) struct Trace {
+    pub(super) times_s: Vec<f64>,
+    /// NC lines and the rows with which they begin.
+    lines: Vec<(usize, String)>,
+    pub(super) columns: Vec<Vec<f64>>,
+}
+
+impl Trace {
+    pub(super) fn line(&self, row: usize) -> Option<String> {
+        let after = self.lines.partition_point(|(begin, _)| *begin <= row);
+        self.lines.get(after.checked_sub(1)?).map(|(_, line)| line.clone())
+    }
+}
+
+/// A channel in the steps of its recording, in the units of the trace.
+pub(super) struct Recorded {
+    pub(super) values: Vec<f64>,
+    pub(super) step_s: f64,
+    pub(super) drop_outs: Vec<(f64, usize)>,
+}
+
+impl Recorded {
+    /// Time of the last sample.
+    pub(super) fn end_s(&self) -> f64 {
+        self.step_s * self.values.len().saturating_sub(1) as f64
+    }
+
+    /// Linear between the samples; `None` outside, and where samples are missing.
+    fn at(&self, time_s: f64) -> Option<f64> {
+        let missing = |(begin_s, count): &(f64, usize)| {
+            let end_s = begin_s + self.step_s * (*count as f64 + 1.0);
+            time_s > begin_s + 1e-3 * self.step_s && time_s < end_s - 1e-3 * self.step_s
+        };
+        if self.drop_outs.iter().any(missing) {
+            return None;
+        }
+        self.between(time_s)
+    }
+
+    /// The same with what is missing filled in.
+    pub(super) fn between(&self, time_s: f64) -> Option<f64> {
+        let place = time_s / self.step_s;
+        let last = self.values.len().checked_sub(1)?;
+        if place < -1e-6 || place > last as f64 + 1e-6 {
+            return None;
+        }
+        let place = place.clamp(0.0, last as f64);
+        let (k, part) = (place as usize, place.fract());
+        let next = self.values[(k + 1).min(last)];
+        Some(self.values[k] + part * (next - self.values[k]))
+    }
+}
+
+pub(super) fn channels(
+    found: &[Channel],
+    pairings: &[Pairing],
+    file: &str,
+) -> Result<Vec<Recorded>, Error> {
+    let one = |p: &Pairing| {
+        let channel = recorded::find(found, &p.channel).ok_or_else(|| {
+            let names: Vec<&str> = found.iter().map(|c| c.name.as_str()).collect();
+            format!("{file}: no channel `{}`; it has {}", p.channel, names.join(", "))
+        })?;
+        let (values, step_s, drop_outs) = channel.even().ok_or_else(|| {
+            format!("{file}: the times of `{}` do not rise, or there are none", channel.name)
+        })?;
+        let values = values.iter().map(|v| p.factor * v).collect();
+        Ok(Recorded { values, step_s, drop_outs })
+    };
+    pairings.iter().map(|p| one(p).map_err(Error::Usage)).collect()
+}
+
+pub(super) fn read(table: &mut Table, pairings: &[Pairing]) -> Result<Trace, Error> {
+    let header = table.header().to_vec();
+    let find = |name: &str| header.iter().position(|h| h == name);
+    let time = find("t_s").ok_or_else(|| Error::Usage("the trace has no column t_s".to_owned()))?;
+    let line = find("line");
+    let mut places = Vec::new();
+    for p in pairings {
+        places.push(find(&p.column).ok_or_else(|| {
+            Error::Usage(format!(
+                "the trace has no column `{}`; it has {}",
+                p.column,
+                header.join(", ")
+            ))
+        })?);
+    }
+    let mut trace =
+        Trace { times_s: Vec::new(), lines: Vec::new(), columns: vec![Vec::new(); places.len()] };
+    while let Some(row) = table.next()? {
+        let text =
+            |i: usize| std::str::from_utf8(row.get(i).unwrap_or_default()).unwrap_or_default();
+        let number = |i: usize| text(i).trim().parse::<f64>().unwrap_or(f64::NAN);
+        trace.times_s.push(number(time));
+        if let Some(line) = line.map(text)
+            && trace.lines.last().is_none_or(|(_, last)| last != line)
+        {
+            trace.lines.push((trace.times_s.len() - 1, line.to_owned()));
+        }
+        for (column, place) in trace.columns.iter_mut().zip(&places) {
+            column.push(number(*place));
+        }
+        if trace.times_s.len() > MOST_CYCLES {
+            break;
+        }
+    }
+    Ok(trace)
+}
+
+/// Sums over the rows that both signals have.
+pub(super) struct Statistics {
+    pub(super) rows: usize,
+    /// Of recording - trace.
+    pub(super) mean: f64,
+    /// Root mean square around that.
+    pub(super) rms: f64,
+}
+
+/// The signals row by row: row, time of the trace, both values.
+pub(super) fn rows<'a>(
+    times_s: &'a [f64],
+    a: &'a [f64],
+    recorded: &'a Recorded,
+    shift_s: f64,
+) -> impl Iterator<Item = (usize, f64, f64)> + 'a {
+    let begin_s = times_s.first().copied().unwrap_or_default();
+    times_s.iter().zip(a).enumerate().filter_map(move |(row, (t, a))| {
+        let b = recorded.at(t - begin_s + shift_s)?;
+        a.is_finite().then_some((row, *a, b))
+    })
+}
+
+pub(super) fn statistics(
+    times_s: &[f64],
+    a: &[f64],
+    recorded: &Recorded,
+    shift_s: f64,
+) -> Statistics {
+    let (mut count, mut sum, mut squares) = (0_usize, 0.0, 0.0);
+    for (_, a, b) in rows(times_s, a, recorded, shift_s) {
+        count += 1;
+        sum += b - a;
+        squares += (b - a) * (b - a);
+    }
+    let n = count.max(1) as f64;
+    let mean = sum / n;
+    Statistics { rows: count, mean, rms: libm::sqrt((squares / n - mean * mean).max(0.0)) }
+}

@@ -1,0 +1,12 @@
+//! Words of one block: what letters, G functions and brackets of a block mean together.
+//!
+//! Owns the modal state ([`modal`]) and the words of the block in work; reads values, and tells motion, contour, shaping
+//! and geometry what to do. It knows no files and no other block.
+
+pub(super) mod brackets;
+pub(super) mod dialect;
+pub(super) mod din;
+pub(super) mod groups;
+pub(super) mod modal;
+pub(super) mod modes;
+pub(super) mod words;

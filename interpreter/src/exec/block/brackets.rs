@@ -1,0 +1,217 @@
+//! Axis and spindle commands in brackets: `X[OVERRIDE ..]`, `X[INDP_SYN ..]`, `S[M3 REV1000]`, `S[G135 G136=80]`.
+//!
+//! Source: TF5200 programming manual; TF5200 feedforward control (spindles); 21738, 21867.
+
+use super::words::Words;
+use crate::diag::Condition;
+use crate::exec::commands::keys::{arguments, between};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::spindles::Turning;
+use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
+use std::mem::discriminant;
+
+/// What one item of a spindle bracket means.
+enum SpindleItem {
+    /// M3, M4, M5, M19.
+    Turn(u32),
+    /// REV=, SPEED=.
+    Speed(f64),
+    /// POS=.
+    Position(f64),
+    /// G135, G137.
+    Feedforward(bool),
+    /// G136=.
+    Weight(f64),
+}
+
+arguments! {
+    /// Keys of `#OVERRIDE` and `X[OVERRIDE]`.
+    pub(in crate::exec) struct OverrideArguments {
+        feed: Number "FEED_FACT" in between(0.1, 200.0), "%", "";
+        rapid: Number "RAPID_FACT" in between(0.1, 200.0), "%", "";
+    }
+}
+
+impl Decoder {
+    pub(in crate::exec) fn bracket(&mut self, bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
+        let name = bracket.name.as_str();
+        if let Some(axis) = self.axis_of_name(name) {
+            return self.axis_bracket(axis, &bracket.group, words);
+        }
+        if let Some(spindle) = self.spindle_of_name(name) {
+            return self.spindle_bracket(spindle, &bracket.group);
+        }
+        Err(self.unknown_axis(name, bracket.group.span))
+    }
+
+    fn axis_bracket(&mut self, axis: usize, group: &Group, words: &Words<'_>) -> Outcome<()> {
+        match group.items.split_first() {
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OVERRIDE") => {
+                let rest = Group { items: rest.to_vec(), span: group.span };
+                let title = format!("{}[OVERRIDE]", self.axis_name(axis));
+                self.set_overrides(Some(axis), Some(&rest), &title, group.span)
+            }
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest))
+                if word.is("INDP_SYN") || word.is("INDP_ASYN") =>
+            {
+                if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
+                    return Err(self.axis_twice(axis, group.span));
+                }
+                self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
+            }
+            Some((Item { kind: ItemKind::Flag(word), span }, _)) => {
+                let name = self.axis_name(axis);
+                Err(Fault::unsupported(format!("{name}[{}]", word.text), *span))
+            }
+            _ => {
+                let text = "an axis command is expected in the bracket";
+                Err(Fault::new(Condition::Syntax, text, group.span))
+            }
+        }
+    }
+
+    /// `FEED_FACT` and `RAPID_FACT` in percent.
+    pub(in crate::exec) fn set_overrides(
+        &mut self,
+        axis: Option<usize>,
+        group: Option<&Group>,
+        title: &str,
+        span: Span,
+    ) -> Outcome<()> {
+        let keys = OverrideArguments::read(self, title, group)?;
+        let ratio = |key: Option<(f64, Span)>| key.map(|(percent, _)| percent / 100.0);
+        let (feed, rapid) = (ratio(keys.feed), ratio(keys.rapid));
+        if feed.is_none() && rapid.is_none() {
+            let text = format!("{title} needs FEED_FACT or RAPID_FACT");
+            return Err(Fault::new(Condition::TokenUnknown, text, span));
+        }
+        self.motion.overrides.set(axis, feed, rapid);
+        Ok(())
+    }
+
+    fn spindle_bracket(&mut self, spindle: usize, group: &Group) -> Outcome<()> {
+        let mut items = Vec::new();
+        for item in &group.items {
+            if !matches!(item.kind, ItemKind::Missing) {
+                items.push((self.spindle_item(item)?, item.span));
+            }
+        }
+        let feedforward =
+            |i: &SpindleItem| matches!(i, SpindleItem::Feedforward(_) | SpindleItem::Weight(_));
+        let some = items.iter().find(|(i, _)| feedforward(i));
+        let other = items.iter().find(|(i, _)| !feedforward(i));
+        if let (Some(_), Some((_, span))) = (some, other) {
+            let text = "feedforward stands in a bracket of its own, not beside other commands";
+            return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
+        }
+        let mut weights = items.iter().filter(|(i, _)| matches!(i, SpindleItem::Weight(_)));
+        if let (Some(_), Some((_, span))) = (weights.next(), weights.next()) {
+            return Err(Fault::new(
+                Condition::SpindleFeedforwardTwice,
+                "G136 twice for one spindle",
+                *span,
+            ));
+        }
+        for (i, (item, span)) in items.iter().enumerate() {
+            let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
+            if items[..i].iter().any(same) {
+                let text = "two words of a spindle bracket that set the same";
+                let condition = match item {
+                    SpindleItem::Turn(_) => Condition::SpindleMTwice,
+                    _ => Condition::DuplicateGroup,
+                };
+                return Err(Fault::new(condition, text, *span));
+            }
+        }
+        let motion = |i: &SpindleItem| {
+            matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_) | SpindleItem::Position(_))
+        };
+        let moves = items.iter().any(|(i, _)| motion(i));
+        let turns = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(_)));
+        // one event for the whole bracket, in whatever order its words stand: POS is the angle of M19, REV the speed
+        items.sort_by_key(|(i, _)| !matches!(i, SpindleItem::Turn(_)));
+        for (item, span) in items {
+            self.spindle_action(spindle, &item, span)?;
+        }
+        let state = &self.motion.spindles[spindle];
+        if moves
+            && (turns || state.turning != Turning::Stopped)
+            && let Some(event) = state.motion_event()
+        {
+            self.event(event);
+        }
+        self.spindle_warning(spindle, group.span);
+        Ok(())
+    }
+
+    fn spindle_item(&self, item: &Item) -> Outcome<SpindleItem> {
+        let unknown = |shown: &str| {
+            let text = format!("unknown word `{shown}` in a spindle bracket");
+            Fault::new(Condition::SpindleToken, text, item.span)
+        };
+        let (word, value) = match &item.kind {
+            ItemKind::Flag(word) => match word.split_number() {
+                Some((name, number))
+                    if ["REV", "SPEED", "POS"].iter().any(|n| name.eq_ignore_ascii_case(n)) =>
+                {
+                    (name.to_ascii_uppercase(), Some(number))
+                }
+                _ => (word.text.to_ascii_uppercase(), None),
+            },
+            ItemKind::Pair { key, value: ItemValue::Expr(expr) } => {
+                (key.text.to_ascii_uppercase(), Some(self.number(expr)?))
+            }
+            ItemKind::Pair { key, .. } => return Err(unknown(&key.text)),
+            ItemKind::Value(_) | ItemKind::Target { .. } | ItemKind::Missing => {
+                return Err(unknown("value"));
+            }
+        };
+        Ok(match (word.as_str(), value) {
+            ("M3" | "M03", None) => SpindleItem::Turn(3),
+            ("M4" | "M04", None) => SpindleItem::Turn(4),
+            ("M5" | "M05", None) => SpindleItem::Turn(5),
+            ("M19", None) => SpindleItem::Turn(19),
+            ("REV" | "SPEED", Some(x)) => SpindleItem::Speed(x),
+            ("POS", Some(x)) => SpindleItem::Position(x),
+            ("G135", None) => SpindleItem::Feedforward(true),
+            ("G137", None) => SpindleItem::Feedforward(false),
+            ("G136", Some(x)) => SpindleItem::Weight(x),
+            (other, _) => return Err(unknown(other)),
+        })
+    }
+
+    fn spindle_action(&mut self, spindle: usize, item: &SpindleItem, span: Span) -> Outcome<()> {
+        match *item {
+            SpindleItem::Turn(number) => {
+                self.motion.spindles[spindle].turning = Turning::of(number, None);
+            }
+            SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
+                let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
+                return Err(Fault::new(Condition::Range, text, span));
+            }
+            SpindleItem::Speed(rpm) => self.set_spindle_speed(spindle, rpm, span),
+            SpindleItem::Position(deg) => {
+                self.motion.spindles[spindle].turning = Turning::Positioned { deg };
+            }
+            SpindleItem::Feedforward(on) => {
+                self.motion.spindles[spindle].feedforward = on;
+                if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
+                    self.event(event);
+                }
+            }
+            SpindleItem::Weight(percent) if percent < 0.0 => {
+                let text = format!("feedforward weight {percent} % is negative");
+                return Err(Fault::new(Condition::FeedforwardNegative, text, span));
+            }
+            SpindleItem::Weight(percent) => {
+                let percent = self.limited_weight(percent, span);
+                self.motion.spindles[spindle].weight_ratio = percent / 100.0;
+                if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
+                    self.event(event);
+                }
+            }
+        }
+        Ok(())
+    }
+}

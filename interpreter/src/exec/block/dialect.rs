@@ -1,0 +1,72 @@
+//! Words that other controls give another meaning: what this dialect means by them.
+
+use crate::diag::{Condition, Id};
+
+/// True for errors that a file of another control repeats in every line: unassigned G functions (20131) and parameters
+/// without a value (20194), each for itself, and O words (20191).
+pub(in crate::exec) fn is_foreign_word(id: Id) -> bool {
+    [Condition::GUnknown, Condition::ONotImplemented, Condition::AssignmentExpected]
+        .iter()
+        .any(|condition| id == *condition)
+}
+
+/// Hint for a G number that is not assigned here.
+pub(in crate::exec) fn unknown_g(number: u32) -> Option<&'static str> {
+    Some(match number {
+        28 | 30 => {
+            "reference points of other controls do not exist here; G74 homes, G53 cancels offsets"
+        }
+        43 | 44 | 49 => "tool length is selected by D here (D0 cancels)",
+        7 => {
+            "G07 of other controls is diameter programming (G51 here) or cylindrical interpolation (#CYL here); neither is simulated"
+        }
+        64 => "contouring is G261 with #CONTOUR MODE here",
+        15 | 16 => "polar coordinates of other controls do not exist here",
+        50 => "#SCALE scales here",
+        65..=67 => "subroutines are called by L, LL and L CYCLE here",
+        73 | 76 => "drilling cycles are L CYCLE calls here",
+        _ => return None,
+    })
+}
+
+/// What tells that a program is written for this dialect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::exec) struct Seen {
+    /// G22, G23, G351, G70 or G71: G20 and G21 are meant as they are.
+    pub(in crate::exec) unit_or_mirror: bool,
+    /// `#` commands, `$` statements or G numbers from 127 on.
+    pub(in crate::exec) own: bool,
+}
+
+/// Meaning here of a G function that other dialects know with another one.
+pub(in crate::exec) fn g_function(number: u32) -> Option<&'static str> {
+    Some(match number {
+        20 => "G20 switches mirroring off in this dialect; inch is G70",
+        21 => "G21 mirrors about Y in this dialect (X changes its sign); metric is G71",
+        61 => {
+            "G61 rounds the corner at the end of the block in this dialect; an exact stop is G60 or G360"
+        }
+        93 => {
+            "F is the time of the block in seconds after G93 in this dialect, not its inverse per minute"
+        }
+        _ => return None,
+    })
+}
+
+/// Hint for a letter that is no word here.
+pub(in crate::exec) fn letter(letter: u8) -> &'static str {
+    match letter {
+        b'M' => "M needs a number",
+        b'P' => "a parameter is assigned: P1=5",
+        _ => "words are G M H T D F E S I J K R L N, the axes, P.. = and V... =",
+    }
+}
+
+/// M functions of other controls.
+pub(in crate::exec) fn m_function(number: u32) -> Option<&'static str> {
+    match number {
+        98 => Some("M98 calls no subroutine here: L file or LL NAME does"),
+        99 => Some("M99 ends no subroutine here: M17 or M29 does"),
+        _ => None,
+    }
+}

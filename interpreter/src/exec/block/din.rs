@@ -1,0 +1,274 @@
+//! What the words of a block do, in the order of execution: plane, unit and dimension; tool, offsets and frames; feed,
+//! spindle, weights and modes; functions before the motion; motion or dwell; functions after it.
+//!
+//! Assumption: this order; the vendor documents only that the order of words in the block counts for nothing.
+
+mod functions;
+mod offsets;
+
+use super::groups::{Act, Group};
+use super::modal::{Compensation, FeedType, FeedWord, LookAhead, Plane};
+use super::words::{CycleCall, GWord, Placed, Words};
+use crate::diag::{Condition, ValueKind};
+use crate::exec::contour::insertion::Kind;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::machine::Axis;
+use crate::syntax::ast::{Call, Label, Span, Word};
+
+/// What follows a block.
+#[derive(Debug)]
+pub(in crate::exec) enum After<'b> {
+    Next,
+    Call(&'b Call, Span),
+    Cycle(CycleCall),
+    /// M06 with a program of its own.
+    ToolChange(Span),
+    Goto(&'b Label),
+    /// M17, M29.
+    Return,
+    /// M02, M30.
+    End,
+}
+
+impl Decoder {
+    /// Executes a block of words.
+    pub(in crate::exec) fn execute_words<'b>(
+        &mut self,
+        written: &'b [Word],
+        span: Span,
+    ) -> After<'b> {
+        let mut words = Words::default();
+        self.collect(written, &mut words);
+        self.dialect_guard(&words);
+        self.planes_and_units(&words);
+        let takes_axes = self.axis_functions(&words);
+        self.tools_and_offsets(&words, takes_axes);
+        let preset = self.position_presets(&words);
+        self.feeds_and_modes(&words, takes_axes);
+        // behind G04 the S word is a number of revolutions
+        if words.group(Group::Path).is_none_or(|g| g.row.act != Act::Dwell) {
+            for (i, speed, span) in &words.speeds {
+                self.speed(*i, *speed, *span);
+            }
+        }
+        self.functions_before(&words);
+        for bracket in &words.brackets {
+            let outcome = self.bracket(bracket, &words);
+            self.keep(outcome);
+        }
+        if !preset {
+            self.motion_or_dwell(&words, takes_axes, span);
+        }
+        self.join_synchronous();
+        self.functions_after(&words)
+    }
+
+    fn planes_and_units(&mut self, words: &Words<'_>) {
+        for g in &words.g {
+            match g.row.act {
+                Act::Plane(plane) => self.set_plane(plane, g.span),
+                Act::Inch(inch) => self.modal.inch = inch,
+                Act::Absolute(absolute) => self.modal.absolute = absolute,
+                // before G41 in the same block
+                Act::Corners(corners) => self.modal.corners = corners,
+                _ => {}
+            }
+        }
+    }
+
+    fn set_plane(&mut self, plane: Plane, span: Span) {
+        if plane != self.modal.plane && self.modal.compensation != Compensation::Off {
+            let text = "the plane cannot be changed while tool radius compensation is active";
+            self.note(Fault::new(Condition::PlaneWithCompensation, text, span));
+            return;
+        }
+        if plane != self.modal.plane && self.geometry.coordinates.rotation().is_some() {
+            let text = "the change of plane switches the contour rotation off";
+            self.note(Fault::new(Condition::Odd, text, span).warning());
+            self.geometry.coordinates.set_rotation(None);
+        }
+        self.modal.plane = plane;
+    }
+
+    fn feeds_and_modes(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {
+        for g in &words.g {
+            if let Act::FeedType(feed_type) = g.row.act {
+                self.modal.feed_type = feed_type;
+                if feed_type == FeedType::Time {
+                    // one time per use of G93
+                    self.modal.feeds[feed_type as usize] = None;
+                }
+            }
+        }
+        if let Some(feed) = words.feed {
+            let outcome = self.feed(feed);
+            self.keep(outcome);
+        }
+        for g in &words.g {
+            let outcome = self.mode(g, words);
+            self.keep(outcome);
+        }
+        if let Some(g) = takes_axes {
+            let outcome = match g.row.act {
+                Act::WeightOfAxes(weight) => self.weights_of_axes(&g, weight, words),
+                Act::FeedforwardWeights => self.feedforward_weights(&g, words),
+                _ => Ok(()),
+            };
+            self.keep(outcome);
+        }
+        self.insertions(words);
+    }
+
+    fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
+        let most = if self.modal.feed_type == FeedType::ShareOfMaximum { 100.0 } else { 1e9 };
+        if !(0.0..=most).contains(&value) {
+            let text = format!("F{value} is outside 0 to {most}");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        self.unsay("20008");
+        let word = FeedWord { value, inch: self.modal.inch };
+        self.modal.feeds[self.modal.feed_type as usize] = Some(word);
+        Ok(())
+    }
+
+    /// Modes without axis words.
+    fn mode(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        match g.row.act {
+            Act::ExactStop(on) => {
+                self.modal.exact_stop = on;
+                self.modal.contouring &= !on;
+            }
+            Act::Contour(on) => {
+                self.modal.contouring = on;
+                self.modal.exact_stop &= !on;
+            }
+            Act::LateBraking(late) => self.modal.late_braking = late,
+            Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
+            Act::CentreCorrection(on) => self.modal.centre_correction = on,
+            Act::WeightOfAll(weight) => {
+                let ratio = Self::weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
+                self.set_weight(weight, None, ratio, g.span);
+            }
+            Act::Feedforward(on) if self.motion.feedforward.on != on => {
+                if on && !self.machine.axes.iter().any(Axis::has_feedforward) {
+                    let text = "G135 without effect: no axis of the channel has feedforward (P-AXIS-00223)";
+                    self.note_once("G135", Fault::new(Condition::ListNoEffect, text, g.span));
+                }
+                self.motion.feedforward.on = on;
+                self.feedforward_event();
+            }
+            Act::StopAtTransitions(stop) => {
+                let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
+                if self.modal.look_ahead != mode {
+                    self.modal.look_ahead = mode;
+                    self.dynamics_changed();
+                }
+            }
+            Act::LookAheadFunctions => {
+                let value = g.value.unwrap_or_default();
+                if crate::exec::values::expr::whole(value, 0, 14).is_none() {
+                    let text = format!("G115={value}, allowed are 0 to 14");
+                    return Err(Fault::new(Condition::LookAheadRange, text, g.span)
+                        .with(|d| d.value(ValueKind::Wrong, value, "-")));
+                }
+                let text = "G115: single functions of the look-ahead cannot be switched off";
+                self.note_once("G115", Fault::new(Condition::Ignored, text, g.span));
+            }
+            Act::Compensation(side) => self.compensation(side, g.span),
+            Act::PerpendicularSelection(on) => self.modal.perpendicular_selection = on,
+            Act::Radius => {
+                let radius = g.value.unwrap_or_default() * self.unit_mm();
+                self.modal.radius_mm = Some(radius);
+            }
+            Act::Ignored(why) => {
+                let text = format!("G{:02} has no effect: {why}", g.row.number);
+                let key = format!("G{}", g.row.number);
+                self.note_once(&key, Fault::new(Condition::Ignored, text, g.span));
+            }
+            Act::ExactStopOnce if words.axes.is_empty() => {
+                return Err(Fault::new(Condition::AxisMissing, "G60 without motion", g.span));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn insertions(&mut self, words: &Words<'_>) {
+        let mut request = None;
+        for g in &words.g {
+            let kind = match g.row.act {
+                Act::Chamfer => Kind::Chamfer,
+                Act::Rounding => Kind::Rounding,
+                _ => continue,
+            };
+            let written = words.centre[0].map(|(i, span)| (i * self.unit_mm(), span));
+            if let Some((size, _)) = written {
+                self.modal.insertion_mm = Some(size);
+            }
+            match self.modal.insertion_mm {
+                Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
+                _ => {
+                    let text = format!("G{} without a size (I)", g.row.number);
+                    self.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
+                }
+            }
+        }
+        let mut feed = None;
+        for (hash, value, span) in &words.hashes {
+            let kind = match &*hash.name {
+                "FRC" => {
+                    feed = value.map(|v| (v, *span));
+                    continue;
+                }
+                "PSET" | "PRESET" | "SUPPRESS OFFSETS" => continue,
+                "CHR" => Kind::Chamfer,
+                "CHF" => Kind::ChamferLength,
+                "RND" => Kind::Rounding,
+                other => {
+                    self.note(Fault::unsupported(format!("#{other}"), *span));
+                    continue;
+                }
+            };
+            match value.map(|v| v * self.unit_mm()) {
+                Some(size) if size > 0.0 => request = Some((kind, size, *span)),
+                _ => {
+                    let text = format!("#{} without a size", hash.name);
+                    self.note(Fault::new(Condition::Range, text, *span));
+                }
+            }
+        }
+        if let Some((kind, size, at)) = request {
+            let feed_mm_s = feed.map(|(f, _)| f * self.feed_unit_mm_s());
+            self.insert(kind, size, feed_mm_s, at);
+        } else if let Some((_, at)) = feed {
+            let text = "#FRC without chamfer or rounding has no effect";
+            self.note(Fault::new(Condition::Odd, text, at).warning());
+        }
+    }
+
+    /// Words that other dialects give another meaning: once per program and word.
+    fn dialect_guard(&mut self, words: &Words<'_>) {
+        for g in &words.g {
+            match g.row.number {
+                22 | 23 | 70 | 71 | 351 => self.dialect.unit_or_mirror = true,
+                n if n >= 127 => self.dialect.own = true,
+                _ => {}
+            }
+            let known = if matches!(g.row.number, 20 | 21) {
+                self.dialect.unit_or_mirror
+            } else {
+                self.dialect.own
+            };
+            if let (false, Some(text)) = (known, super::dialect::g_function(g.row.number)) {
+                let key = format!("dialect G{}", g.row.number);
+                self.note_once(&key, Fault::new(Condition::Dialect, text, g.span));
+            }
+        }
+        if let (false, Some((_, span))) = (self.dialect.own, words.end_feed) {
+            let text =
+                "E is the feed at the end of the block in this dialect, not an extruder axis";
+            self.note_once("dialect E", Fault::new(Condition::Dialect, text, span));
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! M functions, spindle words and what follows a block.
+
+use super::After;
+use crate::diag::{Condition, rounded};
+use crate::exec::block::words::{Code, Words};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::Fault;
+use crate::exec::motion::spindles::Turning;
+use crate::exec::step::{Event, Sync};
+use crate::syntax::ast::Span;
+
+/// How M functions act that are more than a number for the log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum MKind {
+    Before,
+    After,
+    Stop { optional: bool },
+    End,
+    Return,
+    Spindle,
+    ToolChange,
+}
+
+fn m_kind(number: u32) -> MKind {
+    match number {
+        0 => MKind::Stop { optional: false },
+        1 => MKind::Stop { optional: true },
+        2 | 30 => MKind::End,
+        17 | 29 => MKind::Return,
+        3 | 4 | 19 => MKind::Spindle,
+        5 => MKind::After,
+        6 => MKind::ToolChange,
+        _ => MKind::Before,
+    }
+}
+
+impl Decoder {
+    pub(super) fn speed(&mut self, index: usize, value: f64, span: Span) {
+        if !(0.0..=1e6).contains(&value) {
+            let text = format!("spindle speed {value} is outside 0 to 1000000 rev/min");
+            self.note(Fault::new(Condition::Range, text, span));
+            return;
+        }
+        self.set_spindle_speed(index, value, span);
+        if self.motion.spindles[index].is_turning()
+            && let Some(event) = self.motion.spindles[index].motion_event()
+        {
+            self.event(event);
+        }
+        self.spindle_warning(index, span);
+    }
+
+    /// Takes the speed of a spindle in rev/min; K-0131 if the spindle is slower.
+    pub(in crate::exec) fn set_spindle_speed(&mut self, index: usize, rpm: f64, span: Span) {
+        self.motion.spindles[index].rpm = rpm;
+        let listed = self.motion.spindles[index].index.and_then(|i| self.machine.spindles.get(i));
+        let Some(most) = listed.map(|s| s.dynamics().v_max_mm_s / 6.0) else { return };
+        if rpm > most {
+            let name = &self.motion.spindles[index].name;
+            let text = format!(
+                "spindle speed {} rev/min of {name} is above its limit (P-AXIS-00212): {} rev/min are used",
+                rounded(rpm),
+                rounded(most)
+            );
+            self.note(Fault::new(Condition::SpindleLimit, text, span));
+        }
+    }
+
+    pub(in crate::exec) fn spindle_warning(&mut self, index: usize, span: Span) {
+        if self.motion.spindles[index].index.is_none() {
+            let text = "the machine has no spindle: speeds are remembered, nothing turns";
+            self.note_once("spindle", Fault::new(Condition::Ignored, text, span));
+        } else if self.motion.spindles[index].is_turning() && self.motion.spindles[index].rpm == 0.0
+        {
+            let text = "M03 and M04 with the speed 0 turn nothing before an S word";
+            self.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
+        }
+    }
+
+    pub(super) fn functions_before(&mut self, words: &Words<'_>) {
+        let mut spindle = words.m.iter().filter(|m| m_kind(m.number) == MKind::Spindle);
+        if let (Some(first), Some(second)) = (spindle.next(), spindle.next()) {
+            let (m, n) = (first.number, second.number);
+            let text = format!("M{m:02} and M{n:02} in one block: both set the spindle");
+            self.note(Fault::new(Condition::DuplicateGroup, text, second.span));
+        }
+        for m in &words.m {
+            match m_kind(m.number) {
+                MKind::Before => self.m_function(m),
+                MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
+                MKind::Spindle => self.turn_main_spindle(m),
+                _ => {}
+            }
+        }
+        for h in &words.h {
+            self.event(Event::HFunction { number: h.number, value: h.value });
+        }
+    }
+
+    fn m_function(&mut self, m: &Code) {
+        if let Some(text) = crate::exec::block::dialect::m_function(m.number) {
+            let key = format!("M{}", m.number);
+            self.note_once(&key, Fault::new(Condition::Dialect, text, m.span));
+        }
+        self.event(Event::MFunction { number: m.number, value: m.value });
+    }
+
+    fn turn_main_spindle(&mut self, m: &Code) {
+        self.turn_spindle(0, m.number, m.value);
+        self.spindle_warning(0, m.span);
+        if self.motion.spindles[0].index.is_none() {
+            self.event(Event::MFunction { number: m.number, value: m.value });
+        }
+    }
+
+    /// M3, M4, M5, M19 of one spindle.
+    pub(in crate::exec) fn turn_spindle(&mut self, index: usize, number: u32, value: Option<f64>) {
+        self.motion.spindles[index].turning = Turning::of(number, value);
+        if let Some(event) = self.motion.spindles[index].motion_event() {
+            self.event(event);
+        }
+    }
+
+    pub(super) fn functions_after<'b>(&mut self, words: &Words<'b>) -> After<'b> {
+        let mut after = After::Next;
+        for m in &words.m {
+            match m_kind(m.number) {
+                MKind::After => {
+                    self.turn_spindle(0, m.number, m.value);
+                    if self.motion.spindles[0].index.is_none() {
+                        self.event(Event::MFunction { number: m.number, value: m.value });
+                    }
+                }
+                MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
+                MKind::End => after = After::End,
+                MKind::Return if !matches!(after, After::End) => after = After::Return,
+                _ => {}
+            }
+        }
+        if !matches!(after, After::Next) {
+            return after;
+        }
+        let tool_change = words.m.iter().find(|m| {
+            m_kind(m.number) == MKind::ToolChange && self.calls.tool_change_file.is_some()
+        });
+        if let (Some(m), true) = (tool_change, words.call.is_some() || words.cycle.is_some()) {
+            let text = "M06 calls a subroutine: a second call in its block";
+            self.note(Fault::new(Condition::SeveralCalls, text, m.span));
+        }
+        if let Some((call, span)) = words.call {
+            return After::Call(call, span);
+        }
+        if let Some(cycle) = &words.cycle {
+            return After::Cycle(cycle.clone());
+        }
+        if let Some(m) = tool_change {
+            return After::ToolChange(m.span);
+        }
+        match words.goto {
+            Some(label) => After::Goto(label),
+            None => After::Next,
+        }
+    }
+}

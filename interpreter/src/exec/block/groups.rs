@@ -1,0 +1,376 @@
+//! G functions: one row each, with its group, its meaning and whether it takes a value.
+//!
+//! Source: TF5200 programming manual, list of G functions; diagnosis manual for the IDs of double programming.
+
+use super::modal::{Compensation, Corners, FeedType, PathMode, Plane};
+use crate::diag::Condition;
+use crate::exec::motion::dynamics::Weight;
+
+/// Group: two functions of one group in a block are an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::exec) enum Group {
+    Path,
+    FeedInterpolation,
+    CompensationFeed,
+    CornerDeceleration,
+    Deceleration,
+    Plane,
+    Mirror,
+    CompensationTransition,
+    Compensation,
+    Diameter,
+    ZeroOffset,
+    Transition,
+    Rotation,
+    Unit,
+    Dimension,
+    FeedType,
+    SpindleMode,
+    Measuring,
+    LookAhead,
+    CompensationSelection,
+    Masking,
+    Splines,
+    CentreType,
+    CentreCorrection,
+    Manual,
+    Insertion,
+    Feedforward,
+    /// No group: several may share a block.
+    None,
+}
+
+impl Group {
+    /// Condition of double programming; K-DUPGROUP where no document read names a number.
+    pub(in crate::exec) fn duplicate(self) -> Condition {
+        match self {
+            Self::Path => Condition::TwoMotionModes,
+            Self::FeedInterpolation => Condition::TwoFeedInterpolations,
+            Self::CompensationFeed => Condition::TwoCompensationFeeds,
+            Self::Mirror => Condition::TwoMirrors,
+            Self::Compensation => Condition::TwoCompensations,
+            Self::Diameter => Condition::TwoDiameters,
+            Self::ZeroOffset => Condition::TwoZeroOffsets,
+            Self::Transition => Condition::TwoTransitions,
+            Self::Unit => Condition::TwoUnits,
+            Self::FeedType => Condition::TwoFeedTypes,
+            Self::Measuring => Condition::TwoMeasurings,
+            Self::LookAhead => Condition::TwoLookAheads,
+            Self::CompensationSelection => Condition::TwoCompensationSelections,
+            Self::CentreType => Condition::TwoCentreTypes,
+            Self::CentreCorrection => Condition::TwoCentreCorrections,
+            Self::Manual => Condition::TwoManuals,
+            Self::Insertion => Condition::TwoInsertions,
+            Self::CornerDeceleration
+            | Self::Deceleration
+            | Self::Plane
+            | Self::CompensationTransition
+            | Self::Rotation
+            | Self::Dimension
+            | Self::SpindleMode
+            | Self::Masking
+            | Self::Splines
+            | Self::Feedforward
+            | Self::None => Condition::DuplicateGroup,
+        }
+    }
+
+    pub(in crate::exec) fn name(self) -> &'static str {
+        match self {
+            Self::Path => "path condition",
+            Self::FeedInterpolation => "feed interpolation",
+            Self::CompensationFeed => "feed of tool radius compensation",
+            Self::CornerDeceleration => "corner deceleration",
+            Self::Deceleration => "deceleration to a lower feed",
+            Self::Plane => "plane",
+            Self::Mirror => "mirroring",
+            Self::CompensationTransition => "transitions of tool radius compensation",
+            Self::Compensation => "tool radius compensation",
+            Self::Diameter => "diameter programming",
+            Self::ZeroOffset => "zero offset",
+            Self::Transition => "block transition",
+            Self::Rotation => "contour rotation",
+            Self::Unit => "unit",
+            Self::Dimension => "dimension",
+            Self::FeedType => "feed type",
+            Self::SpindleMode => "spindle speed",
+            Self::Measuring => "measuring",
+            Self::LookAhead => "look-ahead",
+            Self::CompensationSelection => "selection of tool radius compensation",
+            Self::Masking => "contour masking",
+            Self::Splines => "splines",
+            Self::CentreType => "arc centre",
+            Self::CentreCorrection => "centre correction",
+            Self::Manual => "manual mode",
+            Self::Insertion => "insertion",
+            Self::Feedforward => "feedforward",
+            Self::None => "",
+        }
+    }
+}
+
+/// Meaning of a G function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) enum Act {
+    Path(PathMode),
+    Dwell,
+    Plane(Plane),
+    /// Mirrors first and second main axis.
+    Mirror(bool, bool),
+    /// G351.
+    MirrorAxes,
+    Inch(bool),
+    Absolute(bool),
+    FeedType(FeedType),
+    /// G53 to G59.
+    ZeroGroup(u32),
+    /// G159.
+    ZeroGroupValue,
+    /// G160.
+    ZeroGroupAxes,
+    /// G92.
+    Preset,
+    /// G98 (false), G99 (true): negative and positive software limit.
+    SoftwareLimits(bool),
+    ExactStopOnce,
+    ExactStop(bool),
+    ContourOnce,
+    Contour(bool),
+    /// G09.
+    EarlyBrakingOnce,
+    /// G901 (true), G900.
+    LateBraking(bool),
+    Compensation(Compensation),
+    /// G25, G26.
+    Corners(Corners),
+    /// G237 (true), G139.
+    PerpendicularSelection(bool),
+    CentreAbsolute(bool),
+    CentreCorrection(bool),
+    /// G163.
+    Radius,
+    /// By axis words.
+    WeightOfAxes(Weight),
+    /// By a value.
+    WeightOfAll(Weight),
+    Feedforward(bool),
+    /// G136.
+    FeedforwardWeights,
+    /// G68.
+    Rotate,
+    /// G69.
+    RotateOff,
+    /// G115.
+    LookAheadFunctions,
+    /// G116 (true), G117.
+    StopAtTransitions(bool),
+    /// G166.
+    FullOverride,
+    /// G301, G302.
+    Chamfer,
+    Rounding,
+    /// What holds anyway in this tool.
+    Nothing,
+    /// No influence on set positions, or only on functions that are not simulated.
+    Ignored(&'static str),
+    /// Changes the path and is not simulated.
+    Unsupported(&'static str),
+}
+
+/// A value behind the number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum ValueRule {
+    Never,
+    Required,
+    Optional,
+}
+
+/// One row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct Row {
+    pub(in crate::exec) number: u32,
+    pub(in crate::exec) group: Group,
+    pub(in crate::exec) act: Act,
+    pub(in crate::exec) value: ValueRule,
+}
+
+const fn g(number: u32, group: Group, act: Act) -> Row {
+    Row { number, group, act, value: ValueRule::Never }
+}
+
+/// A row with a value.
+const fn v(number: u32, group: Group, act: Act) -> Row {
+    Row { number, group, act, value: ValueRule::Required }
+}
+
+const FEED_CHANGE: &str = "a higher feed is reached behind the start of its block, as at start";
+const FEED_HOLD: &str = "weights of feed hold are not simulated";
+const THREADS: &str = "thread cutting and tapping";
+const TURNING: &str = "turning";
+const MEASURING: &str = "measuring";
+const MANUAL: &str = "manual mode";
+const SPLINES: &str = "splines";
+
+/// Every row, ordered by number. G80 to G89 and G800 to G899 are subroutine calls and not in it.
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    g(0, Group::Path, Act::Path(PathMode::Rapid)),
+    g(1, Group::Path, Act::Path(PathMode::Linear)),
+    g(2, Group::Path, Act::Path(PathMode::Clockwise)),
+    g(3, Group::Path, Act::Path(PathMode::CounterClockwise)),
+    Row { number: 4, group: Group::Path, act: Act::Dwell, value: ValueRule::Optional },
+    g(5, Group::None, Act::Unsupported("tangential selection of tool radius compensation")),
+    g(8, Group::FeedInterpolation, Act::Ignored(FEED_CHANGE)),
+    g(9, Group::None, Act::EarlyBrakingOnce),
+    g(10, Group::CompensationFeed, Act::Nothing),
+    g(11, Group::CompensationFeed, Act::Unsupported("adapted feed of tool radius compensation")),
+    g(12, Group::CornerDeceleration, Act::Nothing),
+    g(13, Group::CornerDeceleration, Act::Unsupported("corner deceleration")),
+    g(17, Group::Plane, Act::Plane(Plane::Xy)),
+    g(18, Group::Plane, Act::Plane(Plane::Zx)),
+    g(19, Group::Plane, Act::Plane(Plane::Yz)),
+    g(20, Group::Mirror, Act::Mirror(false, false)),
+    g(21, Group::Mirror, Act::Mirror(true, false)),
+    g(22, Group::Mirror, Act::Mirror(false, true)),
+    g(23, Group::Mirror, Act::Mirror(true, true)),
+    g(25, Group::CompensationTransition, Act::Corners(Corners::Straight)),
+    g(26, Group::CompensationTransition, Act::Corners(Corners::Round)),
+    g(33, Group::Path, Act::Unsupported(THREADS)),
+    g(40, Group::Compensation, Act::Compensation(Compensation::Off)),
+    g(41, Group::Compensation, Act::Compensation(Compensation::Left)),
+    g(42, Group::Compensation, Act::Compensation(Compensation::Right)),
+    g(51, Group::Diameter, Act::Unsupported("diameter programming")),
+    g(52, Group::Diameter, Act::Nothing),
+    g(53, Group::ZeroOffset, Act::ZeroGroup(0)),
+    g(54, Group::ZeroOffset, Act::ZeroGroup(1)),
+    g(55, Group::ZeroOffset, Act::ZeroGroup(2)),
+    g(56, Group::ZeroOffset, Act::ZeroGroup(3)),
+    g(57, Group::ZeroOffset, Act::ZeroGroup(4)),
+    g(58, Group::ZeroOffset, Act::ZeroGroup(5)),
+    g(59, Group::ZeroOffset, Act::ZeroGroup(6)),
+    g(60, Group::Transition, Act::ExactStopOnce),
+    g(61, Group::Transition, Act::ContourOnce),
+    g(63, Group::Path, Act::Unsupported(THREADS)),
+    g(66, Group::None, Act::Ignored("blocks end within the cycle here")),
+    g(68, Group::Rotation, Act::Rotate),
+    g(69, Group::Rotation, Act::RotateOff),
+    g(70, Group::Unit, Act::Inch(true)),
+    g(71, Group::Unit, Act::Inch(false)),
+    g(74, Group::Path, Act::Unsupported("homing")),
+    g(90, Group::Dimension, Act::Absolute(true)),
+    g(91, Group::Dimension, Act::Absolute(false)),
+    g(92, Group::None, Act::Preset),
+    g(93, Group::FeedType, Act::FeedType(FeedType::Time)),
+    g(94, Group::FeedType, Act::FeedType(FeedType::PerMinute)),
+    g(95, Group::FeedType, Act::FeedType(FeedType::PerRevolution)),
+    g(96, Group::SpindleMode, Act::Unsupported(TURNING)),
+    g(97, Group::SpindleMode, Act::Nothing),
+    g(98, Group::None, Act::SoftwareLimits(false)),
+    g(99, Group::None, Act::SoftwareLimits(true)),
+    g(100, Group::Measuring, Act::Unsupported(MEASURING)),
+    g(101, Group::Measuring, Act::Unsupported(MEASURING)),
+    g(102, Group::Measuring, Act::Unsupported(MEASURING)),
+    g(106, Group::Measuring, Act::Unsupported(MEASURING)),
+    g(107, Group::Measuring, Act::Unsupported(MEASURING)),
+    g(108, Group::Measuring, Act::Unsupported(MEASURING)),
+    v(112, Group::None, Act::Ignored("gear stages are not switched")),
+    v(115, Group::LookAhead, Act::LookAheadFunctions),
+    g(116, Group::LookAhead, Act::StopAtTransitions(true)),
+    g(117, Group::LookAhead, Act::StopAtTransitions(false)),
+    g(127, Group::None, Act::WeightOfAxes(Weight::Velocity)),
+    v(128, Group::None, Act::WeightOfAll(Weight::Velocity)),
+    v(129, Group::None, Act::WeightOfAll(Weight::RapidVelocity)),
+    g(130, Group::None, Act::WeightOfAxes(Weight::Acceleration)),
+    v(131, Group::None, Act::WeightOfAll(Weight::Acceleration)),
+    g(132, Group::None, Act::WeightOfAxes(Weight::Ramp)),
+    v(133, Group::None, Act::WeightOfAll(Weight::Ramp)),
+    v(134, Group::None, Act::WeightOfAll(Weight::GeometricRamp)),
+    g(135, Group::Feedforward, Act::Feedforward(true)),
+    g(136, Group::None, Act::FeedforwardWeights),
+    g(137, Group::Feedforward, Act::Feedforward(false)),
+    g(138, Group::CompensationSelection, Act::Unsupported("direct selection of tool radius compensation")),
+    g(139, Group::CompensationSelection, Act::PerpendicularSelection(false)),
+    g(140, Group::Masking, Act::Nothing),
+    g(141, Group::Masking, Act::Ignored("contour masking is not simulated")),
+    g(150, Group::Splines, Act::Nothing),
+    g(151, Group::Splines, Act::Unsupported(SPLINES)),
+    v(159, Group::ZeroOffset, Act::ZeroGroupValue),
+    v(160, Group::None, Act::ZeroGroupAxes),
+    g(161, Group::CentreType, Act::CentreAbsolute(true)),
+    g(162, Group::CentreType, Act::CentreAbsolute(false)),
+    v(163, Group::None, Act::Radius),
+    g(164, Group::CentreCorrection, Act::CentreCorrection(false)),
+    g(165, Group::CentreCorrection, Act::CentreCorrection(true)),
+    g(166, Group::None, Act::FullOverride),
+    g(193, Group::FeedInterpolation, Act::Unsupported("feed interpolation over the path")),
+    g(194, Group::FeedType, Act::FeedType(FeedType::ShareOfMaximum)),
+    g(196, Group::SpindleMode, Act::Unsupported(TURNING)),
+    g(200, Group::Manual, Act::Unsupported(MANUAL)),
+    g(201, Group::Manual, Act::Unsupported(MANUAL)),
+    g(202, Group::Manual, Act::Unsupported(MANUAL)),
+    g(230, Group::None, Act::WeightOfAxes(Weight::RapidAcceleration)),
+    v(231, Group::None, Act::WeightOfAll(Weight::RapidAcceleration)),
+    v(233, Group::None, Act::WeightOfAll(Weight::RapidRamp)),
+    g(236, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
+    g(237, Group::CompensationSelection, Act::PerpendicularSelection(true)),
+    g(238, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
+    g(239, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
+    g(260, Group::Transition, Act::Contour(false)),
+    g(261, Group::Transition, Act::Contour(true)),
+    g(293, Group::FeedInterpolation, Act::Unsupported("feed interpolation over the time")),
+    g(301, Group::Insertion, Act::Chamfer),
+    g(302, Group::Insertion, Act::Rounding),
+    g(303, Group::Path, Act::Unsupported("arcs in space")),
+    g(310, Group::Measuring, Act::Unsupported(MEASURING)),
+    g(331, Group::Path, Act::Unsupported(THREADS)),
+    g(332, Group::Path, Act::Unsupported(THREADS)),
+    g(333, Group::None, Act::Ignored(FEED_HOLD)),
+    v(334, Group::None, Act::Ignored(FEED_HOLD)),
+    g(338, Group::None, Act::Ignored(FEED_HOLD)),
+    v(339, Group::None, Act::Ignored(FEED_HOLD)),
+    g(351, Group::Mirror, Act::MirrorAxes),
+    g(359, Group::Transition, Act::ExactStop(false)),
+    g(360, Group::Transition, Act::ExactStop(true)),
+    g(900, Group::Deceleration, Act::LateBraking(false)),
+    g(901, Group::Deceleration, Act::LateBraking(true)),
+];
+
+/// Highest number of the data format; above it 20107, unassigned numbers below it are 20131.
+///
+/// Assumption: three digits; the document gives an example with five.
+pub(in crate::exec) const NUMBER_MAX: u32 = 999;
+
+/// The row of a number.
+pub(in crate::exec) fn row(number: u32) -> Option<&'static Row> {
+    ROWS.binary_search_by_key(&number, |r| r.number).ok().map(|i| &ROWS[i])
+}
+
+/// True for the implicit subroutine calls.
+pub(in crate::exec) fn is_cycle_call(number: u32) -> bool {
+    (80..=89).contains(&number) || (800..=839).contains(&number)
+}
+
+/// True if the axis words of the block are arguments of this function, not targets.
+pub(in crate::exec) fn takes_axes(row: &Row) -> bool {
+    matches!(
+        row.act,
+        Act::Dwell
+            | Act::Preset
+            | Act::SoftwareLimits(_)
+            | Act::ZeroGroupAxes
+            | Act::WeightOfAxes(_)
+            | Act::FeedforwardWeights
+            | Act::MirrorAxes
+            | Act::Rotate
+    ) || matches!(row.number, 74 | 100..=108 | 310 | 333 | 338)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ROWS;
+
+    #[test]
+    fn rows_are_ordered_and_unique() {
+        assert!(ROWS.windows(2).all(|w| w[0].number < w[1].number));
+    }
+}

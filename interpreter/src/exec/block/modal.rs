@@ -1,0 +1,152 @@
+//! Modal state: what words set until others of their group change it.
+
+use kontur_motion::block::{Slope, SlopeKind};
+
+/// Group 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum PathMode {
+    Rapid,
+    Linear,
+    Clockwise,
+    CounterClockwise,
+}
+
+/// G17, G18, G19 as indices of the main axes: first, second, third (normal).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Plane {
+    Xy,
+    Zx,
+    Yz,
+}
+
+impl Plane {
+    /// Main axes of the plane: first, second, and the one perpendicular to it.
+    pub(in crate::exec) fn main_axes(self) -> [usize; 3] {
+        match self {
+            Self::Xy => [0, 1, 2],
+            Self::Zx => [2, 0, 1],
+            Self::Yz => [1, 2, 0],
+        }
+    }
+}
+
+/// G93, G94, G95, G194.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::exec) enum FeedType {
+    /// G93: time of the block.
+    Time,
+    /// G94.
+    PerMinute,
+    /// G95.
+    PerRevolution,
+    /// G194.
+    ShareOfMaximum,
+}
+
+impl FeedType {
+    pub(in crate::exec) fn g(self) -> u32 {
+        match self {
+            Self::Time => 93,
+            Self::PerMinute => 94,
+            Self::PerRevolution => 95,
+            Self::ShareOfMaximum => 194,
+        }
+    }
+}
+
+/// An F word with the unit of length that was active.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct FeedWord {
+    pub(in crate::exec) value: f64,
+    pub(in crate::exec) inch: bool,
+}
+
+/// G115, G116, G117.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum LookAhead {
+    Complete,
+    StopAtTransitions,
+}
+
+/// G40, G41, G42.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Compensation {
+    Off,
+    Left,
+    Right,
+}
+
+/// G25, G26.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Corners {
+    Straight,
+    Round,
+}
+
+/// Everything that G words and F, R, I keep.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a group of two words")]
+pub(in crate::exec) struct Modal {
+    pub(in crate::exec) path: PathMode,
+    pub(in crate::exec) plane: Plane,
+    pub(in crate::exec) inch: bool,
+    pub(in crate::exec) absolute: bool,
+    pub(in crate::exec) feed_type: FeedType,
+    /// F of each feed type, in the order of [`FeedType`].
+    pub(in crate::exec) feeds: [Option<FeedWord>; 4],
+    pub(in crate::exec) exact_stop: bool,
+    pub(in crate::exec) contouring: bool,
+    /// G901: a lower feed of the next block may be reached behind the end of the block.
+    pub(in crate::exec) late_braking: bool,
+    /// G161: centres in coordinates of the program.
+    pub(in crate::exec) centre_absolute: bool,
+    /// G165.
+    pub(in crate::exec) centre_correction: bool,
+    /// R of the last arc that had one, in mm.
+    pub(in crate::exec) radius_mm: Option<f64>,
+    pub(in crate::exec) slope: Slope,
+    /// The slope was set in the older form: selective weights act (P-CHAN-00001, P-CHAN-00073).
+    pub(in crate::exec) old_slope: bool,
+    pub(in crate::exec) look_ahead: LookAhead,
+    pub(in crate::exec) compensation: Compensation,
+    /// Outer corners of tool radius compensation.
+    pub(in crate::exec) corners: Corners,
+    /// G237.
+    pub(in crate::exec) perpendicular_selection: bool,
+    /// I of G301/G302 in mm.
+    pub(in crate::exec) insertion_mm: Option<f64>,
+    /// Transition velocity of `#TRANSVELMIN` in mm/s.
+    pub(in crate::exec) transition_min_mm_s: f64,
+}
+
+impl Modal {
+    pub(in crate::exec) fn feed(&self) -> Option<FeedWord> {
+        self.feeds[self.feed_type as usize]
+    }
+
+    /// State at program start without presets of the channel list.
+    pub(in crate::exec) fn start(slope: SlopeKind, constant_ramp_time: bool) -> Self {
+        Self {
+            path: PathMode::Linear,
+            plane: Plane::Xy,
+            inch: false,
+            absolute: true,
+            feed_type: FeedType::PerMinute,
+            feeds: [None; 4],
+            exact_stop: false,
+            contouring: false,
+            late_braking: false,
+            centre_absolute: false,
+            centre_correction: true,
+            radius_mm: None,
+            slope: Slope { kind: slope, optimised: false, constant_ramp_time },
+            old_slope: false,
+            look_ahead: LookAhead::Complete,
+            compensation: Compensation::Off,
+            corners: Corners::Straight,
+            perpendicular_selection: false,
+            insertion_mm: None,
+            transition_min_mm_s: 0.0,
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Weights, feedforward, tools, rotation and tool radius compensation: words that change how later blocks move.
+
+use super::modal::Compensation;
+use super::words::{GWord, Placed, Words};
+use crate::diag::{Condition, ValueKind};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Rotation;
+use crate::exec::motion::dynamics::{Weight, channel_dynamics};
+use crate::exec::step::Event;
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+
+impl Decoder {
+    /// A weight in percent as a ratio.
+    pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> Outcome<f64> {
+        let may_be_zero = matches!(
+            weight,
+            Weight::RapidVelocity | Weight::Ramp | Weight::RapidRamp | Weight::GeometricRamp
+        );
+        let ok = percent.is_finite() && (percent > 0.0 || (may_be_zero && percent == 0.0));
+        if ok && percent <= 1e6 {
+            return Ok(percent / 100.0);
+        }
+        let text = format!("a weight of {percent} % is not possible");
+        Err(Fault::new(Condition::Range, text, span))
+    }
+
+    /// Sets a weight; 50130 if it exceeds what the lists allow.
+    pub(in crate::exec) fn set_weight(
+        &mut self,
+        weight: Weight,
+        axis: Option<usize>,
+        ratio: f64,
+        span: Span,
+    ) {
+        let before = self.capped_axes();
+        self.motion.weights.set(weight, axis, ratio);
+        self.dynamics_changed();
+        for axis in self.capped_axes() {
+            if before.contains(&axis) && (ratio - 1.0).abs() < 1e-12 {
+                continue;
+            }
+            let name = self.axis_name(axis).to_owned();
+            let number = self.machine.axes[axis].number();
+            let text = format!(
+                "axis {name}: the weight of {} % exceeds what the axis list allows, it is limited",
+                ratio * 100.0
+            );
+            self.note(
+                Fault::new(Condition::DynamicsLimited, text, span)
+                    .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")),
+            );
+        }
+    }
+
+    fn capped_axes(&self) -> Vec<usize> {
+        channel_dynamics(&self.machine, &self.motion.weights, &self.modal, self.motion.vector[0]).1
+    }
+
+    /// G127, G130, G132, G230.
+    pub(in crate::exec) fn weights_of_axes(
+        &mut self,
+        g: &GWord,
+        weight: Weight,
+        words: &Words<'_>,
+    ) -> Outcome<()> {
+        if words.axes.is_empty() {
+            let text = format!("G{} without axis words", g.row.number);
+            return Err(Fault::new(Condition::AxisMissing, text, g.span));
+        }
+        for (axis, value, span) in &words.axes {
+            let ratio = Self::weight_ratio(weight, (*value, *span))?;
+            self.set_weight(weight, Some(*axis), ratio, *span);
+        }
+        Ok(())
+    }
+
+    /// G136: weights of feedforward in percent, limited to 100.
+    pub(in crate::exec) fn feedforward_weights(
+        &mut self,
+        g: &GWord,
+        words: &Words<'_>,
+    ) -> Outcome<()> {
+        if words.axes.is_empty() {
+            return Err(Fault::new(Condition::Syntax, "G136 without axis words", g.span));
+        }
+        if let Some((_, value, span)) = words.axes.iter().find(|(_, value, _)| *value < 0.0) {
+            let text = format!("feedforward weight {value} % is negative");
+            return Err(Fault::new(Condition::FeedforwardNegative, text, *span));
+        }
+        for (axis, value, span) in &words.axes {
+            let percent = self.limited_weight(*value, *span);
+            self.motion.feedforward.weight_ratios[*axis] = percent / 100.0;
+        }
+        self.feedforward_event();
+        Ok(())
+    }
+
+    /// A feedforward weight, above 100 % with K-0020.
+    pub(in crate::exec) fn limited_weight(&mut self, percent: f64, span: Span) -> f64 {
+        if percent > 100.0 {
+            let text = format!("feedforward weight {percent} % is above 100 %, limited");
+            self.note(
+                Fault::new(Condition::FeedforwardLimit, text, span).with(|d| d.corrected(100.0)),
+            );
+        }
+        percent.min(100.0)
+    }
+
+    pub(in crate::exec) fn feedforward_event(&mut self) {
+        let event = Event::Feedforward {
+            on: self.motion.feedforward.on,
+            weight_ratios: self.motion.feedforward.weight_ratios.clone(),
+        };
+        self.event(event);
+    }
+
+    /// T.
+    pub(in crate::exec) fn select_tool(&mut self, number: f64, span: Span) {
+        if let Some(number) = crate::exec::values::expr::whole(number, 0, u32::MAX) {
+            self.geometry.tools.tool = number;
+            self.event(Event::Tool { number });
+        } else {
+            let text = format!("T{number} is no tool number");
+            self.note(Fault::new(Condition::Range, text, span));
+        }
+    }
+
+    /// D: tool data; the length acts on the third main axis of the plane.
+    pub(in crate::exec) fn select_tool_data(&mut self, number: f64, span: Span) {
+        let Some(number) = crate::exec::values::expr::whole(number, 0, u32::MAX) else {
+            let text = format!("D{number} is no number of tool data");
+            self.note(Fault::new(Condition::Range, text, span));
+            return;
+        };
+        self.geometry.tools.data = number;
+        self.geometry.tools.active = if let Some(tool) = self.geometry.tools.table.get(&number) {
+            tool.clone()
+        } else {
+            if number != 0 {
+                let text = format!("there is no tool data D{number}: length and radius are 0");
+                let hint = "V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
+                self.note_once("D", Fault::new(Condition::NoTool, text, span).hint(hint));
+            }
+            crate::exec::geometry::tools::Tool::default()
+        };
+        self.tool_offsets();
+    }
+
+    /// Offsets of the selected tool.
+    pub(in crate::exec) fn tool_offsets(&mut self) {
+        let mut offsets = AxisVec::zeros(self.machine.axes.len());
+        let normal = self.modal.plane.main_axes()[2];
+        if let Some(axis) = self.geometry.coordinates.main_axis(normal) {
+            offsets[axis] = self.geometry.tools.active.length_mm;
+        }
+        for (axis, value) in &self.geometry.tools.active.offsets_mm {
+            offsets[*axis] += value;
+        }
+        self.geometry.coordinates.set_tool(offsets);
+    }
+
+    /// Contour rotation about a centre; coordinates that are not given are the present ones.
+    pub(in crate::exec) fn set_rotation(
+        &mut self,
+        plane: [usize; 2],
+        deg: f64,
+        centre: [Option<f64>; 2],
+        span: Span,
+    ) -> Outcome<()> {
+        if !deg.is_finite() {
+            return Err(Fault::new(Condition::Range, "the angle is no number", span));
+        }
+        // the centre is given in the system without rotation
+        self.geometry.coordinates.set_rotation(None);
+        let here = |m: usize| {
+            self.geometry
+                .coordinates
+                .main_axis(m)
+                .map_or(0.0, |axis| self.geometry.coordinates.programmed(axis))
+        };
+        let centre = [centre[0].unwrap_or(here(plane[0])), centre[1].unwrap_or(here(plane[1]))];
+        self.geometry.coordinates.set_rotation(Some(Rotation { plane, deg, centre }));
+        Ok(())
+    }
+
+    /// G40, G41, G42.
+    pub(in crate::exec) fn compensation(&mut self, side: Compensation, span: Span) {
+        if side != Compensation::Off && self.geometry.tools.active.radius_mm == 0.0 {
+            let text = "the tool has the radius 0: the path is the programmed contour";
+            let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
+            self.note_once("G41", Fault::new(Condition::NoTool, text, span).hint(hint));
+        }
+        self.modal.compensation = side;
+    }
+}

@@ -1,0 +1,338 @@
+//! Tool radius compensation: the path of the tool's centre at the distance of its radius from the contour.
+//!
+//! Outer corners are rounded by arcs about the corner (G26) or go round by lines (G25), inner corners are the
+//! intersection of the parallels. The first line behind G41 or G42 leads to the point perpendicular above the beginning
+//! of the next element, the first line behind G40 leads back to the contour. With G237 a line perpendicular to the
+//! contour does both, and the contour may begin and end with arcs.
+//!
+//! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G139, G237); generation of
+//! compensation blocks; 90008, 90031, 20651. Derived: the lines of G25 from the numbers of inserted blocks that the manual
+//! lists by angle.
+//! Assumption: the approach for every angle between approach and first element.
+
+mod corner;
+mod element;
+
+use super::bottleneck::{Cut, Watch};
+use crate::diag::Condition;
+use crate::exec::contour::{Compensated, Motion};
+use crate::exec::fault::Fault;
+use crate::exec::geometry::arc::Point;
+use crate::exec::geometry::planar::{Side, cross, dot};
+use crate::exec::step::{Event, SourceRef, Sync};
+use crate::syntax::ast::Span;
+use corner::{above, corner_arc, inner_corner, straight, straight_corner};
+use element::{Element, emit_between, line, moving_side};
+use kontur_motion::path::Tilt;
+use smallvec::SmallVec;
+
+/// Steps between two motions that a corner may wait for.
+const BETWEEN_MAX: usize = 1000;
+
+/// What runs through the stages of the contour.
+#[derive(Debug)]
+pub(in crate::exec) enum Item {
+    Motion(Box<Motion>),
+    Rest(Box<Rest>),
+}
+
+/// A step at rest.
+#[derive(Debug)]
+pub(in crate::exec) struct Rest {
+    pub(in crate::exec) what: Sync,
+    pub(in crate::exec) source: SourceRef,
+    pub(in crate::exec) events: Vec<Event>,
+}
+
+/// Compensation in force.
+#[derive(Debug)]
+struct Active {
+    /// Distance to the left of the contour, negative to the right.
+    distance: f64,
+    /// G237.
+    perpendicular: bool,
+    plane: [usize; 2],
+    tilt: Option<Box<Tilt>>,
+    last: Element,
+    between: Vec<Item>,
+    watch: Watch,
+}
+
+/// The stage.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Compensator {
+    active: Option<Box<Active>>,
+    /// The last motion.
+    source: SourceRef,
+    /// The first bottleneck, until it is told.
+    cut: Option<Cut>,
+    told: bool,
+}
+
+type Fallible<T> = Result<T, Box<Fault>>;
+
+impl Compensator {
+    /// A motion with its compensation; what is complete goes to `out`.
+    pub(in crate::exec) fn motion(
+        &mut self,
+        motion: Box<Motion>,
+        out: &mut Vec<Item>,
+    ) -> Fallible<()> {
+        self.source = motion.source;
+        self.next(motion, out).map_err(|f| f.in_block(self.source))
+    }
+
+    /// True between G41 or G42 and the motion behind G40.
+    pub(in crate::exec) fn is_active(&self) -> bool {
+        self.active.is_some()
+    }
+
+    /// The first bottleneck of the program, once.
+    pub(in crate::exec) fn take_cut(&mut self) -> Option<Cut> {
+        let cut = self.cut.take();
+        self.told |= cut.is_some();
+        cut
+    }
+
+    fn next(&mut self, motion: Box<Motion>, out: &mut Vec<Item>) -> Fallible<()> {
+        let Some(active) = self.active.take() else {
+            return self.select(motion, None, out);
+        };
+        if active.tilt != motion.tilt {
+            let what = "a change of the coordinate system during tool radius compensation";
+            return Err(Fault::unsupported(what, motion.span));
+        }
+        let Some(side) = moving_side(&motion, active.plane)? else {
+            return self.outside_plane(active, motion);
+        };
+        let same = motion
+            .compensation
+            .is_some_and(|c| c.distance_mm.to_bits() == active.distance.to_bits());
+        if same {
+            let mut found = None;
+            let next = active.join(motion, side, out, &mut found)?;
+            self.active = Some(Box::new(next));
+            if !self.told {
+                self.cut = found;
+            }
+            return Ok(());
+        }
+        // another side or radius, or none: a line leads there
+        if active.perpendicular || motion.compensation.is_some_and(|c| c.perpendicular) {
+            active.return_to_contour(out)?;
+            return self.select(motion, None, out);
+        }
+        if !matches!(side, Side::Line { .. }) {
+            return Err(circular(&motion));
+        }
+        let at = active.finish(out)?;
+        self.select(motion, Some(at), out)
+    }
+
+    /// A step at rest between motions.
+    pub(in crate::exec) fn sync(&mut self, rest: Rest, out: &mut Vec<Item>) -> Fallible<()> {
+        let Some(active) = &mut self.active else {
+            out.push(Item::Rest(Box::new(rest)));
+            return Ok(());
+        };
+        if matches!(rest.what, Sync::Stop | Sync::FlushWait | Sync::ReadActual) {
+            let text = "the channel cannot be flushed while tool radius compensation is active";
+            return Err(Fault::new(Condition::FlushWithCompensation, text, Span::default())
+                .in_block(rest.source));
+        }
+        active.hold(Item::Rest(Box::new(rest)), Span::default())
+    }
+
+    /// The program ends: the last element ends perpendicular above its end.
+    pub(in crate::exec) fn end(&mut self, out: &mut Vec<Item>) -> Fallible<()> {
+        match self.active.take() {
+            Some(active) => active.finish(out).map(|_| ()).map_err(|f| f.in_block(self.source)),
+            None => Ok(()),
+        }
+    }
+
+    /// A motion without active compensation, `at` the place that an earlier one has left.
+    fn select(
+        &mut self,
+        mut motion: Box<Motion>,
+        at: Option<Point>,
+        out: &mut Vec<Item>,
+    ) -> Fallible<()> {
+        let plane = motion.plane;
+        if let Some(at) = at {
+            let path = &motion.block.path;
+            let end = [path.end()[plane[0]], path.end()[plane[1]]];
+            match line(&motion, plane, at, end) {
+                Some(path) => motion.block.path = path,
+                None => return Ok(()),
+            }
+        }
+        let Some(Compensated { distance_mm: distance, perpendicular, .. }) = motion.compensation
+        else {
+            out.push(Item::Motion(motion));
+            return Ok(());
+        };
+        let Some(side) = moving_side(&motion, plane)? else {
+            // the approach is still to come
+            out.push(Item::Motion(motion));
+            return Ok(());
+        };
+        let tilt = motion.tilt.clone();
+        let (start, approach) = if perpendicular {
+            let from = side.start_point();
+            let start = above(from, side.tangent(false), distance);
+            if let Some(mut there) =
+                straight(&motion, motion.block.path.start(), plane, from, start)
+            {
+                there.events = std::mem::take(&mut motion.events);
+                out.push(Item::Motion(there));
+            }
+            (start, false)
+        } else if let Side::Line { from, .. } = side {
+            (from, true)
+        } else {
+            return Err(circular(&motion));
+        };
+        let mut watch = Watch::default();
+        if !approach {
+            watch.contour(side, motion.source, distance.abs());
+        }
+        let last = Element { motion, side, start, approach };
+        let between = Vec::new();
+        let active = Active { distance, perpendicular, plane, tilt, last, between, watch };
+        self.active = Some(Box::new(active));
+        Ok(())
+    }
+
+    /// A motion of other axes only: it happens at the corner.
+    fn outside_plane(&mut self, mut active: Box<Active>, motion: Box<Motion>) -> Fallible<()> {
+        let span = motion.span;
+        // G40 acts with the next motion in the plane
+        let held = active.hold(Item::Motion(motion), span);
+        self.active = Some(active);
+        held
+    }
+}
+
+impl Active {
+    fn hold(&mut self, item: Item, span: Span) -> Fallible<()> {
+        if self.between.len() >= BETWEEN_MAX {
+            let text = format!("more than {BETWEEN_MAX} blocks without motion in the plane");
+            return Err(Fault::new(Condition::Compensation, text, span));
+        }
+        self.between.push(item);
+        Ok(())
+    }
+
+    /// Completes the last element at the corner to the next one; a bottleneck on the way is left in `cut`.
+    fn join(
+        mut self,
+        motion: Box<Motion>,
+        side: Side,
+        out: &mut Vec<Item>,
+        cut: &mut Option<Cut>,
+    ) -> Fallible<Self> {
+        let (radius, plane, approach) = (self.distance.abs(), self.plane, self.last.approach);
+        let mut watch = std::mem::take(&mut self.watch);
+        *cut = watch.contour(side, motion.source, radius);
+        let done = out.len();
+        let mut next = self.corner(motion, side, out)?;
+        // the line that leads to the contour is free
+        for item in out[done..].iter().filter(|_| !approach) {
+            if let Item::Motion(motion) = item
+                && let Some(side) = Side::of(&motion.block.path, plane)
+            {
+                *cut = cut.or(watch.way(side, motion.source, radius));
+            }
+        }
+        next.watch = watch;
+        Ok(next)
+    }
+
+    fn corner(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
+        let Self { distance, perpendicular, plane, tilt, last, between, watch } = self;
+        let active = |start: Point, motion: Box<Motion>| {
+            let last = Element { motion, side, start, approach: false };
+            Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
+        };
+        let corner = side.start_point();
+        let after = above(corner, side.tangent(false), distance);
+        if last.approach {
+            last.emit(after, plane, distance, out)?;
+            emit_between(between, after, plane, out);
+            return Ok(active(after, motion));
+        }
+        let (u, w) = (last.side.tangent(true), side.tangent(false));
+        let before = above(corner, u, distance);
+        let turn = cross(u, w);
+        let smooth = turn.abs() < 1e-9 && dot(u, w) > 0.0;
+        let outside = !smooth && (turn * distance < 0.0 || (turn.abs() < 1e-9 && dot(u, w) < 0.0));
+        if !smooth && !outside {
+            let at = inner_corner(&last.side, &side, corner, distance)
+                .ok_or_else(|| too_tight(&motion))?;
+            last.emit(at, plane, distance, out)?;
+            emit_between(between, at, plane, out);
+            return Ok(active(at, motion));
+        }
+        let by_lines = outside && motion.compensation.is_some_and(|c| c.straight_corners);
+        let mut points = if by_lines {
+            straight_corner(u, w, before, after, distance.abs())
+        } else {
+            SmallVec::from_slice(&[before])
+        };
+        // a line is prolonged, behind an arc its tangent is inserted
+        let first = points[0];
+        let end = if matches!(last.side, Side::Line { .. }) { first } else { before };
+        let template = outside.then(|| last.motion.clone());
+        last.emit(end, plane, distance, out)?;
+        emit_between(between, end, plane, out);
+        let Some(template) = template else { return Ok(active(end, motion)) };
+        let start = if by_lines {
+            if !matches!(side, Side::Line { .. }) {
+                points.push(after);
+            }
+            let mut from = end;
+            for to in points {
+                let line = straight(&template, motion.block.path.start(), plane, from, to);
+                out.extend(line.map(Item::Motion));
+                from = to;
+            }
+            from
+        } else {
+            out.extend(corner_arc(&template, &motion, plane, corner, before, after, distance));
+            after
+        };
+        Ok(active(start, motion))
+    }
+
+    /// Completes the last element perpendicular above its end and tells where that is.
+    fn finish(self, out: &mut Vec<Item>) -> Fallible<Point> {
+        let Self { distance, plane, last, between, .. } = self;
+        let at = above(last.side.end_point(), last.side.tangent(true), distance);
+        last.emit(at, plane, distance, out)?;
+        emit_between(between, at, plane, out);
+        Ok(at)
+    }
+
+    /// As [`finish`](Self::finish), and perpendicular back to the contour (G237).
+    fn return_to_contour(self, out: &mut Vec<Item>) -> Fallible<()> {
+        let (plane, template) = (self.plane, self.last.motion.clone());
+        let end = self.last.motion.block.path.end();
+        let to = [end[plane[0]], end[plane[1]]];
+        let at = self.finish(out)?;
+        let line = straight(&template, template.block.path.end(), plane, at, to);
+        out.extend(line.map(Item::Motion));
+        Ok(())
+    }
+}
+
+fn circular(motion: &Motion) -> Box<Fault> {
+    let text =
+        "tool radius compensation is selected, changed and cancelled in straight motions only";
+    Fault::new(Condition::CompensationInArc, text, motion.span).in_block(motion.source)
+}
+
+fn too_tight(motion: &Motion) -> Box<Fault> {
+    let text = "the contour is too tight for the radius of the tool";
+    Fault::new(Condition::Compensation, text, motion.span).in_block(motion.source)
+}

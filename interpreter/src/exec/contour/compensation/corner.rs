@@ -1,0 +1,121 @@
+//! Geometry of the corners of a compensated contour.
+
+use super::Item;
+use crate::exec::contour::Motion;
+use crate::exec::geometry::arc::Point;
+use crate::exec::geometry::planar::{Curve, Side, cross, dot, intersections, norm, sub};
+use kontur_motion::axis::AxisVec;
+use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use smallvec::SmallVec;
+use std::f64::consts::{PI, TAU};
+
+/// Points of an outer corner between prolonged tangents: their intersection up to a quarter turn, beyond it two points
+/// at the radius from the ends of the parallels.
+pub(super) fn straight_corner(
+    u: Point,
+    w: Point,
+    before: Point,
+    after: Point,
+    radius: f64,
+) -> SmallVec<[Point; 3]> {
+    let cos = dot(u, w);
+    if cos > -1e-12 {
+        // radius * tan(half of the angle)
+        let d = radius * cross(u, w).abs() / (1.0 + cos);
+        return SmallVec::from_slice(&[[before[0] + d * u[0], before[1] + d * u[1]]]);
+    }
+    SmallVec::from_slice(&[
+        [before[0] + radius * u[0], before[1] + radius * u[1]],
+        [after[0] - radius * w[0], after[1] - radius * w[1]],
+    ])
+}
+
+/// A line that compensation inserts, with the other axes where `at` has them.
+pub(super) fn straight(
+    template: &Motion,
+    at: &AxisVec,
+    plane: [usize; 2],
+    from: Point,
+    to: Point,
+) -> Option<Box<Motion>> {
+    let place = |p: Point| {
+        let mut v = at.clone();
+        (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
+        v
+    };
+    let path = LinePath::new(place(from), place(to), &template.block.dynamics.feed_axes)?;
+    let mut motion = template.clone();
+    motion.block.path = Path::Line(path);
+    motion.events.clear();
+    Some(Box::new(motion))
+}
+
+/// The point at a distance to the left of a direction.
+pub(super) fn above(p: Point, direction: Point, distance: f64) -> Point {
+    [p[0] - distance * direction[1], p[1] + distance * direction[0]]
+}
+
+/// Arc about an outer corner.
+pub(super) fn corner_arc(
+    before: &Motion,
+    after: &Motion,
+    plane: [usize; 2],
+    corner: Point,
+    from: Point,
+    to: Point,
+    distance: f64,
+) -> Option<Item> {
+    let (a, b) = (sub(from, corner), sub(to, corner));
+    let angle = libm::atan2(cross(a, b), dot(a, b));
+    // to the left of the contour the tool turns clockwise about the corner
+    let sweep_rad = match (distance > 0.0, angle > 0.0) {
+        (true, true) => angle - TAU,
+        (false, false) => angle + TAU,
+        _ => angle,
+    };
+    let shape = ArcShape { plane, centre_mm: corner, sweep_rad };
+    let place = |p: Point| {
+        let mut v = after.block.path.start().clone();
+        (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
+        v
+    };
+    let feed_axes = &after.block.dynamics.feed_axes;
+    let path = ArcPath::new(place(from), place(to), shape, feed_axes)?;
+    let mut arc = before.clone();
+    arc.block.path = Path::Arc(path);
+    arc.events.clear();
+    Some(Item::Motion(Box::new(arc)))
+}
+
+/// Intersection of the parallels nearest to the corner, if it lies on both elements.
+pub(super) fn inner_corner(a: &Side, b: &Side, corner: Point, distance: f64) -> Option<Point> {
+    let (p, q): (Curve, Curve) = (a.parallel(distance), b.parallel(distance));
+    intersections(&p, &q)
+        .into_iter()
+        .filter(|x| on(a, a.foot(*x)) && on(b, b.foot(*x)))
+        .min_by(|x, y| norm(sub(*x, corner)).total_cmp(&norm(sub(*y, corner))))
+}
+
+fn on(side: &Side, foot: Point) -> bool {
+    (-1e-9..=1.0 + 1e-9).contains(&side.share_of(foot))
+}
+
+pub(super) fn side_sweep(side: &Side) -> f64 {
+    match side {
+        Side::Line { .. } => 0.0,
+        Side::Arc { sweep_rad, .. } => *sweep_rad,
+    }
+}
+
+/// Swept angle of an arc between other ends; a trim is less than half a turn.
+pub(super) fn trimmed(side: &Side, start: Point, end: Point) -> f64 {
+    let Side::Arc { centre, start_rad, sweep_rad, .. } = side else { return 0.0 };
+    let angle = |p: Point| {
+        let r = sub(p, *centre);
+        libm::atan2(r[1], r[0])
+    };
+    let small = |x: f64| x - TAU * ((x + PI) / TAU).floor();
+    let at_start = small(angle(start) - start_rad);
+    let at_end = small(angle(end) - (start_rad + sweep_rad));
+    sweep_rad - at_start + at_end
+}

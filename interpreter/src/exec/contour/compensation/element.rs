@@ -1,0 +1,115 @@
+//! An element of the compensated contour and the motion it becomes.
+
+use super::corner::{side_sweep, trimmed};
+use super::{Fallible, Item, too_tight};
+use crate::diag::Condition;
+use crate::exec::contour::Motion;
+use crate::exec::fault::Fault;
+use crate::exec::geometry::arc::Point;
+use crate::exec::geometry::planar::{Side, dot, sub};
+use kontur_motion::axis::AxisVec;
+use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+
+/// An element whose end is not known yet.
+#[derive(Debug)]
+pub(super) struct Element {
+    pub(super) motion: Box<Motion>,
+    pub(super) side: Side,
+    /// Where the tool's centre begins.
+    pub(super) start: Point,
+    /// The line that leads to the parallel: its direction is not that of the contour.
+    pub(super) approach: bool,
+}
+
+impl Element {
+    /// The element from its start to `end`, both on the parallel.
+    pub(super) fn emit(
+        self,
+        end: Point,
+        plane: [usize; 2],
+        distance: f64,
+        out: &mut Vec<Item>,
+    ) -> Fallible<()> {
+        let Self { mut motion, side, start, approach } = self;
+        let source = motion.source;
+        let path = match &side {
+            Side::Line { .. } => {
+                let along = dot(sub(end, start), side.tangent(false));
+                if along < 0.0 && !approach {
+                    return Err(too_tight(&motion));
+                }
+                line(&motion, plane, start, end)
+            }
+            Side::Arc { centre, radius, sweep_rad, .. } => {
+                let new_radius =
+                    if *sweep_rad > 0.0 { radius - distance } else { radius + distance };
+                if new_radius <= 0.0 {
+                    let text = format!(
+                        "tool radius {} mm is too large for an arc of radius {radius} mm",
+                        distance.abs()
+                    );
+                    return Err(
+                        Fault::new(Condition::ToolTooLarge, text, motion.span).in_block(source)
+                    );
+                }
+                let sweep_rad = trimmed(&side, start, end);
+                if sweep_rad * side_sweep(&side) <= 0.0 {
+                    return Err(too_tight(&motion));
+                }
+                let shape = ArcShape { plane, centre_mm: *centre, sweep_rad };
+                let (from, to) = ends(&motion, plane, start, end);
+                ArcPath::new(from, to, shape, &motion.block.dynamics.feed_axes).map(Path::Arc)
+            }
+        };
+        if let Some(path) = path {
+            motion.block.path = path;
+            out.push(Item::Motion(motion));
+        }
+        Ok(())
+    }
+}
+
+/// Start and end of a motion with other places in the plane.
+fn ends(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> (AxisVec, AxisVec) {
+    let place = |v: &AxisVec, p: Point| {
+        let mut v = v.clone();
+        (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
+        v
+    };
+    (place(motion.block.path.start(), start), place(motion.block.path.end(), end))
+}
+
+pub(super) fn line(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> Option<Path> {
+    let (from, to) = ends(motion, plane, start, end);
+    LinePath::new(from, to, &motion.block.dynamics.feed_axes).map(Path::Line)
+}
+
+/// The part of a motion within the plane; `None` if it does not move there.
+pub(super) fn moving_side(motion: &Motion, plane: [usize; 2]) -> Fallible<Option<Side>> {
+    let path = &motion.block.path;
+    let moves = plane.iter().any(|i| path.start()[*i].to_bits() != path.end()[*i].to_bits());
+    if !moves && path.is_straight() {
+        return Ok(None);
+    }
+    if let Some(side) = Side::of(path, plane) {
+        Ok(Some(side))
+    } else {
+        let what = "an arc outside the plane with tool radius compensation";
+        Err(Fault::unsupported(what, motion.span))
+    }
+}
+
+/// Steps between two motions, at the place of the tool.
+pub(super) fn emit_between(between: Vec<Item>, at: Point, plane: [usize; 2], out: &mut Vec<Item>) {
+    for item in between {
+        match item {
+            Item::Motion(mut motion) => {
+                if let Some(path) = line(&motion, plane, at, at) {
+                    motion.block.path = path;
+                    out.push(Item::Motion(motion));
+                }
+            }
+            Item::Rest(_) => out.push(item),
+        }
+    }
+}

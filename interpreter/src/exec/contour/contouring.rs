@@ -1,0 +1,94 @@
+//! Rounding of corners and smoothing of short blocks: what the program has set for the stages in front of the planner.
+//!
+//! Source: TF5200 programming manual, #CONTOUR MODE, #HSC. Assumption: `AUTO_OFF_G60` is what happens anyway, a stop ends
+//! the spline.
+
+use kontur_motion::contouring::{ContourMode, ContourSettings};
+use kontur_motion::spline::SplineSettings;
+
+/// Mode of `#CONTOUR MODE`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::exec) enum Mode {
+    #[default]
+    Dev,
+    Dist,
+    Pos,
+    Ptp,
+    DistSoft,
+    DistMaster,
+}
+
+/// Parameters of `#CONTOUR MODE`; each keeps its value until it is written again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct Contouring {
+    pub(in crate::exec) mode: Mode,
+    pub(in crate::exec) path_dev_mm: f64,
+    pub(in crate::exec) pre_mm: f64,
+    pub(in crate::exec) post_mm: f64,
+    pub(in crate::exec) path_dist_mm: f64,
+    pub(in crate::exec) point_mm: [Option<f64>; 3],
+    /// What all modes share.
+    pub(in crate::exec) common: ContourSettings,
+}
+
+impl Default for Contouring {
+    /// DEV with 1 mm. Source: TF5200 programming manual, state at program start.
+    fn default() -> Self {
+        Self {
+            mode: Mode::Dev,
+            path_dev_mm: 1.0,
+            pre_mm: 1.0,
+            post_mm: 1.0,
+            path_dist_mm: 1.0,
+            point_mm: [None; 3],
+            common: ContourSettings::default(),
+        }
+    }
+}
+
+impl Contouring {
+    /// Settings of a block.
+    pub(in crate::exec) fn settings(&self) -> ContourSettings {
+        let Self { path_dev_mm, pre_mm, post_mm, path_dist_mm, point_mm, .. } = *self;
+        let mode = match self.mode {
+            Mode::Dev => ContourMode::Dev { path_dev_mm },
+            Mode::Dist => ContourMode::Dist { pre_mm, post_mm },
+            Mode::Pos => ContourMode::Pos { pre_mm, post_mm, point_mm },
+            Mode::Ptp => ContourMode::Ptp { path_dev_mm, path_dist_mm },
+            Mode::DistSoft => ContourMode::DistSoft { path_dist_mm },
+            Mode::DistMaster => ContourMode::DistMaster { path_dist_mm },
+        };
+        ContourSettings { mode, ..self.common }
+    }
+}
+
+/// State of `#HSC`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct Hsc {
+    pub(in crate::exec) on: bool,
+    /// The older form OPMODE=1: corners are rounded within `contour_error_mm`.
+    pub(in crate::exec) rounds_corners: bool,
+    pub(in crate::exec) contour_error_mm: f64,
+    pub(in crate::exec) spline: SplineSettings,
+}
+
+impl Default for Hsc {
+    fn default() -> Self {
+        let spline = SplineSettings::default();
+        Self { on: false, rounds_corners: false, contour_error_mm: 0.1, spline }
+    }
+}
+
+impl Hsc {
+    /// Settings of a block that becomes part of a spline.
+    pub(in crate::exec) fn spline(&self) -> Option<SplineSettings> {
+        (self.on && !self.rounds_corners).then_some(self.spline)
+    }
+
+    /// Settings of a block whose corner the older form rounds.
+    pub(in crate::exec) fn contour(&self) -> Option<ContourSettings> {
+        let mode = ContourMode::Dev { path_dev_mm: self.contour_error_mm };
+        let settings = ContourSettings { mode, ..ContourSettings::default() };
+        (self.on && self.rounds_corners).then_some(settings)
+    }
+}

@@ -1,0 +1,141 @@
+//! Chamfers and roundings between two motions (G301, G302, `#CHR`, `#CHF`, `#RND`).
+//!
+//! Source: TF5200 programming manual: the size of a chamfer is the distance of its ends from the corner, on an arc
+//! measured as a chord; a rounding is a tangential arc of the given radius. Nothing is inserted at a tangential
+//! transition.
+
+use crate::diag::Condition;
+use crate::exec::contour::Motion;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::planar::{Side, cross, cut, dot, intersections, norm, sub, swept};
+use crate::exec::step::SourceRef;
+use crate::syntax::ast::Span;
+use kontur_motion::block::Feed;
+use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+
+/// Which element is inserted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Kind {
+    /// By the distance of its ends from the corner.
+    Chamfer,
+    /// By its own length (`#CHF`).
+    ChamferLength,
+    Rounding,
+}
+
+/// What is to be inserted.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct Insertion {
+    pub(in crate::exec) kind: Kind,
+    pub(in crate::exec) size_mm: f64,
+    /// `#FRC`: path velocity in mm/s within it.
+    pub(in crate::exec) feed_mm_s: Option<f64>,
+    pub(in crate::exec) span: Span,
+    pub(in crate::exec) source: SourceRef,
+}
+
+/// The element between two motions, which are cut; `None` at a tangential transition.
+pub(in crate::exec) fn between(
+    before: &mut Motion,
+    after: &mut Motion,
+    insertion: &Insertion,
+) -> Outcome<Option<Box<Motion>>> {
+    let span = insertion.span;
+    let plane = before.plane;
+    if before.tilt != after.tilt {
+        let what = "a chamfer or rounding between two coordinate systems";
+        return Err(Fault::unsupported(what, span));
+    }
+    let flat = |m: &Motion| stays_in(&m.block.path, plane).then(|| Side::of(&m.block.path, plane));
+    let (Some(Some(a)), Some(Some(b))) = (flat(before), flat(after)) else {
+        let what = "a chamfer or rounding between motions outside the active plane";
+        return Err(Fault::unsupported(what, span));
+    };
+    let (u, w) = (a.tangent(true), b.tangent(false));
+    let turn = cross(u, w);
+    if turn.abs() < 1e-9 && dot(u, w) > 0.0 {
+        return Ok(None);
+    }
+    let reversal = || {
+        let text = format!(
+            "a chamfer or rounding of {} mm does not fit between the two motions",
+            insertion.size_mm
+        );
+        Fault::new(Condition::Range, text, span)
+    };
+    let (p, q, centre) = match insertion.kind {
+        Kind::Chamfer | Kind::ChamferLength => {
+            let d = match insertion.kind {
+                // distance from the corner of an isosceles triangle with this base
+                Kind::ChamferLength => {
+                    let half_angle = 0.5 * libm::acos((-dot(u, w)).clamp(-1.0, 1.0));
+                    insertion.size_mm / (2.0 * libm::sin(half_angle))
+                }
+                _ => insertion.size_mm,
+            };
+            let p = a.at_distance(d, true).ok_or_else(reversal)?;
+            let q = b.at_distance(d, false).ok_or_else(reversal)?;
+            (p, q, None)
+        }
+        Kind::Rounding => {
+            let (p, q, c) = tangent_arc(&a, &b, turn, insertion.size_mm).ok_or_else(reversal)?;
+            (p, q, Some(c))
+        }
+    };
+    let corner = before.block.path.end().clone();
+    let point = |xy: [f64; 2]| {
+        let mut v = corner.clone();
+        (v[plane[0]], v[plane[1]]) = (xy[0], xy[1]);
+        v
+    };
+    let feed_axes = after.block.dynamics.feed_axes.clone();
+    let (p, q) = (point(p), point(q));
+    let element = match centre {
+        None => LinePath::new(p.clone(), q.clone(), &feed_axes).map(Path::Line),
+        Some(centre_mm) => {
+            let sweep_rad = swept(centre_mm, &p, &q, plane, turn > 0.0);
+            let shape = ArcShape { plane, centre_mm, sweep_rad };
+            ArcPath::new(p.clone(), q.clone(), shape, &feed_axes).map(Path::Arc)
+        }
+    };
+    let cut_before = cut(&before.block.path, None, Some(&p), &feed_axes);
+    let cut_after = cut(&after.block.path, Some(&q), None, &feed_axes);
+    let (Some(element), Some(cut_before), Some(cut_after)) = (element, cut_before, cut_after)
+    else {
+        return Err(reversal());
+    };
+    before.block.path = cut_before;
+    after.block.path = cut_after;
+    let mut inserted = after.clone();
+    inserted.block.path = element;
+    inserted.events = std::mem::take(&mut after.events);
+    if let (Some(v), Feed::PathVelocity(_)) = (insertion.feed_mm_s, inserted.block.feed) {
+        inserted.block.feed = Feed::PathVelocity(v);
+    }
+    Ok(Some(Box::new(inserted)))
+}
+
+/// Contact points and centre of the arc of radius `r` that touches both sides.
+fn tangent_arc(a: &Side, b: &Side, turn: f64, r: f64) -> Option<([f64; 2], [f64; 2], [f64; 2])> {
+    let d = if turn > 0.0 { r } else { -r };
+    let corner = match a {
+        Side::Line { to, .. } => *to,
+        Side::Arc { centre, radius, start_rad, sweep_rad } => {
+            let at = start_rad + sweep_rad;
+            [centre[0] + radius * libm::cos(at), centre[1] + radius * libm::sin(at)]
+        }
+    };
+    let on = |share: f64| share > 0.0 && share < 1.0;
+    intersections(&a.parallel(d), &b.parallel(d))
+        .into_iter()
+        .map(|c| (a.foot(c), b.foot(c), c))
+        .filter(|(p, q, _)| on(a.share_of(*p)) && on(b.share_of(*q)))
+        .min_by(|x, y| norm(sub(x.2, corner)).total_cmp(&norm(sub(y.2, corner))))
+}
+
+/// True if no axis outside the plane moves, but for rounding in a coordinate system that is turned in space.
+fn stays_in(path: &Path, plane: [usize; 2]) -> bool {
+    const ROUNDING_MM: f64 = 1e-9;
+    let (start, end) = (path.start(), path.end());
+    (0..start.len()).all(|i| plane.contains(&i) || (end[i] - start[i]).abs() < ROUNDING_MM)
+}

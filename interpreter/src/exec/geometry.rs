@@ -1,0 +1,40 @@
+//! Where a programmed point is: coordinates, frames, planes, arcs and angles.
+//!
+//! Owns offsets, coordinate systems and tool data; pure geometry otherwise, it touches no other room.
+
+pub(super) mod angle;
+pub(super) mod arc;
+pub(super) mod coordinates;
+pub(super) mod frame;
+pub(super) mod modulo;
+pub(super) mod planar;
+pub(super) mod tools;
+
+use coordinates::Coordinates;
+use tools::Tools;
+
+/// The last arc, for system variables.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LastArc {
+    /// Main axes of its plane.
+    pub(super) plane: [usize; 2],
+    /// Centre relative to the start point.
+    pub(super) centre_mm: [f64; 2],
+    /// Shift of the centre by G165.
+    pub(super) shift_mm: [f64; 2],
+    pub(super) radius_mm: f64,
+}
+
+/// What the room owns.
+#[derive(Debug)]
+pub(super) struct Geometry {
+    pub(super) coordinates: Coordinates,
+    /// Software limits of the axes (G98, G99), `None` for an axis without.
+    pub(super) limits_mm: Vec<Option<(f64, f64)>>,
+    pub(super) last_arc: LastArc,
+    /// Coordinate system stored last.
+    pub(super) last_system: u32,
+    /// `#TRAFO` or `#RTCP` is on.
+    pub(super) transformation_on: bool,
+    pub(super) tools: Tools,
+}

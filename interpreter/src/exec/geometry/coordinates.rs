@@ -1,0 +1,403 @@
+//! Positions of the axes, offsets and frames: from programmed values to targets of the axes.
+//!
+//! `target = offsets + frame(programmed)`. The frame is made of contour rotation (first), mirroring and coordinate
+//! systems; offsets are zero offset, G92 and tool. A change of offsets or frames moves nothing: an axis takes the
+//! active offset over when it is next programmed absolutely.
+//!
+//! Source: TF5200 programming manual, G53 to G59, G92, G20 to G23, G68, #CS. Assumption: axes that a
+//! rotation couples take their offsets over together.
+
+use super::frame::Frame;
+use kontur_motion::axis::AxisVec;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Contour rotation (G68, `#ROTATION`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct Rotation {
+    /// Main axes of the plane.
+    pub(in crate::exec) plane: [usize; 2],
+    pub(in crate::exec) deg: f64,
+    /// Centre in mm in the plane.
+    pub(in crate::exec) centre: [f64; 2],
+}
+
+/// A coordinate word in mm (deg).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct Target {
+    pub(in crate::exec) axis: usize,
+    pub(in crate::exec) value: f64,
+    /// G90; otherwise an increment (G91).
+    pub(in crate::exec) absolute: bool,
+}
+
+/// Coordinate systems that can be stored. Source: TF5200, #CS DEF.
+pub(in crate::exec) const SYSTEMS_MAX: usize = 5;
+
+/// Coordinates of all axes of the machine, in channel order.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct Coordinates {
+    /// Programmed absolute coordinates, without offsets.
+    program: AxisVec,
+    /// Targets of the axes behind the last block.
+    target: AxisVec,
+    /// Offset contained in the target of each axis.
+    applied: AxisVec,
+    /// Last coordinate words.
+    word: AxisVec,
+    /// First, second and third main axis.
+    main: [Option<usize>; 3],
+    /// Active zero-offset group, 0 = none (G53).
+    zero_group: u32,
+    zero_table: BTreeMap<u32, AxisVec>,
+    /// Axes whose entry of a group is left out (G160).
+    zero_masked: BTreeSet<(u32, usize)>,
+    preset: AxisVec,
+    /// Position presets (`#PSET`).
+    position_preset: AxisVec,
+    tool: AxisVec,
+    mirrored: Vec<bool>,
+    rotation: Option<Rotation>,
+    systems: Vec<Frame>,
+    stored: BTreeMap<u32, Frame>,
+    frame: Frame,
+}
+
+impl Coordinates {
+    pub(in crate::exec) fn new(start: &AxisVec) -> Self {
+        let n = start.len();
+        let main = std::array::from_fn(|i| (i < n).then_some(i));
+        Self {
+            program: start.clone(),
+            target: start.clone(),
+            applied: AxisVec::zeros(n),
+            word: start.clone(),
+            main,
+            zero_group: 0,
+            zero_table: BTreeMap::new(),
+            zero_masked: BTreeSet::new(),
+            preset: AxisVec::zeros(n),
+            position_preset: AxisVec::zeros(n),
+            tool: AxisVec::zeros(n),
+            mirrored: vec![false; n],
+            rotation: None,
+            systems: Vec::new(),
+            stored: BTreeMap::new(),
+            frame: Frame::IDENTITY,
+        }
+    }
+
+    pub(in crate::exec) fn target(&self) -> &AxisVec {
+        &self.target
+    }
+
+    /// Programmed absolute coordinate without offsets.
+    pub(in crate::exec) fn programmed(&self, axis: usize) -> f64 {
+        self.program[axis]
+    }
+
+    /// Last coordinate word.
+    pub(in crate::exec) fn last_word(&self, axis: usize) -> f64 {
+        self.word[axis]
+    }
+
+    /// Axis of a main axis index.
+    pub(in crate::exec) fn main_axis(&self, main: usize) -> Option<usize> {
+        self.main[main]
+    }
+
+    /// Main axis index of an axis.
+    pub(in crate::exec) fn main_index(&self, axis: usize) -> Option<usize> {
+        self.main.iter().position(|m| *m == Some(axis))
+    }
+
+    /// Gives a main axis index to another axis.
+    pub(in crate::exec) fn set_main_axis(&mut self, main: usize, axis: Option<usize>) {
+        for slot in &mut self.main {
+            if axis.is_some() && *slot == axis {
+                *slot = None;
+            }
+        }
+        self.main[main] = axis;
+        self.frame_changed();
+    }
+
+    /// Offset that an absolute word of this axis would take over.
+    pub(in crate::exec) fn active_offset(&self, axis: usize) -> f64 {
+        self.zero_offset(axis) + self.preset[axis] + self.position_preset[axis] + self.tool[axis]
+    }
+
+    /// Active zero offset.
+    pub(in crate::exec) fn zero_offset(&self, axis: usize) -> f64 {
+        if self.zero_masked.contains(&(self.zero_group, axis)) {
+            return 0.0;
+        }
+        self.zero_entry(self.zero_group, axis)
+    }
+
+    /// Entry of the zero-offset table.
+    pub(in crate::exec) fn zero_entry(&self, group: u32, axis: usize) -> f64 {
+        self.zero_table.get(&group).map_or(0.0, |offsets| offsets[axis])
+    }
+
+    pub(in crate::exec) fn set_zero_entry(&mut self, group: u32, axis: usize, value_mm: f64) {
+        let n = self.target.len();
+        self.zero_table.entry(group).or_insert_with(|| AxisVec::zeros(n))[axis] = value_mm;
+    }
+
+    /// G53 (group 0), G54 to G59, G159.
+    pub(in crate::exec) fn select_zero_group(&mut self, group: u32) {
+        self.zero_group = group;
+    }
+
+    /// G160: leaves the entry of an axis out of a group, or takes it in again.
+    pub(in crate::exec) fn mask_zero_entry(&mut self, group: u32, axis: usize, masked: bool) {
+        if masked {
+            self.zero_masked.insert((group, axis));
+        } else {
+            self.zero_masked.remove(&(group, axis));
+        }
+    }
+
+    /// `#PSET`: where the axis stands has this coordinate from now on; `None` (`#PRESET`) takes that back. The axis does
+    /// not move.
+    pub(in crate::exec) fn preset_position(&mut self, axis: usize, value_mm: Option<f64>) {
+        let before = self.position_preset[axis];
+        let after = match value_mm {
+            Some(value) => before + (self.target[axis] - self.applied[axis]) - value,
+            None => 0.0,
+        };
+        self.position_preset[axis] = after;
+        self.applied[axis] += after - before;
+        self.recompute_program();
+    }
+
+    /// `#SUPPRESS OFFSETS`: targets of axes without offsets.
+    pub(in crate::exec) fn program_without_offsets(&mut self, words: &[Target]) {
+        for &Target { axis, value, .. } in words {
+            self.word[axis] = value;
+            self.target[axis] = value;
+            self.applied[axis] = self.active_offset(axis);
+        }
+        self.recompute_program();
+    }
+
+    /// G92 offset.
+    pub(in crate::exec) fn preset(&self, axis: usize) -> f64 {
+        self.preset[axis]
+    }
+
+    pub(in crate::exec) fn set_preset(&mut self, axis: usize, value_mm: f64) {
+        self.preset[axis] = value_mm;
+    }
+
+    /// Tool offsets: all axes are replaced.
+    pub(in crate::exec) fn set_tool(&mut self, offsets: AxisVec) {
+        self.tool = offsets;
+    }
+
+    pub(in crate::exec) fn mirrored(&self, axis: usize) -> bool {
+        self.mirrored[axis]
+    }
+
+    pub(in crate::exec) fn set_mirrored(&mut self, axis: usize, mirrored: bool) {
+        self.mirrored[axis] = mirrored;
+        self.frame_changed();
+    }
+
+    pub(in crate::exec) fn rotation(&self) -> Option<&Rotation> {
+        self.rotation.as_ref()
+    }
+
+    pub(in crate::exec) fn set_rotation(&mut self, rotation: Option<Rotation>) {
+        self.rotation = rotation;
+        self.frame_changed();
+    }
+
+    /// Active coordinate systems.
+    pub(in crate::exec) fn systems(&self) -> usize {
+        self.systems.len()
+    }
+
+    pub(in crate::exec) fn store_system(&mut self, id: u32, frame: Frame) {
+        self.stored.insert(id, frame);
+    }
+
+    pub(in crate::exec) fn stored_system(&self, id: u32) -> Option<Frame> {
+        self.stored.get(&id).copied()
+    }
+
+    pub(in crate::exec) fn stored_systems(&self) -> usize {
+        self.stored.len()
+    }
+
+    pub(in crate::exec) fn push_system(&mut self, frame: Frame) {
+        self.systems.push(frame);
+        self.frame_changed();
+    }
+
+    /// True if there was one.
+    pub(in crate::exec) fn pop_system(&mut self) -> bool {
+        let popped = self.systems.pop().is_some();
+        self.frame_changed();
+        popped
+    }
+
+    pub(in crate::exec) fn clear_systems(&mut self) {
+        self.systems.clear();
+        self.frame_changed();
+    }
+
+    /// Frame over the main axes.
+    pub(in crate::exec) fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// Takes over positions of the axes as they are (`#CHANNEL INIT`).
+    pub(in crate::exec) fn set_target(&mut self, target: &AxisVec) {
+        self.target.clone_from(target);
+        self.recompute_program();
+    }
+
+    fn frame_changed(&mut self) {
+        let mirror = Frame::mirror(std::array::from_fn(|i| {
+            self.main[i].is_some_and(|axis| self.mirrored[axis])
+        }));
+        let mut frame = match &self.rotation {
+            Some(r) => mirror.after(&Frame::rotation(r.plane[0], r.plane[1], r.deg, r.centre)),
+            None => mirror,
+        };
+        for system in self.systems.iter().rev() {
+            frame = system.after(&frame);
+        }
+        self.frame = frame;
+        self.recompute_program();
+    }
+
+    /// Programmed coordinates of the positions where the axes are.
+    fn recompute_program(&mut self) {
+        for axis in 0..self.target.len() {
+            let bare = self.target[axis] - self.applied[axis];
+            self.program[axis] = if self.mirrored[axis] { -bare } else { bare };
+        }
+        if self.frame.is_identity() {
+            return;
+        }
+        let bare = self.main.map(|m| m.map_or(0.0, |axis| self.target[axis] - self.applied[axis]));
+        let program = self.frame.inverse(bare);
+        for (main, value) in program.into_iter().enumerate() {
+            if let Some(axis) = self.main[main] {
+                self.program[axis] = value;
+            }
+        }
+    }
+
+    /// Takes over the words of a block; the new targets stand in [`target`](Self::target).
+    pub(in crate::exec) fn program(&mut self, words: &[Target]) {
+        let mut framed = [None; 3];
+        let identity = self.frame.is_identity();
+        for &Target { axis, value, absolute } in words {
+            self.word[axis] = value;
+            if absolute {
+                self.program[axis] = value;
+            } else {
+                self.program[axis] += value;
+            }
+            match if identity { None } else { self.main_index(axis) } {
+                Some(main) => framed[main] = Some(absolute),
+                None => self.program_plain(axis, value, absolute),
+            }
+        }
+        if framed.iter().any(Option::is_some) {
+            self.program_in_frame(framed);
+        }
+    }
+
+    fn program_plain(&mut self, axis: usize, value: f64, absolute: bool) {
+        let value = if self.mirrored[axis] { -value } else { value };
+        if absolute {
+            self.applied[axis] = self.active_offset(axis);
+            self.target[axis] = value + self.applied[axis];
+        } else {
+            self.target[axis] += value;
+        }
+    }
+
+    /// Targets of the programmed main axes (`Some(absolute)`), and of those that the frame couples with them.
+    fn program_in_frame(&mut self, programmed: [Option<bool>; 3]) {
+        let p = self.main.map(|m| m.map_or(0.0, |axis| self.program[axis]));
+        let q = self.frame.apply(p);
+        let coupled: [bool; 3] =
+            std::array::from_fn(|i| (0..3).any(|j| i != j && self.frame.m[i][j] != 0.0));
+        let coupling = || (0..3).filter(|i| coupled[*i]).filter_map(|i| programmed[i]);
+        let (couples, absolute) =
+            (coupling().next().is_some(), coupling().any(|absolute| absolute));
+        for main in 0..3 {
+            let affected = programmed[main].is_some() || (couples && coupled[main]);
+            if let (Some(axis), true) = (self.main[main], affected) {
+                if programmed[main].unwrap_or(absolute) {
+                    self.applied[axis] = self.active_offset(axis);
+                }
+                self.target[axis] = q[main] + self.applied[axis];
+            }
+        }
+    }
+
+    /// Machine coordinates of a point of the program, over the main axes, with the offsets in the targets.
+    pub(in crate::exec) fn to_machine(&self, p: [f64; 3]) -> [f64; 3] {
+        let q = self.frame.apply(p);
+        std::array::from_fn(|i| q[i] + self.main[i].map_or(0.0, |axis| self.applied[axis]))
+    }
+}
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exact values are the point")]
+mod tests {
+    use super::{Coordinates, Rotation, Target};
+    use kontur_motion::axis::AxisVec;
+
+    fn word(axis: usize, value: f64, absolute: bool) -> Target {
+        Target { axis, value, absolute }
+    }
+
+    fn at(positions: &[f64]) -> Coordinates {
+        Coordinates::new(&AxisVec::from_slice(positions))
+    }
+
+    #[test]
+    fn an_offset_acts_with_the_next_absolute_word_of_the_axis() {
+        let mut c = at(&[0.0, 0.0, 0.0]);
+        c.set_zero_entry(1, 0, 10.0);
+        c.set_zero_entry(1, 1, 5.0);
+        c.select_zero_group(1);
+        c.program(&[word(0, 0.0, false)]);
+        assert_eq!(c.target()[..], [0.0, 0.0, 0.0]);
+        c.program(&[word(0, 0.0, true)]);
+        assert_eq!(c.target()[..], [10.0, 0.0, 0.0]);
+        c.program(&[word(1, 1.0, false)]);
+        assert_eq!(c.target()[..], [10.0, 1.0, 0.0]);
+        assert_eq!((c.programmed(0), c.programmed(1)), (0.0, 1.0));
+    }
+
+    #[test]
+    fn mirrored_words_and_increments_change_their_sign() {
+        let mut c = at(&[5.0, 0.0, 0.0]);
+        c.set_mirrored(0, true);
+        assert_eq!(c.programmed(0), -5.0);
+        c.program(&[word(0, 10.0, true)]);
+        assert_eq!(c.target()[0], -10.0);
+        c.program(&[word(0, 1.0, false)]);
+        assert_eq!(c.target()[0], -11.0);
+    }
+
+    #[test]
+    fn rotation_acts_before_offsets() {
+        let mut c = at(&[0.0, 0.0, 0.0]);
+        c.set_zero_entry(1, 0, 100.0);
+        c.select_zero_group(1);
+        c.set_rotation(Some(Rotation { plane: [0, 1], deg: 90.0, centre: [0.0, 0.0] }));
+        c.program(&[word(0, 10.0, true)]);
+        assert_eq!(c.target()[..], [100.0, 10.0, 0.0]);
+        c.set_rotation(None);
+        assert_eq!((c.programmed(0), c.programmed(1)), (0.0, 10.0));
+    }
+}

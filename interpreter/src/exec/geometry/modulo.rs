@@ -1,0 +1,67 @@
+//! Absolute positions of modulo axes: the number of turns that belongs to a programmed angle.
+//!
+//! Positions stay continuous; the axis never turns by more than one revolution. Without a sign it goes the shortest
+//! way; the first sign behind the name of the axis is the direction of rotation and no part of the position, so `C-200`
+//! turns in negative direction to 200 degrees, and `C[-200]` the shortest way to 160. With G91 a sign is a sign.
+//!
+//! Source: TF5200 programming manual, programming modulo axes. Assumption: of two shortest ways, 180 degrees each, the
+//! positive one.
+
+use crate::diag::Condition;
+use crate::exec::fault::Fault;
+use crate::syntax::ast::{Sign, Span};
+
+const TURN_DEG: f64 = 360.0;
+/// Closer than this the axis is where it shall go, and does not turn.
+const SAME_DEG: f64 = 1e-7;
+
+/// The position in deg that the word `value` (first sign included) asks for, seen from where the axis stands.
+pub(in crate::exec) fn unwrapped(value: f64, turn: Option<Sign>, from: f64) -> f64 {
+    let angle = if turn == Some(Sign::Minus) { -value } else { value };
+    let turns = (from - angle) / TURN_DEG;
+    // a half rounds down here: the target is above `from`, the positive way
+    let nearest = angle + (turns + 0.5).floor() * TURN_DEG;
+    if (nearest - from).abs() < SAME_DEG {
+        return nearest;
+    }
+    match turn {
+        None => nearest,
+        Some(Sign::Plus) => angle + turns.ceil() * TURN_DEG,
+        Some(Sign::Minus) => angle + turns.floor() * TURN_DEG,
+    }
+}
+
+/// A sum behind the sign of a modulo axis.
+pub(in crate::exec) fn two_readings(span: Span) -> Box<Fault> {
+    let text = "the first sign behind a modulo axis is its direction, not that of a term";
+    let hint = "use brackets: C-[P1+5] turns in negative direction, C[-P1+5] the shortest way";
+    Fault::new(Condition::Syntax, text, span).hint(hint)
+}
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exact values are the point")]
+mod tests {
+    use super::{Sign, unwrapped};
+
+    /// The examples of the manual, from 0 degrees, and turns that have gathered before.
+    #[test]
+    fn direction_and_shortest_way() {
+        for (value, turn, from, to) in [
+            (200.0, Some(Sign::Plus), 0.0, 200.0),
+            (-200.0, Some(Sign::Minus), 0.0, -160.0),
+            (-200.0, Some(Sign::Plus), 0.0, 160.0),
+            (200.0, Some(Sign::Minus), 0.0, -200.0),
+            (200.0, None, 0.0, -160.0),
+            (-200.0, None, 0.0, 160.0),
+            (450.0, Some(Sign::Plus), 0.0, 90.0),
+            (10.0, None, 350.0, 370.0),
+            (0.0, None, 3600.0, 3600.0),
+            (350.0, Some(Sign::Plus), 710.0, 710.0),
+            (-350.0, Some(Sign::Minus), 710.0, 710.0),
+            (180.0, None, 0.0, 180.0),
+            (-10.0, Some(Sign::Minus), 365.0, 10.0),
+        ] {
+            assert_eq!(unwrapped(value, turn, from), to, "{value} {turn:?} from {from}");
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Dynamic limits of the axes under the weights of the program.
+//!
+//! Every weight refers to the list, never to the weight before; what exceeds the limits of the list is capped, 50130.
+//!
+//! Source: TF5200 programming manual, G127 to G134, G230 to G233; P-AXIS-00292, 00293, 00008, 00201, 00212.
+
+use crate::exec::block::modal::{LookAhead, Modal};
+use crate::machine::{Axis, Channel, Machine};
+use kontur_motion::axis::AxisDynamics;
+use kontur_motion::block::{ChannelDynamics, VectorLimits};
+
+/// Weights of one axis, 1.0 = 100 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct AxisWeights {
+    velocity: f64,
+    acceleration: f64,
+    ramp: f64,
+    rapid_acceleration: f64,
+}
+
+impl AxisWeights {
+    const ONE: Self = Self { velocity: 1.0, acceleration: 1.0, ramp: 1.0, rapid_acceleration: 1.0 };
+}
+
+/// What a G function of a weight acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Weight {
+    /// G127, G128.
+    Velocity,
+    /// G129.
+    RapidVelocity,
+    /// G130, G131.
+    Acceleration,
+    /// G132, G133.
+    Ramp,
+    /// G134.
+    GeometricRamp,
+    /// G230, G231.
+    RapidAcceleration,
+    /// G233.
+    RapidRamp,
+}
+
+/// All weights of the channel.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::exec) struct Weights {
+    axes: Vec<AxisWeights>,
+    rapid_velocity: f64,
+    geometric_ramp: f64,
+    rapid_ramp: f64,
+}
+
+impl Weights {
+    pub(in crate::exec) fn new(axes: usize) -> Self {
+        Self {
+            axes: vec![AxisWeights::ONE; axes],
+            rapid_velocity: 1.0,
+            geometric_ramp: 1.0,
+            rapid_ramp: 1.0,
+        }
+    }
+
+    /// Sets a weight of one axis or of all.
+    pub(in crate::exec) fn set(&mut self, what: Weight, axis: Option<usize>, ratio: f64) {
+        let chosen = match axis {
+            Some(axis) => axis..axis + 1,
+            None => 0..self.axes.len(),
+        };
+        for w in &mut self.axes[chosen] {
+            match what {
+                Weight::Velocity => w.velocity = ratio,
+                Weight::Acceleration => w.acceleration = ratio,
+                Weight::Ramp => w.ramp = ratio,
+                Weight::RapidAcceleration => w.rapid_acceleration = ratio,
+                Weight::RapidVelocity => self.rapid_velocity = ratio,
+                Weight::GeometricRamp => self.geometric_ramp = ratio,
+                Weight::RapidRamp => self.rapid_ramp = ratio,
+            }
+        }
+    }
+}
+
+/// Scales values and notices when a cap cuts them.
+struct Capped {
+    cut: bool,
+}
+
+impl Capped {
+    /// `value * ratio`, at most `cap`.
+    fn at_most(&mut self, value: f64, ratio: f64, cap: f64) -> f64 {
+        let scaled = value * ratio;
+        // a list value above the cap is not the program's doing
+        let cap = cap.max(value.min(scaled));
+        self.cut |= scaled > cap;
+        scaled.min(cap)
+    }
+
+    /// `value * ratio`, at least `floor`.
+    fn at_least(&mut self, value: f64, ratio: f64, floor: f64) -> f64 {
+        let scaled = value * ratio;
+        let floor = floor.min(value.max(scaled));
+        self.cut |= scaled < floor;
+        scaled.max(floor)
+    }
+}
+
+/// Lowest weighted rapid velocity in mm/s. Source: TF5200 programming manual, G129: 0 gives 1 um/s.
+const RAPID_MIN_MM_S: f64 = 0.001;
+
+/// Limits of one axis under its weights, and whether one of them was capped.
+fn weighted(
+    axis: &Axis,
+    w: AxisWeights,
+    all: &Weights,
+    modal: &Modal,
+    channel: &Channel,
+) -> (AxisDynamics, bool) {
+    let mut d = axis.dynamics();
+    let mut capped = Capped { cut: false };
+    let (a_cap, floor) = (axis.a_w_max_mm_s2(), axis.tr_w_min_s());
+    // P-CHAN-00001, P-CHAN-00073: selective weights belong to the older command
+    let (accelerations, ramps) =
+        if modal.old_slope { (channel.acc_selection, channel.ramp_selection) } else { (0, 0) };
+    let acc =
+        |on: u32| if accelerations == 0 || accelerations == on { w.acceleration } else { 1.0 };
+    let a_max = d.a_max_mm_s2;
+    d.feed.acc_mm_s2 = capped.at_most(d.feed.acc_mm_s2, acc(1), a_cap);
+    d.feed.dec_mm_s2 = capped.at_most(d.feed.dec_mm_s2, acc(2), a_cap);
+    for i in 0..2 {
+        d.step_feed.acc_mm_s2[i] = capped.at_most(d.step_feed.acc_mm_s2[i], acc(1), a_cap);
+        d.step_feed.dec_mm_s2[i] = capped.at_most(d.step_feed.dec_mm_s2[i], acc(2), a_cap);
+        let rapid = w.rapid_acceleration;
+        d.step_rapid.acc_mm_s2[i] = capped.at_most(d.step_rapid.acc_mm_s2[i], rapid, a_max);
+        d.step_rapid.dec_mm_s2[i] = capped.at_most(d.step_rapid.dec_mm_s2[i], rapid, a_max);
+    }
+    d.rapid.acc_mm_s2 = capped.at_most(d.rapid.acc_mm_s2, w.rapid_acceleration, a_max);
+    for (k, ramp) in (1..).zip(&mut d.feed.ramps_s) {
+        let ratio = if ramps == 0 || ramps == k { w.ramp } else { 1.0 };
+        *ramp = capped.at_least(*ramp, ratio, floor);
+    }
+    d.rapid.ramp_s = capped.at_least(d.rapid.ramp_s, all.rapid_ramp, axis.tr_min_s());
+    d.tr_geom_s *= all.geometric_ramp;
+    d.v_max_mm_s = capped.at_most(d.v_max_mm_s, w.velocity, d.v_max_mm_s);
+    d.v_rapid_mm_s =
+        capped.at_most(d.v_rapid_mm_s, all.rapid_velocity, d.v_max_mm_s).max(RAPID_MIN_MM_S);
+    d.v_rapid_mm_s = d.v_rapid_mm_s.min(d.v_max_mm_s);
+    (d, capped.cut)
+}
+
+/// Limits of the channel, and the axes of which a weight was capped.
+pub(in crate::exec) fn channel_dynamics(
+    machine: &Machine,
+    weights: &Weights,
+    modal: &Modal,
+    vector: VectorLimits,
+) -> (ChannelDynamics, Vec<usize>) {
+    let channel = &machine.channel;
+    let mut capped = Vec::new();
+    let mut axes = Vec::with_capacity(machine.axes.len());
+    for (i, axis) in machine.axes.iter().enumerate() {
+        let (dynamics, cut) = weighted(axis, weights.axes[i], weights, modal, channel);
+        axes.push(dynamics);
+        if cut {
+            capped.push(i);
+        }
+    }
+    let dynamics = ChannelDynamics {
+        axes,
+        feed_axes: channel.feed_axes.clone(),
+        limit_tangential_jerk: channel.limit_tangential_jerk,
+        transition_jerk: channel.transition_jerk,
+        curvature_estimate: channel.curvature_estimate,
+        vector,
+        vector_acc_on_arcs: channel.vector_acc_on_arcs,
+        curve_jerk: channel.curve_jerk,
+        transition_velocity_min_mm_s: modal.transition_min_mm_s,
+        stop_at_transitions: modal.look_ahead == LookAhead::StopAtTransitions,
+    };
+    (dynamics, capped)
+}

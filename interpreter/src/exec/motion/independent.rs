@@ -1,0 +1,285 @@
+//! Independent axes: `X[INDP_SYN G90 G01 FEED=1000 POS=50]`, `X[INDP_ASYN ..]`, `#WAIT INDP [X, Y]`.
+//!
+//! An independent axis leaves the path and moves on a profile of its own, from rest to rest. The path is planned without
+//! that motion: its coordinates of the axis are shifted by the ways that the axis has gone alone ([`Independent::way`]),
+//! so that they stay continuous; the simulation adds the way to the path.
+//!
+//! Source: TF5200 programming manual, independent axes; 21068.
+
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Target;
+use crate::exec::step::{Event, IndependentMotion, Sync};
+use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SlopeKind;
+use kontur_motion::independent::IndependentSpeed;
+use kontur_motion::path::Path;
+
+/// Independent axes of a program.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct Independent {
+    /// Sum of the ways that each axis has gone alone.
+    pub(in crate::exec) way: AxisVec,
+    /// Axes that may still be on their way: INDP_ASYN that nothing has joined.
+    open: Vec<usize>,
+    /// INDP_SYN of the block in work.
+    synchronous: Vec<usize>,
+}
+
+impl Independent {
+    pub(in crate::exec) fn new(axes: usize) -> Self {
+        Self { way: AxisVec::zeros(axes), open: Vec::new(), synchronous: Vec::new() }
+    }
+
+    /// The path is at rest and every axis has arrived.
+    pub(in crate::exec) fn all_arrived(&mut self) {
+        self.open.clear();
+    }
+}
+
+/// What stands in the bracket.
+#[derive(Debug, Default)]
+struct Words {
+    position: Option<(f64, Span)>,
+    relative: Option<bool>,
+    rapid: bool,
+    speed: Option<(IndependentSpeed, Span)>,
+    slope: Option<SlopeKind>,
+    functions: Vec<Event>,
+}
+
+/// Words that are legal and not simulated.
+const UNSUPPORTED: &[&str] = &["G100", "DRY_RUN", "ACC_WEIGHT", "RAPID_ACC_WEIGHT", "INCL_OFFSETS"];
+
+fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
+    let hint = "X[INDP_SYN G90 G01 FEED=1000 POS=50]";
+    Fault::new(Condition::IndependentSyntax, text, span).hint(hint)
+}
+
+impl Decoder {
+    /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`; `rest`: what stands behind the first word.
+    pub(in crate::exec) fn independent_axis(
+        &mut self,
+        axis: usize,
+        synchronous: bool,
+        rest: &[Item],
+        span: Span,
+    ) -> Outcome<()> {
+        let words = self.independent_words(axis, rest)?;
+        for function in words.functions {
+            self.event(function);
+        }
+        let Some((position, at)) = words.position else {
+            if rest.is_empty() || words.speed.is_some() || words.rapid {
+                return Err(wrong("the target POS of the independent axis is missing", span));
+            }
+            return Ok(());
+        };
+        let speed = match (words.rapid, words.speed) {
+            (true, None) => IndependentSpeed::Rapid,
+            (false, Some((speed, _))) => speed,
+            (true, Some((_, at))) => return Err(wrong("G00 with a feed or a time", at)),
+            (false, None) => {
+                let text = "G00, or G01 with FEED, TIME or FEED_MAX_WEIGHT is missing";
+                return Err(wrong(text, span));
+            }
+        };
+        if self.motion.independent.open.contains(&axis) {
+            self.join(vec![axis]);
+        }
+        let start = self.geometry.coordinates.target().clone();
+        let relative = words.relative.unwrap_or(!self.modal.absolute);
+        let way = position * self.axis_unit(axis);
+        let target = if relative { start[axis] + way } else { way };
+        // the offsets of the program do not act on independent axes
+        self.geometry.coordinates.program_without_offsets(&[Target {
+            axis,
+            value: target,
+            absolute: true,
+        }]);
+        self.check_limit(axis, target, at);
+        if let IndependentSpeed::Time(time_s) = speed {
+            let least_s = (target - start[axis]).abs() / self.dynamics(false).axes[axis].v_max_mm_s;
+            if time_s < least_s * (1.0 - 1e-9) {
+                let text = format!(
+                    "the independent axis cannot move in TIME={time_s} s: its velocity limit needs {least_s:.6} s"
+                );
+                self.note(Fault::new(Condition::Odd, text, span).warning());
+            }
+        }
+        self.motion.independent.way[axis] += target - start[axis];
+        let slope = words.slope.unwrap_or(self.machine.channel.slope);
+        let motion = IndependentMotion { from_mm: start[axis], to_mm: target, speed, slope };
+        self.event(Event::Independent { axis, motion });
+        let list = if synchronous {
+            &mut self.motion.independent.synchronous
+        } else {
+            &mut self.motion.independent.open
+        };
+        list.push(axis);
+        Ok(())
+    }
+
+    fn independent_words(&self, axis: usize, items: &[Item]) -> Outcome<Words> {
+        let mut words = Words::default();
+        for item in items {
+            match &item.kind {
+                ItemKind::Missing => {}
+                ItemKind::Flag(word) => self.independent_flag(axis, word, &mut words)?,
+                ItemKind::Pair { key, value: ItemValue::Expr(expr) } => {
+                    let value = self.number(expr)?;
+                    self.independent_value(axis, key, value, item.span, &mut words)?;
+                }
+                ItemKind::Pair { key, value: ItemValue::Name(name) } if key.is("SLOPE_TYPE") => {
+                    let Some(kind) = crate::exec::commands::slope_type(&name.text) else {
+                        let text = format!("unknown slope type {}", name.text);
+                        return Err(wrong(text, name.span));
+                    };
+                    words.slope = Some(kind);
+                }
+                ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {
+                    return Err(wrong("a word of independent axes is expected", item.span));
+                }
+            }
+        }
+        Ok(words)
+    }
+
+    fn independent_flag(&self, axis: usize, word: &Ident, words: &mut Words) -> Outcome<()> {
+        if UNSUPPORTED.iter().any(|w| word.is(w)) {
+            let what = format!("{} of an independent axis", word.text);
+            return Err(Fault::unsupported(what, word.span));
+        }
+        let (name, number) = word.split_number().unwrap_or((&word.text, f64::NAN));
+        let code = crate::exec::values::expr::whole(number, 0, 65535);
+        match (name.to_ascii_uppercase().as_str(), code) {
+            ("G", Some(90)) => words.relative = Some(false),
+            ("G", Some(91)) => words.relative = Some(true),
+            ("G", Some(0)) => words.rapid = true,
+            ("G", Some(1)) => words.rapid = false,
+            ("M", Some(number)) => {
+                words.functions.push(Event::MFunction { number, value: None });
+            }
+            ("H", Some(number)) => {
+                words.functions.push(Event::HFunction { number, value: None });
+            }
+            (_, _) if number.is_finite() && !name.eq_ignore_ascii_case("G") => {
+                let key = Ident { text: name.into(), span: word.span };
+                self.independent_value(axis, &key, number, word.span, words)?;
+            }
+            _ => return Err(wrong(format!("unknown word `{}`", word.text), word.span)),
+        }
+        Ok(())
+    }
+
+    fn independent_value(
+        &self,
+        axis: usize,
+        key: &Ident,
+        value: f64,
+        span: Span,
+        words: &mut Words,
+    ) -> Outcome<()> {
+        if UNSUPPORTED.iter().any(|w| key.is(w)) {
+            let what = format!("{} of an independent axis", key.text);
+            return Err(Fault::unsupported(what, span));
+        }
+        if key.is("POS") {
+            words.position = Some((value, span));
+            return Ok(());
+        }
+        if key.is("SLOPE_PROFIL") {
+            let number = crate::exec::values::expr::whole(value, 0, 3);
+            let kind = number.and_then(crate::exec::commands::slope_of_number);
+            words.slope = Some(kind.ok_or_else(|| wrong("slope types are 0 to 3", span))?);
+            return Ok(());
+        }
+        let speed = if key.is("FEED") {
+            let unit = self.machine.channel.feed_unit_mm_min / 60.0 * self.axis_unit(axis);
+            IndependentSpeed::Feed(value * unit)
+        } else if key.is("TIME") {
+            IndependentSpeed::Time(value)
+        } else if key.is("FEED_MAX_WEIGHT") && value <= 100.0 {
+            IndependentSpeed::ShareOfMaximum(value / 100.0)
+        } else if key.is("FEED_MAX_WEIGHT") {
+            return Err(wrong("FEED_MAX_WEIGHT is at most 100 %", span));
+        } else {
+            return Err(wrong(format!("unknown word `{}`", key.text), span));
+        };
+        if value <= 0.0 || !value.is_finite() {
+            return Err(wrong(format!("{} must be above 0", key.text), span));
+        }
+        if words.speed.replace((speed, span)).is_some() {
+            return Err(wrong("two of FEED, TIME and FEED_MAX_WEIGHT", span));
+        }
+        Ok(())
+    }
+
+    /// The path stops until these axes have arrived.
+    fn join(&mut self, axes: Vec<usize>) {
+        self.motion.independent.open.retain(|axis| !axes.contains(axis));
+        self.sync(Sync::Independent { axes });
+    }
+
+    /// Behind a block with INDP_SYN: the next one begins when all have arrived.
+    pub(in crate::exec) fn join_synchronous(&mut self) {
+        if !self.motion.independent.synchronous.is_empty() {
+            let axes = std::mem::take(&mut self.motion.independent.synchronous);
+            self.join(axes);
+        }
+    }
+
+    /// A path that moves an axis which may be on its way alone waits for it.
+    pub(in crate::exec) fn join_for(&mut self, path: &Path) {
+        if self.motion.independent.open.is_empty() {
+            return;
+        }
+        let plane = match path {
+            Path::Arc(arc) => arc.shape().plane.to_vec(),
+            Path::Tilted(tilted) => tilted.tilt().axes.to_vec(),
+            Path::Line(_) | Path::Curve(_) => Vec::new(),
+        };
+        let moves = |axis: &usize| {
+            path.start()[*axis].to_bits() != path.end()[*axis].to_bits() || plane.contains(axis)
+        };
+        let axes: Vec<usize> = self.motion.independent.open.iter().copied().filter(moves).collect();
+        if !axes.is_empty() {
+            self.join(axes);
+        }
+    }
+
+    /// `#WAIT INDP [X, Y]`, `#WAIT INDP ALL`.
+    ///
+    /// Assumption: the join waits for the set positions, as without the exact stop of P-CHAN-00297.
+    pub(in crate::exec) fn wait_for_independent(
+        &mut self,
+        all: bool,
+        groups: &[Group],
+        span: Span,
+    ) -> Outcome<()> {
+        let mut axes = Vec::new();
+        for item in groups.iter().flat_map(|group| &group.items) {
+            match &item.kind {
+                ItemKind::Flag(name) => axes.push(self.axis_in_command(name)?),
+                ItemKind::Missing => {}
+                _ => {
+                    return Err(Fault::new(
+                        Condition::AxisNameUnknown,
+                        "an axis name is expected",
+                        item.span,
+                    ));
+                }
+            }
+        }
+        if all {
+            axes = (0..self.machine.axes.len()).collect();
+        } else if axes.is_empty() {
+            let text = "#WAIT INDP needs [axes] or ALL";
+            return Err(Fault::new(Condition::TokenUnknown, text, span));
+        }
+        self.join(axes);
+        Ok(())
+    }
+}

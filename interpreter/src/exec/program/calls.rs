@@ -1,0 +1,411 @@
+//! Program levels: subroutines, cycles and the ends of programs.
+//!
+//! Source: TF5200 programming manual, subroutine techniques. Assumption: modal state that a cycle changes is restored
+//! at its end, plain subroutines share everything with their caller.
+
+use super::executor::{Executor, Level};
+use super::info::ProgramInfo;
+use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
+use crate::exec::block::words::CycleCall;
+use crate::exec::fault::Fault;
+use crate::exec::options::Value;
+use crate::exec::step::EndReason;
+use crate::exec::suggest;
+use crate::syntax::ast::{Call, CallKind, Group, Ident, ItemKind, ItemValue, Span};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// What calls own: subroutines that words call, and what is called behind every block.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Calls {
+    pub(in crate::exec) info: ProgramInfo,
+    pub(in crate::exec) macros: BTreeMap<Box<str>, Box<str>>,
+    /// The table of macros has changed: parsed blocks are out of date.
+    pub(in crate::exec) macros_changed: bool,
+    /// Subroutines of G80 to G89 and G800 to G839.
+    pub(in crate::exec) cycle_files: BTreeMap<u32, String>,
+    /// Subroutine of M06.
+    pub(in crate::exec) tool_change_file: Option<String>,
+    /// Cycle that is called behind every motion or block.
+    pub(in crate::exec) modal_cycle: Option<ModalCycle>,
+    /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
+    pub(in crate::exec) retain_cycle_changes: bool,
+}
+
+/// Program levels. Assumption: the vendor prints no number.
+const LEVELS_MAX: usize = 32;
+
+/// Local subroutines that a hint names.
+const NAMED_MAX: usize = 12;
+
+/// Values of a cycle by the name behind `@`.
+type Passed = BTreeMap<Box<str>, Value>;
+
+/// A cycle that follows every motion or block.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct ModalCycle {
+    name: Ident,
+    local: bool,
+    passed: Passed,
+    /// Behind every block, not only behind motions.
+    every_block: bool,
+}
+
+/// What a call names.
+struct Target {
+    file: usize,
+    section: usize,
+}
+
+impl Executor {
+    /// Enters a program.
+    pub(in crate::exec) fn push_level(
+        &mut self,
+        file: usize,
+        section: usize,
+        cycle: Option<Passed>,
+    ) {
+        let index = Arc::clone(&self.files.file(file).index);
+        let part = &index.sections[section];
+        let (at, end) = (part.start, part.end);
+        let info = &mut self.decoder.calls.info;
+        info.file = Arc::clone(&self.files.file(file).name);
+        info.program = part.name.clone().unwrap_or_else(|| Arc::clone(&info.file));
+        let saved = cycle.map(|passed| {
+            self.decoder.values.variables.enter_cycle(passed);
+            Box::new(self.decoder.modal.clone())
+        });
+        if !self.levels.is_empty() {
+            self.decoder.values.variables.enter_level();
+        }
+        self.levels.push(Level {
+            file,
+            section,
+            index,
+            at,
+            end,
+            frames: Vec::new(),
+            cycle: saved,
+            declarations: false,
+            cut: false,
+            again: None,
+        });
+        self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
+    }
+
+    /// Leaves a subroutine.
+    fn pop_level(&mut self) {
+        let Some(level) = self.levels.pop() else { return };
+        self.decoder.values.variables.leave_level();
+        if let Some(modal) = level.cycle {
+            self.decoder.values.variables.leave_cycle();
+            if !std::mem::take(&mut self.decoder.calls.retain_cycle_changes)
+                && self.decoder.modal != *modal
+            {
+                self.decoder.modal = *modal;
+                self.decoder.dynamics_changed();
+            }
+        }
+        if let Some(level) = self.levels.last() {
+            let info = &mut self.decoder.calls.info;
+            info.file = Arc::clone(&self.files.file(level.file).name);
+            let name = level.index.sections[level.section].name.clone();
+            info.program = name.unwrap_or_else(|| Arc::clone(&info.file));
+        }
+        self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
+    }
+
+    /// The text of a level ends.
+    pub(in crate::exec) fn level_ends(&mut self) {
+        self.open_blocks();
+        if self.levels.len() > 1 {
+            self.pop_level();
+            return;
+        }
+        let cut = self.levels.last().is_some_and(|level| level.cut);
+        if !cut && !self.end_program_called {
+            let text = "the main program ends without M30 or M02";
+            let mut diagnostic = Diagnostic::new(Condition::NoEnd, text);
+            diagnostic.source = self.here(Span::default());
+            self.report(diagnostic);
+        }
+        self.decoder.moved = false;
+        self.finish();
+        self.settle(false);
+    }
+
+    /// The main program is over: the program of P-CHAN-00252 runs, once, before the end.
+    fn finish(&mut self) {
+        if let (Some(name), false) =
+            (self.decoder.machine.channel.end_program.clone(), self.end_program_called)
+        {
+            self.end_program_called = true;
+            while self.levels.len() > 1 {
+                self.pop_level();
+            }
+            if let Some(main) = self.levels.last_mut() {
+                main.frames.clear();
+            }
+            self.skip_to_level_end();
+            self.call_of_list(&name, "P-CHAN-00252", Span::default());
+            return;
+        }
+        self.contouring_at_end();
+        self.end(EndReason::Finished);
+    }
+
+    /// 20375: control blocks that were entered have no end.
+    fn open_blocks(&mut self) {
+        let Some(level) = self.levels.last() else { return };
+        let open: Vec<_> = level
+            .frames
+            .iter()
+            .filter(|f| level.index.entry(f.open).end.is_none())
+            .map(|f| (f.keyword, *level.index.entry(f.open)))
+            .collect();
+        let Some((keyword, entry)) = open.first().copied() else { return };
+        let closer = keyword.closer().map_or("", super::index::Keyword::text);
+        let text = format!("{} is not closed by {closer}", keyword.text());
+        let diagnostic = Diagnostic::new(Condition::OpenControlAtEnd, text)
+            .value(ValueKind::Current, open.len() as f64, "-")
+            .value(ValueKind::State, keyword.text(), "-")
+            .value(ValueKind::Expected, closer, "-");
+        let location = self.place(entry.position, entry.span);
+        self.report(match location {
+            Some(location) => diagnostic.at(location),
+            None => diagnostic,
+        });
+    }
+
+    /// 120206.
+    fn contouring_at_end(&mut self) {
+        if self.decoder.modal.contouring {
+            let text = "the program ends with contouring on";
+            let mut diagnostic =
+                Diagnostic::new(Condition::ContouringAtEnd, text).severity(Severity::Warning);
+            diagnostic.source = self.here(Span::default());
+            self.report(diagnostic);
+        }
+    }
+
+    /// M02, M30.
+    pub(in crate::exec) fn program_end(&mut self) {
+        self.open_blocks();
+        if self.levels.len() > 1 {
+            let text = "M02 or M30 inside a subroutine ends the whole program";
+            let fault = Fault::new(Condition::Odd, text, Span::default()).warning();
+            self.decoder.note(fault);
+        }
+        self.finish();
+    }
+
+    /// M17, M29; at the main level the end of the program.
+    pub(in crate::exec) fn return_from_level(&mut self) {
+        self.open_blocks();
+        if self.levels.len() > 1 {
+            self.pop_level();
+        } else {
+            self.finish();
+        }
+    }
+
+    /// `L`, `LL`.
+    pub(in crate::exec) fn call(&mut self, call: &Call, span: Span) {
+        match &call.kind {
+            CallKind::Program(name) => self.call_named(name, call.local, None),
+            CallKind::Cycle(group) => self.call_cycle(group, call.local, span),
+            CallKind::Sequence(_) => self.decoder.note(Fault::unsupported("L SEQUENCE", span)),
+        }
+    }
+
+    fn call_named(&mut self, name: &Ident, local: bool, cycle: Option<Passed>) {
+        if self.levels.len() >= LEVELS_MAX {
+            let text = format!("subroutines nested more than {LEVELS_MAX} deep");
+            self.decoder.note(Fault::new(Condition::Nesting, text, name.span));
+            return;
+        }
+        let target = if local { self.local(name) } else { self.global(name) };
+        if let Some(Target { file, section }) = target {
+            self.push_level(file, section, cycle);
+        }
+    }
+
+    fn local(&mut self, name: &Ident) -> Option<Target> {
+        let level = self.levels.last()?;
+        if let Some(section) = level.index.local(&name.text) {
+            return Some(Target { file: level.file, section });
+        }
+        let subs = level.index.sections.iter().filter(|s| s.local);
+        let known: Vec<&str> = subs.filter_map(|s| s.name.as_deref()).collect();
+        let text = format!("this file has no local subroutine {}", name.text);
+        let fault = Fault::new(Condition::NoSubroutine, text, name.span);
+        let hint = match suggest::hint(&name.text, known.iter().copied()) {
+            Some(hint) => hint,
+            None if known.is_empty() => "local subroutines begin with %L NAME".to_owned(),
+            None if known.len() > NAMED_MAX => {
+                format!("local subroutines: {} and others", known[..NAMED_MAX].join(", "))
+            }
+            None => format!("local subroutines: {}", known.join(", ")),
+        };
+        self.decoder.note(fault.hint(hint));
+        None
+    }
+
+    fn global(&mut self, name: &Ident) -> Option<Target> {
+        let caller = self.levels.last().map(|l| l.file);
+        let path = name.text.replace('\\', "/");
+        let file = self.open_called(&path, caller, name.span)?;
+        let index = Arc::clone(&self.files.file(file).index);
+        let Some(section) = index.main() else {
+            let text = format!("{} holds no program to call", name.text);
+            self.decoder.note(Fault::new(Condition::NoSubroutine, text, name.span));
+            return None;
+        };
+        Some(Target { file, section })
+    }
+
+    fn open_called(&mut self, path: &str, caller: Option<usize>, span: Span) -> Option<usize> {
+        match self.files.open(&*self.sources, path, caller, self.skip, &self.parser) {
+            Ok((file, diagnostics)) => {
+                for diagnostic in diagnostics {
+                    self.report(diagnostic);
+                }
+                Some(file)
+            }
+            Err(error) => {
+                let (text, hint) = error.text(path);
+                let fault = Fault::new(Condition::NoFile, format!("subroutine {text}"), span);
+                self.decoder.note(match hint {
+                    Some(hint) => fault.hint(hint),
+                    None => fault,
+                });
+                None
+            }
+        }
+    }
+
+    /// `L CYCLE [NAME=.. @P1=..]`.
+    fn call_cycle(&mut self, group: &Group, local: bool, span: Span) {
+        let mut name = None;
+        let mut passed = Passed::new();
+        let mut modal = None;
+        for item in &group.items {
+            let outcome = match &item.kind {
+                ItemKind::Missing => Ok(()),
+                ItemKind::Flag(word) if word.is("MODAL_MOVE") => {
+                    modal = Some(false);
+                    Ok(())
+                }
+                ItemKind::Flag(word) if word.is("MODAL_BLOCK") => {
+                    modal = Some(true);
+                    Ok(())
+                }
+                ItemKind::Pair { key, value } if key.is("NAME") => match self.cycle_name(value) {
+                    Ok(found) if name.is_none() => {
+                        name = Some(found);
+                        Ok(())
+                    }
+                    Ok(_) => Err(Fault::new(Condition::CycleKeyTwice, "NAME twice", key.span)),
+                    Err(fault) => Err(fault),
+                },
+                ItemKind::Pair { key, value } if key.text.starts_with('@') => {
+                    match self.cycle_value(value) {
+                        Ok(value) => {
+                            if passed.insert(key.text[1..].into(), value).is_none() {
+                                Ok(())
+                            } else {
+                                let text = format!("{} twice", key.text);
+                                Err(Fault::new(Condition::CycleKeyTwice, text, key.span))
+                            }
+                        }
+                        Err(fault) => Err(fault),
+                    }
+                }
+                _ => {
+                    let text = "L CYCLE: NAME= or @P..= is expected";
+                    Err(Fault::new(Condition::TokenUnknown, text, item.span))
+                }
+            };
+            self.decoder.keep(outcome);
+        }
+        let Some(name) = name else {
+            self.decoder.note(Fault::new(Condition::TokenUnknown, "L CYCLE needs NAME", span));
+            return;
+        };
+        if let Some(every_block) = modal {
+            self.decoder.calls.modal_cycle = Some(ModalCycle { name, local, passed, every_block });
+            return;
+        }
+        self.call_named(&name, local, Some(passed));
+    }
+
+    fn cycle_name(&self, value: &ItemValue) -> Result<Ident, Box<Fault>> {
+        match value {
+            ItemValue::Name(name) => Ok(name.clone()),
+            ItemValue::Expr(expr) => match self.decoder.value(expr)? {
+                Value::Text(text) => Ok(Ident { text, span: expr.span }),
+                Value::Number(_) => {
+                    Err(Fault::new(Condition::TokenUnknown, "a file name is expected", expr.span))
+                }
+            },
+            ItemValue::List(group) => {
+                Err(Fault::new(Condition::TokenUnknown, "a file name is expected", group.span))
+            }
+        }
+    }
+
+    fn cycle_value(&self, value: &ItemValue) -> Result<Value, Box<Fault>> {
+        match value {
+            ItemValue::Expr(expr) => self.decoder.value(expr),
+            ItemValue::Name(name) => Ok(Value::Text(name.text.clone())),
+            ItemValue::List(group) => {
+                Err(Fault::new(Condition::TokenUnknown, "a value is expected", group.span))
+            }
+        }
+    }
+
+    /// G80 to G89, G800 to G839.
+    pub(in crate::exec) fn implicit_call(&mut self, call: &CycleCall) {
+        let Some(file) = self.decoder.calls.cycle_files.get(&call.number).cloned() else { return };
+        let passed = call
+            .values
+            .iter()
+            .zip(1..)
+            .filter_map(|(value, i): (_, u32)| Some((format!("P{i}").into(), value.clone()?)))
+            .collect();
+        let name = Ident { text: file.into(), span: call.span };
+        self.call_named(&name, false, Some(passed));
+    }
+
+    /// A global subroutine that a parameter names.
+    pub(in crate::exec) fn call_of_list(
+        &mut self,
+        file: &str,
+        parameter: &'static str,
+        span: Span,
+    ) {
+        let levels = self.levels.len();
+        self.call_named(&Ident { text: file.into(), span }, false, None);
+        if self.levels.len() == levels {
+            self.decoder.amend(|d| d.parameter(parameter));
+        }
+    }
+
+    /// M06 with a program of its own.
+    pub(in crate::exec) fn tool_change(&mut self, span: Span) {
+        if let Some(file) = self.decoder.calls.tool_change_file.clone() {
+            self.call_of_list(&file, "P-CHAN-00118", span);
+        }
+    }
+
+    /// The modal cycle behind a block; not inside cycles.
+    pub(in crate::exec) fn modal_cycle(&mut self) {
+        let inside = self.levels.iter().any(|l| l.cycle.is_some());
+        let Some(cycle) = &self.decoder.calls.modal_cycle else { return };
+        if inside || self.has_ended() || !(cycle.every_block || self.decoder.moved) {
+            return;
+        }
+        let cycle = cycle.clone();
+        self.call_named(&cycle.name, cycle.local, Some(cycle.passed));
+    }
+}

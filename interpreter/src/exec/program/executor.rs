@@ -1,0 +1,303 @@
+//! Runs a program: blocks one after the other, through levels, loops and branches.
+
+mod report;
+mod run;
+
+use super::files::Files;
+use super::flow::Frame;
+use super::index::Index;
+use super::unreached::Reached;
+use crate::diag::{Condition, Diagnostic, Id, Location, Severity};
+use crate::exec::block::modal::Modal;
+use crate::exec::decoder::Decoder;
+use crate::exec::options::{Options, SkipLevels};
+use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
+use crate::machine::Machine;
+use crate::source::{Position, Sources};
+use crate::syntax::Parser;
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+use std::collections::BTreeSet;
+use std::fmt;
+use std::sync::Arc;
+
+/// One program level.
+#[derive(Debug)]
+pub(in crate::exec) struct Level {
+    pub(in crate::exec) file: usize,
+    pub(in crate::exec) section: usize,
+    pub(in crate::exec) index: Arc<Index>,
+    /// Next block.
+    pub(in crate::exec) at: Position,
+    pub(in crate::exec) end: u64,
+    pub(in crate::exec) frames: Vec<Frame>,
+    /// Modal state to return to: the level is a cycle.
+    pub(in crate::exec) cycle: Option<Box<Modal>>,
+    /// Between `#VAR` and `#ENDVAR`.
+    pub(in crate::exec) declarations: bool,
+    /// A control block without its end took the rest of the text.
+    pub(in crate::exec) cut: bool,
+    /// First and last block that jumps back lead through again, by their offsets.
+    pub(in crate::exec) again: Option<(u64, u64)>,
+}
+
+/// Where the execution stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Running,
+    /// The block at the place of the level waits for actual positions.
+    WaitsForActual,
+    Ended,
+}
+
+/// Runs one program and hands out its steps.
+pub struct Executor {
+    pub(in crate::exec) decoder: Decoder,
+    pub(in crate::exec) sources: Box<dyn Sources>,
+    pub(in crate::exec) parser: Parser,
+    pub(in crate::exec) files: Files,
+    pub(in crate::exec) levels: Vec<Level>,
+    pub(in crate::exec) skip: SkipLevels,
+    state: State,
+    start: AxisVec,
+    diagnostics: Vec<Diagnostic>,
+    reported: BTreeSet<(Id, Arc<str>, u32, u64)>,
+    errors: usize,
+    /// Blocks executed up to the first error.
+    first_error: Option<u64>,
+    blocks: u64,
+    blocks_at_rest: u64,
+    max_blocks: u64,
+    max_blocks_at_rest: u64,
+    /// A limit ended the program before its own end.
+    limited: bool,
+    /// Place of the block in work.
+    pub(in crate::exec) position: Position,
+    /// What was executed, while checking.
+    pub(in crate::exec) reached: Reached,
+    /// The program of P-CHAN-00252 has been called.
+    pub(in crate::exec) end_program_called: bool,
+    reason: EndReason,
+}
+
+impl fmt::Debug for Executor {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Executor")
+            .field("state", &self.state)
+            .field("levels", &self.levels)
+            .field("blocks", &self.blocks)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Executor {
+    /// A program before its first block. If it cannot be opened, the first step is [`Step::End`] and the diagnostics
+    /// tell why.
+    pub fn new(
+        sources: Box<dyn Sources>,
+        program: &str,
+        machine: Arc<Machine>,
+        options: Options,
+    ) -> Self {
+        Self::with_mode(sources, program, machine, options, false)
+    }
+
+    pub(in crate::exec) fn with_mode(
+        sources: Box<dyn Sources>,
+        program: &str,
+        machine: Arc<Machine>,
+        options: Options,
+        checking: bool,
+    ) -> Self {
+        let mut diagnostics = Vec::new();
+        let start = start_position(&machine, &options.start, &mut diagnostics);
+        let (skip, max_blocks) = (options.skip, options.max_blocks);
+        let max_blocks_at_rest = options.max_blocks_at_rest;
+        let mut decoder = Decoder::new(machine, options, &start);
+        decoder.checking = checking;
+        let names = decoder.long_names();
+        let mut executor = Self {
+            parser: Parser::new(names.iter().map(String::as_str)),
+            decoder,
+            sources,
+            files: Files::new(),
+            levels: Vec::new(),
+            skip,
+            state: State::Running,
+            start,
+            diagnostics: Vec::new(),
+            reported: BTreeSet::new(),
+            errors: 0,
+            first_error: None,
+            blocks: 0,
+            blocks_at_rest: 0,
+            max_blocks,
+            max_blocks_at_rest,
+            limited: false,
+            position: Position::START,
+            reached: Reached::default(),
+            end_program_called: false,
+            reason: EndReason::Finished,
+        };
+        diagnostics.append(&mut executor.decoder.report.unplaced);
+        for diagnostic in diagnostics {
+            executor.report(diagnostic);
+        }
+        executor.begin(program);
+        executor
+    }
+
+    /// Opens the main program.
+    fn begin(&mut self, program: &str) {
+        let Some(file) = self.open(program, None) else {
+            self.end(EndReason::Aborted);
+            return;
+        };
+        let name = Arc::clone(&self.files.file(file).name);
+        let index = Arc::clone(&self.files.file(file).index);
+        let Some(section) = index.main() else {
+            let text = format!("{name} holds no main program");
+            let severity =
+                if index.sections.is_empty() { Severity::Warning } else { Severity::Error };
+            let diagnostic = Diagnostic::new(Condition::NoEnd, text).severity(severity);
+            let (file, text) = (name, Arc::from(""));
+            let (line, column, offset, length, block) = (1, 1, 0, 1, None);
+            let beginning = Location { file, line, column, offset, length, block, text };
+            self.report(diagnostic.at(beginning));
+            let refused = severity == Severity::Error;
+            self.end(if refused { EndReason::Aborted } else { EndReason::Finished });
+            return;
+        };
+        let info = &mut self.decoder.calls.info;
+        info.main_program = index.sections[section].name.clone().unwrap_or_else(|| Arc::from(""));
+        info.main_file = name;
+        self.push_level(file, section, None);
+        self.position = index.sections[section].start;
+        self.decoder.report.source.file = file_number(file);
+        if let Some(name) = self.decoder.machine.channel.start_program.clone() {
+            self.call_of_list(&name, "P-CHAN-00119", Span::default());
+            self.settle(false);
+        }
+        if self.errors > 0 && !self.decoder.checking {
+            self.end(EndReason::Aborted);
+        }
+    }
+
+    /// Opens a file; what is wrong is reported.
+    pub(in crate::exec) fn open(&mut self, name: &str, caller: Option<usize>) -> Option<usize> {
+        match self.files.open(&*self.sources, name, caller, self.skip, &self.parser) {
+            Ok((file, diagnostics)) => {
+                for diagnostic in diagnostics {
+                    self.report(diagnostic);
+                }
+                Some(file)
+            }
+            Err(error) => {
+                let (text, hint) = error.text(name);
+                let mut diagnostic = Diagnostic::new(Condition::NoFile, text);
+                diagnostic.hint = hint.or(diagnostic.hint);
+                let diagnostic = match (self.levels.is_empty(), self.here(Span::default())) {
+                    (false, Some(location)) => diagnostic.at(location),
+                    _ => diagnostic,
+                };
+                self.report(diagnostic);
+                None
+            }
+        }
+    }
+
+    /// The next step of the program; after [`Step::End`] always that again.
+    pub fn next(&mut self, feedback: Feedback) -> Step {
+        self.decoder.feedback = feedback;
+        loop {
+            if let Some(step) = self.decoder.contour.pop() {
+                // a stop takes no time
+                if !matches!(step, Step::Sync { what: Sync::Stop, .. }) {
+                    self.blocks_at_rest = 0;
+                }
+                return step;
+            }
+            match self.state {
+                State::Ended => {
+                    let (reason, source) = (self.reason, self.decoder.report.source);
+                    return Step::End { reason, source, events: Vec::new() };
+                }
+                State::Running => self.advance(false),
+                State::WaitsForActual => {
+                    self.state = State::Running;
+                    self.advance(true);
+                }
+            }
+        }
+    }
+
+    /// Diagnostics since the last call.
+    pub fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.diagnostics)
+    }
+
+    /// Names of the files that took part so far; [`SourceRef::file`] is an index.
+    pub fn files(&self) -> &[Arc<str>] {
+        self.files.names()
+    }
+
+    /// Place of a block whose step was handed out; its text is read again.
+    pub fn locate(&mut self, source: SourceRef) -> Option<Location> {
+        if source.line == 0 {
+            return None;
+        }
+        let position = Position { offset: source.offset, line: source.line };
+        let mut location = self.files.locate_block(source.file as usize, position)?;
+        location.block = source.block;
+        Some(location)
+    }
+
+    /// Kernels in force; before the first step those of the axis lists.
+    pub fn shaping(&self) -> &ShapingSetup {
+        &self.decoder.shaping.setup
+    }
+
+    /// The machine as the program has it: with the values of `#MACHINE DATA` up to the step handed out last.
+    pub fn machine(&self) -> &Arc<Machine> {
+        &self.decoder.machine
+    }
+
+    /// Blocks executed so far.
+    pub fn blocks(&self) -> u64 {
+        self.blocks
+    }
+
+    /// Where the axes stand at program start.
+    pub fn start_position(&self) -> &AxisVec {
+        &self.start
+    }
+
+    /// Targets of the axes behind the last block.
+    pub fn target(&self) -> &AxisVec {
+        self.decoder.geometry.coordinates.target()
+    }
+}
+
+/// A file as [`SourceRef`] names it.
+fn file_number(file: usize) -> u32 {
+    u32::try_from(file).unwrap_or(u32::MAX)
+}
+
+/// Start positions by axis name.
+fn start_position(
+    machine: &Machine,
+    start: &[(String, f64)],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> AxisVec {
+    let mut position = AxisVec::zeros(machine.axes.len());
+    for (name, value) in start {
+        match machine.axes.iter().position(|a| a.name().eq_ignore_ascii_case(name)) {
+            Some(axis) if value.is_finite() => position[axis] = *value,
+            _ => {
+                let text = format!("start position {name}={value}: no such axis or no number");
+                diagnostics.push(Diagnostic::new(Condition::Range, text));
+            }
+        }
+    }
+    position
+}

@@ -1,0 +1,103 @@
+//! Places of messages, the number of messages, and the end of a program.
+
+use super::{Executor, State};
+use crate::diag::{Diagnostic, Location};
+use crate::exec::block::dialect;
+use crate::exec::contour::Contour;
+use crate::exec::fault::Fault;
+use crate::exec::step::{EndReason, SourceRef};
+use crate::source::Position;
+use crate::syntax::ast::Span;
+use std::sync::Arc;
+
+/// Errors after which a check stops. Source: P-CHAN-00019 is the vendor's counterpart.
+pub(super) const ERRORS_MAX: usize = 20;
+/// Blocks that a check executes behind the first error: a wrong program may also be an endless one.
+pub(super) const BLOCKS_BEHIND_ERROR: u64 = 1_000_000;
+
+/// Diagnostics of one run; further ones are reported only if they are errors.
+const DIAGNOSTICS_MAX: usize = 1000;
+
+impl Executor {
+    /// The diagnostic of a fault with its place.
+    pub(super) fn placed(&mut self, fault: Fault) -> Diagnostic {
+        let Fault { mut diagnostic, span, origin } = fault;
+        if diagnostic.source.is_none() {
+            diagnostic.source = match origin {
+                Some(block) => self.place_in(block, span),
+                None => self.here(span),
+            };
+        }
+        diagnostic
+    }
+
+    /// Place of a span of the block in work, also if it has left its level or entered another.
+    pub(in crate::exec) fn here(&mut self, span: Span) -> Option<Location> {
+        let Position { offset, line } = self.position;
+        self.place_in(SourceRef { line, offset, ..self.decoder.report.source }, span)
+    }
+
+    fn place_in(&mut self, block: SourceRef, span: Span) -> Option<Location> {
+        let file = block.file as usize;
+        if file >= self.files.names().len() {
+            return None;
+        }
+        let position = Position { offset: block.offset, line: block.line };
+        let mut location = self.files.locate(file, position, span, &self.decoder.calls.macros)?;
+        location.block = block.block;
+        Some(location)
+    }
+
+    /// Place of a span of a block of the present level.
+    pub(in crate::exec) fn place(&mut self, position: Position, span: Span) -> Option<Location> {
+        let file = self.levels.last()?.file;
+        self.files.locate(file, position, span, &self.decoder.calls.macros)
+    }
+
+    /// Adds a diagnostic, once per place; words of other dialects once per program.
+    pub(in crate::exec) fn report(&mut self, mut diagnostic: Diagnostic) {
+        let key = match &diagnostic.source {
+            Some(l) if !dialect::is_foreign_word(diagnostic.id) => {
+                (diagnostic.id, Arc::clone(&l.file), l.column, l.offset)
+            }
+            _ => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
+        };
+        // a program with a remark in every line must not fill the memory
+        let full = self.reported.len() >= DIAGNOSTICS_MAX;
+        let known = if full { self.reported.contains(&key) } else { !self.reported.insert(key) };
+        if known || (full && !diagnostic.is_error()) {
+            return;
+        }
+        if let Some(location) = &mut diagnostic.source {
+            location.block = location.block.or(self.decoder.report.source.block);
+        }
+        if diagnostic.is_error() {
+            self.errors += 1;
+            self.first_error.get_or_insert(self.blocks);
+        }
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Ends the program: what was prepared is still driven.
+    pub(in crate::exec) fn end(&mut self, reason: EndReason) {
+        if self.state == State::Ended {
+            return;
+        }
+        self.state = State::Ended;
+        let aborted = reason == EndReason::Aborted || (self.errors > 0 && !self.decoder.checking);
+        self.reason = if aborted { EndReason::Aborted } else { EndReason::Finished };
+        let source = self.decoder.report.source;
+        let contour: &mut Contour = &mut self.decoder.contour;
+        let mut faults = contour.end(self.reason, source);
+        faults.extend(self.decoder.limits_of_compensated());
+        for fault in faults {
+            let diagnostic = self.placed(fault);
+            self.report(diagnostic);
+        }
+    }
+
+    /// Errors so far.
+    pub(in crate::exec) fn has_ended(&self) -> bool {
+        self.state == State::Ended
+    }
+}

@@ -1,0 +1,344 @@
+//! One block after the other: fetching, conditions, loops and what a block leads to.
+
+use super::report::{BLOCKS_BEHIND_ERROR, ERRORS_MAX};
+use super::{Executor, State, file_number};
+use crate::diag::{Condition, Diagnostic, Severity};
+use crate::exec::block::din::After;
+use crate::exec::fault::Fault;
+use crate::exec::program::files::{Fetched, Parsed, Reading};
+use crate::exec::program::index::{EntryId, Keyword};
+use crate::exec::step::{EndReason, SourceRef, Sync};
+use crate::source::Position;
+use crate::syntax::Parser;
+use crate::syntax::ast::{BlockNumber, Body, Command, Span};
+use std::sync::Arc;
+
+/// Messages and functions between two motions for which the path does not stop.
+///
+/// Assumption: the buffer of a channel is finite, too; a million messages in a loop must not fill the memory.
+const EVENTS_MAX: usize = 1000;
+
+impl Executor {
+    /// Executes one block.
+    pub(super) fn advance(&mut self, actual_known: bool) {
+        if self.names_or_macros_changed() {
+            self.files.forget();
+        }
+        let Some(level) = self.levels.last() else {
+            self.end(EndReason::Finished);
+            return;
+        };
+        if level.at.offset >= level.end {
+            self.level_ends();
+            return;
+        }
+        let (file, at) = (level.file, level.at);
+        let entry = level.index.at(at);
+        if let Some(id) = entry
+            && self.jump_over(id)
+        {
+            return;
+        }
+        let Some((parsed, next)) = self.fetch(file, at) else { return };
+        if parsed.needs_actual && !actual_known {
+            self.wait_for_actual(at);
+            return;
+        }
+        if !self.count_block() {
+            return;
+        }
+        self.position = at;
+        if self.decoder.checking {
+            self.reached.add(file, at, next);
+        }
+        self.source_of(file, at, &parsed);
+        if let Some(level) = self.levels.last_mut() {
+            level.at = next;
+        }
+        self.decoder.moved = false;
+        self.execute(&parsed, entry);
+        if self.decoder.contour.waiting() >= EVENTS_MAX {
+            self.decoder.sync(Sync::Stop);
+        }
+        self.settle(parsed.faulty);
+    }
+
+    fn names_or_macros_changed(&mut self) -> bool {
+        let names = std::mem::take(&mut self.decoder.names.changed);
+        if names {
+            let names = self.decoder.long_names();
+            self.parser = Parser::new(names.iter().map(String::as_str));
+        }
+        std::mem::take(&mut self.decoder.calls.macros_changed) || names
+    }
+
+    /// Comment blocks, inactive branches and remarks: true if the entry needs no parsing.
+    fn jump_over(&mut self, id: EntryId) -> bool {
+        let Some(level) = self.levels.last() else { return true };
+        let entry = *level.index.entry(id);
+        match entry.keyword {
+            Keyword::CommentBegin => {
+                match entry.end.map(|end| level.index.entry(end).position) {
+                    Some(end) => self.jump_behind(end),
+                    None => self.skip_to_level_end(),
+                }
+                true
+            }
+            // the branch before it was taken
+            Keyword::ConditionalElse => {
+                match entry.end.map(|end| level.index.entry(end).position) {
+                    Some(end) => self.jump_behind(end),
+                    None => self.skip_to_level_end(),
+                }
+                true
+            }
+            Keyword::Remark => {
+                let at = entry.position;
+                if let Some(location) = self.place(at, entry.span) {
+                    let text = "a % block inside a program is taken as a remark";
+                    let d = Diagnostic::new(Condition::Percent, text).severity(Severity::Warning);
+                    self.report(d.at(location));
+                }
+                self.jump_behind(at);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// The block at a place; reading errors end the program.
+    pub(in crate::exec) fn fetch(
+        &mut self,
+        file: usize,
+        at: Position,
+    ) -> Option<(Fetched, Position)> {
+        let level = self.levels.last()?;
+        // the head of a loop runs again as well
+        let loops = |id: EntryId| level.index.entry(id).keyword.is_loop();
+        let keep = self.levels.len() > 1
+            || level.frames.iter().any(|f| f.keyword.is_loop())
+            || level.again.is_some_and(|(first, last)| (first..=last).contains(&at.offset))
+            || level.index.at(at).is_some_and(loops);
+        let reading =
+            Reading { keep: keep && !level.declarations, declaration: level.declarations };
+        let mut found = Vec::new();
+        let block = self.files.block(
+            file,
+            at,
+            reading,
+            &self.parser,
+            &self.decoder.calls.macros,
+            &mut found,
+        );
+        for diagnostic in found {
+            self.report(diagnostic);
+        }
+        match block {
+            Ok(Some(block)) => Some(block),
+            Ok(None) => {
+                self.skip_to_level_end();
+                None
+            }
+            Err(e) => {
+                let name = Arc::clone(&self.files.file(file).name);
+                let hint = "it was executed up to there";
+                self.report(Diagnostic::new(Condition::NoFile, format!("{name}: {e}")).hint(hint));
+                self.end(EndReason::Aborted);
+                None
+            }
+        }
+    }
+
+    fn wait_for_actual(&mut self, at: Position) {
+        self.state = State::WaitsForActual;
+        let file = self
+            .levels
+            .last()
+            .map_or(self.decoder.report.source.file, |level| file_number(level.file));
+        let source = SourceRef { file, line: at.line, offset: at.offset, block: None };
+        self.decoder.report.source = source;
+        let faults = self.decoder.contour.sync(Sync::ReadActual, source);
+        self.position = at;
+        for fault in faults {
+            self.decoder.note(Box::new(fault));
+        }
+        self.settle(false);
+    }
+
+    /// False if a limit was reached.
+    fn count_block(&mut self) -> bool {
+        self.blocks += 1;
+        self.blocks_at_rest += 1;
+        let text = if self.blocks > self.max_blocks {
+            format!("more than {} blocks (--max-blocks)", self.max_blocks)
+        } else if self.blocks_at_rest > self.max_blocks_at_rest {
+            format!("{} blocks without motion: the program does not end", self.max_blocks_at_rest)
+        } else {
+            return true;
+        };
+        self.end_by_limit(Diagnostic::new(Condition::Endless, text));
+        false
+    }
+
+    /// The program time of a check is over.
+    pub(in crate::exec) fn end_by_time(&mut self, max_time_s: f64) {
+        let text = format!("the program takes more than {max_time_s} s: the check ends here");
+        let diagnostic = Diagnostic::new(Condition::Endless, text).severity(Severity::Warning);
+        self.end_by_limit(diagnostic.hint("raise the limit with --max-time"));
+    }
+
+    /// Ends the program at the block that comes next.
+    fn end_by_limit(&mut self, diagnostic: Diagnostic) {
+        self.limited = true;
+        let location =
+            self.levels.last().map(|l| l.at).and_then(|at| self.place(at, Span::default()));
+        self.report(match location {
+            Some(location) => diagnostic.at(location),
+            None => diagnostic,
+        });
+        self.end(EndReason::Aborted);
+    }
+
+    /// True if a limit ended the program before its own end.
+    pub(in crate::exec) fn is_limited(&self) -> bool {
+        self.limited
+    }
+
+    fn source_of(&mut self, file: usize, at: Position, parsed: &Parsed) {
+        let block = match &parsed.block.number {
+            None => None,
+            Some(BlockNumber::Literal(n)) => Some(*n),
+            Some(BlockNumber::Computed(expr)) => {
+                let outcome = self.decoder.whole(expr, "a block number", 0, u32::MAX);
+                self.decoder.keep(outcome).map(u64::from)
+            }
+        };
+        let file = file_number(file);
+        self.decoder.report.source = SourceRef { file, line: at.line, offset: at.offset, block };
+        self.decoder.report.location = None;
+        self.decoder.calls.info.offset = at.offset;
+        if let Some(block) = block {
+            self.decoder.calls.info.block_number = block;
+        }
+    }
+
+    /// What the block says.
+    fn execute(&mut self, parsed: &Parsed, entry: Option<EntryId>) {
+        let block = &parsed.block;
+        if block.skip.is_some_and(|level| self.skip.contains(level)) {
+            return;
+        }
+        match &block.body {
+            Body::Empty | Body::ProgramHead(_) => {}
+            Body::Declarations(list) => {
+                for declaration in list {
+                    let outcome = self.decoder.declare(declaration);
+                    self.decoder.keep(outcome);
+                }
+            }
+            Body::Command(command) => self.command(command, entry),
+            Body::Control(control) => {
+                self.decoder.dialect.own = true;
+                if let Some(entry) = entry {
+                    self.control(control, entry);
+                }
+            }
+            Body::Words(words) => {
+                let after = self.decoder.execute_words(words, block.span);
+                if self.decoder.failed() && !self.decoder.checking {
+                    return;
+                }
+                self.after(after);
+                self.modal_cycle();
+            }
+        }
+    }
+
+    fn command(&mut self, command: &Command, entry: Option<EntryId>) {
+        let declarations = self.levels.last().is_some_and(|l| l.declarations);
+        if command.is("VAR") || command.is("ENDVAR") {
+            let begins = command.is("VAR");
+            if begins == declarations {
+                let text = if begins { "#VAR inside #VAR" } else { "#ENDVAR without #VAR" };
+                self.decoder.note(Fault::new(Condition::Syntax, text, command.span));
+            }
+            if let Some(level) = self.levels.last_mut() {
+                level.declarations = begins;
+            }
+            return;
+        }
+        let conditional = command.is("IF") || command.is("ELSE") || command.is("ENDIF");
+        if conditional || command.is("COMMENT BEGIN") || command.is("COMMENT END") {
+            if let (Some(entry), true) = (entry, command.is("IF")) {
+                self.conditional(command, entry);
+            }
+            return;
+        }
+        self.decoder.report.location = self.here(command.span);
+        let outcome = self.decoder.execute_command(command);
+        self.decoder.keep(outcome);
+    }
+
+    /// `#IF`: the branch that is not taken is not looked at.
+    fn conditional(&mut self, command: &Command, id: EntryId) {
+        let condition = if let [condition] = &command.arguments[..] {
+            let outcome = self.decoder.condition(condition);
+            self.decoder.keep(outcome).unwrap_or(false)
+        } else {
+            let text = "#IF needs one condition";
+            self.decoder.note(Fault::new(Condition::Syntax, text, command.span));
+            false
+        };
+        if condition {
+            return;
+        }
+        let Some(level) = self.levels.last() else { return };
+        let next = level.index.entry(id).next.map(|next| level.index.entry(next).position);
+        match next {
+            Some(next) => self.jump_behind(next),
+            None => self.skip_to_level_end(),
+        }
+    }
+
+    fn after(&mut self, after: After<'_>) {
+        match after {
+            After::Next => {}
+            After::Call(call, span) => self.call(call, span),
+            After::Cycle(call) => self.implicit_call(&call),
+            After::ToolChange(span) => self.tool_change(span),
+            After::Goto(label) => self.goto(label),
+            After::Return => self.return_from_level(),
+            After::End => self.program_end(),
+        }
+    }
+
+    /// Reports the conditions of the block; an error ends the program.
+    pub(in crate::exec) fn settle(&mut self, faulty: bool) {
+        let faults = self.decoder.take_faults();
+        let mut failed = faulty;
+        for fault in faults {
+            failed |= fault.is_error();
+            let diagnostic = self.placed(fault);
+            self.report(diagnostic);
+        }
+        if self.decoder.checking {
+            let behind = self.blocks - self.first_error.unwrap_or(self.blocks);
+            let stops = self.errors >= ERRORS_MAX || behind > BLOCKS_BEHIND_ERROR;
+            if stops && self.state != State::Ended {
+                let text = if self.errors >= ERRORS_MAX {
+                    format!("{} errors: the check stops here", self.errors)
+                } else {
+                    format!("{behind} blocks behind the first error: the check stops here")
+                };
+                let d = Diagnostic::new(Condition::TooMany, text).severity(Severity::Note);
+                self.report(d);
+                self.end(EndReason::Aborted);
+            }
+        } else if failed {
+            if self.decoder.moved {
+                self.decoder.contour.drop_held();
+            }
+            self.end(EndReason::Aborted);
+        }
+    }
+}

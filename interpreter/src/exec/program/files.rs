@@ -1,0 +1,438 @@
+//! Open program files: text, structure, and the parsed blocks of what runs more than once.
+
+use super::index::{Index, build};
+use crate::diag::{Diagnostic, Location};
+use crate::exec::options::SkipLevels;
+use crate::exec::values::system;
+use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position, RawBlock, Sources};
+use crate::syntax::Parser;
+use crate::syntax::ast::{
+    Block, Body, ControlKind, Expr, ExprKind, GValue, Group, ItemKind, ItemValue, Place, PlaceKind,
+    Span, WordKind,
+};
+use crate::syntax::macros;
+use smallvec::{SmallVec, smallvec};
+use std::collections::BTreeMap;
+use std::io;
+use std::ops::Deref;
+use std::sync::Arc;
+
+/// Blocks of all files that are kept parsed; those beyond are parsed again on every pass.
+const CACHED_MAX: usize = 50_000;
+
+/// A parsed block.
+#[derive(Debug)]
+pub(in crate::exec) struct Parsed {
+    pub(in crate::exec) block: Block,
+    /// The block reads actual positions.
+    pub(in crate::exec) needs_actual: bool,
+    /// Its text has an error.
+    pub(in crate::exec) faulty: bool,
+}
+
+/// A block to be executed.
+#[derive(Debug)]
+pub(in crate::exec) enum Fetched {
+    /// It runs again: its file keeps it too.
+    Kept(Arc<Parsed>),
+    /// It is parsed for this once.
+    Once(Parsed),
+}
+
+impl Deref for Fetched {
+    type Target = Parsed;
+
+    fn deref(&self) -> &Parsed {
+        match self {
+            Self::Kept(parsed) => parsed,
+            Self::Once(parsed) => parsed,
+        }
+    }
+}
+
+/// One file.
+#[derive(Debug)]
+pub(in crate::exec) struct ProgramFile {
+    pub(in crate::exec) name: Arc<str>,
+    reader: BlockReader,
+    pub(in crate::exec) index: Arc<Index>,
+    cache: BTreeMap<u64, (Arc<Parsed>, Position)>,
+}
+
+type Macros = BTreeMap<Box<str>, Box<str>>;
+
+/// How a block is to be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) struct Reading {
+    /// Keep the block: it runs again.
+    pub(in crate::exec) keep: bool,
+    /// Between `#VAR` and `#ENDVAR`.
+    pub(in crate::exec) declaration: bool,
+}
+
+/// How a block that is not executed is to be looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum Look {
+    /// Not at all.
+    Pass,
+    Block,
+    /// Between `#VAR` and `#ENDVAR`.
+    Declaration,
+}
+
+/// All files of a run.
+#[derive(Debug)]
+pub(in crate::exec) struct Files {
+    open: Vec<ProgramFile>,
+    names: Vec<Arc<str>>,
+    cached: usize,
+    /// File of a name as written in a program of a file.
+    resolved: BTreeMap<(usize, Box<str>), usize>,
+}
+
+/// Why a file could not be opened.
+#[derive(Debug)]
+pub(in crate::exec) enum FileError {
+    Open(OpenError),
+    Read(io::Error),
+    /// Most of its text is none of the language; the name of the file.
+    Foreign(Arc<str>),
+}
+
+impl FileError {
+    /// K-0013 for a file that is called `name` in the program, with a hint.
+    pub(super) fn text(self, name: &str) -> (String, Option<String>) {
+        match self {
+            Self::Open(e) => {
+                let hint = format!("searched: {}", e.searched.join(", "));
+                (format!("{}: {}", e.name, e.reason), Some(hint))
+            }
+            Self::Read(e) => (format!("{name}: {e}"), None),
+            Self::Foreign(file) => {
+                let hint = format!("`check {file}` shows what is wrong with its lines");
+                (format!("{name}: most of its lines are no NC blocks"), Some(hint))
+            }
+        }
+    }
+}
+
+/// Blocks of a called file by which it is judged.
+const JUDGED_MAX: u32 = 64;
+
+/// True if most blocks at the beginning of a file are no NC blocks: its text is not for messages.
+fn is_foreign(reader: &mut BlockReader, name: &Arc<str>, parser: &Parser) -> io::Result<bool> {
+    reader.seek(Position::START);
+    let (mut judged, mut wrong, mut comment) = (0, 0, false);
+    let mut found = Vec::new();
+    let is_wrong = |found: &mut Vec<Diagnostic>| found.drain(..).any(|d| d.is_error());
+    while judged < JUDGED_MAX {
+        let Some(raw) = reader.next_block()? else { break };
+        // of what is too long nothing is known
+        if raw.text.trim_ascii().is_empty() || raw.characters > BLOCK_LENGTH_MAX {
+            continue;
+        }
+        let block = parser.block(&raw, name, &mut found);
+        let mut fails = is_wrong(&mut found);
+        if let Body::Command(command) = &block.body {
+            comment = (comment || command.is("COMMENT BEGIN")) && !command.is("COMMENT END");
+        }
+        if fails && !comment {
+            parser.declaration(&raw, name, &mut found);
+            fails = is_wrong(&mut found);
+        }
+        judged += 1;
+        wrong += u32::from(fails && !comment);
+    }
+    Ok(2 * wrong > judged)
+}
+
+impl Files {
+    pub(in crate::exec) fn new() -> Self {
+        Self { open: Vec::new(), names: Vec::new(), cached: 0, resolved: BTreeMap::new() }
+    }
+
+    pub(in crate::exec) fn names(&self) -> &[Arc<str>] {
+        &self.names
+    }
+
+    pub(in crate::exec) fn file(&self, file: usize) -> &ProgramFile {
+        &self.open[file]
+    }
+
+    /// The file of a name as written in `caller`; what is wrong with the structure of a new one comes beside.
+    pub(in crate::exec) fn open(
+        &mut self,
+        sources: &dyn Sources,
+        name: &str,
+        caller: Option<usize>,
+        skip: SkipLevels,
+        parser: &Parser,
+    ) -> Result<(usize, Vec<Diagnostic>), FileError> {
+        if let Some(caller) = caller
+            && let Some(file) = self.resolved.get(&(caller, Box::from(name)))
+        {
+            return Ok((*file, Vec::new()));
+        }
+        let caller_name = caller.map(|c| Arc::clone(&self.names[c]));
+        let source = sources.open(name, caller_name.as_deref()).map_err(FileError::Open)?;
+        let full = source.name();
+        let known = self.names.iter().position(|n| *n == full);
+        let (file, diagnostics) = if let Some(file) = known {
+            (file, Vec::new())
+        } else {
+            let mut reader = BlockReader::new(source);
+            // the main program was named by the user
+            if caller.is_some()
+                && is_foreign(&mut reader, &full, parser).map_err(FileError::Read)?
+            {
+                return Err(FileError::Foreign(full));
+            }
+            let (index, diagnostics) = build(&mut reader, &full, skip).map_err(FileError::Read)?;
+            let index = Arc::new(index);
+            self.names.push(Arc::clone(&full));
+            self.open.push(ProgramFile { name: full, reader, index, cache: BTreeMap::new() });
+            (self.open.len() - 1, diagnostics)
+        };
+        if let Some(caller) = caller {
+            self.resolved.insert((caller, Box::from(name)), file);
+        }
+        Ok((file, diagnostics))
+    }
+
+    /// Forgets parsed blocks: names or macros have changed.
+    pub(in crate::exec) fn forget(&mut self) {
+        for file in &mut self.open {
+            file.cache.clear();
+        }
+        self.cached = 0;
+    }
+
+    /// Makes room for the blocks of a new loop.
+    pub(in crate::exec) fn make_room(&mut self) {
+        if self.cached >= CACHED_MAX {
+            self.forget();
+        }
+    }
+
+    /// The block at a place and the place of the next one; `None` at the end of the file.
+    pub(in crate::exec) fn block(
+        &mut self,
+        file: usize,
+        position: Position,
+        reading: Reading,
+        parser: &Parser,
+        table: &Macros,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> io::Result<Option<(Fetched, Position)>> {
+        let ProgramFile { name, reader, cache, .. } = &mut self.open[file];
+        if reading.keep
+            && let Some((parsed, next)) = cache.get(&position.offset)
+        {
+            return Ok(Some((Fetched::Kept(Arc::clone(parsed)), *next)));
+        }
+        reader.seek(position);
+        let Some(raw) = reader.next_block()? else { return Ok(None) };
+        let before = diagnostics.len();
+        let block = parse(&raw, name, reading.declaration, parser, table, diagnostics);
+        let faulty = diagnostics[before..].iter().any(Diagnostic::is_error);
+        let next = reader.position();
+        let parsed = Parsed { needs_actual: needs_actual(&block), block, faulty };
+        if !reading.keep || self.cached >= CACHED_MAX {
+            return Ok(Some((Fetched::Once(parsed), next)));
+        }
+        let parsed = Arc::new(parsed);
+        cache.insert(position.offset, (Arc::clone(&parsed), next));
+        self.cached += 1;
+        Ok(Some((Fetched::Kept(parsed), next)))
+    }
+
+    /// The syntax of a block that is not executed, and the place of the next one. A diagnostic is marked if it concerns
+    /// block number or control statement.
+    pub(in crate::exec) fn look(
+        &mut self,
+        file: usize,
+        position: Position,
+        look: Look,
+        parser: &Parser,
+        table: &Macros,
+        found: &mut Vec<(Diagnostic, bool)>,
+    ) -> io::Result<Option<(Block, Position)>> {
+        let ProgramFile { name, reader, .. } = &mut self.open[file];
+        reader.seek(position);
+        let Some(raw) = reader.next_block()? else { return Ok(None) };
+        let mut block = Block::default();
+        if look != Look::Pass {
+            let (mut structure, mut all) = (Vec::new(), Vec::new());
+            parser.inactive(&raw, name, &mut structure);
+            block = parse(&raw, name, look == Look::Declaration, parser, table, &mut all);
+            let same = |d: &Diagnostic| {
+                structure.iter().any(|s| {
+                    s.id == d.id
+                        && s.source.as_ref().map(|l| l.offset)
+                            == d.source.as_ref().map(|l| l.offset)
+                })
+            };
+            found.extend(all.into_iter().map(|d| {
+                let is_structure = same(&d);
+                (d, is_structure)
+            }));
+        }
+        Ok(Some((block, reader.position())))
+    }
+
+    /// Place of all of the block at a position.
+    pub(in crate::exec) fn locate_block(
+        &mut self,
+        file: usize,
+        position: Position,
+    ) -> Option<Location> {
+        let ProgramFile { name, reader, .. } = self.open.get_mut(file)?;
+        reader.seek(position);
+        let raw = reader.next_block().ok()??;
+        let end = raw.text.trim_end().len();
+        let start = end - raw.text[..end].trim_start().len();
+        Some(raw.locate(name, Span::new(start, end)))
+    }
+
+    /// Place of a span of the block at a position.
+    pub(in crate::exec) fn locate(
+        &mut self,
+        file: usize,
+        position: Position,
+        span: Span,
+        table: &Macros,
+    ) -> Option<Location> {
+        let ProgramFile { name, reader, .. } = &mut self.open[file];
+        reader.seek(position);
+        let raw = reader.next_block().ok()??;
+        let lookup = |name: &str| table.get(name).map(|text| &**text);
+        match macros::expand(&raw, name, &lookup) {
+            Ok(Some(expanded)) => Some(expanded.raw().locate(name, span)),
+            _ => Some(raw.locate(name, span)),
+        }
+    }
+}
+
+fn parse(
+    raw: &RawBlock<'_>,
+    file: &Arc<str>,
+    declaration: bool,
+    parser: &Parser,
+    table: &Macros,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Block {
+    let read = |raw: &RawBlock<'_>, diagnostics: &mut Vec<Diagnostic>| {
+        if declaration {
+            parser.declaration(raw, file, diagnostics)
+        } else {
+            parser.block(raw, file, diagnostics)
+        }
+    };
+    if table.is_empty() {
+        return read(raw, diagnostics);
+    }
+    let lookup = |name: &str| table.get(name).map(|text| &**text);
+    match macros::expand(raw, file, &lookup) {
+        Ok(Some(expanded)) => read(&expanded.raw(), diagnostics),
+        Ok(None) => read(raw, diagnostics),
+        Err(diagnostic) => {
+            diagnostics.push(*diagnostic);
+            Block::default()
+        }
+    }
+}
+
+/// True if the block reads actual positions of the machine.
+fn needs_actual(block: &Block) -> bool {
+    match &block.body {
+        Body::Empty | Body::ProgramHead(_) => false,
+        Body::Declarations(list) => {
+            list.iter().any(|d| d.value.as_ref().is_some_and(item_needs_actual))
+        }
+        Body::Words(words) => words.iter().any(|word| match &word.kind {
+            WordKind::G { value: Some(value), .. } => match &**value {
+                GValue::Scalar(e) => expr_needs_actual(e),
+                GValue::List(list) => list.iter().flatten().any(expr_needs_actual),
+            },
+            WordKind::Address { value, .. } => expr_needs_actual(value),
+            WordKind::Assign(assign) => {
+                expr_needs_actual(&assign.value) || place_needs_actual(&assign.target)
+            }
+            WordKind::M(_, Some(value)) | WordKind::H(_, Some(value)) => expr_needs_actual(value),
+            WordKind::Bracket(bracket) => group_needs_actual(&bracket.group),
+            WordKind::Hash(hash) => hash.value.as_ref().is_some_and(expr_needs_actual),
+            WordKind::Call(call) => match &call.kind {
+                crate::syntax::ast::CallKind::Cycle(group)
+                | crate::syntax::ast::CallKind::Sequence(group) => group_needs_actual(group),
+                crate::syntax::ast::CallKind::Program(_) => false,
+            },
+            _ => false,
+        }),
+        Body::Command(command) => {
+            command.is("GET ACTPOS")
+                || command.is("CHANNEL INIT") && command.groups.iter().any(|g| g.has("ACTPOS"))
+                || command.arguments.iter().any(expr_needs_actual)
+                || command.groups.iter().any(group_needs_actual)
+        }
+        Body::Control(control) => match &control.kind {
+            ControlKind::If { condition: e, .. }
+            | ControlKind::ElseIf(e)
+            | ControlKind::Switch { value: e, .. }
+            | ControlKind::Case(e)
+            | ControlKind::While(e)
+            | ControlKind::EndDo(Some(e))
+            | ControlKind::Until(e) => expr_needs_actual(e),
+            ControlKind::For { start, end, step, .. } => {
+                expr_needs_actual(start)
+                    || expr_needs_actual(end)
+                    || step.as_ref().is_some_and(expr_needs_actual)
+            }
+            _ => false,
+        },
+    }
+}
+
+fn group_needs_actual(group: &Group) -> bool {
+    group.items.iter().any(|item| match &item.kind {
+        ItemKind::Target { place, value } => place_needs_actual(place) || item_needs_actual(value),
+        ItemKind::Pair { value, .. } | ItemKind::Value(value) => item_needs_actual(value),
+        ItemKind::Flag(_) | ItemKind::Missing => false,
+    })
+}
+
+fn item_needs_actual(value: &ItemValue) -> bool {
+    match value {
+        ItemValue::Expr(e) => expr_needs_actual(e),
+        ItemValue::List(group) => group_needs_actual(group),
+        ItemValue::Name(_) => false,
+    }
+}
+
+fn place_needs_actual(place: &Place) -> bool {
+    match &place.kind {
+        PlaceKind::Variable(segments) => {
+            system::needs_actual(segments)
+                || segments.iter().flat_map(|s| &s.subscripts).any(expr_needs_actual)
+        }
+        PlaceKind::Parameter { subscripts, .. } => subscripts.iter().any(expr_needs_actual),
+        PlaceKind::Cycle(_) => false,
+    }
+}
+
+/// Without recursion along chains of operators.
+fn expr_needs_actual(expr: &Expr) -> bool {
+    if matches!(expr.kind, ExprKind::Number(_)) {
+        return false;
+    }
+    let mut open: SmallVec<[&Expr; 8]> = smallvec![expr];
+    while let Some(expr) = open.pop() {
+        match &expr.kind {
+            ExprKind::Place(place) if place_needs_actual(place) => return true,
+            ExprKind::Negate(inner) => open.push(inner),
+            ExprKind::Binary(binary) => open.extend([&binary.left, &binary.right]),
+            ExprKind::Call(call) => open.extend(&call.arguments),
+            _ => {}
+        }
+    }
+    false
+}

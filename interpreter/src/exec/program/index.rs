@@ -1,0 +1,97 @@
+//! Structure of a program file: heads, control statements and labels with their places; nothing else is kept.
+//!
+//! One pass over the text, without parsing: only the beginning of a block is looked at. So a jump needs no search, and
+//! memory does not depend on the blocks in between.
+
+mod build;
+mod head;
+mod keyword;
+#[cfg(test)]
+mod tests;
+
+use crate::source::Position;
+use crate::syntax::ast::{LabelKind, Span};
+pub(in crate::exec) use build::build;
+pub(in crate::exec) use keyword::Keyword;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Index of an entry.
+pub(in crate::exec) type EntryId = u32;
+
+/// One statement.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::exec) struct Entry {
+    pub(in crate::exec) position: Position,
+    /// The keyword in its block.
+    pub(in crate::exec) span: Span,
+    pub(in crate::exec) keyword: Keyword,
+    /// Statement that opened the structure; itself for an opening one.
+    pub(in crate::exec) open: Option<EntryId>,
+    /// Next clause of the structure, at last its closing statement.
+    pub(in crate::exec) next: Option<EntryId>,
+    /// Closing statement.
+    pub(in crate::exec) end: Option<EntryId>,
+    /// Innermost structure around it.
+    pub(in crate::exec) parent: Option<EntryId>,
+}
+
+/// Target of a jump.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::exec) struct LabelPlace {
+    pub(in crate::exec) position: Position,
+    /// Innermost structure around it.
+    pub(in crate::exec) parent: Option<EntryId>,
+}
+
+/// A main program or local subroutine.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct Section {
+    pub(in crate::exec) name: Option<Arc<str>>,
+    pub(in crate::exec) local: bool,
+    /// First block.
+    pub(in crate::exec) start: Position,
+    /// Where the next section or nothing begins.
+    pub(in crate::exec) end: u64,
+}
+
+/// Structure of a file.
+#[derive(Clone, Debug, Default)]
+pub(in crate::exec) struct Index {
+    pub(in crate::exec) entries: Vec<Entry>,
+    pub(in crate::exec) sections: Vec<Section>,
+    labels: BTreeMap<(usize, LabelKind), LabelPlace>,
+    /// First local subroutine of each name.
+    locals: BTreeMap<Arc<str>, usize>,
+    /// The same without regard to case: names in upper case.
+    locals_upper: BTreeMap<String, usize>,
+}
+
+impl Index {
+    /// The entry at a place.
+    pub(in crate::exec) fn at(&self, position: Position) -> Option<EntryId> {
+        let i = self.entries.binary_search_by_key(&position.offset, |e| e.position.offset).ok()?;
+        EntryId::try_from(i).ok()
+    }
+
+    pub(in crate::exec) fn entry(&self, id: EntryId) -> &Entry {
+        &self.entries[id as usize]
+    }
+
+    /// Label of a section.
+    pub(in crate::exec) fn label(&self, section: usize, label: &LabelKind) -> Option<&LabelPlace> {
+        // a range of one key would need an owned label: labels are short
+        self.labels.get(&(section, label.clone()))
+    }
+
+    /// The local subroutine of a name: as written, or else without regard to case.
+    pub(super) fn local(&self, name: &str) -> Option<usize> {
+        let exact = self.locals.get(name);
+        exact.or_else(|| self.locals_upper.get(&name.to_ascii_uppercase())).copied()
+    }
+
+    /// The section that is not local.
+    pub(in crate::exec) fn main(&self) -> Option<usize> {
+        self.sections.iter().position(|s| !s.local)
+    }
+}

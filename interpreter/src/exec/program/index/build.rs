@@ -1,0 +1,362 @@
+//! Builds the index of a file: its sections, labels and control statements with their partners.
+
+use super::head::{
+    Head, blank, contains_goto, ends_program, head, is_command, name_of, says_nothing, word,
+};
+use super::keyword::Keyword;
+use super::{Entry, EntryId, Index, LabelPlace, Section};
+use crate::diag::{Condition, Diagnostic, Severity};
+use crate::exec::options::SkipLevels;
+use crate::source::{BLOCK_LENGTH_MAX, BlockReader, Position, RawBlock};
+use crate::syntax::ast::{LabelKind, Span};
+use std::collections::BTreeMap;
+use std::io;
+use std::sync::Arc;
+
+/// Deepest nesting of control statements. Assumption: the vendor prints no number for 20211.
+const NESTING_MAX: usize = 64;
+
+/// Control statements, labels and programs of one file: its structure is all that is kept of it, up to 100 MB.
+const STRUCTURE_MAX: usize = 500_000;
+
+/// Mistakes of structure that are reported for one file.
+const DIAGNOSTICS_MAX: usize = 100;
+
+/// The pass.
+struct Builder<'a> {
+    pub(super) file: &'a Arc<str>,
+    pub(super) index: Index,
+    /// Open structures.
+    stack: Vec<EntryId>,
+    /// Structures open at each open `#IF`.
+    conditional: Vec<Vec<EntryId>>,
+    /// Open `#IF`s.
+    conditional_open: Vec<EntryId>,
+    /// Last clause of each open structure.
+    last_clause: BTreeMap<EntryId, EntryId>,
+    comment: Option<EntryId>,
+    pub(super) section: Option<usize>,
+    has_main: bool,
+    /// `%` blocks inside the main program, with the end of the program seen before each.
+    remarks: Vec<(EntryId, bool)>,
+    end_seen: bool,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Builder<'_> {
+    fn block(&mut self, raw: &RawBlock<'_>, skip: SkipLevels) {
+        let head = head(raw.text);
+        let first = head.rest.bytes().next();
+        if let Some(open) = self.comment {
+            if first == Some(b'#') && is_command(head.rest, "COMMENT", "END") {
+                self.alone(raw, &head, Condition::CommentEndNotAlone);
+                let id = self.push(raw.position, head.at, Keyword::CommentEnd);
+                self.index.entries[open as usize].end = Some(id);
+                self.comment = None;
+            }
+            return;
+        }
+        if head.skip.is_some_and(|level| skip.contains(level)) {
+            return;
+        }
+        if first == Some(b'%') {
+            self.program_head(raw, head.rest);
+            return;
+        }
+        // of a block that is too long something may stand behind what is looked at
+        let comment = first == Some(b'#') && is_command(head.rest, "COMMENT", "BEGIN");
+        let content = first.is_some_and(|b| b != b';' && !comment)
+            || head.label.is_some()
+            || raw.characters > BLOCK_LENGTH_MAX;
+        if self.section.is_none() && content {
+            self.open_section(None, false, raw.position);
+        }
+        if let Some(label) = head.label.clone() {
+            self.label(raw, label, head.label_at);
+        }
+        match first {
+            Some(b'$') => self.control(raw, &head),
+            Some(b'#') => self.command(raw, &head),
+            Some(_) if self.has_main => self.end_seen |= ends_program(raw.text),
+            _ => {}
+        }
+    }
+
+    fn is_full(&self) -> bool {
+        let Index { entries, sections, labels, .. } = &self.index;
+        entries.len() + sections.len() + labels.len() > STRUCTURE_MAX
+    }
+
+    fn push(&mut self, position: Position, at: usize, keyword: Keyword) -> EntryId {
+        let id = EntryId::try_from(self.index.entries.len()).unwrap_or(EntryId::MAX);
+        self.index.entries.push(Entry {
+            position,
+            span: Span::new(at, at + keyword.text().len()),
+            keyword,
+            open: None,
+            next: None,
+            end: None,
+            parent: self.stack.last().copied(),
+        });
+        id
+    }
+
+    fn report(&mut self, raw: &RawBlock<'_>, at: usize, length: usize, diagnostic: Diagnostic) {
+        if self.diagnostics.len() >= DIAGNOSTICS_MAX {
+            return;
+        }
+        let location = raw.locate(self.file, Span::new(at, at + length));
+        self.diagnostics.push(diagnostic.at(location));
+    }
+
+    fn open_section(&mut self, name: Option<&str>, local: bool, start: Position) {
+        self.section = Some(self.index.sections.len());
+        self.has_main |= !local;
+        let name: Option<Arc<str>> = name.map(Arc::from);
+        if let (Some(name), true, Some(section)) = (&name, local, self.section) {
+            self.index.locals_upper.entry(name.to_ascii_uppercase()).or_insert(section);
+            self.index.locals.entry(Arc::clone(name)).or_insert(section);
+        }
+        self.index.sections.push(Section { name, local, start, end: u64::MAX });
+    }
+
+    /// The section ends here; open structures end with it.
+    fn close(&mut self, offset: u64) {
+        if let Some(section) = self.section.take() {
+            self.index.sections[section].end = offset;
+        }
+        self.stack.clear();
+        self.conditional.clear();
+        self.conditional_open.clear();
+    }
+
+    fn program_head(&mut self, raw: &RawBlock<'_>, rest: &str) {
+        let behind = &rest[1..];
+        let local = behind
+            .strip_prefix(['L', 'l'])
+            .filter(|name| name.starts_with([' ', '\t']))
+            .map(str::trim_start)
+            // without a name it is a main program called L
+            .filter(|name| name_of(name).is_some());
+        let next = Position { offset: raw.position.offset, line: raw.position.line };
+        if let Some(name) = local {
+            self.close(raw.position.offset);
+            let name = name_of(name);
+            if self.has_main {
+                let text = "a local subroutine behind the main program: the control may refuse it";
+                let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Note);
+                self.report(raw, raw.text.len() - rest.len(), 2, d);
+            }
+            if name.is_some_and(|name| self.index.locals.contains_key(name)) {
+                let text = format!("local subroutine {} twice", name.unwrap_or(""));
+                let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Warning);
+                self.report(raw, raw.text.len() - rest.len(), rest.trim_end().len(), d);
+            }
+            self.open_section(name, true, next);
+        } else if self.has_main {
+            // whether it is a remark is known at the end of the file
+            let id = self.push(raw.position, raw.text.len() - rest.len(), Keyword::Remark);
+            self.remarks.push((id, self.end_seen));
+        } else {
+            self.close(raw.position.offset);
+            self.open_section(name_of(behind.trim_start()), false, next);
+        }
+    }
+
+    /// A `%` block ends the main program if the file goes on with a further program.
+    fn decide_remarks(&mut self) {
+        let Some(main) = self.index.main() else { return };
+        let subroutine_behind =
+            self.index.sections[main + 1..].iter().any(|s| s.local).then_some(());
+        for (id, ended_before) in &self.remarks {
+            let offset = self.index.entry(*id).position.offset;
+            if subroutine_behind.is_some() || (*ended_before && self.end_seen) {
+                let end = &mut self.index.sections[main].end;
+                *end = (*end).min(offset);
+            }
+        }
+    }
+
+    fn label(&mut self, raw: &RawBlock<'_>, label: LabelKind, at: usize) {
+        let Some(section) = self.section else { return };
+        let parent = self.stack.last().copied();
+        let place = LabelPlace { position: raw.position, parent };
+        if self.index.labels.contains_key(&(section, label.clone())) {
+            let shown = match &label {
+                LabelKind::Number(n) => format!("N{n}:"),
+                LabelKind::Name(name) => format!("[{name}]"),
+            };
+            let d =
+                Diagnostic::new(Condition::LabelTwice, format!("label {shown} is defined twice"));
+            self.report(raw, at, shown.len(), d);
+            return;
+        }
+        self.index.labels.insert((section, label), place);
+    }
+
+    fn command(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
+        let name = word(&head.rest[1..]);
+        match name.as_str() {
+            "COMMENT" if is_command(head.rest, "COMMENT", "BEGIN") => {
+                self.alone(raw, head, Condition::CommentBeginNotAlone);
+                self.comment = Some(self.push(raw.position, head.at, Keyword::CommentBegin));
+            }
+            "IF" => {
+                let id = self.push(raw.position, head.at, Keyword::ConditionalIf);
+                self.index.entries[id as usize].open = Some(id);
+                self.conditional.push(self.stack.clone());
+                self.conditional_open.push(id);
+            }
+            "ELSE" | "ENDIF" => {
+                let Some(open) = self.conditional_open.last().copied() else {
+                    let d = Diagnostic::new(Condition::Syntax, format!("#{name} without #IF"));
+                    self.report(raw, head.at, name.len() + 1, d);
+                    return;
+                };
+                let keyword =
+                    if name == "ELSE" { Keyword::ConditionalElse } else { Keyword::ConditionalEnd };
+                let id = self.push(raw.position, head.at, keyword);
+                self.index.entries[id as usize].open = Some(open);
+                self.chain(open, id);
+                if keyword == Keyword::ConditionalEnd {
+                    self.finish(open, id);
+                    self.conditional_open.pop();
+                    self.conditional.pop();
+                } else if let Some(stack) = self.conditional.last() {
+                    // the branches stand beside each other
+                    self.stack.clone_from(stack);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// `#COMMENT BEGIN` and `#COMMENT END` stand alone in their blocks.
+    fn alone(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, condition: Condition) {
+        let word = |text: &str| {
+            text.trim_start_matches(|c: char| c.is_ascii_alphanumeric()).trim_start().len()
+        };
+        let second = &head.rest[head.rest.len() - word(&head.rest[1..])..];
+        let behind = blank(&second[second.len() - word(second)..]);
+        if !behind.is_empty() && !behind.starts_with(';') {
+            let name = if condition == Condition::CommentBeginNotAlone { "BEGIN" } else { "END" };
+            let text = format!("#COMMENT {name} does not stand alone in its block");
+            let d = Diagnostic::new(condition, text);
+            self.report(raw, head.at, head.rest.trim_end().len(), d);
+        }
+    }
+
+    fn control(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
+        let name = word(&head.rest[1..]);
+        let Some(mut keyword) = Keyword::of_control(&name) else { return };
+        if keyword == Keyword::If && contains_goto(head.rest) {
+            keyword = Keyword::IfGoto;
+        }
+        let id = self.push(raw.position, head.at, keyword);
+        if keyword.closer().is_some() {
+            self.index.entries[id as usize].open = Some(id);
+            self.stack.push(id);
+            if self.stack.len() > NESTING_MAX {
+                let text = format!("control statements nested more than {NESTING_MAX} deep");
+                let d = Diagnostic::new(Condition::ControlNesting, text);
+                self.report(raw, head.at, name.len() + 1, d);
+            }
+            return;
+        }
+        let Some(opener) = keyword.opener() else { return };
+        let found = self
+            .stack
+            .iter()
+            .rposition(|open| self.index.entries[*open as usize].keyword == opener);
+        let Some(depth) = found else {
+            let text = format!("{} without {}", keyword.text(), opener.text());
+            let d = match keyword {
+                Keyword::EndFor => Diagnostic::new(Condition::EndForWithoutFor, text),
+                Keyword::ElseIf => Diagnostic::new(Condition::ElseIfWithoutIf, text),
+                _ => Diagnostic::new(Condition::Syntax, text),
+            };
+            self.report(raw, head.at, name.len() + 1, d);
+            return;
+        };
+        if let Some(inner) = self.stack.get(depth + 1).copied() {
+            let inner = self.index.entries[inner as usize];
+            let closer = inner.keyword.closer().map_or("", Keyword::text);
+            let text = format!(
+                "{} inside {}: its {closer} is missing (line {})",
+                keyword.text(),
+                inner.keyword.text(),
+                inner.position.line
+            );
+            let d = Diagnostic::new(Condition::Syntax, text);
+            self.report(raw, head.at, name.len() + 1, d);
+            self.stack.truncate(depth + 1);
+        }
+        let open = self.stack[depth];
+        let parent = self.index.entries[open as usize].parent;
+        self.index.entries[id as usize].open = Some(open);
+        self.index.entries[id as usize].parent = parent;
+        self.chain(open, id);
+        if keyword.opener().and_then(Keyword::closer) == Some(keyword) {
+            self.finish(open, id);
+            self.stack.truncate(depth);
+        }
+    }
+
+    /// Appends a clause to its structure.
+    fn chain(&mut self, open: EntryId, id: EntryId) {
+        let last = self.last_clause.insert(open, id).unwrap_or(open);
+        self.index.entries[last as usize].next = Some(id);
+    }
+
+    /// The structure is closed: every clause learns where.
+    fn finish(&mut self, open: EntryId, end: EntryId) {
+        self.last_clause.remove(&open);
+        let mut at = Some(open);
+        while let Some(id) = at {
+            let entry = &mut self.index.entries[id as usize];
+            entry.end = Some(end);
+            at = entry.next;
+        }
+    }
+}
+
+/// Indexes a program; what is wrong with its structure comes beside.
+pub(in crate::exec) fn build(
+    reader: &mut BlockReader,
+    file: &Arc<str>,
+    skip: SkipLevels,
+) -> io::Result<(Index, Vec<Diagnostic>)> {
+    let mut builder = Builder {
+        file,
+        index: Index::default(),
+        stack: Vec::new(),
+        conditional: Vec::new(),
+        conditional_open: Vec::new(),
+        last_clause: BTreeMap::new(),
+        comment: None,
+        section: None,
+        has_main: false,
+        remarks: Vec::new(),
+        end_seen: false,
+        diagnostics: Vec::new(),
+    };
+    reader.seek(Position::START);
+    loop {
+        if builder.section.is_some() && builder.comment.is_none() {
+            reader.skip_lines(says_nothing);
+        }
+        let Some(raw) = reader.next_block()? else { break };
+        builder.block(&raw, skip);
+        if builder.is_full() {
+            let text = format!(
+                "more than {STRUCTURE_MAX} control statements, labels and subroutines in one file"
+            );
+            let location = raw.locate(file, Span::new(0, raw.text.len()));
+            builder.diagnostics.push(Diagnostic::new(Condition::Nesting, text).at(location));
+            break;
+        }
+    }
+    builder.close(reader.position().offset);
+    builder.decide_remarks();
+    Ok((builder.index, builder.diagnostics))
+}

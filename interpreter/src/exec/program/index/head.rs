@@ -1,0 +1,124 @@
+//! The beginning of a block, as far as its structure needs it: label, words, ends of programs, empty lines.
+
+use crate::syntax::ast::LabelKind;
+
+/// Beginning of a block: what an index has to know.
+pub(super) struct Head<'t> {
+    pub(super) skip: Option<u8>,
+    pub(super) label: Option<LabelKind>,
+    /// Where the label begins.
+    pub(super) label_at: usize,
+    /// Text behind skip mark, number and label.
+    pub(super) rest: &'t str,
+    /// Where it begins.
+    pub(super) at: usize,
+}
+
+pub(super) fn head(text: &str) -> Head<'_> {
+    let mut rest = blank(text);
+    let mut skip = None;
+    if let Some(behind) = rest.strip_prefix('/') {
+        let digits = digits(behind);
+        skip = Some(behind[..digits].parse().unwrap_or(1));
+        rest = blank(&behind[digits..]);
+    }
+    let mut label = None;
+    let mut label_at = text.len() - rest.len();
+    if let Some(behind) = rest.strip_prefix(['N', 'n']) {
+        let behind = blank(behind);
+        let length = digits(behind);
+        if length > 0 {
+            let number = &behind[..length];
+            rest = blank(&behind[length..]);
+            if let Some(behind) = rest.strip_prefix(':') {
+                label = number.parse().ok().map(LabelKind::Number);
+                rest = blank(behind);
+            }
+        }
+    }
+    if label.is_none()
+        && rest.starts_with('[')
+        && let Some(end) = rest.find(']')
+    {
+        let name = rest[1..end].trim();
+        if !name.is_empty() {
+            label_at = text.len() - rest.len();
+            label = Some(LabelKind::Name(name.to_uppercase().into()));
+            rest = blank(&rest[end + 1..]);
+        }
+    }
+    Head { skip, label, label_at, rest, at: text.len() - rest.len() }
+}
+
+fn digits(text: &str) -> usize {
+    text.bytes().take_while(u8::is_ascii_digit).count()
+}
+
+/// Without blanks and closed comments at the beginning.
+pub(super) fn blank(text: &str) -> &str {
+    let mut rest = text.trim_start_matches([' ', '\t']);
+    while rest.starts_with('(') {
+        let mut depth = 0;
+        let end = rest.bytes().position(|b| {
+            match b {
+                b'(' => depth += 1,
+                b')' => depth -= 1,
+                _ => {}
+            }
+            depth == 0
+        });
+        rest = match end {
+            Some(end) => rest[end + 1..].trim_start_matches([' ', '\t']),
+            None => "",
+        };
+    }
+    rest
+}
+
+/// Letters at the beginning, in upper case.
+pub(super) fn word(text: &str) -> String {
+    text.chars().take_while(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase()
+}
+
+/// True if a line holds M02 or M30 outside comments.
+pub(super) fn ends_program(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    memchr::memchr2_iter(b'M', b'm', bytes).any(|i| {
+        let rest = &text[i + 1..];
+        let length = digits(rest);
+        let comment = memchr::memchr2(b'(', b';', &bytes[..i]).is_some();
+        !comment && matches!(rest[..length].trim_start_matches('0'), "2" | "30")
+    })
+}
+
+/// True for most lines of a long program, inside a section: a block number or none, then a word, no continuation, and
+/// no `M` that could end the program.
+pub(super) fn says_nothing(line: &[u8]) -> bool {
+    let mut rest = line;
+    if let [b'N' | b'n', behind @ ..] = line {
+        let digits = behind.iter().take_while(|b| b.is_ascii_digit()).count();
+        let blanks = behind[digits..].iter().take_while(|b| matches!(b, b' ' | b'\t')).count();
+        rest = if digits > 0 { &behind[digits + blanks..] } else { &[] };
+    }
+    rest.first().is_some_and(u8::is_ascii_alphabetic)
+        && memchr::memchr3(b'M', b'm', b'\\', rest).is_none()
+}
+
+/// Name behind a program head: the first word.
+pub(super) fn name_of(text: &str) -> Option<&str> {
+    let end = text.find([' ', '\t', '(', ';']).unwrap_or(text.len());
+    (end > 0).then(|| &text[..end])
+}
+
+/// True for `#FIRST SECOND`.
+pub(super) fn is_command(rest: &str, first: &str, second: &str) -> bool {
+    let behind = &rest[1..];
+    let length = behind.bytes().take_while(u8::is_ascii_alphanumeric).count();
+    behind[..length].eq_ignore_ascii_case(first) && word(behind[length..].trim_start()) == second
+}
+
+/// True if `$GOTO` stands behind the condition.
+pub(super) fn contains_goto(rest: &str) -> bool {
+    let code = rest.split([';', '(']).next().unwrap_or("");
+    code.to_ascii_uppercase().contains("$GOTO")
+}

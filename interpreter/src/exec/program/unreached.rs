@@ -1,0 +1,228 @@
+//! Syntax of what a check did not run through: branches not taken, blocks jumped over, subroutines not called.
+//!
+//! Source: TF5200 programming manual, control blocks: of a branch that is not taken the control looks at block numbers
+//! and nested control statements only. Mistakes in those are errors here too. Whatever else is wrong there would stop no
+//! run of this program, so it is told as a warning, K-0118. Text behind the end of the main program, in `#COMMENT`
+//! blocks and in inactive `#IF` branches is not looked at.
+
+use super::check::UNREACHED;
+use super::executor::Executor;
+use super::files::Look;
+use super::index::{Index, Keyword};
+use crate::diag::{Diagnostic, Severity};
+use crate::source::Position;
+use crate::syntax::ast::Body;
+use std::collections::BTreeMap;
+
+/// Mistakes reported for parts that were not reached.
+const REPORTS_MAX: usize = 20;
+
+/// A run of blocks without gap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Run {
+    file: usize,
+    start: u64,
+    end: Position,
+}
+
+/// What a check has executed. Straight text is one run, so it takes no memory worth mentioning.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Reached {
+    /// Ends of runs by file and start.
+    runs: BTreeMap<(usize, u64), Position>,
+    current: Option<Run>,
+}
+
+impl Reached {
+    /// A block was executed.
+    pub(in crate::exec) fn add(&mut self, file: usize, from: Position, to: Position) {
+        if let Some(run) = &mut self.current
+            && run.file == file
+            && run.end.offset == from.offset
+        {
+            run.end = to;
+            return;
+        }
+        self.store();
+        // a loop comes back into a run
+        let before = self.runs.range(..=(file, from.offset)).next_back();
+        let known = before.filter(|((f, _), end)| *f == file && end.offset >= from.offset);
+        self.current = Some(match known {
+            Some(((_, start), end)) => Run { file, start: *start, end: to.max(*end) },
+            None => Run { file, start: from.offset, end: to },
+        });
+    }
+
+    fn store(&mut self) {
+        if let Some(Run { file, start, end }) = self.current.take() {
+            let known = self.runs.entry((file, start)).or_insert(end);
+            *known = end.max(*known);
+        }
+    }
+
+    /// Parts between `from` and `to` that were not executed.
+    fn gaps(&self, file: usize, from: Position, to: u64) -> Vec<(Position, u64)> {
+        let mut gaps = Vec::new();
+        let mut at = from;
+        let before = self.runs.range(..=(file, from.offset)).next_back();
+        let here = before.into_iter().chain(self.runs.range((file, from.offset + 1)..(file, to)));
+        for ((f, start), end) in here {
+            if *f != file {
+                continue;
+            }
+            if *start > at.offset {
+                gaps.push((at, *start));
+            }
+            at = at.max(*end);
+        }
+        if at.offset < to {
+            gaps.push((at, to));
+        }
+        gaps
+    }
+
+    /// Where the last executed block between two places ends.
+    fn last(&self, file: usize, from: u64, to: u64) -> Option<u64> {
+        self.runs.range((file, from)..(file, to)).map(|(_, end)| end.offset.min(to)).max()
+    }
+}
+
+impl Executor {
+    /// Looks at the syntax of everything that was not executed.
+    pub(in crate::exec) fn check_unreached(&mut self) {
+        // what lies behind the limit might run
+        if self.is_limited() {
+            return;
+        }
+        self.reached.store();
+        self.decoder.report.source.block = None;
+        let mut left = REPORTS_MAX;
+        for file in 0..self.files.names().len() {
+            let index = std::sync::Arc::clone(&self.files.file(file).index);
+            let silence = Silence::of(&index);
+            for section in &index.sections {
+                let end = if section.local {
+                    section.end
+                } else {
+                    let last = self.reached.last(file, section.start.offset, section.end);
+                    last.unwrap_or(section.start.offset)
+                };
+                for (from, to) in self.reached.gaps(file, section.start, end) {
+                    self.check_gap(file, (&index, &silence), from, to, &mut left);
+                    if left == 0 {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    fn check_gap(
+        &mut self,
+        file: usize,
+        (index, silence): (&Index, &Silence),
+        from: Position,
+        to: u64,
+        left: &mut usize,
+    ) {
+        let mut at = from;
+        let mut declarations = false;
+        // end of what is not looked at
+        let mut silent = silence.around(from);
+        while at.offset < to && *left > 0 {
+            if let Some(id) = index.at(at) {
+                let entry = index.entry(id);
+                if matches!(entry.keyword, Keyword::CommentBegin | Keyword::ConditionalIf) {
+                    let end = entry.end.map_or(to, |end| index.entry(end).position.offset);
+                    silent = silent.max(Some(end));
+                }
+            }
+            let remark = index.at(at).is_some_and(|id| index.entry(id).keyword == Keyword::Remark);
+            let look = match (remark || silent.is_some_and(|end| at.offset <= end), declarations) {
+                (true, _) => Look::Pass,
+                (false, true) => Look::Declaration,
+                (false, false) => Look::Block,
+            };
+            let mut found = Vec::new();
+            let parsed = self.files.look(
+                file,
+                at,
+                look,
+                &self.parser,
+                &self.decoder.calls.macros,
+                &mut found,
+            );
+            // the file was read before: what cannot be read now has been reported
+            let Ok(Some((block, next))) = parsed else { return };
+            if let Body::Command(command) = &block.body {
+                declarations = (declarations || command.is("VAR")) && !command.is("ENDVAR");
+            }
+            for (diagnostic, is_structure) in found {
+                if *left > 0 {
+                    *left -= 1;
+                    self.report(if is_structure { diagnostic } else { unreached(diagnostic) });
+                }
+            }
+            at = next;
+        }
+    }
+}
+
+/// Inactive `#IF` branches and comments of a file.
+struct Silence {
+    /// Where each of them begins, and the end furthest behind of all up to there.
+    ends: Vec<(Position, u64)>,
+}
+
+impl Silence {
+    fn of(index: &Index) -> Self {
+        let around = |keyword| matches!(keyword, Keyword::CommentBegin | Keyword::ConditionalIf);
+        let mut furthest = 0;
+        let entries = index.entries.iter().filter(|e| around(e.keyword)).map(|e| {
+            let end = e.end.map_or(u64::MAX, |end| index.entry(end).position.offset);
+            furthest = end.max(furthest);
+            (e.position, furthest)
+        });
+        Self { ends: entries.collect() }
+    }
+
+    /// End of what lies around a place, if anything does.
+    fn around(&self, at: Position) -> Option<u64> {
+        let before = self.ends.partition_point(|(begin, _)| *begin < at);
+        let (_, end) = self.ends.get(before.checked_sub(1)?)?;
+        (*end >= at.offset).then_some(*end)
+    }
+}
+
+/// As a warning that says where it is wrong.
+fn unreached(diagnostic: Diagnostic) -> Diagnostic {
+    let text = format!("in a part that does not run: {} ({})", diagnostic.text, diagnostic.id);
+    let usual = || "no run comes here; the control looks at control statements only".to_owned();
+    let hint = diagnostic.hint.or_else(|| Some(usual()));
+    Diagnostic { id: UNREACHED.id(), text, hint, ..diagnostic }.severity(Severity::Warning)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Reached;
+    use crate::source::Position;
+
+    fn at(offset: u64) -> Position {
+        Position { offset, line: 1 }
+    }
+
+    #[test]
+    fn loops_and_jumps_leave_the_gaps_between_them() {
+        let mut reached = Reached::default();
+        for (from, to) in [(0, 10), (10, 20), (50, 60), (60, 70), (10, 20), (20, 30), (50, 60)] {
+            reached.add(0, at(from), at(to));
+        }
+        reached.add(1, at(0), at(5));
+        reached.store();
+        assert_eq!(reached.gaps(0, at(0), 100), [(at(30), 50), (at(70), 100)]);
+        assert_eq!(reached.gaps(0, at(0), 70), [(at(30), 50)]);
+        assert_eq!(reached.gaps(1, at(0), 5), []);
+        assert_eq!(reached.last(0, 0, 100), Some(70));
+        assert_eq!(reached.runs.len(), 3);
+    }
+}

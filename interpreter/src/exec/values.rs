@@ -1,0 +1,19 @@
+//! Values of expressions: numbers, texts, functions, variables and what the control makes readable.
+//!
+//! Owns the variables and timers; reads everything that a system variable shows and changes nothing else, but for the few
+//! system variables that may be written.
+
+pub(super) mod expr;
+pub(super) mod functions;
+pub(super) mod system;
+pub(super) mod variables;
+
+use system::Timers;
+use variables::Variables;
+
+/// What the room owns.
+#[derive(Debug)]
+pub(super) struct Values {
+    pub(super) variables: Variables,
+    pub(super) timers: Timers,
+}

@@ -1,0 +1,199 @@
+//! Values of expressions.
+//!
+//! Source: TF5200 programming manual, arithmetic expressions. Assumption: a condition is true from 0.5 on (absolute);
+//! results that are no finite numbers are K-0009.
+
+use super::functions;
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::Value;
+use crate::syntax::ast::{Binary, BinaryOp, Expr, ExprKind, Span};
+
+impl Value {
+    pub(in crate::exec) fn truth(value: bool) -> Self {
+        Self::Number(if value { 1.0 } else { 0.0 })
+    }
+}
+
+/// Truth of a number.
+pub(in crate::exec) fn is_true(x: f64) -> bool {
+    x.abs() >= 0.5
+}
+
+impl Decoder {
+    /// Value of an expression.
+    pub(in crate::exec) fn value(&self, expr: &Expr) -> Outcome<Value> {
+        match &expr.kind {
+            ExprKind::Number(x) => Ok(Value::Number(*x)),
+            ExprKind::Bool(b) => Ok(Value::truth(*b)),
+            ExprKind::Pi => Ok(Value::Number(std::f64::consts::PI)),
+            ExprKind::Text(text) => Ok(Value::Text(text.clone())),
+            ExprKind::Place(place) => self.read(place),
+            ExprKind::Negate(_) => self.negated(expr),
+            ExprKind::Binary(binary) => self.chain(binary),
+            ExprKind::Call(call) => functions::call(self, call, expr.span),
+        }
+    }
+
+    /// Number of an expression; a text is K-0002.
+    pub(in crate::exec) fn number(&self, expr: &Expr) -> Outcome<f64> {
+        match &expr.kind {
+            ExprKind::Number(x) => Ok(*x),
+            _ => as_number(&self.value(expr)?, expr.span),
+        }
+    }
+
+    /// Truth of an expression.
+    pub(in crate::exec) fn condition(&self, expr: &Expr) -> Outcome<bool> {
+        self.number(expr).map(is_true)
+    }
+
+    /// A whole number in a range; fractions are rounded.
+    pub(in crate::exec) fn whole(
+        &self,
+        expr: &Expr,
+        what: &str,
+        low: u32,
+        high: u32,
+    ) -> Outcome<u32> {
+        let x = self.number(expr)?;
+        whole(x, low, high).ok_or_else(|| {
+            let text = format!("{what} is {x}, allowed are {low} to {high}");
+            Fault::new(Condition::Range, text, expr.span)
+        })
+    }
+
+    /// A run of minus signs, however long.
+    fn negated(&self, expr: &Expr) -> Outcome<Value> {
+        let (mut negative, mut inner) = (false, expr);
+        while let ExprKind::Negate(next) = &inner.kind {
+            negative = !negative;
+            inner = next;
+        }
+        let x = self.number(inner)?;
+        Ok(Value::Number(if negative { -x } else { x }))
+    }
+
+    /// A chain of operators that lean to the left, without recursion along the chain.
+    fn chain(&self, top: &Binary) -> Outcome<Value> {
+        let mut spine = vec![top];
+        let mut left = &top.left;
+        while let ExprKind::Binary(binary) = &left.kind {
+            spine.push(binary);
+            left = &binary.left;
+        }
+        let mut value = self.value(left)?;
+        let mut span = left.span;
+        while let Some(binary) = spine.pop() {
+            let right = self.value(&binary.right)?;
+            let whole = span.to(binary.right.span);
+            value = apply(binary.op, &value, span, &right, binary.right.span, whole)?;
+            span = whole;
+        }
+        Ok(value)
+    }
+}
+
+/// The number of a value.
+pub(in crate::exec) fn as_number(value: &Value, span: Span) -> Outcome<f64> {
+    match value {
+        Value::Number(x) => Ok(*x),
+        Value::Text(_) => {
+            Err(Fault::new(Condition::Syntax, "a number is expected, not a text", span))
+        }
+    }
+}
+
+/// `x` rounded, if it is within the range.
+pub(in crate::exec) fn whole(x: f64, low: u32, high: u32) -> Option<u32> {
+    let rounded = x.round();
+    (rounded >= f64::from(low) && rounded <= f64::from(high)).then_some(rounded as u32)
+}
+
+fn apply(
+    op: BinaryOp,
+    left: &Value,
+    left_span: Span,
+    right: &Value,
+    right_span: Span,
+    span: Span,
+) -> Outcome<Value> {
+    if let (Value::Text(a), Value::Text(b)) = (left, right) {
+        return texts(op, a, b, span);
+    }
+    let a = as_number(left, left_span)?;
+    let b = as_number(right, right_span)?;
+    let truth = |b| Ok(Value::truth(b));
+    let result = match op {
+        BinaryOp::Or => return truth(is_true(a) || is_true(b)),
+        BinaryOp::Xor => return truth(is_true(a) != is_true(b)),
+        BinaryOp::And => return truth(is_true(a) && is_true(b)),
+        // exact comparison is the rule of the language
+        BinaryOp::Equal => return truth(a.partial_cmp(&b).is_some_and(std::cmp::Ordering::is_eq)),
+        BinaryOp::NotEqual => {
+            return truth(!a.partial_cmp(&b).is_some_and(std::cmp::Ordering::is_eq));
+        }
+        BinaryOp::Less => return truth(a < b),
+        BinaryOp::LessEqual => return truth(a <= b),
+        BinaryOp::Greater => return truth(a > b),
+        BinaryOp::GreaterEqual => return truth(a >= b),
+        BinaryOp::BitOr => f64::from(bits(a, left_span)? | bits(b, right_span)?),
+        BinaryOp::BitXor => f64::from(bits(a, left_span)? ^ bits(b, right_span)?),
+        BinaryOp::BitAnd => f64::from(bits(a, left_span)? & bits(b, right_span)?),
+        BinaryOp::Add => a + b,
+        BinaryOp::Subtract => a - b,
+        BinaryOp::Multiply => a * b,
+        BinaryOp::Divide | BinaryOp::Modulo if b == 0.0 => {
+            let text = "division by zero";
+            return Err(Fault::new(Condition::DivisionByZero, text, right_span)
+                .with(|d| d.value(crate::diag::ValueKind::Current, b, "-")));
+        }
+        BinaryOp::Divide => a / b,
+        BinaryOp::Modulo => a % b,
+        BinaryOp::Power => libm::pow(a, b),
+    };
+    finite(result, span).map(Value::Number)
+}
+
+/// Passes finite numbers.
+pub(in crate::exec) fn finite(x: f64, span: Span) -> Outcome<f64> {
+    if x.is_finite() {
+        return Ok(x);
+    }
+    Err(Fault::new(Condition::Range, "the result is not a number within the range of REAL64", span))
+}
+
+/// Bit pattern of a number: fractions are cut, negative numbers count as signed 32 bits.
+pub(in crate::exec) fn bits(x: f64, span: Span) -> Outcome<u32> {
+    let cut = x.trunc();
+    if cut >= 0.0 && cut <= f64::from(u32::MAX) {
+        Ok(cut as u32)
+    } else if cut < 0.0 && cut >= f64::from(i32::MIN) {
+        Ok(cut as i32 as u32)
+    } else {
+        Err(Fault::new(Condition::Range, format!("{x} does not fit into 32 bits"), span))
+    }
+}
+
+fn texts(op: BinaryOp, a: &str, b: &str, span: Span) -> Outcome<Value> {
+    /// Longest text that an expression may build, so that a loop cannot exhaust memory.
+    const LONGEST: usize = 4096;
+    Ok(match op {
+        BinaryOp::Add if a.len() + b.len() > LONGEST => {
+            let text = format!("a text of more than {LONGEST} bytes");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        BinaryOp::Add => Value::Text(format!("{a}{b}").into()),
+        BinaryOp::Equal => Value::truth(a == b),
+        BinaryOp::NotEqual => Value::truth(a != b),
+        BinaryOp::Less => Value::truth(a < b),
+        BinaryOp::LessEqual => Value::truth(a <= b),
+        BinaryOp::Greater => Value::truth(a > b),
+        BinaryOp::GreaterEqual => Value::truth(a >= b),
+        _ => {
+            let text = "texts can only be joined and compared";
+            return Err(Fault::new(Condition::Syntax, text, span));
+        }
+    })
+}

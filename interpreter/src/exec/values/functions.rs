@@ -1,0 +1,235 @@
+//! Functions of the expression language. Angles are degrees.
+//!
+//! Source: TF5200 programming manual, arithmetic functions. Assumption: `INT` cuts towards 0, `ROUND` rounds half away
+//! from 0, positions in texts count from 1, `FIND` of something absent is 0.
+
+use super::expr::{as_number, bits, finite, is_true};
+use crate::diag::{Condition, ValueKind};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::angle::{cos_deg, sin_deg, tan_deg, to_deg};
+use crate::exec::options::Value;
+use crate::syntax::ast::{Expr, ExprKind, Function, FunctionCall, Place, Span};
+
+/// Numbers of arguments that a function takes.
+fn arity(function: Function) -> (usize, usize) {
+    match function {
+        Function::Atan2
+        | Function::Min
+        | Function::Max
+        | Function::Left
+        | Function::Right
+        | Function::Find => (2, 2),
+        Function::Mid | Function::Delete | Function::Insert => (3, 3),
+        Function::Replace => (4, 4),
+        Function::SizeOf => (1, 2),
+        _ => (1, 1),
+    }
+}
+
+/// Value of a call.
+pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<Value> {
+    let (low, high) = arity(call.function);
+    let n = call.arguments.len();
+    if n < low || n > high {
+        let name = call.function.name();
+        let text = format!("{name} takes {low} argument(s), {n} are written");
+        return Err(Fault::new(Condition::Syntax, text, span));
+    }
+    let arg = |i: usize| decoder.number(&call.arguments[i]);
+    let place = || match &call.arguments[0].kind {
+        ExprKind::Place(place) => Ok(&**place),
+        _ => Err(Fault::new(Condition::Syntax, "a variable is expected", call.arguments[0].span)),
+    };
+    let number = match call.function {
+        Function::Exist => return Ok(Value::truth(decoder.exists(place()?)?)),
+        Function::SizeOf => return size_of(decoder, place()?, call.arguments.get(1)),
+        Function::IsString | Function::IsNumber => {
+            let text = matches!(decoder.value(&call.arguments[0])?, Value::Text(_));
+            return Ok(Value::truth(text == (call.function == Function::IsString)));
+        }
+        Function::Atan2 => to_deg(libm::atan2(arg(0)?, arg(1)?)),
+        Function::Min => arg(0)?.min(arg(1)?),
+        Function::Max => arg(0)?.max(arg(1)?),
+        Function::Inv => f64::from(inverted(arg(0)?, call.arguments[0].span)?),
+        f if is_text_function(f) => return text_function(decoder, call, span),
+        f => of_one(f, arg(0)?, call.arguments[0].span)?,
+    };
+    finite(number, span).map(Value::Number)
+}
+
+/// Bits inverted within 16 bits if the number fits, else within 32.
+fn inverted(x: f64, span: Span) -> Outcome<u32> {
+    let pattern = bits(x, span)?;
+    Ok(if pattern <= 0xFFFF { pattern ^ 0xFFFF } else { !pattern })
+}
+
+fn pole(span: Span) -> Box<Fault> {
+    Fault::new(Condition::DivisionByZero, "division by zero", span)
+}
+
+fn outside(function: Function, x: f64, span: Span) -> Box<Fault> {
+    Fault::new(Condition::Range, format!("{} of {x} does not exist", function.name()), span)
+}
+
+/// Functions of one number.
+fn of_one(function: Function, x: f64, span: Span) -> Outcome<f64> {
+    Ok(match function {
+        Function::Abs => x.abs(),
+        Function::Sqr => x * x,
+        Function::Sqrt if x < 0.0 => {
+            return Err(Fault::new(
+                Condition::Sqrt,
+                format!("root of the negative number {x}"),
+                span,
+            ));
+        }
+        Function::Sqrt => x.sqrt(),
+        Function::Exp => libm::exp(x),
+        Function::DecExp => libm::pow(10.0, x),
+        Function::Ln | Function::Log if x <= 0.0 => {
+            return Err(Fault::new(Condition::Logarithm, format!("logarithm of {x}"), span)
+                .with(|d| d.value(ValueKind::Wrong, x, "-")));
+        }
+        Function::Ln => libm::log(x),
+        Function::Log => libm::log10(x),
+        Function::Sin => sin_deg(x),
+        Function::Cos => cos_deg(x),
+        Function::Tan => tan_deg(x).ok_or_else(|| pole(span))?,
+        Function::Cot => {
+            let s = sin_deg(x);
+            if s == 0.0 {
+                return Err(pole(span));
+            }
+            cos_deg(x) / s
+        }
+        Function::Asin | Function::Acos if x.abs() > 1.0 => return Err(outside(function, x, span)),
+        Function::Asin if (x.abs() - 0.5).abs() == 0.0 => 30.0_f64.copysign(x),
+        Function::Asin => to_deg(libm::asin(x)),
+        Function::Acos if (x.abs() - 0.5).abs() == 0.0 => {
+            if x > 0.0 {
+                60.0
+            } else {
+                120.0
+            }
+        }
+        Function::Acos => to_deg(libm::acos(x)),
+        Function::Atan => to_deg(libm::atan(x)),
+        Function::Acot => 90.0 - to_deg(libm::atan(x)),
+        Function::Int => x.trunc(),
+        Function::Fract => x.fract(),
+        Function::Round => x.round(),
+        Function::Floor => x.floor(),
+        Function::Ceil => x.ceil(),
+        Function::Sign if x == 0.0 => 0.0,
+        Function::Sign => x.signum(),
+        Function::Not => f64::from(u8::from(!is_true(x))),
+        _ => return Err(Fault::unsupported(function.name(), span)),
+    })
+}
+
+/// Size of a dimension of an array, -1 if there is none.
+fn size_of(decoder: &Decoder, place: &Place, dimension: Option<&Expr>) -> Outcome<Value> {
+    let dimension = match dimension {
+        Some(expr) => decoder.whole(expr, "dimension", 1, 4)?,
+        None => 1,
+    };
+    let sizes = decoder.dimensions(place)?;
+    let size = sizes.get(dimension as usize - 1).map_or(-1.0, |n| *n as f64);
+    Ok(Value::Number(size))
+}
+
+fn is_text_function(function: Function) -> bool {
+    use Function as F;
+    matches!(
+        function,
+        F::Left
+            | F::Mid
+            | F::Right
+            | F::Len
+            | F::Find
+            | F::Delete
+            | F::Insert
+            | F::Replace
+            | F::IntToStr
+            | F::RealToStr
+            | F::StrToInt
+            | F::StrToReal
+    )
+}
+
+/// Functions of texts.
+///
+/// Assumption: arguments as in IEC 61131-3: `LEFT[s, n]`, `MID[s, n, position]`, `DELETE[s, n, position]`,
+/// `INSERT[s, t, position]`, `REPLACE[s, t, n, position]`.
+fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<Value> {
+    let text = |i: usize| match decoder.value(&call.arguments[i])? {
+        Value::Text(text) => Ok(text.chars().collect::<Vec<char>>()),
+        Value::Number(_) => {
+            Err(Fault::new(Condition::Syntax, "a text is expected", call.arguments[i].span))
+        }
+    };
+    let count = |i: usize| {
+        let n = decoder.whole(&call.arguments[i], "a count of characters", 0, 4096)?;
+        Ok::<usize, Box<Fault>>(n as usize)
+    };
+    let joined =
+        |parts: [&[char]; 3]| Value::Text(parts.concat().iter().collect::<String>().into());
+    let parsed = |i: usize| -> Outcome<f64> {
+        let written: String = text(i)?.iter().collect();
+        let number: Option<f64> = written.trim().parse().ok();
+        number.filter(|x| x.is_finite()).ok_or_else(|| {
+            let text = format!("`{written}` is no number");
+            Fault::new(Condition::Range, text, call.arguments[i].span)
+        })
+    };
+    Ok(match call.function {
+        Function::Len => Value::Number(text(0)?.len() as f64),
+        Function::Left => {
+            let s = text(0)?;
+            joined([&s[..count(1)?.min(s.len())], &[], &[]])
+        }
+        Function::Right => {
+            let s = text(0)?;
+            joined([&s[s.len() - count(1)?.min(s.len())..], &[], &[]])
+        }
+        Function::Mid => {
+            let s = text(0)?;
+            let from = count(2)?.saturating_sub(1).min(s.len());
+            let to = (from + count(1)?).min(s.len());
+            joined([&s[from..to], &[], &[]])
+        }
+        Function::Delete => {
+            let s = text(0)?;
+            let from = count(2)?.saturating_sub(1).min(s.len());
+            let to = (from + count(1)?).min(s.len());
+            joined([&s[..from], &s[to..], &[]])
+        }
+        Function::Insert => {
+            let (s, t) = (text(0)?, text(1)?);
+            let at = count(2)?.min(s.len());
+            joined([&s[..at], &t, &s[at..]])
+        }
+        Function::Replace => {
+            let (s, t) = (text(0)?, text(1)?);
+            let from = count(3)?.saturating_sub(1).min(s.len());
+            let to = (from + count(2)?).min(s.len());
+            joined([&s[..from], &t, &s[to..]])
+        }
+        Function::Find => {
+            let (s, t) = (text(0)?, text(1)?);
+            let found = if t.is_empty() { None } else { s.windows(t.len()).position(|w| w == t) };
+            Value::Number(found.map_or(0.0, |i| i as f64 + 1.0))
+        }
+        Function::IntToStr => {
+            Value::Text(format!("{}", decoder.number(&call.arguments[0])?.trunc() + 0.0).into())
+        }
+        Function::RealToStr => {
+            let x = as_number(&decoder.value(&call.arguments[0])?, span)?;
+            Value::Text(format!("{x:.6}").into())
+        }
+        Function::StrToInt => Value::Number(parsed(0)?.trunc()),
+        Function::StrToReal => Value::Number(parsed(0)?),
+        other => return Err(Fault::unsupported(other.name(), span)),
+    })
+}

@@ -1,0 +1,335 @@
+//! System variables `V.A.`, `V.G.`, `V.SPDL.`, `V.SPDL_PROG.`: what they give and take.
+//!
+//! Positions are in the unit of the program (G70: inch). Source: TF5200 programming manual, V.A. and V.G.; served
+//! values are kontur's choice where a headless tool has none.
+
+use super::expr::{as_number, whole};
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::tools::Tool;
+use crate::exec::options::Value;
+use crate::exec::suggest;
+use crate::syntax::ast::{Segment, Span};
+
+/// One readable variable: its name with `*` for an axis name or index.
+type Reader = fn(&Decoder, &Path<'_>) -> Outcome<Value>;
+
+/// One row.
+struct Row {
+    /// Segments in upper case; `*` an axis, `n` a name with an index, `?` anything.
+    name: &'static [&'static str],
+    read: Reader,
+}
+
+/// A variable as it is written, taken apart.
+struct Path<'a> {
+    segments: &'a [Segment],
+    span: Span,
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
+fn number(x: f64) -> Outcome<Value> {
+    Ok(Value::Number(x))
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
+fn truth(b: bool) -> Outcome<Value> {
+    Ok(Value::truth(b))
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "a cell of the table may fail")]
+fn text(s: &str) -> Outcome<Value> {
+    Ok(Value::Text(s.into()))
+}
+
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    Row { name: &["A", "ABS", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.programmed(a)) },
+    Row { name: &["A", "PROG", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.last_word(a)) },
+    Row { name: &["A", "MENT", "*"], read: |d, p| p.position(d, 2, |d, a| {
+        if d.geometry.coordinates.mirrored(a) { -d.geometry.coordinates.programmed(a) } else { d.geometry.coordinates.programmed(a) }
+    }) },
+    Row { name: &["A", "ACT_POS", "*"], read: |d, p| p.position(d, 2, |d, a| d.feedback.actual_mm.get(a).copied().unwrap_or_else(|| d.geometry.coordinates.target()[a])) },
+    Row { name: &["A", "ACS", "ABS", "*"], read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.target()[a]) },
+    Row { name: &["A", "BZP", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.preset(a)) },
+    Row { name: &["A", "-SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).0) },
+    Row { name: &["A", "+SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).1) },
+    Row { name: &["A", "-SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).0) },
+    Row { name: &["A", "+SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).1) },
+    Row { name: &["A", "REF", "*"], read: |d, p| { p.axis(d, 2)?; number(0.0) } },
+    Row { name: &["A", "MODE", "*"], read: |d, p| { let a = p.axis(d, 2)?; number(f64::from(d.machine.axes[a].mode_bits())) } },
+    Row { name: &["A", "MODULO_VALUE", "*"], read: |d, p| { let a = p.axis(d, 2)?; number(if d.machine.axes[a].is_modulo() { 360.0 } else { 0.0 }) } },
+    Row { name: &["G", "BLOCK_NR"], read: |d, _| number(d.calls.info.block_number as f64) },
+    Row { name: &["G", "SATZ_NR"], read: |d, _| number(d.calls.info.block_number as f64) },
+    Row { name: &["G", "FEEDRATE"], read: |d, _| number(d.modal.feed().map_or(0.0, |f| f.value)) },
+    Row { name: &["G", "FEEDRATE_MODE"], read: |d, _| number(f64::from(d.modal.feed_type.g())) },
+    Row { name: &["G", "FEEDRATE_SCALE"], read: |d, _| number(d.machine.channel.feed_unit_mm_min) },
+    Row { name: &["G", "MASS_MM"], read: |d, _| truth(d.modal.inch) },
+    Row { name: &["G", "MASS_360"], read: |_, _| number(0.0) },
+    Row { name: &["G", "I"], read: |d, _| centre(d, 0) },
+    Row { name: &["G", "J"], read: |d, _| centre(d, 1) },
+    Row { name: &["G", "K"], read: |d, _| centre(d, 2) },
+    Row { name: &["G", "R"], read: |d, _| number(d.geometry.last_arc.radius_mm / d.unit_mm()) },
+    Row { name: &["G", "MERR"], read: |d, p| {
+        let i = p.index(d, 1, 2)?;
+        let place = d.geometry.last_arc.plane.iter().position(|m| *m == i as usize);
+        number(place.map_or(0.0, |k| d.geometry.last_arc.shift_mm[k]) / d.unit_mm())
+    } },
+    Row { name: &["G", "NP", "V", "*"], read: |d, p| { let g = p.index(d, 1, 999)?; p.position(d, 3, |d, a| d.geometry.coordinates.zero_entry(g, a)) } },
+    Row { name: &["G", "NP_AKT", "V", "*"], read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.zero_offset(a)) },
+    Row { name: &["G", "NP_DEFAULT"], read: |_, _| number(0.0) },
+    Row { name: &["G", "WZ_AKT", "R"], read: |d, _| number(d.geometry.tools.active.radius_mm) },
+    Row { name: &["G", "WZ_AKT", "L"], read: |d, _| number(d.geometry.tools.active.length_mm) },
+    Row { name: &["G", "WZ_AKT", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&d.geometry.tools.active, a)) } },
+    Row { name: &["G", "WZ_AKT", "P"], read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&d.geometry.tools.active, i)) } },
+    Row { name: &["G", "WZ", "R"], read: |d, p| number(p.tool(d)?.radius_mm) },
+    Row { name: &["G", "WZ", "L"], read: |d, p| number(p.tool(d)?.length_mm) },
+    Row { name: &["G", "WZ", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&p.tool(d)?, a)) } },
+    Row { name: &["G", "WZ", "P"], read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&p.tool(d)?, i)) } },
+    Row { name: &["G", "T_AKT"], read: |d, _| number(f64::from(d.geometry.tools.tool)) },
+    Row { name: &["G", "D_AKT"], read: |d, _| number(f64::from(d.geometry.tools.data)) },
+    Row { name: &["G", "TIMER"], read: |d, p| { let i = p.index(d, 1, 127)?; number(d.values.timers.read(i, d.feedback.time_s)) } },
+    Row { name: &["G", "RANDOM"], read: |_, _| number(0.5) },
+    Row { name: &["G", "MAIN_FILE_NAME"], read: |d, _| text(&d.calls.info.main_file) },
+    Row { name: &["G", "MAIN_PROG_NAME"], read: |d, _| text(&d.calls.info.main_program) },
+    Row { name: &["G", "FILE_NAME"], read: |d, _| text(&d.calls.info.file) },
+    Row { name: &["G", "PROG_NAME"], read: |d, _| text(&d.calls.info.program) },
+    Row { name: &["G", "PROG_NR"], read: |_, _| number(0.0) },
+    Row { name: &["G", "PROG_LEVEL"], read: |d, _| number(f64::from(d.calls.info.level)) },
+    Row { name: &["G", "FILE_OFFSET"], read: |d, _| number(d.calls.info.offset as f64) },
+    Row { name: &["G", "@P", "VALID"], read: |d, p| p.passed(d) },
+    Row { name: &["G", "CNC_VERSION", "MAJOR"], read: |_, _| number(3.0) },
+    Row { name: &["G", "CNC_VERSION", "MINOR"], read: |_, _| number(1.0) },
+    Row { name: &["G", "CNC_VERSION", "BUILD"], read: |_, _| number(3079.0) },
+    Row { name: &["G", "CNC_VERSION", "PATCH"], read: |_, _| number(0.0) },
+    Row { name: &["G", "ROT_ACTIVE"], read: |d, _| truth(d.geometry.coordinates.rotation().is_some()) },
+    Row { name: &["G", "ROT_ANGLE"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.deg)) },
+    Row { name: &["G", "ROT_CENTER1"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[0]) / d.unit_mm()) },
+    Row { name: &["G", "ROT_CENTER2"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[1]) / d.unit_mm()) },
+    Row { name: &["G", "CS_ACTIVE"], read: |d, _| truth(d.geometry.coordinates.systems() > 0) },
+    Row { name: &["G", "CS_COUNT"], read: |d, _| number(d.geometry.coordinates.systems() as f64) },
+    Row { name: &["SPDL_PROG", "SPEED", "s"], read: |d, p| { let i = p.spindle(d, 2)?; number(d.motion.spindles[i].rpm) } },
+    Row { name: &["SPDL", "LOG_AX_NR", "s"], read: |d, p| {
+        let i = p.spindle(d, 2)?;
+        number(d.motion.spindles[i].index.map_or(0.0, |i| f64::from(d.machine.spindles[i].number())))
+    } },
+];
+
+fn limit(software_limits_mm: Option<(f64, f64)>) -> (f64, f64) {
+    software_limits_mm.unwrap_or((-1e9, 1e9))
+}
+
+fn offset(tool: &Tool, axis: usize) -> f64 {
+    tool.offsets_mm.get(&axis).copied().unwrap_or(0.0)
+}
+
+fn parameter(tool: &Tool, index: u32) -> f64 {
+    tool.parameters.get(&index).copied().unwrap_or(0.0)
+}
+
+/// Centre of the last arc relative to its start, along a main axis.
+fn centre(d: &Decoder, main: usize) -> Outcome<Value> {
+    let place = d.geometry.last_arc.plane.iter().position(|m| *m == main);
+    number(place.map_or(0.0, |k| d.geometry.last_arc.centre_mm[k]) / d.unit_mm())
+}
+
+impl Path<'_> {
+    /// A position of an axis in the unit of the program.
+    fn position(
+        &self,
+        d: &Decoder,
+        at: usize,
+        f: impl Fn(&Decoder, usize) -> f64,
+    ) -> Outcome<Value> {
+        let axis = self.axis(d, at)?;
+        number(f(d, axis) / d.axis_unit(axis))
+    }
+
+    /// Axis by name in the segment `at`, or by the index behind the segment before.
+    fn axis(&self, d: &Decoder, at: usize) -> Outcome<usize> {
+        if let Some(segment) = self.segments.get(at) {
+            return d.axis_of_name(&segment.name).ok_or_else(|| {
+                let text = format!("unknown axis `{}`", segment.name);
+                Fault::new(Condition::AxisIdentifier, text, self.span).hint(d.axis_hint())
+            });
+        }
+        let high = u32::try_from(d.machine.axes.len().saturating_sub(1)).unwrap_or(0);
+        let index = self.index(d, at - 1, high)? as usize;
+        Ok(index)
+    }
+
+    fn spindle(&self, d: &Decoder, at: usize) -> Outcome<usize> {
+        let name = self.segments.get(at).map_or("", |s| &*s.name);
+        d.spindle_of_name(name).ok_or_else(|| {
+            let text = format!("unknown spindle `{name}`");
+            Fault::new(Condition::AxisIdentifier, text, self.span)
+        })
+    }
+
+    /// Index behind a segment.
+    fn index(&self, d: &Decoder, at: usize, high: u32) -> Outcome<u32> {
+        let subscripts = self.segments.get(at).map(|s| &s.subscripts[..]);
+        match subscripts {
+            Some([expr]) => d.whole(expr, "the index", 0, high),
+            _ => Err(Fault::new(Condition::Syntax, "one index is expected", self.span)),
+        }
+    }
+
+    fn tool(&self, d: &Decoder) -> Outcome<Tool> {
+        let index = self.index(d, 1, u32::MAX)?;
+        Ok(d.geometry.tools.table.get(&index).cloned().unwrap_or_default())
+    }
+
+    /// `V.G.@P[i].VALID`.
+    fn passed(&self, d: &Decoder) -> Outcome<Value> {
+        let name = format!("P{}", self.index(d, 1, 200)?);
+        if let Some(passed) = d.values.variables.passed(&name) {
+            truth(passed)
+        } else {
+            let text = "V.G.@P[i].VALID is known only inside a cycle";
+            Err(Fault::new(Condition::ParameterOutsideCycle, text, self.span))
+        }
+    }
+}
+
+/// The row of a variable. A last `*` may be missing: then an index stands behind the segment before.
+fn find(segments: &[Segment]) -> Option<&'static Row> {
+    ROWS.iter().find(|row| {
+        let open = |pattern: &str| matches!(pattern, "*" | "s");
+        let indexed = row.name.len() == segments.len() + 1
+            && row.name.last() == Some(&"*")
+            && segments.last().is_some_and(|s| s.subscripts.len() == 1);
+        (row.name.len() == segments.len() || indexed)
+            && row
+                .name
+                .iter()
+                .zip(segments)
+                .all(|(pattern, s)| open(pattern) || s.name.eq_ignore_ascii_case(pattern))
+    })
+}
+
+fn written(segments: &[Segment]) -> String {
+    segments.iter().map(|s| &*s.name).collect::<Vec<_>>().join(".")
+}
+
+/// Reads a system variable.
+pub(in crate::exec) fn read(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<Value> {
+    match find(segments) {
+        Some(row) => (row.read)(d, &Path { segments, span }),
+        None => Err(unknown(d, segments, span)),
+    }
+}
+
+fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
+    let name = written(segments);
+    let class = segments.first().map_or("", |s| &*s.name).to_ascii_uppercase();
+    if matches!(class.as_str(), "TOOL" | "TLM" | "RTG" | "RTA" | "I") {
+        return Fault::unsupported(format!("variables V.{class}."), span);
+    }
+    let axis = d.names.axes.iter().flatten().next().map_or("X", String::as_str);
+    let names: Vec<String> =
+        ROWS.iter().map(|row| row.name.join(".").replace('*', axis).replace(".s", ".S")).collect();
+    let fault = Fault::new(Condition::Undefined, format!("unknown variable V.{name}"), span);
+    match suggest::nearest(&name, names.iter().map(String::as_str)) {
+        Some(near) => fault.hint(format!("did you mean `V.{near}`?")),
+        None => fault,
+    }
+}
+
+/// Writes a system variable; 20100 if it cannot be written.
+pub(in crate::exec) fn write(
+    d: &mut Decoder,
+    segments: &[Segment],
+    value: &Value,
+    span: Span,
+) -> Outcome<()> {
+    let path = Path { segments, span };
+    let names: Vec<String> = segments.iter().map(|s| s.name.to_ascii_uppercase()).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let x = || as_number(value, span);
+    match names[..] {
+        ["G", "NP", "V", _] | ["G", "NP", "V"] => {
+            let group = path.index(d, 1, 999)?;
+            let axis = path.axis(d, 3)?;
+            d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
+        }
+        ["G", "WZ_AKT", ..] => {
+            let mut tool = d.geometry.tools.active.clone();
+            write_tool(d, &path, &names[2..], &mut tool, x()?)?;
+            d.geometry.tools.active = tool;
+            d.tool_offsets();
+        }
+        ["G", "WZ", ..] => {
+            let index = path.index(d, 1, u32::MAX)?;
+            if d.geometry.tools.table.len() >= 10_000
+                && !d.geometry.tools.table.contains_key(&index)
+            {
+                let text = "the tool table holds at most 10000 tools";
+                return Err(Fault::new(Condition::Range, text, span));
+            }
+            let mut tool = path.tool(d)?;
+            write_tool(d, &path, &names[2..], &mut tool, x()?)?;
+            d.geometry.tools.table.insert(index, tool);
+        }
+        _ if find(segments).is_some() => {
+            let text = format!("V.{} may not be written", written(segments));
+            return Err(Fault::new(Condition::VariableNotWritable, text, span));
+        }
+        _ => return Err(unknown(d, segments, span)),
+    }
+    Ok(())
+}
+
+fn write_tool(
+    d: &Decoder,
+    path: &Path<'_>,
+    names: &[&str],
+    tool: &mut Tool,
+    x: f64,
+) -> Outcome<()> {
+    match *names {
+        ["R"] => tool.radius_mm = x,
+        ["L"] => tool.length_mm = x,
+        ["V", _] | ["V"] => {
+            tool.offsets_mm.insert(path.axis(d, 3)?, x);
+        }
+        ["P"] => {
+            tool.parameters.insert(path.index(d, 2, 1000)?, x);
+        }
+        _ => return Err(unknown(d, path.segments, path.span)),
+    }
+    Ok(())
+}
+
+/// True if reading this variable needs the machine at rest and its actual positions.
+pub(in crate::exec) fn needs_actual(segments: &[Segment]) -> bool {
+    let is =
+        |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
+    is(0, "A") && is(1, "ACT_POS")
+}
+
+/// True for `V.G.WZ_AKT`: the tool data in use.
+pub(in crate::exec) fn is_active_tool(segments: &[Segment]) -> bool {
+    let is =
+        |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
+    is(0, "G") && is(1, "WZ_AKT")
+}
+
+/// Timers of `#TIMER`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::exec) struct Timers {
+    started_s: std::collections::BTreeMap<u32, f64>,
+}
+
+impl Timers {
+    pub(in crate::exec) fn start(&mut self, index: u32, now_s: f64) {
+        self.started_s.insert(index, now_s);
+    }
+
+    /// Milliseconds since the start; 0 if it was not started.
+    fn read(&self, index: u32, now_s: f64) -> f64 {
+        let started = whole(f64::from(index), 0, 127).and_then(|i| self.started_s.get(&i));
+        started.map_or(0.0, |s| (now_s - s) * 1e3)
+    }
+}

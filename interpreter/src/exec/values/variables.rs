@@ -1,0 +1,311 @@
+//! P parameters, self-defined variables (`V.P`, `V.L`, `V.S`, `V.CYC`), external variables and cycle parameters.
+//!
+//! Source: TF5200 programming manual, parameters and variables. Assumptions: array indices begin at 0, a number written
+//! to an integer variable is rounded, an index of a P parameter is at most [`INDEX_MAX`] and all arrays together hold
+//! at most [`storage::ELEMENTS_MAX`] elements, so that a program cannot exhaust memory.
+
+mod declare;
+mod scopes;
+mod storage;
+
+use super::expr::{as_number, whole};
+use super::system;
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::{Access, External, Value};
+use crate::exec::suggest;
+use crate::syntax::ast::{Expr, ParameterIndex, Place, PlaceKind, Segment, Span};
+pub(in crate::exec) use scopes::Variables;
+use scopes::{Class, class};
+use smallvec::SmallVec;
+use storage::Variable;
+
+/// Highest index of a P parameter.
+const INDEX_MAX: u32 = 1_000_000;
+
+/// A resolved place.
+enum Target<'a> {
+    Parameter(u32, Subscripts),
+    Own(Class, Name<'a>, Subscripts),
+    External(String),
+    Cycle(&'a str),
+    System(&'a [Segment]),
+}
+
+type Subscripts = SmallVec<[f64; 2]>;
+type Name<'a> = std::borrow::Cow<'a, str>;
+
+fn undefined(what: &str, span: Span) -> Box<Fault> {
+    Fault::new(Condition::Undefined, format!("{what} has no value"), span)
+}
+
+/// `G04 P500` of other controls is a value read from P500 here.
+fn undefined_parameter(index: u32, span: Span) -> Box<Fault> {
+    undefined(&format!("P{index}"), span).hint(format!(
+        "P is a parameter in this dialect, not an address: P{index}=5 assigns a value"
+    ))
+}
+
+impl Decoder {
+    fn subscripts(&self, exprs: &[Expr]) -> Outcome<Subscripts> {
+        exprs.iter().map(|e| self.number(e)).collect()
+    }
+
+    fn resolve<'a>(&self, place: &'a Place) -> Outcome<Target<'a>> {
+        match &place.kind {
+            PlaceKind::Parameter { indirections, index, subscripts } => {
+                let index = self.parameter_index(index, *indirections, place.span)?;
+                Ok(Target::Parameter(index, self.subscripts(subscripts)?))
+            }
+            PlaceKind::Cycle(name) => Ok(Target::Cycle(name)),
+            PlaceKind::Variable(segments) => self.resolve_variable(segments),
+        }
+    }
+
+    fn resolve_variable<'a>(&self, segments: &'a [Segment]) -> Outcome<Target<'a>> {
+        let first = segments.first().map_or("", |s| &*s.name);
+        let rest = segments.get(1..).unwrap_or_default();
+        if first.eq_ignore_ascii_case("E") {
+            return Ok(Target::External(self.external_name(rest)?));
+        }
+        let Some((class, _)) = class(first) else { return Ok(Target::System(segments)) };
+        if let [only] = rest {
+            let subscripts = self.subscripts(&only.subscripts)?;
+            return Ok(Target::Own(class, Name::Borrowed(&only.name), subscripts));
+        }
+        let mut subscripts = Subscripts::new();
+        let mut name = String::new();
+        for segment in rest {
+            if !name.is_empty() {
+                name.push('.');
+            }
+            name.push_str(&segment.name);
+            subscripts.extend(self.subscripts(&segment.subscripts)?);
+        }
+        Ok(Target::Own(class, Name::Owned(name), subscripts))
+    }
+
+    fn external_name(&self, segments: &[Segment]) -> Outcome<String> {
+        use std::fmt::Write as _;
+        let mut name = String::new();
+        for segment in segments {
+            if !name.is_empty() {
+                name.push('.');
+            }
+            name.push_str(&segment.name);
+            for x in self.subscripts(&segment.subscripts)? {
+                // writing to a String cannot fail
+                let _ = write!(name, "[{}]", x.round());
+            }
+        }
+        Ok(name)
+    }
+
+    fn parameter_index(
+        &self,
+        index: &ParameterIndex,
+        indirections: u32,
+        span: Span,
+    ) -> Outcome<u32> {
+        let checked = |x: f64| {
+            whole(x, 1, INDEX_MAX).ok_or_else(|| {
+                let text = format!("P{x} does not exist, indices are 1 to {INDEX_MAX}");
+                Fault::new(Condition::Range, text, span)
+            })
+        };
+        let mut index = match index {
+            ParameterIndex::Literal(n) => checked(f64::from(*n))?,
+            ParameterIndex::Computed(expr) => checked(self.number(expr)?)?,
+        };
+        for _ in 0..indirections {
+            let value = match self.values.variables.parameters().get(&index) {
+                Some(variable) => variable.get(&[], span)?,
+                None => return Err(undefined_parameter(index, span)),
+            };
+            index = checked(as_number(&value, span)?)?;
+        }
+        Ok(index)
+    }
+
+    /// Value of a place.
+    pub(in crate::exec) fn read(&self, place: &Place) -> Outcome<Value> {
+        let span = place.span;
+        match self.resolve(place)? {
+            Target::Parameter(index, subscripts) => {
+                match self.values.variables.parameters().get(&index) {
+                    Some(variable) => variable.get(&subscripts, span),
+                    None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
+                    None if self.machine.channel.keep_p_parameters => {
+                        let hint =
+                            "P-CHAN-00067 keeps parameters of earlier programs; here none ran";
+                        Err(undefined_parameter(index, span).hint(hint))
+                    }
+                    None => Err(undefined_parameter(index, span)),
+                }
+            }
+            Target::Own(class, name, subscripts) => {
+                match self.values.variables.find(class, &name) {
+                    Some(variable) => variable.get(&subscripts, span),
+                    None => Err(self.unknown(class, &name, span)),
+                }
+            }
+            Target::External(name) => match self.values.variables.external.get(&name) {
+                Some(External { access: Access::WriteOnly, .. }) => Err(Fault::new(
+                    Condition::VariableNotReadable,
+                    format!("V.E.{name} may not be read"),
+                    span,
+                )),
+                Some(external) => Ok(external.value.clone()),
+                None => {
+                    let known = self.values.variables.external.keys().map(String::as_str);
+                    let hint = suggest::hint(&name, known);
+                    let fault = undefined(&format!("V.E.{name}"), span);
+                    Err(match hint {
+                        Some(hint) => fault.hint(hint),
+                        None => fault.hint("external variables get their values from --external"),
+                    })
+                }
+            },
+            Target::Cycle(name) => self.cycle_parameter(name, span),
+            Target::System(segments) => system::read(self, segments, span),
+        }
+    }
+
+    fn cycle_parameter(&self, name: &str, span: Span) -> Outcome<Value> {
+        let Some(scope) = self.values.variables.cycles.last() else {
+            let text = format!("@{name} exists only inside a cycle");
+            return Err(Fault::new(Condition::Undefined, text, span));
+        };
+        scope.passed.get(name).cloned().ok_or_else(|| {
+            undefined(&format!("@{name}"), span).hint(format!("test V.G.@{name}.VALID first"))
+        })
+    }
+
+    fn unknown(&self, class: Class, name: &str, span: Span) -> Box<Fault> {
+        let letter = match class {
+            Class::Program => "P",
+            Class::Local => "L",
+            Class::Shared => "S",
+            Class::Cycle => "CYC",
+        };
+        let fault = undefined(&format!("V.{letter}.{name}"), span);
+        match suggest::nearest(name, self.values.variables.names(class)) {
+            Some(near) => fault.hint(format!("did you mean `V.{letter}.{near}`?")),
+            None => fault,
+        }
+    }
+
+    /// Writes a place; a text may go to variables, not to P parameters.
+    pub(in crate::exec) fn write(
+        &mut self,
+        place: &Place,
+        value: Value,
+        value_span: Span,
+    ) -> Outcome<()> {
+        let span = place.span;
+        match self.resolve(place)? {
+            Target::Parameter(index, subscripts) => {
+                let number = Value::Number(as_number(&value, value_span)?);
+                let table = self.values.variables.parameters_mut();
+                match table.get_mut(&index) {
+                    Some(variable) => variable.set(&subscripts, number, span),
+                    None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
+                    None => {
+                        table.insert(index, Variable::created(number));
+                        Ok(())
+                    }
+                }
+            }
+            Target::Own(class, name, subscripts) => {
+                if let Some(variable) = self.values.variables.find_mut(class, &name) {
+                    return variable.set(&subscripts, value, value_span);
+                }
+                let by_write = matches!(class, Class::Program | Class::Shared);
+                if !by_write || !subscripts.is_empty() {
+                    let fault = self.unknown(class, &name, span);
+                    return Err(fault.hint("declare it between #VAR and #ENDVAR"));
+                }
+                if let Some(table) = self.values.variables.table(class) {
+                    table.insert((&*name).into(), Variable::created(value));
+                }
+                Ok(())
+            }
+            Target::External(name) => self.write_external(name, value, span),
+            Target::Cycle(name) => {
+                let text = format!("@{name} may not be written");
+                Err(Fault::new(Condition::VariableNotWritable, text, span))
+            }
+            Target::System(segments) => system::write(self, segments, &value, span),
+        }
+    }
+
+    fn write_external(&mut self, name: String, value: Value, span: Span) -> Outcome<()> {
+        match self.values.variables.external.get_mut(&name) {
+            Some(External { access: Access::ReadOnly, .. }) => Err(Fault::new(
+                Condition::VariableNotWritable,
+                format!("V.E.{name} may not be written"),
+                span,
+            )),
+            Some(external) => {
+                external.value = value;
+                Ok(())
+            }
+            None => {
+                let text = format!("V.E.{name} is not configured, the program created it");
+                self.note(Fault::new(Condition::ExternalCreated, text, span));
+                let access = Access::ReadWrite;
+                self.values.variables.external.insert(name, External { value, access });
+                Ok(())
+            }
+        }
+    }
+
+    /// Whether a variable or parameter exists.
+    pub(in crate::exec) fn exists(&self, place: &Place) -> Outcome<bool> {
+        Ok(match self.resolve(place)? {
+            Target::Parameter(index, _) => self.values.variables.parameters().contains_key(&index),
+            Target::Own(class, name, _) => self.values.variables.find(class, &name).is_some(),
+            Target::External(name) => self.values.variables.external.contains_key(&name),
+            Target::Cycle(name) => self.values.variables.passed(name).unwrap_or(false),
+            Target::System(segments) => system::read(self, segments, place.span).is_ok(),
+        })
+    }
+
+    /// Sizes of the dimensions of an array; none for a scalar.
+    pub(in crate::exec) fn dimensions(&self, place: &Place) -> Outcome<Vec<usize>> {
+        let found = match self.resolve(place)? {
+            Target::Parameter(index, _) => self.values.variables.parameters().get(&index),
+            Target::Own(class, name, _) => self.values.variables.find(class, &name),
+            _ => None,
+        };
+        Ok(found.map(|v| v.sizes.to_vec()).unwrap_or_default())
+    }
+
+    /// `#DELETE`.
+    pub(in crate::exec) fn delete(&mut self, place: &Place) -> Outcome<()> {
+        let span = place.span;
+        let removed = match self.resolve(place)? {
+            Target::Parameter(index, _) => self.values.variables.parameters_mut().remove(&index),
+            Target::Own(class, name, _) => {
+                let gone =
+                    self.values.variables.table(class).and_then(|table| table.remove(&*name));
+                if gone.is_none() {
+                    return Err(self.unknown(class, &name, span));
+                }
+                gone
+            }
+            Target::External(_) | Target::Cycle(_) | Target::System(_) => {
+                let text = "only self-defined variables can be deleted";
+                return Err(Fault::new(Condition::VariableNotWritable, text, span));
+            }
+        };
+        self.values.variables.elements -= removed.map_or(0, |v| v.elements());
+        Ok(())
+    }
+}
+
+fn undeclared_array(index: u32, span: Span) -> Box<Fault> {
+    Fault::new(Condition::ArrayNotDeclared, format!("P{index} is not declared as an array"), span)
+        .hint(format!("declare it between #VAR and #ENDVAR: P{index}[size]"))
+}

@@ -1,0 +1,179 @@
+//! Declarations: `#VAR`, types, sizes and start values of variables and arrays.
+
+use super::scopes::{Class, class};
+use super::storage::{DIMENSIONS_MAX, ELEMENTS_MAX, Type, Values, Variable};
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::Value;
+use crate::syntax::ast::{Declaration, Expr, ItemKind, ItemValue, Place, PlaceKind, Span};
+use smallvec::SmallVec;
+
+impl Decoder {
+    /// One line between `#VAR` and `#ENDVAR`.
+    pub(in crate::exec) fn declare(&mut self, declaration: &Declaration) -> Outcome<()> {
+        let span = declaration.place.span;
+        let kind = self.declared_type(declaration)?;
+        let (target, class_of) = match &declaration.place.kind {
+            PlaceKind::Parameter { indirections, index, .. } => {
+                let index = self.parameter_index(index, *indirections, span)?;
+                (format!("{index}"), None)
+            }
+            PlaceKind::Variable(segments) => {
+                let first = segments.first().map_or("", |s| &*s.name);
+                let Some((class, _)) = class(first) else {
+                    let text = format!("variables of class V.{first} cannot be declared");
+                    return Err(Fault::new(Condition::VariableClass, text, span));
+                };
+                let names: Vec<&str> = segments[1..].iter().map(|s| &*s.name).collect();
+                (names.join("."), Some(class))
+            }
+            PlaceKind::Cycle(_) => {
+                return Err(Fault::new(Condition::Syntax, "a variable is expected", span));
+            }
+        };
+        let sizes = self.sizes(&declaration.place)?;
+        let count: usize = sizes.iter().product();
+        if sizes.len() > DIMENSIONS_MAX {
+            let text = format!("arrays have at most {DIMENSIONS_MAX} dimensions");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        if !sizes.is_empty() && self.values.variables.elements.saturating_add(count) > ELEMENTS_MAX
+        {
+            let text = format!("all arrays together hold at most {ELEMENTS_MAX} elements");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        let values = self.start_values(declaration, kind, &sizes, count)?;
+        let variable = Variable { kind: Some(kind), sizes, values };
+        let exists = match class_of {
+            None => {
+                let index = target.parse().unwrap_or(0);
+                let table = self.values.variables.parameters_mut();
+                // a parameter created by a write may become an array
+                let known = table.get(&index).is_some_and(|v| v.sizes == variable.sizes);
+                if !known {
+                    self.insert_parameter(index, variable);
+                }
+                known
+            }
+            Some(class) => self.insert_variable(class, &target, variable, span)?,
+        };
+        if exists {
+            let text = format!("{} exists already", declaration.place);
+            return Err(Fault::new(Condition::VariableExists, text, span));
+        }
+        Ok(())
+    }
+
+    fn insert_parameter(&mut self, index: u32, variable: Variable) {
+        self.values.variables.elements += variable.elements();
+        if let Some(old) = self.values.variables.parameters_mut().insert(index, variable) {
+            self.values.variables.elements -= old.elements();
+        }
+    }
+
+    /// True if the variable existed before.
+    fn insert_variable(
+        &mut self,
+        class: Class,
+        name: &str,
+        variable: Variable,
+        span: Span,
+    ) -> Outcome<bool> {
+        let elements = variable.elements();
+        let Some(table) = self.values.variables.table(class) else {
+            let text = "V.CYC variables exist only inside a cycle";
+            return Err(Fault::new(Condition::VariableClass, text, span));
+        };
+        if table.contains_key(name) {
+            return Ok(true);
+        }
+        table.insert(name.into(), variable);
+        self.values.variables.elements += elements;
+        Ok(false)
+    }
+
+    fn declared_type(&self, declaration: &Declaration) -> Outcome<Type> {
+        let Some(name) = &declaration.type_name else {
+            let text = matches!(
+                &declaration.value,
+                Some(ItemValue::Expr(e)) if matches!(self.value(e), Ok(Value::Text(_)))
+            );
+            return Ok(if text { Type::Text(126) } else { Type::Real });
+        };
+        let kind = Type::from_name(&name.text.to_ascii_uppercase()).ok_or_else(|| {
+            Fault::new(Condition::VariableType, format!("unknown type {}", name.text), name.span)
+                .hint("types are BOOLEAN, SGN08 to SGN32, UNS08 to UNS32, REAL64, STRING[n]")
+        })?;
+        match (&declaration.length, kind) {
+            (Some(length), Type::Text(_)) => {
+                Ok(Type::Text(self.whole(length, "the length of a text", 0, 126)? as usize))
+            }
+            _ => Ok(kind),
+        }
+    }
+
+    pub(super) fn sizes(&self, place: &Place) -> Outcome<SmallVec<[usize; 2]>> {
+        let high = u32::try_from(ELEMENTS_MAX).unwrap_or(u32::MAX);
+        let size = |e: &Expr| self.whole(e, "the size of a dimension", 1, high).map(|n| n as usize);
+        match &place.kind {
+            PlaceKind::Parameter { subscripts, .. } => subscripts.iter().map(size).collect(),
+            PlaceKind::Variable(segments) => {
+                segments.iter().flat_map(|s| &s.subscripts).map(size).collect()
+            }
+            PlaceKind::Cycle(_) => Ok(SmallVec::new()),
+        }
+    }
+
+    fn start_values(
+        &self,
+        declaration: &Declaration,
+        kind: Type,
+        sizes: &[usize],
+        count: usize,
+    ) -> Outcome<Values> {
+        let one = |e: &Expr| kind.converted(self.value(e)?, e.span);
+        if sizes.is_empty() {
+            return Ok(Values::One(match &declaration.value {
+                None => kind.zero(),
+                Some(ItemValue::Expr(e)) => one(e)?,
+                Some(ItemValue::Name(n)) => {
+                    return Err(Fault::new(Condition::Syntax, "a value is expected", n.span));
+                }
+                Some(ItemValue::List(g)) => {
+                    return Err(Fault::new(
+                        Condition::Syntax,
+                        "a single value is expected",
+                        g.span,
+                    ));
+                }
+            }));
+        }
+        let mut values = Vec::new();
+        match &declaration.value {
+            None => {}
+            Some(ItemValue::List(group)) => {
+                for item in &group.items {
+                    match &item.kind {
+                        ItemKind::Value(ItemValue::Expr(e)) => values.push(one(e)?),
+                        ItemKind::Missing => values.push(kind.zero()),
+                        _ => {
+                            let text = "a value is expected";
+                            return Err(Fault::new(Condition::Syntax, text, item.span));
+                        }
+                    }
+                }
+            }
+            Some(ItemValue::Expr(e)) => values.push(one(e)?),
+            Some(ItemValue::Name(n)) => {
+                return Err(Fault::new(Condition::Syntax, "a value is expected", n.span));
+            }
+        }
+        if values.len() > count {
+            let text = format!("{} values for {count} elements", values.len());
+            return Err(Fault::new(Condition::Range, text, declaration.span));
+        }
+        values.resize(count, kind.zero());
+        Ok(Values::Many(values))
+    }
+}

@@ -1,0 +1,156 @@
+//! A variable, its type and its elements.
+
+use crate::diag::{Condition, ValueKind};
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::Value;
+use crate::exec::values::expr::{as_number, is_true, whole};
+use crate::syntax::ast::Span;
+use smallvec::SmallVec;
+
+/// Elements of all arrays together.
+pub(super) const ELEMENTS_MAX: usize = 4_000_000;
+
+/// Dimensions of an array.
+pub(super) const DIMENSIONS_MAX: usize = 4;
+
+/// Type of a declared variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Type {
+    Boolean,
+    /// Whole numbers of a range.
+    Integer {
+        low: i64,
+        high: i64,
+    },
+    Real,
+    /// Text of so many characters.
+    Text(usize),
+}
+
+impl Type {
+    pub(super) fn from_name(name: &str) -> Option<Self> {
+        let signed =
+            |bits: u32| Self::Integer { low: -(1 << (bits - 1)), high: (1 << (bits - 1)) - 1 };
+        let unsigned = |bits: u32| Self::Integer { low: 0, high: (1 << bits) - 1 };
+        Some(match name {
+            "BOOLEAN" | "BOOL" => Self::Boolean,
+            "SGN08" => signed(8),
+            "SGN16" => signed(16),
+            "SGN32" => signed(32),
+            "UNS08" => unsigned(8),
+            "UNS16" => unsigned(16),
+            "UNS32" => unsigned(32),
+            "REAL64" | "REAL" => Self::Real,
+            "STRING" => Self::Text(126),
+            _ => return None,
+        })
+    }
+
+    pub(super) fn zero(self) -> Value {
+        match self {
+            Self::Text(_) => Value::Text("".into()),
+            _ => Value::Number(0.0),
+        }
+    }
+
+    /// The value as a variable of this type holds it.
+    pub(super) fn converted(self, value: Value, span: Span) -> Outcome<Value> {
+        Ok(match self {
+            Self::Boolean => Value::truth(is_true(as_number(&value, span)?)),
+            Self::Real => Value::Number(as_number(&value, span)?),
+            Self::Integer { low, high } => {
+                let x = as_number(&value, span)?.round();
+                if x < low as f64 || x > high as f64 {
+                    let text = format!("{x} is outside {low} to {high}");
+                    return Err(Fault::new(Condition::Range, text, span));
+                }
+                Value::Number(x + 0.0)
+            }
+            Self::Text(length) => match value {
+                Value::Text(text) if text.chars().count() > length => {
+                    let text = format!("the text is longer than {length} characters");
+                    return Err(Fault::new(Condition::Range, text, span));
+                }
+                Value::Text(text) => Value::Text(text),
+                Value::Number(_) => {
+                    return Err(Fault::new(Condition::Syntax, "a text is expected", span));
+                }
+            },
+        })
+    }
+}
+
+/// A variable.
+#[derive(Clone, Debug)]
+pub(super) struct Variable {
+    pub(super) kind: Option<Type>,
+    pub(super) sizes: SmallVec<[usize; 2]>,
+    pub(super) values: Values,
+}
+
+impl Variable {
+    /// A variable that its first write creates: it takes the type of what is written.
+    pub(super) fn created(value: Value) -> Self {
+        let kind = match value {
+            Value::Number(_) => Some(Type::Real),
+            Value::Text(_) => None,
+        };
+        Self { kind, sizes: SmallVec::new(), values: Values::One(value) }
+    }
+
+    pub(super) fn get(&self, subscripts: &[f64], span: Span) -> Outcome<Value> {
+        match (&self.values, self.index(subscripts, span)?) {
+            (Values::One(value), _) => Ok(value.clone()),
+            (Values::Many(values), i) => Ok(values[i].clone()),
+        }
+    }
+
+    pub(super) fn set(&mut self, subscripts: &[f64], value: Value, span: Span) -> Outcome<()> {
+        let i = self.index(subscripts, span)?;
+        let value = match self.kind {
+            Some(kind) => kind.converted(value, span)?,
+            None => value,
+        };
+        match &mut self.values {
+            Values::One(slot) => *slot = value,
+            Values::Many(values) => values[i] = value,
+        }
+        Ok(())
+    }
+
+    fn index(&self, subscripts: &[f64], span: Span) -> Outcome<usize> {
+        if subscripts.len() != self.sizes.len() {
+            let text = format!(
+                "{} subscript(s) are written, the variable has {} dimension(s)",
+                subscripts.len(),
+                self.sizes.len()
+            );
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        let mut index = 0;
+        for (x, size) in subscripts.iter().zip(&self.sizes) {
+            let high = u32::try_from(size - 1).unwrap_or(u32::MAX);
+            let Some(i) = whole(*x, 0, high) else {
+                let text = format!("subscript {x} is outside 0 to {high}");
+                return Err(Fault::new(Condition::Range, text, span)
+                    .with(|d| d.value(ValueKind::Current, *x, "-")));
+            };
+            index = index * size + i as usize;
+        }
+        Ok(index)
+    }
+
+    pub(super) fn elements(&self) -> usize {
+        match &self.values {
+            Values::One(_) => 0,
+            Values::Many(values) => values.len(),
+        }
+    }
+}
+
+/// Its value or values.
+#[derive(Clone, Debug)]
+pub(super) enum Values {
+    One(Value),
+    Many(Vec<Value>),
+}

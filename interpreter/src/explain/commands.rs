@@ -1,0 +1,130 @@
+//! G functions and words in brackets, one row each; what `#` commands say of themselves stands in their own rows.
+
+use super::{Explanation, Kind};
+use crate::exec::commands;
+
+/// One command.
+struct Command {
+    /// Names it is asked for by, the first one is printed.
+    names: &'static [&'static str],
+    syntax: &'static str,
+    meaning: &'static str,
+    /// Keys with range and default.
+    keys: &'static str,
+    note: &'static str,
+    example: &'static str,
+    related: &'static [&'static str],
+}
+
+/// Reads a row as a table line.
+const fn row(
+    names: &'static [&'static str],
+    syntax: &'static str,
+    meaning: &'static str,
+    keys: &'static str,
+    note: &'static str,
+    example: &'static str,
+    related: &'static [&'static str],
+) -> Command {
+    Command { names, syntax, meaning, keys, note, example, related }
+}
+
+/// Source: TF5200 programming manual, TF5200 feedforward control, TF5200 FIR filter, TF5250 Vibration Guard.
+#[rustfmt::skip]
+const COMMANDS: &[Command] = &[
+    row(&["INDP_SYN", "INDP_ASYN"], "X[INDP_SYN|INDP_ASYN G90|G91 G00|G01 FEED=..|TIME=..|FEED_MAX_WEIGHT=.. POS=.. SLOPE_TYPE=..]",
+        "moves one axis beside the path on a profile of its own; with INDP_SYN the next block begins when it has arrived, with INDP_ASYN it goes on over several blocks",
+        "FEED in the unit of F; TIME in s from rest to rest; FEED_MAX_WEIGHT above 0 to 100 % of P-AXIS-00212; SLOPE_TYPE STEP, TRAPEZ, SIN2, default P-CHAN-00071",
+        "no offsets, no weights of G130 to G133, no override. A path that moves the axis waits for it", "X[INDP_ASYN G90 G01 FEED=1000 POS=50]", &["21068", "#WAIT", "P-AXIS-00212", "P-CHAN-00071"]),
+    row(&["G00", "G0"], "G00 X.. Y..", "straight line at rapid: at least one axis at its rapid speed", "", "", "G00 X10 Y20", &["P-AXIS-00209", "P-AXIS-00004", "P-AXIS-00200", "G129"]),
+    row(&["G01", "G1"], "G01 X.. F..", "straight line at feed F", "", "without any F: 20008", "G01 X10 F2000", &["20008", "P-CHAN-00099", "P-CHAN-00108"]),
+    row(&["G02", "G03", "G2", "G3"], "G02 X.. Y.. I.. J..   G02 X.. Y.. R..", "arc in the plane, clockwise (G02) or counter-clockwise (G03)", "", "full circles need the centre, not R (20034)", "G02 X10 Y0 I5 J0 F1000", &["20034", "20036", "21024", "21758", "G161", "G164", "P-CHAN-00059", "P-CHAN-00171"]),
+    row(&["G04", "G4"], "G04 t   G04 P.. X..   G04 S..", "dwell in seconds, or in revolutions of the main spindle", "", "", "G04 2.5", &["20752", "20013", "#TIME"]),
+    row(&["G17", "G18", "G19"], "G17", "plane of arcs: first and second, third and first, second and third main axis", "", "", "G17", &[]),
+    row(&["G40", "G41", "G42"], "G41 X.. Y..", "tool radius compensation off, left of the contour, right of it", "", "the first line leads to the parallel; outer corners by G25 or G26; the radius comes from D or V.G.WZ_AKT.R", "G41 X10 Y0 D1", &["G25", "G237", "90008", "90031", "K-0115"]),
+    row(&["G25", "G26"], "G26", "outer corners of tool radius compensation: by lines, by arcs", "", "a program starts with G26 here, on the control with G25", "G25", &["G41"]),
+    row(&["G139", "G237"], "G237", "tool radius compensation is selected and deselected by a line to the parallel, or perpendicular to the contour", "", "with G237 a contour may begin and end with arcs", "G237", &["G41"]),
+    row(&["G98", "G99"], "G98 X..   G99 X..", "negative, positive software limit of an axis until the end of the program", "", "", "G99 X500", &["21897", "P-AXIS-00177", "P-AXIS-00178"]),
+    row(&["M06", "M6"], "M06", "tool change: the subroutine that is configured, else a function for the log", "", "#FILE NAME [M6=\"file\"] names another subroutine", "T5 M06", &["P-CHAN-00118"]),
+    row(&["G60"], "G60", "exact stop at the end of this block", "", "the next block starts when every axis is in its window", "N10 G01 G60 X10 F1000", &["P-AXIS-00236", "P-AXIS-00532", "70082", "G360"]),
+    row(&["G360", "G359"], "G360   G359", "exact stop at every block end on, off; modal", "", "", "G360", &["P-AXIS-00236", "70082"]),
+    row(&["G61", "G261", "G260"], "G61   G261   G260", "contouring at this block's end, on, off", "", "", "G261", &["#CONTOUR MODE", "120206"]),
+    row(&["G70", "G71"], "G70", "inch, mm for linear axes", "", "tolerance words stay mm under G70 unless P-CHAN-00439 is 1", "G70", &["P-CHAN-00054", "P-CHAN-00439"]),
+    row(&["G90", "G91"], "G90", "absolute, incremental coordinates", "", "", "G91", &[]),
+    row(&["G93", "G94", "G95", "G194"], "G94 F..", "F is: seconds for the block, feed per minute, feed per revolution, percent of the greatest path feed", "", "each kind keeps its own F", "G94 F2000", &["P-CHAN-00108", "20121"]),
+    row(&["G115", "G116", "G117"], "G116", "look-ahead off, every transition is a stop, complete look-ahead", "", "", "G117", &["20151", "P-STUP-00070"]),
+    row(&["G127", "G128"], "G127 X..   G128=..", "weight of the maximum speed in percent, per axis or for all", "", "", "G128=50", &["P-AXIS-00212"]),
+    row(&["G129"], "G129=..", "percent of the rapid speed", "", "", "G129=50", &["P-AXIS-00209"]),
+    row(&["G130", "G131"], "G130 X..   G131=..", "percent of the feed accelerations, per axis or for all", "", "of the list value, not of the weight before; above P-AXIS-00292: 50130", "G131=80", &["50130", "P-AXIS-00292", "P-CHAN-00001"]),
+    row(&["G132", "G133"], "G132 X..   G133=..", "percent of the feed ramp times, per axis or for all", "", "not below P-AXIS-00293", "G133=150", &["P-AXIS-00293", "P-CHAN-00073"]),
+    row(&["G134"], "G134=..", "percent of the geometric ramp time", "", "", "G134=200", &["P-AXIS-00199"]),
+    row(&["G230", "G231"], "G230 X..   G231=..", "percent of the rapid acceleration, per axis or for all", "", "", "G231=80", &["50130", "P-AXIS-00004"]),
+    row(&["G233"], "G233=..", "percent of the rapid ramp time", "", "", "G233=150", &["120630", "P-AXIS-00200"]),
+    row(&["G135", "G137"], "G135   G137", "feedforward of all axes of the channel on, off; modal, off at program start", "", "weights of G136 stay. A list switches it on for good with vorsteuer.default_active", "G135", &["G136", "P-AXIS-00223", "P-AXIS-00255", "P-AXIS-00256", "K-0022"]),
+    row(&["G136"], "G136 X.. Y..", "weights of the feedforward in percent, axis by axis; modal", "0..100 %, 100 at program start; more is limited (K-0020), below 0 refused (K-0021)", "axes that are not named keep their weight; the axis words of the block are weights, not positions. Spindles: S[G135 G136=80]", "G135 G136 X80 Y95", &["G135", "K-0020", "K-0021", "21738", "P-AXIS-00228"]),
+    row(&["G161", "G162"], "G161   G162", "I, J, K absolute, relative to the start point", "", "", "G162", &["G02"]),
+    row(&["G164", "G165"], "G164   G165", "centre correction of arcs off, on", "", "", "G165", &["21758", "P-CHAN-00059", "P-CHAN-00060", "P-CHAN-00171", "P-CHAN-00172"]),
+    row(&["G166"], "G166", "override 100 % for this block, of the program and of the real-time inputs", "", "", "G01 G166 X10", &["#OVERRIDE"]),
+    row(&["M02", "M30", "M2"], "M30", "end of the program: it has ended when every axis is in its exact-stop window", "", "the trace goes on until then, or until 70082", "M30", &["K-0003", "70082", "K-0130"]),
+    row(&["M00", "M01", "M0", "M1"], "M00", "programmed stop, optional stop: the path stops; here the program goes on at once", "", "", "M00", &[]),
+    row(&["M03", "M04", "M05", "M3", "M4", "M5"], "M03 S..   S[M3 REV..]", "spindle clockwise, counter-clockwise, stop", "S, REV in rev/min, limited to P-AXIS-00212 (K-0131)", "the main spindle is that of P-CHAN-00051, addressed by P-CHAN-00053", "S1000 M3", &["M19", "K-0131", "P-CHAN-00051", "P-CHAN-00053"]),
+    row(&["M19"], "M19   S[M19 POS=.. REV=..]", "spindle to an angle, in positive direction", "POS in deg, default 0; REV in rev/min, default the S word, without one the limit of the spindle", "monitored like an exact stop, in degrees", "S[M19 POS=90 REV=100]", &["M03", "70082", "P-AXIS-00236", "P-AXIS-00532"]),
+    row(&["M17", "M29"], "M17", "end of a subroutine", "", "", "M17", &["K-0003"]),
+];
+
+/// Names of all commands.
+pub(super) fn names() -> impl Iterator<Item = String> {
+    let functions = COMMANDS.iter().flat_map(|c| c.names.iter().map(|name| (*name).to_owned()));
+    commands::explained().map(|row| format!("#{}", row.name)).chain(functions)
+}
+
+/// The command with a name; blanks and case do not count, what follows the name is ignored (`#VIB GUARD ON`).
+pub(super) fn find(thing: &str) -> Option<Explanation> {
+    let words: Vec<String> = thing.split_whitespace().map(str::to_ascii_uppercase).collect();
+    let wanted = words.join(" ");
+    let wanted = wanted.split('[').next().unwrap_or_default().trim_end();
+    let is_named = |name: &str| {
+        wanted == name || wanted.strip_prefix(name).is_some_and(|rest| rest.starts_with(' '))
+    };
+    if let Some(function) = COMMANDS.iter().find(|c| c.names.iter().any(|name| is_named(name))) {
+        return Some(explained(
+            function.names.join(", "),
+            [function.syntax, function.meaning, function.note, function.example],
+            function.keys.to_owned(),
+            function.related,
+        ));
+    }
+    // the longest name: `#CS DEF` is not `#CS`
+    let row = commands::explained()
+        .filter(|row| is_named(&format!("#{}", row.name)))
+        .max_by_key(|row| row.name.len())?;
+    let keys: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
+    Some(explained(
+        format!("#{}", row.name),
+        [row.form, row.meaning, row.note, row.example],
+        keys.join("; "),
+        row.related,
+    ))
+}
+
+fn explained(
+    title: String,
+    [form, meaning, note, example]: [&'static str; 4],
+    keys: String,
+    related: &[&'static str],
+) -> Explanation {
+    let text = |s: &'static str| (!s.is_empty()).then(|| s.to_owned());
+    let mut facts = vec![("form", form.to_owned())];
+    if !keys.is_empty() {
+        facts.push(("keys", keys));
+    }
+    Explanation {
+        kind: Kind::Command,
+        title,
+        meaning: meaning.to_owned(),
+        facts,
+        notes: text(note).into_iter().collect(),
+        example: text(example),
+        related: related.iter().map(|s| (*s).to_owned()).collect(),
+    }
+}

@@ -1,0 +1,116 @@
+use super::*;
+use crate::machine::lists;
+
+fn fact(e: &Explanation, name: &str) -> String {
+    e.facts.iter().find(|(n, _)| *n == name).map(|(_, fact)| fact.clone()).unwrap_or_default()
+}
+
+#[test]
+fn every_parameter_and_message_is_explained() {
+    for row in table::rows() {
+        for thing in [row.id, row.key].into_iter().filter(|s| !s.is_empty()) {
+            let e = explain(thing).unwrap();
+            assert_eq!(e.kind, Kind::Parameter, "{thing}");
+            assert_eq!(e.meaning, row.meaning, "{thing}");
+        }
+    }
+    for entry in condition::rows() {
+        let e = explain(&entry.id.to_string()).unwrap();
+        assert_eq!(e.kind, Kind::Message);
+        for thing in &e.related {
+            assert!(explain(thing).is_ok(), "{} -> {thing}", entry.id);
+        }
+    }
+}
+
+#[test]
+fn parameters_of_the_function_manuals_are_known() {
+    // every parameter named in the manuals of axis filters, Improved Position Control, feedforward, position
+    // monitoring and Vibration Guard
+    let axis = "00001 00013 00015 00065 00067 00080 00092 00128 00129 00140 00151 00153 00164 00165 00204 00205 \
+                00206 00207 00212 00223 00225 00226 00228 00229 00233 00234 00236 00255 00319 00325 00326 00337 \
+                00338 00357 00362 00363 00389 00390 00391 00392 00405 00440 00511 00512 00513 00514 00515 00532 \
+                00568 00571 00588 00589 00735 00736 00737 00738 00739 00740 00741 00742 00750 00751 00752 00753 \
+                00754 00755 00756 00757 00758";
+    for number in axis.split_whitespace() {
+        assert!(explain(&format!("P-AXIS-{number}")).is_ok(), "{number}");
+    }
+    for thing in ["P-CHAN-00036", "P-CHAN-00071", "P-CHAN-00439"] {
+        assert!(explain(thing).is_ok(), "{thing}");
+    }
+    for id in [
+        "22060", "70082", "70348", "70349", "70350", "70351", "70600", "110465", "110473", "110579",
+    ] {
+        assert!(explain(id).is_ok() && explain(&format!("P-ERR-{id}")).is_ok(), "{id}");
+    }
+}
+
+#[test]
+fn examples_of_parameters_load_without_a_message() {
+    for row in table::rows().filter(|r| !r.key.is_empty()) {
+        let example = explain(row.key).unwrap().example.unwrap();
+        let mut diagnostics = Vec::new();
+        let list = lists::read(row.list, "example", example.as_bytes(), &mut diagnostics);
+        assert_eq!(diagnostics, [], "{example}");
+        assert_eq!(list.entries.len(), 1, "{example}");
+    }
+}
+
+/// Conformance: F017, F072.
+#[test]
+fn facts_of_a_parameter() {
+    let e = explain("p-axis-00223").unwrap();
+    assert_eq!(fact(&e, "default"), "NONE");
+    assert_eq!(
+        fact(&e, "names"),
+        "NONE 0x0, VEL 0x1, ACC 0x2, JERK 0x4, ADD_VEL 0x101, ADD_ACC 0x202, ADD_JERK 0x804"
+    );
+    let e = explain("getriebe[0].gear_fact_denom").unwrap();
+    assert_eq!(
+        (e.title.as_str(), fact(&e, "default").as_str()),
+        ("P-AXIS-00512  getriebe[i].gear_fact_denom", "1")
+    );
+    assert!(fact(&e, "reaction").contains("110579"));
+    let e = explain("P-AXIS-00737").unwrap();
+    assert!(fact(&e, "axes").starts_with("T ("));
+    let e = explain("P-AXIS-00750").unwrap();
+    assert!(fact(&e, "drives").contains("SERCOS, Profidrive, CANopen"));
+    let e = explain("P-AXIS-00513").unwrap();
+    assert!(e.meaning.contains("meaning unknown"));
+    let e = explain("70082").unwrap();
+    assert_eq!(e.related, ["P-AXIS-00236", "P-AXIS-00532"]);
+}
+
+/// Conformance: A014, A015, V038.
+#[test]
+fn commands_and_words() {
+    let guard = explain("#vib  guard on [MODE=2]").unwrap();
+    assert_eq!(guard.kind, Kind::Command);
+    assert!(guard.notes[0].contains("#FILTER") && guard.facts[1].1.contains("vib_guard.freq"));
+    assert!(explain("#FILTER").unwrap().notes[0].contains("#VIB GUARD"));
+    assert_eq!(explain("G136").unwrap().example.as_deref(), Some("G135 G136 X80 Y95"));
+    assert_eq!(fact(&explain("active position").unwrap(), "column"), "X_ipo_mm");
+    assert_eq!(
+        fact(&explain("Ft_sollwert_gestern").unwrap(), "offset"),
+        "0x1C + 0x10000 x axis index"
+    );
+    for word in ["V_SATZ_ANZ", "S-0-0296", "S-0-0348", "S_0_0037"] {
+        assert_eq!(explain(word).unwrap().kind, Kind::Word, "{word}");
+    }
+    for name in commands::names() {
+        for thing in explain(&name).unwrap().related {
+            assert!(explain(&thing).is_ok(), "{name} -> {thing}");
+        }
+    }
+}
+
+#[test]
+fn unknown_things_get_suggestions() {
+    assert_eq!(explain("vorsteuer.jerk_fact_nmu").unwrap_err()[0], "vorsteuer.jerk_fact_num");
+    assert_eq!(explain("#VIB GARD").unwrap_err(), ["#VIB GUARD"]);
+    assert!(explain("kv").unwrap_err().contains(&"getriebe[i].kv".to_owned()));
+    assert!(explain("nothing like this").unwrap_err().is_empty());
+    assert!(explain("").is_err());
+    // a number that is in no document
+    assert!(explain("22061").is_err());
+}

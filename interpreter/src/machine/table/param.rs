@@ -1,0 +1,196 @@
+//! Parameters that the code reads, named and typed by their rows: a wrong name or type does not compile.
+
+use super::row::{Default, Raw, Row};
+use crate::machine::key::{Indices, with_indices};
+use crate::machine::parameters::Parameters;
+use std::marker::PhantomData;
+
+/// Rows of one family; `as NAME: KIND` gives a parameter the name and type by which the code reads it.
+macro_rules! parameters {
+    ($($row:expr $(, as $name:ident: $kind:ident)?;)*) => {
+        /// The rows.
+        pub(super) const ROWS: &[super::row::Row] = &[$($row),*];
+        $($(
+            #[doc = concat!("`", stringify!($name), "` of its row.")]
+            pub(in crate::machine) const $name: super::param::Param<super::param::$kind> =
+                super::param::Param::<super::param::$kind>::new(&$row);
+        )?)*
+    };
+}
+pub(super) use parameters;
+
+/// A number that always has a value: the list's or the default of the row. Read in mm (deg), s and ratios.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Number {}
+
+/// A number that a list may leave open. Read in mm (deg), s and ratios.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Optional {}
+
+/// A whole number with a default: a count, a selection or bits; 0 for what is none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Whole {}
+
+/// On if it is set to something else than 0.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Switch {}
+
+/// A text or word; `None` if neither list nor row has one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Text {}
+
+/// How the values of a kind are read.
+pub(crate) trait Kind: Copy {
+    /// What the code gets.
+    type Value;
+
+    /// The value in force.
+    fn read(parameters: &Parameters, at: Place) -> Self::Value;
+}
+
+impl Kind for Number {
+    type Value = f64;
+
+    fn read(parameters: &Parameters, at: Place) -> f64 {
+        // the row has a default, see `Param::new`
+        parameters.converted(at).unwrap_or_default()
+    }
+}
+
+impl Kind for Optional {
+    type Value = Option<f64>;
+
+    fn read(parameters: &Parameters, at: Place) -> Option<f64> {
+        parameters.converted(at)
+    }
+}
+
+impl Kind for Whole {
+    type Value = u32;
+
+    fn read(parameters: &Parameters, at: Place) -> u32 {
+        parameters.listed(at).and_then(whole).unwrap_or_default()
+    }
+}
+
+impl Kind for Switch {
+    type Value = bool;
+
+    fn read(parameters: &Parameters, at: Place) -> bool {
+        parameters.listed(at).is_some_and(|x| x.abs() > 0.0)
+    }
+}
+
+impl Kind for Text {
+    type Value = Option<String>;
+
+    fn read(parameters: &Parameters, at: Place) -> Option<String> {
+        parameters.of(at.row, at.indices)?.text().map(str::to_owned)
+    }
+}
+
+/// A row with the indices of its key.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) row: &'static Row,
+    pub(crate) indices: Indices,
+}
+
+impl std::fmt::Display for Place {
+    /// The key with its indices: `getriebe[0].kv`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&with_indices(self.row.key, self.indices))
+    }
+}
+
+/// A parameter and the type of its values; the indices of its key are 0 unless others are named.
+#[derive(Debug)]
+pub(crate) struct Param<K> {
+    place: Place,
+    kind: PhantomData<K>,
+}
+
+impl<K> Clone for Param<K> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<K> Copy for Param<K> {}
+
+impl<K> From<Param<K>> for Place {
+    fn from(param: Param<K>) -> Self {
+        param.place
+    }
+}
+
+impl<K> Param<K> {
+    const fn of(row: &'static Row) -> Self {
+        Self { place: Place { row, indices: [0; 2] }, kind: PhantomData }
+    }
+
+    /// The entry with this first index.
+    pub(crate) const fn at(mut self, index: u32) -> Self {
+        self.place.indices[0] = index;
+        self
+    }
+
+    /// The entry with this second index.
+    pub(crate) const fn and(mut self, index: u32) -> Self {
+        self.place.indices[1] = index;
+        self
+    }
+
+    /// Row and indices.
+    pub(crate) const fn place(self) -> Place {
+        self.place
+    }
+}
+
+impl Param<Number> {
+    pub(super) const fn new(row: &'static Row) -> Self {
+        assert!(is_number(row) && has_default(row));
+        Self::of(row)
+    }
+}
+
+impl Param<Optional> {
+    pub(super) const fn new(row: &'static Row) -> Self {
+        assert!(is_number(row));
+        Self::of(row)
+    }
+}
+
+impl Param<Whole> {
+    pub(super) const fn new(row: &'static Row) -> Self {
+        assert!(is_number(row) && !matches!(row.raw, Raw::Real64));
+        Self::of(row)
+    }
+}
+
+impl Param<Switch> {
+    pub(super) const fn new(row: &'static Row) -> Self {
+        assert!(is_number(row));
+        Self::of(row)
+    }
+}
+
+impl Param<Text> {
+    pub(super) const fn new(row: &'static Row) -> Self {
+        assert!(!is_number(row));
+        Self::of(row)
+    }
+}
+
+const fn is_number(row: &Row) -> bool {
+    !matches!(row.raw, Raw::Text | Raw::Word(_))
+}
+
+const fn has_default(row: &Row) -> bool {
+    matches!(row.default, Default::Number(_) | Default::Of(_))
+}
+
+/// A list number that is a whole number of the type UNS32.
+pub(crate) fn whole(x: f64) -> Option<u32> {
+    (0.0..=f64::from(u32::MAX)).contains(&x).then_some(x as u32)
+}

@@ -1,0 +1,385 @@
+//! What causes a violation, and what is asked of the next plan.
+//!
+//! Around the middle `s*` of what the filter of an axis holds, the path is a straight line plus its kinks and bends. A kink
+//! at `s_b` with the change of direction `du` moves the set point aside by `du E[(s - s_b)+]` (or `(s_b - s)+` before the
+//! middle), with the mean `E` over the kernel: its *part* in the deviation (derived; exact for polygons). A bend is many
+//! small kinks.
+//!
+//! One part that outweighs the others is an isolated corner: its speed alone is lowered, down to a rest, and then it waits.
+//! Parts alike are a curve: they share one speed, that of the whole stretch between them, and it is the speed at which the
+//! same stretch, run through evenly, keeps the tolerance. Kinks further apart than the path runs at that speed while the
+//! filter holds them are isolated again: between them it is faster to speed up and to brake.
+
+use super::Demands;
+use super::search::{Record, Violation, within};
+use super::view::View;
+use crate::axis::AxisVec;
+use crate::deviation::Excursion;
+use kontur_filters::kernel::Kernel;
+
+/// Share of the largest part from which on another one counts as its like.
+const ALIKE: f64 = 0.3;
+/// Points at which a bend is looked at.
+const BEND_POINTS: u32 = 6;
+/// Doublings from the least speed looked at to the one planned.
+const DOUBLINGS: u32 = 4;
+/// Halvings in the search for the even speed.
+const HALVINGS: u32 = 24;
+/// Ratio of two excesses up to which the second one is not looked at.
+const LITTLE_MORE: f64 = 1.05;
+/// Share of the tolerance by which an even speed aims below it.
+const AIM: f64 = 0.01;
+/// Largest reduction of an even speed in one round.
+const MOST: f64 = 0.25;
+/// Places around a point of the contour at which an even run is looked at for the point.
+const PLACES: i32 = 4;
+/// Taps of a kernel in the search for the even speed.
+const COARSE: usize = 24;
+
+/// What exceeded the tolerance in one round.
+pub(super) struct Findings {
+    /// Largest excess in mm blamed on each boundary alone.
+    pub(super) corner: Vec<f64>,
+    /// Even speed in mm/s asked of each block.
+    pub(super) even: Vec<f64>,
+    /// The same at each boundary.
+    pub(super) even_at: Vec<f64>,
+    /// Largest excess in mm and its tolerance on each block to blame.
+    pub(super) block: Vec<Option<(f64, f64)>>,
+    /// First and last mark within reach of the violation of either kind looked at last, with its excess.
+    last: [Option<((usize, usize), f64)>; 2],
+}
+
+impl Findings {
+    pub(super) fn none(blocks: usize) -> Self {
+        Self {
+            corner: vec![0.0; blocks + 1],
+            even: vec![f64::INFINITY; blocks],
+            even_at: vec![f64::INFINITY; blocks + 1],
+            block: vec![None; blocks],
+            last: [None; 2],
+        }
+    }
+
+    /// Asks for an even speed on a block because of a violation.
+    fn evenly(&mut self, block: usize, speed: f64, v: &Violation) {
+        self.even[block] = self.even[block].min(speed);
+        let slot = &mut self.block[block];
+        if slot.is_none_or(|(e, _)| e < v.excess()) {
+            *slot = Some((v.excess(), v.tolerance_mm));
+        }
+    }
+}
+
+/// A kink or a bent block within reach.
+struct Part {
+    mark: usize,
+    bend: bool,
+    /// Share of the deviation in mm.
+    size: f64,
+    /// Path length.
+    s: f64,
+}
+
+/// Marks whose blocks, and whose entries, share one speed.
+#[derive(Default)]
+struct Shared {
+    marks: Vec<usize>,
+    kinks: Vec<usize>,
+}
+
+impl View<'_> {
+    /// Finds who is to blame for a violation; `all`: everything that can still be changed.
+    pub(super) fn blame(
+        &self,
+        v: &Violation,
+        record: &Record,
+        all: bool,
+        demands: &Demands,
+        findings: &mut Findings,
+    ) {
+        let Self { trial, marks, .. } = self;
+        let length = u64::from(trial.kernels.length());
+        let oldest = v.cycle.saturating_sub(length);
+        let first = marks.partition_point(|m| m.cycles <= oldest as f64).saturating_sub(1);
+        let last = marks.partition_point(|m| m.cycles <= v.cycle as f64);
+        if first >= last {
+            return;
+        }
+        let excess = v.excess();
+        // a slow run over the same blocks would be told the same again and again
+        let place = (first, last);
+        let told = &mut findings.last[usize::from(v.missed.is_some())];
+        if told.is_some_and(|(at, most)| at == place && excess <= LITTLE_MORE * most) {
+            return;
+        }
+        *told = Some((place, excess));
+        let parts = self.parts_of(v, record, first, last);
+        let free = |p: &Part| {
+            let m = &marks[p.mark];
+            if p.bend {
+                m.block.is_some()
+            } else {
+                m.boundary
+                    .is_some_and(|b| demands.stop[b].is_none_or(|dwell| u64::from(dwell) < length))
+            }
+        };
+        let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
+        let alike: Vec<&Part> =
+            parts.iter().filter(|p| free(p) && p.size > 0.0 && p.size >= ALIKE * largest).collect();
+        let even = self.even_speed(v, record);
+        let apart = even * length as f64 * trial.cycle.seconds();
+        let isolated = |i: usize| -> bool {
+            let p = alike[i];
+            let near = |q: &&Part| (p.s - q.s).abs() <= apart;
+            !p.bend
+                && i.checked_sub(1).is_none_or(|b| !near(&alike[b]))
+                && alike.get(i + 1).is_none_or(|q| !near(q))
+        };
+        let mut shared = Shared::default();
+        let mut blamed = false;
+        for (i, part) in alike.iter().enumerate() {
+            let m = &marks[part.mark];
+            let Some(b) = (if part.bend { m.block } else { m.boundary }) else { continue };
+            blamed = true;
+            if part.bend {
+                shared.marks.push(part.mark);
+            } else if isolated(i) {
+                findings.corner[b] = findings.corner[b].max(excess);
+            } else {
+                shared.kinks.push(part.mark);
+                if demands.stop[b].is_some() {
+                    findings.corner[b] = findings.corner[b].max(excess);
+                }
+            }
+        }
+        // what lies between the likes shares their speed
+        for pair in alike.windows(2) {
+            if (pair[1].s - pair[0].s).abs() <= apart {
+                shared.marks.extend(pair[0].mark..pair[1].mark);
+            }
+        }
+        if !blamed || all {
+            // a cause in front of a stop is final already, but what follows the stop can wait for the filters
+            let fixed = |p: &&Part| marks[p.mark].block.is_none();
+            let before = parts.iter().filter(fixed).map(|p| p.size).fold(0.0, f64::max);
+            let waits = before > 0.0
+                && marks[first..last].iter().any(|m| m.boundary == Some(0))
+                && demands.stop[0].is_none_or(|dwell| u64::from(dwell) < length);
+            if waits {
+                findings.corner[0] = findings.corner[0].max(excess);
+            }
+            if !waits || all {
+                shared.marks.extend(first..last);
+            }
+        }
+        self.share(&shared, even, v, record, demands, findings);
+    }
+
+    /// Asks for one speed on a stretch: the even one, or less if that is not below what is planned.
+    fn share(
+        &self,
+        shared: &Shared,
+        even: f64,
+        v: &Violation,
+        record: &Record,
+        demands: &Demands,
+        findings: &mut Findings,
+    ) {
+        let marks = &self.marks;
+        let at = |m: &usize, length: f64, asked: f64| {
+            let s = marks[*m].s_mm;
+            self.fastest(v, record, s, s + length).min(asked)
+        };
+        let blocks = shared.marks.iter().map(|m| {
+            let asked = marks[*m].block.map_or(f64::INFINITY, |b| demands.feed[b]);
+            at(m, marks[*m].queued.length, asked)
+        });
+        let kinks = shared.kinks.iter().map(|m| {
+            let asked = marks[*m].boundary.map_or(f64::INFINITY, |b| demands.cap[b]);
+            at(m, 0.0, asked)
+        });
+        let present = blocks.chain(kinks).fold(0.0, f64::max);
+        let speed = if present <= 0.0 {
+            // the path rests while the filters swing: no speed is the cause
+            f64::INFINITY
+        } else if even < 0.995 * present {
+            even
+        } else {
+            // where the speed is even already, or a change of speed is the cause
+            let aim = within(v.tolerance_mm) - AIM * v.tolerance_mm;
+            present * (aim / v.deviation_mm).sqrt().clamp(MOST, 0.995)
+        };
+        for m in &shared.marks {
+            if let Some(b) = marks[*m].block {
+                findings.evenly(b, speed, v);
+            }
+        }
+        for b in shared.kinks.iter().filter_map(|m| marks[*m].boundary) {
+            findings.even_at[b] = findings.even_at[b].min(speed);
+        }
+    }
+
+    /// Highest speed in mm/s between two path lengths while the filters hold a violation.
+    fn fastest(&self, v: &Violation, record: &Record, from: f64, to: f64) -> f64 {
+        let length = u64::from(self.trial.kernels.length());
+        let cycles = v.cycle.saturating_sub(length)..v.cycle;
+        let inside = cycles.filter(|k| record.s(k + 1) >= from && record.s(*k) <= to);
+        let steps = inside.map(|k| record.s(k + 1) - record.s(k));
+        steps.fold(0.0, f64::max) / self.trial.cycle.seconds()
+    }
+
+    /// Parts in a deviation that push the way it points, in order of the path.
+    fn parts_of(&self, v: &Violation, record: &Record, first: usize, last: usize) -> Vec<Part> {
+        let Self { trial, marks, .. } = self;
+        let Some(kernel) = trial.kernels.get(v.axis).or_else(|| trial.kernels.longest()) else {
+            return Vec::new();
+        };
+        let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));
+        let middle: f64 = kernel.taps().iter().map(|t| t.weight * at(t.delay)).sum();
+        let weight = |s: f64| -> f64 {
+            let beyond = |t: &kontur_filters::kernel::Tap| {
+                let d = at(t.delay) - s;
+                t.weight.abs() * if s >= middle { d.max(0.0) } else { (-d).max(0.0) }
+            };
+            kernel.taps().iter().map(beyond).sum()
+        };
+        let (oldest, newest) = (at(kernel.length()), at(0));
+        let sign = if v.positive { 1.0 } else { -1.0 };
+        let mut curvature = AxisVec::zeros(marks[first].point.len());
+        let mut parts = Vec::new();
+        for (m, mark) in marks.iter().enumerate().take(last).skip(first) {
+            if m > first {
+                let size = sign * self.turn(m, v.axis) * weight(mark.s_mm);
+                parts.push(Part { mark: m, bend: false, size, s: mark.s_mm });
+            }
+            if mark.queued.bend > 0.0 {
+                let from = oldest.max(mark.s_mm);
+                let to = newest.min(mark.s_mm + mark.queued.length);
+                let step = (to - from) / f64::from(BEND_POINTS);
+                let mut size = 0.0;
+                for i in 0..BEND_POINTS {
+                    let s = from + (f64::from(i) + 0.5) * step;
+                    mark.queued
+                        .block
+                        .path
+                        .curvature(mark.queued.offset + s - mark.s_mm, &mut curvature);
+                    size += sign * curvature[v.axis] * weight(s) * step;
+                }
+                if step > 0.0 {
+                    parts.push(Part { mark: m, bend: true, size, s: middle.clamp(from, to) });
+                }
+            }
+        }
+        parts
+    }
+
+    /// Speed in mm/s at which the stretch of a violation, run through evenly, keeps the tolerance; at most the highest one
+    /// planned there.
+    fn even_speed(&self, v: &Violation, record: &Record) -> f64 {
+        let Self { trial, .. } = self;
+        let seconds = trial.cycle.seconds();
+        let fastest = self.fastest(v, record, f64::NEG_INFINITY, f64::INFINITY);
+        let longest = trial.kernels.longest();
+        let Some(kernel) = trial.kernels.get(v.axis).or(longest) else { return fastest };
+        let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));
+        let middle: f64 = kernel.taps().iter().map(|t| t.weight * at(t.delay)).sum();
+        let aim = within(v.tolerance_mm) - AIM * v.tolerance_mm;
+        let keeps = |speed: f64| self.even_deviation(v, middle, speed * seconds) <= aim;
+        // the lowest speed that does not: a faster run may be even enough to keep it again, but never gets there
+        let (mut least, mut most) = (0.0, fastest);
+        let mut rising = fastest / f64::from(1 << DOUBLINGS);
+        while rising < fastest && keeps(rising) {
+            least = rising;
+            rising *= std::f64::consts::SQRT_2;
+        }
+        if rising >= fastest && keeps(fastest) {
+            least = fastest;
+        } else {
+            most = most.min(rising);
+            for _ in 0..HALVINGS {
+                let mid = 0.5 * (least + most);
+                if keeps(mid) {
+                    least = mid;
+                } else {
+                    most = mid;
+                }
+                if most - least <= 1e-3 * least {
+                    break;
+                }
+            }
+        }
+        least.max(1e-3 * MOST * fastest)
+    }
+
+    /// Largest component of the deviation around a place, if the path runs `step` mm in every cycle.
+    fn even_deviation(&self, v: &Violation, middle: f64, step: f64) -> f64 {
+        let Self { trial, .. } = self;
+        let mut out = Excursion::none(self.marks[0].point.len());
+        let mut x = out.vector.clone();
+        let reach = step * f64::from(trial.kernels.length());
+        if let Some((point, at)) = &v.missed {
+            let mut best: Option<(f64, AxisVec)> = None;
+            for i in -PLACES..=PLACES {
+                let s = at + 0.5 * reach * f64::from(i) / f64::from(PLACES);
+                self.even_set_point(s, step, &mut x);
+                let vector: AxisVec = x.iter().zip(point.iter()).map(|(a, b)| a - b).collect();
+                let d2: f64 = vector.iter().map(|c| c * c).sum();
+                if best.as_ref().is_none_or(|(least, _)| d2 < *least) {
+                    best = Some((d2, vector));
+                }
+            }
+            return best
+                .map_or(0.0, |(_, vector)| vector.iter().fold(0.0, |m: f64, c| m.max(c.abs())));
+        }
+        self.even_set_point(middle, step, &mut x);
+        let mut vector = out.vector.clone();
+        self.contour.nearest_along(&x, middle - reach, middle + reach, &mut vector);
+        out.vector = vector;
+        out.largest()
+    }
+
+    /// Set point of a path that runs evenly, `step` mm in a cycle, around path length `s`.
+    fn even_set_point(&self, s: f64, step: f64, out: &mut AxisVec) {
+        let kernels = self.trial.kernels;
+        let middle = kernels.longest().map_or(0.0, Kernel::delay_cycles);
+        let mut position = out.clone();
+        out.fill(0.0);
+        // equal kernels share their taps
+        if !kernels.unequal
+            && let Some(kernel) = kernels.longest()
+        {
+            for (weight, delay) in coarse(kernel) {
+                self.contour.position(s + step * (middle - delay), &mut position);
+                for (o, p) in out.iter_mut().zip(position.iter()) {
+                    *o += weight * p;
+                }
+            }
+            return;
+        }
+        for i in 0..out.len() {
+            match kernels.get(i) {
+                None => {
+                    self.contour.position(s + step * middle, &mut position);
+                    out[i] = position[i];
+                }
+                Some(kernel) => {
+                    for (weight, delay) in coarse(kernel) {
+                        self.contour.position(s + step * (middle - delay), &mut position);
+                        out[i] += weight * position[i];
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A kernel of many taps in few: weights, and mean delays in cycles.
+fn coarse(kernel: &Kernel) -> impl Iterator<Item = (f64, f64)> + '_ {
+    let taps = kernel.taps();
+    taps.chunks(taps.len().div_ceil(COARSE)).filter_map(|part| {
+        let weight: f64 = part.iter().map(|t| t.weight).sum();
+        let delay: f64 = part.iter().map(|t| t.weight * f64::from(t.delay)).sum();
+        (weight.abs() > 0.0).then(|| (weight, delay / weight))
+    })
+}

@@ -1,0 +1,385 @@
+//! `AX_DEV` as it is promised: both ways, on the lines between the set points, over contours that are driven.
+//!
+//! Everything is measured here on its own: set points from interpolated points and kernel taps, distances by brute force
+//! over polylines. `COUNT=2000 SEED=7 cargo test --release -p kontur-motion --test promise` takes more contours.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
+#![expect(
+    clippy::disallowed_methods,
+    reason = "computing times are printed, nothing depends on them"
+)]
+
+mod common;
+
+use common::random::Random;
+use common::{axis, channel};
+use kontur_filters::kernel::Kernel;
+use kontur_filters::time::CycleTime;
+use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
+use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
+use kontur_motion::path::{LinePath, Path};
+use kontur_motion::planner::{Next, Planner};
+use kontur_motion::tolerance::{Kernels, Unkept};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+type Point = [f64; 3];
+
+/// A contour, what drives it, and what it is held to.
+#[derive(Clone, Debug)]
+struct Case {
+    points: Vec<Point>,
+    kind: SlopeKind,
+    cycle_us: u32,
+    feed_mm_s: f64,
+    tolerance_mm: f64,
+    kernels: [Kernel; 3],
+    acc_mm_s2: f64,
+    ramp_s: f64,
+}
+
+/// Interpolated points with the block of each, and what could not be kept.
+struct Drive {
+    points: Vec<Point>,
+    seqs: Vec<usize>,
+    unkept: Vec<Unkept>,
+}
+
+fn drive(case: &Case) -> Drive {
+    let cycle = CycleTime::from_us(case.cycle_us).unwrap();
+    let mut machine = axis(1.0);
+    machine.feed.acc_mm_s2 = case.acc_mm_s2;
+    machine.feed.dec_mm_s2 = case.acc_mm_s2;
+    machine.feed.ramps_s = [case.ramp_s; 4];
+    let dynamics: Arc<ChannelDynamics> = channel(vec![machine; 3]);
+    let slope = Slope { kind: case.kind, ..Slope::default() };
+    let mut blocks = case.points.windows(2).enumerate().filter_map(|(i, w)| {
+        let [a, b] = [0, 1].map(|k| AxisVec::from_slice(&w[k]));
+        let path = Path::Line(LinePath::new(a, b, &[])?);
+        let feed = Feed::PathVelocity(case.feed_mm_s);
+        let block = Block::new(i as u64, path, feed, Arc::clone(&dynamics));
+        let tolerance = Tolerance { ax_dev_mm: Some(case.tolerance_mm), acc_fact: 1.0 };
+        Some(Block { slope, tolerance, ..block })
+    });
+    let mut planner = Planner::new(cycle, 120, &case.points[0]);
+    let kernels = case.kernels.iter().map(|k| Some(Arc::new(k.clone()))).collect();
+    planner.set_kernels(Kernels::new(kernels), 0);
+    let mut out = Drive { points: vec![case.points[0]], seqs: vec![0], unkept: Vec::new() };
+    loop {
+        match planner.advance().unwrap() {
+            Next::Setpoint => {
+                let p = planner.setpoint();
+                out.points.push([p.position[0], p.position[1], p.position[2]]);
+                out.seqs.push(p.seq as usize);
+            }
+            Next::Input => match blocks.next() {
+                Some(b) => planner.push(b),
+                None => planner.finish(),
+            },
+            Next::Rest => break,
+        }
+        assert!(out.points.len() < 3_000_000, "a crawl: {case:?}");
+    }
+    out.unkept = planner.take_unkept();
+    out
+}
+
+/// Set points, flushed at the end.
+fn filtered(path: &[Point], kernels: &[Kernel; 3]) -> Vec<Point> {
+    let longest = kernels.iter().map(|k| k.length() as usize).max().unwrap();
+    let at = |k: usize, i: usize| path[k.min(path.len() - 1)][i];
+    (0..path.len() + longest)
+        .map(|k| {
+            [0, 1, 2].map(|i| {
+                let x = at(k, i);
+                let pull = |t: &kontur_filters::kernel::Tap| {
+                    t.weight * (at(k.saturating_sub(t.delay as usize), i) - x)
+                };
+                x + kernels[i].taps().iter().map(pull).sum::<f64>()
+            })
+        })
+        .collect()
+}
+
+/// Shortest vector from a segment to a point.
+fn to_segment(p: Point, a: Point, b: Point) -> (f64, Point) {
+    let d = [0, 1, 2].map(|i| b[i] - a[i]);
+    let l2: f64 = d.iter().map(|c| c * c).sum();
+    let dot: f64 = (0..3).map(|i| d[i] * (p[i] - a[i])).sum();
+    let u = if l2 > 0.0 { (dot / l2).clamp(0.0, 1.0) } else { 0.0 };
+    let e = [0, 1, 2].map(|i| p[i] - a[i] - u * d[i]);
+    (e.iter().map(|c| c * c).sum(), e)
+}
+
+fn largest(e: Point) -> f64 {
+    e.iter().fold(0.0, |m: f64, c| m.max(c.abs()))
+}
+
+/// Largest component of the shortest vector from a polyline to a point.
+fn aside(p: Point, polyline: &[Point]) -> f64 {
+    let nearest = polyline.windows(2).map(|w| to_segment(p, w[0], w[1]));
+    nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, e)| largest(e))
+}
+
+/// Largest deviation of the joined set points from the contour with its cycle, and of the contour from them, in order,
+/// with its block.
+fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
+    let set = filtered(path, &case.kernels);
+    let reach = case.kernels.iter().map(|k| k.length() as usize).max().unwrap();
+    let last = seqs.len() - 1;
+    let block = |k: usize| seqs[k.min(last)];
+    let mut leaves = (0.0_f64, 0);
+    for k in 1..set.len() {
+        let lately = &case.points[block(k.saturating_sub(reach + 3))..=block(k) + 1];
+        for sub in 1..=16 {
+            let u = f64::from(sub) / 16.0;
+            let p = [0, 1, 2].map(|i| set[k - 1][i] + u * (set[k][i] - set[k - 1][i]));
+            let near = aside(p, lately);
+            if near > leaves.0 {
+                let new = near.min(aside(p, &case.points));
+                if new > leaves.0 {
+                    leaves = (new, k);
+                }
+            }
+        }
+    }
+    let mut misses = (0.0_f64, 0);
+    let mut entered = 0;
+    for (i, w) in case.points.windows(2).enumerate() {
+        while entered < last && block(entered) < i {
+            entered += 1;
+        }
+        let mut left = entered;
+        while left < last && block(left) <= i {
+            left += 1;
+        }
+        let around = &set[entered.saturating_sub(2)..(left + reach + 3).min(set.len())];
+        for sub in 0..=8 {
+            let u = f64::from(sub) / 8.0;
+            let p = [0, 1, 2].map(|k| w[0][k] + u * (w[1][k] - w[0][k]));
+            let new = aside(p, around);
+            if new > misses.0 {
+                misses = (new, i);
+            }
+        }
+    }
+    [leaves, misses]
+}
+
+/// Duration of the contour run through at one speed, the best one at most `feed` that keeps the tolerance. The speed
+/// counts on a grid of one part in a hundred.
+fn best_even_time(case: &Case) -> f64 {
+    let lengths: Vec<f64> =
+        case.points.windows(2).map(|w| to_segment(w[0], w[1], w[1]).0.sqrt()).collect();
+    let length: f64 = lengths.iter().sum();
+    let cycle_s = 1e-6 * f64::from(case.cycle_us);
+    let keeps = |v: f64| {
+        let n = (length / (v * cycle_s)).ceil() as usize;
+        let (mut i, mut before) = (0, 0.0);
+        let (mut path, mut seqs) = (Vec::new(), Vec::new());
+        for k in 0..=n {
+            let s = (v * cycle_s * k as f64).min(length);
+            while i + 1 < lengths.len() && s > before + lengths[i] {
+                before += lengths[i];
+                i += 1;
+            }
+            let u = ((s - before) / lengths[i]).clamp(0.0, 1.0);
+            let (a, b) = (case.points[i], case.points[i + 1]);
+            path.push([0, 1, 2].map(|c| a[c] + u * (b[c] - a[c])));
+            seqs.push(i);
+        }
+        both_ways(case, &path, &seqs).iter().all(|found| found.0 <= case.tolerance_mm)
+    };
+    let (mut low, mut high) = (1e-3 * case.feed_mm_s, case.feed_mm_s);
+    if keeps(high) {
+        return length / high;
+    }
+    // a thousand to one in ten halvings of its logarithm: a hundredth
+    for _ in 0..10 {
+        let mid = (low * high).sqrt();
+        if keeps(mid) { low = mid } else { high = mid }
+    }
+    length / low
+}
+
+fn polygon_circle(radius: f64, chord: f64, turns: f64) -> Vec<Point> {
+    let n = (TAU * turns * radius / chord).ceil().max(3.0) as usize;
+    (0..=n)
+        .map(|i| {
+            let a = TAU * turns * i as f64 / n as f64;
+            [radius * libm::sin(a), radius * (1.0 - libm::cos(a)), 0.0]
+        })
+        .collect()
+}
+
+fn kernel(mode: u8, freq_hz: f64, damping: f64, cycle_us: u32) -> Kernel {
+    let cycle = CycleTime::from_us(cycle_us).unwrap();
+    // a slow cycle has no kernel for a high frequency
+    let kernel = |freq_hz: f64| VibGuardSettings { mode, freq_hz, damping }.kernel(cycle);
+    kernel(freq_hz).or_else(|_| kernel(10.0)).unwrap()
+}
+
+fn rounded(x: f64) -> f64 {
+    (x * 1e4).round() / 1e4
+}
+
+/// A contour of one of the kinds that are driven.
+fn contour(r: &mut Random, kind: usize) -> (&'static str, Vec<Point>) {
+    let (name, points): (_, Vec<Point>) = match kind {
+        0 => ("circle", {
+            let radius = r.log(0.5, 20.0);
+            polygon_circle(
+                radius,
+                (r.log(0.02, 2.0)).min(radius).max(radius / 60.0),
+                r.between(0.3, 1.2),
+            )
+        }),
+        1 => ("spiral", {
+            let (step, chord) = (r.log(0.05, 1.0), r.log(0.05, 0.5));
+            let mut a: f64 = 0.5;
+            let mut out = Vec::new();
+            while out.len() < 120 {
+                let radius = 0.2 + step * a / TAU;
+                out.push([radius * libm::cos(a), radius * libm::sin(a), 0.01 * a]);
+                a += (chord / radius).min(0.6);
+            }
+            out
+        }),
+        2 => ("trochoid", {
+            let (radius, feed) = (r.log(0.3, 5.0), r.between(0.02, 0.3));
+            let n = 20 + (r.next() * 40.0) as usize;
+            (0..2 * n)
+                .map(|i| {
+                    let a = TAU * i as f64 / n as f64;
+                    [radius * libm::sin(a) + feed * radius * a, radius * libm::cos(a), 0.0]
+                })
+                .collect()
+        }),
+        3 => ("walk", {
+            let scale = r.log(0.05, 5.0);
+            let mut p = [0.0; 3];
+            (0..3 + (r.next() * 12.0) as usize)
+                .map(|_| {
+                    let here = p;
+                    for c in &mut p {
+                        *c += scale * r.between(-1.0, 1.0);
+                    }
+                    here
+                })
+                .collect()
+        }),
+        4 => ("reversals", {
+            let (a, scale) = (r.between(0.0, PI), r.log(0.1, 10.0));
+            (0..3 + (r.next() * 8.0) as usize)
+                .map(|i| {
+                    let s = scale * r.between(0.2, 1.0) * if i % 2 == 0 { 1.0 } else { -1.0 };
+                    [s * libm::cos(a), s * libm::sin(a), 0.0]
+                })
+                .collect()
+        }),
+        5 => ("stairs", {
+            let step = r.log(0.01, 1.0);
+            (0..40).map(|i| [step * f64::from((i + 1) / 2), step * f64::from(i / 2), 0.0]).collect()
+        }),
+        6 => ("acute", {
+            let (width, height) = (r.log(0.01, 0.5), r.log(0.2, 5.0));
+            (0..20)
+                .map(|i| [width * f64::from(i), if i % 2 == 0 { 0.0 } else { height }, 0.0])
+                .collect()
+        }),
+        _ => ("surface", {
+            let (chord, amplitude) = (r.log(0.05, 0.5), r.log(0.1, 2.0));
+            let wave = r.log(2.0, 20.0);
+            (0..150)
+                .map(|i| {
+                    let x = chord * f64::from(i);
+                    [x, 0.3 * libm::sin(0.7 * x), amplitude * libm::sin(TAU * x / wave)]
+                })
+                .collect()
+        }),
+    };
+    let mut points: Vec<Point> = points.into_iter().map(|p| p.map(rounded)).collect();
+    points.dedup();
+    (name, points)
+}
+
+fn random_case(r: &mut Random, kind: usize) -> (&'static str, Case) {
+    let (name, points) = contour(r, kind);
+    let cycle_us = [500, 1000, 2000, 4000][(r.next() * 4.0) as usize];
+    let (mode, freq) = (1 + (r.next() * 4.0) as u8, r.log(8.0, 120.0));
+    let damping = 0.3 * r.next();
+    let mut kernels = [1, 2, 3].map(|_| kernel(mode, freq, damping, cycle_us));
+    if r.next() < 0.2 {
+        kernels = [1, 2, 3].map(|_| {
+            let mode = 1 + (r.next() * 4.0) as u8;
+            kernel(mode, freq * r.between(0.7, 1.4), damping, cycle_us)
+        });
+    }
+    let case = Case {
+        points,
+        kind: [Trapez, Sin2, Hsc][(r.next() * 3.0) as usize],
+        cycle_us,
+        feed_mm_s: r.log(8.0, 330.0),
+        tolerance_mm: r.log(2e-3, 0.2),
+        kernels,
+        acc_mm_s2: r.log(1000.0, 8000.0),
+        ramp_s: r.log(0.005, 0.05),
+    };
+    (name, case)
+}
+
+fn environment(name: &str, default: u64) -> u64 {
+    std::env::var(name).ok().and_then(|c| c.parse().ok()).unwrap_or(default)
+}
+
+/// Prints what it finds; `VERBOSE=1` every contour, `ONLY=17` that one alone, `EVEN=1` the time of the best even speed.
+#[test]
+fn random_contours_are_kept_both_ways() {
+    let (count, seed) = (environment("COUNT", 48), environment("SEED", 1));
+    let mut failed = 0;
+    let mut most = [0.0_f64; 8];
+    for n in 0..count {
+        if environment("ONLY", n) != n {
+            continue;
+        }
+        let mut r = Random(seed * 1_000_003 + n);
+        r.next();
+        let kind = (n % 8) as usize;
+        let (name, case) = random_case(&mut r, kind);
+        let start = std::time::Instant::now();
+        let d = drive(&case);
+        let spent = start.elapsed().as_secs_f64();
+        let [leaves, misses] = both_ways(&case, &d.points, &d.seqs);
+        let tol = case.tolerance_mm;
+        let used = leaves.0.max(misses.0) / tol;
+        most[kind] = most[kind].max(used);
+        let bad = used > 1.0 + 1e-9 / tol || !d.unkept.is_empty();
+        if bad || environment("VERBOSE", 0) > 0 {
+            let time = 1e-6 * f64::from(case.cycle_us) * (d.points.len() - 1) as f64;
+            println!(
+                "{n} {name} {:?} {} us, {} blocks, F {:.1}, {} taps, unequal {}: leaves {:.3} in cycle {}, misses {:.3} in block {} of {tol:.4}; {time:.3} s, computed in {spent:.2} s",
+                case.kind,
+                case.cycle_us,
+                case.points.len() - 1,
+                case.feed_mm_s,
+                case.kernels[0].length(),
+                case.kernels[0] != case.kernels[1],
+                leaves.0 / tol,
+                leaves.1,
+                misses.0 / tol,
+                misses.1,
+            );
+            if environment("EVEN", 0) > 0 && used > 0.5 {
+                println!("    against the best even speed {:.3}", time / best_even_time(&case));
+            }
+            if bad {
+                println!("    BAD: {:?}", d.unkept);
+            }
+        }
+        failed += usize::from(bad);
+    }
+    println!("largest use of the tolerance by kind: {most:.3?}");
+    assert_eq!(failed, 0, "of {count}");
+}

@@ -1,0 +1,4 @@
+; check: exit 1
+; error 20500 at 3:13
+#GET CMDPOS [P1=X, P2=X, P3=X, P4=X, P5=X, P6=X, P7=X, P8=X, P9=X, P10=X, P11=X, P12=X, P13=X, P14=X, P15=X, P16=X, P17=X, P18=X, P19=X, P20=X, P21=X, P22=X, P23=X, P24=X, P25=X, P26=X, P27=X, P28=X, P29=X, P30=X, P31=X, P32=X, P33=X]
+M30

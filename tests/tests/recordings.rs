@@ -1,0 +1,201 @@
+//! `kontur diff` of a program and a recording of a machine, as TwinCAT Scope exports it.
+
+use kontur::Exit;
+use kontur_tests::command::command;
+use std::fmt::Write as _;
+use std::ops::Range;
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+/// Two axes, TRAPEZ, with a dwell between.
+const PROGRAM: &str = "%P\nN10 G90 G01 X20 Y-5 F6000\nN20 G04 0.1\nN30 X-3 Y7.5 F4000\nN40 M30\n";
+
+struct Bench {
+    folder: TempDir,
+    /// Set positions of X and Y in mm, one pair each millisecond.
+    set: Vec<[f64; 2]>,
+}
+
+/// A recording that is made of the positions: how it differs from them.
+#[derive(Clone)]
+struct Recorder {
+    /// It begins so much earlier.
+    lead_s: f64,
+    step_s: f64,
+    /// X in micrometres with the other sign, Y as it is.
+    noise_mm: f64,
+    /// Samples that are missing.
+    missing: Range<usize>,
+}
+
+const PLAIN: Recorder = Recorder { lead_s: 0.012, step_s: 0.001, noise_mm: 0.0, missing: 0..0 };
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("part.nc"), PROGRAM).unwrap();
+        let bench = Self { folder, set: Vec::new() };
+        let trace = bench.path("part.csv");
+        let words = ["run", &bench.path("part.nc"), "-o", &trace, "--signals", "X_set_mm,Y_set_mm"];
+        assert_eq!(command(words).exit, Exit::Finished);
+        let text = std::fs::read_to_string(&trace).unwrap();
+        let mut lines = text.lines();
+        let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+        let place = |name| header.iter().position(|h| *h == name).unwrap();
+        let places = [place("X_set_mm"), place("Y_set_mm")];
+        let row = |line: &str| {
+            let cells: Vec<&str> = line.split(',').collect();
+            places.map(|i| cells[i].parse().unwrap())
+        };
+        Self { set: lines.map(row).collect(), ..bench }
+    }
+
+    fn path(&self, name: &str) -> String {
+        let path: PathBuf = self.folder.path().join(name);
+        path.to_str().unwrap().to_owned()
+    }
+
+    /// Position at a time, at rest before the begin and behind the end.
+    fn at(&self, axis: usize, time_s: f64) -> f64 {
+        let place = (time_s / 0.001).clamp(0.0, (self.set.len() - 1) as f64);
+        let (k, part) = (place.floor() as usize, place.fract());
+        let next = self.set[(k + 1).min(self.set.len() - 1)][axis];
+        self.set[k][axis] + part * (next - self.set[k][axis])
+    }
+
+    /// An export in the layout of TwinCAT Scope, German numbers; `change` may spoil a sample.
+    fn export(&self, r: &Recorder, change: impl Fn(usize, &mut [f64; 2])) -> String {
+        let ms = format!("{}", 1e3 * r.step_s).replace('.', ",");
+        let mut text = format!(
+            "Name\tAxes\nFile\tbench.svdx\n\nName\tX\tY\nSymbolName\tAxes.X.fSet\tAxes.Y.fSet\n\
+             SampleTime[ms]\t{ms}\t{ms}\nData-Type\tREAL64\tREAL64\n\n"
+        );
+        let samples = ((self.set.len() as f64 * 0.001 + 2.0 * r.lead_s) / r.step_s) as usize;
+        for i in (0..samples).filter(|i| !r.missing.contains(i)) {
+            let time_s = i as f64 * r.step_s;
+            // noise without a generator: the fractions of a multiple of an irrational number
+            let noise = |k: f64| r.noise_mm * (2.0 * (i as f64 * k).fract() - 1.0);
+            let mut mm = [0, 1].map(|axis| self.at(axis, time_s - r.lead_s));
+            mm[0] += noise(0.618_033_988_75);
+            mm[1] += noise(0.414_213_562_37);
+            change(i, &mut mm);
+            let row = format!("{:.4}\t{:.6}\t{:.8}\n", 1e3 * time_s, -1e3 * mm[0], mm[1]);
+            text.push_str(&row.replace('.', ","));
+        }
+        writeln!(text, "EOF").unwrap();
+        text
+    }
+
+    fn diff(&self, export: &str) -> (Exit, serde_json::Value) {
+        self.diff_within(export, "0")
+    }
+
+    fn diff_within(&self, export: &str, tolerance_mm: &str) -> (Exit, serde_json::Value) {
+        std::fs::write(self.path("scope.csv"), export).unwrap();
+        let (program, scope) = (self.path("part.nc"), self.path("scope.csv"));
+        let maps = ["--map", "X_set_mm=-0.001*Axes.X.fSet", "--map", "Y_set_mm=Axes.Y.fSet"];
+        let mut words = vec!["diff", &program, &scope, "--format", "json"];
+        words.extend(["--tol-mm", tolerance_mm]);
+        words.extend(maps);
+        let done = command(&words);
+        (done.exit, serde_json::from_str(&done.out).unwrap_or_else(|_| panic!("{}", done.err)))
+    }
+}
+
+fn near(value: &serde_json::Value, want: f64, tolerance: f64) {
+    let is = value.as_f64().unwrap();
+    assert!((is - want).abs() <= tolerance, "{is}, not {want}");
+}
+
+/// Another unit and sign, a begin 12 cycles earlier or 3.4 ms later, other sampling times, noise below 0.1 um: equal.
+#[test]
+fn a_recording_of_the_same_motion_is_equal() {
+    let bench = Bench::new();
+    for (lead_s, step_s, noise_mm, shift, tolerance) in [
+        (0.012, 0.001, 0.0, 12.0, "0"),
+        (0.012, 0.001, 4e-5, 12.0, "0"),
+        (0.5, 0.001, 0.0, 500.0, "0"),
+        (0.0035, 0.000_25, 0.0, 3.5, "0"),
+        // no sample at the set points: what the corners of their polyline lose is a T^2 / 8 at most
+        (0.0034, 0.000_25, 0.0, 3.4, "0.0003"),
+    ] {
+        let recorder = Recorder { lead_s, step_s, noise_mm, ..PLAIN };
+        let (exit, found) = bench.diff_within(&bench.export(&recorder, |_, _| {}), tolerance);
+        assert_eq!(exit, Exit::Finished, "{found}");
+        near(&found["result"]["shift_cycles"], shift, 1e-3);
+        for pair in 0..2 {
+            near(&found["result"]["pairs"][pair]["rows"], bench.set.len() as f64, 1.0);
+        }
+    }
+}
+
+/// A micrometre in one sample, for one axis: named with time, line and size. An offset of the zero points is the mean.
+#[test]
+fn what_differs_is_named() {
+    let bench = Bench::new();
+    let (exit, found) = bench.diff(&bench.export(&PLAIN, |i, mm| {
+        if i == 112 {
+            mm[1] += 1e-3;
+        }
+    }));
+    assert_eq!(exit, Exit::Aborted);
+    let pairs = &found["result"]["pairs"];
+    assert_eq!(pairs[0]["different"], 0);
+    assert_eq!(pairs[1]["different"], 1);
+    near(&pairs[1]["worst"]["time_s"], 0.1, 1e-9);
+    assert_eq!(pairs[1]["first"]["line"], "2");
+    let (b, a) = (&pairs[1]["worst"]["b"], &pairs[1]["worst"]["a"]);
+    near(b, a.as_f64().unwrap() + 1e-3, 1e-7);
+    let (exit, found) = bench.diff(&bench.export(&PLAIN, |_, mm| mm[0] += 2.5));
+    assert_eq!(exit, Exit::Aborted);
+    near(&found["result"]["pairs"][0]["mean"], 2.5, 1e-6);
+    near(&found["result"]["pairs"][0]["rms"], 0.0, 1e-6);
+}
+
+/// Missing samples are named and not compared; what happens beyond the ends of either is a difference.
+#[test]
+fn drop_outs_and_ends() {
+    let bench = Bench::new();
+    let gap = Recorder { missing: 100..103, ..PLAIN };
+    let (exit, found) = bench.diff(&bench.export(&gap, |_, _| {}));
+    assert_eq!(exit, Exit::Finished, "{found}");
+    let pair = &found["result"]["pairs"][0];
+    assert_eq!(pair["drop_outs"][0][1], 3);
+    near(&pair["drop_outs"][0][0], 0.099, 1e-9);
+    near(&pair["rows"], bench.set.len() as f64 - 3.0, 0.0);
+    let stopped = Recorder { missing: 300..usize::MAX, ..PLAIN };
+    let (exit, found) = bench.diff(&bench.export(&stopped, |_, _| {}));
+    assert_eq!(exit, Exit::Aborted);
+    assert_eq!(found["result"]["pairs"][0]["different"], 0, "{found}");
+    assert_eq!(found["result"]["pairs"][0]["trace_goes_on"], true);
+    // the machine moved on after the program
+    let end = bench.set.len() + 12 + 3;
+    let (exit, found) = bench.diff(&bench.export(&PLAIN, |i, mm| {
+        if i > end {
+            mm[0] += 0.01 * (i - end) as f64;
+        }
+    }));
+    assert_eq!(exit, Exit::Aborted);
+    assert_eq!(found["result"]["pairs"][0]["recording_goes_on"], true);
+    assert_eq!(found["result"]["pairs"][1]["recording_goes_on"], false);
+}
+
+/// Names that do not exist are refused with those that do.
+#[test]
+fn wrong_names_are_refused() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("scope.csv"), bench.export(&PLAIN, |_, _| {})).unwrap();
+    let (program, scope) = (bench.path("part.nc"), bench.path("scope.csv"));
+    for (map, text) in [
+        ("X_set_mm=Axes.Z.fSet", "it has Axes.X.fSet, Axes.Y.fSet"),
+        ("Q_set_mm=Axes.X.fSet", "no column `Q_set_mm`"),
+        ("X_set_mm", "COLUMN=CHANNEL"),
+        ("X_set_mm=0*Axes.X.fSet", "COLUMN=CHANNEL"),
+    ] {
+        let done = command(["diff", &program, &scope, "--map", map]);
+        assert_eq!(done.exit, Exit::Usage);
+        assert!(done.err.contains(text), "{}", done.err);
+    }
+    let done = command(["diff", &program, &scope]);
+    assert!(done.exit == Exit::Usage && done.err.contains("--map COLUMN=CHANNEL"), "{}", done.err);
+}
