@@ -196,8 +196,12 @@ impl Run {
         }
         if let Some((path, e)) = self.sources.changed() {
             let text = format!("{}: {e}", path.display());
-            let hint = "the trace does not belong to the program as it is now: run it again";
-            self.messages.push(Diagnostic::new(Condition::NoFile, text).hint(hint));
+            self.messages.extend(self.simulation.take_diagnostics());
+            // the reader may have met it already
+            if self.messages.iter().all(|d| d.text != text) {
+                let hint = "the trace does not belong to the program as it is now: run it again";
+                self.messages.push(Diagnostic::new(Condition::NoFile, text).hint(hint));
+            }
             self.changed = true;
         }
     }
