@@ -50,8 +50,8 @@ fn brackets(c: &mut Criterion) {
     let mut group = c.benchmark_group("brackets");
     for depth in [8, 32] {
         for length in [512, 4096] {
-            // lists that are never closed, and lists that are none
-            for (name, level) in [("open", "[A "), ("closed", "[1-")] {
+            // lists that are never closed, lists that are none, and indices
+            for (name, level) in [("open", "[A "), ("closed", "[1-"), ("index", "V.P.A.5[")] {
                 let unit = match name {
                     "open" => level.repeat(depth),
                     _ => level.repeat(depth) + "1" + &"]".repeat(depth) + ",",

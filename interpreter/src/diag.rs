@@ -175,10 +175,13 @@ pub struct Diagnostic {
 }
 
 /// Characters of a word that a message quotes.
-const QUOTED_MAX: usize = 80;
+pub const QUOTED_MAX: usize = 80;
 
 /// A message in which what stands between backticks has at most [`QUOTED_MAX`] characters.
-fn shortened(text: &str) -> String {
+pub fn shortened(text: String) -> String {
+    if text.len() <= QUOTED_MAX {
+        return text;
+    }
     let mut out = String::new();
     for (i, part) in text.split('`').enumerate() {
         if i > 0 {
@@ -208,7 +211,7 @@ impl Diagnostic {
         Self {
             id,
             severity: row.severity,
-            text: if text.len() > QUOTED_MAX { shortened(&text) } else { text },
+            text: shortened(text),
             source: None,
             cycle: None,
             time_s: None,

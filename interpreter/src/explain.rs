@@ -195,6 +195,10 @@ fn range(row: &Row) -> String {
         Raw::Word(words) => return words.join(", "),
         Raw::Boolean => return "0 or 1".to_owned(),
         Raw::Text => return "any text".to_owned(),
+        Raw::Flags(_) => return "names joined by |, or their sum".to_owned(),
+        Raw::Names(_) if row.low == Bound::None && row.high == Bound::None => {
+            return "the names, or their numbers".to_owned();
+        }
         _ => format!(
             "{} .. {}",
             end(row.low, "least of the type"),

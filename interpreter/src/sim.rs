@@ -20,7 +20,7 @@ mod wait;
 pub use inputs::{Change, Changes, Signal};
 pub use totals::{SettledStop, Stops, Totals};
 
-use crate::diag::Diagnostic;
+use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
 use crate::machine::{self, Machine};
 use crate::record::CycleRecord;
@@ -113,6 +113,8 @@ pub struct Simulation {
     /// Axes that a fault has stopped, and where.
     frozen: Vec<Option<f64>>,
     diagnostics: Vec<Diagnostic>,
+    /// Messages of the program since the last look that are not among them.
+    unshown: u64,
     totals: Totals,
 }
 
@@ -172,6 +174,7 @@ impl Simulation {
             vector: AxisVec::zeros(n),
             max_cycles: (limits.max_time_s / cycle.seconds()) as u64,
             diagnostics,
+            unshown: 0,
             machine,
             cycle,
             executor,
@@ -219,6 +222,11 @@ impl Simulation {
     /// Diagnostics since the last call, in the order of raising.
     pub fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = std::mem::take(&mut self.diagnostics);
+        let unshown = std::mem::take(&mut self.unshown);
+        if unshown > 0 {
+            let text = format!("{unshown} more messages of the program at once, not shown");
+            found.push(Diagnostic::new(Condition::Message, text).severity(Severity::Note));
+        }
         found.extend(self.executor.take_diagnostics());
         found
     }
@@ -273,6 +281,7 @@ impl Simulation {
                         self.never_arrives(chain, lacks);
                         return None;
                     }
+                    self.totals.dwell_cycles += u64::from(wait.is_dwell());
                     wait.count();
                     self.planner.hold(SpeedLimit::Stop);
                     break;

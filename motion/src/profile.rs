@@ -16,7 +16,7 @@ mod join;
 mod leg;
 mod ramp;
 mod ramped;
-mod roots;
+pub(crate) mod roots;
 mod slope;
 mod span;
 mod speed_change;

@@ -1,16 +1,51 @@
 //! Tolerance monitoring (`AX_DEV`): the filtered setpoints of a plan, before it becomes final.
 //!
-//! A kernel `h_k` (weights positive, sum 1, mean delay `d`) cuts a corner: an axis whose velocity jumps by `dv` gets the
-//! delay-aligned error `dv * M1`, `M1` half the mean absolute deviation of the kernel (TF5250 gives the task, the formula
-//! is derived). Acceleration
-//! near the corner and neighbouring corners add to it, so the closed form alone promises nothing.
+//! TF5250 gives the task: every axis keeps within `AX_DEV` of the contour. What that means is drawn in
+//! [`crate::deviation`]; the formulas here are derived.
 //!
-//! The promise is kept by trying: every plan is sampled on the cycle grid, filtered and measured against the contour,
-//! exactly as the trace will be. Where it exceeds the tolerance, the speed of the corners (or curves) that cause it is
-//! lowered by the closed form, and the window is planned again. A corner that is still too coarse at a full stop dwells
-//! for as many cycles as needed, at most the length of the kernel, when nothing is left of the error. Kernels with
-//! negative weights (windowed sinc) swing beyond the end even there, and no dwell helps; the blocks on both sides start
-//! and stop with a lower acceleration, see [`crate::overshoot`].
+//! # The deviation as a functional of the speed
+//!
+//! The path is `q(s)`, a plan is `s(t)`. A filter with the weights `h_k` (sum 1) and the delays `t_k` makes of them the set
+//! point `y(t) = sum h_k q(s(t - t_k))`: it depends on the path lengths of the last kernel length, and on nothing else. Call
+//! the mean over the weights `E`, and `m = E[s]` the mean path length. Around `m` the path is a straight line plus its kinks
+//! `du_b` at `s_b` and its bends `q''`, and the line has no part in the deviation:
+//!
+//! ```text
+//! y - q(m) = sum over kinks of du_b E[beyond(s, s_b)] + integral of q''(r) E[beyond(s, r)] dr
+//! beyond(s, r) = (s - r)+ where r lies behind m, (r - s)+ where it lies before
+//! ```
+//!
+//! - A straight line is never left, however the speed changes: starts and stops cost nothing there.
+//! - One corner at the speed `v`: `du v M1` at worst, `M1` half the mean absolute deviation of the kernel from its delay. An
+//!   acceleration `a` beside it adds `du a M2 / 2`, so a rest alone leaves something; a rest as long as the kernel leaves
+//!   nothing, because all of `s` then lies on one side of the corner.
+//! - A bend at even speed: `v^2 kappa / 2` times the variance of the kernel.
+//! - Along one stretch run through evenly the deviation falls with the speed, at kinks with `v`, on bends with `v^2`. So with
+//!   positive weights there is always a plan that keeps the tolerance, unless its cause is final already.
+//! - The deviation is not monotone: a faster run over several bends can cancel what a slower one adds up. What is asked for
+//!   is the lowest speed that is too fast.
+//! - Kernels that differ between the axes have a mean path length each. A line is then left by the speed times the
+//!   difference of the delays: rests do not help, an even speed does ([`Demands::of`]).
+//! - Negative weights (windowed sinc) make no mean: the set point swings beyond ends, and no dwell helps; the blocks on both
+//!   sides start and stop with a lower acceleration, see [`crate::overshoot`].
+//!
+//! # How it is kept
+//!
+//! By trying: every plan is sampled on the cycle grid, filtered with the taps of the axes and measured both ways, as the
+//! trace will be ([`search`]). What exceeds the tolerance is put down to kinks and bends by their parts in the sum above
+//! ([`blame`]): an isolated corner is passed more slowly, then rests, then waits; likes within one kernel length share the
+//! even speed that keeps the tolerance. Then the window is planned again ([`tighten`]).
+//!
+//! Exact, but for [`MARGIN_MM`]: set points; kinks of the contour; the places where the nearest point passes from one block,
+//! or one part of the set path, to another (halvings). Where two vectors could be taken for the shortest, the larger
+//! component counts. Between the kinks points of the contour are looked at up to four times in a cycle, and set points
+//! half way on bent blocks.
+//!
+//! Bounded instead of measured: stretches whose bends cannot add up to the tolerance, by the sum above with the moments of
+//! the kernel for `E`; stretches of constant speed on one line, where one set point stands for all.
+//!
+//! Neither: the choice of who slows down. It keeps the tolerance, but is no optimum; `motion/tests/promise.rs` compares it
+//! with the best even speed (`EVEN=1`).
 
 mod blame;
 mod search;

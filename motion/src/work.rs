@@ -55,8 +55,13 @@ mod tests {
         AxisVec::from_slice(&[along, across, z])
     }
 
+    /// Stairs of 0.1 um: hundreds of blocks per cycle.
+    fn stair(i: usize) -> AxisVec {
+        AxisVec::from_slice(&[1e-4 * i.div_ceil(2) as f64, 1e-4 * (i / 2) as f64, 0.0])
+    }
+
     /// Evaluations per block.
-    fn cost(count: usize, kind: SlopeKind) -> f64 {
+    fn cost(count: usize, kind: SlopeKind, point: fn(usize) -> AxisVec) -> f64 {
         let dynamics = dynamics();
         let mut planner = Planner::new(CycleTime::DEFAULT, 120, &point(0));
         let mut i = 0;
@@ -82,9 +87,18 @@ mod tests {
     #[test]
     fn many_short_blocks_cost_the_same_per_block_as_few() {
         for kind in [SlopeKind::Step, SlopeKind::Trapez, SlopeKind::Hsc, SlopeKind::Sin2] {
-            let (few, many) = (cost(1_000, kind), cost(150_000, kind));
+            let (few, many) = (cost(1_000, kind, point), cost(150_000, kind, point));
             println!("{kind:?}: {few:.2} and {many:.2} evaluations per block");
             assert!(many <= 1.15 * few, "{kind:?}: {many} after {few}");
+        }
+    }
+
+    #[test]
+    fn steps_of_a_tenth_of_a_micrometre_cost_no_more_as_they_get_many() {
+        for kind in [SlopeKind::Trapez, SlopeKind::Hsc] {
+            let (few, many) = (cost(1_000, kind, stair), cost(4_000, kind, stair));
+            println!("{kind:?}: {few:.2} and {many:.2} evaluations per block of 0.1 um");
+            assert!(many <= 1.5 * few && many <= 1000.0, "{kind:?}: {many} after {few}");
         }
     }
 }

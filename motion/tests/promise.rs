@@ -335,6 +335,8 @@ fn environment(name: &str, default: u64) -> u64 {
 }
 
 /// Prints what it finds; `VERBOSE=1` every contour, `ONLY=17` that one alone, `EVEN=1` the time of the best even speed.
+///
+/// Conformance: V055.
 #[test]
 fn random_contours_are_kept_both_ways() {
     let (count, seed) = (environment("COUNT", 48), environment("SEED", 1));

@@ -134,6 +134,10 @@ fn both_sides_of_a_gantry() {
     let begins = waits.records.iter().position(|r| r.axes[1].ipo > 0.0).unwrap();
     let slave = waits.records[begins].axes.last().unwrap();
     assert!(slave.lag.abs() <= 0.01, "{}", slave.lag);
+    // one side does not arrive in time: the other one is held with it and has nothing to say
+    let late = on(&["X2.getriebe[0].kv=1000", "X2.getriebe[0].position_settling_time=10000"], G60);
+    assert_eq!(only(&late).0, Id::Vendor(70082));
+    assert_eq!(only(&late).1, "X2");
     // a following error of the slave in full motion
     let lag = ["slep_ueberw_typ=4", "slep_max=10000", "slep_min=10000"]
         .map(|s| format!("X2.getriebe[0].{s}"));

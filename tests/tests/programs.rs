@@ -1,8 +1,11 @@
 //! The sample programs: those that must run are clean, those that must fail fail as their first line says.
 
+use kontur::Exit;
 use kontur_interpreter::diag::{Condition, Id};
+use kontur_tests::command::command;
 use kontur_tests::{Run, from_polyline, machine, programs, run, run_on, sample_machine};
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 fn text(name: &str) -> String {
     std::fs::read_to_string(programs().join(name)).unwrap()
@@ -200,6 +203,34 @@ fn every_program_is_listed() {
                 |c: &str| c.starts_with("kontur ") && c.contains(&format!("programs/{name}"));
             assert!(code.any(named), "{name} has no command");
         }
+    }
+}
+
+/// Every command of the list as it stands there: those of `fail/` and `exact_stop_timeout.nc` end with an error, the others
+/// finish. The sweep runs in `figures.rs`.
+#[test]
+fn every_listed_command_runs() {
+    let root = programs().join("..");
+    let folder = tempfile::tempdir().unwrap();
+    let list = text("README.md");
+    let rows = list.lines().filter(|l| l.starts_with("| "));
+    let code = rows.flat_map(|row| row.split('`').skip(1).step_by(2));
+    let listed: Vec<&str> = code.filter(|c| c.starts_with("kontur ")).collect();
+    assert!(listed.len() >= 27, "{listed:?}");
+    for line in listed.into_iter().filter(|c| !c.starts_with("kontur sweep ")) {
+        let mut words: Vec<PathBuf> = Vec::new();
+        for word in line.split_whitespace().skip(1).map(|word| word.trim_matches('\'')) {
+            let output = words.last().is_some_and(|last| last.as_os_str() == "-o");
+            words.push(match word {
+                _ if output => folder.path().join(word),
+                _ if word.starts_with("programs/") => root.join(word),
+                _ => word.into(),
+            });
+        }
+        let outcome = command(words);
+        let fails = line.contains("programs/fail/") || line.contains("exact_stop_timeout");
+        let want = if fails { Exit::Aborted } else { Exit::Finished };
+        assert_eq!(outcome.exit, want, "{line}\n{}", outcome.err);
     }
 }
 

@@ -201,3 +201,11 @@ fn options_given_twice() {
     let (exit, said, _) = call("run", "M30\n", &["--set", &kv(1000), "--set", &kv(2000)]);
     assert_eq!((exit, said), (Exit::Finished, vec!["K-0028 null:null".to_owned()]));
 }
+
+/// What a loop says without motion is not kept until the program moves.
+#[test]
+fn messages_without_motion_fill_no_memory() {
+    let text = "P1=0\n$WHILE P1<30000\n#MSG [\"x\"]\nP1=P1+1\n$ENDWHILE\nM30\n";
+    let (exit, said, _) = call("run", text, &[]);
+    assert_eq!((exit, said.len()), (Exit::Finished, 10_001), "and one that counts the others");
+}

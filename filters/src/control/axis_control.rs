@@ -399,7 +399,9 @@ impl AxisControl {
         self.setpoint.step(set_mm).into_iter().for_each(|f| faults.push(f));
         faults.push(speed_fault);
         faults.push(self.lag.step(reference_mm, actual_mm, kv));
-        faults.push(self.exact_stop.step(set_mm, actual_mm - self.inputs.additional_mm));
+        let late = self.exact_stop.step(set_mm, actual_mm - self.inputs.additional_mm);
+        // an axis that a reaction holds where it is does not arrive, and that is told already
+        faults.push(late.filter(|_| self.held_mm.is_none()));
         faults.push(self.advance(
             PlantInput {
                 speed_mm_s: self.felt_mm_s(command_mm_s, feedforward.additive_speed_mm_s),

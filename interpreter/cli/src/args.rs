@@ -71,7 +71,8 @@ pub struct SimulationArgs {
     #[arg(short, long, value_name = "DIR")]
     pub machine: Option<PathBuf>,
 
-    /// A list parameter in place of the machine's, e.g. `X.getriebe[0].kv=5000` or `channel.key=value`
+    /// A list parameter in place of the machine's, e.g. `X.getriebe[0].kv=5000`, `X,Y.key=value`, `*.key=value` for every path axis
+    /// or `channel.key=value`
     #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = setting)]
     pub set: Vec<String>,
 
@@ -228,7 +229,8 @@ pub struct ReportArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 
-    /// Run every program with each of these values of a list parameter, as in `sweep`. May be given several times
+    /// Run every program with each of these values of a list parameter or external variable, as in `sweep`. May be given
+    /// several times
     #[arg(long, value_name = "KEY=VALUES")]
     pub vary: Vec<crate::vary::Vary>,
 

@@ -1,7 +1,9 @@
 //! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if somebody watches.
 
+use crate::render::printable;
 use crate::{Error, Exit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use kontur_interpreter::diag::shortened;
 use std::cell::RefCell;
 use std::io::{IsTerminal, Write};
 use std::rc::Rc;
@@ -71,7 +73,7 @@ impl Console {
             // the reader of a pipe has seen enough
             Err(e @ Error::ClosedPipe) => e.exit(),
             Err(e) => {
-                self.error_text(&format!("error: {e}"));
+                self.error_text(&format!("error: {}", printable(&shortened(e.to_string()))));
                 e.exit()
             }
         }

@@ -12,8 +12,10 @@ mod table;
 use crate::args::{DiffArgs, OutputForm};
 use crate::console::Console;
 use crate::engine::Engine;
+use crate::render::printable;
 use crate::{Error, Exit};
 use compare::{Comparison, Difference, Outcome};
+use kontur_interpreter::diag::QUOTED_MAX;
 pub use recording::Pairing;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -157,6 +159,7 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
     }
     for (side, columns) in [("A", &o.only_a), ("B", &o.only_b)] {
         if !columns.is_empty() {
+            let columns: Vec<String> = columns.iter().map(|c| brief(c)).collect();
             writeln!(out, "  only in {side}: {}", columns.join(", "))?;
         }
     }
@@ -169,7 +172,7 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
         writeln!(out, "  column               rows    largest difference")?;
     }
     for c in &o.columns {
-        write!(out, "  {:<18} {:>6}", c.column, c.rows)?;
+        write!(out, "  {:<18} {:>6}", brief(&c.column), c.rows)?;
         match &c.worst {
             Some(d) => writeln!(out, "    {} at {}", number(d.size), place(d))?,
             None => writeln!(out)?,
@@ -178,27 +181,39 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
     Ok(())
 }
 
+/// A cell as it may stand in a line of text.
+fn brief(cell: &str) -> String {
+    let line = printable(cell).replace('\n', "\u{FFFD}");
+    match line.char_indices().nth(QUOTED_MAX) {
+        Some((end, _)) => format!("{}...", &line[..end]),
+        None => line,
+    }
+}
+
 fn number(difference: Option<f64>) -> String {
     difference.map_or_else(|| "-".to_owned(), |d| format!("{d:.3e}"))
 }
 
 fn place(d: &Difference) -> String {
-    let mut out =
-        d.time_s.as_ref().map_or_else(|| format!("row {}", d.row), |t| format!("t = {t} s"));
+    let mut out = d
+        .time_s
+        .as_ref()
+        .map_or_else(|| format!("row {}", d.row), |t| format!("t = {} s", brief(t)));
     if let Some(line) = &d.line {
-        let _ = write!(out, ", line {line}");
+        let _ = write!(out, ", line {}", brief(line));
     }
     if let Some(block) = d.block.as_ref().filter(|b| !b.is_empty()) {
-        let _ = write!(out, " N{block}");
+        let _ = write!(out, " N{}", brief(block));
     }
     if let Some(file) = &d.file {
-        let _ = write!(out, " of {file}");
+        let _ = write!(out, " of {}", brief(file));
     }
     out
 }
 
 fn sentence(d: &Difference) -> String {
-    let mut out = format!("{}: {} is {} in A, {} in B", place(d), d.column, d.a, d.b);
+    let [column, a, b] = [&d.column, &d.a, &d.b].map(|text| brief(text));
+    let mut out = format!("{}: {column} is {a} in A, {b} in B", place(d));
     if let (Some(difference), Some(tolerance)) = (d.size, d.tolerance) {
         let _ = write!(out, " (difference {difference:.3e}, tolerance {tolerance:e})");
     }

@@ -8,6 +8,7 @@ use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::record::CycleRecord;
 pub use kontur_interpreter::sim::Totals;
 use std::path::PathBuf;
+use std::sync::{Arc, PoisonError, RwLock};
 
 /// What a user may say about a run, apart from what becomes of its results.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,8 +54,55 @@ pub struct Facts {
     pub cycle_us: u32,
     /// Path axes in channel order, then spindles: the order of [`CycleRecord::axes`].
     pub axes: Vec<AxisFacts>,
-    /// Source files that the run may name ([`CycleRecord::file`] is an index); more than one: the trace says which.
-    pub files: Vec<String>,
+    /// Source files of the run.
+    pub files: FileNames,
+}
+
+/// Source files of a run in the order in which it opens them; [`CycleRecord::file`] is an index.
+///
+/// A subroutine is opened when it is called: copies of the list learn the names of later files too.
+#[derive(Clone, Debug, Default)]
+pub struct FileNames {
+    names: Arc<RwLock<Vec<String>>>,
+    several: bool,
+}
+
+impl FileNames {
+    /// The files opened so far; `several`: there will be more than one.
+    pub fn new(names: Vec<String>, several: bool) -> Self {
+        let several = several || names.len() > 1;
+        Self { names: Arc::new(RwLock::new(names)), several }
+    }
+
+    /// A trace has to say which file a line belongs to.
+    pub const fn several(&self) -> bool {
+        self.several
+    }
+
+    /// The name of a file; empty for one that is not open.
+    pub fn name(&self, file: u32) -> String {
+        let i = usize::try_from(file).unwrap_or(usize::MAX);
+        let names = self.names.read().unwrap_or_else(PoisonError::into_inner);
+        names.get(i).cloned().unwrap_or_default()
+    }
+
+    /// Every name.
+    pub fn all(&self) -> Vec<String> {
+        self.names.read().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Takes the names of all files that are open now.
+    pub fn update<'a>(&self, names: impl Iterator<Item = &'a str>) {
+        let mut list = self.names.write().unwrap_or_else(PoisonError::into_inner);
+        let known = list.len();
+        list.extend(names.skip(known).map(str::to_owned));
+    }
+}
+
+impl PartialEq for FileNames {
+    fn eq(&self, other: &Self) -> bool {
+        self.several == other.several && self.all() == other.all()
+    }
 }
 
 /// What stays the same for one axis.

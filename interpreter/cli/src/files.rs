@@ -132,6 +132,18 @@ fn is_pipe(path: &Path) -> bool {
     is_standard(path) || path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
 }
 
+/// Opens a file that is no pipe, which would let a reader wait, and no device.
+///
+/// # Errors
+/// The system's, and anything else than a file.
+pub fn regular(path: &Path) -> io::Result<File> {
+    // before it is opened: that waits already
+    if !path.metadata()?.is_file() {
+        return Err(io::Error::other("not a regular file"));
+    }
+    File::open(path)
+}
+
 /// A program on the command line that must be readable, or the command fails before it decodes anything.
 ///
 /// # Errors
@@ -189,11 +201,8 @@ impl ProgramFiles {
     }
 
     fn file(&self, path: &Path) -> io::Result<Box<dyn Source>> {
-        let file = File::open(path)?;
+        let file = regular(path)?;
         let metadata = file.metadata()?;
-        if !metadata.is_file() {
-            return Err(io::Error::other("not a file"));
-        }
         let now = State::of(&metadata);
         let mut opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
         let state = *opened.entry(path.to_owned()).or_insert(now);
@@ -283,7 +292,7 @@ impl Lists {
 
 impl ListFiles for Lists {
     fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
-        let file = match File::open(path) {
+        let file = match regular(path.as_ref()) {
             Ok(file) => file,
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(e) => return Err(e.to_string()),

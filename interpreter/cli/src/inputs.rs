@@ -5,6 +5,7 @@
 //! run before its first cycle; then it is read again, line by line, as the run goes on.
 
 use crate::engine::OpenError;
+use crate::files::regular;
 use crate::text::Text;
 use kontur_interpreter::diag::{Condition, Diagnostic, Location};
 use kontur_interpreter::machine::Machine;
@@ -75,11 +76,8 @@ struct InputFile {
 impl InputFile {
     /// Reads the header. `taken`: signals that other files have.
     fn open(path: &Path, machine: &Machine, taken: &[Signal]) -> Result<Self, Problem> {
-        let file = File::open(path).map_err(Problem::Io)?;
-        if !file.metadata().map_err(Problem::Io)?.is_file() {
-            let text = "not a regular file: it is read twice";
-            return Err(Problem::Io(io::Error::new(io::ErrorKind::InvalidInput, text)));
-        }
+        // it is read twice
+        let file = regular(path).map_err(Problem::Io)?;
         let mut input = Self {
             name: path.display().to_string().into(),
             reader: BufReader::new(Text::new(file).map_err(Problem::Io)?),

@@ -132,7 +132,7 @@ fn number(v: f64) -> String {
 }
 
 /// A user's file may hold anything: what would move a terminal's cursor is shown as a replacement character.
-fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() && c != '\n' { '\u{FFFD}' } else { c }).collect()
 }
 

@@ -17,7 +17,7 @@ use crate::engine::{Engine, Request};
 use crate::files::STANDARD;
 use crate::summary::{Collector, State, Summary};
 use crate::target::keep_apart;
-use crate::vary::{combinations, settings};
+use crate::vary::{combinations, put};
 use crate::{Error, Exit};
 use recording::Recording;
 use std::path::{Path, PathBuf};
@@ -78,7 +78,7 @@ fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request)>, Error> 
     for program in &args.programs {
         for combination in &combinations {
             let mut request = args.simulation.request(program);
-            request.settings.extend(settings(&args.vary, combination));
+            put(&args.vary, combination, &mut request);
             let names = args.vary.iter().zip(combination);
             let values = names.map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
             let values = values.collect::<Vec<_>>().join(", ");

@@ -1,6 +1,6 @@
 //! The simulation of this workspace behind the commands' questions.
 
-use crate::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
+use crate::engine::{AxisFacts, Engine, Facts, FileNames, OpenError, Request, Source, Totals};
 use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
 use crate::inputs;
 use kontur_interpreter::diag::{Condition, Diagnostic, Severity};
@@ -140,7 +140,13 @@ fn readable(program: &Path) -> Result<(), OpenError> {
     files::readable(program).map_err(|e| OpenError::Io(name.to_path_buf(), e))
 }
 
-fn facts(request: &Request, machine: &Machine, simulation: &Simulation) -> Facts {
+/// `several_files`: the check ahead has opened more than the program.
+fn facts(
+    request: &Request,
+    machine: &Machine,
+    simulation: &Simulation,
+    several_files: bool,
+) -> Facts {
     let (chains, _) = machine.chains();
     let stop = |i: usize| chains.get(i).map(|chain| chain.control.exact_stop).unwrap_or_default();
     let axes = machine.all_axes().enumerate().map(|(i, axis)| AxisFacts {
@@ -160,13 +166,18 @@ fn facts(request: &Request, machine: &Machine, simulation: &Simulation) -> Facts
         machine: machine.name.clone(),
         cycle_us: machine.cycle.us(),
         axes: axes.collect(),
-        files: simulation.files().iter().map(ToString::to_string).collect(),
+        files: FileNames::new(
+            simulation.files().iter().map(ToString::to_string).collect(),
+            several_files,
+        ),
     }
 }
 
 /// A program that runs, or that was refused before its first cycle.
 struct Run {
     facts: Facts,
+    /// Names of the files in the facts.
+    files_known: usize,
     simulation: Simulation,
     sources: ProgramFiles,
     /// Lists and inputs.
@@ -185,8 +196,12 @@ impl Run {
         }
         if let Some((path, e)) = self.sources.changed() {
             let text = format!("{}: {e}", path.display());
-            let hint = "the trace does not belong to the program as it is now: run it again";
-            self.messages.push(Diagnostic::new(Condition::NoFile, text).hint(hint));
+            self.messages.extend(self.simulation.take_diagnostics());
+            // the reader may have met it already
+            if self.messages.iter().all(|d| d.text != text) {
+                let hint = "the trace does not belong to the program as it is now: run it again";
+                self.messages.push(Diagnostic::new(Condition::NoFile, text).hint(hint));
+            }
             self.changed = true;
         }
     }
@@ -208,6 +223,11 @@ impl Source for Run {
         if self.simulation.next_cycle().is_none() {
             self.look_for_changes();
             return None;
+        }
+        let files = self.simulation.files();
+        if files.len() > self.files_known {
+            self.facts.files.update(files.iter().map(|f| &**f));
+            self.files_known = files.len();
         }
         Some(self.simulation.record())
     }
@@ -259,11 +279,13 @@ impl Engine for Kontur {
         // parts that do not run are looked at by the check alone
         let unreached = |d: &Diagnostic| d.id == exec::UNREACHED;
         messages.extend(found.into_iter().filter(|d| refused || unreached(d)));
+        let several_files = sources.opened().len() > 1;
         let changes = inputs::open(&request.inputs, &machine)?;
         let simulation = open(options).map_err(OpenError::Lists)?.with_inputs(changes);
-        let facts = facts(request, &machine, &simulation);
+        let facts = facts(request, &machine, &simulation, several_files);
         let others = lists.read_so_far().into_iter().chain(request.inputs.clone()).collect();
         let run = Run {
+            files_known: facts.files.all().len(),
             facts,
             simulation,
             sources,

@@ -99,8 +99,10 @@ pub struct Summary {
     pub cycles: u64,
     /// Program time of the last row in seconds.
     pub duration_s: f64,
-    /// Path / feed in seconds, without ramps, corners and limits.
+    /// Path / feed in seconds, rapid blocks at the rapid speed of their axes, without ramps, corners and limits.
     pub ideal_duration_s: f64,
+    /// Time in seconds for which the path dwelt (G04, `#TIME`); part of `stop` in `time_by_v_limit_s`.
+    pub dwell_s: f64,
     /// Time in seconds for which feedhold or override 0 kept the path at rest.
     pub held_s: f64,
     /// Time in seconds from the end of the last motion until every axis was in its exact-stop window.
@@ -203,10 +205,7 @@ impl Collector {
         let (k, path_length_mm) = self.last.unwrap_or_default();
         let (mm, at, file, line, block) = self.worst;
         let axes = self.axes.iter().zip(&facts.axes).enumerate();
-        let name = |file: u32| {
-            let i = usize::try_from(file).ok();
-            i.and_then(|i| facts.files.get(i).cloned()).unwrap_or_default()
-        };
+        let name = |file: u32| facts.files.name(file);
         let stop = |stop: &SettledStop| StopSummary {
             axis: facts.axes.get(stop.axis).map(|a| a.name.clone()).unwrap_or_default(),
             time_s: seconds(stop.k),
@@ -220,6 +219,7 @@ impl Collector {
             cycles: self.cycles,
             duration_s: seconds(k),
             ideal_duration_s: totals.ideal_duration_s,
+            dwell_s: seconds(totals.dwell_cycles),
             held_s: seconds(totals.held_cycles),
             arrival_s: seconds(totals.arrival_cycles),
             stops: totals.stops.first.iter().map(stop).collect(),
@@ -288,6 +288,9 @@ impl Summary {
         writeln!(out, "  machine        {}, cycle {cycle_ms} ms", self.machine)?;
         writeln!(out, "  duration       {:.3} s ({} cycles)", self.duration_s, self.cycles)?;
         writeln!(out, "  ideal          {:.3} s (path / feed)", self.ideal_duration_s)?;
+        if self.dwell_s > 0.0 {
+            writeln!(out, "  dwells         {:.3} s", self.dwell_s)?;
+        }
         if self.held_s > 0.0 {
             writeln!(out, "  held           {:.3} s (feedhold or override 0)", self.held_s)?;
         }
@@ -300,32 +303,43 @@ impl Summary {
         }
         writeln!(out, "  path           {:.4} mm in {} blocks", self.path_length_mm, self.blocks)?;
         if let Some(ripple) = &self.speed_ripple {
-            let (low, high, line) = (ripple.v_min_mm_s, ripple.v_max_mm_s, ripple.line);
+            let (low, high) = (ripple.v_min_mm_s, ripple.v_max_mm_s);
+            let place = self.place(&ripple.file, ripple.line, None);
             let percent = 100.0 * ripple.ratio;
             writeln!(
                 out,
-                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at line {line} (corners above {} deg left out)",
+                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at {place} (corners above {} deg left out)",
                 ripple::CORNER_DEG
             )?;
         }
-        if let Some(worst) = &self.max_contour_error {
-            let block = worst.block.map_or_else(String::new, |n| format!(", N{n}"));
+        if let Some(worst) = self.max_contour_error.as_ref().filter(|worst| worst.mm > 0.0) {
+            let place = self.place(&worst.file, worst.line, worst.block);
             writeln!(
                 out,
-                "  contour error  at most {:.6} mm at t = {:.6} s, line {}{block}",
-                worst.mm, worst.time_s, worst.line
+                "  contour error  at most {:.6} mm at t = {:.6} s, {place}",
+                worst.mm, worst.time_s
             )?;
+        } else if self.max_contour_error.is_some() {
+            writeln!(out, "  contour error  none")?;
         }
         if self.cycles > 0 {
             self.write_axes(out)?;
         }
         if self.duration_s > 0.0 {
             write!(out, "  speed held by ")?;
-            let mut shares: Vec<_> = self.time_by_v_limit_s.iter().filter(|s| *s.1 > 0.0).collect();
-            shares.sort_by(|a, b| b.1.total_cmp(a.1));
+            let mut shares: Vec<(&str, f64)> =
+                self.time_by_v_limit_s.iter().map(|(name, s)| (*name, *s)).collect();
+            if let Some((_, stop)) =
+                shares.iter_mut().find(|(name, _)| *name == SpeedLimit::Stop.name())
+            {
+                *stop -= self.dwell_s;
+            }
+            shares.push(("dwell", self.dwell_s));
+            shares.retain(|(_, s)| *s > 0.5e-9);
+            shares.sort_by(|a, b| b.1.total_cmp(&a.1));
             for (i, (name, seconds)) in shares.iter().enumerate() {
                 let comma = if i > 0 { ", " } else { "" };
-                write!(out, "{comma}{name} {:.1} %", 100.0 * *seconds / self.duration_s)?;
+                write!(out, "{comma}{name} {:.1} %", 100.0 * seconds / self.duration_s)?;
             }
             writeln!(out)?;
         }
@@ -344,6 +358,13 @@ impl Summary {
             writeln!(out)?;
         }
         Ok(())
+    }
+
+    /// `line 4, N40`, and the file if it is not the program.
+    fn place(&self, file: &str, line: u32, block: Option<u64>) -> String {
+        let block = block.map_or_else(String::new, |n| format!(", N{n}"));
+        let of = if file == self.program { String::new() } else { format!(" of {file}") };
+        format!("line {line}{block}{of}")
     }
 
     fn write_axes(&self, out: &mut String) -> std::fmt::Result {
@@ -369,15 +390,14 @@ impl Summary {
         }
         for a in &self.axes {
             if let Some(slowest) = &a.slowest_stop {
-                let block = slowest.block.map_or_else(String::new, |n| format!(", N{n}"));
+                let place = self.place(&slowest.file, slowest.line, slowest.block);
                 writeln!(
                     out,
-                    "  settling {:<5} {}, t2 - t1 at most {:.3} s at t = {:.3} s, line {}{block}",
+                    "  settling {:<5} {}, t2 - t1 at most {:.3} s at t = {:.3} s, {place}",
                     a.name,
                     many(usize::try_from(a.stops).unwrap_or(usize::MAX), "stop"),
                     slowest.settling_s,
-                    slowest.time_s,
-                    slowest.line
+                    slowest.time_s
                 )?;
             }
         }

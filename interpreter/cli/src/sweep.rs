@@ -18,7 +18,7 @@ use crate::summary::{Collector, Summary};
 use crate::table::Table;
 use crate::target::{Target, keep_apart};
 use crate::trace::columns::Column;
-use crate::vary::{combinations, settings};
+use crate::vary::{combinations, put, settings, without_effect};
 use crate::{Error, Exit};
 use args::{Amplitude, SweepArgs};
 use columns::Cell;
@@ -81,6 +81,13 @@ pub fn sweep(args: &SweepArgs, engine: &dyn Engine, console: &mut Console) -> Re
     };
     let rows = run_all(args, &combinations, journal.as_mut(), engine, console)?;
     let rows = Rows { title, ..rows };
+    let results: Vec<&[Cell]> = rows.cells.iter().map(|row| &row[args.vary.len()..]).collect();
+    for vary in without_effect(&args.vary, &combinations, &results) {
+        console.error_text(&format!(
+            "note: {}: every value gives the same results; the program sets its own, or nothing uses it",
+            vary.key
+        ));
+    }
     if args.output.is_empty() || !standard.is_empty() {
         console.print(&rows.table().csv())?;
     }
@@ -104,7 +111,7 @@ fn first(
 ) -> Result<(String, Vec<PathBuf>), Error> {
     let Some(first) = combinations.first() else { return Ok(Default::default()) };
     let mut request = args.simulation.request(&args.program);
-    request.settings.extend(settings(&args.vary, first));
+    put(&args.vary, first, &mut request);
     match engine.open(&request) {
         Ok(source) => {
             let facts = source.facts();
@@ -180,7 +187,7 @@ fn run_all(
         scope.spawn(move || {
             open.par_iter().for_each_with(send, |send, &i| {
                 let mut request = args.simulation.request(&args.program);
-                request.settings.extend(settings(&args.vary, &combinations[i]));
+                put(&args.vary, &combinations[i], &mut request);
                 if Running::is_interrupted() {
                     return;
                 }

@@ -92,7 +92,12 @@ fn hidden(path: &Path, permissions: Option<Permissions>) -> io::Result<NamedTemp
     if let Some(permissions) = permissions {
         builder.permissions(permissions);
     }
-    builder.tempfile_in(folder_of(path))
+    builder.tempfile_in(folder_of(path)).map_err(|e| {
+        // the temporary name is nothing to tell; `tempfile` keeps the cause itself for its message
+        let text = e.to_string();
+        let cause = text.split(" at path ").next().unwrap_or_default();
+        io::Error::new(e.kind(), cause)
+    })
 }
 
 /// The folder in which a file lies.

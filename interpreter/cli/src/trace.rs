@@ -47,7 +47,15 @@ impl Trace {
         console: &Console,
     ) -> Result<Self, Error> {
         let columns = columns::select(signals, facts).map_err(Error::Usage)?;
-        let is_parquet = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"));
+        let is = |end: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
+        if is("html") || is("svg") {
+            let message = format!(
+                "{}: a trace is CSV or Parquet; `kontur report` writes pages and pictures",
+                path.display()
+            );
+            return Err(Error::Usage(message));
+        }
+        let is_parquet = is("parquet");
         #[cfg(not(feature = "parquet"))]
         if is_parquet {
             let message = format!("{}: built without Parquet, use a .csv file", path.display());

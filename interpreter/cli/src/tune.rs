@@ -17,12 +17,14 @@ use crate::console::Console;
 use crate::engine::Engine;
 use crate::files::Lists;
 use crate::table::{Table, number};
+use crate::target::{keep_apart, write};
 use crate::{Error, Exit, simulator};
 use args::TuneArgs;
 use kontur_filters::analysis::tuning::{Choice, VibrationBand};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use recording::Measured;
+use std::path::PathBuf;
 use vibration::{Estimate, Mode};
 
 /// What the table of the modes is computed for.
@@ -61,7 +63,11 @@ pub fn tune(
     engine: &mut dyn Engine,
     console: &mut Console,
 ) -> Result<Exit, Error> {
-    let cycle = cycle(args, console)?;
+    let lists = Lists::default();
+    let cycle = cycle(args, &lists, console)?;
+    let inputs = args.recording.iter().chain(&args.program).cloned();
+    let read: Vec<PathBuf> = lists.read_so_far().into_iter().chain(inputs).collect();
+    keep_apart(&read, args.output.as_slice())?;
     if let Some(tolerance_mm) = args.order_for {
         return order::answer(tolerance_mm, args.feed, cycle, console);
     }
@@ -73,8 +79,7 @@ pub fn tune(
             recording::measured(args, console)?
         };
     if let Some(output) = &args.output {
-        std::fs::write(output, picture::draw(&recordings))
-            .map_err(|e| Error::io(output.display().to_string(), e))?;
+        write(output, picture::draw(&recordings).as_bytes())?;
     }
     // what is judged is what stands in the command to paste
     let damping = args.damping.or(measured_damping.map(rounded));
@@ -107,9 +112,9 @@ pub fn tune(
 }
 
 /// The cycle of the machine, if one is named, else that of the option.
-fn cycle(args: &TuneArgs, console: &mut Console) -> Result<CycleTime, Error> {
+fn cycle(args: &TuneArgs, lists: &Lists, console: &mut Console) -> Result<CycleTime, Error> {
     let form = args.simulation.diagnostics;
-    let loaded = simulator::machine(&args.simulation.request(""), &Lists::default());
+    let loaded = simulator::machine(&args.simulation.request(""), lists);
     let (machine, messages) = loaded.map_err(|e| crate::run::announce_lists(e, form, console))?;
     // with a program the run repeats them
     if args.program.is_none() {

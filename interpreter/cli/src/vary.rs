@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::args::setting;
+use crate::engine::Request;
 use crate::response::args::Numbers;
 use kontur_interpreter::machine::Override;
 use std::str::FromStr;
@@ -94,6 +95,42 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     Ok(all)
 }
 
+/// External variables (`V.E.NAME`) vary beside list parameters: a program reads them.
+const EXTERNAL: &str = "V.E.";
+
+/// Puts one combination into a request.
+pub(crate) fn put(vary: &[Vary], combination: &[usize], request: &mut Request) {
+    for (v, &i) in vary.iter().zip(combination) {
+        let value = v.values[i].clone();
+        if let Some((_, name)) = v
+            .key
+            .split_at_checked(EXTERNAL.len())
+            .filter(|(front, _)| front.eq_ignore_ascii_case(EXTERNAL))
+        {
+            request.external.retain(|(other, _)| !other.eq_ignore_ascii_case(name));
+            request.external.push((name.to_owned(), value));
+        } else {
+            request.settings.push(format!("{}={value}", v.key));
+        }
+    }
+}
+
+/// Parameters whose values make no difference to any result: `rows` holds the results in the order of [`combinations`].
+pub(crate) fn without_effect<'v, R: PartialEq>(
+    vary: &'v [Vary],
+    combinations: &[Vec<usize>],
+    rows: &[R],
+) -> Vec<&'v Vary> {
+    // each row against that of the parameter's first value, all others being equal
+    let same = |which: usize| {
+        let stride: usize = vary[which + 1..].iter().map(|v| v.values.len()).product();
+        let mut all = combinations.iter().zip(rows).enumerate();
+        all.all(|(i, (combination, row))| rows[i - combination[which] * stride] == *row)
+    };
+    let several = vary.iter().enumerate().filter(|(_, v)| v.values.len() > 1);
+    several.filter(|(i, _)| same(*i)).map(|(_, v)| v).collect()
+}
+
 /// The settings of one combination, as `--set` takes them.
 pub(crate) fn settings(vary: &[Vary], combination: &[usize]) -> Vec<String> {
     vary.iter().zip(combination).map(|(v, &i)| format!("{}={}", v.key, v.values[i])).collect()
@@ -130,6 +167,19 @@ mod tests {
             let vary: Vec<Vary> = texts.iter().map(|text| text.parse().unwrap()).collect();
             combinations(&vary).unwrap_err().to_string()
         };
+        // only the second one makes a difference: rows 0 to 2 for X.a=1, 3 to 5 for X.a=2
+        let keys = |rows: &[u32]| -> Vec<String> {
+            without_effect(&vary, &all, rows).iter().map(|v| v.key.clone()).collect()
+        };
+        assert_eq!(keys(&[7, 8, 9, 7, 8, 9]), ["X.a"]);
+        assert_eq!(keys(&[7, 7, 7, 8, 8, 8]), ["Y.b"]);
+        assert_eq!(keys(&[7, 8, 9, 7, 8, 0]), [""; 0]);
+        assert_eq!(keys(&[7; 6]), ["X.a", "Y.b"]);
+        let mut request = Request::default();
+        let external: Vec<Vary> = vec!["v.e.Speed=100,200".parse().unwrap(), vary[0].clone()];
+        put(&external, &[1, 0], &mut request);
+        assert_eq!(request.external, [("Speed".to_owned(), "200".to_owned())]);
+        assert_eq!(request.settings, ["X.a=1"]);
         assert!(error(["X.a=1..900", "Y.a=1..900"]).contains("more than"));
         assert!(error(["X.a=1", "x.A=2"]).contains("twice"));
     }

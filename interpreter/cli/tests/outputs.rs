@@ -58,6 +58,7 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         ("sub.nc", "G01 X1 F6000\n"),
         ("bad.nc", "G01 X1 F6000\nG7\nM30\n"),
         ("in.csv", "t_s,override_percent\n0,100\n"),
+        ("rec.csv", "t_s,a\n0,1\n"),
         ("old.csv", "old"),
         ("old.parquet", "old"),
         ("old.html", "old"),
@@ -70,6 +71,9 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         [("a.nc", "1"), ("sub.nc", "2"), ("m/x.lis", "3"), ("in.csv", "4"), ("old.csv", "5")]
     {
         fs::hard_link(f.join(name), f.join(link)).unwrap();
+    }
+    for (name, link) in [("m/x.lis", "x.csv"), ("m/x.lis", "x.svg"), ("rec.csv", "rec.svg")] {
+        std::os::unix::fs::symlink(name, f.join(link)).unwrap();
     }
     let run_a = ["run", "a.nc", "-m", "m", "--input", "in.csv", "-o"];
     let with = |more: &[&'static str]| [&run_a[..], more].concat();
@@ -95,6 +99,9 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         ([&["sweep", "a.nc", "-m", "m"], &vary[..], &["sub.nc"]].concat(), 2),
         ([&["sweep", "a.nc", "-m", "m"], &vary[..], &["old.csv", "-o", "no/such.svg"]].concat(), 3),
         ([&["sweep", "a.nc"], &vary[..], &["old.csv", "--columns", "nothing"]].concat(), 2),
+        (vec!["response", "-m", "m", "--axis", "X", "-o", "x.csv"], 2),
+        (vec!["tune", "-m", "m", "--freq", "40", "-o", "x.svg"], 2),
+        (vec!["tune", "--recording", "rec.csv", "-o", "rec.svg"], 2),
     ];
     for (words, exit) in cases {
         let said = run(f, &words);
@@ -103,6 +110,8 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         for (name, text) in texts {
             assert_eq!(fs::read_to_string(f.join(name)).unwrap(), text, "{words:?}: {name}");
         }
+        assert!(!err.contains(".part"), "{words:?}: {err}");
+        assert!(fs::read_to_string(f.join("m/x.lis")).unwrap().contains("kopf."), "{words:?}");
         let left = [names(f, "new"), names(f, ".")].concat();
         assert!(left.is_empty(), "{words:?}: {left:?}");
         let _ = fs::remove_file(f.join("old.csv.rows"));
@@ -226,4 +235,68 @@ fn a_reader_that_goes_away_does_not_end_the_other_output() {
     assert_eq!(child.wait().unwrap().code(), Some(0));
     // 40 mm at 10 mm/s
     assert!(csv_rows(&f.join("k.csv")) > 4000);
+}
+
+/// Every other command: its exit code is documented, nothing half-done has a name or stays under a temporary one.
+#[test]
+fn a_signal_ends_every_command_and_leaves_no_half_file() {
+    let sweep = ["sweep", "a.nc", "--vary", "X.getriebe[0].kv=1000..9000:10", "-o", "s.csv"];
+    let commands: [(&[&str], i32); 5] = [
+        (&["report", "a.nc", "-o", "a.html"], 1),
+        (&["report", "a.nc", "-o", "a.svg", "--signals", "ipo"], 1),
+        (&sweep, 1),
+        (&["diff", "a.nc", "a.nc"], 130),
+        (&["check", "wait.nc"], 130),
+    ];
+    for (words, exit) in commands {
+        for name in ["-INT", "-TERM"] {
+            let folder = tempfile::tempdir().unwrap();
+            let f = folder.path();
+            fs::write(f.join("a.nc"), LONG).unwrap();
+            // nobody writes to it
+            assert!(Command::new("mkfifo").arg(f.join("wait.nc")).status().unwrap().success());
+            let mut child = kontur(f, words).spawn().unwrap();
+            std::thread::sleep(Duration::from_millis(400));
+            signal(&child, name);
+            assert_eq!(child.wait().unwrap().code(), Some(exit), "{words:?} {name}");
+            let mut left = names(f, "");
+            left.retain(|p| !["a.nc", "wait.nc", "s.csv.rows"].iter().any(|n| p.ends_with(n)));
+            assert!(left.is_empty(), "{words:?} {name}: {left:?}");
+        }
+    }
+}
+
+/// A limit of the file size does what a full disk does: from one write to the next there is no room.
+#[test]
+fn a_full_disk_leaves_whole_rows() {
+    // units of 512 bytes; one group of rows has room, and the whole table has none
+    for (name, room) in [("a.csv", 3000), ("a.parquet", 800), ("s.csv", 8)] {
+        let folder = tempfile::tempdir().unwrap();
+        let f = folder.path();
+        fs::write(f.join("a.nc"), "G01 X400 F60\nM30\n").unwrap();
+        fs::write(f.join("s.nc"), "G01 X1 F6000\nM30\n").unwrap();
+        let run = format!("run a.nc --signals time,ipo,err -o {name}");
+        let sweep = format!("sweep s.nc --vary X.getriebe[0].kv=1000..9000:100 -o {name}");
+        let words = if name == "s.csv" { sweep } else { run };
+        let limit = format!("trap '' XFSZ; ulimit -f {room}; exec \"$0\" {words}");
+        let mut command = Command::new("sh");
+        command.args(["-c", &limit, env!("CARGO_BIN_EXE_kontur")]).current_dir(f);
+        let said = command.output().unwrap();
+        let err = String::from_utf8_lossy(&said.stderr);
+        assert_eq!(said.status.code(), Some(3), "{name}: {err}");
+        match name {
+            "a.csv" => assert!(csv_rows(&f.join(name)) > 10_000),
+            "a.parquet" => {
+                assert!(err.contains("the rows up to there are in"), "{err}");
+                let parts = names(f, ".a.parquet.").into_iter().find(|p| p.is_dir()).unwrap();
+                let mut whole = names(&parts, "");
+                whole.retain(|p| p.extension().is_some_and(|e| e == "parquet"));
+                assert!(parquet_rows(&whole) > 65_536 && !f.join(name).exists());
+            }
+            _ => {
+                let rows = fs::read_to_string(f.join("s.csv.rows")).unwrap();
+                assert!(rows.lines().count() > 1, "{err}");
+            }
+        }
+    }
 }

@@ -234,6 +234,11 @@ fn exit_codes_of_wrong_usage_and_files() {
         let file = format!("@{name}");
         assert_eq!(f.call(&["diff", &file, "@corner.nc"]).0, expected, "{name}");
     }
+    for name in ["@a.html", "@a.SVG"] {
+        let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", name]);
+        assert!(exit == Exit::Usage && err.contains("kontur report"), "{err}");
+        assert!(!f.path(&name[1..]).exists());
+    }
     let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "@a.csv", "--signals", "bogus"]);
     assert_eq!(exit, Exit::Usage);
     assert!(

@@ -164,6 +164,11 @@ impl Contour {
         self.events.push(event);
     }
 
+    /// Number of events that wait for the next step.
+    pub(super) fn waiting(&self) -> usize {
+        self.events.len()
+    }
+
     /// Events that wait for the next step.
     pub(super) fn take_events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)

@@ -1,6 +1,6 @@
 //! From the start-up list to settled parameters: defaults, default list, specific list, overrides, range checks.
 
-use super::axis::logical_number;
+use super::axis::{AxisKind, kind_of, logical_number};
 use super::lists::{self, List, ListFiles};
 use super::overrides::Override;
 use super::parameters::Parameters;
@@ -203,14 +203,22 @@ impl Chain<'_> {
             {
                 continue;
             }
-            let Some(number) = names.number(wanted.target()) else {
-                self.diagnostics.push(wanted.unknown_target(&names.all()));
-                continue;
-            };
-            for axis in settled.axes.iter_mut().filter(|a| logical_number(&a.parameters) == number)
-            {
-                if let Err(diagnostic) = wanted.apply(&mut axis.parameters) {
+            for target in wanted.target().split(',').map(str::trim) {
+                let number = names.number(target);
+                if number.is_none() && target != Override::EVERY_AXIS {
+                    self.diagnostics.push(wanted.unknown_target(target, &names.all()));
+                    continue;
+                }
+                let is_meant = |axis: &Parameters| match number {
+                    Some(number) => logical_number(axis) == number,
+                    None => kind_of(axis) != AxisKind::Spindle,
+                };
+                let mut meant = settled.axes.iter_mut().filter(|a| is_meant(&a.parameters));
+                if let Some(diagnostic) =
+                    meant.find_map(|axis| wanted.apply(&mut axis.parameters).err())
+                {
                     self.diagnostics.push(*diagnostic);
+                    break;
                 }
             }
         }

@@ -10,8 +10,8 @@ use crate::diag::{Condition, Diagnostic, Location};
 /// What messages name in place of a file.
 pub(super) const OVERRIDE: &str = "--set";
 
-/// One override: target, key and value. Targets are an axis or spindle name, `channel`, `start_up` and `kontur`
-/// (whose keys begin with `kontur.` themselves).
+/// One override: target, key and value. Targets are an axis or spindle name, several with commas (`X,Y`), every path axis
+/// (`*`), `channel`, `start_up` and `kontur` (whose keys begin with `kontur.` themselves).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Override {
     text: String,
@@ -21,6 +21,9 @@ pub struct Override {
 }
 
 impl Override {
+    /// Target that stands for every path axis.
+    pub(super) const EVERY_AXIS: &str = "*";
+
     /// Takes `TARGET.key=value` apart.
     ///
     /// # Errors
@@ -43,7 +46,7 @@ impl Override {
         Ok(Self { text: owned(text), target: owned(target), key: owned(key), value: owned(value) })
     }
 
-    /// Axis or spindle name, `channel`, `start_up` or `kontur`.
+    /// Axis or spindle names with commas, `*`, `channel`, `start_up` or `kontur`.
     pub fn target(&self) -> &str {
         &self.target
     }
@@ -94,10 +97,13 @@ impl Override {
     }
 
     /// K-0073 for a target that is neither an axis nor a list.
-    pub(super) fn unknown_target(&self, names: &[&str]) -> Diagnostic {
-        let message = format!("`{}` is no axis of the machine", self.target);
-        let hint = format!("targets are {}, channel, start_up and kontur", names.join(", "));
-        Diagnostic::new(Condition::Setting, message).at(self.location(&self.target)).hint(hint)
+    pub(super) fn unknown_target(&self, target: &str, names: &[&str]) -> Diagnostic {
+        let message = format!("`{target}` is no axis of the machine");
+        let hint = format!(
+            "targets are {} (several with commas), * for every path axis, channel, start_up and kontur",
+            names.join(", ")
+        );
+        Diagnostic::new(Condition::Setting, message).at(self.location(target)).hint(hint)
     }
 
     fn location(&self, part: &str) -> Location {

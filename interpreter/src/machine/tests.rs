@@ -181,11 +181,28 @@ fn an_override_gives_the_bits_of_a_list_value() {
     }
 }
 
+/// Several axes by name, and every path axis: the spindle is none.
+#[test]
+fn overrides_of_several_axes() {
+    let gains = |text: &str| {
+        let (machine, _) = Memory::machine().load(&[text]).unwrap();
+        machine.all_axes().map(|a| a.raw("getriebe[0].kv").unwrap()).collect::<Vec<_>>()
+    };
+    let plain = gains("channel.prog_start.feedrate=600");
+    assert_eq!(gains("*.getriebe[0].kv=4321"), [4321.0, 4321.0, plain[2]]);
+    assert_eq!(gains("x, S.getriebe[0].kv=4321"), [4321.0, plain[1], 4321.0]);
+}
+
 #[test]
 fn overrides_that_name_nothing_are_errors() {
     let files = Memory::machine();
     for (text, hint) in [
-        ("Q.getriebe[0].kv=1", "targets are X, Y, S, channel, start_up and kontur"),
+        (
+            "Q.getriebe[0].kv=1",
+            "targets are X, Y, S (several with commas), * for every path axis, channel, start_up and kontur",
+        ),
+        // one mistake is told once, however many axes are meant
+        ("*.kv=1", "did you mean `getriebe[i].kv`?"),
         ("X.vorsteuer.jerk_fact_nom=1", "did you mean `vorsteuer.jerk_fact_num`?"),
         ("X.kv=1", "did you mean `getriebe[i].kv`?"),
         ("X.filter[7].order=1", "the index is beyond the end of the array"),

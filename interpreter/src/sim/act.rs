@@ -7,6 +7,9 @@ use crate::exec::Event;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
+/// Messages of the program that are kept until somebody asks for them: without motion a loop gives millions at once.
+const MESSAGES_MAX: usize = 10_000;
+
 impl Simulation {
     /// Something happens in cycle `k`.
     pub(super) fn act(&mut self, event: Event, k: u64) {
@@ -34,6 +37,10 @@ impl Simulation {
                 };
                 let time_s = self.cycle.time_of(self.planner.setpoint().k);
                 if let Some(mut message) = self.totals.note(other, &self.machine, time_s) {
+                    if self.diagnostics.len() >= MESSAGES_MAX {
+                        self.unshown += 1;
+                        return;
+                    }
                     message.source = block.and_then(|block| self.executor.locate(block));
                     self.diagnostics.push(message);
                 }

@@ -3,6 +3,7 @@
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::{Event, SourceRef};
 use crate::machine::Machine;
+use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::{Block, Feed};
 use std::collections::BTreeMap;
 
@@ -54,13 +55,16 @@ pub struct Totals {
     pub input_failed: bool,
     /// Cycles in which feedhold or override 0 kept the path at rest.
     pub held_cycles: u64,
+    /// Cycles in which the path dwelt (G04, `#TIME`).
+    pub dwell_cycles: u64,
     /// Cycles from the end of the last motion until every axis was in position.
     pub arrival_cycles: u64,
     /// Exact stops.
     pub stops: Stops,
     /// Blocks executed.
     pub blocks: u64,
-    /// Sum of path length / programmed feed over the feed blocks in s.
+    /// Path length / programmed feed of the feed blocks, the way of the slowest axis at its rapid speed of the rapid ones,
+    /// in s: without ramps, corners and limits. Dwells and technology times are not in it.
     pub ideal_duration_s: f64,
     /// What the duration does not contain (M functions, tool changes, spindle run-up).
     pub not_counted: Vec<String>,
@@ -74,7 +78,8 @@ impl Totals {
         self.ideal_duration_s += match block.feed {
             Feed::PathVelocity(v) => block.path.length() / v,
             Feed::Duration(t) => t,
-            Feed::Rapid | Feed::ShareOfMaximum(_) => 0.0,
+            Feed::Rapid => slowest_s(block, |axis| axis.v_rapid_mm_s),
+            Feed::ShareOfMaximum(share) => slowest_s(block, |axis| share * axis.v_max_mm_s),
         };
     }
 
@@ -86,13 +91,18 @@ impl Totals {
         time_s: f64,
     ) -> Option<Diagnostic> {
         let name = match event {
-            Event::MFunction { number, .. } => {
-                if machine.channel.m_durations_s.contains_key(&number) {
-                    return None;
-                }
-                format!("M{number}")
-            }
-            Event::HFunction { number, .. } => format!("H{number}"),
+            Event::MFunction { number, .. } => declared(
+                format!("M{number}"),
+                &machine.channel.m_durations_s,
+                number,
+                "P-CHAN-00040",
+            ),
+            Event::HFunction { number, .. } => declared(
+                format!("H{number}"),
+                &machine.channel.h_durations_s,
+                number,
+                "P-CHAN-00026",
+            ),
             Event::Tool { .. } => "tool change (T)".to_owned(),
             Event::Message { text, .. } => {
                 let mut message =
@@ -109,5 +119,25 @@ impl Totals {
             self.not_counted.push(name);
         }
         None
+    }
+}
+
+/// Time that the axis that needs longest takes for its way at a speed.
+fn slowest_s(block: &Block, speed_mm_s: impl Fn(&AxisDynamics) -> f64) -> f64 {
+    let ways = block.path.start().iter().zip(block.path.end().iter()).zip(&block.dynamics.axes);
+    let times = ways.map(|((from, to), axis)| (to - from).abs() / speed_mm_s(axis));
+    times.filter(|t| t.is_finite()).fold(0.0, f64::max)
+}
+
+/// The name of a function with the duration that the channel list declares; it is not part of the run.
+fn declared(
+    name: String,
+    durations_s: &BTreeMap<u32, f64>,
+    number: u32,
+    parameter: &str,
+) -> String {
+    match durations_s.get(&number) {
+        Some(s) => format!("{name} ({s} s each by {parameter})"),
+        None => name,
     }
 }

@@ -9,6 +9,7 @@
 
 use super::piece::{PolyPiece, section};
 use crate::axis::AxisVec;
+use crate::profile::roots::enclosed_root;
 use smallvec::SmallVec;
 
 /// Halvings of a piece at most, and the part by which a bound may exceed what is reached where they end before.
@@ -74,25 +75,9 @@ fn changes(p: &[f64]) -> usize {
     signs.windows(2).filter(|w| w[0] != w[1]).count()
 }
 
-/// The only zero of a polynomial between 0 and 1, by false position.
+/// The only zero of a polynomial between 0 and 1.
 fn zero(p: &[f64]) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    let (mut at_low, mut at_high) = (value(p, low), value(p, high));
-    while high - low > FLAT && at_low * at_high < 0.0 {
-        // the end that stays counts half (Illinois), and no step is so small that it gets nowhere
-        let step = (at_low / (at_low - at_high)).clamp(FLAT, 1.0 - FLAT);
-        let x = low + step * (high - low);
-        let here = value(p, x);
-        if here == 0.0 {
-            return x;
-        }
-        if (here > 0.0) == (at_low > 0.0) {
-            (low, at_low, at_high) = (x, here, 0.5 * at_high);
-        } else {
-            (high, at_high, at_low) = (x, here, 0.5 * at_low);
-        }
-    }
-    if at_low.abs() < at_high.abs() { low } else { high }
+    enclosed_root((0.0, value(p, 0.0)), (1.0, value(p, 1.0)), FLAT, |x| value(p, x)).1
 }
 
 /// `|P'|^2` with its least coefficient in Bernstein form.

@@ -1,9 +1,13 @@
 //! A speed over path length as a chain of phases, each with one ramp of the acceleration.
 
 use super::ramp::{RampShape, RampState};
+use super::roots::increasing_root;
 use super::span::State;
 use smallvec::SmallVec;
 use std::f64::consts::FRAC_1_PI;
+
+/// Last step to a root, relative to it: the error is its square.
+const ROOT: f64 = 1e-9;
 
 /// A phase in which the acceleration runs along one ramp, or stays, from its state at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,24 +108,12 @@ impl Phase {
         if want >= whole {
             return self.t;
         }
-        let (mut low, mut high) = (0.0, self.t);
-        let mut t = self.t * want / whole;
-        for _ in 0..60 {
+        increasing_root(0.0, self.t, self.t * want / whole, ROOT, |t| {
+            #[cfg(test)]
+            crate::work::add();
             let (way, v, _) = self.way_after(t);
-            let miss = way - want;
-            if miss > 0.0 {
-                high = t;
-            } else {
-                low = t;
-            }
-            let newton = t - miss / v;
-            // what is left is rounding
-            if (newton - t).abs() <= 2.0 * f64::EPSILON * self.t {
-                return newton.clamp(low, high);
-            }
-            t = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        }
-        t
+            (way - want, v)
+        })
     }
 
     /// Velocity where the acceleration passes through zero inside the phase.

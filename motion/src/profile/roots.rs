@@ -46,6 +46,38 @@ pub(super) fn increasing_root(
     x
 }
 
+/// Two places, not farther apart than `precision` times their first distance, between which the only root of a function
+/// lies, by false position from two places with the values there. The function has the sign of `low` at the first one,
+/// and not at the second one, which is the root itself if it is met exactly.
+pub(crate) fn enclosed_root(
+    (mut low, mut at_low): (f64, f64),
+    (mut high, mut at_high): (f64, f64),
+    precision: f64,
+    eval: impl Fn(f64) -> f64,
+) -> (f64, f64) {
+    let close = precision * (high - low);
+    let mut stays = None;
+    while high - low > close && at_high != 0.0 {
+        // a step beside the root goes across it
+        let least = 0.5 * close / (high - low);
+        let step = (at_low / (at_low - at_high)).clamp(least, 1.0 - least);
+        let x = low + step * (high - low);
+        let here = eval(x);
+        let raises_low = here * at_low > 0.0;
+        if raises_low {
+            (low, at_low) = (x, here);
+        } else {
+            (high, at_high) = (x, here);
+        }
+        // an end that stays for a second time counts half (Illinois)
+        if stays == Some(raises_low) {
+            *(if raises_low { &mut at_high } else { &mut at_low }) *= 0.5;
+        }
+        stays = Some(raises_low);
+    }
+    (low, high)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -61,6 +93,27 @@ mod tests {
             }
         }
         assert!(monotone_cubic(1.0, 0.0, 0.0).abs() < f64::MIN_POSITIVE);
+    }
+
+    #[test]
+    fn a_root_is_enclosed_in_few_steps_and_from_both_sides() {
+        let steps = std::cell::Cell::new(0);
+        for power in [1, 3, 9] {
+            for sign in [1.0, -1.0] {
+                steps.set(0);
+                let f = |x: f64| sign * ((0..power).fold(1.0, |y, _| y * x) - 0.3);
+                let counted = |x: f64| {
+                    steps.set(steps.get() + 1);
+                    f(x)
+                };
+                let (low, high) = enclosed_root((0.0, f(0.0)), (1.0, f(1.0)), 1e-12, counted);
+                assert!(f(low) * f(0.0) > 0.0 && f(high) * f(0.0) <= 0.0, "{power}: {low} {high}");
+                assert!(low <= high && (high - low <= 1e-12 || f(high) == 0.0), "{power}: {low}");
+                assert!(steps.get() <= 30, "{power}: {} steps", steps.get());
+            }
+        }
+        let half = enclosed_root((0.0, 1.0), (1.0, -1.0), 1e-12, |x| 1.0 - 2.0 * x).1;
+        assert!((half - 0.5).abs() < 1e-12);
     }
 
     #[test]

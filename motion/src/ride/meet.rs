@@ -7,6 +7,7 @@
 //! the connection keeps them too.
 
 use super::Block;
+use crate::profile::roots::enclosed_root;
 use crate::profile::{Phase, RampShape};
 
 /// Relative difference of speeds that is rounding.
@@ -17,6 +18,8 @@ const MISS: f64 = 1e-7;
 const FLAT_MM_S2: f64 = 1e-6;
 /// Rounds of bisection of the moment in which the rise is left.
 const ROUNDS: u32 = 50;
+/// Accuracy of the moment in which both are closest, relative to the piece.
+const MOMENT: f64 = 1e-12;
 
 /// A rise and a fall over the same blocks.
 pub(super) struct Meet<'a> {
@@ -33,6 +36,17 @@ struct Joint {
     phase: usize,
     time: f64,
     gap: f64,
+}
+
+/// A connection beside the fall.
+#[derive(Clone, Copy, Debug)]
+struct Beside {
+    /// State of the connection.
+    there: Phase,
+    /// Difference of the slopes over the path, positive while the connection comes closer.
+    closing: f64,
+    /// The place on the fall.
+    joint: Joint,
 }
 
 /// A connection and where it ends on the fall; `None`: it stays below the fall without meeting it.
@@ -147,6 +161,8 @@ impl Meet<'_> {
         let same = self.same_mm();
         let mut c = self.cells.partition_point(|b| b.end <= at.s + same);
         let mut f = self.fall.partition_point(|p| p.s <= at.s + same).max(1) - 1;
+        // the fall brakes more: known from the piece before
+        let mut nears = None;
         loop {
             let (Some(cell), Some(fall)) = (self.cells.get(c), self.fall.get(f)) else {
                 return Some(Way { phases, joint: None });
@@ -163,64 +179,64 @@ impl Meet<'_> {
             let stop = cell.end.min(fall_end);
             let whole = piece.end().s <= stop;
             let t = if whole { t } else { piece.time_at(stop) };
-            let end = piece.after(t);
-            if let Some((time, joint)) = self.lowest(&piece.until(t), f) {
+            let piece = piece.until(t);
+            let start = nears.unwrap_or_else(|| self.compare(&piece, 0.0, f));
+            let end = self.compare(&piece, t, f);
+            if let Some((time, joint)) = self.lowest(&piece, f, &start, &end) {
                 if joint.gap < -SAME {
                     return None;
                 }
                 phases.push(piece.until(time));
                 return Some(Way { phases, joint: Some(joint) });
             }
-            let on_fall = fall.after(fall.time_at(end.s));
-            if end.v > on_fall.v * (1.0 + SAME) {
+            if end.joint.gap < -SAME {
                 return None;
             }
-            if end.v <= 0.0 {
+            let there = end.there;
+            if there.v <= 0.0 {
                 return Some(Way { phases, joint: None });
             }
-            phases.push(piece.until(t));
-            if end.s >= cell.end - same {
+            phases.push(piece);
+            if there.s >= cell.end - same {
                 c += 1;
             }
-            if end.s >= fall_end - same {
+            nears = Some(end);
+            if there.s >= fall_end - same {
                 f += 1;
+                // the fall may be cut
+                nears = None;
             }
-            at = Phase::state(end.s, end.v, if whole && at.a > 0.0 { 0.0 } else { end.a });
+            at = Phase::state(there.s, there.v, if whole && at.a > 0.0 { 0.0 } else { there.a });
         }
     }
 
-    /// Where, inside a phase of a connection, the fall begins to brake less: there they are closest. Time in the phase.
-    fn lowest(&self, piece: &Phase, f: usize) -> Option<(f64, Joint)> {
+    /// A connection and phase `f` of the fall where the connection is `t` s after the start of a piece.
+    fn compare(&self, piece: &Phase, t: f64, f: usize) -> Beside {
+        let here = piece.after(t);
         let fall = &self.fall[f];
-        let compare = |t: f64| {
-            let here = piece.after(t);
-            let time = fall.time_at(here.s);
-            let there = fall.after(time);
-            // difference of the slopes over the path
-            let slope = here.a * there.v - there.a * here.v;
-            (slope, Joint { phase: f, time, gap: (there.v - here.v) / there.v })
-        };
-        let (slope, joint) = compare(0.0);
-        if slope <= 0.0 {
-            return Some((0.0, joint));
+        let time = fall.time_at(here.s);
+        let on_fall = fall.after(time);
+        let closing = here.a * on_fall.v - on_fall.a * here.v;
+        let gap = (on_fall.v - here.v) / on_fall.v;
+        Beside { there: here, closing, joint: Joint { phase: f, time, gap } }
+    }
+
+    /// Where, inside a piece of a connection, the fall begins to brake less: there they are closest. Time in the piece.
+    fn lowest(
+        &self,
+        piece: &Phase,
+        f: usize,
+        start: &Beside,
+        end: &Beside,
+    ) -> Option<(f64, Joint)> {
+        if start.closing <= 0.0 {
+            return Some((0.0, start.joint));
         }
-        let (slope, mut joint) = compare(piece.t);
-        if slope > 0.0 {
+        if end.closing > 0.0 {
             return None;
         }
-        let (mut low, mut high) = (0.0, piece.t);
-        for _ in 0..ROUNDS {
-            let mid = 0.5 * (low + high);
-            let (slope, at) = compare(mid);
-            if slope > 0.0 {
-                low = mid;
-            } else {
-                (high, joint) = (mid, at);
-            }
-            if high - low <= 1e-13 * piece.t {
-                break;
-            }
-        }
-        Some((high, joint))
+        let closing = |t| self.compare(piece, t, f).closing;
+        let (_, t) = enclosed_root((0.0, start.closing), (piece.t, end.closing), MOMENT, closing);
+        Some((t, self.compare(piece, t, f).joint))
     }
 }

@@ -29,6 +29,8 @@ const HALVINGS: u32 = 24;
 const LITTLE_MORE: f64 = 1.05;
 /// Share of the tolerance by which an even speed aims below it.
 const AIM: f64 = 0.01;
+/// Least part of the speed planned that one round leaves of it.
+const LEAST_OF_ROUND: f64 = 0.5;
 /// Largest reduction of an even speed in one round.
 const MOST: f64 = 0.25;
 /// Places around a point of the contour at which an even run is looked at for the point.
@@ -114,7 +116,7 @@ impl View<'_> {
             return;
         }
         *told = Some((place, excess));
-        let parts = self.parts_of(v, record, first, last);
+        let mut parts = self.parts_of(v, record, first, last);
         let free = |p: &Part| {
             let m = &marks[p.mark];
             if p.bend {
@@ -124,6 +126,12 @@ impl View<'_> {
                     .is_some_and(|b| demands.stop[b].is_none_or(|dwell| u64::from(dwell) < length))
             }
         };
+        // far off the contour the nearest point is not the middle of what the filters hold, and no part may point the same way
+        if !parts.iter().any(|p| free(p) && p.size > 0.0) {
+            for part in &mut parts {
+                part.size = part.size.abs();
+            }
+        }
         let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
         let alike: Vec<&Part> =
             parts.iter().filter(|p| free(p) && p.size > 0.0 && p.size >= ALIKE * largest).collect();
@@ -204,7 +212,8 @@ impl View<'_> {
             // the path rests while the filters swing: no speed is the cause
             f64::INFINITY
         } else if even < 0.995 * present {
-            even
+            // a plan that is far too fast says little about who is to blame in a slower one
+            even.max(LEAST_OF_ROUND * present)
         } else {
             // where the speed is even already, or a change of speed is the cause
             let aim = within(v.tolerance_mm) - AIM * v.tolerance_mm;

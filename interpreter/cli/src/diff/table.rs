@@ -5,10 +5,10 @@ use crate::engine::Source;
 use crate::text::Text;
 use crate::trace::columns;
 use crate::trace::csv::Rows;
-use csv::ByteRecord;
+use csv::{ByteRecord, ErrorKind};
 use kontur_interpreter::diag::Diagnostic;
 use std::fs::File;
-use std::io::{Cursor, Read as _};
+use std::io::{self, Cursor, Read as _};
 use std::path::Path;
 
 /// Rows of a fresh run that are formatted at a time.
@@ -50,6 +50,7 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
     let text = start.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&start);
     match text {
         [b'P', b'A', b'R', b'1', ..] => refused("diff reads CSV traces"),
+        _ if is("parquet") => refused("diff reads CSV traces"),
         [b't', b'_', b's', b',' | b'\r' | b'\n', ..] | b"t_s" => Ok(true),
         [b't', b'_', b's', b';' | b'\t', ..] => refused(
             "its columns are not separated by commas; a trace has commas and decimal points, and a recording is the second file \
@@ -65,6 +66,18 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
     }
 }
 
+/// What is wrong with a table.
+fn unreadable(name: &str, e: csv::Error) -> Error {
+    let text = match e.kind() {
+        ErrorKind::UnequalLengths { pos: Some(at), expected_len, len } => {
+            format!("line {}: {len} columns where the header has {expected_len}", at.line())
+        }
+        ErrorKind::Utf8 { .. } => "the header is not UTF-8".to_owned(),
+        _ => return Error::io(name, e.into()),
+    };
+    Error::io(name, io::Error::new(io::ErrorKind::InvalidData, text))
+}
+
 impl Table {
     /// A CSV trace.
     ///
@@ -75,7 +88,7 @@ impl Table {
         let file = File::open(path).map_err(|e| Error::io(&name, e))?;
         let text = Text::new(file).map_err(|e| Error::io(&name, e))?;
         let mut reader = csv::ReaderBuilder::new().buffer_capacity(1 << 18).from_reader(text);
-        let header = reader.headers().map_err(|e| Error::io(&name, e.into()))?;
+        let header = reader.headers().map_err(|e| unreadable(&name, e))?;
         let header: Vec<String> = header.iter().map(str::to_owned).collect();
         if let Some(i) = (1..header.len()).find(|i| header[..*i].contains(&header[*i])) {
             return Err(Error::Usage(format!("{name}: column `{}` stands twice", header[i])));
@@ -120,7 +133,7 @@ impl Table {
             Origin::File(reader) => reader.read_byte_record(&mut self.row),
             Origin::Run(fresh) => fresh.read(&mut self.row),
         };
-        let found = found.map_err(|e| Error::io(&self.name, e.into()))?;
+        let found = found.map_err(|e| unreadable(&self.name, e))?;
         Ok(found.then_some(&self.row))
     }
 

@@ -5,6 +5,7 @@ use super::curve::Curve;
 use crate::console::Console;
 use crate::engine::Request;
 use crate::files::Lists;
+use crate::target::keep_apart;
 use crate::{Error, args::MessageForm, run, simulator};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::time::CycleTime;
@@ -26,8 +27,10 @@ pub(super) fn curves(
         ..Request::default()
     };
     let form = MessageForm::Text;
-    let loaded = simulator::machine(&request, &Lists::default());
+    let lists = Lists::default();
+    let loaded = simulator::machine(&request, &lists);
     let (machine, mut messages) = loaded.map_err(|e| run::announce_lists(e, form, console))?;
+    keep_apart(&lists.read_so_far(), &args.output)?;
     let (chains, found) = machine.chains();
     messages.extend(found);
     for message in &messages {

@@ -3,7 +3,7 @@
 //! A corner slows the path down because it is a corner, a lower F word because it is programmed. What a surface shows are
 //! the dips between: at the small kinks of a polygon, at block limits, where a tolerance or the look-ahead takes speed.
 
-use crate::engine::Facts;
+use crate::engine::{Facts, FileNames};
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 use serde::Serialize;
 
@@ -32,7 +32,9 @@ pub struct SpeedRipple {
     pub v_min_mm_s: f64,
     /// Program time of the dip in seconds.
     pub time_s: f64,
-    /// Line of the file at the dip.
+    /// File at the dip.
+    pub file: String,
+    /// Line of that file.
     pub line: u32,
 }
 
@@ -41,6 +43,7 @@ pub struct SpeedRipple {
 struct Extreme {
     v: f64,
     k: u64,
+    file: u32,
     line: u32,
     /// The programmed feed is reached.
     fed: bool,
@@ -63,6 +66,7 @@ pub(super) struct Collector {
     at: Extreme,
     rising: bool,
     worst: Option<SpeedRipple>,
+    files: FileNames,
 }
 
 impl Collector {
@@ -77,6 +81,7 @@ impl Collector {
             at: Extreme::default(),
             rising: true,
             worst: None,
+            files: facts.files.clone(),
         }
     }
 
@@ -90,6 +95,7 @@ impl Collector {
         let now = Extreme {
             v,
             k: record.k,
+            file: record.file,
             line: record.line,
             fed: matches!(record.path.limit, SpeedLimit::Feed | SpeedLimit::Stop),
             turned: [self.turned; 2],
@@ -147,6 +153,7 @@ impl Collector {
                     v_max_mm_s,
                     v_min_mm_s: dip.v,
                     time_s: dip.k as f64 * f64::from(cycle_us) / 1e6,
+                    file: self.files.name(dip.file),
                     line: dip.line,
                 });
             }
@@ -214,6 +221,7 @@ mod tests {
             v_max_mm_s: 7.0,
             v_min_mm_s: 3.0,
             time_s: 0.009,
+            file: String::new(),
             line: 9,
         };
         assert_eq!(turning(&speeds, &[], &[]), Some(want));

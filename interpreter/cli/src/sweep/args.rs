@@ -12,7 +12,7 @@ Every --vary takes a list or a range of values; all combinations are run, over a
 
 Examples:
   a table on stdout: machining time and contour error over mode and frequency of the Vibration Guard
-    kontur sweep part.nc --vary X.vib_guard.mode=1..4 --vary X.vib_guard.freq=20..60:10 --columns duration_s,contour_err_mm
+    kontur sweep part.nc --vary '*.vib_guard.mode=1..4' --vary '*.vib_guard.freq=20..60:10' --columns duration_s,contour_err_mm
   the largest gain at which the axis is stable, with and without Improved Position Control, table and picture
     kontur sweep part.nc -m mill --vary X.getriebe[0].kv=1000..60000:1000 \\
       --vary X.lr_param.improved_position_control.enable=0,1 -o kv.csv -o kv.svg
@@ -27,7 +27,8 @@ pub struct SweepArgs {
     /// The NC program
     pub program: PathBuf,
 
-    /// A list parameter and its values: `KEY=A..B:STEP`, `KEY=A,B,C`. May be given several times
+    /// A list parameter and its values: `KEY=A..B:STEP`, `KEY=A,B,C`; of several axes `X,Y.key=..`, of all path axes
+    /// `*.key=..`; an external variable that the program reads `V.E.NAME=..`. May be given several times
     #[arg(long, value_name = "KEY=VALUES", required = true)]
     pub vary: Vec<Vary>,
 

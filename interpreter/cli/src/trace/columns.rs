@@ -134,7 +134,7 @@ pub fn all(facts: &Facts) -> Vec<Column> {
         fixed("line", "time", Content::Line, 0),
         fixed("block", "time", Content::Block, 0),
     ];
-    if facts.files.len() > 1 {
+    if facts.files.several() {
         columns.push(fixed("file", "time", Content::File, 0));
     }
     columns.push(fixed("s_mm", "path", Content::Path(|r| r.path.s_mm), POSITION_DECIMALS));
@@ -208,7 +208,7 @@ pub fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::AxisFacts;
+    use crate::engine::{AxisFacts, FileNames};
 
     fn facts() -> Facts {
         let axis = |name: &str, rotary, spindle| AxisFacts {
@@ -219,7 +219,7 @@ mod tests {
         };
         Facts {
             axes: vec![axis("X", false, false), axis("C", true, false), axis("S", true, true)],
-            files: vec!["part.nc".to_owned()],
+            files: FileNames::new(vec!["part.nc".to_owned()], false),
             ..Facts::default()
         }
     }

@@ -3,7 +3,7 @@
 use super::columns::{Column, Content};
 use super::fixed::{push_fixed, push_integer, push_seconds};
 use crate::console::Output;
-use crate::engine::Facts;
+use crate::engine::{Facts, FileNames};
 use crate::target;
 use kontur_interpreter::record::CycleRecord;
 use std::io::{self, Write};
@@ -14,15 +14,13 @@ use std::time::{Duration, Instant};
 pub struct Rows {
     columns: Vec<Column>,
     cycle_us: u64,
-    /// File names, quoted where CSV needs it.
-    files: Vec<String>,
+    files: FileNames,
 }
 
 impl Rows {
     /// Rows with the given columns.
     pub fn new(columns: Vec<Column>, facts: &Facts) -> Self {
-        let files = facts.files.iter().map(|f| quoted(f)).collect();
-        Self { columns, cycle_us: u64::from(facts.cycle_us), files }
+        Self { columns, cycle_us: u64::from(facts.cycle_us), files: facts.files.clone() }
     }
 
     /// Appends the header line.
@@ -52,8 +50,7 @@ impl Rows {
                     }
                 }
                 Content::File => {
-                    let name = usize::try_from(record.file).ok().and_then(|i| self.files.get(i));
-                    out.extend_from_slice(name.map_or(b"", |n| n.as_bytes()));
+                    out.extend_from_slice(quoted(&self.files.name(record.file)).as_bytes());
                 }
                 Content::Limit => out.extend_from_slice(record.path.limit.name().as_bytes()),
             }
@@ -198,7 +195,7 @@ mod tests {
         Facts {
             cycle_us: 500,
             axes: vec![AxisFacts { name: "X".to_owned(), ..AxisFacts::default() }],
-            files: files.iter().map(|&f| f.to_owned()).collect(),
+            files: FileNames::new(files.iter().map(|&f| f.to_owned()).collect(), false),
             ..Facts::default()
         }
     }

@@ -9,7 +9,7 @@
 //! leaves is a folder of whole Parquet files, which readers take as one table.
 
 use super::columns::{Column, Content};
-use crate::engine::{Facts, Totals};
+use crate::engine::{Facts, FileNames, Totals};
 use crate::target::{Target, folder_of};
 use ::parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
 use ::parquet::column::writer::ColumnCloseResult;
@@ -45,7 +45,7 @@ pub struct ParquetWriter {
     columns: Vec<(Column, Values)>,
     rows: usize,
     cycle_us: u64,
-    files: Vec<ByteArray>,
+    files: FileNames,
     limits: Vec<(SpeedLimit, ByteArray)>,
     schema: Arc<Type>,
     properties: Arc<WriterProperties>,
@@ -115,7 +115,7 @@ impl ParquetWriter {
             columns: columns.into_iter().map(|c| (empty(&c), c)).map(|(v, c)| (c, v)).collect(),
             rows: 0,
             cycle_us: u64::from(facts.cycle_us),
-            files: facts.files.iter().map(|f| ByteArray::from(f.as_str())).collect(),
+            files: facts.files.clone(),
             limits: SpeedLimit::ALL.map(|l| (l, ByteArray::from(l.name()))).into(),
             schema,
             properties: Arc::new(properties.build()),
@@ -130,7 +130,6 @@ impl ParquetWriter {
     /// # Errors
     /// The system's, e.g. a full disk.
     pub fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
-        let file = usize::try_from(record.file).ok().and_then(|i| self.files.get(i));
         for (column, values) in &mut self.columns {
             match (values, &column.content) {
                 (Values::Number(v), Content::Time) => {
@@ -143,7 +142,9 @@ impl ParquetWriter {
                     present.push(i16::from(block.is_some()));
                     v.extend(block);
                 }
-                (Values::Word(v), Content::File) => v.push(file.cloned().unwrap_or_default()),
+                (Values::Word(v), Content::File) => {
+                    v.push(ByteArray::from(self.files.name(record.file).as_str()));
+                }
                 (Values::Word(v), _) => {
                     let found = self.limits.iter().find(|l| l.0 == record.path.limit);
                     v.push(found.map(|l| l.1.clone()).unwrap_or_default());
@@ -289,7 +290,7 @@ mod tests {
             machine: "xyz".to_owned(),
             cycle_us: 500,
             axes: vec![axis],
-            files: vec!["a.nc".to_owned(), "b.nc".to_owned()],
+            files: FileNames::new(vec!["a.nc".to_owned(), "b.nc".to_owned()], true),
         };
         let position = |k: u64| 100.0 * libm::sin(k as f64 * 1e-4) / 3.0;
         let folder = tempfile::tempdir().unwrap();

@@ -6,7 +6,7 @@
 //! Settings `X.vib_guard.*` put a real kernel in the place of the two taps, as an axis list would; a program whose name
 //! holds `stubborn` goes on with its own.
 
-use kontur::engine::{AxisFacts, Engine, Facts, OpenError, Request, Source, Totals};
+use kontur::engine::{AxisFacts, Engine, Facts, FileNames, OpenError, Request, Source, Totals};
 use kontur_filters::kernel::{Kernel, Tap};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -163,7 +163,7 @@ impl Engine for Synthetic {
             machine: "xyz".to_owned(),
             cycle_us: 1000,
             axes: vec![axis("X"), axis("Y")],
-            files: vec![name.clone()],
+            files: FileNames::new(vec![name.clone()], false),
         };
         let mut messages = Vec::new();
         if bad {

@@ -11,7 +11,7 @@ use crate::diag::{Condition, Diagnostic, Id, Location, Severity};
 use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
 use crate::exec::options::{Options, SkipLevels};
-use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step};
+use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
 use crate::machine::Machine;
 use crate::source::{Position, Sources};
 use crate::syntax::Parser;
@@ -211,7 +211,10 @@ impl Executor {
         self.decoder.feedback = feedback;
         loop {
             if let Some(step) = self.decoder.contour.pop() {
-                self.blocks_at_rest = 0;
+                // a stop takes no time
+                if !matches!(step, Step::Sync { what: Sync::Stop, .. }) {
+                    self.blocks_at_rest = 0;
+                }
                 return step;
             }
             match self.state {

@@ -202,6 +202,27 @@ fn loops_without_end_are_stopped() {
     assert_eq!(run.ids(), ["K-0017"]);
 }
 
+/// Functions and messages are handed over a thousand at a time, and a loop of them is one without motion.
+#[test]
+fn events_without_motion_are_handed_over_and_the_loop_is_stopped() {
+    use super::{Options, machine, run_with};
+    use crate::exec::step::Step;
+    use crate::source::MemorySources;
+    for block in ["M8", "#MSG [\"x\"]"] {
+        let options = Options { max_blocks_at_rest: 50_000, ..Options::default() };
+        let text = format!("$WHILE 1\n{block}\n$ENDWHILE\nM30\n");
+        let run = run_with(MemorySources::new().with("main.nc", text), machine(&[]), options);
+        assert_eq!(run.ids(), ["K-0017"], "{block}");
+        let events = |step: &Step| match step {
+            Step::Motion { events, .. } | Step::Sync { events, .. } | Step::End { events, .. } => {
+                events.len()
+            }
+        };
+        assert!(run.steps.len() > 10, "{block}");
+        assert!(run.steps.iter().all(|step| events(step) <= 1000), "{block}");
+    }
+}
+
 #[test]
 fn macros() {
     assert_end(

@@ -13,6 +13,11 @@ use crate::syntax::Parser;
 use crate::syntax::ast::{BlockNumber, Body, Command, Span};
 use std::sync::Arc;
 
+/// Messages and functions between two motions for which the path does not stop.
+///
+/// Assumption: the buffer of a channel is finite, too; a million messages in a loop must not fill the memory.
+const EVENTS_MAX: usize = 1000;
+
 impl Executor {
     /// Executes one block.
     pub(super) fn advance(&mut self, actual_known: bool) {
@@ -52,6 +57,9 @@ impl Executor {
         }
         self.decoder.moved = false;
         self.execute(&parsed, entry);
+        if self.decoder.contour.waiting() >= EVENTS_MAX {
+            self.decoder.sync(Sync::Stop);
+        }
         self.settle(parsed.faulty);
     }
 
@@ -133,7 +141,8 @@ impl Executor {
             }
             Err(e) => {
                 let name = Arc::clone(&self.files.file(file).name);
-                self.report(Diagnostic::new(Condition::NoFile, format!("{name}: {e}")));
+                let hint = "it was executed up to there";
+                self.report(Diagnostic::new(Condition::NoFile, format!("{name}: {e}")).hint(hint));
                 self.end(EndReason::Aborted);
                 None
             }

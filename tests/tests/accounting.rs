@@ -1,0 +1,180 @@
+//! Where a run was and where its time went: files of subroutines, dwells, rapid blocks, declared technology times.
+
+use kontur::Exit;
+use kontur_tests::command::command;
+use serde_json::Value;
+use tempfile::TempDir;
+
+struct Folder(TempDir);
+
+impl Folder {
+    fn new(files: &[(&str, &str)]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in files {
+            std::fs::write(folder.path().join(name), text).unwrap();
+        }
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().unwrap().to_owned()
+    }
+
+    /// The summary of `part.nc`.
+    fn summary(&self, more: &[&str]) -> Value {
+        let part = self.path("part.nc");
+        let mut words = vec!["run", &part, "--summary", "json"];
+        words.extend(more);
+        let done = command(&words);
+        assert_eq!(done.exit, Exit::Finished, "{}", done.err);
+        serde_json::from_str(&done.out).unwrap()
+    }
+
+    fn text(&self) -> String {
+        command(["run", &self.path("part.nc")]).out
+    }
+}
+
+fn near(value: &Value, want: f64, tolerance: f64) {
+    let is = value.as_f64().unwrap();
+    assert!((is - want).abs() <= tolerance, "{is}, not {want}");
+}
+
+const PART: &str = "N10 G01 X10 F6000\nN20 L corner.nc\nN30 X0 Y0\nM30\n";
+/// Its corner is where the guard leaves the contour most.
+const CORNER: &str = "(a corner)\n\nN10 G01 Y10\nN20 X20\nN30 M17\n";
+
+/// Every row, and what the summary says of a place, names the file that is open there.
+#[test]
+fn places_in_subroutines_name_their_file() {
+    let guarded = format!("#VIB GUARD ON [MODE=1 FREQ=20]\n{PART}");
+    let folder = Folder::new(&[("part.nc", &guarded), ("corner.nc", CORNER)]);
+    let (part, corner) = (folder.path("part.nc"), folder.path("corner.nc"));
+    let trace = folder.path("a.csv");
+    let summary = folder.summary(&["-o", &trace]);
+    let text = std::fs::read_to_string(&trace).unwrap();
+    let mut lines = text.lines().map(|l| l.split(',').collect::<Vec<_>>());
+    let header = lines.next().unwrap();
+    let place = |name| header.iter().position(|h| *h == name).unwrap();
+    let (file, line) = (place("file"), place("line"));
+    let mut seen: Vec<(String, String)> =
+        lines.map(|row| (row[file].to_owned(), row[line].to_owned())).collect();
+    seen.dedup();
+    let want = [(&part, "2"), (&corner, "3"), (&corner, "4"), (&part, "4")];
+    let moved: Vec<_> = seen.iter().map(|(f, l)| (f, l.as_str())).collect();
+    for w in want {
+        assert!(moved.contains(&w), "{w:?}: {moved:?}");
+    }
+    assert!(!moved.contains(&(&part, "3")), "line 3 of the program calls and does not move");
+    let worst = &summary["max_contour_error"];
+    assert_eq!(worst["file"], corner.as_str(), "{worst}");
+    assert!(folder.text().contains(&format!(" of {corner}\n")), "{}", folder.text());
+    // Parquet and a comparison of the two forms know it too
+    let again = command(["diff", &trace, &part]);
+    assert_eq!(again.exit, Exit::Finished, "{}{}", again.out, again.err);
+}
+
+/// A subroutine that only the moving machine opens has its name as well.
+#[test]
+fn a_file_that_the_check_did_not_see() {
+    // the check takes every axis for where it is told to be; the machine lags behind by some micrometres
+    let text = "G01 X10 F6000\n$IF V.A.ACT_POS.X < 10\nL late.nc\n$ENDIF\nG01 X0\nM30\n";
+    let folder = Folder::new(&[("part.nc", text), ("late.nc", "G60 G01 Y5\nM17\n")]);
+    let trace = folder.path("a.parquet");
+    let summary = folder.summary(&["-o", &trace]);
+    let stops = summary["stops"].to_string();
+    assert!(stops.contains("late.nc"), "{stops}");
+    assert!(!stops.contains("\"file\":\"\""), "{stops}");
+}
+
+/// G04 is a dwell, no stop; the ideal time has the rapid blocks in it: 60 m/min on `xyz`.
+#[test]
+fn dwells_and_rapids() {
+    let text = "N10 G01 X10 F6000\nN20 G04 0.5\nN30 G00 X0 Y5\nN40 #TIME 0.25\nM30\n";
+    let folder = Folder::new(&[("part.nc", text)]);
+    let summary = folder.summary(&[]);
+    near(&summary["dwell_s"], 0.75, 2e-3);
+    near(&summary["ideal_duration_s"], 0.1 + 10.0 / 1000.0, 1e-9);
+    let text = folder.text();
+    assert!(text.contains("  dwells         0.75"), "{text}");
+    let shares = text.lines().find(|l| l.contains("speed held by")).unwrap();
+    let share = |name: &str| -> f64 {
+        let behind = shares.split(&format!(" {name} ")).nth(1).unwrap_or("0 %");
+        behind.split(" %").next().unwrap().parse().unwrap()
+    };
+    let duration = summary["duration_s"].as_f64().unwrap();
+    assert!((share("dwell") - 75.0 / duration).abs() < 0.2, "{shares}");
+    let stop = summary["time_by_v_limit_s"]["stop"].as_f64().unwrap() - 0.75;
+    assert!((share("stop") - 100.0 * stop / duration).abs() < 0.2, "{shares}");
+    assert!(text.contains("contour error  none"), "{text}");
+}
+
+/// Durations that the channel list declares are not part of the run: the summary says so, with their values.
+#[test]
+fn declared_durations_are_named() {
+    let folder = Folder::new(&[("part.nc", "M7\nH3\nM8\nG01 X1 F1000\nM30\n")]);
+    let summary = folder.summary(&[
+        "--set",
+        "channel.m_prozess_zeit[7]=500000",
+        "--set",
+        "channel.h_prozess_zeit[3]=250000",
+    ]);
+    let named: Vec<&str> =
+        summary["not_counted"].as_array().unwrap().iter().map(|v| v.as_str().unwrap()).collect();
+    let want = ["M7 (0.5 s each by P-CHAN-00040)", "H3 (0.25 s each by P-CHAN-00026)", "M8"];
+    for w in want {
+        assert!(named.contains(&w), "{w}: {named:?}");
+    }
+}
+
+/// Rows of a sweep over a square, by columns.
+fn sweep(program: &str, vary: &[&str]) -> (Vec<Vec<String>>, String) {
+    let folder = Folder::new(&[("part.nc", program)]);
+    let part = folder.path("part.nc");
+    let mut words = vec!["sweep", &part, "--columns", "duration_s,contour_err_mm"];
+    words.extend(vary.iter().flat_map(|v| ["--vary", v]));
+    let done = command(&words);
+    assert_eq!(done.exit, Exit::Finished, "{}", done.err);
+    let rows = done.out.lines().skip(1);
+    (rows.map(|l| l.split(',').map(str::to_owned).collect()).collect(), done.err)
+}
+
+const SQUARE: &str = "G01 X1 F4000\nY1\nX0\nY0\nM30\n";
+
+/// All axes vary together with `*` and with a list of names, as with one `--set` each.
+#[test]
+fn axes_vary_together() {
+    let square = format!("#VIB GUARD ON\n{SQUARE}");
+    let (rows, err) = sweep(&square, &["*.vib_guard.freq=20,40"]);
+    assert!(!err.contains("every value gives the same"), "{err}");
+    for (row, hz) in rows.iter().zip(["20", "40"]) {
+        let each: Vec<String> = ["X", "Y", "Z"].map(|a| format!("{a}.vib_guard.freq={hz}")).into();
+        let (one, _) = sweep(&square, &each.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(row[1..], one[0][3..], "{hz} Hz");
+        let (named, _) = sweep(&square, &[&format!("X,Y,Z.vib_guard.freq={hz}")]);
+        // the key has commas: its cell is quoted, the results are the last ones
+        assert_eq!(row[1..], named[0][named[0].len() - row.len() + 1..], "{hz} Hz");
+    }
+    assert_ne!(rows[0][1..], rows[1][1..]);
+}
+
+/// What a program sets itself does not vary: the sweep says so.
+#[test]
+fn a_value_that_the_program_sets_itself_is_told() {
+    let own = format!("#VIB GUARD ON [MODE=1 FREQ=30]\n{SQUARE}");
+    let (rows, err) = sweep(&own, &["*.vib_guard.freq=20,40"]);
+    assert_eq!(rows[0][1..], rows[1][1..]);
+    assert!(err.contains("*.vib_guard.freq: every value gives the same results"), "{err}");
+}
+
+/// External variables carry the words of a command.
+#[test]
+fn values_of_a_program_vary() {
+    let with = |value: &str| format!("#VIB GUARD ON [MODE=1 FREQ={value}]\n{SQUARE}");
+    let (rows, err) = sweep(&with("V.E.HZ"), &["V.E.HZ=20,40"]);
+    assert!(!err.contains("every value"), "{err}");
+    for (row, hz) in rows.iter().zip(["20", "40"]) {
+        let (fixed, _) = sweep(&with(hz), &["X.vib_guard.freq=33"]);
+        assert_eq!(row[1..], fixed[0][1..]);
+    }
+}
