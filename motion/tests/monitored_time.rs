@@ -32,23 +32,6 @@ struct Case {
     points: Points,
 }
 
-/// Lines with corners, gentle bends, or chords of arcs.
-fn contour(r: &mut Random) -> Points {
-    let (turn, low, high) = r.pick(&[(2.8, 0.05, 20.0), (0.2, 0.05, 5.0), (0.03, 0.1, 0.3)]);
-    let count = 3 + (r.next() * if high < 1.0 { 100.0 } else { 20.0 }) as usize;
-    let (mut at, mut heading) = ([0.0_f64; 3], 6.3 * r.next());
-    let curve = turn * r.between(-0.5, 0.5);
-    let mut out = vec![at];
-    for _ in 0..count {
-        heading += curve + turn * r.between(-0.5, 0.5);
-        let (sin, cos) = libm::sincos(heading);
-        let l = r.log(low, high);
-        at = [at[0] + l * cos, at[1] + l * sin, at[2] + 0.2 * l * r.between(-1.0, 1.0)];
-        out.push(at);
-    }
-    out
-}
-
 impl Case {
     fn new(r: &mut Random) -> Self {
         let guard = VibGuardSettings {
@@ -64,7 +47,7 @@ impl Case {
             kink_weight: r.log(1.0, 30.0),
             guard,
             tolerance: Tolerance { ax_dev_mm: Some(r.log(0.002, 0.05)), acc_fact: 1.0 },
-            points: contour(r),
+            points: r.contour(100),
         }
     }
 

@@ -28,23 +28,6 @@ fn machine(r: &mut Random) -> Vec<AxisDynamics> {
         .collect()
 }
 
-/// Lines; corners, gentle bends or chords of arcs.
-fn contour(r: &mut Random) -> Points {
-    let (turn, low, high) = r.pick(&[(2.8, 0.05, 20.0), (0.2, 0.05, 5.0), (0.03, 0.1, 0.3)]);
-    let count = 3 + (r.next() * if high < 1.0 { 150.0 } else { 20.0 }) as usize;
-    let (mut at, mut heading) = ([0.0_f64; 3], 6.3 * r.next());
-    let curve = turn * r.between(-0.5, 0.5);
-    let mut out = vec![at];
-    for _ in 0..count {
-        heading += curve + turn * r.between(-0.5, 0.5);
-        let (sin, cos) = libm::sincos(heading);
-        let l = r.log(low, high);
-        at = [at[0] + l * cos, at[1] + l * sin, at[2] + 0.2 * l * r.between(-1.0, 1.0)];
-        out.push(at);
-    }
-    out
-}
-
 struct Case {
     axes: Vec<AxisDynamics>,
     points: Points,
@@ -53,7 +36,7 @@ struct Case {
 
 impl Case {
     fn new(r: &mut Random) -> Self {
-        Self { axes: machine(r), points: contour(r), feed: r.log(10.0, 300.0) }
+        Self { axes: machine(r), points: r.contour(150), feed: r.log(10.0, 300.0) }
     }
 
     fn time(&self, kind: SlopeKind, points: &Points, feed: f64, window: usize) -> f64 {

@@ -180,6 +180,22 @@ fn drop_outs_and_ends() {
     assert_eq!(found["result"]["pairs"][1]["recording_goes_on"], false);
 }
 
+/// Nothing moves in either: they agree, and no shift is made up. Every tenth sample is missing: the text names ten of the
+/// drop-outs and counts the rest.
+#[test]
+fn rest_and_many_drop_outs() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    std::fs::write(path("part.nc"), "G04 0.2\nM30\n").unwrap();
+    let rows: Vec<String> = (0..400).filter(|k| k % 10 != 5).map(|k| format!("{k}\t0\n")).collect();
+    std::fs::write(path("scope.txt"), format!("time_ms\tX\n{}", rows.concat())).unwrap();
+    let done = command(["diff", &path("part.nc"), &path("scope.txt"), "--map", "X_set_mm=X"]);
+    assert_eq!(done.exit, Exit::Finished, "{}{}", done.out, done.err);
+    assert!(done.out.contains("  shift  none\n"), "{}", done.out);
+    assert_eq!(done.out.matches("drop-out  1 sample missing").count(), 10, "{}", done.out);
+    assert!(done.out.contains("    drop-outs  30 more\n"), "{}", done.out);
+}
+
 /// Names that do not exist are refused with those that do.
 #[test]
 fn wrong_names_are_refused() {

@@ -16,6 +16,8 @@ use std::path::Path;
 
 /// Largest file that is read, in bytes: two minutes of many channels at 4 kHz.
 const MOST_BYTES: u64 = 1 << 28;
+/// Samples of one signal with the missing ones filled in: more than an hour at 4 kHz.
+const MOST_SAMPLES: f64 = 16_777_216.0;
 /// Steps longer than this many sampling times are drop-outs.
 const GAP: f64 = 1.5;
 /// Header keys whose cells are names, the better one first.
@@ -54,7 +56,8 @@ impl Channel {
         Some(*median).filter(|s| *s > 0.0)
     }
 
-    /// The values in equal steps, missing samples between their neighbours, and where they are missing.
+    /// The values in equal steps, missing samples between their neighbours, and where they are missing; `None` if the times
+    /// do not rise, there are none, or the gaps hold more than [`MOST_SAMPLES`].
     pub(crate) fn even(&self) -> Option<(Vec<f64>, f64, Vec<DropOut>)> {
         let step = self.step_s()?;
         if self.times_s.is_empty() {
@@ -65,7 +68,7 @@ impl Channel {
             if let (Some(before), true) = (even.last().copied(), i > 0) {
                 let dt = self.times_s[i] - self.times_s[i - 1];
                 let count = (dt / step).round();
-                if dt <= 0.0 || count > 1e6 {
+                if dt <= 0.0 || even.len() as f64 + count > MOST_SAMPLES {
                     return None;
                 }
                 if dt > GAP * step {
@@ -364,5 +367,17 @@ mod tests {
         for (i, x) in even.iter().enumerate() {
             assert!((x - i as f64).abs() < 1e-9);
         }
+    }
+
+    /// Gaps are filled up to a bound: a short file cannot ask for the memory of days of samples.
+    #[test]
+    fn gaps_of_hours_are_not_filled() {
+        let even = |hours: u32| {
+            let row = |h: u32| format!("{0},1\n{0}.001,1\n{0}.002,1\n", 3600 * h);
+            let rows: Vec<String> = (0..hours).map(row).collect();
+            parse(&format!("t_s,a\n{}", rows.concat())).unwrap()[0].even()
+        };
+        assert!(even(4).is_some());
+        assert!(even(30).is_none());
     }
 }

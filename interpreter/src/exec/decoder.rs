@@ -23,7 +23,7 @@ use super::values::system::Timers;
 use super::values::variables::Variables;
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::machine::{Axis, AxisKind, Machine};
-use crate::syntax::ast::{Ident, Span};
+use crate::syntax::ast::{Group, Ident, ItemKind, Span};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{ChannelDynamics, VectorLimits};
 use std::collections::BTreeSet;
@@ -346,6 +346,22 @@ impl Decoder {
             let text = format!("unknown axis `{}`", name.text);
             Fault::new(Condition::AxisNameUnknown, text, name.span).hint(self.axis_hint())
         })
+    }
+
+    /// The axes whose names stand in groups of a command.
+    pub(super) fn axes_in_command(&self, groups: &[Group]) -> Result<Vec<usize>, Box<Fault>> {
+        let mut axes = Vec::new();
+        for item in groups.iter().flat_map(|group| &group.items) {
+            match &item.kind {
+                ItemKind::Flag(name) => axes.push(self.axis_in_command(name)?),
+                ItemKind::Missing => {}
+                _ => {
+                    let text = "an axis name is expected";
+                    return Err(Fault::new(Condition::AxisNameUnknown, text, item.span));
+                }
+            }
+        }
+        Ok(axes)
     }
 
     /// Which axes there are.

@@ -261,18 +261,28 @@ impl Climb<'_> {
     /// What a ramp down to zero that begins at the end of block `c` touches.
     fn enter(&self, c: usize, end: &Phase, v_ref: f64) -> Result<(), Touch> {
         let cell = &self.cells[c];
+        if self.crosses(c, end, v_ref)? {
+            self.lands(c + 1, Phase::state(cell.end, end.v, end.a), v_ref)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// What a ramp touches that has the state `end` at the end of block `c`; true if it goes on in the next one.
+    fn crosses(&self, c: usize, end: &Phase, v_ref: f64) -> Result<bool, Touch> {
+        let cell = &self.cells[c];
         if end.v > cell.v * (1.0 + SLACK) {
             return Err(Touch::Inside);
         }
-        let Some(next) = self.cells.get(c + 1) else { return Ok(()) };
+        let Some(next) = self.cells.get(c + 1) else { return Ok(false) };
         let limit = cell.cap.min(next.v);
         if end.v > limit * (1.0 + SLACK) {
-            return if is_drop(limit, v_ref) { Ok(()) } else { Err(Touch::End(c)) };
+            return if is_drop(limit, v_ref) { Ok(false) } else { Err(Touch::End(c)) };
         }
         if end.a > next.acc * (1.0 + SLACK) {
             return Err(Touch::End(c));
         }
-        self.lands(c + 1, Phase::state(cell.end, end.v, end.a), v_ref)
+        Ok(true)
     }
 
     /// What a ramp down to zero touches that begins at a state in block `c`.
@@ -292,16 +302,8 @@ impl Climb<'_> {
                 return if level { Ok(()) } else { Err(Touch::End(c)) };
             }
             let end = ramp.after(ramp.time_at(cell.end));
-            if end.v > cell.v * (1.0 + SLACK) {
-                return Err(Touch::Inside);
-            }
-            let Some(next) = self.cells.get(c + 1) else { return Ok(()) };
-            let limit = cell.cap.min(next.v);
-            if end.v > limit * (1.0 + SLACK) {
-                return if is_drop(limit, v_ref) { Ok(()) } else { Err(Touch::End(c)) };
-            }
-            if end.a > next.acc * (1.0 + SLACK) {
-                return Err(Touch::End(c));
+            if !self.crosses(c, &end, v_ref)? {
+                return Ok(());
             }
             (c, at) = (c + 1, Phase::state(cell.end, end.v, end.a));
         }

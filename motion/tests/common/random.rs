@@ -29,4 +29,22 @@ impl Random {
     pub(crate) fn pick<T: Copy>(&mut self, of: &[T]) -> T {
         of[(self.next() * of.len() as f64) as usize]
     }
+
+    /// Points of a contour of lines: corners, gentle bends, or up to `chords` chords of arcs.
+    pub(crate) fn contour(&mut self, chords: u32) -> Vec<[f64; 3]> {
+        let kinds = [(2.8, 0.05, 20.0, 20), (0.2, 0.05, 5.0, 20), (0.03, 0.1, 0.3, chords)];
+        let (turn, low, high, most) = self.pick(&kinds);
+        let count = 3 + (self.next() * f64::from(most)) as usize;
+        let (mut at, mut heading) = ([0.0_f64; 3], 6.3 * self.next());
+        let curve = turn * self.between(-0.5, 0.5);
+        let mut out = vec![at];
+        for _ in 0..count {
+            heading += curve + turn * self.between(-0.5, 0.5);
+            let (sin, cos) = libm::sincos(heading);
+            let l = self.log(low, high);
+            at = [at[0] + l * cos, at[1] + l * sin, at[2] + 0.2 * l * self.between(-1.0, 1.0)];
+            out.push(at);
+        }
+        out
+    }
 }

@@ -15,6 +15,8 @@ use serde::Serialize;
 use signals::{MOST_CYCLES, Recorded, Trace, rows, statistics};
 use std::path::Path;
 
+/// Drop-outs that the text names one by one.
+const MOST_NAMED: usize = 10;
 /// Finest difference of positions that a recording can show, in mm or deg: one increment of the control, 0.1 um.
 const FLOOR_MM: f64 = 1e-4;
 /// A column of the trace and the channel that recorded it: `X_act_mm=MAIN.fAct`, `X_act_mm=-1000*Axis1.Pos`.
@@ -255,12 +257,15 @@ fn write_text(
                 )?;
             }
         }
-        for (begin_s, count) in &p.drop_outs {
+        for (begin_s, count) in p.drop_outs.iter().take(MOST_NAMED) {
             let samples = if *count == 1 { "sample" } else { "samples" };
             writeln!(
                 out,
                 "    drop-out  {count} {samples} missing after {begin_s:.6} s of B: not compared"
             )?;
+        }
+        if let Some(more) = p.drop_outs.len().checked_sub(MOST_NAMED + 1) {
+            writeln!(out, "    drop-outs  {} more", more + 1)?;
         }
         if p.trace_goes_on {
             writeln!(out, "    A moves where B has no samples")?;

@@ -123,21 +123,13 @@ impl Decoder {
             WordKind::G { number, value } => self.g_word(*number, value.as_deref(), span, block),
             WordKind::M(number, value) => {
                 let code = self.code(number, value.as_deref(), "M", span)?;
-                if block.m.iter().any(|m| m.number == code.number) {
-                    let text = format!("M{} twice in one block", code.number);
-                    return Err(Fault::new(Condition::MTwice, text, span)
-                        .with(|d| d.value(ValueKind::Current, code.number, "-")));
-                }
+                once(&block.m, &code, "M", Condition::MTwice)?;
                 block.m.push(code);
                 Ok(())
             }
             WordKind::H(number, value) => {
                 let code = self.code(number, value.as_deref(), "H", span)?;
-                if block.h.iter().any(|h| h.number == code.number) {
-                    let text = format!("H{} twice in one block", code.number);
-                    return Err(Fault::new(Condition::HTwice, text, span)
-                        .with(|d| d.value(ValueKind::Current, code.number, "-")));
-                }
+                once(&block.h, &code, "H", Condition::HTwice)?;
                 block.h.push(code);
                 Ok(())
             }
@@ -429,6 +421,16 @@ impl Decoder {
         let text = format!("the channel has no axis {name}");
         Fault::new(Condition::AxisOrCommandExpected, text, span).hint(self.axis_hint())
     }
+}
+
+/// A function stands once in a block.
+fn once(written: &[Code], code: &Code, letter: &str, condition: Condition) -> Outcome<()> {
+    if !written.iter().any(|other| other.number == code.number) {
+        return Ok(());
+    }
+    let text = format!("{letter}{} twice in one block", code.number);
+    Err(Fault::new(condition, text, code.span)
+        .with(|d| d.value(ValueKind::Current, code.number, "-")))
 }
 
 fn duplicate(first: &Row, second: &Row, span: Span) -> Box<Fault> {

@@ -129,18 +129,8 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
         decoder.dynamics_changed();
         return Ok(());
     };
-    for item in &group.items {
-        match &item.kind {
-            ItemKind::Flag(name) => members[decoder.axis_in_command(name)?] = true,
-            ItemKind::Missing => {}
-            _ => {
-                return Err(Fault::new(
-                    Condition::AxisNameUnknown,
-                    "an axis name is expected",
-                    item.span,
-                ));
-            }
-        }
+    for axis in decoder.axes_in_command(std::slice::from_ref(group))? {
+        members[axis] = true;
     }
     decoder.motion.feed_axes = members;
     decoder.dynamics_changed();

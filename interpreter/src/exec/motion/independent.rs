@@ -259,20 +259,7 @@ impl Decoder {
         groups: &[Group],
         span: Span,
     ) -> Outcome<()> {
-        let mut axes = Vec::new();
-        for item in groups.iter().flat_map(|group| &group.items) {
-            match &item.kind {
-                ItemKind::Flag(name) => axes.push(self.axis_in_command(name)?),
-                ItemKind::Missing => {}
-                _ => {
-                    return Err(Fault::new(
-                        Condition::AxisNameUnknown,
-                        "an axis name is expected",
-                        item.span,
-                    ));
-                }
-            }
-        }
+        let mut axes = self.axes_in_command(groups)?;
         if all {
             axes = (0..self.machine.axes.len()).collect();
         } else if axes.is_empty() {

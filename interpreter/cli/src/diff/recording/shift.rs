@@ -70,7 +70,8 @@ fn coarse_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
     }
     let done = back.process(&mut product, &mut correlation);
     debug_assert!(done.is_ok());
-    let best = correlation.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+    // the first of equal ones: signals that stand still are not shifted
+    let best = correlation.iter().enumerate().reduce(|a, b| if b.1 > a.1 { b } else { a });
     let place = best.map_or(0, |(i, _)| i);
     if place > longest { place as f64 - length as f64 } else { place as f64 }
 }
@@ -98,6 +99,7 @@ fn fine_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64, whole: f64) ->
         }
     }
     let between = 0.5 * (low + high);
-    let nearest = between.round();
-    if misfit(between) < BETTER * misfit(nearest) { between } else { nearest }
+    let rounded = between.round();
+    let best = if misfit(rounded) < misfit(whole) { rounded } else { whole };
+    if misfit(between) < BETTER * misfit(best) { between } else { best }
 }

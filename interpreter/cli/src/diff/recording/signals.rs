@@ -38,14 +38,14 @@ impl Recorded {
 
     /// Linear between the samples; `None` outside, and where samples are missing.
     fn at(&self, time_s: f64) -> Option<f64> {
-        let missing = |(begin_s, count): &(f64, usize)| {
-            let end_s = begin_s + self.step_s * (*count as f64 + 1.0);
-            time_s > begin_s + 1e-3 * self.step_s && time_s < end_s - 1e-3 * self.step_s
+        let near_s = 1e-3 * self.step_s;
+        // in the order of time: only the last one that has begun can hold the moment
+        let begun = self.drop_outs.partition_point(|(begin_s, _)| begin_s + near_s < time_s);
+        let last = begun.checked_sub(1).map(|i| self.drop_outs[i]);
+        let missing = |(begin_s, count): (f64, usize)| {
+            time_s < begin_s + self.step_s * (count as f64 + 1.0) - near_s
         };
-        if self.drop_outs.iter().any(missing) {
-            return None;
-        }
-        self.between(time_s)
+        if last.is_some_and(missing) { None } else { self.between(time_s) }
     }
 
     /// The same with what is missing filled in.
@@ -73,7 +73,10 @@ pub(super) fn channels(
             format!("{file}: no channel `{}`; it has {}", p.channel, names.join(", "))
         })?;
         let (values, step_s, drop_outs) = channel.even().ok_or_else(|| {
-            format!("{file}: the times of `{}` do not rise, or there are none", channel.name)
+            format!(
+                "{file}: the times of `{}` do not rise, leave gaps of hours, or there are none",
+                channel.name
+            )
         })?;
         let values = values.iter().map(|v| p.factor * v).collect();
         Ok(Recorded { values, step_s, drop_outs })
@@ -137,7 +140,7 @@ pub(super) fn rows<'a>(
     let begin_s = times_s.first().copied().unwrap_or_default();
     times_s.iter().zip(a).enumerate().filter_map(move |(row, (t, a))| {
         let b = recorded.at(t - begin_s + shift_s)?;
-        a.is_finite().then_some((row, *a, b))
+        (a.is_finite() && b.is_finite()).then_some((row, *a, b))
     })
 }
 
