@@ -1,6 +1,6 @@
 //! The command line as clap sees it. Wrong usage ends with exit code 2.
 
-use crate::engine::Request;
+use crate::request::Request;
 use clap::{Parser, Subcommand, ValueEnum};
 use kontur_interpreter::machine::Override;
 use std::path::PathBuf;
@@ -145,6 +145,7 @@ impl SimulationArgs {
             strict: self.strict,
             identity_trafo: self.identity_trafo,
             external: self.external.clone(),
+            guard: None,
         }
     }
 }

@@ -2,10 +2,10 @@
 
 mod ripple;
 
-use crate::engine::{Facts, Totals};
 use kontur_interpreter::diag::{Diagnostic, Severity};
+use kontur_interpreter::job::SettledStop;
+use kontur_interpreter::job::{Facts, Totals};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, SpeedLimit};
-use kontur_interpreter::sim::SettledStop;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
