@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// What a user may say about a run, apart from what becomes of its results.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// The NC program.
@@ -39,6 +40,8 @@ pub struct Request {
     pub strict: bool,
     /// Transformations of the kinematics are taken as identity.
     pub identity_trafo: bool,
+    /// Declared durations of M, H and S functions are waited for.
+    pub techno_times: bool,
     /// External variables by their name behind `V.E.`: a number, or else a text.
     pub external: Vec<(String, String)>,
 }

@@ -117,6 +117,7 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         max_blocks: request.max_blocks,
         max_time_s: request.max_time_s,
         identity_trafo: request.identity_trafo,
+        techno_times: request.techno_times,
         external: request.external.iter().map(external).collect(),
         ..Options::default()
     })
