@@ -16,6 +16,43 @@ pub struct PathRecord {
     pub j_mm_s3: f64,
     /// What held the speed down.
     pub limit: SpeedLimit,
+    /// What the path rests for; none while it moves, and at the moment in which it turns or stops without waiting.
+    pub rest: Option<Rest>,
+}
+
+/// What the path rests for in a cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rest {
+    /// G04, `#TIME`.
+    Dwell,
+    /// Declared durations of M, H and S functions.
+    Technology,
+    /// G60, G360: the actual positions of the axes are not in their windows yet.
+    ExactStop,
+    /// The set positions of the axes have not arrived yet: `#FLUSH WAIT`, independent axes, a change of filters.
+    Flush,
+    /// End of the program: the axes are not in position yet.
+    Arrival,
+    /// Feedhold or override 0.
+    Held,
+}
+
+impl Rest {
+    /// Every value.
+    pub const ALL: [Self; 6] =
+        [Self::Dwell, Self::Technology, Self::ExactStop, Self::Flush, Self::Arrival, Self::Held];
+
+    /// Name in results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Dwell => "dwell",
+            Self::Technology => "technology",
+            Self::ExactStop => "exact_stop",
+            Self::Flush => "flush",
+            Self::Arrival => "arrival",
+            Self::Held => "held",
+        }
+    }
 }
 
 /// One axis in one cycle. Millimetre (degree for rotary axes) and seconds; see `design` section 4 for the columns.

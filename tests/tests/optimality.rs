@@ -8,7 +8,6 @@ use kontur_interpreter::job::{Job, Options};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::source::MemorySources;
 use kontur_tests::{programs, sample_machine};
-use std::sync::Arc;
 
 type Point = [f64; 3];
 

@@ -65,6 +65,7 @@ pub enum OutputForm {
 }
 
 /// Options that decide what is simulated.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
 #[derive(Clone, Debug, clap::Args)]
 pub struct SimulationArgs {
     /// Machine: a folder with a start-up list, or the list itself [default: the built-in xyz]
@@ -118,6 +119,11 @@ pub struct SimulationArgs {
     #[arg(long)]
     pub identity_trafo: bool,
 
+    /// Wait for M, H and S functions as long as the channel list declares (P-CHAN-00026, 00040, 00042 to 00048, 00080); without
+    /// it they take no time and the summary names them
+    #[arg(long)]
+    pub techno_times: bool,
+
     /// Value of an external variable at program start, e.g. `Speed=1200` for V.E.Speed
     #[arg(long, value_name = "NAME=VALUE", value_parser = external)]
     pub external: Vec<(String, String)>,
@@ -144,6 +150,7 @@ impl SimulationArgs {
             max_blocks: self.max_blocks,
             strict: self.strict,
             identity_trafo: self.identity_trafo,
+            techno_times: self.techno_times,
             external: self.external.clone(),
             guard: None,
         }

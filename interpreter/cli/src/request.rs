@@ -12,6 +12,7 @@ use kontur_interpreter::machine::{Axis, Machine};
 use std::path::{Path, PathBuf};
 
 /// What a user may say about a run, apart from what becomes of its results.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// The NC program.
@@ -40,6 +41,8 @@ pub struct Request {
     pub strict: bool,
     /// Transformations of the kinematics are taken as identity.
     pub identity_trafo: bool,
+    /// Declared durations of M, H and S functions are waited for.
+    pub techno_times: bool,
     /// External variables by their name behind `V.E.`: a number, or else a text.
     pub external: Vec<(String, String)>,
     /// Vibration Guard in place of that of lists and program.
@@ -194,6 +197,7 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         max_blocks: request.max_blocks,
         max_time_s: request.max_time_s,
         identity_trafo: request.identity_trafo,
+        techno_times: request.techno_times,
         external: request.external.iter().map(external).collect(),
         guard: request.guard,
         ..Options::default()

@@ -3,6 +3,7 @@
 use super::{Phase, SettledStop, Simulation};
 use crate::machine::{Axis, Machine};
 use crate::record::PathRecord;
+use crate::record::Rest;
 use kontur_motion::axis::AxisVec;
 use smallvec::SmallVec;
 
@@ -86,8 +87,13 @@ impl Simulation {
             };
         }
         self.record.k = k;
+        let rest = match &self.phase {
+            Phase::Waiting(wait) => Some(wait.rest()),
+            Phase::Running if self.is_held => Some(Rest::Held),
+            _ => None,
+        };
         let at = match &self.phase {
-            Phase::Waiting(wait) if wait.is_dwell() => self.waits_at,
+            Phase::Waiting(wait) if wait.is_of_its_own_block() => self.waits_at,
             _ => self.current,
         };
         self.record.file = at.file;
@@ -99,6 +105,7 @@ impl Simulation {
             a_mm_s2: setpoint.a_mm_s2,
             j_mm_s3: setpoint.j_mm_s3,
             limit: setpoint.limit,
+            rest,
         };
         // on the contour bit for bit: nothing to search
         self.record.contour_err_mm = if shaped {

@@ -52,7 +52,9 @@ pub(crate) fn check(
                 };
             }
             Step::Motion { block, .. } => time_s += programmed_time(&block),
-            Step::Sync { what: Sync::Dwell { seconds }, .. } => time_s += seconds,
+            Step::Sync { what: Sync::Dwell { seconds } | Sync::Technology { seconds }, .. } => {
+                time_s += seconds;
+            }
             Step::Sync { .. } => {}
         }
         if time_s > max_time_s && !executor.has_ended() {
