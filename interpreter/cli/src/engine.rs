@@ -119,6 +119,10 @@ pub struct AxisFacts {
     pub spindle: bool,
     /// The plant model has a tool point of its own (`X_tcp_mm`).
     pub modal: bool,
+    /// Largest velocity in mm/s or deg/s (P-AXIS-00212).
+    pub v_max: f64,
+    /// Largest acceleration in mm/s2 or deg/s2 (P-AXIS-00008).
+    pub a_max: f64,
     /// Half width of the exact-stop window in mm or deg (P-AXIS-00236).
     pub window: f64,
     /// Time limit to reach it in s (P-AXIS-00532), if there is one.

@@ -155,6 +155,8 @@ fn facts(
         rotary: axis.kind() != AxisKind::Linear,
         spindle: axis.kind() == AxisKind::Spindle,
         modal: simulation.has_tool_point(i),
+        v_max: axis.dynamics().v_max_mm_s,
+        a_max: axis.dynamics().a_max_mm_s2,
         window: stop(i).window_mm,
         settling_s: stop(i).settling_s,
     });
