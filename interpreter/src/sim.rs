@@ -23,7 +23,7 @@ pub use totals::{SettledStop, Stops, Totals};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
 use crate::machine::{self, Machine};
-use crate::record::CycleRecord;
+use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use axes::{Driver, drivers};
 use chain::AxisChain;
@@ -61,6 +61,7 @@ enum Phase {
 struct Underway {
     seq: u64,
     source: SourceRef,
+    motion: Motion,
     jerk_limited: bool,
     events: Vec<Event>,
 }
@@ -90,6 +91,7 @@ pub struct Simulation {
     gains: Vec<f64>,
     underway: VecDeque<Underway>,
     current: SourceRef,
+    motion: Motion,
     /// Feedhold or override 0 keeps the path at rest in this cycle.
     is_held: bool,
     /// Block that the path waits for at rest.
@@ -149,6 +151,7 @@ impl Simulation {
             gains: vec![0.0; chains.len()],
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
             frozen: vec![None; chains.len()],
+            motion: Motion::None,
             is_held: false,
             stops_at: vec![SourceRef::default(); chains.len()],
             inputs: Inputs::none(chains.len()),
@@ -354,7 +357,8 @@ impl Simulation {
     fn motion(&mut self, block: Box<Block>, source: SourceRef, events: Vec<Event>) {
         self.totals.count(&block);
         let jerk_limited = block.slope.kind != SlopeKind::Step;
-        self.underway.push_back(Underway { seq: block.seq, source, jerk_limited, events });
+        let motion = Motion::of(&block);
+        self.underway.push_back(Underway { seq: block.seq, source, motion, jerk_limited, events });
         self.smoothing.push(*block, &mut self.planner);
         self.not_contoured();
     }

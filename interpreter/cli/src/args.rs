@@ -180,6 +180,10 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t = SummaryForm::Text)]
     pub summary: SummaryForm,
 
+    /// Account for the time by line and by what held the speed down: in the summary, or every line in a table
+    #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, value_parser = table)]
+    pub times: Option<Option<PathBuf>>,
+
     /// What is simulated
     #[command(flatten)]
     pub simulation: SimulationArgs,
@@ -265,6 +269,13 @@ pub struct ExplainArgs {
     /// An error ID (22060, P-ERR-70082, K-0012), a parameter (P-AXIS-00571 or its key) or a command
     #[arg(required = true)]
     pub thing: Vec<String>,
+}
+
+/// The name of a table.
+fn table(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+    if is_csv { Ok(path) } else { Err("the table of all lines is a .csv file".to_owned()) }
 }
 
 /// The form only; what the words name is the machine's business.

@@ -6,12 +6,13 @@ use crate::files::is_standard;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened};
 use crate::summary::Collector;
-use crate::target::keep_apart;
+use crate::target::{self, keep_apart};
 use crate::trace::Trace;
-use crate::{Error, Exit};
+use crate::{Error, Exit, times};
 use kontur_interpreter::diag::{Diagnostic, render};
 use kontur_interpreter::job::{Run, Sink, Totals};
 use kontur_interpreter::record::CycleRecord;
+use std::path::PathBuf;
 
 /// Runs a program.
 ///
@@ -21,13 +22,19 @@ pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
     let form = args.simulation.diagnostics;
     let opened = args.simulation.request(&args.program).open();
     let Opened { mut run, reads } = opened.map_err(|e| announce_lists(e, form, console))?;
-    keep_apart(&reads, &args.output)?;
+    let table = args.times.iter().flatten();
+    let written: Vec<PathBuf> = args.output.iter().chain(table).cloned().collect();
+    keep_apart(&reads, &written)?;
     let create = |path| Trace::create(path, &args.signals, args.decimate, run.facts(), console);
     let mut traces: Vec<Trace> =
         args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
     let mut summary = Collector::new(run.facts());
+    let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;
     let written = drive(&mut run, Shown::alone(form), console, &mut summary, |record| {
+        if let Some(times) = &mut times {
+            times.add(record);
+        }
         traces.iter_mut().try_for_each(|t| match t.write(record) {
             // nobody reads stdout any more: the files go on
             Err(Error::ClosedPipe) if !alone => {
@@ -50,9 +57,17 @@ pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
     let mut totals = run.totals();
     totals.aborted |= interrupted.is_some();
     let summary = summary.finish(&totals);
+    let times = times.map(times::Collector::finish);
+    if let (Some(times), Some(Some(path))) = (&times, &args.times) {
+        let table = times.csv().map_err(|e| Error::io(path.display().to_string(), e.into()))?;
+        target::write(path, &table)?;
+    }
     let text = match args.summary {
-        SummaryForm::Text => Some(summary.text()),
-        SummaryForm::Json => Some(summary.json()),
+        SummaryForm::Text => {
+            let times = times.map(|t| t.text()).unwrap_or_default();
+            Some(summary.text() + &times)
+        }
+        SummaryForm::Json => Some(summary.json(times.as_ref())),
         SummaryForm::None => None,
     };
     match text {

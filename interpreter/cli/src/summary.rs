@@ -2,6 +2,7 @@
 
 mod ripple;
 
+use crate::times::Times;
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use kontur_interpreter::job::{Facts, SettledStop, Totals};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, Rest, SpeedLimit};
@@ -281,9 +282,17 @@ fn many(n: usize, what: &str) -> String {
 }
 
 impl Summary {
-    /// One JSON object on one line.
-    pub fn json(&self) -> String {
-        serde_json::to_string(self).unwrap_or_default()
+    /// One JSON object on one line; with times it has them as `times`.
+    pub fn json(&self, times: Option<&Times>) -> String {
+        #[derive(Serialize)]
+        struct WithTimes<'a> {
+            #[serde(flatten)]
+            summary: &'a Summary,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            times: Option<serde_json::Value>,
+        }
+        let object = WithTimes { summary: self, times: times.map(Times::json) };
+        serde_json::to_string(&object).unwrap_or_default()
     }
 
     /// The readable form.

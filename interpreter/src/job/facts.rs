@@ -35,6 +35,8 @@ impl Facts {
             rotary: axis.kind() != AxisKind::Linear,
             spindle: axis.kind() == AxisKind::Spindle,
             modal: simulation.has_tool_point(i),
+            v_max: axis.dynamics().v_max_mm_s,
+            a_max: axis.dynamics().a_max_mm_s2,
             window: stop(i).window_mm,
             settling_s: stop(i).settling_s,
         });
@@ -65,6 +67,10 @@ pub struct AxisFacts {
     pub spindle: bool,
     /// The plant model has a tool point of its own (`X_tcp_mm`).
     pub modal: bool,
+    /// Largest velocity in mm/s or deg/s (P-AXIS-00212).
+    pub v_max: f64,
+    /// Largest acceleration in mm/s2 or deg/s2 (P-AXIS-00008).
+    pub a_max: f64,
     /// Half width of the exact-stop window in mm or deg (P-AXIS-00236).
     pub window: f64,
     /// Time limit to reach it in s (P-AXIS-00532), if there is one.

@@ -2,8 +2,7 @@
 
 use super::{Phase, SettledStop, Simulation};
 use crate::machine::{Axis, Machine};
-use crate::record::PathRecord;
-use crate::record::Rest;
+use crate::record::{PathRecord, Rest};
 use kontur_motion::axis::AxisVec;
 use smallvec::SmallVec;
 
@@ -37,6 +36,7 @@ impl Simulation {
         while self.underway.front().is_some_and(|u| u.seq <= seq) {
             if let Some(block) = self.underway.pop_front() {
                 self.current = block.source;
+                self.motion = block.motion;
                 self.jerk_limited = block.jerk_limited;
                 // the block began after the cycle before
                 for event in block.events {
@@ -105,6 +105,7 @@ impl Simulation {
             a_mm_s2: setpoint.a_mm_s2,
             j_mm_s3: setpoint.j_mm_s3,
             limit: setpoint.limit,
+            motion: self.motion,
             rest,
         };
         // on the contour bit for bit: nothing to search
