@@ -8,6 +8,7 @@ mod limits;
 pub(super) mod overrides;
 pub(super) mod spindles;
 pub(super) mod straight;
+pub(super) mod technology;
 
 use self::dynamics::Weights;
 use self::independent::Independent;

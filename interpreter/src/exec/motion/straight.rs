@@ -148,12 +148,11 @@ impl Decoder {
             words.find(|(target, _)| target.axis == axis).map(|(_, at)| *at)
         };
         self.check_limits(&path, place, span);
-        let shared = match shared {
-            Some(shared) => shared,
-            None => {
-                let outcome = self.share(&path, words.places.first().copied().unwrap_or(span));
-                self.keep(outcome)?
-            }
+        let shared = if let Some(shared) = shared {
+            shared
+        } else {
+            let outcome = self.share(&path, words.places.first().copied().unwrap_or(span));
+            self.keep(outcome)?
         };
         // of a block with an error nothing moves
         if self.failed() && !self.checking {

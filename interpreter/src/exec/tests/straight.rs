@@ -125,7 +125,7 @@ fn plain_motions_do_what_the_words_say() {
             let options =
                 Options { max_blocks: 2000, max_blocks_at_rest: 500, ..Options::default() };
             let checked =
-                check(Box::new(sources.clone()), "main.nc", Arc::clone(&machine), options.clone());
+                check(Arc::new(sources.clone()), "main.nc", Arc::clone(&machine), options.clone());
             let run = run_with(sources, Arc::clone(&machine), options);
             // a message of the grammar quotes what is written
             let text = |d: &Diagnostic| match d.id {
@@ -135,7 +135,12 @@ fn plain_motions_do_what_the_words_say() {
             let said = |d: &[Diagnostic]| {
                 places(d).into_iter().zip(d.iter().map(text)).collect::<Vec<_>>()
             };
-            (said(&checked), said(&run.diagnostics), format!("{:#?}", run.steps), run.end)
+            (
+                said(&checked.diagnostics),
+                said(&run.diagnostics),
+                format!("{:#?}", run.steps),
+                run.end,
+            )
         });
         assert_eq!(short.0, long.0, "check {seed}:\n{}", texts[0]);
         assert_eq!(short.1, long.1, "run {seed}:\n{}", texts[0]);
