@@ -3,7 +3,7 @@
 
 use super::stops::Stops;
 use super::track::Track;
-use crate::engine::Facts;
+use kontur_interpreter::job::Facts;
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 
 /// Buckets of a finished recording are at least half of this many, once a run is longer than that.
@@ -311,7 +311,7 @@ fn corner(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Option<[f64; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::AxisFacts;
+    use kontur_interpreter::job::AxisFacts;
     use kontur_interpreter::record::{AxisRecord, PathRecord};
 
     fn facts() -> Facts {
