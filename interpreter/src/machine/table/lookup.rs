@@ -4,6 +4,8 @@ use super::{
     ListKind, Row, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general, axis_guard,
     channel, kontur, start_up,
 };
+use std::collections::HashMap;
+use std::sync::LazyLock;
 
 /// Families of the table, in the order of the documentation.
 const FAMILIES: &[&[Row]] = &[
@@ -55,35 +57,31 @@ pub fn rows() -> impl Iterator<Item = &'static Row> {
     FAMILIES.iter().flat_map(|family| family.iter())
 }
 
-/// The row with an ID; the first one if several keys share it.
-pub fn by_id(id: &str) -> Option<&'static Row> {
-    rows().find(|r| !r.id.is_empty() && r.id.eq_ignore_ascii_case(id))
-}
+/// Rows by their IDs, which are in upper case.
+static BY_ID: LazyLock<HashMap<&'static str, &'static Row>> =
+    LazyLock::new(|| rows().filter(|r| !r.id.is_empty()).map(|r| (r.id, r)).collect());
 
-/// The row of a key in a list; `shape` is the key in lower case with `[]` for every index.
-pub fn by_key(list: ListKind, shape: &str) -> Option<&'static Row> {
-    let key = ALIASES.iter().find(|(from, _)| *from == shape).map(|(_, to)| *to);
-    rows().filter(|r| r.list == list && !r.key.is_empty()).find(|r| match key {
-        Some(key) => r.key == key,
-        None => same_shape(r.key, shape),
-    })
-}
-
-/// Compares a key of the table (`filter[i].order`) with a shape (`filter[].order`), without regard to case.
-fn same_shape(key: &str, shape: &str) -> bool {
-    let mut key = key.bytes();
-    let mut shape = shape.bytes();
-    loop {
-        match (key.next(), shape.next()) {
-            (None, None) => return true,
-            (Some(a), Some(b)) if a.eq_ignore_ascii_case(&b) => {
-                if a == b'[' {
-                    key.next();
-                }
-            }
-            _ => return false,
-        }
+/// Rows of all lists by the shapes of their keys.
+static BY_SHAPE: LazyLock<HashMap<String, Vec<&'static Row>>> = LazyLock::new(|| {
+    let mut shapes: HashMap<String, Vec<&'static Row>> = HashMap::new();
+    for row in rows().filter(|r| !r.key.is_empty()) {
+        shapes.entry(plain(row.key)).or_default().push(row);
     }
+    shapes
+});
+
+/// The row with an ID in either case.
+pub fn by_id(id: &str) -> Option<&'static Row> {
+    BY_ID.get(id).or_else(|| BY_ID.get(id.to_ascii_uppercase().as_str())).copied()
+}
+
+/// The row of a key in a list; `shape` is the key in either case with `[]` for every index.
+pub fn by_key(list: ListKind, shape: &str) -> Option<&'static Row> {
+    let shape = match ALIASES.iter().find(|(from, _)| *from == shape) {
+        Some((_, key)) => plain(key),
+        None => shape.to_ascii_lowercase(),
+    };
+    BY_SHAPE.get(&shape)?.iter().find(|r| r.list == list).copied()
 }
 
 /// Keys that differ from `shape` by at most two letters, best first.
@@ -148,6 +146,7 @@ mod tests {
         for r in rows() {
             assert!(r.key.is_empty() || keys.insert((r.list, plain(r.key))), "key {}", r.key);
             assert!(r.id.is_empty() || ids.insert(r.id), "id {}", r.id);
+            assert_eq!(r.id, r.id.to_ascii_uppercase());
             assert!(!r.key.is_empty() || !r.id.is_empty());
             assert!(!r.meaning.is_empty() && !r.source.is_empty(), "{}{}", r.id, r.key);
         }
@@ -156,8 +155,27 @@ mod tests {
     #[test]
     fn aliases_lead_to_rows() {
         for (from, to) in ALIASES {
-            assert!(rows().any(|r| r.key == *to), "{from} -> {to}");
+            let row = rows().find(|r| r.key == *to).unwrap();
+            assert_eq!(by_key(row.list, from), Some(row), "{from} -> {to}");
         }
+    }
+
+    /// Every row is found by its ID and by its key with and without regard to case, in its own list alone.
+    #[test]
+    fn rows_are_found() {
+        for row in rows() {
+            if !row.id.is_empty() {
+                assert_eq!(by_id(row.id), Some(row));
+                assert_eq!(by_id(&row.id.to_ascii_lowercase()), Some(row));
+            }
+            if !row.key.is_empty() {
+                let shape = plain(row.key);
+                assert_eq!(by_key(row.list, &shape), Some(row));
+                assert_eq!(by_key(row.list, &shape.to_ascii_uppercase()), Some(row));
+            }
+        }
+        assert_eq!(by_id("P-AXIS-99999"), None);
+        assert_eq!(by_key(ListKind::Axis, "getriebe[i].kv"), None);
     }
 
     #[test]
