@@ -112,35 +112,37 @@ impl SetPath {
         self.values.get(at..at + self.axes)
     }
 
-    /// (a) between cycle `k - 1` and cycle `k`, from the contour interpolated between two moments (cycles).
+    /// (a) between cycle `k - 1` and cycle `k`, from the contour interpolated between two moments (cycles). The shortest
+    /// vector to the set point of cycle `k` comes back with its length in mm, if there is a contour.
     pub(crate) fn leaves(
         &self,
         contour: &Contour,
         k: u64,
         (from, to): (f64, f64),
         out: &mut Excursion,
-    ) {
-        let Some(here) = self.get(k) else { return };
+    ) -> Option<(f64, AxisVec)> {
+        let here = self.get(k)?;
         let mut vector = AxisVec::zeros(self.axes);
         let Some(before) = k.checked_sub(1).and_then(|k| self.get(k)) else {
-            contour.nearest(here, from, to, &mut vector);
+            let now = contour.nearest(here, from, to, &mut vector);
             out.take(&vector);
-            return;
+            return now.map(|now| (now.distance, vector));
         };
         let around = contour.around((before, here), (from, to), (1.0, 0.0));
         let now = around.nearest(here, &contour.numbers(from, to), &mut vector);
         out.take(&vector);
+        let shortest = now.map(|now| (now.distance, vector.clone()));
         let all = 0..usize::MAX;
         let then = around.nearest(before, &all, &mut vector);
         let parts = match (now, then) {
             (Some(now), Some(then)) if now.block == then.block => {
                 if now.straight {
-                    return;
+                    return shortest;
                 }
                 2
             }
             (Some(_), Some(_)) => PARTS,
-            _ => return,
+            _ => return shortest,
         };
         // the largest distance lies where the nearest point passes from one block to another
         let mut look = |u: f64| {
@@ -162,6 +164,7 @@ impl SetPath {
             }
             last = found;
         }
+        shortest
     }
 
     /// Largest component of (a) between cycle `k - 1` and cycle `k`, whatever could be called the shortest vector: from
@@ -268,6 +271,8 @@ pub(crate) struct Gauge {
     set: SetPath,
     path: SetPath,
     found: Excursion,
+    /// Shortest vector to the last set point with its length in mm.
+    shortest: Option<(f64, AxisVec)>,
 }
 
 impl Gauge {
@@ -279,6 +284,11 @@ impl Gauge {
     /// Largest components found in the last cycle, per axis.
     pub(crate) fn found(&self) -> &[f64] {
         &self.found.vector
+    }
+
+    /// Length in mm and components of the shortest vector from the contour to the last set point, if there is a contour.
+    pub(crate) fn shortest(&self) -> Option<(f64, &[f64])> {
+        self.shortest.as_ref().map(|(length, vector)| (*length, &**vector))
     }
 
     /// Takes the set point and the interpolated point of cycle `k`. Finds the largest components of what the line to the
@@ -294,7 +304,7 @@ impl Gauge {
         self.path.push(path);
         let (reach, moment) = (self.reach as f64, k as f64);
         let mut found = Excursion::none(axes);
-        self.set.leaves(contour, k, (moment - reach, moment), &mut found);
+        self.shortest = self.set.leaves(contour, k, (moment - reach, moment), &mut found);
         let passed = moment - reach - 1.0;
         for (moment, point) in contour.kinks(passed - 1.0, passed) {
             let first = moment.floor().max(0.0) as u64;

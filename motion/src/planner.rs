@@ -291,8 +291,20 @@ impl Planner {
     pub fn deviation(&mut self, point: &[f64], out: &mut [f64]) -> f64 {
         let k = self.setpoint.k;
         self.gauge.step(&self.contour, k, point, &self.setpoint.position);
-        let (from, to) = (k as f64 - f64::from(self.reach_cycles), k as f64);
-        self.contour.nearest(point, from, to, out).map_or(0.0, |n| n.distance)
+        debug_assert_eq!(
+            self.gauge.shortest().map(|(length_mm, _)| length_mm),
+            self.contour
+                .nearest(point, k as f64 - f64::from(self.reach_cycles), k as f64, out)
+                .map(|nearest| nearest.distance),
+            "blocks left out are not the nearest"
+        );
+        if let Some((length_mm, vector)) = self.gauge.shortest() {
+            out.copy_from_slice(vector);
+            length_mm
+        } else {
+            out.fill(0.0);
+            0.0
+        }
     }
 
     /// Largest components in mm of what the set path leaves the contour by in this cycle, and of what it has missed of the

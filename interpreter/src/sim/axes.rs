@@ -78,9 +78,9 @@ impl Simulation {
         // what is measured against the contour: the set position without the ways of independent axes; while one of them
         // moves, it does not count
         for (p, set) in self.set.iter_mut().enumerate() {
-            let alone = self.independent.is_moving(p) || !self.chains[p].settled();
             let way_mm = self.independent.done_mm(p);
-            *set = if self.independent.is_moving(p) || (way_mm.abs() > 0.0 && alone) {
+            let settles = || way_mm.abs() > 0.0 && !self.chains[p].settled();
+            *set = if self.independent.is_moving(p) || settles() {
                 setpoint.position[p]
             } else {
                 self.record.axes[p].set - way_mm

@@ -8,6 +8,8 @@ pub struct LinePath {
     start: AxisVec,
     end: AxisVec,
     direction: AxisVec,
+    /// Sum of the squares of the direction.
+    norm: f64,
     length: f64,
 }
 
@@ -37,7 +39,11 @@ impl LinePath {
         for (d, a) in direction.iter_mut().zip(start.iter()) {
             *d = (*d - a) / length;
         }
-        Some(Self { start, end, direction, length })
+        let mut norm = 0.0;
+        for d in direction.iter() {
+            norm += d * d;
+        }
+        Some(Self { start, end, direction, norm, length })
     }
 
     pub(super) fn length(&self) -> f64 {
@@ -63,13 +69,13 @@ impl LinePath {
         } else if s >= self.length {
             out.copy_from_slice(&self.end);
         } else {
-            for (i, o) in out.iter_mut().enumerate() {
+            let n = out.len();
+            let (start, end) = (&self.start[..n], &self.end[..n]);
+            let direction = &self.direction[..n];
+            for i in 0..n {
                 // an axis that does not move keeps its exact bits
-                *o = if self.start[i].to_bits() == self.end[i].to_bits() {
-                    self.start[i]
-                } else {
-                    self.start[i] + s * self.direction[i]
-                };
+                let stands = start[i].to_bits() == end[i].to_bits();
+                out[i] = if stands { start[i] } else { start[i] + s * direction[i] };
             }
         }
     }
@@ -79,15 +85,17 @@ impl LinePath {
         let (mut start, mut end) = (self.start.clone(), self.end.clone());
         self.position(from, &mut start);
         self.position(to, &mut end);
-        Self { start, end, direction: self.direction.clone(), length: to - from }
+        let direction = self.direction.clone();
+        Self { start, end, direction, norm: self.norm, length: to - from }
     }
 
     pub(super) fn nearest(&self, point: &[f64]) -> f64 {
-        let (mut dot, mut norm) = (0.0, 0.0);
-        for ((p, a), d) in point.iter().zip(self.start.iter()).zip(self.direction.iter()) {
-            dot += (p - a) * d;
-            norm += d * d;
+        let n = point.len();
+        let (start, direction) = (&self.start[..n], &self.direction[..n]);
+        let mut dot = 0.0;
+        for i in 0..n {
+            dot += (point[i] - start[i]) * direction[i];
         }
-        (dot / norm).clamp(0.0, self.length)
+        (dot / self.norm).clamp(0.0, self.length)
     }
 }
