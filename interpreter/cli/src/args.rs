@@ -180,7 +180,8 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t = SummaryForm::Text)]
     pub summary: SummaryForm,
 
-    /// Account for the time by line and by what held the speed down: in the summary, or every line in a table
+    /// Account for the time by line and by what held the speed down: in the summary, or every line in a table. What would help is tried
+    /// out, with a run for each proposal
     #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, value_parser = table)]
     pub times: Option<Option<PathBuf>>,
 
