@@ -35,6 +35,21 @@ pub enum Command {
     Explain(ExplainArgs),
 }
 
+impl Command {
+    /// How its messages are printed.
+    pub const fn message_form(&self) -> MessageForm {
+        match self {
+            Self::Run(a) => a.simulation.diagnostics,
+            Self::Check(a) => a.simulation.diagnostics,
+            Self::Diff(a) => a.simulation.diagnostics,
+            Self::Report(a) => a.simulation.diagnostics,
+            Self::Sweep(a) => a.simulation.diagnostics,
+            Self::Tune(a) => a.simulation.diagnostics,
+            Self::Response(_) | Self::Explain(_) => MessageForm::Text,
+        }
+    }
+}
+
 /// How results are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SummaryForm {
