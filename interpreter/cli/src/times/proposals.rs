@@ -142,7 +142,12 @@ fn proposal(group: &Group, axes: &[Axis], whose: &str) -> Option<Proposal> {
         }
     }
     let what = format!("{} of {whose}", group.what);
-    (!settings.is_empty()).then(|| Proposal { what, parameters: group.ids, settings, saves_s: 0.0 })
+    (!settings.is_empty()).then_some(Proposal {
+        what,
+        parameters: group.ids,
+        settings,
+        saves_s: 0.0,
+    })
 }
 
 /// Collects times until somebody interrupts.
