@@ -149,10 +149,13 @@ enum Identity {
 
 impl Identity {
     fn of(path: &Path) -> Self {
-        match path.metadata() {
-            Ok(metadata) if !metadata.is_file() => Self::Device,
-            Ok(_) if let Ok(handle) = same_file::Handle::from_path(path) => Self::File(handle),
-            _ => {
+        let metadata = path.metadata();
+        if metadata.as_ref().is_ok_and(|metadata| !metadata.is_file()) {
+            return Self::Device;
+        }
+        match metadata.and_then(|_| same_file::Handle::from_path(path)) {
+            Ok(handle) => Self::File(handle),
+            Err(_) => {
                 let folder = folder_of(path);
                 let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
                 Self::Name(folder.join(path.file_name().unwrap_or_default()))
