@@ -153,14 +153,12 @@ impl Identity {
         if metadata.as_ref().is_ok_and(|metadata| !metadata.is_file()) {
             return Self::Device;
         }
-        match metadata.and_then(|_| same_file::Handle::from_path(path)) {
-            Ok(handle) => Self::File(handle),
-            Err(_) => {
-                let folder = folder_of(path);
-                let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-                Self::Name(folder.join(path.file_name().unwrap_or_default()))
-            }
+        if let Ok(handle) = metadata.and_then(|_| same_file::Handle::from_path(path)) {
+            return Self::File(handle);
         }
+        let folder = folder_of(path);
+        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        Self::Name(folder.join(path.file_name().unwrap_or_default()))
     }
 }
 
