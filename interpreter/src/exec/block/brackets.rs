@@ -42,6 +42,13 @@ impl Decoder {
         if let Some(spindle) = self.spindle_of_name(name) {
             return self.spindle_bracket(spindle, &bracket.group);
         }
+        // `X100 [NAME]` reads like the bracket of an axis X100
+        if let ([Item { kind: ItemKind::Flag(_), .. }], true) =
+            (&bracket.group.items[..], name.ends_with(|c: char| c.is_ascii_digit()))
+        {
+            let text = "a label stands at the beginning of its block, not behind words";
+            return Err(Fault::new(Condition::LabelBehindWords, text, bracket.group.span));
+        }
         Err(self.unknown_axis(name, bracket.group.span))
     }
 
@@ -119,6 +126,7 @@ impl Decoder {
                 let text = "two words of a spindle bracket that set the same";
                 let condition = match item {
                     SpindleItem::Turn(_) => Condition::SpindleMTwice,
+                    SpindleItem::Speed(_) => Condition::SpindleSpeedTwice,
                     _ => Condition::DuplicateGroup,
                 };
                 return Err(Fault::new(condition, text, *span));
@@ -188,7 +196,9 @@ impl Decoder {
             }
             SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
                 let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
-                return Err(Fault::new(Condition::Range, text, span));
+                let condition =
+                    if rpm < 0.0 { Condition::SpindleSpeedNegative } else { Condition::Range };
+                return Err(Fault::new(condition, text, span));
             }
             SpindleItem::Speed(rpm) => self.set_spindle_speed(spindle, rpm, span),
             SpindleItem::Position(deg) => {

@@ -104,7 +104,13 @@ impl FileError {
     pub(super) fn text(self, name: &str) -> (String, Option<String>) {
         match self {
             Self::Open(e) => {
-                let hint = format!("searched: {}", e.searched.join(", "));
+                let searched = format!("searched: {}", e.searched.join(", "));
+                let hint = match is_vendor_cycle(&e.name) {
+                    true => format!(
+                        "a cycle of the vendor's library, which is no part of kontur: copy it from the control; {searched}"
+                    ),
+                    false => searched,
+                };
                 (format!("{}: {}", e.name, e.reason), Some(hint))
             }
             Self::Read(e) => (format!("{name}: {e}"), None),
@@ -114,6 +120,12 @@ impl FileError {
             }
         }
     }
+}
+
+/// True for `SysDrill1.ecy` and the like: cycles of the drilling, milling and measuring libraries.
+fn is_vendor_cycle(name: &str) -> bool {
+    let file = name.rsplit(['/', '\\']).next().unwrap_or(name).to_ascii_lowercase();
+    file.starts_with("sys") && file.ends_with(".ecy")
 }
 
 /// Blocks of a called file by which it is judged.
@@ -364,7 +376,8 @@ fn needs_actual(block: &Block) -> bool {
             WordKind::Call(call) => match &call.kind {
                 crate::syntax::ast::CallKind::Cycle(group)
                 | crate::syntax::ast::CallKind::Sequence(group) => group_needs_actual(group),
-                crate::syntax::ast::CallKind::Program(_) => false,
+                crate::syntax::ast::CallKind::Program(_)
+                | crate::syntax::ast::CallKind::Variable(_) => false,
             },
             _ => false,
         }),

@@ -4,7 +4,7 @@
 //! values are kontur's choice where a headless tool has none.
 
 use super::expr::{as_number, whole};
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::tools::Tool;
@@ -171,7 +171,21 @@ impl Path<'_> {
     fn index(&self, d: &Decoder, at: usize, high: u32) -> Outcome<u32> {
         let subscripts = self.segments.get(at).map(|s| &s.subscripts[..]);
         match subscripts {
-            Some([expr]) => d.whole(expr, "the index", 0, high),
+            Some([expr]) => {
+                let x = d.number(expr)?;
+                whole(x, 0, high).ok_or_else(|| {
+                    let tool =
+                        self.segments.get(1).is_some_and(|s| s.name.eq_ignore_ascii_case("WZ"));
+                    let condition =
+                        if tool { Condition::ToolIndex } else { Condition::VariableNumber };
+                    let text = format!("the index is {x}, allowed are 0 to {high}");
+                    Fault::new(condition, text, expr.span).with(|d| {
+                        d.value(ValueKind::Wrong, x, "-")
+                            .value(ValueKind::LowerLimit, 0, "-")
+                            .value(ValueKind::UpperLimit, high, "-")
+                    })
+                })
+            }
             _ => Err(Fault::new(Condition::Syntax, "one index is expected", self.span)),
         }
     }
