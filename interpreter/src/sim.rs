@@ -23,7 +23,7 @@ pub use totals::{SettledStop, Stops, Totals};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
 use crate::machine::{self, Machine};
-use crate::record::CycleRecord;
+use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use axes::{Driver, drivers};
 use chain::AxisChain;
@@ -68,6 +68,7 @@ enum Phase {
 struct Underway {
     seq: u64,
     source: SourceRef,
+    motion: Motion,
     jerk_limited: bool,
     events: Vec<Event>,
 }
@@ -97,10 +98,11 @@ pub struct Simulation {
     gains: Vec<f64>,
     underway: VecDeque<Underway>,
     current: SourceRef,
+    motion: Motion,
+    /// Feedhold or override 0 keeps the path at rest in this cycle.
+    is_held: bool,
     /// Block that the path waits for at rest.
     waits_at: SourceRef,
-    /// Cycle in which the path came to rest last.
-    ends_k: u64,
     /// Block of the last stop of every chain.
     stops_at: Vec<SourceRef>,
     jerk_limited: bool,
@@ -156,7 +158,8 @@ impl Simulation {
             gains: vec![0.0; chains.len()],
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
             frozen: vec![None; chains.len()],
-            ends_k: 0,
+            motion: Motion::None,
+            is_held: false,
             stops_at: vec![SourceRef::default(); chains.len()],
             inputs: Inputs::none(chains.len()),
             independent: IndependentAxes::new(n),
@@ -253,7 +256,7 @@ impl Simulation {
                 }
                 Phase::Running => match self.planner.advance() {
                     Ok(Next::Setpoint) => {
-                        self.count_hold();
+                        self.look_for_hold();
                         break;
                     }
                     Ok(Next::Input) => self.pull(),
@@ -281,7 +284,6 @@ impl Simulation {
                         self.never_arrives(chain, lacks);
                         return None;
                     }
-                    self.totals.dwell_cycles += u64::from(wait.is_dwell());
                     wait.count();
                     self.planner.hold(SpeedLimit::Stop);
                     break;
@@ -330,14 +332,15 @@ impl Simulation {
         self.phase = Phase::Done;
     }
 
-    /// Counts the cycles in which feedhold or override 0 keeps the path at rest; a hold without end ends the run.
-    fn count_hold(&mut self) {
+    /// Notes whether feedhold or override 0 keeps the path at rest in this cycle; a hold without end ends the run.
+    fn look_for_hold(&mut self) {
+        self.is_held = false;
         let setpoint = self.planner.setpoint();
         let stands = setpoint.s_mm.to_bits() == self.record.path.s_mm.to_bits();
         if !stands || !self.planner.is_held() {
             return;
         }
-        self.totals.held_cycles += 1;
+        self.is_held = true;
         if self.inputs.is_over() {
             let failure = fault::held(setpoint.k, self.cycle, self.inputs.feedhold);
             self.diagnostics.push(failure);
@@ -368,7 +371,8 @@ impl Simulation {
     fn motion(&mut self, block: Box<Block>, source: SourceRef, events: Vec<Event>) {
         self.totals.count(&block);
         let jerk_limited = block.slope.kind != SlopeKind::Step;
-        self.underway.push_back(Underway { seq: block.seq, source, jerk_limited, events });
+        let motion = Motion::of(&block);
+        self.underway.push_back(Underway { seq: block.seq, source, motion, jerk_limited, events });
         self.smoothing.push(*block, &mut self.planner);
         self.not_contoured();
     }
@@ -388,7 +392,6 @@ impl Simulation {
         };
         self.waits_at = source;
         let k = self.planner.setpoint().k;
-        self.ends_k = k;
         for event in events {
             self.act(event, k);
         }
@@ -417,7 +420,6 @@ impl Simulation {
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
             wait::Action::MachineData { axis } => self.machine_data(axis),
             wait::Action::End(reason) => {
-                self.totals.arrival_cycles = self.planner.setpoint().k - self.ends_k;
                 self.totals.aborted |= reason == EndReason::Aborted;
                 self.phase = Phase::Done;
             }

@@ -8,7 +8,7 @@ pub mod targets;
 use kontur_interpreter::diag::{Diagnostic, Id};
 use kontur_interpreter::exec::{self, Options};
 use kontur_interpreter::machine::{ListFiles, Machine, Override};
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::{CycleRecord, Rest};
 use kontur_interpreter::sim::{Change, Limits, Signal, Simulation, Totals};
 use kontur_interpreter::source::MemorySources;
 use std::path::{Path, PathBuf};
@@ -35,6 +35,11 @@ impl Run {
             Id::Kontur(_) => None,
         };
         self.diagnostics.iter().filter_map(number).collect()
+    }
+
+    /// Cycles in which the path rests for something.
+    pub fn rested(&self, rest: Rest) -> usize {
+        self.records.iter().filter(|r| r.path.rest == Some(rest)).count()
     }
 
     /// A value of one axis over all cycles.

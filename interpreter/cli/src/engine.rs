@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// What a user may say about a run, apart from what becomes of its results.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// The NC program.
@@ -39,6 +40,8 @@ pub struct Request {
     pub strict: bool,
     /// Transformations of the kinematics are taken as identity.
     pub identity_trafo: bool,
+    /// Declared durations of M, H and S functions are waited for.
+    pub techno_times: bool,
     /// External variables by their name behind `V.E.`: a number, or else a text.
     pub external: Vec<(String, String)>,
 }
@@ -116,6 +119,10 @@ pub struct AxisFacts {
     pub spindle: bool,
     /// The plant model has a tool point of its own (`X_tcp_mm`).
     pub modal: bool,
+    /// Largest velocity in mm/s or deg/s (P-AXIS-00212).
+    pub v_max: f64,
+    /// Largest acceleration in mm/s2 or deg/s2 (P-AXIS-00008).
+    pub a_max: f64,
     /// Half width of the exact-stop window in mm or deg (P-AXIS-00236).
     pub window: f64,
     /// Time limit to reach it in s (P-AXIS-00532), if there is one.

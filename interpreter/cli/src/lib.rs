@@ -24,6 +24,7 @@ pub mod sweep;
 mod table;
 pub mod target;
 pub mod text;
+pub mod times;
 pub mod trace;
 pub mod tune;
 pub mod vary;

@@ -6,10 +6,11 @@ use crate::engine::{Engine, OpenError, Source, Totals};
 use crate::files::is_standard;
 use crate::interrupt::Running;
 use crate::summary::Collector;
-use crate::target::keep_apart;
+use crate::target::{self, keep_apart};
 use crate::trace::Trace;
-use crate::{Error, Exit, render};
+use crate::{Error, Exit, render, times};
 use kontur_interpreter::diag::Diagnostic;
+use std::path::PathBuf;
 
 /// Cycles between two looks at the clock and at new messages.
 const LOOK_EVERY: u64 = 1024;
@@ -23,13 +24,19 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
     let mut source = engine
         .open(&args.simulation.request(&args.program))
         .map_err(|e| announce_lists(e, form, console))?;
-    keep_apart(&source.reads(), &args.output)?;
+    let table = args.times.iter().flatten();
+    let written: Vec<PathBuf> = args.output.iter().chain(table).cloned().collect();
+    keep_apart(&source.reads(), &written)?;
     let create = |path| Trace::create(path, &args.signals, args.decimate, source.facts(), console);
     let mut traces: Vec<Trace> =
         args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
     let mut summary = Collector::new(source.facts());
+    let mut times = args.times.as_ref().map(|_| times::Collector::new(source.facts()));
     let alone = traces.len() == 1;
     let written = drive(source.as_mut(), console, form, &mut summary, &mut |record| {
+        if let Some(times) = &mut times {
+            times.add(record);
+        }
         traces.iter_mut().try_for_each(|t| match t.write(record) {
             // nobody reads stdout any more: the files go on
             Err(Error::ClosedPipe) if !alone => {
@@ -52,9 +59,17 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
     let mut totals = source.totals();
     totals.aborted |= interrupted.is_some();
     let summary = summary.finish(&totals);
+    let times = times.map(times::Collector::finish);
+    if let (Some(times), Some(Some(path))) = (&times, &args.times) {
+        let table = times.csv().map_err(|e| Error::io(path.display().to_string(), e.into()))?;
+        target::write(path, &table)?;
+    }
     let text = match args.summary {
-        SummaryForm::Text => Some(summary.text()),
-        SummaryForm::Json => Some(summary.json()),
+        SummaryForm::Text => {
+            let times = times.map(|t| t.text()).unwrap_or_default();
+            Some(summary.text() + &times)
+        }
+        SummaryForm::Json => Some(summary.json(times.as_ref())),
         SummaryForm::None => None,
     };
     match text {

@@ -117,6 +117,7 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         max_blocks: request.max_blocks,
         max_time_s: request.max_time_s,
         identity_trafo: request.identity_trafo,
+        techno_times: request.techno_times,
         external: request.external.iter().map(external).collect(),
         ..Options::default()
     })
@@ -154,6 +155,8 @@ fn facts(
         rotary: axis.kind() != AxisKind::Linear,
         spindle: axis.kind() == AxisKind::Spindle,
         modal: simulation.has_tool_point(i),
+        v_max: axis.dynamics().v_max_mm_s,
+        a_max: axis.dynamics().a_max_mm_s2,
         window: stop(i).window_mm,
         settling_s: stop(i).settling_s,
     });

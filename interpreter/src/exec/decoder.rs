@@ -22,6 +22,7 @@ use super::values::Values;
 use super::values::system::Timers;
 use super::values::variables::Variables;
 use crate::diag::{Condition, Diagnostic, Location};
+use crate::exec::motion::technology::Technology;
 use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::{Group, Ident, ItemKind, Span};
 use kontur_motion::axis::AxisVec;
@@ -59,6 +60,7 @@ pub(super) struct Report {
 pub(super) struct Decoder {
     pub(super) machine: Arc<Machine>,
     pub(super) identity_trafo: bool,
+    pub(super) technology: Technology,
     pub(super) feedback: Feedback,
     pub(super) names: AxisNames,
     pub(super) report: Report,
@@ -92,6 +94,7 @@ impl Decoder {
         let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
         let mut decoder = Self {
             identity_trafo: options.identity_trafo,
+            technology: Technology::new(options.techno_times),
             feedback: Feedback::default(),
             names: AxisNames { axes: axis_names, letters: [None; 26], changed: false },
             report: Report::default(),

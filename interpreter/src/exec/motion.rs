@@ -7,6 +7,7 @@ pub(super) mod independent;
 mod limits;
 pub(super) mod overrides;
 pub(super) mod spindles;
+pub(super) mod technology;
 
 use self::dynamics::Weights;
 use self::independent::Independent;

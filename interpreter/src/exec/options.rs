@@ -72,6 +72,8 @@ pub struct Options {
     pub max_time_s: f64,
     /// Takes `#TRAFO ON` and relatives as identity, with a warning, instead of refusing them.
     pub identity_trafo: bool,
+    /// Durations of M, H and S functions that the lists declare are waited for (P-CHAN-00026, 00040, 00042 to 00048, 00080).
+    pub techno_times: bool,
     /// External variables by their name behind `V.E.`.
     pub external: BTreeMap<String, External>,
 }
@@ -85,6 +87,7 @@ impl Default for Options {
             max_blocks_at_rest: 10_000_000,
             max_time_s: f64::INFINITY,
             identity_trafo: false,
+            techno_times: false,
             external: BTreeMap::new(),
         }
     }

@@ -26,7 +26,7 @@ fn run(r: &Recording, s: &Summary) -> String {
     let points: Vec<Point> = r.points().copied().collect();
     let names: Vec<&str> = r.plane.iter().map(|&i| r.facts.axes[i].name.as_str()).collect();
     let mut out = Json::new();
-    out.text("summary", &safe(&s.json()));
+    out.text("summary", &safe(&s.json(None)));
     out.text("files", &safe(&json!(r.facts.files.all()).to_string()));
     out.text("plane", &safe(&json!(names).to_string()));
     out.text("width", &r.width.to_string());

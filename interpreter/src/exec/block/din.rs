@@ -57,11 +57,14 @@ impl Decoder {
             let outcome = self.bracket(bracket, &words);
             self.keep(outcome);
         }
+        self.technology_wait();
         if !preset {
             self.motion_or_dwell(&words, takes_axes, span);
         }
         self.join_synchronous();
-        self.functions_after(&words)
+        let after = self.functions_after(&words);
+        self.technology_wait();
+        after
     }
 
     fn planes_and_units(&mut self, words: &Words<'_>) {

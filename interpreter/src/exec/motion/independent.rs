@@ -10,6 +10,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Target;
+use crate::exec::motion::technology::Function;
 use crate::exec::step::{Event, IndependentMotion, Sync};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
 use kontur_motion::axis::AxisVec;
@@ -69,6 +70,11 @@ impl Decoder {
     ) -> Outcome<()> {
         let words = self.independent_words(axis, rest)?;
         for function in words.functions {
+            match function {
+                Event::MFunction { number, .. } => self.takes_time(Function::M(number)),
+                Event::HFunction { number, .. } => self.takes_time(Function::H(number)),
+                _ => {}
+            }
             self.event(function);
         }
         let Some((position, at)) = words.position else {

@@ -35,7 +35,9 @@ pub fn check(
                 return executor.take_diagnostics();
             }
             Step::Motion { block, .. } => time_s += programmed_time(&block),
-            Step::Sync { what: Sync::Dwell { seconds }, .. } => time_s += seconds,
+            Step::Sync { what: Sync::Dwell { seconds } | Sync::Technology { seconds }, .. } => {
+                time_s += seconds;
+            }
             Step::Sync { .. } => {}
         }
         if time_s > max_time_s && !executor.has_ended() {
