@@ -81,7 +81,7 @@ impl<'a> Builder<'a> {
                 Rule::skip => block.skip = self.skip(&pair),
                 Rule::number | Rule::number_label => self.number(pair, &mut block),
                 Rule::label_name => block.label = Some(self.label(pair)),
-                Rule::program_head => block.body = self.program_head(pair),
+                Rule::program_head => block.body = Self::program_head(pair),
                 Rule::command => {
                     let command = self.command(pair);
                     self.check_command(&command, &block);
@@ -200,7 +200,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn program_head(&mut self, pair: Pair<'_, Rule>) -> Body {
+    fn program_head(pair: Pair<'_, Rule>) -> Body {
         let mut head = ProgramHead { local: false, name: None, text: "".into() };
         for part in pair.into_inner() {
             if part.as_rule() == Rule::local_mark {

@@ -194,9 +194,10 @@ fn is_function(rest: &str) -> bool {
     let name = rest.bytes().take_while(|b| b.is_ascii_alphabetic() || *b == b'_').count();
     let behind = rest[name..].trim_start_matches([' ', '\t']);
     // ATAN2 is the only name with a digit
-    let behind = match rest[..name].eq_ignore_ascii_case("ATAN") {
-        true => behind.strip_prefix('2').unwrap_or(behind),
-        false => behind,
+    let behind = if rest[..name].eq_ignore_ascii_case("ATAN") {
+        behind.strip_prefix('2').unwrap_or(behind)
+    } else {
+        behind
     };
     !behind.starts_with('[') && Function::from_name(&rest[..name]).is_some()
 }

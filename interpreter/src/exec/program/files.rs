@@ -105,11 +105,12 @@ impl FileError {
         match self {
             Self::Open(e) => {
                 let searched = format!("searched: {}", e.searched.join(", "));
-                let hint = match is_vendor_cycle(&e.name) {
-                    true => format!(
+                let hint = if is_vendor_cycle(&e.name) {
+                    format!(
                         "a cycle of the vendor's library, which is no part of kontur: copy it from the control; {searched}"
-                    ),
-                    false => searched,
+                    )
+                } else {
+                    searched
                 };
                 (format!("{}: {}", e.name, e.reason), Some(hint))
             }
@@ -124,8 +125,10 @@ impl FileError {
 
 /// True for `SysDrill1.ecy` and the like: cycles of the drilling, milling and measuring libraries.
 fn is_vendor_cycle(name: &str) -> bool {
-    let file = name.rsplit(['/', '\\']).next().unwrap_or(name).to_ascii_lowercase();
-    file.starts_with("sys") && file.ends_with(".ecy")
+    let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let head = file.get(..3).is_some_and(|head| head.eq_ignore_ascii_case("sys"));
+    let tail = file.rsplit_once('.').is_some_and(|(_, tail)| tail.eq_ignore_ascii_case("ecy"));
+    head && tail
 }
 
 /// Blocks of a called file by which it is judged.

@@ -38,15 +38,15 @@ pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) 
         return Err(Fault::new(condition, text, span));
     }
     let arg = |i: usize| decoder.number(&call.arguments[i]);
-    let place = || match &call.arguments[0].kind {
-        ExprKind::Place(place) => Ok(&**place),
-        _ => {
-            let condition = match call.function {
-                Function::Exist => Condition::ExistArgument,
-                _ => Condition::Syntax,
-            };
-            Err(Fault::new(condition, "a variable is expected", call.arguments[0].span))
+    let place = || {
+        if let ExprKind::Place(place) = &call.arguments[0].kind {
+            return Ok(&**place);
         }
+        let condition = match call.function {
+            Function::Exist => Condition::ExistArgument,
+            _ => Condition::Syntax,
+        };
+        Err(Fault::new(condition, "a variable is expected", call.arguments[0].span))
     };
     let number = match call.function {
         Function::Exist => return Ok(Value::truth(decoder.exists(place()?)?)),

@@ -124,10 +124,10 @@ impl Decoder {
             let x = self.number(e)?;
             whole(x, 1, high).map(|n| n as usize).ok_or_else(|| {
                 let text = format!("the size of a dimension is {x}, allowed are 1 to {high}");
-                let small = x < 1.0;
-                let condition = match small {
-                    true => Condition::DimensionTooSmall,
-                    false => Condition::DimensionTooLarge,
+                let condition = if x < 1.0 {
+                    Condition::DimensionTooSmall
+                } else {
+                    Condition::DimensionTooLarge
                 };
                 Fault::new(condition, text, e.span)
             })

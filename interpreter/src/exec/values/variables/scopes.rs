@@ -33,7 +33,7 @@ pub(in crate::exec) struct Variables {
 impl Variables {
     pub(in crate::exec) fn new(external: BTreeMap<String, External>) -> Self {
         let (locals, cycle) = (vec![Table::new()], vec![Table::new()]);
-        Self { external, locals, cycle, ..Self::default() }
+        Self { locals, cycle, external, ..Self::default() }
     }
 
     /// Enters a program level.
