@@ -5,6 +5,7 @@
 
 pub mod condition;
 mod number;
+pub mod render;
 
 pub use condition::{Condition, Reaction};
 pub use number::rounded;

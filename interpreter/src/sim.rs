@@ -42,13 +42,6 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use wait::{Parts, Wait};
 
-/// Limits of a run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limits {
-    /// Program time in s after which a run is stopped (K-0017); the message names `--max-time`.
-    pub max_time_s: f64,
-}
-
 /// Where a run stands.
 #[derive(Debug)]
 enum Phase {
@@ -127,13 +120,13 @@ impl Simulation {
     /// The diagnostics, if the plant of an axis is not physical or a program cannot be opened.
     pub fn new(
         machine: Arc<Machine>,
-        sources: Box<dyn Sources>,
+        sources: Arc<dyn Sources>,
         program: &str,
         options: Options,
-        limits: &Limits,
     ) -> Result<Self, Vec<Diagnostic>> {
         let cycle = machine.cycle;
         let (setups, diagnostics) = machine.chains();
+        let max_cycles = (options.max_time_s / cycle.seconds()) as u64;
         let executor = Executor::new(sources, program, Arc::clone(&machine), options);
         let n = machine.axes.len();
         let start = executor.start_position();
@@ -175,7 +168,7 @@ impl Simulation {
             record: CycleRecord { axes: records, ..CycleRecord::default() },
             set: start.clone(),
             vector: AxisVec::zeros(n),
-            max_cycles: (limits.max_time_s / cycle.seconds()) as u64,
+            max_cycles,
             diagnostics,
             unshown: 0,
             machine,
@@ -199,17 +192,10 @@ impl Simulation {
     /// Connects the real-time inputs, before the first cycle.
     ///
     /// Changes come in the order of time. An error among them ends the run, [`Totals::input_failed`] tells so.
-    #[must_use]
-    pub fn with_inputs(mut self, changes: Changes) -> Self {
+    pub fn connect(&mut self, changes: Changes) {
         if let Err(failure) = self.inputs.connect(changes) {
             self.input_fails(*failure);
         }
-        self
-    }
-
-    /// The machine.
-    pub fn machine(&self) -> &Machine {
-        &self.machine
     }
 
     /// Names of the source files, in the order of [`CycleRecord::file`].

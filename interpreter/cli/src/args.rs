@@ -1,6 +1,6 @@
 //! The command line as clap sees it. Wrong usage ends with exit code 2.
 
-use crate::engine::Request;
+use crate::request::Request;
 use clap::{Parser, Subcommand, ValueEnum};
 use kontur_interpreter::machine::Override;
 use std::path::PathBuf;
@@ -152,6 +152,7 @@ impl SimulationArgs {
             identity_trafo: self.identity_trafo,
             techno_times: self.techno_times,
             external: self.external.clone(),
+            guard: None,
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if somebody watches.
 
-use crate::render::printable;
 use crate::{Error, Exit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use kontur_interpreter::diag::render::printable;
 use kontur_interpreter::diag::shortened;
 use std::cell::RefCell;
 use std::io::{IsTerminal, Write};

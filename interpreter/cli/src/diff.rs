@@ -11,11 +11,10 @@ mod table;
 
 use crate::args::{DiffArgs, OutputForm};
 use crate::console::Console;
-use crate::engine::Engine;
-use crate::render::printable;
 use crate::{Error, Exit};
 use compare::{Comparison, Difference, Outcome};
 use kontur_interpreter::diag::QUOTED_MAX;
+use kontur_interpreter::diag::render::printable;
 pub use recording::Pairing;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -68,21 +67,16 @@ impl Tolerance {
 ///
 /// # Errors
 /// [`Error`] if a trace cannot be read or a program cannot be run.
-pub fn diff(
-    args: &DiffArgs,
-    engine: &mut dyn Engine,
-    console: &mut Console,
-) -> Result<Exit, Error> {
+pub fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error> {
     let form = args.simulation.diagnostics;
     let is_a = table::is_trace(&args.a)?;
     let mut open = |path: &std::path::Path, trace: bool, like: Option<&[String]>| {
         if trace {
             return Table::read(path);
         }
-        let source = engine
-            .open(&args.simulation.request(path))
-            .map_err(|e| crate::run::announce_lists(e, form, console))?;
-        Table::run(source, like)
+        let opened = args.simulation.request(path).open();
+        let opened = opened.map_err(|e| crate::run::announce_lists(e, form, console))?;
+        Table::run(opened.run, like)
     };
     let names = [args.a.display().to_string(), args.b.display().to_string()];
     if !args.map.is_empty() {

@@ -2,11 +2,10 @@
 
 mod ripple;
 
-use crate::engine::{Facts, Totals};
 use crate::times::Times;
 use kontur_interpreter::diag::{Diagnostic, Severity};
+use kontur_interpreter::job::{Facts, SettledStop, Totals};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, Rest, SpeedLimit};
-use kontur_interpreter::sim::SettledStop;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

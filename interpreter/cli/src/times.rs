@@ -7,7 +7,7 @@
 
 mod render;
 
-use crate::engine::{Facts, FileNames};
+use kontur_interpreter::job::{Facts, FileNames};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, Motion, Rest, SpeedLimit};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};

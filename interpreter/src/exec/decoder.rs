@@ -92,6 +92,7 @@ impl Decoder {
             spindles.push(Spindle::new("S", None));
         }
         let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
+        let forced = options.guard.is_some();
         let mut decoder = Self {
             identity_trafo: options.identity_trafo,
             technology: Technology::new(options.techno_times),
@@ -126,7 +127,7 @@ impl Decoder {
                 },
                 spindles,
             },
-            shaping: ShapingState::default(),
+            shaping: ShapingState::new(options.guard),
             calls: Calls {
                 cycle_files: machine.channel.g8x_programs.clone(),
                 tool_change_file: machine.channel.tool_change_program.clone(),
@@ -144,10 +145,13 @@ impl Decoder {
         decoder.shaping.setup = setup;
         // what the lists say about single filters is told, with its place, when the chains are set up
         let of_several = [Condition::ListFirAndGuard, Condition::UnequalKernels];
-        decoder
-            .report
-            .unplaced
-            .extend(diagnostics.into_iter().filter(|d| of_several.iter().any(|c| d.id == *c)));
+        let of_forced =
+            [Condition::GuardMode, Condition::GuardRange, Condition::GuardNotRealisable];
+        let told = |d: &Diagnostic| {
+            let known = |conditions: &[Condition]| conditions.iter().any(|c| d.id == *c);
+            known(&of_several) || (forced && known(&of_forced))
+        };
+        decoder.report.unplaced.extend(diagnostics.into_iter().filter(told));
         decoder
     }
 

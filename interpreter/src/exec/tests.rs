@@ -112,7 +112,7 @@ pub(super) fn run_with(
     machine: Arc<Machine>,
     options: Options,
 ) -> Run {
-    let mut executor = Executor::new(Box::new(sources), "main.nc", machine, options);
+    let mut executor = Executor::new(Arc::new(sources), "main.nc", machine, options);
     let mut steps = Vec::new();
     loop {
         let feedback = Feedback { actual_mm: executor.target().clone(), time_s: 0.0 };
@@ -146,7 +146,7 @@ pub(super) fn shown(diagnostics: &[Diagnostic]) -> Vec<String> {
 /// Diagnostics of the syntax check.
 pub(super) fn checked(text: &str) -> Vec<Diagnostic> {
     let sources = MemorySources::new().with("main.nc", text);
-    check(Box::new(sources), "main.nc", machine(&[]), Options::default())
+    check(Arc::new(sources), "main.nc", machine(&[]), Options::default()).diagnostics
 }
 
 #[track_caller]

@@ -3,7 +3,7 @@
 //! around the largest contour error, where one looks closest.
 
 use super::stops::Stops;
-use crate::engine::Facts;
+use kontur_interpreter::job::Facts;
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 use std::collections::VecDeque;
 
@@ -362,7 +362,7 @@ fn corner(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Option<[f64; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::AxisFacts;
+    use kontur_interpreter::job::AxisFacts;
     use kontur_interpreter::record::{AxisRecord, PathRecord};
 
     fn facts() -> Facts {

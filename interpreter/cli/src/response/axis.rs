@@ -3,10 +3,10 @@
 use super::args::ResponseArgs;
 use super::curve::Curve;
 use crate::console::Console;
-use crate::engine::Request;
 use crate::files::Lists;
+use crate::request::Request;
 use crate::target::keep_apart;
-use crate::{Error, args::MessageForm, run, simulator};
+use crate::{Error, args::MessageForm, run};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::time::CycleTime;
 use kontur_interpreter::machine::Axis;
@@ -28,7 +28,7 @@ pub(super) fn curves(
     };
     let form = MessageForm::Text;
     let lists = Lists::default();
-    let loaded = simulator::machine(&request, &lists);
+    let loaded = request.machine(&lists);
     let (machine, mut messages) = loaded.map_err(|e| run::announce_lists(e, form, console))?;
     keep_apart(&lists.read_so_far(), &args.output)?;
     let (chains, found) = machine.chains();

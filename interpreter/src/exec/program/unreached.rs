@@ -5,11 +5,10 @@
 //! run of this program, so it is told as a warning, K-0118. Text behind the end of the main program, in `#COMMENT`
 //! blocks and in inactive `#IF` branches is not looked at.
 
-use super::check::UNREACHED;
 use super::executor::Executor;
 use super::files::Look;
 use super::index::{Index, Keyword};
-use crate::diag::{Diagnostic, Severity};
+use crate::diag::{Condition, Diagnostic, Severity};
 use crate::source::Position;
 use crate::syntax::ast::Body;
 use std::collections::BTreeMap;
@@ -199,7 +198,8 @@ fn unreached(diagnostic: Diagnostic) -> Diagnostic {
     let text = format!("in a part that does not run: {} ({})", diagnostic.text, diagnostic.id);
     let usual = || "no run comes here; the control looks at control statements only".to_owned();
     let hint = diagnostic.hint.or_else(|| Some(usual()));
-    Diagnostic { id: UNREACHED.id(), text, hint, ..diagnostic }.severity(Severity::Warning)
+    Diagnostic { id: Condition::Unreached.id(), text, hint, ..diagnostic }
+        .severity(Severity::Warning)
 }
 
 #[cfg(test)]

@@ -153,8 +153,8 @@ fn random_programs_end() {
         let text = random.program();
         let sources = MemorySources::new().with("main.nc", text).with("c.nc", "X @P1\nG91\n");
         let options = Options { max_blocks: 2000, max_blocks_at_rest: 500, ..Options::default() };
-        let boxed = Box::new(sources.clone());
-        let _ = check(boxed, "main.nc", std::sync::Arc::clone(&machine), options.clone());
+        let shared = std::sync::Arc::new(sources.clone());
+        let _ = check(shared, "main.nc", std::sync::Arc::clone(&machine), options.clone());
         let run = run_with(sources, std::sync::Arc::clone(&machine), options);
         assert!(run.end.iter().all(|x| x.is_finite()));
         // motions join without a gap
