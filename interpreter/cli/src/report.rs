@@ -10,6 +10,7 @@ mod recording;
 mod signals;
 mod stops;
 mod svg;
+mod track;
 
 use crate::args::ReportArgs;
 use crate::console::Console;

@@ -13,6 +13,7 @@ use super::motion::dynamics::{Weights, channel_dynamics};
 use super::motion::independent::Independent;
 use super::motion::overrides::Overrides;
 use super::motion::spindles::Spindle;
+use super::motion::straight::Straight;
 use super::motion::{Feedforward, MotionState};
 use super::options::Options;
 use super::program::calls::Calls;
@@ -76,6 +77,8 @@ pub(super) struct Decoder {
     pub(super) checking: bool,
     /// A motion of the block in work went out.
     pub(super) moved: bool,
+    /// What the plain motions of a row share.
+    pub(super) straight: Option<Box<Straight>>,
 }
 
 impl Decoder {
@@ -135,6 +138,7 @@ impl Decoder {
             },
             checking: false,
             moved: false,
+            straight: None,
             machine,
         };
         let offsets = &decoder.machine.zero_offsets;

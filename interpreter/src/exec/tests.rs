@@ -12,6 +12,7 @@ mod modes;
 mod positions;
 mod random;
 mod shaping;
+mod straight;
 
 use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};
 use crate::diag::Diagnostic;

@@ -31,6 +31,7 @@ fn run(r: &Recording, s: &Summary) -> String {
     out.text("plane", &safe(&json!(names).to_string()));
     out.text("width", &r.width.to_string());
     out.text("passes", &r.passes.len().to_string());
+    out.text("within", &format!("{:e}", r.within_mm()));
     let buckets = |value: fn(&Bucket) -> String| join(r.buckets.iter().map(value));
     out.text("k", &buckets(|b| b.k.to_string()));
     out.text("line", &buckets(|b| b.line.to_string()));

@@ -123,7 +123,7 @@ impl Decoder {
         self.insertions(words);
     }
 
-    fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
+    pub(in crate::exec) fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
         let most = if self.modal.feed_type == FeedType::ShareOfMaximum { 100.0 } else { 1e9 };
         if !(0.0..=most).contains(&value) {
             let text = format!("F{value} is outside 0 to {most}");

@@ -34,6 +34,11 @@ impl Independent {
         Self { way: AxisVec::zeros(axes), open: Vec::new(), synchronous: Vec::new() }
     }
 
+    /// No axis has ever moved alone.
+    pub(in crate::exec) fn is_unused(&self) -> bool {
+        self.open.is_empty() && self.way.iter().all(|way| way.to_bits() == 0)
+    }
+
     /// The path is at rest and every axis has arrived.
     pub(in crate::exec) fn all_arrived(&mut self) {
         self.open.clear();

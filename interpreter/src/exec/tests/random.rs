@@ -5,7 +5,7 @@ use crate::exec::check;
 use crate::source::MemorySources;
 
 /// Words, commands and statements, right and wrong ones.
-const PIECES: &[&str] = &[
+pub(super) const PIECES: &[&str] = &[
     "X1",
     "Y-2.5",
     "Z[P1*2]",
@@ -64,7 +64,7 @@ const PIECES: &[&str] = &[
     "Q4",
 ];
 
-const LINES: &[&str] = &[
+pub(super) const LINES: &[&str] = &[
     "$IF P1 < 3",
     "$ELSEIF P1",
     "$ELSE",
@@ -120,10 +120,10 @@ const LINES: &[&str] = &[
     "$FOO",
 ];
 
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn below(&mut self, n: usize) -> usize {
+    pub(super) fn below(&mut self, n: usize) -> usize {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         usize::try_from(self.0 >> 33).unwrap() % n
     }
