@@ -199,7 +199,7 @@ fn overrides_that_name_nothing_are_errors() {
     for (text, hint) in [
         (
             "Q.getriebe[0].kv=1",
-            "targets are X, Y, S (several with commas), * for every path axis, channel, start_up and kontur",
+            "targets are X, Y, S (several with commas), * for every path axis, channel, start_up, tool, zero and kontur",
         ),
         // one mistake is told once, however many axes are meant
         ("*.kv=1", "did you mean `getriebe[i].kv`?"),
