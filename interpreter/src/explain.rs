@@ -1,4 +1,11 @@
 //! What `kontur explain THING` tells, from the tables of conditions, parameters and commands: about an ID, a parameter, a command, an object or word of the documents.
+//!
+//! ```
+//! use kontur_interpreter::explain::explain;
+//!
+//! assert!(explain("P-AXIS-00099").unwrap().to_string().contains("getriebe[i].kv"));
+//! assert!(explain("#VIB GARD").unwrap_err().contains(&"#VIB GUARD".to_owned()));
+//! ```
 
 mod commands;
 mod notes;

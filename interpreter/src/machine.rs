@@ -1,6 +1,16 @@
 //! The machine: parameter lists in the vendor's format, their ranges, and what the simulation makes of them.
 //!
 //! Lists hold integers in 0.1 um, us and 0.1 %; they are converted to mm, s and ratios here, once, and nowhere else.
+//!
+//! ```
+//! use kontur_interpreter::machine::{Machine, Override};
+//!
+//! let soft = Override::parse("X.getriebe[0].kv=2000").unwrap();
+//! let (machine, warnings) = Machine::builtin(&[soft]).unwrap();
+//! assert_eq!((machine.axis("x").unwrap().number(), warnings.len()), (1, 0));
+//! // vendor units stay outside: P-AXIS-00099 is in 0.01/s
+//! assert_eq!(machine.chains().0[0].control.position.kv_per_s, 20.0);
+//! ```
 
 mod axis;
 mod builtin;

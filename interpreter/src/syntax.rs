@@ -7,6 +7,17 @@
 //! Which G functions, commands, keys and axes exist is the business of the decoder. The one thing the parser has to be
 //! told are the names of axes and spindles that have more than one character: without them `AP10` is A with the value
 //! of P10.
+//!
+//! ```
+//! use kontur_interpreter::source::RawBlock;
+//! use kontur_interpreter::syntax::Parser;
+//!
+//! let (file, mut said) = ("part.nc".into(), Vec::new());
+//! let parser = Parser::new([]);
+//! let block = parser.block(&RawBlock::from_line("N10 G01 X[2*5] F1000"), &file, &mut said);
+//! assert!(said.is_empty());
+//! assert_eq!(block.to_string(), "N10 G1 X=2 * 5 F=1000");
+//! ```
 
 pub mod ast;
 mod build;

@@ -245,3 +245,31 @@ fn values_of_a_program_vary() {
         assert_eq!(row[1..], fixed[0][1..]);
     }
 }
+
+/// With JSON messages every line of stderr is an object: what is wrong with files, lists and settings too.
+#[test]
+fn every_message_is_json_if_asked_for() {
+    let folder =
+        Folder::new(&[("part.nc", "G01 X1 F100\nFOO\nM30\n"), ("ok.nc", "G01 X1 F100\nM30\n")]);
+    let (part, ok, none) = (folder.path("part.nc"), folder.path("ok.nc"), folder.path("none.nc"));
+    let vary = ["--vary", "*.vib_guard.freq=20,40", "--columns", "duration_s"];
+    let cases: [Vec<&str>; 6] = [
+        vec!["check", &none, &part],
+        vec!["run", &part],
+        vec!["run", &ok, "--set", "X.foo=1"],
+        vec!["run", &ok, "--set", "X.getriebe[0].kv=a"],
+        vec!["run", &ok, "-o", "/nowhere/a.csv"],
+        [&["sweep", &ok][..], &vary].concat(),
+    ];
+    for case in cases {
+        let done = command([&case[..], &["--diagnostics", "json"]].concat());
+        assert!(!done.err.is_empty(), "{case:?}");
+        for line in done.err.lines() {
+            let object: Value =
+                serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}"));
+            let severity = object["severity"].as_str().unwrap();
+            assert!(["error", "warning", "note"].contains(&severity), "{line}");
+            assert!(object["text"].as_str().is_some_and(|t| !t.is_empty()), "{line}");
+        }
+    }
+}

@@ -135,3 +135,27 @@ fn the_most_expensive_lines_are_quoted() {
     assert!(lines.next().unwrap().contains(&format!("{}:2 ", path("slow.nc"))), "{behind}");
     assert_eq!(lines.next().unwrap().trim(), "G01 X20 F60 (this one)");
 }
+
+/// A proposal saves what a run with its settings saves; of a line at the speed limit of an axis that is known in closed form.
+#[test]
+fn proposals_save_what_they_say() {
+    // 10 mm/s over 50 mm, and with 10 % more
+    let limit = ["--set", "Y.getriebe[0].dynamik.vb_max=10000"];
+    let program = "#SLOPE [TYPE=TRAPEZ]\nG01 Y50 F60000\nX20\nX0 Y45\nM30\n";
+    let run = Run::new(program, &limit);
+    let proposals = run.summary["times"]["proposals"].as_array().unwrap();
+    assert!(proposals.len() > 1, "{proposals:?}");
+    for proposal in proposals {
+        let settings = proposal["settings"].as_array().unwrap();
+        let settings: Vec<&str> =
+            settings.iter().flat_map(|s| ["--set", s.as_str().unwrap()]).collect();
+        let with = Run::new(program, &[&limit[..], &settings].concat());
+        let saves = proposal["saves_s"].as_f64().unwrap();
+        assert!((run.duration() - with.duration() - saves).abs() < 1e-9, "{proposal}");
+    }
+    let faster = proposals.iter().find(|p| p["what"] == "velocity +10 % of Y").unwrap();
+    let want = 55.0 / 10.0 - 55.0 / 11.0;
+    assert!((faster["saves_s"].as_f64().unwrap() - want).abs() < 0.01, "{faster}, not {want}");
+    let line = &run.summary["times"]["most_expensive_lines"][0];
+    assert!(line["line"] == 2 && line["helps"][0] == "velocity +10 % of Y", "{line}");
+}

@@ -35,6 +35,21 @@ pub enum Command {
     Explain(ExplainArgs),
 }
 
+impl Command {
+    /// How its messages are printed.
+    pub const fn message_form(&self) -> MessageForm {
+        match self {
+            Self::Run(a) => a.simulation.diagnostics,
+            Self::Check(a) => a.simulation.diagnostics,
+            Self::Diff(a) => a.simulation.diagnostics,
+            Self::Report(a) => a.simulation.diagnostics,
+            Self::Sweep(a) => a.simulation.diagnostics,
+            Self::Tune(a) => a.simulation.diagnostics,
+            Self::Response(_) | Self::Explain(_) => MessageForm::Text,
+        }
+    }
+}
+
 /// How results are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SummaryForm {
@@ -180,7 +195,8 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t = SummaryForm::Text)]
     pub summary: SummaryForm,
 
-    /// Account for the time by line and by what held the speed down: in the summary, or every line in a table
+    /// Account for the time by line and by what held the speed down: in the summary, or every line in a table. What would help is tried
+    /// out, with a run for each proposal
     #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, value_parser = table)]
     pub times: Option<Option<PathBuf>>,
 

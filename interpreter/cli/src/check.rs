@@ -3,9 +3,9 @@
 use crate::args::CheckArgs;
 use crate::console::Console;
 use crate::request::OpenError;
-use crate::run::{announce, announce_lists};
+use crate::run::announce_lists;
 use crate::{Error, Exit};
-use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::diag::{Diagnostic, Severity};
 
 /// Checks the programs; the worst of them decides the exit code.
 ///
@@ -14,10 +14,9 @@ use kontur_interpreter::diag::Diagnostic;
 pub fn check(args: &CheckArgs, console: &mut Console) -> Result<Exit, Error> {
     let mut exit = Exit::Finished;
     for program in &args.programs {
-        let form = args.simulation.diagnostics;
         match args.simulation.request(program).check() {
             Ok(checked) => {
-                checked.diagnostics.iter().for_each(|d| announce(d, form, console));
+                checked.diagnostics.iter().for_each(|d| console.announce(d));
                 let failed = checked.diagnostics.iter().any(Diagnostic::is_error);
                 if failed && exit == Exit::Finished {
                     exit = Exit::Aborted;
@@ -25,10 +24,10 @@ pub fn check(args: &CheckArgs, console: &mut Console) -> Result<Exit, Error> {
             }
             // one file that cannot be read says nothing about the others
             Err(e @ OpenError::Io(..)) => {
-                console.error_text(&format!("error: {}", Error::from(e)));
+                console.say(Severity::Error, &Error::from(e).to_string());
                 exit = Exit::Io;
             }
-            Err(e) => return Err(announce_lists(e, form, console)),
+            Err(e) => return Err(announce_lists(e, console)),
         }
     }
     Ok(exit)

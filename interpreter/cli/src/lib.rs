@@ -116,6 +116,7 @@ pub fn run_with(args: impl IntoIterator<Item = OsString>, console: &mut Console)
             return console.finish(printed);
         }
     };
+    console.speak(args.command.message_form());
     let done = match &args.command {
         args::Command::Run(a) => run::run(a, console),
         args::Command::Check(a) => check::check(a, console),

@@ -46,13 +46,12 @@ pub fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, Error> {
     let draw = drawer(&output)?;
     let mut runs: Vec<(Recording, Summary)> = Vec::new();
     for (program, values, request) in requests(args)? {
-        let form = args.simulation.diagnostics;
-        let opened = request.open().map_err(|e| announce_lists(e, form, console))?;
+        let opened = request.open().map_err(|e| announce_lists(e, console))?;
         let Opened { mut run, reads } = opened;
         keep_apart(&reads, std::slice::from_ref(&output))?;
         let mut summary = Collector::new(run.facts());
         let mut recording = Recording::new(run.facts());
-        drive(&mut run, Shown::alone(form), console, &mut summary, |record| {
+        drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
             recording.add(record);
             Ok(())
         })?;

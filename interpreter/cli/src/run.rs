@@ -1,6 +1,6 @@
 //! `kontur run`: a program goes in, traces and a summary come out.
 
-use crate::args::{MessageForm, RunArgs, SummaryForm};
+use crate::args::{RunArgs, SummaryForm};
 use crate::console::{Console, Progress};
 use crate::files::is_standard;
 use crate::interrupt::Running;
@@ -9,7 +9,6 @@ use crate::summary::Collector;
 use crate::target::{self, keep_apart};
 use crate::trace::Trace;
 use crate::{Error, Exit, times};
-use kontur_interpreter::diag::{Diagnostic, render};
 use kontur_interpreter::job::{Run, Sink, Totals};
 use kontur_interpreter::record::CycleRecord;
 use std::path::PathBuf;
@@ -19,9 +18,8 @@ use std::path::PathBuf;
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or a trace cannot be written.
 pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
-    let form = args.simulation.diagnostics;
     let opened = args.simulation.request(&args.program).open();
-    let Opened { mut run, reads } = opened.map_err(|e| announce_lists(e, form, console))?;
+    let Opened { mut run, reads } = opened.map_err(|e| announce_lists(e, console))?;
     let table = args.times.iter().flatten();
     let written: Vec<PathBuf> = args.output.iter().chain(table).cloned().collect();
     keep_apart(&reads, &written)?;
@@ -31,7 +29,7 @@ pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
     let mut summary = Collector::new(run.facts());
     let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;
-    let written = drive(&mut run, Shown::alone(form), console, &mut summary, |record| {
+    let written = drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
         if let Some(times) = &mut times {
             times.add(record);
         }
@@ -57,7 +55,10 @@ pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
     let mut totals = run.totals();
     totals.aborted |= interrupted.is_some();
     let summary = summary.finish(&totals);
-    let times = times.map(times::Collector::finish);
+    let mut times = times.map(times::Collector::finish);
+    if let Some(times) = times.as_mut().filter(|_| !totals.aborted) {
+        times::try_out(times, &args.simulation.request(&args.program))?;
+    }
     if let (Some(times), Some(Some(path))) = (&times, &args.times) {
         let table = times.csv().map_err(|e| Error::io(path.display().to_string(), e.into()))?;
         target::write(path, &table)?;
@@ -89,8 +90,6 @@ pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
 /// How a run is shown on the terminal while it goes on.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a> {
-    /// Form of its messages.
-    pub form: MessageForm,
     /// What tells it from others, in front of its progress.
     pub label: &'a str,
     /// Other messages are not printed.
@@ -99,9 +98,7 @@ pub struct Shown<'a> {
 
 impl Shown<'_> {
     /// A run that is the only one.
-    pub const fn alone(form: MessageForm) -> Self {
-        Self { form, label: "", errors_only: false }
-    }
+    pub const ALONE: Self = Self { label: "", errors_only: false };
 }
 
 /// Drives a run to its end: every record to `take` and to the summary, every message to the console.
@@ -141,7 +138,7 @@ impl<F: FnMut(&CycleRecord) -> Result<(), Error>> Sink for Watch<'_, F> {
         for message in run.take_diagnostics() {
             self.summary.message(&message);
             if !self.shown.errors_only || message.is_error() {
-                self.progress.suspend(|| announce(&message, self.shown.form, self.console));
+                self.progress.suspend(|| self.console.announce(&message));
             }
         }
         let record = run.record();
@@ -155,20 +152,11 @@ impl<F: FnMut(&CycleRecord) -> Result<(), Error>> Sink for Watch<'_, F> {
     }
 }
 
-/// Prints one message to stderr.
-pub fn announce(message: &Diagnostic, form: MessageForm, console: &mut Console) {
-    let text = match form {
-        MessageForm::Text => render::text(message, console.is_terminal()),
-        MessageForm::Json => render::json(message),
-    };
-    console.error_text(&text);
-}
-
 /// Prints the messages of refused lists or inputs and turns the rest into an error.
-pub fn announce_lists(e: OpenError, form: MessageForm, console: &mut Console) -> Error {
+pub fn announce_lists(e: OpenError, console: &mut Console) -> Error {
     if let OpenError::Lists(messages) | OpenError::Inputs(messages) = &e {
         for message in messages {
-            announce(message, form, console);
+            console.announce(message);
         }
     }
     e.into()

@@ -23,6 +23,7 @@ use crate::{Error, Exit};
 use args::{Amplitude, SweepArgs};
 use columns::Cell;
 use journal::Journal;
+use kontur_interpreter::diag::Severity;
 use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::record::CycleRecord;
 use rayon::prelude::*;
@@ -85,8 +86,8 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     let rows = Rows { title, ..rows };
     let results: Vec<&[Cell]> = rows.cells.iter().map(|row| &row[args.vary.len()..]).collect();
     for vary in without_effect(&args.vary, &combinations, &results) {
-        console.error_text(&format!(
-            "note: {}: every value gives the same results; the program sets its own, or nothing uses it",
+        console.say(Severity::Note, &format!(
+            "{}: every value gives the same results; the program sets its own, or nothing uses it",
             vary.key
         ));
     }
@@ -124,8 +125,8 @@ fn first(
 
 /// The error of a combination that cannot be run.
 fn refused(args: &SweepArgs, combination: &[usize], e: OpenError, console: &mut Console) -> Error {
-    console.error_text(&settings(&args.vary, combination).join(" "));
-    crate::run::announce_lists(e, args.simulation.diagnostics, console)
+    console.say(Severity::Note, &settings(&args.vary, combination).join(" "));
+    crate::run::announce_lists(e, console)
 }
 
 fn write(

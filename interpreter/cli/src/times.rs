@@ -5,12 +5,15 @@
 //! acceleration is being built up or taken away by the form of the slope. What the speed changes *for* is the limit of the
 //! trace column `v_limit`.
 
+mod proposals;
 mod render;
 
 use kontur_interpreter::job::{Facts, FileNames};
 use kontur_interpreter::record::{AxisRecord, CycleRecord, Motion, Rest, SpeedLimit};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
+
+pub use proposals::{Proposal, try_out};
 
 /// Lines of the readable form and of the summary.
 const MOST_EXPENSIVE: usize = 10;
@@ -302,6 +305,7 @@ impl Collector {
                     seconds: cycles as f64 * cycle_s,
                     share: cycles as f64 / total.max(1) as f64,
                     reasons: of_cycles(&line.cycles.iter().copied().collect()),
+                    helps: None,
                 }
             })
             .collect();
@@ -322,6 +326,7 @@ impl Collector {
                 })
                 .collect(),
             lines,
+            proposals: Vec::new(),
             files: self.facts.files,
         }
     }
@@ -362,6 +367,9 @@ pub struct TimeOfLine {
     pub share: f64,
     /// By reason, the longest first.
     pub reasons: Vec<TimeByReason>,
+    /// The proposal that saves most here, and how many seconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub helps: Option<(String, f64)>,
 }
 
 /// Least and greatest values of one axis in mm (deg) and s.
@@ -392,5 +400,7 @@ pub struct Times {
     pub lines: Vec<TimeOfLine>,
     /// What the axes reached.
     pub axes: Vec<AxisRange>,
+    /// What would help, if it was tried out; the largest saving first.
+    pub proposals: Vec<Proposal>,
     files: FileNames,
 }

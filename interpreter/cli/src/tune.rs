@@ -107,13 +107,12 @@ pub fn tune(args: &TuneArgs, console: &mut Console) -> Result<Exit, Error> {
 
 /// The cycle of the machine, if one is named, else that of the option.
 fn cycle(args: &TuneArgs, lists: &Lists, console: &mut Console) -> Result<CycleTime, Error> {
-    let form = args.simulation.diagnostics;
     let loaded = args.simulation.request("").machine(lists);
-    let (machine, messages) = loaded.map_err(|e| crate::run::announce_lists(e, form, console))?;
+    let (machine, messages) = loaded.map_err(|e| crate::run::announce_lists(e, console))?;
     // with a program the run repeats them
     if args.program.is_none() {
         for message in &messages {
-            crate::run::announce(message, form, console);
+            console.announce(message);
         }
     }
     Ok(machine.cycle)

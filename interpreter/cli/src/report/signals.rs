@@ -44,7 +44,6 @@ pub(super) fn report(
         let text = format!("{name}: --signals give a picture (.svg) or a table (.csv)");
         return Err(Error::Usage(text));
     }
-    let form = args.simulation.diagnostics;
     let (mut runs, mut aborted) = (Vec::new(), false);
     for (program, values, request) in requests(args)? {
         // the headline names a single program
@@ -53,12 +52,12 @@ pub(super) fn report(
             (1, false) => values,
             (_, false) => format!("{program}, {values}"),
         };
-        let opened = request.open().map_err(|e| announce_lists(e, form, console))?;
+        let opened = request.open().map_err(|e| announce_lists(e, console))?;
         let Opened { mut run, reads } = opened;
         crate::target::keep_apart(&reads, &[output.to_owned()])?;
         let mut summary = Collector::new(run.facts());
         let mut recorded = Recorded::new(label, names, run.facts())?;
-        drive(&mut run, Shown::alone(form), console, &mut summary, |record| {
+        drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
             let t_s = record.k as f64 * recorded.cycle_s;
             if args.window.is_some_and(|(from, to)| !(from..to).contains(&t_s)) {
                 return Ok(());

@@ -61,6 +61,17 @@ impl Times {
             if !source.is_empty() {
                 writeln!(out, "      {source}")?;
             }
+            if let Some((what, saves_s)) = &line.helps {
+                writeln!(out, "      {what} saves {saves_s:.3} s here")?;
+            }
+        }
+        if !self.proposals.is_empty() {
+            writeln!(out, "what would help, one run each")?;
+        }
+        for p in &self.proposals {
+            let (verb, s) =
+                if p.saves_s < 0.0 { ("costs", -p.saves_s) } else { ("saves", p.saves_s) };
+            writeln!(out, "  {:<40} {verb} {s:>8.3} s  ({})", p.what, p.parameters)?;
         }
         writeln!(out, "axes, least and greatest")?;
         for a in &self.axes {
@@ -91,6 +102,7 @@ impl Times {
             "reasons": self.reasons,
             "most_expensive_lines": self.lines.iter().take(MOST_EXPENSIVE).collect::<Vec<_>>(),
             "axes": self.axes,
+            "proposals": self.proposals,
         })
     }
 

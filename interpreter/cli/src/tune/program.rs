@@ -43,8 +43,7 @@ pub(super) fn answer(
     max_dev_mm: f64,
     console: &mut Console,
 ) -> Result<Exit, Error> {
-    let form = args.simulation.diagnostics;
-    let refused = |e: OpenError, console: &mut Console| announce_lists(e, form, console);
+    let refused = |e: OpenError, console: &mut Console| announce_lists(e, console);
     let request = args.simulation.request(file);
     let job = request.job().map_err(|e| refused(e, console))?;
     let machine = job.machine();
@@ -55,7 +54,7 @@ pub(super) fn answer(
         let settings = choice.map(|c| c.settings);
         let guard = Some(ForcedGuard { settings, ax_dev_mm });
         let name = choice.map_or_else(|| "guard off".to_owned(), |c| command(&c.settings, ""));
-        let shown = Shown { form, label: &(name + ": "), errors_only: !first };
+        let shown = Shown { label: &(name + ": "), errors_only: !first };
         let mut run =
             Request { guard, ..request.clone() }.open().map_err(|e| refused(e, console))?.run;
         let mut summary = Collector::new(run.facts());
