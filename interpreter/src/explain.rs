@@ -101,7 +101,14 @@ fn key_of(thing: &str) -> Option<&'static Row> {
     // the table's own spelling of indices, `filter[i].order`, reads as an empty index
     let plain = thing.replace("[i]", "[]").replace("[j]", "[]").replace("[k]", "[]");
     let key = Key::parse(&printed(&plain))?;
-    let kinds = [ListKind::Axis, ListKind::Channel, ListKind::StartUp, ListKind::Kontur];
+    let kinds = [
+        ListKind::Axis,
+        ListKind::Channel,
+        ListKind::StartUp,
+        ListKind::Tool,
+        ListKind::Zero,
+        ListKind::Kontur,
+    ];
     kinds.iter().find_map(|kind| table::by_key(*kind, &key.shape))
 }
 
@@ -189,6 +196,8 @@ fn list_name(list: ListKind) -> &'static str {
         ListKind::StartUp => "start-up list (hochlauf.lis)",
         ListKind::Channel => "channel list",
         ListKind::Axis => "axis list",
+        ListKind::Tool => "tool list",
+        ListKind::Zero => "list of zero offsets",
         ListKind::Kontur => "kontur.lis",
     }
 }

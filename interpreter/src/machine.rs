@@ -26,6 +26,7 @@ mod parameters;
 mod plausible;
 mod setup;
 pub mod table;
+mod tools;
 pub mod value;
 
 pub use axis::{Axis, AxisKind};
@@ -36,8 +37,11 @@ pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
 pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
 
+pub use tools::{Tool, ZeroOffsets};
+
 use crate::diag::Diagnostic;
 use kontur_filters::time::CycleTime;
+use std::collections::BTreeMap;
 
 /// A machine: one channel with its axes and spindles.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +58,10 @@ pub struct Machine {
     pub gantry_slaves: Vec<Axis>,
     /// Channel.
     pub channel: Channel,
+    /// Tools by the number of the D word (P-STUP-00010).
+    pub tools: BTreeMap<u32, Tool>,
+    /// Zero offsets (P-STUP-00011).
+    pub zero_offsets: ZeroOffsets,
 }
 
 impl Machine {

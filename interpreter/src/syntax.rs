@@ -22,6 +22,7 @@
 pub mod ast;
 mod build;
 mod expr;
+mod foreign;
 pub mod macros;
 mod number;
 mod plain;
@@ -102,7 +103,8 @@ impl Parser {
     /// be read is missing in it.
     ///
     /// Diagnostics: K-0001 (invalid character), K-0002 (syntax), K-0005 (program head), K-0006 (nesting), 20194,
-    /// 20207, 20215, 20217, 20227, 20233, 20301, 20566, 20569, 20593, 21220, 22151.
+    /// 20207, 20212 to 20245 (control statements), 20301, 20386, 20387, 20450, 20566, 20569, 20593, 20839, 20841, 20904,
+    /// 21187, 21220, 22151.
     pub fn block(
         &self,
         raw: &RawBlock<'_>,
@@ -212,10 +214,21 @@ impl Parser {
         match Grammar::parse(rule, &masked.text) {
             Ok(pairs) => builder.block(pairs),
             Err(error) => {
+                if let Some(problem) = foreign::recognise(&masked.text) {
+                    // of the rest of the block nothing is said
+                    builder.report_only(problem);
+                    return Block::default();
+                }
                 let context = problem::Context::of(&masked.text);
-                builder.report_error(problem::from_error(&error, &masked.text, context, 0));
+                let mut found = problem::from_error(&error, &masked.text, context, 0);
+                if mode == Mode::Declaration && found.condition == Condition::Syntax {
+                    found.condition = Condition::DeclarationCharacter;
+                }
+                // what stands behind a function without its bracket is no word
+                let lost = found.condition == Condition::FunctionBracket;
+                builder.report_error(found);
                 let rule = match (context, mode) {
-                    (problem::Context::Words, Mode::Block) => Rule::tolerant,
+                    (problem::Context::Words, Mode::Block) if !lost => Rule::tolerant,
                     _ => Rule::head_only,
                 };
                 match Grammar::parse(rule, &masked.text) {
