@@ -182,10 +182,33 @@ impl Contour {
         i.checked_sub(1).and_then(|i| self.blocks.get(i)).is_some_and(|b| b.queued.bend > 0.0)
     }
 
+    /// Points of the contour near each other.
+    pub(crate) fn walk(&self) -> Walk<'_> {
+        Walk { contour: self, at: None }
+    }
+}
+
+/// See [`Contour::walk`].
+pub(crate) struct Walk<'a> {
+    contour: &'a Contour,
+    /// Block of the last point.
+    at: Option<usize>,
+}
+
+impl Walk<'_> {
     /// Point of the contour at a path length of the program; the ends of what is known beyond them.
-    pub(crate) fn position(&self, s_mm: f64, out: &mut [f64]) {
-        let i = self.blocks.partition_point(|b| b.s_mm <= s_mm).saturating_sub(1);
-        if let Some(passed) = self.blocks.get(i) {
+    pub(crate) fn position(&mut self, s_mm: f64, out: &mut [f64]) {
+        let blocks = &self.contour.blocks;
+        let mut i =
+            self.at.unwrap_or_else(|| blocks.partition_point(|b| b.s_mm <= s_mm).saturating_sub(1));
+        while i > 0 && blocks[i].s_mm > s_mm {
+            i -= 1;
+        }
+        while blocks.get(i + 1).is_some_and(|b| b.s_mm <= s_mm) {
+            i += 1;
+        }
+        self.at = Some(i);
+        if let Some(passed) = blocks.get(i) {
             let queued = &passed.queued;
             let s = (s_mm - passed.s_mm).clamp(0.0, queued.length);
             queued.block.path.position(queued.offset + s, out);

@@ -11,11 +11,10 @@
 //! filter holds them are isolated again: between them it is faster to speed up and to brake.
 
 use super::Demands;
-use super::search::{Record, Violation, within};
+use super::measure::{Record, Violation, within};
 use super::view::View;
 use crate::axis::AxisVec;
 use crate::deviation::Excursion;
-use kontur_filters::kernel::Kernel;
 
 /// Share of the largest part from which on another one counts as its like.
 const ALIKE: f64 = 0.3;
@@ -35,8 +34,6 @@ const LEAST_OF_ROUND: f64 = 0.5;
 const MOST: f64 = 0.25;
 /// Places around a point of the contour at which an even run is looked at for the point.
 const PLACES: i32 = 4;
-/// Taps of a kernel in the search for the even speed.
-const COARSE: usize = 24;
 
 /// What exceeded the tolerance in one round.
 pub(super) struct Findings {
@@ -351,15 +348,16 @@ impl View<'_> {
     /// Set point of a path that runs evenly, `step` mm in a cycle, around path length `s`.
     fn even_set_point(&self, s: f64, step: f64, out: &mut AxisVec) {
         let kernels = self.trial.kernels;
-        let middle = kernels.longest().map_or(0.0, Kernel::delay_cycles);
+        let middle = kernels.delay;
+        let mut walk = self.contour.walk();
         let mut position = out.clone();
         out.fill(0.0);
         // equal kernels share their taps
         if !kernels.unequal
-            && let Some(kernel) = kernels.longest()
+            && let Some(coarse) = kernels.coarse.first()
         {
-            for (weight, delay) in coarse(kernel) {
-                self.contour.position(s + step * (middle - delay), &mut position);
+            for (weight, delay) in coarse {
+                walk.position(s + step * (middle - delay), &mut position);
                 for (o, p) in out.iter_mut().zip(position.iter()) {
                     *o += weight * p;
                 }
@@ -367,28 +365,10 @@ impl View<'_> {
             return;
         }
         for i in 0..out.len() {
-            match kernels.get(i) {
-                None => {
-                    self.contour.position(s + step * middle, &mut position);
-                    out[i] = position[i];
-                }
-                Some(kernel) => {
-                    for (weight, delay) in coarse(kernel) {
-                        self.contour.position(s + step * (middle - delay), &mut position);
-                        out[i] += weight * position[i];
-                    }
-                }
+            for (weight, delay) in &kernels.coarse[i] {
+                walk.position(s + step * (middle - delay), &mut position);
+                out[i] += weight * position[i];
             }
         }
     }
-}
-
-/// A kernel of many taps in few: weights, and mean delays in cycles.
-fn coarse(kernel: &Kernel) -> impl Iterator<Item = (f64, f64)> + '_ {
-    let taps = kernel.taps();
-    taps.chunks(taps.len().div_ceil(COARSE)).filter_map(|part| {
-        let weight: f64 = part.iter().map(|t| t.weight).sum();
-        let delay: f64 = part.iter().map(|t| t.weight * f64::from(t.delay)).sum();
-        (weight.abs() > 0.0).then(|| (weight, delay / weight))
-    })
 }
