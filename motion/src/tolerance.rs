@@ -48,6 +48,7 @@
 //! with the best even speed (`EVEN=1`).
 
 mod blame;
+mod even;
 mod measure;
 mod search;
 mod tighten;
@@ -58,6 +59,7 @@ use crate::contour::Contour;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment, Timeline};
 use blame::Findings;
+pub(crate) use even::foresee;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use measure::{Record, Violation};
@@ -186,12 +188,14 @@ pub(crate) struct Demands {
     acceleration: Vec<f64>,
     /// Speed and excess at each boundary when it was last found too fast.
     tried: Vec<Option<(f64, f64)>>,
+    /// First boundary whose even speed is not known yet, see [`foresee`].
+    foreseen: usize,
 }
 
 impl Default for Demands {
     fn default() -> Self {
         let (cap, stop, tried) = (vec![f64::INFINITY], vec![None], vec![None]);
-        Self { cap, stop, feed: Vec::new(), acceleration: Vec::new(), tried }
+        Self { cap, stop, feed: Vec::new(), acceleration: Vec::new(), tried, foreseen: 0 }
     }
 }
 
@@ -237,6 +241,7 @@ impl Demands {
         fill(&mut self.tried, at, count, None);
         fill(&mut self.feed, at, count, feed);
         fill(&mut self.acceleration, at, count, 1.0);
+        self.foreseen = self.foreseen.min(at);
     }
 
     /// Forgets the first blocks, which are final. The boundary behind them has only what is asked of it from now on.
@@ -247,6 +252,7 @@ impl Demands {
         self.feed.drain(..blocks);
         self.acceleration.drain(..blocks);
         (self.cap[0], self.stop[0], self.tried[0]) = (f64::INFINITY, None, None);
+        self.foreseen = self.foreseen.saturating_sub(blocks);
     }
 
     /// The blocks with the acceleration that is left to them.

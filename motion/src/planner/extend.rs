@@ -6,7 +6,7 @@ use crate::lookahead::{Cap, plan};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
-use crate::tolerance::{Trial, Unkept, Verdict};
+use crate::tolerance::{Demands, Trial, Unkept, Verdict, foresee};
 use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
 use std::sync::Arc;
@@ -34,10 +34,10 @@ impl Planner {
         } else {
             SpeedLimit::Lookahead
         };
-        self.demands.reach_over(&window, &self.kernels, self.cycle);
+        self.foresee(&window);
         let mut forced = vec![false; n + 1];
         let mut last: Option<Vec<Entry>> = None;
-        let mut round = 0;
+        let (mut round, mut given_up) = (0, false);
         loop {
             let mut entries = match self.place(&window, &forced, start, end) {
                 Ok(entries) => entries,
@@ -59,7 +59,10 @@ impl Planner {
                 }
                 // the plan before this one keeps the tolerance
                 Verdict::GivenUp(_) if self.fall_back().is_some() => return Ok(()),
-                Verdict::GivenUp(unkept) => self.unkept.push(unkept),
+                Verdict::GivenUp(unkept) => {
+                    self.unkept.push(unkept);
+                    given_up = true;
+                }
             }
             let rests = end != SpeedLimit::Lookahead;
             let entries =
@@ -71,6 +74,10 @@ impl Planner {
                 continue;
             };
             self.commit(entries, count);
+            if given_up {
+                // what was of no help is asked no longer
+                self.demands = Demands::default();
+            }
             return Ok(());
         }
     }
@@ -117,7 +124,7 @@ impl Planner {
         loop {
             let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
             let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
-            self.demands.reach_over(&window, &self.kernels, self.cycle);
+            self.foresee(&window);
             let forced = vec![false; window.len() + 1];
             let mut last = Vec::new();
             let mut round = 0;
@@ -135,6 +142,13 @@ impl Planner {
             };
             self.divide(parts);
         }
+    }
+
+    /// What the tolerance asks of the blocks of a window before they are planned.
+    fn foresee(&mut self, window: &[Arc<Queued>]) {
+        self.demands.reach_over(window, &self.kernels, self.cycle);
+        let filters = (&self.kernels, self.cycle);
+        foresee(&mut self.demands, window, &self.contour, self.travelled, filters);
     }
 
     /// Plans the window and places the spans on the time axis.

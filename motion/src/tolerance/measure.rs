@@ -8,7 +8,9 @@ use crate::deviation::{ALIKE, Excursion, SetPath};
 /// Cycles around the set point nearest to the last point of the contour among which that of the next one is looked for.
 const HINT: u64 = 3;
 /// Halvings in the search for the point of the contour where the nearest set point changes.
-const HALVINGS: u32 = 6;
+const HALVINGS: u32 = 8;
+/// Way of the nearest set point, in ways along the contour, from which on it has passed to another part of the set path.
+const JUMP: f64 = 1.1;
 /// Points of the contour looked at in a cycle in which it may be missed.
 const PARTS: f64 = 4.0;
 /// Distance between the points of the contour that are looked at, in tolerances.
@@ -62,6 +64,31 @@ impl Record {
     }
 }
 
+/// A point of the contour, by its path length, and the set point nearest to it.
+#[derive(Clone)]
+struct Foot {
+    s: f64,
+    /// Cycle behind the set point.
+    cycle: u64,
+    /// Distance in mm.
+    length: f64,
+    point: AxisVec,
+}
+
+impl Foot {
+    fn apart(&self, other: &Self) -> f64 {
+        let squares = self.point.iter().zip(other.point.iter()).map(|(a, b)| (a - b) * (a - b));
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// True if a point of the contour between two can be further away than `limit`: the distance changes by the way at most,
+    /// and where the nearest set point moves along with the contour it has no peak.
+    fn may_rise_to(&self, other: &Self, limit: f64) -> bool {
+        let way = (other.s - self.s).abs();
+        0.5 * (self.length + other.length + way) > limit && self.apart(other) > JUMP * way
+    }
+}
+
 impl View<'_> {
     /// Hands the worst violations of the cycles `from..=to`, at most one for half a kernel, to `found`, and keeps the
     /// worst of all.
@@ -88,6 +115,7 @@ impl View<'_> {
         let mut walk = contour.walk();
         let newest_passed = from.saturating_sub(length + 1);
         let (mut hint, mut looked) = (newest_passed + delay, f64::NEG_INFINITY);
+        let mut last: Option<Foot> = None;
         let half = (length / 2).max(1);
         let mut note = |v: Violation, record: &Record| {
             if worst.as_ref().is_none_or(|w| w.deviation_mm < v.deviation_mm) {
@@ -155,12 +183,12 @@ impl View<'_> {
                 let wary_mm = certain(tolerance_mm);
                 let all = all(moment);
                 let mut out = Excursion::none(n);
-                let mut cycle = set.misses(point, near, wary_mm, &mut out);
+                let mut nearest = set.misses(point, near, wary_mm, &mut out);
                 if out.length > wary_mm && near != all {
                     out = Excursion::none(n);
-                    cycle = set.misses(point, all, wary_mm, &mut out);
+                    nearest = set.misses(point, all, wary_mm, &mut out);
                 }
-                let Some(cycle) = cycle else { return near.0 };
+                let (cycle, vector) = nearest?;
                 let deviation_mm = out.largest();
                 if deviation_mm > within(tolerance_mm) {
                     let axis = out.axis();
@@ -171,7 +199,8 @@ impl View<'_> {
                         &record,
                     );
                 }
-                cycle
+                let point = point.iter().zip(vector.iter()).map(|(p, v)| p + v).collect();
+                Some(Foot { s, cycle, length: out.length, point })
             };
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
@@ -199,23 +228,20 @@ impl View<'_> {
                 let s = from + f64::from(part) / f64::from(parts) * (to - from);
                 walk.position(s, &mut between);
                 // the nearest set point is found close to the last one
-                let before = hint;
-                let near = (before.saturating_sub(HINT).max(passed), before + HINT);
-                hint = missed(&between, near, passed as f64, s);
-                if hint.abs_diff(before) <= HINT {
-                    continue;
-                }
+                let near = (hint.saturating_sub(HINT).max(passed), hint + HINT);
+                let foot = missed(&between, near, passed as f64, s);
+                hint = foot.as_ref().map_or(near.0, |foot| foot.cycle);
+                let before = std::mem::replace(&mut last, foot);
+                let (Some(mut low), Some(mut high)) = (before, last.clone()) else { continue };
                 // the vector is largest where the nearest set point passes to another part of the set path
-                let (mut low, mut high) = (s - (to - from) / f64::from(parts), s);
                 for _ in 0..HALVINGS {
-                    let mid = 0.5 * (low + high);
-                    walk.position(mid, &mut between);
-                    let found = missed(&between, near, passed as f64, mid);
-                    if found.abs_diff(before) <= found.abs_diff(hint) {
-                        low = mid;
-                    } else {
-                        high = mid;
+                    if !low.may_rise_to(&high, within(tolerance)) {
+                        break;
                     }
+                    let mid = 0.5 * (low.s + high.s);
+                    walk.position(mid, &mut between);
+                    let Some(foot) = missed(&between, near, passed as f64, mid) else { break };
+                    if foot.apart(&low) <= foot.apart(&high) { low = foot } else { high = foot }
                 }
             }
         }
