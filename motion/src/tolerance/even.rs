@@ -36,10 +36,8 @@ impl Evenly<'_> {
     pub(super) fn leaves(&self, middle: f64, speed: f64) -> f64 {
         let reach = self.reach(speed);
         let mut x = AxisVec::zeros(self.kernels.axes.len());
-        let mut vector = x.clone();
         self.set_point(middle, speed, &mut x);
-        self.contour.nearest_along(&x, middle - reach, middle + reach, &mut vector);
-        vector.iter().fold(0.0, |m, c| m.max(c.abs()))
+        self.contour.aside(&x, middle - reach, middle + reach)
     }
 
     /// Largest component in mm by which the set points around path length `at` miss a point there.

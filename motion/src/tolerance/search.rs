@@ -298,3 +298,61 @@ pub(super) fn joined(mut ranges: Vec<(u64, u64)>, reach: u64) -> Vec<(u64, u64)>
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kontur_filters::kernel::Tap;
+    use std::sync::Arc;
+
+    /// A path that comes along x and turns off to y in `passed`, at any speeds up to 1 in a cycle: no point of the line
+    /// between two filtered points is further from the path's mean point than the bound, and at full speed it comes near.
+    #[test]
+    fn no_set_point_is_further_aside_than_the_bound() {
+        let mut seed = 7_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut closest = 0.0_f64;
+        for round in 0..400 {
+            let taps: Vec<Tap> = (0..2 + (4.0 * random()) as u32)
+                .map(|_| Tap { delay: (30.0 * random()) as u32, weight: 0.1 + random() })
+                .collect();
+            let kernel = Kernel::from_taps(taps).unwrap_or_else(Kernel::identity);
+            let kernels = Kernels::new(vec![Some(Arc::new(kernel.clone())); 2]);
+            let beyond = Beyond::new(&kernels);
+            let slowest = if round % 2 == 0 { 1.0 } else { random() };
+            let mut s = vec![-60.0];
+            for _ in 0..160 {
+                s.push(s[s.len() - 1] + slowest + (1.0 - slowest) * random());
+            }
+            let Some(first) = s.iter().position(|s| *s > 0.0) else { continue };
+            let passed = first as f64 - s[first] / (s[first] - s[first - 1]);
+            for k in 40..s.len() {
+                let at = |k: usize| {
+                    let mean = |f: &dyn Fn(f64) -> f64| -> f64 {
+                        kernel.taps().iter().map(|t| t.weight * f(s[k - t.delay as usize])).sum()
+                    };
+                    [mean(&|s| s.min(0.0)), mean(&|s| s.max(0.0)), mean(&|s| s)]
+                };
+                let (a, b) = (at(k - 1), at(k));
+                for part in 0..=8 {
+                    let u = f64::from(part) / 8.0;
+                    let [x, y, middle] = [0, 1, 2].map(|i| a[i] + u * (b[i] - a[i]));
+                    let aside = [x - middle.min(0.0), y - middle.max(0.0)];
+                    // both axes turn by 1, in opposite directions of the path
+                    let most = aside.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+                    let x = k as f64 - passed;
+                    let inside = (0.0..=f64::from(kernel.length()) + 2.0).contains(&x);
+                    let bound = if inside { beyond.at(x) } else { 0.0 };
+                    assert!(most <= bound + 1e-9, "{round} {k}: {most} of {bound}");
+                    if bound > 0.5 && slowest >= 1.0 {
+                        closest = closest.max(most / bound);
+                    }
+                }
+            }
+        }
+        assert!(closest > 0.9, "{closest}");
+    }
+}
