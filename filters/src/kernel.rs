@@ -198,6 +198,16 @@ impl KernelFilter {
         self.settled_for(&self.kernel)
     }
 
+    /// Whether everything that is kept is equal: another cycle of the same input only counts.
+    pub fn rests(&self) -> bool {
+        self.rest_cycles as usize > self.history.values.len()
+    }
+
+    /// A cycle with the input of the last one, while the filter [rests](Self::rests).
+    pub fn rest(&mut self) {
+        self.rest_cycles = self.rest_cycles.saturating_add(1);
+    }
+
     /// Whether `kernel` would see equal inputs only.
     pub fn settled_for(&self, kernel: &Kernel) -> bool {
         self.rest_cycles > kernel.length()

@@ -59,6 +59,18 @@ impl Shaping {
         self.kernel.settled() && (y - target).abs() < window_mm
     }
 
+    /// Whether another cycle with the input `x` would give the output of the last one and change nothing but its number.
+    ///
+    /// A chain with standard filters is never said to rest: they go on for as long as their states have digits.
+    pub fn rests_under(&self, x: f64) -> bool {
+        self.filters.is_empty() && x.to_bits() == self.newest.0.to_bits() && self.kernel.rests()
+    }
+
+    /// Instead of a cycle while the chain [rests](Self::rests_under).
+    pub fn rest(&mut self) {
+        self.kernel.rest();
+    }
+
     /// Cycles of constant input that flush the kernel; the standard filters come on top.
     pub fn flush_cycles(&self) -> u32 {
         self.kernel().length()

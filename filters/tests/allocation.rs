@@ -164,7 +164,7 @@ fn no_allocation_in_the_control_chain() {
                     axis.set_inputs(AxisInputs { force_mm_s2, ..AxisInputs::default() });
                     let out = axis.step(set_mm(k), 0.9, true);
                     std::hint::black_box((out, axis.distance_mm()));
-                    std::hint::black_box(out.faults.iter().count());
+                    std::hint::black_box(axis.faults().iter().count());
                 }
             });
             assert_eq!(info.count_total, 0, "{plant:?} {mode:?}");

@@ -15,5 +15,7 @@ mod feedforward;
 mod ipc;
 #[path = "control/profile.rs"]
 mod profile;
+#[path = "control/rest.rs"]
+mod rest;
 #[path = "control/robustness.rs"]
 mod robustness;

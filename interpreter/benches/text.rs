@@ -1,7 +1,7 @@
 //! Blocks per second through the parser and through the decoder: short straight blocks, as a CAM system writes them.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use kontur_interpreter::exec::{Options, check};
+use kontur_interpreter::job::Job;
 use kontur_interpreter::machine::Machine;
 use kontur_interpreter::source::{MemorySources, RawBlock};
 use kontur_interpreter::syntax::Parser;
@@ -76,16 +76,11 @@ fn brackets(c: &mut Criterion) {
 fn decode(c: &mut Criterion) {
     let sources = MemorySources::new().with("waves.nc", program());
     let Ok((machine, _)) = Machine::builtin(&[]) else { return };
-    let machine = Arc::new(machine);
+    let job = Job::new(machine, sources, "waves.nc");
     let mut group = c.benchmark_group("decode");
     group.throughput(Throughput::Elements(u64::from(BLOCKS)));
     group.sample_size(10);
-    group.bench_function("check", |b| {
-        b.iter(|| {
-            let sources = Box::new(sources.clone());
-            check(sources, "waves.nc", Arc::clone(&machine), Options::default())
-        });
-    });
+    group.bench_function("check", |b| b.iter(|| job.check()));
     group.finish();
 }
 

@@ -5,6 +5,7 @@
 
 pub mod condition;
 mod number;
+pub mod render;
 
 pub use condition::{Condition, Reaction};
 pub use number::rounded;
@@ -40,6 +41,16 @@ pub enum Severity {
     Warning,
     /// The program (or the list) is refused or aborted.
     Error,
+}
+
+impl std::fmt::Display for Severity {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Note => "note",
+            Self::Warning => "warning",
+            Self::Error => "error",
+        })
+    }
 }
 
 /// A place in a source text.

@@ -18,8 +18,9 @@ mod step;
 mod suggest;
 mod values;
 
-pub use options::{Access, External, Options, SkipLevels, Value};
-pub use program::check::{LIMIT, UNREACHED, check};
+pub use options::{Access, External, ForcedGuard, GuardCommands, Options, SkipLevels, Value};
+pub use program::check::Checked;
+pub(crate) use program::check::check;
 pub use program::executor::Executor;
 pub use step::{
     AxisShaping, EndReason, Event, Feedback, IndependentMotion, ShapingSettings, ShapingSetup,

@@ -5,6 +5,7 @@
 pub mod diag;
 pub mod exec;
 pub mod explain;
+pub mod job;
 pub mod machine;
 pub mod record;
 pub mod sim;

@@ -1,5 +1,8 @@
 //! What the simulation tells about one cycle; traces, summaries and reports are made from these records only.
 
+use kontur_motion::block::{Block, Feed};
+use kontur_motion::path::Path;
+
 /// What held the path speed down in a cycle (trace column `v_limit`).
 pub use kontur_motion::limit::SpeedLimit;
 
@@ -16,6 +19,83 @@ pub struct PathRecord {
     pub j_mm_s3: f64,
     /// What held the speed down.
     pub limit: SpeedLimit,
+    /// The block that is interpolated.
+    pub motion: Motion,
+    /// What the path rests for; none while it moves, and at the moment in which it turns or stops without waiting.
+    pub rest: Option<Rest>,
+}
+
+/// Kind of a block.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Motion {
+    /// Before the first motion.
+    #[default]
+    None,
+    /// G00.
+    Rapid,
+    /// Straight line.
+    Line,
+    /// Circular arc or helix.
+    Arc,
+    /// Spline or the curve of a rounded corner.
+    Curve,
+}
+
+impl Motion {
+    pub(crate) fn of(block: &Block) -> Self {
+        match (&block.feed, &block.path) {
+            (Feed::Rapid, _) => Self::Rapid,
+            (_, Path::Line(_)) => Self::Line,
+            (_, Path::Arc(_) | Path::Tilted(_)) => Self::Arc,
+            (_, Path::Curve(_)) => Self::Curve,
+        }
+    }
+
+    /// Name in results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Rapid => "rapid",
+            Self::Line => "line",
+            Self::Arc => "arc",
+            Self::Curve => "curve",
+        }
+    }
+}
+
+/// What the path rests for in a cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rest {
+    /// G04, `#TIME`.
+    Dwell,
+    /// Declared durations of M, H and S functions.
+    Technology,
+    /// G60, G360: the actual positions of the axes are not in their windows yet.
+    ExactStop,
+    /// The set positions of the axes have not arrived yet: `#FLUSH WAIT`, independent axes, a change of filters.
+    Flush,
+    /// End of the program: the axes are not in position yet.
+    Arrival,
+    /// Feedhold or override 0.
+    Held,
+}
+
+impl Rest {
+    /// Every value.
+    pub const ALL: [Self; 6] =
+        [Self::Dwell, Self::Technology, Self::ExactStop, Self::Flush, Self::Arrival, Self::Held];
+
+    /// Name in results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Dwell => "dwell",
+            Self::Technology => "technology",
+            Self::ExactStop => "exact_stop",
+            Self::Flush => "flush",
+            Self::Arrival => "arrival",
+            Self::Held => "held",
+        }
+    }
 }
 
 /// One axis in one cycle. Millimetre (degree for rotary axes) and seconds; see `design` section 4 for the columns.

@@ -23,7 +23,7 @@ pub use totals::{SettledStop, Stops, Totals};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
 use crate::machine::{self, Machine};
-use crate::record::CycleRecord;
+use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use axes::{Driver, drivers};
 use chain::AxisChain;
@@ -41,13 +41,6 @@ use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use wait::{Parts, Wait};
-
-/// Limits of a run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limits {
-    /// Program time in s after which a run is stopped (K-0017); the message names `--max-time`.
-    pub max_time_s: f64,
-}
 
 /// Where a run stands.
 #[derive(Debug)]
@@ -68,6 +61,7 @@ enum Phase {
 struct Underway {
     seq: u64,
     source: SourceRef,
+    motion: Motion,
     jerk_limited: bool,
     events: Vec<Event>,
 }
@@ -97,10 +91,11 @@ pub struct Simulation {
     gains: Vec<f64>,
     underway: VecDeque<Underway>,
     current: SourceRef,
+    motion: Motion,
+    /// Feedhold or override 0 keeps the path at rest in this cycle.
+    is_held: bool,
     /// Block that the path waits for at rest.
     waits_at: SourceRef,
-    /// Cycle in which the path came to rest last.
-    ends_k: u64,
     /// Block of the last stop of every chain.
     stops_at: Vec<SourceRef>,
     jerk_limited: bool,
@@ -125,13 +120,13 @@ impl Simulation {
     /// The diagnostics, if the plant of an axis is not physical or a program cannot be opened.
     pub fn new(
         machine: Arc<Machine>,
-        sources: Box<dyn Sources>,
+        sources: Arc<dyn Sources>,
         program: &str,
         options: Options,
-        limits: &Limits,
     ) -> Result<Self, Vec<Diagnostic>> {
         let cycle = machine.cycle;
         let (setups, diagnostics) = machine.chains();
+        let max_cycles = (options.max_time_s / cycle.seconds()) as u64;
         let executor = Executor::new(sources, program, Arc::clone(&machine), options);
         let n = machine.axes.len();
         let start = executor.start_position();
@@ -156,7 +151,8 @@ impl Simulation {
             gains: vec![0.0; chains.len()],
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
             frozen: vec![None; chains.len()],
-            ends_k: 0,
+            motion: Motion::None,
+            is_held: false,
             stops_at: vec![SourceRef::default(); chains.len()],
             inputs: Inputs::none(chains.len()),
             independent: IndependentAxes::new(n),
@@ -172,7 +168,7 @@ impl Simulation {
             record: CycleRecord { axes: records, ..CycleRecord::default() },
             set: start.clone(),
             vector: AxisVec::zeros(n),
-            max_cycles: (limits.max_time_s / cycle.seconds()) as u64,
+            max_cycles,
             diagnostics,
             unshown: 0,
             machine,
@@ -196,17 +192,10 @@ impl Simulation {
     /// Connects the real-time inputs, before the first cycle.
     ///
     /// Changes come in the order of time. An error among them ends the run, [`Totals::input_failed`] tells so.
-    #[must_use]
-    pub fn with_inputs(mut self, changes: Changes) -> Self {
+    pub fn connect(&mut self, changes: Changes) {
         if let Err(failure) = self.inputs.connect(changes) {
             self.input_fails(*failure);
         }
-        self
-    }
-
-    /// The machine.
-    pub fn machine(&self) -> &Machine {
-        &self.machine
     }
 
     /// Names of the source files, in the order of [`CycleRecord::file`].
@@ -253,7 +242,7 @@ impl Simulation {
                 }
                 Phase::Running => match self.planner.advance() {
                     Ok(Next::Setpoint) => {
-                        self.count_hold();
+                        self.look_for_hold();
                         break;
                     }
                     Ok(Next::Input) => self.pull(),
@@ -281,7 +270,6 @@ impl Simulation {
                         self.never_arrives(chain, lacks);
                         return None;
                     }
-                    self.totals.dwell_cycles += u64::from(wait.is_dwell());
                     wait.count();
                     self.planner.hold(SpeedLimit::Stop);
                     break;
@@ -330,14 +318,15 @@ impl Simulation {
         self.phase = Phase::Done;
     }
 
-    /// Counts the cycles in which feedhold or override 0 keeps the path at rest; a hold without end ends the run.
-    fn count_hold(&mut self) {
+    /// Notes whether feedhold or override 0 keeps the path at rest in this cycle; a hold without end ends the run.
+    fn look_for_hold(&mut self) {
+        self.is_held = false;
         let setpoint = self.planner.setpoint();
         let stands = setpoint.s_mm.to_bits() == self.record.path.s_mm.to_bits();
         if !stands || !self.planner.is_held() {
             return;
         }
-        self.totals.held_cycles += 1;
+        self.is_held = true;
         if self.inputs.is_over() {
             let failure = fault::held(setpoint.k, self.cycle, self.inputs.feedhold);
             self.diagnostics.push(failure);
@@ -368,7 +357,8 @@ impl Simulation {
     fn motion(&mut self, block: Box<Block>, source: SourceRef, events: Vec<Event>) {
         self.totals.count(&block);
         let jerk_limited = block.slope.kind != SlopeKind::Step;
-        self.underway.push_back(Underway { seq: block.seq, source, jerk_limited, events });
+        let motion = Motion::of(&block);
+        self.underway.push_back(Underway { seq: block.seq, source, motion, jerk_limited, events });
         self.smoothing.push(*block, &mut self.planner);
         self.not_contoured();
     }
@@ -388,7 +378,6 @@ impl Simulation {
         };
         self.waits_at = source;
         let k = self.planner.setpoint().k;
-        self.ends_k = k;
         for event in events {
             self.act(event, k);
         }
@@ -417,7 +406,6 @@ impl Simulation {
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
             wait::Action::MachineData { axis } => self.machine_data(axis),
             wait::Action::End(reason) => {
-                self.totals.arrival_cycles = self.planner.setpoint().k - self.ends_k;
                 self.totals.aborted |= reason == EndReason::Aborted;
                 self.phase = Phase::Done;
             }

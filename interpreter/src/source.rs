@@ -28,16 +28,21 @@ pub const BLOCK_LENGTH: u32 = 4000;
 pub const BLOCK_LENGTH_MAX: u32 = 4096;
 
 /// Opens programs.
-pub trait Sources {
+pub trait Sources: Send + Sync {
     /// Opens `name`, as it is written in the program `caller` (its [`Source::name`]) or on the command line.
     ///
     /// # Errors
     /// If no program of that name can be opened; the error lists every place that was tried.
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError>;
+
+    /// A program that is no longer what it was when it was opened first, and what tells so; asked at the end of a run.
+    fn changed(&self) -> Option<(String, io::Error)> {
+        None
+    }
 }
 
 /// Bytes of one program.
-pub trait Source {
+pub trait Source: Send {
     /// Name as messages show it; also what a called program gets as its caller.
     fn name(&self) -> Arc<str>;
 

@@ -18,6 +18,7 @@ mod print;
 mod problem;
 pub(crate) mod scan;
 
+pub(crate) use plain::{Plain, PlainValue};
 pub use scan::NESTING_MAX;
 
 use crate::diag::{Condition, Diagnostic, Severity};
@@ -97,10 +98,18 @@ impl Parser {
         file: &Arc<str>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Block {
-        match plain::recognize(raw.text) {
-            Some(block) if raw.characters <= BLOCK_LENGTH => block,
-            _ => self.parse(raw, file, diagnostics, Mode::Block),
+        let mut plain = Plain::default();
+        if Self::plain(raw, &mut plain) {
+            plain.tree()
+        } else {
+            self.parse(raw, file, diagnostics, Mode::Block)
         }
+    }
+
+    /// Reads a plain block as numbers; false if it takes the grammar to read it. Whether it is plain does not depend on
+    /// the names, and there is nothing to say about it.
+    pub(crate) fn plain(raw: &RawBlock<'_>, plain: &mut Plain) -> bool {
+        raw.characters <= BLOCK_LENGTH && plain.recognize(raw.text).is_some()
     }
 
     /// Parses a line between `#VAR` and `#ENDVAR`: declarations, or the command that ends them.

@@ -47,8 +47,7 @@ impl Passed {
 impl Passed {
     /// Distance of a point from the path of the block; `q` becomes the nearest point.
     fn distance(&self, point: &[f64], q: &mut AxisVec) -> f64 {
-        let path = &self.queued.block.path;
-        path.position(path.nearest(point), q);
+        self.queued.block.path.nearest_point(point, q);
         q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum::<f64>().sqrt()
     }
 
@@ -291,8 +290,7 @@ fn nearest<'a>(
             continue;
         }
         before = Some(passed);
-        let path = &passed.queued.block.path;
-        path.position(path.nearest(point), &mut q);
+        passed.queued.block.path.nearest_point(point, &mut q);
         let d2: f64 = q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
         if best.is_none_or(|(least, _)| d2 < least) {
             best = Some((d2, passed));

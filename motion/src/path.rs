@@ -144,4 +144,14 @@ impl Path {
             Self::Curve(p) => p.nearest(point),
         }
     }
+
+    /// The point of the path nearest to `point`: of a curve without the way by the path length.
+    pub(crate) fn nearest_point(&self, point: &[f64], out: &mut [f64]) {
+        match self {
+            Self::Curve(p) => p.nearest_point(point, out),
+            Self::Line(_) | Self::Arc(_) | Self::Tilted(_) => {
+                self.position(self.nearest(point), out);
+            }
+        }
+    }
 }

@@ -1,7 +1,6 @@
 //! The command line as a test calls it: what goes in, and what it prints.
 
 use kontur::console::Console;
-use kontur::simulator::Kontur;
 use kontur::{Exit, run_with};
 use std::cell::RefCell;
 use std::ffi::OsString;
@@ -43,6 +42,6 @@ pub fn command<W: Into<OsString>>(words: impl IntoIterator<Item = W>) -> Output 
     let (out, err) = (Buffer::default(), Buffer::default());
     let mut console = Console::new(out.clone(), err.clone());
     let words = std::iter::once("kontur".into()).chain(words.into_iter().map(Into::into));
-    let exit = run_with(words, &mut Kontur, &mut console);
+    let exit = run_with(words, &mut console);
     Output { exit, out: out.text(), err: err.text() }
 }

@@ -6,13 +6,11 @@ pub mod random;
 pub mod targets;
 
 use kontur_interpreter::diag::{Diagnostic, Id};
-use kontur_interpreter::exec::{self, Options};
+use kontur_interpreter::job::{Change, Job, Options, Signal, Totals};
 use kontur_interpreter::machine::{ListFiles, Machine, Override};
-use kontur_interpreter::record::CycleRecord;
-use kontur_interpreter::sim::{Change, Limits, Signal, Simulation, Totals};
+use kontur_interpreter::record::{CycleRecord, Rest};
 use kontur_interpreter::source::MemorySources;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// Everything that came out of a run.
 #[derive(Debug)]
@@ -35,6 +33,11 @@ impl Run {
             Id::Kontur(_) => None,
         };
         self.diagnostics.iter().filter_map(number).collect()
+    }
+
+    /// Cycles in which the path rests for something.
+    pub fn rested(&self, rest: Rest) -> usize {
+        self.records.iter().filter(|r| r.path.rest == Some(rest)).count()
     }
 
     /// A value of one axis over all cycles.
@@ -90,7 +93,7 @@ pub fn run_on(machine: (Machine, Vec<Diagnostic>), program: &str) -> Run {
 
 /// Runs a program text under real-time inputs: time in s, name of the signal, value.
 pub fn run_with_inputs(
-    (machine, mut diagnostics): (Machine, Vec<Diagnostic>),
+    (machine, warnings): (Machine, Vec<Diagnostic>),
     program: &str,
     inputs: &[(f64, &str, f64)],
 ) -> Run {
@@ -98,25 +101,14 @@ pub fn run_with_inputs(
     let signal = |name: &str| signals.iter().find(|(n, _)| n == name).unwrap().1;
     let changes: Vec<Result<Change, Box<Diagnostic>>> =
         inputs.iter().map(|(t, name, x)| Ok(Change::new(*t, signal(name), *x).unwrap())).collect();
-    let machine = Arc::new(machine);
     let cycle_s = machine.cycle.seconds();
-    let sources = || Box::new(MemorySources::new().with("part.nc", program.as_bytes().to_vec()));
-    let found = exec::check(sources(), "part.nc", Arc::clone(&machine), Options::default());
-    if found.iter().any(Diagnostic::is_error) {
-        diagnostics.extend(found);
-        let totals = Totals { aborted: true, ..Totals::default() };
-        return Run { records: Vec::new(), diagnostics, totals, cycle_s };
-    }
-    let limits = Limits { max_time_s: 1000.0 };
-    let simulation =
-        Simulation::new(machine, sources(), "part.nc", Options::default(), &limits).unwrap();
-    let mut simulation = simulation.with_inputs(Box::new(changes.into_iter()));
+    let sources = MemorySources::new().with("part.nc", program.as_bytes().to_vec());
+    let options = Options { max_time_s: 1000.0, ..Options::default() };
+    let job = Job::new(machine, sources, "part.nc").with_warnings(warnings).with_options(options);
+    let mut run = job.start().unwrap().with_inputs(Box::new(changes.into_iter()));
     let mut records = Vec::new();
-    while let Some(record) = simulation.next_cycle() {
-        records.push(record.clone());
-    }
-    diagnostics.extend(simulation.take_diagnostics());
-    Run { records, diagnostics, totals: simulation.totals(), cycle_s }
+    let Ok(()) = run.to_end(&mut |record: &CycleRecord| records.push(record.clone()));
+    Run { records, diagnostics: run.take_diagnostics(), totals: run.totals(), cycle_s }
 }
 
 /// Shortest vector from a polyline to a point.

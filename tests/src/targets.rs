@@ -9,10 +9,10 @@ use crate::random::Random;
 use kontur::Exit;
 use kontur::args::Args;
 use kontur_interpreter::diag::Diagnostic;
-use kontur_interpreter::exec::{self, Options};
+use kontur_interpreter::job::{Checked, Job, Options};
 use kontur_interpreter::machine::{ListFiles, Machine};
-use kontur_interpreter::sim::{Limits, Simulation};
-use kontur_interpreter::source::{MemorySources, Sources};
+use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::source::MemorySources;
 use std::ffi::OsString;
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
@@ -53,14 +53,16 @@ fn options() -> Options {
 }
 
 /// The program, and itself under the names that it may call.
-fn sources(program: &[u8]) -> Box<dyn Sources> {
-    Box::new(MemorySources::new().with("main.nc", program).with("sub.nc", program))
+fn job(machine: Arc<Machine>, program: &[u8]) -> Job {
+    let sources = MemorySources::new().with("main.nc", program).with("sub.nc", program);
+    Job::new(machine, sources, "main.nc").with_options(options())
 }
 
-fn checked(program: &[u8]) -> Vec<Diagnostic> {
-    let found = exec::check(sources(program), "main.nc", Arc::clone(&MACHINE), options());
+fn checked(program: &[u8]) -> Checked {
+    let checked = job(Arc::clone(&MACHINE), program).check();
+    let found = &checked.diagnostics;
     assert!(found.len() <= MESSAGES_MAX, "{} messages", found.len());
-    for d in &found {
+    for d in found {
         assert!(!d.text.is_empty(), "{d:?}");
         if let Some(place) = &d.source {
             let characters = place.text.chars().count() as u64;
@@ -68,7 +70,7 @@ fn checked(program: &[u8]) -> Vec<Diagnostic> {
             assert!(place.line > 0 && u64::from(place.column) <= characters + 1, "{d:?}");
         }
     }
-    found
+    checked
 }
 
 /// A program is decoded.
@@ -78,19 +80,16 @@ pub fn check(data: &[u8]) {
 
 /// A program runs for two seconds, unless the check refuses it.
 pub fn run(data: &[u8]) {
-    let refused = |d: &Diagnostic| d.is_error() && d.id != exec::LIMIT;
-    if checked(data).iter().any(refused) {
+    if checked(data).refuses() {
         return;
     }
-    let limits = Limits { max_time_s: TIME_S };
-    let machine = Arc::clone(&MACHINE);
-    let cycle_s = machine.cycle.seconds();
-    let opened = Simulation::new(machine, sources(data), "main.nc", options(), &limits);
-    let mut simulation = opened.expect("a machine without plants of its own");
+    let cycle_s = MACHINE.cycle.seconds();
+    let job = job(Arc::clone(&MACHINE), data);
+    let mut run = job.start().expect("a machine without plants of its own");
     let v_max: Vec<f64> = MACHINE.axes.iter().map(|a| a.dynamics().v_max_mm_s).collect();
     let mut before: Option<Vec<f64>> = None;
     let mut cycles = 0_u64;
-    while let Some(record) = simulation.next_cycle() {
+    let Ok(()) = run.to_end(&mut |record: &CycleRecord| {
         assert_eq!(record.k, cycles, "rows are cycles");
         cycles += 1;
         // braking after a limit takes its time
@@ -119,9 +118,9 @@ pub fn run(data: &[u8]) {
             }
         }
         before = Some(now);
-    }
-    let aborted = simulation.totals().aborted;
-    let said = simulation.take_diagnostics();
+    });
+    let aborted = run.totals().aborted;
+    let said = run.take_diagnostics();
     assert_eq!(aborted, said.iter().any(Diagnostic::is_error), "{said:?}");
 }
 
@@ -158,19 +157,13 @@ pub fn lists(data: &[u8]) {
     }
     let axis = machine.axes.first().map_or("X", |a| a.name()).to_owned();
     let program = format!("G01 {axis}=0.5 F600\nG00 {axis}=0\nM30\n");
-    let limits = Limits { max_time_s: TIME_S };
     let cycles = (TIME_S / machine.cycle.seconds()) as u64;
     if cycles > 100_000 {
         // a cycle of microseconds is a long run of another kind
         return;
     }
-    let machine = Arc::new(machine);
-    let Ok(mut simulation) =
-        Simulation::new(machine, sources(program.as_bytes()), "main.nc", options(), &limits)
-    else {
-        return;
-    };
-    while let Some(record) = simulation.next_cycle() {
+    let Ok(mut run) = job(Arc::new(machine), program.as_bytes()).start() else { return };
+    let Ok(()) = run.to_end(&mut |record: &CycleRecord| {
         for (i, axis) in record.axes.iter().enumerate() {
             let values = [axis.ipo, axis.set];
             assert!(
@@ -179,7 +172,7 @@ pub fn lists(data: &[u8]) {
                 record.k
             );
         }
-    }
+    });
 }
 
 /// Calls the command line on files of its own; words that begin with `@` name them.

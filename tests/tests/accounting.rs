@@ -127,6 +127,73 @@ fn declared_durations_are_named() {
     }
 }
 
+/// The vendor's example of the production time calculation: M07 takes 0.5 s, M08 1.3 s, M03 0.5 s.
+const DECLARED: [&str; 8] = [
+    "--set",
+    "channel.m_prozess_zeit[7]=500000",
+    "--set",
+    "channel.m_prozess_zeit[8]=1300000",
+    "--set",
+    "channel.spindel[0].m3_prozess_zeit=500000",
+    "--set",
+    "channel.spindel[0].s_prozess_zeit=200000",
+];
+
+/// With `--techno-times` the path waits for them, and the duration grows by just that; without, the summary names them.
+#[test]
+fn declared_durations_are_waited_for() {
+    // functions of one block go to the machine together: the longest counts
+    let text = "M7\nM8\nM3 S600\nM7 M8\nG01 X1 F1000\nM30\n";
+    let folder = Folder::new(&[("part.nc", text)]);
+    let off = folder.summary(&DECLARED);
+    let on = folder.summary(&[&DECLARED[..], &["--techno-times"]].concat());
+    near(&on["technology_s"], 0.5 + 1.3 + 0.5 + 1.3, 1e-9);
+    near(&off["technology_s"], 0.0, 0.0);
+    let duration = |s: &serde_json::Value| s["duration_s"].as_f64().unwrap();
+    assert!((duration(&on) - duration(&off) - 3.6).abs() < 1e-9);
+    assert_eq!(on["not_counted"].as_array().unwrap().len(), 0, "{on}");
+    let named = off["not_counted"].to_string();
+    for w in [
+        "M7 (0.5 s each by P-CHAN-00040)",
+        "M3 of S (0.5 s each by P-CHAN-00044)",
+        "S word of S (0.2 s",
+    ] {
+        assert!(named.contains(w), "{w}: {named}");
+    }
+}
+
+/// A function with a duration stops the path where it acts: M07 in front of its block, M05 behind it. Its cycles are of its
+/// block.
+#[test]
+fn functions_that_take_time_stop_the_path() {
+    let text = "G01 X10 F6000\nX20 M7\nX30\nX40 M5\nX50\nM30\n";
+    let folder = Folder::new(&[("part.nc", text)]);
+    let trace = folder.path("a.csv");
+    let words = [
+        &DECLARED[..],
+        &["--set", "channel.spindel[0].m5_prozess_zeit=250000", "--techno-times", "-o", &trace],
+    ];
+    let summary = folder.summary(&words.concat());
+    near(&summary["technology_s"], 0.75, 1e-9);
+    let text = std::fs::read_to_string(&trace).unwrap();
+    let rows: Vec<Vec<&str>> = text.lines().map(|l| l.split(',').collect()).collect();
+    let head = &rows[0];
+    let column = |name: &str| head.iter().position(|h| *h == name).unwrap();
+    let (line, x, v) = (column("line"), column("X_ipo_mm"), column("v_mm_s"));
+    let resting = |at: &str, of: &str| {
+        let rests =
+            |r: &&Vec<&str>| r[v].parse::<f64>().unwrap() == 0.0 && r[x] == at && r[line] == of;
+        rows.iter().skip(1).filter(rests).count()
+    };
+    assert_eq!(resting("10.0000000", "2"), 500);
+    assert_eq!(resting("40.0000000", "4"), 251, "250, and the one in which it stops");
+    let slowest = |at: f64| {
+        let near = rows[1..].iter().filter(|r| (r[x].parse::<f64>().unwrap() - at).abs() < 1.0);
+        near.map(|r| r[v].parse::<f64>().unwrap()).fold(f64::INFINITY, f64::min)
+    };
+    assert!(slowest(20.0) > 99.0 && slowest(30.0) > 99.0);
+}
+
 /// Rows of a sweep over a square, by columns.
 fn sweep(program: &str, vary: &[&str]) -> (Vec<Vec<String>>, String) {
     let folder = Folder::new(&[("part.nc", program)]);
@@ -176,5 +243,33 @@ fn values_of_a_program_vary() {
     for (row, hz) in rows.iter().zip(["20", "40"]) {
         let (fixed, _) = sweep(&with(hz), &["X.vib_guard.freq=33"]);
         assert_eq!(row[1..], fixed[0][1..]);
+    }
+}
+
+/// With JSON messages every line of stderr is an object: what is wrong with files, lists and settings too.
+#[test]
+fn every_message_is_json_if_asked_for() {
+    let folder =
+        Folder::new(&[("part.nc", "G01 X1 F100\nFOO\nM30\n"), ("ok.nc", "G01 X1 F100\nM30\n")]);
+    let (part, ok, none) = (folder.path("part.nc"), folder.path("ok.nc"), folder.path("none.nc"));
+    let vary = ["--vary", "*.vib_guard.freq=20,40", "--columns", "duration_s"];
+    let cases: [Vec<&str>; 6] = [
+        vec!["check", &none, &part],
+        vec!["run", &part],
+        vec!["run", &ok, "--set", "X.foo=1"],
+        vec!["run", &ok, "--set", "X.getriebe[0].kv=a"],
+        vec!["run", &ok, "-o", "/nowhere/a.csv"],
+        [&["sweep", &ok][..], &vary].concat(),
+    ];
+    for case in cases {
+        let done = command([&case[..], &["--diagnostics", "json"]].concat());
+        assert!(!done.err.is_empty(), "{case:?}");
+        for line in done.err.lines() {
+            let object: Value =
+                serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}"));
+            let severity = object["severity"].as_str().unwrap();
+            assert!(["error", "warning", "note"].contains(&severity), "{line}");
+            assert!(object["text"].as_str().is_some_and(|t| !t.is_empty()), "{line}");
+        }
     }
 }

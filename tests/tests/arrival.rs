@@ -1,6 +1,7 @@
 //! What happens when the path has come to rest: arrival of the axes, waits that cannot end, stops after an error.
 
 use kontur_interpreter::diag::{Diagnostic, Id};
+use kontur_interpreter::record::Rest;
 use kontur_tests::{Run, machine, run, run_on, run_with_inputs, sample_machine};
 
 fn errors(run: &Run) -> Vec<&Diagnostic> {
@@ -83,12 +84,12 @@ fn the_end_waits_for_the_axes() {
     let last = run.records.last().unwrap();
     assert!((last.axes[0].act - 100.0).abs() <= 0.01, "{}", last.axes[0].act);
     let rest = run.records.iter().position(|r| r.axes[0].set >= 100.0).unwrap();
-    assert_eq!(run.totals.arrival_cycles as usize, run.records.len() - 1 - rest);
+    assert_eq!(run.rested(Rest::Arrival), run.records.len() - 1 - rest);
     let stop = &run.totals.stops.axes[&0];
     assert_eq!((stop.0, stop.1.source.line), (1, 3));
     // t2 - t1 is what the trace shows, and what the positions say
     assert!((stop.1.settling_s - last.axes[0].settling_s).abs() < 1e-12);
-    assert!((stop.1.settling_s - run.totals.arrival_cycles as f64 * run.cycle_s).abs() < 2e-3);
+    assert!((stop.1.settling_s - run.rested(Rest::Arrival) as f64 * run.cycle_s).abs() < 2e-3);
     let ramp = &run.records[rest..];
     assert!(ramp.windows(2).all(|w| w[1].axes[0].settling_s > w[0].axes[0].settling_s - 1e-12));
 }

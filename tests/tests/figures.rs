@@ -1,7 +1,6 @@
 //! The commands of `interpreter/cli/docs/figures.md` draw what the figures of the documents show.
 
 use kontur::console::Console;
-use kontur::simulator::Kontur;
 use kontur::{Exit, run_with};
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -21,11 +20,7 @@ fn figure(name: &str) -> Vec<Curve> {
     let words = command.strip_suffix(&svg).unwrap().split_whitespace().map(OsString::from);
     let files = ["-o".into(), picture.clone().into(), "-o".into(), table.clone().into()];
     let mut console = Console::new(Vec::new(), Vec::new());
-    assert_eq!(
-        run_with(words.chain(files), &mut Kontur, &mut console),
-        Exit::Finished,
-        "{command}"
-    );
+    assert_eq!(run_with(words.chain(files), &mut console), Exit::Finished, "{command}");
     assert!(std::fs::read_to_string(picture).unwrap().starts_with("<svg"));
     let mut reader = csv::Reader::from_path(table).unwrap();
     let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
@@ -164,7 +159,7 @@ fn drawn(name: &str) -> Vec<Curve> {
         };
         let words = command.strip_suffix(&svg).unwrap().split_whitespace().map(path);
         let mut console = Console::new(Vec::new(), Vec::new());
-        let exit = run_with(words.chain(["-o".into(), file.into()]), &mut Kontur, &mut console);
+        let exit = run_with(words.chain(["-o".into(), file.into()]), &mut console);
         assert_eq!(exit, Exit::Finished, "{command}");
     }
     assert!(std::fs::read_to_string(folder.path().join("a.svg")).unwrap().starts_with("<svg"));
@@ -335,7 +330,7 @@ fn every_command_of_the_list_runs() {
             })
             .collect();
         let mut console = Console::new(Vec::new(), Vec::new());
-        assert_eq!(run_with(words, &mut Kontur, &mut console), Exit::Finished, "{command}");
+        assert_eq!(run_with(words, &mut console), Exit::Finished, "{command}");
         if let Some(file) = output {
             assert!(std::fs::metadata(file).unwrap().len() > 1000, "{command}");
         }

@@ -4,11 +4,10 @@
 //! same polygon, with the same axis limits and transition speeds but without a jerk limit, by a backward and a forward
 //! pass over a fine grid. It shares nothing with the planner. `--nocapture` prints the table of the documentation.
 
-use kontur_interpreter::exec::Options;
-use kontur_interpreter::sim::{Limits, Simulation};
+use kontur_interpreter::job::{Job, Options};
+use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::source::MemorySources;
 use kontur_tests::{programs, sample_machine};
-use std::sync::Arc;
 
 type Point = [f64; 3];
 
@@ -137,21 +136,19 @@ fn machine_time(program: &str, ramp_us: u32) -> f64 {
     let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
     let (machine, found) = sample_machine("xyz", &settings);
     assert!(found.is_empty(), "{found:?}");
-    let sources = Box::new(MemorySources::new().with("part.nc", program.as_bytes().to_vec()));
-    let limits = Limits { max_time_s: 1000.0 };
-    let options = Options::default();
-    let mut simulation =
-        Simulation::new(Arc::new(machine), sources, "part.nc", options, &limits).unwrap();
+    let sources = MemorySources::new().with("part.nc", program.as_bytes().to_vec());
+    let options = Options { max_time_s: 1000.0, ..Options::default() };
+    let mut run = Job::new(machine, sources, "part.nc").with_options(options).start().unwrap();
     let (mut first, mut last, mut s) = (0, 0, 0.0);
-    while let Some(record) = simulation.next_cycle() {
+    let Ok(()) = run.to_end(&mut |record: &CycleRecord| {
         if record.path.s_mm > s {
             if s == 0.0 {
                 first = record.k - 1;
             }
             (last, s) = (record.k, record.path.s_mm);
         }
-    }
-    let found = simulation.take_diagnostics();
+    });
+    let found = run.take_diagnostics();
     assert!(found.is_empty(), "{found:?}");
     let wanted: f64 = Chord::all(&geometry(program).1).iter().map(|c| c.length_mm).sum();
     assert!((s - wanted).abs() < 1e-6 * wanted, "{s} mm of {wanted} mm");

@@ -5,10 +5,9 @@
 //! `COUNT` raises the number of programs, `SEED` chooses others.
 
 use kontur_interpreter::diag::{Condition, Diagnostic, Location};
-use kontur_interpreter::exec::{self, Options};
+use kontur_interpreter::job::{Job, Options};
 use kontur_interpreter::machine::{Machine, Override};
-use kontur_interpreter::record::AxisRecord;
-use kontur_interpreter::sim::{Limits, Simulation};
+use kontur_interpreter::record::{AxisRecord, CycleRecord};
 use kontur_interpreter::source::MemorySources;
 use kontur_tests::{programs, sample_machine};
 use std::path::Path;
@@ -251,20 +250,21 @@ fn check_record(axis: &AxisRecord) {
 
 /// Check and run of one program; true if it moved.
 fn exercise(text: &str, machine: &Arc<Machine>) -> bool {
-    let sources = || {
-        let cycle = "N10 G91 X@P1\nN20 M17\n";
-        let all = MemorySources::new().with("part.nc", text.as_bytes().to_vec());
-        Box::new(all.with("called/cycle.nc", cycle.as_bytes().to_vec()))
+    let cycle = "N10 G91 X@P1\nN20 M17\n";
+    let sources = MemorySources::new()
+        .with("part.nc", text.as_bytes().to_vec())
+        .with("called/cycle.nc", cycle.as_bytes().to_vec());
+    let options = Options {
+        max_blocks: 3000,
+        max_blocks_at_rest: 1000,
+        max_time_s: TIME_S,
+        ..Options::default()
     };
-    let options = Options { max_blocks: 3000, max_blocks_at_rest: 1000, ..Options::default() };
-    let found = exec::check(sources(), "part.nc", Arc::clone(machine), options.clone());
-    check_said(&found, text);
-    let limits = Limits { max_time_s: TIME_S };
-    let mut simulation =
-        Simulation::new(Arc::clone(machine), sources(), "part.nc", options, &limits).unwrap();
-    let mut said = Vec::new();
+    let job = Job::new(Arc::clone(machine), sources, "part.nc").with_options(options);
+    check_said(&job.check().diagnostics, text);
+    let mut run = job.start().unwrap();
     let mut cycles = 0_u64;
-    while let Some(record) = simulation.next_cycle() {
+    let Ok(()) = run.to_end(&mut |record: &CycleRecord| {
         record.axes.iter().for_each(check_record);
         assert!(record.contour_err_mm.is_finite());
         let path = record.path;
@@ -272,13 +272,10 @@ fn exercise(text: &str, machine: &Arc<Machine>) -> bool {
         assert_eq!(record.k, cycles);
         cycles += 1;
         assert!(cycles as f64 * machine.cycle.seconds() < TIME_S + 20.0, "the run does not end");
-        if cycles.is_multiple_of(1024) {
-            said.extend(simulation.take_diagnostics());
-        }
-    }
-    said.extend(simulation.take_diagnostics());
+    });
+    let said = run.take_diagnostics();
     check_said(&said, text);
-    if simulation.totals().aborted {
+    if run.totals().aborted {
         assert!(said.iter().any(Diagnostic::is_error), "aborted without an error: {said:?}");
     }
     cycles > 1

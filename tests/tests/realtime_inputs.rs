@@ -2,7 +2,7 @@
 
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::Machine;
-use kontur_interpreter::record::{AxisRecord, SpeedLimit};
+use kontur_interpreter::record::{AxisRecord, Rest, SpeedLimit};
 use kontur_tests::command::command;
 use kontur_tests::{Run, machine, run_with_inputs};
 
@@ -51,7 +51,7 @@ fn feedhold_and_release() {
     near(x_at(&run, 1.0), 50.0);
     near(x_at(&run, 1.1), 55.0);
     near(arrival_s(&run, 100.0), 1.6);
-    assert_eq!(run.totals.held_cycles, 400);
+    assert_eq!(run.rested(Rest::Held), 400);
     assert_eq!(run.records[800].path.limit, SpeedLimit::Stop);
     assert!(!run.totals.aborted && own_ids(&run).is_empty());
 }
@@ -64,7 +64,7 @@ fn feedhold_with_its_own_deceleration() {
     let run = run_with_inputs(linear(&settings), LINE, &inputs);
     near(x_at(&run, 0.6), 52.5);
     near(x_at(&run, 0.7), 55.0);
-    assert_eq!(run.totals.held_cycles, 300);
+    assert_eq!(run.rested(Rest::Held), 300);
 }
 
 /// A hold that begins before the first motion, and one inside a dwell, only shift what follows.
@@ -80,7 +80,7 @@ fn feedhold_before_motions() {
     // 10 mm take 0.2 s, the dwell ends at 1.2 s
     near(x_at(&run, 1.5), 10.0);
     near(arrival_s(&run, 20.0), 1.7);
-    assert_eq!(run.totals.held_cycles, 300);
+    assert_eq!(run.rested(Rest::Held), 300);
 }
 
 /// Nothing will release the path: the run ends, and says so.

@@ -1,5 +1,6 @@
 //! The main job: the square program end to end, judged from its trace and its geometry alone.
 
+use kontur_interpreter::record::Rest;
 use kontur_tests::{from_polyline, machine, programs, residual_mm, run, run_on};
 
 fn square() -> Vec<Vec<f64>> {
@@ -87,7 +88,7 @@ fn documented_cycle_counts() {
         let program = format!("%C\n#SLOPE [TYPE={slope}]\nG90 G01 X1 F4000\nY1\nX0\nY0\nM30\n");
         let run = run_on(machine, &program);
         assert_eq!(
-            run.records.len() - 1 - run.totals.arrival_cycles as usize,
+            run.records.len() - 1 - run.rested(Rest::Arrival),
             cycles,
             "{slope}, {us} us, weight {weight}: {:?}",
             run.diagnostics

@@ -240,7 +240,8 @@ fn cells_are_quoted_on_one_line_and_shortened() {
 /// Larger than what is read at once: the change is met while the program is read.
 #[test]
 fn a_program_that_changes_while_it_runs_ends_as_an_error() {
-    use kontur::engine::{Engine as _, Request};
+    use kontur::request::Request;
+    use kontur_interpreter::record::CycleRecord;
     let f = Folder::new();
     let line = "G01 X1 F6000\nX0\n".repeat(20_000);
     for text in ["G01 X9 F600\nM30\n".to_owned(), format!("{line}M30\n")] {
@@ -253,16 +254,16 @@ fn a_program_that_changes_while_it_runs_ends_as_an_error() {
                 max_blocks: 1_000_000,
                 ..Request::default()
             };
-            let mut source = kontur::simulator::Kontur.open(&request).unwrap();
-            source.next_cycle();
+            let mut run = request.open().unwrap().run;
+            let Ok(()) = run.advance(1, &mut |_: &CycleRecord| {});
             if let Some(change) = &change {
                 fs::write(&f, change).unwrap();
             }
-            while source.next_cycle().is_some() {}
-            let said = source.take_diagnostics();
+            let Ok(()) = run.to_end(&mut |_: &CycleRecord| {});
+            let said = run.take_diagnostics();
             let told = said.iter().filter(|d| d.text.contains("changed while it was read"));
             assert_eq!(told.count(), usize::from(change.is_some()), "{said:?}");
-            let totals = source.totals();
+            let totals = run.totals();
             assert_eq!(totals.input_failed, change.is_some());
         }
     }

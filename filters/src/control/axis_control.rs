@@ -172,8 +172,8 @@ pub struct ControlOutput {
     pub tcp_acc_mm_s2: f64,
     /// Values in the drive's format.
     pub drive: DriveValues,
-    /// What the monitors raised.
-    pub faults: Faults,
+    /// The monitors raised something, see [`AxisControl::faults`].
+    pub faulty: bool,
 }
 
 /// One axis behind its set position.
@@ -196,16 +196,40 @@ pub struct AxisControl {
     /// Set position with the additional one.
     position_mm: f64,
     inputs: AxisInputs,
+    faults: Faults,
     diverged: bool,
     moving: bool,
     open: bool,
     /// Where a reaction keeps the axis.
     held_mm: Option<f64>,
+    /// What the last cycle was given, and for how many cycles that has been the same and nothing has changed by it.
+    given: Given,
+    still_cycles: u32,
+}
+
+/// What a cycle is given, as bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Given {
+    set: u64,
+    gain: u64,
+    jerk_limited: bool,
+    inputs: [u64; 3],
+}
+
+impl Given {
+    fn new(set_mm: f64, gain: f64, jerk_limited: bool, inputs: &AxisInputs) -> Self {
+        let AxisInputs { additional_mm, force_mm_s2, encoder_offset_mm } = *inputs;
+        let inputs = [additional_mm, force_mm_s2, encoder_offset_mm].map(f64::to_bits);
+        Self { set: set_mm.to_bits(), gain: gain.to_bits(), jerk_limited, inputs }
+    }
 }
 
 impl AxisControl {
     /// Largest set position in mm: far beyond any machine, and small enough for every difference to stay finite.
     pub const RANGE_MM: f64 = 1e9;
+    /// Still cycles after which everything that remembers a fixed number of cycles (buffer, delays of the feedforward, dead
+    /// time, differences) holds equal values only.
+    const REST_CYCLES: u32 = 32;
     /// Following errors beyond this multiple of the permitted or the theoretical lag belong to no stable loop.
     const DIVERGED: f64 = 10.0;
 
@@ -234,10 +258,13 @@ impl AxisControl {
             tcp_mm_s: 0.0,
             position_mm: 0.0,
             inputs: AxisInputs::default(),
+            faults: Faults::default(),
             diverged: false,
             moving: false,
             open: false,
             held_mm: None,
+            given: Given::default(),
+            still_cycles: 0,
         };
         control.start(0.0);
         Ok(control)
@@ -267,6 +294,8 @@ impl AxisControl {
         self.moving = false;
         self.open = false;
         self.held_mm = None;
+        self.faults.clear();
+        self.still_cycles = 0;
     }
 
     /// The configuration in use.
@@ -292,6 +321,7 @@ impl AxisControl {
     /// The path comes to a stop, for this axis at `target_mm`: the exact-stop timer starts when the set position
     /// gets there.
     pub fn expect_stop(&mut self, target_mm: f64) {
+        self.still_cycles = 0;
         self.exact_stop.expect(target_mm);
     }
 
@@ -308,6 +338,7 @@ impl AxisControl {
     /// Keeps the axis where it is (reaction class 5): until the next start the controller gets the actual position of this
     /// moment, with its loop closed and without feedforward, whatever the set position does.
     pub fn halt(&mut self) {
+        self.still_cycles = 0;
         let here = self.controlled_mm();
         self.held_mm.get_or_insert(here);
     }
@@ -315,6 +346,7 @@ impl AxisControl {
     /// Opens the position loop until the next start: the drive gets the speed 0, whatever the set position does (reaction
     /// class 8). The monitors, which watch a closed loop, have nothing to say any more.
     pub fn open_loop(&mut self) {
+        self.still_cycles = 0;
         self.open = true;
     }
 
@@ -335,7 +367,40 @@ impl AxisControl {
     pub fn change_ipc(&mut self, ipc: IpcConfig) -> Result<(), Fault> {
         self.ipc.change(&ipc, self.config.position.v_max_mm_s, self.cycle, self.moving)?;
         self.config.ipc = ipc;
+        self.still_cycles = 0;
         Ok(())
+    }
+
+    /// What the monitors raised in the last cycle.
+    pub const fn faults(&self) -> &Faults {
+        &self.faults
+    }
+
+    /// The axis rests, and a cycle with these values would change nothing: it would give the output of the last one bit
+    /// for bit, and may be left out.
+    pub fn rests_under(
+        &self,
+        set_mm: f64,
+        gain: f64,
+        jerk_limited: bool,
+        inputs: &AxisInputs,
+    ) -> bool {
+        self.still_cycles >= Self::REST_CYCLES
+            && self.given == Given::new(set_mm, gain, jerk_limited, inputs)
+    }
+
+    /// Counts cycles that are given the same and change nothing that has no fixed memory.
+    fn count_still(&mut self, given: Given) {
+        let still = given == self.given
+            && self.plant.rests()
+            && self.lag.rests()
+            && self.exact_stop.rests()
+            && !self.limiter.is_active()
+            && self.ipc.is_off()
+            && !self.diverged
+            && self.faults.is_empty();
+        self.still_cycles = if still { self.still_cycles.saturating_add(1) } else { 0 };
+        self.given = given;
     }
 
     /// Position that the controller, the monitors and the exact stop see.
@@ -362,6 +427,7 @@ impl AxisControl {
     /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
     #[inline] // the output is large: used where it is made
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
+        let given = Given::new(set_mm, gain, jerk_limited, &self.inputs);
         let set_mm = if set_mm.abs() <= Self::RANGE_MM { set_mm } else { self.set_mm };
         let position_mm = set_mm + self.inputs.additional_mm;
         self.moving = (position_mm - self.position_mm).abs() > 0.0;
@@ -378,7 +444,11 @@ impl AxisControl {
         let position = &self.config.position;
         let kv = position.gain_at(reference_step_mm / cycle_s);
         let error_mm = position.error_mm(reference_mm - actual_mm, reference_step_mm.abs() <= 0.0);
-        let mut feedforward = self.feedforward.step(&self.buffer.window(), kv);
+        let mut feedforward = if self.buffer.is_without_gain() && self.feedforward.needs_gain() {
+            FeedforwardOutput::default()
+        } else {
+            self.feedforward.step(&self.buffer.window(), kv)
+        };
         if self.held_mm.is_some() {
             feedforward = FeedforwardOutput::default();
         }
@@ -395,14 +465,14 @@ impl AxisControl {
         }
         let (command_mm_s, speed_fault) = self.limiter.step(wanted + additive.speed_mm_s);
 
-        let mut faults = Faults::default();
-        self.setpoint.step(set_mm).into_iter().for_each(|f| faults.push(f));
-        faults.push(speed_fault);
-        faults.push(self.lag.step(reference_mm, actual_mm, kv));
+        self.faults.clear();
+        self.setpoint.step(set_mm, &mut self.faults);
+        self.faults.push(speed_fault);
+        self.faults.push(self.lag.step(reference_mm, actual_mm, kv));
         let late = self.exact_stop.step(set_mm, actual_mm - self.inputs.additional_mm);
         // an axis that a reaction holds where it is does not arrive, and that is told already
-        faults.push(late.filter(|_| self.held_mm.is_none()));
-        faults.push(self.advance(
+        self.faults.push(late.filter(|_| self.held_mm.is_none()));
+        let unstable = self.advance(
             PlantInput {
                 speed_mm_s: self.felt_mm_s(command_mm_s, feedforward.additive_speed_mm_s),
                 acc_mm_s2: self.felt_mm_s2(feedforward.additive_acc_mm_s2),
@@ -410,10 +480,12 @@ impl AxisControl {
                 reference_mm,
             },
             reference_mm - actual_mm,
-        ));
+        );
+        self.faults.push(unstable);
         if self.open {
-            faults = Faults::default();
+            self.faults.clear();
         }
+        self.count_still(given);
 
         let tcp_acc_mm_s2 = (measured.tcp_mm_s - self.tcp_mm_s) / cycle_s;
         self.tcp_mm_s = measured.tcp_mm_s;
@@ -437,7 +509,7 @@ impl AxisControl {
             tcp_mm: measured.tcp_mm,
             tcp_acc_mm_s2,
             drive: self.drive_values(command_mm_s, &feedforward, additive.speed_mm_s),
-            faults,
+            faulty: !self.faults.is_empty(),
         }
     }
 

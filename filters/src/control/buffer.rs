@@ -46,6 +46,8 @@ pub struct SetpointBuffer {
     newest: usize,
     delay: usize,
     shift: usize,
+    /// Setpoints without feedforward in a row.
+    without_gain: usize,
 }
 
 impl SetpointBuffer {
@@ -59,7 +61,13 @@ impl SetpointBuffer {
     pub fn new(delay_cycles: usize, shift_cycles: usize) -> Self {
         let delay = delay_cycles.min(Self::MAX_DELAY);
         let ring = [Setpoint::default(); Self::CAPACITY];
-        Self { ring, newest: 0, delay, shift: shift_cycles.min(delay) }
+        Self {
+            ring,
+            newest: 0,
+            delay,
+            shift: shift_cycles.min(delay),
+            without_gain: Self::CAPACITY,
+        }
     }
 
     /// Delay in cycles.
@@ -70,12 +78,20 @@ impl SetpointBuffer {
     /// Fills the buffer with an axis at rest.
     pub fn start(&mut self, position_mm: f64) {
         self.ring = [Setpoint { position_mm, ..Setpoint::default() }; Self::CAPACITY];
+        self.without_gain = Self::CAPACITY;
     }
 
     /// Takes the setpoint of this cycle.
     pub fn push(&mut self, setpoint: Setpoint) {
         self.newest = (self.newest + 1) % Self::CAPACITY;
         self.ring[self.newest] = setpoint;
+        let has_gain = setpoint.gain.to_bits() != 0;
+        self.without_gain = if has_gain { 0 } else { self.without_gain.saturating_add(1) };
+    }
+
+    /// No setpoint of the buffer has feedforward: the gain of every window is 0.
+    pub(crate) const fn is_without_gain(&self) -> bool {
+        self.without_gain >= Self::CAPACITY
     }
 
     /// Setpoint `age` cycles ago; beyond the newest the newest.

@@ -104,6 +104,13 @@ impl Faults {
         self.items.iter().flatten()
     }
 
+    /// Forgets all of them.
+    pub(crate) fn clear(&mut self) {
+        if !self.is_empty() {
+            *self = Self::default();
+        }
+    }
+
     /// Nothing was raised.
     pub fn is_empty(&self) -> bool {
         self.items[0].is_none()

@@ -247,6 +247,15 @@ impl Feedforward {
         }
     }
 
+    /// In a window of gain 0 every value is 0: no delay gives out what went in before. (All three parts at the controller
+    /// output could sum up to -0.)
+    pub(crate) fn needs_gain(&self) -> bool {
+        use FeedforwardMode as M;
+        let mode = self.config.mode;
+        let delayed = [M::ADD_VEL, M::ADD_ACC, M::ADD_JERK].iter().any(|m| mode.contains(*m));
+        !delayed && !mode.contains(M::VEL | M::ACC | M::JERK)
+    }
+
     /// Values of one cycle; `kv_per_s` is the gain of the position controller in this cycle.
     #[inline] // the window is used where it is made
     pub fn step(&mut self, window: &Window, kv_per_s: f64) -> FeedforwardOutput {

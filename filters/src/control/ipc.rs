@@ -311,6 +311,11 @@ impl Ipc {
         self.computed.fill(IpcOutput::default());
     }
 
+    /// It has no stages and adds nothing.
+    pub(crate) const fn is_off(&self) -> bool {
+        self.stages.is_empty()
+    }
+
     /// Additive speed of one cycle.
     pub fn step(&mut self, input: &IpcInput) -> IpcOutput {
         if self.stages.is_empty() {

@@ -11,7 +11,7 @@ mod models;
 
 use super::fault::Issue;
 use crate::time::CycleTime;
-use linear::LinearPlant;
+use linear::{Continuous, LinearPlant};
 pub use models::{ModalConfig, Mode, SpeedLoop, TwoMassConfig};
 
 /// Kind and parameters of the simulated axis.
@@ -165,12 +165,30 @@ pub struct Plant {
     dead_time: [f64; PlantConfig::MAX_DEAD_TIME + 1],
     dead_time_cycles: usize,
     measured: Measured,
+    rests: bool,
 }
 
+/// The model with its number of states, which the drives of most machines have few of.
 #[derive(Clone, Debug)]
 enum Dynamics {
     Follow { cycle_s: f64 },
-    Linear(Box<LinearPlant>),
+    Two(LinearPlant<[f64; 2]>),
+    Three(LinearPlant<[f64; 3]>),
+    Many(Box<LinearPlant<Vec<f64>>>),
+}
+
+impl Dynamics {
+    fn new(
+        model: &Continuous,
+        cycle: CycleTime,
+        disturbance: Option<Disturbance>,
+    ) -> Result<Self, PlantError> {
+        Ok(match model.a.nrows() {
+            2 => Self::Two(LinearPlant::new(model, cycle, disturbance)?),
+            3 => Self::Three(LinearPlant::new(model, cycle, disturbance)?),
+            _ => Self::Many(Box::new(LinearPlant::new(model, cycle, disturbance)?)),
+        })
+    }
 }
 
 impl Plant {
@@ -181,15 +199,14 @@ impl Plant {
     pub fn new(config: &PlantConfig, cycle: CycleTime) -> Result<Self, PlantError> {
         let dynamics = match models::continuous(&config.model)? {
             None => Dynamics::Follow { cycle_s: cycle.seconds() },
-            Some(model) => {
-                Dynamics::Linear(Box::new(LinearPlant::new(&model, cycle, config.disturbance)?))
-            }
+            Some(model) => Dynamics::new(&model, cycle, config.disturbance)?,
         };
         Ok(Self {
             dynamics,
             dead_time: [0.0; PlantConfig::MAX_DEAD_TIME + 1],
             dead_time_cycles: config.dead_time_cycles.min(PlantConfig::MAX_DEAD_TIME),
             measured: Measured::default(),
+            rests: false,
         })
     }
 
@@ -197,8 +214,12 @@ impl Plant {
     pub fn start(&mut self, position_mm: f64) {
         self.dead_time.fill(0.0);
         self.measured = Measured::rigid(position_mm, 0.0);
-        if let Dynamics::Linear(linear) = &mut self.dynamics {
-            linear.start(position_mm);
+        self.rests = false;
+        match &mut self.dynamics {
+            Dynamics::Follow { .. } => {}
+            Dynamics::Two(linear) => linear.start(position_mm),
+            Dynamics::Three(linear) => linear.start(position_mm),
+            Dynamics::Many(linear) => linear.start(position_mm),
         }
     }
 
@@ -209,20 +230,36 @@ impl Plant {
 
     /// The models separate the tool point from the load.
     pub fn has_tool_point(&self) -> bool {
-        matches!(&self.dynamics, Dynamics::Linear(linear) if linear.has_tool_point())
+        match &self.dynamics {
+            Dynamics::Follow { .. } => false,
+            Dynamics::Two(linear) => linear.has_tool_point(),
+            Dynamics::Three(linear) => linear.has_tool_point(),
+            Dynamics::Many(linear) => linear.has_tool_point(),
+        }
+    }
+
+    /// The last cycle has changed nothing, bit for bit: while the input stays the same, none will.
+    pub const fn rests(&self) -> bool {
+        self.rests
     }
 
     /// Advances by one cycle. False if the state is no longer finite; what was measured last then stays.
     pub fn advance(&mut self, mut input: PlantInput) -> bool {
-        self.dead_time.copy_within(..PlantConfig::MAX_DEAD_TIME, 1);
-        self.dead_time[0] = input.speed_mm_s;
-        input.speed_mm_s = self.dead_time[self.dead_time_cycles];
+        if self.dead_time_cycles > 0 {
+            self.dead_time.copy_within(..self.dead_time_cycles, 1);
+            self.dead_time[0] = input.speed_mm_s;
+            input.speed_mm_s = self.dead_time[self.dead_time_cycles];
+        }
         let measured = match &mut self.dynamics {
             Dynamics::Follow { cycle_s } => {
                 let before = self.measured.motor_mm;
-                Measured::rigid(input.reference_mm, (input.reference_mm - before) / *cycle_s)
+                let step_mm = input.reference_mm - before;
+                self.rests = step_mm.to_bits() == 0;
+                Measured::rigid(input.reference_mm, step_mm / *cycle_s)
             }
-            Dynamics::Linear(linear) => linear.advance(&input),
+            Dynamics::Two(linear) => linear.advance(&input, &mut self.rests),
+            Dynamics::Three(linear) => linear.advance(&input, &mut self.rests),
+            Dynamics::Many(linear) => linear.advance(&input, &mut self.rests),
         };
         let finite = measured.is_finite();
         if finite {

@@ -110,6 +110,11 @@ impl SpeedLimiter {
         Self { limit_mm_s: config.speed_limit_mm_s(), active: false }
     }
 
+    /// The command is at the limit.
+    pub(crate) const fn is_active(&self) -> bool {
+        self.active
+    }
+
     /// The limited command and the fault of a beginning excess.
     pub fn step(&mut self, speed_mm_s: f64) -> (f64, Option<Fault>) {
         let Some(limit_mm_s) = self.limit_mm_s.filter(|l| speed_mm_s.abs() > *l) else {

@@ -44,7 +44,7 @@ fn run(mut axis: AxisControl, profile: &Profile, gain: f64) -> Vec<ControlOutput
     let cycles = (profile.end_s() * 1e3) as usize + 400;
     let all = (0..cycles + delay).map(|k| axis.step(profile.at(k as f64 * 1e-3), gain, true));
     let kept: Vec<_> = all.skip(delay).collect();
-    assert!(kept.iter().all(|o| o.faults.is_empty()));
+    assert!(kept.iter().all(|o| !o.faulty));
     assert!((kept[100].reference_mm - profile.at(0.1)).abs() < 1e-12, "aligned with the reference");
     kept
 }

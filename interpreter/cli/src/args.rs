@@ -1,6 +1,6 @@
 //! The command line as clap sees it. Wrong usage ends with exit code 2.
 
-use crate::engine::Request;
+use crate::request::Request;
 use clap::{Parser, Subcommand, ValueEnum};
 use kontur_interpreter::machine::Override;
 use std::path::PathBuf;
@@ -35,6 +35,21 @@ pub enum Command {
     Explain(ExplainArgs),
 }
 
+impl Command {
+    /// How its messages are printed.
+    pub const fn message_form(&self) -> MessageForm {
+        match self {
+            Self::Run(a) => a.simulation.diagnostics,
+            Self::Check(a) => a.simulation.diagnostics,
+            Self::Diff(a) => a.simulation.diagnostics,
+            Self::Report(a) => a.simulation.diagnostics,
+            Self::Sweep(a) => a.simulation.diagnostics,
+            Self::Tune(a) => a.simulation.diagnostics,
+            Self::Response(_) | Self::Explain(_) => MessageForm::Text,
+        }
+    }
+}
+
 /// How results are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SummaryForm {
@@ -65,6 +80,7 @@ pub enum OutputForm {
 }
 
 /// Options that decide what is simulated.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
 #[derive(Clone, Debug, clap::Args)]
 pub struct SimulationArgs {
     /// Machine: a folder with a start-up list, or the list itself [default: the built-in xyz]
@@ -118,6 +134,11 @@ pub struct SimulationArgs {
     #[arg(long)]
     pub identity_trafo: bool,
 
+    /// Wait for M, H and S functions as long as the channel list declares (P-CHAN-00026, 00040, 00042 to 00048, 00080); without
+    /// it they take no time and the summary names them
+    #[arg(long)]
+    pub techno_times: bool,
+
     /// Value of an external variable at program start, e.g. `Speed=1200` for V.E.Speed
     #[arg(long, value_name = "NAME=VALUE", value_parser = external)]
     pub external: Vec<(String, String)>,
@@ -144,7 +165,9 @@ impl SimulationArgs {
             max_blocks: self.max_blocks,
             strict: self.strict,
             identity_trafo: self.identity_trafo,
+            techno_times: self.techno_times,
             external: self.external.clone(),
+            guard: None,
         }
     }
 }
@@ -171,6 +194,11 @@ pub struct RunArgs {
     /// Form of the summary on stdout (stderr with `-o -`)
     #[arg(long, value_enum, default_value_t = SummaryForm::Text)]
     pub summary: SummaryForm,
+
+    /// Account for the time by line and by what held the speed down: in the summary, or every line in a table. What would help is tried
+    /// out, with a run for each proposal
+    #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, value_parser = table)]
+    pub times: Option<Option<PathBuf>>,
 
     /// What is simulated
     #[command(flatten)]
@@ -257,6 +285,13 @@ pub struct ExplainArgs {
     /// An error ID (22060, P-ERR-70082, K-0012), a parameter (P-AXIS-00571 or its key) or a command
     #[arg(required = true)]
     pub thing: Vec<String>,
+}
+
+/// The name of a table.
+fn table(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+    if is_csv { Ok(path) } else { Err("the table of all lines is a .csv file".to_owned()) }
 }
 
 /// The form only; what the words name is the machine's business.

@@ -1,9 +1,10 @@
 //! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if somebody watches.
 
-use crate::render::printable;
+use crate::args::MessageForm;
 use crate::{Error, Exit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use kontur_interpreter::diag::shortened;
+use kontur_interpreter::diag::render::{self, printable};
+use kontur_interpreter::diag::{Diagnostic, Severity, shortened};
 use std::cell::RefCell;
 use std::io::{IsTerminal, Write};
 use std::rc::Rc;
@@ -14,6 +15,8 @@ pub struct Console {
     out: Output,
     err: Box<dyn Write>,
     terminal: bool,
+    colours: bool,
+    form: MessageForm,
 }
 
 impl std::fmt::Debug for Console {
@@ -23,18 +26,28 @@ impl std::fmt::Debug for Console {
 }
 
 impl Console {
-    /// The process' own stdout and stderr; colours and progress if stderr is a terminal.
+    /// The process' own stdout and stderr; progress if stderr is a terminal, colours too unless `NO_COLOR` is set.
     pub fn of_process() -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        let unwanted = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         Self {
             out: Output(Rc::new(RefCell::new(std::io::stdout()))),
             err: Box::new(std::io::stderr()),
-            terminal: std::io::stderr().is_terminal(),
+            terminal,
+            colours: terminal && !unwanted,
+            form: MessageForm::Text,
         }
     }
 
     /// Any two writers, neither of them a terminal.
     pub fn new(out: impl Write + 'static, err: impl Write + 'static) -> Self {
-        Self { out: Output(Rc::new(RefCell::new(out))), err: Box::new(err), terminal: false }
+        Self {
+            out: Output(Rc::new(RefCell::new(out))),
+            err: Box::new(err),
+            terminal: false,
+            colours: false,
+            form: MessageForm::Text,
+        }
     }
 
     /// Stdout, for a trace.
@@ -42,9 +55,30 @@ impl Console {
         self.out.clone()
     }
 
-    /// True if stderr is a terminal: colours and a progress bar make sense.
-    pub const fn is_terminal(&self) -> bool {
-        self.terminal
+    /// Form of every message from now on.
+    pub const fn speak(&mut self, form: MessageForm) {
+        self.form = form;
+    }
+
+    /// Prints a message to stderr.
+    pub fn announce(&mut self, message: &Diagnostic) {
+        let text = match self.form {
+            MessageForm::Text => render::text(message, self.colours),
+            MessageForm::Json => render::json(message),
+        };
+        self.error_text(&text);
+    }
+
+    /// Says something that is no diagnostic of a program or a list, in the same form as those.
+    pub fn say(&mut self, severity: Severity, text: &str) {
+        let text = printable(&shortened(text.to_owned()));
+        let line = match self.form {
+            MessageForm::Text => format!("{severity}: {text}"),
+            MessageForm::Json => {
+                serde_json::json!({ "id": null, "severity": severity, "text": text }).to_string()
+            }
+        };
+        self.error_text(&line);
     }
 
     /// Writes a result, with a line end if it has none. A closed pipe ends the output silently.
@@ -73,7 +107,7 @@ impl Console {
             // the reader of a pipe has seen enough
             Err(e @ Error::ClosedPipe) => e.exit(),
             Err(e) => {
-                self.error_text(&format!("error: {}", printable(&shortened(e.to_string()))));
+                self.say(Severity::Error, &e.to_string());
                 e.exit()
             }
         }

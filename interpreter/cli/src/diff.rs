@@ -11,11 +11,10 @@ mod table;
 
 use crate::args::{DiffArgs, OutputForm};
 use crate::console::Console;
-use crate::engine::Engine;
-use crate::render::printable;
 use crate::{Error, Exit};
 use compare::{Comparison, Difference, Outcome};
 use kontur_interpreter::diag::QUOTED_MAX;
+use kontur_interpreter::diag::render::printable;
 pub use recording::Pairing;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -68,28 +67,22 @@ impl Tolerance {
 ///
 /// # Errors
 /// [`Error`] if a trace cannot be read or a program cannot be run.
-pub fn diff(
-    args: &DiffArgs,
-    engine: &mut dyn Engine,
-    console: &mut Console,
-) -> Result<Exit, Error> {
-    let form = args.simulation.diagnostics;
+pub fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error> {
     let is_a = table::is_trace(&args.a)?;
     let mut open = |path: &std::path::Path, trace: bool, like: Option<&[String]>| {
         if trace {
             return Table::read(path);
         }
-        let source = engine
-            .open(&args.simulation.request(path))
-            .map_err(|e| crate::run::announce_lists(e, form, console))?;
-        Table::run(source, like)
+        let opened = args.simulation.request(path).open();
+        let opened = opened.map_err(|e| crate::run::announce_lists(e, console))?;
+        Table::run(opened.run, like)
     };
     let names = [args.a.display().to_string(), args.b.display().to_string()];
     if !args.map.is_empty() {
         let mut a = open(&args.a, is_a, Some(&recording::columns(&args.map)))?;
         let outcome = recording::compare(&mut a, &args.b, &args.map, args.tolerance)?;
         for message in a.take_messages() {
-            crate::run::announce(&message, form, console);
+            console.announce(&message);
         }
         let text = || recording::text(&names, &outcome);
         return report(args.format, &names, (&outcome, outcome.equal), text, console);
@@ -113,7 +106,7 @@ pub fn diff(
     }
     drop(progress);
     for message in a.take_messages().iter().chain(&b.take_messages()) {
-        crate::run::announce(message, form, console);
+        console.announce(message);
     }
     let outcome = comparison.finish();
     report(args.format, &names, (&outcome, outcome.equal), || text(&names, &outcome), console)

@@ -2,22 +2,17 @@
 
 use crate::args::ExplainArgs;
 use crate::console::Console;
-use crate::engine::Engine;
 use crate::{Error, Exit};
 
 /// Explains the thing that the words name together (`#VIB GUARD` is two words to a shell).
 ///
 /// # Errors
 /// [`Error::Usage`] if nobody knows it, with words that resemble it.
-pub fn explain(
-    args: &ExplainArgs,
-    engine: &dyn Engine,
-    console: &mut Console,
-) -> Result<Exit, Error> {
+pub fn explain(args: &ExplainArgs, console: &mut Console) -> Result<Exit, Error> {
     let thing = args.thing.join(" ");
-    match engine.explain(&thing) {
+    match kontur_interpreter::explain::explain(&thing) {
         Ok(text) => {
-            console.print(&text)?;
+            console.print(&text.to_string())?;
             Ok(Exit::Finished)
         }
         Err(similar) => {

@@ -171,16 +171,6 @@ impl ProgramFiles {
         self.opened.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect()
     }
 
-    /// A file that is not what it was when it was opened first.
-    pub fn changed(&self) -> Option<(PathBuf, io::Error)> {
-        let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
-        opened.iter().find_map(|(path, state)| match path.metadata() {
-            Ok(now) if State::of(&now) == *state => None,
-            Ok(_) => Some((path.clone(), changed())),
-            Err(e) => Some((path.clone(), e)),
-        })
-    }
-
     /// The main program.
     fn main(&self, name: &str) -> Result<Box<dyn Source>, OpenError> {
         // its name in messages need not lead to it: names of files may hold what is no text
@@ -274,6 +264,15 @@ impl Sources for ProgramFiles {
             searched.push(place.display().to_string());
         }
         Err(OpenError { name: name.to_owned(), reason, searched })
+    }
+
+    fn changed(&self) -> Option<(String, io::Error)> {
+        let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        opened.iter().find_map(|(path, state)| match path.metadata() {
+            Ok(now) if State::of(&now) == *state => None,
+            Ok(_) => Some((path.display().to_string(), changed())),
+            Err(e) => Some((path.display().to_string(), e)),
+        })
     }
 }
 

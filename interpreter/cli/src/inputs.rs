@@ -4,12 +4,12 @@
 //! empty cell changes nothing. Every file is read through once before the run, so that a mistake at its end refuses the
 //! run before its first cycle; then it is read again, line by line, as the run goes on.
 
-use crate::engine::OpenError;
 use crate::files::regular;
+use crate::request::OpenError;
 use crate::text::Text;
 use kontur_interpreter::diag::{Condition, Diagnostic, Location};
+use kontur_interpreter::job::{Change, Changes, Signal};
 use kontur_interpreter::machine::Machine;
-use kontur_interpreter::sim::{Change, Changes, Signal};
 use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};

@@ -1,29 +1,29 @@
 //! The `kontur` command line: arguments, files, terminal and pictures.
 //!
-//! One file per subcommand. Each of them is a function of its arguments, an [`engine::Engine`] (what computes) and a
-//! [`console::Console`] (where text goes), so that tests call it without a process and without a terminal.
+//! One file per subcommand. Each of them is a function of its arguments and a [`console::Console`] (where text goes), so
+//! that tests call it without a process and without a terminal. What computes is the library's
+//! [`Job`](kontur_interpreter::job::Job), which [`request`] makes from files and options.
 
 pub mod args;
 pub mod check;
 pub mod console;
 pub mod diff;
-pub mod engine;
 pub mod explain;
 pub mod files;
 pub mod inputs;
 mod interrupt;
 mod recorded;
-pub mod render;
 pub mod report;
+pub mod request;
 pub mod response;
 pub mod run;
-pub mod simulator;
 mod spectrum;
 pub mod summary;
 pub mod sweep;
 mod table;
 pub mod target;
 pub mod text;
+pub mod times;
 pub mod trace;
 pub mod tune;
 pub mod vary;
@@ -100,15 +100,11 @@ impl Error {
 pub fn main_with(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     interrupt::listen();
     let mut console = Console::of_process();
-    ExitCode::from(run_with(args, &mut simulator::Kontur, &mut console) as u8)
+    ExitCode::from(run_with(args, &mut console) as u8)
 }
 
-/// Runs one command on the given engine and console.
-pub fn run_with(
-    args: impl IntoIterator<Item = OsString>,
-    engine: &mut dyn engine::Engine,
-    console: &mut Console,
-) -> Exit {
+/// Runs one command on the given console.
+pub fn run_with(args: impl IntoIterator<Item = OsString>, console: &mut Console) -> Exit {
     let args = match args::Args::try_parse_from(args) {
         Ok(args) => args,
         Err(e) if e.use_stderr() => {
@@ -120,15 +116,16 @@ pub fn run_with(
             return console.finish(printed);
         }
     };
+    console.speak(args.command.message_form());
     let done = match &args.command {
-        args::Command::Run(a) => run::run(a, engine, console),
-        args::Command::Check(a) => check::check(a, engine, console),
-        args::Command::Diff(a) => diff::diff(a, engine, console),
-        args::Command::Report(a) => report::report(a, engine, console),
+        args::Command::Run(a) => run::run(a, console),
+        args::Command::Check(a) => check::check(a, console),
+        args::Command::Diff(a) => diff::diff(a, console),
+        args::Command::Report(a) => report::report(a, console),
         args::Command::Response(a) => response::response(a, console),
-        args::Command::Sweep(a) => sweep::sweep(a, engine, console),
-        args::Command::Tune(a) => tune::tune(a, engine, console),
-        args::Command::Explain(a) => explain::explain(a, engine, console),
+        args::Command::Sweep(a) => sweep::sweep(a, console),
+        args::Command::Tune(a) => tune::tune(a, console),
+        args::Command::Explain(a) => explain::explain(a, console),
     };
     console.finish(done)
 }

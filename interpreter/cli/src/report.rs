@@ -10,11 +10,13 @@ mod recording;
 mod signals;
 mod stops;
 mod svg;
+mod track;
 
 use crate::args::ReportArgs;
 use crate::console::Console;
-use crate::engine::{Engine, Request};
 use crate::files::STANDARD;
+use crate::request::{Opened, Request};
+use crate::run::{Shown, announce_lists, drive};
 use crate::summary::{Collector, State, Summary};
 use crate::target::keep_apart;
 use crate::vary::{combinations, put};
@@ -26,11 +28,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or the output cannot be written.
-pub fn report(
-    args: &ReportArgs,
-    engine: &mut dyn Engine,
-    console: &mut Console,
-) -> Result<Exit, Error> {
+pub fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, Error> {
     let output = match (&args.output, args.programs.first()) {
         (Some(output), _) => output.clone(),
         (None, Some(program)) if program.as_os_str() == STANDARD => {
@@ -43,22 +41,21 @@ pub fn report(
     read.extend_from_slice(&args.simulation.input);
     keep_apart(&read, std::slice::from_ref(&output))?;
     if let Some(names) = &args.signals {
-        return signals::report(args, names, &output, engine, console);
+        return signals::report(args, names, &output, console);
     }
     let draw = drawer(&output)?;
     let mut runs: Vec<(Recording, Summary)> = Vec::new();
     for (program, values, request) in requests(args)? {
-        let form = args.simulation.diagnostics;
-        let mut source =
-            engine.open(&request).map_err(|e| crate::run::announce_lists(e, form, console))?;
-        keep_apart(&source.reads(), std::slice::from_ref(&output))?;
-        let mut summary = Collector::new(source.facts());
-        let mut recording = Recording::new(source.facts());
-        crate::run::drive(source.as_mut(), console, form, &mut summary, &mut |record| {
+        let opened = request.open().map_err(|e| announce_lists(e, console))?;
+        let Opened { mut run, reads } = opened;
+        keep_apart(&reads, std::slice::from_ref(&output))?;
+        let mut summary = Collector::new(run.facts());
+        let mut recording = Recording::new(run.facts());
+        drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
             recording.add(record);
             Ok(())
         })?;
-        let summary = summary.finish(&source.totals());
+        let summary = summary.finish(&run.totals());
         // runs of one program are told apart by what they vary
         let program = if values.is_empty() { program } else { format!("{program}, {values}") };
         runs.push((recording, Summary { program, ..summary }));

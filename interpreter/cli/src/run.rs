@@ -1,35 +1,38 @@
 //! `kontur run`: a program goes in, traces and a summary come out.
 
-use crate::args::{MessageForm, RunArgs, SummaryForm};
+use crate::args::{RunArgs, SummaryForm};
 use crate::console::{Console, Progress};
-use crate::engine::{Engine, OpenError, Source, Totals};
 use crate::files::is_standard;
 use crate::interrupt::Running;
+use crate::request::{OpenError, Opened};
 use crate::summary::Collector;
-use crate::target::keep_apart;
+use crate::target::{self, keep_apart};
 use crate::trace::Trace;
-use crate::{Error, Exit, render};
-use kontur_interpreter::diag::Diagnostic;
-
-/// Cycles between two looks at the clock and at new messages.
-const LOOK_EVERY: u64 = 1024;
+use crate::{Error, Exit, times};
+use kontur_interpreter::job::{Run, Sink, Totals};
+use kontur_interpreter::record::CycleRecord;
+use std::path::PathBuf;
 
 /// Runs a program.
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or a trace cannot be written.
-pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Result<Exit, Error> {
-    let form = args.simulation.diagnostics;
-    let mut source = engine
-        .open(&args.simulation.request(&args.program))
-        .map_err(|e| announce_lists(e, form, console))?;
-    keep_apart(&source.reads(), &args.output)?;
-    let create = |path| Trace::create(path, &args.signals, args.decimate, source.facts(), console);
+pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
+    let opened = args.simulation.request(&args.program).open();
+    let Opened { mut run, reads } = opened.map_err(|e| announce_lists(e, console))?;
+    let table = args.times.iter().flatten();
+    let written: Vec<PathBuf> = args.output.iter().chain(table).cloned().collect();
+    keep_apart(&reads, &written)?;
+    let create = |path| Trace::create(path, &args.signals, args.decimate, run.facts(), console);
     let mut traces: Vec<Trace> =
         args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
-    let mut summary = Collector::new(source.facts());
+    let mut summary = Collector::new(run.facts());
+    let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;
-    let written = drive(source.as_mut(), console, form, &mut summary, &mut |record| {
+    let written = drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
+        if let Some(times) = &mut times {
+            times.add(record);
+        }
         traces.iter_mut().try_for_each(|t| match t.write(record) {
             // nobody reads stdout any more: the files go on
             Err(Error::ClosedPipe) if !alone => {
@@ -40,7 +43,7 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
         })
     });
     // every trace is brought to its file even if another one failed
-    let finished: Vec<_> = traces.into_iter().map(|t| t.finish(source.as_ref())).collect();
+    let finished: Vec<_> = traces.into_iter().map(|t| t.finish(&run)).collect();
     let interrupted = match written {
         Err(e @ Error::Interrupted { .. }) => Some(e),
         other => {
@@ -49,12 +52,23 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
         }
     };
     finished.into_iter().collect::<Result<(), _>>()?;
-    let mut totals = source.totals();
+    let mut totals = run.totals();
     totals.aborted |= interrupted.is_some();
     let summary = summary.finish(&totals);
+    let mut times = times.map(times::Collector::finish);
+    if let Some(times) = times.as_mut().filter(|_| !totals.aborted) {
+        times::try_out(times, &args.simulation.request(&args.program))?;
+    }
+    if let (Some(times), Some(Some(path))) = (&times, &args.times) {
+        let table = times.csv().map_err(|e| Error::io(path.display().to_string(), e.into()))?;
+        target::write(path, &table)?;
+    }
     let text = match args.summary {
-        SummaryForm::Text => Some(summary.text()),
-        SummaryForm::Json => Some(summary.json()),
+        SummaryForm::Text => {
+            let times = times.map(|t| t.text()).unwrap_or_default();
+            Some(summary.text() + &times)
+        }
+        SummaryForm::Json => Some(summary.json(times.as_ref())),
         SummaryForm::None => None,
     };
     match text {
@@ -73,68 +87,76 @@ pub fn run(args: &RunArgs, engine: &mut dyn Engine, console: &mut Console) -> Re
     })
 }
 
-/// Drives a source to its end: every record to `take` and to the summary, every message to the console.
+/// How a run is shown on the terminal while it goes on.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    /// What tells it from others, in front of its progress.
+    pub label: &'a str,
+    /// Other messages are not printed.
+    pub errors_only: bool,
+}
+
+impl Shown<'_> {
+    /// A run that is the only one.
+    pub const ALONE: Self = Self { label: "", errors_only: false };
+}
+
+/// Drives a run to its end: every record to `take` and to the summary, every message to the console.
 ///
 /// # Errors
 /// The first error of `take`, or [`Error::Interrupted`]; messages raised up to then have been printed.
 pub fn drive(
-    source: &mut dyn Source,
+    run: &mut Run,
+    shown: Shown<'_>,
     console: &mut Console,
-    form: MessageForm,
     summary: &mut Collector,
-    take: &mut dyn FnMut(&kontur_interpreter::record::CycleRecord) -> Result<(), Error>,
+    take: impl FnMut(&CycleRecord) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let mut progress = console.progress();
-    let cycle_s = f64::from(source.facts().cycle_us) / 1e6;
-    let mut result = Ok(());
+    let progress = console.progress();
     let _running = Running::start();
-    while let Some(record) = source.next_cycle() {
-        summary.add(record);
-        result = take(record);
-        if result.is_err() {
-            break;
-        }
-        if summary.cycles().is_multiple_of(LOOK_EVERY) {
-            let (t, line) = (record.k as f64 * cycle_s, record.line);
-            progress.show(|| format!("t = {t:.1} s, line {line}"));
-            messages(source, console, form, summary, &progress);
-            if Running::is_interrupted() {
-                result = Err(Error::Interrupted { time_s: t });
-                break;
+    run.to_end(&mut Watch { shown, console, progress, summary, take })
+}
+
+/// A run with somebody who looks on and may stop it.
+struct Watch<'a, F> {
+    shown: Shown<'a>,
+    console: &'a mut Console,
+    progress: Progress,
+    summary: &'a mut Collector,
+    take: F,
+}
+
+impl<F: FnMut(&CycleRecord) -> Result<(), Error>> Sink for Watch<'_, F> {
+    type Stop = Error;
+
+    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Error> {
+        self.summary.add(record);
+        (self.take)(record)
+    }
+
+    fn pause(&mut self, run: &mut Run) -> Result<(), Error> {
+        for message in run.take_diagnostics() {
+            self.summary.message(&message);
+            if !self.shown.errors_only || message.is_error() {
+                self.progress.suspend(|| self.console.announce(&message));
             }
         }
+        let record = run.record();
+        let time_s = record.k as f64 * run.facts().cycle_s();
+        self.progress
+            .show(|| format!("{}t = {time_s:.1} s, line {}", self.shown.label, record.line));
+        if !run.is_over() && Running::is_interrupted() {
+            return Err(Error::Interrupted { time_s });
+        }
+        Ok(())
     }
-    messages(source, console, form, summary, &progress);
-    result
-}
-
-fn messages(
-    source: &mut dyn Source,
-    console: &mut Console,
-    form: MessageForm,
-    summary: &mut Collector,
-    progress: &Progress,
-) {
-    for message in source.take_diagnostics() {
-        summary.message(&message);
-        progress.suspend(|| announce(&message, form, console));
-    }
-}
-
-/// Prints one message to stderr.
-pub fn announce(message: &Diagnostic, form: MessageForm, console: &mut Console) {
-    let text = match form {
-        MessageForm::Text => render::text(message, console.is_terminal()),
-        MessageForm::Json => render::json(message),
-    };
-    console.error_text(&text);
 }
 
 /// Prints the messages of refused lists or inputs and turns the rest into an error.
-pub fn announce_lists(e: OpenError, form: MessageForm, console: &mut Console) -> Error {
+pub fn announce_lists(e: OpenError, console: &mut Console) -> Error {
     if let OpenError::Lists(messages) | OpenError::Inputs(messages) = &e {
         for message in messages {
-            announce(message, form, console);
+            console.announce(message);
         }
     }
     e.into()

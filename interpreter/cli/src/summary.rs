@@ -2,10 +2,10 @@
 
 mod ripple;
 
-use crate::engine::{Facts, Totals};
+use crate::times::Times;
 use kontur_interpreter::diag::{Diagnostic, Severity};
-use kontur_interpreter::record::{AxisRecord, CycleRecord, SpeedLimit};
-use kontur_interpreter::sim::SettledStop;
+use kontur_interpreter::job::{Facts, SettledStop, Totals};
+use kontur_interpreter::record::{AxisRecord, CycleRecord, Rest, SpeedLimit};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -103,6 +103,9 @@ pub struct Summary {
     pub ideal_duration_s: f64,
     /// Time in seconds for which the path dwelt (G04, `#TIME`); part of `stop` in `time_by_v_limit_s`.
     pub dwell_s: f64,
+    /// Time in seconds for which the path waited for M, H and S functions as long as the lists declare; part of `stop` in
+    /// `time_by_v_limit_s`.
+    pub technology_s: f64,
     /// Time in seconds for which feedhold or override 0 kept the path at rest.
     pub held_s: f64,
     /// Time in seconds from the end of the last motion until every axis was in its exact-stop window.
@@ -138,6 +141,7 @@ pub struct Collector {
     cycles: u64,
     worst: (f64, u64, u32, u32, Option<u64>),
     limits: [u64; SpeedLimit::ALL.len()],
+    rests: [u64; Rest::ALL.len()],
     ripple: ripple::Collector,
     messages: Vec<Diagnostic>,
     omitted: u64,
@@ -153,6 +157,7 @@ impl Collector {
             cycles: 0,
             worst: (0.0, 0, 0, 0, None),
             limits: [0; SpeedLimit::ALL.len()],
+            rests: [0; Rest::ALL.len()],
             ripple: ripple::Collector::new(facts),
             messages: Vec::new(),
             omitted: 0,
@@ -174,10 +179,14 @@ impl Collector {
             self.worst = place;
         }
         // row k stands for the time since the row before; the first row is the start itself
-        if let Some((before, _)) = self.last
-            && let Some(i) = SpeedLimit::ALL.iter().position(|l| *l == record.path.limit)
-        {
-            self.limits[i] += record.k.saturating_sub(before);
+        if let Some((before, _)) = self.last {
+            let cycles = record.k.saturating_sub(before);
+            if let Some(i) = SpeedLimit::ALL.iter().position(|l| *l == record.path.limit) {
+                self.limits[i] += cycles;
+            }
+            if let Some(i) = Rest::ALL.iter().position(|r| Some(*r) == record.path.rest) {
+                self.rests[i] += cycles;
+            }
         }
         self.ripple.add(record, self.facts.cycle_us);
         self.last = Some((record.k, record.path.s_mm));
@@ -206,6 +215,10 @@ impl Collector {
         let (mm, at, file, line, block) = self.worst;
         let axes = self.axes.iter().zip(&facts.axes).enumerate();
         let name = |file: u32| facts.files.name(file);
+        let rested_s = |rest: Rest| {
+            let kinds = Rest::ALL.iter().zip(self.rests);
+            kinds.filter(|(r, _)| **r == rest).map(|(_, cycles)| seconds(cycles)).sum()
+        };
         let stop = |stop: &SettledStop| StopSummary {
             axis: facts.axes.get(stop.axis).map(|a| a.name.clone()).unwrap_or_default(),
             time_s: seconds(stop.k),
@@ -219,9 +232,10 @@ impl Collector {
             cycles: self.cycles,
             duration_s: seconds(k),
             ideal_duration_s: totals.ideal_duration_s,
-            dwell_s: seconds(totals.dwell_cycles),
-            held_s: seconds(totals.held_cycles),
-            arrival_s: seconds(totals.arrival_cycles),
+            dwell_s: rested_s(Rest::Dwell),
+            technology_s: rested_s(Rest::Technology),
+            held_s: rested_s(Rest::Held),
+            arrival_s: rested_s(Rest::Arrival),
             stops: totals.stops.first.iter().map(stop).collect(),
             not_counted: totals.not_counted.clone(),
             blocks: totals.blocks,
@@ -268,9 +282,17 @@ fn many(n: usize, what: &str) -> String {
 }
 
 impl Summary {
-    /// One JSON object on one line.
-    pub fn json(&self) -> String {
-        serde_json::to_string(self).unwrap_or_default()
+    /// One JSON object on one line; with times it has them as `times`.
+    pub fn json(&self, times: Option<&Times>) -> String {
+        #[derive(Serialize)]
+        struct WithTimes<'a> {
+            #[serde(flatten)]
+            summary: &'a Summary,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            times: Option<serde_json::Value>,
+        }
+        let object = WithTimes { summary: self, times: times.map(Times::json) };
+        serde_json::to_string(&object).unwrap_or_default()
     }
 
     /// The readable form.
@@ -290,6 +312,10 @@ impl Summary {
         writeln!(out, "  ideal          {:.3} s (path / feed)", self.ideal_duration_s)?;
         if self.dwell_s > 0.0 {
             writeln!(out, "  dwells         {:.3} s", self.dwell_s)?;
+        }
+        if self.technology_s > 0.0 {
+            let text = "M, H and S functions, by their declared durations";
+            writeln!(out, "  technology     {:.3} s ({text})", self.technology_s)?;
         }
         if self.held_s > 0.0 {
             writeln!(out, "  held           {:.3} s (feedhold or override 0)", self.held_s)?;
@@ -332,9 +358,10 @@ impl Summary {
             if let Some((_, stop)) =
                 shares.iter_mut().find(|(name, _)| *name == SpeedLimit::Stop.name())
             {
-                *stop -= self.dwell_s;
+                *stop -= self.dwell_s + self.technology_s;
             }
-            shares.push(("dwell", self.dwell_s));
+            shares.push((Rest::Dwell.name(), self.dwell_s));
+            shares.push((Rest::Technology.name(), self.technology_s));
             shares.retain(|(_, s)| *s > 0.5e-9);
             shares.sort_by(|a, b| b.1.total_cmp(&a.1));
             for (i, (name, seconds)) in shares.iter().enumerate() {

@@ -11,8 +11,8 @@ mod parquet;
 mod picture;
 
 use crate::console::Console;
-use crate::engine::{Engine, OpenError, Request};
 use crate::interrupt::Running;
+use crate::request::{OpenError, Opened, Request};
 use crate::spectrum::AmplitudeSpectrum;
 use crate::summary::{Collector, Summary};
 use crate::table::Table;
@@ -23,6 +23,9 @@ use crate::{Error, Exit};
 use args::{Amplitude, SweepArgs};
 use columns::Cell;
 use journal::Journal;
+use kontur_interpreter::diag::Severity;
+use kontur_interpreter::job::{Run, Sink};
+use kontur_interpreter::record::CycleRecord;
 use rayon::prelude::*;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -63,12 +66,12 @@ struct Rows {
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or an output cannot be written.
-pub fn sweep(args: &SweepArgs, engine: &dyn Engine, console: &mut Console) -> Result<Exit, Error> {
+pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     let combinations = combinations(&args.vary)?;
     let (standard, files): (Vec<_>, Vec<_>) =
         args.output.iter().partition(|o| crate::files::is_standard(o));
     // a file that cannot be written ends the sweep before its first run
-    let (title, reads) = first(args, &combinations, engine, console)?;
+    let (title, reads) = first(args, &combinations, console)?;
     keep_apart(&reads, &args.output)?;
     let mut targets = Vec::new();
     for path in files {
@@ -79,12 +82,12 @@ pub fn sweep(args: &SweepArgs, engine: &dyn Engine, console: &mut Console) -> Re
         Some((path, _)) => Some(Journal::open(path, args, &reads)?),
         None => None,
     };
-    let rows = run_all(args, &combinations, journal.as_mut(), engine, console)?;
+    let rows = run_all(args, &combinations, journal.as_mut(), console)?;
     let rows = Rows { title, ..rows };
     let results: Vec<&[Cell]> = rows.cells.iter().map(|row| &row[args.vary.len()..]).collect();
     for vary in without_effect(&args.vary, &combinations, &results) {
-        console.error_text(&format!(
-            "note: {}: every value gives the same results; the program sets its own, or nothing uses it",
+        console.say(Severity::Note, &format!(
+            "{}: every value gives the same results; the program sets its own, or nothing uses it",
             vary.key
         ));
     }
@@ -106,16 +109,15 @@ pub fn sweep(args: &SweepArgs, engine: &dyn Engine, console: &mut Console) -> Re
 fn first(
     args: &SweepArgs,
     combinations: &[Vec<usize>],
-    engine: &dyn Engine,
     console: &mut Console,
 ) -> Result<(String, Vec<PathBuf>), Error> {
     let Some(first) = combinations.first() else { return Ok(Default::default()) };
     let mut request = args.simulation.request(&args.program);
     put(&args.vary, first, &mut request);
-    match engine.open(&request) {
-        Ok(source) => {
-            let facts = source.facts();
-            Ok((format!("{}, machine {}", facts.program, facts.machine), source.reads()))
+    match request.open() {
+        Ok(Opened { run, reads }) => {
+            let facts = run.facts();
+            Ok((format!("{}, machine {}", facts.program, facts.machine), reads))
         }
         Err(e) => Err(refused(args, first, e, console)),
     }
@@ -123,8 +125,8 @@ fn first(
 
 /// The error of a combination that cannot be run.
 fn refused(args: &SweepArgs, combination: &[usize], e: OpenError, console: &mut Console) -> Error {
-    console.error_text(&settings(&args.vary, combination).join(" "));
-    crate::run::announce_lists(e, args.simulation.diagnostics, console)
+    console.say(Severity::Note, &settings(&args.vary, combination).join(" "));
+    crate::run::announce_lists(e, console)
 }
 
 fn write(
@@ -167,7 +169,6 @@ fn run_all(
     args: &SweepArgs,
     combinations: &[Vec<usize>],
     mut journal: Option<&mut Journal>,
-    engine: &dyn Engine,
     console: &mut Console,
 ) -> Result<Rows, Error> {
     let mut progress = console.progress();
@@ -191,7 +192,7 @@ fn run_all(
                 if Running::is_interrupted() {
                     return;
                 }
-                let row = one(args, &request, engine).and_then(|outcome| {
+                let row = one(args, &request).and_then(|outcome| {
                     columns::row(args, &combinations[i], &outcome).map_err(Failure::Usage)
                 });
                 // the receiver lives until the last sender is gone
@@ -234,43 +235,66 @@ fn run_all(
     Ok(rows)
 }
 
+/// Collects the row of one run.
+struct Collected<'a> {
+    summary: Collector,
+    cycle_s: f64,
+    wanted: Vec<Wanted<'a>>,
+}
+
+/// A column whose amplitude is wanted.
+struct Wanted<'a> {
+    amplitude: &'a Amplitude,
+    column: Column,
+    samples: Vec<f64>,
+}
+
+impl Sink for Collected<'_> {
+    type Stop = Failure;
+
+    fn cycle(&mut self, record: &CycleRecord) -> Result<(), Failure> {
+        self.summary.add(record);
+        let time_s = record.k as f64 * self.cycle_s;
+        for Wanted { amplitude, column, samples } in &mut self.wanted {
+            if !amplitude.holds(time_s) {
+                continue;
+            }
+            if samples.len() == MOST_SAMPLES {
+                return Err(Failure::Usage(format!(
+                    "--amplitude {}: more than {MOST_SAMPLES} cycles; {}@0..10 takes a part",
+                    amplitude.text, amplitude.text
+                )));
+            }
+            samples.push(column.number(record).unwrap_or_default());
+        }
+        Ok(())
+    }
+
+    fn pause(&mut self, run: &mut Run) -> Result<(), Failure> {
+        for message in run.take_diagnostics() {
+            self.summary.message(&message);
+        }
+        if !run.is_over() && Running::is_interrupted() {
+            return Err(Failure::Interrupted);
+        }
+        Ok(())
+    }
+}
+
 /// One run.
-fn one(args: &SweepArgs, request: &Request, engine: &dyn Engine) -> Result<Outcome, Failure> {
-    let mut source = engine.open(request).map_err(Failure::Open)?;
-    let facts = source.facts().clone();
-    let cycle_s = f64::from(facts.cycle_us) / 1e6;
-    let mut wanted: Vec<(&Amplitude, Column, Vec<f64>)> = Vec::new();
+fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
+    let mut run = request.open().map_err(Failure::Open)?.run;
+    let facts = run.facts();
+    let cycle_s = facts.cycle_s();
+    let mut wanted = Vec::new();
     for amplitude in &args.amplitude {
-        let column = amplitude.column(&facts).map_err(Failure::Usage)?;
-        wanted.push((amplitude, column, Vec::new()));
+        let column = amplitude.column(facts).map_err(Failure::Usage)?;
+        wanted.push(Wanted { amplitude, column, samples: Vec::new() });
     }
-    let mut summary = Collector::new(&facts);
-    let mut messages = source.take_diagnostics();
-    while let Some(record) = source.next_cycle() {
-        summary.add(record);
-        for (amplitude, column, samples) in &mut wanted {
-            if amplitude.holds(record.k as f64 * cycle_s) {
-                if samples.len() == MOST_SAMPLES {
-                    return Err(Failure::Usage(format!(
-                        "--amplitude {}: more than {MOST_SAMPLES} cycles; {}@0..10 takes a part",
-                        amplitude.text, amplitude.text
-                    )));
-                }
-                samples.push(column.number(record).unwrap_or_default());
-            }
-        }
-        if record.k.is_multiple_of(1024) {
-            if Running::is_interrupted() {
-                return Err(Failure::Interrupted);
-            }
-            messages.extend(source.take_diagnostics());
-        }
-    }
-    messages.extend(source.take_diagnostics());
-    for message in &messages {
-        summary.message(message);
-    }
-    let amplitudes = wanted.iter().map(|(amplitude, _, samples)| {
+    let mut collected = Collected { summary: Collector::new(facts), cycle_s, wanted };
+    run.to_end(&mut collected)?;
+    let Collected { summary, wanted, .. } = collected;
+    let amplitudes = wanted.iter().map(|Wanted { amplitude, samples, .. }| {
         let whole =
             amplitude.window_s.is_none_or(|(_, end)| summary.cycles() as f64 * cycle_s > end);
         let peak =
@@ -278,5 +302,5 @@ fn one(args: &SweepArgs, request: &Request, engine: &dyn Engine) -> Result<Outco
         peak.map_or(f64::NAN, |p| p[1])
     });
     let amplitudes = amplitudes.collect();
-    Ok(Outcome { summary: summary.finish(&source.totals()), amplitudes })
+    Ok(Outcome { summary: summary.finish(&run.totals()), amplitudes })
 }

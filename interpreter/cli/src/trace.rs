@@ -10,9 +10,9 @@ pub use columns::DEFAULT_SIGNALS;
 
 use crate::Error;
 use crate::console::Console;
-use crate::engine::{Facts, Source};
 use crate::files::STANDARD;
 use crate::target::Target;
+use kontur_interpreter::job::{Facts, Run};
 use kontur_interpreter::record::CycleRecord;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -109,16 +109,16 @@ impl Trace {
     ///
     /// # Errors
     /// As [`Trace::write`].
-    pub fn finish(mut self, source: &dyn Source) -> Result<(), Error> {
+    pub fn finish(mut self, run: &Run) -> Result<(), Error> {
         let finished = match self.writer {
             Writer::Csv(ref mut w) => w.flush(),
             #[cfg(feature = "parquet")]
-            Writer::Parquet(w) => w.finish(source.facts(), &source.totals()),
+            Writer::Parquet(w) => w.finish(run.facts(), &run.totals()),
             Writer::Closed => Ok(()),
         };
         // only Parquet has a place for what is known at the end
         #[cfg(not(feature = "parquet"))]
-        let _ = source;
+        let _ = run;
         finished.map_err(|e| error(&self.path, e))
     }
 }

@@ -7,18 +7,16 @@
 pub mod args;
 mod combined;
 mod order;
-mod own;
 mod picture;
 mod program;
 mod recording;
 pub mod vibration;
 
 use crate::console::Console;
-use crate::engine::Engine;
 use crate::files::Lists;
 use crate::table::{Table, number};
 use crate::target::{keep_apart, write};
-use crate::{Error, Exit, simulator};
+use crate::{Error, Exit};
 use args::TuneArgs;
 use kontur_filters::analysis::tuning::{Choice, VibrationBand};
 use kontur_filters::time::CycleTime;
@@ -58,11 +56,7 @@ struct Row {
 ///
 /// # Errors
 /// [`Error`] if lists or files are wrong, or if nothing can be said about them.
-pub fn tune(
-    args: &TuneArgs,
-    engine: &mut dyn Engine,
-    console: &mut Console,
-) -> Result<Exit, Error> {
+pub fn tune(args: &TuneArgs, console: &mut Console) -> Result<Exit, Error> {
     let lists = Lists::default();
     let cycle = cycle(args, &lists, console)?;
     let inputs = args.recording.iter().chain(&args.program).cloned();
@@ -105,7 +99,7 @@ pub fn tune(
     let rows = task.rows();
     console.print(&task.text(&rows))?;
     if let (Some(file), Some(max_dev_mm)) = (&args.program, args.max_dev) {
-        return program::answer(&task, args, file, max_dev_mm, engine, console);
+        return program::answer(&task, args, file, max_dev_mm, console);
     }
     console.print(&task.proposal(&rows))?;
     Ok(Exit::Finished)
@@ -113,13 +107,12 @@ pub fn tune(
 
 /// The cycle of the machine, if one is named, else that of the option.
 fn cycle(args: &TuneArgs, lists: &Lists, console: &mut Console) -> Result<CycleTime, Error> {
-    let form = args.simulation.diagnostics;
-    let loaded = simulator::machine(&args.simulation.request(""), lists);
-    let (machine, messages) = loaded.map_err(|e| crate::run::announce_lists(e, form, console))?;
+    let loaded = args.simulation.request("").machine(lists);
+    let (machine, messages) = loaded.map_err(|e| crate::run::announce_lists(e, console))?;
     // with a program the run repeats them
     if args.program.is_none() {
         for message in &messages {
-            crate::run::announce(message, form, console);
+            console.announce(message);
         }
     }
     Ok(machine.cycle)

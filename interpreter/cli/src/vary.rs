@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::args::setting;
-use crate::engine::Request;
+use crate::request::Request;
 use crate::response::args::Numbers;
 use kontur_interpreter::machine::Override;
 use std::str::FromStr;

@@ -13,6 +13,7 @@ use super::motion::dynamics::{Weights, channel_dynamics};
 use super::motion::independent::Independent;
 use super::motion::overrides::Overrides;
 use super::motion::spindles::Spindle;
+use super::motion::straight::Straight;
 use super::motion::{Feedforward, MotionState};
 use super::options::Options;
 use super::program::calls::Calls;
@@ -22,6 +23,7 @@ use super::values::Values;
 use super::values::system::Timers;
 use super::values::variables::Variables;
 use crate::diag::{Condition, Diagnostic, Location};
+use crate::exec::motion::technology::Technology;
 use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::{Group, Ident, ItemKind, Span};
 use kontur_motion::axis::AxisVec;
@@ -59,6 +61,7 @@ pub(super) struct Report {
 pub(super) struct Decoder {
     pub(super) machine: Arc<Machine>,
     pub(super) identity_trafo: bool,
+    pub(super) technology: Technology,
     pub(super) feedback: Feedback,
     pub(super) names: AxisNames,
     pub(super) report: Report,
@@ -74,6 +77,8 @@ pub(super) struct Decoder {
     pub(super) checking: bool,
     /// A motion of the block in work went out.
     pub(super) moved: bool,
+    /// What the plain motions of a row share.
+    pub(super) straight: Option<Box<Straight>>,
 }
 
 impl Decoder {
@@ -90,8 +95,10 @@ impl Decoder {
             spindles.push(Spindle::new("S", None));
         }
         let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
+        let forced = options.guard.is_some();
         let mut decoder = Self {
             identity_trafo: options.identity_trafo,
+            technology: Technology::new(options.techno_times),
             feedback: Feedback::default(),
             names: AxisNames { axes: axis_names, letters: [None; 26], changed: false },
             report: Report::default(),
@@ -123,7 +130,7 @@ impl Decoder {
                 },
                 spindles,
             },
-            shaping: ShapingState::default(),
+            shaping: ShapingState::new(options.guard),
             calls: Calls {
                 cycle_files: machine.channel.g8x_programs.clone(),
                 tool_change_file: machine.channel.tool_change_program.clone(),
@@ -131,6 +138,7 @@ impl Decoder {
             },
             checking: false,
             moved: false,
+            straight: None,
             machine,
         };
         let main = decoder.listed_main_spindle();
@@ -141,10 +149,13 @@ impl Decoder {
         decoder.shaping.setup = setup;
         // what the lists say about single filters is told, with its place, when the chains are set up
         let of_several = [Condition::ListFirAndGuard, Condition::UnequalKernels];
-        decoder
-            .report
-            .unplaced
-            .extend(diagnostics.into_iter().filter(|d| of_several.iter().any(|c| d.id == *c)));
+        let of_forced =
+            [Condition::GuardMode, Condition::GuardRange, Condition::GuardNotRealisable];
+        let told = |d: &Diagnostic| {
+            let known = |conditions: &[Condition]| conditions.iter().any(|c| d.id == *c);
+            known(&of_several) || (forced && known(&of_forced))
+        };
+        decoder.report.unplaced.extend(diagnostics.into_iter().filter(told));
         decoder
     }
 

@@ -7,6 +7,8 @@ pub(super) mod independent;
 mod limits;
 pub(super) mod overrides;
 pub(super) mod spindles;
+pub(super) mod straight;
+pub(super) mod technology;
 
 use self::dynamics::Weights;
 use self::independent::Independent;
@@ -265,7 +267,8 @@ impl Decoder {
         let Some(path) = path else { return Ok(()) };
         // a compensated path is known later
         if self.modal.compensation == Compensation::Off {
-            self.check_limits(&path, words, span);
+            let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
+            self.check_limits(&path, place, span);
         }
         self.join_for(&path);
         let at = words.axes.first().map_or(span, |(_, _, at)| *at);
@@ -285,7 +288,7 @@ impl Decoder {
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
         let late_braking = self.late_braking(once(Act::EarlyBrakingOnce), span);
-        let InPlane { plane, tilt, compensation } = self.in_plane(span)?;
+        let in_plane = self.in_plane(span)?;
         // of a block with an error nothing moves; what was said before it is still said
         if self.failed() && !self.checking {
             return Ok(());
@@ -309,6 +312,13 @@ impl Decoder {
             spline: self.contour.hsc.spline(),
         });
         self.check_time(&block, at);
+        self.send(block, in_plane, span);
+        Ok(())
+    }
+
+    /// A motion goes on its way.
+    fn send(&mut self, block: Box<Block>, in_plane: InPlane, span: Span) {
+        let InPlane { plane, tilt, compensation } = in_plane;
         let motion = Box::new(Motion {
             block,
             source: self.report.source,
@@ -326,7 +336,6 @@ impl Decoder {
         for fault in self.limits_of_compensated() {
             self.note(Box::new(fault));
         }
-        Ok(())
     }
 
     /// Axes of the active plane, its coordinate system if it lies askew to the axes, and the compensation.

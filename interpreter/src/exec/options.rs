@@ -1,5 +1,7 @@
 //! What a user may say about the execution of a program.
 
+use crate::diag::Location;
+use kontur_filters::vib_guard::VibGuardSettings;
 use std::collections::BTreeMap;
 
 /// Active levels of `/` blocks: bit 0 is level 1, bit 9 level 10.
@@ -56,6 +58,30 @@ pub struct External {
     pub access: Access,
 }
 
+/// A Vibration Guard in place of the one that lists and program describe: what a program would be like with it.
+///
+/// `OFF`, `ACC_FACT` and an `AX_DEV` of the program still act; its MODE, FREQ and DAMPING do not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForcedGuard {
+    /// On for every path axis from program start with these settings; `None`: off until the program switches it on.
+    pub settings: Option<VibGuardSettings>,
+    /// Tolerance in mm where the program gives none: from program start, and in commands without `AX_DEV`.
+    pub ax_dev_mm: Option<f64>,
+}
+
+/// What the commands of a program say about the Vibration Guard, in the order in which they are executed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GuardCommands {
+    /// The first one that switches it on.
+    pub on: Option<Location>,
+    /// The first one that switches it off.
+    pub off: Option<Location>,
+    /// The first one that names MODE, FREQ or DAMPING.
+    pub settings: Option<Location>,
+    /// The first one that names `AX_DEV`, and its value as written.
+    pub ax_dev: Option<(Location, f64)>,
+}
+
 /// Options of an execution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -67,13 +93,17 @@ pub struct Options {
     pub max_blocks: u64,
     /// Blocks without motion or dwell after which a program counts as endless (K-0017), default 1e7.
     pub max_blocks_at_rest: u64,
-    /// Program time in s behind which a check does not look (K-0017), by the programmed speeds and dwells; default
-    /// unlimited. A simulation counts its cycles itself.
+    /// Program time in s after which a run is stopped (K-0017), default unlimited; a check does not look behind it, by
+    /// the programmed speeds and dwells.
     pub max_time_s: f64,
     /// Takes `#TRAFO ON` and relatives as identity, with a warning, instead of refusing them.
     pub identity_trafo: bool,
+    /// Durations of M, H and S functions that the lists declare are waited for (P-CHAN-00026, 00040, 00042 to 00048, 00080).
+    pub techno_times: bool,
     /// External variables by their name behind `V.E.`.
     pub external: BTreeMap<String, External>,
+    /// Vibration Guard in place of that of lists and program.
+    pub guard: Option<ForcedGuard>,
 }
 
 impl Default for Options {
@@ -85,7 +115,9 @@ impl Default for Options {
             max_blocks_at_rest: 10_000_000,
             max_time_s: f64::INFINITY,
             identity_trafo: false,
+            techno_times: false,
             external: BTreeMap::new(),
+            guard: None,
         }
     }
 }

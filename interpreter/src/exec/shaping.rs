@@ -4,10 +4,11 @@
 //! not written means off. A change of a kernel needs the path at rest; a change of tolerances does not.
 //!
 //! Source: TF5250 Vibration Guard, TF5200 FIR filter, TF5200 axis filters.
+use super::options::{ForcedGuard, GuardCommands};
 use super::step::{AxisShaping, ShapingSettings, ShapingSetup};
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::machine::issues;
-use crate::machine::{Axis, Machine};
+use crate::machine::{Axis, KernelPreset, Machine};
 use kontur_filters::fir::FirConfig;
 use kontur_filters::hsc::HscConfig;
 use kontur_filters::kernel::Kernel;
@@ -76,6 +77,10 @@ pub(super) struct ShapingState {
     pub(super) acc_fact: Option<f64>,
     /// First use of one of the two command families.
     pub(super) used: Option<(Family, Location)>,
+    /// What the commands of the program say.
+    pub(super) commands: GuardCommands,
+    /// What takes the place of the guard of lists and program.
+    forced: Option<ForcedGuard>,
     /// What is in force.
     pub(super) setup: ShapingSetup,
 }
@@ -88,6 +93,33 @@ pub(super) struct Worked {
 }
 
 impl ShapingState {
+    /// The state at program start.
+    pub(super) fn new(forced: Option<ForcedGuard>) -> Self {
+        let ax_dev_mm = forced.and_then(|f| f.ax_dev_mm);
+        Self { ax_dev_mm, forced, ..Self::default() }
+    }
+
+    /// The kernel slot of an axis as the lists have it, or as it is forced.
+    pub(super) fn listed(&self, axis: &Axis, cycle: CycleTime) -> KernelPreset {
+        let mut listed = axis.kernel_preset(cycle);
+        if let Some(forced) = &self.forced {
+            listed.vib_guard.active = forced.settings.is_some();
+            listed.vib_guard.settings = forced.settings.unwrap_or(listed.vib_guard.settings);
+        }
+        listed
+    }
+
+    /// Tolerance in mm of a command of the Vibration Guard that names this one, 0 for none.
+    pub(super) fn guard_tolerance_mm(&self, named: Option<f64>) -> Option<f64> {
+        named.or(self.forced.and_then(|f| f.ax_dev_mm)).filter(|mm| *mm > 0.0)
+    }
+
+    /// Settings of the guard, from those of the list and of the program.
+    fn guard_settings(&self, listed: VibGuardSettings) -> VibGuardSettings {
+        let forced = self.forced.and_then(|f| f.settings);
+        forced.unwrap_or_else(|| self.guard.over(listed))
+    }
+
     /// True if a kernel of any axis is active.
     pub(super) fn is_active(&self) -> bool {
         self.setup.axes.iter().any(|a| a.kernel.is_some())
@@ -113,7 +145,7 @@ impl ShapingState {
     }
 
     fn axis(&self, axis: &Axis, cycle: CycleTime, found: &mut Vec<Diagnostic>) -> AxisShaping {
-        let listed = axis.kernel_preset(cycle);
+        let listed = self.listed(axis, cycle);
         let guard_on = self.guard_on.unwrap_or(listed.vib_guard.active);
         let fir = listed.fir.map(|fir| self.fir(fir.config));
         let fir_on = self.fir_on.unwrap_or(listed.fir.is_some_and(|fir| fir.enable));
@@ -134,7 +166,7 @@ impl ShapingState {
             return shaped(ShapingSettings::Hsc(config), kernel);
         }
         if guard_on {
-            let settings = self.guard.over(listed.vib_guard.settings);
+            let settings = self.guard_settings(listed.vib_guard.settings);
             match settings.kernel(cycle) {
                 Ok(kernel) => return shaped(ShapingSettings::VibGuard(settings), Some(kernel)),
                 Err(e) => found.push(issues::vib_guard(axis, false, &e, cycle)),

@@ -67,6 +67,11 @@ pub enum Sync {
         /// Time in s, not negative.
         seconds: f64,
     },
+    /// M, H and S functions whose durations the lists declare and the user wants to be counted: waiting so long.
+    Technology {
+        /// Time in s, above 0.
+        seconds: f64,
+    },
     /// `#FLUSH WAIT`, `#CHANNEL INIT`: waiting until the axes have arrived.
     FlushWait,
     /// `INDP_SYN`, `#WAIT INDP`: waiting until the set positions of these independent axes have arrived.
@@ -180,6 +185,11 @@ pub enum Event {
     Tool {
         /// Pocket or tool number.
         number: u32,
+    },
+    /// A function that takes a time on the machine which is not part of the run; once for each function.
+    Uncounted {
+        /// The function, with its duration if the lists declare one.
+        function: String,
     },
     /// `#MSG`: text for the log.
     Message {

@@ -12,6 +12,7 @@ mod modes;
 mod positions;
 mod random;
 mod shaping;
+mod straight;
 
 use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};
 use crate::diag::Diagnostic;
@@ -108,7 +109,7 @@ pub(super) fn places(diagnostics: &[Diagnostic]) -> Vec<String> {
 }
 
 pub(super) fn run_with(sources: MemorySources, machine: Arc<Machine>, options: Options) -> Run {
-    let mut executor = Executor::new(Box::new(sources), "main.nc", machine, options);
+    let mut executor = Executor::new(Arc::new(sources), "main.nc", machine, options);
     let mut steps = Vec::new();
     loop {
         let feedback = Feedback { actual_mm: executor.target().clone(), time_s: 0.0 };
@@ -142,7 +143,7 @@ pub(super) fn shown(diagnostics: &[Diagnostic]) -> Vec<String> {
 /// Diagnostics of the syntax check.
 pub(super) fn checked(text: &str) -> Vec<Diagnostic> {
     let sources = MemorySources::new().with("main.nc", text);
-    check(Box::new(sources), "main.nc", machine(&[]), Options::default())
+    check(Arc::new(sources), "main.nc", machine(&[]), Options::default()).diagnostics
 }
 
 #[track_caller]

@@ -114,3 +114,22 @@ fn unknown_things_get_suggestions() {
     // a number that is in no document
     assert!(explain("22061").is_err());
 }
+
+/// Every value that a trace or the times of a run show is explained, and what it refers to.
+#[test]
+fn limits_and_rests_are_explained() {
+    use crate::record::{Rest, SpeedLimit};
+    let limits = SpeedLimit::ALL.iter().map(|l| l.name());
+    let others = ["v_limit", "axis_v", "axis_a", "slope"];
+    for thing in limits.chain(Rest::ALL.iter().map(|r| r.name())).chain(others) {
+        let e = explain(thing).unwrap_or_else(|_| panic!("{thing}"));
+        assert_eq!(e.kind, Kind::Word, "{thing}");
+        for other in &e.related {
+            assert!(explain(other).is_ok(), "{thing} -> {other}");
+        }
+        let ids = e.facts.iter().flat_map(|(_, fact)| fact.split([' ', ',', ';']));
+        for id in ids.filter(|w| w.starts_with("P-")) {
+            assert!(explain(id).is_ok(), "{thing} -> {id}");
+        }
+    }
+}

@@ -45,15 +45,75 @@ const WORDS: &[Word] = &[
         related: &["70351", "antr.sercos.mdt[i].nc_ref", "P-AXIS-00223"] },
 ];
 
+/// What holds the path speed down and what a path waits for: values of the trace column `v_limit` and of `run --times`.
+#[rustfmt::skip]
+const LIMITS: &[Word] = &[
+    Word { name: "v_limit",
+        meaning: "column of the trace: what held the path speed down in a cycle; while the speed changes, what it changes for",
+        facts: &[("values", "feed, axis, corner, curve, ax_dev, lookahead, stop")], related: &["feed", "axis", "corner", "curve", "ax_dev", "lookahead", "stop"] },
+    Word { name: "feed",
+        meaning: "the programmed feed, with override, is reached (column v_limit, --times)",
+        facts: &[("helps", "a higher F, #OVERRIDE, P-CHAN-00181 for rapid")], related: &["P-CHAN-00066"] },
+    Word { name: "axis",
+        meaning: "an axis is at its velocity limit (column v_limit; axis_v of --times names the axis)",
+        facts: &[("helps", "P-AXIS-00212, in rapid P-AXIS-00209; a contour that spreads the way over the axes")], related: &["P-AXIS-00212", "P-AXIS-00209"] },
+    Word { name: "axis_v",
+        meaning: "an axis is at its velocity limit (--times)",
+        facts: &[("column", "v_limit = axis")], related: &["axis"] },
+    Word { name: "axis_a",
+        meaning: "the path speed changes with constant acceleration, because an axis is at its acceleration limit (--times)",
+        facts: &[("brackets", "what the speed changes for, a value of v_limit"), ("helps", "P-AXIS-00001, 00002, in rapid 00004, with HSC P-AXIS-00008, or G130/G131")], related: &["P-AXIS-00001", "P-AXIS-00002", "P-AXIS-00008"] },
+    Word { name: "slope",
+        meaning: "the path speed changes while the acceleration is built up or taken away by the form of the slope (--times)",
+        facts: &[("brackets", "what the speed changes for, a value of v_limit"), ("helps", "shorter ramp times P-AXIS-00195 to 00198, in rapid 00200; another #SLOPE")], related: &["#SLOPE", "P-AXIS-00195", "P-AXIS-00196"] },
+    Word { name: "corner",
+        meaning: "speed at a kink between two blocks, which the axes have to jump (column v_limit, --times)",
+        facts: &[("helps", "rounding (G261, #CONTOUR MODE, #HSC ON), P-AXIS-00013")], related: &["P-AXIS-00013"] },
+    Word { name: "curve",
+        meaning: "speed at the curvature of the path or its change: centrifugal acceleration and geometric jerk of the axes (column v_limit, --times)",
+        facts: &[("helps", "P-AXIS-00008, P-AXIS-00199, P-CHAN-00361")], related: &["P-AXIS-00008", "P-AXIS-00199", "P-CHAN-00361"] },
+    Word { name: "ax_dev",
+        meaning: "speed at which the Vibration Guard keeps the tolerance AX_DEV (column v_limit, --times)",
+        facts: &[("helps", "a larger AX_DEV, a higher FREQ, a MODE with a shorter kernel")], related: &["#VIB GUARD"] },
+    Word { name: "lookahead",
+        meaning: "the path could not be looked at any further: it has to be able to stop at the end of the known blocks (column v_limit, --times)",
+        facts: &[("helps", "P-STUP-00070, P-STUP-00071")], related: &["P-STUP-00070", "P-STUP-00071"] },
+    Word { name: "stop",
+        meaning: "at rest, or braking for and starting from a stop (column v_limit); in --times at rest without waiting",
+        facts: &[("helps", "G60 and G04 only where they are needed")], related: &["G60"] },
+    Word { name: "dwell",
+        meaning: "the path waits for G04 or #TIME (--times)",
+        facts: &[], related: &["G04"] },
+    Word { name: "technology",
+        meaning: "the path waits for M, H and S functions as long as the channel list declares (--times, with --techno-times)",
+        facts: &[], related: &["P-CHAN-00040", "P-CHAN-00026", "P-CHAN-00044"] },
+    Word { name: "exact_stop",
+        meaning: "the path waits at G60, G360 until the actual positions are inside the window (--times)",
+        facts: &[("helps", "P-AXIS-00236, P-AXIS-00099, feedforward G135")], related: &["P-AXIS-00236", "G60"] },
+    Word { name: "flush",
+        meaning: "the path waits until the set positions have arrived: #FLUSH WAIT, independent axes, a change of filters (--times)",
+        facts: &[], related: &["#FLUSH"] },
+    Word { name: "arrival",
+        meaning: "the end of the program waits until the actual positions are inside the window (--times, arrival_s of the summary)",
+        facts: &[("helps", "P-AXIS-00236, P-AXIS-00099, feedforward G135")], related: &["P-AXIS-00236"] },
+    Word { name: "held",
+        meaning: "feedhold or override 0 keeps the path at rest (--times, held_s of the summary)",
+        facts: &[], related: &[] },
+];
+
+fn all() -> impl Iterator<Item = &'static Word> {
+    WORDS.iter().chain(LIMITS)
+}
+
 /// Names of all words.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
-    WORDS.iter().map(|w| w.name)
+    all().map(|w| w.name)
 }
 
 /// The word with a name, without regard to case; `S_0_0037` is `S-0-0037`.
 pub(super) fn find(thing: &str) -> Option<Explanation> {
     let wanted = thing.replace("S_0_", "S-0-");
-    let word = WORDS.iter().find(|w| w.name.eq_ignore_ascii_case(&wanted))?;
+    let word = all().find(|w| w.name.eq_ignore_ascii_case(&wanted))?;
     Some(Explanation {
         kind: Kind::Word,
         title: word.name.to_owned(),

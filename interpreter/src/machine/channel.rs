@@ -123,6 +123,8 @@ pub struct Channel {
     pub m_durations_s: BTreeMap<u32, f64>,
     /// Durations of H functions in s (P-CHAN-00026).
     pub h_durations_s: BTreeMap<u32, f64>,
+    /// Durations of the functions of each spindle in s, in the order of the list.
+    pub spindle_durations_s: Vec<SpindleDurations>,
     /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169), by G number.
     pub g8x_programs: BTreeMap<u32, String>,
     /// Messages to the diagnosis receiver (P-CHAN-00518).
@@ -154,6 +156,39 @@ const CYCLE_PROGRAMS: [Param<Text>; 10] = [
     of::G88_PROGRAM,
     of::G89_PROGRAM,
 ];
+
+/// Spindles of a channel list.
+const SPINDLES: u32 = 16;
+
+/// Durations of the functions of a spindle in s, where the list declares them above 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SpindleDurations {
+    /// M03 (P-CHAN-00044).
+    pub m3: Option<f64>,
+    /// M04 (P-CHAN-00046).
+    pub m4: Option<f64>,
+    /// M05 (P-CHAN-00048).
+    pub m5: Option<f64>,
+    /// M19 (P-CHAN-00042).
+    pub m19: Option<f64>,
+    /// S word (P-CHAN-00080).
+    pub speed: Option<f64>,
+}
+
+impl SpindleDurations {
+    fn of(parameters: &Parameters, spindle: u32) -> Self {
+        let declared = |array: Param<Optional>| {
+            parameters.get(array.at(spindle)).filter(|duration_s| *duration_s > 0.0)
+        };
+        Self {
+            m3: declared(of::SPINDLE_M3_DURATION),
+            m4: declared(of::SPINDLE_M4_DURATION),
+            m5: declared(of::SPINDLE_M5_DURATION),
+            m19: declared(of::SPINDLE_M19_DURATION),
+            speed: declared(of::SPINDLE_SPEED_DURATION),
+        }
+    }
+}
 
 impl Channel {
     pub(super) fn new(parameters: Parameters, start_up: Parameters, feed_axes: Vec<bool>) -> Self {
@@ -215,6 +250,7 @@ impl Channel {
                 .collect(),
             m_durations_s: table(of::M_DURATION),
             h_durations_s: table(of::H_DURATION),
+            spindle_durations_s: (0..SPINDLES).map(|i| SpindleDurations::of(p, i)).collect(),
             g8x_programs: (80..)
                 .zip(CYCLE_PROGRAMS)
                 .filter_map(|(g, param)| Some((g, p.get(param)?)))

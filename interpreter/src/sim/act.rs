@@ -36,7 +36,7 @@ impl Simulation {
                     _ => None,
                 };
                 let time_s = self.cycle.time_of(self.planner.setpoint().k);
-                if let Some(mut message) = self.totals.note(other, &self.machine, time_s) {
+                if let Some(mut message) = self.totals.note(other, time_s) {
                     if self.diagnostics.len() >= MESSAGES_MAX {
                         self.unshown += 1;
                         return;

@@ -2,7 +2,7 @@
 
 use super::{Phase, SettledStop, Simulation};
 use crate::machine::{Axis, Machine};
-use crate::record::PathRecord;
+use crate::record::{PathRecord, Rest};
 use kontur_motion::axis::AxisVec;
 use smallvec::SmallVec;
 
@@ -36,6 +36,7 @@ impl Simulation {
         while self.underway.front().is_some_and(|u| u.seq <= seq) {
             if let Some(block) = self.underway.pop_front() {
                 self.current = block.source;
+                self.motion = block.motion;
                 self.jerk_limited = block.jerk_limited;
                 // the block began after the cycle before
                 for event in block.events {
@@ -86,8 +87,13 @@ impl Simulation {
             };
         }
         self.record.k = k;
+        let rest = match &self.phase {
+            Phase::Waiting(wait) => Some(wait.rest()),
+            Phase::Running if self.is_held => Some(Rest::Held),
+            _ => None,
+        };
         let at = match &self.phase {
-            Phase::Waiting(wait) if wait.is_dwell() => self.waits_at,
+            Phase::Waiting(wait) if wait.is_of_its_own_block() => self.waits_at,
             _ => self.current,
         };
         self.record.file = at.file;
@@ -99,6 +105,8 @@ impl Simulation {
             a_mm_s2: setpoint.a_mm_s2,
             j_mm_s3: setpoint.j_mm_s3,
             limit: setpoint.limit,
+            motion: self.motion,
+            rest,
         };
         // on the contour bit for bit: nothing to search
         self.record.contour_err_mm = if shaped {

@@ -230,7 +230,11 @@ impl AxisChain {
         gain: f64,
         jerk_limited: bool,
         record: &mut AxisRecord,
-    ) -> Option<Faults> {
+    ) -> Option<&Faults> {
+        if self.rests_under(ipo, gain, jerk_limited) {
+            self.shaping.rest();
+            return None;
+        }
         self.ipo.push_back(ipo);
         self.ipo.pop_front();
         let set = self.shaping.step(ipo);
@@ -270,7 +274,21 @@ impl AxisChain {
             torque_drive: out.drive.torque,
             torque_n_m: out.drive.torque_n_m,
         };
-        (!out.faults.is_empty()).then_some(out.faults)
+        out.faulty.then(|| self.control.faults())
+    }
+
+    /// A cycle with these values would leave the record of the last one as it is.
+    ///
+    /// Sampled setpoints and differences are shorter than what the kernel remembers and the rest of the control.
+    fn rests_under(&self, ipo: f64, gain: f64, jerk_limited: bool) -> bool {
+        let additional_mm = match &self.additional {
+            None => 0.0,
+            Some(AdditionalInterface { filter: None }) => self.inputs.additional_mm,
+            Some(AdditionalInterface { filter: Some(_) }) => return false,
+        };
+        let inputs = AxisInputs { additional_mm, ..self.inputs };
+        self.shaping.rests_under(ipo)
+            && self.control.rests_under(self.set, gain, jerk_limited, &inputs)
     }
 
     /// Interpolated setpoint of the moment that the mean delay points to, linear between two samples.

@@ -132,7 +132,7 @@ impl Change {
 }
 
 /// Changes in the order of time; an error ends the run.
-pub type Changes = Box<dyn Iterator<Item = Result<Change, Box<Diagnostic>>>>;
+pub type Changes = Box<dyn Iterator<Item = Result<Change, Box<Diagnostic>>> + Send>;
 
 /// The values in force and those to come.
 pub(super) struct Inputs {

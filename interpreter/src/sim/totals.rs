@@ -2,7 +2,6 @@
 
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::{Event, SourceRef};
-use crate::machine::Machine;
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::{Block, Feed};
 use std::collections::BTreeMap;
@@ -53,12 +52,6 @@ pub struct Totals {
     pub aborted: bool,
     /// The source of the real-time inputs failed.
     pub input_failed: bool,
-    /// Cycles in which feedhold or override 0 kept the path at rest.
-    pub held_cycles: u64,
-    /// Cycles in which the path dwelt (G04, `#TIME`).
-    pub dwell_cycles: u64,
-    /// Cycles from the end of the last motion until every axis was in position.
-    pub arrival_cycles: u64,
     /// Exact stops.
     pub stops: Stops,
     /// Blocks executed.
@@ -84,41 +77,26 @@ impl Totals {
     }
 
     /// Notes an event that moves nothing; a message of the program comes back as a note for the log.
-    pub(super) fn note(
-        &mut self,
-        event: Event,
-        machine: &Machine,
-        time_s: f64,
-    ) -> Option<Diagnostic> {
-        let name = match event {
-            Event::MFunction { number, .. } => declared(
-                format!("M{number}"),
-                &machine.channel.m_durations_s,
-                number,
-                "P-CHAN-00040",
-            ),
-            Event::HFunction { number, .. } => declared(
-                format!("H{number}"),
-                &machine.channel.h_durations_s,
-                number,
-                "P-CHAN-00026",
-            ),
-            Event::Tool { .. } => "tool change (T)".to_owned(),
+    pub(super) fn note(&mut self, event: Event, time_s: f64) -> Option<Diagnostic> {
+        match event {
+            Event::Uncounted { function } => {
+                self.not_counted.push(function);
+                None
+            }
             Event::Message { text, .. } => {
                 let mut message =
                     Diagnostic::new(Condition::Message, text).severity(Severity::Note);
                 message.time_s = Some(time_s);
-                return Some(message);
+                Some(message)
             }
-            Event::Feedforward { .. }
+            Event::MFunction { .. }
+            | Event::HFunction { .. }
+            | Event::Tool { .. }
+            | Event::Feedforward { .. }
             | Event::SpindleFeedforward { .. }
             | Event::Independent { .. }
-            | Event::Spindle { .. } => return None,
-        };
-        if !self.not_counted.contains(&name) {
-            self.not_counted.push(name);
+            | Event::Spindle { .. } => None,
         }
-        None
     }
 }
 
@@ -127,17 +105,4 @@ fn slowest_s(block: &Block, speed_mm_s: impl Fn(&AxisDynamics) -> f64) -> f64 {
     let ways = block.path.start().iter().zip(block.path.end().iter()).zip(&block.dynamics.axes);
     let times = ways.map(|((from, to), axis)| (to - from).abs() / speed_mm_s(axis));
     times.filter(|t| t.is_finite()).fold(0.0, f64::max)
-}
-
-/// The name of a function with the duration that the channel list declares; it is not part of the run.
-fn declared(
-    name: String,
-    durations_s: &BTreeMap<u32, f64>,
-    number: u32,
-    parameter: &str,
-) -> String {
-    match durations_s.get(&number) {
-        Some(s) => format!("{name} ({s} s each by {parameter})"),
-        None => name,
-    }
 }

@@ -6,6 +6,7 @@ use super::independent::IndependentAxes;
 use super::patience::Patience;
 use super::spindle::Spindle;
 use crate::exec::{EndReason, ShapingSetup, Sync};
+use crate::record::Rest;
 use kontur_filters::time::CycleTime;
 
 /// What happens when the wait is over.
@@ -21,8 +22,8 @@ pub(super) enum Action {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Until {
     Now,
-    /// Cycles left.
-    Cycles(u64),
+    /// Cycles left, of a dwell or of functions of the machine.
+    Cycles(u64, Rest),
     /// Independent axes at their targets, kernels and filters flushed.
     Flushed,
     /// These independent axes at their targets, flushed.
@@ -57,12 +58,13 @@ pub(super) struct Wait {
 
 impl Wait {
     pub(super) fn for_sync(sync: Sync, cycle: CycleTime) -> Self {
+        let cycles =
+            |seconds: f64, rest| Until::Cycles((seconds / cycle.seconds()).round() as u64, rest);
         let (until, action) = match sync {
             Sync::ExactStop => (Until::InPosition, Action::None),
             Sync::Stop | Sync::ProgramStop { .. } => (Until::Now, Action::None),
-            Sync::Dwell { seconds } => {
-                (Until::Cycles((seconds / cycle.seconds()).round() as u64), Action::None)
-            }
+            Sync::Dwell { seconds } => (cycles(seconds, Rest::Dwell), Action::None),
+            Sync::Technology { seconds } => (cycles(seconds, Rest::Technology), Action::None),
             Sync::Independent { axes } => (Until::Arrived(axes), Action::None),
             Sync::FlushWait | Sync::ReadActual => (Until::Flushed, Action::None),
             Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
@@ -88,7 +90,7 @@ impl Wait {
             (Until::InPosition, Driver::Path(p)) => !parts.independent.is_moving(p),
             (Until::Flushed | Until::AllInPosition, Driver::Path(_)) => true,
             (Until::AllInPosition, Driver::Spindle(s)) => parts.spindles[s].positions(),
-            (Until::Now | Until::Cycles(_), Driver::Path(_))
+            (Until::Now | Until::Cycles(..), Driver::Path(_))
             | (_, Driver::Spindle(_) | Driver::Standing) => false,
         };
         let chains = parts.chains.iter().zip(parts.drivers).enumerate();
@@ -98,7 +100,7 @@ impl Wait {
     /// Something that the wait looks at is on its way by itself.
     fn under_way(&self, parts: Parts<'_>) -> bool {
         match &self.until {
-            Until::Now | Until::Cycles(_) | Until::InPosition => false,
+            Until::Now | Until::Cycles(..) | Until::InPosition => false,
             Until::Arrived(axes) => axes.iter().any(|axis| parts.independent.is_moving(*axis)),
             Until::Flushed => parts.independent.any_moving(),
             Until::AllInPosition => {
@@ -120,7 +122,7 @@ impl Wait {
             }
             _ => true,
         };
-        !matches!(self.until, Until::Cycles(1..))
+        !matches!(self.until, Until::Cycles(1.., _))
             && !self.under_way(parts)
             && self.awaited(parts).all(|(i, c)| self.remaining(c).is_none() && ready(i, c))
             && (self.until != Until::AllInPosition
@@ -144,14 +146,24 @@ impl Wait {
         self.patience.is_over(worst.distance_mm, settling_s, cycle).then_some((i, worst))
     }
 
-    /// A dwell: its cycles belong to its own block, not to the motion before.
-    pub(super) fn is_dwell(&self) -> bool {
-        matches!(self.until, Until::Cycles(_))
+    /// Its cycles belong to its own block, not to the motion before.
+    pub(super) fn is_of_its_own_block(&self) -> bool {
+        matches!(self.until, Until::Cycles(..))
+    }
+
+    /// What the path rests for.
+    pub(super) fn rest(&self) -> Rest {
+        match self.until {
+            Until::Cycles(_, rest) => rest,
+            Until::Now | Until::Flushed | Until::Arrived(_) => Rest::Flush,
+            Until::InPosition => Rest::ExactStop,
+            Until::AllInPosition => Rest::Arrival,
+        }
     }
 
     /// One cycle goes by.
     pub(super) fn count(&mut self) {
-        if let Until::Cycles(n) = &mut self.until {
+        if let Until::Cycles(n, _) = &mut self.until {
             *n = n.saturating_sub(1);
         }
     }

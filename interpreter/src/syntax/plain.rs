@@ -1,82 +1,151 @@
 //! Byte loop for plain blocks: almost every line of a CAM program.
 //!
-//! It accepts a block number, G and M functions, one-letter addresses with plain numbers and a comment behind `;`, and gives the tree that
-//! the grammar gives. Everything else it hands over, so it never reports an error. The tests compare both over random
-//! and damaged lines.
+//! It accepts a block number or a label `N10:`, G and M functions, one-letter addresses with plain numbers or sums in
+//! brackets, and comments, and yields numbers: [`Plain::tree`] makes the tree of them that the grammar gives. Everything
+//! else it hands over, so it never reports an error. The tests compare both over random and damaged lines.
+
+mod sum;
 
 use super::ast::{
-    Block, BlockNumber, Body, CodeNumber, Expr, ExprKind, Name, Sign, Span, Word, WordKind,
+    Block, BlockNumber, Body, CodeNumber, Expr, ExprKind, Label, LabelKind, Name, Sign, Span, Word,
+    WordKind,
 };
 use super::number::short_decimal;
+use super::scan::comment_length;
+use smallvec::SmallVec;
 
-/// Words of a usual block: one allocation holds them.
-const USUAL_WORDS: usize = 8;
-
-/// The tree of a plain block, `None` if the grammar has to see it.
-pub(super) fn recognize(text: &str) -> Option<Block> {
-    let bytes = text.as_bytes();
-    let mut at = blanks(bytes, 0);
-    let begin = at;
-    let mut number = None;
-    if matches!(bytes.get(at), Some(b'N' | b'n')) {
-        let (value, end) = integer(bytes, at + 1)?;
-        number = Some(BlockNumber::Literal(value));
-        at = end;
-        // A label, or a value of the grammar's choice.
-        if matches!(bytes.get(at), Some(b':' | b'.')) {
-            return None;
-        }
-    }
-    let mut end = at;
-    at = blanks(bytes, at);
-    if number.is_none() && matches!(bytes.get(at), None | Some(b';')) {
-        return Some(Block::default());
-    }
-    let mut words = Vec::new();
-    while let Some(letter) = bytes.get(at).filter(|b| **b != b';') {
-        let word = word(bytes, at, letter.to_ascii_uppercase())?;
-        at = word.span.end() as usize;
-        end = at;
-        if words.is_empty() {
-            words.reserve_exact(USUAL_WORDS);
-        }
-        words.push(word);
-        at = blanks(bytes, at);
-    }
-    let body = if words.is_empty() { Body::Empty } else { Body::Words(words) };
-    Some(Block { skip: None, number, label: None, body, span: Span::new(begin, end) })
+/// A plain block.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Plain {
+    /// Block number, also of a label.
+    pub(crate) number: Option<u64>,
+    /// Place of the label `N10:`.
+    label: Option<Span>,
+    /// Words in written order.
+    pub(crate) words: SmallVec<[PlainWord; 6]>,
+    /// The whole block without blanks and comments at its ends.
+    pub(crate) span: Span,
 }
 
-fn word(bytes: &[u8], start: usize, letter: u8) -> Option<Word> {
-    match letter {
+/// A word of a plain block.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PlainWord {
+    /// Letter in upper case.
+    pub(crate) letter: u8,
+    /// What stands behind it.
+    pub(crate) value: PlainValue,
+    /// Place, value included.
+    pub(crate) span: Span,
+}
+
+/// Value of a word.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PlainValue {
+    /// Number of a G or M function; `u32::MAX` if it does not fit.
+    Code(u32),
+    /// A number with its sign.
+    Number(f64),
+    /// A sum in brackets.
+    Sum(Box<Expr>),
+}
+
+impl Plain {
+    /// Becomes the block that `text` is; `None` if the grammar has to see it.
+    pub(super) fn recognize(&mut self, text: &str) -> Option<()> {
+        let bytes = text.as_bytes();
+        let mut at = blanks(bytes, 0);
+        let begin = at;
+        (self.number, self.label, self.span) = (None, None, Span::default());
+        self.words.clear();
+        if matches!(bytes.get(at), Some(b'N' | b'n')) {
+            let (value, end) = integer(bytes, at + 1)?;
+            self.number = Some(value);
+            at = end;
+            match bytes.get(at) {
+                Some(b':') => {
+                    at += 1;
+                    self.label = Some(Span::new(begin, at));
+                }
+                // a value of the grammar's choice
+                Some(b'.') => return None,
+                _ => {}
+            }
+        }
+        let mut end = at;
+        at = blanks(bytes, at);
+        while let Some(letter) = bytes.get(at).filter(|b| **b != b';') {
+            let word = word(bytes, at, letter.to_ascii_uppercase())?;
+            end = word.span.end() as usize;
+            at = blanks(bytes, end);
+            self.words.push(word);
+        }
+        // a remark alone has no place
+        if self.number.is_some() || !self.words.is_empty() {
+            self.span = Span::new(begin, end);
+        }
+        Some(())
+    }
+
+    /// The tree that the grammar gives.
+    pub(crate) fn tree(&self) -> Block {
+        let words: Vec<Word> = self.words.iter().map(PlainWord::tree).collect();
+        let kind = self.number.map(LabelKind::Number);
+        Block {
+            skip: None,
+            number: self.number.map(BlockNumber::Literal),
+            label: self.label.zip(kind).map(|(span, kind)| Label { kind, span }),
+            body: if words.is_empty() { Body::Empty } else { Body::Words(words) },
+            span: self.span,
+        }
+    }
+}
+
+impl PlainWord {
+    fn tree(&self) -> Word {
+        let Self { letter, ref value, span } = *self;
+        let address = |sign, value| WordKind::Address { name: Name::Letter(letter), sign, value };
+        let kind = match value {
+            PlainValue::Code(number) if letter == b'G' => {
+                WordKind::G { number: *number, value: None }
+            }
+            PlainValue::Code(number) => WordKind::M(CodeNumber::Literal(*number), None),
+            PlainValue::Number(x) => {
+                let behind = Span { start: span.start + 1, len: span.len - 1 };
+                // a number without its sign is not negative, 0 neither
+                let sign = x.is_sign_negative().then_some(Sign::Minus);
+                address(sign, Expr { kind: ExprKind::Number(*x), span: behind })
+            }
+            PlainValue::Sum(sum) => address(None, Expr::clone(sum)),
+        };
+        Word { kind, span }
+    }
+}
+
+fn word(bytes: &[u8], start: usize, letter: u8) -> Option<PlainWord> {
+    let (value, end) = match letter {
         b'G' | b'M' => {
             let (value, end) = integer(bytes, start + 1)?;
-            let number = u32::try_from(value).unwrap_or(u32::MAX);
-            let kind = if letter == b'G' {
-                WordKind::G { number, value: None }
-            } else {
-                WordKind::M(CodeNumber::Literal(number), None)
-            };
-            // A value may follow; a letter begins a new word, unless it begins a parameter, variable or function.
-            let next = blanks(bytes, end);
-            followed_by_word(bytes, next)?;
-            Some(Word { kind, span: Span::new(start, end) })
+            (PlainValue::Code(u32::try_from(value).unwrap_or(u32::MAX)), end)
         }
         b'A'..=b'F' | b'I'..=b'K' | b'Q'..=b'U' | b'W'..=b'Z' => {
             let mut at = start + 1;
-            let negative = bytes.get(at) == Some(&b'-');
-            at += usize::from(negative);
-            let (value, length) = short_decimal(&bytes[at..])?;
-            let span = Span::new(start + 1, at + length);
-            followed_by_word(bytes, blanks(bytes, at + length))?;
-            let kind = ExprKind::Number(if negative { -value } else { value });
-            let value = Expr { kind, span };
-            let sign = negative.then_some(Sign::Minus);
-            let kind = WordKind::Address { name: Name::Letter(letter), sign, value };
-            Some(Word { kind, span: Span::new(start, at + length) })
+            if bytes.get(at) == Some(&b'[') {
+                let sum = sum::bracket(bytes, at)?;
+                let end = sum.span.end() as usize;
+                (PlainValue::Sum(Box::new(sum)), end)
+            } else {
+                let negative = bytes.get(at) == Some(&b'-');
+                at += usize::from(negative);
+                let (value, length) = short_decimal(&bytes[at..])?;
+                (PlainValue::Number(if negative { -value } else { value }), at + length)
+            }
         }
-        _ => None,
-    }
+        _ => return None,
+    };
+    // A value may follow a G function, an operator a value; a letter begins a new word, unless it begins a parameter,
+    // variable or function.
+    followed_by_word(bytes, blanks(bytes, end))?;
+    Some(PlainWord { letter, value, span: Span::new(start, end) })
 }
 
 /// True at the end, or before a letter of which this file knows that it begins a word of its own: whether it is one, the
@@ -92,11 +161,15 @@ fn followed_by_word(bytes: &[u8], at: usize) -> Option<()> {
     }
 }
 
+/// Behind blanks and comments in brackets, which are blanks for the grammar.
 fn blanks(bytes: &[u8], mut at: usize) -> usize {
-    while matches!(bytes.get(at), Some(b' ' | b'\t')) {
-        at += 1;
+    loop {
+        match bytes.get(at) {
+            Some(b' ' | b'\t') => at += 1,
+            Some(b'(') => at += comment_length(&bytes[at..]),
+            _ => return at,
+        }
     }
-    at
 }
 
 /// Digits from `at` on: value and end; short enough not to overflow.

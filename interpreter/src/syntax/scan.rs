@@ -83,6 +83,11 @@ fn comment(bytes: &[u8]) -> (Region, usize) {
     (Region::Comment { closed: false }, bytes.len())
 }
 
+/// Length of the comment that begins with the first byte.
+pub(super) fn comment_length(bytes: &[u8]) -> usize {
+    comment(bytes).1
+}
+
 /// Length of a string with its quotes, `None` if the closing one is missing.
 fn string(bytes: &[u8]) -> Option<usize> {
     let mut i = 1;

@@ -4,7 +4,7 @@ mod random;
 mod tables;
 
 use super::ast::Block;
-use super::{Mode, Parser, plain};
+use super::{Mode, Parser};
 use crate::diag::{Diagnostic, Severity};
 use crate::source::RawBlock;
 use std::sync::Arc;

@@ -335,6 +335,25 @@ impl PolyPath {
     }
 
     pub(super) fn nearest(&self, point: &[f64]) -> f64 {
+        let (cell, x) = self.search(point);
+        let cell = &self.cells[cell];
+        cell.s + self.gauss(cell.piece, cell.from, x)
+    }
+
+    pub(super) fn nearest_point(&self, point: &[f64], out: &mut [f64]) {
+        let (i, x) = self.search(point);
+        let cell = &self.cells[i];
+        if i == 0 && x <= cell.from {
+            out.copy_from_slice(&self.start);
+        } else if i + 1 == self.cells.len() && x >= cell.to {
+            out.copy_from_slice(&self.end);
+        } else {
+            self.point(cell.piece, x, out);
+        }
+    }
+
+    /// Sub-interval and parameter of the nearest point.
+    fn search(&self, point: &[f64]) -> (usize, f64) {
         let n = point.len();
         let mut q = AxisVec::zeros(n);
         let mut distance = |piece: usize, x: f64| -> f64 {
@@ -361,7 +380,7 @@ impl PolyPath {
         }
         // a sample at the border of a sub-interval may have the nearest point in the next one
         let (_, i, x) = best;
-        let mut nearest = (f64::INFINITY, 0.0);
+        let mut nearest = (f64::INFINITY, i, x);
         for j in i.saturating_sub(1)..(i + 2).min(self.cells.len()) {
             let cell = &self.cells[j];
             let step = step(cell);
@@ -373,10 +392,10 @@ impl PolyPath {
             let x = self.closest(cell.piece, point, low, high);
             let d = distance(cell.piece, x);
             if d < nearest.0 {
-                nearest = (d, cell.s + self.gauss(cell.piece, cell.from, x));
+                nearest = (d, j, x);
             }
         }
-        nearest.1
+        (nearest.1, nearest.2)
     }
 
     /// Zero of the derivative of the squared distance between two parameters, by bisection and Newton.
@@ -498,6 +517,13 @@ mod tests {
             let s = path.length() * f64::from(k) / 1000.0;
             path.position(s, &mut q);
             assert!((path.nearest(&q) - s).abs() < 1e-9, "{s}");
+            let mut nearest = [0.0; 3];
+            path.nearest_point(&q, &mut nearest);
+            let apart = nearest.iter().zip(&q).fold(0.0, |d: f64, (n, q)| d.max((n - q).abs()));
+            assert!(apart < 1e-9, "{s}");
+            if k == 0 || k == 1000 {
+                assert_eq!(nearest.map(f64::to_bits), q.map(f64::to_bits), "ends are exact");
+            }
         }
     }
 
@@ -548,7 +574,7 @@ mod tests {
             }
             for _ in 0..20 {
                 let from = [15.0 * random(), 15.0 * random()];
-                path.position(path.nearest(&from), &mut q);
+                path.nearest_point(&from, &mut q);
                 let found = libm::hypot(q[0] - from[0], q[1] - from[1]);
                 let least = points
                     .iter()

@@ -1,6 +1,9 @@
 //! Time budget of the fuzz targets.
+//!
+//! It is one of processor time, all threads together: how busy the machine is makes no difference.
 
-use std::time::{Duration, Instant};
+use cpu_time::ProcessTime;
+use std::time::Duration;
 
 /// What any input may take.
 const BASE: Duration = Duration::from_secs(4);
@@ -9,7 +12,7 @@ const PER_BYTE: Duration = Duration::from_micros(500);
 
 /// Calls a target and panics if it takes longer than its input allows.
 pub fn within_budget(data: &[u8], target: impl FnOnce(&[u8])) {
-    let start = Instant::now();
+    let start = ProcessTime::now();
     target(data);
     let (taken, length) = (start.elapsed(), u32::try_from(data.len()).unwrap_or(u32::MAX));
     assert!(taken < BASE + PER_BYTE * length, "{length} bytes took {taken:?}");

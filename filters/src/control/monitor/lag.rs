@@ -72,6 +72,10 @@ pub struct LagMonitor {
     /// Past commanded movements for the shift of the limit, a ring.
     steps_mm: Vec<f64>,
     next: usize,
+    /// Cycles without commanded movement.
+    still: usize,
+    /// The last cycle has changed nothing that a cycle without movement could change again.
+    rests: bool,
     estimate_mm: f64,
     excess_cycles: u64,
     raised: bool,
@@ -99,6 +103,8 @@ impl LagMonitor {
             past_mm: [0.0; Self::MAX_DELAY + 2],
             steps_mm: vec![0.0; shift + 1],
             next: 0,
+            still: 0,
+            rests: false,
             estimate_mm: 0.0,
             excess_cycles: 0,
             raised: false,
@@ -111,6 +117,7 @@ impl LagMonitor {
     pub fn start(&mut self, position_mm: f64) {
         self.past_mm.fill(position_mm);
         self.steps_mm.fill(0.0);
+        (self.still, self.rests) = (0, false);
         self.estimate_mm = 0.0;
         self.excess_cycles = 0;
         self.raised = false;
@@ -126,14 +133,30 @@ impl LagMonitor {
         self.limit_mm
     }
 
+    /// While reference, actual position and gain stay the same, further cycles change nothing.
+    pub(crate) const fn rests(&self) -> bool {
+        self.rests
+    }
+
     /// One cycle: reference and actual position, gain of the position controller.
     pub fn step(&mut self, reference_mm: f64, actual_mm: f64, kv_per_s: f64) -> Option<Fault> {
-        self.past_mm.copy_within(..=Self::MAX_DELAY, 1);
+        let delay = self.config.delay_cycles;
+        self.past_mm.copy_within(..=delay, 1);
         self.past_mm[0] = reference_mm;
-        let commanded = self.past_mm[self.config.delay_cycles];
+        let commanded = self.past_mm[delay];
         self.lag_mm = commanded - actual_mm;
-        let step = self.shifted((commanded - self.past_mm[self.config.delay_cycles + 1]).abs());
+        if self.config.kind == LagMonitorType::Off {
+            self.rests = true;
+            return None;
+        }
+        let newest = (commanded - self.past_mm[delay + 1]).abs();
+        self.still = if newest > 0.0 { 0 } else { self.still.saturating_add(1) };
+        let estimate = self.estimate_mm;
+        let step = self.shifted(newest);
         self.limit_mm = self.limit(step, kv_per_s);
+        self.rests = self.still > self.steps_mm.len()
+            && self.estimate_mm.to_bits() == estimate.to_bits()
+            && self.limit_mm.is_none_or(|limit_mm| self.lag_mm.abs() <= limit_mm);
         let Some(limit_mm) = self.limit_mm.filter(|l| self.lag_mm.abs() > *l) else {
             self.excess_cycles = 0;
             self.raised = false;

@@ -5,7 +5,7 @@
 //! Source: TF5200 axis parameters, P-AXIS-00439 to 00444; IDs 50118 and 50119 (velocity). No document gives the ID for
 //! acceleration and jerk.
 
-use crate::control::fault::{Derivative, Fault};
+use crate::control::fault::{Derivative, Fault, Faults};
 use crate::time::CycleTime;
 
 /// Excess over the limit that is allowed, 1 = 100 %.
@@ -18,9 +18,9 @@ pub struct Thresholds {
 }
 
 impl Thresholds {
-    /// Both 0: monitoring off (acceleration and jerk only).
-    fn off(&self) -> bool {
-        self.warn_ratio == 0.0 && self.error_ratio == 0.0
+    /// Nothing if both are 0: monitoring off (acceleration and jerk only).
+    fn watched(self) -> Option<Self> {
+        (self.warn_ratio != 0.0 || self.error_ratio != 0.0).then_some(self)
     }
 }
 
@@ -70,12 +70,30 @@ pub struct SetpointMonitor {
     cycle_s: f64,
     past_mm: [f64; 3],
     levels: [Level; 3],
+    /// Magnitude of each derivative up to which there is nothing to say.
+    good: [f64; 3],
+}
+
+/// Threshold of a limit. Sampled differences carry rounding noise: a value at its threshold is not above it.
+fn threshold(ratio: f64, limit: f64) -> f64 {
+    (1.0 + ratio) * limit * (1.0 + 1e-9)
 }
 
 impl SetpointMonitor {
     /// A monitor at rest.
     pub fn new(config: SetpointMonitorConfig, cycle: CycleTime) -> Self {
-        Self { config, cycle_s: cycle.seconds(), past_mm: [0.0; 3], levels: [Level::Good; 3] }
+        let good = |limit: f64, thresholds: Option<Thresholds>| {
+            thresholds.map_or(f64::INFINITY, |t| {
+                threshold(t.warn_ratio, limit).min(threshold(t.error_ratio, limit))
+            })
+        };
+        let good = [
+            good(config.v_max_mm_s, Some(config.velocity)),
+            good(config.a_max_mm_s2, config.acceleration.watched()),
+            good(config.j_max_mm_s3, config.jerk.watched()),
+        ];
+        let (past_mm, levels) = ([0.0; 3], [Level::Good; 3]);
+        Self { config, cycle_s: cycle.seconds(), past_mm, levels, good }
     }
 
     /// Axis at rest at a position.
@@ -85,40 +103,33 @@ impl SetpointMonitor {
     }
 
     /// One cycle: a fault for every derivative whose level rises.
-    pub fn step(&mut self, set_mm: f64) -> [Option<Fault>; 3] {
+    pub(crate) fn step(&mut self, set_mm: f64, faults: &mut Faults) {
         let [p1, p2, p3] = self.past_mm;
         let t = self.cycle_s;
         let (d1, d2, d3) = (set_mm - p1, p1 - p2, p2 - p3);
         self.past_mm = [set_mm, p1, p2];
+        let values = [d1 / t, (d1 - d2) / (t * t), (d1 - 2.0 * d2 + d3) / (t * t * t)];
+        let good = values.iter().zip(&self.good).all(|(value, good)| value.abs() <= *good);
+        if good && self.levels == [Level::Good; 3] {
+            return;
+        }
         let c = self.config;
         let watched = [
-            (Derivative::Velocity, d1 / t, c.v_max_mm_s, Some(c.velocity)),
-            (
-                Derivative::Acceleration,
-                (d1 - d2) / (t * t),
-                c.a_max_mm_s2,
-                Some(c.acceleration).filter(|t| !t.off()),
-            ),
-            (
-                Derivative::Jerk,
-                (d1 - 2.0 * d2 + d3) / (t * t * t),
-                c.j_max_mm_s3,
-                Some(c.jerk).filter(|t| !t.off()),
-            ),
+            (Derivative::Velocity, values[0], c.v_max_mm_s, Some(c.velocity)),
+            (Derivative::Acceleration, values[1], c.a_max_mm_s2, c.acceleration.watched()),
+            (Derivative::Jerk, values[2], c.j_max_mm_s3, c.jerk.watched()),
         ];
-        let mut faults = [None; 3];
         for (i, (what, value, limit, thresholds)) in watched.into_iter().enumerate() {
             let Some(thresholds) = thresholds else { continue };
             let value = value.abs();
-            // sampled differences carry rounding noise: a value at its threshold is not above it
-            let above = |ratio: f64| value > (1.0 + ratio) * limit * (1.0 + 1e-9);
+            let above = |ratio: f64| value > threshold(ratio, limit);
             let level = match (above(thresholds.error_ratio), above(thresholds.warn_ratio)) {
                 (true, _) => Level::Error,
                 (false, true) => Level::Warning,
                 (false, false) => Level::Good,
             };
             let before = std::mem::replace(&mut self.levels[i], level);
-            faults[i] = match level {
+            faults.push(match level {
                 Level::Error if before < level => {
                     let limit = (1.0 + thresholds.error_ratio) * limit;
                     Some(Fault::SetpointError { what, value, limit })
@@ -128,9 +139,8 @@ impl SetpointMonitor {
                     Some(Fault::SetpointWarning { what, value, limit })
                 }
                 _ => None,
-            };
+            });
         }
-        faults
     }
 }
 
@@ -147,9 +157,10 @@ mod tests {
             .iter()
             .map(|d| {
                 x += d;
-                m.step(x)
+                let mut faults = Faults::default();
+                m.step(x, &mut faults);
+                faults
                     .iter()
-                    .flatten()
                     .map(|fault| match *fault {
                         Fault::SetpointWarning { what, .. } => (what, false),
                         Fault::SetpointError { what, .. } => (what, true),

@@ -2,7 +2,7 @@
 
 use super::{Disturbance, Measured, PlantError, PlantInput};
 use crate::time::CycleTime;
-use nalgebra::{DMatrix, DVector, RowDVector};
+use nalgebra::{DMatrix, RowDVector};
 
 /// Number of inputs: speed command, additive acceleration, force.
 pub(super) const INPUTS: usize = 3;
@@ -24,17 +24,34 @@ impl Continuous {
     }
 }
 
+/// A vector of states: an array where the usual drives have few of them.
+pub(super) trait States: AsRef<[f64]> + AsMut<[f64]> + Clone {
+    /// The vector of these values.
+    fn of(values: &[f64]) -> Self;
+}
+
+impl<const N: usize> States for [f64; N] {
+    fn of(values: &[f64]) -> Self {
+        std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
+    }
+}
+
+impl States for Vec<f64> {
+    fn of(values: &[f64]) -> Self {
+        values.to_vec()
+    }
+}
+
 /// Discrete model with state. The position is kept apart and only ever moved by increments: so an axis at rest stays
 /// where it is bit by bit, and far from zero it loses nothing of its resolution.
 #[derive(Clone, Debug)]
-pub(super) struct LinearPlant {
-    phi: DMatrix<f64>,
-    gamma: DMatrix<f64>,
-    positions: [RowDVector<f64>; 3],
-    speeds: [RowDVector<f64>; 3],
-    state: DVector<f64>,
-    next: DVector<f64>,
-    input: DVector<f64>,
+pub(super) struct LinearPlant<S> {
+    /// Columns of `phi`, then those of `gamma`.
+    columns: Vec<S>,
+    positions: [S; 3],
+    speeds: [S; 3],
+    state: S,
+    next: S,
     base_mm: f64,
     disturbance: Option<Disturbance>,
     substep_s: f64,
@@ -46,7 +63,7 @@ pub(super) struct LinearPlant {
     has_tool_point: bool,
 }
 
-impl LinearPlant {
+impl<S: States> LinearPlant<S> {
     /// Substeps per cycle while a force acts inside the cycle.
     const SUBSTEPS: u32 = 4;
     /// Below this a state is taken for zero, so that decayed vibrations do not end in denormal numbers.
@@ -61,14 +78,15 @@ impl LinearPlant {
         let substep_s = cycle.seconds() / f64::from(substeps);
         let (phi, gamma) = discretise(&model.a, &model.b, substep_s)?;
         let n = model.a.nrows();
+        let column = |matrix: &DMatrix<f64>, i: usize| S::of(&matrix.as_slice()[i * n..][..n]);
+        let phi = (0..n).map(|i| column(&phi, i));
+        let row = |row: &RowDVector<f64>| S::of(row.as_slice());
         Ok(Self {
-            phi,
-            gamma,
-            positions: model.positions.clone(),
-            speeds: model.speeds.clone(),
-            state: DVector::zeros(n),
-            next: DVector::zeros(n),
-            input: DVector::zeros(INPUTS),
+            columns: phi.chain((0..INPUTS).map(|i| column(&gamma, i))).collect(),
+            positions: std::array::from_fn(|i| row(&model.positions[i])),
+            speeds: std::array::from_fn(|i| row(&model.speeds[i])),
+            state: S::of(&vec![0.0; n]),
+            next: S::of(&vec![0.0; n]),
             base_mm: 0.0,
             disturbance,
             substep_s,
@@ -81,7 +99,7 @@ impl LinearPlant {
     }
 
     pub(super) fn start(&mut self, position_mm: f64) {
-        self.state.fill(0.0);
+        self.state.as_mut().fill(0.0);
         self.base_mm = position_mm;
         self.cycles = 0;
     }
@@ -90,12 +108,15 @@ impl LinearPlant {
         self.has_tool_point
     }
 
-    pub(super) fn advance(&mut self, input: &PlantInput) -> Measured {
+    /// Advances by one cycle. `rests` tells whether that has changed nothing, bit for bit: with the same input no further
+    /// cycle will. A disturbance that changes with time never rests.
+    pub(super) fn advance(&mut self, input: &PlantInput, rests: &mut bool) -> Measured {
+        *rests = self.disturbance.is_none();
         let start_s = self.cycle.time_of(self.cycles);
         for i in 0..self.substeps {
             let middle_s = start_s + self.substep_s * (f64::from(i) + 0.5);
             let force = input.force_mm_s2 + self.disturbance_at(middle_s);
-            self.substep(input, force);
+            *rests &= self.substep(input, force);
         }
         self.cycles += 1;
         self.measured()
@@ -114,27 +135,35 @@ impl LinearPlant {
         d.amplitude_mm_s2 * share * wave
     }
 
-    fn substep(&mut self, input: &PlantInput, force_mm_s2: f64) {
-        self.input[0] = input.speed_mm_s;
-        self.input[1] = input.acc_mm_s2;
-        self.input[2] = force_mm_s2;
+    /// True if nothing has changed.
+    fn substep(&mut self, input: &PlantInput, force_mm_s2: f64) -> bool {
+        let inputs: [f64; INPUTS] = [input.speed_mm_s, input.acc_mm_s2, force_mm_s2];
         // plain loops: matrices this small are faster than the library's dispatch. A sum begins with -0, so that the
         // first product is kept with its sign
-        self.next.fill(-0.0);
-        let next = self.next.as_mut_slice();
-        add_product(next, &self.phi, self.state.as_slice());
-        add_product(next, &self.gamma, self.input.as_slice());
-        std::mem::swap(&mut self.state, &mut self.next);
-        self.base_mm += self.state[0];
-        self.state[0] = 0.0;
-        for s in self.state.iter_mut().filter(|s| s.abs() < Self::NEGLIGIBLE) {
+        let next = self.next.as_mut();
+        next.fill(-0.0);
+        let values = self.state.as_ref().iter().chain(&inputs);
+        for (x, column) in values.zip(&self.columns) {
+            for (sum, c) in next.iter_mut().zip(column.as_ref()) {
+                *sum += c * x;
+            }
+        }
+        let before_mm = self.base_mm;
+        self.base_mm += next[0];
+        next[0] = 0.0;
+        for s in next.iter_mut().filter(|s| s.abs() < Self::NEGLIGIBLE) {
             *s = 0.0;
         }
+        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
+        let rests = self.state.as_ref().iter().zip(next.iter()).all(same)
+            && self.base_mm.to_bits() == before_mm.to_bits();
+        std::mem::swap(&mut self.state, &mut self.next);
+        rests
     }
 
     /// A function of the state; no allocation.
-    fn value(&self, row: &RowDVector<f64>) -> f64 {
-        row.as_slice().iter().zip(self.state.as_slice()).map(|(c, s)| c * s).sum()
+    fn value(&self, row: &S) -> f64 {
+        row.as_ref().iter().zip(self.state.as_ref()).map(|(c, s)| c * s).sum()
     }
 
     fn measured(&self) -> Measured {
@@ -149,18 +178,6 @@ impl LinearPlant {
     /// Position and speed of a measured point.
     fn point(&self, i: usize) -> (f64, f64) {
         (self.base_mm + self.value(&self.positions[i]), self.value(&self.speeds[i]))
-    }
-}
-
-/// Adds the product of a matrix and a vector, column by column.
-fn add_product(sum: &mut [f64], matrix: &DMatrix<f64>, vector: &[f64]) {
-    let mut columns = matrix.as_slice();
-    for x in vector {
-        let (column, others) = columns.split_at(sum.len());
-        columns = others;
-        for (sum, c) in sum.iter_mut().zip(column) {
-            *sum += c * x;
-        }
     }
 }
 
@@ -246,6 +263,44 @@ mod tests {
             assert!(close(gamma[(1, 0)], -libm::expm1(-h / ta), 1e-12), "{ta} {h}");
             let series = h + ta * libm::expm1(-h / ta);
             assert!(close(gamma[(0, 0)], series, 1e-10), "{ta} {h}: {} {series}", gamma[(0, 0)]);
+        }
+    }
+
+    /// Arrays and lists of states do the same, bit for bit, and rest in the same cycle.
+    #[test]
+    fn the_number_of_states_is_all_that_an_array_knows() {
+        let two = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, -200.0]);
+        let three = [0.0, 1.0, 0.0, 0.0, 0.0, 100.0, 0.0, -100.0, -120.0];
+        agree::<2>(two);
+        agree::<3>(DMatrix::from_row_slice(3, 3, &three));
+    }
+
+    fn agree<const N: usize>(a: DMatrix<f64>) {
+        let b = DMatrix::from_fn(N, INPUTS, |i, j| if i == N - 1 { 70.0 + j as f64 } else { 0.0 });
+        let row = |values: [f64; 3]| RowDVector::from_row_slice(&values[..N]);
+        let position = row([1.0, 1e-3, 2e-4]);
+        let (positions, speed) =
+            ([position.clone(), position, row([1.0, 0.0, 0.3])], [0.0, 1.0, 0.1]);
+        let model = Continuous { a, b, positions, speeds: [row(speed), row(speed), row([0.0; 3])] };
+        let new = |disturbance| {
+            let cycle = CycleTime::DEFAULT;
+            let array = LinearPlant::<[f64; N]>::new(&model, cycle, disturbance).unwrap();
+            (array, LinearPlant::<Vec<f64>>::new(&model, cycle, disturbance).unwrap())
+        };
+        let force = Disturbance { amplitude_mm_s2: 3.0, frequency_hz: 7.0, full_speed_mm_s: 10.0 };
+        for disturbance in [None, Some(force)] {
+            let (mut array, mut list) = new(disturbance);
+            let mut rests = [false; 2];
+            for k in 0..60_000_u32 {
+                let speed_mm_s = if k < 100 { f64::from(k % 13) } else { 0.0 };
+                let input =
+                    PlantInput { speed_mm_s, acc_mm_s2: 0.5 * speed_mm_s, ..Default::default() };
+                let measured =
+                    [array.advance(&input, &mut rests[0]), list.advance(&input, &mut rests[1])];
+                assert_eq!(format!("{:?}", measured[0]), format!("{:?}", measured[1]));
+                assert_eq!(rests[0], rests[1], "{k}");
+            }
+            assert_eq!(rests[0], disturbance.is_none());
         }
     }
 

@@ -1,18 +1,19 @@
 //! Where the rows of a comparison come from: a CSV file, or a run that happens now.
 
 use crate::Error;
-use crate::engine::Source;
 use crate::text::Text;
 use crate::trace::columns;
 use crate::trace::csv::Rows;
 use csv::{ByteRecord, ErrorKind};
 use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::job::Run;
+use kontur_interpreter::record::CycleRecord;
 use std::fs::File;
 use std::io::{self, Cursor, Read as _};
 use std::path::Path;
 
 /// Rows of a fresh run that are formatted at a time.
-const BATCH: usize = 256;
+const BATCH: u64 = 256;
 
 /// Rows with a header, read once from top to bottom.
 pub(super) struct Table {
@@ -28,7 +29,7 @@ enum Origin {
 }
 
 struct Fresh {
-    source: Box<dyn Source>,
+    run: Run,
     rows: Rows,
     batch: csv::Reader<Cursor<Vec<u8>>>,
 }
@@ -102,8 +103,8 @@ impl Table {
     ///
     /// # Errors
     /// [`Error::Usage`] if no columns can be chosen.
-    pub(super) fn run(source: Box<dyn Source>, names: Option<&[String]>) -> Result<Self, Error> {
-        let facts = source.facts();
+    pub(super) fn run(run: Run, names: Option<&[String]>) -> Result<Self, Error> {
+        let facts = run.facts();
         let columns = match names {
             Some(names) => {
                 let all = columns::all(facts).into_iter();
@@ -115,7 +116,7 @@ impl Table {
         let name = facts.program.clone();
         let rows = Rows::new(columns, facts);
         let batch = reader(Vec::new());
-        let rows = Origin::Run(Box::new(Fresh { source, rows, batch }));
+        let rows = Origin::Run(Box::new(Fresh { run, rows, batch }));
         Ok(Self { name, header, row: ByteRecord::new(), rows })
     }
 
@@ -141,7 +142,7 @@ impl Table {
     pub(super) fn take_messages(&mut self) -> Vec<Diagnostic> {
         match &mut self.rows {
             Origin::File(_) => Vec::new(),
-            Origin::Run(fresh) => fresh.source.take_diagnostics(),
+            Origin::Run(fresh) => fresh.run.take_diagnostics(),
         }
     }
 }
@@ -152,10 +153,8 @@ impl Fresh {
             return Ok(true);
         }
         let mut text = Vec::new();
-        for _ in 0..BATCH {
-            let Some(record) = self.source.next_cycle() else { break };
-            self.rows.push_row(&mut text, record);
-        }
+        let rows = &mut self.rows;
+        let Ok(()) = self.run.advance(BATCH, &mut |r: &CycleRecord| rows.push_row(&mut text, r));
         self.batch = reader(text);
         self.batch.read_byte_record(row)
     }

@@ -41,7 +41,12 @@ function fitted(canvas) {
   return [c, w, h];
 }
 
+// at least two marks, or nobody can read a scale from them
 function ticks(low, high, wanted) {
+  const [found, decimals] = marks(low, high, wanted);
+  return found.length > 1 || wanted > 16 ? [found, decimals] : ticks(low, high, 2 * wanted);
+}
+function marks(low, high, wanted) {
   const rough = (high - low) / Math.max(wanted, 2);
   if (!(rough > 0) || !isFinite(rough)) return [[], 0];
   const power = Math.floor(Math.log10(rough)), magnitude = 10 ** power;
@@ -137,11 +142,11 @@ function drawContour() {
   c.setLineDash([]);
   if (view.at !== null) for (const g of groups) {
     if (view.hidden.has(g)) continue;
-    const i = pointAt(g.r, view.at), [a, b] = axesOf(g.r);
-    if (i < 0 || (g.pass !== null && g.r.pass[i] !== g.pass)) continue;
-    for (const [name, fill] of [["act", "#fff"], ["set", g.colour]]) {
-      if (!g.r[name][b] || view.hidden.has(name)) continue;
-      const [x, y] = toScreen(g.r[name][a][i], g.r[name][b][i]);
+    const p = pointAt(g.r, view.at), i = bucketAt(g.r, view.at), [a, b] = axesOf(g.r);
+    if (p < 0 || i < 0 || (g.pass !== null && g.r.pass[p] !== g.pass)) continue;
+    for (const [name, curves, fill] of [["act", g.r.actCurves, "#fff"], ["set", g.r.setCurves, g.colour]]) {
+      if (!curves[a] || !curves[b] || view.hidden.has(name)) continue;
+      const [x, y] = toScreen(valueOf(curves[a], i), valueOf(curves[b], i));
       c.beginPath(); c.arc(x, y, 4, 0, 7); c.fillStyle = fill; c.fill();
       c.strokeStyle = g.colour; c.lineWidth = 1.5; c.stroke();
     }
@@ -162,22 +167,35 @@ const cycleAt = (r, t) => t * 1e6 / r.summary.cycle_us + 1e-6;
 const pointAt = (r, t) => upTo(r.pk, cycleAt(r, t));
 const bucketAt = (r, t) => upTo(r.k, cycleAt(r, t));
 
+// the value of a curve in a bucket; of several cycles their middle
+const valueOf = (c, i) => c.high ? (c.low[i] + c.high[i]) / 2 : c.low[i];
+// set and actual position of the axes of the contour, by bucket
+for (const r of runs) for (const [name, what] of [["setCurves", "set"], ["actCurves", "actual"]]) {
+  r[name] = r.plane.map(axis => r.curves.find(c => c.name === `${axis} ${what}`));
+}
+
 // ---- curves over time
 const plots = [];
-const axisNames = [...new Set(runs.flatMap(r => r.curves.map(c => c.name)))];
+const baseName = name => name.replace(/ (set|actual|load)$/, "");
+const axisNames = [...new Set(runs.flatMap(r => r.curves.filter(c => c.kind !== "speed" && c.kind !== "error").map(c => baseName(c.name))))];
+// one run: an axis has a colour, what is actual is dashed; several: a run has a colour, an axis its dashes, what is actual is thin
+const AXIS_DASHES = [[], [7, 3], [2, 2], [8, 2, 2, 2], [12, 3], [4, 4], [1, 3], [10, 2, 4, 2]];
+function styleOf(c, i) {
+  const axis = axisNames.indexOf(baseName(c.name)), actual = c.name.endsWith(" actual"), load = c.name.endsWith(" load");
+  if (!one) return { colour: colour(i), dash: axis < 0 ? [] : AXIS_DASHES[axis % AXIS_DASHES.length], width: actual ? 0.8 : load ? 0.5 : 1.8 };
+  return { colour: axis < 0 ? COLOURS[0] : colour(1 + axis), dash: actual ? [5, 3] : load ? [2, 2] : [], width: 1.4 };
+}
 const flat = ({ low, high }) => [...low, ...(high || [])].every(v => Math.abs(v) < VISIBLE);
 for (const [kind, title, wanted] of KINDS) {
   const lines = runs.flatMap((r, i) => r.curves.filter(c => c.kind === kind).map(c => ({
-    r, c, name: (one ? "" : r.summary.program + " ") + c.name,
-    colour: one ? (kind === "speed" || kind === "error" ? COLOURS[0] : colour(1 + axisNames.indexOf(c.name.replace(/ (set|actual|load)$/, "")))) : colour(i),
-    dash: one ? (c.name.endsWith(" actual") ? [5, 3] : c.name.endsWith(" load") ? [2, 2] : []) : [[], [6, 3], [2, 2], [8, 2, 2, 2]][Math.max(0, axisNames.indexOf(c.name) - 2) % 4],
+    r, c, name: (one ? "" : r.summary.program + " ") + c.name, ...styleOf(c, i),
   })));
   if (!lines.length) continue;
   const open = wanted && !(kind === "dev" && lines.every(l => flat(l.c)));
   const card = make("div", undefined, "card"), bar = make("div", undefined, "bar"), canvas = make("canvas");
   const head = make("button", title, open ? "on" : "");
   bar.append(head, make("span", `${lines[0].c.unit} over s`, "hint"));
-  lines.forEach(l => key(bar, l.name, l.colour, l, l.dash.length > 0));
+  lines.forEach(l => key(bar, l.name, l.colour, l, l.dash, l.width));
   bar.append(bar.querySelector(".hint"));
   card.append(bar, canvas);
   byId("plots").append(card);
@@ -235,8 +253,8 @@ function drawPlot(plot) {
   c.save();
   c.beginPath(); c.rect(...box); c.clip();
   const X = t => x0 + (t - t0) / (t1 - t0) * w, Y = v => y0 + h - (v - y[0]) / (y[1] - y[0]) * h;
-  shown.forEach(({ r, c: curve, colour, dash }, n) => {
-    c.strokeStyle = colour; c.lineWidth = 1.4; c.setLineDash(dash); c.lineJoin = "round";
+  shown.forEach(({ r, c: curve, colour, dash, width }, n) => {
+    c.strokeStyle = colour; c.lineWidth = width; c.setLineDash(dash); c.lineJoin = "round";
     c.beginPath();
     const [from, to] = windows[n];
     for (let i = from; i <= to; i++) {
@@ -301,10 +319,16 @@ pointer(contour, (px, py) => {
     if (view.hidden.has(g)) continue;
     const [a, b] = axesOf(g.r), xs = g.r.set[a], ys = g.r.set[b];
     if (!ys) continue;
+    // the nearest place of the lines between the points, which may be far apart
+    let before = null;
     for (let i = 0; i < xs.length; i++) {
-      if (g.pass !== null && g.r.pass[i] !== g.pass) continue;
-      const [x, y] = toScreen(xs[i], ys[i]), d = (x - px) ** 2 + (y - py) ** 2;
-      if (d < best) { best = d; at = seconds(g.r, g.r.pk[i]); }
+      if (g.pass !== null && g.r.pass[i] !== g.pass) { before = null; continue; }
+      const [x, y] = toScreen(xs[i], ys[i]), k = g.r.pk[i];
+      const [x0, y0, k0] = before || [x, y, k], dx = x - x0, dy = y - y0, square = dx * dx + dy * dy;
+      const part = square > 0 ? Math.min(1, Math.max(0, ((px - x0) * dx + (py - y0) * dy) / square)) : 1;
+      const d = (x0 + part * dx - px) ** 2 + (y0 + part * dy - py) ** 2;
+      if (d < best) { best = d; at = seconds(g.r, Math.round(k0 + part * (k - k0))); }
+      before = [x, y, k];
     }
   }
   return at;
@@ -315,12 +339,15 @@ function tip(e) {
   if (view.at === null) { box.hidden = true; return; }
   const text = [];
   for (const r of runs) {
-    const i = bucketAt(r, view.at), p = pointAt(r, view.at);
+    const i = bucketAt(r, view.at);
     if (i < 0) continue;
     const file = r.files.length > 1 ? r.files[r.file[i]] + " " : "";
     if (!one) text.push(r.summary.program);
     text.push(`t = ${seconds(r, r.k[i]).toFixed(6)} s   ${file}line ${r.line[i]}${r.block[i] === null ? "" : "   N" + r.block[i]}   held by ${r.limit[i]}`);
-    r.plane.forEach((name, a) => text.push(`${name}  set ${r.set[a][p].toFixed(5)}   act ${r.act[a][p].toFixed(5)} mm`));
+    r.plane.forEach((name, a) => {
+      const [set, act] = [r.setCurves[a], r.actCurves[a]].map(c => c ? valueOf(c, i).toFixed(5) : "-");
+      text.push(`${name}  set ${set}   act ${act} mm`);
+    });
     for (const kind of ["speed", "error", "dev", "lag"]) {
       const all = r.curves.filter(c => c.kind === kind);
       const value = c => (c.high && Math.abs(c.high[i]) > Math.abs(c.low[i]) ? c.high : c.low)[i];
@@ -336,9 +363,12 @@ function tip(e) {
 }
 
 // ---- what stands around the plots
-function key(parent, name, colour, what, dashed) {
-  const k = make("span", undefined, "key"), swatch = make("i", undefined, dashed ? "dash" : "");
-  swatch.style.borderColor = colour;
+function key(parent, name, colour, what, dash = [], width = 2) {
+  const k = make("span", undefined, "key");
+  const swatch = document.createElementNS("http://www.w3.org/2000/svg", "svg"), line = document.createElementNS(swatch.namespaceURI, "line");
+  for (const [to, of] of [[swatch, { width: 28, height: 8 }], [line, { x1: 0, x2: 28, y1: 4, y2: 4, stroke: colour, "stroke-width": width, "stroke-dasharray": dash.join(" ") }]])
+    for (const [attribute, value] of Object.entries(of)) to.setAttribute(attribute, value);
+  swatch.append(line);
   k.append(swatch, name);
   k.onclick = () => {
     if (view.hidden.delete(what)) k.classList.remove("off");
@@ -347,10 +377,10 @@ function key(parent, name, colour, what, dashed) {
   };
   parent.append(k);
 }
-key(byId("legend"), "programmed", "#ced4da", "programmed");
+key(byId("legend"), "programmed", "#ced4da", "programmed", [], 5);
 groups.forEach(g => key(byId("legend"), g.name, g.colour, g));
 if (groups.length > 1) key(byId("legend"), "set", "#343a40", "set");
-key(byId("legend"), "actual", "#343a40", "act", true);
+key(byId("legend"), "actual", "#343a40", "act", [4, 3], 1);
 const most = Math.max(...runs.map(r => r.plane.length));
 PLANES.forEach((p, i) => {
   if (p[1] >= most || most < 3) return;
@@ -383,9 +413,11 @@ for (const { summary: s } of runs) for (const m of s.messages.slice(0, 50)) {
   byId("messages").append(make("div", `${place}${m.severity} ${m.id || m.kontur_id}: ${m.text}`, m.severity));
 }
 
-const widest = Math.max(...runs.map(r => r.width));
+const widest = Math.max(...runs.map(r => r.width)), within = Math.max(...runs.map(r => r.within));
+if (within > VISIBLE) byId("legend").append(make("div",
+  `Points of the contour are left out where they lie within ${(within * 1000).toPrecision(2)} µm of the lines that are drawn.`, "note"));
 if (widest > 1) byId("legend").append(make("div",
-  `One bucket of points for ${widest} cycles: corners are cut when zoomed in, except around the largest contour error.`, "note"));
+  `Over time least and greatest value of ${widest} cycles each; under the pointer their middle.`, "note"));
 
 function draw() { drawContour(); plots.forEach(drawPlot); }
 view.time = [0, end];

@@ -26,11 +26,12 @@ fn run(r: &Recording, s: &Summary) -> String {
     let points: Vec<Point> = r.points().copied().collect();
     let names: Vec<&str> = r.plane.iter().map(|&i| r.facts.axes[i].name.as_str()).collect();
     let mut out = Json::new();
-    out.text("summary", &safe(&s.json()));
+    out.text("summary", &safe(&s.json(None)));
     out.text("files", &safe(&json!(r.facts.files.all()).to_string()));
     out.text("plane", &safe(&json!(names).to_string()));
     out.text("width", &r.width.to_string());
     out.text("passes", &r.passes.len().to_string());
+    out.text("within", &format!("{:e}", r.within_mm()));
     let buckets = |value: fn(&Bucket) -> String| join(r.buckets.iter().map(value));
     out.text("k", &buckets(|b| b.k.to_string()));
     out.text("line", &buckets(|b| b.line.to_string()));

@@ -37,7 +37,7 @@ pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
     let plane = plane(runs);
     let visible = |p: &Point| p.error > VISIBLE_MM;
     let worst = worst(runs).filter(visible);
-    let look = worst.or_else(|| farthest(&drawn(runs, false), &groups, plane).filter(visible));
+    let look = worst.or_else(|| farthest(&drawn(runs), &groups, plane).filter(visible));
     let contour_width = if look.is_some() { 590.0 } else { RIGHT - LEFT };
     let panel = Panel {
         left: LEFT,
@@ -49,11 +49,11 @@ pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
     };
     let panel = panel.equal_scale();
     let names = plane.map(|i| axis_label(&runs[0].0, i));
-    contour(&mut svg, &panel, &drawn(runs, false), &groups, plane, "Contour", &names);
+    contour(&mut svg, &panel, &drawn(runs), &groups, plane, "Contour", &names);
     if let Some(look) = look {
         let zoom = zoom_panel(&look, plane, 0.2 * (panel.x.1 - panel.x.0));
         let (a, b) = (panel.at([zoom.x.0, zoom.y.1]), panel.at([zoom.x.1, zoom.y.0]));
-        let close = drawn(runs, worst.is_some());
+        let close = drawn(runs);
         let title = if worst.is_some() { "Largest contour error" } else { "Largest difference" };
         contour(&mut svg, &zoom, &close, &groups, plane, title, &names);
         let size = [(b[0] - a[0]).max(4.0), (b[1] - a[1]).max(4.0)];
@@ -158,11 +158,8 @@ fn extent(runs: &[(Recording, Summary)], axis: usize) -> (f64, f64) {
 }
 
 fn worst(runs: &[(Recording, Summary)]) -> Option<Point> {
-    let points = runs.iter().flat_map(|(r, _)| r.points());
-    points.copied().fold(None, |worst: Option<Point>, p| match worst {
-        Some(w) if w.error >= p.error => Some(w),
-        _ => Some(p),
-    })
+    let found = runs.iter().filter_map(|(r, _)| r.worst);
+    found.max_by(|a, b| a.error.total_cmp(&b.error))
 }
 
 /// The set point of a group that is farthest from the first group's path, with its distance as error.
@@ -203,14 +200,9 @@ fn zoom_panel(worst: &Point, [x, y]: [usize; 2], most: f64) -> Panel {
     .equal_scale()
 }
 
-/// The points to draw of every run; for a close look only those of which no neighbour was left out.
-fn drawn(runs: &[(Recording, Summary)], close: bool) -> Vec<Vec<Point>> {
-    let points = |r: &Recording| match r.close() {
-        [] => r.points().copied().collect(),
-        _ if !close => r.points().copied().collect(),
-        points => points.to_vec(),
-    };
-    runs.iter().map(|(r, _)| points(r)).collect()
+/// The points to draw of every run.
+fn drawn(runs: &[(Recording, Summary)]) -> Vec<Vec<Point>> {
+    runs.iter().map(|(r, _)| r.points().copied().collect()).collect()
 }
 
 fn contour(

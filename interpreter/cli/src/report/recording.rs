@@ -1,17 +1,13 @@
 //! What a picture needs of a run, in bounded memory: one bucket per stretch of cycles, with the smallest and largest
-//! value of every curve and the points that span the contour. Short runs keep every cycle; long ones keep every cycle
-//! around the largest contour error, where one looks closest.
+//! value of every curve, and the contour as a [`Track`]. Short runs have one bucket per cycle.
 
 use super::stops::Stops;
-use crate::engine::Facts;
+use super::track::Track;
+use kontur_interpreter::job::Facts;
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
-use std::collections::VecDeque;
 
 /// Buckets of a finished recording are at least half of this many, once a run is longer than that.
 const MOST_BUCKETS: usize = 4000;
-
-/// Cycles before and after the largest contour error of which every one is kept.
-const CLOSE: usize = 256;
 
 /// More passes than this over one contour are drawn as one.
 pub(crate) const MOST_PASSES: usize = 8;
@@ -40,7 +36,6 @@ pub(crate) struct Bucket {
     pub(crate) block: Option<u64>,
     pub(crate) pass: usize,
     pub(crate) limit: SpeedLimit,
-    pub(crate) points: Vec<Point>,
     /// Smallest and largest value of each curve.
     pub(crate) range: Vec<(f64, f64)>,
 }
@@ -109,13 +104,9 @@ pub(crate) struct Recording {
     pub(crate) width: u64,
     start: Option<[f64; 3]>,
     moved: bool,
-    /// The last cycles.
-    recent: VecDeque<Point>,
-    /// Every cycle around the largest contour error.
-    close: Vec<Point>,
-    /// Cycles that are still to come after the largest contour error.
-    close_left: usize,
-    largest: f64,
+    track: Track,
+    /// The point with the largest contour error.
+    pub(crate) worst: Option<Point>,
 }
 
 impl Recording {
@@ -161,10 +152,8 @@ impl Recording {
             width: 1,
             start: None,
             moved: false,
-            recent: VecDeque::new(),
-            close: Vec::new(),
-            close_left: 0,
-            largest: 0.0,
+            track: Track::default(),
+            worst: None,
         }
     }
 
@@ -173,40 +162,23 @@ impl Recording {
         k as f64 * f64::from(self.facts.cycle_us) / 1e6
     }
 
-    /// Every cycle around the largest contour error; empty if every cycle of the run is kept anyway.
-    pub(crate) fn close(&self) -> &[Point] {
-        if self.width > 1 { &self.close } else { &[] }
-    }
-
     /// Every point of the contour that is kept, in order.
     pub(crate) fn points(&self) -> impl Iterator<Item = &Point> {
-        let close = self.close();
-        let from = close.first().map_or(u64::MAX, |p| p.k);
-        let to = close.last().map_or(u64::MAX, |p| p.k);
-        let all = || self.buckets.iter().flat_map(|b| &b.points);
-        let before = all().filter(move |p| p.k < from);
-        before.chain(close).chain(all().filter(move |p| p.k > to))
+        self.track.points()
     }
 
-    fn look_closely(&mut self, point: Point) {
-        if self.recent.len() >= CLOSE {
-            self.recent.pop_front();
-        }
-        self.recent.push_back(point);
-        if point.error > self.largest {
-            self.largest = point.error;
-            self.close = self.recent.iter().copied().collect();
-            self.close_left = CLOSE;
-        } else if self.close_left > 0 {
-            self.close_left -= 1;
-            self.close.push(point);
-        }
+    /// Distance in mm that no point of the contour has from the lines between those that are kept.
+    pub(crate) fn within_mm(&self) -> f64 {
+        self.track.within_mm()
     }
 
     /// Adds a cycle.
     pub(crate) fn add(&mut self, record: &CycleRecord) {
         let point = self.point(record);
-        self.look_closely(point);
+        self.track.add(point);
+        if self.worst.is_none_or(|worst| point.error > worst.error) {
+            self.worst = Some(point);
+        }
         self.stops.add(record, &self.facts.axes);
         let value = |c: &Curve| match (c.kind, c.axis) {
             (Kind::Speed, _) => record.path.v_mm_s,
@@ -222,7 +194,6 @@ impl Recording {
             block: record.block,
             pass: point.pass,
             limit: record.path.limit,
-            points: vec![point],
             range,
         };
         match self.buckets.last_mut() {
@@ -277,9 +248,8 @@ impl Recording {
             vec![Pass { first_line: first.first_line, last_line: last.last_line, error_mm }];
         for bucket in &mut self.buckets {
             bucket.pass = 0;
-            bucket.points.iter_mut().for_each(|p| p.pass = 0);
         }
-        self.recent.iter_mut().chain(&mut self.close).for_each(|p| p.pass = 0);
+        self.track.one_pass();
         // a start that no path comes back to
         self.start = Some([f64::INFINITY; 3]);
         self.moved = true;
@@ -304,29 +274,6 @@ impl Bucket {
         for (a, b) in self.range.iter_mut().zip(other.range) {
             *a = (a.0.min(b.0), a.1.max(b.1));
         }
-        self.points.extend(other.points);
-        self.thin();
-    }
-
-    /// Keeps the first point, the outermost ones and the one with the largest error.
-    fn thin(&mut self) {
-        let mut keep = vec![0];
-        let most = |value: &dyn Fn(&Point) -> f64| {
-            let best = |a: &usize, b: &usize| {
-                value(&self.points[*a]).total_cmp(&value(&self.points[*b])).then(b.cmp(a))
-            };
-            (0..self.points.len()).max_by(best).unwrap_or(0)
-        };
-        for axis in 0..3 {
-            keep.push(most(&|p| p.set[axis]));
-            keep.push(most(&|p| -p.set[axis]));
-            keep.push(most(&|p| p.ipo[axis]));
-            keep.push(most(&|p| -p.ipo[axis]));
-        }
-        keep.push(most(&|p| p.error));
-        keep.sort_unstable();
-        keep.dedup();
-        self.points = keep.iter().map(|&i| self.points[i]).collect();
     }
 }
 
@@ -345,7 +292,8 @@ pub(crate) fn programmed(points: &[Point], [x, y]: [usize; 2]) -> Vec<[f64; 2]> 
     path
 }
 
-/// Where the ways `a -> b` and `c -> d` meet, if that lies ahead of `b`, before `c`, and no farther than a step.
+/// Where the ways `a -> b` and `c -> d` meet, if that lies ahead of `b`, before `c`, and no farther than two steps: `b` and `c`
+/// are one cycle apart.
 fn corner(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Option<[f64; 2]> {
     let minus = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
     let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
@@ -355,14 +303,15 @@ fn corner(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Option<[f64; 2]
         return None;
     }
     let (ahead, behind) = (cross(gap, v) / turn, -cross(gap, u) / turn);
-    let within = (0.0..=2.0).contains(&ahead) && (0.0..=2.0).contains(&behind);
-    within.then(|| [b[0] + ahead * u[0], b[1] + ahead * u[1]])
+    let most = 2.0 * libm::hypot(gap[0], gap[1]);
+    let near = |part: f64, way: [f64; 2]| part >= 0.0 && part * libm::hypot(way[0], way[1]) <= most;
+    (near(ahead, u) && near(behind, v)).then(|| [b[0] + ahead * u[0], b[1] + ahead * u[1]])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::AxisFacts;
+    use kontur_interpreter::job::AxisFacts;
     use kontur_interpreter::record::{AxisRecord, PathRecord};
 
     fn facts() -> Facts {
@@ -394,15 +343,11 @@ mod tests {
             r.add(&record);
         }
         assert!(r.buckets.len() < MOST_BUCKETS && r.buckets.len() > MOST_BUCKETS / 4);
-        assert!(r.points().count() < 5 * r.buckets.len());
-        // around the largest error nothing is left out
-        assert_eq!(r.close().len(), 2 * CLOSE);
-        let near = r.points().filter(|p| p.k.abs_diff(77_777) < 250).count();
-        assert_eq!(near, 499);
         let error = r.curves.iter().position(|c| c.kind == Kind::ContourError).unwrap();
         let most = r.buckets.iter().map(|b| b.range[error].1).fold(0.0, f64::max);
         assert_eq!(most.to_bits(), 0.5_f64.to_bits());
         assert!(r.points().any(|p| p.k == 77_777 && p.set[1] < -2.0));
+        assert_eq!(r.worst.map(|p| p.k), Some(77_777));
         assert!(r.points().zip(r.points().skip(1)).all(|(a, b)| a.k < b.k));
     }
 

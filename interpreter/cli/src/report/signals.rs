@@ -4,12 +4,14 @@ use super::plot::{Diagram, Line, Plot, Scale, around};
 use super::requests;
 use crate::args::ReportArgs;
 use crate::console::Console;
-use crate::engine::{Engine, Facts};
+use crate::request::Opened;
+use crate::run::{Shown, announce_lists, drive};
 use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
 use crate::summary::Collector;
 use crate::table::{Table, number};
 use crate::trace::columns::{Column, select};
 use crate::{Error, Exit};
+use kontur_interpreter::job::Facts;
 use std::path::Path;
 
 /// Panels beyond these make no picture.
@@ -34,7 +36,6 @@ pub(super) fn report(
     args: &ReportArgs,
     names: &str,
     output: &Path,
-    engine: &mut dyn Engine,
     console: &mut Console,
 ) -> Result<Exit, Error> {
     let is = |end: &str| output.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
@@ -43,7 +44,6 @@ pub(super) fn report(
         let text = format!("{name}: --signals give a picture (.svg) or a table (.csv)");
         return Err(Error::Usage(text));
     }
-    let form = args.simulation.diagnostics;
     let (mut runs, mut aborted) = (Vec::new(), false);
     for (program, values, request) in requests(args)? {
         // the headline names a single program
@@ -52,40 +52,42 @@ pub(super) fn report(
             (1, false) => values,
             (_, false) => format!("{program}, {values}"),
         };
-        let mut source =
-            engine.open(&request).map_err(|e| crate::run::announce_lists(e, form, console))?;
-        crate::target::keep_apart(&source.reads(), &[output.to_owned()])?;
-        let mut summary = Collector::new(source.facts());
-        let mut run = Recorded::new(label, names, source.facts())?;
-        crate::run::drive(source.as_mut(), console, form, &mut summary, &mut |record| {
-            let t_s = record.k as f64 * run.cycle_s;
+        let opened = request.open().map_err(|e| announce_lists(e, console))?;
+        let Opened { mut run, reads } = opened;
+        crate::target::keep_apart(&reads, &[output.to_owned()])?;
+        let mut summary = Collector::new(run.facts());
+        let mut recorded = Recorded::new(label, names, run.facts())?;
+        drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
+            let t_s = record.k as f64 * recorded.cycle_s;
             if args.window.is_some_and(|(from, to)| !(from..to).contains(&t_s)) {
                 return Ok(());
             }
-            if run.times.len() >= MOST_SAMPLES {
+            if recorded.times.len() >= MOST_SAMPLES {
                 let text =
                     format!("--signals: more than {MOST_SAMPLES} cycles; --window shows a part");
                 return Err(Error::Usage(text));
             }
-            run.times.push(t_s);
-            for (samples, column) in run.samples.iter_mut().zip(&run.columns) {
+            recorded.times.push(t_s);
+            for (samples, column) in recorded.samples.iter_mut().zip(&recorded.columns) {
                 samples.push(column.number(record).unwrap_or_default());
             }
             Ok(())
         })?;
-        aborted |= source.totals().aborted;
-        if run.times.is_empty() && summary.cycles() > 0 {
-            let end_s = summary.cycles().saturating_sub(1) as f64 * run.cycle_s;
-            let text = format!("--window: the run of {} ends at {end_s:.3} s", run.label);
+        aborted |= run.totals().aborted;
+        if recorded.times.is_empty() && summary.cycles() > 0 {
+            let end_s = summary.cycles().saturating_sub(1) as f64 * recorded.cycle_s;
+            let text = format!("--window: the run of {} ends at {end_s:.3} s", recorded.label);
             return Err(Error::Usage(text));
         }
-        let highest_hz = 0.5 / run.cycle_s;
+        let highest_hz = 0.5 / recorded.cycle_s;
         if args.spectrum.is_some_and(|(low_hz, _)| low_hz >= highest_hz) {
-            let text =
-                format!("--spectrum: a cycle of {} s shows up to {highest_hz} Hz", run.cycle_s);
+            let text = format!(
+                "--spectrum: a cycle of {} s shows up to {highest_hz} Hz",
+                recorded.cycle_s
+            );
             return Err(Error::Usage(text));
         }
-        runs.push(run);
+        runs.push(recorded);
     }
     // of refused programs there is nothing to show
     if runs.iter().any(|run| !run.times.is_empty()) {

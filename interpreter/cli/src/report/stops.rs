@@ -3,7 +3,7 @@
 //!
 //! Source: TF5200 position monitoring, course of an exact stop.
 
-use crate::engine::{AxisFacts, Facts};
+use kontur_interpreter::job::{AxisFacts, Facts};
 use kontur_interpreter::record::CycleRecord;
 
 /// Stops that are kept; a picture shows no more.

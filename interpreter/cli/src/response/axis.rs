@@ -3,12 +3,13 @@
 use super::args::ResponseArgs;
 use super::curve::Curve;
 use crate::console::Console;
-use crate::engine::Request;
 use crate::files::Lists;
+use crate::request::Request;
 use crate::target::keep_apart;
-use crate::{Error, args::MessageForm, run, simulator};
+use crate::{Error, run};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::time::CycleTime;
+use kontur_interpreter::diag::Severity;
 use kontur_interpreter::machine::Axis;
 use std::sync::Arc;
 
@@ -26,15 +27,14 @@ pub(super) fn curves(
         cycle_us: args.cycle_us,
         ..Request::default()
     };
-    let form = MessageForm::Text;
     let lists = Lists::default();
-    let loaded = simulator::machine(&request, &lists);
-    let (machine, mut messages) = loaded.map_err(|e| run::announce_lists(e, form, console))?;
+    let loaded = request.machine(&lists);
+    let (machine, mut messages) = loaded.map_err(|e| run::announce_lists(e, console))?;
     keep_apart(&lists.read_so_far(), &args.output)?;
     let (chains, found) = machine.chains();
     messages.extend(found);
     for message in &messages {
-        run::announce(message, form, console);
+        console.announce(message);
     }
     let mut curves = Vec::new();
     for name in &args.axis {
@@ -65,12 +65,12 @@ pub(super) fn curves(
             parts.push(format!("{count} standard filter{}", if count > 1 { "s" } else { "" }));
         }
         if parts.is_empty() {
-            console.error_text(&format!("note: axis {name}: its lists switch no filter on"));
+            console.say(Severity::Note, &format!("axis {name}: its lists switch no filter on"));
             parts.push("no filter".to_owned());
         }
         if preset.hsc.is_some() {
             let text = "its HSC filter waits for #FILTER ON [HSC] and is not shown; see --hsc-mean";
-            console.error_text(&format!("note: axis {name}: {text}"));
+            console.say(Severity::Note, &format!("axis {name}: {text}"));
         }
         let mut shaping = Shaping::new(chain.filters.clone(), 0.0);
         let guard = guard.filter(|_| kernel.is_some());

@@ -16,6 +16,7 @@ use kontur_filters::kernel::Kernel;
 use kontur_filters::shaping::Shaping;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_interpreter::diag::Severity;
 use std::sync::Arc;
 
 /// Names of P-AXIS-00204.
@@ -96,7 +97,7 @@ impl Found<'_> {
             if issue.effect() == Effect::Off {
                 return Err(Error::Usage(text));
             }
-            self.console.error_text(&format!("note: {text}"));
+            self.console.say(Severity::Note, &text);
         }
         Ok(())
     }
@@ -126,11 +127,14 @@ impl Found<'_> {
         if matches!(config.kind, FilterKind::BandPass | FilterKind::BandStop) {
             let FilterConfig { f_hz, q, .. } = *config;
             let (low, high) = band_edges_hz(f_hz, q, self.cycle.seconds());
-            self.console.error_text(&format!(
-                "note: {label}: f0 {f_hz} Hz, Q {q}, -3 dB at {} and {} Hz",
-                number(low, 3),
-                number(high, 3)
-            ));
+            self.console.say(
+                Severity::Note,
+                &format!(
+                    "{label}: f0 {f_hz} Hz, Q {q}, -3 dB at {} and {} Hz",
+                    number(low, 3),
+                    number(high, 3)
+                ),
+            );
         }
         self.curves.push(Curve {
             label,

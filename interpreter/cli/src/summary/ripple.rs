@@ -3,7 +3,7 @@
 //! A corner slows the path down because it is a corner, a lower F word because it is programmed. What a surface shows are
 //! the dips between: at the small kinks of a polygon, at block limits, where a tolerance or the look-ahead takes speed.
 
-use crate::engine::{Facts, FileNames};
+use kontur_interpreter::job::{Facts, FileNames};
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 use serde::Serialize;
 
@@ -182,7 +182,7 @@ impl Collector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::AxisFacts;
+    use kontur_interpreter::job::AxisFacts;
     use kontur_interpreter::record::{AxisRecord, PathRecord};
 
     /// Ripple of these speeds; the path turns by an angle in degrees in the cycles given.

@@ -1,9 +1,9 @@
 //! The arguments of `kontur sweep`.
 
 use crate::args::SimulationArgs;
-use crate::engine::Facts;
 use crate::trace::columns::{Column, all};
 use crate::vary::Vary;
+use kontur_interpreter::job::Facts;
 use std::path::PathBuf;
 use std::str::FromStr;
 

@@ -1,6 +1,6 @@
 //! Which columns a trace has: groups, names, units, and where the value of each stands in a record.
 
-use crate::engine::Facts;
+use kontur_interpreter::job::Facts;
 use kontur_interpreter::record::{AxisRecord, CycleRecord};
 
 /// Groups in the order of the trace; `time` is always there.
@@ -170,7 +170,7 @@ fn fixed(name: &str, group: &'static str, content: Content, decimals: u8) -> Col
 
 fn quantities<'a>(
     index: usize,
-    axis: &'a crate::engine::AxisFacts,
+    axis: &'a kontur_interpreter::job::AxisFacts,
     wanted: impl Fn(&str) -> bool + 'a,
 ) -> impl Iterator<Item = Column> + 'a {
     QUANTITIES.iter().filter(move |q| wanted(q.0) && (axis.modal || !q.1.starts_with("tcp"))).map(
@@ -208,7 +208,7 @@ pub fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::{AxisFacts, FileNames};
+    use kontur_interpreter::job::{AxisFacts, FileNames};
 
     fn facts() -> Facts {
         let axis = |name: &str, rotary, spindle| AxisFacts {

@@ -3,8 +3,8 @@
 use super::columns::{Column, Content};
 use super::fixed::{push_fixed, push_integer, push_seconds};
 use crate::console::Output;
-use crate::engine::{Facts, FileNames};
 use crate::target;
+use kontur_interpreter::job::{Facts, FileNames};
 use kontur_interpreter::record::CycleRecord;
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
@@ -187,8 +187,8 @@ impl CsvWriter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::AxisFacts;
     use crate::trace::columns;
+    use kontur_interpreter::job::AxisFacts;
     use kontur_interpreter::record::{AxisRecord, PathRecord, SpeedLimit};
 
     fn facts(files: &[&str]) -> Facts {

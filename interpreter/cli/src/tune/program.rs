@@ -1,38 +1,35 @@
 //! The choices judged on the user's own program: residual vibration, deviation from the contour, machining time.
 //!
-//! A choice is put over the axis lists (`vib_guard.*` of every path axis), as if the machine's lists said so. A program
-//! command has priority over the lists key by key: a bare `#VIB GUARD ON` or one with `AX_DEV` alone runs with the
-//! choice and with its own tolerance, but a command that names MODE, FREQ or DAMPING itself would outvote it. Those words
-//! are what is to be chosen: the runs take a copy of the program without them. Because a subroutine may hide such a
-//! command too, the delays that really acted are compared with those of the kernels.
+//! Each choice is forced on the run ([`ForcedGuard`]) in place of what the lists say and of MODE, FREQ and DAMPING in the
+//! program's own commands; ON, OFF and `AX_DEV` of the program stay. A program that switches the guard off or filters by
+//! other means can still keep it from acting, so the delays that really acted are compared with those of the kernels.
 //!
 //! A program without `AX_DEV` is run once more with each choice that leaves the bound: with the bound as its tolerance.
 //! A choice that keeps the bound anyway is not slowed down by the key.
 
 use super::args::TuneArgs;
-use super::own::{Commands, copy};
 use super::{Choice, Row, Task, command};
 use crate::console::Console;
-use crate::engine::{Engine, Request};
-use crate::files::Lists;
+use crate::request::{OpenError, Request};
+use crate::run::{Shown, announce_lists, drive};
 use crate::summary::{Collector, State, Summary};
 use crate::table::{Table, number};
-use crate::{Error, Exit, run, simulator};
+use crate::{Error, Exit};
+use kontur_interpreter::diag::Location;
+use kontur_interpreter::job::{ForcedGuard, GuardCommands};
 use kontur_interpreter::machine::Machine;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Deviations are kept to this in mm, as everywhere.
 const SLACK_MM: f64 = 1e-9;
-/// Cycles between two looks at the clock and at new messages.
-const LOOK_EVERY: u64 = 1024;
 /// Delays that differ by less are the same, in cycles.
 const SAME_DELAY: f64 = 1e-6;
 
 /// What a run with one choice was like; no choice: the Vibration Guard off.
 struct Outcome {
     choice: Option<Choice>,
-    /// `AX_DEV` as the program that was run has it.
-    ax_dev: Option<String>,
+    /// `AX_DEV` as the program or the run has it.
+    ax_dev: Option<f64>,
     summary: Summary,
     /// Largest deviation of a path axis from the contour in mm (deg).
     dev_mm: f64,
@@ -44,60 +41,51 @@ pub(super) fn answer(
     args: &TuneArgs,
     file: &Path,
     max_dev_mm: f64,
-    engine: &mut dyn Engine,
     console: &mut Console,
 ) -> Result<Exit, Error> {
-    let own = Commands::of(file)?;
+    let refused = |e: OpenError, console: &mut Console| announce_lists(e, console);
     let request = args.simulation.request(file);
-    // copies live until the last run
-    let plain = own.outvoting.map(|_| copy(file, &own, None)).transpose()?;
-    let instead = |copy: &super::own::Copy| {
-        let mut request = request.clone();
-        request.program.clone_from(&copy.program);
-        // what is not beside the copy is beside the original
-        request.path.extend(beside(file));
-        request
+    let job = request.job().map_err(|e| refused(e, console))?;
+    let machine = job.machine();
+    let own = job.check().guard;
+    console.print(&assumed(machine, &own, file, max_dev_mm))?;
+    let mut outcomes: Vec<Outcome> = Vec::new();
+    let mut try_out = |choice: Option<Choice>, ax_dev_mm: Option<f64>, first: bool| {
+        let settings = choice.map(|c| c.settings);
+        let guard = Some(ForcedGuard { settings, ax_dev_mm });
+        let name = choice.map_or_else(|| "guard off".to_owned(), |c| command(&c.settings, ""));
+        let shown = Shown { label: &(name + ": "), errors_only: !first };
+        let mut run =
+            Request { guard, ..request.clone() }.open().map_err(|e| refused(e, console))?.run;
+        let mut summary = Collector::new(run.facts());
+        drive(&mut run, shown, console, &mut summary, |_| Ok(()))?;
+        let summary = summary.finish(&run.totals());
+        let axes = summary.axes.iter().zip(&run.facts().axes);
+        let dev_mm = axes.filter(|(_, axis)| !axis.spindle).map(|(axis, _)| axis.max_dev);
+        let dev_mm = dev_mm.fold(0.0, f64::max);
+        let ax_dev = own.ax_dev.as_ref().map(|(_, value)| *value).or(ax_dev_mm);
+        Ok::<_, Error>(Outcome { choice, ax_dev, summary, dev_mm })
     };
-    let first = plain.as_ref().map_or_else(|| request.clone(), &instead);
-    let loaded = simulator::machine(&request, &Lists::default());
-    let (machine, _) =
-        loaded.map_err(|e| run::announce_lists(e, args.simulation.diagnostics, console))?;
-    console.print(&assumed(&machine, &own, max_dev_mm))?;
-    let mut outcomes = Vec::new();
     // a program that switches the guard on itself has no run without it to compare with
     let off = own.on.is_none().then_some(None);
-    let tolerance = own.tolerance.as_ref().map(|(_, value)| value.clone());
     for choice in off.into_iter().chain(choices(task).into_iter().map(Some)) {
-        let request = with(&first, &machine, choice.as_ref());
-        let ax_dev = tolerance.clone();
-        let outcome = drive(&request, choice, ax_dev, engine, args, console, outcomes.is_empty())?;
-        outcomes.push(outcome);
+        outcomes.push(try_out(choice, None, outcomes.is_empty())?);
     }
-    if own.tolerance.is_none() {
-        let bounded = copy(file, &own, Some(max_dev_mm))?;
-        let second = instead(&bounded);
+    if own.ax_dev.is_none() {
         let excess: Vec<Choice> = outcomes
             .iter()
             .filter(|o| o.summary.state == State::Finished && !o.keeps(task, max_dev_mm))
             .filter_map(|o| o.choice.filter(|choice| task.keeps(choice)))
             .collect();
         for choice in excess {
-            let request = with(&second, &machine, Some(&choice));
-            let ax_dev = Some(max_dev_mm.to_string());
-            outcomes.push(drive(&request, Some(choice), ax_dev, engine, args, console, false)?);
+            outcomes.push(try_out(Some(choice), Some(max_dev_mm), false)?);
         }
     }
-    check_delays(&outcomes, &machine)?;
+    check_delays(&outcomes, machine)?;
     console.print(&table(task, &outcomes, max_dev_mm))?;
     console.print(&verdict(task, &outcomes, max_dev_mm, &own))?;
     let all_aborted = outcomes.iter().all(|o| o.summary.state == State::Aborted);
     Ok(if all_aborted { Exit::Aborted } else { Exit::Finished })
-}
-
-/// The folder of a file; that of a bare name is the present one.
-fn beside(file: &Path) -> Option<PathBuf> {
-    let folder = file.parent()?;
-    Some(if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_path_buf() })
 }
 
 /// Mode by mode the best and the given frequency, and the highest one that keeps the residual: a higher frequency is a
@@ -115,69 +103,6 @@ fn choices(task: &Task) -> Vec<Choice> {
     choices
 }
 
-/// The request with the choice over the lists of every path axis.
-fn with(request: &Request, machine: &Machine, choice: Option<&Choice>) -> Request {
-    let mut request = request.clone();
-    for axis in &machine.axes {
-        let mut set = |key: &str, value: String| {
-            request.settings.push(format!("{}.vib_guard.{key}={value}", axis.name()));
-        };
-        set("active", u8::from(choice.is_some()).to_string());
-        if let Some(Choice { settings, .. }) = choice {
-            set("mode", settings.mode.to_string());
-            set("freq", settings.freq_hz.to_string());
-            set("damping", settings.damping.to_string());
-        }
-    }
-    request
-}
-
-/// One run; the first one prints every message, the others their errors only.
-fn drive(
-    request: &Request,
-    choice: Option<Choice>,
-    ax_dev: Option<String>,
-    engine: &mut dyn Engine,
-    args: &TuneArgs,
-    console: &mut Console,
-    first: bool,
-) -> Result<Outcome, Error> {
-    let form = args.simulation.diagnostics;
-    let mut source = engine.open(request).map_err(|e| run::announce_lists(e, form, console))?;
-    let mut summary = Collector::new(source.facts());
-    let mut progress = console.progress();
-    let name = choice.map_or_else(|| "guard off".to_owned(), |c| command(&c.settings, ""));
-    let mut more = true;
-    while more {
-        more = match source.next_cycle() {
-            Some(record) => {
-                summary.add(record);
-                true
-            }
-            None => false,
-        };
-        if !more || summary.cycles().is_multiple_of(LOOK_EVERY) {
-            progress.show(|| format!("{name}: cycle {}", summary.cycles()));
-            for message in source.take_diagnostics() {
-                summary.message(&message);
-                if first || message.is_error() {
-                    progress.suspend(|| run::announce(&message, form, console));
-                }
-            }
-        }
-    }
-    let path_axes: Vec<bool> = source.facts().axes.iter().map(|a| !a.spindle).collect();
-    let summary = summary.finish(&source.totals());
-    let dev_mm = summary
-        .axes
-        .iter()
-        .zip(path_axes)
-        .filter(|(_, path)| *path)
-        .map(|(axis, _)| axis.max_dev)
-        .fold(0.0, f64::max);
-    Ok(Outcome { choice, ax_dev, summary, dev_mm })
-}
-
 /// The delay of an axis is that of the kernel plus what else filters it, the same in every run. If it is not, another
 /// kernel ran than the one asked for.
 fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
@@ -190,8 +115,8 @@ fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
         let rests: Vec<f64> = finished.filter_map(rest).collect();
         if rests.windows(2).any(|pair| (pair[0] - pair[1]).abs() > SAME_DELAY) {
             return Err(Error::Usage(format!(
-                "axis {}: another Vibration Guard ran than the one asked for; a subroutine of the program sets MODE, \
-                 FREQ or DAMPING itself, or no guard acts on the axis",
+                "axis {}: another Vibration Guard ran than the one asked for, or none: the program filters by other \
+                 means or switches the guard off",
                 axis.name()
             )));
         }
@@ -200,7 +125,7 @@ fn check_delays(outcomes: &[Outcome], machine: &Machine) -> Result<(), Error> {
 }
 
 /// Limits of the machine and how the program is run.
-fn assumed(machine: &Machine, own: &Commands, max_dev_mm: f64) -> String {
+fn assumed(machine: &Machine, own: &GuardCommands, file: &Path, max_dev_mm: f64) -> String {
     let cycle_ms = f64::from(machine.cycle.us()) / 1000.0;
     let mut lines = vec![format!("\nmachine   {}, cycle {cycle_ms} ms", machine.name)];
     for axis in &machine.axes {
@@ -217,26 +142,32 @@ fn assumed(machine: &Machine, own: &Commands, max_dev_mm: f64) -> String {
         ));
     }
     lines.push(
-        "assumed   every choice in the lists of all path axes (vib_guard.active, mode, freq, damping)"
+        "assumed   every choice on all path axes, in place of the lists (vib_guard.active, mode, freq, damping)"
             .to_owned(),
     );
-    lines.push(match &own.tolerance {
-        Some((line, value)) => {
-            format!("          the program's own AX_DEV={value} (line {line}) with each of them")
+    let main = file.display().to_string();
+    let line = |place: &Location| match &*place.file {
+        name if name == main => format!("line {}", place.line),
+        name => format!("line {} of {name}", place.line),
+    };
+    lines.push(match &own.ax_dev {
+        Some((place, value)) => {
+            let line = line(place);
+            format!("          the program's own AX_DEV={value} ({line}) with each of them")
         }
         None => format!(
             "          no AX_DEV in the program: what leaves {max_dev_mm} mm runs again with \
              #VIB GUARD ON [AX_DEV={max_dev_mm}]"
         ),
     });
-    if let Some(line) = own.outvoting {
+    if let Some(line) = own.settings.as_ref().map(line) {
         lines.push(format!(
-            "          MODE, FREQ and DAMPING of the program's own commands (line {line}) give way to each of them"
+            "          MODE, FREQ and DAMPING of the program's own commands ({line}) give way to each of them"
         ));
     }
-    if let Some(line) = own.off {
+    if let Some(line) = own.off.as_ref().map(line) {
         lines.push(format!(
-            "          line {line} switches the guard off: from there on nothing is damped"
+            "          {line} switches the guard off: from there on nothing is damped"
         ));
     }
     lines.join("\n") + "\n\n"
@@ -276,7 +207,7 @@ fn table(task: &Task, outcomes: &[Outcome], max_dev_mm: f64) -> String {
         table.push(vec![
             mode,
             freq,
-            outcome.ax_dev.clone().unwrap_or_default(),
+            outcome.ax_dev.map(|mm| mm.to_string()).unwrap_or_default(),
             residual,
             format!("{} mm", number(outcome.dev_mm, 6)),
             format!("{} mm", number(error, 6)),
@@ -297,7 +228,7 @@ fn fastest<'a>(task: &Task, outcomes: &'a [Outcome], max_dev_mm: f64) -> Option<
     })
 }
 
-fn verdict(task: &Task, outcomes: &[Outcome], max_dev_mm: f64, own: &Commands) -> String {
+fn verdict(task: &Task, outcomes: &[Outcome], max_dev_mm: f64, own: &GuardCommands) -> String {
     let found = fastest(task, outcomes, max_dev_mm);
     let Some((outcome, choice)) = found.and_then(|o| Some((o, o.choice?))) else {
         return format!(
@@ -305,40 +236,12 @@ fn verdict(task: &Task, outcomes: &[Outcome], max_dev_mm: f64, own: &Commands) -
             100.0 * task.limit_ratio
         );
     };
-    let own = own.tolerance.as_ref().map(|(_, value)| value.clone());
-    let tolerance = format!(" AX_DEV={}", own.unwrap_or_else(|| max_dev_mm.to_string()));
+    let own = own.ax_dev.as_ref().map(|(_, value)| *value);
+    let tolerance = format!(" AX_DEV={}", own.unwrap_or(max_dev_mm));
     format!(
         "\nchoice    {}\n          the fastest that keeps {} % and {max_dev_mm} mm: {} s\n",
         command(&choice.settings, &tolerance),
         100.0 * task.limit_ratio,
         number(outcome.summary.duration_s, 3)
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_choice_stands_over_the_lists_of_every_path_axis() {
-        let (machine, _) = Machine::builtin(&[]).unwrap();
-        let own = Request { settings: vec!["X.vib_guard.mode=3".to_owned()], ..Request::default() };
-        let off = with(&own, &machine, None);
-        assert_eq!(off.settings[1..], ["X", "Y", "Z"].map(|a| format!("{a}.vib_guard.active=0")));
-        let band = kontur_filters::analysis::tuning::VibrationBand::of(&[40.0], 0.1).unwrap();
-        let choice = band.best(2, machine.cycle).unwrap();
-        let on = with(&own, &machine, Some(&choice)).settings;
-        assert_eq!(on.len(), 13);
-        assert_eq!(
-            on[1..5],
-            ["active=1", "mode=2", "freq=40", "damping=0.1"].map(|s| format!("X.vib_guard.{s}"))
-        );
-        // later settings win, and the machine accepts them
-        let settings: Vec<_> =
-            on.iter().map(|s| kontur_interpreter::machine::Override::parse(s).unwrap()).collect();
-        let (machine, _) = Machine::builtin(&settings).unwrap();
-        let preset = machine.axes[0].kernel_preset(machine.cycle);
-        assert!(preset.vib_guard.active);
-        assert_eq!(preset.vib_guard.settings, choice.settings);
-    }
 }

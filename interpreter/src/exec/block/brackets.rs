@@ -8,6 +8,7 @@ use crate::exec::commands::keys::{arguments, between};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
+use crate::exec::motion::technology::Function;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 use std::mem::discriminant;
 
@@ -185,12 +186,20 @@ impl Decoder {
         match *item {
             SpindleItem::Turn(number) => {
                 self.motion.spindles[spindle].turning = Turning::of(number, None);
+                if let Some(index) = self.motion.spindles[spindle].index {
+                    self.takes_time(Function::Spindle { spindle: index, m: number });
+                }
             }
             SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
                 let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
                 return Err(Fault::new(Condition::Range, text, span));
             }
-            SpindleItem::Speed(rpm) => self.set_spindle_speed(spindle, rpm, span),
+            SpindleItem::Speed(rpm) => {
+                self.set_spindle_speed(spindle, rpm, span);
+                if let Some(index) = self.motion.spindles[spindle].index {
+                    self.takes_time(Function::Speed { spindle: index });
+                }
+            }
             SpindleItem::Position(deg) => {
                 self.motion.spindles[spindle].turning = Turning::Positioned { deg };
             }

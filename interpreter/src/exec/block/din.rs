@@ -57,11 +57,14 @@ impl Decoder {
             let outcome = self.bracket(bracket, &words);
             self.keep(outcome);
         }
+        self.technology_wait();
         if !preset {
             self.motion_or_dwell(&words, takes_axes, span);
         }
         self.join_synchronous();
-        self.functions_after(&words)
+        let after = self.functions_after(&words);
+        self.technology_wait();
+        after
     }
 
     fn planes_and_units(&mut self, words: &Words<'_>) {
@@ -120,7 +123,7 @@ impl Decoder {
         self.insertions(words);
     }
 
-    fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
+    pub(in crate::exec) fn feed(&mut self, (value, span): Placed) -> Outcome<()> {
         let most = if self.modal.feed_type == FeedType::ShareOfMaximum { 100.0 } else { 1e9 };
         if !(0.0..=most).contains(&value) {
             let text = format!("F{value} is outside 0 to {most}");

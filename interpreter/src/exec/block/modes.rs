@@ -7,6 +7,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Rotation;
 use crate::exec::motion::dynamics::{Weight, channel_dynamics};
+use crate::exec::motion::technology::Function;
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -121,6 +122,7 @@ impl Decoder {
         if let Some(number) = crate::exec::values::expr::whole(number, 0, u32::MAX) {
             self.geometry.tools.tool = number;
             self.event(Event::Tool { number });
+            self.takes_time(Function::Tool);
         } else {
             let text = format!("T{number} is no tool number");
             self.note(Fault::new(Condition::Range, text, span));

@@ -49,7 +49,7 @@ impl Decoder {
     fn list_conflict(&mut self, family: Family, span: Span) -> Outcome<()> {
         let cycle = self.machine.cycle;
         let conflict = self.machine.axes.iter().find(|axis| {
-            let listed = axis.kernel_preset(cycle);
+            let listed = self.shaping.listed(axis, cycle);
             match family {
                 Family::Filter => listed.vib_guard.active,
                 Family::VibGuard => listed.fir.is_some() || listed.hsc.is_some(),
@@ -74,9 +74,17 @@ impl Decoder {
     }
 
     /// `AX_DEV` and `ACC_FACT`, common to both commands.
-    fn tolerances(&mut self, ax_dev: Option<(f64, Span)>, acc_fact: Option<(f64, Span)>) {
-        let unit = self.tolerance_unit_mm();
-        self.shaping.ax_dev_mm = ax_dev.map(|(x, _)| x * unit).filter(|mm| *mm > 0.0);
+    fn tolerances(
+        &mut self,
+        family: Family,
+        ax_dev: Option<(f64, Span)>,
+        acc_fact: Option<(f64, Span)>,
+    ) {
+        let ax_dev_mm = ax_dev.map(|(x, _)| x * self.tolerance_unit_mm());
+        self.shaping.ax_dev_mm = match family {
+            Family::VibGuard => self.shaping.guard_tolerance_mm(ax_dev_mm),
+            Family::Filter => ax_dev_mm.filter(|mm| *mm > 0.0),
+        };
         if let Some((x, _)) = acc_fact {
             self.shaping.acc_fact = Some(x);
         }
@@ -129,20 +137,21 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     decoder.use_family(Family::VibGuard, call.span())?;
     let keys = GuardArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    note_command(decoder, &keys, call.command.on);
     let mut programmed = decoder.shaping.guard;
     if let Some((x, span)) = keys.mode {
         programmed.mode = Some(mode(x, span)?);
     }
     programmed.freq_hz = keys.freq.map(|(x, _)| x).or(programmed.freq_hz);
     programmed.damping = keys.damping.map(|(x, _)| x).or(programmed.damping);
-    decoder.tolerances(keys.ax_dev, keys.acc_fact);
+    decoder.tolerances(Family::VibGuard, keys.ax_dev, keys.acc_fact);
     decoder.shaping.guard = programmed;
     if let Some(on) = call.command.on {
         decoder.shaping.guard_on = Some(on);
     } else {
         let cycle = decoder.machine.cycle;
         let on = |a: &crate::machine::Axis| {
-            decoder.shaping.guard_on.unwrap_or(a.kernel_preset(cycle).vib_guard.active)
+            decoder.shaping.guard_on.unwrap_or(decoder.shaping.listed(a, cycle).vib_guard.active)
         };
         if !decoder.machine.axes.iter().any(on) {
             realisable(decoder, programmed, call.span())?;
@@ -153,6 +162,23 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     decoder.update_shaping(call.span());
     Ok(())
+}
+
+/// Keeps the first command of each kind, for those who force a guard on the program.
+fn note_command(decoder: &mut Decoder, keys: &GuardArguments, on: Option<bool>) {
+    let Some(place) = &decoder.report.location else { return };
+    let commands = &mut decoder.shaping.commands;
+    match on {
+        Some(true) => _ = commands.on.get_or_insert_with(|| place.clone()),
+        Some(false) => _ = commands.off.get_or_insert_with(|| place.clone()),
+        None => {}
+    }
+    if keys.mode.is_some() || keys.freq.is_some() || keys.damping.is_some() {
+        commands.settings.get_or_insert_with(|| place.clone());
+    }
+    if let Some((value, _)) = keys.ax_dev {
+        commands.ax_dev.get_or_insert_with(|| (place.clone(), value));
+    }
 }
 
 fn mode(x: f64, span: Span) -> Outcome<u8> {
@@ -227,7 +253,7 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let hsc = keys.hsc.is_some();
     let mut stored = if hsc { decoder.shaping.hsc } else { decoder.shaping.fir };
     filter_keys(&keys, &mut stored);
-    decoder.tolerances(keys.ax_dev, keys.acc_fact);
+    decoder.tolerances(Family::Filter, keys.ax_dev, keys.acc_fact);
     let cycle = decoder.machine.cycle;
     let configured = decoder.machine.axes.iter().any(|axis| {
         let listed = axis.kernel_preset(cycle);

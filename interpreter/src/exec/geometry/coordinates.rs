@@ -60,6 +60,8 @@ pub(in crate::exec) struct Coordinates {
     systems: Vec<Frame>,
     stored: BTreeMap<u32, Frame>,
     frame: Frame,
+    /// The frame changes nothing.
+    plain: bool,
 }
 
 impl Coordinates {
@@ -83,6 +85,7 @@ impl Coordinates {
             systems: Vec::new(),
             stored: BTreeMap::new(),
             frame: Frame::IDENTITY,
+            plain: true,
         }
     }
 
@@ -128,7 +131,7 @@ impl Coordinates {
 
     /// Active zero offset.
     pub(in crate::exec) fn zero_offset(&self, axis: usize) -> f64 {
-        if self.zero_masked.contains(&(self.zero_group, axis)) {
+        if self.zero_table.is_empty() || self.zero_masked.contains(&(self.zero_group, axis)) {
             return 0.0;
         }
         self.zero_entry(self.zero_group, axis)
@@ -269,6 +272,7 @@ impl Coordinates {
         for system in self.systems.iter().rev() {
             frame = system.after(&frame);
         }
+        self.plain = frame.is_identity();
         self.frame = frame;
         self.recompute_program();
     }
@@ -279,7 +283,7 @@ impl Coordinates {
             let bare = self.target[axis] - self.applied[axis];
             self.program[axis] = if self.mirrored[axis] { -bare } else { bare };
         }
-        if self.frame.is_identity() {
+        if self.plain {
             return;
         }
         let bare = self.main.map(|m| m.map_or(0.0, |axis| self.target[axis] - self.applied[axis]));
@@ -294,7 +298,6 @@ impl Coordinates {
     /// Takes over the words of a block; the new targets stand in [`target`](Self::target).
     pub(in crate::exec) fn program(&mut self, words: &[Target]) {
         let mut framed = [None; 3];
-        let identity = self.frame.is_identity();
         for &Target { axis, value, absolute } in words {
             self.word[axis] = value;
             if absolute {
@@ -302,7 +305,7 @@ impl Coordinates {
             } else {
                 self.program[axis] += value;
             }
-            match if identity { None } else { self.main_index(axis) } {
+            match if self.plain { None } else { self.main_index(axis) } {
                 Some(main) => framed[main] = Some(absolute),
                 None => self.program_plain(axis, value, absolute),
             }

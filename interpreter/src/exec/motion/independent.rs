@@ -10,6 +10,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Target;
+use crate::exec::motion::technology::Function;
 use crate::exec::step::{Event, IndependentMotion, Sync};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
 use kontur_motion::axis::AxisVec;
@@ -31,6 +32,11 @@ pub(in crate::exec) struct Independent {
 impl Independent {
     pub(in crate::exec) fn new(axes: usize) -> Self {
         Self { way: AxisVec::zeros(axes), open: Vec::new(), synchronous: Vec::new() }
+    }
+
+    /// No axis has ever moved alone.
+    pub(in crate::exec) fn is_unused(&self) -> bool {
+        self.open.is_empty() && self.way.iter().all(|way| way.to_bits() == 0)
     }
 
     /// The path is at rest and every axis has arrived.
@@ -69,6 +75,11 @@ impl Decoder {
     ) -> Outcome<()> {
         let words = self.independent_words(axis, rest)?;
         for function in words.functions {
+            match function {
+                Event::MFunction { number, .. } => self.takes_time(Function::M(number)),
+                Event::HFunction { number, .. } => self.takes_time(Function::H(number)),
+                _ => {}
+            }
             self.event(function);
         }
         let Some((position, at)) = words.position else {

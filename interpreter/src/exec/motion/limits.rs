@@ -1,7 +1,6 @@
 //! Software limits along a path.
 
 use crate::diag::{Condition, ValueKind};
-use crate::exec::block::words::Words;
 use crate::exec::contour::Driven;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
@@ -9,12 +8,22 @@ use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
 
 impl Decoder {
-    /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round.
-    pub(super) fn check_limits(&mut self, path: &Path, words: &Words<'_>, span: Span) {
+    /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round; `place`
+    /// tells where the word of an axis stands.
+    pub(super) fn check_limits(
+        &mut self,
+        path: &Path,
+        place: impl Fn(usize) -> Option<Span>,
+        span: Span,
+    ) {
         for axis in 0..self.geometry.limits_mm.len() {
+            let stands = path.start()[axis].to_bits() == path.end()[axis].to_bits();
+            if path.is_straight() && stands {
+                continue;
+            }
             let Some((low, high)) = path.extent(axis) else { return };
-            let at = words.axes.iter().find(|(a, _, _)| *a == axis).map_or(span, |(_, _, s)| *s);
             let end = path.end()[axis];
+            let at = || place(axis).unwrap_or(span);
             if let Some(fault) = self.outside_limits(axis, low, high, Some(end), at) {
                 self.note(fault);
             }
@@ -26,7 +35,7 @@ impl Decoder {
         let driven = self.contour.take_driven();
         let faults = driven.iter().flat_map(|Driven { extents_mm, source, span }| {
             extents_mm.iter().enumerate().filter_map(|(axis, (low, high))| {
-                let fault = self.outside_limits(axis, *low, *high, None, *span)?;
+                let fault = self.outside_limits(axis, *low, *high, None, || *span)?;
                 Some(*fault.in_block(*source))
             })
         });
@@ -40,7 +49,7 @@ impl Decoder {
         low: f64,
         high: f64,
         end: Option<f64>,
-        span: Span,
+        place: impl FnOnce() -> Span,
     ) -> Option<Box<Fault>> {
         if low.to_bits() == high.to_bits() {
             return None;
@@ -57,7 +66,7 @@ impl Decoder {
             None if outside(high) => ("highest position", high),
             None => return None,
         };
-        Some(self.limit_fault(axis, what, x, limits, span))
+        Some(self.limit_fault(axis, what, x, limits, place()))
     }
 
     /// 21897 for a target outside the software limits of its axis.

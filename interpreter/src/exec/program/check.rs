@@ -2,28 +2,41 @@
 
 use super::executor::Executor;
 use crate::diag::{Condition, Diagnostic};
-use crate::exec::options::Options;
+use crate::exec::options::{GuardCommands, Options};
 use crate::exec::step::{Feedback, Step, Sync};
 use crate::machine::Machine;
 use crate::source::Sources;
 use kontur_motion::block::{Block, Feed};
 use std::sync::Arc;
 
-/// ID of the message that a limit ended the program.
-pub const LIMIT: Condition = Condition::Endless;
+/// What a check found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Checked {
+    /// Everything there is to say about the program.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Names of its files, the main program first; none if it cannot be opened.
+    pub files: Vec<Arc<str>>,
+    /// What its commands say about the Vibration Guard.
+    pub guard: GuardCommands,
+}
 
-/// ID of syntax errors in parts of a program that do not run; only [`check`] finds them.
-pub const UNREACHED: Condition = Condition::Unreached;
+impl Checked {
+    /// True if the program is refused: a run would stop where an error is. A limit (K-0017) stops a run where it is met and
+    /// refuses nothing.
+    pub fn refuses(&self) -> bool {
+        self.diagnostics.iter().any(|d| d.is_error() && d.id != Condition::Endless)
+    }
+}
 
 /// Executes a program as if every axis were always where it is told to be, goes on after errors where it can, and
 /// returns all diagnostics; it stops after 20 errors, and where the limits of the options stop a run (K-0017). What did
 /// not run is looked at for its syntax (K-0118).
-pub fn check(
-    sources: Box<dyn Sources>,
+pub(crate) fn check(
+    sources: Arc<dyn Sources>,
     program: &str,
     machine: Arc<Machine>,
     options: Options,
-) -> Vec<Diagnostic> {
+) -> Checked {
     let max_time_s = options.max_time_s;
     let mut executor = Executor::with_mode(sources, program, machine, options, true);
     let mut time_s = 0.0;
@@ -32,10 +45,16 @@ pub fn check(
         match executor.next(feedback) {
             Step::End { .. } => {
                 executor.check_unreached();
-                return executor.take_diagnostics();
+                return Checked {
+                    diagnostics: executor.take_diagnostics(),
+                    files: executor.files().to_vec(),
+                    guard: executor.guard_commands().clone(),
+                };
             }
             Step::Motion { block, .. } => time_s += programmed_time(&block),
-            Step::Sync { what: Sync::Dwell { seconds }, .. } => time_s += seconds,
+            Step::Sync { what: Sync::Dwell { seconds } | Sync::Technology { seconds }, .. } => {
+                time_s += seconds;
+            }
             Step::Sync { .. } => {}
         }
         if time_s > max_time_s && !executor.has_ended() {

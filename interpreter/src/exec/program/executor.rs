@@ -10,7 +10,7 @@ use super::unreached::Reached;
 use crate::diag::{Condition, Diagnostic, Id, Location, Severity};
 use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
-use crate::exec::options::{Options, SkipLevels};
+use crate::exec::options::{GuardCommands, Options, SkipLevels};
 use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
 use crate::machine::Machine;
 use crate::source::{Position, Sources};
@@ -53,7 +53,7 @@ enum State {
 /// Runs one program and hands out its steps.
 pub struct Executor {
     pub(in crate::exec) decoder: Decoder,
-    pub(in crate::exec) sources: Box<dyn Sources>,
+    pub(in crate::exec) sources: Arc<dyn Sources>,
     pub(in crate::exec) parser: Parser,
     pub(in crate::exec) files: Files,
     pub(in crate::exec) levels: Vec<Level>,
@@ -94,7 +94,7 @@ impl Executor {
     /// A program before its first block. If it cannot be opened, the first step is [`Step::End`] and the diagnostics
     /// tell why.
     pub fn new(
-        sources: Box<dyn Sources>,
+        sources: Arc<dyn Sources>,
         program: &str,
         machine: Arc<Machine>,
         options: Options,
@@ -103,7 +103,7 @@ impl Executor {
     }
 
     pub(in crate::exec) fn with_mode(
-        sources: Box<dyn Sources>,
+        sources: Arc<dyn Sources>,
         program: &str,
         machine: Arc<Machine>,
         options: Options,
@@ -255,6 +255,11 @@ impl Executor {
     /// Kernels in force; before the first step those of the axis lists.
     pub fn shaping(&self) -> &ShapingSetup {
         &self.decoder.shaping.setup
+    }
+
+    /// What the commands executed so far say about the Vibration Guard.
+    pub fn guard_commands(&self) -> &GuardCommands {
+        &self.decoder.shaping.commands
     }
 
     /// The machine as the program has it: with the values of `#MACHINE DATA` up to the step handed out last.

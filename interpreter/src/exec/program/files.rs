@@ -5,12 +5,12 @@ use crate::diag::{Diagnostic, Location};
 use crate::exec::options::SkipLevels;
 use crate::exec::values::system;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position, RawBlock, Sources};
-use crate::syntax::Parser;
 use crate::syntax::ast::{
     Block, Body, ControlKind, Expr, ExprKind, GValue, Group, ItemKind, ItemValue, Place, PlaceKind,
     Span, WordKind,
 };
 use crate::syntax::macros;
+use crate::syntax::{Parser, Plain};
 use smallvec::{SmallVec, smallvec};
 use std::collections::BTreeMap;
 use std::io;
@@ -33,13 +33,21 @@ pub(in crate::exec) struct Parsed {
 /// A block to be executed.
 #[derive(Debug)]
 pub(in crate::exec) enum Fetched {
+    /// A plain block that runs once, in [`Files::plain`]: no tree is made without need.
+    Plain,
+    Tree(Tree),
+}
+
+/// A block with its tree.
+#[derive(Debug)]
+pub(in crate::exec) enum Tree {
     /// It runs again: its file keeps it too.
     Kept(Arc<Parsed>),
     /// It is parsed for this once.
     Once(Parsed),
 }
 
-impl Deref for Fetched {
+impl Deref for Tree {
     type Target = Parsed;
 
     fn deref(&self) -> &Parsed {
@@ -86,6 +94,8 @@ pub(in crate::exec) struct Files {
     open: Vec<ProgramFile>,
     names: Vec<Arc<str>>,
     cached: usize,
+    /// The plain block that was read last.
+    plain: Plain,
     /// File of a name as written in a program of a file.
     resolved: BTreeMap<(usize, Box<str>), usize>,
 }
@@ -148,7 +158,18 @@ fn is_foreign(reader: &mut BlockReader, name: &Arc<str>, parser: &Parser) -> io:
 
 impl Files {
     pub(in crate::exec) fn new() -> Self {
-        Self { open: Vec::new(), names: Vec::new(), cached: 0, resolved: BTreeMap::new() }
+        Self {
+            open: Vec::new(),
+            names: Vec::new(),
+            cached: 0,
+            plain: Plain::default(),
+            resolved: BTreeMap::new(),
+        }
+    }
+
+    /// The block for which [`Fetched::Plain`] stands.
+    pub(in crate::exec) fn plain(&self) -> &Plain {
+        &self.plain
     }
 
     pub(in crate::exec) fn names(&self) -> &[Arc<str>] {
@@ -224,26 +245,30 @@ impl Files {
         table: &Macros,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> io::Result<Option<(Fetched, Position)>> {
-        let ProgramFile { name, reader, cache, .. } = &mut self.open[file];
+        let Self { open, plain, .. } = self;
+        let ProgramFile { name, reader, cache, .. } = &mut open[file];
         if reading.keep
             && let Some((parsed, next)) = cache.get(&position.offset)
         {
-            return Ok(Some((Fetched::Kept(Arc::clone(parsed)), *next)));
+            return Ok(Some((Fetched::Tree(Tree::Kept(Arc::clone(parsed))), *next)));
         }
         reader.seek(position);
         let Some(raw) = reader.next_block()? else { return Ok(None) };
+        if !reading.keep && !reading.declaration && Parser::plain(&raw, plain) {
+            return Ok(Some((Fetched::Plain, reader.position())));
+        }
         let before = diagnostics.len();
         let block = parse(&raw, name, reading.declaration, parser, table, diagnostics);
         let faulty = diagnostics[before..].iter().any(Diagnostic::is_error);
         let next = reader.position();
         let parsed = Parsed { needs_actual: needs_actual(&block), block, faulty };
         if !reading.keep || self.cached >= CACHED_MAX {
-            return Ok(Some((Fetched::Once(parsed), next)));
+            return Ok(Some((Fetched::Tree(Tree::Once(parsed)), next)));
         }
         let parsed = Arc::new(parsed);
         cache.insert(position.offset, (Arc::clone(&parsed), next));
         self.cached += 1;
-        Ok(Some((Fetched::Kept(parsed), next)))
+        Ok(Some((Fetched::Tree(Tree::Kept(parsed)), next)))
     }
 
     /// The syntax of a block that is not executed, and the place of the next one. A diagnostic is marked if it concerns

@@ -5,11 +5,10 @@
 //! run of this program, so it is told as a warning, K-0118. Text behind the end of the main program, in `#COMMENT`
 //! blocks and in inactive `#IF` branches is not looked at.
 
-use super::check::UNREACHED;
 use super::executor::Executor;
 use super::files::Look;
 use super::index::{Index, Keyword};
-use crate::diag::{Diagnostic, Severity};
+use crate::diag::{Condition, Diagnostic, Severity};
 use crate::source::Position;
 use crate::syntax::ast::Body;
 use std::collections::BTreeMap;
@@ -63,6 +62,9 @@ impl Reached {
     /// Parts between `from` and `to` that were not executed.
     fn gaps(&self, file: usize, from: Position, to: u64) -> Vec<(Position, u64)> {
         let mut gaps = Vec::new();
+        if to <= from.offset {
+            return gaps;
+        }
         let mut at = from;
         let before = self.runs.range(..=(file, from.offset)).next_back();
         let here = before.into_iter().chain(self.runs.range((file, from.offset + 1)..(file, to)));
@@ -199,7 +201,8 @@ fn unreached(diagnostic: Diagnostic) -> Diagnostic {
     let text = format!("in a part that does not run: {} ({})", diagnostic.text, diagnostic.id);
     let usual = || "no run comes here; the control looks at control statements only".to_owned();
     let hint = diagnostic.hint.or_else(|| Some(usual()));
-    Diagnostic { id: UNREACHED.id(), text, hint, ..diagnostic }.severity(Severity::Warning)
+    Diagnostic { id: Condition::Unreached.id(), text, hint, ..diagnostic }
+        .severity(Severity::Warning)
 }
 
 #[cfg(test)]
@@ -222,6 +225,9 @@ mod tests {
         assert_eq!(reached.gaps(0, at(0), 100), [(at(30), 50), (at(70), 100)]);
         assert_eq!(reached.gaps(0, at(0), 70), [(at(30), 50)]);
         assert_eq!(reached.gaps(1, at(0), 5), []);
+        // a file that was opened and not executed, because its call was the error too many
+        assert_eq!(reached.gaps(2, at(0), 0), []);
+        assert_eq!(reached.last(2, 0, 100), None);
         assert_eq!(reached.last(0, 0, 100), Some(70));
         assert_eq!(reached.runs.len(), 3);
     }

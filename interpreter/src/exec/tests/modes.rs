@@ -198,7 +198,9 @@ fn functions_before_and_behind_the_motion() {
         events[..],
         [
             Event::MFunction { number: 200, value: Some(800.0) },
-            Event::HFunction { number: 5, value: None }
+            Event::Uncounted { function: "M200".to_owned() },
+            Event::HFunction { number: 5, value: None },
+            Event::Uncounted { function: "H5".to_owned() },
         ]
     );
 }

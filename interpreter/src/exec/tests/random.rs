@@ -5,7 +5,7 @@ use crate::exec::check;
 use crate::source::MemorySources;
 
 /// Words, commands and statements, right and wrong ones.
-const PIECES: &[&str] = &[
+pub(super) const PIECES: &[&str] = &[
     "X1",
     "Y-2.5",
     "Z[P1*2]",
@@ -64,7 +64,7 @@ const PIECES: &[&str] = &[
     "Q4",
 ];
 
-const LINES: &[&str] = &[
+pub(super) const LINES: &[&str] = &[
     "$IF P1 < 3",
     "$ELSEIF P1",
     "$ELSE",
@@ -120,10 +120,10 @@ const LINES: &[&str] = &[
     "$FOO",
 ];
 
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn below(&mut self, n: usize) -> usize {
+    pub(super) fn below(&mut self, n: usize) -> usize {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         usize::try_from(self.0 >> 33).unwrap() % n
     }
@@ -153,8 +153,8 @@ fn random_programs_end() {
         let text = random.program();
         let sources = MemorySources::new().with("main.nc", text).with("c.nc", "X @P1\nG91\n");
         let options = Options { max_blocks: 2000, max_blocks_at_rest: 500, ..Options::default() };
-        let boxed = Box::new(sources.clone());
-        let _ = check(boxed, "main.nc", std::sync::Arc::clone(&machine), options.clone());
+        let shared = std::sync::Arc::new(sources.clone());
+        let _ = check(shared, "main.nc", std::sync::Arc::clone(&machine), options.clone());
         let run = run_with(sources, std::sync::Arc::clone(&machine), options);
         assert!(run.end.iter().all(|x| x.is_finite()));
         // motions join without a gap

@@ -109,19 +109,19 @@ parameters! {
     chan("P-CHAN-00040", "m_prozess_zeit[i]", Raw::Uns32, "duration of M function i, counted with --techno-times")
         .default(0.0).unit("us", "us"), as M_DURATION: Optional;
     chan("P-CHAN-00042", "spindel[i].m19_prozess_zeit", Raw::Uns32, "duration of M19, counted with --techno-times")
-        .default(0.0).unit("us", "us");
+        .default(0.0).unit("us", "us"), as SPINDLE_M19_DURATION: Optional;
     chan("P-CHAN-00044", "spindel[i].m3_prozess_zeit", Raw::Uns32, "duration of M3, counted with --techno-times")
-        .default(0.0).unit("us", "us");
+        .default(0.0).unit("us", "us"), as SPINDLE_M3_DURATION: Optional;
     chan("P-CHAN-00046", "spindel[i].m4_prozess_zeit", Raw::Uns32, "duration of M4, counted with --techno-times")
-        .default(0.0).unit("us", "us");
+        .default(0.0).unit("us", "us"), as SPINDLE_M4_DURATION: Optional;
     chan("P-CHAN-00048", "spindel[i].m5_prozess_zeit", Raw::Uns32, "duration of M5, counted with --techno-times")
-        .default(0.0).unit("us", "us");
+        .default(0.0).unit("us", "us"), as SPINDLE_M5_DURATION: Optional;
     chan("P-CHAN-00051", "main_spindle_ax_nr", Raw::Uns16, "logical axis number of the main spindle; 0: the first spindle")
         .default(0.0), as MAIN_SPINDLE: Whole;
     chan("P-CHAN-00053", "main_spindle_name", Raw::Text, "name that addresses the main spindle in the NC program")
         .default_is(Default::Text("S")).source("TF5200 channel parameters"), as MAIN_SPINDLE_NAME: Text;
     chan("P-CHAN-00080", "spindel[i].s_prozess_zeit", Raw::Uns32, "duration of an S word, counted with --techno-times")
-        .default(0.0).unit("us", "us");
+        .default(0.0).unit("us", "us"), as SPINDLE_SPEED_DURATION: Optional;
     chan("P-CHAN-00082", "spdl_anzahl", Raw::Uns16, "number of spindles of the channel")
         .range(Bound::None, Bound::At(16.0)).default(0.0), as SPINDLE_COUNT: Whole;
     chan("P-CHAN-00161", "g81_prog_file", Raw::Text, "global subroutine called by G81"), as G81_PROGRAM: Text;

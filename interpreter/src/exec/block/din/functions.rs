@@ -6,6 +6,7 @@ use crate::exec::block::words::{Code, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::motion::spindles::Turning;
+use crate::exec::motion::technology::Function;
 use crate::exec::step::{Event, Sync};
 use crate::syntax::ast::Span;
 
@@ -42,6 +43,9 @@ impl Decoder {
             return;
         }
         self.set_spindle_speed(index, value, span);
+        if let Some(spindle) = self.motion.spindles[index].index {
+            self.takes_time(Function::Speed { spindle });
+        }
         if self.motion.spindles[index].is_turning()
             && let Some(event) = self.motion.spindles[index].motion_event()
         {
@@ -88,12 +92,16 @@ impl Decoder {
             match m_kind(m.number) {
                 MKind::Before => self.m_function(m),
                 MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
-                MKind::Spindle => self.turn_main_spindle(m),
+                MKind::Spindle => {
+                    self.turn_main_spindle(m);
+                    self.spindle_warning(0, m.span);
+                }
                 _ => {}
             }
         }
         for h in &words.h {
             self.event(Event::HFunction { number: h.number, value: h.value });
+            self.takes_time(Function::H(h.number));
         }
     }
 
@@ -103,11 +111,11 @@ impl Decoder {
             self.note_once(&key, Fault::new(Condition::Dialect, text, m.span));
         }
         self.event(Event::MFunction { number: m.number, value: m.value });
+        self.takes_time(Function::M(m.number));
     }
 
     fn turn_main_spindle(&mut self, m: &Code) {
         self.turn_spindle(0, m.number, m.value);
-        self.spindle_warning(0, m.span);
         if self.motion.spindles[0].index.is_none() {
             self.event(Event::MFunction { number: m.number, value: m.value });
         }
@@ -119,18 +127,17 @@ impl Decoder {
         if let Some(event) = self.motion.spindles[index].motion_event() {
             self.event(event);
         }
+        self.takes_time(match self.motion.spindles[index].index {
+            Some(spindle) => Function::Spindle { spindle, m: number },
+            None => Function::M(number),
+        });
     }
 
     pub(super) fn functions_after<'b>(&mut self, words: &Words<'b>) -> After<'b> {
         let mut after = After::Next;
         for m in &words.m {
             match m_kind(m.number) {
-                MKind::After => {
-                    self.turn_spindle(0, m.number, m.value);
-                    if self.motion.spindles[0].index.is_none() {
-                        self.event(Event::MFunction { number: m.number, value: m.value });
-                    }
-                }
+                MKind::After => self.turn_main_spindle(m),
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
                 MKind::End => after = After::End,
                 MKind::Return if !matches!(after, After::End) => after = After::Return,

@@ -5,12 +5,12 @@ use super::{Executor, State, file_number};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::block::din::After;
 use crate::exec::fault::Fault;
-use crate::exec::program::files::{Fetched, Parsed, Reading};
+use crate::exec::program::files::{Fetched, Parsed, Reading, Tree};
 use crate::exec::program::index::{EntryId, Keyword};
 use crate::exec::step::{EndReason, SourceRef, Sync};
 use crate::source::Position;
 use crate::syntax::Parser;
-use crate::syntax::ast::{BlockNumber, Body, Command, Span};
+use crate::syntax::ast::{Block, BlockNumber, Body, Command, Span};
 use std::sync::Arc;
 
 /// Messages and functions between two motions for which the path does not stop.
@@ -21,6 +21,8 @@ const EVENTS_MAX: usize = 1000;
 impl Executor {
     /// Executes one block.
     pub(super) fn advance(&mut self, actual_known: bool) {
+        // whatever comes between two plain motions ends what they share
+        let straight = self.decoder.straight.take();
         if self.names_or_macros_changed() {
             self.files.forget();
         }
@@ -39,8 +41,12 @@ impl Executor {
         {
             return;
         }
-        let Some((parsed, next)) = self.fetch(file, at) else { return };
-        if parsed.needs_actual && !actual_known {
+        let Some((fetched, next)) = self.read(file, at) else { return };
+        let (needs_actual, faulty) = match &fetched {
+            Fetched::Plain => (false, false),
+            Fetched::Tree(tree) => (tree.needs_actual, tree.faulty),
+        };
+        if needs_actual && !actual_known {
             self.wait_for_actual(at);
             return;
         }
@@ -51,16 +57,27 @@ impl Executor {
         if self.decoder.checking {
             self.reached.add(file, at, next);
         }
-        self.source_of(file, at, &parsed);
         if let Some(level) = self.levels.last_mut() {
             level.at = next;
         }
         self.decoder.moved = false;
-        self.execute(&parsed, entry);
+        match fetched {
+            Fetched::Plain => {
+                self.source_of(file, at, self.files.plain().number);
+                if !self.decoder.straight_motion(self.files.plain(), straight) {
+                    self.execute(&self.files.plain().tree(), entry);
+                }
+            }
+            Fetched::Tree(tree) => {
+                let number = self.block_number(&tree.block);
+                self.source_of(file, at, number);
+                self.execute(&tree.block, entry);
+            }
+        }
         if self.decoder.contour.waiting() >= EVENTS_MAX {
             self.decoder.sync(Sync::Stop);
         }
-        self.settle(parsed.faulty);
+        self.settle(faulty);
     }
 
     fn names_or_macros_changed(&mut self) -> bool {
@@ -106,12 +123,20 @@ impl Executor {
         }
     }
 
-    /// The block at a place; reading errors end the program.
-    pub(in crate::exec) fn fetch(
-        &mut self,
-        file: usize,
-        at: Position,
-    ) -> Option<(Fetched, Position)> {
+    /// The block at a place with its tree; reading errors end the program.
+    pub(in crate::exec) fn fetch(&mut self, file: usize, at: Position) -> Option<(Tree, Position)> {
+        let (fetched, next) = self.read(file, at)?;
+        let tree = match fetched {
+            Fetched::Tree(tree) => tree,
+            Fetched::Plain => {
+                let block = self.files.plain().tree();
+                Tree::Once(Parsed { block, needs_actual: false, faulty: false })
+            }
+        };
+        Some((tree, next))
+    }
+
+    fn read(&mut self, file: usize, at: Position) -> Option<(Fetched, Position)> {
         let level = self.levels.last()?;
         // the head of a loop runs again as well
         let loops = |id: EntryId| level.index.entry(id).keyword.is_loop();
@@ -204,15 +229,18 @@ impl Executor {
         self.limited
     }
 
-    fn source_of(&mut self, file: usize, at: Position, parsed: &Parsed) {
-        let block = match &parsed.block.number {
+    fn block_number(&mut self, block: &Block) -> Option<u64> {
+        match &block.number {
             None => None,
             Some(BlockNumber::Literal(n)) => Some(*n),
             Some(BlockNumber::Computed(expr)) => {
                 let outcome = self.decoder.whole(expr, "a block number", 0, u32::MAX);
                 self.decoder.keep(outcome).map(u64::from)
             }
-        };
+        }
+    }
+
+    fn source_of(&mut self, file: usize, at: Position, block: Option<u64>) {
         let file = file_number(file);
         self.decoder.report.source = SourceRef { file, line: at.line, offset: at.offset, block };
         self.decoder.report.location = None;
@@ -223,8 +251,7 @@ impl Executor {
     }
 
     /// What the block says.
-    fn execute(&mut self, parsed: &Parsed, entry: Option<EntryId>) {
-        let block = &parsed.block;
+    fn execute(&mut self, block: &Block, entry: Option<EntryId>) {
         if block.skip.is_some_and(|level| self.skip.contains(level)) {
             return;
         }

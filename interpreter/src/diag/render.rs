@@ -3,14 +3,17 @@
 //! The text form is a compiler's: severity, ID and message, the source line with carets, then values, reaction and
 //! hint. A diagnostic of the running machine has a time in place of a source line.
 
+use crate::diag::{Datum, Diagnostic, Location, Severity, ValueKind, condition, rounded};
 use annotate_snippets::{AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet};
-use kontur_interpreter::diag::{
-    Datum, Diagnostic, Location, Severity, ValueKind, condition, rounded,
-};
 
 /// One JSON object on one line.
 pub fn json(d: &Diagnostic) -> String {
     serde_json::to_string(d).unwrap_or_default()
+}
+
+/// The readable form of several, without colours, a line for each end.
+pub fn all(diagnostics: &[Diagnostic]) -> String {
+    diagnostics.iter().map(|d| text(d, false) + "\n").collect()
 }
 
 /// The readable form, with colours for a terminal.
@@ -132,7 +135,7 @@ fn number(v: f64) -> String {
 }
 
 /// A user's file may hold anything: what would move a terminal's cursor is shown as a replacement character.
-pub(crate) fn printable(text: &str) -> String {
+pub fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() && c != '\n' { '\u{FFFD}' } else { c }).collect()
 }
 
@@ -143,7 +146,7 @@ fn index(n: u32) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kontur_interpreter::diag::{Condition, ValueKind};
+    use crate::diag::{Condition, ValueKind};
 
     fn place(text: &str, column: u32, length: u32) -> Location {
         Location {

@@ -1,0 +1,171 @@
+//! The contour of a run in bounded memory: points that are left out lie within a known distance of the lines between those
+//! that are kept.
+
+use super::recording::Point;
+
+/// Points at once, before some of them are left out.
+const CHUNK: usize = 2048;
+/// Points of a finished track at most.
+const MOST: usize = 40_000;
+/// Distance in mm of which nothing is to be seen: the last digit of a trace.
+const FINEST_MM: f64 = 1e-7;
+
+/// Interpolated, set and actual contour.
+///
+/// Points are chosen by Douglas and Peucker (1973), chunk by chunk, all three contours together. When there are too many of
+/// them, they are chosen anew with a larger tolerance; the tolerances add up.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    kept: Vec<Point>,
+    /// Begins with a point that will be kept.
+    tail: Vec<Point>,
+    tolerance_mm: f64,
+    within_mm: f64,
+}
+
+impl Default for Track {
+    fn default() -> Self {
+        Self { kept: Vec::new(), tail: Vec::new(), tolerance_mm: FINEST_MM, within_mm: FINEST_MM }
+    }
+}
+
+impl Track {
+    /// Adds the point of the next cycle.
+    pub(super) fn add(&mut self, point: Point) {
+        let new_pass = self.tail.last().is_some_and(|last| last.pass != point.pass);
+        if self.tail.len() >= CHUNK || new_pass {
+            self.settle();
+        }
+        if new_pass {
+            // both ends of a pass stay
+            self.kept.append(&mut self.tail);
+        }
+        self.tail.push(point);
+    }
+
+    /// Every point that is kept, in order.
+    pub(super) fn points(&self) -> impl Iterator<Item = &Point> {
+        self.kept.iter().chain(&self.tail)
+    }
+
+    /// No point that was left out is farther from the lines between the others than this, in mm.
+    pub(super) const fn within_mm(&self) -> f64 {
+        self.within_mm
+    }
+
+    /// All points are of one pass.
+    pub(super) fn one_pass(&mut self) {
+        self.kept.iter_mut().chain(&mut self.tail).for_each(|p| p.pass = 0);
+    }
+
+    /// Chooses among the points of the tail; the last one goes on as its beginning.
+    fn settle(&mut self) {
+        thin(&mut self.tail, self.tolerance_mm);
+        let last = self.tail.pop();
+        self.kept.append(&mut self.tail);
+        self.tail.extend(last);
+        while self.kept.len() > MOST - CHUNK {
+            self.tolerance_mm *= 2.0;
+            self.within_mm += self.tolerance_mm;
+            let mut chosen = Vec::with_capacity(self.kept.len());
+            for pass in self.kept.chunk_by(|a, b| a.pass == b.pass) {
+                let mut pass = pass.to_vec();
+                thin(&mut pass, self.tolerance_mm);
+                chosen.append(&mut pass);
+            }
+            self.kept = chosen;
+        }
+    }
+}
+
+/// Leaves out every point that lies within a tolerance of the line between its neighbours that stay, on all three contours.
+fn thin(points: &mut Vec<Point>, tolerance_mm: f64) {
+    if points.len() < 3 {
+        return;
+    }
+    let mut stays = vec![false; points.len()];
+    let last = points.len() - 1;
+    (stays[0], stays[last]) = (true, true);
+    let mut open = vec![(0, last)];
+    while let Some((from, to)) = open.pop() {
+        let aside = |i: usize| aside_mm2(&points[i], &points[from], &points[to]);
+        let candidates = (from + 1..to).map(|i| (i, aside(i)));
+        let Some((farthest, mm2)) = candidates.max_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
+        if mm2 > tolerance_mm * tolerance_mm {
+            stays[farthest] = true;
+            open.extend([(from, farthest), (farthest, to)]);
+        }
+    }
+    let mut stays = stays.iter();
+    points.retain(|_| stays.next().is_some_and(|s| *s));
+}
+
+/// Largest squared distance of a point from the line between two others, of the three contours.
+fn aside_mm2(p: &Point, a: &Point, b: &Point) -> f64 {
+    let of = |value: fn(&Point) -> &[f64; 3]| from_line_mm2(value(p), value(a), value(b));
+    of(|p| &p.ipo).max(of(|p| &p.set)).max(of(|p| &p.act))
+}
+
+fn from_line_mm2(p: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    let (mut along, mut length2) = (0.0, 0.0);
+    for i in 0..3 {
+        along += (p[i] - a[i]) * (b[i] - a[i]);
+        length2 += (b[i] - a[i]) * (b[i] - a[i]);
+    }
+    let part = if length2 > 0.0 { (along / length2).clamp(0.0, 1.0) } else { 0.0 };
+    (0..3).map(|i| p[i] - a[i] - part * (b[i] - a[i])).map(|d| d * d).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A path that winds and stands: every point of 200,000 is within the stated distance of the track.
+    #[test]
+    fn what_is_left_out_is_within_the_stated_distance() {
+        let at = |k: u64| -> Point {
+            let t = k as f64 * 1e-3;
+            let set = [30.0 * libm::sin(t), 20.0 * libm::sin(2.7 * t + 0.3), 0.1 * t];
+            let act = set.map(|v| v + 0.02 * libm::sin(30.0 * t));
+            Point { k, ipo: set, set, act, ..Point::default() }
+        };
+        let mut track = Track::default();
+        let count = 200_000;
+        for k in 0..count {
+            track.add(at(k));
+        }
+        let kept: Vec<&Point> = track.points().collect();
+        assert!(kept.len() <= MOST && kept.len() > MOST / 8, "{}", kept.len());
+        assert!(kept.windows(2).all(|w| w[0].k < w[1].k));
+        assert!((kept[0].k, kept[kept.len() - 1].k) == (0, count - 1));
+        let mut worst: f64 = 0.0;
+        for w in kept.windows(2) {
+            for k in w[0].k + 1..w[1].k {
+                worst = worst.max(aside_mm2(&at(k), w[0], w[1]).sqrt());
+            }
+        }
+        assert!(worst <= track.within_mm() * (1.0 + 1e-9), "{worst} of {}", track.within_mm());
+        assert!(track.within_mm() < 0.01, "{}", track.within_mm());
+    }
+
+    /// A square of 400,000 cycles is a handful of points, exact to the last digit, and its corners stay.
+    #[test]
+    fn straight_lines_need_their_ends() {
+        let corners = [[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0], [0.0, 0.0]];
+        let mut track = Track::default();
+        for k in 0..=400_000_u64 {
+            let s = k as f64 / 1e5;
+            let i = (s as usize).min(3);
+            let part = s - i as f64;
+            let set = [0, 1, 2].map(|a| {
+                corners[i].get(a).map_or(0.0, |from| from + part * (corners[i + 1][a] - from))
+            });
+            track.add(Point { k, ipo: set, set, act: set, ..Point::default() });
+        }
+        assert!(track.points().count() < 400 + CHUNK, "{}", track.points().count());
+        for corner in &corners {
+            assert!(track.points().any(|p| p.set[..2] == corner[..]), "{corner:?}");
+        }
+        assert!(track.within_mm() <= FINEST_MM);
+    }
+}

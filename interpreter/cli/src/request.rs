@@ -1,0 +1,219 @@
+//! What a user asks for on the command line, and the library's job that does it: files, lists, options.
+
+use crate::Error;
+use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
+use crate::inputs;
+use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::job::{
+    Access, Changes, Checked, External, ForcedGuard, Job, MachineLists, Options, Run, SkipLevels,
+    Value,
+};
+use kontur_interpreter::machine::{Axis, Machine};
+use std::path::{Path, PathBuf};
+
+/// What a user may say about a run, apart from what becomes of its results.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Request {
+    /// The NC program.
+    pub program: PathBuf,
+    /// Folder or start-up list of the machine; none: the built-in `xyz`.
+    pub machine: Option<PathBuf>,
+    /// `AXIS.key=value` or `channel.key=value`, in the order given.
+    pub settings: Vec<String>,
+    /// Folders of global subroutines, in the order of search.
+    pub path: Vec<PathBuf>,
+    /// Subroutines may lie outside the program's folder and those.
+    pub allow_outside: bool,
+    /// Files of real-time inputs.
+    pub inputs: Vec<PathBuf>,
+    /// Cycle time in microseconds in place of the machine's.
+    pub cycle_us: Option<u32>,
+    /// Start positions in mm (deg) by axis name.
+    pub start: Vec<(String, f64)>,
+    /// Active skip levels (`/`, `/1` ... `/9`).
+    pub skip: Vec<u8>,
+    /// Program time in seconds after which a run is stopped.
+    pub max_time_s: f64,
+    /// Number of decoded blocks after which a run is stopped.
+    pub max_blocks: u64,
+    /// Keys of a list that are not modelled are refused.
+    pub strict: bool,
+    /// Transformations of the kinematics are taken as identity.
+    pub identity_trafo: bool,
+    /// Declared durations of M, H and S functions are waited for.
+    pub techno_times: bool,
+    /// External variables by their name behind `V.E.`: a number, or else a text.
+    pub external: Vec<(String, String)>,
+    /// Vibration Guard in place of that of lists and program.
+    pub guard: Option<ForcedGuard>,
+}
+
+/// Why a program could not be opened.
+#[derive(Debug)]
+pub enum OpenError {
+    /// A setting or option is wrong.
+    Usage(String),
+    /// The machine lists are wrong.
+    Lists(Vec<Diagnostic>),
+    /// A file of real-time inputs is wrong.
+    Inputs(Vec<Diagnostic>),
+    /// A file cannot be read.
+    Io(PathBuf, std::io::Error),
+}
+
+impl From<OpenError> for Error {
+    fn from(e: OpenError) -> Self {
+        match e {
+            OpenError::Usage(text) => Self::Usage(text),
+            OpenError::Lists(_) => Self::Lists,
+            OpenError::Inputs(_) => Self::Inputs,
+            OpenError::Io(path, e) => Self::io(path.display().to_string(), e),
+        }
+    }
+}
+
+/// A run before its first cycle.
+#[derive(Debug)]
+pub struct Opened {
+    /// The run.
+    pub run: Run,
+    /// Every file that was read so far: programs, lists, inputs.
+    pub reads: Vec<PathBuf>,
+}
+
+/// A job with what it is made from.
+struct Prepared {
+    job: Job,
+    sources: ProgramFiles,
+    lists: Vec<PathBuf>,
+    changes: Changes,
+}
+
+impl Request {
+    /// The machine, with the warnings of its lists, which are read through `lists`.
+    ///
+    /// # Errors
+    /// [`OpenError`] if a setting is wrong or the lists are refused.
+    pub fn machine(&self, lists: &Lists) -> Result<(Machine, Vec<Diagnostic>), OpenError> {
+        let start_up = match &self.machine {
+            Some(path) if path.is_dir() => Some(path.join("hochlauf.lis")),
+            other => other.clone(),
+        };
+        let name = |path: &PathBuf| {
+            let reason = "lists refer to each other by name: it has to be UTF-8";
+            let e = || OpenError::Io(path.clone(), std::io::Error::other(reason));
+            path.to_str().map(str::to_owned).ok_or_else(e)
+        };
+        let start_up = start_up.as_ref().map(name).transpose()?;
+        let lists = MachineLists {
+            files: start_up.as_deref().map(|name| (lists as _, name)),
+            settings: &self.settings,
+            cycle_us: self.cycle_us,
+            strict: self.strict,
+        };
+        lists.load().map_err(OpenError::Lists)
+    }
+
+    fn prepare(&self) -> Result<Prepared, OpenError> {
+        readable(&self.program)?;
+        folders(self)?;
+        let lists = Lists::default();
+        let (machine, warnings) = self.machine(&lists)?;
+        let options = options(self, &machine)?;
+        let changes = inputs::open(&self.inputs, &machine)?;
+        let sources = ProgramFiles::new(&self.program, self.path.clone(), self.allow_outside);
+        let program = if is_standard(&self.program) {
+            STANDARD_INPUT.to_owned()
+        } else {
+            self.program.display().to_string()
+        };
+        let job = Job::new(machine, sources.clone(), program)
+            .with_warnings(warnings)
+            .with_options(options);
+        Ok(Prepared { job, sources, lists: lists.read_so_far(), changes })
+    }
+
+    /// The job itself, without its inputs.
+    ///
+    /// # Errors
+    /// [`OpenError`] if options, lists or files are wrong.
+    pub fn job(&self) -> Result<Job, OpenError> {
+        Ok(self.prepare()?.job)
+    }
+
+    /// Decodes the program without moving anything.
+    ///
+    /// # Errors
+    /// [`OpenError`] if options, lists or files are wrong.
+    pub fn check(&self) -> Result<Checked, OpenError> {
+        Ok(self.job()?.check())
+    }
+
+    /// Opens the program. One that is refused opens too: it has diagnostics, no cycles, and is aborted.
+    ///
+    /// # Errors
+    /// [`OpenError`] if options, lists or files are wrong.
+    pub fn open(&self) -> Result<Opened, OpenError> {
+        let Prepared { job, sources, lists, changes } = self.prepare()?;
+        let run = job.start().map_err(OpenError::Lists)?.with_inputs(changes);
+        let others = lists.into_iter().chain(self.inputs.clone());
+        Ok(Opened { run, reads: others.chain(sources.opened()).collect() })
+    }
+}
+
+/// Folders of subroutines that do not exist would only be missed much later.
+fn folders(request: &Request) -> Result<(), OpenError> {
+    match request.path.iter().find(|folder| !folder.is_dir()) {
+        Some(folder) => {
+            Err(OpenError::Usage(format!("--path {}: no such folder", folder.display())))
+        }
+        None => Ok(()),
+    }
+}
+
+fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
+    for (i, (name, _)) in request.start.iter().enumerate() {
+        if request.start[..i].iter().any(|(other, _)| other.eq_ignore_ascii_case(name)) {
+            return Err(OpenError::Usage(format!("--start: axis `{name}` twice")));
+        }
+        if !machine.axes.iter().any(|a| a.name().eq_ignore_ascii_case(name)) {
+            let known: Vec<&str> = machine.axes.iter().map(Axis::name).collect();
+            let known = known.join(", ");
+            return Err(OpenError::Usage(format!(
+                "--start: no axis `{name}`; the axes are {known}"
+            )));
+        }
+    }
+    for (i, (name, _)) in request.external.iter().enumerate() {
+        if request.external[..i].iter().any(|(other, _)| other.eq_ignore_ascii_case(name)) {
+            return Err(OpenError::Usage(format!("--external: `{name}` twice")));
+        }
+    }
+    let skip = request.skip.iter().fold(SkipLevels::NONE, |levels, level| levels.with(*level));
+    Ok(Options {
+        start: request.start.clone(),
+        skip,
+        max_blocks: request.max_blocks,
+        max_time_s: request.max_time_s,
+        identity_trafo: request.identity_trafo,
+        techno_times: request.techno_times,
+        external: request.external.iter().map(external).collect(),
+        guard: request.guard,
+        ..Options::default()
+    })
+}
+
+fn external((name, value): &(String, String)) -> (String, External) {
+    let value = match value.trim().parse::<f64>() {
+        Ok(x) if x.is_finite() => Value::Number(x),
+        _ => Value::Text(value.as_str().into()),
+    };
+    (name.clone(), External { value, access: Access::ReadWrite })
+}
+
+/// A program that must be readable, or the command fails before it decodes anything.
+fn readable(program: &Path) -> Result<(), OpenError> {
+    let name = if is_standard(program) { Path::new("standard input") } else { program };
+    files::readable(program).map_err(|e| OpenError::Io(name.to_path_buf(), e))
+}

@@ -1,0 +1,406 @@
+//! `kontur run --times`: where the time of a run goes, by line and by what held the speed down.
+//!
+//! Every cycle has one [`Reason`] and belongs to one line, so the times add up to the duration to the cycle. While the
+//! speed changes, it is the change that takes the time: with constant acceleration an axis is at its limit, else the
+//! acceleration is being built up or taken away by the form of the slope. What the speed changes *for* is the limit of the
+//! trace column `v_limit`.
+
+mod proposals;
+mod render;
+
+use kontur_interpreter::job::{Facts, FileNames};
+use kontur_interpreter::record::{AxisRecord, CycleRecord, Motion, Rest, SpeedLimit};
+use serde::Serialize;
+use std::collections::{BTreeMap, HashMap};
+
+pub use proposals::{Proposal, try_out};
+
+/// Lines of the readable form and of the summary.
+const MOST_EXPENSIVE: usize = 10;
+
+/// Accelerations below this are none, in mm/s2.
+const NO_ACC_MM_S2: f64 = 1e-6;
+/// Share by which an acceleration may change in a cycle and still be constant.
+const CONSTANT: f64 = 1e-6;
+
+/// What a cycle was needed for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// The programmed feed is reached.
+    Feed,
+    /// An axis is at its velocity limit.
+    AxisV,
+    /// The speed changes with constant acceleration: an axis is at its limit.
+    AxisA,
+    /// The speed changes while the acceleration is built up or taken away (ramp times, jerk, form of the slope).
+    Slope,
+    /// Speed of a kink between blocks.
+    Corner,
+    /// Curvature of the path.
+    Curve,
+    /// Tolerance monitoring (`AX_DEV`).
+    AxDev,
+    /// End of the look-ahead window.
+    Lookahead,
+    /// At rest without waiting.
+    Stop,
+    /// G04, `#TIME`.
+    Dwell,
+    /// Declared durations of M, H and S functions.
+    Technology,
+    /// Waiting for the exact-stop window (G60, G360).
+    ExactStop,
+    /// Waiting for the set positions: `#FLUSH WAIT`, independent axes, a change of filters.
+    Flush,
+    /// Waiting for the axes at the end of the program.
+    Arrival,
+    /// Feedhold or override 0.
+    Held,
+}
+
+impl Reason {
+    /// Every value, in the order of the columns.
+    pub const ALL: [Self; 15] = [
+        Self::Feed,
+        Self::AxisV,
+        Self::AxisA,
+        Self::Slope,
+        Self::Corner,
+        Self::Curve,
+        Self::AxDev,
+        Self::Lookahead,
+        Self::Stop,
+        Self::Dwell,
+        Self::Technology,
+        Self::ExactStop,
+        Self::Flush,
+        Self::Arrival,
+        Self::Held,
+    ];
+
+    /// Name in results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Feed => "feed",
+            Self::AxisV => "axis_v",
+            Self::AxisA => "axis_a",
+            Self::Slope => "slope",
+            Self::Corner => "corner",
+            Self::Curve => "curve",
+            Self::AxDev => "ax_dev",
+            Self::Lookahead => "lookahead",
+            Self::Stop => "stop",
+            Self::Dwell => "dwell",
+            Self::Technology => "technology",
+            Self::ExactStop => "exact_stop",
+            Self::Flush => "flush",
+            Self::Arrival => "arrival",
+            Self::Held => "held",
+        }
+    }
+
+    fn of(record: &CycleRecord) -> Self {
+        let path = &record.path;
+        match path.rest {
+            Some(Rest::Dwell) => return Self::Dwell,
+            Some(Rest::Technology) => return Self::Technology,
+            Some(Rest::ExactStop) => return Self::ExactStop,
+            Some(Rest::Flush) => return Self::Flush,
+            Some(Rest::Arrival) => return Self::Arrival,
+            Some(Rest::Held) => return Self::Held,
+            None => {}
+        }
+        Self::of_motion(path.limit, path.v_mm_s, path.a_mm_s2, path.j_mm_s3)
+    }
+
+    fn of_motion(limit: SpeedLimit, v_mm_s: f64, a_mm_s2: f64, j_mm_s3: f64) -> Self {
+        if a_mm_s2.abs() > NO_ACC_MM_S2 {
+            // per ms: a jerk that would need more than a thousand seconds to take the acceleration away is none
+            let constant = j_mm_s3.abs() * 1e-3 <= CONSTANT * a_mm_s2.abs();
+            return if constant { Self::AxisA } else { Self::Slope };
+        }
+        if v_mm_s == 0.0 {
+            return Self::Stop;
+        }
+        match limit {
+            SpeedLimit::Feed => Self::Feed,
+            SpeedLimit::Axis => Self::AxisV,
+            SpeedLimit::Corner => Self::Corner,
+            SpeedLimit::Curve => Self::Curve,
+            SpeedLimit::AxDev => Self::AxDev,
+            SpeedLimit::Lookahead => Self::Lookahead,
+            // the top of a ramp up and down again
+            SpeedLimit::Stop => Self::Slope,
+        }
+    }
+}
+
+/// Why, which axis (of [`Reason::AxisV`] and [`Reason::AxisA`]), and what the speed changes for.
+type Key = (Reason, Option<u8>, SpeedLimit);
+
+/// Cycles of a line.
+#[derive(Clone, Debug)]
+struct Line {
+    place: (u32, u32),
+    block: Option<u64>,
+    motion: Motion,
+    cycles: Vec<(Key, u64)>,
+}
+
+/// Least and greatest value of something.
+type Range = (f64, f64);
+
+fn widen(range: &mut Range, value: f64) {
+    *range = (range.0.min(value), range.1.max(value));
+}
+
+/// What one axis reached.
+#[derive(Clone, Copy, Debug)]
+struct Reached {
+    position: Range,
+    velocity: Range,
+    acceleration: Range,
+    torque: Range,
+}
+
+impl Reached {
+    const NOTHING: Self = {
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        Self { position: none, velocity: none, acceleration: none, torque: none }
+    };
+
+    fn add(&mut self, axis: &AxisRecord) {
+        widen(&mut self.position, axis.set);
+        widen(&mut self.velocity, axis.vel);
+        widen(&mut self.acceleration, axis.acc);
+        widen(&mut self.torque, axis.torque_n_m);
+    }
+}
+
+/// Collects the times, record by record. It takes about 100 bytes for each line that moves or waits.
+#[derive(Clone, Debug)]
+pub struct Collector {
+    facts: Facts,
+    lines: Vec<Line>,
+    index: HashMap<(u32, u32), usize>,
+    /// Index of the line of the cycle before.
+    current: usize,
+    reached: Vec<Reached>,
+    /// Interpolated positions of the last two cycles.
+    before: [Vec<f64>; 2],
+    last_k: Option<u64>,
+}
+
+impl Collector {
+    /// Starts the accounting.
+    pub fn new(facts: &Facts) -> Self {
+        Self {
+            facts: facts.clone(),
+            lines: Vec::new(),
+            index: HashMap::new(),
+            current: 0,
+            reached: vec![Reached::NOTHING; facts.axes.len()],
+            before: [Vec::new(), Vec::new()],
+            last_k: None,
+        }
+    }
+
+    /// Adds a cycle.
+    pub fn add(&mut self, record: &CycleRecord) {
+        for (reached, axis) in self.reached.iter_mut().zip(&record.axes) {
+            reached.add(axis);
+        }
+        if let Some(before) = self.last_k {
+            let reason = Reason::of(record);
+            let axis = match reason {
+                Reason::AxisV => self.nearest_to_its_limit(record, false),
+                Reason::AxisA => self.nearest_to_its_limit(record, true),
+                _ => None,
+            };
+            let key = (reason, axis, record.path.limit);
+            self.count(record, key, record.k.saturating_sub(before));
+        }
+        self.last_k = Some(record.k);
+        let [newer, older] = &mut self.before;
+        std::mem::swap(newer, older);
+        newer.clear();
+        newer.extend(record.axes.iter().map(|a| a.ipo));
+    }
+
+    fn count(&mut self, record: &CycleRecord, key: Key, cycles: u64) {
+        let place = (record.file, record.line);
+        if self.lines.get(self.current).is_none_or(|line| line.place != place) {
+            let next = self.lines.len();
+            self.current = *self.index.entry(place).or_insert(next);
+            if self.current == next {
+                let motion = Motion::None;
+                self.lines.push(Line { place, block: record.block, motion, cycles: Vec::new() });
+            }
+        }
+        let line = &mut self.lines[self.current];
+        if record.path.rest.is_none() {
+            line.motion = record.path.motion;
+        }
+        match line.cycles.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, count)) => *count += cycles,
+            None => line.cycles.push((key, cycles)),
+        }
+    }
+
+    /// The path axis whose speed, or acceleration, is the largest share of its limit.
+    fn nearest_to_its_limit(&self, record: &CycleRecord, acceleration: bool) -> Option<u8> {
+        let [newer, older] = &self.before;
+        let axes = self.facts.axes.iter().zip(&record.axes).enumerate();
+        let shares =
+            axes.filter(|(_, (facts, _))| !facts.spindle).filter_map(|(i, (facts, axis))| {
+                let step = axis.ipo - newer.get(i)?;
+                let share = if acceleration {
+                    (step - (newer.get(i)? - older.get(i)?)).abs() / facts.a_max
+                } else {
+                    step.abs() / facts.v_max
+                };
+                Some((i, share))
+            });
+        let (i, _) = shares.filter(|(_, share)| *share > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
+        u8::try_from(i).ok()
+    }
+
+    /// The times of the run.
+    pub fn finish(self) -> Times {
+        let cycle_s = f64::from(self.facts.cycle_us) / 1e6;
+        let total: u64 = self.lines.iter().flat_map(|l| &l.cycles).map(|(_, n)| n).sum();
+        let name_of = |axis: Option<u8>| {
+            let facts = axis.and_then(|i| self.facts.axes.get(usize::from(i)));
+            facts.map(|a| a.name.clone())
+        };
+        let of_cycles = |cycles: &BTreeMap<Key, u64>| -> Vec<TimeByReason> {
+            let mut list: Vec<TimeByReason> = cycles
+                .iter()
+                .map(|((reason, axis, limit), n)| TimeByReason {
+                    reason: *reason,
+                    axis: name_of(*axis),
+                    towards: matches!(reason, Reason::AxisA | Reason::Slope).then(|| limit.name()),
+                    seconds: *n as f64 * cycle_s,
+                    share: *n as f64 / total.max(1) as f64,
+                })
+                .collect();
+            list.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
+            list
+        };
+        let mut all = BTreeMap::new();
+        for (key, n) in self.lines.iter().flat_map(|l| &l.cycles) {
+            *all.entry(*key).or_insert(0) += n;
+        }
+        let mut lines: Vec<TimeOfLine> = self
+            .lines
+            .iter()
+            .map(|line| {
+                let cycles: u64 = line.cycles.iter().map(|(_, n)| n).sum();
+                TimeOfLine {
+                    file: self.facts.files.name(line.place.0),
+                    line: line.place.1,
+                    block: line.block,
+                    kind: line.motion.name(),
+                    seconds: cycles as f64 * cycle_s,
+                    share: cycles as f64 / total.max(1) as f64,
+                    reasons: of_cycles(&line.cycles.iter().copied().collect()),
+                    helps: None,
+                }
+            })
+            .collect();
+        lines.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
+        let axes =
+            self.facts.axes.iter().zip(&self.reached).filter(|(_, r)| r.position.0.is_finite());
+        Times {
+            duration_s: total as f64 * cycle_s,
+            reasons: of_cycles(&all),
+            axes: axes
+                .map(|(facts, reached)| AxisRange {
+                    name: facts.name.clone(),
+                    unit: facts.unit(),
+                    position: reached.position,
+                    velocity: reached.velocity,
+                    acceleration: reached.acceleration,
+                    torque_n_m: reached.torque,
+                })
+                .collect(),
+            lines,
+            proposals: Vec::new(),
+            files: self.facts.files,
+        }
+    }
+}
+
+/// Seconds of one reason.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TimeByReason {
+    /// Why.
+    pub reason: Reason,
+    /// Axis at its limit (`axis_v`, `axis_a`): of several, the one that uses the largest share of its velocity (P-AXIS-00212) or
+    /// acceleration (P-AXIS-00008).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<String>,
+    /// What the speed changes for (`axis_a`, `slope`): a value of the trace column `v_limit`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub towards: Option<&'static str>,
+    /// Time in s.
+    pub seconds: f64,
+    /// Share of the duration, 0 to 1.
+    pub share: f64,
+}
+
+/// Times of one line.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TimeOfLine {
+    /// File.
+    pub file: String,
+    /// Line of the file; 0: before the first motion.
+    pub line: u32,
+    /// N number.
+    pub block: Option<u64>,
+    /// `rapid`, `line`, `arc`, `curve`; `none` if the line only waits.
+    pub kind: &'static str,
+    /// Time in s.
+    pub seconds: f64,
+    /// Share of the duration, 0 to 1.
+    pub share: f64,
+    /// By reason, the longest first.
+    pub reasons: Vec<TimeByReason>,
+    /// The proposal that saves most here, and how many seconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub helps: Option<(String, f64)>,
+}
+
+/// Least and greatest values of one axis in mm (deg) and s.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AxisRange {
+    /// Name in the NC program.
+    pub name: String,
+    /// `mm` or `deg`.
+    pub unit: &'static str,
+    /// Set position.
+    pub position: Range,
+    /// Velocity of the set position.
+    pub velocity: Range,
+    /// Acceleration of the set position.
+    pub acceleration: Range,
+    /// Torque feedforward in Nm (N for linear motors); 0 without one.
+    pub torque_n_m: Range,
+}
+
+/// Where the time of a run went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Times {
+    /// Duration in s.
+    pub duration_s: f64,
+    /// By reason, the longest first.
+    pub reasons: Vec<TimeByReason>,
+    /// By line, the longest first.
+    pub lines: Vec<TimeOfLine>,
+    /// What the axes reached.
+    pub axes: Vec<AxisRange>,
+    /// What would help, if it was tried out; the largest saving first.
+    pub proposals: Vec<Proposal>,
+    files: FileNames,
+}

@@ -1,0 +1,178 @@
+//! What would help: the program runs again with one group of parameters a tenth better, and the times are compared line by line.
+
+use super::{Collector, Reason, Times};
+use crate::Error;
+use crate::files::{self, Lists};
+use crate::interrupt::Running;
+use crate::request::Request;
+use kontur_interpreter::job::{Run, Sink};
+use kontur_interpreter::machine::Axis;
+use kontur_interpreter::record::CycleRecord;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// A reason that takes less than this share of the duration is not worth a run.
+const WORTHWHILE: f64 = 0.01;
+
+/// Parameters of one kind; those that a list leaves at 0 follow others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Group {
+    what: &'static str,
+    /// P-AXIS numbers, as shown.
+    ids: &'static str,
+    keys: &'static [&'static str],
+    factor: f64,
+}
+
+const SPEED: Group = Group {
+    what: "velocity +10 %",
+    ids: "P-AXIS-00212, 00209",
+    keys: &["getriebe[0].dynamik.vb_max", "getriebe[0].vb_eilgang"],
+    factor: 1.1,
+};
+const ACCELERATION: Group = Group {
+    what: "accelerations +10 %",
+    ids: "P-AXIS-00001, 00002, 00004 to 00006, 00008, 00011, 00012",
+    keys: &[
+        "getriebe[0].slope_profil.a_beschl",
+        "getriebe[0].slope_profil.a_brems",
+        "getriebe[0].slope_profil.a_grenz",
+        "getriebe[0].lslope_profil.a_grenz_stufe_1",
+        "getriebe[0].lslope_profil.a_grenz_stufe_2",
+        "getriebe[0].lslope_profil.a_stufe_1",
+        "getriebe[0].lslope_profil.a_stufe_2",
+        "getriebe[0].dynamik.a_max",
+    ],
+    factor: 1.1,
+};
+const RAMPS: Group = Group {
+    what: "ramp times -10 %",
+    ids: "P-AXIS-00195 to 00198, 00200",
+    keys: &[
+        "getriebe[0].slope_profil.tr_beschl_zu",
+        "getriebe[0].slope_profil.tr_beschl_ab",
+        "getriebe[0].slope_profil.tr_brems_zu",
+        "getriebe[0].slope_profil.tr_brems_ab",
+        "getriebe[0].slope_profil.tr_grenz",
+    ],
+    factor: 0.9,
+};
+const GEOMETRY: Group = Group {
+    what: "geometric ramp times -10 %",
+    ids: "P-AXIS-00199",
+    keys: &["getriebe[0].dynamik.tr_geom"],
+    factor: 0.9,
+};
+
+/// A change of the lists and what it saves.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Proposal {
+    /// `accelerations +10 % of Y`.
+    pub what: String,
+    /// The parameters.
+    pub parameters: &'static str,
+    /// The settings as for `--set`.
+    pub settings: Vec<String>,
+    /// Seconds that the run becomes shorter; below 0: longer.
+    pub saves_s: f64,
+}
+
+/// Tries out what the reasons suggest, one run each; the longest saving first. The lines get the proposal that helps them most.
+///
+/// Nothing is tried for a program that cannot be read again (standard input, a pipe).
+///
+/// # Errors
+/// [`Error`] if the lists cannot be read any more.
+pub fn try_out(times: &mut Times, request: &Request) -> Result<(), Error> {
+    if files::is_standard(&request.program) || files::regular(&request.program).is_err() {
+        return Ok(());
+    }
+    let (machine, _) = request.machine(&Lists::default())?;
+    let wanted = wanted(times, &machine.axes);
+    let _running = Running::start();
+    let tried: Vec<(Proposal, Times)> =
+        wanted.into_par_iter().filter_map(|proposal| run(proposal, request)).collect();
+    for (proposal, with) in tried {
+        let saves_s = times.duration_s - with.duration_s;
+        let proposal = Proposal { saves_s, ..proposal };
+        for line in &mut times.lines {
+            let there = with.lines.iter().find(|l| (&l.file, l.line) == (&line.file, line.line));
+            let saves_s = there.map_or(0.0, |there| line.seconds - there.seconds);
+            if saves_s > line.helps.as_ref().map_or(0.0, |(_, best)| *best) {
+                line.helps = Some((proposal.what.clone(), saves_s));
+            }
+        }
+        times.proposals.push(proposal);
+    }
+    times.proposals.sort_by(|a, b| b.saves_s.total_cmp(&a.saves_s));
+    Ok(())
+}
+
+/// What the reasons suggest, for axes that are named by one of them or for all path axes.
+fn wanted(times: &Times, axes: &[Axis]) -> Vec<Proposal> {
+    let share = |reason: Reason, axis: Option<&str>| -> f64 {
+        let of = times.reasons.iter().filter(|r| r.reason == reason);
+        of.filter(|r| axis.is_none() || r.axis.as_deref() == axis).map(|r| r.share).sum()
+    };
+    let mut found = Vec::new();
+    for (reason, group) in [(Reason::AxisV, SPEED), (Reason::AxisA, ACCELERATION)] {
+        for axis in axes.iter().filter(|a| share(reason, Some(a.name())) >= WORTHWHILE) {
+            found.extend(proposal(&group, std::slice::from_ref(axis), axis.name()));
+        }
+    }
+    let contour = [Reason::Corner, Reason::Curve, Reason::AxDev];
+    if share(Reason::Slope, None) >= WORTHWHILE {
+        found.extend(proposal(&RAMPS, axes, "all axes"));
+    }
+    if contour.iter().any(|reason| share(*reason, None) >= WORTHWHILE) {
+        found.extend(proposal(&ACCELERATION, axes, "all axes"));
+        found.extend(proposal(&GEOMETRY, axes, "all axes"));
+    }
+    found
+}
+
+fn proposal(group: &Group, axes: &[Axis], whose: &str) -> Option<Proposal> {
+    let mut settings = Vec::new();
+    for axis in axes {
+        for key in group.keys {
+            if let Some(value) = axis.raw(key).filter(|value| *value > 0.0) {
+                let value = (value * group.factor).round().max(1.0);
+                settings.push(format!("{}.{key}={value}", axis.name()));
+            }
+        }
+    }
+    let what = format!("{} of {whose}", group.what);
+    (!settings.is_empty()).then_some(Proposal {
+        what,
+        parameters: group.ids,
+        settings,
+        saves_s: 0.0,
+    })
+}
+
+/// Collects times until somebody interrupts.
+struct Watch(Collector);
+
+impl Sink for Watch {
+    type Stop = ();
+
+    fn cycle(&mut self, record: &CycleRecord) -> Result<(), ()> {
+        self.0.add(record);
+        Ok(())
+    }
+
+    fn pause(&mut self, run: &mut Run) -> Result<(), ()> {
+        drop(run.take_diagnostics());
+        if Running::is_interrupted() { Err(()) } else { Ok(()) }
+    }
+}
+
+/// None if the lists do not allow these settings, or the run does not come to its end with them.
+fn run(proposal: Proposal, request: &Request) -> Option<(Proposal, Times)> {
+    let mut request = request.clone();
+    request.settings.extend(proposal.settings.iter().cloned());
+    let mut run = request.open().ok()?.run;
+    let mut watch = Watch(Collector::new(run.facts()));
+    let ended = run.to_end(&mut watch).is_ok() && !run.totals().aborted;
+    ended.then(|| (proposal, watch.0.finish()))
+}

@@ -1,0 +1,98 @@
+//! Durations of M, H and S functions: waited for, or named as what the run does not contain.
+//!
+//! The vendor's production time calculation takes them from the channel list (TF5200 M and H functions, production time
+//! calculation; P-CHAN-00026, 00040, 00042, 00044, 00046, 00048, 00080).
+
+use crate::exec::decoder::Decoder;
+use crate::exec::step::{Event, Sync};
+use std::collections::BTreeSet;
+
+/// A function that the machine carries out beside the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::exec) enum Function {
+    M(u32),
+    H(u32),
+    Tool,
+    /// M03, M04, M05, M19 of a spindle of the machine.
+    Spindle {
+        spindle: usize,
+        m: u32,
+    },
+    /// S word of a spindle of the machine.
+    Speed {
+        spindle: usize,
+    },
+}
+
+/// What the functions of the block in work take.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Technology {
+    /// Declared durations are waited for.
+    counted: bool,
+    /// Time in s that is still to be waited.
+    pending_s: f64,
+    named: BTreeSet<Function>,
+}
+
+impl Technology {
+    pub(in crate::exec) fn new(counted: bool) -> Self {
+        Self { counted, ..Self::default() }
+    }
+}
+
+impl Decoder {
+    /// A function goes to the machine: its duration is waited for ([`Self::technology_wait`]) or named once.
+    pub(in crate::exec) fn takes_time(&mut self, function: Function) {
+        let declared = self.declared(function);
+        if self.technology.counted
+            && let Some((seconds, _)) = declared
+        {
+            // Assumption: the functions of a block go to the machine together, so the longest decides
+            self.technology.pending_s = self.technology.pending_s.max(seconds);
+            return;
+        }
+        let simulated = matches!(function, Function::Spindle { .. } | Function::Speed { .. });
+        if (simulated && declared.is_none()) || !self.technology.named.insert(function) {
+            return;
+        }
+        let spindle = |i: usize| self.motion.spindles.get(i).map_or("", |s| s.name.as_str());
+        let name = match function {
+            Function::M(number) => format!("M{number}"),
+            Function::H(number) => format!("H{number}"),
+            Function::Tool => "tool change (T)".to_owned(),
+            Function::Spindle { spindle: i, m } => format!("M{m} of {}", spindle(i)),
+            Function::Speed { spindle: i } => format!("S word of {}", spindle(i)),
+        };
+        let function = match declared {
+            Some((seconds, parameter)) => format!("{name} ({seconds} s each by {parameter})"),
+            None => name,
+        };
+        self.event(Event::Uncounted { function });
+    }
+
+    /// The path waits for the functions called since the last wait.
+    pub(in crate::exec) fn technology_wait(&mut self) {
+        let seconds = std::mem::take(&mut self.technology.pending_s);
+        if seconds > 0.0 {
+            self.sync(Sync::Technology { seconds });
+        }
+    }
+
+    /// Duration in s above 0 and where it is declared.
+    fn declared(&self, function: Function) -> Option<(f64, &'static str)> {
+        let channel = &self.machine.channel;
+        let listed =
+            |spindle: usize| channel.spindle_durations_s.get(spindle).copied().unwrap_or_default();
+        let (seconds, parameter) = match function {
+            Function::M(number) => (channel.m_durations_s.get(&number).copied(), "P-CHAN-00040"),
+            Function::H(number) => (channel.h_durations_s.get(&number).copied(), "P-CHAN-00026"),
+            Function::Tool => (None, ""),
+            Function::Spindle { spindle, m: 3 } => (listed(spindle).m3, "P-CHAN-00044"),
+            Function::Spindle { spindle, m: 4 } => (listed(spindle).m4, "P-CHAN-00046"),
+            Function::Spindle { spindle, m: 5 } => (listed(spindle).m5, "P-CHAN-00048"),
+            Function::Spindle { spindle, .. } => (listed(spindle).m19, "P-CHAN-00042"),
+            Function::Speed { spindle } => (listed(spindle).speed, "P-CHAN-00080"),
+        };
+        seconds.filter(|s| *s > 0.0).map(|s| (s, parameter))
+    }
+}

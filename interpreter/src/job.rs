@@ -1,0 +1,140 @@
+//! One way to run a program: a [`Job`] is a program on a machine; it is checked, or started as a [`Run`], whose cycles go to
+//! a [`Sink`].
+//!
+//! The order of calls: lists become a machine ([`MachineLists`]), machine and sources a job, the job a run, and the run
+//! goes through its cycles in one loop ([`Run::to_end`]), whoever looks at them.
+//!
+//! ```
+//! use kontur_interpreter::diag::render;
+//! use kontur_interpreter::job::{Job, MachineLists};
+//! use kontur_interpreter::record::CycleRecord;
+//! use kontur_interpreter::source::MemorySources;
+//!
+//! let (machine, warnings) = MachineLists::default().load().map_err(|said| render::all(&said))?;
+//! let sources = MemorySources::new().with("part.nc", "N10 G01 X10 F1000\nN20 M30\n");
+//! let mut run = Job::new(machine, sources, "part.nc")
+//!     .with_warnings(warnings)
+//!     .start()
+//!     .map_err(|said| render::all(&said))?;
+//! let mut x_mm = Vec::new();
+//! let Ok(()) = run.to_end(&mut |record: &CycleRecord| x_mm.push(record.axes[0].set));
+//! assert!(run.take_diagnostics().is_empty() && !run.totals().aborted);
+//! assert_eq!(x_mm.last(), Some(&10.0));
+//! # Ok::<(), String>(())
+//! ```
+
+mod facts;
+mod lists;
+mod run;
+#[cfg(test)]
+mod tests;
+
+pub use crate::exec::{
+    Access, Checked, External, ForcedGuard, GuardCommands, Options, SkipLevels, Value,
+};
+pub use crate::sim::{Change, Changes, SettledStop, Signal, Stops, Totals};
+pub use facts::{AxisFacts, Facts, FileNames};
+pub use lists::MachineLists;
+pub use run::{Run, Sink};
+
+use crate::diag::{Condition, Diagnostic};
+use crate::exec;
+use crate::machine::Machine;
+use crate::sim::Simulation;
+use crate::source::Sources;
+use std::fmt;
+use std::sync::Arc;
+
+/// A program on a machine. It keeps nothing of its runs: each of them starts afresh, on any thread.
+#[derive(Clone)]
+pub struct Job {
+    machine: Arc<Machine>,
+    warnings: Vec<Diagnostic>,
+    sources: Arc<dyn Sources>,
+    program: String,
+    options: Options,
+}
+
+impl fmt::Debug for Job {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Job")
+            .field("program", &self.program)
+            .field("machine", &self.machine.name)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Job {
+    /// `program` is what messages call it, and what `sources` open without a caller.
+    pub fn new(
+        machine: impl Into<Arc<Machine>>,
+        sources: impl Sources + 'static,
+        program: impl Into<String>,
+    ) -> Self {
+        Self {
+            machine: machine.into(),
+            warnings: Vec::new(),
+            sources: Arc::new(sources),
+            program: program.into(),
+            options: Options::default(),
+        }
+    }
+
+    /// Warnings of the machine's lists: the first messages of every check and run.
+    #[must_use]
+    pub fn with_warnings(mut self, warnings: Vec<Diagnostic>) -> Self {
+        self.warnings = warnings;
+        self
+    }
+
+    /// Start position, limits, variables, a forced Vibration Guard.
+    #[must_use]
+    pub fn with_options(mut self, options: Options) -> Self {
+        self.options = options;
+        self
+    }
+
+    /// The machine.
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// Decodes the program without moving anything and reports every diagnostic, not only the first.
+    pub fn check(&self) -> Checked {
+        let mut checked = self.decode();
+        let lists = self.warnings.iter().cloned().chain(self.machine.chains().1);
+        checked.diagnostics.splice(..0, lists);
+        checked
+    }
+
+    fn decode(&self) -> Checked {
+        let sources = Arc::clone(&self.sources);
+        exec::check(sources, &self.program, Arc::clone(&self.machine), self.options.clone())
+    }
+
+    /// The program before its first cycle. What a check can see refuses it: such a run has diagnostics, no cycles, and
+    /// [`Totals::aborted`].
+    ///
+    /// # Errors
+    /// The diagnostics, if the plant of an axis is not physical (K-0070).
+    pub fn start(&self) -> Result<Run, Vec<Diagnostic>> {
+        let checked = self.decode();
+        let refused = checked.refuses();
+        let several_files = checked.files.len() > 1;
+        let mut messages = self.warnings.clone();
+        if refused {
+            messages.extend(self.machine.chains().1);
+        }
+        // the run itself says the rest, but of parts that it does not reach
+        let unreached = |d: &Diagnostic| d.id == Condition::Unreached;
+        messages.extend(checked.diagnostics.into_iter().filter(|d| refused || unreached(d)));
+        let simulation = Simulation::new(
+            Arc::clone(&self.machine),
+            Arc::clone(&self.sources),
+            &self.program,
+            self.options.clone(),
+        )?;
+        let facts = Facts::of(&self.program, &self.machine, &simulation, several_files);
+        Ok(Run::new(simulation, Arc::clone(&self.sources), facts, messages, refused))
+    }
+}

@@ -1,0 +1,136 @@
+//! What stays the same during a run: names and units of what its records hold.
+
+use crate::machine::{AxisKind, Machine};
+use crate::sim::Simulation;
+use std::sync::{Arc, PoisonError, RwLock};
+
+/// What stays the same during a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Facts {
+    /// Name of the program as the user gave it.
+    pub program: String,
+    /// Name of the machine.
+    pub machine: String,
+    /// Cycle time in microseconds.
+    pub cycle_us: u32,
+    /// Path axes in channel order, then spindles: the order of [`CycleRecord::axes`](crate::record::CycleRecord::axes).
+    pub axes: Vec<AxisFacts>,
+    /// Source files of the run.
+    pub files: FileNames,
+}
+
+impl Facts {
+    /// `several_files`: the check ahead has opened more than the program.
+    pub(super) fn of(
+        program: &str,
+        machine: &Machine,
+        simulation: &Simulation,
+        several_files: bool,
+    ) -> Self {
+        let (chains, _) = machine.chains();
+        let stop =
+            |i: usize| chains.get(i).map(|chain| chain.control.exact_stop).unwrap_or_default();
+        let axes = machine.all_axes().enumerate().map(|(i, axis)| AxisFacts {
+            name: axis.name().to_owned(),
+            rotary: axis.kind() != AxisKind::Linear,
+            spindle: axis.kind() == AxisKind::Spindle,
+            modal: simulation.has_tool_point(i),
+            v_max: axis.dynamics().v_max_mm_s,
+            a_max: axis.dynamics().a_max_mm_s2,
+            window: stop(i).window_mm,
+            settling_s: stop(i).settling_s,
+        });
+        let files = simulation.files().iter().map(ToString::to_string).collect();
+        Self {
+            program: program.to_owned(),
+            machine: machine.name.clone(),
+            cycle_us: machine.cycle.us(),
+            axes: axes.collect(),
+            files: FileNames::new(files, several_files),
+        }
+    }
+
+    /// Cycle time in s.
+    pub fn cycle_s(&self) -> f64 {
+        f64::from(self.cycle_us) / 1e6
+    }
+}
+
+/// What stays the same for one axis.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AxisFacts {
+    /// Name in the NC program.
+    pub name: String,
+    /// Degrees instead of millimetres.
+    pub rotary: bool,
+    /// A spindle.
+    pub spindle: bool,
+    /// The plant model has a tool point of its own (`X_tcp_mm`).
+    pub modal: bool,
+    /// Largest velocity in mm/s or deg/s (P-AXIS-00212).
+    pub v_max: f64,
+    /// Largest acceleration in mm/s2 or deg/s2 (P-AXIS-00008).
+    pub a_max: f64,
+    /// Half width of the exact-stop window in mm or deg (P-AXIS-00236).
+    pub window: f64,
+    /// Time limit to reach it in s (P-AXIS-00532), if there is one.
+    pub settling_s: Option<f64>,
+}
+
+impl AxisFacts {
+    /// `mm`, or `deg` for rotary axes.
+    pub const fn unit(&self) -> &'static str {
+        if self.rotary { "deg" } else { "mm" }
+    }
+}
+
+/// Source files of a run in the order in which it opens them; [`CycleRecord::file`](crate::record::CycleRecord::file) is an
+/// index.
+///
+/// A subroutine is opened when it is called: copies of the list learn the names of later files too.
+#[derive(Clone, Debug, Default)]
+pub struct FileNames {
+    names: Arc<RwLock<Vec<String>>>,
+    known: usize,
+    several: bool,
+}
+
+impl FileNames {
+    /// The files opened so far; `several`: there will be more than one.
+    pub fn new(names: Vec<String>, several: bool) -> Self {
+        let (known, several) = (names.len(), several || names.len() > 1);
+        Self { names: Arc::new(RwLock::new(names)), known, several }
+    }
+
+    /// A trace has to say which file a line belongs to.
+    pub const fn several(&self) -> bool {
+        self.several
+    }
+
+    /// The name of a file; empty for one that is not open.
+    pub fn name(&self, file: u32) -> String {
+        let i = usize::try_from(file).unwrap_or(usize::MAX);
+        let names = self.names.read().unwrap_or_else(PoisonError::into_inner);
+        names.get(i).cloned().unwrap_or_default()
+    }
+
+    /// Every name.
+    pub fn all(&self) -> Vec<String> {
+        self.names.read().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Takes the names of all files that are open now.
+    pub(super) fn update(&mut self, open: &[Arc<str>]) {
+        if open.len() > self.known {
+            let mut names = self.names.write().unwrap_or_else(PoisonError::into_inner);
+            names.extend(open[self.known..].iter().map(ToString::to_string));
+            self.known = open.len();
+        }
+    }
+}
+
+impl PartialEq for FileNames {
+    fn eq(&self, other: &Self) -> bool {
+        self.several == other.several && self.all() == other.all()
+    }
+}

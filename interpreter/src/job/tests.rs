@@ -1,0 +1,151 @@
+use super::*;
+use crate::record::CycleRecord;
+use crate::source::MemorySources;
+use kontur_filters::vib_guard::VibGuardSettings;
+
+fn job(text: &str, settings: &[&str], options: Options) -> Job {
+    let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+    let lists = MachineLists { settings: &settings, ..MachineLists::default() };
+    let (machine, warnings) = lists.load().unwrap();
+    let sources = MemorySources::new().with("main.nc", text);
+    Job::new(machine, sources, "main.nc").with_warnings(warnings).with_options(options)
+}
+
+fn records(run: &mut Run) -> Vec<CycleRecord> {
+    let mut records = Vec::new();
+    let Ok(()) = run.to_end(&mut |r: &CycleRecord| records.push(r.clone()));
+    records
+}
+
+fn forced(settings: Option<VibGuardSettings>, ax_dev_mm: Option<f64>) -> Options {
+    Options { guard: Some(ForcedGuard { settings, ax_dev_mm }), ..Options::default() }
+}
+
+/// A job or its run may go to another thread.
+#[test]
+fn jobs_and_runs_are_sent() {
+    const fn sent<T: Send>() {}
+    sent::<Job>();
+    sent::<Run>();
+}
+
+/// A sink sees every cycle once, in order, pauses within bounds, and stops the run where it wants.
+#[test]
+fn one_loop_however_it_is_cut() {
+    struct Stops {
+        cycles: Vec<u64>,
+        pauses: Vec<u64>,
+        at: u64,
+    }
+    impl Sink for Stops {
+        type Stop = u64;
+        fn cycle(&mut self, record: &CycleRecord) -> Result<(), u64> {
+            self.cycles.push(record.k);
+            if record.k == self.at { Err(record.k) } else { Ok(()) }
+        }
+        fn pause(&mut self, run: &mut Run) -> Result<(), u64> {
+            self.pauses.push(run.record().k);
+            Ok(())
+        }
+    }
+    let start = || job("G01 X10 F100\nM30\n", &[], Options::default()).start().unwrap();
+    let all = records(&mut start());
+    assert!(all.len() as u64 > 3 * Run::STRETCH);
+    let mut run = start();
+    let mut sink = Stops { cycles: Vec::new(), pauses: Vec::new(), at: 1500 };
+    assert_eq!(run.to_end(&mut sink), Err(1500));
+    assert_eq!(sink.pauses, [Run::STRETCH - 1, 1500]);
+    let mut few = Vec::new();
+    let Ok(()) = run.advance(7, &mut |r: &CycleRecord| few.push(r.clone()));
+    assert_eq!(few, all[1501..1508]);
+    assert_eq!(run.to_end(&mut sink), Ok(()));
+    let seen = (0..=1500).chain(1508..all.len() as u64);
+    assert!(sink.cycles.into_iter().eq(seen) && run.is_over());
+    assert_eq!(run.totals(), {
+        let mut whole = start();
+        records(&mut whole);
+        whole.totals()
+    });
+}
+
+/// A refused program has what the check says, no cycle, and is aborted; the warnings of the lists come first.
+#[test]
+fn a_refused_program_does_not_move() {
+    let settings = ["X.getriebe[0].kv=3000", "X.getriebe[0].kv=2000"];
+    let job = job("X1 F100\nG7\nM30\n", &settings, Options::default());
+    let mut run = job.start().unwrap();
+    assert_eq!(records(&mut run), []);
+    assert!(run.totals().aborted && run.is_over());
+    let said = run.take_diagnostics();
+    assert_eq!(said, job.check().diagnostics);
+    assert_eq!(said[0].id, Condition::ListDuplicate);
+    assert!(said.iter().any(Diagnostic::is_error));
+}
+
+/// A forced guard is the guard of the lists under a program whose commands name none of its words.
+#[test]
+fn a_forced_guard_takes_the_place_of_lists_and_words() {
+    let settings = VibGuardSettings { mode: 2, freq_hz: 38.0, damping: 0.05 };
+    let square = |on: &str| format!("{on}\nG01 X1 F4000\nY1\nX0\n#VIB GUARD OFF\nY0\nM30\n");
+    let listed: Vec<String> = ["X", "Y", "Z"]
+        .iter()
+        .flat_map(|a| {
+            ["active=1", "mode=2", "freq=38", "damping=0.05"].map(|s| format!("{a}.vib_guard.{s}"))
+        })
+        .collect();
+    let listed: Vec<&str> = listed.iter().map(String::as_str).collect();
+    let run = |text: &str, settings: &[&str], options| {
+        let mut run = job(text, settings, options).start().unwrap();
+        let all = records(&mut run);
+        assert!(!run.totals().aborted, "{:?}", run.take_diagnostics());
+        all
+    };
+    let none = Options::default;
+    for (program, same) in [
+        ("", ""),
+        ("#VIB GUARD ON", "#VIB GUARD ON"),
+        ("#VIB GUARD ON [MODE=4 FREQ=20 DAMPING=0.2]", "#VIB GUARD ON"),
+        (
+            "P1=3\n#VIB GUARD ON [MODE=P1 FREQ=[P1*10] AX_DEV=0.02]",
+            "P1=3\n#VIB GUARD ON [AX_DEV=0.02]",
+        ),
+    ] {
+        let is = run(&square(program), &[], forced(Some(settings), None));
+        assert!(is == run(&square(same), &listed, none()), "{program}");
+        let tolerant = run(&square(program), &[], forced(Some(settings), Some(0.03)));
+        let same = if same.contains("AX_DEV") { same } else { "#VIB GUARD ON [AX_DEV=0.03]" };
+        assert!(tolerant == run(&square(same), &listed, none()), "{program} within 0.03 mm");
+    }
+    // off: whatever the lists say
+    let plain = "G01 X1 F4000\nY1\nM30\n";
+    assert!(run(plain, &listed, forced(None, None)) == run(plain, &[], none()));
+    assert!(run(plain, &listed, none()) != run(plain, &[], none()));
+}
+
+/// Settings without a kernel refuse the run: without a guard it would be another one than asked for.
+#[test]
+fn a_forced_guard_that_cannot_be_is_an_error() {
+    for (mode, freq_hz, id) in [(5, 40.0, Condition::GuardMode), (2, 0.1, Condition::GuardRange)] {
+        let settings = VibGuardSettings { mode, freq_hz, ..VibGuardSettings::default() };
+        let mut run = job("X1 F100\nM30\n", &[], forced(Some(settings), None)).start().unwrap();
+        assert_eq!(records(&mut run), []);
+        let said = run.take_diagnostics();
+        assert!(said.iter().any(|d| d.is_error() && d.id == id), "{said:?}");
+    }
+}
+
+/// First commands of each kind in the order of execution, with their places; what does not run says nothing.
+#[test]
+fn a_check_tells_what_the_program_says_about_the_guard() {
+    let guard = |text: &str| job(text, &[], Options::default()).check().guard;
+    assert_eq!(
+        guard("N10 G1 X1 F100 (#VIB GUARD ON [MODE=2])\n; #VIB GUARD ON\nM30\n"),
+        GuardCommands::default()
+    );
+    let text = "%L SUB\n#VIB GUARD [FREQ=[10*4]]\nM17\n%MAIN\n$IF 0\n#VIB GUARD OFF\n$ENDIF\n\
+                N1 #vib guard on[AX_DEV 0.01 ,ACC_FACT=2]\nX1 F100\nLL SUB\n#VIB GUARD ON [AX_DEV=0.5]\nM30\n";
+    let said = guard(text);
+    let line = |place: &Option<crate::diag::Location>| place.as_ref().map(|p| p.line);
+    assert_eq!((line(&said.on), line(&said.off), line(&said.settings)), (Some(8), None, Some(2)));
+    assert_eq!(said.ax_dev.map(|(place, value)| (place.line, value)), Some((8, 0.01)));
+}

@@ -1,0 +1,141 @@
+//! The page of `kontur report` in a browser without a window: its script runs without an error or a request, the plots are drawn, and
+//! what is under the pointer is said.
+//!
+//! `KONTUR_BROWSER` names the browser; without it Chromium is looked for. Where there is none, nothing is tested, and the test says so.
+
+use kontur::Exit;
+use kontur_tests::command::command;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Looks at the page from inside: what it holds becomes JSON in an element of its own.
+const PROBE: &str = r#"<script>
+const errors = [];
+window.addEventListener("error", e => errors.push(String(e.message)));
+</script>"#;
+
+const REPORT: &str = r#"<script>
+const drawn = canvas => {
+  const c = canvas.getContext("2d");
+  if (!canvas.width || !canvas.height) return 0;
+  const pixels = c.getImageData(0, 0, canvas.width, canvas.height).data, seen = new Set();
+  for (let i = 0; i < pixels.length; i += 4) if (pixels[i + 3] > 200) seen.add(pixels[i] << 16 | pixels[i + 1] << 8 | pixels[i + 2]);
+  return seen.size;
+};
+const shown = [...document.querySelectorAll("canvas")].filter(c => c.style.display !== "none");
+const colours = shown.map(drawn);
+const event = (name, target, x, y, more) => target.dispatchEvent(new PointerEvent(name, { clientX: x, clientY: y, bubbles: true, ...more }));
+const box = contour.getBoundingClientRect();
+// on the way along the upper edge of the square
+const [x, y] = toScreen(5, 10);
+event("pointermove", contour, box.left + x, box.top + y);
+const tipText = byId("tip").hidden ? "" : byId("tip").textContent;
+const swatches = [...document.querySelectorAll(".key")].map(k => ({
+  name: k.textContent, dash: k.querySelector("line").getAttribute("stroke-dasharray"), colour: k.querySelector("line").getAttribute("stroke"),
+  width: k.querySelector("line").getAttribute("stroke-width"), card: k.parentElement.querySelector("button") ? k.parentElement.querySelector("button").textContent : "contour",
+}));
+const before = view.scale;
+contour.dispatchEvent(new WheelEvent("wheel", { deltaY: -500, clientX: box.left + x, clientY: box.top + y, cancelable: true }));
+const probe = document.createElement("pre");
+probe.id = "probe";
+probe.textContent = JSON.stringify({
+  errors, colours, tip: tipText, swatches, zoomed: view.scale > before,
+  requests: performance.getEntriesByType("resource").length, points: runs.map(r => r.pk.length), within: runs.map(r => r.within),
+});
+document.body.append(probe);
+</script>"#;
+
+fn browser() -> Option<PathBuf> {
+    if let Some(named) = std::env::var_os("KONTUR_BROWSER") {
+        return Some(named.into());
+    }
+    let folders = std::env::var_os("PATH")?;
+    let names = ["chromium", "chromium-browser", "google-chrome", "chrome"];
+    let all = std::env::split_paths(&folders).flat_map(|f| names.map(|name| f.join(name)));
+    all.into_iter().find(|p| p.is_file())
+}
+
+/// What the probe sees of the page of some programs.
+fn look(browser: &Path, programs: &[&str]) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let mut words = vec!["report".to_owned()];
+    for (i, text) in programs.iter().enumerate() {
+        let name = path(&format!("{}.nc", ["a", "b", "c"][i]));
+        std::fs::write(&name, text).unwrap();
+        words.push(name);
+    }
+    words.extend(["-o".to_owned(), path("page.html")]);
+    let done = command(&words);
+    assert_eq!(done.exit, Exit::Finished, "{}", done.err);
+    let page = std::fs::read_to_string(path("page.html")).unwrap();
+    let page = page.replacen("<body>", &format!("<body>{PROBE}"), 1);
+    let page = page.replacen("</body>", &format!("{REPORT}</body>"), 1);
+    std::fs::write(path("probed.html"), page).unwrap();
+    let out = Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--window-size=1400,1200"])
+        .args(["--host-resolver-rules=MAP * ~NOTFOUND", "--dump-dom"])
+        .arg(format!("--user-data-dir={}", path("profile")))
+        .arg(format!("file://{}", path("probed.html")))
+        .output()
+        .unwrap();
+    let dom = String::from_utf8_lossy(&out.stdout);
+    let probe = dom.split("<pre id=\"probe\">").nth(1).and_then(|s| s.split("</pre>").next());
+    let probe = probe
+        .unwrap_or_else(|| panic!("the script ended: {}", String::from_utf8_lossy(&out.stderr)));
+    let text = probe.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+    serde_json::from_str(&text).unwrap()
+}
+
+const SQUARE: &str = "#VIB GUARD ON [MODE=1 FREQ=20]\nG01 X10 F6000\nY10\nX0\nY0\nM30\n";
+
+#[test]
+fn the_page_draws_and_answers() {
+    let Some(browser) = browser() else {
+        println!("no browser found: nothing tested");
+        return;
+    };
+    let one = look(&browser, &[SQUARE]);
+    assert_eq!(one["errors"], serde_json::json!([]), "{one}");
+    assert_eq!(one["requests"], 0, "{one}");
+    let colours = one["colours"].as_array().unwrap();
+    assert!(colours.len() >= 4 && colours.iter().all(|n| n.as_u64().unwrap() > 3), "{colours:?}");
+    // line 4 goes back along Y = 10; the shaped set point is on its way there
+    let tip = one["tip"].as_str().unwrap();
+    assert!(tip.contains("line 4") && tip.contains("Y  set 10.0000"), "{tip}");
+    assert_eq!(one["zoomed"], true);
+}
+
+/// With several runs a colour is a run and a dash is an axis, in every plot and its legend; what is actual is thin.
+#[test]
+fn legends_of_several_runs_say_what_is_drawn() {
+    let Some(browser) = browser() else {
+        println!("no browser found: nothing tested");
+        return;
+    };
+    let two = look(&browser, &[SQUARE, &SQUARE.replace("FREQ=20", "FREQ=40")]);
+    assert_eq!(two["errors"], serde_json::json!([]), "{two}");
+    let swatches = two["swatches"].as_array().unwrap();
+    let of = |card: &str, end: &str| -> Vec<(String, String, f64)> {
+        let here = swatches.iter().filter(|s| s["card"] == card);
+        let named = here.filter(|s| s["name"].as_str().unwrap().ends_with(end));
+        let text = |s: &Value, key: &str| s[key].as_str().unwrap().to_owned();
+        named
+            .map(|s| (text(s, "colour"), text(s, "dash"), text(s, "width").parse().unwrap()))
+            .collect()
+    };
+    for (card, end) in [("Lag", ""), ("Position", " set"), ("Position", " actual")] {
+        let [x, y, z] = ["X", "Y", "Z"].map(|axis| of(card, &format!(" {axis}{end}")));
+        assert_eq!((x.len(), y.len(), z.len()), (2, 2, 2), "{card}");
+        assert!(
+            x[0].0 != x[1].0 && x[0].0 == y[0].0 && y[0].0 == z[0].0,
+            "colours: {x:?} {y:?} {z:?}"
+        );
+        assert!(
+            x[0].1 == x[1].1 && x[0].1 != y[0].1 && y[0].1 != z[0].1 && x[0].1 != z[0].1,
+            "{x:?} {y:?} {z:?}"
+        );
+    }
+    assert!(of("Position", " X set")[0].2 > 1.5 * of("Position", " X actual")[0].2);
+}

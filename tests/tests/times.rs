@@ -1,0 +1,161 @@
+//! `run --times`: every cycle belongs to one line and has one reason.
+
+use kontur::Exit;
+use kontur_tests::command::command;
+use kontur_tests::random::Random;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// A run with `--times`: the summary, and the table of all lines by line and column.
+struct Run {
+    summary: Value,
+    lines: BTreeMap<u32, BTreeMap<String, String>>,
+}
+
+impl Run {
+    fn new(program: &str, more: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+        std::fs::write(path("part.nc"), program).unwrap();
+        let times = format!("--times={}", path("times.csv"));
+        let words = ["run", &path("part.nc"), "--summary", "json", &times];
+        let done = command([&words[..], more].concat());
+        assert_eq!(done.exit, Exit::Finished, "{}", done.err);
+        let mut table = csv::Reader::from_path(path("times.csv")).unwrap();
+        let rows = table.deserialize().map(|row| row.unwrap());
+        let lines = rows.map(|row: BTreeMap<String, String>| (row["line"].parse().unwrap(), row));
+        Self { summary: serde_json::from_str(&done.out).unwrap(), lines: lines.collect() }
+    }
+
+    fn seconds(&self, line: u32, column: &str) -> f64 {
+        self.lines.get(&line).map_or(0.0, |row| row[&format!("{column}_s")].parse().unwrap())
+    }
+
+    fn duration(&self) -> f64 {
+        self.summary["duration_s"].as_f64().unwrap()
+    }
+
+    /// Seconds of a reason, all axes and limits together.
+    fn reason(&self, name: &str) -> f64 {
+        let reasons = self.summary["times"]["reasons"].as_array().unwrap().iter();
+        let of = reasons.filter(|r| r["reason"] == name);
+        of.map(|r| r["seconds"].as_f64().unwrap()).sum()
+    }
+
+    fn axis_of(&self, name: &str) -> Vec<&str> {
+        let reasons = self.summary["times"]["reasons"].as_array().unwrap().iter();
+        reasons.filter(|r| r["reason"] == name).map(|r| r["axis"].as_str().unwrap()).collect()
+    }
+}
+
+/// The acceleration of a trapezoidal profile with ramps of its own is known in closed form. 100 mm at F6000 with 1000 mm/s2 and
+/// ramp times of 50 ms: 50 ms build-up, 50 ms constant, 50 ms reduction; two such ramps cover 15 mm, the feed the other 85 in 0.85 s.
+#[test]
+fn a_straight_line_in_closed_form() {
+    let dynamics = "getriebe[0].slope_profil";
+    let set = |key: &str, value: &str| format!("X.{dynamics}.{key}={value}");
+    let settings = [
+        set("a_beschl", "1000"),
+        set("a_brems", "1000"),
+        set("tr_beschl_zu", "50000"),
+        set("tr_beschl_ab", "50000"),
+        set("tr_brems_zu", "50000"),
+        set("tr_brems_ab", "50000"),
+    ];
+    let mut words: Vec<&str> = settings.iter().flat_map(|s| ["--set", s.as_str()]).collect();
+    words.extend(["--cycle-us", "1000"]);
+    let run = Run::new("#SLOPE [TYPE=TRAPEZ]\nG01 X100 F6000\nG04 0.25\nM30\n", &words);
+    let near = |is: f64, want: f64| {
+        assert!((is - want).abs() < 2.1e-3, "{is}, not {want}: {}", run.summary)
+    };
+    near(run.seconds(2, "axis_a"), 0.1);
+    near(run.seconds(2, "slope"), 0.2);
+    near(run.seconds(2, "feed"), 0.85);
+    near(run.seconds(3, "dwell"), 0.25);
+    assert_eq!(run.lines[&3]["kind"], "none");
+    assert_eq!(run.axis_of("axis_a"), ["X"]);
+}
+
+/// The axis is named that is at its limit: Y, with a tenth of the speed of X.
+#[test]
+fn the_axis_at_its_limit_is_named() {
+    let words = ["--set", "Y.getriebe[0].dynamik.vb_max=10000"];
+    let run = Run::new("G01 X50 Y50 F60000\nM30\n", &words);
+    assert_eq!(run.axis_of("axis_v"), ["Y"], "{}", run.summary);
+    // 10 mm/s over 50 mm
+    assert!(run.reason("axis_v") > 4.5, "{}", run.summary);
+}
+
+/// What the path waits for has its name, and the whole is the sum of the lines, the lines are the sums of their reasons.
+#[test]
+fn random_programs_add_up() {
+    let mut random = Random::new(11);
+    for case in 0..25 {
+        let mut program =
+            String::from(["", "#SLOPE [TYPE=HSC]\n", "#SLOPE [TYPE=SIN2]\n"][case % 3]);
+        let mut dwells = 0.0;
+        for _ in 0..2 + random.below(10) {
+            let (x, y) = (random.between(-30.0, 30.0), random.between(-30.0, 30.0));
+            program += &match random.below(6) {
+                0 => format!("G00 X{x:.3} Y{y:.3}\n"),
+                1 => {
+                    dwells += 0.12;
+                    "G04 0.12\n".to_owned()
+                }
+                2 => format!("G60 G01 X{x:.3} F{:.0}\n", random.between(500.0, 9000.0)),
+                _ => format!("G01 X{x:.3} Y{y:.3} F{:.0}\n", random.between(500.0, 20000.0)),
+            };
+        }
+        program += "M30\n";
+        let run = Run::new(&program, &[]);
+        let lines: f64 = run.lines.keys().map(|l| run.seconds(*l, "total")).sum();
+        assert!((lines - run.duration()).abs() < 1e-9, "{program}");
+        for (line, row) in &run.lines {
+            let reasons = row.iter().filter(|(c, _)| c.ends_with("_s") && *c != "total_s");
+            let sum: f64 = reasons.map(|(_, s)| s.parse::<f64>().unwrap()).sum();
+            assert!((sum - run.seconds(*line, "total")).abs() < 1e-9, "{line}: {program}");
+        }
+        assert!((run.reason("dwell") - dwells).abs() < 1e-9, "{program}");
+        let arrival = run.summary["arrival_s"].as_f64().unwrap();
+        assert!((run.reason("arrival") - arrival).abs() < 1e-9, "{program}");
+    }
+}
+
+/// The readable form quotes the lines; subroutines by their own file.
+#[test]
+fn the_most_expensive_lines_are_quoted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    std::fs::write(path("part.nc"), "L slow.nc\nG01 X0 F6000\nM30\n").unwrap();
+    std::fs::write(path("slow.nc"), "(slow)\nG01 X20 F60 (this one)\nM17\n").unwrap();
+    let done = command(["run", &path("part.nc"), "--times"]);
+    assert_eq!(done.exit, Exit::Finished, "{}", done.err);
+    let behind = done.out.split("most expensive lines\n").nth(1).unwrap();
+    let mut lines = behind.lines();
+    assert!(lines.next().unwrap().contains(&format!("{}:2 ", path("slow.nc"))), "{behind}");
+    assert_eq!(lines.next().unwrap().trim(), "G01 X20 F60 (this one)");
+}
+
+/// A proposal saves what a run with its settings saves; of a line at the speed limit of an axis that is known in closed form.
+#[test]
+fn proposals_save_what_they_say() {
+    // 10 mm/s over 50 mm, and with 10 % more
+    let limit = ["--set", "Y.getriebe[0].dynamik.vb_max=10000"];
+    let program = "#SLOPE [TYPE=TRAPEZ]\nG01 Y50 F60000\nX20\nX0 Y45\nM30\n";
+    let run = Run::new(program, &limit);
+    let proposals = run.summary["times"]["proposals"].as_array().unwrap();
+    assert!(proposals.len() > 1, "{proposals:?}");
+    for proposal in proposals {
+        let settings = proposal["settings"].as_array().unwrap();
+        let settings: Vec<&str> =
+            settings.iter().flat_map(|s| ["--set", s.as_str().unwrap()]).collect();
+        let with = Run::new(program, &[&limit[..], &settings].concat());
+        let saves = proposal["saves_s"].as_f64().unwrap();
+        assert!((run.duration() - with.duration() - saves).abs() < 1e-9, "{proposal}");
+    }
+    let faster = proposals.iter().find(|p| p["what"] == "velocity +10 % of Y").unwrap();
+    let want = 55.0 / 10.0 - 55.0 / 11.0;
+    assert!((faster["saves_s"].as_f64().unwrap() - want).abs() < 0.01, "{faster}, not {want}");
+    let line = &run.summary["times"]["most_expensive_lines"][0];
+    assert!(line["line"] == 2 && line["helps"][0] == "velocity +10 % of Y", "{line}");
+}
