@@ -70,7 +70,8 @@ impl View<'_> {
         let calm = self.calm();
         for m in 0..self.marks.len() {
             let Some(held) = self.held(m) else { continue };
-            let inside = within_of(among, held);
+            // what is missed is looked for when the filters have let it go
+            let inside = within_of(among, (held.0, held.1 + reach as f64 + 2.0));
             if inside.is_empty() || self.is_quiet(held) {
                 continue;
             }
