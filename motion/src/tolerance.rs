@@ -59,7 +59,7 @@ use crate::contour::Contour;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment, Timeline};
 use blame::Findings;
-pub(crate) use even::foresee;
+use even::foresee;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use measure::{Record, Violation};
@@ -366,7 +366,13 @@ impl Monitor {
         if round >= ROUNDS + ROUNDS_PER_BLOCK * blocks {
             return (Verdict::GivenUp(worst), kept);
         }
-        view.tighten(&findings, all, demands);
+        let blocks = trial.plan.iter().flat_map(|e| &e.blocks);
+        let window: Vec<Arc<Queued>> = blocks.map(|(queued, _)| Arc::clone(queued)).collect();
+        let start = trial.plan.first().map_or(0.0, |e| e.s0);
+        let filters = (trial.kernels, trial.cycle);
+        if round > 0 || !foresee(demands, &window, trial.past, start, filters) {
+            view.tighten(&findings, all, demands);
+        }
         (Verdict::Tightened, kept)
     }
 }

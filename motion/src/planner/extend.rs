@@ -6,7 +6,7 @@ use crate::lookahead::{Cap, plan};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
-use crate::tolerance::{Demands, Trial, Unkept, Verdict, foresee};
+use crate::tolerance::{Demands, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
 use std::sync::Arc;
@@ -34,7 +34,7 @@ impl Planner {
         } else {
             SpeedLimit::Lookahead
         };
-        self.foresee(&window);
+        self.demands.reach_over(&window, &self.kernels, self.cycle);
         let mut forced = vec![false; n + 1];
         let mut last: Option<Vec<Entry>> = None;
         let (mut round, mut given_up) = (0, false);
@@ -124,7 +124,7 @@ impl Planner {
         loop {
             let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
             let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
-            self.foresee(&window);
+            self.demands.reach_over(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
             let mut last = Vec::new();
             let mut round = 0;
@@ -142,13 +142,6 @@ impl Planner {
             };
             self.divide(parts);
         }
-    }
-
-    /// What the tolerance asks of the blocks of a window before they are planned.
-    fn foresee(&mut self, window: &[Arc<Queued>]) {
-        self.demands.reach_over(window, &self.kernels, self.cycle);
-        let filters = (&self.kernels, self.cycle);
-        foresee(&mut self.demands, window, &self.contour, self.travelled, filters);
     }
 
     /// Plans the window and places the spans on the time axis.

@@ -1,7 +1,8 @@
 //! Even speeds: how fast a stretch of the path, run through evenly, keeps the tolerance.
 //!
 //! They depend on the path, the filters and the tolerance, and on nothing that is planned. So they are the demands that a
-//! search begins with ([`foresee`]): where they hold the speed down, a higher feed changes nothing.
+//! search begins with where the free plan does not keep the tolerance ([`foresee`]): where they hold the speed down, a higher
+//! feed changes nothing.
 
 use super::measure::within;
 use super::{Demands, Kernels};
@@ -148,16 +149,17 @@ struct Kink {
 }
 
 /// Asks for even speeds at the kinks of a window that begins at path length `start`, and between those that lie within
-/// reach of each other. Kinks too close to the end of what is known are looked at again when more is known.
-pub(crate) fn foresee(
+/// reach of each other; false if that changes nothing. Kinks too close to the end of what is known are looked at again when
+/// more is known.
+pub(super) fn foresee(
     demands: &mut Demands,
     window: &[Arc<Queued>],
     past: &Contour,
     start: f64,
     (kernels, cycle): (&Kernels, CycleTime),
-) {
+) -> bool {
     let Some(kernel) = kernels.longest().filter(|_| !kernels.unequal && !kernels.overshoot) else {
-        return;
+        return false;
     };
     let mut contour = past.clone();
     let mut end = start;
@@ -174,6 +176,7 @@ pub(crate) fn foresee(
     let first = kinks.partition_point(|k| k.boundary < demands.foreseen).saturating_sub(1);
     demands.foreseen = window.len();
     let mut before: Option<(&Kink, f64)> = None;
+    let mut changes = false;
     for (i, kink) in kinks.iter().enumerate().skip(first) {
         // the mean way beyond a kink falls with the distance from it, below a straight line to the end of the filter
         let part = |k: &Kink, speed: f64| k.turn * m1 * (speed - (k.s - kink.s).abs() / side);
@@ -208,6 +211,7 @@ pub(crate) fn foresee(
             continue;
         }
         let cap = &mut demands.cap[kink.boundary];
+        changes |= even < *cap;
         *cap = cap.min(even);
         if let Some((other, speed)) = before {
             let speed = speed.max(even);
@@ -219,6 +223,7 @@ pub(crate) fn foresee(
         }
         before = Some((kink, even));
     }
+    changes
 }
 
 /// The kinks of a window that begins at path length `start`.
