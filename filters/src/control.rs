@@ -7,6 +7,18 @@
 //!
 //! What this room does not do: filter set positions (the shaping room), stop other axes after a fault (the cycle
 //! loop), correct list values that are zero where they may not be (the list reader).
+//!
+//! ```
+//! use kontur_filters::control::{AxisControl, AxisControlConfig};
+//! use kontur_filters::time::CycleTime;
+//!
+//! let (config, issues) =
+//!     AxisControlConfig::new(1000.0, 5000.0, 1e6).checked(CycleTime::DEFAULT);
+//! let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+//! axis.start(12.5);
+//! let seen = axis.step(12.5, 0.0, true);
+//! assert!(issues.is_empty() && seen.act_mm == 12.5 && seen.lag_mm == 0.0);
+//! ```
 
 pub mod axis_control;
 pub mod buffer;

@@ -5,6 +5,15 @@
 //! delay is known, so that curves can be aligned.
 //!
 //! Source: TF5200 FIR filter (FCT-C37); P-AXIS-00573, 00585 to 00587, 00590, 00591, 00593.
+//!
+//! ```
+//! use kontur_filters::fir::{FirConfig, FirKind};
+//! use kontur_filters::time::CycleTime;
+//!
+//! let config = FirConfig { order: 20, ..FirConfig::new(FirKind::MovingAverage) };
+//! let (kernel, issues) = config.design(CycleTime::DEFAULT);
+//! assert_eq!((kernel.unwrap().delay_cycles(), issues.len()), (10.0, 0));
+//! ```
 
 use crate::issue::FilterIssue;
 use crate::kernel::{Kernel, Tap};

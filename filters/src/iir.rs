@@ -4,6 +4,19 @@
 //! it went in, because every section is a state-variable filter whose state holds the position itself.
 //!
 //! Source: TF5200 axis filters; P-AXIS-00067, 00080, 00140, 00153, 00164, 00204, 00357.
+//!
+//! ```
+//! use kontur_filters::iir::prototype::Prototype;
+//! use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};
+//! use kontur_filters::response::Angle;
+//! use kontur_filters::time::CycleTime;
+//!
+//! let (kind, prototype) = (FilterKind::LowPass, Prototype::Butterworth);
+//! let config = FilterConfig { kind, prototype, order: 4, f_hz: 15.0, ..FilterConfig::default() };
+//! let (filter, issues) = AxisFilter::design(&config, CycleTime::DEFAULT);
+//! let response = filter.unwrap().response(Angle::of(15.0, CycleTime::DEFAULT));
+//! assert!(issues.is_empty() && (response.magnitude_db() + 3.0103).abs() < 1e-4);
+//! ```
 
 pub mod prototype;
 pub mod section;

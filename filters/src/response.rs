@@ -1,6 +1,17 @@
 //! Analysis: frequency response, group delay, step response, residual vibration.
 //!
 //! Nothing here runs in a cycle; tests, plots and the choice of parameters use it.
+//!
+//! ```
+//! use kontur_filters::kernel::Kernel;
+//! use kontur_filters::response::Angle;
+//! use kontur_filters::time::CycleTime;
+//!
+//! let at = Angle::of(50.0, CycleTime::DEFAULT);
+//! let response = Kernel::delay(5).response(at);
+//! // 5 ms are a quarter of a period of 50 Hz
+//! assert!((response.phase_deg() + 90.0).abs() < 1e-9 && response.magnitude_db().abs() < 1e-9);
+//! ```
 
 use crate::kernel::{Kernel, Tap};
 use crate::stage::Stage;

@@ -6,6 +6,17 @@
 //!
 //! Source: TF5250 Vibration Guard (modes, ranges, sensitivity table), P-AXIS-00568, 00571, 00589.
 //! Assumption: the impulses, identified from the sensitivity table.
+//!
+//! ```
+//! use kontur_filters::response::residual_vibration_ratio;
+//! use kontur_filters::time::CycleTime;
+//! use kontur_filters::vib_guard::VibGuardSettings;
+//!
+//! let settings = VibGuardSettings { mode: 1, freq_hz: 40.0, damping: 0.1 };
+//! let kernel = settings.kernel(CycleTime::DEFAULT).unwrap();
+//! let left = |freq_hz| residual_vibration_ratio(&kernel.impulses(CycleTime::DEFAULT), freq_hz, 0.1);
+//! assert!(left(40.0) < 1e-9 && left(30.0) > 0.1);
+//! ```
 
 use crate::kernel::{Kernel, Tap};
 use crate::response::Impulse;

@@ -2,6 +2,16 @@
 //!
 //! Vendor conditions carry the vendor's number, kontur's own carry `K-nnnn`; numbers are never invented inside the
 //! vendor's space. Everything that is always true of a condition stands in one table, [`condition`].
+//!
+//! ```
+//! use kontur_interpreter::diag::{Condition, Diagnostic, ValueKind, render};
+//!
+//! let said = Diagnostic::new(Condition::FeedZero, "feed is 0 in a motion block")
+//!     .value(ValueKind::Current, 0.0, "mm/min");
+//! assert!(said.is_error() && said.hint.is_some());
+//! assert!(render::text(&said, false).starts_with("error[20008]: feed is 0"));
+//! assert!(render::json(&said).contains(r#""id":20008"#));
+//! ```
 
 pub mod condition;
 mod number;

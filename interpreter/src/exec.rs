@@ -21,10 +21,10 @@ mod values;
 pub use options::{Access, External, ForcedGuard, GuardCommands, Options, SkipLevels, Value};
 pub use program::check::Checked;
 pub(crate) use program::check::check;
-pub use program::executor::Executor;
-pub use step::{
-    AxisShaping, EndReason, Event, Feedback, IndependentMotion, ShapingSettings, ShapingSetup,
-    SourceRef, SpindleMotion, Step, Sync,
+pub(crate) use program::executor::Executor;
+pub(crate) use step::{
+    EndReason, Event, Feedback, IndependentMotion, ShapingSetup, SourceRef, SpindleMotion, Step,
+    Sync,
 };
 
 #[cfg(test)]

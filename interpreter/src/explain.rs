@@ -1,4 +1,11 @@
 //! What `kontur explain THING` tells, from the tables of conditions, parameters and commands: about an ID, a parameter, a command, an object or word of the documents.
+//!
+//! ```
+//! use kontur_interpreter::explain::explain;
+//!
+//! assert!(explain("P-AXIS-00099").unwrap().to_string().contains("getriebe[i].kv"));
+//! assert!(explain("#VIB GARD").unwrap_err().contains(&"#VIB GUARD".to_owned()));
+//! ```
 
 mod commands;
 mod notes;
@@ -94,7 +101,14 @@ fn key_of(thing: &str) -> Option<&'static Row> {
     // the table's own spelling of indices, `filter[i].order`, reads as an empty index
     let plain = thing.replace("[i]", "[]").replace("[j]", "[]").replace("[k]", "[]");
     let key = Key::parse(&printed(&plain))?;
-    let kinds = [ListKind::Axis, ListKind::Channel, ListKind::StartUp, ListKind::Kontur];
+    let kinds = [
+        ListKind::Axis,
+        ListKind::Channel,
+        ListKind::StartUp,
+        ListKind::Tool,
+        ListKind::Zero,
+        ListKind::Kontur,
+    ];
     kinds.iter().find_map(|kind| table::by_key(*kind, &key.shape))
 }
 
@@ -182,6 +196,8 @@ fn list_name(list: ListKind) -> &'static str {
         ListKind::StartUp => "start-up list (hochlauf.lis)",
         ListKind::Channel => "channel list",
         ListKind::Axis => "axis list",
+        ListKind::Tool => "tool list",
+        ListKind::Zero => "list of zero offsets",
         ListKind::Kontur => "kontur.lis",
     }
 }

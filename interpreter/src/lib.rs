@@ -1,13 +1,28 @@
 //! NC programs of the ISG / TwinCAT dialect, parameter lists, the channel and its cycle loop.
 //!
 //! The library opens no file and reads no clock: sources come through a trait, results leave as records.
+//!
+//! [`job`] runs programs and shows the order of calls; [`machine`] reads lists, [`record`] is what comes out, [`diag`] what is
+//! said about it. [`syntax`] and [`source`] serve whoever looks at programs without running them, [`explain`] whoever asks.
+//!
+//! ```
+//! use kontur_interpreter::job::{Job, MachineLists};
+//! use kontur_interpreter::source::MemorySources;
+//!
+//! let (machine, _) = MachineLists::default().load().unwrap();
+//! let sources = MemorySources::new().with("part.nc", "N10 G01 X10\nN20 M30\n");
+//! // a feed is missing: vendor ID 20008, told before anything moves
+//! let checked = Job::new(machine, sources, "part.nc").check();
+//! assert!(checked.refuses());
+//! assert_eq!(checked.diagnostics[0].id.to_string(), "20008");
+//! ```
 
 pub mod diag;
-pub mod exec;
+mod exec;
 pub mod explain;
 pub mod job;
 pub mod machine;
 pub mod record;
-pub mod sim;
+mod sim;
 pub mod source;
 pub mod syntax;

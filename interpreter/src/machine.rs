@@ -1,6 +1,16 @@
 //! The machine: parameter lists in the vendor's format, their ranges, and what the simulation makes of them.
 //!
 //! Lists hold integers in 0.1 um, us and 0.1 %; they are converted to mm, s and ratios here, once, and nowhere else.
+//!
+//! ```
+//! use kontur_interpreter::machine::{Machine, Override};
+//!
+//! let soft = Override::parse("X.getriebe[0].kv=2000").unwrap();
+//! let (machine, warnings) = Machine::builtin(&[soft]).unwrap();
+//! assert_eq!((machine.axis("x").unwrap().number(), warnings.len()), (1, 0));
+//! // vendor units stay outside: P-AXIS-00099 is in 0.01/s
+//! assert_eq!(machine.chains().0[0].control.position.kv_per_s, 20.0);
+//! ```
 
 mod axis;
 mod builtin;
@@ -16,6 +26,7 @@ mod parameters;
 mod plausible;
 mod setup;
 pub mod table;
+mod tools;
 pub mod value;
 
 pub use axis::{Axis, AxisKind};
@@ -26,8 +37,11 @@ pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
 pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
 
+pub use tools::{Tool, ZeroOffsets};
+
 use crate::diag::Diagnostic;
 use kontur_filters::time::CycleTime;
+use std::collections::BTreeMap;
 
 /// A machine: one channel with its axes and spindles.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +58,10 @@ pub struct Machine {
     pub gantry_slaves: Vec<Axis>,
     /// Channel.
     pub channel: Channel,
+    /// Tools by the number of the D word (P-STUP-00010).
+    pub tools: BTreeMap<u32, Tool>,
+    /// Zero offsets (P-STUP-00011).
+    pub zero_offsets: ZeroOffsets,
 }
 
 impl Machine {

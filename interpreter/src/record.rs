@@ -1,4 +1,12 @@
 //! What the simulation tells about one cycle; traces, summaries and reports are made from these records only.
+//!
+//! ```
+//! use kontur_interpreter::record::{CycleRecord, SpeedLimit};
+//!
+//! // the record of time zero: at rest
+//! let record = CycleRecord::default();
+//! assert_eq!((record.k, record.path.limit, record.path.v_mm_s), (0, SpeedLimit::default(), 0.0));
+//! ```
 
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::Path;

@@ -75,7 +75,7 @@ enum After {
 
 /// One channel running one program.
 #[derive(Debug)]
-pub struct Simulation {
+pub(crate) struct Simulation {
     machine: Arc<Machine>,
     cycle: CycleTime,
     executor: Executor,
@@ -118,7 +118,7 @@ impl Simulation {
     ///
     /// # Errors
     /// The diagnostics, if the plant of an axis is not physical or a program cannot be opened.
-    pub fn new(
+    pub(crate) fn new(
         machine: Arc<Machine>,
         sources: Arc<dyn Sources>,
         program: &str,
@@ -192,24 +192,24 @@ impl Simulation {
     /// Connects the real-time inputs, before the first cycle.
     ///
     /// Changes come in the order of time. An error among them ends the run, [`Totals::input_failed`] tells so.
-    pub fn connect(&mut self, changes: Changes) {
+    pub(crate) fn connect(&mut self, changes: Changes) {
         if let Err(failure) = self.inputs.connect(changes) {
             self.input_fails(*failure);
         }
     }
 
     /// Names of the source files, in the order of [`CycleRecord::file`].
-    pub fn files(&self) -> &[Arc<str>] {
+    pub(crate) fn files(&self) -> &[Arc<str>] {
         self.executor.files()
     }
 
     /// True if the plant of a chain (path axes, then spindles) has a tool point of its own.
-    pub fn has_tool_point(&self, chain: usize) -> bool {
+    pub(crate) fn has_tool_point(&self, chain: usize) -> bool {
         self.chains.get(chain).is_some_and(AxisChain::has_tool_point)
     }
 
     /// Diagnostics since the last call, in the order of raising.
-    pub fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
+    pub(crate) fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = std::mem::take(&mut self.diagnostics);
         let unshown = std::mem::take(&mut self.unshown);
         if unshown > 0 {
@@ -221,17 +221,17 @@ impl Simulation {
     }
 
     /// What no record holds; complete when there are no more cycles.
-    pub fn totals(&self) -> Totals {
+    pub(crate) fn totals(&self) -> Totals {
         Totals { blocks: self.executor.blocks(), ..self.totals.clone() }
     }
 
     /// The cycle computed last; before the first one the state at time zero.
-    pub fn record(&self) -> &CycleRecord {
+    pub(crate) fn record(&self) -> &CycleRecord {
         &self.record
     }
 
     /// Computes the next cycle; `None` when the program has ended or was stopped and the axes are at rest.
-    pub fn next_cycle(&mut self) -> Option<&CycleRecord> {
+    pub(crate) fn next_cycle(&mut self) -> Option<&CycleRecord> {
         loop {
             match &mut self.phase {
                 Phase::Done => return None,

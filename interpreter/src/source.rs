@@ -3,6 +3,17 @@
 //! The library opens no file: programs come through [`Sources`]. [`BlockReader`] turns bytes into logical blocks (line
 //! ends, continued lines, encoding, length limit) through a window of fixed size, so memory does not depend on the
 //! length of a program or of a line. It does not look at words; that is the business of [`crate::syntax`].
+//!
+//! ```
+//! use kontur_interpreter::source::{BlockReader, MemorySources, Sources};
+//!
+//! let sources = MemorySources::new().with("part.nc", "N10 X1 \\\nY2\nN20 M30\n");
+//! let mut blocks = BlockReader::new(sources.open("part.nc", None).unwrap());
+//! let block = blocks.next_block().unwrap().unwrap();
+//! // a continued line is one block, and every character knows its place
+//! assert_eq!((block.text, block.position.line), ("N10 X1  Y2", 1));
+//! assert_eq!(blocks.next_block().unwrap().unwrap().position.line, 3);
+//! ```
 
 mod memory;
 mod reader;

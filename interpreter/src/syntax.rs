@@ -7,10 +7,22 @@
 //! Which G functions, commands, keys and axes exist is the business of the decoder. The one thing the parser has to be
 //! told are the names of axes and spindles that have more than one character: without them `AP10` is A with the value
 //! of P10.
+//!
+//! ```
+//! use kontur_interpreter::source::RawBlock;
+//! use kontur_interpreter::syntax::Parser;
+//!
+//! let (file, mut said) = ("part.nc".into(), Vec::new());
+//! let parser = Parser::new([]);
+//! let block = parser.block(&RawBlock::from_line("N10 G01 X[2*5] F1000"), &file, &mut said);
+//! assert!(said.is_empty());
+//! assert_eq!(block.to_string(), "N10 G1 X=2 * 5 F=1000");
+//! ```
 
 pub mod ast;
 mod build;
 mod expr;
+mod foreign;
 pub mod macros;
 mod number;
 mod plain;
@@ -91,7 +103,8 @@ impl Parser {
     /// be read is missing in it.
     ///
     /// Diagnostics: K-0001 (invalid character), K-0002 (syntax), K-0005 (program head), K-0006 (nesting), 20194,
-    /// 20207, 20215, 20217, 20227, 20233, 20301, 20566, 20569, 20593, 21220, 22151.
+    /// 20207, 20212 to 20245 (control statements), 20301, 20386, 20387, 20450, 20566, 20569, 20593, 20839, 20841, 20904,
+    /// 21187, 21220, 22151.
     pub fn block(
         &self,
         raw: &RawBlock<'_>,
@@ -201,10 +214,21 @@ impl Parser {
         match Grammar::parse(rule, &masked.text) {
             Ok(pairs) => builder.block(pairs),
             Err(error) => {
+                if let Some(problem) = foreign::recognise(&masked.text) {
+                    // of the rest of the block nothing is said
+                    builder.report_only(problem);
+                    return Block::default();
+                }
                 let context = problem::Context::of(&masked.text);
-                builder.report_error(problem::from_error(&error, &masked.text, context, 0));
+                let mut found = problem::from_error(&error, &masked.text, context, 0);
+                if mode == Mode::Declaration && found.condition == Condition::Syntax {
+                    found.condition = Condition::DeclarationCharacter;
+                }
+                // what stands behind a function without its bracket is no word
+                let lost = found.condition == Condition::FunctionBracket;
+                builder.report_error(found);
                 let rule = match (context, mode) {
-                    (problem::Context::Words, Mode::Block) => Rule::tolerant,
+                    (problem::Context::Words, Mode::Block) if !lost => Rule::tolerant,
                     _ => Rule::head_only,
                 };
                 match Grammar::parse(rule, &masked.text) {

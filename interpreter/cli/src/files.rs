@@ -253,8 +253,14 @@ impl Sources for ProgramFiles {
         for place in beside.into_iter().chain(self.folders.iter().map(|f| f.join(&wanted))) {
             if self.is_inside(&place) {
                 match self.file(&place) {
+                    Err(e) if e.kind() == io::ErrorKind::NotFound => {
+                        match in_other_case(&place).map(|found| self.file(&found)) {
+                            Some(Ok(file)) => return Ok(file),
+                            Some(Err(e)) => reason = e.to_string(),
+                            None => {}
+                        }
+                    }
                     Ok(file) => return Ok(file),
-                    Err(e) if e.kind() == io::ErrorKind::NotFound => {}
                     Err(e) => reason = e.to_string(),
                 }
             } else {
@@ -274,6 +280,17 @@ impl Sources for ProgramFiles {
             Err(e) => Some((path.display().to_string(), e)),
         })
     }
+}
+
+/// The file of a folder whose name differs from the wanted one in capital letters only; of several the first by name.
+fn in_other_case(place: &Path) -> Option<PathBuf> {
+    /// Files of a folder that are looked at.
+    const LOOKED_AT: usize = 100_000;
+    let wanted = place.file_name()?.to_str()?;
+    let entries = std::fs::read_dir(place.parent()?).ok()?.take(LOOKED_AT);
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let found = names.filter(|name| name.eq_ignore_ascii_case(wanted)).min()?;
+    Some(place.with_file_name(found))
 }
 
 /// Parameter lists in files.

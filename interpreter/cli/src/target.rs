@@ -149,15 +149,16 @@ enum Identity {
 
 impl Identity {
     fn of(path: &Path) -> Self {
-        match path.metadata() {
-            Ok(metadata) if !metadata.is_file() => Self::Device,
-            Ok(_) if let Ok(handle) = same_file::Handle::from_path(path) => Self::File(handle),
-            _ => {
-                let folder = folder_of(path);
-                let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-                Self::Name(folder.join(path.file_name().unwrap_or_default()))
-            }
+        let metadata = path.metadata();
+        if metadata.as_ref().is_ok_and(|metadata| !metadata.is_file()) {
+            return Self::Device;
         }
+        if let Ok(handle) = metadata.and_then(|_| same_file::Handle::from_path(path)) {
+            return Self::File(handle);
+        }
+        let folder = folder_of(path);
+        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        Self::Name(folder.join(path.file_name().unwrap_or_default()))
     }
 }
 

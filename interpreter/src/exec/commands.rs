@@ -140,7 +140,8 @@ const fn unsupported(name: &'static str) -> Row {
     Row::of(name, Act::Unsupported)
 }
 
-/// Every row.
+/// Every row. What the manual's overview of additional functions names and nothing here carries out is refused by its
+/// name.
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
     // shape of acceleration
@@ -220,6 +221,43 @@ const ROWS: &[Row] = &[
     off_only("DIST CTRL"),
     off_only("OTC"),
     off_only("LIFT"),
+    unsupported("ACHSTAUSCH"),
+    unsupported("AKIMA"),
+    unsupported("AX LOCK"),
+    unsupported("AX UNLOCK"),
+    unsupported("BSPLINE"),
+    off_only("CHANNEL INTERFACE"),
+    unsupported("CHANNEL SET"),
+    off_only("COLL"),
+    unsupported("CONTOUR BEGIN"),
+    unsupported("CONTOUR END"),
+    unsupported("CORNER PARAM"),
+    unsupported("CS ADD"),
+    off_only("CS MODE"),
+    unsupported("CS SELECT"),
+    unsupported("DEL DIST2GO"),
+    unsupported("DISABLE AX LINK"),
+    off_only("EDGE MACHINING"),
+    off_only("EDM"),
+    unsupported("ESCAPE PATH"),
+    off_only("FREE TOOL CHANGE"),
+    unsupported("GET MANUAL OFFSETS"),
+    unsupported("GET WCS POSLIMIT"),
+    unsupported("LOCK"),
+    unsupported("MANUAL LIMITS"),
+    unsupported("MCS TO WCS"),
+    unsupported("MEAS"),
+    unsupported("MICROJOINT"),
+    off_only("SEGMENTATION"),
+    unsupported("SET JOG"),
+    unsupported("SET TIP"),
+    off_only("SPLINE"),
+    unsupported("START"),
+    unsupported("STROKE DEF"),
+    off_only("TGC"),
+    unsupported("TRC"),
+    unsupported("UNLOCK"),
+    unsupported("WCS TO MCS"),
     unsupported("RT CYCLE"),
     unsupported("VOLCOMP"),
     unsupported("JOG"),

@@ -114,7 +114,7 @@ impl Decoder {
                 last_arc: LastArc::default(),
                 last_system: 1,
                 transformation_on: false,
-                tools: Tools::default(),
+                tools: Tools { table: machine.tools.clone(), ..Tools::default() },
             },
             contour: Contour::default(),
             motion: MotionState {
@@ -141,6 +141,13 @@ impl Decoder {
             straight: None,
             machine,
         };
+        let offsets = &decoder.machine.zero_offsets;
+        for ((group, axis), value) in &offsets.entries {
+            if *axis < n {
+                decoder.geometry.coordinates.set_zero_entry(*group, *axis, *value);
+            }
+        }
+        decoder.geometry.coordinates.select_zero_group(offsets.start_group);
         let main = decoder.listed_main_spindle();
         decoder.motion.spindles.swap(0, main);
         decoder.axis_names_changed();

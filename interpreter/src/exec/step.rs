@@ -24,7 +24,7 @@ pub struct SourceRef {
 
 /// One step of the program.
 #[derive(Clone, Debug)]
-pub enum Step {
+pub(crate) enum Step {
     /// A motion for the planner.
     Motion {
         /// The motion.
@@ -57,7 +57,7 @@ pub enum Step {
 
 /// What happens while the path is at rest.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Sync {
+pub(crate) enum Sync {
     /// G60, G360: waiting until every axis is in its window (P-AXIS-00236).
     ExactStop,
     /// A stop at the end of the block before and nothing else (`#FLUSH`, G115 and similar).
@@ -97,7 +97,7 @@ pub enum Sync {
 
 /// Why a program ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EndReason {
+pub(crate) enum EndReason {
     /// M02, M30 or the end of the text.
     Finished,
     /// An error; [`Executor::take_diagnostics`](super::Executor::take_diagnostics) tells which.
@@ -106,14 +106,14 @@ pub enum EndReason {
 
 /// Kernels of all path axes, in channel order.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct ShapingSetup {
+pub(crate) struct ShapingSetup {
     /// One entry per axis.
     pub axes: Vec<AxisShaping>,
 }
 
 /// Kernel of one axis.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct AxisShaping {
+pub(crate) struct AxisShaping {
     /// What the kernel is made from.
     pub settings: ShapingSettings,
     /// The kernel; `None` changes nothing.
@@ -122,7 +122,7 @@ pub struct AxisShaping {
 
 /// Which of the functions that exclude each other fills the kernel slot of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum ShapingSettings {
+pub(crate) enum ShapingSettings {
     /// None.
     #[default]
     Off,
@@ -136,7 +136,7 @@ pub enum ShapingSettings {
 
 /// Something that acts at a moment of the program without moving the path.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Event {
+pub(crate) enum Event {
     /// G135, G136, G137: the whole state, not the change.
     Feedforward {
         /// G135 (true) or G137.
@@ -209,7 +209,7 @@ pub enum Event {
 /// The motions of the path do not contain it: their coordinates of the axis are less by the ways of its independent
 /// motions so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IndependentMotion {
+pub(crate) struct IndependentMotion {
     /// Where the axis stands, in mm (deg).
     pub from_mm: f64,
     /// Target in mm (deg).
@@ -222,7 +222,7 @@ pub struct IndependentMotion {
 
 /// What a spindle does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SpindleMotion {
+pub(crate) enum SpindleMotion {
     /// M3: clockwise.
     Clockwise {
         /// Speed in rev/min, not negative.
@@ -246,7 +246,7 @@ pub enum SpindleMotion {
 
 /// What the simulation knows when it asks for the next step.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Feedback {
+pub(crate) struct Feedback {
     /// Actual position of each path axis in mm (deg), in channel order; used after [`Sync::ReadActual`].
     pub actual_mm: AxisVec,
     /// Program time in s.

@@ -17,7 +17,7 @@ mod straight;
 use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};
 use crate::diag::Diagnostic;
 use crate::machine::{Machine, Override};
-use crate::source::MemorySources;
+use crate::source::{MemorySources, Sources};
 use kontur_motion::block::Block;
 use std::sync::Arc;
 
@@ -108,7 +108,11 @@ pub(super) fn places(diagnostics: &[Diagnostic]) -> Vec<String> {
     diagnostics.iter().map(|d| format!("{}{}", d.id, place(d))).collect()
 }
 
-pub(super) fn run_with(sources: MemorySources, machine: Arc<Machine>, options: Options) -> Run {
+pub(super) fn run_with(
+    sources: impl Sources + 'static,
+    machine: Arc<Machine>,
+    options: Options,
+) -> Run {
     let mut executor = Executor::new(Arc::new(sources), "main.nc", machine, options);
     let mut steps = Vec::new();
     loop {

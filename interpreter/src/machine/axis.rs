@@ -95,7 +95,11 @@ impl Axis {
     pub(super) fn get<K: Kind>(&self, param: Param<K>) -> K::Value {
         match param.place().row.list {
             ListKind::Kontur => self.own.get(param.at(self.number)),
-            ListKind::Axis | ListKind::Channel | ListKind::StartUp => self.parameters.get(param),
+            ListKind::Axis
+            | ListKind::Channel
+            | ListKind::StartUp
+            | ListKind::Tool
+            | ListKind::Zero => self.parameters.get(param),
         }
     }
 

@@ -22,6 +22,8 @@ pub(super) struct Settled {
     /// Axis lists in the order of the start-up list.
     pub(super) axes: Vec<AxisList>,
     pub(super) own: Parameters,
+    pub(super) tools: Parameters,
+    pub(super) zero: Parameters,
 }
 
 /// One axis list.
@@ -161,7 +163,25 @@ impl Chain<'_> {
             }
         }
         self.override_list(&mut own, "kontur", overrides);
-        Some(Settled { start_up, channel, axes, own })
+        let tools = self.data(&start_up, ListKind::Tool, stup::TOOL_LIST, ("tool", overrides));
+        let zero = self.data(&start_up, ListKind::Zero, stup::ZERO_LIST, ("zero", overrides));
+        Some(Settled { start_up, channel, axes, own, tools, zero })
+    }
+
+    /// A list of data of the channel, which may be absent, and what `--set` changes in it.
+    fn data(
+        &mut self,
+        start_up: &Parameters,
+        kind: ListKind,
+        named: Param<Text>,
+        (target, overrides): (&str, &[Override]),
+    ) -> Parameters {
+        let mut data = Parameters::new(kind);
+        if let Some(list) = self.read_named(start_up, kind, named) {
+            data.apply(&list);
+        }
+        self.override_list(&mut data, target, overrides);
+        data
     }
 
     /// Keys of the axis lists in ascending order, at most P-STUP-00014.
@@ -197,7 +217,7 @@ impl Chain<'_> {
 
     fn override_all(&mut self, settled: &mut Settled, names: &link::Names, overrides: &[Override]) {
         for wanted in overrides {
-            if ["start_up", "channel", "kontur"]
+            if ["start_up", "channel", "kontur", "tool", "zero"]
                 .iter()
                 .any(|t| wanted.target().eq_ignore_ascii_case(t))
             {
@@ -232,6 +252,8 @@ impl Chain<'_> {
             CycleTime::from_us(settled.own.get(kontur::CYCLE_TIME)).unwrap_or(CycleTime::DEFAULT);
         plausible::check(&mut settled.start_up, cycle, None, diagnostics);
         plausible::check(&mut settled.channel, cycle, None, diagnostics);
+        plausible::check(&mut settled.tools, cycle, None, diagnostics);
+        plausible::check(&mut settled.zero, cycle, None, diagnostics);
         plausible::check_presets(&settled.channel, diagnostics);
         for axis in &mut settled.axes {
             let number = logical_number(&axis.parameters);

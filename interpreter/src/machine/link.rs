@@ -9,6 +9,7 @@ use super::overrides::OVERRIDE;
 use super::parameters::Parameters;
 use super::table::param::{Place, whole};
 use super::table::{ListKind, axis_general, channel as of};
+use super::tools;
 use crate::diag::{Condition, Diagnostic, Location};
 use kontur_filters::time::CycleTime;
 
@@ -183,7 +184,7 @@ pub(super) fn machine(
     if diagnostics.iter().skip(before).any(Diagnostic::is_error) {
         return None;
     }
-    let Settled { start_up, channel, axes: lists, own } = settled;
+    let Settled { start_up, channel, axes: lists, own, tools, zero } = settled;
     let mut lists: Vec<Option<Parameters>> =
         lists.into_iter().map(|l| Some(l.parameters)).collect();
     let mut take = |number: u32| -> Option<Parameters> {
@@ -213,7 +214,16 @@ pub(super) fn machine(
         marked.iter_mut().take(3).for_each(|feed| *feed = true);
     }
     let channel = Channel::new(channel, start_up, marked);
-    Some(Machine { name: name.to_owned(), cycle, axes, spindles, gantry_slaves, channel })
+    Some(Machine {
+        name: name.to_owned(),
+        cycle,
+        axes,
+        spindles,
+        gantry_slaves,
+        channel,
+        tools: tools::tools(&tools),
+        zero_offsets: tools::zero_offsets(&zero),
+    })
 }
 
 /// The entries of `kontur.lis` that concern one axis.

@@ -74,6 +74,8 @@ impl Override {
             "channel" => ListKind::Channel,
             "start_up" => ListKind::StartUp,
             "kontur" => ListKind::Kontur,
+            "tool" => ListKind::Tool,
+            "zero" => ListKind::Zero,
             _ => ListKind::Axis,
         };
         self.resolve(kind).ok().map(|(row, _)| row)
@@ -100,7 +102,7 @@ impl Override {
     pub(super) fn unknown_target(&self, target: &str, names: &[&str]) -> Diagnostic {
         let message = format!("`{target}` is no axis of the machine");
         let hint = format!(
-            "targets are {} (several with commas), * for every path axis, channel, start_up and kontur",
+            "targets are {} (several with commas), * for every path axis, channel, start_up, tool, zero and kontur",
             names.join(", ")
         );
         Diagnostic::new(Condition::Setting, message).at(self.location(target)).hint(hint)

@@ -15,6 +15,8 @@ mod lookup;
 pub(crate) mod param;
 mod row;
 pub(super) mod start_up;
+pub(super) mod tool;
+pub(super) mod zero;
 
 pub(crate) use lookup::edit_distance;
 pub use lookup::{by_id, by_key, misspelt, rows, suggestions};

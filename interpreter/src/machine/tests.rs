@@ -199,7 +199,7 @@ fn overrides_that_name_nothing_are_errors() {
     for (text, hint) in [
         (
             "Q.getriebe[0].kv=1",
-            "targets are X, Y, S (several with commas), * for every path axis, channel, start_up and kontur",
+            "targets are X, Y, S (several with commas), * for every path axis, channel, start_up, tool, zero and kontur",
         ),
         // one mistake is told once, however many axes are meant
         ("*.kv=1", "did you mean `getriebe[i].kv`?"),
@@ -430,4 +430,59 @@ fn the_builtin_machine_loads_without_a_message() {
     assert_eq!(x.get(kontur::PLANT_MODEL).as_deref(), Some("PT1"));
     // the square-corner program needs a jump of speed at kinks that does not depend on the cycle
     assert!(close(x.dynamics().a_trans_ratio, 1.0));
+}
+
+/// Values of the vendor's examples: TF5200 tool data, P-TOOL-00003 to P-TOOL-00008.
+#[test]
+fn tool_lists() {
+    let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "werkz_data[0] lists/tools.lis\n");
+    files.put(
+        "m/lists/tools.lis",
+        "wz[5].laenge 600000 # 60 mm\nwz[5].radius 200000 # 20 mm\nwz[5].gueltig 1\nwz[5].mass_einheit 0\n\
+         wz[5].ax_versatz[0] 2050000\nwz[5].ax_versatz[1] -4080000\nwz[5].param[1] 20.5\n\
+         wz[0].laenge 5\nwz[8].laenge 10000\nwz[8].mass_einheit 1\nWz[9].radius 45000\nwz[9].gueltig 1\n",
+    );
+    let (machine, messages) = files.load(&[]).unwrap();
+    assert!(messages.is_empty(), "{messages:?}");
+    let numbers: Vec<u32> = machine.tools.keys().copied().collect();
+    // D0 is no tool
+    assert_eq!(numbers, [5, 8, 9]);
+    let five = &machine.tools[&5];
+    assert_eq!((five.length_mm, five.radius_mm, five.is_valid), (60.0, 20.0, true));
+    assert_eq!(five.offsets_mm, BTreeMap::from([(0, 205.0), (1, -408.0)]));
+    assert_eq!(five.parameters, BTreeMap::from([(1, 20.5)]));
+    // one inch, and not valid
+    assert_eq!((machine.tools[&8].length_mm, machine.tools[&8].is_valid), (25.4, false));
+    assert!((machine.tools[&9].radius_mm - 4.5).abs() < 1e-12);
+    // the overview prints another key; a setting gives the value of a list
+    let mut other = Memory::machine();
+    other.add("m/hochlauf.lis", "wrkz_data[0] lists/tools.lis\n");
+    other.put("m/lists/tools.lis", &files.0["m/lists/tools.lis"]);
+    assert_eq!(other.load(&[]).unwrap().0.tools, machine.tools);
+    let changed = files.load(&["tool.wz[5].laenge=700000"]).unwrap().0;
+    assert!((changed.tools[&5].length_mm - 70.0).abs() < 1e-12);
+    files.add("m/lists/tools.lis", "wz[5].mass_einheit 7\nwz[5].schneide 1\n");
+    assert_eq!(files.ids(&[]), ["K-0028", "1001119", "K-0070"]);
+    let mut missing = Memory::machine();
+    missing.add("m/hochlauf.lis", "werkz_data[0] lists/tools.lis\n");
+    assert_eq!(missing.ids(&[]), ["K-0013"]);
+}
+
+/// TF5200 zero offsets: P-ZERO-00002, P-ZERO-00003.
+#[test]
+fn lists_of_zero_offsets() {
+    let mut files = Memory::machine();
+    files.add("m/hochlauf.lis", "nullp_data[0] lists/zero.lis\n");
+    files.put(
+        "m/lists/zero.lis",
+        "default_index 2\nnp_grp[1].achse[0].versch 100000\nnp_grp[2].achse[1].versch -55000\n",
+    );
+    let (machine, messages) = files.load(&[]).unwrap();
+    assert!(messages.is_empty(), "{messages:?}");
+    assert_eq!(machine.zero_offsets.start_group, 2);
+    assert_eq!(machine.zero_offsets.entries, BTreeMap::from([((1, 0), 10.0), ((2, 1), -5.5)]));
+    let set = files.load(&["zero.default_index=1"]).unwrap().0;
+    assert_eq!(set.zero_offsets.start_group, 1);
+    assert_eq!(files.ids(&["zero.default_index=97"]), ["K-0070"]);
 }

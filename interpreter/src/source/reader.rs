@@ -228,8 +228,13 @@ impl BlockReader {
 
     fn skip_bom(&mut self) -> io::Result<()> {
         while self.filled < BOM.len() && self.fill()? {}
-        if self.window[..self.filled].starts_with(BOM) {
-            self.at = BOM.len();
+        match self.window[..self.filled] {
+            [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => {
+                let text = "the text is UTF-16; save it as UTF-8";
+                return Err(io::Error::new(io::ErrorKind::InvalidData, text));
+            }
+            ref text if text.starts_with(BOM) => self.at = BOM.len(),
+            _ => {}
         }
         Ok(())
     }

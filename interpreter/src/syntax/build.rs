@@ -4,13 +4,12 @@ mod commands;
 mod words;
 
 use super::ast::{
-    Block, BlockNumber, Body, Ident, Label, LabelKind, Place, ProgramHead, Span, Word,
+    Block, BlockNumber, Body, Expr, Ident, Label, LabelKind, Place, ProgramHead, Span, Word,
 };
 use super::grammar::Grammar;
 use super::problem::{self, Context, Problem};
 use super::scan;
 use super::{PROBLEMS_MAX, Rule};
-use crate::diag::Condition;
 use pest::Parser as _;
 use pest::iterators::{Pair, Pairs};
 
@@ -47,6 +46,12 @@ impl<'a> Builder<'a> {
         self.report(problem);
     }
 
+    /// Reports a problem in place of all others of the block.
+    pub(super) fn report_only(&mut self, problem: Problem) {
+        self.problems.clear();
+        self.problems.push(problem);
+    }
+
     /// Reports a list where a value is calculated with.
     pub(super) fn report_list(&mut self, span: Span) {
         self.report(problem::list_among_values(self.masked, span));
@@ -76,7 +81,7 @@ impl<'a> Builder<'a> {
                 Rule::skip => block.skip = self.skip(&pair),
                 Rule::number | Rule::number_label => self.number(pair, &mut block),
                 Rule::label_name => block.label = Some(self.label(pair)),
-                Rule::program_head => block.body = self.program_head(pair),
+                Rule::program_head => block.body = Self::program_head(pair),
                 Rule::command => {
                     let command = self.command(pair);
                     self.check_command(&command, &block);
@@ -154,6 +159,11 @@ impl<'a> Builder<'a> {
                 Rule::index => {
                     block.number = Some(BlockNumber::Computed(Box::new(self.index(part))));
                 }
+                Rule::parameter => {
+                    let place = Place { kind: self.place_kind(part), span };
+                    let value = Expr { kind: place.into(), span };
+                    block.number = Some(BlockNumber::Computed(Box::new(value)));
+                }
                 rule => {
                     let digits = part.as_str().trim_end_matches(':');
                     let value = digits.parse().unwrap_or_else(|_| {
@@ -190,8 +200,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn program_head(&mut self, pair: Pair<'_, Rule>) -> Body {
-        let whole = self.span(&pair);
+    fn program_head(pair: Pair<'_, Rule>) -> Body {
         let mut head = ProgramHead { local: false, name: None, text: "".into() };
         for part in pair.into_inner() {
             if part.as_rule() == Rule::local_mark {
@@ -206,10 +215,6 @@ impl<'a> Builder<'a> {
                 head.name =
                     Some(Ident { text: name.into(), span: Span::new(start, start + name.len()) });
             }
-        }
-        if head.local && head.name.is_none() {
-            let text = "%L without the name of a local subroutine";
-            self.report(Problem::new(Condition::Percent, whole, text));
         }
         Body::ProgramHead(Box::new(head))
     }

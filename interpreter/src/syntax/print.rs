@@ -169,6 +169,7 @@ impl Display for Call {
         let letters = if self.local { "LL" } else { "L" };
         match &self.kind {
             CallKind::Program(name) => write!(f, "{letters} {}", FileName(&name.text)),
+            CallKind::Variable(place) => write!(f, "{letters} {place}"),
             CallKind::Cycle(group) => write!(f, "{letters} CYCLE {group}"),
             CallKind::Sequence(group) => write!(f, "{letters} SEQUENCE {group}"),
         }

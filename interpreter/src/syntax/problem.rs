@@ -1,6 +1,6 @@
 //! Errors of the grammar in the words of a user, with the vendor's number where there is one.
 
-use super::ast::Span;
+use super::ast::{Function, Span};
 use super::{Rule, scan};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use pest::error::{Error, ErrorVariant, InputLocation};
@@ -55,11 +55,11 @@ pub(super) fn invalid(text: &str, span: Span) -> Problem {
         .hint("other characters than those of the dialect may stand in comments and strings only")
 }
 
-/// K-0006 for the bracket at `at`.
+/// 20386 for the bracket at `at`.
 pub(super) fn too_deep(at: usize) -> Problem {
     let limit = super::NESTING_MAX;
     let span = Span::new(at, at + 1);
-    Problem::new(Condition::Nesting, span, format!("brackets nested more than {limit} deep"))
+    Problem::new(Condition::BracketNesting, span, format!("brackets nested more than {limit} deep"))
 }
 
 /// Something like `[1,2] + 3` in the brackets of a command.
@@ -151,13 +151,55 @@ pub(super) fn from_error(
     }
     let problem = Problem::syntax(Span::new(at, at + token(rest)), text);
     let before = &masked[offset..at];
+    if let Some(condition) = misplaced(before, rest, &expected) {
+        return Problem { condition, ..problem };
+    }
     match no_word(before, &expected) {
         Some((length, text)) if context == Context::Words => {
             let start = offset + before.trim_ascii_end().len() - length;
-            Problem::syntax(Span::new(start, start + length), text)
+            let problem = Problem::syntax(Span::new(start, start + length), text);
+            let second = is_numbered(before) && is_numbered(&masked[start..]);
+            let condition = if second { Condition::BlockNumberTwice } else { Condition::Syntax };
+            Problem { condition, ..problem }
         }
         _ => refine(problem, before, rest, context, masked, &expected),
     }
+}
+
+/// The vendor's number for what is wrong in blocks of every kind.
+fn misplaced(before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {
+    let written = before.trim_ascii_end();
+    let ends_in = |word: &str| {
+        let at = written.len().checked_sub(word.len());
+        at.and_then(|at| written.get(at..)).is_some_and(|end| end.eq_ignore_ascii_case(word))
+    };
+    if ends_in("$GOTO") && !rest.is_empty() {
+        return Some(Condition::GotoTarget);
+    }
+    if expected.contains(&VALUE) && is_function(rest) {
+        return Some(Condition::FunctionBracket);
+    }
+    None
+}
+
+/// True for a text that begins with a block number.
+fn is_numbered(text: &str) -> bool {
+    let first = text.trim_ascii_start().trim_start_matches(['/', ' ']);
+    let number = first.strip_prefix(['N', 'n']).unwrap_or("");
+    number.starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// True for the name of a function without its bracket.
+fn is_function(rest: &str) -> bool {
+    let name = rest.bytes().take_while(|b| b.is_ascii_alphabetic() || *b == b'_').count();
+    let behind = rest[name..].trim_start_matches([' ', '\t']);
+    // ATAN2 is the only name with a digit
+    let behind = if rest[..name].eq_ignore_ascii_case("ATAN") {
+        behind.strip_prefix('2').unwrap_or(behind)
+    } else {
+        behind
+    };
+    !behind.starts_with('[') && Function::from_name(&rest[..name]).is_some()
 }
 
 /// Length and message for letters that begin no word: the grammar could only have gone on with a bracket, or took
@@ -205,31 +247,27 @@ fn refine(
             if rest.is_empty() { problem.hint("the bracket is not closed") } else { problem }
         }
         Context::Command if before.trim_end().ends_with(']') => {
-            raised(problem, Condition::CommandNotAlone)
-                .hint("a # command stands alone in its block")
-        }
-        Context::Control if starts_with(content, "$ELSE") => {
-            raised(problem, Condition::ElseNotAlone)
-        }
-        Context::Control if starts_with(content, "$ELSEIF") => {
-            raised(problem, Condition::ElseIfTrailing)
-        }
-        Context::Control if starts_with(content, "$ENDFOR") => {
-            raised(problem, Condition::EndForNotAlone)
+            raised(problem, Condition::WordsBehindCommand)
         }
         Context::Control if rest.starts_with('=') => problem.hint("`==` compares"),
-        Context::Control if rest.starts_with('$') => problem.hint(CONTROL_HINT),
+        Context::Control => match behind_control(content, before, rest, expected) {
+            Some(condition) => raised(problem, condition),
+            None if rest.starts_with('$') => problem.hint(CONTROL_HINT),
+            None => problem,
+        },
         Context::Words if starts_with(rest, "$ELSE") => raised(problem, Condition::ElseNotAlone),
         Context::Words if starts_with(rest, "$ENDFOR") => {
             raised(problem, Condition::EndForNotAlone)
         }
         Context::Words if rest.starts_with('#') => raised(problem, Condition::CommandNotAlone)
             .hint("a # command stands alone in its block"),
-        Context::Words if rest.starts_with('$') => {
-            problem.hint("a control statement stands at the beginning of its block")
-        }
+        Context::Words if rest.starts_with('$') => raised(problem, Condition::ControlNotAlone)
+            .hint("a control statement stands at the beginning of its block"),
         Context::Words if rest.starts_with('\\') => {
             problem.hint("`\\` continues a block only as the last character of its line")
+        }
+        Context::Words if depth == 0 && is_label(rest) && !before.trim_ascii().is_empty() => {
+            raised(problem, Condition::LabelBehindWords)
         }
         Context::Words if depth > 0 && in_cycle_list(before) => {
             raised(problem, Condition::CallCharacter)
@@ -244,9 +282,55 @@ fn refine(
     }
 }
 
+/// The vendor's number for what stands wrongly behind a control statement.
+fn behind_control(content: &str, before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {
+    if starts_with(content, "$FOR") {
+        return match before.contains('=') {
+            false if expected.contains(&EQUALS) => Some(Condition::ForWithoutEquals),
+            // two commas separate three values
+            true if before.matches(',').count() < 2 && expected.contains(&COMMA) => {
+                Some(Condition::ForWithoutComma)
+            }
+            true if !rest.is_empty() && expected.contains(&END) => Some(Condition::ControlNotAlone),
+            _ => None,
+        };
+    }
+    // behind a value that is complete, or behind a statement that takes none
+    let complete = !rest.is_empty() && expected.iter().any(|e| [OPERATOR, END].contains(e));
+    let of = |(word, _): &&(&str, Condition)| starts_with(content, word);
+    TRAILING.iter().find(of).filter(|_| complete).map(|(_, condition)| *condition)
+}
+
+/// Words behind each control statement.
+const TRAILING: [(&str, Condition); 16] = [
+    ("$IF", Condition::IfTrailing),
+    ("$ELSEIF", Condition::ElseIfTrailing),
+    ("$ELSE", Condition::ElseNotAlone),
+    ("$ENDIF", Condition::EndIfNotAlone),
+    ("$SWITCH", Condition::SwitchTrailing),
+    ("$CASE", Condition::CaseTrailing),
+    ("$DEFAULT", Condition::DefaultNotAlone),
+    ("$ENDFOR", Condition::EndForNotAlone),
+    ("$WHILE", Condition::WhileTrailing),
+    ("$ENDWHILE", Condition::EndWhileNotAlone),
+    ("$REPEAT", Condition::RepeatNotAlone),
+    ("$UNTIL", Condition::UntilTrailing),
+    ("$DO", Condition::DoNotAlone),
+    ("$ENDDO", Condition::EndDoTrailing),
+    ("$BREAK", Condition::BreakNotAlone),
+    ("$CONTINUE", Condition::ContinueNotAlone),
+];
+
 /// Hint for a word behind `$` that is no control statement.
 const CONTROL_HINT: &str = "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE \
                             $DO $ENDDO $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist";
+
+/// True for `[NAME]`.
+fn is_label(rest: &str) -> bool {
+    let name = rest.strip_prefix('[').and_then(|rest| rest.split_once(']')).map_or("", |(n, _)| n);
+    name.trim_ascii().starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.trim_ascii().bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+}
 
 /// True if the outermost open bracket belongs to G80 to G89 or G800 to G899.
 fn in_cycle_list(before: &str) -> bool {
@@ -307,6 +391,9 @@ const VALUE: &str = "a value";
 const EQUALS: &str = "`=`";
 const BRACKET: &str = "`[`";
 const WORD: &str = "a word";
+const COMMA: &str = "`,`";
+const OPERATOR: &str = "an operator";
+const END: &str = "the end of the block";
 
 /// What could have stood there, in the order of likelihood and without repetition.
 fn expected(rules: &[Rule]) -> Vec<&'static str> {
@@ -339,7 +426,7 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::value_name => (0, VALUE),
         Rule::digits | Rule::code_number | Rule::code_digits => (1, "a number"),
         Rule::equals => (2, EQUALS),
-        Rule::comma => (3, "`,`"),
+        Rule::comma => (3, COMMA),
         Rule::close => (4, "`]`"),
         Rule::open | Rule::group | Rule::cycle_group | Rule::index | Rule::word_bracket => {
             (5, BRACKET)
@@ -347,7 +434,7 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         Rule::key | Rule::flag | Rule::item | Rule::pair | Rule::bare_pair | Rule::item_value => {
             (6, "a key")
         }
-        Rule::operator => (7, "an operator"),
+        Rule::operator => (7, OPERATOR),
         Rule::target | Rule::label_name => (8, "a label"),
         Rule::file_name | Rule::program_call => (8, "a program name"),
         Rule::type_name => (8, "a type"),
@@ -362,7 +449,7 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::m_word
         | Rule::letter
         | Rule::letter_word => (10, WORD),
-        Rule::EOI => (11, "the end of the block"),
+        Rule::EOI => (11, END),
         _ => return None,
     })
 }

@@ -1,4 +1,4 @@
 ; check: exit 1
 ; error 20402 at 3:1
-R3=5
+RA=5
 M30

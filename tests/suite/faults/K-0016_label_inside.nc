@@ -1,7 +1,8 @@
 ; check: exit 1
 ; error K-0016 at 3:7
 $GOTO N50
-$IF 0
+$SWITCH 1
+$CASE 1
 N50: X1 F1000
-$ENDIF
+$ENDSWITCH
 M30

@@ -1,5 +1,5 @@
 ; check: exit 1
-; error K-0012 at 4:5
+; error 20925 at 4:5
 ; milliseconds of other dialects
 G04 P500
 M30

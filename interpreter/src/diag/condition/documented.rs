@@ -82,4 +82,5 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(120652), "", Error, ProgramAbort, 3, 0, "contouring not possible (measurement, feed group, corner)", ""),
     documented(Vendor(1000044), "", Error, JobAbort, 6, 2, "job to interpret a list failed in the decoder", ""),
     documented(Kontur(4), "K-TRAILING", Note, None, 1, 0, "text after the program end", ""),
+    documented(Kontur(5), "K-PERCENT", Error, ProgramAbort, 3, 0, "`%` head malformed", "20193 and 21313 are raised in its place"),
 ];

@@ -1,6 +1,7 @@
-//! Axis and spindle commands in brackets: `X[OVERRIDE ..]`, `X[INDP_SYN ..]`, `S[M3 REV1000]`, `S[G135 G136=80]`.
+//! Axis and spindle commands in brackets: `X[OVERRIDE ..]`, `X[INDP_SYN ..]`, `X[M10]`, `S[M3 REV1000 M10]`,
+//! `S[G135 G136=80]`.
 //!
-//! Source: TF5200 programming manual; TF5200 feedforward control (spindles); 21738, 21867.
+//! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); TF5200 feedforward control (spindles); 21738, 21867.
 
 use super::words::Words;
 use crate::diag::Condition;
@@ -9,6 +10,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::technology::Function;
+use crate::exec::step::Event;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 use std::mem::discriminant;
 
@@ -24,6 +26,8 @@ enum SpindleItem {
     Feedforward(bool),
     /// G136=.
     Weight(f64),
+    /// M or H function of the user.
+    Function(Function),
 }
 
 arguments! {
@@ -38,15 +42,33 @@ impl Decoder {
     pub(in crate::exec) fn bracket(&mut self, bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
         let name = bracket.name.as_str();
         if let Some(axis) = self.axis_of_name(name) {
-            return self.axis_bracket(axis, &bracket.group, words);
+            return self.axis_bracket(axis, bracket, words);
         }
         if let Some(spindle) = self.spindle_of_name(name) {
-            return self.spindle_bracket(spindle, &bracket.group);
+            return self.spindle_bracket(spindle, bracket, words);
+        }
+        // `X100 [NAME]` reads like the bracket of an axis X100
+        if let ([Item { kind: ItemKind::Flag(_), .. }], true) =
+            (&bracket.group.items[..], name.ends_with(|c: char| c.is_ascii_digit()))
+        {
+            let text = "a label stands at the beginning of its block, not behind words";
+            return Err(Fault::new(Condition::LabelBehindWords, text, bracket.group.span));
         }
         Err(self.unknown_axis(name, bracket.group.span))
     }
 
-    fn axis_bracket(&mut self, axis: usize, group: &Group, words: &Words<'_>) -> Outcome<()> {
+    fn axis_bracket(&mut self, axis: usize, bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
+        let group = &bracket.group;
+        let functions: Vec<Option<(Function, Span)>> = group.items.iter().map(function).collect();
+        if let Some(functions) = functions.into_iter().collect::<Option<Vec<_>>>()
+            && !functions.is_empty()
+        {
+            once(&functions, bracket, words)?;
+            for (function, _) in functions {
+                self.call_function(function);
+            }
+            return Ok(());
+        }
         match group.items.split_first() {
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OVERRIDE") => {
                 let rest = Group { items: rest.to_vec(), span: group.span };
@@ -91,7 +113,25 @@ impl Decoder {
         Ok(())
     }
 
-    fn spindle_bracket(&mut self, spindle: usize, group: &Group) -> Outcome<()> {
+    /// An M or H function of an axis or spindle: for the log, and for the time it takes.
+    fn call_function(&mut self, function: Function) {
+        self.takes_time(function);
+        match function {
+            Function::M(number) => self.event(Event::MFunction { number, value: None }),
+            Function::H(number) => self.event(Event::HFunction { number, value: None }),
+            Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => {}
+        }
+    }
+
+    fn spindle_bracket(
+        &mut self,
+        spindle: usize,
+        bracket: &Bracket,
+        words: &Words<'_>,
+    ) -> Outcome<()> {
+        let group = &bracket.group;
+        let functions: Vec<_> = group.items.iter().filter_map(function).collect();
+        once(&functions, bracket, words)?;
         let mut items = Vec::new();
         for item in &group.items {
             if !matches!(item.kind, ItemKind::Missing) {
@@ -116,10 +156,12 @@ impl Decoder {
         }
         for (i, (item, span)) in items.iter().enumerate() {
             let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
-            if items[..i].iter().any(same) {
+            let several = matches!(item, SpindleItem::Function(_));
+            if !several && items[..i].iter().any(same) {
                 let text = "two words of a spindle bracket that set the same";
                 let condition = match item {
                     SpindleItem::Turn(_) => Condition::SpindleMTwice,
+                    SpindleItem::Speed(_) => Condition::SpindleSpeedTwice,
                     _ => Condition::DuplicateGroup,
                 };
                 return Err(Fault::new(condition, text, *span));
@@ -151,6 +193,9 @@ impl Decoder {
             let text = format!("unknown word `{shown}` in a spindle bracket");
             Fault::new(Condition::SpindleToken, text, item.span)
         };
+        if let Some((function, _)) = function(item) {
+            return Ok(SpindleItem::Function(function));
+        }
         let (word, value) = match &item.kind {
             ItemKind::Flag(word) => match word.split_number() {
                 Some((name, number))
@@ -190,9 +235,12 @@ impl Decoder {
                     self.takes_time(Function::Spindle { spindle: index, m: number });
                 }
             }
+            SpindleItem::Function(function) => self.call_function(function),
             SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
                 let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
-                return Err(Fault::new(Condition::Range, text, span));
+                let condition =
+                    if rpm < 0.0 { Condition::SpindleSpeedNegative } else { Condition::Range };
+                return Err(Fault::new(condition, text, span));
             }
             SpindleItem::Speed(rpm) => {
                 self.set_spindle_speed(spindle, rpm, span);
@@ -223,4 +271,42 @@ impl Decoder {
         }
         Ok(())
     }
+}
+
+/// The user's M or H function that an item names: not those that end programs or turn spindles.
+fn function(item: &Item) -> Option<(Function, Span)> {
+    let ItemKind::Flag(word) = &item.kind else { return None };
+    let digits = word.text.get(1..).filter(|d| d.bytes().all(|b| b.is_ascii_digit()))?;
+    let number: u32 = digits.parse().ok().filter(|n| *n <= 65535)?;
+    let function = match word.text.as_bytes().first()? {
+        b'H' | b'h' => Function::H(number),
+        b'M' | b'm' if !matches!(number, 0..=6 | 17 | 19 | 29 | 30) => Function::M(number),
+        _ => return None,
+    };
+    Some((function, item.span))
+}
+
+/// 20765, 20766: a function stands once for each axis and spindle of a block.
+fn once(functions: &[(Function, Span)], bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
+    let before = words.brackets.iter().take_while(|other| !std::ptr::eq(**other, bracket));
+    let same = |name: &str| name.eq_ignore_ascii_case(bracket.name.as_str());
+    let mut known: Vec<Function> = before
+        .filter(|other| same(other.name.as_str()))
+        .flat_map(|other| other.group.items.iter().filter_map(function))
+        .map(|(function, _)| function)
+        .collect();
+    for (function, span) in functions {
+        if known.contains(function) {
+            let (condition, shown) = match function {
+                Function::H(number) => (Condition::HTwice, format!("H{number}")),
+                Function::M(number) => (Condition::MTwice, format!("M{number}")),
+                Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => continue,
+            };
+            let name = bracket.name.as_str();
+            let text = format!("{shown} twice for {name} in one block");
+            return Err(Fault::new(condition, text, *span));
+        }
+        known.push(*function);
+    }
+    Ok(())
 }

@@ -36,6 +36,7 @@ pub(in crate::exec) enum Group {
     Manual,
     Insertion,
     Feedforward,
+    FullOverride,
     /// No group: several may share a block.
     None,
 }
@@ -61,13 +62,14 @@ impl Group {
             Self::CentreCorrection => Condition::TwoCentreCorrections,
             Self::Manual => Condition::TwoManuals,
             Self::Insertion => Condition::TwoInsertions,
+            Self::SpindleMode => Condition::TwoSpeedModes,
+            Self::FullOverride => Condition::OverrideSwitchTwice,
             Self::CornerDeceleration
             | Self::Deceleration
             | Self::Plane
             | Self::CompensationTransition
             | Self::Rotation
             | Self::Dimension
-            | Self::SpindleMode
             | Self::Masking
             | Self::Splines
             | Self::Feedforward
@@ -104,6 +106,7 @@ impl Group {
             Self::Manual => "manual mode",
             Self::Insertion => "insertion",
             Self::Feedforward => "feedforward",
+            Self::FullOverride => "override of the block",
             Self::None => "",
         }
     }
@@ -301,7 +304,7 @@ const ROWS: &[Row] = &[
     v(163, Group::None, Act::Radius),
     g(164, Group::CentreCorrection, Act::CentreCorrection(false)),
     g(165, Group::CentreCorrection, Act::CentreCorrection(true)),
-    g(166, Group::None, Act::FullOverride),
+    g(166, Group::FullOverride, Act::FullOverride),
     g(193, Group::FeedInterpolation, Act::Unsupported("feed interpolation over the path")),
     g(194, Group::FeedType, Act::FeedType(FeedType::ShareOfMaximum)),
     g(196, Group::SpindleMode, Act::Unsupported(TURNING)),

@@ -137,12 +137,15 @@ impl Decoder {
             return;
         };
         self.geometry.tools.data = number;
-        self.geometry.tools.active = if let Some(tool) = self.geometry.tools.table.get(&number) {
+        let listed = self.geometry.tools.table.get(&number);
+        self.geometry.tools.active = if let Some(tool) = listed.filter(|tool| tool.is_valid) {
             tool.clone()
         } else {
             if number != 0 {
-                let text = format!("there is no tool data D{number}: length and radius are 0");
-                let hint = "V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
+                let what =
+                    if listed.is_some() { "are not valid (P-TOOL-00005)" } else { "do not exist" };
+                let text = format!("tool data D{number} {what}: length and radius are 0");
+                let hint = "a tool list (werkz_data[0] of the start-up list) or V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
                 self.note_once("D", Fault::new(Condition::NoTool, text, span).hint(hint));
             }
             crate::exec::geometry::tools::Tool::default()

@@ -138,6 +138,11 @@ impl Decoder {
                 Ok(())
             }
             WordKind::Assign(assign) => {
+                if let PlaceKind::Cycle(name) = &assign.target.kind
+                    && !name.starts_with('P')
+                {
+                    return self.cycle_address(name, assign, span, block);
+                }
                 if let PlaceKind::Variable(segments) = &assign.target.kind
                     && system::is_active_tool(segments)
                 {
@@ -176,6 +181,55 @@ impl Decoder {
             WordKind::Goto(label) => {
                 block.goto = Some(label);
                 Ok(())
+            }
+        }
+    }
+
+    /// `@X=..`, `@I=..`, `@S=..`: words of cycles for the main axes, the centre and the main spindle, whatever their
+    /// names in the channel are.
+    ///
+    /// Source: TF5200 programming manual, cycles (a cycle does not depend on the plane and the names of axes); diagnosis
+    /// 21383 to 21385. Assumption: so `@X` and `@Y` are the first and second axis of the active plane, `@Z` stands on it.
+    fn cycle_address(
+        &mut self,
+        name: &str,
+        assign: &Assign,
+        span: Span,
+        block: &mut Words<'_>,
+    ) -> Outcome<()> {
+        let condition = match name {
+            "X" | "Y" | "Z" => Condition::CycleAxisOutside,
+            "I" | "J" | "K" => Condition::CycleCentreOutside,
+            "S" => Condition::CycleSpindleOutside,
+            _ => {
+                let text = format!("@{name} is no word of a cycle");
+                let hint = "cycles have @P1 to @P200, @X, @Y, @Z, @I, @J, @K and @S";
+                return Err(Fault::new(Condition::Syntax, text, assign.target.span).hint(hint));
+            }
+        };
+        if !self.values.variables.is_cycle() {
+            let text = format!("@{name} stands outside of a cycle");
+            return Err(Fault::new(condition, text, assign.target.span));
+        }
+        let letter = name.as_bytes().first().copied().unwrap_or_default();
+        match letter {
+            b'S' => {
+                let value = self.number(&assign.value)?;
+                spindle_word(block, 0, value, span)
+            }
+            b'X'..=b'Z' => {
+                let main = self.modal.plane.main_axes()[usize::from(letter - b'X')];
+                let Some(axis) = self.geometry.coordinates.main_axis(main) else {
+                    let text = format!("@{name}: the channel has no main axis of that place");
+                    return Err(Fault::new(Condition::AxisOrCommandExpected, text, span)
+                        .hint(self.axis_hint()));
+                };
+                self.axis_word(axis, None, &assign.value, span, block)
+            }
+            _ => {
+                let main = self.modal.plane.main_axes()[usize::from(letter.saturating_sub(b'I'))];
+                let letter = [b'I', b'J', b'K'][main];
+                self.address(&Name::Letter(letter), None, &assign.value, span, block)
             }
         }
     }
@@ -332,25 +386,15 @@ impl Decoder {
             Name::Long(name) => self.axis_of_name(name),
         };
         if let Some(axis) = axis {
-            if let Some(sign) = sign
-                && self.machine.axes[axis].is_modulo()
-            {
-                let sum = matches!(value.kind, ExprKind::Binary(_));
-                block.turns.push((axis, if sum { Err(value.span) } else { Ok(sign) }));
-            }
-            let value = self.number(value)?;
-            if block.axes.iter().any(|(a, _, _)| *a == axis) {
-                return Err(self.axis_twice(axis, span));
-            }
-            block.axes.push((axis, value, span));
-            return Ok(());
+            return self.axis_word(axis, sign, value, span, block);
         }
         if let Some(spindle) = self.spindle_of_name(name.as_str()) {
             let value = self.number(value)?;
-            block.speeds.push((spindle, value, span));
-            return Ok(());
+            return spindle_word(block, spindle, value, span);
         }
-        let Some(letter) = name.letter() else {
+        // R1 is the only index of the radius
+        let radius = name.as_str().eq_ignore_ascii_case("R1").then_some(b'R');
+        let Some(letter) = name.letter().or(radius) else {
             return Err(self.unknown_name(name.as_str(), span));
         };
         let slot = match letter {
@@ -372,9 +416,33 @@ impl Decoder {
             return Err(match letter {
                 b'F' => Fault::new(Condition::FeedTwice, text, span),
                 b'I'..=b'K' => Fault::new(Condition::CentreTwice, text, span),
+                b'D' => Fault::new(Condition::ToolDataTwice, text, span),
                 _ => Fault::new(Condition::Syntax, text, span),
             });
         }
+        Ok(())
+    }
+
+    /// The value of an axis of the channel.
+    fn axis_word(
+        &mut self,
+        axis: usize,
+        sign: Option<Sign>,
+        value: &Expr,
+        span: Span,
+        block: &mut Words<'_>,
+    ) -> Outcome<()> {
+        if let Some(sign) = sign
+            && self.machine.axes[axis].is_modulo()
+        {
+            let sum = matches!(value.kind, ExprKind::Binary(_));
+            block.turns.push((axis, if sum { Err(value.span) } else { Ok(sign) }));
+        }
+        let value = self.number(value)?;
+        if block.axes.iter().any(|(a, _, _)| *a == axis) {
+            return Err(self.axis_twice(axis, span));
+        }
+        block.axes.push((axis, value, span));
         Ok(())
     }
 
@@ -409,7 +477,11 @@ impl Decoder {
 
     fn unknown_name(&self, name: &str, span: Span) -> Box<Fault> {
         match name.as_bytes().first() {
-            Some(b'R') => {
+            Some(b'R' | b'r') if name[1..].bytes().all(|b| b.is_ascii_digit()) => {
+                let text = format!("the radius has the index 1 only, not {}", &name[1..]);
+                Fault::new(Condition::RadiusIndex, text, span)
+            }
+            Some(b'R' | b'r') => {
                 Fault::new(Condition::RadiusName, format!("unknown radius name {name}"), span)
                     .hint("write R=..")
             }
@@ -421,6 +493,16 @@ impl Decoder {
         let text = format!("the channel has no axis {name}");
         Fault::new(Condition::AxisOrCommandExpected, text, span).hint(self.axis_hint())
     }
+}
+
+/// The speed of a spindle, once in a block.
+fn spindle_word(block: &mut Words<'_>, spindle: usize, rpm: f64, span: Span) -> Outcome<()> {
+    if block.speeds.iter().any(|(other, _, _)| *other == spindle) {
+        let text = "the speed of a spindle twice in one block";
+        return Err(Fault::new(Condition::SpindleTwice, text, span));
+    }
+    block.speeds.push((spindle, rpm, span));
+    Ok(())
 }
 
 /// A function stands once in a block.

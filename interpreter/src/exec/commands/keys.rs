@@ -267,6 +267,16 @@ impl Found {
     }
 }
 
+/// Condition of a key that stands twice in a command; K-DUPKEY where no document read names a number.
+///
+/// Source: TF5200 diagnosis manual.
+fn key_twice(title: &str) -> Condition {
+    match title {
+        "#OVERRIDE" => Condition::OverrideKeyTwice,
+        _ => Condition::DuplicateKey,
+    }
+}
+
 /// Reads and checks the keys of a bracket.
 pub(in crate::exec) fn read_all(
     decoder: &mut Decoder,
@@ -287,7 +297,7 @@ pub(in crate::exec) fn read_all(
             Ok(None) => {}
             Ok(Some((name, _))) if found.get(name).is_some() => {
                 let text = format!("{title}: {name} twice, the second one is left out");
-                decoder.note(Fault::new(Condition::DuplicateKey, text, item.span));
+                decoder.note(Fault::new(key_twice(title), text, item.span));
             }
             Ok(Some((name, written))) => found.found.push((name, written, item.span)),
             Err(fault) => decoder.note(fault),

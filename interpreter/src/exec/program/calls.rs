@@ -213,6 +213,17 @@ impl Executor {
     pub(in crate::exec) fn call(&mut self, call: &Call, span: Span) {
         match &call.kind {
             CallKind::Program(name) => self.call_named(name, call.local, None),
+            CallKind::Variable(place) => match self.decoder.read(place) {
+                Ok(Value::Text(text)) => {
+                    let name = Ident { text, span: place.span };
+                    self.call_named(&name, call.local, None);
+                }
+                Ok(Value::Number(_)) => {
+                    let text = "the variable holds a number, not the name of a program";
+                    self.decoder.note(Fault::new(Condition::Syntax, text, place.span));
+                }
+                Err(fault) => self.decoder.note(fault),
+            },
             CallKind::Cycle(group) => self.call_cycle(group, call.local, span),
             CallKind::Sequence(_) => self.decoder.note(Fault::unsupported("L SEQUENCE", span)),
         }
@@ -221,7 +232,9 @@ impl Executor {
     fn call_named(&mut self, name: &Ident, local: bool, cycle: Option<Passed>) {
         if self.levels.len() >= LEVELS_MAX {
             let text = format!("subroutines nested more than {LEVELS_MAX} deep");
-            self.decoder.note(Fault::new(Condition::Nesting, text, name.span));
+            let condition = if local { Condition::Nesting } else { Condition::SubroutineNesting };
+            let fault = Fault::new(condition, text, name.span);
+            self.decoder.note(fault.with(|d| d.value(ValueKind::Limit, LEVELS_MAX as f64, "-")));
             return;
         }
         let target = if local { self.local(name) } else { self.global(name) };
@@ -270,6 +283,7 @@ impl Executor {
                 for diagnostic in diagnostics {
                     self.report(diagnostic);
                 }
+                self.other_case(path, file, span);
                 Some(file)
             }
             Err(error) => {
@@ -284,6 +298,17 @@ impl Executor {
         }
     }
 
+    /// A note where the file has the name of the call in other letters: not every file system finds it.
+    fn other_case(&mut self, path: &str, file: usize, span: Span) {
+        let last = |name: &str| name.rsplit('/').next().unwrap_or_default().to_owned();
+        let (wanted, found) = (last(path), last(&self.files.file(file).name.replace('\\', "/")));
+        if wanted != found && wanted.eq_ignore_ascii_case(&found) {
+            let text = format!("{wanted} is {found}: other capital letters than the file's");
+            let note = Fault::new(Condition::Odd, text, span);
+            self.decoder.note(note.hint("not every file system finds it under this name"));
+        }
+    }
+
     /// `L CYCLE [NAME=.. @P1=..]`.
     fn call_cycle(&mut self, group: &Group, local: bool, span: Span) {
         let mut name = None;
@@ -292,7 +317,7 @@ impl Executor {
         for item in &group.items {
             let outcome = match &item.kind {
                 ItemKind::Missing => Ok(()),
-                ItemKind::Flag(word) if word.is("MODAL_MOVE") => {
+                ItemKind::Flag(word) if word.is("MODAL_MOVE") || word.is("MODAL") => {
                     modal = Some(false);
                     Ok(())
                 }
@@ -332,6 +357,11 @@ impl Executor {
             self.decoder.note(Fault::new(Condition::TokenUnknown, "L CYCLE needs NAME", span));
             return;
         };
+        if self.decoder.calls.modal_cycle.is_some() {
+            let text = "a modal cycle is active: no other cycle may be called";
+            self.decoder.note(Fault::new(Condition::CycleWhileModal, text, span));
+            return;
+        }
         if let Some(every_block) = modal {
             self.decoder.calls.modal_cycle = Some(ModalCycle { name, local, passed, every_block });
             return;

@@ -51,7 +51,7 @@ enum State {
 }
 
 /// Runs one program and hands out its steps.
-pub struct Executor {
+pub(crate) struct Executor {
     pub(in crate::exec) decoder: Decoder,
     pub(in crate::exec) sources: Arc<dyn Sources>,
     pub(in crate::exec) parser: Parser,
@@ -93,7 +93,7 @@ impl fmt::Debug for Executor {
 impl Executor {
     /// A program before its first block. If it cannot be opened, the first step is [`Step::End`] and the diagnostics
     /// tell why.
-    pub fn new(
+    pub(crate) fn new(
         sources: Arc<dyn Sources>,
         program: &str,
         machine: Arc<Machine>,
@@ -207,7 +207,7 @@ impl Executor {
     }
 
     /// The next step of the program; after [`Step::End`] always that again.
-    pub fn next(&mut self, feedback: Feedback) -> Step {
+    pub(crate) fn next(&mut self, feedback: Feedback) -> Step {
         self.decoder.feedback = feedback;
         loop {
             if let Some(step) = self.decoder.contour.pop() {
@@ -232,17 +232,17 @@ impl Executor {
     }
 
     /// Diagnostics since the last call.
-    pub fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
+    pub(crate) fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
         std::mem::take(&mut self.diagnostics)
     }
 
     /// Names of the files that took part so far; [`SourceRef::file`] is an index.
-    pub fn files(&self) -> &[Arc<str>] {
+    pub(crate) fn files(&self) -> &[Arc<str>] {
         self.files.names()
     }
 
     /// Place of a block whose step was handed out; its text is read again.
-    pub fn locate(&mut self, source: SourceRef) -> Option<Location> {
+    pub(crate) fn locate(&mut self, source: SourceRef) -> Option<Location> {
         if source.line == 0 {
             return None;
         }
@@ -253,32 +253,32 @@ impl Executor {
     }
 
     /// Kernels in force; before the first step those of the axis lists.
-    pub fn shaping(&self) -> &ShapingSetup {
+    pub(crate) fn shaping(&self) -> &ShapingSetup {
         &self.decoder.shaping.setup
     }
 
     /// What the commands executed so far say about the Vibration Guard.
-    pub fn guard_commands(&self) -> &GuardCommands {
+    pub(crate) fn guard_commands(&self) -> &GuardCommands {
         &self.decoder.shaping.commands
     }
 
     /// The machine as the program has it: with the values of `#MACHINE DATA` up to the step handed out last.
-    pub fn machine(&self) -> &Arc<Machine> {
+    pub(crate) fn machine(&self) -> &Arc<Machine> {
         &self.decoder.machine
     }
 
     /// Blocks executed so far.
-    pub fn blocks(&self) -> u64 {
+    pub(crate) fn blocks(&self) -> u64 {
         self.blocks
     }
 
     /// Where the axes stand at program start.
-    pub fn start_position(&self) -> &AxisVec {
+    pub(crate) fn start_position(&self) -> &AxisVec {
         &self.start
     }
 
     /// Targets of the axes behind the last block.
-    pub fn target(&self) -> &AxisVec {
+    pub(crate) fn target(&self) -> &AxisVec {
         self.decoder.geometry.coordinates.target()
     }
 }

@@ -114,7 +114,14 @@ impl FileError {
     pub(super) fn text(self, name: &str) -> (String, Option<String>) {
         match self {
             Self::Open(e) => {
-                let hint = format!("searched: {}", e.searched.join(", "));
+                let searched = format!("searched: {}", e.searched.join(", "));
+                let hint = if is_vendor_cycle(&e.name) {
+                    format!(
+                        "a cycle of the vendor's library, which is no part of kontur: copy it from the control; {searched}"
+                    )
+                } else {
+                    searched
+                };
                 (format!("{}: {}", e.name, e.reason), Some(hint))
             }
             Self::Read(e) => (format!("{name}: {e}"), None),
@@ -124,6 +131,14 @@ impl FileError {
             }
         }
     }
+}
+
+/// True for `SysDrill1.ecy` and the like: cycles of the drilling, milling and measuring libraries.
+fn is_vendor_cycle(name: &str) -> bool {
+    let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let head = file.get(..3).is_some_and(|head| head.eq_ignore_ascii_case("sys"));
+    let tail = file.rsplit_once('.').is_some_and(|(_, tail)| tail.eq_ignore_ascii_case("ecy"));
+    head && tail
 }
 
 /// Blocks of a called file by which it is judged.
@@ -389,7 +404,8 @@ fn needs_actual(block: &Block) -> bool {
             WordKind::Call(call) => match &call.kind {
                 crate::syntax::ast::CallKind::Cycle(group)
                 | crate::syntax::ast::CallKind::Sequence(group) => group_needs_actual(group),
-                crate::syntax::ast::CallKind::Program(_) => false,
+                crate::syntax::ast::CallKind::Program(_)
+                | crate::syntax::ast::CallKind::Variable(_) => false,
             },
             _ => false,
         }),

@@ -1,7 +1,8 @@
 //! Control statements and jumps.
 //!
 //! Source: TF5200 programming manual, control blocks. Assumptions: `$CASE` falls through; bounds of `$FOR` are taken
-//! once; a jump may leave control blocks, which closes them, but not enter them.
+//! once; a jump may leave control blocks, which closes them. It may enter branches of `$IF` (chapter `$GOTO`), which are
+//! then as if their condition had been true (assumption), but neither loops (21480) nor `$SWITCH`.
 
 use super::executor::Executor;
 use super::index::{EntryId, Keyword};
@@ -434,13 +435,13 @@ impl Executor {
             Ok(())
         } else {
             let text = "$BREAK outside loops and $SWITCH";
-            Err(Fault::new(Condition::Syntax, text, span))
+            Err(Fault::new(Condition::BreakOutside, text, span))
         }
     }
 
     fn go_on(&mut self, span: Span) -> Outcome<()> {
         let Some(open) = self.innermost(Keyword::is_loop) else {
-            return Err(Fault::new(Condition::Syntax, "$CONTINUE outside loops", span));
+            return Err(Fault::new(Condition::ContinueOutside, "$CONTINUE outside loops", span));
         };
         let end = self.levels.last().and_then(|l| l.index.entry(open).end);
         if let (Some(level), Some(end)) = (self.levels.last_mut(), end) {
@@ -465,12 +466,27 @@ impl Executor {
             self.decoder.note(Fault::new(Condition::Label, text, label.span).hint(hint));
             return;
         };
-        let depth = match place.parent {
-            None => Some(0),
-            Some(parent) => level.frames.iter().rposition(|f| f.open == parent).map(|d| d + 1),
+        // structures around the label that are not open, the innermost first
+        let mut entered = Vec::new();
+        let mut around = place.parent;
+        let depth = loop {
+            let Some(id) = around else { break 0 };
+            if let Some(depth) = level.frames.iter().rposition(|f| f.open == id) {
+                break depth + 1;
+            }
+            entered.push(id);
+            around = level.index.entry(id).parent;
         };
-        if let Some(depth) = depth {
+        let keyword = |id: &EntryId| level.index.entry(*id).keyword;
+        let closed = entered.iter().map(keyword).find(|k| *k != Keyword::If);
+        if closed.is_none() {
             level.frames.truncate(depth);
+            // a branch of $IF is entered as if its condition had been true
+            level.frames.extend(entered.iter().rev().map(|id| Frame {
+                open: *id,
+                keyword: Keyword::If,
+                counter: None,
+            }));
             level.at = place.position;
             // a jump back is a loop: its blocks are parsed once
             let (to, from) = (place.position.offset, self.position.offset);
@@ -482,8 +498,13 @@ impl Executor {
                 }
             }
         } else {
-            let text = format!("label {shown} stands inside a control block");
-            self.decoder.note(Fault::new(Condition::LabelInto, text, label.span));
+            let keyword = closed.map_or("", Keyword::text);
+            let text = format!("label {shown} stands inside {keyword}");
+            let condition = match closed {
+                Some(keyword) if keyword.is_loop() => Condition::JumpIntoLoop,
+                _ => Condition::LabelInto,
+            };
+            self.decoder.note(Fault::new(condition, text, label.span));
         }
     }
 }

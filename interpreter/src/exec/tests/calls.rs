@@ -98,7 +98,7 @@ fn ends_of_programs() {
 #[test]
 fn percent_lines() {
     let run = run("%MAIN\nX1 F100\n% a remark\nX2\nM30\n");
-    assert_eq!((run.ids(), run.end[0]), (vec!["K-0005".to_owned()], 2.0));
+    assert_eq!((run.ids(), run.end[0]), (vec!["20193".to_owned()], 2.0));
 }
 
 #[test]
@@ -183,4 +183,106 @@ fn conditions_of_a_block_that_changes_the_level_stand_in_its_file() {
     assert_eq!(run.ids(), ["K-0109", "K-0109"]);
     assert_eq!(place(&run), ("main.nc".to_owned(), 2));
     assert_eq!(run.diagnostics[1].source.as_ref().map(|s| (&*s.file, s.line)), Some(("sub.nc", 4)));
+}
+
+#[test]
+fn calls_without_a_blank() {
+    // TF5200 programming manual, global subroutines and parametric calls: `LM06`, `L"name"`, `LV.E.x`
+    let sub = "X1 F100\nM17\n";
+    assert_eq!(with("LM06\nM30\n", "M06", sub).end[0], 1.0);
+    assert_eq!(with("N10 LM06.nc\nM30\n", "M06.nc", sub).end[0], 1.0);
+    assert_eq!(with("L\"sub.nc\"\nM30\n", "sub.nc", sub).end[0], 1.0);
+    assert_eq!(with("\"TOOL\" = \"sub.nc\"\nL\"TOOL\"\nM30\n", "sub.nc", sub).end[0], 1.0);
+    assert_eq!(with("LCYCLE [NAME=sub.nc]\nM30\n", "sub.nc", sub).end[0], 1.0);
+    assert_eq!(with("L CYCLE[NAME=sub.nc]\nM30\n", "sub.nc", sub).end[0], 1.0);
+    // without a blank behind LL the call is global
+    assert_eq!(with("LLOCAL\nM30\n", "LOCAL", sub).end[0], 1.0);
+    for call in ["LV.E.NAME", "L V.E.NAME"] {
+        let run = with(&format!("V.E.NAME = \"sub.nc\"\n{call}\nM30\n"), "sub.nc", sub);
+        assert_eq!((run.ids(), run.end[0]), (vec!["K-0110".to_owned()], 1.0), "{call}");
+    }
+    let run =
+        run("%L UP\nX1 F100\n%MAIN\nV.E.NAME = \"UP\"\nLL V.E.NAME\nV.E.N = 5\nL V.E.N\nM30\n");
+    assert_eq!(
+        (run.ids(), run.end[0]),
+        (["K-0110", "K-0110", "K-0002"].map(str::to_owned).to_vec(), 1.0)
+    );
+}
+
+#[test]
+fn a_missing_cycle_of_the_vendor_is_told_as_one() {
+    let run = run("L CYCLE [NAME=SysDrill1.ecy @P1=2 \\\n@P2=-10]\nM30\n");
+    assert_eq!(run.ids(), ["K-0013"]);
+    let hint = run.diagnostics[0].hint.clone().unwrap_or_default();
+    assert!(hint.contains("vendor's library") && hint.contains("searched"), "{hint}");
+}
+
+#[test]
+fn words_of_cycles_are_those_of_the_plane() {
+    let cycle = "@P1=@P1*2\nG01 @X=@P1 @Y=2 @Z=-3 F100\nM17\n";
+    let end = |plane: &str| {
+        let run = with(&format!("{plane}\nL CYCLE [NAME=c.nc @P1=5]\nM30\n"), "c.nc", cycle);
+        assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
+        run.end
+    };
+    assert_eq!(end("G17"), [10.0, 2.0, -3.0]);
+    // first axis Z, second X, and Y stands on the plane
+    assert_eq!(end("G18"), [2.0, -3.0, 10.0]);
+    assert_eq!(end("G19"), [-3.0, 10.0, 2.0]);
+    // a half circle about the middle of its chord, in every plane
+    let arc = "G02 @X=10 @I=5 F100\nM17\n";
+    for (plane, wanted) in [("G17", 0), ("G18", 2), ("G19", 1)] {
+        let run = with(&format!("{plane}\nL CYCLE [NAME=c.nc]\nM30\n"), "c.nc", arc);
+        assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
+        let length = run.blocks()[0].path.length();
+        assert!((length - 5.0 * std::f64::consts::PI).abs() < 1e-9, "{plane}: {length}");
+        assert_eq!(run.end[wanted], 10.0);
+    }
+    let run = with("L CYCLE [NAME=c.nc]\nM30\n", "c.nc", "@S=1200 M3\nG04 0.1\nM5\nM17\n");
+    assert_eq!(run.ids(), [""; 0]);
+    let turns = |e: &&Event| format!("{e:?}").contains("rpm: 1200.0");
+    assert!(run.events().iter().any(turns), "{:?}", run.events());
+}
+
+#[test]
+fn a_cycle_calls_the_cycle_that_a_parameter_names() {
+    let sources = MemorySources::new()
+        .with("main.nc", "L CYCLE [NAME=outer.nc @P1=\"inner.nc\" @P2=4]\nM30\n")
+        .with("outer.nc", "L CYCLE [NAME=@P1 @P1=@P2+1]\nM17\n")
+        .with("inner.nc", "@X=@P1 F100\nM17\n");
+    let run = run_with(sources, machine(&[]), Options::default());
+    assert_eq!((run.ids(), run.end[0]), (vec![], 5.0));
+}
+
+#[test]
+fn cycle_variables_are_seen_from_their_level_downwards() {
+    // validity and visibility of V.CYC: main programs may declare them, the most local one counts
+    let sources = MemorySources::new()
+        .with(
+            "main.nc",
+            "#VAR\nV.CYC.A = 1\n#ENDVAR\nL CYCLE [NAME=c.nc]\nX V.CYC.A F100\nP1 = EXIST[V.CYC.B]\nY P1\nM30\n",
+        )
+        .with("c.nc", "Z V.CYC.A F100\n#VAR\nV.CYC.A = 7\nV.CYC.B = 2\n#ENDVAR\nL deeper.nc\nM17\n")
+        .with("deeper.nc", "G91 Z[V.CYC.A + V.CYC.B]\nG90\nM17\n");
+    let run = run_with(sources, machine(&[]), Options::default());
+    assert_eq!((run.ids(), run.end), (vec![], vec![1.0, 0.0, 10.0]));
+}
+
+#[test]
+fn other_capital_letters_than_the_files_get_a_note() {
+    /// Finds files whatever the case of their letters, as some file systems do.
+    struct Lenient(MemorySources);
+    impl crate::source::Sources for Lenient {
+        fn open(
+            &self,
+            name: &str,
+            caller: Option<&str>,
+        ) -> Result<Box<dyn crate::source::Source>, crate::source::OpenError> {
+            self.0.open(if caller.is_some() { "Sub.nc" } else { name }, caller)
+        }
+    }
+    let sources =
+        MemorySources::new().with("main.nc", "L SUB.NC\nM30\n").with("Sub.nc", "X1 F100\nM17\n");
+    let run = run_with(Lenient(sources), machine(&[]), Options::default());
+    assert_eq!((run.ids(), run.end[0]), (vec!["K-0109".to_owned()], 1.0));
 }

@@ -183,3 +183,36 @@ fn modulo_axes_turn_in_the_direction_of_the_first_sign() {
     assert_end("P1=5 G01 F100 Z-P1+3", [0.0, 0.0, -2.0]);
     assert_end("G01 F100 Z--200", [0.0, 0.0, 200.0]);
 }
+
+/// A tool list and a list of zero offsets give what D, V.G.WZ, G54 and the start of the program use.
+#[test]
+fn data_of_lists() {
+    let settings = [
+        "tool.wz[5].laenge=600000",
+        "tool.wz[5].radius=200000",
+        "tool.wz[5].ax_versatz[0]=15000",
+        "tool.wz[5].gueltig=1",
+        "tool.wz[8].laenge=10000",
+        "zero.np_grp[1].achse[0].versch=100000",
+        "zero.np_grp[2].achse[1].versch=-55000",
+        "zero.default_index=2",
+    ];
+    let run = |text: &str| {
+        let sources = crate::source::MemorySources::new().with("main.nc", text);
+        super::run_with(sources, super::machine(&settings), super::Options::default())
+    };
+    // group 2 at the start, group 1 by G54, length on Z and the offset of X by D
+    assert_eq!(run("X0 Y0 Z0 F100\nM30\n").end, [0.0, -5.5, 0.0]);
+    assert_eq!(run("G54 X0 Y0 Z0 F100\nM30\n").end, [10.0, 0.0, 0.0]);
+    assert_eq!(run("G53 D5\nX0 Y0 Z0 F100\nM30\n").end, [1.5, 0.0, 60.0]);
+    assert_eq!(run("G53 D5\nX0 Z0 F100\nD0\nX0 Z0\nM30\n").end, [0.0, 0.0, 0.0]);
+    let told = run(
+        "#MSG [\"%f %f %d %d %d\", V.G.WZ[5].L, V.G.WZ[5].R, V.G.WZ[5].OK, V.G.WZ[8].OK, V.G.WZ[9].OK]\nM30\n",
+    );
+    assert_eq!(told.messages(), ["60.000000 20.000000 1 0 0"]);
+    // data that are not valid are as good as none, until the program says otherwise
+    let wrong = run("G53 D8 X0 Z0 F100\nM30\n");
+    assert_eq!((wrong.ids(), wrong.end), (vec!["K-0114".to_owned()], vec![0.0; 3]));
+    assert_eq!(run("V.G.WZ[8].OK=1\nG53 D8 X0 Z0 F100\nM30\n").end, [0.0, 0.0, 1.0]);
+    assert_eq!(run("#MSG [\"%d\", V.G.NP_DEFAULT]\nM30\n").messages(), ["2"]);
+}

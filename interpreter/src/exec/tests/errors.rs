@@ -35,7 +35,7 @@ fn the_check_moves_nothing_and_ends() {
     // a condition with a fault counts as false
     assert_eq!(
         places(&checked("$WHILE P9\nX1\n$ENDWHILE\n$DO\n$ENDDO P9\nM30\n")),
-        ["K-0012 1:8", "K-0012 5:8"]
+        ["20925 1:8", "20925 5:8"]
     );
 }
 

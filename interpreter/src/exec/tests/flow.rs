@@ -32,11 +32,11 @@ fn faults_of_expressions() {
     assert_eq!(id("P2=LOG[0]"), ["20399"]);
     assert_eq!(id("P2=LN[-1]"), ["20399"]);
     assert_eq!(id("P2=SQRT[-1]"), ["K-0011"]);
-    assert_eq!(id("P2=P1"), ["K-0012"]);
+    assert_eq!(id("P2=P1"), ["20925"]);
     assert_eq!(id("P2=TAN[90]"), ["20396"]);
     assert_eq!(id("P2=5 MOD 0"), ["20396"]);
     assert_eq!(id("P2=10**400"), ["K-0009"]);
-    assert_eq!(id("P[1000000000]=1"), ["K-0009"]);
+    assert_eq!(id("P[1000000000]=1"), ["20400"]);
     assert_eq!(id("P1[2]=1"), ["20921"]);
     assert_eq!(id("V.A.MENT.X=1"), ["20100"]);
     assert_eq!(id("V.L.A=1"), ["K-0012"]);
@@ -54,7 +54,7 @@ fn indirect_and_array_parameters() {
     );
     let id =
         |text: &str| run(&format!("#VAR\nV.P.T[2]\nV.L.N : UNS08\n#ENDVAR\n{text}\nM30\n")).ids();
-    assert_eq!(id("V.P.T[2]=1"), ["K-0009"]);
+    assert_eq!(id("V.P.T[2]=1"), ["20906"]);
     assert_eq!(id("V.L.N=256"), ["K-0009"]);
     assert_eq!(id("V.L.N=255"), [""; 0]);
 }
@@ -145,7 +145,62 @@ fn jumps() {
     );
     assert_end("F100\nX1 $GOTO N5\nX2\nN5: Y1", [1.0, 1.0, 0.0]);
     assert_eq!(run("$GOTO N7\nM30\n").ids(), ["K-0015"]);
-    assert_eq!(run("$GOTO N7\n$IF 1\nN7: X1\n$ENDIF\nM30\n").ids(), ["K-0016"]);
+    assert_eq!(run("$GOTO N7\n$SWITCH 1\nN7: X1\n$ENDSWITCH\nM30\n").ids(), ["K-0016"]);
+    for (open, close) in [
+        ("$FOR P1=1,2,1", "$ENDFOR"),
+        ("$WHILE 0", "$ENDWHILE"),
+        ("$DO", "$ENDDO 0"),
+        ("$REPEAT", "$UNTIL 1"),
+    ] {
+        let text = format!("$GOTO [IN]\n{open}\n[IN] X1\n{close}\nM30\n");
+        assert_eq!(run(&text).ids(), ["21480"], "{open}");
+    }
+    // a loop around an $IF counts as well
+    let text = "$GOTO [IN]\n$WHILE 1\n$IF 1\n[IN] X1\n$ENDIF\n$BREAK\n$ENDWHILE\nM30\n";
+    assert_eq!(run(text).ids(), ["21480"]);
+}
+
+#[test]
+fn block_numbers_and_labels() {
+    // TF5200 programming manual, block numbers and contouring examples: `N[P1*100]`, `NP123 XP1`; diagnosis 21187: the
+    // name may stand before the number or behind it
+    says("P123=7.5\nNP123 X P123 F100\n#MSG [\"%d\", V.G.BLOCK_NR]", "8");
+    assert_end("F100\n$GOTO [A]\nX9\n[A] N10 Y1", [0.0, 1.0, 0.0]);
+    assert_end("F100\n$GOTO [A]\nX9\nN10 [A] Y1", [0.0, 1.0, 0.0]);
+    assert_end("F100 P1=0\n$IF 0\nNP1 $IF 1\nX9\n$ENDIF\n$ENDIF\nY1", [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn several_assignments_share_a_block() {
+    assert_end(
+        "V.P.A=1 V.P.B=V.P.A+1 V.S.C=V.P.B*2\nX V.P.A Y V.P.B Z V.S.C F100",
+        [1.0, 2.0, 4.0],
+    );
+}
+
+#[test]
+fn jumps_into_branches() {
+    // the branch entered is the one that counts: neither the condition nor $ELSE is looked at
+    let into = |label: &str| {
+        clean(&format!(
+            "F100\n$GOTO [{label}]\nX9\n$IF 0\nX1\n[A] Y1\n$ELSEIF 0\nX2\n[B] Y2\n$ELSE\nX3\n[C] Y3\n$ENDIF\nZ1\nM30\n"
+        ))
+        .end
+    };
+    assert_eq!(into("A"), [0.0, 1.0, 1.0]);
+    assert_eq!(into("B"), [0.0, 2.0, 1.0]);
+    assert_eq!(into("C"), [0.0, 3.0, 1.0]);
+    // two levels deep, and from one branch into another of the same $IF
+    assert_end(
+        "F100\n$GOTO N5\n$IF 0\n$IF 0\nN5: X1\n$ELSE\nX9\n$ENDIF\nY1\n$ELSE\nX9\n$ENDIF\nZ1",
+        [1.0, 1.0, 1.0],
+    );
+    assert_end("F100\n$IF 1\nX1\n$GOTO [E]\nX9\n$ELSE\nX9\n[E] Y1\n$ENDIF\nZ1", [1.0, 1.0, 1.0]);
+    // back into a branch that was left: a loop by hand
+    assert_end(
+        "F100 P1=0\n$IF 1\n[AGAIN] P1=P1+1\n$ENDIF\n$IF P1<4 $GOTO [AGAIN]\nX P1",
+        [4.0, 0.0, 0.0],
+    );
 }
 
 #[test]
@@ -238,6 +293,6 @@ fn parameters_of_earlier_programs_do_not_exist() {
     let sources = crate::source::MemorySources::new().with("main.nc", "X P1 F100\nM30\n");
     let machine = super::machine(&["channel.p_param_haltend=1"]);
     let run = super::run_with(sources, machine, super::Options::default());
-    assert_eq!(run.ids(), ["K-0012"]);
+    assert_eq!(run.ids(), ["20925"]);
     assert!(run.diagnostics[0].hint.as_deref().is_some_and(|h| h.contains("P-CHAN-00067")));
 }

@@ -368,3 +368,38 @@ fn splines_through_short_blocks() {
     let run = clean("F100\n#HSC ON [OPMODE=1 CONTERROR=0.05]\nX1\n#HSC OFF\nX2\nM30\n");
     assert!(run.blocks()[0].contour.is_some() && run.blocks()[1].contour.is_none());
 }
+
+/// The vendor's programs: TF5200 programming manual, user-specific functions of spindles; diagnosis 20765, 20766.
+#[test]
+fn functions_of_axes_and_spindles() {
+    let two = |text: &str| {
+        let sources = crate::source::MemorySources::new().with("main.nc", text);
+        super::run_with(sources, super::machine(&[]), super::Options::default())
+    };
+    let called = |run: &super::Run| -> Vec<String> {
+        run.events()
+            .into_iter()
+            .filter_map(|e| match e {
+                Event::MFunction { number, .. } => Some(format!("M{number}")),
+                Event::HFunction { number, .. } => Some(format!("H{number}")),
+                _ => None,
+            })
+            .collect()
+    };
+    let run = two("N10 S[M3 REV300 M10 M11]\nM5\nM30\n");
+    assert_eq!((run.ids(), called(&run)), (vec![], vec!["M10".to_owned(), "M11".to_owned()]));
+    assert_eq!(run.events().iter().filter(|e| format!("{e:?}").contains("rpm: 300.0")).count(), 1);
+    let run = two("N10 G00 X10 M10 X[M10] S[M10] Y[H5 M12]\nM30\n");
+    let wanted = ["M10", "M10", "M10", "H5", "M12"].map(str::to_owned).to_vec();
+    assert_eq!((run.ids(), called(&run), run.end[0]), (vec![], wanted, 10.0));
+    for (text, id) in [
+        ("G00 X10 X[M10] X[M10]", "20765"),
+        ("G00 X10 S[M10 M10]", "20765"),
+        ("G00 X10 X[H10] X[H10]", "20766"),
+        ("G00 X10 S[H10 H10]", "20766"),
+        ("S[M30]", "21867"),
+        ("X[M30]", "K-0019"),
+    ] {
+        assert_eq!(two(&format!("{text}\nM30\n")).ids(), [id], "{text}");
+    }
+}

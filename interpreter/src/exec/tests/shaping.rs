@@ -1,7 +1,7 @@
 //! `#VIB GUARD` and `#FILTER`: keys, persistence, conflicts.
 
 use super::{Options, Run, Sync, clean, machine, places, run, run_with};
-use crate::exec::{AxisShaping, ShapingSettings};
+use crate::exec::step::{AxisShaping, ShapingSettings};
 use crate::source::MemorySources;
 
 fn on(text: &str, settings: &[&str]) -> Run {

@@ -128,8 +128,9 @@ fn plain_motions_do_what_the_words_say() {
                 check(Arc::new(sources.clone()), "main.nc", Arc::clone(&machine), options.clone());
             let run = run_with(sources, Arc::clone(&machine), options);
             // a message of the grammar quotes what is written
+            let quoting = [Condition::Syntax, Condition::DeclarationCharacter];
             let text = |d: &Diagnostic| match d.id {
-                id if id == Condition::Syntax => String::new(),
+                id if quoting.iter().any(|quoting| id == *quoting) => String::new(),
                 _ => d.text.clone(),
             };
             let said = |d: &[Diagnostic]| {

@@ -193,7 +193,7 @@ fn texts(op: BinaryOp, a: &str, b: &str, span: Span) -> Outcome<Value> {
         BinaryOp::GreaterEqual => Value::truth(a >= b),
         _ => {
             let text = "texts can only be joined and compared";
-            return Err(Fault::new(Condition::Syntax, text, span));
+            return Err(Fault::new(Condition::TextOperator, text, span));
         }
     })
 }

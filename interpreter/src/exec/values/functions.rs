@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, arithmetic functions. Assumption: `INT` cuts towards 0, `ROUND` rounds half away
 //! from 0, positions in texts count from 1, `FIND` of something absent is 0.
 
-use super::expr::{as_number, bits, finite, is_true};
+use super::expr::{as_number, bits, finite, is_true, whole};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -34,12 +34,19 @@ pub(in crate::exec) fn call(decoder: &Decoder, call: &FunctionCall, span: Span) 
     if n < low || n > high {
         let name = call.function.name();
         let text = format!("{name} takes {low} argument(s), {n} are written");
-        return Err(Fault::new(Condition::Syntax, text, span));
+        let condition = if n < low { Condition::TooFewArguments } else { Condition::Syntax };
+        return Err(Fault::new(condition, text, span));
     }
     let arg = |i: usize| decoder.number(&call.arguments[i]);
-    let place = || match &call.arguments[0].kind {
-        ExprKind::Place(place) => Ok(&**place),
-        _ => Err(Fault::new(Condition::Syntax, "a variable is expected", call.arguments[0].span)),
+    let place = || {
+        if let ExprKind::Place(place) = &call.arguments[0].kind {
+            return Ok(&**place);
+        }
+        let condition = match call.function {
+            Function::Exist => Condition::ExistArgument,
+            _ => Condition::Syntax,
+        };
+        Err(Fault::new(condition, "a variable is expected", call.arguments[0].span))
     };
     let number = match call.function {
         Function::Exist => return Ok(Value::truth(decoder.exists(place()?)?)),
@@ -128,15 +135,19 @@ fn of_one(function: Function, x: f64, span: Span) -> Outcome<f64> {
     })
 }
 
-/// Size of a dimension of an array, -1 if there is none.
+/// Size of a dimension of an array; without a dimension that of the first one, -1 if there is none.
 fn size_of(decoder: &Decoder, place: &Place, dimension: Option<&Expr>) -> Outcome<Value> {
-    let dimension = match dimension {
-        Some(expr) => decoder.whole(expr, "dimension", 1, 4)?,
-        None => 1,
-    };
     let sizes = decoder.dimensions(place)?;
-    let size = sizes.get(dimension as usize - 1).map_or(-1.0, |n| *n as f64);
-    Ok(Value::Number(size))
+    let Some(dimension) = dimension else {
+        return Ok(Value::Number(sizes.first().map_or(-1.0, |n| *n as f64)));
+    };
+    let x = decoder.number(dimension)?;
+    let index = whole(x, 1, u32::MAX).and_then(|i| sizes.get(i as usize - 1));
+    index.map(|n| Value::Number(*n as f64)).ok_or_else(|| {
+        let text = format!("{place} has {} dimension(s), not {x}", sizes.len());
+        Fault::new(Condition::NoSuchDimension, text, dimension.span)
+            .with(|d| d.value(ValueKind::Current, x, "-"))
+    })
 }
 
 fn is_text_function(function: Function) -> bool {
@@ -158,6 +169,9 @@ fn is_text_function(function: Function) -> bool {
     )
 }
 
+/// Highest count of characters. Assumption: the vendor prints no limit for 21472; it is the length of a block.
+const COUNT_MAX: u32 = 4096;
+
 /// Functions of texts.
 ///
 /// Assumption: arguments as in IEC 61131-3: `LEFT[s, n]`, `MID[s, n, position]`, `DELETE[s, n, position]`,
@@ -170,8 +184,11 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
         }
     };
     let count = |i: usize| {
-        let n = decoder.whole(&call.arguments[i], "a count of characters", 0, 4096)?;
-        Ok::<usize, Box<Fault>>(n as usize)
+        let x = decoder.number(&call.arguments[i])?;
+        whole(x, 0, COUNT_MAX).map(|n| n as usize).ok_or_else(|| {
+            let text = format!("a count of characters is {x}, allowed are 0 to {COUNT_MAX}");
+            Fault::new(Condition::TextCount, text, call.arguments[i].span)
+        })
     };
     let joined =
         |parts: [&[char]; 3]| Value::Text(parts.concat().iter().collect::<String>().into());

@@ -4,7 +4,7 @@
 //! values are kontur's choice where a headless tool has none.
 
 use super::expr::{as_number, whole};
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::tools::Tool;
@@ -78,7 +78,7 @@ const ROWS: &[Row] = &[
     } },
     Row { name: &["G", "NP", "V", "*"], read: |d, p| { let g = p.index(d, 1, 999)?; p.position(d, 3, |d, a| d.geometry.coordinates.zero_entry(g, a)) } },
     Row { name: &["G", "NP_AKT", "V", "*"], read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.zero_offset(a)) },
-    Row { name: &["G", "NP_DEFAULT"], read: |_, _| number(0.0) },
+    Row { name: &["G", "NP_DEFAULT"], read: |d, _| number(f64::from(d.machine.zero_offsets.start_group)) },
     Row { name: &["G", "WZ_AKT", "R"], read: |d, _| number(d.geometry.tools.active.radius_mm) },
     Row { name: &["G", "WZ_AKT", "L"], read: |d, _| number(d.geometry.tools.active.length_mm) },
     Row { name: &["G", "WZ_AKT", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&d.geometry.tools.active, a)) } },
@@ -87,6 +87,8 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "WZ", "L"], read: |d, p| number(p.tool(d)?.length_mm) },
     Row { name: &["G", "WZ", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&p.tool(d)?, a)) } },
     Row { name: &["G", "WZ", "P"], read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&p.tool(d)?, i)) } },
+    Row { name: &["G", "WZ", "OK"], read: |d, p| { let i = p.index(d, 1, u32::MAX)?; truth(d.geometry.tools.table.get(&i).is_some_and(|t| t.is_valid)) } },
+    Row { name: &["G", "WZ", "ME"], read: |_, _| number(0.0) },
     Row { name: &["G", "T_AKT"], read: |d, _| number(f64::from(d.geometry.tools.tool)) },
     Row { name: &["G", "D_AKT"], read: |d, _| number(f64::from(d.geometry.tools.data)) },
     Row { name: &["G", "TIMER"], read: |d, p| { let i = p.index(d, 1, 127)?; number(d.values.timers.read(i, d.feedback.time_s)) } },
@@ -171,7 +173,21 @@ impl Path<'_> {
     fn index(&self, d: &Decoder, at: usize, high: u32) -> Outcome<u32> {
         let subscripts = self.segments.get(at).map(|s| &s.subscripts[..]);
         match subscripts {
-            Some([expr]) => d.whole(expr, "the index", 0, high),
+            Some([expr]) => {
+                let x = d.number(expr)?;
+                whole(x, 0, high).ok_or_else(|| {
+                    let tool =
+                        self.segments.get(1).is_some_and(|s| s.name.eq_ignore_ascii_case("WZ"));
+                    let condition =
+                        if tool { Condition::ToolIndex } else { Condition::VariableNumber };
+                    let text = format!("the index is {x}, allowed are 0 to {high}");
+                    Fault::new(condition, text, expr.span).with(|d| {
+                        d.value(ValueKind::Wrong, x, "-")
+                            .value(ValueKind::LowerLimit, 0, "-")
+                            .value(ValueKind::UpperLimit, high, "-")
+                    })
+                })
+            }
             _ => Err(Fault::new(Condition::Syntax, "one index is expected", self.span)),
         }
     }
@@ -289,6 +305,7 @@ fn write_tool(
     x: f64,
 ) -> Outcome<()> {
     match *names {
+        ["OK"] => tool.is_valid = x.abs() > 0.0,
         ["R"] => tool.radius_mm = x,
         ["L"] => tool.length_mm = x,
         ["V", _] | ["V"] => {

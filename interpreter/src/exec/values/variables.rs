@@ -10,7 +10,7 @@ mod storage;
 
 use super::expr::{as_number, whole};
 use super::system;
-use crate::diag::Condition;
+use crate::diag::{Condition, Diagnostic, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::{Access, External, Value};
@@ -19,7 +19,7 @@ use crate::syntax::ast::{Expr, ParameterIndex, Place, PlaceKind, Segment, Span};
 pub(in crate::exec) use scopes::Variables;
 use scopes::{Class, class};
 use smallvec::SmallVec;
-use storage::Variable;
+use storage::{Owner, Variable};
 
 /// Highest index of a P parameter.
 const INDEX_MAX: u32 = 1_000_000;
@@ -40,9 +40,15 @@ fn undefined(what: &str, span: Span) -> Box<Fault> {
     Fault::new(Condition::Undefined, format!("{what} has no value"), span)
 }
 
+/// 21382.
+fn outside_cycle(name: &str, span: Span) -> Box<Fault> {
+    let text = format!("@{name} exists only inside a cycle");
+    Fault::new(Condition::CycleParameterOutside, text, span)
+}
+
 /// `G04 P500` of other controls is a value read from P500 here.
 fn undefined_parameter(index: u32, span: Span) -> Box<Fault> {
-    undefined(&format!("P{index}"), span).hint(format!(
+    Fault::new(Condition::ParameterUnknown, format!("P{index} has no value"), span).hint(format!(
         "P is a parameter in this dialect, not an address: P{index}=5 assigns a value"
     ))
 }
@@ -111,7 +117,9 @@ impl Decoder {
         let checked = |x: f64| {
             whole(x, 1, INDEX_MAX).ok_or_else(|| {
                 let text = format!("P{x} does not exist, indices are 1 to {INDEX_MAX}");
-                Fault::new(Condition::Range, text, span)
+                Fault::new(Condition::ParameterNumber, text, span).with(|d| {
+                    d.value(ValueKind::Wrong, x, "-").value(ValueKind::UpperLimit, INDEX_MAX, "-")
+                })
             })
         };
         let mut index = match index {
@@ -120,7 +128,7 @@ impl Decoder {
         };
         for _ in 0..indirections {
             let value = match self.values.variables.parameters().get(&index) {
-                Some(variable) => variable.get(&[], span)?,
+                Some(variable) => variable.get(&[], Owner::Parameter, span)?,
                 None => return Err(undefined_parameter(index, span)),
             };
             index = checked(as_number(&value, span)?)?;
@@ -134,7 +142,7 @@ impl Decoder {
         match self.resolve(place)? {
             Target::Parameter(index, subscripts) => {
                 match self.values.variables.parameters().get(&index) {
-                    Some(variable) => variable.get(&subscripts, span),
+                    Some(variable) => variable.get(&subscripts, Owner::Parameter, span),
                     None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
                     None if self.machine.channel.keep_p_parameters => {
                         let hint =
@@ -146,7 +154,7 @@ impl Decoder {
             }
             Target::Own(class, name, subscripts) => {
                 match self.values.variables.find(class, &name) {
-                    Some(variable) => variable.get(&subscripts, span),
+                    Some(variable) => variable.get(&subscripts, Owner::Variable, span),
                     None => Err(self.unknown(class, &name, span)),
                 }
             }
@@ -174,8 +182,7 @@ impl Decoder {
 
     fn cycle_parameter(&self, name: &str, span: Span) -> Outcome<Value> {
         let Some(scope) = self.values.variables.cycles.last() else {
-            let text = format!("@{name} exists only inside a cycle");
-            return Err(Fault::new(Condition::Undefined, text, span));
+            return Err(outside_cycle(name, span));
         };
         scope.passed.get(name).cloned().ok_or_else(|| {
             undefined(&format!("@{name}"), span).hint(format!("test V.G.@{name}.VALID first"))
@@ -209,7 +216,7 @@ impl Decoder {
                 let number = Value::Number(as_number(&value, value_span)?);
                 let table = self.values.variables.parameters_mut();
                 match table.get_mut(&index) {
-                    Some(variable) => variable.set(&subscripts, number, span),
+                    Some(variable) => variable.set(&subscripts, number, Owner::Parameter, span),
                     None if !subscripts.is_empty() => Err(undeclared_array(index, span)),
                     None => {
                         table.insert(index, Variable::created(number));
@@ -219,7 +226,7 @@ impl Decoder {
             }
             Target::Own(class, name, subscripts) => {
                 if let Some(variable) = self.values.variables.find_mut(class, &name) {
-                    return variable.set(&subscripts, value, value_span);
+                    return variable.set(&subscripts, value, Owner::Variable, value_span);
                 }
                 let by_write = matches!(class, Class::Program | Class::Shared);
                 if !by_write || !subscripts.is_empty() {
@@ -232,10 +239,13 @@ impl Decoder {
                 Ok(())
             }
             Target::External(name) => self.write_external(name, value, span),
-            Target::Cycle(name) => {
-                let text = format!("@{name} may not be written");
-                Err(Fault::new(Condition::VariableNotWritable, text, span))
-            }
+            Target::Cycle(name) => match self.values.variables.cycles.last_mut() {
+                Some(scope) => {
+                    scope.passed.insert(name.into(), value);
+                    Ok(())
+                }
+                None => Err(outside_cycle(name, span)),
+            },
             Target::System(segments) => system::write(self, segments, &value, span),
         }
     }
@@ -291,7 +301,10 @@ impl Decoder {
                 let gone =
                     self.values.variables.table(class).and_then(|table| table.remove(&*name));
                 if gone.is_none() {
-                    return Err(self.unknown(class, &name, span));
+                    let unknown = self.unknown(class, &name, span);
+                    return Err(
+                        unknown.with(|d| Diagnostic { id: Condition::DeletedUnknown.id(), ..d })
+                    );
                 }
                 gone
             }

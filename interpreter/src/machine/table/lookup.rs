@@ -2,7 +2,7 @@
 
 use super::{
     ListKind, Row, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general, axis_guard,
-    channel, kontur, start_up,
+    channel, kontur, start_up, tool, zero,
 };
 
 /// Families of the table, in the order of the documentation.
@@ -15,17 +15,21 @@ const FAMILIES: &[&[Row]] = &[
     axis_drive::ROWS,
     axis_filters::ROWS,
     axis_guard::ROWS,
+    tool::ROWS,
+    zero::ROWS,
     kontur::ROWS,
 ];
 
 /// Other spellings of a key that mean the same parameter, with `[]` for every index.
 ///
-/// Source: the channel manual's older edition (`syn_chk.fehler_*`); TF5200 Improved Position Control: builds with one
+/// Source: the channel manual's older edition (`syn_chk.fehler_*`); the overview of the start-up
+/// manual (`wrkz_data`); TF5200 Improved Position Control: builds with one
 /// filter per stage write `filter.`, newer ones `filter[k].`.
 const ALIASES: &[(&str, &str)] = &[
     ("suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
     ("lr_param.suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
     ("getriebe[].suppress_pos_lag_error", "kenngr.suppress_pos_lag_error"),
+    ("wrkz_data[]", "werkz_data[i]"),
     ("syn_chk.fehler_gesamt", "syn_chk.errors_total"),
     ("syn_chk.fehler_pro_zeile", "syn_chk.errors_per_block"),
     (

@@ -11,6 +11,10 @@ pub enum ListKind {
     Channel,
     /// Axis list (P-AXIS).
     Axis,
+    /// Tool data (P-TOOL).
+    Tool,
+    /// Zero offsets (P-ZERO).
+    Zero,
     /// kontur's own settings, `kontur.lis`.
     Kontur,
 }
@@ -245,6 +249,20 @@ pub(super) const fn chan(id: &'static str, key: &'static str, raw: Raw, text: &'
 pub(super) const fn stup(id: &'static str, key: &'static str, raw: Raw, text: &'static str) -> Row {
     let mut r = row(ListKind::StartUp, id, key, raw, text);
     r.source = "TF5200 start-up list";
+    r
+}
+
+/// A row of a tool list.
+pub(super) const fn tool(id: &'static str, key: &'static str, raw: Raw, text: &'static str) -> Row {
+    let mut r = row(ListKind::Tool, id, key, raw, text);
+    r.source = "TF5200 tool data";
+    r
+}
+
+/// A row of a list of zero offsets.
+pub(super) const fn zero(id: &'static str, key: &'static str, raw: Raw, text: &'static str) -> Row {
+    let mut r = row(ListKind::Zero, id, key, raw, text);
+    r.source = "TF5200 zero offsets";
     r
 }
 

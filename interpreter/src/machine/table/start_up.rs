@@ -10,6 +10,8 @@ parameters! {
     stup("P-STUP-00008", "listen", Raw::Word(&["ASCII", "BINAER"]), "ASCII or BINAER")
         .default_is(Default::Text("ASCII")), as LIST_FORMAT: Text;
     stup("P-STUP-00009", "sda_mds[i]", Raw::Text, "channel list of channel i, i = 0..11"), as CHANNEL_LIST: Text;
+    stup("P-STUP-00010", "werkz_data[i]", Raw::Text, "list of the tools of channel i, i = 0..11"), as TOOL_LIST: Text;
+    stup("P-STUP-00011", "nullp_data[i]", Raw::Text, "list of the zero offsets of channel i, i = 0..11"), as ZERO_LIST: Text;
     stup("P-STUP-00014", "zahl_mds", Raw::Uns16, "number of axis lists")
         .range(Bound::At(0.0), Bound::At(32.0)), as AXIS_LIST_COUNT: Optional;
     stup("P-STUP-00015", "achs_mds[i]", Raw::Text, "axis list, i = 0..31; more files than zahl_mds are ignored, a missing file aborts start-up"), as AXIS_LIST: Text;

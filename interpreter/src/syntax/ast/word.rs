@@ -165,6 +165,8 @@ pub struct Call {
 pub enum CallKind {
     /// `L file.nc`, `LL NAME`, `L "a b.nc"`: name or path as written, without quotes.
     Program(Ident),
+    /// `L V.E.NAME`, `LV.E.NAME`: a variable holds the name.
+    Variable(Place),
     /// `L CYCLE [NAME=file @P1=..]`.
     Cycle(Group),
     /// `L SEQUENCE [NAME=.. N10 N50 REPEAT=2]`.

@@ -182,7 +182,26 @@ impl Builder<'_> {
                     Problem::new(Condition::ConditionalNotFirst, command.span, text).hint(hint),
                 );
             }
+            _ if bare => self.check_remark(command),
             _ => {}
+        }
+    }
+
+    /// A warning for `#VIB GUARD ON (MODE=2 FREQ=40)`: the keys stand in a remark.
+    fn check_remark(&mut self, command: &Command) {
+        let end = command.span.end() as usize;
+        let Some(behind) = self.text.get(end..) else { return };
+        let Some(remark) = behind.trim_ascii_start().strip_prefix('(') else { return };
+        let remark = remark.trim_ascii_start();
+        let key = remark.bytes().take_while(|b| b.is_ascii_alphanumeric() || *b == b'_').count();
+        let is_key = remark.starts_with(|c: char| c.is_ascii_alphabetic());
+        if is_key && remark[key..].trim_ascii_start().starts_with('=') {
+            let start = end + behind.len() - behind.trim_ascii_start().len();
+            let text = "a remark that reads like keys: it has no effect";
+            let problem = Problem::new(Condition::Odd, Span::new(start, start + 1), text)
+                .severity(Severity::Warning)
+                .hint("keys of a command stand in square brackets");
+            self.report(problem);
         }
     }
 

@@ -124,7 +124,12 @@ impl Builder<'_> {
         let mut kind = None;
         for part in pair.into_inner() {
             match part.as_rule() {
-                Rule::call_mark => local = part.as_str().len() > 1,
+                Rule::call_mark | Rule::joined_mark => local = part.as_str().len() > 1,
+                Rule::variable_call => kind = self.variable_call(part),
+                Rule::joined_variable => {
+                    let call = part.into_inner().find(|p| p.as_rule() == Rule::variable_call);
+                    kind = call.and_then(|p| self.variable_call(p));
+                }
                 Rule::cycle_call => {
                     kind = part.into_inner().next().map(|p| CallKind::Cycle(self.group(p)));
                 }
@@ -144,6 +149,11 @@ impl Builder<'_> {
         }
         let empty = Ident { text: "".into(), span: Span::default() };
         Call { local, kind: kind.unwrap_or(CallKind::Program(empty)) }
+    }
+
+    /// A program that a variable names.
+    fn variable_call(&mut self, pair: Pair<'_, Rule>) -> Option<CallKind> {
+        pair.into_inner().next().map(|place| CallKind::Variable(self.place(place)))
     }
 
     /// A file name, with or without quotes.

@@ -1,7 +1,7 @@
 //! Places of messages, the number of messages, and the end of a program.
 
 use super::{Executor, State};
-use crate::diag::{Diagnostic, Location};
+use crate::diag::{Condition, Diagnostic, Location};
 use crate::exec::block::dialect;
 use crate::exec::contour::Contour;
 use crate::exec::fault::Fault;
@@ -71,11 +71,16 @@ impl Executor {
         if let Some(location) = &mut diagnostic.source {
             location.block = location.block.or(self.decoder.report.source.block);
         }
+        let foreign = diagnostic.id == Condition::ForeignProgram.id();
         if diagnostic.is_error() {
             self.errors += 1;
             self.first_error.get_or_insert(self.blocks);
         }
         self.diagnostics.push(diagnostic);
+        if foreign {
+            // the rest of such a program would say the same in other words
+            self.end(EndReason::Aborted);
+        }
     }
 
     /// Ends the program: what was prepared is still driven.

@@ -112,8 +112,12 @@ impl Executor {
             Keyword::Remark => {
                 let at = entry.position;
                 if let Some(location) = self.place(at, entry.span) {
-                    let text = "a % block inside a program is taken as a remark";
-                    let d = Diagnostic::new(Condition::Percent, text).severity(Severity::Warning);
+                    let text = "a % block inside a program: taken as a remark here, the control refuses it";
+                    let condition = match self.levels.len() {
+                        1 => Condition::PercentInProgram,
+                        _ => Condition::PercentInSubroutine,
+                    };
+                    let d = Diagnostic::new(condition, text).severity(Severity::Warning);
                     self.report(d.at(location));
                 }
                 self.jump_behind(at);
@@ -308,6 +312,10 @@ impl Executor {
 
     /// `#IF`: the branch that is not taken is not looked at.
     fn conditional(&mut self, command: &Command, id: EntryId) {
+        if self.levels.last().is_some_and(|level| level.index.entry(id).end.is_none()) {
+            let text = "#IF without #ENDIF";
+            self.decoder.note(Fault::new(Condition::ConditionalOpen, text, command.span));
+        }
         let condition = if let [condition] = &command.arguments[..] {
             let outcome = self.decoder.condition(condition);
             self.decoder.keep(outcome).unwrap_or(false)

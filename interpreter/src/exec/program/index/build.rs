@@ -270,11 +270,7 @@ impl Builder<'_> {
             .rposition(|open| self.index.entries[*open as usize].keyword == opener);
         let Some(depth) = found else {
             let text = format!("{} without {}", keyword.text(), opener.text());
-            let d = match keyword {
-                Keyword::EndFor => Diagnostic::new(Condition::EndForWithoutFor, text),
-                Keyword::ElseIf => Diagnostic::new(Condition::ElseIfWithoutIf, text),
-                _ => Diagnostic::new(Condition::Syntax, text),
-            };
+            let d = Diagnostic::new(keyword.unexpected(), text);
             self.report(raw, head.at, name.len() + 1, d);
             return;
         };
@@ -287,7 +283,7 @@ impl Builder<'_> {
                 inner.keyword.text(),
                 inner.position.line
             );
-            let d = Diagnostic::new(Condition::Syntax, text);
+            let d = Diagnostic::new(keyword.unexpected(), text);
             self.report(raw, head.at, name.len() + 1, d);
             self.stack.truncate(depth + 1);
         }

@@ -34,6 +34,9 @@ pub(super) fn head(text: &str) -> Head<'_> {
                 label = number.parse().ok().map(LabelKind::Number);
                 rest = blank(behind);
             }
+        } else if let Some(number) = behind.strip_prefix(['P', 'p']) {
+            // `NP123`: the number is in a parameter
+            rest = blank(&number[digits(number)..]);
         }
     }
     if label.is_none()
@@ -45,6 +48,12 @@ pub(super) fn head(text: &str) -> Head<'_> {
             label_at = text.len() - rest.len();
             label = Some(LabelKind::Name(name.to_uppercase().into()));
             rest = blank(&rest[end + 1..]);
+            // the block number may stand behind the name: `[NAME] N10`
+            if let Some(behind) = rest.strip_prefix(['N', 'n'])
+                && digits(behind) > 0
+            {
+                rest = blank(&behind[digits(behind)..]);
+            }
         }
     }
     Head { skip, label, label_at, rest, at: text.len() - rest.len() }

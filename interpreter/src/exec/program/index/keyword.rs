@@ -1,5 +1,7 @@
 //! Control statements by their words, partners and closers.
 
+use crate::diag::Condition;
+
 /// What begins a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum Keyword {
@@ -113,6 +115,22 @@ impl Keyword {
             Self::ConditionalElse | Self::ConditionalEnd => Self::ConditionalIf,
             _ => return None,
         })
+    }
+
+    /// What is said where a clause or a closing statement does not fit the innermost open statement. Source: TF5200
+    /// diagnosis manual, 20214 to 20244; those of `$ENDDO` and `$UNTIL` were not found.
+    pub(super) fn unexpected(self) -> Condition {
+        match self {
+            Self::Else => Condition::ElseWithoutIf,
+            Self::ElseIf => Condition::ElseIfWithoutIf,
+            Self::EndIf => Condition::EndIfWithoutIf,
+            Self::Case => Condition::CaseWithoutSwitch,
+            Self::Default => Condition::DefaultWithoutSwitch,
+            Self::EndSwitch => Condition::EndSwitchWithoutSwitch,
+            Self::EndFor => Condition::EndForWithoutFor,
+            Self::EndWhile => Condition::EndWhileWithoutWhile,
+            _ => Condition::Syntax,
+        }
     }
 
     pub(in crate::exec) fn is_loop(self) -> bool {

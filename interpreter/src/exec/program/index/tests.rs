@@ -56,9 +56,9 @@ fn partners_of_control_statements() {
 fn structural_mistakes_have_their_ids() {
     assert_eq!(index("$ENDFOR\n").1, ["20232 1"]);
     assert_eq!(index("X1\n$ELSEIF P1\n").1, ["20216 2"]);
-    assert_eq!(index("$ELSE\n").1, ["K-0002 1"]);
+    assert_eq!(index("$ELSE\n").1, ["20214 1"]);
     assert_eq!(index("N1: X1\nN1: X2\n").1, ["20836 2"]);
-    assert_eq!(index("$WHILE P1\n$IF P2\n$ENDWHILE\n").1, ["K-0002 3"]);
+    assert_eq!(index("$WHILE P1\n$IF P2\n$ENDWHILE\n").1, ["20237 3"]);
     let deep = "$IF 1\n".repeat(65);
     assert_eq!(index(&deep).1, ["20211 65"]);
 }

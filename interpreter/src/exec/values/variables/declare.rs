@@ -6,6 +6,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
+use crate::exec::values::expr::whole;
 use crate::syntax::ast::{Declaration, Expr, ItemKind, ItemValue, Place, PlaceKind, Span};
 use smallvec::SmallVec;
 
@@ -36,12 +37,12 @@ impl Decoder {
         let count: usize = sizes.iter().product();
         if sizes.len() > DIMENSIONS_MAX {
             let text = format!("arrays have at most {DIMENSIONS_MAX} dimensions");
-            return Err(Fault::new(Condition::Range, text, span));
+            return Err(Fault::new(Condition::TooManyDimensions, text, span));
         }
         if !sizes.is_empty() && self.values.variables.elements.saturating_add(count) > ELEMENTS_MAX
         {
             let text = format!("all arrays together hold at most {ELEMENTS_MAX} elements");
-            return Err(Fault::new(Condition::Range, text, span));
+            return Err(Fault::new(Condition::DimensionTooLarge, text, span));
         }
         let values = self.start_values(declaration, kind, &sizes, count)?;
         let variable = Variable { kind: Some(kind), sizes, values };
@@ -60,7 +61,11 @@ impl Decoder {
         };
         if exists {
             let text = format!("{} exists already", declaration.place);
-            return Err(Fault::new(Condition::VariableExists, text, span));
+            let condition = match class_of {
+                None => Condition::ParameterExists,
+                Some(_) => Condition::VariableExists,
+            };
+            return Err(Fault::new(condition, text, span));
         }
         Ok(())
     }
@@ -115,7 +120,18 @@ impl Decoder {
 
     pub(super) fn sizes(&self, place: &Place) -> Outcome<SmallVec<[usize; 2]>> {
         let high = u32::try_from(ELEMENTS_MAX).unwrap_or(u32::MAX);
-        let size = |e: &Expr| self.whole(e, "the size of a dimension", 1, high).map(|n| n as usize);
+        let size = |e: &Expr| {
+            let x = self.number(e)?;
+            whole(x, 1, high).map(|n| n as usize).ok_or_else(|| {
+                let text = format!("the size of a dimension is {x}, allowed are 1 to {high}");
+                let condition = if x < 1.0 {
+                    Condition::DimensionTooSmall
+                } else {
+                    Condition::DimensionTooLarge
+                };
+                Fault::new(condition, text, e.span)
+            })
+        };
         match &place.kind {
             PlaceKind::Parameter { subscripts, .. } => subscripts.iter().map(size).collect(),
             PlaceKind::Variable(segments) => {

@@ -11,8 +11,6 @@ type Table = BTreeMap<Box<str>, Variable>;
 pub(super) struct CycleScope {
     /// Own P parameters.
     parameters: BTreeMap<u32, Variable>,
-    /// `V.CYC`.
-    variables: Table,
     /// `@P1`, `@X`, ... by the name behind `@`.
     pub(super) passed: BTreeMap<Box<str>, Value>,
 }
@@ -23,8 +21,10 @@ pub(in crate::exec) struct Variables {
     parameters: BTreeMap<u32, Variable>,
     program: Table,
     shared: Table,
-    /// One table per program level.
+    /// One table per program level: V.L.
     locals: Vec<Table>,
+    /// The same for V.CYC, which every program may declare. Source: TF5200 programming manual, cycle variables.
+    cycle: Vec<Table>,
     pub(super) cycles: Vec<CycleScope>,
     pub(super) external: BTreeMap<String, External>,
     pub(super) elements: usize,
@@ -32,18 +32,21 @@ pub(in crate::exec) struct Variables {
 
 impl Variables {
     pub(in crate::exec) fn new(external: BTreeMap<String, External>) -> Self {
-        Self { external, locals: vec![Table::new()], ..Self::default() }
+        let (locals, cycle) = (vec![Table::new()], vec![Table::new()]);
+        Self { locals, cycle, external, ..Self::default() }
     }
 
     /// Enters a program level.
     pub(in crate::exec) fn enter_level(&mut self) {
         self.locals.push(Table::new());
+        self.cycle.push(Table::new());
     }
 
     /// Leaves a program level: its local variables are gone.
     pub(in crate::exec) fn leave_level(&mut self) {
-        let gone = self.locals.pop().unwrap_or_default();
-        self.elements -= gone.values().map(Variable::elements).sum::<usize>();
+        for gone in [self.locals.pop(), self.cycle.pop()].into_iter().flatten() {
+            self.elements -= gone.values().map(Variable::elements).sum::<usize>();
+        }
     }
 
     /// Enters a cycle with the parameters passed to it.
@@ -53,9 +56,12 @@ impl Variables {
 
     pub(in crate::exec) fn leave_cycle(&mut self) {
         let gone = self.cycles.pop().unwrap_or_default();
-        let variables = gone.variables.values().map(Variable::elements).sum::<usize>();
-        let parameters = gone.parameters.values().map(Variable::elements).sum::<usize>();
-        self.elements -= variables + parameters;
+        self.elements -= gone.parameters.values().map(Variable::elements).sum::<usize>();
+    }
+
+    /// True inside a cycle.
+    pub(in crate::exec) fn is_cycle(&self) -> bool {
+        !self.cycles.is_empty()
     }
 
     /// Whether a cycle parameter was passed; `None` outside cycles.
@@ -75,7 +81,7 @@ impl Variables {
         match class {
             Class::Program => self.program.get(name),
             Class::Shared => self.shared.get(name),
-            Class::Cycle => self.cycles.last()?.variables.get(name),
+            Class::Cycle => self.cycle.iter().rev().find_map(|table| table.get(name)),
             Class::Local => self.locals.iter().rev().find_map(|table| table.get(name)),
         }
     }
@@ -84,7 +90,7 @@ impl Variables {
         match class {
             Class::Program => self.program.get_mut(name),
             Class::Shared => self.shared.get_mut(name),
-            Class::Cycle => self.cycles.last_mut()?.variables.get_mut(name),
+            Class::Cycle => self.cycle.iter_mut().rev().find_map(|table| table.get_mut(name)),
             Class::Local => self.locals.iter_mut().rev().find_map(|table| table.get_mut(name)),
         }
     }
@@ -94,7 +100,7 @@ impl Variables {
         match class {
             Class::Program => Some(&mut self.program),
             Class::Shared => Some(&mut self.shared),
-            Class::Cycle => self.cycles.last_mut().map(|c| &mut c.variables),
+            Class::Cycle => self.cycle.last_mut(),
             Class::Local => self.locals.last_mut(),
         }
     }
@@ -103,7 +109,7 @@ impl Variables {
         let tables: Vec<&Table> = match class {
             Class::Program => vec![&self.program],
             Class::Shared => vec![&self.shared],
-            Class::Cycle => self.cycles.last().map(|c| &c.variables).into_iter().collect(),
+            Class::Cycle => self.cycle.iter().collect(),
             Class::Local => self.locals.iter().collect(),
         };
         tables.into_iter().flat_map(|t| t.keys().map(|k| &**k)).collect()

@@ -68,8 +68,16 @@ impl Type {
             }
             Self::Text(length) => match value {
                 Value::Text(text) if text.chars().count() > length => {
-                    let text = format!("the text is longer than {length} characters");
-                    return Err(Fault::new(Condition::Range, text, span));
+                    let written = text.chars().count();
+                    let text =
+                        format!("a text of {written} characters, the variable holds {length}");
+                    return Err(Fault::new(Condition::TextTooLong, text, span).with(|d| {
+                        d.value(ValueKind::Wrong, written as f64, "-").value(
+                            ValueKind::UpperLimit,
+                            length as f64,
+                            "-",
+                        )
+                    }));
                 }
                 Value::Text(text) => Value::Text(text),
                 Value::Number(_) => {
@@ -78,6 +86,13 @@ impl Type {
             },
         })
     }
+}
+
+/// What an array is: the vendor has other numbers for P parameters than for variables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Owner {
+    Parameter,
+    Variable,
 }
 
 /// A variable.
@@ -98,15 +113,21 @@ impl Variable {
         Self { kind, sizes: SmallVec::new(), values: Values::One(value) }
     }
 
-    pub(super) fn get(&self, subscripts: &[f64], span: Span) -> Outcome<Value> {
-        match (&self.values, self.index(subscripts, span)?) {
+    pub(super) fn get(&self, subscripts: &[f64], owner: Owner, span: Span) -> Outcome<Value> {
+        match (&self.values, self.index(subscripts, owner, span)?) {
             (Values::One(value), _) => Ok(value.clone()),
             (Values::Many(values), i) => Ok(values[i].clone()),
         }
     }
 
-    pub(super) fn set(&mut self, subscripts: &[f64], value: Value, span: Span) -> Outcome<()> {
-        let i = self.index(subscripts, span)?;
+    pub(super) fn set(
+        &mut self,
+        subscripts: &[f64],
+        value: Value,
+        owner: Owner,
+        span: Span,
+    ) -> Outcome<()> {
+        let i = self.index(subscripts, owner, span)?;
         let value = match self.kind {
             Some(kind) => kind.converted(value, span)?,
             None => value,
@@ -118,22 +139,26 @@ impl Variable {
         Ok(())
     }
 
-    fn index(&self, subscripts: &[f64], span: Span) -> Outcome<usize> {
+    fn index(&self, subscripts: &[f64], owner: Owner, span: Span) -> Outcome<usize> {
+        let (wrong_count, wrong_index) = match owner {
+            Owner::Parameter => (Condition::ParameterUnknown, Condition::Range),
+            Owner::Variable => (Condition::Range, Condition::VariableIndex),
+        };
         if subscripts.len() != self.sizes.len() {
             let text = format!(
                 "{} subscript(s) are written, the variable has {} dimension(s)",
                 subscripts.len(),
                 self.sizes.len()
             );
-            return Err(Fault::new(Condition::Range, text, span));
+            return Err(Fault::new(wrong_count, text, span));
         }
         let mut index = 0;
         for (x, size) in subscripts.iter().zip(&self.sizes) {
             let high = u32::try_from(size - 1).unwrap_or(u32::MAX);
             let Some(i) = whole(*x, 0, high) else {
                 let text = format!("subscript {x} is outside 0 to {high}");
-                return Err(Fault::new(Condition::Range, text, span)
-                    .with(|d| d.value(ValueKind::Current, *x, "-")));
+                return Err(Fault::new(wrong_index, text, span)
+                    .with(|d| d.value(ValueKind::Wrong, *x, "-")));
             };
             index = index * size + i as usize;
         }

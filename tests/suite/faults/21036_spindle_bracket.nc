@@ -1,4 +1,4 @@
 ; check: exit 1
-; error K-0008 at 3:10
+; error 21036 at 3:10
 S[REV100 REV200]
 M30

@@ -1,0 +1,11 @@
+//! Zero-offset lists: index i is the group, 1 for G54 to 6 for G59, and the number of G159.
+
+use super::param::parameters;
+use super::row::{Bound, Raw, zero};
+
+parameters! {
+    zero("P-ZERO-00002", "default_index", Raw::Uns16, "group that is active at program start; 0: none (G53)")
+        .range(Bound::At(0.0), Bound::At(96.0)).default(0.0), as DEFAULT_GROUP: Whole;
+    zero("P-ZERO-00003", "np_grp[i].achse[j].versch", Raw::Sgn32, "zero offset of axis j of the channel in group i")
+        .default(0.0).unit("0.1um", "0.0001deg"), as OFFSET: Number;
+}

@@ -1,0 +1,91 @@
+//! Tool data and zero offsets that the lists of a channel hold.
+//!
+//! Source: TF5200 tool data (P-TOOL), TF5200 zero offsets (P-ZERO); start-up list P-STUP-00010, P-STUP-00011.
+
+use super::parameters::Parameters;
+use super::table::{tool, zero};
+use std::collections::BTreeMap;
+
+/// mm in one inch.
+const INCH_MM: f64 = 25.4;
+
+/// One tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool {
+    /// P-TOOL-00004 in mm.
+    pub radius_mm: f64,
+    /// P-TOOL-00003 in mm.
+    pub length_mm: f64,
+    /// Offsets by the index of the axis in the channel, in mm or deg (P-TOOL-00006).
+    pub offsets_mm: BTreeMap<usize, f64>,
+    /// Free parameters (P-TOOL-00007).
+    pub parameters: BTreeMap<u32, f64>,
+    /// P-TOOL-00005; data that a program writes are valid.
+    pub is_valid: bool,
+}
+
+impl Default for Tool {
+    fn default() -> Self {
+        Self {
+            radius_mm: 0.0,
+            length_mm: 0.0,
+            offsets_mm: BTreeMap::new(),
+            parameters: BTreeMap::new(),
+            is_valid: true,
+        }
+    }
+}
+
+/// Zero offsets of a channel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ZeroOffsets {
+    /// mm or deg by group and index of the axis in the channel (P-ZERO-00003).
+    pub entries: BTreeMap<(u32, usize), f64>,
+    /// Group that is active at program start (P-ZERO-00002).
+    pub start_group: u32,
+}
+
+/// Tools of a list by the number of the D word. D0 is no tool: what a list says of it does not count.
+pub(super) fn tools(list: &Parameters) -> BTreeMap<u32, Tool> {
+    let mut tools = BTreeMap::new();
+    for (indices, setting) in list.settings() {
+        let [i, j] = indices;
+        if i == 0 {
+            continue;
+        }
+        let known: &mut Tool = tools.entry(i).or_insert_with(|| tool_of(list, i));
+        let scale = scale(list, i);
+        if setting.row.key == tool::OFFSET.place().row.key {
+            known.offsets_mm.insert(j as usize, list.get(tool::OFFSET.at(i).and(j)) * scale);
+        } else if setting.row.key == tool::PARAMETER.place().row.key {
+            known.parameters.insert(j, list.get(tool::PARAMETER.at(i).and(j)));
+        }
+    }
+    tools
+}
+
+fn tool_of(list: &Parameters, i: u32) -> Tool {
+    let scale = scale(list, i);
+    Tool {
+        radius_mm: list.get(tool::RADIUS.at(i)) * scale,
+        length_mm: list.get(tool::LENGTH.at(i)) * scale,
+        is_valid: list.get(tool::VALID.at(i)),
+        ..Tool::default()
+    }
+}
+
+/// mm in one unit of the tool's lengths, which the list has in steps of 0.0001.
+fn scale(list: &Parameters, i: u32) -> f64 {
+    if list.get(tool::INCH.at(i)) { INCH_MM } else { 1.0 }
+}
+
+/// Zero offsets of a list.
+pub(super) fn zero_offsets(list: &Parameters) -> ZeroOffsets {
+    let offset = zero::OFFSET.place().row.key;
+    let entries = list
+        .settings()
+        .filter(|(_, setting)| setting.row.key == offset)
+        .map(|([i, j], _)| ((i, j as usize), list.get(zero::OFFSET.at(i).and(j))))
+        .collect();
+    ZeroOffsets { entries, start_group: list.get(zero::DEFAULT_GROUP) }
+}

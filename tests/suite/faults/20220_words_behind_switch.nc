@@ -1,0 +1,7 @@
+; check: exit 1
+; error 20220 at 4:12
+P1=5
+$SWITCH P1 G01 X100 F1000
+$CASE 5
+$ENDSWITCH
+M30

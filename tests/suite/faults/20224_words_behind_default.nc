@@ -1,0 +1,6 @@
+; check: exit 1
+; error 20224 at 4:10
+$SWITCH 5
+$DEFAULT X100
+$ENDSWITCH
+M30

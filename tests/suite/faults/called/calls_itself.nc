@@ -1,0 +1,2 @@
+L calls_itself.nc
+M17
