@@ -58,7 +58,7 @@ pub struct AxisControlConfig {
     /// Additive inputs of the drive.
     pub additive_inputs: AdditiveInputs,
     /// Delay of the position path in cycles, the same for every axis of a channel
-    /// ([`channel_delay_cycles`](super::buffer::channel_delay_cycles)). Never less than the axis' own feedforward
+    /// ([`channel_delay_cycles`](super::feedforward::channel_delay_cycles)). Never less than the axis' own feedforward
     /// needs.
     pub delay_cycles: usize,
     /// Position controller.

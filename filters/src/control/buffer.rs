@@ -6,26 +6,16 @@
 //!
 //! Source: TF5200 axis parameters, P-AXIS-00566 (five cycles); TF5200 feedforward control (at least one cycle).
 
-use super::feedforward::FeedforwardConfig;
-
 /// One cycle of one axis as it enters the buffer: flags travel with their position, so that a switch acts on the
 /// motion it was programmed for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Setpoint {
     /// Set position in mm.
     pub position_mm: f64,
-    /// Feedforward gain 0..=1 ([`FeedforwardConfig::gain`]).
+    /// Feedforward gain 0..=1 ([`FeedforwardConfig::gain`](super::FeedforwardConfig::gain)).
     pub gain: f64,
     /// The motion has a jerk-limited slope (TRAPEZ, SIN2, HSC).
     pub jerk_limited: bool,
-}
-
-/// Delay in cycles that every axis of a channel gets.
-///
-/// The PROFIdrive time offset (P-AXIS-00165) delays the position path further.
-/// Assumption: the largest offset of the channel delays all its axes, for the reason given above.
-pub fn channel_delay_cycles<'a>(axes: impl IntoIterator<Item = &'a FeedforwardConfig>) -> usize {
-    axes.into_iter().map(FeedforwardConfig::delay_cycles).max().unwrap_or(0)
 }
 
 /// Six successive setpoints around the one that feedforward is computed for.
@@ -149,7 +139,6 @@ mod tests {
     #![expect(clippy::float_cmp, reason = "exact values are what is tested")]
 
     use super::*;
-    use crate::control::feedforward::FeedforwardMode;
 
     fn at(position_mm: f64) -> Setpoint {
         Setpoint { position_mm, gain: position_mm / 100.0, jerk_limited: position_mm > 6.0 }
@@ -204,17 +193,5 @@ mod tests {
         (0..20).for_each(|k| buffer.push(at(f64::from(k))));
         assert_eq!(buffer.reference_mm(), 11.0);
         assert_eq!(buffer.window().positions_mm[2], 14.0, "three cycles later than the reference");
-    }
-
-    #[test]
-    fn channel_takes_the_longest_delay() {
-        let off = FeedforwardConfig::default();
-        let on = FeedforwardConfig { mode: FeedforwardMode::VEL, ..off };
-        let short = FeedforwardConfig { without_delay: true, ..on };
-        assert_eq!(channel_delay_cycles([&off, &off]), 0);
-        assert_eq!(channel_delay_cycles([&off, &on, &short]), 5);
-        assert_eq!(channel_delay_cycles([&off, &short]), 1);
-        assert_eq!(channel_delay_cycles([]), 0);
-        assert_eq!(channel_delay_cycles([&on, &FeedforwardConfig { shift_cycles: 3, ..on }]), 8);
     }
 }

@@ -112,6 +112,15 @@ impl Default for FeedforwardConfig {
     }
 }
 
+/// Delay in cycles that every axis of a channel gets.
+///
+/// The PROFIdrive time offset (P-AXIS-00165) delays the position path further.
+/// Assumption: the largest offset of the channel delays all its axes, because they have to stay in step
+/// ([`buffer`](super::buffer)).
+pub fn channel_delay_cycles<'a>(axes: impl IntoIterator<Item = &'a FeedforwardConfig>) -> usize {
+    axes.into_iter().map(FeedforwardConfig::delay_cycles).max().unwrap_or(0)
+}
+
 impl FeedforwardConfig {
     /// Delay limit of the additive values in cycles.
     ///

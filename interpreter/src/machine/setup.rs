@@ -15,7 +15,7 @@ pub use filters::{AdditionalInterface, FirPreset, KernelPreset, VibGuardPreset};
 use super::{Axis, Machine, issues};
 use crate::diag::Diagnostic;
 use kontur_filters::{
-    control::{AxisControlConfig, IpcConfig, Issue, buffer::channel_delay_cycles},
+    control::{AxisControlConfig, IpcConfig, Issue, feedforward::channel_delay_cycles},
     iir::AxisFilter,
     stage::Stage,
     time::CycleTime,

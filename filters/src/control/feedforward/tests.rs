@@ -173,3 +173,15 @@ fn corrections() {
     let both = FeedforwardConfig { default_active: true, global_disable: true, ..conventional };
     assert_eq!(both.checked(T, BOTH).1, [Issue::ActiveAndDisabled]);
 }
+
+#[test]
+fn channel_takes_the_longest_delay() {
+    let off = FeedforwardConfig::default();
+    let on = FeedforwardConfig { mode: FeedforwardMode::VEL, ..off };
+    let short = FeedforwardConfig { without_delay: true, ..on };
+    assert_eq!(channel_delay_cycles([&off, &off]), 0);
+    assert_eq!(channel_delay_cycles([&off, &on, &short]), 5);
+    assert_eq!(channel_delay_cycles([&off, &short]), 1);
+    assert_eq!(channel_delay_cycles([]), 0);
+    assert_eq!(channel_delay_cycles([&on, &FeedforwardConfig { shift_cycles: 3, ..on }]), 8);
+}
