@@ -14,6 +14,9 @@ pub(crate) const SAME_START_MM: f64 = 1e-9;
 /// Share by which a vector may be longer than the shortest one and still be taken for it.
 const WARY: f64 = 0.05;
 
+/// How fast the say of a block falls that is further away than the nearest one: its power of the ratio of both.
+const FADING: f64 = 8.0;
+
 /// Blocks as the interpolator entered them. One that a change of speed divides is entered once more for its rest.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contour {
@@ -156,11 +159,21 @@ impl Contour {
         start..self.whole(end)
     }
 
-    /// As [`Self::nearest`] for the blocks that the path lengths `from..=to` lie in.
-    pub(crate) fn nearest_along(&self, point: &[f64], from: f64, to: f64, out: &mut [f64]) {
+    /// Largest component of the shortest vector to a point from the blocks that the path lengths `from..=to` lie in. A block
+    /// that is hardly further away counts hardly less, so that where two of them are equally near nothing jumps.
+    pub(crate) fn aside(&self, point: &[f64], from: f64, to: f64) -> f64 {
         let first = self.blocks.partition_point(|b| b.s_mm <= from).saturating_sub(1);
         let last = self.blocks.partition_point(|b| b.s_mm <= to).max(first);
-        nearest(self.blocks.range(first..self.whole(last)), point, out);
+        let mut q = AxisVec::zeros(point.len());
+        let mut vectors: SmallVec<[(f64, f64); 16]> = SmallVec::new();
+        for passed in self.blocks.range(first..self.whole(last)) {
+            let distance = passed.distance(point, &mut q);
+            let component = q.iter().zip(point).map(|(q, p)| (q - p).abs()).fold(0.0, f64::max);
+            vectors.push((distance, component));
+        }
+        let least = vectors.iter().map(|v| v.0).fold(f64::INFINITY, f64::min);
+        let share = |d: f64| if d > least { libm::pow(least / d, FADING) } else { 1.0 };
+        vectors.iter().map(|(d, c)| c * share(*d)).fold(0.0, f64::max)
     }
 
     /// Moments in cycles and places of the kinks that were passed behind `from`, up to `to`.
@@ -181,10 +194,33 @@ impl Contour {
         i.checked_sub(1).and_then(|i| self.blocks.get(i)).is_some_and(|b| b.queued.bend > 0.0)
     }
 
+    /// Points of the contour near each other.
+    pub(crate) fn walk(&self) -> Walk<'_> {
+        Walk { contour: self, at: None }
+    }
+}
+
+/// See [`Contour::walk`].
+pub(crate) struct Walk<'a> {
+    contour: &'a Contour,
+    /// Block of the last point.
+    at: Option<usize>,
+}
+
+impl Walk<'_> {
     /// Point of the contour at a path length of the program; the ends of what is known beyond them.
-    pub(crate) fn position(&self, s_mm: f64, out: &mut [f64]) {
-        let i = self.blocks.partition_point(|b| b.s_mm <= s_mm).saturating_sub(1);
-        if let Some(passed) = self.blocks.get(i) {
+    pub(crate) fn position(&mut self, s_mm: f64, out: &mut [f64]) {
+        let blocks = &self.contour.blocks;
+        let mut i =
+            self.at.unwrap_or_else(|| blocks.partition_point(|b| b.s_mm <= s_mm).saturating_sub(1));
+        while i > 0 && blocks[i].s_mm > s_mm {
+            i -= 1;
+        }
+        while blocks.get(i + 1).is_some_and(|b| b.s_mm <= s_mm) {
+            i += 1;
+        }
+        self.at = Some(i);
+        if let Some(passed) = blocks.get(i) {
             let queued = &passed.queued;
             let s = (s_mm - passed.s_mm).clamp(0.0, queued.length);
             queued.block.path.position(queued.offset + s, out);

@@ -3,7 +3,7 @@
 use crate::profile::{SpanProfile, SpeedChange, State};
 
 /// A planned span, or a change of speed out of a moving state.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Course {
     Span(SpanProfile),
     Change(SpeedChange),

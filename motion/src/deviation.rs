@@ -191,15 +191,15 @@ impl SetPath {
         (1..=parts).map(component).fold(0.0, f64::max)
     }
 
-    /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest. Beyond
-    /// `wary_mm` whatever could be called the shortest vector counts.
+    /// (b) of a point of the contour, from the set path between two cycles; returns the cycle that comes nearest and the
+    /// vector to it. Beyond `wary_mm` whatever could be called the shortest vector counts.
     pub(crate) fn misses(
         &self,
         point: &[f64],
         (first, last): (u64, u64),
         wary_mm: f64,
         out: &mut Excursion,
-    ) -> Option<u64> {
+    ) -> Option<(u64, AxisVec)> {
         let (first, last) = (first.max(self.first), last.min(self.end().checked_sub(1)?));
         let mut best = (f64::INFINITY, first);
         let mut distances: SmallVec<[f64; 64]> = SmallVec::new();
@@ -217,6 +217,7 @@ impl SetPath {
         let mut vector = AxisVec::zeros(self.axes);
         self.aside(k, point, &mut vector);
         out.take(&vector);
+        let nearest = vector.clone();
         if d2 > wary_mm * wary_mm {
             let within = (1.0 + ALIKE) * (1.0 + ALIKE) * d2;
             for (k, d2) in (first..last).zip(distances) {
@@ -226,7 +227,7 @@ impl SetPath {
                 }
             }
         }
-        Some(k + 1)
+        Some((k + 1, nearest))
     }
 
     /// Square of the distance of a point from the line between cycle `k` and cycle `k + 1`, and where along the line.

@@ -25,7 +25,7 @@ use crate::queue::Queued;
 use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
 use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment, PathState, Timeline};
-use crate::tolerance::{Kernels, Monitor, Unkept};
+use crate::tolerance::{Demands, Kernels, Monitor, Unkept};
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -92,6 +92,8 @@ pub struct Planner {
     reach_cycles: u32,
     unkept: Vec<Unkept>,
     brake: Option<Brake>,
+    /// What the tolerance asks of the queued blocks, as far as they have been planned.
+    demands: Demands,
     /// Rest of the last plan, from the cursor to rest.
     reserve: VecDeque<Entry>,
     /// Override and feedhold in effect, and those asked for.
@@ -132,6 +134,7 @@ impl Planner {
             reach_cycles: 0,
             unkept: Vec::new(),
             brake: None,
+            demands: Demands::default(),
             reserve: VecDeque::new(),
             active: Realtime::default(),
             wanted: Realtime::default(),

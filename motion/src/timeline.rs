@@ -16,7 +16,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// A moment: seconds after a cycle tick, the seconds kept as a sum with its rounding error.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Moment {
     pub(crate) origin: u64,
     after_s: f64,
@@ -70,6 +70,8 @@ pub(crate) struct Entry {
     pub(crate) caps: SmallVec<[Cap; 1]>,
     /// The motion ends here, at its next tick.
     pub(crate) stops: bool,
+    /// Where the entry began when it was measured last, if it kept the tolerance then.
+    pub(crate) kept: Option<Moment>,
     /// Time in s since the start from which on another entry takes over.
     cut_s: Option<f64>,
 }
@@ -141,6 +143,7 @@ impl Entry {
             feeds: SmallVec::new(),
             caps: SmallVec::new(),
             stops,
+            kept: None,
             cut_s: None,
         }
     }
@@ -274,7 +277,7 @@ impl Timeline {
         self.entries.push_back(entry);
     }
 
-    pub(crate) fn entries(&self) -> impl Iterator<Item = &Entry> {
+    pub(crate) fn entries(&self) -> impl DoubleEndedIterator<Item = &Entry> {
         self.entries.iter()
     }
 
@@ -286,11 +289,6 @@ impl Timeline {
     /// Takes all entries out.
     pub(crate) fn take(&mut self) -> VecDeque<Entry> {
         std::mem::take(&mut self.entries)
-    }
-
-    /// Path states of rising cycles; a cycle behind the end of a motion rests at its end until the next one starts.
-    pub(crate) fn reader(&self) -> Reader<'_> {
-        Reader { timeline: self, at: 0 }
     }
 
     /// Drops what lies before cycle `k` and fills `out`; false if `k` lies behind the last span.
@@ -320,27 +318,36 @@ impl Entry {
     }
 }
 
-/// See [`Timeline::reader`].
+/// Path states of rising cycles along what is final and a plan behind it; a cycle behind the end of a motion rests at its
+/// end until the next one starts.
 #[derive(Debug)]
 pub(crate) struct Reader<'a> {
-    timeline: &'a Timeline,
+    placed: &'a VecDeque<Entry>,
+    plan: &'a [Entry],
     at: usize,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    pub(crate) fn new(timeline: &'a Timeline, plan: &'a [Entry]) -> Self {
+        Self { placed: &timeline.entries, plan, at: 0 }
+    }
+
+    fn get(&self, i: usize) -> Option<&'a Entry> {
+        self.placed.get(i).or_else(|| self.plan.get(i - self.placed.len()))
+    }
+
     /// State in cycle `k`; cycles before the first or behind the last span rest at its end.
     pub(crate) fn state(&mut self, k: u64, cycle: CycleTime, out: &mut PathState) {
-        let entries = &self.timeline.entries;
         let started = |e: &Entry| {
             k >= e.start.origin && cycle.time_of(k - e.start.origin) >= e.start.seconds()
         };
-        while self.at > 0 && !started(&entries[self.at]) {
+        while self.at > 0 && !self.get(self.at).is_some_and(started) {
             self.at -= 1;
         }
-        while entries.get(self.at + 1).is_some_and(started) {
+        while self.get(self.at + 1).is_some_and(started) {
             self.at += 1;
         }
-        if let Some(e) = entries.get(self.at) {
+        if let Some(e) = self.get(self.at) {
             e.state(k, cycle, out);
         }
     }

@@ -48,6 +48,8 @@
 //! with the best even speed (`EVEN=1`).
 
 mod blame;
+mod even;
+mod measure;
 mod search;
 mod tighten;
 mod view;
@@ -55,10 +57,13 @@ mod view;
 use crate::axis::AxisVec;
 use crate::contour::Contour;
 use crate::queue::Queued;
-use crate::timeline::Timeline;
+use crate::timeline::{Entry, Moment, Timeline};
 use blame::Findings;
+use even::foresee;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
+use measure::{Record, Violation};
+use search::joined;
 use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -69,6 +74,8 @@ const MARGIN_MM: f64 = 2e-7;
 /// How far behind the kernel a block may have been left and still count as within reach, in cycles: nobody can tell
 /// from a trace on which side of a sample a border lies.
 const BORDER_CYCLES: f64 = 5.0;
+/// Taps of a kernel in the search for an even speed.
+const COARSE: usize = 24;
 /// Raw setpoints kept, in lengths of the kernel: set points of one length, and one more in front of a stretch.
 const HELD: usize = 3;
 /// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
@@ -86,6 +93,10 @@ pub struct Kernels {
     overshoot: bool,
     /// Not all axes have the same kernel.
     unequal: bool,
+    /// Delay of the longest kernel in cycles.
+    delay: f64,
+    /// Every axis' kernel in few taps: weights, and mean delays in cycles.
+    coarse: Vec<Vec<(f64, f64)>>,
 }
 
 impl Kernels {
@@ -94,7 +105,10 @@ impl Kernels {
         let mut taps = axes.iter().flatten().flat_map(|k| k.taps());
         let overshoot = taps.any(|tap| tap.weight < 0.0);
         let unequal = axes.windows(2).any(|pair| pair[0] != pair[1]);
-        Self { axes, overshoot, unequal }
+        let delay = longest(&axes).map_or(0.0, Kernel::delay_cycles);
+        let coarse = axes.iter().map(|k| k.as_ref().map_or_else(|| vec![(1.0, 0.0)], coarse));
+        let coarse = coarse.collect();
+        Self { axes, overshoot, unequal, delay, coarse }
     }
 
     /// True if any axis has a kernel.
@@ -113,12 +127,27 @@ impl Kernels {
     }
 
     fn longest(&self) -> Option<&Kernel> {
-        self.axes.iter().flatten().max_by_key(|k| k.length()).map(|k| &**k)
+        longest(&self.axes)
     }
 
     fn get(&self, i: usize) -> Option<&Kernel> {
         self.axes.get(i).and_then(|k| k.as_deref())
     }
+}
+
+fn longest(axes: &[Option<Arc<Kernel>>]) -> Option<&Kernel> {
+    axes.iter().flatten().max_by_key(|k| k.length()).map(|k| &**k)
+}
+
+/// A kernel of many taps in few.
+fn coarse(kernel: &Arc<Kernel>) -> Vec<(f64, f64)> {
+    let taps = kernel.taps();
+    let parts = taps.chunks(taps.len().div_ceil(COARSE)).filter_map(|part| {
+        let weight: f64 = part.iter().map(|t| t.weight).sum();
+        let delay: f64 = part.iter().map(|t| t.weight * f64::from(t.delay)).sum();
+        (weight.abs() > 0.0).then(|| (weight, delay / weight))
+    });
+    parts.collect()
 }
 
 /// A block whose tolerance could not be kept.
@@ -145,7 +174,8 @@ pub(crate) enum Verdict {
     GivenUp(Unkept),
 }
 
-/// What the monitor asks of the next plan, one entry per boundary or block of the window.
+/// What the monitor asks of the blocks ahead, one entry per boundary or block of the window; it stays with them when the
+/// window moves on.
 #[derive(Clone, Debug)]
 pub(crate) struct Demands {
     /// Velocity cap at each boundary.
@@ -158,28 +188,33 @@ pub(crate) struct Demands {
     acceleration: Vec<f64>,
     /// Speed and excess at each boundary when it was last found too fast.
     tried: Vec<Option<(f64, f64)>>,
+    /// First boundary whose even speed is not known yet, see [`foresee`].
+    foreseen: usize,
+}
+
+impl Default for Demands {
+    fn default() -> Self {
+        let (cap, stop, tried) = (vec![f64::INFINITY], vec![None], vec![None]);
+        Self { cap, stop, feed: Vec::new(), acceleration: Vec::new(), tried, foreseen: 0 }
+    }
 }
 
 impl Demands {
-    pub(crate) fn none(blocks: usize) -> Self {
-        Self {
-            cap: vec![f64::INFINITY; blocks + 1],
-            stop: vec![None; blocks + 1],
-            feed: vec![f64::INFINITY; blocks],
-            acceleration: vec![1.0; blocks],
-            tried: vec![None; blocks + 1],
-        }
-    }
-
-    /// What is known before a plan: axes whose filters have different delays leave a straight line by the speed times the
-    /// difference, so a line long enough to be run through evenly has a speed of its own.
-    pub(crate) fn of(window: &[Arc<Queued>], kernels: &Kernels, cycle: CycleTime) -> Self {
-        let mut demands = Self::none(window.len());
+    /// Adds what is known of blocks before they are planned: axes whose filters have different delays leave a straight line
+    /// by the speed times the difference, so a line long enough to be run through evenly has a speed of its own.
+    pub(crate) fn reach_over(
+        &mut self,
+        window: &[Arc<Queued>],
+        kernels: &Kernels,
+        cycle: CycleTime,
+    ) {
+        let known = self.feed.len();
+        self.insert(known, window.len().saturating_sub(known), f64::INFINITY);
         if !kernels.unequal {
-            return demands;
+            return;
         }
         let delay = |i: usize| kernels.get(i).map_or(0.0, Kernel::delay_cycles) * cycle.seconds();
-        for (queued, feed) in window.iter().zip(&mut demands.feed) {
+        for (queued, feed) in window.iter().zip(&mut self.feed).skip(known) {
             let Some(tolerance) = queued.block.tolerance.ax_dev_mm else { continue };
             if !queued.block.path.is_straight() {
                 continue;
@@ -194,7 +229,30 @@ impl Demands {
                 *feed = speed;
             }
         }
-        demands
+    }
+
+    /// Makes room for `count` blocks in front of block `at`, held to nothing but a speed.
+    pub(crate) fn insert(&mut self, at: usize, count: usize, feed: f64) {
+        fn fill<T: Clone>(list: &mut Vec<T>, at: usize, count: usize, value: T) {
+            list.splice(at..at, std::iter::repeat_n(value, count));
+        }
+        fill(&mut self.cap, at, count, f64::INFINITY);
+        fill(&mut self.stop, at, count, None);
+        fill(&mut self.tried, at, count, None);
+        fill(&mut self.feed, at, count, feed);
+        fill(&mut self.acceleration, at, count, 1.0);
+        self.foreseen = self.foreseen.min(at);
+    }
+
+    /// Forgets the first blocks, which are final. The boundary behind them has only what is asked of it from now on.
+    pub(crate) fn pass(&mut self, blocks: usize) {
+        self.cap.drain(..blocks);
+        self.stop.drain(..blocks);
+        self.tried.drain(..blocks);
+        self.feed.drain(..blocks);
+        self.acceleration.drain(..blocks);
+        (self.cap[0], self.stop[0], self.tried[0]) = (f64::INFINITY, None, None);
+        self.foreseen = self.foreseen.saturating_sub(blocks);
     }
 
     /// The blocks with the acceleration that is left to them.
@@ -223,11 +281,10 @@ pub(crate) struct Monitor {
 
 /// A plan under examination.
 pub(crate) struct Trial<'a> {
-    /// What is final and the plan behind it.
+    /// What is final.
     pub(crate) timeline: &'a Timeline,
-    /// Entries of the timeline that are final.
-    pub(crate) placed: usize,
-    pub(crate) window: &'a [Arc<Queued>],
+    /// The plan behind it.
+    pub(crate) plan: &'a [Entry],
     pub(crate) past: &'a Contour,
     pub(crate) kernels: &'a Kernels,
     pub(crate) cycle: CycleTime,
@@ -256,33 +313,80 @@ impl Monitor {
 
     /// What of the final part of a trial does not keep the tolerance.
     pub(crate) fn excess(&self, trial: &Trial<'_>) -> Option<Unkept> {
-        View::new(trial, self).search(|_, _| ())
+        View::new(trial, self).search(&[(trial.now + 1, u64::MAX)], |_, _| ())
     }
 
     /// Examines a plan, and tightens the demands if it does not keep the tolerance.
+    ///
+    /// Of a plan that has been examined before only what has changed is measured, and last of all, if that keeps the
+    /// tolerance, what has moved in time: the set points lie elsewhere then. Returns for every entry where it was measured,
+    /// see [`Entry::kept`].
     pub(crate) fn examine(
         &self,
         trial: &Trial<'_>,
         round: usize,
         demands: &mut Demands,
-    ) -> Verdict {
+    ) -> (Verdict, Vec<Option<Moment>>) {
         let view = View::new(trial, self);
-        let mut findings = Findings::none(trial.window.len());
+        let blocks = demands.feed.len();
+        let mut findings = Findings::none(blocks);
         // after many rounds everything in reach counts as a cause
-        let all = round >= ROUNDS_OF_SPEED + ROUNDS_PER_BLOCK * trial.window.len();
-        let worst = view.search(|v, record| view.blame(v, record, all, demands, &mut findings));
+        let all = round >= ROUNDS_OF_SPEED + ROUNDS_PER_BLOCK * blocks;
+        let mut exceeded: Vec<u64> = Vec::new();
+        let mut found = |v: &Violation, record: &Record| {
+            exceeded.push(v.cycle);
+            view.blame(v, record, all, demands, &mut findings);
+        };
+        let is_new = |e: &Entry| e.kept.is_none();
+        let is_moved = |e: &Entry| e.kept.is_some_and(|at| at != e.start);
+        let worst = view.search(&trial.reached_by(is_new), &mut found);
+        let calm = worst.is_none();
+        let worst = worst.or_else(|| view.search(&trial.reached_by(is_moved), &mut found));
+        let reach = 2.0 * f64::from(trial.kernels.length()) + 4.0;
+        let kept = trial.plan.iter().map(|e| {
+            let [from, to] = [e.start, e.end].map(|m| m.cycles(trial.cycle));
+            let near = |k: &u64| (from - reach..=to + reach).contains(&(*k as f64));
+            if exceeded.iter().any(near) {
+                None
+            } else if calm || is_new(e) {
+                Some(e.start)
+            } else {
+                e.kept
+            }
+        });
+        let kept = kept.collect();
         let Some(worst) = worst else {
-            return Verdict::Kept;
+            return (Verdict::Kept, kept);
         };
         let parts = view.parts(&findings);
         if !parts.is_empty() {
-            return Verdict::Divided(parts);
+            return (Verdict::Divided(parts), kept);
         }
         // an answer at one corner can make another one necessary at the next
-        if round >= ROUNDS + ROUNDS_PER_BLOCK * trial.window.len() {
-            return Verdict::GivenUp(worst);
+        if round >= ROUNDS + ROUNDS_PER_BLOCK * blocks {
+            return (Verdict::GivenUp(worst), kept);
         }
-        view.tighten(&findings, all, demands);
-        Verdict::Tightened
+        let blocks = trial.plan.iter().flat_map(|e| &e.blocks);
+        let window: Vec<Arc<Queued>> = blocks.map(|(queued, _)| Arc::clone(queued)).collect();
+        let start = trial.plan.first().map_or(0.0, |e| e.s0);
+        let filters = (trial.kernels, trial.cycle);
+        if round > 0 || !foresee(demands, &window, trial.past, start, filters) {
+            view.tighten(&findings, all, demands);
+        }
+        (Verdict::Tightened, kept)
+    }
+}
+
+impl Trial<'_> {
+    /// Cycles still to come whose set points, or what they miss, depend on some entries.
+    fn reached_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
+        let reach = 2.0 * f64::from(self.kernels.length()) + 5.0;
+        let entries = self.timeline.entries().chain(self.plan).filter(|e| which(e));
+        let cycles = entries.map(|e| {
+            let [from, to] = [e.start, e.end].map(|m| m.cycles(self.cycle));
+            ((from - 3.0).max(0.0) as u64, (to + reach).ceil() as u64)
+        });
+        let ahead = cycles.map(|(from, to)| (from.max(self.now + 1), to));
+        joined(ahead.filter(|(from, to)| from <= to).collect(), 0)
     }
 }

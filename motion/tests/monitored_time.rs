@@ -16,7 +16,7 @@ const CYCLE_US: u32 = 1000;
 
 /// Parts of the time: a higher feed, a larger tolerance, mirrored or permuted or moved by 1e-9 mm, every line in two, half
 /// a percent more frequency or tolerance.
-const BOUNDS: [f64; 5] = [0.03, 0.01, 1e-3, 0.07, 0.04];
+const BOUNDS: [f64; 5] = [0.01, 0.01, 1e-3, 0.08, 0.04];
 
 type Points = Vec<[f64; 3]>;
 
@@ -85,7 +85,7 @@ fn rises(case: &Case, harder: impl Fn(f64) -> Case) -> f64 {
 }
 
 /// The bounds are wider than what is wanted (0.1 % for another form, nothing for more feed or tolerance): the search for who
-/// has to slow down is no optimum. With other seeds a higher feed costs up to 15 %. `COUNT=200 SEED=7` takes more contours;
+/// has to slow down is no optimum. With other seeds a higher feed costs up to 1.4 %. `COUNT=200 SEED=7` takes more contours;
 /// what is found is printed.
 #[test]
 fn more_feed_or_tolerance_and_another_form() {
@@ -137,4 +137,69 @@ fn more_feed_or_tolerance_and_another_form() {
         }
     }
     println!("feed, tolerance, same form, in two, neighbours: {most:.4?}");
+}
+
+/// Chords of circles, whose kinks lie within reach of each other at one feed and apart at another: a higher feed hardly ends
+/// in a slower plan (0 is wanted; it was 72 %).
+#[test]
+fn chords_at_rising_feeds() {
+    for (radius, chord) in [(0.6, 0.3), (3.0, 0.5), (10.0, 0.2), (20.0, 1.5)] {
+        let count = (5.0 * radius / chord) as usize;
+        let turn = |i: usize| chord / radius * i as f64;
+        let points: Points = (0..=count)
+            .map(|i| [radius * libm::sin(turn(i)), radius * (1.0 - libm::cos(turn(i))), 0.0])
+            .collect();
+        for (mode, freq_hz) in [(1, 53.0), (2, 20.0), (3, 35.0), (4, 15.0)] {
+            for kind in [Hsc, Trapez, Sin2] {
+                let case = Case {
+                    kind,
+                    feed_mm_s: 10.0,
+                    acc_mm_s2: 4000.0,
+                    ramp_s: 0.018,
+                    kink_weight: 11.0,
+                    guard: VibGuardSettings { mode, freq_hz, damping: 0.04 },
+                    tolerance: Tolerance { ax_dev_mm: Some(0.012), acc_fact: 1.0 },
+                    points: points.clone(),
+                };
+                let faster = |x: f64| Case { feed_mm_s: 10.0 * libm::pow(1.6, x), ..case.clone() };
+                let rise = rises(&case, faster);
+                assert!(rise <= 0.03, "r {radius} {mode} {kind:?}: {rise:.4}");
+            }
+        }
+    }
+}
+
+/// A long line, a block of 0.07 mm and a sharp corner behind it: the corner between them was missed because the rest there
+/// was too short, and the line was driven at 3 mm/s for it.
+#[test]
+fn a_rest_that_is_too_short_slows_no_line_down() {
+    let case = Case {
+        kind: Trapez,
+        feed_mm_s: 85.516,
+        acc_mm_s2: 4695.3,
+        ramp_s: 0.024,
+        kink_weight: 4.7,
+        guard: VibGuardSettings { mode: 4, freq_hz: 17.211, damping: 0.023 },
+        tolerance: Tolerance { ax_dev_mm: Some(0.007), acc_fact: 1.0 },
+        points: vec![
+            [0.0, 0.0, 0.0],
+            [-14.6754, -5.5062, -1.2333],
+            [-14.9406, -5.4449, -1.2742],
+            [-20.0077, -5.1506, -1.9478],
+            [-21.6876, -5.6454, -1.8057],
+            [-29.8923, -3.3343, -3.4580],
+            [-29.8326, -3.3053, -3.4451],
+            [-29.8045, -4.1591, -3.3083],
+            [-29.8852, -4.5249, -3.2363],
+            [-29.9577, -4.4387, -3.2279],
+            [-30.0175, -4.1902, -3.1920],
+            [-21.2777, -1.8343, -1.6285],
+            [-7.8871, -1.2411, -0.2678],
+            [-7.5097, -1.0943, -0.2444],
+            [-7.6105, -1.2908, -0.2242],
+        ],
+    };
+    let twice = Tolerance { ax_dev_mm: Some(0.014), ..case.tolerance };
+    let [cycles, loose] = [case.cycles(), Case { tolerance: twice, ..case }.cycles()];
+    assert!(2 * cycles <= 3 * loose, "{cycles} cycles, {loose} with twice the tolerance");
 }

@@ -385,3 +385,18 @@ fn random_contours_are_kept_both_ways() {
     println!("largest use of the tolerance by kind: {most:.3?}");
     assert_eq!(failed, 0, "of {count}");
 }
+
+/// The largest distance of these contours from the set path lies between the points of a cycle, where the nearest set point
+/// passes to another part of the path.
+#[test]
+fn dents_between_the_points_of_a_cycle() {
+    for n in [74, 345] {
+        let mut r = Random(5 * 1_000_003 + n);
+        r.next();
+        let (name, case) = random_case(&mut r, (n % 8) as usize);
+        let d = drive(&case);
+        for (most, at) in both_ways(&case, &d.points, &d.seqs) {
+            assert!(most <= case.tolerance_mm + 1e-9, "{name} {n}: {most} at {at}");
+        }
+    }
+}

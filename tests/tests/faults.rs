@@ -108,7 +108,10 @@ fn call(
     }
     let output = command(args);
     let mut said = Vec::new();
-    for line in output.err.lines().filter(|line| line.starts_with('{')) {
+    // the sentence at the end of a refusal has no ID of its own
+    let sentence = "{\"id\":null,\"severity\"";
+    let is_message = |line: &&str| line.starts_with('{') && !line.starts_with(sentence);
+    for line in output.err.lines().filter(is_message) {
         said.push(message(line, home)?);
     }
     Ok((output.exit as u8, said))

@@ -2,10 +2,10 @@
 
 use kontur::Exit;
 use kontur_interpreter::diag::{Condition, Id};
-use kontur_tests::command::command;
+use kontur_tests::command::{Output, command};
 use kontur_tests::{Run, from_polyline, machine, programs, run, run_on, sample_machine};
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 fn text(name: &str) -> String {
     std::fs::read_to_string(programs().join(name)).unwrap()
@@ -210,7 +210,6 @@ fn every_program_is_listed() {
 /// finish. The sweep runs in `figures.rs`.
 #[test]
 fn every_listed_command_runs() {
-    let root = programs().join("..");
     let folder = tempfile::tempdir().unwrap();
     let list = text("README.md");
     let rows = list.lines().filter(|l| l.starts_with("| "));
@@ -218,20 +217,129 @@ fn every_listed_command_runs() {
     let listed: Vec<&str> = code.filter(|c| c.starts_with("kontur ")).collect();
     assert!(listed.len() >= 27, "{listed:?}");
     for line in listed.into_iter().filter(|c| !c.starts_with("kontur sweep ")) {
-        let mut words: Vec<PathBuf> = Vec::new();
-        for word in line.split_whitespace().skip(1).map(|word| word.trim_matches('\'')) {
-            let output = words.last().is_some_and(|last| last.as_os_str() == "-o");
-            words.push(match word {
-                _ if output => folder.path().join(word),
-                _ if word.starts_with("programs/") => root.join(word),
-                _ => word.into(),
-            });
-        }
-        let outcome = command(words);
+        let outcome = run_line(line, folder.path());
         let fails = line.contains("programs/fail/") || line.contains("exact_stop_timeout");
         let want = if fails { Exit::Aborted } else { Exit::Finished };
         assert_eq!(outcome.exit, want, "{line}\n{}", outcome.err);
     }
+}
+
+/// A command as a document shows it, from the root of the repository; outputs go to a folder.
+fn run_line(line: &str, folder: &Path) -> Output {
+    let root = programs().join("..");
+    let mut words: Vec<PathBuf> = Vec::new();
+    for word in line.split_whitespace().skip(1).map(|word| word.trim_matches('\'')) {
+        let output = words.last().is_some_and(|last| last.as_os_str() == "-o");
+        words.push(match word {
+            _ if output => folder.join(word),
+            _ if word.starts_with("programs/") => root.join(word),
+            _ => word.into(),
+        });
+    }
+    command(words)
+}
+
+/// The lessons: every program has its commands, every command runs, and every picture is the one of its command.
+#[test]
+fn every_command_of_the_lessons_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = text("lessons/README.md");
+    let code: Vec<&str> = list.split('`').skip(1).step_by(2).collect();
+    let commands: Vec<&str> =
+        code.into_iter().filter(|c| c.starts_with("kontur ") && c.contains(".nc")).collect();
+    let mut programs_found = 0;
+    for file in std::fs::read_dir(programs().join("lessons")).unwrap() {
+        let path = file.unwrap().path();
+        if path.extension().is_some_and(|e| e == "nc") {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            let of = commands.iter().filter(|c| c.contains(&format!("programs/lessons/{name}")));
+            assert!(of.count() >= 2, "{name}: a command and a picture");
+            programs_found += 1;
+        }
+    }
+    assert_eq!(programs_found, 8);
+    for line in commands {
+        let outcome = run_line(line, folder.path());
+        assert_eq!(outcome.exit, Exit::Finished, "{line}\n{}", outcome.err);
+    }
+}
+
+/// The exercises of the lessons: what their formulas give is what happens.
+#[test]
+fn the_exercises_have_their_answers() {
+    let folder = tempfile::tempdir().unwrap();
+    let lesson = |name: &str, replace: &[(&str, &str)], more: &[&str]| -> serde_json::Value {
+        let mut program = text(&format!("lessons/{name}.nc"));
+        for (what, by) in replace {
+            assert!(program.contains(what));
+            program = program.replace(what, by);
+        }
+        let path = folder.path().join("exercise.nc");
+        std::fs::write(&path, program).unwrap();
+        let words = ["run", path.to_str().unwrap(), "--summary", "json"];
+        let outcome = command([&words[..], more].concat());
+        assert_eq!(outcome.exit, Exit::Finished, "{}", outcome.err);
+        serde_json::from_str(&outcome.out).unwrap()
+    };
+    let number = |s: &serde_json::Value, key: &str| s[key].as_f64().unwrap();
+    let path_s = |s: &serde_json::Value| number(s, "duration_s") - number(s, "arrival_s");
+    let near = |is: f64, want: f64, by: f64| assert!((is - want).abs() <= by, "{is}, not {want}");
+
+    near(path_s(&lesson("1_one_move", &[("F6000", "F15066")], &[])), 0.5, 1.5e-3);
+    near(path_s(&lesson("1_one_move", &[], &[])), 1.0586, 1.5e-3);
+
+    let slope = |profile: &str| {
+        let set = format!("channel.prog_start.slope.profile={profile}");
+        path_s(&lesson("2_slopes", &[], &["--set", &set]))
+    };
+    near(slope("1") - slope("0"), 0.030, 1.5e-3);
+
+    // path length and another column of a run
+    let trace =
+        |name: &str, replace: &[(&str, &str)], more: &[&str], column: &str| -> Vec<(f64, f64)> {
+            let trace = folder.path().join("trace.csv");
+            lesson(name, replace, &[more, &["-o", trace.to_str().unwrap()]].concat());
+            let mut rows = csv::Reader::from_path(&trace).unwrap();
+            let head = rows.headers().unwrap().clone();
+            let place = |name: &str| head.iter().position(|h| h == name).unwrap();
+            let (s, value) = (place("s_mm"), place(column));
+            let rows = rows.records().map(|r| r.unwrap());
+            rows.map(|r| (r[s].parse().unwrap(), r[value].parse().unwrap())).collect()
+        };
+    let slowest = |name: &str, replace: &[(&str, &str)]| -> f64 {
+        let rows = trace(name, replace, &[], "v_mm_s").into_iter();
+        let near = rows.filter(|(s, _)| (15.0..25.0).contains(s));
+        near.map(|(_, v)| v).fold(f64::INFINITY, f64::min)
+    };
+    // 10.08 degrees are passed at 20 mm/s
+    let (x, y) =
+        (20.0 + 20.0 * libm::cos(10.08_f64.to_radians()), 20.0 * libm::sin(10.08_f64.to_radians()));
+    let turned = format!("X{x:.7} Y{y:.7}");
+    near(slowest("3_corner", &[("N30 Y20", &turned)]), 20.0, 0.2);
+    near(slowest("4_rounding", &[("V.E.DEV", "0.163")]), 30.0, 0.1);
+
+    // the feed is held up to 2.005 degrees
+    let circle = |step: &str| path_s(&lesson("5_chords", &[("V.E.STEP", step)], &[]));
+    near(circle("2"), circle("1"), 1.5e-3);
+    assert!(circle("2.1") > circle("2") + 5e-3);
+
+    // in the middle of the way there, at an even speed
+    let lag = |kv: &str| -> f64 {
+        let set = format!("X.getriebe[0].kv={kv}");
+        let rows = trace("6_lag", &[], &["--set", &set], "X_lag_mm");
+        rows.iter().find(|(s, _)| *s > 60.0).unwrap().1
+    };
+    near(lag("20000"), 0.5, 1e-3);
+    near(lag("5000"), 2.0, 1e-3);
+
+    let error = |hz: &str| {
+        lesson("7_guard", &[("V.E.HZ", hz)], &[])["max_contour_error"]["mm"].as_f64().unwrap()
+    };
+    assert!(error("47") > 0.01 && error("48") < 0.01 && error("49") < 0.01);
+
+    let waits = lesson("8_times", &[], &[]);
+    let flows = lesson("8_times", &[("N60 G04 0.1\n", ""), ("G60 ", "G01 ")], &[]);
+    near(number(&waits, "duration_s") - number(&flows, "duration_s"), 1.14, 5e-3);
 }
 
 #[test]
@@ -261,7 +369,7 @@ fn programs_that_must_fail() {
         "20509 7:5",
         "20203 8:11",
         "K-0002 9:15",
-        "K-0012 10:7",
+        "20925 10:7",
         "21024 11:15",
         "K-0014 12:9",
         "22062 13:21",

@@ -5,8 +5,9 @@ use crate::limit::SpeedLimit;
 use crate::lookahead::{Cap, plan};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
-use crate::timeline::{Entry, Moment, Timeline};
+use crate::timeline::{Entry, Moment};
 use crate::tolerance::{Demands, Trial, Unkept, Verdict};
+use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
 use std::sync::Arc;
 
@@ -33,15 +34,18 @@ impl Planner {
         } else {
             SpeedLimit::Lookahead
         };
-        let mut demands = Demands::of(&window, &self.kernels, self.cycle);
+        self.demands.reach_over(&window, &self.kernels, self.cycle);
         let mut forced = vec![false; n + 1];
-        let mut round = 0;
+        let mut last: Option<Vec<Entry>> = None;
+        let (mut round, mut given_up) = (0, false);
         loop {
-            let entries = match self.place(&window, &demands, &forced, start, end) {
+            let mut entries = match self.place(&window, &forced, start, end) {
                 Ok(entries) => entries,
                 Err(e) => return self.fall_back().ok_or(e),
             };
-            let verdict = self.verdict(&window, &entries, round, &mut demands);
+            let before = last.as_deref().unwrap_or_else(|| self.reserve.make_contiguous());
+            recall(&mut entries, before, self.cycle);
+            let verdict = self.verdict(&mut entries, round);
             round += 1;
             match verdict {
                 Verdict::Kept => {}
@@ -49,10 +53,16 @@ impl Planner {
                     self.divide(parts);
                     return Ok(());
                 }
-                Verdict::Tightened => continue,
+                Verdict::Tightened => {
+                    last = Some(entries);
+                    continue;
+                }
                 // the plan before this one keeps the tolerance
                 Verdict::GivenUp(_) if self.fall_back().is_some() => return Ok(()),
-                Verdict::GivenUp(unkept) => self.unkept.push(unkept),
+                Verdict::GivenUp(unkept) => {
+                    self.unkept.push(unkept);
+                    given_up = true;
+                }
             }
             let rests = end != SpeedLimit::Lookahead;
             let entries =
@@ -60,29 +70,33 @@ impl Planner {
             let Some(count) = self.final_entries(&entries, &window, rests) else {
                 // one span over more than a window: it is cut where the last window begins
                 forced[self.last_window(&window)] = true;
+                last = Some(entries);
                 continue;
             };
-            self.commit(entries, count, &demands);
+            self.commit(entries, count);
+            if given_up {
+                // what was of no help is asked no longer
+                self.demands = Demands::default();
+            }
             return Ok(());
         }
     }
 
     /// Examines a plan of the window behind everything that is final, see [`Monitor::examine`].
-    fn verdict(
-        &self,
-        window: &[Arc<Queued>],
-        entries: &[Entry],
-        round: usize,
-        demands: &mut Demands,
-    ) -> Verdict {
-        let bound = window.iter().any(|q| q.block.tolerance.ax_dev_mm.is_some());
-        if !bound || !self.kernels.any() {
+    ///
+    /// [`Monitor::examine`]: crate::tolerance::Monitor::examine
+    fn verdict(&mut self, entries: &mut [Entry], round: usize) -> Verdict {
+        let mut blocks = entries.iter().flat_map(|e| &e.blocks);
+        if !blocks.any(|(q, _)| q.block.tolerance.ax_dev_mm.is_some()) || !self.kernels.any() {
             return Verdict::Kept;
         }
-        let mut timeline = self.timeline.clone();
-        let placed = timeline.entries().count();
-        entries.iter().cloned().for_each(|e| timeline.push(e));
-        self.monitor.examine(&self.trial(&timeline, placed, window), round, demands)
+        let mut demands = std::mem::take(&mut self.demands);
+        let (verdict, kept) = self.monitor.examine(&self.trial(entries), round, &mut demands);
+        self.demands = demands;
+        for (entry, kept) in entries.iter_mut().zip(kept) {
+            entry.kept = kept;
+        }
+        verdict
     }
 
     /// What of the timeline, which ends at rest, does not keep the tolerance.
@@ -90,20 +104,13 @@ impl Planner {
         if !self.kernels.any() {
             return None;
         }
-        let placed = self.timeline.entries().count();
-        self.monitor.excess(&self.trial(&self.timeline, placed, &[]))
+        self.monitor.excess(&self.trial(&[]))
     }
 
-    fn trial<'a>(
-        &'a self,
-        timeline: &'a Timeline,
-        placed: usize,
-        window: &'a [Arc<Queued>],
-    ) -> Trial<'a> {
+    fn trial<'a>(&'a self, plan: &'a [Entry]) -> Trial<'a> {
         Trial {
-            timeline,
-            placed,
-            window,
+            timeline: &self.timeline,
+            plan,
             past: &self.contour,
             kernels: &self.kernels,
             cycle: self.cycle,
@@ -117,18 +124,21 @@ impl Planner {
         loop {
             let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
             let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
-            let mut demands = Demands::of(&window, &self.kernels, self.cycle);
+            self.demands.reach_over(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
+            let mut last = Vec::new();
             let mut round = 0;
             let parts = loop {
                 let stop = SpeedLimit::Stop;
-                let entries = self.place(&window, &demands, &forced, self.cursor, stop).ok()?;
-                match self.verdict(&window, &entries, round, &mut demands) {
+                let mut entries = self.place(&window, &forced, self.cursor, stop).ok()?;
+                recall(&mut entries, &last, self.cycle);
+                match self.verdict(&mut entries, round) {
                     Verdict::Kept => return Some(entries),
                     Verdict::Divided(parts) => break parts,
                     Verdict::Tightened => round += 1,
                     Verdict::GivenUp(_) => return None,
                 }
+                last = entries;
             };
             self.divide(parts);
         }
@@ -138,7 +148,6 @@ impl Planner {
     fn place(
         &self,
         window: &[Arc<Queued>],
-        demands: &Demands,
         forced: &[bool],
         start: Moment,
         end: SpeedLimit,
@@ -146,7 +155,7 @@ impl Planner {
         let lower = |cap: Cap, demand: f64| {
             if demand < cap.0 { (demand, SpeedLimit::AxDev) } else { cap }
         };
-        let n = window.len();
+        let (n, demands) = (window.len(), &self.demands);
         let feeds: Vec<Cap> = window
             .iter()
             .enumerate()
@@ -230,6 +239,7 @@ impl Planner {
     /// Takes planned blocks out of the queue.
     fn dequeue(&mut self, blocks: usize) {
         self.queue.drain(..blocks);
+        self.demands.pass(blocks);
         self.programmed = programmed(&self.queue);
     }
 
@@ -271,6 +281,7 @@ impl Planner {
                 self.caps.insert(b + 1, (f64::INFINITY, SpeedLimit::Curve));
             }
             self.queue[b] = Arc::clone(&parts[0]);
+            self.demands.insert(b + 1, parts.len() - 1, self.demands.feed[b]);
         }
     }
 
@@ -301,13 +312,13 @@ impl Planner {
         Some(())
     }
 
-    fn commit(&mut self, mut entries: Vec<Entry>, count: usize, demands: &Demands) {
+    fn commit(&mut self, mut entries: Vec<Entry>, count: usize) {
         let mut blocks = 0;
         self.reserve = entries.split_off(count).into();
         for mut entry in entries {
             blocks += entry.blocks.len();
             entry.caps = self.caps.drain(..entry.blocks.len()).collect();
-            self.append(entry, demands.stop[blocks].unwrap_or(0));
+            self.append(entry, self.demands.stop[blocks].unwrap_or(0));
         }
         self.dequeue(blocks);
     }
@@ -326,5 +337,29 @@ impl Planner {
             (self.speed, self.acceleration) = ((0.0, entry.why_down), 0.0);
         }
         self.timeline.push(entry);
+    }
+}
+
+/// Notes in a plan which entries have been measured in the plan before it, over the same blocks: those with the same profile,
+/// and with the same wait in front.
+fn recall(plan: &mut [Entry], before: &[Entry], cycle: CycleTime) {
+    let waited = |list: &[Entry], i: usize| {
+        let end = |p: usize| list[p].end.cycles(cycle);
+        i.checked_sub(1).map_or(0.0, |p| list[i].start.cycles(cycle) - end(p))
+    };
+    let (mut at, mut old, mut behind) = (0, 0, 0);
+    for i in 0..plan.len() {
+        while before.get(old).is_some_and(|_| behind < at) {
+            behind += before[old].blocks.len();
+            old += 1;
+        }
+        if let Some(same) = before.get(old).filter(|e| behind == at && e.kept.is_some())
+            && same.blocks.len() == plan[i].blocks.len()
+            && same.profile == plan[i].profile
+            && (waited(before, old) - waited(plan, i)).abs() < 1.0
+        {
+            plan[i].kept = same.kept;
+        }
+        at += plan[i].blocks.len();
     }
 }

@@ -24,6 +24,7 @@ use crate::profile::SlopeLimits;
 use crate::queue::Queued;
 use crate::realtime::feedhold_slope;
 use crate::timeline::{Entry, Moment};
+use crate::tolerance::Demands;
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
 
@@ -291,6 +292,7 @@ impl Planner {
         (next.queue, next.caps) = (queue.into(), caps.into());
         next.programmed = programmed(&next.queue);
         next.reserve.clear();
+        next.demands = Demands::default();
         if next.speed.0 > 0.0 {
             let Some(way_out) = next.way_out() else { return false };
             next.reserve = way_out.into();

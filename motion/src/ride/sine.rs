@@ -12,7 +12,7 @@ mod hill;
 mod join;
 mod rise;
 
-use super::{Block, Cell, SHORTEST_RAMP_S, mirror, own, turned};
+use super::{Block, Cell, SHORTEST_RAMP_S, joined, mirror, own, turned};
 use crate::profile::Phase;
 use join::join;
 use rise::Rise;
@@ -24,7 +24,7 @@ const REACH: usize = 64;
 
 /// A ramp may run through several blocks: its jerk is the least one of those within `reach_s` behind a block.
 fn blocks(cells: &[Cell], reach_s: f64) -> Vec<Block> {
-    let each = own(cells);
+    let each = joined(own(cells));
     let mut out = each.clone();
     for (i, cell) in each.iter().enumerate() {
         let near = |k: &usize| each[k - 1].end <= cell.end + cell.v * reach_s;

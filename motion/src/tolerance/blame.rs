@@ -11,32 +11,23 @@
 //! filter holds them are isolated again: between them it is faster to speed up and to brake.
 
 use super::Demands;
-use super::search::{Record, Violation, within};
+use super::even::{ALIKE, Evenly, aim, fastest};
+use super::measure::{Record, Violation};
 use super::view::View;
 use crate::axis::AxisVec;
-use crate::deviation::Excursion;
-use kontur_filters::kernel::Kernel;
 
-/// Share of the largest part from which on another one counts as its like.
-const ALIKE: f64 = 0.3;
 /// Points at which a bend is looked at.
 const BEND_POINTS: u32 = 6;
 /// Doublings from the least speed looked at to the one planned.
 const DOUBLINGS: u32 = 4;
-/// Halvings in the search for the even speed.
-const HALVINGS: u32 = 24;
 /// Ratio of two excesses up to which the second one is not looked at.
 const LITTLE_MORE: f64 = 1.05;
-/// Share of the tolerance by which an even speed aims below it.
-const AIM: f64 = 0.01;
 /// Least part of the speed planned that one round leaves of it.
 const LEAST_OF_ROUND: f64 = 0.5;
 /// Largest reduction of an even speed in one round.
 const MOST: f64 = 0.25;
-/// Places around a point of the contour at which an even run is looked at for the point.
-const PLACES: i32 = 4;
-/// Taps of a kernel in the search for the even speed.
-const COARSE: usize = 24;
+/// Least part of the speed planned that an even speed can be.
+const LEAST: f64 = 2.5e-4;
 
 /// What exceeded the tolerance in one round.
 pub(super) struct Findings {
@@ -132,6 +123,16 @@ impl View<'_> {
                 part.size = part.size.abs();
             }
         }
+        // a corner missed because the path did not wait there long enough: nothing is beyond it yet
+        if let Some((_, missed)) = &v.missed
+            && !parts.iter().any(|p| free(p) && p.size > 0.0)
+        {
+            let away = |p: &&mut Part| (p.s - missed).abs();
+            let kinks = parts.iter_mut().filter(|p| free(p) && !p.bend);
+            if let Some(part) = kinks.min_by(|a, b| away(a).total_cmp(&away(b))) {
+                part.size = v.deviation_mm;
+            }
+        }
         let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
         let alike: Vec<&Part> =
             parts.iter().filter(|p| free(p) && p.size > 0.0 && p.size >= ALIKE * largest).collect();
@@ -216,8 +217,7 @@ impl View<'_> {
             even.max(LEAST_OF_ROUND * present)
         } else {
             // where the speed is even already, or a change of speed is the cause
-            let aim = within(v.tolerance_mm) - AIM * v.tolerance_mm;
-            present * (aim / v.deviation_mm).sqrt().clamp(MOST, 0.995)
+            present * (aim(v.tolerance_mm) / v.deviation_mm).sqrt().clamp(MOST, 0.995)
         };
         for m in &shared.marks {
             if let Some(b) = marks[*m].block {
@@ -287,108 +287,20 @@ impl View<'_> {
     /// planned there.
     fn even_speed(&self, v: &Violation, record: &Record) -> f64 {
         let Self { trial, .. } = self;
-        let seconds = trial.cycle.seconds();
-        let fastest = self.fastest(v, record, f64::NEG_INFINITY, f64::INFINITY);
+        let fastest_planned = self.fastest(v, record, f64::NEG_INFINITY, f64::INFINITY);
         let longest = trial.kernels.longest();
-        let Some(kernel) = trial.kernels.get(v.axis).or(longest) else { return fastest };
+        let Some(kernel) = trial.kernels.get(v.axis).or(longest) else { return fastest_planned };
         let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));
         let middle: f64 = kernel.taps().iter().map(|t| t.weight * at(t.delay)).sum();
-        let aim = within(v.tolerance_mm) - AIM * v.tolerance_mm;
-        let keeps = |speed: f64| self.even_deviation(v, middle, speed * seconds) <= aim;
-        // the lowest speed that does not: a faster run may be even enough to keep it again, but never gets there
-        let (mut least, mut most) = (0.0, fastest);
-        let mut rising = fastest / f64::from(1 << DOUBLINGS);
-        while rising < fastest && keeps(rising) {
-            least = rising;
-            rising *= std::f64::consts::SQRT_2;
-        }
-        if rising >= fastest && keeps(fastest) {
-            least = fastest;
-        } else {
-            most = most.min(rising);
-            for _ in 0..HALVINGS {
-                let mid = 0.5 * (least + most);
-                if keeps(mid) {
-                    least = mid;
-                } else {
-                    most = mid;
-                }
-                if most - least <= 1e-3 * least {
-                    break;
-                }
-            }
-        }
-        least.max(1e-3 * MOST * fastest)
+        let evenly = Evenly { contour: &self.contour, kernels: trial.kernels, cycle: trial.cycle };
+        let aim = aim(v.tolerance_mm);
+        let least = LEAST * fastest_planned;
+        fastest(fastest_planned / f64::from(1 << DOUBLINGS), least, fastest_planned, |speed| {
+            let deviation = match &v.missed {
+                Some((point, s)) => evenly.misses(point, *s, speed),
+                None => evenly.leaves(middle, speed),
+            };
+            deviation <= aim
+        })
     }
-
-    /// Largest component of the deviation around a place, if the path runs `step` mm in every cycle.
-    fn even_deviation(&self, v: &Violation, middle: f64, step: f64) -> f64 {
-        let Self { trial, .. } = self;
-        let mut out = Excursion::none(self.marks[0].point.len());
-        let mut x = out.vector.clone();
-        let reach = step * f64::from(trial.kernels.length());
-        if let Some((point, at)) = &v.missed {
-            let mut best: Option<(f64, AxisVec)> = None;
-            for i in -PLACES..=PLACES {
-                let s = at + 0.5 * reach * f64::from(i) / f64::from(PLACES);
-                self.even_set_point(s, step, &mut x);
-                let vector: AxisVec = x.iter().zip(point.iter()).map(|(a, b)| a - b).collect();
-                let d2: f64 = vector.iter().map(|c| c * c).sum();
-                if best.as_ref().is_none_or(|(least, _)| d2 < *least) {
-                    best = Some((d2, vector));
-                }
-            }
-            return best
-                .map_or(0.0, |(_, vector)| vector.iter().fold(0.0, |m: f64, c| m.max(c.abs())));
-        }
-        self.even_set_point(middle, step, &mut x);
-        let mut vector = out.vector.clone();
-        self.contour.nearest_along(&x, middle - reach, middle + reach, &mut vector);
-        out.vector = vector;
-        out.largest()
-    }
-
-    /// Set point of a path that runs evenly, `step` mm in a cycle, around path length `s`.
-    fn even_set_point(&self, s: f64, step: f64, out: &mut AxisVec) {
-        let kernels = self.trial.kernels;
-        let middle = kernels.longest().map_or(0.0, Kernel::delay_cycles);
-        let mut position = out.clone();
-        out.fill(0.0);
-        // equal kernels share their taps
-        if !kernels.unequal
-            && let Some(kernel) = kernels.longest()
-        {
-            for (weight, delay) in coarse(kernel) {
-                self.contour.position(s + step * (middle - delay), &mut position);
-                for (o, p) in out.iter_mut().zip(position.iter()) {
-                    *o += weight * p;
-                }
-            }
-            return;
-        }
-        for i in 0..out.len() {
-            match kernels.get(i) {
-                None => {
-                    self.contour.position(s + step * middle, &mut position);
-                    out[i] = position[i];
-                }
-                Some(kernel) => {
-                    for (weight, delay) in coarse(kernel) {
-                        self.contour.position(s + step * (middle - delay), &mut position);
-                        out[i] += weight * position[i];
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// A kernel of many taps in few: weights, and mean delays in cycles.
-fn coarse(kernel: &Kernel) -> impl Iterator<Item = (f64, f64)> + '_ {
-    let taps = kernel.taps();
-    taps.chunks(taps.len().div_ceil(COARSE)).filter_map(|part| {
-        let weight: f64 = part.iter().map(|t| t.weight).sum();
-        let delay: f64 = part.iter().map(|t| t.weight * f64::from(t.delay)).sum();
-        (weight.abs() > 0.0).then(|| (weight, delay / weight))
-    })
 }

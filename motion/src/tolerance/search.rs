@@ -1,142 +1,180 @@
-//! Measures a plan: where it exceeds the tolerance.
+//! Which cycles of a plan have to be measured.
 //!
-//! Only cycles are measured whose filters can leave the contour at all: those that hold kinks or bends of the path. A
-//! bound passes over most of these too: a set point is a mean of path points, so an axis is aside by at most the sum of
-//! the changes of its direction within reach, times the speed, times the first moment of its kernel (derived; weights
-//! positive).
+//! Only those can leave the contour whose filters hold kinks or bends of the path. Bounds pass over most of these too, all of
+//! them derived from the sum in [`super`], weights positive and the same for all axes:
+//! - kinks, cycle by cycle: the path lengths that the filter holds lie at most as far beyond a kink as the highest speed
+//!   leads from there, so an axis is aside by at most the change of its direction, times that speed, times the mean time
+//!   beyond ([`Beyond`]), summed over the kinks. Along a curve of chords run through evenly that is what it is aside by;
+//! - bends, stretch by stretch: by their variance;
+//! - both, roughly: the sum of all changes of direction within reach, times the speed, times the first moment.
+//!
+//! The bounds hold for the vector to a point of the contour that moves along it without a gap, so they bound what the set
+//! path misses, too.
 
-use super::view::{Buffer, View};
-use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
-use crate::axis::AxisVec;
-use crate::deviation::{ALIKE, Excursion, SetPath};
+use super::measure::{Record, Violation};
+use super::view::View;
+use super::{Kernels, Unkept};
 use crate::timeline::{PathState, Reader};
 use kontur_filters::kernel::Kernel;
 
-/// Cycles around the set point nearest to the last point of the contour among which that of the next one is looked for.
-const HINT: u64 = 3;
-/// Halvings in the search for the point of the contour where the nearest set point changes.
-const HALVINGS: u32 = 6;
-/// Points of the contour looked at in a cycle in which it may be missed.
-const PARTS: f64 = 4.0;
-/// Distance between the points of the contour that are looked at, in tolerances.
-const SPACING: f64 = 0.02;
 /// Cycles measured in one go, so that long stretches need little memory.
 const CHUNK: u64 = 8192;
-/// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be.
-const DOUBT: f64 = 0.9;
 /// Share by which the way of one cycle may differ from that of another on a stretch of constant speed.
 const EVEN: f64 = 1e-7;
-/// Part of the tolerance up to which the bound excuses a stretch from being measured.
+/// Part of the tolerance up to which a bound excuses cycles from being measured.
 const CERTAIN: f64 = 0.9;
 
-/// A moment at which the tolerance is exceeded.
-#[derive(Clone, Debug)]
-pub(super) struct Violation {
-    /// Cycle of the set point that is too far away, or that comes nearest to the point that is missed.
-    pub(super) cycle: u64,
-    /// Largest component in mm.
-    pub(super) deviation_mm: f64,
-    /// Its tolerance in mm.
-    pub(super) tolerance_mm: f64,
-    pub(super) axis: usize,
-    /// The component points to larger positions.
-    pub(super) positive: bool,
-    /// Point of the contour that the set path misses, with its path length; `None`: the set path leaves the contour.
-    pub(super) missed: Option<(AxisVec, f64)>,
+/// Mean time, in cycles, for which a filter is beyond a moment, on the side where that is less.
+pub(super) struct Beyond {
+    /// At whole cycles in front of the newest one: behind the moment, and before it.
+    means: Vec<[f64; 2]>,
 }
 
-impl Violation {
-    pub(super) fn excess(&self) -> f64 {
-        self.deviation_mm - within(self.tolerance_mm)
+impl Beyond {
+    pub(super) fn new(kernels: &Kernels) -> Self {
+        let length = kernels.length();
+        let mean = |x: u32| {
+            let part = |f: fn(f64) -> f64| {
+                let taps = kernels.longest().map_or(&[][..], Kernel::taps);
+                taps.iter().map(|t| t.weight * f(f64::from(x) - f64::from(t.delay))).sum()
+            };
+            [part(|d| d.max(0.0)), part(|d| (-d).max(0.0))]
+        };
+        Self { means: (0..=length + 1).map(mean).collect() }
     }
-}
 
-/// What a plan is held to, a little below the tolerance.
-pub(super) fn within(tolerance_mm: f64) -> f64 {
-    tolerance_mm - MARGIN_MM.min(0.1 * tolerance_mm)
-}
-
-/// Length in mm up to which no component of a vector, or of what could be taken for it, exceeds a tolerance.
-fn certain(tolerance_mm: f64) -> f64 {
-    within(tolerance_mm) / (1.0 + ALIKE)
-}
-
-/// Path lengths and set points of a stretch of cycles.
-pub(super) struct Record {
-    first: u64,
-    s_mm: Vec<f64>,
-}
-
-impl Record {
-    /// Path length in cycle `k`, which is one of the stretch or of the reach in front of it.
-    pub(super) fn s(&self, k: u64) -> f64 {
-        let at = k.saturating_sub(self.first) as usize;
-        self.s_mm.get(at).or(self.s_mm.last()).copied().unwrap_or(0.0)
+    /// For a moment `x` cycles before the newest one; the line to the set point before counts. Linear between whole cycles,
+    /// as the means are.
+    fn at(&self, x: f64) -> f64 {
+        let mean = |x: f64, side: usize| {
+            let i = (x as usize).min(self.means.len() - 2);
+            let (a, b) = (self.means[i][side], self.means[i + 1][side]);
+            a + (x - i as f64) * (b - a)
+        };
+        mean(x, 0).min(mean((x - 1.0).max(0.0), 1) + (1.0 - x).max(0.0))
     }
 }
 
 impl View<'_> {
-    /// Measures the plan and hands every stretch's worst violations, at most one for half a kernel, to `found`; returns
-    /// the worst of all.
-    pub(super) fn search(&self, mut found: impl FnMut(&Violation, &Record)) -> Option<Unkept> {
+    /// Measures the plan in some cycles, ranges in order, and hands every stretch's worst violations, at most one for half a
+    /// kernel, to `found`; returns the worst of all.
+    pub(super) fn search(
+        &self,
+        among: &[(u64, u64)],
+        mut found: impl FnMut(&Violation, &Record),
+    ) -> Option<Unkept> {
         let reach = u64::from(self.trial.kernels.length());
         let mut worst: Option<Unkept> = None;
-        let mut stretch: Option<(u64, u64)> = None;
-        let mut measure = |(from, to): (u64, u64)| {
-            let mut from = from;
+        let mut reader = Reader::new(self.trial.timeline, self.trial.plan);
+        let mut active: Vec<(u64, u64)> = Vec::new();
+        let calm = self.calm();
+        for m in 0..self.marks.len() {
+            let Some(held) = self.held(m) else { continue };
+            // what is missed is looked for when the filters have let it go
+            let inside = within_of(among, (held.0, held.1 + reach as f64 + 2.0));
+            if inside.is_empty() || self.is_quiet(held) {
+                continue;
+            }
+            if self.marks[m].queued.bend <= 0.0 && calm {
+                active.extend(inside);
+                continue;
+            }
+            // of a bent block only where it bends, of a straight one only where its speed changes
+            for (from, to) in inside {
+                let mut k = from;
+                while k <= to {
+                    let until = to.min(k + reach.max(8));
+                    let passed_over = if calm {
+                        self.straightens(k.saturating_sub(reach + 2), until, &mut reader)
+                    } else {
+                        k > from
+                            && self.is_steady(
+                                m,
+                                k.saturating_sub(2 * reach + 4),
+                                until,
+                                &mut reader,
+                            )
+                    };
+                    if !passed_over {
+                        active.push((k, until));
+                    }
+                    k = until + 1;
+                }
+            }
+        }
+        let mut stretches = joined(active, reach);
+        if calm {
+            let beyond = Beyond::new(self.trial.kernels);
+            stretches = stretches.into_iter().flat_map(|s| self.uncertain(s, &beyond)).collect();
+        }
+        for (mut from, to) in stretches {
             while from <= to {
                 let until = to.min(from + CHUNK);
                 self.measure(from, until, &mut found, &mut worst);
                 from = until + 1;
             }
-        };
-        let mut reader = self.trial.timeline.reader();
-        let mut active: Vec<(u64, u64)> = Vec::new();
-        let calm = self.calm();
-        for m in 0..self.marks.len() {
-            let Some((from, to)) = self.active(m) else { continue };
-            let from = from.max(self.trial.now + 1);
-            if self.marks[m].queued.bend <= 0.0 && calm {
-                active.push((from, to));
-                continue;
-            }
-            // of a bent block only where it bends, of a straight one only where its speed changes
-            let mut k = from;
-            while k <= to {
-                let until = to.min(k + reach.max(8));
-                let passed_over = if calm {
-                    self.straightens(k.saturating_sub(reach + 2), until, &mut reader)
-                } else {
-                    k > from
-                        && self.is_steady(m, k.saturating_sub(2 * reach + 4), until, &mut reader)
-                };
-                if !passed_over {
-                    active.push((k, until));
-                }
-                k = until + 1;
-            }
         }
-        active.sort_unstable();
-        for (from, to) in active {
-            if to < from {
-                continue;
-            }
-            stretch = Some(match stretch {
-                Some((begin, end)) if from <= end + reach => (begin, end.max(to)),
-                Some(done) => {
-                    measure(done);
-                    (from, to)
-                }
-                None => (from, to),
-            });
-        }
-        stretch.into_iter().for_each(&mut measure);
         worst
     }
 
-    /// Cycles in which the filters hold the entry of a mark's block, or the block itself if that bends; `None` where they
-    /// cannot leave the contour by more than the tolerance.
-    fn active(&self, m: usize) -> Option<(u64, u64)> {
+    /// Cycles of a stretch that the bound for kinks does not excuse, with those in which the filters let go what they hold.
+    fn uncertain(&self, (from, to): (u64, u64), beyond: &Beyond) -> Vec<(u64, u64)> {
+        let Self { trial, marks, .. } = self;
+        let axes = trial.kernels.axes.len();
+        let length = u64::from(trial.kernels.length());
+        let reach = length as f64 + 2.0;
+        let first = marks.partition_point(|m| m.cycles <= from as f64 - reach);
+        let last = marks.partition_point(|m| m.cycles <= to as f64);
+        let around = &marks[first.saturating_sub(1)..last];
+        let tolerances = around.iter().filter_map(|m| m.queued.block.tolerance.ax_dev_mm);
+        let tolerance = tolerances.fold(f64::INFINITY, f64::min);
+        let mut aside = vec![0.0; (to - from + 1) as usize * axes];
+        let numbers = |begin: f64, end: f64| {
+            let clip = |k: f64| (k.max(0.0) as u64).clamp(from, to + 1) - from;
+            clip(begin.ceil()) as usize..clip(end.floor() + 1.0) as usize
+        };
+        for m in first.max(1)..last {
+            if marks[m].jump <= 1e-9 {
+                continue;
+            }
+            let passed = marks[m].cycles;
+            let before = marks[..m].iter().enumerate().rev();
+            let speed = before
+                .take_while(|(i, _)| marks[i + 1].cycles >= passed - reach)
+                .map(|(_, m)| m.speed)
+                .chain(
+                    marks[m..].iter().take_while(|m| m.cycles <= passed + reach).map(|m| m.speed),
+                )
+                .fold(0.0, f64::max);
+            let way = speed * trial.cycle.seconds();
+            for k in numbers(passed, passed + reach) {
+                let part = way * beyond.at((from + k as u64) as f64 - passed);
+                for i in 0..axes {
+                    aside[k * axes + i] += part * self.turn(m, i).abs();
+                }
+            }
+        }
+        // bends are bounded elsewhere
+        for m in first.saturating_sub(1)..last {
+            if marks[m].queued.bend > 0.0 {
+                let until = marks.get(m + 1).map_or_else(|| self.rest(), |next| next.cycles);
+                for k in numbers(marks[m].cycles, until + reach) {
+                    aside[k * axes] = f64::INFINITY;
+                }
+            }
+        }
+        let limit = CERTAIN * tolerance;
+        let loud = aside.chunks(axes).enumerate().filter_map(|(k, parts)| {
+            let square: f64 = parts.iter().map(|c| c * c).sum();
+            let k = from + k as u64;
+            (square > limit * limit).then_some((k, (k + length + 2).min(to)))
+        });
+        joined(loud.collect(), length)
+    }
+
+    /// Moments between which the filters hold the entry of a mark's block, or the block itself if that can leave the contour;
+    /// `None` where neither can.
+    fn held(&self, m: usize) -> Option<(f64, f64)> {
         let Self { trial, marks, .. } = self;
         let kernels = trial.kernels;
         let (mark, reach) = (&marks[m], f64::from(kernels.length()));
@@ -150,11 +188,7 @@ impl View<'_> {
         } else {
             mark.cycles
         };
-        let (from, to) = (mark.cycles, until + reach + 2.0);
-        if !restless && self.quiet(from - reach - 2.0, to) {
-            return None;
-        }
-        Some((from.floor().max(0.0) as u64, to.ceil() as u64))
+        Some((mark.cycles, until + reach + 2.0))
     }
 
     /// The kernels are equal and pull nothing beyond an end: only kinks and bends leave the contour.
@@ -211,9 +245,13 @@ impl View<'_> {
         steps.iter().all(|other| (other - step).abs() <= EVEN * step + 1e-9 * trial.cycle.seconds())
     }
 
-    /// True if the changes of direction between two moments are too small to exceed the tolerance.
-    fn quiet(&self, from: f64, to: f64) -> bool {
+    /// True if the changes of direction that the filters hold between two moments are too small to exceed the tolerance.
+    fn is_quiet(&self, (from, to): (f64, f64)) -> bool {
         let Self { trial, marks, .. } = self;
+        if !self.calm() {
+            return false;
+        }
+        let from = from - f64::from(trial.kernels.length()) - 2.0;
         let first = marks.partition_point(|m| m.cycles <= from).saturating_sub(1);
         let last = marks.partition_point(|m| m.cycles <= to);
         let reach = f64::from(trial.kernels.length()) + 2.0;
@@ -239,178 +277,83 @@ impl View<'_> {
             turn * speed * m1 * seconds <= CERTAIN * tolerance
         })
     }
+}
 
-    fn measure(
-        &self,
-        from: u64,
-        to: u64,
-        found: &mut impl FnMut(&Violation, &Record),
-        worst: &mut Option<Unkept>,
-    ) {
-        let Self { trial, marks, contour, .. } = self;
-        let length = u64::from(trial.kernels.length());
-        let reach = length as f64;
-        let mut buffer = Buffer::new(self);
-        let n = buffer.set.len();
-        let delay = trial.kernels.longest().map_or(0, |k| k.delay_cycles().round() as u64);
-        let first = from.saturating_sub(2 * length + 4);
-        let mut record = Record { first, s_mm: Vec::with_capacity((to - first) as usize + 1) };
-        let mut set = SetPath::starting(first, n);
-        buffer.seek(first);
-        let mut at = marks.partition_point(|m| m.cycles < from as f64 - reach - 2.0);
-        let mut bucket: Option<Violation> = None;
-        let mut between = AxisVec::zeros(n);
-        let newest_passed = from.saturating_sub(length + 1);
-        let (mut hint, mut looked) = (newest_passed + delay, f64::NEG_INFINITY);
-        let half = (length / 2).max(1);
-        let mut note = |v: Violation, record: &Record| {
-            if worst.as_ref().is_none_or(|w| w.deviation_mm < v.deviation_mm) {
-                let i = marks.partition_point(|m| m.cycles <= v.cycle as f64).max(1) - 1;
-                let seq = marks[i].queued.block.seq;
-                let Violation { deviation_mm, tolerance_mm, .. } = v;
-                *worst = Some(Unkept { seq, deviation_mm, tolerance_mm });
-            }
-            bucket = Some(match bucket.take() {
-                Some(b) if b.cycle / half == v.cycle / half => {
-                    if v.excess() > b.excess() {
-                        v
-                    } else {
-                        b
-                    }
-                }
-                Some(b) => {
-                    found(&b, record);
-                    v
-                }
-                None => v,
-            });
+/// The parts of a range of moments, in whole cycles, that lie in one of some ranges of cycles.
+fn within_of(among: &[(u64, u64)], (from, to): (f64, f64)) -> Vec<(u64, u64)> {
+    let (from, to) = (from.floor().max(0.0) as u64, to.ceil() as u64);
+    let first = among.partition_point(|range| range.1 < from);
+    let inside = among[first..].iter().take_while(|range| range.0 <= to);
+    inside.map(|range| (range.0.max(from), range.1.min(to))).collect()
+}
+
+/// Ranges of cycles in order; those less than `reach` apart are one.
+pub(super) fn joined(mut ranges: Vec<(u64, u64)>, reach: u64) -> Vec<(u64, u64)> {
+    ranges.sort_unstable();
+    let mut out: Vec<(u64, u64)> = Vec::new();
+    for (from, to) in ranges {
+        match out.last_mut().filter(|last| from <= last.1.saturating_add(reach)) {
+            Some(last) => last.1 = last.1.max(to),
+            None => out.push((from, to)),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kontur_filters::kernel::Tap;
+    use std::sync::Arc;
+
+    /// A path that comes along x and turns off to y in `passed`, at any speeds up to 1 in a cycle: no point of the line
+    /// between two filtered points is further from the path's mean point than the bound, and at full speed it comes near.
+    #[test]
+    fn no_set_point_is_further_aside_than_the_bound() {
+        let mut seed = 7_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
         };
-        for k in first..=to {
-            buffer.step(k);
-            record.s_mm.push(buffer.s());
-            set.push(&buffer.set);
-            if k < from {
-                continue;
+        let mut closest = 0.0_f64;
+        for round in 0..400 {
+            let taps: Vec<Tap> = (0..2 + (4.0 * random()) as u32)
+                .map(|_| Tap { delay: (30.0 * random()) as u32, weight: 0.1 + random() })
+                .collect();
+            let kernel = Kernel::from_taps(taps).unwrap_or_else(Kernel::identity);
+            let kernels = Kernels::new(vec![Some(Arc::new(kernel.clone())); 2]);
+            let beyond = Beyond::new(&kernels);
+            let slowest = if round % 2 == 0 { 1.0 } else { random() };
+            let mut s = vec![-60.0];
+            for _ in 0..160 {
+                s.push(s[s.len() - 1] + slowest + (1.0 - slowest) * random());
             }
-            let moment = k as f64;
-            let tolerance = self.tolerance(moment - reach, moment);
-            if tolerance.is_finite() {
-                let mut out = Excursion::none(n);
-                set.leaves(contour, k, (moment - reach, moment), &mut out);
-                let mut deviation_mm = out.largest();
-                if out.length > DOUBT * tolerance && deviation_mm <= within(tolerance) {
-                    // the components depend on what counts as within reach
-                    let doubtful = set.doubtful(
-                        contour,
-                        k,
-                        (moment - reach, moment),
-                        (BORDER_CYCLES, 10.0 * SPACING * tolerance),
-                    );
-                    deviation_mm = deviation_mm.max(doubtful);
-                }
-                if deviation_mm > within(tolerance) {
-                    let axis = out.axis();
-                    let positive = out.vector[axis] > 0.0;
-                    let missed = None;
-                    let tolerance_mm = tolerance;
-                    note(
-                        Violation { cycle: k, deviation_mm, tolerance_mm, axis, positive, missed },
-                        &record,
-                    );
-                }
-            }
-            // points of the contour that the filters hold no longer
-            let all = |moment: f64| {
-                let first = moment.floor().max(0.0) as u64;
-                (first, first + length + 2)
-            };
-            let mut missed = |point: &[f64], near: (u64, u64), moment: f64, s: f64| {
-                let tolerance_mm = self.tolerance(moment, moment + reach);
-                let wary_mm = certain(tolerance_mm);
-                let all = all(moment);
-                let mut out = Excursion::none(n);
-                let mut cycle = set.misses(point, near, wary_mm, &mut out);
-                if out.length > wary_mm && near != all {
-                    out = Excursion::none(n);
-                    cycle = set.misses(point, all, wary_mm, &mut out);
-                }
-                let Some(cycle) = cycle else { return near.0 };
-                let deviation_mm = out.largest();
-                if deviation_mm > within(tolerance_mm) {
-                    let axis = out.axis();
-                    let positive = out.vector[axis] > 0.0;
-                    let missed = Some((AxisVec::from_slice(point), s));
-                    note(
-                        Violation { cycle, deviation_mm, tolerance_mm, axis, positive, missed },
-                        &record,
-                    );
-                }
-                cycle
-            };
-            while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
-                let mark = &marks[at];
-                if at > 0 && mark.jump > 1e-9 {
-                    missed(&mark.point, all(mark.cycles), mark.cycles, mark.s_mm);
-                }
-                at += 1;
-            }
-            // the other points of the contour, as far apart as matters
-            let passed = k.saturating_sub(length + 1);
-            if passed <= first {
-                continue;
-            }
-            let tolerance = self.tolerance(passed as f64, moment);
-            let (from, to) = (looked.max(record.s(passed - 1)), record.s(passed));
-            if to - from < SPACING * tolerance && tolerance.is_finite() {
-                looked = from;
-                continue;
-            }
-            looked = to;
-            hint = hint.max(passed);
-            let parts =
-                ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
-            for part in 1..=parts {
-                let s = from + f64::from(part) / f64::from(parts) * (to - from);
-                contour.position(s, &mut between);
-                // the nearest set point is found close to the last one
-                let before = hint;
-                let near = (before.saturating_sub(HINT).max(passed), before + HINT);
-                hint = missed(&between, near, passed as f64, s);
-                if hint.abs_diff(before) <= HINT {
-                    continue;
-                }
-                // the vector is largest where the nearest set point passes to another part of the set path
-                let (mut low, mut high) = (s - (to - from) / f64::from(parts), s);
-                for _ in 0..HALVINGS {
-                    let mid = 0.5 * (low + high);
-                    contour.position(mid, &mut between);
-                    let found = missed(&between, near, passed as f64, mid);
-                    if found.abs_diff(before) <= found.abs_diff(hint) {
-                        low = mid;
-                    } else {
-                        high = mid;
+            let Some(first) = s.iter().position(|s| *s > 0.0) else { continue };
+            let passed = first as f64 - s[first] / (s[first] - s[first - 1]);
+            for k in 40..s.len() {
+                let at = |k: usize| {
+                    let mean = |f: &dyn Fn(f64) -> f64| -> f64 {
+                        kernel.taps().iter().map(|t| t.weight * f(s[k - t.delay as usize])).sum()
+                    };
+                    [mean(&|s| s.min(0.0)), mean(&|s| s.max(0.0)), mean(&|s| s)]
+                };
+                let (a, b) = (at(k - 1), at(k));
+                for part in 0..=8 {
+                    let u = f64::from(part) / 8.0;
+                    let [x, y, middle] = [0, 1, 2].map(|i| a[i] + u * (b[i] - a[i]));
+                    let aside = [x - middle.min(0.0), y - middle.max(0.0)];
+                    // both axes turn by 1, in opposite directions of the path
+                    let most = aside.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+                    let x = k as f64 - passed;
+                    let inside = (0.0..=f64::from(kernel.length()) + 2.0).contains(&x);
+                    let bound = if inside { beyond.at(x) } else { 0.0 };
+                    assert!(most <= bound + 1e-9, "{round} {k}: {most} of {bound}");
+                    if bound > 0.5 && slowest >= 1.0 {
+                        closest = closest.max(most / bound);
                     }
                 }
             }
         }
-        if let Some(v) = bucket {
-            found(&v, &record);
-        }
-    }
-
-    /// Least tolerance of the blocks interpolated between two moments.
-    fn tolerance(&self, from: f64, to: f64) -> f64 {
-        let bounds =
-            self.contour.between(from, to).filter_map(|p| p.queued.block.tolerance.ax_dev_mm);
-        bounds.fold(f64::INFINITY, f64::min)
-    }
-
-    /// Change of direction of an axis at the entry of a mark's block.
-    pub(super) fn turn(&self, m: usize, axis: usize) -> f64 {
-        let Some(before) = m.checked_sub(1).map(|b| &self.marks[b]) else { return 0.0 };
-        if self.marks[m].goes_on_from(before) {
-            return 0.0;
-        }
-        self.marks[m].queued.ends.tangent_in[axis] - before.queued.ends.tangent_out[axis]
+        assert!(closest > 0.9, "{closest}");
     }
 }

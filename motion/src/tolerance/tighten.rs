@@ -1,7 +1,7 @@
 //! Answers an excess: lower speeds, stops, dwells and accelerations for the next round.
 
 use super::blame::Findings;
-use super::search::within;
+use super::measure::within;
 use super::view::{Buffer, Mark, View};
 use super::{Demands, Trial};
 use crate::deviation::{Excursion, SetPath};
@@ -20,12 +20,13 @@ impl View<'_> {
     /// Blocks that are to blame and bend more in one place than in another, in parts: the speed that the tolerance
     /// leaves to the sharpest bend is not for the whole of them.
     pub(super) fn parts(&self, findings: &Findings) -> Vec<(usize, Vec<Arc<Queued>>)> {
-        let Self { trial, .. } = self;
-        let blamed =
-            findings.block.iter().enumerate().filter_map(|(b, found)| Some((b, (*found)?)));
+        let Self { trial, marks, .. } = self;
+        let blamed = marks.iter().filter_map(|mark| {
+            let b = mark.block?;
+            Some((b, &mark.queued, findings.block[b]?.1))
+        });
         blamed
-            .map(|(b, (_, tolerance))| {
-                let queued = &trial.window[b];
+            .map(|(b, queued, tolerance)| {
                 let fastest = queued.velocity.0;
                 (b, queued.parts(|bend| on_a_bend(trial, bend, tolerance).min(fastest)))
             })
@@ -36,7 +37,7 @@ impl View<'_> {
     pub(super) fn tighten(&self, findings: &Findings, all: bool, demands: &mut Demands) {
         let Self { trial, marks, .. } = self;
         let full = trial.kernels.length();
-        let mut soften = vec![None; trial.window.len()];
+        let mut soften = vec![None; demands.feed.len()];
         for mark in marks {
             let Some(b) = mark.boundary else { continue };
             let excess = findings.corner[b];
@@ -90,7 +91,7 @@ impl View<'_> {
                 demands.cap[b] = demands.cap[b].min(findings.even_at[b]);
             }
             let Some(b) = mark.block else { continue };
-            let queued = &trial.window[b];
+            let queued = &mark.queued;
             if let Some((excess, tolerance)) = findings.block[b] {
                 if trial.kernels.overshoot {
                     note(&mut soften[b], excess, tolerance);

@@ -43,6 +43,8 @@ pub(super) struct View<'a> {
     pub(super) marks: Vec<Mark>,
     /// The blocks of the marks.
     pub(super) contour: Contour,
+    /// Tolerance in mm, if it is the same for all of them.
+    pub(super) tolerance_mm: Option<f64>,
 }
 
 impl<'a> View<'a> {
@@ -52,7 +54,10 @@ impl<'a> View<'a> {
         for m in &marks {
             contour.enter(m.cycles, m.s_mm, Arc::clone(&m.queued));
         }
-        Self { trial, monitor, marks, contour }
+        let mut tolerances = marks.iter().map(|m| m.queued.block.tolerance.ax_dev_mm);
+        let first = tolerances.next().flatten();
+        let tolerance_mm = first.filter(|_| tolerances.all(|t| t == first));
+        Self { trial, monitor, marks, contour, tolerance_mm }
     }
 
     /// The path in cycle `k`, output or planned.
@@ -73,14 +78,15 @@ impl<'a> View<'a> {
 
     /// Moment in cycles at which the plan comes to rest.
     pub(super) fn rest(&self) -> f64 {
-        let entries = self.trial.timeline.entries();
-        entries.last().map_or(self.trial.now as f64, |e| e.end.cycles(self.trial.cycle))
+        let Trial { timeline, plan, now, cycle, .. } = self.trial;
+        let last = plan.last().or_else(|| timeline.entries().next_back());
+        last.map_or(*now as f64, |e| e.end.cycles(*cycle))
     }
 
     /// Planned speed at a boundary of the window.
     pub(super) fn speed_at(&self, boundary: usize) -> f64 {
         let mut index = 0;
-        for e in self.trial.timeline.entries().skip(self.trial.placed) {
+        for e in self.trial.plan {
             if boundary < index + e.blocks.len() {
                 let s = if boundary == index { 0.0 } else { e.blocks[boundary - index - 1].1 };
                 return e.profile.at(e.profile.time_at(s)).v_mm_s;
@@ -94,7 +100,7 @@ impl<'a> View<'a> {
 /// Blocks that are within reach already, then those of the plan.
 fn marks(trial: &Trial<'_>) -> Vec<Mark> {
     let reach = f64::from(trial.kernels.length());
-    let mut out: Vec<Mark> = Vec::with_capacity(trial.window.len() + 8);
+    let mut out: Vec<Mark> = Vec::new();
     let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s: f64, speed: f64| {
         let (mut jump, mut axis) = (0.0, 0);
         // the rest of a block goes on without a corner
@@ -126,7 +132,7 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
         add(passed.cycles, queued, None, passed.s_mm, speed.0);
     }
     let mut index = 0;
-    for entry in trial.timeline.entries().skip(trial.placed) {
+    for entry in trial.plan {
         for (cycles, s, queued) in entry.entries(trial.cycle) {
             add(cycles, queued, Some(index), s, entry.profile.peak());
             index += 1;
@@ -162,7 +168,7 @@ impl<'a> Buffer<'a> {
         let size = trial.kernels.length() as usize + 1;
         Self {
             view,
-            reader: trial.timeline.reader(),
+            reader: Reader::new(trial.timeline, trial.plan),
             ring: vec![zero.clone(); size],
             s_mm: vec![0.0; size],
             head: 0,

@@ -1,0 +1,250 @@
+//! Even speeds: how fast a stretch of the path, run through evenly, keeps the tolerance.
+//!
+//! They depend on the path, the filters and the tolerance, and on nothing that is planned. So they are the demands that a
+//! search begins with where the free plan does not keep the tolerance ([`foresee`]): where they hold the speed down, a higher
+//! feed changes nothing.
+
+use super::measure::within;
+use super::{Demands, Kernels};
+use crate::axis::AxisVec;
+use crate::contour::Contour;
+use crate::queue::Queued;
+use kontur_filters::time::CycleTime;
+use std::sync::Arc;
+
+/// Share of the tolerance by which an even speed aims below it.
+const AIM: f64 = 0.01;
+/// Halvings in the search for a speed.
+const HALVINGS: u32 = 24;
+/// Places around a point of the contour at which an even run is looked at for the point.
+const PLACES: i32 = 4;
+/// Rounds in which a guess comes closer.
+const ROUNDS: u32 = 8;
+/// Change of direction that is none.
+const STRAIGHT: f64 = 1e-9;
+/// Share of the largest part of a deviation from which on another one counts as its like.
+pub(super) const ALIKE: f64 = 0.3;
+
+/// A contour run through evenly.
+pub(super) struct Evenly<'a> {
+    pub(super) contour: &'a Contour,
+    pub(super) kernels: &'a Kernels,
+    pub(super) cycle: CycleTime,
+}
+
+impl Evenly<'_> {
+    /// Largest component in mm by which the set point around path length `middle` leaves the contour.
+    pub(super) fn leaves(&self, middle: f64, speed: f64) -> f64 {
+        let reach = self.reach(speed);
+        let mut x = AxisVec::zeros(self.kernels.axes.len());
+        self.set_point(middle, speed, &mut x);
+        self.contour.aside(&x, middle - reach, middle + reach)
+    }
+
+    /// Largest component in mm by which the set points around path length `at` miss a point there.
+    pub(super) fn misses(&self, point: &[f64], at: f64, speed: f64) -> f64 {
+        let reach = self.reach(speed);
+        let mut x = AxisVec::zeros(self.kernels.axes.len());
+        let mut best = (f64::INFINITY, 0.0);
+        for i in -PLACES..=PLACES {
+            let s = at + 0.5 * reach * f64::from(i) / f64::from(PLACES);
+            self.set_point(s, speed, &mut x);
+            let aside = || x.iter().zip(point).map(|(a, b)| (a - b).abs());
+            let d2: f64 = aside().map(|c| c * c).sum();
+            if d2 < best.0 {
+                best = (d2, aside().fold(0.0, f64::max));
+            }
+        }
+        best.1
+    }
+
+    /// Path length in mm that the filters hold.
+    fn reach(&self, speed: f64) -> f64 {
+        speed * f64::from(self.kernels.length()) * self.cycle.seconds()
+    }
+
+    /// Set point around path length `s`.
+    fn set_point(&self, s: f64, speed: f64, out: &mut AxisVec) {
+        let Self { contour, kernels, cycle } = self;
+        let step = speed * cycle.seconds();
+        let mut walk = contour.walk();
+        let mut position = out.clone();
+        out.fill(0.0);
+        // equal kernels share their taps
+        if !kernels.unequal
+            && let Some(coarse) = kernels.coarse.first()
+        {
+            for (weight, delay) in coarse {
+                walk.position(s + step * (kernels.delay - delay), &mut position);
+                for (o, p) in out.iter_mut().zip(position.iter()) {
+                    *o += weight * p;
+                }
+            }
+            return;
+        }
+        for i in 0..out.len() {
+            for (weight, delay) in &kernels.coarse[i] {
+                walk.position(s + step * (kernels.delay - delay), &mut position);
+                out[i] += weight * position[i];
+            }
+        }
+    }
+}
+
+/// What an even run is held to.
+pub(super) fn aim(tolerance_mm: f64) -> f64 {
+    within(tolerance_mm) - AIM * tolerance_mm
+}
+
+/// The speed in mm/s below the lowest one that does not keep the tolerance, from a first guess; at most `most`, at least
+/// `least`. A faster run may be even enough to keep it again, but never gets there.
+pub(super) fn fastest(guess: f64, least: f64, most: f64, keeps: impl Fn(f64) -> bool) -> f64 {
+    let step = std::f64::consts::SQRT_2;
+    let (mut low, mut high) = (guess.min(most), guess.min(most));
+    if keeps(low) {
+        loop {
+            if low >= most {
+                return most;
+            }
+            high = (low * step).min(most);
+            if !keeps(high) {
+                break;
+            }
+            low = high;
+        }
+    } else {
+        loop {
+            low = high / step;
+            if low <= least {
+                return least;
+            }
+            if keeps(low) {
+                break;
+            }
+            high = low;
+        }
+    }
+    for _ in 0..HALVINGS {
+        if high - low <= 1e-3 * low {
+            break;
+        }
+        let mid = 0.5 * (low + high);
+        if keeps(mid) { low = mid } else { high = mid }
+    }
+    low
+}
+
+/// A kink ahead.
+struct Kink {
+    /// Boundary of the window, and path length there.
+    boundary: usize,
+    s: f64,
+    /// Length of the change of direction.
+    turn: f64,
+    /// The path goes back.
+    acute: bool,
+    tolerance_mm: f64,
+    /// Highest speed of the blocks at it in mm/s.
+    feed: f64,
+}
+
+/// Asks for even speeds at the kinks of a window that begins at path length `start`, and between those that lie within
+/// reach of each other; false if that changes nothing. Kinks too close to the end of what is known are looked at again when
+/// more is known.
+pub(super) fn foresee(
+    demands: &mut Demands,
+    window: &[Arc<Queued>],
+    past: &Contour,
+    start: f64,
+    (kernels, cycle): (&Kernels, CycleTime),
+) -> bool {
+    let Some(kernel) = kernels.longest().filter(|_| !kernels.unequal && !kernels.overshoot) else {
+        return false;
+    };
+    let mut contour = past.clone();
+    let mut end = start;
+    for queued in window {
+        contour.enter(f64::INFINITY, end, Arc::clone(queued));
+        end += queued.length;
+    }
+    let evenly = Evenly { contour: &contour, kernels, cycle };
+    let [m1, reach] =
+        [kernel.m1_cycles(), f64::from(kernel.length())].map(|cycles| cycles * cycle.seconds());
+    let delay = kernel.delay_cycles() * cycle.seconds();
+    let side = delay.max(reach - delay);
+    let kinks = kinks(window, start);
+    let first = kinks.partition_point(|k| k.boundary < demands.foreseen).saturating_sub(1);
+    demands.foreseen = window.len();
+    let mut before: Option<(&Kink, f64)> = None;
+    let mut changes = false;
+    for (i, kink) in kinks.iter().enumerate().skip(first) {
+        // the mean way beyond a kink falls with the distance from it, below a straight line to the end of the filter
+        let part = |k: &Kink, speed: f64| k.turn * m1 * (speed - (k.s - kink.s).abs() / side);
+        let parts = |speed: f64| {
+            let behind = kinks[i..].iter().map(move |k| part(k, speed)).take_while(|p| *p > 0.0);
+            let ahead = kinks[..i].iter().rev().map(move |k| part(k, speed));
+            behind.chain(ahead.take_while(|p| *p > 0.0))
+        };
+        let aim = aim(kink.tolerance_mm);
+        let mut guess = kink.feed.min(aim / (m1 * kink.turn));
+        for _ in 0..ROUNDS {
+            let sum: f64 = parts(guess).sum();
+            if sum <= aim {
+                break;
+            }
+            guess *= (aim / sum).max(0.5);
+        }
+        let even = if guess >= kink.feed {
+            kink.feed
+        } else {
+            let point = window[kink.boundary].block.path.start();
+            fastest(guess, 1e-3 * guess, kink.feed, |speed| {
+                evenly.leaves(kink.s, speed) <= aim
+                    && (!kink.acute || evenly.misses(point, kink.s, speed) <= aim)
+            })
+        };
+        if kink.s + even * reach > end {
+            demands.foreseen = demands.foreseen.min(kink.boundary);
+        }
+        let largest = parts(even).fold(0.0, f64::max);
+        if even >= kink.feed || part(kink, even) < ALIKE * largest {
+            continue;
+        }
+        let cap = &mut demands.cap[kink.boundary];
+        changes |= even < *cap;
+        *cap = cap.min(even);
+        if let Some((other, speed)) = before {
+            let speed = speed.max(even);
+            if kink.s - other.s <= speed * reach {
+                for feed in &mut demands.feed[other.boundary..kink.boundary] {
+                    *feed = feed.min(speed);
+                }
+            }
+        }
+        before = Some((kink, even));
+    }
+    changes
+}
+
+/// The kinks of a window that begins at path length `start`.
+fn kinks(window: &[Arc<Queued>], start: f64) -> Vec<Kink> {
+    let mut s = start;
+    let mut out = Vec::new();
+    for (b, pair) in window.windows(2).enumerate() {
+        let [from, to] = [&pair[0], &pair[1]];
+        s += from.length;
+        let tolerances = [from, to].map(|q| q.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY));
+        let tolerance_mm = tolerances[0].min(tolerances[1]);
+        let (out_of, into) = (&from.ends.tangent_out, &to.ends.tangent_in);
+        let turns = out_of.iter().zip(into.iter()).map(|(a, b)| (b - a) * (b - a));
+        let turn = turns.sum::<f64>().sqrt();
+        // the rest of a block goes on without a kink
+        if turn <= STRAIGHT || to.offset > 0.0 || tolerance_mm.is_infinite() {
+            continue;
+        }
+        let acute = out_of.iter().zip(into.iter()).map(|(a, b)| a * b).sum::<f64>() < 0.0;
+        let feed = from.velocity.0.max(to.velocity.0);
+        out.push(Kink { boundary: b + 1, s, turn, acute, tolerance_mm, feed });
+    }
+    out
+}

@@ -1,0 +1,271 @@
+//! Measures the set points of some cycles: how far they leave the contour, and what of it they miss.
+
+use super::view::{Buffer, View};
+use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
+use crate::axis::AxisVec;
+use crate::deviation::{ALIKE, Excursion, SetPath};
+
+/// Cycles around the set point nearest to the last point of the contour among which that of the next one is looked for.
+const HINT: u64 = 3;
+/// Halvings in the search for the point of the contour where the nearest set point changes.
+const HALVINGS: u32 = 8;
+/// Way of the nearest set point, in ways along the contour, from which on it has passed to another part of the set path.
+const JUMP: f64 = 1.1;
+/// Points of the contour looked at in a cycle in which it may be missed.
+const PARTS: f64 = 4.0;
+/// Distance between the points of the contour that are looked at, in tolerances.
+const SPACING: f64 = 0.02;
+/// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be.
+const DOUBT: f64 = 0.9;
+
+/// A moment at which the tolerance is exceeded.
+#[derive(Clone, Debug)]
+pub(super) struct Violation {
+    /// Cycle of the set point that is too far away, or that comes nearest to the point that is missed.
+    pub(super) cycle: u64,
+    /// Largest component in mm.
+    pub(super) deviation_mm: f64,
+    /// Its tolerance in mm.
+    pub(super) tolerance_mm: f64,
+    pub(super) axis: usize,
+    /// The component points to larger positions.
+    pub(super) positive: bool,
+    /// Point of the contour that the set path misses, with its path length; `None`: the set path leaves the contour.
+    pub(super) missed: Option<(AxisVec, f64)>,
+}
+
+impl Violation {
+    pub(super) fn excess(&self) -> f64 {
+        self.deviation_mm - within(self.tolerance_mm)
+    }
+}
+
+/// What a plan is held to, a little below the tolerance.
+pub(super) fn within(tolerance_mm: f64) -> f64 {
+    tolerance_mm - MARGIN_MM.min(0.1 * tolerance_mm)
+}
+
+/// Length in mm up to which no component of a vector, or of what could be taken for it, exceeds a tolerance.
+fn certain(tolerance_mm: f64) -> f64 {
+    within(tolerance_mm) / (1.0 + ALIKE)
+}
+
+/// Path lengths and set points of a stretch of cycles.
+pub(super) struct Record {
+    first: u64,
+    s_mm: Vec<f64>,
+}
+
+impl Record {
+    /// Path length in cycle `k`, which is one of the stretch or of the reach in front of it.
+    pub(super) fn s(&self, k: u64) -> f64 {
+        let at = k.saturating_sub(self.first) as usize;
+        self.s_mm.get(at).or(self.s_mm.last()).copied().unwrap_or(0.0)
+    }
+}
+
+/// A point of the contour, by its path length, and the set point nearest to it.
+#[derive(Clone)]
+struct Foot {
+    s: f64,
+    /// Cycle behind the set point.
+    cycle: u64,
+    /// Distance in mm.
+    length: f64,
+    point: AxisVec,
+}
+
+impl Foot {
+    fn apart(&self, other: &Self) -> f64 {
+        let squares = self.point.iter().zip(other.point.iter()).map(|(a, b)| (a - b) * (a - b));
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// True if a point of the contour between two can be further away than `limit`: the distance changes by the way at most,
+    /// and where the nearest set point moves along with the contour it has no peak.
+    fn may_rise_to(&self, other: &Self, limit: f64) -> bool {
+        let way = (other.s - self.s).abs();
+        0.5 * (self.length + other.length + way) > limit && self.apart(other) > JUMP * way
+    }
+}
+
+impl View<'_> {
+    /// Hands the worst violations of the cycles `from..=to`, at most one for half a kernel, to `found`, and keeps the
+    /// worst of all.
+    pub(super) fn measure(
+        &self,
+        from: u64,
+        to: u64,
+        found: &mut impl FnMut(&Violation, &Record),
+        worst: &mut Option<Unkept>,
+    ) {
+        let Self { trial, marks, contour, .. } = self;
+        let length = u64::from(trial.kernels.length());
+        let reach = length as f64;
+        let mut buffer = Buffer::new(self);
+        let n = buffer.set.len();
+        let delay = trial.kernels.delay.round() as u64;
+        let first = from.saturating_sub(2 * length + 4);
+        let mut record = Record { first, s_mm: Vec::with_capacity((to - first) as usize + 1) };
+        let mut set = SetPath::starting(first, n);
+        buffer.seek(first);
+        let mut at = marks.partition_point(|m| m.cycles < from as f64 - reach - 2.0);
+        let mut bucket: Option<Violation> = None;
+        let mut between = AxisVec::zeros(n);
+        let mut walk = contour.walk();
+        let newest_passed = from.saturating_sub(length + 1);
+        let (mut hint, mut looked) = (newest_passed + delay, f64::NEG_INFINITY);
+        let mut last: Option<Foot> = None;
+        let half = (length / 2).max(1);
+        let mut note = |v: Violation, record: &Record| {
+            if worst.as_ref().is_none_or(|w| w.deviation_mm < v.deviation_mm) {
+                let i = marks.partition_point(|m| m.cycles <= v.cycle as f64).max(1) - 1;
+                let seq = marks[i].queued.block.seq;
+                let Violation { deviation_mm, tolerance_mm, .. } = v;
+                *worst = Some(Unkept { seq, deviation_mm, tolerance_mm });
+            }
+            bucket = Some(match bucket.take() {
+                Some(b) if b.cycle / half == v.cycle / half => {
+                    if v.excess() > b.excess() {
+                        v
+                    } else {
+                        b
+                    }
+                }
+                Some(b) => {
+                    found(&b, record);
+                    v
+                }
+                None => v,
+            });
+        };
+        for k in first..=to {
+            buffer.step(k);
+            record.s_mm.push(buffer.s());
+            set.push(&buffer.set);
+            if k < from {
+                continue;
+            }
+            let moment = k as f64;
+            let tolerance = self.tolerance(moment - reach, moment);
+            if tolerance.is_finite() {
+                let mut out = Excursion::none(n);
+                set.leaves(contour, k, (moment - reach, moment), &mut out);
+                let mut deviation_mm = out.largest();
+                if out.length > DOUBT * tolerance && deviation_mm <= within(tolerance) {
+                    // the components depend on what counts as within reach
+                    let doubtful = set.doubtful(
+                        contour,
+                        k,
+                        (moment - reach, moment),
+                        (BORDER_CYCLES, 10.0 * SPACING * tolerance),
+                    );
+                    deviation_mm = deviation_mm.max(doubtful);
+                }
+                if deviation_mm > within(tolerance) {
+                    let axis = out.axis();
+                    let positive = out.vector[axis] > 0.0;
+                    let missed = None;
+                    let tolerance_mm = tolerance;
+                    note(
+                        Violation { cycle: k, deviation_mm, tolerance_mm, axis, positive, missed },
+                        &record,
+                    );
+                }
+            }
+            // points of the contour that the filters hold no longer
+            let all = |moment: f64| {
+                let first = moment.floor().max(0.0) as u64;
+                (first, first + length + 2)
+            };
+            let mut missed = |point: &[f64], near: (u64, u64), moment: f64, s: f64| {
+                let tolerance_mm = self.tolerance(moment, moment + reach);
+                let wary_mm = certain(tolerance_mm);
+                let all = all(moment);
+                let mut out = Excursion::none(n);
+                let mut nearest = set.misses(point, near, wary_mm, &mut out);
+                if out.length > wary_mm && near != all {
+                    out = Excursion::none(n);
+                    nearest = set.misses(point, all, wary_mm, &mut out);
+                }
+                let (cycle, vector) = nearest?;
+                let deviation_mm = out.largest();
+                if deviation_mm > within(tolerance_mm) {
+                    let axis = out.axis();
+                    let positive = out.vector[axis] > 0.0;
+                    let missed = Some((AxisVec::from_slice(point), s));
+                    note(
+                        Violation { cycle, deviation_mm, tolerance_mm, axis, positive, missed },
+                        &record,
+                    );
+                }
+                let point = point.iter().zip(vector.iter()).map(|(p, v)| p + v).collect();
+                Some(Foot { s, cycle, length: out.length, point })
+            };
+            while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
+                let mark = &marks[at];
+                if at > 0 && mark.jump > 1e-9 {
+                    missed(&mark.point, all(mark.cycles), mark.cycles, mark.s_mm);
+                }
+                at += 1;
+            }
+            // the other points of the contour, as far apart as matters
+            let passed = k.saturating_sub(length + 1);
+            if passed <= first {
+                continue;
+            }
+            let tolerance = self.tolerance(passed as f64, moment);
+            let (from, to) = (looked.max(record.s(passed - 1)), record.s(passed));
+            if to - from < SPACING * tolerance && tolerance.is_finite() {
+                looked = from;
+                continue;
+            }
+            looked = to;
+            hint = hint.max(passed);
+            let parts =
+                ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
+            for part in 1..=parts {
+                let s = from + f64::from(part) / f64::from(parts) * (to - from);
+                walk.position(s, &mut between);
+                // the nearest set point is found close to the last one
+                let near = (hint.saturating_sub(HINT).max(passed), hint + HINT);
+                let foot = missed(&between, near, passed as f64, s);
+                hint = foot.as_ref().map_or(near.0, |foot| foot.cycle);
+                let before = std::mem::replace(&mut last, foot);
+                let (Some(mut low), Some(mut high)) = (before, last.clone()) else { continue };
+                // the vector is largest where the nearest set point passes to another part of the set path
+                for _ in 0..HALVINGS {
+                    if !low.may_rise_to(&high, within(tolerance)) {
+                        break;
+                    }
+                    let mid = 0.5 * (low.s + high.s);
+                    walk.position(mid, &mut between);
+                    let Some(foot) = missed(&between, near, passed as f64, mid) else { break };
+                    if foot.apart(&low) <= foot.apart(&high) { low = foot } else { high = foot }
+                }
+            }
+        }
+        if let Some(v) = bucket {
+            found(&v, &record);
+        }
+    }
+
+    /// Least tolerance of the blocks interpolated between two moments.
+    fn tolerance(&self, from: f64, to: f64) -> f64 {
+        if let Some(tolerance) = self.tolerance_mm {
+            return tolerance;
+        }
+        let bounds =
+            self.contour.between(from, to).filter_map(|p| p.queued.block.tolerance.ax_dev_mm);
+        bounds.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Change of direction of an axis at the entry of a mark's block.
+    pub(super) fn turn(&self, m: usize, axis: usize) -> f64 {
+        let Some(before) = m.checked_sub(1).map(|b| &self.marks[b]) else { return 0.0 };
+        if self.marks[m].goes_on_from(before) {
+            return 0.0;
+        }
+        self.marks[m].queued.ends.tangent_in[axis] - before.queued.ends.tangent_out[axis]
+    }
+}

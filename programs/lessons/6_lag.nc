@@ -1,0 +1,7 @@
+%lag
+(lesson 6: there without, back with feedforward)
+N10 G01 X100 F6000
+N20 G04 0.3
+N30 G135
+N40 X0
+N50 M30
