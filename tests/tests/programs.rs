@@ -239,7 +239,7 @@ fn run_line(line: &str, folder: &Path) -> Output {
     command(words)
 }
 
-/// The lessons: every program has its commands, every command runs, and every picture is the one of its command.
+/// The lessons: every program has its commands, and every command runs.
 #[test]
 fn every_command_of_the_lessons_runs() {
     let folder = tempfile::tempdir().unwrap();

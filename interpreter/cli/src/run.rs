@@ -56,12 +56,13 @@ pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
     totals.aborted |= interrupted.is_some();
     let summary = summary.finish(&totals);
     let mut times = times.map(times::Collector::finish);
-    if let Some(times) = times.as_mut().filter(|_| !totals.aborted) {
-        times::try_out(times, &args.simulation.request(&args.program))?;
-    }
     if let (Some(times), Some(Some(path))) = (&times, &args.times) {
         let table = times.csv().map_err(|e| Error::io(path.display().to_string(), e.into()))?;
         target::write(path, &table)?;
+    }
+    let shown = args.summary != SummaryForm::None && !totals.aborted;
+    if let Some(times) = times.as_mut().filter(|_| shown) {
+        times::try_out(times, &args.simulation.request(&args.program));
     }
     let text = match args.summary {
         SummaryForm::Text => {

@@ -3,6 +3,7 @@
 //! One reader with one limit for all of them. What is no text, or has a line without end, is refused in plain words
 //! before it fills the memory.
 
+use kontur_interpreter::diag::QUOTED_MAX;
 use std::io::{self, BufRead, BufReader, Read};
 
 /// Bytes of a line; a longer one is no line of a table or a list.
@@ -32,6 +33,16 @@ impl<R: Read> Text<R> {
         }
         Ok(Self { reader, line: 1, length: 0 })
     }
+}
+
+/// A line, or what can be shown of a long one: at most [`QUOTED_MAX`] characters.
+pub fn beginning(text: &str) -> String {
+    let mut characters = text.chars();
+    let mut shown: String = characters.by_ref().take(QUOTED_MAX).collect();
+    if characters.next().is_some() {
+        shown.push_str("...");
+    }
+    shown
 }
 
 fn wrong(text: impl Into<String>) -> io::Error {

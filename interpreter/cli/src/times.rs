@@ -24,8 +24,7 @@ const NO_ACC_MM_S2: f64 = 1e-6;
 const CONSTANT: f64 = 1e-6;
 
 /// What a cycle was needed for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reason {
     /// The programmed feed is reached.
     Feed,
@@ -45,18 +44,8 @@ pub enum Reason {
     Lookahead,
     /// At rest without waiting.
     Stop,
-    /// G04, `#TIME`.
-    Dwell,
-    /// Declared durations of M, H and S functions.
-    Technology,
-    /// Waiting for the exact-stop window (G60, G360).
-    ExactStop,
-    /// Waiting for the set positions: `#FLUSH WAIT`, independent axes, a change of filters.
-    Flush,
-    /// Waiting for the axes at the end of the program.
-    Arrival,
-    /// Feedhold or override 0.
-    Held,
+    /// The path waits.
+    Rest(Rest),
 }
 
 impl Reason {
@@ -71,12 +60,12 @@ impl Reason {
         Self::AxDev,
         Self::Lookahead,
         Self::Stop,
-        Self::Dwell,
-        Self::Technology,
-        Self::ExactStop,
-        Self::Flush,
-        Self::Arrival,
-        Self::Held,
+        Self::Rest(Rest::Dwell),
+        Self::Rest(Rest::Technology),
+        Self::Rest(Rest::ExactStop),
+        Self::Rest(Rest::Flush),
+        Self::Rest(Rest::Arrival),
+        Self::Rest(Rest::Held),
     ];
 
     /// Name in results.
@@ -91,25 +80,14 @@ impl Reason {
             Self::AxDev => "ax_dev",
             Self::Lookahead => "lookahead",
             Self::Stop => "stop",
-            Self::Dwell => "dwell",
-            Self::Technology => "technology",
-            Self::ExactStop => "exact_stop",
-            Self::Flush => "flush",
-            Self::Arrival => "arrival",
-            Self::Held => "held",
+            Self::Rest(rest) => rest.name(),
         }
     }
 
     fn of(record: &CycleRecord) -> Self {
         let path = &record.path;
-        match path.rest {
-            Some(Rest::Dwell) => return Self::Dwell,
-            Some(Rest::Technology) => return Self::Technology,
-            Some(Rest::ExactStop) => return Self::ExactStop,
-            Some(Rest::Flush) => return Self::Flush,
-            Some(Rest::Arrival) => return Self::Arrival,
-            Some(Rest::Held) => return Self::Held,
-            None => {}
+        if let Some(rest) = path.rest {
+            return Self::Rest(rest);
         }
         Self::of_motion(path.limit, path.v_mm_s, path.a_mm_s2, path.j_mm_s3)
     }
@@ -133,6 +111,12 @@ impl Reason {
             // the top of a ramp up and down again
             SpeedLimit::Stop => Self::Slope,
         }
+    }
+}
+
+impl Serialize for Reason {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
     }
 }
 

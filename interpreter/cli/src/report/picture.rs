@@ -4,6 +4,7 @@
 use super::recording::{Kind, Point, Recording, programmed};
 use super::svg::{COLOURS, FAINT, INK, Panel, Stroke, Svg};
 use crate::summary::Summary;
+use crate::text::beginning;
 
 const WIDTH: f64 = 1200.0;
 const LEFT: f64 = 76.0;
@@ -76,7 +77,7 @@ fn head(svg: &mut Svg, runs: &[(Recording, Summary)]) {
         }
     };
     let style = format!("fill=\"{INK}\" font-size=\"20\" font-weight=\"700\"");
-    svg.text([LEFT, 36.0], "start", &style, &title);
+    svg.text([LEFT, 36.0], "start", &style, &beginning(&title));
     let mut facts = Vec::new();
     if let Some((_, s)) = runs.first() {
         facts.push(format!("machine {}", s.machine));

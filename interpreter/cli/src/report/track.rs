@@ -69,9 +69,12 @@ impl Track {
             self.within_mm += self.tolerance_mm;
             let mut chosen = Vec::with_capacity(self.kept.len());
             for pass in self.kept.chunk_by(|a, b| a.pass == b.pass) {
-                let mut pass = pass.to_vec();
-                thin(&mut pass, self.tolerance_mm);
-                chosen.append(&mut pass);
+                // in parts: what it takes stays in proportion to the number of points
+                for part in pass.chunks(CHUNK) {
+                    let mut part = part.to_vec();
+                    thin(&mut part, self.tolerance_mm);
+                    chosen.append(&mut part);
+                }
             }
             self.kept = chosen;
         }

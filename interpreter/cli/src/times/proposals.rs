@@ -1,7 +1,6 @@
 //! What would help: the program runs again with one group of parameters a tenth better, and the times are compared line by line.
 
 use super::{Collector, Reason, Times};
-use crate::Error;
 use crate::files::{self, Lists};
 use crate::interrupt::Running;
 use crate::request::Request;
@@ -79,15 +78,12 @@ pub struct Proposal {
 
 /// Tries out what the reasons suggest, one run each; the longest saving first. The lines get the proposal that helps them most.
 ///
-/// Nothing is tried for a program that cannot be read again (standard input, a pipe).
-///
-/// # Errors
-/// [`Error`] if the lists cannot be read any more.
-pub fn try_out(times: &mut Times, request: &Request) -> Result<(), Error> {
+/// Nothing is tried for a program or for lists that cannot be read again (standard input, a pipe).
+pub fn try_out(times: &mut Times, request: &Request) {
     if files::is_standard(&request.program) || files::regular(&request.program).is_err() {
-        return Ok(());
+        return;
     }
-    let (machine, _) = request.machine(&Lists::default())?;
+    let Ok((machine, _)) = request.machine(&Lists::default()) else { return };
     let wanted = wanted(times, &machine.axes);
     let _running = Running::start();
     let tried: Vec<(Proposal, Times)> =
@@ -105,7 +101,6 @@ pub fn try_out(times: &mut Times, request: &Request) -> Result<(), Error> {
         times.proposals.push(proposal);
     }
     times.proposals.sort_by(|a, b| b.saves_s.total_cmp(&a.saves_s));
-    Ok(())
 }
 
 /// What the reasons suggest, for axes that are named by one of them or for all path axes.

@@ -1,8 +1,7 @@
 //! The forms of the times: text, JSON and a table of all lines.
 
 use super::{MOST_EXPENSIVE, Range, Reason, TimeByReason, TimeOfLine, Times};
-use crate::text::Text;
-use kontur_interpreter::diag::QUOTED_MAX;
+use crate::text::{Text, beginning};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{BufRead as _, BufReader};
@@ -160,16 +159,6 @@ impl Times {
         }
         found
     }
-}
-
-/// A source line, or what can be shown of a long one.
-fn beginning(text: &str) -> String {
-    let mut characters = text.chars();
-    let mut shown: String = characters.by_ref().take(QUOTED_MAX).collect();
-    if characters.next().is_some() {
-        shown.push_str("...");
-    }
-    shown
 }
 
 impl TimeOfLine {
