@@ -18,7 +18,7 @@ mod step;
 mod suggest;
 mod values;
 
-pub use options::{Access, External, ForcedGuard, GuardCommands, Options, SkipLevels, Value};
+pub use options::{Access, External, ForcedGuard, GuardCommands, Options, SkipLevels, Stop, Value};
 pub use program::check::Checked;
 pub(crate) use program::check::check;
 pub(crate) use program::executor::Executor;

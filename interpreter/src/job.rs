@@ -31,7 +31,7 @@ mod run;
 mod tests;
 
 pub use crate::exec::{
-    Access, Checked, External, ForcedGuard, GuardCommands, Options, SkipLevels, Value,
+    Access, Checked, External, ForcedGuard, GuardCommands, Options, SkipLevels, Stop, Value,
 };
 pub use crate::sim::{Change, Changes, SettledStop, Signal, Stops, Totals};
 pub use facts::{AxisFacts, Facts, FileNames};
@@ -136,6 +136,7 @@ impl Job {
             self.options.clone(),
         )?;
         let facts = Facts::of(&self.program, &self.machine, &simulation, several_files);
-        Ok(Run::new(simulation, Arc::clone(&self.sources), facts, messages, refused))
+        let stop = self.options.stop.clone();
+        Ok(Run::new(simulation, Arc::clone(&self.sources), facts, messages, refused, stop))
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::request::Request;
 use clap::{Parser, Subcommand, ValueEnum};
+use kontur_interpreter::job::Stop;
 use kontur_interpreter::machine::Override;
 use kontur_interpreter::record::columns::DEFAULT_SIGNALS;
 use std::path::PathBuf;
@@ -147,6 +148,10 @@ pub struct SimulationArgs {
     /// Form of the messages on stderr
     #[arg(long, value_enum, default_value_t = MessageForm::Text)]
     pub diagnostics: MessageForm,
+
+    /// Ends check and run from another thread; nothing on the command line
+    #[arg(skip)]
+    pub stop: Stop,
 }
 
 impl SimulationArgs {
@@ -169,6 +174,7 @@ impl SimulationArgs {
             techno_times: self.techno_times,
             external: self.external.clone(),
             guard: None,
+            stop: self.stop.clone(),
         }
     }
 }

@@ -168,14 +168,47 @@ impl Progress {
         self.bar.tick();
     }
 
+    /// Shows how many of all runs are done, and the time that the others will take if they are like those done since the
+    /// beginning of this work (`now`).
+    pub fn show_rest(&mut self, done: usize, all: usize, now: usize) {
+        let left = rest(self.bar.elapsed(), now, all.saturating_sub(done));
+        self.show(|| format!("{done} of {all} runs, {left} left"));
+    }
+
     /// Does something else on the terminal (prints a message) while the display steps aside.
     pub fn suspend<R>(&self, f: impl FnOnce() -> R) -> R {
         if self.shown { self.bar.suspend(f) } else { f() }
     }
 }
 
+/// Time for what is left in words, from the time that so much was done in.
+fn rest(elapsed: Duration, done: usize, left: usize) -> String {
+    let seconds = elapsed.as_secs_f64() * left as f64 / done.max(1) as f64;
+    let whole = libm::ceil(seconds) as u64;
+    match whole {
+        0..120 => format!("{whole} s"),
+        120..7200 => format!("{} min", whole.div_ceil(60)),
+        _ => format!("{} h", whole.div_ceil(3600)),
+    }
+}
+
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rest;
+    use std::time::Duration;
+
+    #[test]
+    fn the_time_left_is_that_of_the_runs_before() {
+        let rest = |seconds, done, left| rest(Duration::from_secs(seconds), done, left);
+        assert_eq!(rest(10, 5, 20), "40 s");
+        assert_eq!(rest(100, 1, 2), "4 min");
+        assert_eq!(rest(3600, 1, 3), "3 h");
+        assert_eq!(rest(10, 5, 0), "0 s");
     }
 }

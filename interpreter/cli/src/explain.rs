@@ -9,12 +9,17 @@ use crate::{Error, Exit};
 /// # Errors
 /// [`Error::Usage`] if nobody knows it, with words that resemble it.
 pub fn explain(args: &ExplainArgs, console: &mut Console) -> Result<Exit, Error> {
-    let thing = args.thing.join(" ");
-    match kontur_interpreter::explain::explain(&thing) {
-        Ok(text) => {
-            console.print(&text.to_string())?;
-            Ok(Exit::Finished)
-        }
+    console.print(&text(&args.thing.join(" "))?)?;
+    Ok(Exit::Finished)
+}
+
+/// What is known about a thing.
+///
+/// # Errors
+/// As [`explain`].
+pub fn text(thing: &str) -> Result<String, Error> {
+    match kontur_interpreter::explain::explain(thing) {
+        Ok(known) => Ok(known.to_string()),
         Err(similar) => {
             let hint = if similar.is_empty() {
                 "an error ID (22060), a parameter (P-AXIS-00571 or its key) or a command is expected"

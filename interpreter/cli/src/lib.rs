@@ -18,7 +18,7 @@ pub mod response;
 pub mod run;
 mod spectrum;
 pub mod sweep;
-mod table;
+pub mod table;
 pub mod target;
 pub mod times;
 pub mod trace;

@@ -5,7 +5,7 @@ use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::job::{
     Access, Changes, Checked, External, ForcedGuard, Job, MachineLists, Options, Run, SkipLevels,
-    Value, inputs,
+    Stop, Value, inputs,
 };
 use kontur_interpreter::machine::{Axis, Machine};
 use std::path::{Path, PathBuf};
@@ -46,6 +46,8 @@ pub struct Request {
     pub external: Vec<(String, String)>,
     /// Vibration Guard in place of that of lists and program.
     pub guard: Option<ForcedGuard>,
+    /// Ends it from another thread.
+    pub stop: Stop,
 }
 
 /// Why a program could not be opened.
@@ -199,6 +201,7 @@ fn options(request: &Request, machine: &Machine) -> Result<Options, OpenError> {
         techno_times: request.techno_times,
         external: request.external.iter().map(external).collect(),
         guard: request.guard,
+        stop: request.stop.clone(),
         ..Options::default()
     })
 }

@@ -13,9 +13,11 @@ mod select;
 mod view;
 
 use crate::console::Console;
+use crate::table::Table;
 use crate::{Error, Exit};
 use args::ResponseArgs;
 use std::path::Path;
+use view::View;
 
 /// Computes one view of all curves and writes it: a table on stdout, or to each `-o` a table (`.csv`) or a picture
 /// (`.svg`).
@@ -27,8 +29,7 @@ pub fn response(args: &ResponseArgs, console: &mut Console) -> Result<Exit, Erro
         kind(output)?;
     }
     crate::target::keep_apart(&[], &args.output)?;
-    let (curves, cycle) = select::curves(args, console)?;
-    let view = view::view(args, &curves, cycle)?;
+    let view = answer(args, console)?;
     if args.output.is_empty() {
         console.print(&view.table.csv())?;
     }
@@ -40,6 +41,19 @@ pub fn response(args: &ResponseArgs, console: &mut Console) -> Result<Exit, Erro
         crate::target::write(output, text.as_bytes())?;
     }
     Ok(Exit::Finished)
+}
+
+/// The numbers of one view of all curves.
+///
+/// # Errors
+/// [`Error`] if a filter cannot be designed, or a view does not suit a curve.
+pub fn table(args: &ResponseArgs, console: &mut Console) -> Result<Table, Error> {
+    Ok(answer(args, console)?.table)
+}
+
+fn answer(args: &ResponseArgs, console: &mut Console) -> Result<View, Error> {
+    let (curves, cycle) = select::curves(args, console)?;
+    view::view(args, &curves, cycle)
 }
 
 /// What an output file holds.

@@ -14,12 +14,11 @@ use crate::console::Console;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened, Request};
 use crate::spectrum::AmplitudeSpectrum;
-use crate::table::Table;
+use crate::table::{Cell, Table};
 use crate::target::{Target, keep_apart};
 use crate::vary::{combinations, put, settings, without_effect};
 use crate::{Error, Exit};
 use args::{Amplitude, SweepArgs};
-use columns::Cell;
 use journal::Journal;
 use kontur_interpreter::diag::Severity;
 use kontur_interpreter::job::{Run, Sink};
@@ -43,13 +42,18 @@ struct Outcome {
 }
 
 /// The row of one run under its header.
-type Row = (Vec<String>, Vec<Cell>);
+pub type Row = (Vec<String>, Vec<Cell>);
 
 /// Why there is no row.
 enum Failure {
     Open(OpenError),
-    Usage(String),
     Interrupted,
+}
+
+impl Failure {
+    const fn usage(text: String) -> Self {
+        Self::Open(OpenError::Usage(text))
+    }
 }
 
 /// All rows of a sweep.
@@ -64,10 +68,21 @@ struct Rows {
 ///
 /// A sweep that was stopped goes on where it stopped: finished rows wait in a journal beside the first `-o`.
 ///
+/// Without any run that came to its end the exit is [`Exit::Aborted`], but for a shard: its job has been done.
+///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or an output cannot be written.
 pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
-    let combinations = combinations(&args.vary)?;
+    let mut combinations = combinations(&args.vary)?;
+    if let Some(shard) = &args.shard {
+        let picture = args.output.iter().find(|o| is(o, "svg"));
+        if let Some(picture) = picture {
+            let name = picture.display();
+            return Err(Error::Usage(format!("-o {name}: a shard has too few rows for a picture")));
+        }
+        let range = shard.of(combinations.len()).map_err(Error::Usage)?;
+        combinations = combinations.drain(range).collect();
+    }
     let (standard, files): (Vec<_>, Vec<_>) =
         args.output.iter().partition(|o| crate::files::is_standard(o));
     // a file that cannot be written ends the sweep before its first run
@@ -85,7 +100,9 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     let rows = run_all(args, &combinations, journal.as_mut(), console)?;
     let rows = Rows { title, ..rows };
     let results: Vec<&[Cell]> = rows.cells.iter().map(|row| &row[args.vary.len()..]).collect();
-    for vary in without_effect(&args.vary, &combinations, &results) {
+    // of a shard nobody knows the other rows
+    let compared = if args.shard.is_none() { &args.vary[..] } else { &[] };
+    for vary in without_effect(compared, &combinations, &results) {
         console.say(Severity::Note, &format!(
             "{}: every value gives the same results; the program sets its own, or nothing uses it",
             vary.key
@@ -100,9 +117,17 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     if let Some(journal) = journal {
         journal.remove();
     }
+    if args.shard.is_some() {
+        return Ok(Exit::Finished);
+    }
     let finished = Cell::Word(State::Finished.name().to_owned());
     let any_finished = rows.cells.iter().any(|row| row[args.vary.len()] == finished);
     Ok(if any_finished { Exit::Finished } else { Exit::Aborted })
+}
+
+/// The file has this ending.
+fn is(path: &Path, end: &str) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end))
 }
 
 /// Program and machine of the first combination, and the files that its run reads.
@@ -136,21 +161,26 @@ fn write(
     combinations: &[Vec<usize>],
     rows: &Rows,
 ) -> Result<(), Error> {
-    let is = |end: &str| output.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
     let to_error = |e| Error::io(output.display().to_string(), e);
-    if is("parquet") {
+    if is(output, "parquet") {
         #[cfg(feature = "parquet")]
-        target.file().and_then(|file| parquet::write(file, rows)).map_err(to_error)?;
+        return target
+            .file()
+            .and_then(|file| parquet::write(file, rows))
+            .and_then(|()| target.show())
+            .map_err(to_error);
         #[cfg(not(feature = "parquet"))]
         return Err(Error::Usage(format!(
             "{}: built without Parquet, use a .csv file",
             output.display()
         )));
-    } else {
-        let text =
-            if is("svg") { picture::draw(args, combinations, rows)? } else { rows.table().csv() };
-        target.file().and_then(|file| file.write_all(text.as_bytes())).map_err(to_error)?;
     }
+    let text = if is(output, "svg") {
+        picture::draw(args, combinations, rows)?
+    } else {
+        rows.table().csv()
+    };
+    target.file().and_then(|file| file.write_all(text.as_bytes())).map_err(to_error)?;
     target.show().map_err(to_error)
 }
 
@@ -158,7 +188,7 @@ impl Rows {
     fn table(&self) -> Table {
         let mut table = Table::new(&self.header.iter().map(String::as_str).collect::<Vec<_>>());
         for row in &self.cells {
-            table.push(row.iter().map(Cell::text).collect());
+            table.push(row.iter().cloned());
         }
         table
     }
@@ -187,20 +217,16 @@ fn run_all(
         let (send, receive) = mpsc::channel();
         scope.spawn(move || {
             open.par_iter().for_each_with(send, |send, &i| {
-                let mut request = args.simulation.request(&args.program);
-                put(&args.vary, &combinations[i], &mut request);
                 if Running::is_interrupted() {
                     return;
                 }
-                let row = one(args, &request).and_then(|outcome| {
-                    columns::row(args, &combinations[i], &outcome).map_err(Failure::Usage)
-                });
+                let row = row(args, &combinations[i]);
                 // the receiver lives until the last sender is gone
                 let _ = send.send((i, row));
             });
         });
         for (count, (i, row)) in receive.into_iter().enumerate() {
-            progress.show(|| format!("{} of {} runs", before + count + 1, combinations.len()));
+            progress.show_rest(before + count + 1, combinations.len(), count + 1);
             match row {
                 Ok(row) => {
                     if let (Some(journal), Ok(())) = (&mut journal, &written) {
@@ -223,8 +249,8 @@ fn run_all(
     }
     match failed {
         None => {}
-        Some((_, Failure::Usage(text))) => return Err(Error::Usage(text)),
         Some((_, Failure::Interrupted)) => return Err(Error::Stopped),
+        Some((_, Failure::Open(OpenError::Usage(text)))) => return Err(Error::Usage(text)),
         Some((i, Failure::Open(e))) => return Err(refused(args, &combinations[i], e, console)),
     }
     let mut rows = Rows { title: String::new(), header: Vec::new(), cells: Vec::new() };
@@ -260,7 +286,7 @@ impl Sink for Collected<'_> {
                 continue;
             }
             if samples.len() == MOST_SAMPLES {
-                return Err(Failure::Usage(format!(
+                return Err(Failure::usage(format!(
                     "--amplitude {}: more than {MOST_SAMPLES} cycles; {}@0..10 takes a part",
                     amplitude.text, amplitude.text
                 )));
@@ -281,6 +307,60 @@ impl Sink for Collected<'_> {
     }
 }
 
+/// A sweep whose runs somebody else distributes: over threads, processes or machines.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    args: SweepArgs,
+    combinations: Vec<Vec<usize>>,
+}
+
+impl Plan {
+    /// All combinations of the arguments; `output` and `shard` have no part in it.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for too many of them, or a parameter given twice.
+    pub fn new(args: SweepArgs) -> Result<Self, Error> {
+        let combinations = combinations(&args.vary)?;
+        Ok(Self { args, combinations })
+    }
+
+    /// Number of runs.
+    pub const fn len(&self) -> usize {
+        self.combinations.len()
+    }
+
+    /// True if nothing is to be run.
+    pub const fn is_empty(&self) -> bool {
+        self.combinations.is_empty()
+    }
+
+    /// Names of what varies: the first columns of every row.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.args.vary.iter().map(|v| v.key.as_str())
+    }
+
+    /// Does one of the runs, by its number in the order of the table.
+    ///
+    /// # Errors
+    /// [`OpenError`] if it cannot be run; an aborted run has a row.
+    pub fn row(&self, number: usize) -> Result<Row, OpenError> {
+        let usage = |text: &str| OpenError::Usage(text.to_owned());
+        let combination = self.combinations.get(number).ok_or_else(|| usage("no such run"))?;
+        row(&self.args, combination).map_err(|failure| match failure {
+            Failure::Open(e) => e,
+            Failure::Interrupted => usage("interrupted"),
+        })
+    }
+}
+
+/// Runs one combination.
+fn row(args: &SweepArgs, combination: &[usize]) -> Result<Row, Failure> {
+    let mut request = args.simulation.request(&args.program);
+    put(&args.vary, combination, &mut request);
+    let outcome = one(args, &request)?;
+    columns::row(args, combination, &outcome).map_err(Failure::usage)
+}
+
 /// One run.
 fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
     let mut run = request.open().map_err(Failure::Open)?.run;
@@ -288,7 +368,7 @@ fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
     let cycle_s = facts.cycle_s();
     let mut wanted = Vec::new();
     for amplitude in &args.amplitude {
-        let column = amplitude.column(facts).map_err(Failure::Usage)?;
+        let column = amplitude.column(facts).map_err(Failure::usage)?;
         wanted.push(Wanted { amplitude, column, samples: Vec::new() });
     }
     let mut collected = Collected { summary: Collector::new(facts), cycle_s, wanted };

@@ -1,12 +1,72 @@
-//! Tables of results as CSV: one header line, decimal points, an empty cell where there is no number.
+//! Tables of results, and their form as CSV: one header line, decimal points, an empty cell where there is no number.
 
 use crate::Error;
+use serde::{Deserialize, Serialize};
 
-/// Rows of text under a header.
-#[derive(Clone, Debug)]
-pub(crate) struct Table {
+/// A value of a table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Cell {
+    /// With its decimals in a text table; not finite: nothing.
+    Number(#[serde(with = "bits")] f64, usize),
+    /// A number that was given: with the digits that it has.
+    Given(#[serde(with = "bits")] f64),
+    /// A text.
+    Word(String),
+}
+
+impl Cell {
+    /// No number.
+    pub(crate) const NOTHING: Self = Self::Number(f64::NAN, 0);
+
+    /// As it stands in a text table.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Number(value, decimals) => number(*value, *decimals),
+            Self::Given(value) => value.to_string(),
+            Self::Word(word) => word.clone(),
+        }
+    }
+
+    /// The number, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(value, _) | Self::Given(value) => Some(*value),
+            Self::Word(_) => None,
+        }
+    }
+}
+
+impl From<u32> for Cell {
+    fn from(count: u32) -> Self {
+        Self::Given(f64::from(count))
+    }
+}
+
+impl From<String> for Cell {
+    fn from(word: String) -> Self {
+        Self::Word(word)
+    }
+}
+
+/// A number by its bits: the text of a number need not come back to the same.
+mod bits {
+    use serde::{Deserialize as _, Deserializer, Serializer};
+
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "the form that serde asks for")]
+    pub(super) fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_u64(x.to_bits())
+    }
+
+    pub(super) fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<f64, D::Error> {
+        u64::deserialize(from).map(f64::from_bits)
+    }
+}
+
+/// Rows under a header.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
     header: Vec<String>,
-    rows: Vec<Vec<String>>,
+    rows: Vec<Vec<Cell>>,
 }
 
 impl Table {
@@ -16,9 +76,25 @@ impl Table {
     }
 
     /// Adds a row; it has a cell for each column.
-    pub(crate) fn push(&mut self, row: Vec<String>) {
+    pub(crate) fn push(&mut self, row: impl IntoIterator<Item = impl Into<Cell>>) {
+        let row: Vec<Cell> = row.into_iter().map(Into::into).collect();
         debug_assert_eq!(row.len(), self.header.len());
         self.rows.push(row);
+    }
+
+    /// Names of the columns.
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// The rows; each has a cell for every column.
+    pub fn rows(&self) -> &[Vec<Cell>] {
+        &self.rows
+    }
+
+    /// Every cell as text.
+    fn texts(&self) -> Vec<Vec<String>> {
+        self.rows.iter().map(|row| row.iter().map(Cell::text).collect()).collect()
     }
 
     /// The file: cells that hold commas or quotes are quoted.
@@ -29,8 +105,9 @@ impl Table {
     fn write(&self) -> Result<String, Error> {
         let wrong = |e: std::io::Error| Error::io("table", e);
         let mut writer = csv::Writer::from_writer(Vec::new());
-        for row in std::iter::once(&self.header).chain(&self.rows) {
-            writer.write_record(row).map_err(|e| wrong(e.into()))?;
+        writer.write_record(&self.header).map_err(|e| wrong(e.into()))?;
+        for row in &self.rows {
+            writer.write_record(row.iter().map(Cell::text)).map_err(|e| wrong(e.into()))?;
         }
         let bytes = writer.into_inner().map_err(|e| wrong(e.into_error()))?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
@@ -38,18 +115,19 @@ impl Table {
 
     /// The readable form: columns of numbers aligned at their right ends, the others at their left.
     pub(crate) fn text(&self) -> String {
+        let rows = self.texts();
         let width = |i: usize| {
-            let cells = self.rows.iter().map(|row| &row[i]).chain([&self.header[i]]);
+            let cells = rows.iter().map(|row| &row[i]).chain([&self.header[i]]);
             cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
         };
         let numbers = |i: usize| {
-            let first = self.rows.iter().find_map(|row| row[i].chars().next());
+            let first = rows.iter().find_map(|row| row[i].chars().next());
             i > 0 && first.is_some_and(|c| c.is_ascii_digit() || "+-".contains(c))
         };
         let columns: Vec<(usize, bool)> =
             (0..self.header.len()).map(|i| (width(i), numbers(i))).collect();
         let mut out = String::new();
-        for row in std::iter::once(&self.header).chain(&self.rows) {
+        for row in std::iter::once(&self.header).chain(&rows) {
             let cells = row.iter().zip(&columns).map(|(cell, (width, right))| {
                 let padding = " ".repeat(width - cell.chars().count());
                 if *right { format!("{padding}{cell}") } else { format!("{cell}{padding}") }

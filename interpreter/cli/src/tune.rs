@@ -14,7 +14,7 @@ pub mod vibration;
 
 use crate::console::Console;
 use crate::files::Lists;
-use crate::table::{Table, number};
+use crate::table::{Cell, Table, number};
 use crate::target::{keep_apart, write};
 use crate::{Error, Exit};
 use args::TuneArgs;
@@ -52,11 +52,30 @@ struct Row {
     given: bool,
 }
 
+/// What is known about each choice, and the one to take.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// One row per choice: settings, residual vibration, contour error, delay; with a program what a run was like.
+    pub choices: Table,
+    /// The command to paste; none if no choice keeps what was asked for.
+    pub command: Option<String>,
+    /// How the command ends.
+    pub exit: Exit,
+}
+
 /// Answers the question that the arguments ask.
 ///
 /// # Errors
 /// [`Error`] if lists or files are wrong, or if nothing can be said about them.
 pub fn tune(args: &TuneArgs, console: &mut Console) -> Result<Exit, Error> {
+    Ok(answer(args, console)?.exit)
+}
+
+/// As [`tune`], with the numbers behind what is printed.
+///
+/// # Errors
+/// As [`tune`].
+pub fn answer(args: &TuneArgs, console: &mut Console) -> Result<Answer, Error> {
     let lists = Lists::default();
     let cycle = cycle(args, &lists, console)?;
     let inputs = args.recording.iter().chain(&args.program).cloned();
@@ -102,7 +121,30 @@ pub fn tune(args: &TuneArgs, console: &mut Console) -> Result<Exit, Error> {
         return program::answer(&task, args, file, max_dev_mm, console);
     }
     console.print(&task.proposal(&rows))?;
-    Ok(Exit::Finished)
+    let mut choices = Table::new(&[
+        "mode",
+        "freq_hz",
+        "damping",
+        "given",
+        "residual_ratio",
+        "contour_err_mm",
+        "delay_s",
+        "keeps",
+    ]);
+    for Row { choice, given } in &rows {
+        choices.push([
+            Cell::from(u32::from(choice.settings.mode)),
+            Cell::Given(choice.settings.freq_hz),
+            Cell::Given(choice.settings.damping),
+            Cell::from(u32::from(*given)),
+            Cell::Given(choice.worst_ratio),
+            Cell::Given(task.corner_error_mm(choice)),
+            Cell::Given(choice.delay_cycles * task.cycle.seconds()),
+            Cell::from(u32::from(task.keeps(choice))),
+        ]);
+    }
+    let proposed = task.proposed(&rows).map(|choice| command(&choice.settings, &task.tolerance()));
+    Ok(Answer { choices, command: proposed, exit: Exit::Finished })
 }
 
 /// The cycle of the machine, if one is named, else that of the option.

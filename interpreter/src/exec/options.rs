@@ -3,6 +3,9 @@
 use crate::diag::Location;
 use kontur_filters::vib_guard::VibGuardSettings;
 use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Active levels of `/` blocks: bit 0 is level 1, bit 9 level 10.
 ///
@@ -82,6 +85,39 @@ pub struct GuardCommands {
     pub ax_dev: Option<(Location, f64)>,
 }
 
+/// Ends a check or a run from another thread; copies belong together.
+///
+/// Looked at in front of every block and between two stretches of cycles. What was stopped is aborted and says nothing
+/// about it: whoever stops it knows.
+#[derive(Clone, Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// Stops everything that has a copy.
+    pub fn set(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// It has been stopped.
+    pub fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+impl fmt::Debug for Stop {
+    /// Without its state, which is no part of what is computed.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Stop")
+    }
+}
+
+impl PartialEq for Stop {
+    /// Any two: whether something is stopped makes no other computation of it.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
 /// Options of an execution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -104,6 +140,8 @@ pub struct Options {
     pub external: BTreeMap<String, External>,
     /// Vibration Guard in place of that of lists and program.
     pub guard: Option<ForcedGuard>,
+    /// Ends it from outside.
+    pub stop: Stop,
 }
 
 impl Default for Options {
@@ -118,6 +156,7 @@ impl Default for Options {
             techno_times: false,
             external: BTreeMap::new(),
             guard: None,
+            stop: Stop::default(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A program under way, and the one loop over its cycles.
 
-use super::{Changes, Facts, Totals};
+use super::{Changes, Facts, Stop, Totals};
 use crate::diag::{Condition, Diagnostic};
 use crate::record::CycleRecord;
 use crate::sim::Simulation;
@@ -50,6 +50,7 @@ pub struct Run {
     over: bool,
     /// A program is no longer what was run.
     changed: bool,
+    stop: Stop,
 }
 
 impl fmt::Debug for Run {
@@ -72,8 +73,10 @@ impl Run {
         facts: Facts,
         messages: Vec<Diagnostic>,
         refused: bool,
+        stop: Stop,
     ) -> Self {
-        Self { facts, simulation, sources, messages, refused, over: refused, changed: false }
+        let over = refused;
+        Self { facts, simulation, sources, messages, refused, over, changed: false, stop }
     }
 
     /// Connects the real-time inputs, before the first cycle. Changes come in the order of time; an error among them ends
@@ -115,11 +118,13 @@ impl Run {
         }
     }
 
-    /// Computes up to so many cycles, for callers that compare runs row by row or show them while they go on.
+    /// Computes up to so many cycles, for callers that compare runs row by row or show them while they go on. A run that was
+    /// stopped ([`Stop`]) has no more.
     ///
     /// # Errors
     /// What the sink stops with.
     pub fn advance<S: Sink>(&mut self, cycles: u64, sink: &mut S) -> Result<(), S::Stop> {
+        self.over |= self.stop.is_set();
         for _ in 0..cycles {
             if self.over {
                 break;
@@ -162,7 +167,7 @@ impl Run {
     /// What no record holds; complete when there are no more cycles.
     pub fn totals(&self) -> Totals {
         let totals = self.simulation.totals();
-        let aborted = self.refused || self.changed || totals.aborted;
+        let aborted = self.refused || self.changed || self.stop.is_set() || totals.aborted;
         Totals { aborted, input_failed: self.changed || totals.input_failed, ..totals }
     }
 }

@@ -68,6 +68,24 @@ fn one_loop_however_it_is_cut() {
     });
 }
 
+/// Stopped from elsewhere a check comes back at once where the program has no end, and a run has no more cycles.
+#[test]
+fn a_stop_ends_check_and_run() {
+    let stop = Stop::default();
+    let options = Options { stop: stop.clone(), ..Options::default() };
+    let endless = job("$WHILE 1\nX1 F1000\nX0\n$ENDWHILE\nM30\n", &[], options.clone());
+    let check = std::thread::spawn(move || endless.check());
+    let mut run = job("G01 X50 F60\nM30\n", &[], options).start().unwrap();
+    let mut cycles = 0;
+    let Ok(()) = run.advance(500, &mut |_: &CycleRecord| cycles += 1);
+    assert!(!run.totals().aborted);
+    stop.set();
+    check.join().unwrap();
+    let Ok(()) = run.to_end(&mut |_: &CycleRecord| cycles += 1);
+    assert_eq!(cycles, 500);
+    assert!(run.is_over() && run.totals().aborted);
+}
+
 /// A refused program has what the check says, no cycle, and is aborted; the warnings of the lists come first.
 #[test]
 fn a_refused_program_does_not_move() {

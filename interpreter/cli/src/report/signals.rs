@@ -214,7 +214,7 @@ fn table(args: &ReportArgs, runs: &[Recorded]) -> Table {
     let mut table = Table::new(&header);
     for r in runs {
         let mut row = |x: f64, values: Vec<String>| {
-            table.push([r.label.clone(), number(x, 6)].into_iter().chain(values).collect());
+            table.push([r.label.clone(), number(x, 6)].into_iter().chain(values));
         };
         let Some(band) = args.spectrum else {
             for (k, t) in r.times.iter().enumerate() {

@@ -4,6 +4,7 @@ use crate::args::SimulationArgs;
 use crate::vary::Vary;
 use kontur_interpreter::job::Facts;
 use kontur_interpreter::record::columns::{Column, Content, all};
+use std::ops::Range;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -18,7 +19,9 @@ Examples:
       --vary X.lr_param.improved_position_control.enable=0,1 -o kv.csv -o kv.svg
   what a weight leaves of the vibration at 53 Hz between 1 s and 2 s
     kontur sweep part.nc -m mill --vary X.lr_param.improved_position_control.stage[0].weight_fact_num=1..7 \\
-      --amplitude X_tcp_acc_mm_s2@50..56@1..2";
+      --amplitude X_tcp_acc_mm_s2@50..56@1..2
+  the third of twenty jobs of a batch system; started again it goes on behind its finished rows
+    kontur sweep part.nc --vary X,Y.getriebe[0].kv=1000..60000:10 --shard 3/20 -o part-03.csv";
 
 /// `kontur sweep`.
 #[derive(Clone, Debug, clap::Args)]
@@ -46,9 +49,51 @@ pub struct SweepArgs {
     #[arg(long, value_name = "COLUMN@HZ..HZ[@S..S]")]
     pub amplitude: Vec<Amplitude>,
 
+    /// Run the I-th of N equal parts of all combinations only, e.g. `3/20`: a job of a batch system. The parts in their order,
+    /// one behind the other, are the whole table
+    #[arg(long, value_name = "I/N")]
+    pub shard: Option<Shard>,
+
     /// What is simulated
     #[command(flatten)]
     pub simulation: SimulationArgs,
+}
+
+/// One of several parts of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1.
+    part: usize,
+    parts: usize,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(part, parts)| {
+            Some(Self { part: part.trim().parse().ok()?, parts: parts.trim().parse().ok()? })
+        });
+        let valid = |shard: &Self| (1..=shard.parts).contains(&shard.part);
+        numbers.filter(valid).ok_or_else(|| {
+            format!("`{text}`: two whole numbers are expected, e.g. 3/20 for the third of 20 parts")
+        })
+    }
+}
+
+impl Shard {
+    /// Its share of so many combinations, by their numbers; the sizes of the parts differ by one at most.
+    ///
+    /// # Errors
+    /// A message, for all parts alike, if some of them would be empty.
+    pub fn of(self, count: usize) -> Result<Range<usize>, String> {
+        if self.parts > count {
+            return Err(format!("--shard: {} parts of {count} combinations", self.parts));
+        }
+        // a part is at most the number of parts, so the bound fits what the count fits
+        let bound = |part: usize| (count as u128 * part as u128 / self.parts as u128) as usize;
+        Ok(bound(self.part - 1)..bound(self.part))
+    }
 }
 
 /// What is looked for in the spectrum of a signal.
@@ -128,6 +173,30 @@ pub(crate) fn span(text: &str) -> Result<(f64, f64), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Whatever the numbers: every combination is in exactly one part, parts are in order and of equal size up to one.
+    #[test]
+    fn shards_are_a_partition() {
+        for count in [1, 2, 7, 100, 99_999] {
+            for parts in [1, 2, 3, 7, 100, 1001] {
+                let all: Result<Vec<Range<usize>>, String> =
+                    (1..=parts).map(|part| Shard { part, parts }.of(count)).collect();
+                let Ok(all) = all else {
+                    assert!(parts > count && Shard { part: parts, parts }.of(count).is_err());
+                    continue;
+                };
+                assert_eq!((all[0].start, all[parts - 1].end), (0, count));
+                assert!(all.windows(2).all(|pair| pair[0].end == pair[1].start));
+                let sizes: Vec<usize> = all.iter().map(ExactSizeIterator::len).collect();
+                let (least, most) = (sizes.iter().min().unwrap(), sizes.iter().max().unwrap());
+                assert!(most - least <= 1, "{count} in {parts}");
+            }
+        }
+        assert_eq!("3/20".parse(), Ok(Shard { part: 3, parts: 20 }));
+        for wrong in ["", "1", "0/3", "4/3", "1/0", "-1/3", "1/2/3", "a/b"] {
+            assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn amplitudes_have_a_band_and_perhaps_a_window() {

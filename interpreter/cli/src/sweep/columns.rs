@@ -2,49 +2,8 @@
 
 use super::Outcome;
 use super::args::SweepArgs;
-use crate::table::number;
+use crate::table::Cell;
 use kontur_interpreter::summary::Summary;
-use serde::{Deserialize, Serialize};
-
-/// A value of a row.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) enum Cell {
-    /// With its decimals in a text table; not finite: nothing.
-    Number(#[serde(with = "bits")] f64, usize),
-    Word(String),
-}
-
-impl Cell {
-    /// As it stands in a text table.
-    pub(super) fn text(&self) -> String {
-        match self {
-            Self::Number(value, decimals) => number(*value, *decimals),
-            Self::Word(word) => word.clone(),
-        }
-    }
-
-    /// The number, if it is one.
-    pub(super) fn number(&self) -> Option<f64> {
-        match self {
-            Self::Number(value, _) => Some(*value),
-            Self::Word(_) => None,
-        }
-    }
-}
-
-/// A number by its bits: the text of a number need not come back to the same.
-mod bits {
-    use serde::{Deserialize as _, Deserializer, Serializer};
-
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "the form that serde asks for")]
-    pub(super) fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_u64(x.to_bits())
-    }
-
-    pub(super) fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<f64, D::Error> {
-        u64::deserialize(from).map(f64::from_bits)
-    }
-}
 
 /// What every row has behind its parameters.
 const STATE: [&str; 3] = ["state", "error", "warnings"];

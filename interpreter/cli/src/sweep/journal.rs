@@ -100,7 +100,8 @@ fn head(args: &SweepArgs, reads: &[PathBuf]) -> String {
             Err(_) => path.display().to_string(),
         })
         .collect();
-    let options = format!("{:?}", (&args.vary, &args.columns, &args.amplitude, &args.simulation));
+    let options =
+        format!("{:?}", (&args.vary, &args.columns, &args.amplitude, args.shard, &args.simulation));
     let version = env!("CARGO_PKG_VERSION");
     serde_json::json!({ "sweep": version, "options": options, "files": files }).to_string()
 }
@@ -108,7 +109,7 @@ fn head(args: &SweepArgs, reads: &[PathBuf]) -> String {
 #[cfg(test)]
 mod tests {
     use super::Journal;
-    use crate::sweep::columns::Cell;
+    use crate::table::Cell;
 
     #[test]
     fn what_was_cut_off_is_done_again() {

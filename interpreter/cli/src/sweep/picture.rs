@@ -2,9 +2,9 @@
 
 use super::Rows;
 use super::args::SweepArgs;
-use super::columns::Cell;
 use crate::Error;
 use crate::report::plot::{Diagram, Line, Plot, Scale, around};
+use crate::table::Cell;
 use kontur_interpreter::summary::State;
 
 /// Shown if no results are named.

@@ -1,8 +1,10 @@
 //! The largest order of a filter for a tolerance.
 
+use super::Answer;
 use crate::console::Console;
-use crate::table::{Table, number};
+use crate::table::{Cell, Table, number};
 use crate::{Error, Exit};
+
 use kontur_filters::analysis::order::largest_order;
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::time::CycleTime;
@@ -13,7 +15,7 @@ pub(super) fn answer(
     feed_mm_min: f64,
     cycle: CycleTime,
     console: &mut Console,
-) -> Result<Exit, Error> {
+) -> Result<Answer, Error> {
     let cycle_ms = f64::from(cycle.us()) / 1000.0;
     let mut out = format!(
         "asked    contour error at most {tolerance_mm} mm\n\
@@ -21,6 +23,7 @@ pub(super) fn answer(
     );
     let header = ["filter", "order", "contour error", "delay", "command"];
     let mut table = Table::new(&header);
+    let mut choices = Table::new(&["filter", "order", "contour_err_mm", "delay_s"]);
     for (name, kind) in
         [("mean (HSC, FIR type 1)", FirKind::MovingAverage), ("Gauss (FIR type 2)", FirKind::Gauss)]
     {
@@ -42,16 +45,22 @@ pub(super) fn answer(
                 format!("{} ms", number(0.5 * f64::from(order) * cycle_ms, 2)),
                 format!("#FILTER ON [ORDER={order}]"),
             ]);
+            choices.push([
+                Cell::Word(name.to_owned()),
+                Cell::from(order),
+                Cell::Given(error),
+                Cell::Given(0.5 * f64::from(order) * cycle.seconds()),
+            ]);
             if order % 2 == 0 {
                 break;
             }
         }
         if most.order == 0 {
             let none = ["0", "", "", "none: the first order exceeds it"].map(str::to_owned);
-            table.push(std::iter::once(name.to_owned()).chain(none).collect());
+            table.push(std::iter::once(name.to_owned()).chain(none));
         }
     }
     out.push_str(&table.text());
     console.print(&out)?;
-    Ok(Exit::Finished)
+    Ok(Answer { choices, command: None, exit: Exit::Finished })
 }

@@ -8,11 +8,11 @@
 //! A choice that keeps the bound anyway is not slowed down by the key.
 
 use super::args::TuneArgs;
-use super::{Choice, Row, Task, command};
+use super::{Answer, Choice, Row, Task, command};
 use crate::console::Console;
 use crate::request::{OpenError, Request};
 use crate::run::{Shown, announce_lists, drive};
-use crate::table::{Table, number};
+use crate::table::{Cell, Table, number};
 use crate::{Error, Exit};
 use kontur_interpreter::diag::Location;
 use kontur_interpreter::job::{ForcedGuard, GuardCommands};
@@ -42,7 +42,7 @@ pub(super) fn answer(
     file: &Path,
     max_dev_mm: f64,
     console: &mut Console,
-) -> Result<Exit, Error> {
+) -> Result<Answer, Error> {
     let refused = |e: OpenError, console: &mut Console| announce_lists(e, console);
     let request = args.simulation.request(file);
     let job = request.job().map_err(|e| refused(e, console))?;
@@ -83,9 +83,14 @@ pub(super) fn answer(
     }
     check_delays(&outcomes, machine)?;
     console.print(&table(task, &outcomes, max_dev_mm))?;
-    console.print(&verdict(task, &outcomes, max_dev_mm, &own))?;
+    let command = chosen(task, &outcomes, max_dev_mm, &own);
+    console.print(&verdict(task, command.as_ref(), max_dev_mm))?;
     let all_aborted = outcomes.iter().all(|o| o.summary.state == State::Aborted);
-    Ok(if all_aborted { Exit::Aborted } else { Exit::Finished })
+    Ok(Answer {
+        choices: numbers(task, &outcomes, max_dev_mm),
+        command: command.map(|(command, _)| command),
+        exit: if all_aborted { Exit::Aborted } else { Exit::Finished },
+    })
 }
 
 /// Mode by mode the best and the given frequency, and the highest one that keeps the residual: a higher frequency is a
@@ -228,20 +233,59 @@ fn fastest<'a>(task: &Task, outcomes: &'a [Outcome], max_dev_mm: f64) -> Option<
     })
 }
 
-fn verdict(task: &Task, outcomes: &[Outcome], max_dev_mm: f64, own: &GuardCommands) -> String {
-    let found = fastest(task, outcomes, max_dev_mm);
-    let Some((outcome, choice)) = found.and_then(|o| Some((o, o.choice?))) else {
-        return format!(
-            "\nchoice    none keeps both {} % and {max_dev_mm} mm\n",
-            100.0 * task.limit_ratio
-        );
-    };
+/// The command of the fastest choice that keeps both bounds, and the duration of its run in s.
+fn chosen(
+    task: &Task,
+    outcomes: &[Outcome],
+    max_dev_mm: f64,
+    own: &GuardCommands,
+) -> Option<(String, f64)> {
+    let outcome = fastest(task, outcomes, max_dev_mm)?;
     let own = own.ax_dev.as_ref().map(|(_, value)| *value);
     let tolerance = format!(" AX_DEV={}", own.unwrap_or(max_dev_mm));
-    format!(
-        "\nchoice    {}\n          the fastest that keeps {} % and {max_dev_mm} mm: {} s\n",
-        command(&choice.settings, &tolerance),
-        100.0 * task.limit_ratio,
-        number(outcome.summary.duration_s, 3)
-    )
+    let command = command(&outcome.choice?.settings, &tolerance);
+    Some((command, outcome.summary.duration_s))
+}
+
+fn verdict(task: &Task, chosen: Option<&(String, f64)>, max_dev_mm: f64) -> String {
+    let percent = 100.0 * task.limit_ratio;
+    match chosen {
+        None => format!("\nchoice    none keeps both {percent} % and {max_dev_mm} mm\n"),
+        Some((command, duration_s)) => format!(
+            "\nchoice    {command}\n          the fastest that keeps {percent} % and {max_dev_mm} mm: {} s\n",
+            number(*duration_s, 3)
+        ),
+    }
+}
+
+/// One row per run; mode 0 is the Vibration Guard off.
+fn numbers(task: &Task, outcomes: &[Outcome], max_dev_mm: f64) -> Table {
+    let mut choices = Table::new(&[
+        "mode",
+        "freq_hz",
+        "damping",
+        "ax_dev_mm",
+        "residual_ratio",
+        "dev_mm",
+        "contour_err_mm",
+        "duration_s",
+        "state",
+        "keeps",
+    ]);
+    for outcome in outcomes {
+        let of = |value: fn(&Choice) -> f64| outcome.choice.as_ref().map_or(f64::NAN, value);
+        choices.push([
+            Cell::from(outcome.choice.map_or(0, |c| u32::from(c.settings.mode))),
+            Cell::Given(of(|c| c.settings.freq_hz)),
+            Cell::Given(of(|c| c.settings.damping)),
+            Cell::Given(outcome.ax_dev.unwrap_or(f64::NAN)),
+            Cell::Given(outcome.choice.map_or(1.0, |c| c.worst_ratio)),
+            Cell::Given(outcome.dev_mm),
+            Cell::Given(outcome.summary.max_contour_error.as_ref().map_or(f64::NAN, |e| e.mm)),
+            Cell::Given(outcome.summary.duration_s),
+            Cell::Word(outcome.summary.state.name().to_owned()),
+            Cell::from(u32::from(outcome.keeps(task, max_dev_mm))),
+        ]);
+    }
+    choices
 }

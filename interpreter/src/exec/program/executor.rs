@@ -10,7 +10,7 @@ use super::unreached::Reached;
 use crate::diag::{Condition, Diagnostic, Id, Location, Severity};
 use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
-use crate::exec::options::{GuardCommands, Options, SkipLevels};
+use crate::exec::options::{GuardCommands, Options, SkipLevels, Stop};
 use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
 use crate::machine::Machine;
 use crate::source::{Position, Sources};
@@ -69,6 +69,7 @@ pub(crate) struct Executor {
     blocks_at_rest: u64,
     max_blocks: u64,
     max_blocks_at_rest: u64,
+    stop: Stop,
     /// A limit ended the program before its own end.
     limited: bool,
     /// Place of the block in work.
@@ -113,6 +114,7 @@ impl Executor {
         let start = start_position(&machine, &options.start, &mut diagnostics);
         let (skip, max_blocks) = (options.skip, options.max_blocks);
         let max_blocks_at_rest = options.max_blocks_at_rest;
+        let stop = options.stop.clone();
         let mut decoder = Decoder::new(machine, options, &start);
         decoder.checking = checking;
         let names = decoder.long_names();
@@ -133,6 +135,7 @@ impl Executor {
             blocks_at_rest: 0,
             max_blocks,
             max_blocks_at_rest,
+            stop,
             limited: false,
             position: Position::START,
             reached: Reached::default(),

@@ -2,7 +2,7 @@
 
 use super::{Curve, Error, View, cycle_text, labels};
 use crate::report::plot::{Diagram, Line, Plot, Scale, around};
-use crate::table::{Table, number};
+use crate::table::{Cell, Table};
 use kontur_filters::analysis::corner::CornerPath;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
@@ -27,12 +27,12 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
             Error::Usage(format!("--corner: {} {text}", curve.label))
         })?;
         table.push(vec![
-            curve.label.clone(),
-            curve.order.map_or_else(String::new, |order| order.to_string()),
-            feed_mm_min.to_string(),
-            number(path.contour_error_mm, 9),
-            number(path.corner_distance_mm, 9),
-            number(curve.shaping.delay_cycles() * 1000.0 * cycle.seconds(), 6),
+            Cell::Word(curve.label.clone()),
+            curve.order.map_or(Cell::NOTHING, Cell::Given),
+            Cell::Given(feed_mm_min),
+            Cell::Number(path.contour_error_mm, 9),
+            Cell::Number(path.corner_distance_mm, 9),
+            Cell::Number(curve.shaping.delay_cycles() * 1000.0 * cycle.seconds(), 6),
         ]);
         paths.push(path);
     }

@@ -2,7 +2,7 @@
 
 use super::{Curve, Error, ResponseArgs, View, cycle_text, labels, spread};
 use crate::report::plot::{Diagram, Line, Plot, Scale, around};
-use crate::table::{Table, number};
+use crate::table::{Cell, Table};
 use kontur_filters::response::Angle;
 use kontur_filters::time::CycleTime;
 
@@ -37,11 +37,11 @@ pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> R
         let samples = samples(curve, range, cycle);
         for s in &samples {
             table.push(vec![
-                curve.label.clone(),
-                number(s.f_hz, 6),
-                number(s.magnitude_db, 6),
-                number(s.phase_deg, 6),
-                number(s.delay_ms, 6),
+                Cell::Word(curve.label.clone()),
+                Cell::Number(s.f_hz, 6),
+                Cell::Number(s.magnitude_db, 6),
+                Cell::Number(s.phase_deg, 6),
+                Cell::Number(s.delay_ms, 6),
             ]);
         }
         let values = [Sample::magnitude, Sample::phase, Sample::delay];

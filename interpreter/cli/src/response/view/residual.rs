@@ -5,7 +5,7 @@
 
 use super::{Curve, Error, ResponseArgs, View, cycle_text, spread};
 use crate::report::plot::{Diagram, Line, Plot, Scale};
-use crate::table::{Table, number};
+use crate::table::{Cell, Table};
 use kontur_filters::response::{SensitivityBand, residual_vibration_ratio};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -53,13 +53,13 @@ pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> R
                 let (over_real, over_set) =
                     set_hz.map_or((f64::NAN, f64::NAN), |set| (set / f_hz, f_hz / set));
                 table.push(vec![
-                    curve.label.clone(),
-                    damping.to_string(),
-                    set_hz.map_or_else(String::new, |f| f.to_string()),
-                    number(f_hz, 6),
-                    number(over_real, 6),
-                    number(over_set, 6),
-                    number(ratio, 9),
+                    Cell::Word(curve.label.clone()),
+                    Cell::Given(damping),
+                    set_hz.map_or(Cell::NOTHING, Cell::Given),
+                    Cell::Number(f_hz, 6),
+                    Cell::Number(over_real, 6),
+                    Cell::Number(over_set, 6),
+                    Cell::Number(ratio, 9),
                 ]);
                 lines[0].push([100.0 * (over_real - 1.0), 100.0 * ratio]);
                 lines[1].push([100.0 * (over_set - 1.0), 100.0 * ratio]);

@@ -2,7 +2,7 @@
 
 use super::{Curve, View, cycle_text, labels};
 use crate::report::plot::{Diagram, Line, Plot, Scale, around};
-use crate::table::{Table, number};
+use crate::table::{Cell, Table};
 use kontur_filters::response::step_response;
 use kontur_filters::time::CycleTime;
 
@@ -24,7 +24,11 @@ pub(super) fn view(curves: &[Curve], cycle: CycleTime) -> View {
         let after = (0..).zip(outputs[..cycles].iter().copied());
         let mut points = Vec::new();
         for (k, output) in before.chain(after) {
-            table.push(vec![curve.label.clone(), number(time(k), 6), number(output, 9)]);
+            table.push([
+                Cell::Word(curve.label.clone()),
+                Cell::Number(time(k), 6),
+                Cell::Number(output, 9),
+            ]);
             // a set position holds for a cycle
             let held = points.last().map_or(output, |last: &[f64; 2]| last[1]);
             points.extend([[1000.0 * time(k), held], [1000.0 * time(k), output]]);

@@ -198,6 +198,11 @@ impl Executor {
     fn count_block(&mut self) -> bool {
         self.blocks += 1;
         self.blocks_at_rest += 1;
+        if self.stop.is_set() {
+            self.limited = true;
+            self.end(EndReason::Aborted);
+            return false;
+        }
         let text = if self.blocks > self.max_blocks {
             format!("more than {} blocks (--max-blocks)", self.max_blocks)
         } else if self.blocks_at_rest > self.max_blocks_at_rest {

@@ -1,0 +1,93 @@
+"""Columns of results, and their way to pandas, polars and Arrow."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+    import pyarrow
+
+
+class Words:
+    """A column of few different words: the number of one for each row."""
+
+    def __init__(self, numbers: np.ndarray[Any, Any], words: list[str]) -> None:
+        self.numbers, self.words = numbers, words
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> np.ndarray[Any, Any]:
+        words: np.ndarray[Any, Any] = np.array(self.words or [""])[self.numbers]
+        return words if dtype is None else words.astype(dtype)
+
+
+class Table:
+    """Columns by name. ``table["duration_s"]`` is a numpy array, ``len(table)`` the number of rows."""
+
+    def __init__(self, columns: dict[str, Any]) -> None:
+        self._columns = columns
+        self._words: dict[str, np.ndarray[Any, Any]] = {}
+
+    @property
+    def columns(self) -> dict[str, np.ndarray[Any, Any]]:
+        """Every column as a numpy array, in the order of the table."""
+        return {name: self[name] for name in self._columns}
+
+    def __getitem__(self, name: str) -> np.ndarray[Any, Any]:
+        column = self._columns[name]
+        if isinstance(column, np.ndarray):
+            return column
+        if name not in self._words:
+            self._words[name] = np.asarray(column)
+        return self._words[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._columns
+
+    def __len__(self) -> int:
+        for column in self._columns.values():
+            return len(column.numbers if isinstance(column, Words) else column)
+        return 0
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {len(self)} rows, {', '.join(self._columns)}>"
+
+    def to_arrow(self) -> pyarrow.Table:
+        """The columns as an Arrow table, with the types of the Parquet file that ``kontur run`` writes."""
+        import pyarrow
+
+        def array(column: Any) -> Any:
+            if isinstance(column, Words):
+                numbers = pyarrow.array(column.numbers.astype(np.int32))
+                words = pyarrow.array(column.words, pyarrow.string())
+                return pyarrow.DictionaryArray.from_arrays(numbers, words)
+            if isinstance(column, np.ma.MaskedArray):
+                return pyarrow.array(column.data, mask=np.ma.getmaskarray(column))
+            return pyarrow.array(column)
+
+        arrays = [array(column) for column in self._columns.values()]
+        return pyarrow.table(arrays, names=list(self._columns))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The columns as a data frame; words are categories, missing block numbers are ``<NA>``."""
+        import pandas
+
+        def series(column: Any) -> Any:
+            if isinstance(column, Words):
+                return pandas.Categorical.from_codes(column.numbers, column.words)
+            if isinstance(column, np.ma.MaskedArray):
+                missing = np.ma.getmaskarray(column).copy()
+                return pandas.arrays.IntegerArray(column.data.copy(), missing)
+            return column
+
+        return pandas.DataFrame({name: series(column) for name, column in self._columns.items()})
+
+    def to_polars(self) -> polars.DataFrame:
+        """The columns as a polars data frame."""
+        import polars
+
+        frame = polars.from_arrow(self.to_arrow())
+        assert isinstance(frame, polars.DataFrame)
+        return frame

@@ -1,0 +1,66 @@
+//! The native half of the Python module `kontur`: thin functions over the library; what Python shows is made in Python.
+//!
+//! Options are the words of the command line, so that each means and is refused the same in both.
+
+mod answers;
+mod arguments;
+mod columns;
+mod errors;
+mod simulation;
+
+use kontur_interpreter::job::Stop;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+/// A signal is met within this time.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Stack of the thread that works, that of a main thread.
+const STACK_BYTES: usize = 8 << 20;
+
+/// Works in another thread, without the interpreter lock, while this one listens for signals: Ctrl-C stops the work and is
+/// raised when it has ended.
+fn interruptible<T: Send>(
+    py: Python<'_>,
+    stop: &Stop,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    let done = AtomicBool::new(false);
+    let waiting = thread::current();
+    thread::scope(|scope| {
+        let work = || {
+            let worked = work();
+            done.store(true, Ordering::Release);
+            waiting.unpark();
+            worked
+        };
+        let builder = thread::Builder::new().stack_size(STACK_BYTES);
+        let worker = builder
+            .spawn_scoped(scope, work)
+            .map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
+        let mut raised = None;
+        // a panic ends the worker without a word
+        while !done.load(Ordering::Acquire) && !worker.is_finished() {
+            py.detach(|| thread::park_timeout(PATIENCE));
+            if let Err(signal) = py.check_signals() {
+                stop.set();
+                raised = Some(signal);
+            }
+        }
+        let worked = py.detach(|| worker.join()).unwrap_or_else(|panic| resume_unwind(panic));
+        raised.map_or(Ok(worked), Err)
+    })
+}
+
+/// The native half of `kontur`.
+#[pymodule]
+mod _kontur {
+    #[pymodule_export]
+    use super::answers::{SweepPlan, check, explain, response, tune};
+    #[pymodule_export]
+    use super::simulation::Simulation;
+}
