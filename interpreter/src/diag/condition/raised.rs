@@ -377,6 +377,7 @@ conditions! {
     Unreached = Kontur 118 "K-UNREACHED": Warning None 3 1, "syntax error in a part of the program that does not run", cause "branch not taken, block jumped over, subroutine not called";
     Bottleneck = Kontur 119 "K-BOTTLENECK": Warning None 3 1, "a compensated tool cuts its own contour at a bottleneck", cause "gap narrower than the tool, loop over several blocks";
     ForeignProgram = Kontur 120 "K-FOREIGN": Error ProgramAbort 3 0, "word of another control's language", cause "#<name>, #100, o100 sub, G5.2, BEGIN PGM", hint "write the program out again with a post-processor for ISG or TwinCAT; parameters are P1 and V.P.NAME here";
+    MacroBracket = Kontur 121 "K-MACRO-BRACKET": Error ProgramAbort 3 1, "half a pair of brackets in a macro (no vendor ID known)", cause "\"A\" = \"COS[\"", hint "the text of a macro holds whole levels of brackets: \"A\" = \"COS[90]\"";
     Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop stands or swings outside the window, and no input is left that could move it", hint "raise the window or the gain kv, or take the force away";
     SpindleLimit = Kontur 131 "K-SPINDLE-LIMIT": Warning None 1 1, "spindle speed above the limit of the spindle, limited", cause "S word or REV above P-AXIS-00212", hint "the limit is getriebe[0].dynamik.vb_max of the spindle", parameter "P-AXIS-00212";
 }
