@@ -13,6 +13,7 @@ mod messages;
 mod misc;
 mod positions;
 mod shaping;
+pub(super) mod signals;
 mod slope;
 mod spindles;
 
@@ -165,7 +166,7 @@ const ROWS: &[Row] = &[
     misc::TIME,
     misc::WAIT,
     misc::TIMER,
-    ignored("SIGNAL"),
+    signals::SIGNAL,
     // messages
     messages::MSG,
     messages::ERROR,

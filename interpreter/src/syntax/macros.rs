@@ -70,7 +70,8 @@ pub fn expand<'m>(
                 }
                 Wrong::HalfBracket(text) => {
                     let shown: String = text.chars().take(40).collect();
-                    let text = format!("the macro text `{shown}` holds one half of a pair of brackets");
+                    let text =
+                        format!("the macro text `{shown}` holds one half of a pair of brackets");
                     Diagnostic::new(Condition::MacroBracket, text)
                 }
             };

@@ -291,7 +291,8 @@ fn refine(
 fn asks_for_positions(content: &str) -> bool {
     let name = content.split('[').next().unwrap_or_default().to_ascii_uppercase();
     let words: Vec<&str> = name.split_ascii_whitespace().collect();
-    [&["#GET", "CMDPOS"][..], &["#GET", "ACTPOS"], &["#SET", "IPO", "SOLLPOS"]].contains(&&words[..])
+    [&["#GET", "CMDPOS"][..], &["#GET", "ACTPOS"], &["#SET", "IPO", "SOLLPOS"]]
+        .contains(&&words[..])
 }
 
 /// The vendor's number for what stands wrongly behind a control statement.
