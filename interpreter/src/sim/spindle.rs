@@ -143,10 +143,9 @@ impl Spindle {
             let clockwise = (deg - self.position_deg).rem_euclid(360.0);
             let back = (self.position_deg - deg).rem_euclid(360.0);
             let (sense, way) = match approach {
-                Approach::Clockwise => (1.0, clockwise),
                 Approach::CounterClockwise => (-1.0, back),
                 Approach::Free if back < clockwise => (-1.0, back),
-                Approach::Free => (1.0, clockwise),
+                Approach::Clockwise | Approach::Free => (1.0, clockwise),
             };
             let speed = rpm.map_or(self.v_max_deg_s, |rpm| (rpm * 6.0).min(self.v_max_deg_s));
             let profile = self.limits().plan(0.0, 0.0, speed, way);

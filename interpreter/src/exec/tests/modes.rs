@@ -412,7 +412,7 @@ fn signals_of_the_own_channel() {
          #SIGNAL [ID=5 COUNT=2 CH=1]\n#WAIT SYN [ID=5 CH=1]\n#WAIT [ID=5 CH1 AHEAD]\n\
          #SIGNAL [ID=6 CH=2]\nG01 X[V.P.A] Y[P8] Z[P9] F100\nM30\n",
     );
-    assert_eq!(served.end.to_vec()[..3], [10.5, 2.0, 10.5]);
+    assert_eq!(served.end[..3], [10.5, 2.0, 10.5]);
     for (text, id) in [
         ("#SIGNAL [ID=1 CH=1]\n#WAIT [ID=1 CH=1]\n#WAIT [ID=1 CH=1]", "K-0018"),
         ("#SIGNAL [ID=1]\n#SIGNAL REMOVE [ID=1]\n#WAIT [ID=1]", "K-0018"),
@@ -438,6 +438,6 @@ fn older_spellings() {
     let run = clean("Z[INDP_ASYN G01 G90 POS20 F0.5 SLOPE_PROFIL 0]\n#WAIT INDP [Z]\nM30\n");
     assert_eq!(run.end[2], 20.0);
     let run = clean("V.G.WZR=5\nG01 X[V.G.WZ_AKT.R] Y[V.G.WZR] F100\nM30\n");
-    assert_eq!(run.end.to_vec()[..2], [5.0, 5.0]);
+    assert_eq!(run.end[..2], [5.0, 5.0]);
     assert_eq!(super::run("V.G.WZR=5 D1\nM30\n").ids()[0], "20738");
 }
