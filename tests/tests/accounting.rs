@@ -246,6 +246,51 @@ fn values_of_a_program_vary() {
     }
 }
 
+/// Part by part, in any order: the rows of the parts, one behind the other, are the table. All parts are refused alike where
+/// there are more of them than runs.
+#[test]
+fn shards_together_are_the_sweep() {
+    let folder = Folder::new(&[("part.nc", SQUARE)]);
+    let part = folder.path("part.nc");
+    let words = ["sweep", &part, "--vary", "*.vib_guard.freq=20..24", "--vary", "V.E.A=1,2"];
+    let with = |more: &[&str]| command([&words[..], more].concat());
+    let whole = with(&[]).out;
+    let (header, rows) = whole.split_once('\n').unwrap();
+    for parts in [1, 3, 10] {
+        let mut all = vec![String::new(); parts];
+        for i in (0..parts).rev() {
+            let done = with(&["--shard", &format!("{}/{parts}", i + 1)]);
+            assert_eq!(done.exit, Exit::Finished, "{}", done.err);
+            let (head, part) = done.out.split_once('\n').unwrap();
+            assert_eq!(head, header);
+            // of a part nobody knows what the other rows are like
+            assert!(!done.err.contains("every value"), "{}", done.err);
+            all[i] = part.to_owned();
+        }
+        assert_eq!(all.concat(), rows, "{parts} parts");
+    }
+    for wrong in ["1/11", "11/11"] {
+        let done = with(&["--shard", wrong]);
+        assert_eq!(done.exit, Exit::Usage);
+        assert!(done.err.contains("11 parts of 10 combinations"), "{}", done.err);
+    }
+    let picture = folder.path("a.svg");
+    assert_eq!(with(&["--shard", "1/2", "-o", &picture]).exit, Exit::Usage);
+}
+
+/// A job whose every run ends with an error has still been done.
+#[test]
+fn a_shard_of_aborted_runs_is_finished() {
+    let folder = Folder::new(&[("part.nc", "G01 X[V.E.A] F1000\nM30\n")]);
+    let part = folder.path("part.nc");
+    let words = ["sweep", &part, "--vary", "V.E.A=1,2,70000,80000", "--columns", "duration_s"];
+    let second = command([&words[..], &["--shard", "2/2"]].concat());
+    assert_eq!(second.exit, Exit::Finished, "{}", second.err);
+    assert_eq!(second.out.matches(",aborted,").count(), 2, "{}", second.out);
+    let whole = command(["sweep", &part, "--vary", "V.E.A=70000,80000"]);
+    assert_eq!(whole.exit, Exit::Aborted);
+}
+
 /// With JSON messages every line of stderr is an object: what is wrong with files, lists and settings too.
 #[test]
 fn every_message_is_json_if_asked_for() {

@@ -12,11 +12,15 @@ Options have the names of the command line's (``kontur run --help``): ``--max-ti
 ``True``, an option that may be given several times is a list.
 """
 
+from importlib.metadata import version
+
 from ._answers import Tuning, check, explain, response, tune
 from ._errors import Diagnostic, Error, InputsError, ListsError, ProgramError, UsageError
 from ._run import DEFAULT_SIGNALS, Run, Simulation, run, start
 from ._sweep import sweep
 from ._table import Table
+
+__version__ = version("kontur")
 
 __all__ = [
     "DEFAULT_SIGNALS",
