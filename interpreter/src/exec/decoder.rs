@@ -15,6 +15,7 @@ use super::motion::independent::Independent;
 use super::motion::overrides::Overrides;
 use super::motion::spindles::Spindle;
 use super::motion::straight::Straight;
+use super::motion::threads::Threads;
 use super::motion::{Feedforward, MotionState};
 use super::options::Options;
 use super::program::calls::Calls;
@@ -132,6 +133,10 @@ impl Decoder {
                     weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
                 },
                 spindles,
+                threads: Threads::default(),
+                cutting_speed: None,
+                cutting_waits: false,
+                cutting_rpm_max: None,
             },
             shaping: ShapingState::new(options.guard),
             calls: Calls {

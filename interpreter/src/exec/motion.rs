@@ -1,6 +1,7 @@
 //! The motion of a block: target, path, feed and limits; or the dwell.
 
 mod arcs;
+mod cutting;
 pub(super) mod dynamics;
 mod feed;
 pub(super) mod independent;
@@ -9,13 +10,15 @@ pub(super) mod overrides;
 pub(super) mod spindles;
 pub(super) mod straight;
 pub(super) mod technology;
+pub(super) mod threads;
 
 use self::dynamics::Weights;
 use self::independent::Independent;
 use self::overrides::Overrides;
 use self::spindles::Spindle;
+use self::threads::Threads;
 use super::block::groups::{Act, Group};
-use super::block::modal::{Compensation, Corners, PathMode};
+use super::block::modal::{Compensation, Corners, FeedType, PathMode};
 use super::block::words::{GWord, Words};
 use super::contour::insertion::{Insertion, Kind};
 use super::contour::{Compensated, Motion};
@@ -23,7 +26,7 @@ use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::geometry::coordinates::Target;
 use super::geometry::modulo;
-use super::step::Sync;
+use super::step::{CuttingSpeed, Sync};
 use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -53,6 +56,13 @@ pub(super) struct MotionState {
     pub(super) independent: Independent,
     pub(super) feedforward: Feedforward,
     pub(super) spindles: Vec<Spindle>,
+    pub(super) threads: Threads,
+    /// G96 with its S word.
+    pub(super) cutting_speed: Option<CuttingSpeed>,
+    /// G96 is in force, whether or not an S word has come.
+    pub(super) cutting_waits: bool,
+    /// S of G196.
+    pub(super) cutting_rpm_max: Option<f64>,
 }
 
 /// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
@@ -103,7 +113,12 @@ impl Decoder {
             self.unused_words(words, takes_axes);
             return;
         }
-        let outcome = self.motion(words, is_arc, span);
+        let outcome = if self.modal.path.is_thread() {
+            self.thread_motion(words, span)
+        } else {
+            self.end_thread();
+            self.motion(words, is_arc, span)
+        };
         self.keep(outcome);
         let once = words.g.iter().any(|g| g.row.act == Act::ExactStopOnce);
         let after_rapid =
@@ -206,7 +221,8 @@ impl Decoder {
         Ok(())
     }
 
-    fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
+    /// Takes the coordinate words over into the target; where the axes stood comes back.
+    fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
         let start = self.geometry.coordinates.target().clone();
         let mut targets: smallvec::SmallVec<[Target; 8]> = words
             .axes
@@ -242,6 +258,12 @@ impl Decoder {
             Some(_) => self.geometry.coordinates.program_without_offsets(&targets),
             None => self.geometry.coordinates.program(&targets),
         }
+        self.follow_turning_centre(&start);
+        Ok(start)
+    }
+
+    fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
+        let start = self.program_targets(words)?;
         let path = if is_arc {
             Some(self.arc(start, words, span)?)
         } else {
@@ -312,7 +334,27 @@ impl Decoder {
             spline: self.contour.hsc.spline(),
         });
         self.check_time(&block, at);
+        let per_revolution = self.modal.feed_type == FeedType::PerRevolution && !rapid;
+        if per_revolution && self.motion.cutting_speed.is_some() {
+            return self.send_pieces(&block, &in_plane, span);
+        }
         self.send(block, in_plane, span);
+        Ok(())
+    }
+
+    /// A motion with G95 under G96: its feed changes with the speed of the spindle.
+    fn send_pieces(&mut self, block: &Block, in_plane: &InPlane, span: Span) -> Outcome<()> {
+        if in_plane.compensation.is_some() {
+            let what = "G95 under G96 with tool radius compensation";
+            return Err(Fault::unsupported(what, span));
+        }
+        for (path, rpm) in self.cutting_pieces(&block.path, span)? {
+            let feed = self.feed_per_revolution(&path, rpm);
+            let block = Box::new(Block { path, feed, ..block.clone() });
+            let InPlane { plane, tilt, .. } = in_plane;
+            let in_plane = InPlane { plane: *plane, tilt: tilt.clone(), compensation: None };
+            self.send(block, in_plane, span);
+        }
         Ok(())
     }
 
