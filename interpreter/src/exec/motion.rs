@@ -1,5 +1,6 @@
 //! The motion of a block: target, path, feed and limits; or the dwell.
 
+pub(super) mod angles;
 mod arcs;
 mod cutting;
 pub(super) mod dynamics;
@@ -7,11 +8,13 @@ mod feed;
 pub(super) mod independent;
 mod limits;
 pub(super) mod overrides;
+mod space;
 pub(super) mod spindles;
 pub(super) mod straight;
 pub(super) mod technology;
 pub(super) mod threads;
 
+use self::angles::{ContourLine, ContourLines};
 use self::dynamics::Weights;
 use self::independent::Independent;
 use self::overrides::Overrides;
@@ -57,6 +60,7 @@ pub(super) struct MotionState {
     pub(super) feedforward: Feedforward,
     pub(super) spindles: Vec<Spindle>,
     pub(super) threads: Threads,
+    pub(super) contour_line: ContourLines,
     /// G96 with its S word.
     pub(super) cutting_speed: Option<CuttingSpeed>,
     /// G96 is in force, whether or not an S word has come.
@@ -106,9 +110,14 @@ impl Decoder {
             return;
         }
         let is_arc = matches!(self.modal.path, PathMode::Clockwise | PathMode::CounterClockwise);
+        let contour_line = self.contour_line(words);
+        let Some(contour_line) = self.keep(contour_line) else { return };
         let centre = words.centre.iter().flatten().next();
         // a full circle needs no end point
         let full_circle = is_arc && centre.is_some() && words.group(Group::Insertion).is_none();
+        if contour_line == ContourLine::Waits {
+            return;
+        }
         if takes_axes.is_some() || (words.axes.is_empty() && !full_circle) {
             self.unused_words(words, takes_axes);
             return;
@@ -117,7 +126,8 @@ impl Decoder {
             self.thread_motion(words, span)
         } else {
             self.end_thread();
-            self.motion(words, is_arc, span)
+            self.contour_lines(&contour_line, words, span)
+                .and_then(|()| self.motion(words, is_arc, span))
         };
         self.keep(outcome);
         let once = words.g.iter().any(|g| g.row.act == Act::ExactStopOnce);
@@ -234,6 +244,7 @@ impl Decoder {
                 absolute: words.is_absolute(i, self.modal.absolute),
             })
             .collect();
+        targets.extend(self.motion.contour_line.target.take());
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
         for target in targets.iter_mut().filter(|t| t.absolute) {
             if self.machine.axes[target.axis].is_modulo() {
@@ -263,8 +274,11 @@ impl Decoder {
     }
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
+        let before = self.programmed_point();
         let start = self.program_targets(words)?;
-        let path = if is_arc {
+        let path = if self.modal.path == PathMode::ArcInSpace {
+            Some(self.arc_in_space(start, before, words, span)?)
+        } else if is_arc {
             Some(self.arc(start, words, span)?)
         } else {
             let end = self.geometry.coordinates.target().clone();

@@ -232,7 +232,11 @@ conditions! {
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
     ArcRadiiDiffer = Vendor 21758: Error ProgramAbort 3 1, "circle radii differ too much", cause "G164; limits P-CHAN-00171/172", hint "G165 moves the centre so that it fits; check I, J and the end point", parameter "P-CHAN-00171";
     SpindleToken = Vendor 21867: Error ProgramAbort 3 1, "unknown token in spindle programming", hint "M3, M4, M5, M19, REV=, SPEED=, POS=, G135, G136=, G137 stand in a spindle bracket";
+    ContourLineParallel = Vendor 21892: Error ProgramAbort 3 1, "equal or opposite angles of two contour lines", cause "#ANG=60, then #ANG=60 X30 Y40", hint "the second line needs another angle";
+    ContourLineTwice = Vendor 21895: Error ProgramAbort 3 1, "angle of a contour line with two coordinates", cause "#ANG=45 X20 Y25", hint "leave one of the two coordinates out";
     OutsideMotionRange = Vendor 21897: Error ProgramAbort 3 1, "position outside the motion range", hint "kenngr.swe_neg and kenngr.swe_pos of the axis list (P-AXIS-00177, P-AXIS-00178) set the limits", parameter "P-AXIS-00177";
+    ContourLineOpen = Vendor 21904: Error ProgramAbort 3 1, "contour line not completely defined", cause "#ANG=30 without a coordinate, and no #ANG in the next block", hint "write one coordinate, or #ANG and both coordinates into the next block";
+    ContourLineRelative = Vendor 21910: Error ProgramAbort 3 1, "second of two contour lines in relative coordinates", hint "write G90 into its block";
     AxisIdentifier = Vendor 21947: Error ProgramAbort 3 1, "unknown axis identifier", hint "write the name of an axis or spindle of the channel";
     SeveralCalls = Vendor 22008: Error ProgramAbort 3 1, "several implicit calls at one block end", hint "write the second call in a block of its own";
     FilterAndGuard = Vendor 22060: Error ProgramAbort 3 1, "#FILTER and #VIB GUARD in one program", cause "the two may not be mixed", hint "use one of the two in a program; the OFF forms count too";
@@ -390,6 +394,8 @@ conditions! {
     SpindleTurns = Kontur 123 "K-SPINDLE-TURNS": Error ProgramAbort 3 1, "tapping with a spindle that turns (no vendor ID known)", cause "M03 before or beside G63, G331", hint "stop the spindle by M05, or position it by M19, in a block before";
     ThreadPitch = Kontur 124 "K-THREAD-PITCH": Error ProgramAbort 3 1, "thread without a pitch (no vendor ID known)", cause "G33 Z-50 without K", hint "I, J, K are the pitches of X, Y, Z in mm/rev; G33 has no sign";
     FaceTurningAxis = Kontur 125 "K-FACE-TURNING": Error ProgramAbort 3 1, "G96 without exactly one face turning axis in the plane (no vendor ID known)", hint "set the bit 0x40 of P-AXIS-00015 for it", parameter "P-AXIS-00015";
+    ArcPoints = Kontur 126 "K-ARC-POINTS": Error ProgramAbort 3 1, "three points of G303 that define no arc (no vendor ID known)", cause "points on a line, or the same point twice", hint "I, J, K lie between start and target, off the line between them";
+    ContourLineMissed = Kontur 127 "K-CONTOUR-LINE": Error ProgramAbort 3 1, "end of a contour line that its angle does not reach (no vendor ID known)", cause "#ANG=90 X20, or the other direction", hint "the angle counts from the first main axis of the plane, counter-clockwise";
     Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop stands or swings outside the window, and no input is left that could move it", hint "raise the window or the gain kv, or take the force away";
     SpindleLimit = Kontur 131 "K-SPINDLE-LIMIT": Warning None 1 1, "spindle speed above the limit of the spindle, limited", cause "S word or REV above P-AXIS-00212", hint "the limit is getriebe[0].dynamik.vb_max of the spindle", parameter "P-AXIS-00212";
 }

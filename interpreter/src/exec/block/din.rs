@@ -77,6 +77,9 @@ impl Decoder {
         let cuts = self.cuts(words);
         for (i, speed, span) in &words.speeds {
             // of the main spindle, tapping and cutting take care
+            if *i == 0 {
+                self.motion.threads.speed(taps.then_some(*speed));
+            }
             if *i != 0 || !(taps || cuts) {
                 self.speed(*i, *speed, *span);
             }
@@ -245,7 +248,7 @@ impl Decoder {
                     feed = value.map(|v| (v, *span));
                     continue;
                 }
-                "PSET" | "PRESET" | "SUPPRESS OFFSETS" => continue,
+                "PSET" | "PRESET" | "SUPPRESS OFFSETS" | "ANG" => continue,
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,

@@ -327,7 +327,7 @@ const ROWS: &[Row] = &[
     g(293, Group::FeedInterpolation, Act::Unsupported("feed interpolation over the time")),
     g(301, Group::Insertion, Act::Chamfer),
     g(302, Group::Insertion, Act::Rounding),
-    g(303, Group::Path, Act::Unsupported("arcs in space")),
+    g(303, Group::Path, Act::Path(PathMode::ArcInSpace)),
     g(310, Group::Measuring, Act::Unsupported(MEASURING)),
     g(331, Group::Path, Act::Path(PathMode::TapIn)),
     g(332, Group::Path, Act::Path(PathMode::TapBack)),

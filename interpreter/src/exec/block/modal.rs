@@ -9,6 +9,8 @@ pub(in crate::exec) enum PathMode {
     Linear,
     Clockwise,
     CounterClockwise,
+    /// G303.
+    ArcInSpace,
     /// G33.
     Thread,
     /// G63.

@@ -114,14 +114,12 @@ impl Decoder {
         let [a, b, _] = self.modal.plane.main_axes();
         let axes = [a, b].into_iter().filter_map(|m| self.geometry.coordinates.main_axis(m));
         let mut marked = axes.filter(|i| self.machine.axes[*i].mode_bits() & FACE_TURNING != 0);
-        match (marked.next(), marked.next()) {
-            (Some(axis), None) => Ok(axis),
-            _ => {
-                let text = "G96 needs exactly one face turning axis in the plane";
-                let hint = "P-AXIS-00015 (kenngr.achs_mode) with the bit 0x40 marks it";
-                Err(Fault::new(Condition::FaceTurningAxis, text, span).hint(hint))
-            }
+        if let (Some(axis), None) = (marked.next(), marked.next()) {
+            return Ok(axis);
         }
+        let text = "G96 needs exactly one face turning axis in the plane";
+        let hint = "P-AXIS-00015 (kenngr.achs_mode) with the bit 0x40 marks it";
+        Err(Fault::new(Condition::FaceTurningAxis, text, span).hint(hint))
     }
 
     /// Distance of the tool to the turning centre.
@@ -193,7 +191,7 @@ impl Decoder {
         };
         let mut pieces = Vec::new();
         let (mut from, mut start) = (0.0, path.start().clone());
-        while from < 1.0 {
+        for _ in 0..PIECES_MAX {
             // the furthest share at which the speed is still within one step
             let rpm = cutting.rpm(radius(from));
             let same = |share: f64| {
@@ -220,10 +218,10 @@ impl Decoder {
                 pieces.push((Path::Line(line), mean));
             }
             (from, start) = (to, end);
-            if pieces.len() > PIECES_MAX {
-                return Err(Fault::unsupported("such a range of speeds with G95 under G96", span));
+            if from >= 1.0 {
+                return Ok(pieces);
             }
         }
-        Ok(pieces)
+        Err(Fault::unsupported("such a range of speeds with G95 under G96", span))
     }
 }

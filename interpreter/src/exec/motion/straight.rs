@@ -86,6 +86,7 @@ impl Decoder {
             && !modal.exact_stop
             && !modal.contouring
             && !self.motion.threads.cutting
+            && !self.motion.contour_line.is_open()
             && self.motion.cutting_speed.is_none()
             && !modal.late_braking
             && modal.compensation == Compensation::Off

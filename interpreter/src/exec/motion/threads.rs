@@ -18,10 +18,20 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
 use crate::exec::step::{Event, SpindleState, Sync};
 use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::{LinePath, Path};
 use std::sync::Arc;
+
+/// Smallest and largest pitch in mm. Assumption: the vendor prints no range; 0 is none.
+const PITCH_MM: (f64, f64) = (1e-4, 1e4);
+
+/// Highest speed in rev/min.
+const SPEED_MAX: f64 = 1e6;
+
+/// Cosine of the largest bend of a thread of several blocks.
+const STRAIGHT: f64 = 1.0 - 1e-9;
 
 /// What threads keep.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +42,22 @@ pub(in crate::exec) struct Threads {
     tapping_rpm: Option<f64>,
     /// The path follows the turning spindle.
     pub(in crate::exec) cutting: bool,
+    /// Direction of the block of G33 before.
+    direction: AxisVec,
+}
+
+impl Threads {
+    /// An S word: with a sign under tapping, else it ends that of tapping.
+    pub(in crate::exec) fn speed(&mut self, tapping_rpm: Option<f64>) {
+        self.tapping_rpm = tapping_rpm;
+    }
+}
+
+/// Direction of a straight path.
+fn direction_of(path: &Path) -> AxisVec {
+    let mut direction = path.start().clone();
+    path.tangent(0.0, &mut direction);
+    direction
 }
 
 /// How the spindle goes with a straight path.
@@ -60,9 +86,16 @@ impl Decoder {
         let end = self.geometry.coordinates.target().clone();
         let (start, end) = (self.on_path(start), self.on_path(end));
         for (main, word) in words.centre.iter().enumerate() {
-            if let Some((pitch, _)) = word {
-                self.motion.threads.pitch_mm[main] = Some(pitch * self.unit_mm());
+            let Some((pitch, at)) = word else { continue };
+            let pitch_mm = pitch * self.unit_mm();
+            if !(PITCH_MM.0..=PITCH_MM.1).contains(&pitch_mm.abs()) {
+                let text = format!(
+                    "the pitch {pitch} of a thread is outside {} to {} mm",
+                    PITCH_MM.0, PITCH_MM.1
+                );
+                return Err(Fault::new(Condition::ThreadPitch, text, *at));
             }
+            self.motion.threads.pitch_mm[main] = Some(pitch_mm);
         }
         let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else { return Ok(()) };
         let path = Path::Line(line);
@@ -72,7 +105,7 @@ impl Decoder {
         if mode == PathMode::Thread {
             self.cut_thread(path, words, span)
         } else {
-            self.tap(path, words, span)
+            self.tap(path, span)
         }
     }
 
@@ -116,8 +149,7 @@ impl Decoder {
             else {
                 continue;
             };
-            if way(axis) > 0.0 && pitch.abs() > 0.0 && best.is_none_or(|(b, _)| way(axis) > way(b))
-            {
+            if way(axis) > 0.0 && best.is_none_or(|(b, _)| way(axis) > way(b)) {
                 best = Some((axis, *pitch));
             }
         }
@@ -157,6 +189,19 @@ impl Decoder {
         if self.failed() && !self.checking {
             return Ok(());
         }
+        let direction = direction_of(&block.path);
+        if self.motion.threads.cutting {
+            // the planner slows down at a bend, which would give another pitch
+            let cosine: f64 = direction
+                .iter()
+                .zip(self.motion.threads.direction.iter())
+                .map(|(a, b)| a * b)
+                .sum();
+            if cosine < STRAIGHT {
+                return Err(Fault::unsupported("a thread that changes its direction", span));
+            }
+        }
+        self.motion.threads.direction = direction;
         if !self.motion.threads.cutting {
             let offset = words.offsets.iter().find(|(spindle, _, _)| *spindle == 0);
             let state = SpindleState::Mark { deg: offset.map_or(0.0, |(_, deg, _)| *deg) };
@@ -167,13 +212,12 @@ impl Decoder {
         Ok(())
     }
 
-    fn tap(&mut self, path: Path, words: &Words<'_>, span: Span) -> Outcome<()> {
-        if let Some((_, rpm, _)) = words.speeds.iter().find(|(spindle, _, _)| *spindle == 0) {
-            self.motion.threads.tapping_rpm = Some(*rpm);
-        } else if self.motion.threads.tapping_rpm.is_none() {
-            self.motion.threads.tapping_rpm = Some(self.motion.spindles[0].rpm);
+    fn tap(&mut self, path: Path, span: Span) -> Outcome<()> {
+        let rpm = self.motion.threads.tapping_rpm.unwrap_or(self.motion.spindles[0].rpm);
+        if rpm.abs() > SPEED_MAX {
+            let text = format!("spindle speed {rpm} is outside 0 to {SPEED_MAX} rev/min");
+            return Err(Fault::new(Condition::Range, text, span));
         }
-        let rpm = self.motion.threads.tapping_rpm.unwrap_or(0.0);
         if rpm.abs() <= 0.0 {
             let text = "tapping with the spindle speed 0";
             return Err(Fault::new(Condition::SpindleSpeedZero, text, span));
