@@ -45,7 +45,7 @@ fn an_arc_through_three_points() {
         assert!(nearest < 0.05, "the interim point is {nearest} away");
         let length: f64 = arc.windows(2).map(|w| distance(w[0], w[1])).sum();
         // the angle at the centre by the law of cosines; the way over the interim point is the longer one
-        let short = 2.0 * (0.5 * distance(a, e) / radius).asin();
+        let short = 2.0 * libm::asin(0.5 * distance(a, e) / radius);
         let want = radius * (std::f64::consts::TAU - short);
         assert!((length - want).abs() < 0.1, "{length} {want}");
         for p in arc.iter().filter(|p| distance(**p, e) > 0.05) {
@@ -87,9 +87,9 @@ fn contour_lines_of_two_angles() {
     assert_eq!(run.diagnostics, []);
     let (a, b) = (30.0_f64.to_radians(), 80.0_f64.to_radians());
     // z = 10 + s cos a = 80 - t cos b, x = 5 + s sin a = 100 - t sin b
-    let det = a.cos() * b.sin() - b.cos() * a.sin();
-    let s = (70.0 * b.sin() - 95.0 * b.cos()) / det;
-    let corner = [5.0 + s * a.sin(), 0.0, 10.0 + s * a.cos()];
+    let det = libm::cos(a) * libm::sin(b) - libm::cos(b) * libm::sin(a);
+    let s = (70.0 * libm::sin(b) - 95.0 * libm::cos(b)) / det;
+    let corner = [5.0 + s * libm::sin(a), 0.0, 10.0 + s * libm::cos(a)];
     let nearest = run.records.iter().map(|r| distance([0, 1, 2].map(|i| r.axes[i].set), corner));
     assert!(nearest.fold(f64::MAX, f64::min) < 0.02);
     assert!(near(end(&run, 6), [100.0, 0.0, 80.0], 1e-9));
@@ -99,6 +99,9 @@ fn contour_lines_of_two_angles() {
     assert!(first > 100 && second > 100, "{first} {second}");
     for r in run.records.iter().filter(|r| r.line == 4) {
         let (z, x) = (r.axes[2].set - 10.0, r.axes[0].set - 5.0);
-        assert!((z * a.sin() - x * a.cos()).abs() < 1e-6 || z > s * a.cos(), "{z} {x}");
+        assert!(
+            (z * libm::sin(a) - x * libm::cos(a)).abs() < 1e-6 || z > s * libm::cos(a),
+            "{z} {x}"
+        );
     }
 }

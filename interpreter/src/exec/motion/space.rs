@@ -126,7 +126,7 @@ mod tests {
         assert!(dot(normal, sub(a, centre)).abs() < 1e-12);
         for (angle, want) in [(0.0, a), (sweep, e)] {
             for i in 0..3 {
-                let (s, c) = f64::sin_cos(angle);
+                let (s, c) = libm::sincos(angle);
                 let at = centre[i] + radius(a) * (c * first[i] + s * second[i]);
                 assert!((at - want[i]).abs() < 1e-12);
             }

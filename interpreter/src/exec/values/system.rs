@@ -256,16 +256,14 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
             "--identity-trafo takes transformations as identity, their parameters have no effect";
         return Err(Fault::unsupported("variables V.G.KIN", span).hint(hint));
     }
-    let mut name = String::new();
+    let mut parts = Vec::new();
     for segment in segments {
-        name.push_str(&segment.name.to_ascii_uppercase());
+        parts.push(segment.name.to_ascii_uppercase());
         for subscript in &segment.subscripts {
-            let index = d.number(subscript)?;
-            name.push_str(&format!("[{index}]"));
+            parts.push(format!("[{}]", d.number(subscript)?));
         }
-        name.push('.');
     }
-    Ok(name)
+    Ok(parts.join("."))
 }
 
 fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
