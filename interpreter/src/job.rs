@@ -24,6 +24,7 @@
 //! ```
 
 mod facts;
+pub mod inputs;
 mod lists;
 mod run;
 #[cfg(test)]

@@ -25,4 +25,5 @@ pub mod machine;
 pub mod record;
 mod sim;
 pub mod source;
+pub mod summary;
 pub mod syntax;

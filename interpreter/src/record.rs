@@ -8,6 +8,8 @@
 //! assert_eq!((record.k, record.path.limit, record.path.v_mm_s), (0, SpeedLimit::default(), 0.0));
 //! ```
 
+pub mod columns;
+
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::Path;
 

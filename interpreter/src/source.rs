@@ -19,6 +19,7 @@ mod memory;
 mod reader;
 #[cfg(test)]
 mod tests;
+pub mod text;
 
 pub use memory::MemorySources;
 pub use reader::BlockReader;

@@ -3,6 +3,7 @@
 use crate::request::Request;
 use clap::{Parser, Subcommand, ValueEnum};
 use kontur_interpreter::machine::Override;
+use kontur_interpreter::record::columns::DEFAULT_SIGNALS;
 use std::path::PathBuf;
 
 /// Headless NC kernel simulator for the ISG / TwinCAT 3 CNC dialect.
@@ -184,7 +185,7 @@ pub struct RunArgs {
     pub output: Vec<PathBuf>,
 
     /// Columns of the trace: groups or names, separated by commas
-    #[arg(long, value_name = "GROUPS|NAMES", default_value = crate::trace::DEFAULT_SIGNALS, requires = "output")]
+    #[arg(long, value_name = "GROUPS|NAMES", default_value = DEFAULT_SIGNALS, requires = "output")]
     pub signals: String,
 
     /// Write every N-th cycle only

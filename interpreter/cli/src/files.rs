@@ -1,7 +1,7 @@
 //! The file system behind the library's two doors: NC programs and parameter lists.
 
-use crate::text::Text;
 use kontur_interpreter::machine::ListFiles;
+use kontur_interpreter::source::text::Text;
 use kontur_interpreter::source::{OpenError, Source, Sources};
 use std::cell::RefCell;
 use std::collections::BTreeMap;

@@ -9,7 +9,7 @@
 //! Source: TE13xx TC3 Scope View, export in csv.
 
 use crate::Error;
-use crate::text::Text;
+use kontur_interpreter::source::text::Text;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;

@@ -17,10 +17,10 @@ use crate::console::Console;
 use crate::files::STANDARD;
 use crate::request::{Opened, Request};
 use crate::run::{Shown, announce_lists, drive};
-use crate::summary::{Collector, State, Summary};
 use crate::target::keep_apart;
 use crate::vary::{combinations, put};
 use crate::{Error, Exit};
+use kontur_interpreter::summary::{Collector, State, Summary};
 use recording::Recording;
 use std::path::{Path, PathBuf};
 

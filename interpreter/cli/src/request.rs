@@ -2,11 +2,10 @@
 
 use crate::Error;
 use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
-use crate::inputs;
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::job::{
     Access, Changes, Checked, External, ForcedGuard, Job, MachineLists, Options, Run, SkipLevels,
-    Value,
+    Value, inputs,
 };
 use kontur_interpreter::machine::{Axis, Machine};
 use std::path::{Path, PathBuf};
@@ -121,7 +120,7 @@ impl Request {
         let lists = Lists::default();
         let (machine, warnings) = self.machine(&lists)?;
         let options = options(self, &machine)?;
-        let changes = inputs::open(&self.inputs, &machine)?;
+        let changes = changes(&self.inputs, &machine)?;
         let sources = ProgramFiles::new(&self.program, self.path.clone(), self.allow_outside);
         let program = if is_standard(&self.program) {
             STANDARD_INPUT.to_owned()
@@ -210,6 +209,18 @@ fn external((name, value): &(String, String)) -> (String, External) {
         _ => Value::Text(value.as_str().into()),
     };
     (name.clone(), External { value, access: Access::ReadWrite })
+}
+
+/// Real-time inputs of all files in the order of time.
+fn changes(paths: &[PathBuf], machine: &Machine) -> Result<Changes, OpenError> {
+    let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+    // a pipe could not be read twice
+    let files: Vec<_> =
+        names.iter().zip(paths).map(|(name, path)| (&**name, || files::regular(path))).collect();
+    inputs::open(&files, machine).map_err(|problem| match problem {
+        inputs::Problem::Wrong(diagnostic) => OpenError::Inputs(vec![*diagnostic]),
+        inputs::Problem::Io(name, e) => OpenError::Io(name.into(), e),
+    })
 }
 
 /// A program that must be readable, or the command fails before it decodes anything.

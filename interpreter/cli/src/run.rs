@@ -5,12 +5,12 @@ use crate::console::{Console, Progress};
 use crate::files::is_standard;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened};
-use crate::summary::Collector;
 use crate::target::{self, keep_apart};
 use crate::trace::Trace;
 use crate::{Error, Exit, times};
 use kontur_interpreter::job::{Run, Sink, Totals};
 use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::summary::Collector;
 use std::path::PathBuf;
 
 /// Runs a program.
@@ -69,7 +69,10 @@ pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
             let times = times.map(|t| t.text()).unwrap_or_default();
             Some(summary.text() + &times)
         }
-        SummaryForm::Json => Some(summary.json(times.as_ref())),
+        SummaryForm::Json => Some(match &times {
+            Some(times) => times.json_of(&summary),
+            None => summary.json(),
+        }),
         SummaryForm::None => None,
     };
     match text {

@@ -14,10 +14,8 @@ use crate::console::Console;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened, Request};
 use crate::spectrum::AmplitudeSpectrum;
-use crate::summary::{Collector, Summary};
 use crate::table::Table;
 use crate::target::{Target, keep_apart};
-use crate::trace::columns::Column;
 use crate::vary::{combinations, put, settings, without_effect};
 use crate::{Error, Exit};
 use args::{Amplitude, SweepArgs};
@@ -26,6 +24,8 @@ use journal::Journal;
 use kontur_interpreter::diag::Severity;
 use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::columns::Column;
+use kontur_interpreter::summary::{Collector, State, Summary};
 use rayon::prelude::*;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -100,7 +100,7 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     if let Some(journal) = journal {
         journal.remove();
     }
-    let finished = Cell::Word(columns::FINISHED.to_owned());
+    let finished = Cell::Word(State::Finished.name().to_owned());
     let any_finished = rows.cells.iter().any(|row| row[args.vary.len()] == finished);
     Ok(if any_finished { Exit::Finished } else { Exit::Aborted })
 }

@@ -1,12 +1,9 @@
 //! The trace: columns, and the files they go to.
 
-pub mod columns;
 pub mod csv;
 pub mod fixed;
 #[cfg(feature = "parquet")]
 pub mod parquet;
-
-pub use columns::DEFAULT_SIGNALS;
 
 use crate::Error;
 use crate::console::Console;
@@ -14,6 +11,7 @@ use crate::files::STANDARD;
 use crate::target::Target;
 use kontur_interpreter::job::{Facts, Run};
 use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::columns::{self, Column};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -46,7 +44,7 @@ impl Trace {
         facts: &Facts,
         console: &Console,
     ) -> Result<Self, Error> {
-        let columns = columns::select(signals, facts).map_err(Error::Usage)?;
+        let columns = select(signals, facts)?;
         let is = |end: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
         if is("html") || is("svg") {
             let message = format!(
@@ -121,6 +119,14 @@ impl Trace {
         let _ = run;
         finished.map_err(|e| error(&self.path, e))
     }
+}
+
+/// The columns that `--signals` asks for.
+///
+/// # Errors
+/// [`Error::Usage`] for an unknown word.
+pub(crate) fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, Error> {
+    columns::select(signals, facts).map_err(|e| Error::Usage(format!("--signals: {e}")))
 }
 
 fn error(path: &Path, e: io::Error) -> Error {

@@ -1,13 +1,13 @@
 //! Where the rows of a comparison come from: a CSV file, or a run that happens now.
 
 use crate::Error;
-use crate::text::Text;
-use crate::trace::columns;
 use crate::trace::csv::Rows;
+use crate::trace::select;
 use csv::{ByteRecord, ErrorKind};
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::job::Run;
-use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::{CycleRecord, columns};
+use kontur_interpreter::source::text::Text;
 use std::fs::File;
 use std::io::{self, Cursor, Read as _};
 use std::path::Path;
@@ -110,7 +110,7 @@ impl Table {
                 let all = columns::all(facts).into_iter();
                 all.filter(|c| names.contains(&c.name)).collect()
             }
-            None => columns::select(columns::DEFAULT_SIGNALS, facts).map_err(Error::Usage)?,
+            None => select(columns::DEFAULT_SIGNALS, facts)?,
         };
         let header = columns.iter().map(|c| c.name.clone()).collect();
         let name = facts.program.clone();

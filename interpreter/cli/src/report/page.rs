@@ -2,8 +2,8 @@
 
 use super::recording::{Bucket, Curve, Kind, Point, Recording, programmed};
 use super::stops::Stop;
-use crate::summary::Summary;
 use crate::trace::fixed::push_fixed;
+use kontur_interpreter::summary::Summary;
 use serde_json::json;
 
 /// Page with the places `/*STYLE*/`, `/*DATA*/` and `/*SCRIPT*/`.
@@ -26,7 +26,7 @@ fn run(r: &Recording, s: &Summary) -> String {
     let points: Vec<Point> = r.points().copied().collect();
     let names: Vec<&str> = r.plane.iter().map(|&i| r.facts.axes[i].name.as_str()).collect();
     let mut out = Json::new();
-    out.text("summary", &safe(&s.json(None)));
+    out.text("summary", &safe(&s.json()));
     out.text("files", &safe(&json!(r.facts.files.all()).to_string()));
     out.text("plane", &safe(&json!(names).to_string()));
     out.text("width", &r.width.to_string());

@@ -3,8 +3,8 @@
 
 use super::recording::{Kind, Point, Recording, programmed};
 use super::svg::{COLOURS, FAINT, INK, Panel, Stroke, Svg};
-use crate::summary::Summary;
-use crate::text::beginning;
+use kontur_interpreter::source::text::beginning;
+use kontur_interpreter::summary::Summary;
 
 const WIDTH: f64 = 1200.0;
 const LEFT: f64 = 76.0;

@@ -7,11 +7,12 @@ use crate::console::Console;
 use crate::request::Opened;
 use crate::run::{Shown, announce_lists, drive};
 use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
-use crate::summary::Collector;
 use crate::table::{Table, number};
-use crate::trace::columns::{Column, select};
+use crate::trace::select;
 use crate::{Error, Exit};
 use kontur_interpreter::job::Facts;
+use kontur_interpreter::record::columns::Column;
+use kontur_interpreter::summary::Collector;
 use std::path::Path;
 
 /// Panels beyond these make no picture.
@@ -99,7 +100,7 @@ pub(super) fn report(
 
 impl Recorded {
     fn new(label: String, names: &str, facts: &Facts) -> Result<Self, Error> {
-        let mut columns = select(names, facts).map_err(Error::Usage)?;
+        let mut columns = select(names, facts)?;
         // time, line, block and words are no curves
         columns.retain(|c| c.group != "time" && c.decimals > 0);
         // in the order in which they were asked for

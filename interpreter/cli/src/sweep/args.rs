@@ -1,9 +1,9 @@
 //! The arguments of `kontur sweep`.
 
 use crate::args::SimulationArgs;
-use crate::trace::columns::{Column, all};
 use crate::vary::Vary;
 use kontur_interpreter::job::Facts;
+use kontur_interpreter::record::columns::{Column, Content, all};
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -108,7 +108,6 @@ impl Amplitude {
 }
 
 fn is_number(column: &Column) -> bool {
-    use crate::trace::columns::Content;
     matches!(column.content, Content::Path(_) | Content::Axis(..))
 }
 

@@ -2,9 +2,8 @@
 
 use super::Outcome;
 use super::args::SweepArgs;
-use crate::summary::{AxisSummary, State, Summary};
 use crate::table::number;
-use kontur_interpreter::diag::{Diagnostic, Severity};
+use kontur_interpreter::summary::Summary;
 use serde::{Deserialize, Serialize};
 
 /// A value of a row.
@@ -47,23 +46,8 @@ mod bits {
     }
 }
 
-/// The word in the column `state` of a run that came to its end.
-pub(super) const FINISHED: &str = "finished";
-
 /// What every row has behind its parameters.
 const STATE: [&str; 3] = ["state", "error", "warnings"];
-
-/// A result of an axis: word, suffix behind the unit, value, decimals.
-type OfAxis = (&'static str, &'static str, fn(&AxisSummary) -> f64, usize);
-
-const OF_AXIS: [OfAxis; 6] = [
-    ("vel", "_s", |a| a.max_vel, 6),
-    ("acc", "_s2", |a| a.max_acc, 4),
-    ("jerk", "_s3", |a| a.max_jerk, 2),
-    ("err", "", |a| a.max_err, 7),
-    ("dev", "", |a| a.max_dev, 7),
-    ("lag", "", |a| a.max_lag, 7),
-];
 
 /// The row of a run under its header: parameters, state, ID of the first error, number of warnings, and the results that
 /// were asked for.
@@ -106,35 +90,18 @@ fn value(text: &str) -> Cell {
 }
 
 fn state(summary: &Summary) -> [Cell; 3] {
-    let word = if summary.state == State::Finished { FINISHED } else { "aborted" };
-    let error = summary.messages.iter().find(|m| m.is_error());
-    let warnings = summary.messages.iter().filter(|m| m.severity == Severity::Warning).count();
     [
-        Cell::Word(word.to_owned()),
-        Cell::Word(error.map_or_else(String::new, |m: &Diagnostic| m.id.to_string())),
-        Cell::Number(warnings as f64, 0),
+        Cell::Word(summary.state.name().to_owned()),
+        Cell::Word(summary.first_error().map_or_else(String::new, |id| id.to_string())),
+        Cell::Number(summary.warnings() as f64, 0),
     ]
 }
 
 /// Everything that a run results in.
 fn results(args: &SweepArgs, outcome: &Outcome) -> Vec<(String, Cell)> {
-    let s = &outcome.summary;
-    let mut all = vec![
-        ("cycles".to_owned(), Cell::Number(s.cycles as f64, 0)),
-        ("duration_s".to_owned(), Cell::Number(s.duration_s, 6)),
-        ("ideal_duration_s".to_owned(), Cell::Number(s.ideal_duration_s, 6)),
-        ("path_mm".to_owned(), Cell::Number(s.path_length_mm, 7)),
-    ];
-    let error = s.max_contour_error.as_ref().map_or(f64::NAN, |e| e.mm);
-    all.push(("contour_err_mm".to_owned(), Cell::Number(error, 7)));
-    for axis in &s.axes {
-        for (word, suffix, of, decimals) in OF_AXIS {
-            let name = format!("{}_{word}_max_{}{suffix}", axis.name, axis.unit);
-            all.push((name, Cell::Number(of(axis), decimals)));
-        }
-    }
-    let limits = s.time_by_v_limit_s.iter();
-    all.extend(limits.map(|(name, time)| (format!("{name}_time_s"), Cell::Number(*time, 6))));
+    let measures = outcome.summary.results().into_iter();
+    let mut all: Vec<(String, Cell)> =
+        measures.map(|m| (m.name, Cell::Number(m.value, m.decimals))).collect();
     let amplitudes = args.amplitude.iter().zip(&outcome.amplitudes);
     all.extend(amplitudes.map(|(a, &x)| (a.text.clone(), Cell::Number(x, 6))));
     all

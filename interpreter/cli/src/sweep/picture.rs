@@ -2,9 +2,10 @@
 
 use super::Rows;
 use super::args::SweepArgs;
-use super::columns::{Cell, FINISHED};
+use super::columns::Cell;
 use crate::Error;
 use crate::report::plot::{Diagram, Line, Plot, Scale, around};
+use kontur_interpreter::summary::State;
 
 /// Shown if no results are named.
 const USUAL: [&str; 2] = ["duration_s", "contour_err_mm"];
@@ -52,7 +53,8 @@ pub(super) fn draw(
     }
     // behind the parameters
     let state = args.vary.len();
-    let finished = |row: usize| rows.cells[row][state] == Cell::Word(FINISHED.to_owned());
+    let finished =
+        |row: usize| rows.cells[row][state] == Cell::Word(State::Finished.name().to_owned());
     let legend = series.iter().map(|s| {
         let names =
             others.iter().zip(s.rest).map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));

@@ -1,7 +1,9 @@
 //! The forms of the times: text, JSON and a table of all lines.
 
 use super::{MOST_EXPENSIVE, Range, Reason, TimeByReason, TimeOfLine, Times};
-use crate::text::{Text, beginning};
+use kontur_interpreter::source::text::{Text, beginning};
+use kontur_interpreter::summary::Summary;
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{BufRead as _, BufReader};
@@ -94,8 +96,20 @@ impl Times {
         Ok(())
     }
 
+    /// The JSON object of a summary with the times as its last field, `times`.
+    pub fn json_of(&self, summary: &Summary) -> String {
+        #[derive(Serialize)]
+        struct WithTimes<'a> {
+            #[serde(flatten)]
+            summary: &'a Summary,
+            times: serde_json::Value,
+        }
+        let object = WithTimes { summary, times: self.json() };
+        serde_json::to_string(&object).unwrap_or_default()
+    }
+
     /// The part of the summary: by reason, the ten most expensive lines, the ranges of the axes.
-    pub fn json(&self) -> serde_json::Value {
+    fn json(&self) -> serde_json::Value {
         serde_json::json!({
             "duration_s": self.duration_s,
             "reasons": self.reasons,

@@ -1,11 +1,11 @@
 //! The CSV writer: one header line, one line per cycle, whole lines only.
 
-use super::columns::{Column, Content};
 use super::fixed::{push_fixed, push_integer, push_seconds};
 use crate::console::Output;
 use crate::target;
 use kontur_interpreter::job::{Facts, FileNames};
 use kontur_interpreter::record::CycleRecord;
+use kontur_interpreter::record::columns::{Column, Content};
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 

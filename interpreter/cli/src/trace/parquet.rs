@@ -8,7 +8,6 @@
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
 //! leaves is a folder of whole Parquet files, which readers take as one table.
 
-use super::columns::{Column, Content};
 use crate::target::{Target, folder_of};
 use ::parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
 use ::parquet::column::writer::ColumnCloseResult;
@@ -20,6 +19,7 @@ use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
 use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::{ColumnPath, Type};
 use kontur_interpreter::job::{Facts, FileNames, Totals};
+use kontur_interpreter::record::columns::{Column, Content};
 use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 use std::fs::File;
 use std::io;
@@ -276,10 +276,10 @@ fn to_io(e: ParquetError) -> io::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::columns;
     use ::parquet::file::reader::{FileReader, SerializedFileReader};
     use ::parquet::record::RowAccessor;
     use kontur_interpreter::job::AxisFacts;
+    use kontur_interpreter::record::columns;
     use kontur_interpreter::record::{AxisRecord, PathRecord};
 
     #[test]

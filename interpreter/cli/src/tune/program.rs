@@ -12,12 +12,12 @@ use super::{Choice, Row, Task, command};
 use crate::console::Console;
 use crate::request::{OpenError, Request};
 use crate::run::{Shown, announce_lists, drive};
-use crate::summary::{Collector, State, Summary};
 use crate::table::{Table, number};
 use crate::{Error, Exit};
 use kontur_interpreter::diag::Location;
 use kontur_interpreter::job::{ForcedGuard, GuardCommands};
 use kontur_interpreter::machine::Machine;
+use kontur_interpreter::summary::{Collector, State, Summary};
 use std::path::Path;
 
 /// Deviations are kept to this in mm, as everywhere.

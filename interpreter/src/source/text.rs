@@ -3,7 +3,7 @@
 //! One reader with one limit for all of them. What is no text, or has a line without end, is refused in plain words
 //! before it fills the memory.
 
-use kontur_interpreter::diag::QUOTED_MAX;
+use crate::diag::QUOTED_MAX;
 use std::io::{self, BufRead, BufReader, Read};
 
 /// Bytes of a line; a longer one is no line of a table or a list.

@@ -3,8 +3,8 @@
 //! A corner slows the path down because it is a corner, a lower F word because it is programmed. What a surface shows are
 //! the dips between: at the small kinks of a polygon, at block limits, where a tolerance or the look-ahead takes speed.
 
-use kontur_interpreter::job::{Facts, FileNames};
-use kontur_interpreter::record::{CycleRecord, SpeedLimit};
+use crate::job::{Facts, FileNames};
+use crate::record::{CycleRecord, SpeedLimit};
 use serde::Serialize;
 
 /// Speeds closer together than this share of the larger one are equal: below it lies the rounding of the profiles.
@@ -182,8 +182,8 @@ impl Collector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kontur_interpreter::job::AxisFacts;
-    use kontur_interpreter::record::{AxisRecord, PathRecord};
+    use crate::job::AxisFacts;
+    use crate::record::{AxisRecord, PathRecord};
 
     /// Ripple of these speeds; the path turns by an angle in degrees in the cycles given.
     fn turning(speeds: &[f64], kinks: &[(usize, f64)], fed: &[usize]) -> Option<SpeedRipple> {

@@ -1,15 +1,35 @@
 //! The summary of a run, accumulated from its records.
+//!
+//! ```
+//! use kontur_interpreter::job::{Job, MachineLists};
+//! use kontur_interpreter::record::CycleRecord;
+//! use kontur_interpreter::source::MemorySources;
+//! use kontur_interpreter::summary::{Collector, State};
+//!
+//! let (machine, _) = MachineLists::default().load().unwrap();
+//! let sources = MemorySources::new().with("part.nc", "N10 G01 X10 F1000\nN20 M30\n");
+//! let mut run = Job::new(machine, sources, "part.nc").start().unwrap();
+//! // a collector sees every record, then the messages, and ends with what only the run knows
+//! let mut collector = Collector::new(run.facts());
+//! let Ok(()) = run.to_end(&mut |record: &CycleRecord| collector.add(record));
+//! run.take_diagnostics().iter().for_each(|said| collector.message(said));
+//! let summary = collector.finish(&run.totals());
+//! assert_eq!(summary.state, State::Finished);
+//! assert_eq!(summary.path_length_mm, 10.0);
+//! assert!(summary.text().contains("contour error  none"));
+//! ```
 
+mod results;
 mod ripple;
+mod text;
 
-use crate::times::Times;
-use kontur_interpreter::diag::{Diagnostic, Severity};
-use kontur_interpreter::job::{Facts, SettledStop, Totals};
-use kontur_interpreter::record::{AxisRecord, CycleRecord, Rest, SpeedLimit};
+use crate::diag::Diagnostic;
+use crate::job::{Facts, SettledStop, Totals};
+use crate::record::{AxisRecord, CycleRecord, Rest, SpeedLimit};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
+pub use results::Measure;
 pub use ripple::SpeedRipple;
 
 /// More messages than this are counted and no longer kept: a program may repeat a warning without end.
@@ -23,6 +43,16 @@ pub enum State {
     Finished,
     /// Refused, or stopped by an error.
     Aborted,
+}
+
+impl State {
+    /// Name in results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::Aborted => "aborted",
+        }
+    }
 }
 
 /// Largest magnitudes of one axis in mm (deg) and seconds.
@@ -277,157 +307,9 @@ impl Collector {
     }
 }
 
-fn many(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
-}
-
 impl Summary {
-    /// One JSON object on one line; with times it has them as `times`.
-    pub fn json(&self, times: Option<&Times>) -> String {
-        #[derive(Serialize)]
-        struct WithTimes<'a> {
-            #[serde(flatten)]
-            summary: &'a Summary,
-            #[serde(skip_serializing_if = "Option::is_none")]
-            times: Option<serde_json::Value>,
-        }
-        let object = WithTimes { summary: self, times: times.map(Times::json) };
-        serde_json::to_string(&object).unwrap_or_default()
-    }
-
-    /// The readable form.
-    pub fn text(&self) -> String {
-        let mut out = String::new();
-        // writing to a String cannot fail
-        let _ = self.write_text(&mut out);
-        out
-    }
-
-    fn write_text(&self, out: &mut String) -> std::fmt::Result {
-        let state = if self.state == State::Finished { "finished" } else { "aborted" };
-        writeln!(out, "{}  {state}", self.program)?;
-        let cycle_ms = f64::from(self.cycle_us) / 1000.0;
-        writeln!(out, "  machine        {}, cycle {cycle_ms} ms", self.machine)?;
-        writeln!(out, "  duration       {:.3} s ({} cycles)", self.duration_s, self.cycles)?;
-        writeln!(out, "  ideal          {:.3} s (path / feed)", self.ideal_duration_s)?;
-        if self.dwell_s > 0.0 {
-            writeln!(out, "  dwells         {:.3} s", self.dwell_s)?;
-        }
-        if self.technology_s > 0.0 {
-            let text = "M, H and S functions, by their declared durations";
-            writeln!(out, "  technology     {:.3} s ({text})", self.technology_s)?;
-        }
-        if self.held_s > 0.0 {
-            writeln!(out, "  held           {:.3} s (feedhold or override 0)", self.held_s)?;
-        }
-        if self.arrival_s > 0.0 {
-            let text = "end of the last motion until the axes were in position";
-            writeln!(out, "  arrival        {:.3} s ({text})", self.arrival_s)?;
-        }
-        for what in &self.not_counted {
-            writeln!(out, "  not counted    {what}")?;
-        }
-        writeln!(out, "  path           {:.4} mm in {} blocks", self.path_length_mm, self.blocks)?;
-        if let Some(ripple) = &self.speed_ripple {
-            let (low, high) = (ripple.v_min_mm_s, ripple.v_max_mm_s);
-            let place = self.place(&ripple.file, ripple.line, None);
-            let percent = 100.0 * ripple.ratio;
-            writeln!(
-                out,
-                "  speed ripple   {percent:.2} %: {low:.4} of {high:.4} mm/s at {place} (corners above {} deg left out)",
-                ripple::CORNER_DEG
-            )?;
-        }
-        if let Some(worst) = self.max_contour_error.as_ref().filter(|worst| worst.mm > 0.0) {
-            let place = self.place(&worst.file, worst.line, worst.block);
-            writeln!(
-                out,
-                "  contour error  at most {:.6} mm at t = {:.6} s, {place}",
-                worst.mm, worst.time_s
-            )?;
-        } else if self.max_contour_error.is_some() {
-            writeln!(out, "  contour error  none")?;
-        }
-        if self.cycles > 0 {
-            self.write_axes(out)?;
-        }
-        if self.duration_s > 0.0 {
-            write!(out, "  speed held by ")?;
-            let mut shares: Vec<(&str, f64)> =
-                self.time_by_v_limit_s.iter().map(|(name, s)| (*name, *s)).collect();
-            if let Some((_, stop)) =
-                shares.iter_mut().find(|(name, _)| *name == SpeedLimit::Stop.name())
-            {
-                *stop -= self.dwell_s + self.technology_s;
-            }
-            shares.push((Rest::Dwell.name(), self.dwell_s));
-            shares.push((Rest::Technology.name(), self.technology_s));
-            shares.retain(|(_, s)| *s > 0.5e-9);
-            shares.sort_by(|a, b| b.1.total_cmp(&a.1));
-            for (i, (name, seconds)) in shares.iter().enumerate() {
-                let comma = if i > 0 { ", " } else { "" };
-                write!(out, "{comma}{name} {:.1} %", 100.0 * seconds / self.duration_s)?;
-            }
-            writeln!(out)?;
-        }
-        let count = |severity| self.messages.iter().filter(|m| m.severity == severity).count();
-        let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
-        if errors + warnings > 0 || self.messages_omitted > 0 {
-            write!(
-                out,
-                "  messages       {}, {}",
-                many(errors, "error"),
-                many(warnings, "warning")
-            )?;
-            if self.messages_omitted > 0 {
-                write!(out, " and {} more", self.messages_omitted)?;
-            }
-            writeln!(out)?;
-        }
-        Ok(())
-    }
-
-    /// `line 4, N40`, and the file if it is not the program.
-    fn place(&self, file: &str, line: u32, block: Option<u64>) -> String {
-        let block = block.map_or_else(String::new, |n| format!(", N{n}"));
-        let of = if file == self.program { String::new() } else { format!(" of {file}") };
-        format!("line {line}{block}{of}")
-    }
-
-    fn write_axes(&self, out: &mut String) -> std::fmt::Result {
-        writeln!(
-            out,
-            "  {:<6} {:>12} {:>12} {:>14} {:>11} {:>11} {:>11} {:>10}",
-            "axis", "|vel| /s", "|acc| /s2", "|jerk| /s3", "|err|", "|dev|", "|lag|", "delay"
-        )?;
-        for a in &self.axes {
-            let delay_ms = a.filter_delay_cycles * f64::from(self.cycle_us) / 1000.0;
-            writeln!(
-                out,
-                "  {:<6} {:>12.4} {:>12.3} {:>14.1} {:>11.6} {:>11.6} {:>11.6} {:>7.2} ms",
-                format!("{} {}", a.name, a.unit),
-                a.max_vel,
-                a.max_acc,
-                a.max_jerk,
-                a.max_err,
-                a.max_dev,
-                a.max_lag,
-                delay_ms
-            )?;
-        }
-        for a in &self.axes {
-            if let Some(slowest) = &a.slowest_stop {
-                let place = self.place(&slowest.file, slowest.line, slowest.block);
-                writeln!(
-                    out,
-                    "  settling {:<5} {}, t2 - t1 at most {:.3} s at t = {:.3} s, {place}",
-                    a.name,
-                    many(usize::try_from(a.stops).unwrap_or(usize::MAX), "stop"),
-                    slowest.settling_s,
-                    slowest.time_s
-                )?;
-            }
-        }
-        Ok(())
+    /// One JSON object on one line.
+    pub fn json(&self) -> String {
+        serde_json::to_string(self).unwrap_or_default()
     }
 }

@@ -1,7 +1,23 @@
 //! Which columns a trace has: groups, names, units, and where the value of each stands in a record.
+//!
+//! ```
+//! use kontur_interpreter::job::{Job, MachineLists};
+//! use kontur_interpreter::record::{CycleRecord, columns};
+//! use kontur_interpreter::source::MemorySources;
+//!
+//! let (machine, _) = MachineLists::default().load().unwrap();
+//! let sources = MemorySources::new().with("part.nc", "N10 G01 X10 F1000\nN20 M30\n");
+//! let mut run = Job::new(machine, sources, "part.nc").start().unwrap();
+//! // the run knows its axes, and with them its columns
+//! let column = columns::select("X_set_mm", run.facts()).unwrap().pop().unwrap();
+//! assert_eq!((column.name.as_str(), column.unit.as_str()), ("X_set_mm", "mm"));
+//! let mut x_mm = Vec::new();
+//! let Ok(()) = run.to_end(&mut |record: &CycleRecord| x_mm.extend(column.number(record)));
+//! assert_eq!(x_mm.last(), Some(&10.0));
+//! ```
 
-use kontur_interpreter::job::Facts;
-use kontur_interpreter::record::{AxisRecord, CycleRecord};
+use crate::job::{AxisFacts, Facts};
+use crate::record::{AxisRecord, CycleRecord};
 
 /// Groups in the order of the trace; `time` is always there.
 pub const GROUPS: [&str; 10] =
@@ -43,6 +59,8 @@ pub struct Column {
     pub decimals: u8,
     /// The group that brings it.
     pub group: &'static str,
+    /// `mm`, `deg/s2`, `Nm`, ...; empty for words, flags, counts and what is in the drive's format.
+    pub unit: String,
 }
 
 impl Column {
@@ -81,6 +99,18 @@ impl Unit {
             Self::Torque => "_nm".to_owned(),
             Self::Time => "_s".to_owned(),
             Self::Flag => String::new(),
+        }
+    }
+
+    fn name(self, base: &str) -> String {
+        match self {
+            Self::Length => base.to_owned(),
+            Self::Speed => format!("{base}/s"),
+            Self::Acceleration => format!("{base}/s2"),
+            Self::Jerk => format!("{base}/s3"),
+            Self::Torque => "Nm".to_owned(),
+            Self::Time => "s".to_owned(),
+            Self::Drive | Self::Flag => String::new(),
         }
     }
 
@@ -129,32 +159,28 @@ const QUANTITIES: [Quantity; 25] = [
 
 /// Every column that a run of this machine can have, in the order of the trace.
 pub fn all(facts: &Facts) -> Vec<Column> {
-    let mut columns = vec![
-        fixed("t_s", "time", Content::Time, 6),
-        fixed("line", "time", Content::Line, 0),
-        fixed("block", "time", Content::Block, 0),
-    ];
+    let number = |unit: Unit, name: &str, group, value| Column {
+        decimals: unit.decimals(),
+        unit: unit.name("mm"),
+        ..plain(name, group, Content::Path(value))
+    };
+    let time = Column { decimals: 6, unit: "s".to_owned(), ..plain("t_s", "time", Content::Time) };
+    let mut columns =
+        vec![time, plain("line", "time", Content::Line), plain("block", "time", Content::Block)];
     if facts.files.several() {
-        columns.push(fixed("file", "time", Content::File, 0));
+        columns.push(plain("file", "time", Content::File));
     }
-    columns.push(fixed("s_mm", "path", Content::Path(|r| r.path.s_mm), POSITION_DECIMALS));
-    columns.push(fixed("v_mm_s", "path", Content::Path(|r| r.path.v_mm_s), Unit::Speed.decimals()));
-    let a = Content::Path(|r| r.path.a_mm_s2);
-    columns.push(fixed("a_mm_s2", "path", a, Unit::Acceleration.decimals()));
-    columns.push(fixed(
-        "j_mm_s3",
-        "path",
-        Content::Path(|r| r.path.j_mm_s3),
-        Unit::Jerk.decimals(),
-    ));
-    columns.push(fixed("v_limit", "path", Content::Limit, 0));
+    columns.push(number(Unit::Length, "s_mm", "path", |r| r.path.s_mm));
+    columns.push(number(Unit::Speed, "v_mm_s", "path", |r| r.path.v_mm_s));
+    columns.push(number(Unit::Acceleration, "a_mm_s2", "path", |r| r.path.a_mm_s2));
+    columns.push(number(Unit::Jerk, "j_mm_s3", "path", |r| r.path.j_mm_s3));
+    columns.push(plain("v_limit", "path", Content::Limit));
     for group in ["ipo", "set", "kin", "err", "ctrl", "drive", "axis"] {
         for (i, axis) in facts.axes.iter().enumerate().filter(|(_, a)| !a.spindle) {
             columns.extend(quantities(i, axis, |g| g == group));
         }
         if group == "err" {
-            let error = Content::Path(|r| r.contour_err_mm);
-            columns.push(fixed("contour_err_mm", "err", error, POSITION_DECIMALS));
+            columns.push(number(Unit::Length, "contour_err_mm", "err", |r| r.contour_err_mm));
         }
     }
     for (i, axis) in facts.axes.iter().enumerate().filter(|(_, a)| a.spindle) {
@@ -164,13 +190,13 @@ pub fn all(facts: &Facts) -> Vec<Column> {
     columns
 }
 
-fn fixed(name: &str, group: &'static str, content: Content, decimals: u8) -> Column {
-    Column { name: name.to_owned(), content, decimals, group }
+fn plain(name: &str, group: &'static str, content: Content) -> Column {
+    Column { name: name.to_owned(), content, decimals: 0, group, unit: String::new() }
 }
 
 fn quantities<'a>(
     index: usize,
-    axis: &'a kontur_interpreter::job::AxisFacts,
+    axis: &'a AxisFacts,
     wanted: impl Fn(&str) -> bool + 'a,
 ) -> impl Iterator<Item = Column> + 'a {
     QUANTITIES.iter().filter(move |q| wanted(q.0) && (axis.modal || !q.1.starts_with("tcp"))).map(
@@ -179,6 +205,7 @@ fn quantities<'a>(
             content: Content::Axis(index, value),
             decimals: unit.decimals(),
             group,
+            unit: unit.name(axis.unit()),
         },
     )
 }
@@ -194,7 +221,7 @@ pub fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, String> {
         if !GROUPS.contains(word) && !all.iter().any(|c| c.name == *word) {
             let names: Vec<&str> = all.iter().map(|c| c.name.as_str()).collect();
             return Err(format!(
-                "--signals: `{word}` is neither a group nor a column\n  groups: {}\n  columns: {}",
+                "`{word}` is neither a group nor a column\n  groups: {}\n  columns: {}",
                 GROUPS.join(", "),
                 names.join(", ")
             ));
@@ -208,7 +235,7 @@ pub fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kontur_interpreter::job::{AxisFacts, FileNames};
+    use crate::job::FileNames;
 
     fn facts() -> Facts {
         let axis = |name: &str, rotary, spindle| AxisFacts {
@@ -257,6 +284,19 @@ mod tests {
         assert!(message.contains("C_ipo_deg"), "{message}");
         let modal = select("X_tcp_mm", &facts());
         assert!(modal.is_err(), "only modal plants have a tool point");
+    }
+
+    /// The unit is what the name ends with, in the way that it is spoken.
+    #[test]
+    fn units_are_those_of_the_names() {
+        for column in all(&facts()) {
+            let ending = column.unit.replace('/', "_").to_lowercase();
+            assert!(column.name.ends_with(&ending), "{} in {}", column.name, column.unit);
+            let drive = column.name.ends_with("_drive") || column.name.ends_with("_vadd_limited");
+            let number =
+                matches!(column.content, Content::Time | Content::Path(_) | Content::Axis(..));
+            assert_eq!(column.unit.is_empty(), drive || !number, "{}", column.name);
+        }
     }
 
     #[test]

@@ -1,66 +1,80 @@
-//! `--input FILE`: real-time inputs of a run from time-stamped files.
+//! Real-time inputs of a run from time-stamped texts.
 //!
 //! CSV with a header `t_s,<signal>,...` and rows whose times rise; a value holds until the next one of its column, an
 //! empty cell changes nothing. Every file is read through once before the run, so that a mistake at its end refuses the
 //! run before its first cycle; then it is read again, line by line, as the run goes on.
+//!
+//! ```
+//! use kontur_interpreter::job::{Change, Signal, inputs};
+//! use kontur_interpreter::machine::Machine;
+//!
+//! let (machine, _) = Machine::builtin(&[]).unwrap();
+//! let file = ("hold.csv", || Ok(&b"t_s,feedhold\n0.2,1\n0.5,0\n"[..]));
+//! // what `Run::with_inputs` takes
+//! let changes = inputs::open(&[file], &machine).unwrap();
+//! let hold = Change::new(0.2, Signal::Feedhold, 1.0).unwrap();
+//! assert_eq!(changes.map(Result::unwrap).next(), Some(hold));
+//! ```
 
-use crate::files::regular;
-use crate::request::OpenError;
-use crate::text::Text;
-use kontur_interpreter::diag::{Condition, Diagnostic, Location};
-use kontur_interpreter::job::{Change, Changes, Signal};
-use kontur_interpreter::machine::Machine;
+use super::{Change, Changes, Signal};
+use crate::diag::{Condition, Diagnostic, Location};
+use crate::machine::Machine;
+use crate::source::text::Text;
 use std::collections::VecDeque;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::io::{self, BufRead, BufReader, Read};
 use std::sync::Arc;
 
-/// Changes of all files in the order of time.
+/// Changes of all files in the order of time. A file has a name for messages, and can be opened from its beginning as often
+/// as asked: it is read twice.
 ///
 /// # Errors
-/// [`OpenError`] if a file cannot be read or says something wrong, or if a signal stands in two columns.
-pub fn open(paths: &[PathBuf], machine: &Machine) -> Result<Changes, OpenError> {
-    let mut files = Vec::new();
+/// [`Problem`] if a file cannot be read or says something wrong, or if a signal stands in two columns.
+pub fn open<R, F>(files: &[(&str, F)], machine: &Machine) -> Result<Changes, Problem>
+where
+    R: Read + Send + 'static,
+    F: Fn() -> io::Result<R>,
+{
+    let mut opened = Vec::new();
     let mut taken = Vec::new();
-    for path in paths {
-        let mut found = InputFile::open(path, machine, &taken).map_err(|p| p.open_error(path))?;
-        while found.next_row().map_err(|p| p.open_error(path))? {
+    for (name, file) in files {
+        let begin = |taken: &[Signal]| {
+            let reader = file().map_err(|e| Problem::Io((*name).to_owned(), e))?;
+            InputFile::begin(name, reader, machine, taken)
+        };
+        let mut found = begin(&taken)?;
+        while found.next_row()? {
             found.changes.clear();
         }
         taken.extend(found.columns);
-        let again = InputFile::open(path, machine, &[]).map_err(|p| p.open_error(path))?;
-        files.push(again);
+        opened.push(begin(&[])?);
     }
-    Ok(Box::new(Merged { files }))
+    Ok(Box::new(Merged { files: opened }))
 }
 
 /// What can go wrong with a file.
-enum Problem {
+#[derive(Debug)]
+pub enum Problem {
+    /// K-0076, with its place.
     Wrong(Box<Diagnostic>),
-    Io(io::Error),
+    /// The file of this name cannot be read.
+    Io(String, io::Error),
 }
 
 impl Problem {
-    fn open_error(self, path: &Path) -> OpenError {
-        match self {
-            Self::Wrong(diagnostic) => OpenError::Inputs(vec![*diagnostic]),
-            Self::Io(e) => OpenError::Io(path.to_owned(), e),
-        }
-    }
-
-    fn diagnostic(self, name: &str) -> Box<Diagnostic> {
+    fn diagnostic(self) -> Box<Diagnostic> {
         match self {
             Self::Wrong(diagnostic) => diagnostic,
-            Self::Io(e) => Box::new(Diagnostic::new(Condition::InputFile, format!("{name}: {e}"))),
+            Self::Io(name, e) => {
+                Box::new(Diagnostic::new(Condition::InputFile, format!("{name}: {e}")))
+            }
         }
     }
 }
 
 /// One file, read line by line.
-struct InputFile {
+struct InputFile<R> {
     name: Arc<str>,
-    reader: BufReader<Text<File>>,
+    reader: BufReader<Text<R>>,
     /// Signal of every column behind the time.
     columns: Vec<Signal>,
     line: u32,
@@ -73,14 +87,13 @@ struct InputFile {
     changes: VecDeque<Change>,
 }
 
-impl InputFile {
+impl<R: Read> InputFile<R> {
     /// Reads the header. `taken`: signals that other files have.
-    fn open(path: &Path, machine: &Machine, taken: &[Signal]) -> Result<Self, Problem> {
-        // it is read twice
-        let file = regular(path).map_err(Problem::Io)?;
+    fn begin(name: &str, reader: R, machine: &Machine, taken: &[Signal]) -> Result<Self, Problem> {
+        let text = Text::new(reader).map_err(|e| Problem::Io(name.to_owned(), e))?;
         let mut input = Self {
-            name: path.display().to_string().into(),
-            reader: BufReader::new(Text::new(file).map_err(Problem::Io)?),
+            name: name.into(),
+            reader: BufReader::new(text),
             columns: Vec::new(),
             line: 0,
             offset: 0,
@@ -131,7 +144,7 @@ impl InputFile {
                 self.text = "".into();
                 return Err(self.wrong(0, "", &e.to_string()));
             }
-            Err(e) => return Err(Problem::Io(e)),
+            Err(e) => return Err(Problem::Io(self.name.to_string(), e)),
         };
         self.end += read as u64;
         let text = String::from_utf8_lossy(&bytes);
@@ -214,7 +227,7 @@ impl Problem {
     fn hint(self, hint: String) -> Self {
         match self {
             Self::Wrong(diagnostic) => Self::Wrong(Box::new(diagnostic.hint(hint))),
-            Self::Io(e) => Self::Io(e),
+            io @ Self::Io(..) => io,
         }
     }
 }
@@ -231,11 +244,11 @@ fn fields(line: &str) -> impl Iterator<Item = (usize, &str)> {
 }
 
 /// Several files as one.
-struct Merged {
-    files: Vec<InputFile>,
+struct Merged<R> {
+    files: Vec<InputFile<R>>,
 }
 
-impl Iterator for Merged {
+impl<R: Read> Iterator for Merged<R> {
     type Item = Result<Change, Box<Diagnostic>>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -246,7 +259,7 @@ impl Iterator for Merged {
                     first = Some((time_s, i));
                 }
                 Ok(_) => {}
-                Err(problem) => return Some(Err(problem.diagnostic(&file.name))),
+                Err(problem) => return Some(Err(problem.diagnostic())),
             }
         }
         let (_, i) = first?;
@@ -257,19 +270,12 @@ impl Iterator for Merged {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Write as _;
 
-    fn file(text: &str) -> tempfile::NamedTempFile {
-        let mut file = tempfile::NamedTempFile::new().unwrap();
-        file.write_all(text.as_bytes()).unwrap();
-        file
-    }
-
-    fn changes(texts: &[&str]) -> Result<Vec<Change>, OpenError> {
-        let files: Vec<_> = texts.iter().map(|t| file(t)).collect();
-        let paths: Vec<PathBuf> = files.iter().map(|f| f.path().to_owned()).collect();
+    fn changes(texts: &[&str]) -> Result<Vec<Change>, Problem> {
+        let bytes = |text: &str| io::Cursor::new(text.to_owned());
+        let files: Vec<_> = texts.iter().map(|t| ("a.csv", move || Ok(bytes(t)))).collect();
         let machine = Machine::builtin(&[]).unwrap().0;
-        Ok(open(&paths, &machine)?.map(Result::unwrap).collect())
+        Ok(open(&files, &machine)?.map(Result::unwrap).collect())
     }
 
     fn change(time_s: f64, signal: Signal, value: f64) -> Change {
@@ -320,20 +326,21 @@ mod tests {
             ("t_s,feedhold\n0,1,1\n", 2, 1, 5),
             ("t_s,feedhold\n0\n", 2, 1, 1),
         ] {
-            let Err(OpenError::Inputs(found)) = changes(&[text]) else { panic!("{text:?}") };
-            let place = found[0].source.as_ref().unwrap();
+            let Err(Problem::Wrong(found)) = changes(&[text]) else { panic!("{text:?}") };
+            let place = found.source.as_ref().unwrap();
             assert_eq!(
                 (place.line, place.column, place.length),
                 (line, column, marked),
                 "{text:?}"
             );
-            assert_eq!(found[0].id.to_string(), "K-0076");
+            assert_eq!(found.id.to_string(), "K-0076");
         }
         let twice = changes(&["t_s,feedhold\n", "t_s,feedhold\n"]);
-        assert!(matches!(twice, Err(OpenError::Inputs(_))));
+        assert!(matches!(twice, Err(Problem::Wrong(_))));
         let long = format!("t_s,feedhold\n0,{}\n", "1".repeat(70_000));
-        assert!(matches!(changes(&[&long]), Err(OpenError::Inputs(_))));
+        assert!(matches!(changes(&[&long]), Err(Problem::Wrong(_))));
         let machine = Machine::builtin(&[]).unwrap().0;
-        assert!(matches!(open(&["/nowhere.csv".into()], &machine), Err(OpenError::Io(..))));
+        let missing = || Err::<&[u8], _>(io::ErrorKind::NotFound.into());
+        assert!(matches!(open(&[("a.csv", missing)], &machine), Err(Problem::Io(..))));
     }
 }
