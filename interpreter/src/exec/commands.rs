@@ -13,6 +13,7 @@ mod messages;
 mod misc;
 mod positions;
 mod shaping;
+pub(super) mod signals;
 mod slope;
 mod spindles;
 
@@ -28,8 +29,8 @@ pub(super) use slope::{slope_of_number, slope_type};
 enum Act {
     /// It does something.
     Run(fn(&mut Decoder, &Call<'_>) -> Outcome<()>),
-    /// It has no influence on set positions of a Cartesian machine.
-    Ignored,
+    /// It changes neither path nor position, speed or spindle; what else there is to say about it.
+    Ignored(&'static str),
     /// Switching it off does nothing; on it changes the path and is not simulated.
     OffOnly,
     /// It would change the path and is not simulated.
@@ -129,7 +130,7 @@ const fn run(name: &'static str, f: fn(&mut Decoder, &Call<'_>) -> Outcome<()>) 
 }
 
 const fn ignored(name: &'static str) -> Row {
-    Row::of(name, Act::Ignored)
+    Row::of(name, Act::Ignored("it has no effect here"))
 }
 
 const fn off_only(name: &'static str) -> Row {
@@ -165,7 +166,7 @@ const ROWS: &[Row] = &[
     misc::TIME,
     misc::WAIT,
     misc::TIMER,
-    ignored("SIGNAL"),
+    signals::SIGNAL,
     // messages
     messages::MSG,
     messages::ERROR,
@@ -262,6 +263,13 @@ const ROWS: &[Row] = &[
     unsupported("VOLCOMP"),
     unsupported("JOG"),
     unsupported("HANDWHEEL"),
+    // parameters and procedures of drives
+    unsupported("IDENT"),
+    unsupported("COMMAND"),
+    unsupported("DRIVE"),
+    unsupported("INIT V.E."),
+    unsupported("FF"),
+    unsupported("LAH"),
     // spindles
     spindles::MAIN_SPINDLE,
     // cycles
@@ -279,18 +287,12 @@ const ROWS: &[Row] = &[
     ignored("SAVE CONFIG"),
     unsupported("CLEAR CONFIG"),
     ignored("CACHE"),
-    ignored("CONTROL AREA"),
+    Row::of("CONTROL AREA", Act::Ignored("areas are not watched, a motion into one is not stopped")),
     ignored("DISTANCE PROG START"),
     ignored("DIST TO GO"),
-    ignored("IDENT"),
-    ignored("COMMAND"),
-    ignored("DRIVE"),
     ignored("EXPORT VE"),
-    ignored("INIT V.E."),
     ignored("OPTIONAL EXECUTION"),
     ignored("BACKWARD"),
-    ignored("FF"),
-    ignored("LAH"),
     ignored("DIAGNOSIS"),
     ignored("SCENE"),
 ];
@@ -331,16 +333,13 @@ impl Decoder {
         self.dialect.own = true;
         let Some((row, count)) = find(command) else { return Err(unknown(command)) };
         let call = Call { command, name: row.name, rest: &command.words[count..] };
-        let ignored = || {
-            let text = format!("{} has no effect here", call.title());
-            Fault::new(Condition::Ignored, text, call.span())
-        };
         match row.act {
             Act::Run(f) => f(self, &call),
             Act::OffOnly if command.on == Some(false) => Ok(()),
             Act::OffOnly | Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
-            Act::Ignored => {
-                self.note_once(row.name, ignored());
+            Act::Ignored(text) => {
+                let text = format!("{}: {text}", call.title());
+                self.note_once(row.name, Fault::new(Condition::Ignored, text, call.span()));
                 Ok(())
             }
         }

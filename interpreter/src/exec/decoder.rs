@@ -4,6 +4,7 @@
 
 use super::block::dialect::Seen;
 use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane};
+use super::commands::signals::Signal;
 use super::contour::Contour;
 use super::fault::Fault;
 use super::geometry::coordinates::Coordinates;
@@ -73,6 +74,8 @@ pub(super) struct Decoder {
     pub(super) motion: MotionState,
     pub(super) shaping: ShapingState,
     pub(super) calls: Calls,
+    /// Signals that nobody has used up.
+    pub(super) signals: Vec<Signal>,
     /// Syntax check: blocks with errors are carried out as far as possible.
     pub(super) checking: bool,
     /// A motion of the block in work went out.
@@ -136,6 +139,7 @@ impl Decoder {
                 tool_change_file: machine.channel.tool_change_program.clone(),
                 ..Calls::default()
             },
+            signals: Vec::new(),
             checking: false,
             moved: false,
             straight: None,

@@ -153,6 +153,13 @@ pub(crate) enum Event {
         /// Weight, 0 to 1.
         weight_ratio: f64,
     },
+    /// `S[G130=70]`: weight of the acceleration of one spindle.
+    SpindleAcceleration {
+        /// Index into `Machine::spindles`.
+        spindle: usize,
+        /// Weight, above 0; 1 is the acceleration of the list.
+        ratio: f64,
+    },
     /// M3, M4, M5, M19 with the speed or position of one spindle: the whole state.
     Spindle {
         /// Index into `Machine::spindles`.
@@ -241,7 +248,20 @@ pub(crate) enum SpindleMotion {
         deg: f64,
         /// Speed in rev/min, above 0; none: as fast as the spindle can.
         rpm: Option<f64>,
+        /// Which way round.
+        approach: Approach,
     },
+}
+
+/// The way of a spindle to an angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Approach {
+    /// The shorter way from rest, the direction of rotation of a spindle that turns.
+    Free,
+    /// M3 beside M19.
+    Clockwise,
+    /// M4 beside M19.
+    CounterClockwise,
 }
 
 /// What the simulation knows when it asks for the next step.

@@ -30,6 +30,11 @@ impl Simulation {
                     spindle.command(motion);
                 }
             }
+            Event::SpindleAcceleration { spindle, ratio } => {
+                if let Some(spindle) = self.spindles.get_mut(spindle) {
+                    spindle.weigh_acceleration(ratio);
+                }
+            }
             other => {
                 let block = match &other {
                     Event::Message { source, .. } => Some(*source),

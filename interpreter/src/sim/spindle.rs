@@ -3,7 +3,7 @@
 //! Speed changes use the linear slope of the spindle's list (P-AXIS-00270 = 0). Assumption: other slope types of
 //! spindles are driven with the same acceleration.
 
-use crate::exec::SpindleMotion;
+use crate::exec::{Approach, SpindleMotion};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::profile::{SlopeLimits, SpanProfile, StepAxis, StepLimits};
@@ -13,6 +13,8 @@ use kontur_motion::profile::{SlopeLimits, SpanProfile, StepAxis, StepLimits};
 struct Positioning {
     profile: SpanProfile,
     from_deg: f64,
+    /// 1, or -1 for a motion counter-clockwise.
+    sense: f64,
     cycles: u64,
     arrived: bool,
 }
@@ -20,8 +22,9 @@ struct Positioning {
 /// One spindle.
 #[derive(Clone, Debug)]
 pub(super) struct Spindle {
-    limits: SlopeLimits,
-    acc_deg_s2: f64,
+    axis: StepAxis,
+    /// Weight of the acceleration (G130).
+    acc_ratio: f64,
     v_max_deg_s: f64,
     position_deg: f64,
     speed_deg_s: f64,
@@ -40,8 +43,8 @@ impl Spindle {
             change_mm_s: slope.change_mm_s,
         };
         Self {
-            limits: SlopeLimits::Step(StepLimits::from_axes(&[axis])),
-            acc_deg_s2: slope.acc_mm_s2[0].min(slope.dec_mm_s2[0]),
+            axis,
+            acc_ratio: 1.0,
             v_max_deg_s: dynamics.v_max_mm_s,
             position_deg: 0.0,
             speed_deg_s: 0.0,
@@ -54,7 +57,36 @@ impl Spindle {
     /// A new motion; what turned goes on from its present speed.
     pub(super) fn command(&mut self, motion: SpindleMotion) {
         self.wanted = motion;
+        if let SpindleMotion::Position { approach: approach @ Approach::Free, .. } =
+            &mut self.wanted
+        {
+            *approach = match self.speed_deg_s {
+                v if v > 0.0 => Approach::Clockwise,
+                v if v < 0.0 => Approach::CounterClockwise,
+                _ => Approach::Free,
+            };
+        }
         self.positioning = None;
+    }
+
+    /// G130: the acceleration of motions that begin from now on, and of the change of speed under way.
+    pub(super) fn weigh_acceleration(&mut self, ratio: f64) {
+        self.acc_ratio = ratio;
+    }
+
+    /// Acceleration in deg/s2.
+    fn acc_deg_s2(&self) -> f64 {
+        self.axis.acc_mm_s2[0].min(self.axis.dec_mm_s2[0]) * self.acc_ratio
+    }
+
+    fn limits(&self) -> SlopeLimits {
+        let weighed = |[low, high]: [f64; 2]| [low * self.acc_ratio, high * self.acc_ratio];
+        let axis = StepAxis {
+            acc_mm_s2: weighed(self.axis.acc_mm_s2),
+            dec_mm_s2: weighed(self.axis.dec_mm_s2),
+            change_mm_s: self.axis.change_mm_s,
+        };
+        SlopeLimits::Step(StepLimits::from_axes(&[axis]))
     }
 
     /// It is told to stand at an angle.
@@ -89,39 +121,50 @@ impl Spindle {
     /// Set position of the next cycle in deg, counted on over the turns.
     pub(super) fn step(&mut self, cycle: CycleTime) -> f64 {
         let t = cycle.seconds();
-        if let SpindleMotion::Position { deg, rpm } = self.wanted
+        if let SpindleMotion::Position { deg, rpm, approach } = self.wanted
             && (self.positioning.is_some() || self.speed_deg_s.abs() <= 0.0)
         {
-            self.approach(deg, rpm, cycle);
+            self.approach(deg, rpm, approach, cycle);
             return self.position_deg;
         }
-        let step = self.acc_deg_s2 * t;
+        let step = self.acc_deg_s2() * t;
         let speed = self.speed_deg_s + (self.target_deg_s() - self.speed_deg_s).clamp(-step, step);
         self.position_deg += 0.5 * (self.speed_deg_s + speed) * t;
         self.speed_deg_s = speed;
         self.position_deg
     }
 
-    /// One cycle of the way from rest to an angle, in positive direction.
-    fn approach(&mut self, deg: f64, rpm: Option<f64>, cycle: CycleTime) {
+    /// One cycle of the way from rest to an angle.
+    ///
+    /// Source: TF5200 spindle, positioning: in the direction that is programmed, in that of the rotation it comes from,
+    /// from rest the shorter way. Assumption: half a turn is clockwise.
+    fn approach(&mut self, deg: f64, rpm: Option<f64>, approach: Approach, cycle: CycleTime) {
         if self.positioning.is_none() {
-            let way = (deg - self.position_deg).rem_euclid(360.0);
+            let clockwise = (deg - self.position_deg).rem_euclid(360.0);
+            let back = (self.position_deg - deg).rem_euclid(360.0);
+            let (sense, way) = match approach {
+                Approach::CounterClockwise => (-1.0, back),
+                Approach::Free if back < clockwise => (-1.0, back),
+                Approach::Clockwise | Approach::Free => (1.0, clockwise),
+            };
             let speed = rpm.map_or(self.v_max_deg_s, |rpm| (rpm * 6.0).min(self.v_max_deg_s));
-            let profile = self.limits.plan(0.0, 0.0, speed, way);
+            let profile = self.limits().plan(0.0, 0.0, speed, way);
             self.positioning = profile.ok().map(|profile| Positioning {
                 profile,
                 from_deg: self.position_deg,
+                sense,
                 cycles: 0,
                 arrived: false,
             });
-            self.target_deg = Some(self.position_deg + way);
+            self.target_deg = Some(self.position_deg + sense * way);
         }
         if let Some(p) = &mut self.positioning {
             p.cycles += 1;
             let time_s = cycle.time_of(p.cycles);
             let state = p.profile.at(time_s);
             p.arrived = time_s >= p.profile.duration();
-            (self.position_deg, self.speed_deg_s) = (p.from_deg + state.s_mm, state.v_mm_s);
+            (self.position_deg, self.speed_deg_s) =
+                (p.from_deg + p.sense * state.s_mm, p.sense * state.v_mm_s);
             if p.arrived {
                 self.speed_deg_s = 0.0;
             }

@@ -94,6 +94,7 @@ impl Totals {
             | Event::Tool { .. }
             | Event::Feedforward { .. }
             | Event::SpindleFeedforward { .. }
+            | Event::SpindleAcceleration { .. }
             | Event::Independent { .. }
             | Event::Spindle { .. } => None,
         }

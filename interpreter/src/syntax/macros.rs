@@ -37,8 +37,9 @@ impl Expanded {
 /// Replaces the macros of a block; `None` if it uses none. `lookup` gives the text of a macro by its name.
 ///
 /// # Errors
-/// 20734 if macros are nested more than [`MACRO_DEPTH_MAX`] deep. An expansion that is too long is cut and gets 20301
-/// from the parser.
+/// 20734 if macros are nested more than [`MACRO_DEPTH_MAX`] deep, K-MACRO-BRACKET if the text of a macro holds one half of
+/// a pair of brackets (source: TF5200 programming manual, macros in mathematical expressions). An expansion that is too
+/// long is cut and gets 20301 from the parser.
 pub fn expand<'m>(
     raw: &RawBlock<'_>,
     file: &Arc<str>,
@@ -60,10 +61,21 @@ pub fn expand<'m>(
         copy(raw, &line, at..range.start, &mut out);
         at = range.end;
         let start = out.text.len();
-        if insert(text, 1, lookup, &mut out.text).is_err() {
+        if let Err(wrong) = insert(text, 1, lookup, &mut out.text) {
             let location = raw.locate(file, Span::new(range.start, range.end));
-            let text = format!("macros nested more than {MACRO_DEPTH_MAX} deep");
-            return Err(Box::new(Diagnostic::new(Condition::MacroNesting, text).at(location)));
+            let diagnostic = match wrong {
+                Wrong::TooDeep => {
+                    let text = format!("macros nested more than {MACRO_DEPTH_MAX} deep");
+                    Diagnostic::new(Condition::MacroNesting, text)
+                }
+                Wrong::HalfBracket(text) => {
+                    let shown: String = text.chars().take(40).collect();
+                    let text =
+                        format!("the macro text `{shown}` holds one half of a pair of brackets");
+                    Diagnostic::new(Condition::MacroBracket, text)
+                }
+            };
+            return Err(Box::new(diagnostic.at(location)));
         }
         let place = Span::new(start, out.text.len());
         let home = home(raw, &line, range.start);
@@ -79,18 +91,26 @@ pub fn expand<'m>(
     Ok(Some(out))
 }
 
-/// Macros nested too deeply.
-struct TooDeep;
+/// Why a macro cannot be put in place of its name.
+enum Wrong<'m> {
+    /// Macros nested too deeply.
+    TooDeep,
+    /// This text has a bracket without its partner.
+    HalfBracket(&'m str),
+}
 
 /// Appends the text of a macro, its own macros replaced.
 fn insert<'m>(
-    text: &str,
+    text: &'m str,
     depth: usize,
     lookup: &impl Fn(&str) -> Option<&'m str>,
     out: &mut String,
-) -> Result<(), TooDeep> {
+) -> Result<(), Wrong<'m>> {
     if depth > MACRO_DEPTH_MAX {
-        return Err(TooDeep);
+        return Err(Wrong::TooDeep);
+    }
+    if !scan::brackets_are_complete(text) {
+        return Err(Wrong::HalfBracket(text));
     }
     let mut at = 0;
     for (range, inner) in uses(text, lookup) {
@@ -168,6 +188,9 @@ mod tests {
         let lookup = |name: &str| match name {
             "A" => Some("X10 \"B\" Y5"),
             "B" => Some("Z1"),
+            "HALF" => Some("COS["),
+            "INSIDE" => Some("X\"HALF\"90]"),
+            "WHOLE" => Some("SIN[90] (a remark [)"),
             "LOOP" => Some("\"LOOP\""),
             "TWICE" => Some("\"LONG\" \"LONG\""),
             "LONG" => {
@@ -203,6 +226,16 @@ mod tests {
         assert_eq!(column(0, 2), (1, 2, line.clone()));
         assert_eq!(column(7, 9), (4, 3, line.clone()));
         assert_eq!(column(13, 15), (8, 2, line));
+    }
+
+    #[test]
+    fn a_macro_holds_whole_levels_of_brackets() {
+        for line in ["X\"HALF\" 90]", "\"INSIDE\""] {
+            assert_eq!(run(line).unwrap_err().id, Condition::MacroBracket, "{line}");
+        }
+        assert!(run("X\"WHOLE\"").unwrap().is_some());
+        // the definition itself is text
+        assert_eq!(run("\"HALF\" = \"COS[\""), Ok(None));
     }
 
     #[test]

@@ -243,7 +243,12 @@ fn refine(
     let depth = before.matches('[').count().saturating_sub(before.matches(']').count());
     match context {
         Context::Command if depth > 0 => {
-            let problem = raised(problem, Condition::TokenUnknown);
+            let condition = if asks_for_positions(content) {
+                Condition::PositionRequest
+            } else {
+                Condition::TokenUnknown
+            };
+            let problem = raised(problem, condition);
             if rest.is_empty() { problem.hint("the bracket is not closed") } else { problem }
         }
         Context::Command if before.trim_end().ends_with(']') => {
@@ -280,6 +285,14 @@ fn refine(
         }
         _ => problem,
     }
+}
+
+/// `#GET CMDPOS`, `#GET ACTPOS` and `#SET IPO SOLLPOS`, which have a number of their own for their bracket.
+fn asks_for_positions(content: &str) -> bool {
+    let name = content.split('[').next().unwrap_or_default().to_ascii_uppercase();
+    let words: Vec<&str> = name.split_ascii_whitespace().collect();
+    [&["#GET", "CMDPOS"][..], &["#GET", "ACTPOS"], &["#SET", "IPO", "SOLLPOS"]]
+        .contains(&&words[..])
 }
 
 /// The vendor's number for what stands wrongly behind a control statement.

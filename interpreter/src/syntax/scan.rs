@@ -122,6 +122,24 @@ pub(crate) fn bracket_is_open(text: &str) -> bool {
     depth > 0
 }
 
+/// True if every square bracket of `text` has its partner in it.
+pub(super) fn brackets_are_complete(text: &str) -> bool {
+    let mut depth = 0_usize;
+    for (region, range) in regions(text) {
+        if region == Region::Code {
+            for byte in &text.as_bytes()[range] {
+                match byte {
+                    b'[' => depth += 1,
+                    b']' if depth == 0 => return false,
+                    b']' => depth -= 1,
+                    _ => {}
+                }
+            }
+        }
+    }
+    depth == 0
+}
+
 /// Places of the strings of a block, quotes included.
 pub(super) fn strings(text: &str) -> impl Iterator<Item = Range<usize>> {
     regions(text).filter(|(region, _)| *region == Region::Text).map(|(_, range)| range)

@@ -202,6 +202,7 @@ conditions! {
     ExchangeNumber = Vendor 21252: Error ProgramAbort 3 1, "axis exchange: axis number wrong", hint "write [name, number, index]";
     ExchangeNumberRange = Vendor 21253: Error ProgramAbort 3 1, "axis exchange: axis number outside the data format", hint "the logical axis numbers stand in the axis lists (kopf.achs_nr)";
     PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "remarks begin with ; or (; no block stands before %NAME";
+    SynchronousParameters = Vendor 21344: Error ProgramAbort 3 1, "#WAIT SYN with parameters of a signal", cause "#WAIT SYN [ID=1 P[0]=P5]", hint "leave SYN out: parameters are read without synchronisation";
     CycleKeyTwice = Vendor 21379: Error ProgramAbort 3 1, "keyword twice in L CYCLE[...]", hint "leave one of the two out";
     CycleWhileModal = Vendor 21381: Error ProgramAbort 3 1, "cycle called while a modal cycle is active", hint "write #DISABLE MODAL CYCLE before the call";
     CycleParameterOutside = Vendor 21382: Error ProgramAbort 3 1, "cycle parameter outside of a cycle", cause "@P1=10 in a main program", hint "a cycle gets its parameters by L CYCLE [NAME=.. @P1=10]";
@@ -222,6 +223,7 @@ conditions! {
     OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
     BehindCall = Vendor 21542: Error ProgramAbort 3 1, "NC command behind a subroutine or cycle call", cause "LL SUB Z300", hint "write it before the call or into the next block";
     ParameterOutsideCycle = Vendor 21544: Error ProgramAbort 3 1, "V.G.@P[i].VALID outside a cycle", hint "ask for it inside the cycle";
+    SignalParameter = Vendor 21549: Error ProgramAbort 3 1, "signal without the parameter that #WAIT reads", hint "give P[i] in the #SIGNAL";
     SlopeType = Vendor 21629: Error ProgramAbort 3 1, "unknown identifier in #SLOPE[TYPE=..]", hint "types are STEP, TRAPEZ, SIN2, HSC";
     SpindleFeedforwardTwice = Vendor 21738: Error ProgramAbort 3 1, "G136 twice in one spindle sequence", hint "leave one of the two out";
     ArcRadiiDiffer = Vendor 21758: Error ProgramAbort 3 1, "circle radii differ too much", cause "G164; limits P-CHAN-00171/172", hint "G165 moves the centre so that it fits; check I, J and the end point", parameter "P-CHAN-00171";
@@ -377,6 +379,7 @@ conditions! {
     Unreached = Kontur 118 "K-UNREACHED": Warning None 3 1, "syntax error in a part of the program that does not run", cause "branch not taken, block jumped over, subroutine not called";
     Bottleneck = Kontur 119 "K-BOTTLENECK": Warning None 3 1, "a compensated tool cuts its own contour at a bottleneck", cause "gap narrower than the tool, loop over several blocks";
     ForeignProgram = Kontur 120 "K-FOREIGN": Error ProgramAbort 3 0, "word of another control's language", cause "#<name>, #100, o100 sub, G5.2, BEGIN PGM", hint "write the program out again with a post-processor for ISG or TwinCAT; parameters are P1 and V.P.NAME here";
+    MacroBracket = Kontur 121 "K-MACRO-BRACKET": Error ProgramAbort 3 1, "half a pair of brackets in a macro (no vendor ID known)", cause "\"A\" = \"COS[\"", hint "the text of a macro holds whole levels of brackets: \"A\" = \"COS[90]\"";
     Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop stands or swings outside the window, and no input is left that could move it", hint "raise the window or the gain kv, or take the force away";
     SpindleLimit = Kontur 131 "K-SPINDLE-LIMIT": Warning None 1 1, "spindle speed above the limit of the spindle, limited", cause "S word or REV above P-AXIS-00212", hint "the limit is getriebe[0].dynamik.vb_max of the spindle", parameter "P-AXIS-00212";
 }

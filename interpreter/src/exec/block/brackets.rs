@@ -8,6 +8,7 @@ use crate::diag::Condition;
 use crate::exec::commands::keys::{arguments, between};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::technology::Function;
 use crate::exec::step::Event;
@@ -22,6 +23,8 @@ enum SpindleItem {
     Speed(f64),
     /// POS=.
     Position(f64),
+    /// G130=.
+    Acceleration(f64),
     /// G135, G137.
     Feedforward(bool),
     /// G136=.
@@ -157,7 +160,15 @@ impl Decoder {
         for (i, (item, span)) in items.iter().enumerate() {
             let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);
             let several = matches!(item, SpindleItem::Function(_));
-            if !several && items[..i].iter().any(same) {
+            // M3 and M4 are the direction of M19
+            let directs = |(other, _): &(SpindleItem, Span)| {
+                matches!(
+                    (item, other),
+                    (SpindleItem::Turn(19), SpindleItem::Turn(3 | 4))
+                        | (SpindleItem::Turn(3 | 4), SpindleItem::Turn(19))
+                )
+            };
+            if !several && items[..i].iter().any(|other| same(other) && !directs(other)) {
                 let text = "two words of a spindle bracket that set the same";
                 let condition = match item {
                     SpindleItem::Turn(_) => Condition::SpindleMTwice,
@@ -167,15 +178,18 @@ impl Decoder {
                 return Err(Fault::new(condition, text, *span));
             }
         }
-        let motion = |i: &SpindleItem| {
-            matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_) | SpindleItem::Position(_))
-        };
+        let motion = |i: &SpindleItem| matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_));
         let moves = items.iter().any(|(i, _)| motion(i));
         let turns = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(_)));
-        // one event for the whole bracket, in whatever order its words stand: POS is the angle of M19, REV the speed
-        items.sort_by_key(|(i, _)| !matches!(i, SpindleItem::Turn(_)));
+        // one event for the whole bracket, in whatever order its words stand: M3 is the direction of M19
+        items.sort_by_key(|(i, _)| match i {
+            SpindleItem::Turn(19) => 0,
+            SpindleItem::Turn(_) => 1,
+            _ => 2,
+        });
+        let positions = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(19)));
         for (item, span) in items {
-            self.spindle_action(spindle, &item, span)?;
+            self.spindle_action(spindle, &item, positions, span)?;
         }
         let state = &self.motion.spindles[spindle];
         if moves
@@ -223,14 +237,29 @@ impl Decoder {
             ("G135", None) => SpindleItem::Feedforward(true),
             ("G137", None) => SpindleItem::Feedforward(false),
             ("G136", Some(x)) => SpindleItem::Weight(x),
+            ("G130", Some(x)) => SpindleItem::Acceleration(x),
             (other, _) => return Err(unknown(other)),
         })
     }
 
-    fn spindle_action(&mut self, spindle: usize, item: &SpindleItem, span: Span) -> Outcome<()> {
+    /// `positions`: M19 stands in the bracket.
+    fn spindle_action(
+        &mut self,
+        spindle: usize,
+        item: &SpindleItem,
+        positions: bool,
+        span: Span,
+    ) -> Outcome<()> {
         match *item {
             SpindleItem::Turn(number) => {
-                self.motion.spindles[spindle].turning = Turning::of(number, None);
+                let state = &mut self.motion.spindles[spindle];
+                let directs =
+                    matches!((state.turning, number), (Turning::Positioned(_), 3 | 4)) && positions;
+                state.turning = if directs {
+                    state.turning.with_direction(number)
+                } else {
+                    Turning::of(number)
+                };
                 if let Some(index) = self.motion.spindles[spindle].index {
                     self.takes_time(Function::Spindle { spindle: index, m: number });
                 }
@@ -249,7 +278,14 @@ impl Decoder {
                 }
             }
             SpindleItem::Position(deg) => {
-                self.motion.spindles[spindle].turning = Turning::Positioned { deg };
+                self.motion.spindles[spindle].angle_deg = deg;
+            }
+            SpindleItem::Acceleration(percent) => {
+                let ratio = Self::weight_ratio(Weight::Acceleration, (percent, span))?;
+                self.motion.spindles[spindle].acceleration_ratio = ratio;
+                if let Some(event) = self.motion.spindles[spindle].acceleration_event() {
+                    self.event(event);
+                }
             }
             SpindleItem::Feedforward(on) => {
                 self.motion.spindles[spindle].feedforward = on;

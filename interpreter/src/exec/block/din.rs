@@ -175,8 +175,8 @@ impl Decoder {
                     return Err(Fault::new(Condition::LookAheadRange, text, g.span)
                         .with(|d| d.value(ValueKind::Wrong, value, "-")));
                 }
-                let text = "G115: single functions of the look-ahead cannot be switched off";
-                self.note_once("G115", Fault::new(Condition::Ignored, text, g.span));
+                let text = "G115: single functions of the look-ahead are not switched off";
+                self.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
             }
             Act::Compensation(side) => self.compensation(side, g.span),
             Act::PerpendicularSelection(on) => self.modal.perpendicular_selection = on,
@@ -188,6 +188,11 @@ impl Decoder {
                 let text = format!("G{:02} has no effect: {why}", g.row.number);
                 let key = format!("G{}", g.row.number);
                 self.note_once(&key, Fault::new(Condition::Ignored, text, g.span));
+            }
+            Act::Simplified(how) => {
+                let text = format!("G{}: {how}", g.row.number);
+                let key = format!("G{}", g.row.number);
+                self.note_once(&key, Fault::new(Condition::Fallback, text, g.span));
             }
             Act::ExactStopOnce if words.axes.is_empty() => {
                 return Err(Fault::new(Condition::AxisMissing, "G60 without motion", g.span));

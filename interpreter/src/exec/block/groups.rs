@@ -174,8 +174,10 @@ pub(in crate::exec) enum Act {
     Rounding,
     /// What holds anyway in this tool.
     Nothing,
-    /// No influence on set positions, or only on functions that are not simulated.
+    /// No influence on set positions.
     Ignored(&'static str),
+    /// Its part of the motion is simulated without it, as the text says.
+    Simplified(&'static str),
     /// Changes the path and is not simulated.
     Unsupported(&'static str),
 }
@@ -207,7 +209,7 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
 }
 
 const FEED_CHANGE: &str = "a higher feed is reached behind the start of its block, as at start";
-const FEED_HOLD: &str = "weights of feed hold are not simulated";
+const FEED_HOLD: &str = "feedhold brakes without the weights of its own";
 const THREADS: &str = "thread cutting and tapping";
 const TURNING: &str = "turning";
 const MEASURING: &str = "measuring";
@@ -254,7 +256,7 @@ const ROWS: &[Row] = &[
     g(60, Group::Transition, Act::ExactStopOnce),
     g(61, Group::Transition, Act::ContourOnce),
     g(63, Group::Path, Act::Unsupported(THREADS)),
-    g(66, Group::None, Act::Ignored("blocks end within the cycle here")),
+    g(66, Group::None, Act::Simplified("blocks end within a cycle, as without it")),
     g(68, Group::Rotation, Act::Rotate),
     g(69, Group::Rotation, Act::RotateOff),
     g(70, Group::Unit, Act::Inch(true)),
@@ -276,7 +278,7 @@ const ROWS: &[Row] = &[
     g(106, Group::Measuring, Act::Unsupported(MEASURING)),
     g(107, Group::Measuring, Act::Unsupported(MEASURING)),
     g(108, Group::Measuring, Act::Unsupported(MEASURING)),
-    v(112, Group::None, Act::Ignored("gear stages are not switched")),
+    g(112, Group::None, Act::Unsupported("gear stages")),
     v(115, Group::LookAhead, Act::LookAheadFunctions),
     g(116, Group::LookAhead, Act::StopAtTransitions(true)),
     g(117, Group::LookAhead, Act::StopAtTransitions(false)),
@@ -294,7 +296,7 @@ const ROWS: &[Row] = &[
     g(138, Group::CompensationSelection, Act::Unsupported("direct selection of tool radius compensation")),
     g(139, Group::CompensationSelection, Act::PerpendicularSelection(false)),
     g(140, Group::Masking, Act::Nothing),
-    g(141, Group::Masking, Act::Ignored("contour masking is not simulated")),
+    g(141, Group::Masking, Act::Unsupported("contour masking")),
     g(150, Group::Splines, Act::Nothing),
     g(151, Group::Splines, Act::Unsupported(SPLINES)),
     v(159, Group::ZeroOffset, Act::ZeroGroupValue),
@@ -327,10 +329,10 @@ const ROWS: &[Row] = &[
     g(310, Group::Measuring, Act::Unsupported(MEASURING)),
     g(331, Group::Path, Act::Unsupported(THREADS)),
     g(332, Group::Path, Act::Unsupported(THREADS)),
-    g(333, Group::None, Act::Ignored(FEED_HOLD)),
-    v(334, Group::None, Act::Ignored(FEED_HOLD)),
-    g(338, Group::None, Act::Ignored(FEED_HOLD)),
-    v(339, Group::None, Act::Ignored(FEED_HOLD)),
+    g(333, Group::None, Act::Simplified(FEED_HOLD)),
+    v(334, Group::None, Act::Simplified(FEED_HOLD)),
+    g(338, Group::None, Act::Simplified(FEED_HOLD)),
+    v(339, Group::None, Act::Simplified(FEED_HOLD)),
     g(351, Group::Mirror, Act::MirrorAxes),
     g(359, Group::Transition, Act::ExactStop(false)),
     g(360, Group::Transition, Act::ExactStop(true)),
@@ -365,7 +367,7 @@ pub(in crate::exec) fn takes_axes(row: &Row) -> bool {
             | Act::FeedforwardWeights
             | Act::MirrorAxes
             | Act::Rotate
-    ) || matches!(row.number, 74 | 100..=108 | 310 | 333 | 338)
+    ) || matches!(row.number, 74 | 100..=108 | 112 | 310 | 333 | 338)
 }
 
 #[cfg(test)]

@@ -62,6 +62,8 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) end_feed: Option<Placed>,
     /// Spindle and speed.
     pub(in crate::exec) speeds: SmallVec<[(usize, f64, Span); 1]>,
+    /// Spindle and angle of M19 (`S.POS=180`).
+    pub(in crate::exec) angles: SmallVec<[(usize, f64, Span); 1]>,
     pub(in crate::exec) tool: Option<Placed>,
     pub(in crate::exec) tool_data: Option<Placed>,
     /// A write to `V.G.WZ_AKT`.
@@ -392,6 +394,9 @@ impl Decoder {
             let value = self.number(value)?;
             return spindle_word(block, spindle, value, span);
         }
+        if let Some(spindle) = name.as_str().strip_suffix(".POS") {
+            return self.spindle_angle(spindle, value, span, block);
+        }
         // R1 is the only index of the radius
         let radius = name.as_str().eq_ignore_ascii_case("R1").then_some(b'R');
         let Some(letter) = name.letter().or(radius) else {
@@ -420,6 +425,27 @@ impl Decoder {
                 _ => Fault::new(Condition::Syntax, text, span),
             });
         }
+        Ok(())
+    }
+
+    /// `S.POS=180`.
+    fn spindle_angle(
+        &self,
+        name: &str,
+        value: &Expr,
+        span: Span,
+        block: &mut Words<'_>,
+    ) -> Outcome<()> {
+        let Some(spindle) = self.spindle_of_name(name) else {
+            let text = format!("{name}.POS: the channel has no spindle {name}");
+            return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
+        };
+        let angle = self.number(value)?;
+        if block.angles.iter().any(|(other, _, _)| *other == spindle) {
+            let text = "the angle of a spindle twice in one block";
+            return Err(Fault::new(Condition::SpindleTwice, text, span));
+        }
+        block.angles.push((spindle, angle, span));
         Ok(())
     }
 

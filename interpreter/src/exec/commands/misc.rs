@@ -30,11 +30,11 @@ fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// Row of `#CHANNEL INIT`.
 pub(super) const CHANNEL_INIT: Row = Row::run("CHANNEL INIT", channel_init)
-    .form("#CHANNEL INIT [CMDPOS|ACTPOS]")
+    .form("#CHANNEL INIT [CMDPOS|ACTPOS AX=.. AX=..]")
     .meaning("the programmed position becomes the command or actual position")
     .example("#CHANNEL INIT [CMDPOS]");
 
-/// `#CHANNEL INIT [CMDPOS|ACTPOS, axes]`.
+/// `#CHANNEL INIT [CMDPOS|ACTPOS AX=X AX=Y]`; the axes also without `AX=`.
 fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let Some(group) = call.command.groups.first() else {
@@ -48,6 +48,9 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             ItemKind::Flag(word) if word.is("CMDPOS") => actual = Some(false),
             ItemKind::Flag(word) if word.is("ACTPOS") => actual = Some(true),
             ItemKind::Flag(word) => axes.push(decoder.axis_in_command(word)?),
+            ItemKind::Pair { key, value: ItemValue::Name(name) } if key.is("AX") => {
+                axes.push(decoder.axis_in_command(name)?);
+            }
             ItemKind::Missing => {}
             ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {
                 return Err(Fault::new(
@@ -106,12 +109,12 @@ fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// Row of `#WAIT`.
 pub(super) const WAIT: Row = Row::run("WAIT", wait)
-    .form("#WAIT INDP [X, Y]   #WAIT INDP ALL   #WAIT FOR condition")
-    .meaning("the path stops until these independent axes have arrived; of conditions: tested once")
+    .form("#WAIT INDP [X, Y]   #WAIT INDP ALL   #WAIT FOR condition   #WAIT [SYN] [ID=.. P[i]=variable CH=..]")
+    .meaning("the path stops until these independent axes have arrived; of conditions: tested once; uses up a signal")
     .example("#WAIT INDP [X]")
-    .related(&["INDP_ASYN", "K-0018"]);
+    .related(&["INDP_ASYN", "#SIGNAL", "K-0018"]);
 
-/// `#WAIT INDP ..` joins independent axes; of `#WAIT ..` else, headless a condition is tested once.
+/// `#WAIT INDP ..` joins independent axes; headless a condition is tested once, and a signal has come or never will.
 fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let [word, more @ ..] = call.rest
         && word.is("INDP")
@@ -122,6 +125,12 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             ([other, ..], _) | ([], [other, ..]) => return Err(call.unexpected(other)),
         };
         return decoder.wait_for_independent(all, &call.command.groups, call.span());
+    }
+    if let ([] | [_], [group]) = (call.rest, &call.command.groups[..])
+        && call.rest.iter().all(|word| word.is("SYN"))
+        && super::signals::wait_for_signal(decoder, call, group)?
+    {
+        return Ok(());
     }
     decoder.sync(Sync::FlushWait);
     match (call.rest, &call.command.arguments[..]) {

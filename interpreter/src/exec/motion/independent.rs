@@ -207,7 +207,8 @@ impl Decoder {
             words.slope = Some(kind.ok_or_else(|| wrong("slope types are 0 to 3", span))?);
             return Ok(());
         }
-        let speed = if key.is("FEED") {
+        // F is the older name
+        let speed = if key.is("FEED") || key.is("F") {
             let unit = self.machine.channel.feed_unit_mm_min / 60.0 * self.axis_unit(axis);
             IndependentSpeed::Feed(value * unit)
         } else if key.is("TIME") {

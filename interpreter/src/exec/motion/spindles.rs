@@ -1,6 +1,6 @@
 //! What the program last told the spindles.
 
-use crate::exec::step::{Event, SpindleMotion};
+use crate::exec::step::{Approach, Event, SpindleMotion};
 
 /// State of one spindle.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +11,10 @@ pub(in crate::exec) struct Spindle {
     /// Speed in rev/min (S word).
     pub(in crate::exec) rpm: f64,
     pub(in crate::exec) turning: Turning,
+    /// Angle of M19 in deg: that of POS, which holds.
+    pub(in crate::exec) angle_deg: f64,
+    /// Weight of the acceleration (G130), 1 without one.
+    pub(in crate::exec) acceleration_ratio: f64,
     pub(in crate::exec) feedforward: bool,
     /// Weight of feedforward, 0 to 1.
     pub(in crate::exec) weight_ratio: f64,
@@ -22,17 +26,26 @@ pub(in crate::exec) enum Turning {
     Stopped,
     Clockwise,
     CounterClockwise,
-    Positioned { deg: f64 },
+    Positioned(Approach),
 }
 
 impl Turning {
-    /// What M3, M4, M19 (with its angle in deg, 0 without one) or M5 asks for.
-    pub(in crate::exec) fn of(number: u32, deg: Option<f64>) -> Self {
+    /// What M3, M4, M19 or M5 asks for.
+    pub(in crate::exec) fn of(number: u32) -> Self {
         match number {
             3 => Self::Clockwise,
             4 => Self::CounterClockwise,
-            19 => Self::Positioned { deg: deg.unwrap_or(0.0) },
+            19 => Self::Positioned(Approach::Free),
             _ => Self::Stopped,
+        }
+    }
+
+    /// M3 or M4 beside M19: the direction of the positioning.
+    pub(in crate::exec) fn with_direction(self, number: u32) -> Self {
+        match (self, number) {
+            (Self::Positioned(_), 3) => Self::Positioned(Approach::Clockwise),
+            (Self::Positioned(_), 4) => Self::Positioned(Approach::CounterClockwise),
+            _ => self,
         }
     }
 }
@@ -44,6 +57,8 @@ impl Spindle {
             index,
             rpm: 0.0,
             turning: Turning::Stopped,
+            angle_deg: 0.0,
+            acceleration_ratio: 1.0,
             feedforward: false,
             weight_ratio: 1.0,
         }
@@ -57,9 +72,11 @@ impl Spindle {
             Turning::Clockwise => SpindleMotion::Clockwise { rpm },
             Turning::CounterClockwise => SpindleMotion::CounterClockwise { rpm },
             // Assumption: the programmed speed holds for positioning too; a spindle without one goes as fast as it can
-            Turning::Positioned { deg } => {
-                SpindleMotion::Position { deg, rpm: Some(rpm).filter(|r| *r > 0.0) }
-            }
+            Turning::Positioned(approach) => SpindleMotion::Position {
+                deg: self.angle_deg,
+                rpm: Some(rpm).filter(|r| *r > 0.0),
+                approach,
+            },
         };
         self.index.map(|spindle| Event::Spindle { spindle, motion })
     }
@@ -67,6 +84,11 @@ impl Spindle {
     pub(in crate::exec) fn feedforward_event(&self) -> Option<Event> {
         let (on, weight_ratio) = (self.feedforward, self.weight_ratio);
         self.index.map(|spindle| Event::SpindleFeedforward { spindle, on, weight_ratio })
+    }
+
+    pub(in crate::exec) fn acceleration_event(&self) -> Option<Event> {
+        let ratio = self.acceleration_ratio;
+        self.index.map(|spindle| Event::SpindleAcceleration { spindle, ratio })
     }
 
     pub(in crate::exec) fn is_turning(&self) -> bool {

@@ -4,9 +4,31 @@ use super::{assert_near, checked, clean, places, run};
 
 #[test]
 fn words_that_are_only_ignored_warn_once() {
-    let run = run("G08 X1 F100\nG08 X2\n#TOOL DATA\n#LAH [1]\n#INIT V.E.\n#CACHE CLEAR\nM30\n");
+    let run = run("G08 X1 F100\nG08 X2\n#TOOL DATA\n#EXPL SYN\n#SCENE ON\n#CACHE CLEAR\nM30\n");
     assert_eq!(run.ids(), ["K-0100"; 5]);
     assert_eq!(run.end[0], 2.0);
+}
+
+/// What may change path, position, speed or spindle is refused, or the message says what happens in its place.
+#[test]
+fn what_may_change_the_motion_is_not_ignored() {
+    for text in [
+        "#LAH [1]",
+        "#FF ON",
+        "#INIT V.E.",
+        "#DRIVE [AX=X]",
+        "#IDENT WR SYN [AX=X]",
+        "#COMMAND WR SYN [AX=X]",
+        "G112 X4 Y8",
+        "G112 S2",
+        "G141",
+    ] {
+        let run = super::run(&format!("{text}\nM30\n"));
+        assert_eq!(run.ids(), ["K-0019"], "{text}");
+    }
+    for text in ["G66", "G115=3", "G333 X80", "G334=80"] {
+        assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), ["K-0111"], "{text}");
+    }
 }
 
 #[test]

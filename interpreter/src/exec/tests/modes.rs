@@ -403,3 +403,41 @@ fn functions_of_axes_and_spindles() {
         assert_eq!(two(&format!("{text}\nM30\n")).ids(), [id], "{text}");
     }
 }
+
+/// Signals to all stay, those to the own channel are used up, values go with them; what nobody sends is not waited for.
+#[test]
+fn signals_of_the_own_channel() {
+    let served = clean(
+        "#SIGNAL [ID=4711 P[0]=10.5 P[3]=1+1]\n#WAIT [ID=4711 P[0]=V.P.A P[3]=P8]\n#WAIT [ID4711 P[0]=P9]\n\
+         #SIGNAL [ID=5 COUNT=2 CH=1]\n#WAIT SYN [ID=5 CH=1]\n#WAIT [ID=5 CH1 AHEAD]\n\
+         #SIGNAL [ID=6 CH=2]\nG01 X[V.P.A] Y[P8] Z[P9] F100\nM30\n",
+    );
+    assert_eq!(served.end[..3], [10.5, 2.0, 10.5]);
+    for (text, id) in [
+        ("#SIGNAL [ID=1 CH=1]\n#WAIT [ID=1 CH=1]\n#WAIT [ID=1 CH=1]", "K-0018"),
+        ("#SIGNAL [ID=1]\n#SIGNAL REMOVE [ID=1]\n#WAIT [ID=1]", "K-0018"),
+        ("#SIGNAL [ID=1 CH=1]\n#WAIT [ID=1]", "K-0018"),
+        ("#WAIT [ID=1 CH=2]", "K-0018"),
+        ("#SIGNAL [ID=1]\n#WAIT SYN [ID=1 P[0]=P1]", "21344"),
+        ("#SIGNAL [ID=1]\n#WAIT [ID=1 P[0]=P1]", "21549"),
+        ("#SIGNAL [ID=1 P[12]=1]", "21220"),
+        ("#SIGNAL [ID=-1]", "K-0009"),
+        ("#SIGNAL [CH=1]", "21220"),
+        ("$FOR P1=1,2000,1\n#SIGNAL [ID=P1]\n$ENDFOR", "K-0009"),
+    ] {
+        let run = run(&format!("{text}\nM30\n"));
+        assert_eq!(run.ids().first().map(String::as_str), Some(id), "{text}");
+    }
+}
+
+/// `#CHANNEL INIT [ACTPOS AX=X AX=Y]`, F of independent axes, V.G.WZR.
+#[test]
+fn older_spellings() {
+    clean("X10 F1000\n#CHANNEL INIT [ACTPOS AX=X AX=Y]\n#CHANNEL INIT [CMDPOS AX=X]\nM30\n");
+    assert_eq!(super::run("#CHANNEL INIT [ACTPOS AX=Q]\nM30\n").ids(), ["20797"]);
+    let run = clean("Z[INDP_ASYN G01 G90 POS20 F0.5 SLOPE_PROFIL 0]\n#WAIT INDP [Z]\nM30\n");
+    assert_eq!(run.end[2], 20.0);
+    let run = clean("V.G.WZR=5\nG01 X[V.G.WZ_AKT.R] Y[V.G.WZR] F100\nM30\n");
+    assert_eq!(run.end[..2], [5.0, 5.0]);
+    assert_eq!(super::run("V.G.WZR=5 D1\nM30\n").ids()[0], "20738");
+}

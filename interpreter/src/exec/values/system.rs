@@ -80,6 +80,7 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "NP_AKT", "V", "*"], read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.zero_offset(a)) },
     Row { name: &["G", "NP_DEFAULT"], read: |d, _| number(f64::from(d.machine.zero_offsets.start_group)) },
     Row { name: &["G", "WZ_AKT", "R"], read: |d, _| number(d.geometry.tools.active.radius_mm) },
+    Row { name: &["G", "WZR"], read: |d, _| number(d.geometry.tools.active.radius_mm) },
     Row { name: &["G", "WZ_AKT", "L"], read: |d, _| number(d.geometry.tools.active.length_mm) },
     Row { name: &["G", "WZ_AKT", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&d.geometry.tools.active, a)) } },
     Row { name: &["G", "WZ_AKT", "P"], read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&d.geometry.tools.active, i)) } },
@@ -270,6 +271,9 @@ pub(in crate::exec) fn write(
             let axis = path.axis(d, 3)?;
             d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
         }
+        ["G", "WZR"] => {
+            d.geometry.tools.active.radius_mm = x()?;
+        }
         ["G", "WZ_AKT", ..] => {
             let mut tool = d.geometry.tools.active.clone();
             write_tool(d, &path, &names[2..], &mut tool, x()?)?;
@@ -326,11 +330,11 @@ pub(in crate::exec) fn needs_actual(segments: &[Segment]) -> bool {
     is(0, "A") && is(1, "ACT_POS")
 }
 
-/// True for `V.G.WZ_AKT`: the tool data in use.
+/// True for `V.G.WZ_AKT` and `V.G.WZR`: the tool data in use.
 pub(in crate::exec) fn is_active_tool(segments: &[Segment]) -> bool {
     let is =
         |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
-    is(0, "G") && is(1, "WZ_AKT")
+    is(0, "G") && (is(1, "WZ_AKT") || is(1, "WZR"))
 }
 
 /// Timers of `#TIMER`.

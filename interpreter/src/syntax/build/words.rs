@@ -53,6 +53,7 @@ impl Builder<'_> {
                 Rule::marked_name
                 | Rule::bracket_name
                 | Rule::equals_name
+                | Rule::position_name
                 | Rule::letter
                 | Rule::name_letters
                 | Rule::hash_name => name = Some(self.written(span)),

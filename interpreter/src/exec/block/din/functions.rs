@@ -82,18 +82,30 @@ impl Decoder {
     }
 
     pub(super) fn functions_before(&mut self, words: &Words<'_>) {
-        let mut spindle = words.m.iter().filter(|m| m_kind(m.number) == MKind::Spindle);
+        for (spindle, deg, _) in &words.angles {
+            self.motion.spindles[*spindle].angle_deg = *deg;
+        }
+        let of_spindle = |m: &&Code| m_kind(m.number) == MKind::Spindle || m.number == 5;
+        // M3 and M4 are the direction of M19
+        let positions = words.m.iter().any(|m| m.number == 19);
+        let mut spindle = words.m.iter().filter(of_spindle).filter(|m| {
+            !positions
+                || !matches!(m.number, 3 | 4)
+                || words.m.iter().any(|n| n.number == 7 - m.number)
+        });
         if let (Some(first), Some(second)) = (spindle.next(), spindle.next()) {
             let (m, n) = (first.number, second.number);
             let text = format!("M{m:02} and M{n:02} in one block: both set the spindle");
             self.note(Fault::new(Condition::DuplicateGroup, text, second.span));
         }
+        let direction = words.m.iter().find(|m| positions && matches!(m.number, 3 | 4));
         for m in &words.m {
             match m_kind(m.number) {
                 MKind::Before => self.m_function(m),
                 MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
+                MKind::Spindle if positions && m.number != 19 => {}
                 MKind::Spindle => {
-                    self.turn_main_spindle(m);
+                    self.turn_main_spindle(m, direction.map(|m| m.number));
                     self.spindle_warning(0, m.span);
                 }
                 _ => {}
@@ -114,30 +126,32 @@ impl Decoder {
         self.takes_time(Function::M(m.number));
     }
 
-    fn turn_main_spindle(&mut self, m: &Code) {
-        self.turn_spindle(0, m.number, m.value);
+    fn turn_main_spindle(&mut self, m: &Code, direction: Option<u32>) {
+        if let (19, Some(deg)) = (m.number, m.value) {
+            self.motion.spindles[0].angle_deg = deg;
+        }
+        let turning = Turning::of(m.number);
+        self.motion.spindles[0].turning = match direction {
+            Some(number) => turning.with_direction(number),
+            None => turning,
+        };
+        if let Some(event) = self.motion.spindles[0].motion_event() {
+            self.event(event);
+        }
+        self.takes_time(match self.motion.spindles[0].index {
+            Some(spindle) => Function::Spindle { spindle, m: m.number },
+            None => Function::M(m.number),
+        });
         if self.motion.spindles[0].index.is_none() {
             self.event(Event::MFunction { number: m.number, value: m.value });
         }
-    }
-
-    /// M3, M4, M5, M19 of one spindle.
-    pub(in crate::exec) fn turn_spindle(&mut self, index: usize, number: u32, value: Option<f64>) {
-        self.motion.spindles[index].turning = Turning::of(number, value);
-        if let Some(event) = self.motion.spindles[index].motion_event() {
-            self.event(event);
-        }
-        self.takes_time(match self.motion.spindles[index].index {
-            Some(spindle) => Function::Spindle { spindle, m: number },
-            None => Function::M(number),
-        });
     }
 
     pub(super) fn functions_after<'b>(&mut self, words: &Words<'b>) -> After<'b> {
         let mut after = After::Next;
         for m in &words.m {
             match m_kind(m.number) {
-                MKind::After => self.turn_main_spindle(m),
+                MKind::After => self.turn_main_spindle(m, None),
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
                 MKind::End => after = After::End,
                 MKind::Return if !matches!(after, After::End) => after = After::Return,
