@@ -64,7 +64,7 @@ impl std::fmt::Display for Severity {
 }
 
 /// A place in a source text.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Location {
     /// Name of the file as the user gave it.
     pub file: Arc<str>,
@@ -75,13 +75,32 @@ pub struct Location {
     /// Offset in bytes from the start of the file.
     pub offset: u64,
     /// Length of the marked text in characters, at least 1.
-    #[serde(skip)]
     pub length: u32,
     /// N number of the block.
     pub block: Option<u64>,
     /// The line itself, without its end.
-    #[serde(skip)]
     pub text: Arc<str>,
+}
+
+impl Location {
+    /// The column behind the last marked character, from 1.
+    pub fn end_column(&self) -> u32 {
+        self.column.max(1).saturating_add(self.length.max(1))
+    }
+}
+
+impl Serialize for Location {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let mut s = serializer.serialize_struct("Location", 6)?;
+        s.serialize_field("file", &self.file)?;
+        s.serialize_field("line", &self.line)?;
+        s.serialize_field("column", &self.column)?;
+        s.serialize_field("end_column", &self.end_column())?;
+        s.serialize_field("offset", &self.offset)?;
+        s.serialize_field("block", &self.block)?;
+        s.end()
+    }
 }
 
 /// What a value of a diagnostic is (the vendor's flag, `70-errors` section 2, by name).

@@ -1,8 +1,11 @@
 //! The programmed contour that is still within reach of the filters, and the distance of a set point from it.
 
+mod ball;
+
 use crate::axis::AxisVec;
 use crate::corner::TANGENT;
 use crate::queue::Queued;
+use ball::Ball;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -13,6 +16,9 @@ pub(crate) const SAME_START_MM: f64 = 1e-9;
 
 /// Share by which a vector may be longer than the shortest one and still be taken for it.
 const WARY: f64 = 0.05;
+
+/// What rounding may make of a distance in mm.
+const ROUNDING_MM: f64 = 1e-9;
 
 /// How fast the say of a block falls that is further away than the nearest one: its power of the ratio of both.
 const FADING: f64 = 8.0;
@@ -33,6 +39,8 @@ pub(crate) struct Passed {
     pub(crate) queued: Arc<Queued>,
     /// It may have been entered faster than its feed (G901).
     pub(crate) above_feed: bool,
+    /// Holds the whole path of the block.
+    ball: Ball,
 }
 
 impl Passed {
@@ -69,7 +77,8 @@ impl Contour {
                 before.queued.brakes_late_into(&queued)
             }
         });
-        self.blocks.push_back(Passed { cycles, s_mm, queued, above_feed });
+        let ball = Ball::around(&queued.block.path);
+        self.blocks.push_back(Passed { cycles, s_mm, queued, above_feed, ball });
     }
 
     /// Forgets blocks that were left before `cycles`.
@@ -137,24 +146,34 @@ impl Contour {
         }
         let half: f64 = f64::sqrt(half);
         let mut q = AxisVec::zeros(middle.len());
+        let reaches: SmallVec<[f64; 64]> =
+            self.blocks.range(all.clone()).map(|b| b.ball.least_distance(&middle)).collect();
+        let reach = |i: usize| reaches[i - all.start] - ROUNDING_MM;
+        let mut known: SmallVec<[(usize, f64); 16]> = SmallVec::new();
         let mut least = f64::INFINITY;
-        let mut blocks: SmallVec<[(usize, f64, &Passed); 16]> = SmallVec::new();
-        for (i, passed) in all.clone().zip(self.blocks.range(all)) {
-            // the parts of one path are all as near as the whole of it
-            let same = blocks.last().filter(|(_, _, b)| b.is_part_of_the_same(passed));
-            let distance = same.map_or_else(|| passed.distance(&middle, &mut q), |b| b.1);
-            if among.contains(&i) {
+        // the later blocks are the nearer ones as a rule
+        for i in among.clone().rev().filter(|i| all.contains(i)) {
+            if reach(i) <= least {
+                let distance = self.blocks[i].distance(&middle, &mut q);
                 least = least.min(distance);
+                known.push((i, distance));
             }
-            blocks.push((i, distance, passed));
         }
         let within = (1.0 + WARY) * (least + half) + half;
-        blocks.retain(|(_, distance, _)| *distance <= within);
-        Around { blocks }
+        let mut blocks: SmallVec<[(usize, &Passed); 16]> = SmallVec::new();
+        for i in all.clone().filter(|i| reach(*i) <= within) {
+            let passed = &self.blocks[i];
+            let measured = known.iter().find(|k| k.0 == i).map(|k| k.1);
+            let distance = measured.unwrap_or_else(|| passed.distance(&middle, &mut q));
+            if distance <= within {
+                blocks.push((i, passed));
+            }
+        }
+        Around { blocks, among }
     }
 
     /// Numbers of the blocks that [`Self::nearest`] looks at.
-    pub(crate) fn numbers(&self, from: f64, to: f64) -> Range<usize> {
+    fn numbers(&self, from: f64, to: f64) -> Range<usize> {
         let Range { start, end } = self.entries(from, to);
         start..self.whole(end)
     }
@@ -230,31 +249,33 @@ impl Walk<'_> {
 
 /// Blocks of a contour, see [`Contour::around`].
 pub(crate) struct Around<'a> {
-    /// Number in the contour, distance from the middle of the line, and the block.
-    blocks: SmallVec<[(usize, f64, &'a Passed); 16]>,
+    /// Number in the contour, and the block.
+    blocks: SmallVec<[(usize, &'a Passed); 16]>,
+    /// Numbers of the blocks within reach of the second moment without slack.
+    among: Range<usize>,
 }
 
 impl Around<'_> {
-    /// As [`Contour::nearest`], of those blocks whose numbers are among these.
-    pub(crate) fn nearest(
-        &self,
-        point: &[f64],
-        among: &Range<usize>,
-        out: &mut [f64],
-    ) -> Option<Nearest> {
-        let blocks = self.blocks.iter().filter(|(i, _, _)| among.contains(i));
-        nearest(blocks.map(|(_, _, passed)| *passed), point, out)
+    /// As [`Contour::nearest`] between the two moments without slack.
+    pub(crate) fn nearest(&self, point: &[f64], out: &mut [f64]) -> Option<Nearest> {
+        let blocks = self.blocks.iter().filter(|(i, _)| self.among.contains(i));
+        nearest(blocks.map(|(_, passed)| *passed), point, out)
+    }
+
+    /// As [`Contour::nearest`] between the two moments with slack.
+    pub(crate) fn nearest_of_all(&self, point: &[f64], out: &mut [f64]) -> Option<Nearest> {
+        nearest(self.blocks.iter().map(|(_, passed)| *passed), point, out)
     }
 
     /// Largest component of all vectors to a point that could be called the shortest: those from any of the blocks that are
-    /// longer by at most `WARY` than the shortest one from the blocks whose numbers are `among` these. Between points that
-    /// are looked at, and with another idea of what is within reach, another block may be the nearest.
-    pub(crate) fn worst_component(&self, point: &[f64], among: &Range<usize>) -> f64 {
+    /// longer by at most `WARY` than the shortest one without slack. Between points that are looked at, and with another
+    /// idea of what is within reach, another block may be the nearest.
+    pub(crate) fn worst_component(&self, point: &[f64]) -> f64 {
         let mut vector = AxisVec::zeros(point.len());
-        let Some(nearest) = self.nearest(point, among, &mut vector) else { return 0.0 };
+        let Some(nearest) = self.nearest(point, &mut vector) else { return 0.0 };
         let within = (1.0 + WARY) * nearest.distance;
         let mut worst = vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        for (_, _, passed) in &self.blocks {
+        for (_, passed) in &self.blocks {
             if passed.distance(point, &mut vector) <= within {
                 let aside = vector.iter().zip(point).map(|(q, p)| (q - p).abs());
                 worst = aside.fold(worst, f64::max);

@@ -129,11 +129,10 @@ impl SetPath {
             return now.map(|now| (now.distance, vector));
         };
         let around = contour.around((before, here), (from, to), (1.0, 0.0));
-        let now = around.nearest(here, &contour.numbers(from, to), &mut vector);
+        let now = around.nearest(here, &mut vector);
         out.take(&vector);
         let shortest = now.map(|now| (now.distance, vector.clone()));
-        let all = 0..usize::MAX;
-        let then = around.nearest(before, &all, &mut vector);
+        let then = around.nearest_of_all(before, &mut vector);
         let parts = match (now, then) {
             (Some(now), Some(then)) if now.block == then.block => {
                 if now.straight {
@@ -147,7 +146,7 @@ impl SetPath {
         // the largest distance lies where the nearest point passes from one block to another
         let mut look = |u: f64| {
             let point: AxisVec = before.iter().zip(here).map(|(a, b)| a + u * (b - a)).collect();
-            let found = around.nearest(&point, &all, &mut vector).map(|n| n.block);
+            let found = around.nearest_of_all(&point, &mut vector).map(|n| n.block);
             out.take(&vector);
             found
         };
@@ -180,13 +179,12 @@ impl SetPath {
         let ends = k.checked_sub(1).and_then(|before| Some((self.get(before)?, self.get(k)?)));
         let Some((a, b)) = ends else { return 0.0 };
         let around = contour.around((a, b), (from, to), (slack, slack));
-        let among = contour.numbers(from, to);
         let length = a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt();
         let parts = (length / apart).ceil().clamp(1.0, f64::from(PARTS)) as u32;
         let component = |part: u32| {
             let u = f64::from(part) / f64::from(parts);
             let point: AxisVec = a.iter().zip(b).map(|(a, b)| a + u * (b - a)).collect();
-            around.worst_component(&point, &among)
+            around.worst_component(&point)
         };
         (1..=parts).map(component).fold(0.0, f64::max)
     }

@@ -78,6 +78,30 @@ pub enum OutputForm {
     Text,
     /// One JSON object.
     Json,
+    /// `JUnit` XML: a test case for each signal.
+    Junit,
+    /// Commands of GitHub's workflow log, at the NC lines.
+    Github,
+}
+
+/// How the result of a check is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CheckForm {
+    /// Messages on stderr in the form of --diagnostics.
+    Text,
+    /// One JSON object on stdout.
+    Json,
+    /// SARIF 2.1.0 on stdout, for code scanning services.
+    Sarif,
+    /// Commands of GitHub's workflow log on stdout, at the NC lines.
+    Github,
+}
+
+/// What else makes a check fail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Deny {
+    /// Warnings.
+    Warnings,
 }
 
 /// Options that decide what is simulated.
@@ -209,9 +233,17 @@ pub struct RunArgs {
 /// `kontur check`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckArgs {
-    /// The NC programs; `-` reads one from standard input
+    /// The NC programs; a folder stands for every `.nc` file below it, `-` reads one from standard input
     #[arg(required = true)]
     pub programs: Vec<PathBuf>,
+
+    /// Form of the result
+    #[arg(long, value_enum, default_value_t = CheckForm::Text)]
+    pub format: CheckForm,
+
+    /// Exit code 1 for these as well as for errors
+    #[arg(long, value_enum)]
+    pub deny: Option<Deny>,
 
     /// What is simulated
     #[command(flatten)]
@@ -221,10 +253,10 @@ pub struct CheckArgs {
 /// `kontur diff`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct DiffArgs {
-    /// A CSV trace, or an NC program to run now
+    /// A CSV or Parquet trace, or an NC program to run now
     pub a: PathBuf,
 
-    /// A CSV trace, or an NC program to run now; with --map a recording
+    /// A CSV or Parquet trace, or an NC program to run now; with --map a recording
     pub b: PathBuf,
 
     /// B is a recording of a machine (CSV with comma, semicolon or tab, any header, or an export of TwinCAT Scope): the column

@@ -1,34 +1,109 @@
 //! `kontur check`: every diagnostic of every program, nothing moves.
 
-use crate::args::CheckArgs;
+mod programs;
+mod sarif;
+
+use crate::args::{CheckArgs, CheckForm, Deny};
 use crate::console::Console;
 use crate::request::OpenError;
 use crate::run::announce_lists;
-use crate::{Error, Exit};
+use crate::{Error, Exit, workflow};
 use kontur_interpreter::diag::{Diagnostic, Severity};
+use serde::Serialize;
+use std::collections::HashSet;
+
+/// What was found in all programs.
+#[derive(Debug, Default, Serialize)]
+struct Findings {
+    programs: usize,
+    errors: usize,
+    warnings: usize,
+    /// Programs that could not be read, with the system's reason.
+    unreadable: Vec<String>,
+    diagnostics: Vec<Diagnostic>,
+    /// Their JSON: a subroutine or a list that several programs share is reported once.
+    #[serde(skip)]
+    known: HashSet<String>,
+}
+
+impl Findings {
+    /// Takes a diagnostic; false if it has been reported before.
+    fn take(&mut self, found: &Diagnostic) -> bool {
+        let is_new = self.known.insert(serde_json::to_string(found).unwrap_or_default());
+        if is_new {
+            self.errors += usize::from(found.severity == Severity::Error);
+            self.warnings += usize::from(found.severity == Severity::Warning);
+        }
+        is_new
+    }
+
+    fn exit(&self, deny: Option<Deny>) -> Exit {
+        let denied = deny == Some(Deny::Warnings) && self.warnings > 0;
+        if !self.unreadable.is_empty() {
+            Exit::Io
+        } else if self.errors > 0 || denied {
+            Exit::Aborted
+        } else {
+            Exit::Finished
+        }
+    }
+
+    fn counts(&self) -> String {
+        let number = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        format!(
+            "{}: {}, {}",
+            number(self.programs, "program"),
+            number(self.errors, "error"),
+            number(self.warnings, "warning")
+        )
+    }
+}
 
 /// Checks the programs; the worst of them decides the exit code.
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong.
 pub fn check(args: &CheckArgs, console: &mut Console) -> Result<Exit, Error> {
-    let mut exit = Exit::Finished;
-    for program in &args.programs {
-        match args.simulation.request(program).check() {
-            Ok(checked) => {
-                checked.diagnostics.iter().for_each(|d| console.announce(d));
-                let failed = checked.diagnostics.iter().any(Diagnostic::is_error);
-                if failed && exit == Exit::Finished {
-                    exit = Exit::Aborted;
-                }
-            }
+    let programs = programs::find(&args.programs)?;
+    let mut findings = Findings::default();
+    for program in &programs {
+        let checked = match args.simulation.request(program).check() {
+            Ok(checked) => checked,
             // one file that cannot be read says nothing about the others
             Err(e @ OpenError::Io(..)) => {
-                console.say(Severity::Error, &Error::from(e).to_string());
-                exit = Exit::Io;
+                let reason = Error::from(e).to_string();
+                match args.format {
+                    CheckForm::Github => {
+                        let title = "unreadable";
+                        let said = workflow::raise(Severity::Error, None, title, &reason);
+                        console.print(&said)?;
+                    }
+                    _ => console.say(Severity::Error, &reason),
+                }
+                findings.unreadable.push(reason);
+                continue;
             }
             Err(e) => return Err(announce_lists(e, console)),
+        };
+        findings.programs += 1;
+        for diagnostic in checked.diagnostics {
+            if !findings.take(&diagnostic) {
+                continue;
+            }
+            match args.format {
+                CheckForm::Text => console.announce(&diagnostic),
+                CheckForm::Github => console.print(&workflow::command(&diagnostic))?,
+                CheckForm::Json | CheckForm::Sarif => findings.diagnostics.push(diagnostic),
+            }
         }
     }
-    Ok(exit)
+    match args.format {
+        CheckForm::Text if programs.len() > 1 => console.print(&findings.counts())?,
+        CheckForm::Text | CheckForm::Github => {}
+        CheckForm::Json => {
+            console.print(&serde_json::to_string(&findings).unwrap_or_default())?;
+        }
+        CheckForm::Sarif => console.print(&sarif::log(&findings.diagnostics).to_string())?,
+    }
+    Ok(findings.exit(args.deny))
 }

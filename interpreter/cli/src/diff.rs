@@ -6,19 +6,24 @@
 //! With `--map` B is a recording of a machine ([`recording`]).
 
 mod compare;
+mod delay;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod recording;
 mod table;
+mod text;
+mod verdict;
 
 use crate::args::{DiffArgs, OutputForm};
 use crate::console::Console;
 use crate::{Error, Exit};
-use compare::{Comparison, Difference, Outcome};
-use kontur_interpreter::diag::QUOTED_MAX;
-use kontur_interpreter::diag::render::printable;
+use compare::Comparison;
 pub use recording::Pairing;
 use serde::Serialize;
-use std::fmt::Write as _;
+use std::path::Path;
 use table::Table;
+use text::text;
+use verdict::Verdict;
 
 /// Largest differences that count as equal, by unit.
 #[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
@@ -69,7 +74,7 @@ impl Tolerance {
 /// [`Error`] if a trace cannot be read or a program cannot be run.
 pub fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error> {
     let is_a = table::is_trace(&args.a)?;
-    let mut open = |path: &std::path::Path, trace: bool, like: Option<&[String]>| {
+    let mut open = |path: &Path, trace: bool, like: Option<&[String]>| {
         if trace {
             return Table::read(path);
         }
@@ -84,8 +89,11 @@ pub fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error> {
         for message in a.take_messages() {
             console.announce(&message);
         }
-        let text = || recording::text(&names, &outcome);
-        return report(args.format, &names, (&outcome, outcome.equal), text, console);
+        let program = (!is_a).then_some(args.a.as_path());
+        let verdict = || recording::verdict(&outcome, program);
+        let words = || recording::text(&names, &outcome);
+        let done = Done { names: &names, outcome: &outcome, equal: outcome.equal };
+        return done.report(args.format, words, verdict, console);
     }
     // a fresh run gives the columns of the trace that it is compared with
     let is_b = table::is_trace(&args.b)?;
@@ -109,108 +117,39 @@ pub fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error> {
         console.announce(message);
     }
     let outcome = comparison.finish();
-    report(args.format, &names, (&outcome, outcome.equal), || text(&names, &outcome), console)
+    let program = [(is_a, &args.a), (is_b, &args.b)].into_iter().find(|(trace, _)| !trace);
+    let verdict = || verdict::of(&outcome, program.map(|(_, path)| path.as_path()));
+    let done = Done { names: &names, outcome: &outcome, equal: outcome.equal };
+    done.report(args.format, || text(&names, &outcome), verdict, console)
 }
 
-fn report<O: Serialize>(
-    format: OutputForm,
-    names: &[String; 2],
-    (outcome, equal): (&O, bool),
-    text: impl FnOnce() -> String,
-    console: &mut Console,
-) -> Result<Exit, Error> {
-    match format {
-        OutputForm::Text => console.print(&text())?,
-        OutputForm::Json => {
-            let json = serde_json::json!({ "a": names[0], "b": names[1], "result": outcome });
-            console.print(&json.to_string())?;
-        }
-    }
-    Ok(if equal { Exit::Finished } else { Exit::Aborted })
+/// A comparison that has ended.
+struct Done<'a, O> {
+    names: &'a [String; 2],
+    outcome: &'a O,
+    equal: bool,
 }
 
-fn text(names: &[String; 2], outcome: &Outcome) -> String {
-    let mut out = String::new();
-    // writing to a String cannot fail
-    let _ = write_text(&mut out, names, outcome);
-    out
-}
-
-fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::Result {
-    if o.equal {
-        return writeln!(out, "equal: {} rows", o.rows_a);
+impl<O: Serialize> Done<'_, O> {
+    fn report(
+        &self,
+        format: OutputForm,
+        text: impl FnOnce() -> String,
+        verdict: impl FnOnce() -> Verdict,
+        console: &mut Console,
+    ) -> Result<Exit, Error> {
+        let [a, b] = self.names;
+        let printed = match format {
+            OutputForm::Text => text(),
+            OutputForm::Json => {
+                serde_json::json!({ "a": a, "b": b, "result": self.outcome }).to_string()
+            }
+            OutputForm::Junit => verdict().junit(self.names),
+            OutputForm::Github => verdict().github(self.names),
+        };
+        console.print(&printed)?;
+        Ok(if self.equal { Exit::Finished } else { Exit::Aborted })
     }
-    writeln!(out, "different: {a} (A) and {b} (B)")?;
-    if let Some(first) = &o.first {
-        writeln!(out, "  first  {}", sentence(first))?;
-    }
-    if let Some(worst) = &o.worst {
-        writeln!(out, "  worst  {}", sentence(worst))?;
-    }
-    if o.rows_a != o.rows_b {
-        writeln!(out, "  rows   {} in A, {} in B", o.rows_a, o.rows_b)?;
-    }
-    for (side, columns) in [("A", &o.only_a), ("B", &o.only_b)] {
-        if !columns.is_empty() {
-            let columns: Vec<String> = columns.iter().map(|c| brief(c)).collect();
-            writeln!(out, "  only in {side}: {}", columns.join(", "))?;
-        }
-    }
-    match o.shift_cycles {
-        Some(n) if n > 0 => writeln!(out, "  shift  equal if B is taken {n} rows earlier")?,
-        Some(n) => writeln!(out, "  shift  equal if B is taken {} rows later", -n)?,
-        None => {}
-    }
-    if !o.columns.is_empty() {
-        writeln!(out, "  column               rows    largest difference")?;
-    }
-    for c in &o.columns {
-        write!(out, "  {:<18} {:>6}", brief(&c.column), c.rows)?;
-        match &c.worst {
-            Some(d) => writeln!(out, "    {} at {}", number(d.size), place(d))?,
-            None => writeln!(out)?,
-        }
-    }
-    Ok(())
-}
-
-/// A cell as it may stand in a line of text.
-fn brief(cell: &str) -> String {
-    let line = printable(cell).replace('\n', "\u{FFFD}");
-    match line.char_indices().nth(QUOTED_MAX) {
-        Some((end, _)) => format!("{}...", &line[..end]),
-        None => line,
-    }
-}
-
-fn number(difference: Option<f64>) -> String {
-    difference.map_or_else(|| "-".to_owned(), |d| format!("{d:.3e}"))
-}
-
-fn place(d: &Difference) -> String {
-    let mut out = d
-        .time_s
-        .as_ref()
-        .map_or_else(|| format!("row {}", d.row), |t| format!("t = {} s", brief(t)));
-    if let Some(line) = &d.line {
-        let _ = write!(out, ", line {}", brief(line));
-    }
-    if let Some(block) = d.block.as_ref().filter(|b| !b.is_empty()) {
-        let _ = write!(out, " N{}", brief(block));
-    }
-    if let Some(file) = &d.file {
-        let _ = write!(out, " of {}", brief(file));
-    }
-    out
-}
-
-fn sentence(d: &Difference) -> String {
-    let [column, a, b] = [&d.column, &d.a, &d.b].map(|text| brief(text));
-    let mut out = format!("{}: {column} is {a} in A, {b} in B", place(d));
-    if let (Some(difference), Some(tolerance)) = (d.size, d.tolerance) {
-        let _ = write!(out, " (difference {difference:.3e}, tolerance {tolerance:e})");
-    }
-    out
 }
 
 #[cfg(test)]

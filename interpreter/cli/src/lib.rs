@@ -24,6 +24,7 @@ pub mod times;
 pub mod trace;
 pub mod tune;
 pub mod vary;
+mod workflow;
 
 use clap::Parser as _;
 use console::Console;

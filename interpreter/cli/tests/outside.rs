@@ -2,92 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
 
-use kontur::console::Console;
-use kontur::{Exit, run_with};
+mod kit;
+
+use kit::Folder;
+use kontur::Exit;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use std::cell::RefCell;
-use std::ffi::OsString;
-use std::io::Write;
-use std::path::PathBuf;
-use std::rc::Rc;
-use tempfile::TempDir;
-
-#[derive(Clone, Default)]
-struct Buffer(Rc<RefCell<Vec<u8>>>);
-
-impl Write for Buffer {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.borrow_mut().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-/// A square of 1 mm driven three times: with exact stops, with its corners cut by the guard, and without a guard.
-const CORNER: &str = "\
-N10 G01 F3600
-N20 G90
-N30 #VIB GUARD ON [MODE=1 FREQ=30]
-N40 G60 X1
-N50 G60 Y1
-N60 G60 X0
-N70 G60 Y0
-N80 F3600
-N90 X1
-N100 Y1
-N110 X0
-N120 Y0
-N130 #VIB GUARD OFF
-N140 X1
-N150 Y1
-N160 X0
-N170 Y0
-N180 M30
-";
-
-struct Folder(TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        // the last edge of the first pass at a lower feed; a mistake; a guard of the lists
-        for (name, text) in [
-            ("corner.nc", CORNER.to_owned()),
-            ("slow.nc", CORNER.replace("N70 G60 Y0", "N70 G60 Y0 F600")),
-            ("listed.nc", CORNER.replace(" #VIB GUARD ON [MODE=1 FREQ=30]", " G90")),
-            ("bad.nc", CORNER.replace("N60 G60 X0", "N60 G777 X0")),
-        ] {
-            std::fs::write(folder.path().join(name), text).unwrap();
-        }
-        Self(folder)
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    /// Words that start with `@` are files of the folder.
-    fn call(&self, words: &[&str]) -> (Exit, String, String) {
-        let (out, err) = (Buffer::default(), Buffer::default());
-        let mut console = Console::new(out.clone(), err.clone());
-        let word = |w: &&str| match w.strip_prefix('@') {
-            Some(name) => self.path(name).into_os_string(),
-            None => OsString::from(w),
-        };
-        let args = std::iter::once(OsString::from("kontur")).chain(words.iter().map(word));
-        let exit = run_with(args, &mut console);
-        let text = |b: &Buffer| String::from_utf8(b.0.borrow().clone()).unwrap();
-        (exit, text(&out), text(&err))
-    }
-
-    fn read(&self, name: &str) -> String {
-        std::fs::read_to_string(self.path(name)).unwrap()
-    }
-}
 
 #[test]
 fn run_writes_trace_and_summary() {
@@ -137,7 +57,7 @@ fn a_trace_on_stdout_leaves_the_summary_to_stderr() {
     let vary = ["sweep", "@corner.nc", "--vary", "X.getriebe[0].kv=1000,2000"];
     let words = [&vary[..], &["-o", "-"]].concat();
     assert_eq!(f.call(&words).1, f.call(&vary).1);
-    assert!(!PathBuf::from("-").exists());
+    assert!(!std::path::Path::new("-").exists());
 }
 
 #[test]
@@ -176,8 +96,21 @@ fn parquet_and_csv_side_by_side() {
     assert_eq!(f.call(&words).0, Exit::Aborted);
     let bytes = std::fs::read(f.path("a.parquet")).unwrap();
     assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"), "complete after an abort");
-    let (exit, _, err) = f.call(&["diff", "@a.parquet", "@a.csv"]);
-    assert_eq!((exit, err.contains("CSV")), (Exit::Usage, true));
+    // every bit against seven decimals, and all of it against a fresh run
+    for words in [["@a.parquet", "@a.csv"], ["@a.csv", "@a.parquet"]] {
+        let (exit, out, _) = f.call(&[&["diff"][..], &words].concat());
+        assert_eq!((exit, out.as_str()), (Exit::Finished, "equal: 101 rows\n"));
+    }
+    assert_eq!(f.call(&["run", "@corner.nc", "-o", "@whole.parquet"]).0, Exit::Finished);
+    assert_eq!(f.call(&["diff", "@corner.nc", "@whole.parquet"]).0, Exit::Finished);
+    let (exit, out, _) = f.call(&["diff", "@whole.parquet", "@slow.nc"]);
+    assert!(exit == Exit::Aborted && out.contains(" s, line 7 N70: "), "{out}");
+    // a table that is no trace, and what is cut off
+    std::fs::write(f.path("cut.parquet"), &bytes[..bytes.len() / 2]).unwrap();
+    assert_eq!(f.call(&["diff", "@cut.parquet", "@a.csv"]).0, Exit::Io);
+    std::fs::write(f.path("no.parquet"), "t_s,line\n0,1\n").unwrap();
+    let (exit, _, err) = f.call(&["diff", "@no.parquet", "@a.csv"]);
+    assert_eq!((exit, err.contains("no Parquet file")), (Exit::Usage, true));
 }
 
 #[test]
@@ -316,7 +249,7 @@ fn exit_codes_of_wrong_usage_and_files() {
     ] {
         assert_eq!(f.call(words).0, Exit::Usage, "{words:?}");
     }
-    assert_eq!(f.read("corner.nc"), CORNER);
+    assert_eq!(f.read("corner.nc"), kit::CORNER);
     assert_eq!(f.call(&["run"]).0, Exit::Usage);
     let (exit, out, _) = f.call(&["--help"]);
     assert_eq!(exit, Exit::Finished);

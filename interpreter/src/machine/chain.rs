@@ -11,6 +11,8 @@ use super::{Machine, hints, link};
 use crate::diag::{AxisRef, Condition, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
 
+/// What separates the folders of a path, on either system.
+const SEPARATORS: [char; 2] = ['/', '\\'];
 /// Name of kontur's own list, beside the start-up list.
 const OWN_LIST: &str = "kontur.lis";
 
@@ -62,8 +64,9 @@ impl Chain<'_> {
         let names = link::names(&settled, &mut self.diagnostics);
         self.override_all(&mut settled, &names, overrides);
         let cycle = self.check_all(&mut settled, &names);
-        let folder = self.start_up.rsplit_once('/').map_or("", |(folder, _)| folder);
-        let name = folder.rsplit('/').find(|n| !n.is_empty() && *n != ".").unwrap_or("machine");
+        let folder = self.start_up.rsplit_once(SEPARATORS).map_or("", |(folder, _)| folder);
+        let name =
+            folder.rsplit(SEPARATORS).find(|n| !n.is_empty() && *n != ".").unwrap_or("machine");
         let machine = link::machine(name, cycle, settled, &names, &mut self.diagnostics)?;
         hints::check(&machine, &mut self.diagnostics);
         Some(machine)
@@ -73,7 +76,7 @@ impl Chain<'_> {
     fn path(&self, named: &str) -> String {
         let named = named.replace('\\', "/");
         let absolute = named.starts_with('/') || named.as_bytes().get(1) == Some(&b':');
-        match self.start_up.rsplit_once('/') {
+        match self.start_up.rsplit_once(SEPARATORS) {
             Some((folder, _)) if !absolute => {
                 format!("{folder}/{}", named.strip_prefix("./").unwrap_or(&named))
             }

@@ -63,6 +63,25 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * b.abs().max(1.0)
 }
 
+/// The system's separator joins folder and list, and `.` and `..` are folders, too.
+#[test]
+fn the_folder_is_found_with_either_separator() {
+    for folder in ["m/", "m\\", "./m\\", "C:\\nc\\m\\", "..\\m/"] {
+        let there = |(path, text): (&String, &String)| {
+            let name = path.strip_prefix("m/").unwrap();
+            let joined = if name == "hochlauf.lis" { String::new() } else { "/".to_owned() };
+            let folder =
+                if joined.is_empty() { folder } else { folder.trim_end_matches(['/', '\\']) };
+            (format!("{folder}{joined}{name}"), text.clone())
+        };
+        let files = Memory(Memory::machine().0.iter().map(there).collect());
+        let (machine, warnings) =
+            Machine::load(&files, &format!("{folder}hochlauf.lis"), &[]).unwrap();
+        assert_eq!((machine.name.as_str(), warnings.len()), ("m", 0), "{folder}");
+        assert_eq!(machine.axis("Y").unwrap().raw("getriebe[0].kv"), Some(700.0));
+    }
+}
+
 #[test]
 fn axes_are_tied_by_their_number() {
     let (machine, warnings) = Memory::machine().load(&[]).unwrap();

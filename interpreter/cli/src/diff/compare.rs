@@ -1,12 +1,9 @@
 //! Compares two streams of rows and remembers what to report.
 
 use super::Tolerance;
+use super::delay::Delays;
 use csv::ByteRecord;
 use serde::Serialize;
-use std::collections::VecDeque;
-
-/// Shifts up to this many rows are recognised.
-const SHIFTS: usize = 3;
 
 /// One cell that differs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -40,6 +37,8 @@ pub(super) struct ColumnOutcome {
     pub(super) column: String,
     /// Rows that differ.
     pub(super) rows: u64,
+    /// First difference.
+    pub(super) first: Difference,
     /// Largest difference; none for texts.
     pub(super) worst: Option<Difference>,
 }
@@ -61,6 +60,8 @@ pub(super) struct Outcome {
     pub(super) shift_cycles: Option<i64>,
     /// Every column that differs.
     pub(super) columns: Vec<ColumnOutcome>,
+    /// Columns of both that agree.
+    pub(super) equal_columns: Vec<String>,
     /// Columns that only A has.
     pub(super) only_a: Vec<String>,
     /// Columns that only B has.
@@ -74,15 +75,8 @@ struct Pair {
     b: usize,
     tolerance: Option<f64>,
     rows: u64,
+    first: Option<Difference>,
     worst: Option<Difference>,
-}
-
-/// One shift that may still explain everything.
-struct Shift {
-    /// Rows by which B is later.
-    rows: i64,
-    alive: bool,
-    compared: u64,
 }
 
 /// A comparison under way.
@@ -91,9 +85,8 @@ pub(super) struct Comparison {
     /// Positions of `t_s`, `line`, `block`, `file` in A.
     places: [Option<usize>; 4],
     same_layout: bool,
-    before_a: VecDeque<ByteRecord>,
-    before_b: VecDeque<ByteRecord>,
-    shifts: Vec<Shift>,
+    /// From the first difference on.
+    delays: Delays,
     outcome: Outcome,
 }
 
@@ -106,9 +99,16 @@ impl Comparison {
         };
         let pairs = a.iter().enumerate().filter_map(|(i, name)| {
             let (name, tolerance) = (name.clone(), tolerance.of(name));
-            find(b, &name).map(|b| Pair { name, a: i, b, tolerance, rows: 0, worst: None })
+            find(b, &name).map(|b| Pair {
+                name,
+                a: i,
+                b,
+                tolerance,
+                rows: 0,
+                first: None,
+                worst: None,
+            })
         });
-        let shift = |rows: i64| Shift { rows, alive: true, compared: 0 };
         let outcome = Outcome {
             equal: true,
             rows_a: 0,
@@ -117,6 +117,7 @@ impl Comparison {
             worst: None,
             shift_cycles: None,
             columns: Vec::new(),
+            equal_columns: Vec::new(),
             only_a: only(a, b),
             only_b: only(b, a),
         };
@@ -124,9 +125,7 @@ impl Comparison {
             pairs: pairs.collect(),
             places: ["t_s", "line", "block", "file"].map(|name| find(a, name)),
             same_layout: a == b,
-            before_a: VecDeque::new(),
-            before_b: VecDeque::new(),
-            shifts: [1, -1, 2, -2, 3, -3].map(shift).into(),
+            delays: Delays::new(),
             outcome,
         }
     }
@@ -143,7 +142,7 @@ impl Comparison {
             (Some(a), Some(b)) if !(self.same_layout && a == b) => self.compare(a, b),
             _ => {}
         }
-        self.try_shifts(a, b);
+        self.delay(a, b);
         self.outcome.rows_a += u64::from(a.is_some());
         self.outcome.rows_b += u64::from(b.is_some());
         true
@@ -159,9 +158,8 @@ impl Comparison {
                 (Some(_), None) => true,
                 (Some(d), Some(other)) => other.size.is_none_or(|o| d > o),
             };
-            let new_first = self.outcome.first.is_none();
-            let new_of_column = is_worst(&pair.worst);
-            if !new_first && !new_of_column {
+            let new_worst = is_worst(&pair.worst);
+            if pair.first.is_some() && !new_worst {
                 continue;
             }
             let text = |cell: &[u8]| String::from_utf8_lossy(cell).into_owned();
@@ -179,50 +177,30 @@ impl Comparison {
                 size: excess.size,
                 tolerance: pair.tolerance,
             };
-            if new_of_column {
+            if new_worst {
                 pair.worst = Some(difference.clone());
             }
-            if new_first {
-                self.outcome.first = Some(difference);
+            if self.outcome.first.is_none() {
+                self.outcome.first = Some(difference.clone());
             }
+            pair.first.get_or_insert(difference);
         }
     }
 
-    /// A shift stays possible as long as every row of B equals the row of A that stands `rows` before it.
-    fn try_shifts(&mut self, a: Option<&ByteRecord>, b: Option<&ByteRecord>) {
-        if self.shifts.iter().all(|s| !s.alive) {
+    fn delay(&mut self, a: Option<&ByteRecord>, b: Option<&ByteRecord>) {
+        if self.outcome.first.is_none() {
             return;
         }
-        let pairs = &self.pairs;
-        let equal = |a: &ByteRecord, b: &ByteRecord| {
-            pairs.iter().filter(|p| p.name != "t_s").all(|p| match (a.get(p.a), b.get(p.b)) {
-                (Some(a), Some(b)) => excess(a, b, p.tolerance).is_none(),
-                _ => false,
-            })
+        let timeless = || self.pairs.iter().filter(|p| p.name != "t_s");
+        let cells = |row: &ByteRecord, place: fn(&Pair) -> usize| -> ByteRecord {
+            timeless().map(|p| row.get(place(p)).unwrap_or_default()).collect()
         };
-        for shift in self.shifts.iter_mut().filter(|s| s.alive) {
-            let back = usize::try_from(shift.rows.unsigned_abs()).unwrap_or(0) - 1;
-            let (this_a, this_b) = if shift.rows > 0 {
-                (self.before_a.get(back), b)
-            } else {
-                (a, self.before_b.get(back))
-            };
-            if let (Some(this_a), Some(this_b)) = (this_a, this_b) {
-                shift.alive = equal(this_a, this_b);
-                shift.compared += 1;
-            }
-        }
-        for (before, row) in [(&mut self.before_a, a), (&mut self.before_b, b)] {
-            let mut slot =
-                if before.len() == SHIFTS { before.pop_back() } else { None }.unwrap_or_default();
-            if let Some(row) = row {
-                slot.clone_from(row);
-                before.push_front(slot);
-            } else if !before.is_empty() {
-                // an ended trace moves on with rows that equal nothing
-                before.push_front(ByteRecord::new());
-            }
-        }
+        let (a, b) = (a.map(|row| cells(row, |p| p.a)), b.map(|row| cells(row, |p| p.b)));
+        let equal = |a: &ByteRecord, b: &ByteRecord| {
+            let mut cells = timeless().zip(a.iter().zip(b));
+            cells.all(|(p, (a, b))| excess(a, b, p.tolerance).is_none())
+        };
+        self.delays.take(a, b, equal);
     }
 
     /// The result.
@@ -231,20 +209,24 @@ impl Comparison {
         let same_columns = o.only_a.is_empty() && o.only_b.is_empty();
         o.equal = o.first.is_none() && o.rows_a == o.rows_b && same_columns;
         if !o.equal {
-            let found = self.shifts.iter().find(|s| s.alive && s.compared > 1);
-            o.shift_cycles = found.map(|s| s.rows);
+            o.shift_cycles = self.delays.found();
         }
         let ratio = |d: &Difference| match (d.size, d.tolerance) {
             (Some(d), Some(t)) if t > 0.0 => d / t,
             _ => 0.0,
         };
-        for pair in self.pairs.into_iter().filter(|p| p.rows > 0) {
+        for pair in self.pairs {
+            let Some(first) = pair.first else {
+                o.equal_columns.push(pair.name);
+                continue;
+            };
             if let Some(d) = &pair.worst
                 && o.worst.as_ref().is_none_or(|w| ratio(d) > ratio(w))
             {
                 o.worst = Some(d.clone());
             }
-            o.columns.push(ColumnOutcome { column: pair.name, rows: pair.rows, worst: pair.worst });
+            let (rows, worst) = (pair.rows, pair.worst);
+            o.columns.push(ColumnOutcome { column: pair.name, rows, first, worst });
         }
         self.outcome
     }
@@ -279,6 +261,7 @@ fn excess(a: &[u8], b: &[u8], tolerance: Option<f64>) -> Option<Excess> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::delay::MOST_ROWS;
     use super::*;
 
     const TOLERANCE: Tolerance =
@@ -345,15 +328,56 @@ mod tests {
     }
 
     #[test]
-    fn shifts_by_one_to_three_rows_are_recognised() {
-        for (n, rows) in [(1, 1), (2, 2), (3, 3)] {
+    fn delays_are_recognised() {
+        for (n, rows) in [(1, 1), (2, 2), (3, 3), (9, 9), (50, 50)] {
             for (from_a, from_b, expected) in [(5, 5 + n, rows), (5 + n, 5, -rows)] {
-                let o = outcome(HEADER, &ramp(from_a, 100), HEADER, &ramp(from_b, 100));
+                let o = outcome(HEADER, &ramp(from_a, 200), HEADER, &ramp(from_b, 200));
                 assert_eq!(o.shift_cycles, Some(expected));
                 assert!(!o.equal);
             }
         }
-        let o = outcome(HEADER, &ramp(5, 100), HEADER, &ramp(9, 100));
+        // more rows than are looked back
+        let n = MOST_ROWS + 1;
+        let o = outcome(HEADER, &ramp(5, 3 * n), HEADER, &ramp(5 + n, 3 * n));
+        assert_eq!(o.shift_cycles, None);
+    }
+
+    /// A pause of another length between two motions, with the columns in another order.
+    #[test]
+    fn a_longer_pause_is_a_delay_of_the_rest() {
+        let trace = |pause: usize, columns: [usize; 3]| -> Vec<String> {
+            let xs = (0..50).map(|k| k * k).chain(std::iter::repeat_n(49 * 49, pause));
+            let xs = xs.chain((0..60).map(|k| 49 * 49 + 3 * k));
+            let cells = |(k, x): (usize, usize)| {
+                let all =
+                    [format!("{:.3}", k as f64 * 1e-3), (1 + x / 500).to_string(), x.to_string()];
+                columns.map(|i| all[i].clone()).join(",")
+            };
+            xs.enumerate().map(cells).collect()
+        };
+        let (plain, turned) = ([0, 1, 2], [2, 0, 1]);
+        for (a, b, expected) in [(10, 37, 27), (37, 10, -27)] {
+            let o = outcome(
+                "t_s,line,X_set_mm",
+                &trace(a, plain),
+                "X_set_mm,t_s,line",
+                &trace(b, turned),
+            );
+            assert_eq!(o.shift_cycles, Some(expected));
+            assert_eq!(o.equal_columns, ["t_s"]);
+        }
+    }
+
+    /// Two traces that differ at their very end stand still afterwards: no delay explains that.
+    #[test]
+    fn a_standstill_is_no_delay() {
+        let rows = |end: f64| -> Vec<String> {
+            (0..50).map(|k| row(k, 3, if k < 20 { 0.0 } else { end }, 0.0)).collect()
+        };
+        let o = outcome(HEADER, &rows(1.0), HEADER, &rows(2.0));
+        assert_eq!((o.shift_cycles, o.columns.len()), (None, 1));
+        let late: Vec<String> = (0..50).map(|k| row(k, 3 + u32::from(k == 49), 0.0, 0.0)).collect();
+        let o = outcome(HEADER, &rows(0.0), HEADER, &late);
         assert_eq!(o.shift_cycles, None);
     }
 

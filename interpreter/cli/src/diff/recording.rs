@@ -9,6 +9,7 @@ mod signals;
 
 use super::Tolerance;
 use super::table::Table;
+use super::verdict::{Failure, Signal, Verdict};
 use crate::Error;
 use crate::recorded;
 use serde::Serialize;
@@ -135,10 +136,7 @@ pub(super) fn compare(
             pair(p, (&trace, i), &recorded[i], shift_cycles * cycle_s, tolerance)
         })
         .collect();
-    let agrees = |p: &PairOutcome| {
-        p.rows > 0 && p.different == 0 && !p.trace_goes_on && !p.recording_goes_on
-    };
-    Ok(Outcome { equal: pairs.iter().all(agrees), shift_cycles, cycle_s, pairs })
+    Ok(Outcome { equal: pairs.iter().all(PairOutcome::agrees), shift_cycles, cycle_s, pairs })
 }
 
 /// What counts as equal: what the user asks for, but never finer than one increment and its differences.
@@ -213,6 +211,49 @@ pub(super) fn columns(pairings: &[Pairing]) -> Vec<String> {
     names
 }
 
+/// The verdict on every pair; `program` is the program that ran for the trace.
+pub(super) fn verdict(outcome: &Outcome, program: Option<&Path>) -> Verdict {
+    let signal = |p: &PairOutcome| {
+        let mut details = Vec::new();
+        for (name, at) in [("first", &p.first), ("worst", &p.worst)] {
+            details.extend(at.as_ref().map(|at| format!("{name}: {}", at.sentence())));
+        }
+        details.extend(p.goes_on().map(str::to_owned));
+        let message = match p.rows {
+            0 => "nothing to compare".to_owned(),
+            rows => {
+                let (different, tolerance) = (p.different, p.tolerance);
+                format!("{different} of {rows} rows differ by more than {tolerance:e}")
+            }
+        };
+        let line = p.first.as_ref().and_then(|at| at.line.as_ref()?.parse().ok());
+        let place = program.zip(line).map(|(file, line)| (file.display().to_string(), line));
+        let failure = (!p.agrees()).then_some(Failure { message, details, place });
+        Signal { name: format!("{} = {}", p.column, p.channel), failure }
+    };
+    Verdict { signals: outcome.pairs.iter().map(signal).collect() }
+}
+
+impl PairOutcome {
+    fn agrees(&self) -> bool {
+        self.rows > 0 && self.different == 0 && !self.trace_goes_on && !self.recording_goes_on
+    }
+
+    /// Where one side moves while the other one is over.
+    fn goes_on(&self) -> impl Iterator<Item = &'static str> {
+        let trace = self.trace_goes_on.then_some("A moves where B has no samples");
+        let recording = self.recording_goes_on.then_some("B moves where A has no rows");
+        trace.into_iter().chain(recording)
+    }
+}
+
+impl At {
+    fn sentence(&self) -> String {
+        let line = self.line.as_ref().map_or_else(String::new, |l| format!(", line {l}"));
+        format!("t = {:.6} s{line}: {:.7} in A, {:.7} in B", self.time_s, self.a, self.b)
+    }
+}
+
 /// The result in words.
 pub(super) fn text(names: &[String; 2], outcome: &Outcome) -> String {
     let mut out = String::new();
@@ -248,13 +289,7 @@ fn write_text(
         )?;
         for (name, at) in [("first", &p.first), ("worst", &p.worst)] {
             if let Some(at) = at {
-                let line = at.line.as_ref().map_or_else(String::new, |l| format!(", line {l}"));
-                let (a, b) = (at.a, at.b);
-                writeln!(
-                    out,
-                    "    {name}  t = {:.6} s{line}: {a:.7} in A, {b:.7} in B",
-                    at.time_s
-                )?;
+                writeln!(out, "    {name}  {}", at.sentence())?;
             }
         }
         for (begin_s, count) in p.drop_outs.iter().take(MOST_NAMED) {
@@ -267,11 +302,8 @@ fn write_text(
         if let Some(more) = p.drop_outs.len().checked_sub(MOST_NAMED + 1) {
             writeln!(out, "    drop-outs  {} more", more + 1)?;
         }
-        if p.trace_goes_on {
-            writeln!(out, "    A moves where B has no samples")?;
-        }
-        if p.recording_goes_on {
-            writeln!(out, "    B moves where A has no rows")?;
+        for words in p.goes_on() {
+            writeln!(out, "    {words}")?;
         }
     }
     Ok(())

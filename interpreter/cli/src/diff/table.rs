@@ -1,4 +1,4 @@
-//! Where the rows of a comparison come from: a CSV file, or a run that happens now.
+//! Where the rows of a comparison come from: a CSV or Parquet file, or a run that happens now.
 
 use crate::Error;
 use crate::trace::csv::Rows;
@@ -25,6 +25,8 @@ pub(super) struct Table {
 
 enum Origin {
     File(Box<csv::Reader<Text<File>>>),
+    #[cfg(feature = "parquet")]
+    Parquet(Box<super::parquet::Rows>),
     Run(Box<Fresh>),
 }
 
@@ -37,7 +39,7 @@ struct Fresh {
 /// True if a file is a trace, false if it is an NC program.
 ///
 /// # Errors
-/// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a Parquet trace or a table of another form.
+/// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a table of another form.
 pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
     let io = |e| Error::io(path.display().to_string(), e);
     let refused = |text: &str| Err(Error::Usage(format!("{}: {text}", path.display())));
@@ -46,12 +48,12 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
         // what can be read only once is a program, but for its name
         return if is("csv") { refused("no regular file") } else { Ok(false) };
     }
-    let mut start = Vec::new();
-    File::open(path).map_err(io)?.take(8).read_to_end(&mut start).map_err(io)?;
+    let start = beginning(path)?;
     let text = start.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&start);
     match text {
-        [b'P', b'A', b'R', b'1', ..] => refused("diff reads CSV traces"),
-        _ if is("parquet") => refused("diff reads CSV traces"),
+        [b'P', b'A', b'R', b'1', ..] if cfg!(feature = "parquet") => Ok(true),
+        [b'P', b'A', b'R', b'1', ..] => refused("this kontur was built without Parquet"),
+        _ if is("parquet") => refused("no Parquet file"),
         [b't', b'_', b's', b',' | b'\r' | b'\n', ..] | b"t_s" => Ok(true),
         [b't', b'_', b's', b';' | b'\t', ..] => refused(
             "its columns are not separated by commas; a trace has commas and decimal points, and a recording is the second file \
@@ -67,6 +69,21 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
     }
 }
 
+fn unique(name: &str, header: &[String]) -> Result<(), Error> {
+    match (1..header.len()).find(|i| header[..*i].contains(&header[*i])) {
+        Some(i) => Err(Error::Usage(format!("{name}: column `{}` stands twice", header[i]))),
+        None => Ok(()),
+    }
+}
+
+/// The first bytes of a file.
+fn beginning(path: &Path) -> Result<Vec<u8>, Error> {
+    let mut start = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(8).read_to_end(&mut start));
+    read.map_err(|e| Error::io(path.display().to_string(), e))?;
+    Ok(start)
+}
+
 /// What is wrong with a table.
 fn unreadable(name: &str, e: csv::Error) -> Error {
     let text = match e.kind() {
@@ -80,20 +97,25 @@ fn unreadable(name: &str, e: csv::Error) -> Error {
 }
 
 impl Table {
-    /// A CSV trace.
+    /// A CSV or Parquet trace.
     ///
     /// # Errors
-    /// [`Error::Io`] if it cannot be read.
+    /// [`Error::Io`] if it cannot be read, [`Error::Usage`] if it is no trace.
     pub(super) fn read(path: &Path) -> Result<Self, Error> {
         let name = path.display().to_string();
+        #[cfg(feature = "parquet")]
+        if beginning(path)?.starts_with(b"PAR1") {
+            let (header, rows) = super::parquet::Rows::open(path)?;
+            unique(&name, &header)?;
+            let rows = Origin::Parquet(Box::new(rows));
+            return Ok(Self { name, header, row: ByteRecord::new(), rows });
+        }
         let file = File::open(path).map_err(|e| Error::io(&name, e))?;
         let text = Text::new(file).map_err(|e| Error::io(&name, e))?;
         let mut reader = csv::ReaderBuilder::new().buffer_capacity(1 << 18).from_reader(text);
         let header = reader.headers().map_err(|e| unreadable(&name, e))?;
         let header: Vec<String> = header.iter().map(str::to_owned).collect();
-        if let Some(i) = (1..header.len()).find(|i| header[..*i].contains(&header[*i])) {
-            return Err(Error::Usage(format!("{name}: column `{}` stands twice", header[i])));
-        }
+        unique(&name, &header)?;
         let rows = Origin::File(Box::new(reader));
         Ok(Self { name, header, row: ByteRecord::new(), rows })
     }
@@ -132,6 +154,10 @@ impl Table {
     pub(super) fn next(&mut self) -> Result<Option<&ByteRecord>, Error> {
         let found = match &mut self.rows {
             Origin::File(reader) => reader.read_byte_record(&mut self.row),
+            #[cfg(feature = "parquet")]
+            Origin::Parquet(rows) => {
+                return Ok(rows.read(&mut self.row)?.then_some(&self.row));
+            }
             Origin::Run(fresh) => fresh.read(&mut self.row),
         };
         let found = found.map_err(|e| unreadable(&self.name, e))?;
@@ -142,6 +168,8 @@ impl Table {
     pub(super) fn take_messages(&mut self) -> Vec<Diagnostic> {
         match &mut self.rows {
             Origin::File(_) => Vec::new(),
+            #[cfg(feature = "parquet")]
+            Origin::Parquet(_) => Vec::new(),
             Origin::Run(fresh) => fresh.run.take_diagnostics(),
         }
     }

@@ -1,0 +1,101 @@
+//! A comparison in words.
+
+use super::compare::{Difference, Outcome};
+use kontur_interpreter::diag::QUOTED_MAX;
+use kontur_interpreter::diag::render::printable;
+use std::fmt::Write as _;
+
+pub(super) fn text(names: &[String; 2], outcome: &Outcome) -> String {
+    let mut out = String::new();
+    // writing to a String cannot fail
+    let _ = write_text(&mut out, names, outcome);
+    out
+}
+
+fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::Result {
+    if o.equal {
+        return writeln!(out, "equal: {} rows", o.rows_a);
+    }
+    writeln!(out, "different: {a} (A) and {b} (B)")?;
+    if let Some(first) = &o.first {
+        writeln!(out, "  first  {}", sentence(first))?;
+    }
+    if let Some(worst) = &o.worst {
+        writeln!(out, "  worst  {}", sentence(worst))?;
+    }
+    if o.rows_a != o.rows_b {
+        writeln!(out, "  rows   {} in A, {} in B", o.rows_a, o.rows_b)?;
+    }
+    for (side, columns) in [("A", &o.only_a), ("B", &o.only_b)] {
+        if !columns.is_empty() {
+            let columns: Vec<String> = columns.iter().map(|c| brief(c)).collect();
+            writeln!(out, "  only in {side}: {}", columns.join(", "))?;
+        }
+    }
+    if let Some(words) = shift(o) {
+        writeln!(out, "  shift  from the first difference on {words}")?;
+    }
+    if !o.columns.is_empty() {
+        writeln!(out, "  column               rows    largest difference, and the first")?;
+    }
+    for c in &o.columns {
+        write!(out, "  {:<18} {:>6}", brief(&c.column), c.rows)?;
+        match &c.worst {
+            Some(d) if d.row == c.first.row => {
+                writeln!(out, "    {} at {}", number(d.size), place(d))?;
+            }
+            Some(d) => {
+                writeln!(out, "    {} at {}; from {}", number(d.size), place(d), place(&c.first))?;
+            }
+            None => writeln!(out, "    from {}", place(&c.first))?,
+        }
+    }
+    Ok(())
+}
+
+/// A cell as it may stand in a line of text.
+pub(super) fn brief(cell: &str) -> String {
+    let line = printable(cell).replace('\n', "\u{FFFD}");
+    match line.char_indices().nth(QUOTED_MAX) {
+        Some((end, _)) => format!("{}...", &line[..end]),
+        None => line,
+    }
+}
+
+pub(super) fn number(difference: Option<f64>) -> String {
+    difference.map_or_else(|| "-".to_owned(), |d| format!("{d:.3e}"))
+}
+
+pub(super) fn place(d: &Difference) -> String {
+    let mut out = d
+        .time_s
+        .as_ref()
+        .map_or_else(|| format!("row {}", d.row), |t| format!("t = {} s", brief(t)));
+    if let Some(line) = &d.line {
+        let _ = write!(out, ", line {}", brief(line));
+    }
+    if let Some(block) = d.block.as_ref().filter(|b| !b.is_empty()) {
+        let _ = write!(out, " N{}", brief(block));
+    }
+    if let Some(file) = &d.file {
+        let _ = write!(out, " of {}", brief(file));
+    }
+    out
+}
+
+pub(super) fn sentence(d: &Difference) -> String {
+    let [column, a, b] = [&d.column, &d.a, &d.b].map(|text| brief(text));
+    let mut out = format!("{}: {column} is {a} in A, {b} in B", place(d));
+    if let (Some(difference), Some(tolerance)) = (d.size, d.tolerance) {
+        let _ = write!(out, " (difference {difference:.3e}, tolerance {tolerance:e})");
+    }
+    out
+}
+
+/// The shift that makes the rest equal, in words.
+pub(super) fn shift(o: &Outcome) -> Option<String> {
+    let n = o.shift_cycles?;
+    let side = if n > 0 { "earlier" } else { "later" };
+    let rows = if n.abs() == 1 { "row" } else { "rows" };
+    Some(format!("equal if B is taken {} {rows} {side}", n.abs()))
+}

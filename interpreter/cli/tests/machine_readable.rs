@@ -1,0 +1,231 @@
+//! What other machines read: SARIF, workflow commands, `JUnit`, and the recipes for build servers.
+
+#![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
+
+mod kit;
+
+use kit::Folder;
+use kontur::Exit;
+use serde_json::Value;
+
+/// A folder with three programs, one of them with an error, and files that are none.
+fn parts(f: &Folder) {
+    for (name, text) in [
+        ("parts/a.nc", "L sub.spf\nG01 X1 F1000\nM30\n"),
+        ("parts/deep/b.nc", "L sub.spf\nN20 G777 X2 F1000\nM30\n"),
+        ("parts/deep/good.NC", "G01 X1 F1000\nM30\n"),
+        ("parts/.hidden/c.nc", "G777\n"),
+        ("parts/readme.txt", "no program"),
+        ("parts/sub.spf", "M17\n"),
+        ("parts/deep/sub.spf", "M17\n"),
+    ] {
+        let path = f.path(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+}
+
+#[test]
+fn a_folder_stands_for_its_programs() {
+    let f = Folder::new();
+    parts(&f);
+    let (exit, out, _) = f.call(&["check", "@parts", "--format", "json"]);
+    assert_eq!(exit, Exit::Aborted);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&found["programs"], &found["errors"]), (&3.into(), &1.into()), "{out}");
+    let error = found["diagnostics"].as_array().unwrap().iter().find(|d| d["id"] == 20131).unwrap();
+    let place = &error["source"];
+    assert!(place["file"].as_str().unwrap().ends_with("b.nc"), "{out}");
+    assert_eq!(
+        (&place["line"], &place["column"], &place["end_column"]),
+        (&2.into(), &5.into(), &9.into())
+    );
+    // text counts at the end, and an empty folder is no success
+    let (exit, out, err) = f.call(&["check", "@parts"]);
+    assert!(exit == Exit::Aborted && out.starts_with("3 programs: 1 error, "), "{out}");
+    assert!(err.contains("error[20131]"), "{err}");
+    std::fs::create_dir(f.path("empty")).unwrap();
+    let (exit, _, err) = f.call(&["check", "@empty"]);
+    assert!(exit == Exit::Usage && err.contains("no .nc file"), "{err}");
+    // one that cannot be read does not hide the others
+    let (exit, out, err) = f.call(&["check", "@absent.nc", "@bad.nc", "--format", "json"]);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((exit, &found["errors"], &found["programs"]), (Exit::Io, &1.into(), &1.into()));
+    assert!(
+        found["unreadable"][0].as_str().unwrap().contains("absent.nc") && err.contains("absent.nc")
+    );
+}
+
+#[test]
+fn what_two_programs_share_is_reported_once() {
+    let f = Folder::new();
+    std::fs::write(f.path("sub.spf"), "G777\nM17\n").unwrap();
+    for name in ["a.nc", "b.nc"] {
+        std::fs::write(f.path(name), "L sub.spf\nM30\n").unwrap();
+    }
+    let (_, out, _) = f.call(&["check", "@a.nc", "@b.nc", "--format", "json"]);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(found["errors"], 1, "{out}");
+}
+
+#[test]
+fn warnings_can_be_denied() {
+    let f = Folder::new();
+    // a word that is ignored with a warning
+    std::fs::write(f.path("warn.nc"), "G01 X1 F1000\n#VIB GUARD ON (MODE=2)\nM30\n").unwrap();
+    let (exit, out, _) = f.call(&["check", "@warn.nc", "--format", "json"]);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((exit, &found["errors"]), (Exit::Finished, &0.into()));
+    assert!(found["warnings"].as_u64().unwrap() > 0, "{out}");
+    assert_eq!(f.call(&["check", "@warn.nc", "--deny", "warnings"]).0, Exit::Aborted);
+    assert_eq!(f.call(&["check", "@corner.nc", "--deny", "warnings"]).0, Exit::Finished);
+}
+
+#[test]
+fn sarif_names_rule_place_and_level() {
+    let f = Folder::new();
+    let (exit, out, err) = f.call(&["check", "@bad.nc", "@corner.nc", "--format", "sarif"]);
+    assert_eq!((exit, err.as_str()), (Exit::Aborted, ""));
+    let log: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(log["version"], "2.1.0");
+    let run = &log["runs"][0];
+    let result = &run["results"][0];
+    assert_eq!((&result["ruleId"], &result["level"]), (&"20131".into(), &"error".into()));
+    let rule = &run["tool"]["driver"]["rules"][result["ruleIndex"].as_u64().unwrap() as usize];
+    assert_eq!(rule["id"], result["ruleId"]);
+    let place = &result["locations"][0]["physicalLocation"];
+    assert!(place["artifactLocation"]["uri"].as_str().unwrap().ends_with("/bad.nc"));
+    let region = serde_json::json!({ "startLine": 6, "startColumn": 5, "endColumn": 9 });
+    assert_eq!(place["region"], region);
+    // a check without a finding is a log without results
+    let (exit, out, _) = f.call(&["check", "@corner.nc", "--format", "sarif"]);
+    let log: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((exit, &log["runs"][0]["results"]), (Exit::Finished, &Value::Array(Vec::new())));
+}
+
+#[test]
+fn workflow_commands_stand_at_the_line() {
+    let f = Folder::new();
+    let (exit, out, _) = f.call(&["check", "@bad.nc", "--format", "github"]);
+    assert_eq!(exit, Exit::Aborted);
+    let line = out.lines().next().unwrap();
+    assert!(
+        line.starts_with("::error file=")
+            && line.contains("bad.nc,line=6,col=5,endColumn=9,title=20131::"),
+        "{out}"
+    );
+    f.call(&["run", "@corner.nc", "-o", "@corner.csv"]);
+    let (exit, out, _) = f.call(&["diff", "@corner.csv", "@slow.nc", "--format", "github"]);
+    assert_eq!(exit, Exit::Aborted);
+    let line =
+        out.lines().find(|l| l.contains("title=X_set_mm")).unwrap_or_else(|| panic!("{out}"));
+    assert!(line.starts_with("::error file=") && line.contains("slow.nc,line="), "{line}");
+    assert!(out.lines().all(|l| l.starts_with("::error ")), "{out}");
+    assert_eq!(f.call(&["diff", "@corner.csv", "@corner.nc", "--format", "github"]).1, "");
+}
+
+/// As many test cases as columns and two for the whole; those that fail are the columns that the JSON form names.
+#[test]
+fn junit_has_a_case_for_each_signal() {
+    let f = Folder::new();
+    f.call(&["run", "@corner.nc", "-o", "@corner.csv"]);
+    let (exit, xml, _) = f.call(&["diff", "@corner.csv", "@slow.nc", "--format", "junit"]);
+    assert_eq!(exit, Exit::Aborted);
+    let (_, json, _) = f.call(&["diff", "@corner.csv", "@slow.nc", "--format", "json"]);
+    let result = &serde_json::from_str::<Value>(&json).unwrap()["result"];
+    let columns = f.read("corner.csv").lines().next().unwrap().split(',').count();
+    let failed = result["columns"].as_array().unwrap().len() + 1; // the number of rows
+    let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
+    let suite = &report.test_suites[0];
+    assert_eq!((suite.tests, suite.failures), (columns + 2, failed), "{xml}");
+    let (exit, xml, _) = f.call(&["diff", "@corner.csv", "@corner.nc", "--format", "junit"]);
+    let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
+    let suite = &report.test_suites[0];
+    assert_eq!((exit, suite.tests, suite.failures), (Exit::Finished, columns + 2, 0));
+}
+
+/// A recording of a machine gives the same forms.
+#[test]
+fn a_recording_has_a_verdict_too() {
+    let f = Folder::new();
+    f.call(&["run", "@corner.nc", "-o", "@rec.csv", "--signals", "X_set_mm,Y_set_mm"]);
+    let words =
+        ["diff", "@corner.nc", "@rec.csv", "--map", "X_set_mm=X_set_mm", "--format", "junit"];
+    let (exit, xml, err) = f.call(&words);
+    assert_eq!(exit, Exit::Finished, "{xml}{err}");
+    let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
+    assert_eq!((report.test_suites[0].tests, report.test_suites[0].failures), (1, 0));
+    let (exit, out, _) = f.call(&[
+        "diff",
+        "@slow.nc",
+        "@rec.csv",
+        "--map",
+        "Y_set_mm=Y_set_mm",
+        "--format",
+        "github",
+    ]);
+    assert_eq!(exit, Exit::Aborted);
+    assert!(out.starts_with("::error file=") && out.contains("slow.nc,line="), "{out}");
+}
+
+/// The scripts of the recipes, with the binary in the search path: they pass, and fail when a program is wrong or its set
+/// points have changed.
+#[test]
+#[cfg(unix)]
+fn the_recipes_for_build_servers_work() {
+    use std::path::Path;
+    use std::process::{Command, Stdio};
+
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let binary = Path::new(env!("CARGO_BIN_EXE_kontur")).parent().unwrap();
+    let path = format!("{}:{}", binary.display(), std::env::var("PATH").unwrap());
+    for (name, key) in [("github.yml", "        run: "), ("gitlab.yml", "    - ")] {
+        let recipe = std::fs::read_to_string(here.join("../docs/ci").join(name)).unwrap();
+        let scripts = scripts(&recipe, key);
+        assert_eq!(scripts.len(), 3, "{scripts:?}");
+        let f = Folder::new();
+        for folder in ["nc", "expected", "machine"] {
+            std::fs::create_dir(f.path(folder)).unwrap();
+        }
+        for list in std::fs::read_dir(here.join("../../programs/machines/xyz")).unwrap() {
+            let list = list.unwrap().path();
+            std::fs::copy(&list, f.path("machine").join(list.file_name().unwrap())).unwrap();
+        }
+        let run = || -> bool {
+            let installed = |script: &&String| !script.starts_with("cargo install");
+            scripts.iter().filter(installed).all(|script| {
+                let mut shell = Command::new("sh");
+                shell.args(["-e", "-c", script]).current_dir(f.path(".")).env("PATH", &path);
+                shell.stdout(Stdio::null()).stderr(Stdio::null()).status().unwrap().success()
+            })
+        };
+        let part = "N10 G01 X10 F3000\nN20 Y5\nN30 M30\n";
+        std::fs::write(f.path("nc/part.nc"), part).unwrap();
+        f.call(&["run", "@nc/part.nc", "-m", "@machine", "-o", "@expected/part.csv"]);
+        assert!(run(), "{name}: nothing has changed");
+        std::fs::write(f.path("nc/part.nc"), part.replace("F3000", "F2900")).unwrap();
+        assert!(!run(), "{name}: another feed");
+        std::fs::write(f.path("nc/part.nc"), part).unwrap();
+        std::fs::write(f.path("nc/other.nc"), "#VIB GUARD ON (MODE=2)\nM30\n").unwrap();
+        assert!(!run(), "{name}: a warning");
+    }
+}
+
+/// What stands behind a key of a recipe: the rest of the line, or the block below it.
+#[cfg(unix)]
+fn scripts(recipe: &str, key: &str) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    let mut is_block = false;
+    for line in recipe.lines() {
+        if let Some(script) = line.strip_prefix(key) {
+            is_block = script == "|";
+            found.push(if is_block { String::new() } else { script.to_owned() });
+        } else if is_block && line.starts_with(&" ".repeat(key.len() - key.trim_start().len() + 2))
+        {
+            found.last_mut().unwrap().extend([line.trim(), "\n"]);
+        } else {
+            is_block = false;
+        }
+    }
+    found
+}

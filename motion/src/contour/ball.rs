@@ -1,0 +1,70 @@
+//! A ball around a path: what is further away than it need not be looked at.
+
+use crate::axis::AxisVec;
+use crate::path::Path;
+
+/// Center and radius over all axes in mm; no point of the path lies outside.
+#[derive(Clone, Debug)]
+pub(super) struct Ball {
+    center: AxisVec,
+    /// Infinite where the extent of the path is not known in closed form.
+    radius: f64,
+}
+
+impl Ball {
+    /// The ball around a line, an arc or, without bound, any other path.
+    pub(super) fn around(path: &Path) -> Self {
+        let mut center = path.start().clone();
+        let mut square = 0.0;
+        for (i, c) in center.iter_mut().enumerate() {
+            let half = match path.extent(i) {
+                Some((low, high)) => {
+                    *c = 0.5 * (low + high);
+                    0.5 * (high - low)
+                }
+                None => f64::INFINITY,
+            };
+            square += half * half;
+        }
+        Self { center, radius: f64::sqrt(square) }
+    }
+
+    /// A distance in mm that no point of the path comes nearer to `point` than.
+    pub(super) fn least_distance(&self, point: &[f64]) -> f64 {
+        let squares = self.center.iter().zip(point).map(|(c, p)| (c - p) * (c - p));
+        squares.sum::<f64>().sqrt() - self.radius
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Ball;
+    use crate::axis::AxisVec;
+    use crate::path::{ArcPath, ArcShape, LinePath, Path};
+    use std::f64::consts::PI;
+
+    /// A line and a helix seen from points all around: none of a thousand points of the path is nearer than the ball says.
+    #[test]
+    fn no_point_of_the_path_lies_outside() {
+        let at = AxisVec::from_slice;
+        let line = LinePath::new(at(&[1.0, -20.0, 3.0]), at(&[14.0, 7.0, 2.5]), &[true; 3]);
+        let centre_mm = [3.0, -1.0];
+        let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad: 1.7 * PI };
+        let (sin, cos) = libm::sincos(1.7 * PI);
+        let end = at(&[3.0 + 8.0 * cos, -1.0 + 8.0 * sin, 6.0]);
+        let helix = ArcPath::new(at(&[11.0, -1.0, -2.0]), end, shape, &[true; 3]);
+        for path in [Path::Line(line.unwrap()), Path::Arc(helix.unwrap())] {
+            let ball = Ball::around(&path);
+            assert!(ball.radius.is_finite());
+            for point in [[0.0; 3], [30.0, 5.0, -9.0], [-12.0, 40.0, 1.0], [3.0, -1.0, 2.0]] {
+                for i in 0..=1000 {
+                    let mut q = [0.0; 3];
+                    path.position(path.length() * f64::from(i) / 1000.0, &mut q);
+                    let squares = q.iter().zip(&point).map(|(q, p)| (q - p) * (q - p));
+                    let distance = squares.sum::<f64>().sqrt();
+                    assert!(ball.least_distance(&point) <= distance + 1e-9);
+                }
+            }
+        }
+    }
+}
