@@ -62,7 +62,6 @@ mod tests {
 
     /// Every link leads to a page or picture of the book, every page is in the summary, and nothing is left to include.
     #[test]
-    #[expect(clippy::unwrap_used, reason = "a test")]
     fn links_lead_somewhere() {
         let folder = tempfile::tempdir().unwrap();
         assemble(folder.path()).unwrap();
