@@ -32,7 +32,9 @@ fn hash(program: &str, signals: &str, settings: &[String]) -> Result<String, Box
     for (column, values) in columns.iter().zip(&values) {
         hasher.update(&column.name);
         hasher.update([0]);
-        values.iter().for_each(|value| hasher.update(value));
+        for value in values {
+            hasher.update(value);
+        }
     }
     let mut text = String::new();
     for byte in hasher.finalize() {
