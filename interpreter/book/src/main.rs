@@ -1,7 +1,7 @@
 //! `cargo run -p kontur-book -- FOLDER` brings the sources of the book together in a folder, for mdBook.
 //!
 //! Three kinds of pages: those in `pages`, documents of the repository that have their own place there ([`shared`]), and the
-//! reference, which is made from the tables ([`reference`]).
+//! reference, which is made from the tables ([`mod@reference`]).
 
 #![expect(clippy::print_stderr, reason = "a tool of the build says what went wrong")]
 
