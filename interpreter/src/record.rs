@@ -84,6 +84,8 @@ pub enum Rest {
     ExactStop,
     /// The set positions of the axes have not arrived yet: `#FLUSH WAIT`, independent axes, a change of filters.
     Flush,
+    /// A thread waits until its spindle stands, or passes its mark.
+    Spindle,
     /// End of the program: the axes are not in position yet.
     Arrival,
     /// Feedhold or override 0.
@@ -92,8 +94,15 @@ pub enum Rest {
 
 impl Rest {
     /// Every value.
-    pub const ALL: [Self; 6] =
-        [Self::Dwell, Self::Technology, Self::ExactStop, Self::Flush, Self::Arrival, Self::Held];
+    pub const ALL: [Self; 7] = [
+        Self::Dwell,
+        Self::Technology,
+        Self::ExactStop,
+        Self::Flush,
+        Self::Spindle,
+        Self::Arrival,
+        Self::Held,
+    ];
 
     /// Name in results.
     pub const fn name(self) -> &'static str {
@@ -102,6 +111,7 @@ impl Rest {
             Self::Technology => "technology",
             Self::ExactStop => "exact_stop",
             Self::Flush => "flush",
+            Self::Spindle => "spindle",
             Self::Arrival => "arrival",
             Self::Held => "held",
         }

@@ -103,6 +103,12 @@ pub(crate) struct Simulation {
     phase: Phase,
     record: CycleRecord,
     set: AxisVec,
+    /// Set positions of the path axes in the cycle before, in front of their filters.
+    path_position: AxisVec,
+    /// G33: the share of a cycle by which the axes come behind the planner, so that they go with the mark of the spindle.
+    thread_delay: f64,
+    /// Set positions of the path axes in the cycle before as the planner has them, in a thread.
+    planned: AxisVec,
     vector: AxisVec,
     max_cycles: u64,
     /// Axes that a fault has stopped, and where.
@@ -167,6 +173,9 @@ impl Simulation {
             phase: Phase::Start,
             record: CycleRecord { axes: records, ..CycleRecord::default() },
             set: start.clone(),
+            path_position: start[..n].iter().copied().collect(),
+            thread_delay: 0.0,
+            planned: start[..n].iter().copied().collect(),
             vector: AxisVec::zeros(n),
             max_cycles,
             diagnostics,
@@ -259,6 +268,7 @@ impl Simulation {
                         drivers: &self.drivers,
                         spindles: &self.spindles,
                         independent: &self.independent,
+                        cycle: self.cycle,
                     };
                     if wait.is_over(parts) {
                         self.go_on();
@@ -401,8 +411,14 @@ impl Simulation {
         let Phase::Waiting(wait) = std::mem::replace(&mut self.phase, Phase::Running) else {
             return;
         };
+        if let Some((spindle, deg)) = wait.mark() {
+            let share = self.spindles.get(spindle).and_then(|s| s.mark_ahead(deg, self.cycle));
+            self.thread_delay = share.unwrap_or(0.0);
+            self.planned.copy_from_slice(&self.path_position);
+        }
         match wait.into_action() {
             wait::Action::None => {}
+            wait::Action::ThreadEnd => self.thread_delay = 0.0,
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
             wait::Action::MachineData { axis } => self.machine_data(axis),
             wait::Action::End(reason) => {

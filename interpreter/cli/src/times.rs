@@ -50,7 +50,7 @@ pub enum Reason {
 
 impl Reason {
     /// Every value, in the order of the columns.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Feed,
         Self::AxisV,
         Self::AxisA,
@@ -64,6 +64,7 @@ impl Reason {
         Self::Rest(Rest::Technology),
         Self::Rest(Rest::ExactStop),
         Self::Rest(Rest::Flush),
+        Self::Rest(Rest::Spindle),
         Self::Rest(Rest::Arrival),
         Self::Rest(Rest::Held),
     ];

@@ -207,7 +207,7 @@ const ROWS: &[Row] = &[
     run("RTCP", frames::transformation),
     run("KIN ID", frames::transformation),
     run("ORI MODE", frames::transformation),
-    off_only("PTP"),
+    run("PTP", frames::transformation),
     off_only("CYL"),
     off_only("TLC"),
     off_only("FACE"),

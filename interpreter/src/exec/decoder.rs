@@ -10,11 +10,13 @@ use super::fault::Fault;
 use super::geometry::coordinates::Coordinates;
 use super::geometry::tools::Tools;
 use super::geometry::{Geometry, LastArc};
+use super::motion::angles::ContourLines;
 use super::motion::dynamics::{Weights, channel_dynamics};
 use super::motion::independent::Independent;
 use super::motion::overrides::Overrides;
 use super::motion::spindles::Spindle;
 use super::motion::straight::Straight;
+use super::motion::threads::Threads;
 use super::motion::{Feedforward, MotionState};
 use super::options::Options;
 use super::program::calls::Calls;
@@ -29,7 +31,7 @@ use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::{Group, Ident, ItemKind, Span};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{ChannelDynamics, VectorLimits};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Names of the axes in the program.
@@ -109,6 +111,7 @@ impl Decoder {
             dialect: Seen::default(),
             values: Values {
                 variables: Variables::new(options.external),
+                kinematics: BTreeMap::new(),
                 timers: Timers::default(),
             },
             geometry: Geometry {
@@ -132,6 +135,11 @@ impl Decoder {
                     weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
                 },
                 spindles,
+                threads: Threads::default(),
+                contour_line: ContourLines::default(),
+                cutting_speed: None,
+                cutting_waits: false,
+                cutting_rpm_max: None,
             },
             shaping: ShapingState::new(options.guard),
             calls: Calls {
@@ -268,6 +276,9 @@ impl Decoder {
     pub(super) fn sync(&mut self, what: Sync) {
         if self.failed() && !self.checking {
             return;
+        }
+        if what != Sync::ThreadEnd {
+            self.end_thread();
         }
         if matches!(what, Sync::FlushWait) {
             self.motion.independent.all_arrived();

@@ -1,21 +1,27 @@
 //! The motion of a block: target, path, feed and limits; or the dwell.
 
+pub(super) mod angles;
 mod arcs;
+mod cutting;
 pub(super) mod dynamics;
 mod feed;
 pub(super) mod independent;
 mod limits;
 pub(super) mod overrides;
+mod space;
 pub(super) mod spindles;
 pub(super) mod straight;
 pub(super) mod technology;
+pub(super) mod threads;
 
+use self::angles::{ContourLine, ContourLines};
 use self::dynamics::Weights;
 use self::independent::Independent;
 use self::overrides::Overrides;
 use self::spindles::Spindle;
+use self::threads::Threads;
 use super::block::groups::{Act, Group};
-use super::block::modal::{Compensation, Corners, PathMode};
+use super::block::modal::{Compensation, Corners, FeedType, PathMode};
 use super::block::words::{GWord, Words};
 use super::contour::insertion::{Insertion, Kind};
 use super::contour::{Compensated, Motion};
@@ -23,7 +29,7 @@ use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::geometry::coordinates::Target;
 use super::geometry::modulo;
-use super::step::Sync;
+use super::step::{CuttingSpeed, Sync};
 use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -53,6 +59,14 @@ pub(super) struct MotionState {
     pub(super) independent: Independent,
     pub(super) feedforward: Feedforward,
     pub(super) spindles: Vec<Spindle>,
+    pub(super) threads: Threads,
+    pub(super) contour_line: ContourLines,
+    /// G96 with its S word.
+    pub(super) cutting_speed: Option<CuttingSpeed>,
+    /// G96 is in force, whether or not an S word has come.
+    pub(super) cutting_waits: bool,
+    /// S of G196.
+    pub(super) cutting_rpm_max: Option<f64>,
 }
 
 /// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
@@ -96,14 +110,25 @@ impl Decoder {
             return;
         }
         let is_arc = matches!(self.modal.path, PathMode::Clockwise | PathMode::CounterClockwise);
+        let contour_line = self.contour_line(words);
+        let Some(contour_line) = self.keep(contour_line) else { return };
         let centre = words.centre.iter().flatten().next();
         // a full circle needs no end point
         let full_circle = is_arc && centre.is_some() && words.group(Group::Insertion).is_none();
+        if contour_line == ContourLine::Waits {
+            return;
+        }
         if takes_axes.is_some() || (words.axes.is_empty() && !full_circle) {
             self.unused_words(words, takes_axes);
             return;
         }
-        let outcome = self.motion(words, is_arc, span);
+        let outcome = if self.modal.path.is_thread() {
+            self.thread_motion(words, span)
+        } else {
+            self.end_thread();
+            self.contour_lines(&contour_line, words, span)
+                .and_then(|()| self.motion(words, is_arc, span))
+        };
         self.keep(outcome);
         let once = words.g.iter().any(|g| g.row.act == Act::ExactStopOnce);
         let after_rapid =
@@ -206,7 +231,8 @@ impl Decoder {
         Ok(())
     }
 
-    fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
+    /// Takes the coordinate words over into the target; where the axes stood comes back.
+    fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
         let start = self.geometry.coordinates.target().clone();
         let mut targets: smallvec::SmallVec<[Target; 8]> = words
             .axes
@@ -218,6 +244,7 @@ impl Decoder {
                 absolute: words.is_absolute(i, self.modal.absolute),
             })
             .collect();
+        targets.extend(self.motion.contour_line.target.take());
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
         for target in targets.iter_mut().filter(|t| t.absolute) {
             if self.machine.axes[target.axis].is_modulo() {
@@ -242,7 +269,16 @@ impl Decoder {
             Some(_) => self.geometry.coordinates.program_without_offsets(&targets),
             None => self.geometry.coordinates.program(&targets),
         }
-        let path = if is_arc {
+        self.follow_turning_centre(&start);
+        Ok(start)
+    }
+
+    fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
+        let before = self.programmed_point();
+        let start = self.program_targets(words)?;
+        let path = if self.modal.path == PathMode::ArcInSpace {
+            Some(self.arc_in_space(start, before, words, span)?)
+        } else if is_arc {
             Some(self.arc(start, words, span)?)
         } else {
             let end = self.geometry.coordinates.target().clone();
@@ -312,7 +348,27 @@ impl Decoder {
             spline: self.contour.hsc.spline(),
         });
         self.check_time(&block, at);
+        let per_revolution = self.modal.feed_type == FeedType::PerRevolution && !rapid;
+        if per_revolution && self.motion.cutting_speed.is_some() {
+            return self.send_pieces(&block, &in_plane, span);
+        }
         self.send(block, in_plane, span);
+        Ok(())
+    }
+
+    /// A motion with G95 under G96: its feed changes with the speed of the spindle.
+    fn send_pieces(&mut self, block: &Block, in_plane: &InPlane, span: Span) -> Outcome<()> {
+        if in_plane.compensation.is_some() {
+            let what = "G95 under G96 with tool radius compensation";
+            return Err(Fault::unsupported(what, span));
+        }
+        for (path, rpm) in self.cutting_pieces(&block.path, span)? {
+            let feed = self.feed_per_revolution(&path, rpm);
+            let block = Box::new(Block { path, feed, ..block.clone() });
+            let InPlane { plane, tilt, .. } = in_plane;
+            let in_plane = InPlane { plane: *plane, tilt: tilt.clone(), compensation: None };
+            self.send(block, in_plane, span);
+        }
         Ok(())
     }
 

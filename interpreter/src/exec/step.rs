@@ -79,6 +79,15 @@ pub(crate) enum Sync {
         /// Path axes, in channel order.
         axes: Vec<usize>,
     },
+    /// Threads: waiting until a spindle stands, or passes its mark; in the latter case the path then goes with it.
+    Spindle {
+        /// Index into `Machine::spindles`.
+        spindle: usize,
+        /// What is waited for.
+        state: SpindleState,
+    },
+    /// The end of G33.
+    ThreadEnd,
     /// M00, M01; headless the program goes on at once.
     ProgramStop {
         /// M01.
@@ -160,6 +169,20 @@ pub(crate) enum Event {
         /// Weight, above 0; 1 is the acceleration of the list.
         ratio: f64,
     },
+    /// Tapping: a spindle that stands turns with the way of a path axis, from the next cycle on.
+    SpindleFollows {
+        /// Index into `Machine::spindles`.
+        spindle: usize,
+        /// The axis, and degrees for a mm of its way; `None`: the spindle stands again.
+        way: Option<(usize, f64)>,
+    },
+    /// G96, G97: the speed of a spindle keeps a cutting speed from now on, or stays as it is.
+    CuttingSpeed {
+        /// Index into `Machine::spindles`.
+        spindle: usize,
+        /// How fast; `None` ends it.
+        cutting: Option<CuttingSpeed>,
+    },
     /// M3, M4, M5, M19 with the speed or position of one spindle: the whole state.
     Spindle {
         /// Index into `Machine::spindles`.
@@ -208,6 +231,40 @@ pub(crate) enum Event {
         save: bool,
         /// The block that says it.
         source: SourceRef,
+    },
+}
+
+/// G96: a cutting speed that the spindle keeps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct CuttingSpeed {
+    /// Face turning axis.
+    pub axis: usize,
+    /// Position of the axis in mm where its tool stands at the turning centre.
+    pub centre_mm: f64,
+    /// Cutting speed in mm/min, above 0.
+    pub speed_mm_min: f64,
+    /// Highest speed in rev/min.
+    pub max_rpm: f64,
+    /// In rapid blocks: position of the axis whose speed is kept.
+    pub held_mm: Option<f64>,
+}
+
+impl CuttingSpeed {
+    /// Speed in rev/min at a distance from the turning centre.
+    pub(crate) fn rpm(&self, radius_mm: f64) -> f64 {
+        (self.speed_mm_min / (std::f64::consts::TAU * radius_mm.abs())).min(self.max_rpm)
+    }
+}
+
+/// What a wait for a spindle waits for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum SpindleState {
+    /// It stands.
+    Rest,
+    /// It turns with its speed, and in this cycle through this angle in deg.
+    Mark {
+        /// Angle.
+        deg: f64,
     },
 }
 

@@ -8,6 +8,7 @@ pub(super) mod functions;
 pub(super) mod system;
 pub(super) mod variables;
 
+use std::collections::BTreeMap;
 use system::Timers;
 use variables::Variables;
 
@@ -15,5 +16,7 @@ use variables::Variables;
 #[derive(Debug)]
 pub(super) struct Values {
     pub(super) variables: Variables,
+    /// `V.G.KIN..` under `--identity-trafo`, by their names with indices: known, and without effect.
+    pub(super) kinematics: BTreeMap<String, f64>,
     pub(super) timers: Timers,
 }

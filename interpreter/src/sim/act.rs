@@ -28,6 +28,18 @@ impl Simulation {
             Event::Spindle { spindle, motion } => {
                 if let Some(spindle) = self.spindles.get_mut(spindle) {
                     spindle.command(motion);
+                    spindle.cut(&self.path_position);
+                }
+            }
+            Event::SpindleFollows { spindle, way } => {
+                if let Some(spindle) = self.spindles.get_mut(spindle) {
+                    spindle.follow(way, &self.path_position);
+                }
+            }
+            Event::CuttingSpeed { spindle, cutting } => {
+                if let Some(spindle) = self.spindles.get_mut(spindle) {
+                    spindle.keep_cutting_speed(cutting);
+                    spindle.cut(&self.path_position);
                 }
             }
             Event::SpindleAcceleration { spindle, ratio } => {

@@ -48,10 +48,18 @@ impl Simulation {
         let setpoint = self.planner.setpoint();
         let n = self.vector.len();
         let mut faults = Vec::new();
-        let positions: AxisVec =
+        let mut positions: AxisVec =
             (0..n).map(|p| setpoint.position[p] + self.independent.way_mm(p, k)).collect();
+        if self.thread_delay > 0.0 {
+            for (p, position) in positions.iter_mut().enumerate() {
+                let before = std::mem::replace(&mut self.planned[p], *position);
+                *position += (before - *position) * self.thread_delay;
+            }
+        }
+        self.spindles.iter_mut().for_each(|s| s.cut(&positions));
         let spindles: SmallVec<[f64; 4]> =
-            self.spindles.iter_mut().map(|s| s.step(self.cycle)).collect();
+            self.spindles.iter_mut().map(|s| s.step(&positions, self.cycle)).collect();
+        self.path_position.copy_from_slice(&positions);
         for (i, chain) in self.chains.iter_mut().enumerate() {
             if let Driver::Spindle(s) = self.drivers[i]
                 && let Some(target_deg) = self.spindles[s].take_target()

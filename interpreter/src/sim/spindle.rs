@@ -3,7 +3,7 @@
 //! Speed changes use the linear slope of the spindle's list (P-AXIS-00270 = 0). Assumption: other slope types of
 //! spindles are driven with the same acceleration.
 
-use crate::exec::{Approach, SpindleMotion};
+use crate::exec::{Approach, CuttingSpeed, SpindleMotion};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::profile::{SlopeLimits, SpanProfile, StepAxis, StepLimits};
@@ -32,6 +32,19 @@ pub(super) struct Spindle {
     positioning: Option<Positioning>,
     /// Where a positioning that has just begun will end.
     target_deg: Option<f64>,
+    /// Tapping.
+    following: Option<Following>,
+    /// G96.
+    cutting: Option<CuttingSpeed>,
+}
+
+/// A spindle that turns with the way of a path axis.
+#[derive(Clone, Copy, Debug)]
+struct Following {
+    axis: usize,
+    deg_per_mm: f64,
+    from_mm: f64,
+    from_deg: f64,
 }
 
 impl Spindle {
@@ -51,7 +64,50 @@ impl Spindle {
             wanted: SpindleMotion::Stop,
             positioning: None,
             target_deg: None,
+            following: None,
+            cutting: None,
         }
+    }
+
+    /// Goes with the way of a path axis from its present position on, or stands again.
+    pub(super) fn follow(&mut self, way: Option<(usize, f64)>, position: &[f64]) {
+        self.following = way.map(|(axis, deg_per_mm)| Following {
+            axis,
+            deg_per_mm,
+            from_mm: position.get(axis).copied().unwrap_or(0.0),
+            from_deg: self.position_deg,
+        });
+        self.wanted = SpindleMotion::Stop;
+        self.positioning = None;
+        self.speed_deg_s = 0.0;
+    }
+
+    /// Keeps a cutting speed from now on, or the speed that it has.
+    pub(super) fn keep_cutting_speed(&mut self, cutting: Option<CuttingSpeed>) {
+        self.cutting = cutting;
+    }
+
+    /// G96: the speed at this position of the path axes.
+    pub(super) fn cut(&mut self, position: &[f64]) {
+        let Some(cutting) = self.cutting else { return };
+        let x_mm = cutting.held_mm.or(position.get(cutting.axis).copied()).unwrap_or(0.0);
+        let radius_mm = x_mm - cutting.centre_mm;
+        if let SpindleMotion::Clockwise { rpm } | SpindleMotion::CounterClockwise { rpm } =
+            &mut self.wanted
+        {
+            *rpm = cutting.rpm(radius_mm);
+        }
+    }
+
+    /// It turns with its speed and passes an angle between this cycle and the next one: the share of the cycle until then.
+    pub(super) fn mark_ahead(&self, deg: f64, cycle: CycleTime) -> Option<f64> {
+        let way = self.speed_deg_s * cycle.seconds();
+        let steady = self.speed_deg_s.to_bits() == self.target_deg_s().to_bits();
+        if !steady || way.abs() <= 0.0 {
+            return None;
+        }
+        let ahead = ((deg - self.position_deg) * way.signum()).rem_euclid(360.0) / way.abs();
+        (ahead < 1.0).then_some(ahead)
     }
 
     /// A new motion; what turned goes on from its present speed.
@@ -118,9 +174,15 @@ impl Spindle {
         speed.clamp(-self.v_max_deg_s, self.v_max_deg_s)
     }
 
-    /// Set position of the next cycle in deg, counted on over the turns.
-    pub(super) fn step(&mut self, cycle: CycleTime) -> f64 {
+    /// Set position of the next cycle in deg, counted on over the turns; `position`: that of the path axes.
+    pub(super) fn step(&mut self, position: &[f64], cycle: CycleTime) -> f64 {
         let t = cycle.seconds();
+        if let Some(Following { axis, deg_per_mm, from_mm, from_deg }) = self.following {
+            let way_mm = position.get(axis).map_or(0.0, |x| x - from_mm);
+            let next = from_deg + deg_per_mm * way_mm;
+            (self.speed_deg_s, self.position_deg) = ((next - self.position_deg) / t, next);
+            return next;
+        }
         if let SpindleMotion::Position { deg, rpm, approach } = self.wanted
             && (self.positioning.is_some() || self.speed_deg_s.abs() <= 0.0)
         {

@@ -95,6 +95,8 @@ impl Totals {
             | Event::Feedforward { .. }
             | Event::SpindleFeedforward { .. }
             | Event::SpindleAcceleration { .. }
+            | Event::SpindleFollows { .. }
+            | Event::CuttingSpeed { .. }
             | Event::Independent { .. }
             | Event::Spindle { .. } => None,
         }

@@ -5,7 +5,7 @@ use super::chain::{AxisChain, Remaining};
 use super::independent::IndependentAxes;
 use super::patience::Patience;
 use super::spindle::Spindle;
-use crate::exec::{EndReason, ShapingSetup, Sync};
+use crate::exec::{EndReason, ShapingSetup, SpindleState, Sync};
 use crate::record::Rest;
 use kontur_filters::time::CycleTime;
 
@@ -14,12 +14,16 @@ use kontur_filters::time::CycleTime;
 pub(super) enum Action {
     None,
     Shaping(Box<ShapingSetup>),
-    MachineData { axis: u32 },
+    MachineData {
+        axis: u32,
+    },
+    /// The axes do not go with a spindle any more.
+    ThreadEnd,
     End(EndReason),
 }
 
 /// When the wait is over.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Until {
     Now,
     /// Cycles left, of a dwell or of functions of the machine.
@@ -28,6 +32,8 @@ enum Until {
     Flushed,
     /// These independent axes at their targets, flushed.
     Arrived(Vec<usize>),
+    /// A spindle stands, or passes its mark.
+    Spindle(usize, SpindleState),
     /// Flushed, and the actual positions in their windows (P-AXIS-00236).
     InPosition,
     /// The same for everything that moves, independent axes and spindles on their way to a position too, and seen by the
@@ -46,6 +52,8 @@ pub(super) struct Parts<'a> {
     pub(super) spindles: &'a [Spindle],
     /// Independent axes.
     pub(super) independent: &'a IndependentAxes,
+    /// Cycle time.
+    pub(super) cycle: CycleTime,
 }
 
 /// A wait with what follows it.
@@ -62,6 +70,9 @@ impl Wait {
             |seconds: f64, rest| Until::Cycles((seconds / cycle.seconds()).round() as u64, rest);
         let (until, action) = match sync {
             Sync::ExactStop => (Until::InPosition, Action::None),
+            Sync::Spindle { spindle, state } => (Until::Spindle(spindle, state), Action::None),
+            // the delay of the axes runs out in the first cycle of rest
+            Sync::ThreadEnd => (Until::Cycles(1, Rest::Spindle), Action::ThreadEnd),
             Sync::Stop | Sync::ProgramStop { .. } => (Until::Now, Action::None),
             Sync::Dwell { seconds } => (cycles(seconds, Rest::Dwell), Action::None),
             Sync::Technology { seconds } => (cycles(seconds, Rest::Technology), Action::None),
@@ -90,7 +101,7 @@ impl Wait {
             (Until::InPosition, Driver::Path(p)) => !parts.independent.is_moving(p),
             (Until::Flushed | Until::AllInPosition, Driver::Path(_)) => true,
             (Until::AllInPosition, Driver::Spindle(s)) => parts.spindles[s].positions(),
-            (Until::Now | Until::Cycles(..), Driver::Path(_))
+            (Until::Now | Until::Cycles(..) | Until::Spindle(..), Driver::Path(_))
             | (_, Driver::Spindle(_) | Driver::Standing) => false,
         };
         let chains = parts.chains.iter().zip(parts.drivers).enumerate();
@@ -101,6 +112,12 @@ impl Wait {
     fn under_way(&self, parts: Parts<'_>) -> bool {
         match &self.until {
             Until::Now | Until::Cycles(..) | Until::InPosition => false,
+            Until::Spindle(spindle, state) => {
+                !parts.spindles.get(*spindle).is_none_or(|s| match state {
+                    SpindleState::Rest => s.rests(),
+                    SpindleState::Mark { deg } => s.mark_ahead(*deg, parts.cycle).is_some(),
+                })
+            }
             Until::Arrived(axes) => axes.iter().any(|axis| parts.independent.is_moving(*axis)),
             Until::Flushed => parts.independent.any_moving(),
             Until::AllInPosition => {
@@ -148,13 +165,22 @@ impl Wait {
 
     /// Its cycles belong to its own block, not to the motion before.
     pub(super) fn is_of_its_own_block(&self) -> bool {
-        matches!(self.until, Until::Cycles(..))
+        matches!(self.until, Until::Cycles(..) | Until::Spindle(..))
+    }
+
+    /// The spindle and the mark that the wait is for.
+    pub(super) fn mark(&self) -> Option<(usize, f64)> {
+        match self.until {
+            Until::Spindle(spindle, SpindleState::Mark { deg }) => Some((spindle, deg)),
+            _ => None,
+        }
     }
 
     /// What the path rests for.
     pub(super) fn rest(&self) -> Rest {
         match self.until {
             Until::Cycles(_, rest) => rest,
+            Until::Spindle(..) => Rest::Spindle,
             Until::Now | Until::Flushed | Until::Arrived(_) => Rest::Flush,
             Until::InPosition => Rest::ExactStop,
             Until::AllInPosition => Rest::Arrival,

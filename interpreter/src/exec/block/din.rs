@@ -48,9 +48,7 @@ impl Decoder {
         self.feeds_and_modes(&words, takes_axes);
         // behind G04 the S word is a number of revolutions
         if words.group(Group::Path).is_none_or(|g| g.row.act != Act::Dwell) {
-            for (i, speed, span) in &words.speeds {
-                self.speed(*i, *speed, *span);
-            }
+            self.spindle_speeds(&words);
         }
         self.functions_before(&words);
         for bracket in &words.brackets {
@@ -65,6 +63,27 @@ impl Decoder {
         let after = self.functions_after(&words);
         self.technology_wait();
         after
+    }
+
+    /// S words: speeds, cutting speeds, or speeds of tapping with a sign.
+    fn spindle_speeds(&mut self, words: &Words<'_>) {
+        let path = words.group(Group::Path).map(|g| g.row.act);
+        let taps = match path {
+            Some(Act::Path(mode)) => mode.is_tapping(),
+            _ => self.modal.path.is_tapping(),
+        };
+        let outcome = self.cutting_words(words);
+        self.keep(outcome);
+        let cuts = self.cuts(words);
+        for (i, speed, span) in &words.speeds {
+            // of the main spindle, tapping and cutting take care
+            if *i == 0 {
+                self.motion.threads.speed(taps.then_some(*speed));
+            }
+            if *i != 0 || !(taps || cuts) {
+                self.speed(*i, *speed, *span);
+            }
+        }
     }
 
     fn planes_and_units(&mut self, words: &Words<'_>) {
@@ -229,7 +248,7 @@ impl Decoder {
                     feed = value.map(|v| (v, *span));
                     continue;
                 }
-                "PSET" | "PRESET" | "SUPPRESS OFFSETS" => continue,
+                "PSET" | "PRESET" | "SUPPRESS OFFSETS" | "ANG" => continue,
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,

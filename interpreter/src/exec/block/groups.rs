@@ -172,6 +172,10 @@ pub(in crate::exec) enum Act {
     /// G301, G302.
     Chamfer,
     Rounding,
+    /// G96 (true), G97.
+    CuttingSpeed(bool),
+    /// G196.
+    CuttingSpeedMax,
     /// What holds anyway in this tool.
     Nothing,
     /// No influence on set positions.
@@ -210,8 +214,6 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
 
 const FEED_CHANGE: &str = "a higher feed is reached behind the start of its block, as at start";
 const FEED_HOLD: &str = "feedhold brakes without the weights of its own";
-const THREADS: &str = "thread cutting and tapping";
-const TURNING: &str = "turning";
 const MEASURING: &str = "measuring";
 const MANUAL: &str = "manual mode";
 const SPLINES: &str = "splines";
@@ -240,7 +242,7 @@ const ROWS: &[Row] = &[
     g(23, Group::Mirror, Act::Mirror(true, true)),
     g(25, Group::CompensationTransition, Act::Corners(Corners::Straight)),
     g(26, Group::CompensationTransition, Act::Corners(Corners::Round)),
-    g(33, Group::Path, Act::Unsupported(THREADS)),
+    g(33, Group::Path, Act::Path(PathMode::Thread)),
     g(40, Group::Compensation, Act::Compensation(Compensation::Off)),
     g(41, Group::Compensation, Act::Compensation(Compensation::Left)),
     g(42, Group::Compensation, Act::Compensation(Compensation::Right)),
@@ -255,7 +257,7 @@ const ROWS: &[Row] = &[
     g(59, Group::ZeroOffset, Act::ZeroGroup(6)),
     g(60, Group::Transition, Act::ExactStopOnce),
     g(61, Group::Transition, Act::ContourOnce),
-    g(63, Group::Path, Act::Unsupported(THREADS)),
+    g(63, Group::Path, Act::Path(PathMode::Tapping)),
     g(66, Group::None, Act::Simplified("blocks end within a cycle, as without it")),
     g(68, Group::Rotation, Act::Rotate),
     g(69, Group::Rotation, Act::RotateOff),
@@ -268,8 +270,8 @@ const ROWS: &[Row] = &[
     g(93, Group::FeedType, Act::FeedType(FeedType::Time)),
     g(94, Group::FeedType, Act::FeedType(FeedType::PerMinute)),
     g(95, Group::FeedType, Act::FeedType(FeedType::PerRevolution)),
-    g(96, Group::SpindleMode, Act::Unsupported(TURNING)),
-    g(97, Group::SpindleMode, Act::Nothing),
+    g(96, Group::SpindleMode, Act::CuttingSpeed(true)),
+    g(97, Group::SpindleMode, Act::CuttingSpeed(false)),
     g(98, Group::None, Act::SoftwareLimits(false)),
     g(99, Group::None, Act::SoftwareLimits(true)),
     g(100, Group::Measuring, Act::Unsupported(MEASURING)),
@@ -309,7 +311,7 @@ const ROWS: &[Row] = &[
     g(166, Group::FullOverride, Act::FullOverride),
     g(193, Group::FeedInterpolation, Act::Unsupported("feed interpolation over the path")),
     g(194, Group::FeedType, Act::FeedType(FeedType::ShareOfMaximum)),
-    g(196, Group::SpindleMode, Act::Unsupported(TURNING)),
+    g(196, Group::SpindleMode, Act::CuttingSpeedMax),
     g(200, Group::Manual, Act::Unsupported(MANUAL)),
     g(201, Group::Manual, Act::Unsupported(MANUAL)),
     g(202, Group::Manual, Act::Unsupported(MANUAL)),
@@ -325,10 +327,10 @@ const ROWS: &[Row] = &[
     g(293, Group::FeedInterpolation, Act::Unsupported("feed interpolation over the time")),
     g(301, Group::Insertion, Act::Chamfer),
     g(302, Group::Insertion, Act::Rounding),
-    g(303, Group::Path, Act::Unsupported("arcs in space")),
+    g(303, Group::Path, Act::Path(PathMode::ArcInSpace)),
     g(310, Group::Measuring, Act::Unsupported(MEASURING)),
-    g(331, Group::Path, Act::Unsupported(THREADS)),
-    g(332, Group::Path, Act::Unsupported(THREADS)),
+    g(331, Group::Path, Act::Path(PathMode::TapIn)),
+    g(332, Group::Path, Act::Path(PathMode::TapBack)),
     g(333, Group::None, Act::Simplified(FEED_HOLD)),
     v(334, Group::None, Act::Simplified(FEED_HOLD)),
     g(338, Group::None, Act::Simplified(FEED_HOLD)),

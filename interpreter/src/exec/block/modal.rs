@@ -9,6 +9,28 @@ pub(in crate::exec) enum PathMode {
     Linear,
     Clockwise,
     CounterClockwise,
+    /// G303.
+    ArcInSpace,
+    /// G33.
+    Thread,
+    /// G63.
+    Tapping,
+    /// G331.
+    TapIn,
+    /// G332.
+    TapBack,
+}
+
+impl PathMode {
+    /// G33, G63, G331, G332.
+    pub(in crate::exec) fn is_thread(self) -> bool {
+        matches!(self, Self::Thread) || self.is_tapping()
+    }
+
+    /// G63, G331, G332: the spindle turns with the path.
+    pub(in crate::exec) fn is_tapping(self) -> bool {
+        matches!(self, Self::Tapping | Self::TapIn | Self::TapBack)
+    }
 }
 
 /// G17, G18, G19 as indices of the main axes: first, second, third (normal).

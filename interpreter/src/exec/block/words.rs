@@ -64,6 +64,8 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) speeds: SmallVec<[(usize, f64, Span); 1]>,
     /// Spindle and angle of M19 (`S.POS=180`).
     pub(in crate::exec) angles: SmallVec<[(usize, f64, Span); 1]>,
+    /// Spindle and angle at which a thread begins (`S.OFFSET=90`).
+    pub(in crate::exec) offsets: SmallVec<[(usize, f64, Span); 1]>,
     pub(in crate::exec) tool: Option<Placed>,
     pub(in crate::exec) tool_data: Option<Placed>,
     /// A write to `V.G.WZ_AKT`.
@@ -394,8 +396,8 @@ impl Decoder {
             let value = self.number(value)?;
             return spindle_word(block, spindle, value, span);
         }
-        if let Some(spindle) = name.as_str().strip_suffix(".POS") {
-            return self.spindle_angle(spindle, value, span, block);
+        if let Some((spindle, what)) = name.as_str().split_once('.') {
+            return self.spindle_angle(spindle, what, value, span, block);
         }
         // R1 is the only index of the radius
         let radius = name.as_str().eq_ignore_ascii_case("R1").then_some(b'R');
@@ -428,24 +430,29 @@ impl Decoder {
         Ok(())
     }
 
-    /// `S.POS=180`.
+    /// `S.POS=180`, `S.OFFSET=90`.
     fn spindle_angle(
         &self,
         name: &str,
+        what: &str,
         value: &Expr,
         span: Span,
         block: &mut Words<'_>,
     ) -> Outcome<()> {
         let Some(spindle) = self.spindle_of_name(name) else {
-            let text = format!("{name}.POS: the channel has no spindle {name}");
+            let text = format!("{name}.{what}: the channel has no spindle {name}");
             return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
         };
         let angle = self.number(value)?;
-        if block.angles.iter().any(|(other, _, _)| *other == spindle) {
-            let text = "the angle of a spindle twice in one block";
-            return Err(Fault::new(Condition::SpindleTwice, text, span));
+        let (angles, condition) = if what == "POS" {
+            (&mut block.angles, Condition::SpindleTwice)
+        } else {
+            (&mut block.offsets, Condition::ThreadOffsetTwice)
+        };
+        if angles.iter().any(|(other, _, _)| *other == spindle) {
+            return Err(Fault::new(condition, format!("{name}.{what} twice in one block"), span));
         }
-        block.angles.push((spindle, angle, span));
+        angles.push((spindle, angle, span));
         Ok(())
     }
 

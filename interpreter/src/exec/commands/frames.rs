@@ -200,7 +200,7 @@ pub(super) fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Out
     Ok(())
 }
 
-/// `#TRAFO`, `#RTCP`, `#KIN ID`, `#ORI MODE`: kinematics.
+/// `#TRAFO`, `#RTCP`, `#KIN ID`, `#PTP`, `#ORI MODE`: kinematics.
 pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if call.name == "KIN ID" && decoder.geometry.transformation_on {
         let text = "#KIN ID under an active kinematic transformation";

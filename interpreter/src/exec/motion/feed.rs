@@ -31,14 +31,22 @@ impl Decoder {
             FeedType::Time => Feed::Duration(word.value),
             FeedType::ShareOfMaximum => Feed::ShareOfMaximum(word.value / 100.0),
             FeedType::PerRevolution => {
-                let rpm = self.motion.spindles[0].rpm.abs();
+                let rpm = self.spindle_rpm();
                 if rpm == 0.0 {
                     let text = "feed per revolution, but the main spindle has no speed";
                     return Err(Fault::new(Condition::SpindleSpeedZeroAtFeed, text, span));
                 }
-                Feed::PathVelocity(word.value * unit_mm * rpm / 60.0)
+                self.feed_per_revolution(path, rpm)
             }
         })
+    }
+
+    /// G95 at a speed of the spindle in rev/min.
+    pub(super) fn feed_per_revolution(&self, path: &Path, rpm: f64) -> Feed {
+        let word = self.modal.feed();
+        let inch = word.is_some_and(|word| word.inch) && self.feed_is_linear(path);
+        let unit_mm = if inch { 25.4 } else { 1.0 };
+        Feed::PathVelocity(word.map_or(0.0, |word| word.value) * unit_mm * rpm / 60.0)
     }
 
     /// Says of a time (G93) that the limits of the axes do not allow: the limits win.

@@ -60,7 +60,7 @@ impl Decoder {
         let moves = match path_mode {
             PathMode::Rapid => !stops,
             PathMode::Linear => feed.is_some_and(|f| f > 0.0),
-            PathMode::Clockwise | PathMode::CounterClockwise => false,
+            _ => false,
         };
         let fits = words.feed.is_none_or(|(f, _)| (0.0..=1e9).contains(&f));
         if !moves || !fits {
@@ -85,6 +85,9 @@ impl Decoder {
         !modal.inch
             && !modal.exact_stop
             && !modal.contouring
+            && !self.motion.threads.cutting
+            && !self.motion.contour_line.is_open()
+            && self.motion.cutting_speed.is_none()
             && !modal.late_braking
             && modal.compensation == Compensation::Off
             && modal.feed_type == FeedType::PerMinute

@@ -441,3 +441,14 @@ fn older_spellings() {
     assert_eq!(run.end[..2], [5.0, 5.0]);
     assert_eq!(super::run("V.G.WZR=5 D1\nM30\n").ids()[0], "20738");
 }
+
+/// The manual's numbers for ORD (operations for character strings, 206023179).
+#[test]
+fn the_value_of_a_character() {
+    let run = clean(
+        "P1=ORD[\"Hello world!\", 1]\nP2=ORD[\"Hello world!\", 7]\nP3=ORD[\"Hello\"]\nG01 X[P1] Y[P2] Z[P3] F100\nM30\n",
+    );
+    assert_eq!(run.end[..3], [72.0, 119.0, 72.0]);
+    assert_eq!(super::run("P1=ORD[\"abc\", 4]\nM30\n").ids(), ["K-0009"]);
+    assert_eq!(super::run("P1=ORD[\"\"]\nM30\n").ids(), ["K-0009"]);
+}

@@ -22,7 +22,7 @@ fn arity(function: Function) -> (usize, usize) {
         | Function::Find => (2, 2),
         Function::Mid | Function::Delete | Function::Insert => (3, 3),
         Function::Replace => (4, 4),
-        Function::SizeOf => (1, 2),
+        Function::SizeOf | Function::Ord => (1, 2),
         _ => (1, 1),
     }
 }
@@ -158,6 +158,7 @@ fn is_text_function(function: Function) -> bool {
             | F::Mid
             | F::Right
             | F::Len
+            | F::Ord
             | F::Find
             | F::Delete
             | F::Insert
@@ -202,6 +203,16 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
     };
     Ok(match call.function {
         Function::Len => Value::Number(text(0)?.len() as f64),
+        // the value of a character, of the first one without a position
+        Function::Ord => {
+            let s = text(0)?;
+            let at = call.arguments.get(1).map_or(Ok(1), |_| count(1))?;
+            let character = at.checked_sub(1).and_then(|i| s.get(i)).ok_or_else(|| {
+                let text = format!("ORD: the text has {} characters, none at {at}", s.len());
+                Fault::new(Condition::Range, text, span)
+            })?;
+            Value::Number(f64::from(u32::from(*character)))
+        }
         Function::Left => {
             let s = text(0)?;
             joined([&s[..count(1)?.min(s.len())], &[], &[]])

@@ -232,10 +232,38 @@ fn written(segments: &[Segment]) -> String {
 
 /// Reads a system variable.
 pub(in crate::exec) fn read(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<Value> {
+    if is_kinematic(segments) {
+        let name = kinematic(d, segments, span)?;
+        return number(d.values.kinematics.get(&name).copied().unwrap_or(0.0));
+    }
     match find(segments) {
         Some(row) => (row.read)(d, &Path { segments, span }),
         None => Err(unknown(d, segments, span)),
     }
+}
+
+/// True for `V.G.KIN..`: parameters of kinematic transformations.
+fn is_kinematic(segments: &[Segment]) -> bool {
+    let is =
+        |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
+    is(0, "G") && is(1, "KIN")
+}
+
+/// Name of a kinematic parameter with its indices; refused unless transformations are taken as the identity.
+fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
+    if !d.identity_trafo {
+        let hint =
+            "--identity-trafo takes transformations as identity, their parameters have no effect";
+        return Err(Fault::unsupported("variables V.G.KIN", span).hint(hint));
+    }
+    let mut parts = Vec::new();
+    for segment in segments {
+        parts.push(segment.name.to_ascii_uppercase());
+        for subscript in &segment.subscripts {
+            parts.push(format!("[{}]", d.number(subscript)?));
+        }
+    }
+    Ok(parts.join("."))
 }
 
 fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
@@ -254,6 +282,9 @@ fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
     }
 }
 
+/// Kinematic parameters that are kept.
+const KINEMATICS_MAX: usize = 10_000;
+
 /// Writes a system variable; 20100 if it cannot be written.
 pub(in crate::exec) fn write(
     d: &mut Decoder,
@@ -261,6 +292,19 @@ pub(in crate::exec) fn write(
     value: &Value,
     span: Span,
 ) -> Outcome<()> {
+    if is_kinematic(segments) {
+        let name = kinematic(d, segments, span)?;
+        let value = as_number(value, span)?;
+        if d.values.kinematics.len() >= KINEMATICS_MAX && !d.values.kinematics.contains_key(&name) {
+            let text = format!("more than {KINEMATICS_MAX} kinematic parameters");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        d.values.kinematics.insert(name, value);
+        let text =
+            "V.G.KIN: transformations are taken as identity, their parameters have no effect";
+        d.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
+        return Ok(());
+    }
     let path = Path { segments, span };
     let names: Vec<String> = segments.iter().map(|s| s.name.to_ascii_uppercase()).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();

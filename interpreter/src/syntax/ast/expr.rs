@@ -136,7 +136,7 @@ functions! {
     Sin "SIN", Cos "COS", Tan "TAN", Cot "COT", Asin "ASIN", Acos "ACOS", Atan "ATAN", Acot "ACOT", Atan2 "ATAN2",
     Int "INT", Fract "FRACT", Round "ROUND", Floor "FLOOR", Ceil "CEIL", Min "MIN", Max "MAX", Sign "SIGN",
     Inv "INV", Not "NOT", Exist "EXIST", SizeOf "SIZEOF", IsString "IS_STRING", IsNumber "IS_NUMBER",
-    Left "LEFT", Mid "MID", Right "RIGHT", Len "LEN", Find "FIND", Delete "DELETE", Insert "INSERT",
+    Left "LEFT", Mid "MID", Right "RIGHT", Len "LEN", Ord "ORD", Find "FIND", Delete "DELETE", Insert "INSERT",
     Replace "REPLACE", IntToStr "INT_TO_STR", RealToStr "REAL_TO_STR", StrToInt "STR_TO_INT",
     StrToReal "STR_TO_REAL",
 }

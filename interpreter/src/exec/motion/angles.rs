@@ -1,0 +1,178 @@
+//! Contour lines by angles: `#ANG`.
+//!
+//! One line by its angle and one coordinate of its end; two lines by two angles and the end of the second one, which meet
+//! where they cross. Assumption: the angle is that of its block alone.
+//!
+//! Source: TF5200 programming manual, contour line programming; 21892, 21895, 21904, 21910.
+
+use crate::diag::Condition;
+use crate::exec::block::groups::Group;
+use crate::exec::block::modal::PathMode;
+use crate::exec::block::words::Words;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::angle::{cos_deg, sin_deg};
+use crate::exec::geometry::coordinates::Target;
+use crate::exec::step::SourceRef;
+use crate::syntax::ast::Span;
+
+/// Sine of an angle between two lines below which they are parallel.
+const PARALLEL: f64 = 1e-9;
+
+/// What contour lines keep.
+#[derive(Clone, Debug, Default)]
+pub(in crate::exec) struct ContourLines {
+    /// First line of two: its angle in deg and its block.
+    open: Option<(f64, Span, SourceRef)>,
+    /// The coordinate that the angle gives to the block in work.
+    pub(super) target: Option<Target>,
+}
+
+impl ContourLines {
+    /// A first line waits for its second one.
+    pub(in crate::exec) fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+}
+
+/// What a block is for contour lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ContourLine {
+    /// No contour line, or one by itself.
+    Single,
+    /// The first of two lines: it moves with the second one.
+    Waits,
+    /// The second of two lines: first to this point of the plane, in mm.
+    Corner([f64; 2], SourceRef),
+}
+
+impl Decoder {
+    /// What `#ANG` makes of the block in work.
+    pub(super) fn contour_line(&mut self, words: &Words<'_>) -> Outcome<ContourLine> {
+        let angle = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "ANG");
+        let Some((_, angle, span)) = angle else {
+            let moves = !words.axes.is_empty() || words.group(Group::Path).is_some();
+            return match self.motion.contour_line.open.take_if(|_| moves) {
+                Some((_, _, _)) => {
+                    let text = "the contour line before it has neither a coordinate nor a second line with #ANG";
+                    Err(Fault::new(Condition::ContourLineOpen, text, Span::default()))
+                }
+                None => Ok(ContourLine::Single),
+            };
+        };
+        let span = *span;
+        let Some(angle) = angle.filter(|a| a.is_finite()) else {
+            return Err(Fault::new(Condition::Syntax, "#ANG without an angle", span));
+        };
+        let mode = match words.group(Group::Path).map(|g| g.row.act) {
+            Some(crate::exec::block::groups::Act::Path(mode)) => mode,
+            _ => self.modal.path,
+        };
+        if !matches!(mode, PathMode::Linear | PathMode::Rapid) {
+            return Err(Fault::unsupported("#ANG in another motion than a straight one", span));
+        }
+        let main = self.modal.plane.main_axes();
+        let plane = [main[0], main[1]].map(|m| self.geometry.coordinates.main_axis(m));
+        let [Some(first), Some(second)] = plane else {
+            let text = "the plane of #ANG has no axis in the channel";
+            return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
+        };
+        let word = |axis: usize| words.axes.iter().position(|(a, _, _)| *a == axis);
+        let here = [first, second].map(|axis| self.geometry.coordinates.programmed(axis));
+        // the end in the coordinates of the program
+        let end = [first, second].map(|axis| {
+            word(axis).map(|i| {
+                let value = words.axes[i].1 * self.axis_unit(axis);
+                let absolute = words.is_absolute(i, self.modal.absolute);
+                let from = self.geometry.coordinates.programmed(axis);
+                (if absolute { value } else { from + value }, absolute)
+            })
+        });
+        let direction = [cos_deg(angle), sin_deg(angle)];
+        match (self.motion.contour_line.open.take(), end) {
+            (None, [None, None]) => {
+                let inserts = words.group(Group::Insertion).is_some()
+                    || words.hashes.iter().any(|(hash, _, _)| &*hash.name != "ANG");
+                if inserts || !words.axes.is_empty() {
+                    let what = "the first of two contour lines with other words of motion";
+                    return Err(Fault::unsupported(what, span));
+                }
+                self.motion.contour_line.open = Some((angle, span, self.report.source));
+                Ok(ContourLine::Waits)
+            }
+            (None, [Some(_), Some(_)]) => {
+                let text = "#ANG with both coordinates of the plane";
+                Err(Fault::new(Condition::ContourLineTwice, text, span))
+            }
+            (None, [x, y]) => {
+                let (known, axis, value) = match (x, y) {
+                    (Some((x, _)), _) => (0, second, x),
+                    (_, Some((y, _))) => (1, first, y),
+                    (None, None) => return Ok(ContourLine::Single),
+                };
+                let way = value - here[known];
+                // the end lies ahead, and the line is not parallel to the other axis
+                if direction[known] * way <= 0.0 {
+                    let text = format!("a line of {angle} deg does not reach the coordinate");
+                    return Err(Fault::new(Condition::ContourLineMissed, text, span));
+                }
+                let other = here[1 - known] + way / direction[known] * direction[1 - known];
+                self.motion.contour_line.target =
+                    Some(Target { axis, value: other, absolute: true });
+                Ok(ContourLine::Single)
+            }
+            (Some((before, _, source)), [Some((x, x_absolute)), Some((y, y_absolute))]) => {
+                if !(x_absolute && y_absolute) {
+                    let text = "the end of two contour lines is programmed in relative coordinates";
+                    return Err(Fault::new(Condition::ContourLineRelative, text, span));
+                }
+                if words.group(Group::Insertion).is_some() || words.hashes.len() > 1 {
+                    let what = "a chamfer or rounding in a block of two contour lines";
+                    return Err(Fault::unsupported(what, span));
+                }
+                let d = [cos_deg(before), sin_deg(before)];
+                let sine = d[0] * direction[1] - d[1] * direction[0];
+                if sine.abs() < PARALLEL {
+                    let text = format!("two contour lines of {before} and {angle} deg never meet");
+                    return Err(Fault::new(Condition::ContourLineParallel, text, span));
+                }
+                let way = [x - here[0], y - here[1]];
+                let to_corner = (way[0] * direction[1] - way[1] * direction[0]) / sine;
+                let to_end = (d[0] * way[1] - d[1] * way[0]) / sine;
+                if to_corner <= 0.0 || to_end <= 0.0 {
+                    let text = "the two contour lines do not meet on the way to the end";
+                    return Err(Fault::new(Condition::ContourLineMissed, text, span));
+                }
+                let corner = [here[0] + to_corner * d[0], here[1] + to_corner * d[1]];
+                Ok(ContourLine::Corner(corner, source))
+            }
+            (Some(_), _) => {
+                let text = "the second of two contour lines needs both coordinates of the plane";
+                Err(Fault::new(Condition::ContourLineOpen, text, span))
+            }
+        }
+    }
+
+    /// The first of two lines, in front of the second one.
+    pub(super) fn contour_lines(
+        &mut self,
+        line: &ContourLine,
+        words: &Words<'_>,
+        span: Span,
+    ) -> Outcome<()> {
+        let ContourLine::Corner(corner, source) = line else { return Ok(()) };
+        let main = self.modal.plane.main_axes();
+        let mut first = Words::default();
+        for (m, value) in [main[0], main[1]].into_iter().zip(corner) {
+            if let Some(axis) = self.geometry.coordinates.main_axis(m) {
+                let at = words.axes.first().map_or(span, |(_, _, at)| *at);
+                first.axes.push((axis, value / self.axis_unit(axis), at));
+            }
+        }
+        first.dimensions.push((0, true));
+        let here = std::mem::replace(&mut self.report.source, *source);
+        let outcome = self.motion(&first, false, span);
+        self.report.source = here;
+        outcome
+    }
+}

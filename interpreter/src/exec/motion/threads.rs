@@ -1,0 +1,302 @@
+//! Threads: G33 with a spindle that turns, tapping with a spindle that follows the path (G63, G331, G332).
+//!
+//! Tapping begins and ends at rest, and the spindle turns with the way of the path: both are exact. G33 begins when the
+//! spindle turns with its speed and passes its mark, and then goes on with pitch times speed; the ramp at its begin and
+//! end cuts another pitch, as on the machine.
+//!
+//! Assumptions: the pitch of a thread at 45 deg or more is that of its other axis only if it is written so; between blocks
+//! of tapping the path rests; the path rests behind the last block of G33.
+//!
+//! Source: TF5200 programming manual, tapping (G63), thread cutting with endlessly rotating spindle (G33); TF5200 turning
+//! functions, tapping (G331/G332); 20007, 20635, 20636, 21540.
+
+use crate::diag::Condition;
+use crate::exec::block::modal::{Compensation, FeedType, PathMode};
+use crate::exec::block::words::Words;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::spindles::Turning;
+use crate::exec::step::{Event, SpindleState, Sync};
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::{Block, Feed};
+use kontur_motion::limits::{PathExtremes, PathSpeeds};
+use kontur_motion::path::{LinePath, Path};
+use std::sync::Arc;
+
+/// Smallest and largest pitch in mm. Assumption: the vendor prints no range; 0 is none.
+const PITCH_MM: (f64, f64) = (1e-4, 1e4);
+
+/// Highest speed in rev/min.
+const SPEED_MAX: f64 = 1e6;
+
+/// Cosine of the largest bend of a thread of several blocks.
+const STRAIGHT: f64 = 1.0 - 1e-9;
+
+/// What threads keep.
+#[derive(Clone, Debug, Default)]
+pub(in crate::exec) struct Threads {
+    /// Pitches in mm by main axis (I, J, K); that of G331 has a sign.
+    pitch_mm: [Option<f64>; 3],
+    /// Speed of the last tapping in rev/min, with its sign.
+    tapping_rpm: Option<f64>,
+    /// The path follows the turning spindle.
+    pub(in crate::exec) cutting: bool,
+    /// Direction of the block of G33 before.
+    direction: AxisVec,
+}
+
+impl Threads {
+    /// An S word: with a sign under tapping, else it ends that of tapping.
+    pub(in crate::exec) fn speed(&mut self, tapping_rpm: Option<f64>) {
+        self.tapping_rpm = tapping_rpm;
+    }
+}
+
+/// Direction of a straight path.
+fn direction_of(path: &Path) -> AxisVec {
+    let mut direction = path.start().clone();
+    path.tangent(0.0, &mut direction);
+    direction
+}
+
+/// How the spindle goes with a straight path.
+struct Coupling {
+    /// Main axis that tells the way: the longest.
+    axis: usize,
+    /// Degrees for a mm of its way, with the sense of rotation.
+    deg_per_mm: f64,
+    /// The same for a mm of the path, without a sign.
+    deg_per_path_mm: f64,
+}
+
+impl Decoder {
+    /// The end of G33: the path rests, what follows it does not go with the spindle any more.
+    pub(in crate::exec) fn end_thread(&mut self) {
+        if std::mem::take(&mut self.motion.threads.cutting) {
+            self.sync(Sync::ThreadEnd);
+        }
+    }
+
+    /// A block of G33, G63, G331 or G332.
+    pub(in crate::exec) fn thread_motion(&mut self, words: &Words<'_>, span: Span) -> Outcome<()> {
+        let mode = self.modal.path;
+        self.thread_fits(words, span)?;
+        let start = self.program_targets(words)?;
+        let end = self.geometry.coordinates.target().clone();
+        let (start, end) = (self.on_path(start), self.on_path(end));
+        for (main, word) in words.centre.iter().enumerate() {
+            let Some((pitch, at)) = word else { continue };
+            let pitch_mm = pitch * self.unit_mm();
+            if !(PITCH_MM.0..=PITCH_MM.1).contains(&pitch_mm.abs()) {
+                let text = format!(
+                    "the pitch {pitch} of a thread is outside {} to {} mm",
+                    PITCH_MM.0, PITCH_MM.1
+                );
+                return Err(Fault::new(Condition::ThreadPitch, text, *at));
+            }
+            self.motion.threads.pitch_mm[main] = Some(pitch_mm);
+        }
+        let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else { return Ok(()) };
+        let path = Path::Line(line);
+        let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
+        self.check_limits(&path, place, span);
+        self.join_for(&path);
+        if mode == PathMode::Thread {
+            self.cut_thread(path, words, span)
+        } else {
+            self.tap(path, span)
+        }
+    }
+
+    /// What does not go with threads.
+    fn thread_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
+        if self.modal.compensation != Compensation::Off {
+            return Err(Fault::unsupported("a thread with tool radius compensation", span));
+        }
+        if !self.geometry.coordinates.frame().is_identity() {
+            return Err(Fault::unsupported("a thread in a turned or mirrored system", span));
+        }
+        if self.motion.spindles[0].index.is_none() {
+            return Err(Fault::unsupported("a thread without a spindle in the machine", span));
+        }
+        if self.modal.path == PathMode::Thread {
+            return Ok(());
+        }
+        if self.modal.feed_type == FeedType::PerRevolution {
+            let text = "tapping with the feed per revolution (G95)";
+            return Err(Fault::new(Condition::TappingPerRevolution, text, span));
+        }
+        if self.motion.cutting_speed.is_some() {
+            let text = "tapping with constant cutting speed (G96)";
+            return Err(Fault::new(Condition::TappingCuttingSpeed, text, span));
+        }
+        let turns = words.m.iter().find(|m| matches!(m.number, 3..=5 | 19));
+        if turns.is_some() || self.motion.spindles[0].is_turning() {
+            let text = "tapping needs a spindle that stands: it turns with the path";
+            let at = turns.map_or(span, |m| m.span);
+            return Err(Fault::new(Condition::SpindleTurns, text, at));
+        }
+        Ok(())
+    }
+
+    /// The pitch of a path: that of its longest main axis that has one.
+    fn pitch(&self, path: &Path, span: Span) -> Outcome<(usize, f64)> {
+        let way = |axis: usize| (path.end()[axis] - path.start()[axis]).abs();
+        let mut best: Option<(usize, f64)> = None;
+        for (main, pitch) in self.motion.threads.pitch_mm.iter().enumerate() {
+            let (Some(pitch), Some(axis)) = (pitch, self.geometry.coordinates.main_axis(main))
+            else {
+                continue;
+            };
+            if way(axis) > 0.0 && best.is_none_or(|(b, _)| way(axis) > way(b)) {
+                best = Some((axis, *pitch));
+            }
+        }
+        best.ok_or_else(|| {
+            let text = "the thread has no pitch for the axes that it moves: I, J or K in mm/rev";
+            Fault::new(Condition::ThreadPitch, text, span)
+        })
+    }
+
+    fn cut_thread(&mut self, path: Path, words: &Words<'_>, span: Span) -> Outcome<()> {
+        let (axis, pitch_mm) = self.pitch(&path, span)?;
+        if pitch_mm < 0.0 {
+            let text = "the pitch of G33 has no sign: M03 and M04 tell the direction";
+            return Err(Fault::new(Condition::ThreadPitch, text, span));
+        }
+        let spindle = &self.motion.spindles[0];
+        let (Some(index), true) = (spindle.index, spindle.is_turning() && spindle.rpm.abs() > 0.0)
+        else {
+            let text = "G33 needs a spindle that turns: M03 or M04 and S before it";
+            return Err(Fault::new(Condition::SpindleSpeedZero, text, span));
+        };
+        let most_deg_s = self.machine.spindles[index].dynamics().v_max_mm_s;
+        let rev_s = (spindle.rpm.abs() * 6.0).min(most_deg_s) / 360.0;
+        let way = (path.end()[axis] - path.start()[axis]).abs();
+        let feed_mm_s = pitch_mm * rev_s * path.length() / way;
+        let dynamics = self.dynamics(false);
+        let block = self.thread_block(path, feed_mm_s, dynamics);
+        let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
+        if speeds.highest() < feed_mm_s * (1.0 - 1e-9) {
+            let text = format!(
+                "the thread needs {feed_mm_s:.3} mm/s, the axes can do {:.3} mm/s: it would get another pitch",
+                speeds.highest()
+            );
+            return Err(Fault::new(Condition::ThreadSpeed, text, span));
+        }
+        let plane = self.in_plane(span)?;
+        if self.failed() && !self.checking {
+            return Ok(());
+        }
+        let direction = direction_of(&block.path);
+        if self.motion.threads.cutting {
+            // the planner slows down at a bend, which would give another pitch
+            let cosine: f64 = direction
+                .iter()
+                .zip(self.motion.threads.direction.iter())
+                .map(|(a, b)| a * b)
+                .sum();
+            if cosine < STRAIGHT {
+                return Err(Fault::unsupported("a thread that changes its direction", span));
+            }
+        }
+        self.motion.threads.direction = direction;
+        if !self.motion.threads.cutting {
+            let offset = words.offsets.iter().find(|(spindle, _, _)| *spindle == 0);
+            let state = SpindleState::Mark { deg: offset.map_or(0.0, |(_, deg, _)| *deg) };
+            self.sync(Sync::Spindle { spindle: index, state });
+            self.motion.threads.cutting = true;
+        }
+        self.send(block, plane, span);
+        Ok(())
+    }
+
+    fn tap(&mut self, path: Path, span: Span) -> Outcome<()> {
+        let rpm = self.motion.threads.tapping_rpm.unwrap_or(self.motion.spindles[0].rpm);
+        if rpm.abs() > SPEED_MAX {
+            let text = format!("spindle speed {rpm} is outside 0 to {SPEED_MAX} rev/min");
+            return Err(Fault::new(Condition::Range, text, span));
+        }
+        if rpm.abs() <= 0.0 {
+            let text = "tapping with the spindle speed 0";
+            return Err(Fault::new(Condition::SpindleSpeedZero, text, span));
+        }
+        let (coupling, feed_mm_s) = self.tapping(&path, rpm, span)?;
+        let Some(spindle) = self.motion.spindles[0].index else { return Ok(()) };
+        // the spindle limits the path: it has to follow
+        let limits = self.machine.spindles[spindle].dynamics();
+        let mut dynamics = (*self.dynamics(false)).clone();
+        let ratio = self.motion.spindles[0].acceleration_ratio / coupling.deg_per_path_mm;
+        let least = |a: Option<f64>, b: f64| Some(a.map_or(b, |a| a.min(b)));
+        let slope = &limits.step_feed;
+        let vector = &mut dynamics.vector;
+        vector.vel_mm_s = least(vector.vel_mm_s, limits.v_max_mm_s / coupling.deg_per_path_mm);
+        vector.acc_mm_s2 =
+            least(vector.acc_mm_s2, slope.acc_mm_s2[0].min(slope.acc_mm_s2[1]) * ratio);
+        vector.dec_mm_s2 =
+            least(vector.dec_mm_s2, slope.dec_mm_s2[0].min(slope.dec_mm_s2[1]) * ratio);
+        let block = self.thread_block(path, feed_mm_s, Arc::new(dynamics));
+        let plane = self.in_plane(span)?;
+        if self.failed() && !self.checking {
+            return Ok(());
+        }
+        if self.shaping.setup.axes.iter().any(|axis| axis.kernel.is_some()) {
+            let text =
+                "tapping while the axes are shaped and the spindle is not: it runs ahead of them";
+            self.note_once("tapping", Fault::new(Condition::UnequalKernels, text, span));
+        }
+        self.sync(Sync::Spindle { spindle, state: SpindleState::Rest });
+        let Coupling { axis, deg_per_mm, .. } = coupling;
+        self.event(Event::SpindleFollows { spindle, way: Some((axis, deg_per_mm)) });
+        self.send(block, plane, span);
+        self.event(Event::SpindleFollows { spindle, way: None });
+        self.motion.spindles[0].turning = Turning::Stopped;
+        self.sync(Sync::Stop);
+        Ok(())
+    }
+
+    /// How the spindle goes with the path, and the velocity of the path.
+    fn tapping(&mut self, path: &Path, rpm: f64, span: Span) -> Outcome<(Coupling, f64)> {
+        let way = |axis: usize| path.end()[axis] - path.start()[axis];
+        let longest =
+            (0..path.start().len()).max_by(|a, b| way(*a).abs().total_cmp(&way(*b).abs()));
+        let longest = longest.unwrap_or(0);
+        let (deg_per_path_mm, sense, feed_mm_s) = if self.modal.path == PathMode::Tapping {
+            let Feed::PathVelocity(feed_mm_s) = self.feed_of(path, span)? else {
+                return Err(Fault::unsupported("tapping without G94", span));
+            };
+            (rpm.abs() * 6.0 / feed_mm_s, rpm.signum(), feed_mm_s)
+        } else {
+            let (axis, pitch_mm) = self.pitch(path, span)?;
+            let per_path_mm = 360.0 * way(axis).abs() / (pitch_mm.abs() * path.length());
+            let back = if self.modal.path == PathMode::TapBack { -1.0 } else { 1.0 };
+            (per_path_mm, pitch_mm.signum() * back, rpm.abs() * 6.0 / per_path_mm)
+        };
+        let deg_per_mm = sense * deg_per_path_mm * path.length() / way(longest);
+        Ok((Coupling { axis: longest, deg_per_mm, deg_per_path_mm }, feed_mm_s))
+    }
+
+    fn thread_block(
+        &self,
+        path: Path,
+        feed_mm_s: f64,
+        dynamics: Arc<kontur_motion::block::ChannelDynamics>,
+    ) -> Box<Block> {
+        Box::new(Block {
+            seq: 0,
+            path,
+            feed: Feed::PathVelocity(feed_mm_s),
+            feed_ratio: 1.0,
+            // the override would change the pitch of G33
+            full_override: self.modal.path == PathMode::Thread,
+            end_velocity_mm_s: None,
+            late_braking: false,
+            slope: self.modal.slope,
+            dynamics,
+            tolerance: self.shaping.tolerance(),
+            contour: None,
+            spline: None,
+        })
+    }
+}

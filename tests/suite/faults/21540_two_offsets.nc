@@ -1,0 +1,5 @@
+; check: exit 1
+; error 21540 at 4:25
+M3 S100
+G33 Z-10 K1 S.OFFSET=90 S.OFFSET=45
+M30

@@ -1,0 +1,7 @@
+; check: exit 1
+; error 21910 at 6:1
+G18 G90 G0 X0 Y0 Z0
+F1000 G91 G1 Z10 X5
+#ANG 30
+#ANG 80 Z70 X95
+M30

@@ -1,0 +1,107 @@
+//! Arcs in space by three points, and contour lines by angles.
+
+use kontur_tests::{Run, run};
+
+/// Set position of X, Y, Z at the end of a line of the program.
+fn end(run: &Run, line: u32) -> [f64; 3] {
+    let last = run.records.iter().rfind(|r| r.line == line).unwrap();
+    [0, 1, 2].map(|i| last.axes[i].set)
+}
+
+fn near(a: [f64; 3], b: [f64; 3], tolerance: f64) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance)
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
+/// The page's program (arc in space, 206116363): every set point lies in the plane of the three points and as far from
+/// their circumcentre as they do, the arc passes the interim point once, and its length is radius times angle.
+#[test]
+fn an_arc_through_three_points() {
+    let (a, m, e) = ([0.0, 0.0, 30.0], [30.0, 75.0, 15.0], [60.0, 0.0, 0.0]);
+    // circumcentre from the lengths of the sides: barycentric weights
+    let (ea, ma, ee) = (distance(m, e), distance(a, e), distance(a, m));
+    let weight = |x: f64, y: f64, z: f64| x * x * (y * y + z * z - x * x);
+    let (wa, wm, we) = (weight(ea, ma, ee), weight(ma, ee, ea), weight(ee, ea, ma));
+    let sum = wa + wm + we;
+    let centre: [f64; 3] = std::array::from_fn(|i| (wa * a[i] + wm * m[i] + we * e[i]) / sum);
+    let radius = distance(a, centre);
+    for text in [
+        "N20 G90 G01 F2000 X0 Y0 Z30\nN30 G303 I30 J75 K15 X60 Y0 Z0",
+        "N20 G90 G01 F2000 X0 Y0 Z30\nN30 G91 G303 I30 J75 K-15 X60 Z-30",
+        "V.G.NP[1].V.X=7 G54 G90 G01 F2000 X-7 Y0 Z30\nN30 G303 I23 J75 K15 X53 Y0 Z0",
+    ] {
+        let run = run(&format!("%P\n{text}\nG90 G01 Z-1\nM30\n"), &[]);
+        assert_eq!(run.diagnostics, [], "{text}");
+        let arc: Vec<[f64; 3]> = run
+            .records
+            .iter()
+            .filter(|r| r.line == 3)
+            .map(|r| [0, 1, 2].map(|i| r.axes[i].set))
+            .collect();
+        let nearest = arc.iter().map(|p| distance(*p, m)).fold(f64::MAX, f64::min);
+        assert!(nearest < 0.05, "the interim point is {nearest} away");
+        let length: f64 = arc.windows(2).map(|w| distance(w[0], w[1])).sum();
+        // the angle at the centre by the law of cosines; the way over the interim point is the longer one
+        let short = 2.0 * libm::asin(0.5 * distance(a, e) / radius);
+        let want = radius * (std::f64::consts::TAU - short);
+        assert!((length - want).abs() < 0.1, "{length} {want}");
+        for p in arc.iter().filter(|p| distance(**p, e) > 0.05) {
+            assert!((distance(*p, centre) - radius).abs() < 1e-6, "{p:?}");
+        }
+        assert!(near(end(&run, 3), e, 0.05));
+    }
+}
+
+/// The page's numbers (contour line programming, 206123787).
+#[test]
+fn contour_lines_of_one_angle() {
+    for (text, want) in [
+        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=60 X20", [20.0, 27.3205, 0.0]),
+        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=35 Y20", [24.2812, 20.0, 0.0]),
+        ("G17 G90 G0 X10 Y10\nG01 G91 F2000 #ANG=60 X10", [20.0, 27.3205, 0.0]),
+        ("G18 G90 G0 Z10 X10\nG01 F2000 #ANG=60 Z20", [27.3205, 0.0, 20.0]),
+        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=180 X-5", [-5.0, 10.0, 0.0]),
+        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=90 Y30", [10.0, 30.0, 0.0]),
+        ("G17 G90 G0 X10 Y10\nG01 F2000 #ANG=240 X0 Z3", [0.0, 10.0 - 17.3205, 3.0]),
+    ] {
+        let run = run(&format!("%P\n{text}\nG90 G60 G01 X100 Y100 Z0\nM30\n"), &[]);
+        assert_eq!(run.diagnostics, [], "{text}");
+        let starts = end(&run, 3);
+        assert!(near(starts, want, 0.04), "{text}: {starts:?}");
+    }
+    let exact = run("%P\nG90 G0 X10 Y10\nG01 F2000 #ANG=60 X20\nG04 0.1\nM30\n", &[]);
+    assert!(near(end(&exact, 4), [20.0, 27.3205, 0.0], 5e-5), "{:?}", end(&exact, 4));
+}
+
+/// Two lines meet where they cross: 30 deg out of (5, 0), 80 deg into (100, 80) (numbers of 21910), from the intersection
+/// of two lines solved by Cramer's rule.
+#[test]
+fn contour_lines_of_two_angles() {
+    let run = run(
+        "%P\nG18 G90 G0 X0 Y0 Z0\nF1000 G91 G1 Z10 X5\n#ANG 30\nG90 #ANG 80 Z80 X100\nG04 0.1\nM30\n",
+        &[],
+    );
+    assert_eq!(run.diagnostics, []);
+    let (a, b) = (30.0_f64.to_radians(), 80.0_f64.to_radians());
+    // z = 10 + s cos a = 80 - t cos b, x = 5 + s sin a = 100 - t sin b
+    let det = libm::cos(a) * libm::sin(b) - libm::cos(b) * libm::sin(a);
+    let s = (70.0 * libm::sin(b) - 95.0 * libm::cos(b)) / det;
+    let corner = [5.0 + s * libm::sin(a), 0.0, 10.0 + s * libm::cos(a)];
+    let nearest = run.records.iter().map(|r| distance([0, 1, 2].map(|i| r.axes[i].set), corner));
+    assert!(nearest.fold(f64::MAX, f64::min) < 0.02);
+    assert!(near(end(&run, 6), [100.0, 0.0, 80.0], 1e-9));
+    // the first line has its own line of the program
+    let first = run.records.iter().filter(|r| r.line == 4).count();
+    let second = run.records.iter().filter(|r| r.line == 5).count();
+    assert!(first > 100 && second > 100, "{first} {second}");
+    for r in run.records.iter().filter(|r| r.line == 4) {
+        let (z, x) = (r.axes[2].set - 10.0, r.axes[0].set - 5.0);
+        assert!(
+            (z * libm::sin(a) - x * libm::cos(a)).abs() < 1e-6 || z > s * libm::cos(a),
+            "{z} {x}"
+        );
+    }
+}

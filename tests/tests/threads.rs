@@ -1,0 +1,220 @@
+//! Threads and turning: the spindle and the path in every cycle.
+
+use kontur_tests::{Run, machine, run, run_with_inputs};
+use std::f64::consts::TAU;
+
+const Z: usize = 2;
+const SPINDLE: usize = 3;
+
+/// Position of Z and angle of the spindle in the cycles of some lines.
+fn together(run: &Run, lines: std::ops::RangeInclusive<u32>) -> Vec<(f64, f64)> {
+    let of = run.records.iter().filter(|r| lines.contains(&r.line));
+    of.map(|r| (r.axes[Z].set, r.axes[SPINDLE].set)).collect()
+}
+
+/// Speeds of the spindle in rev/min.
+fn rpm(run: &Run) -> Vec<(u32, f64, f64)> {
+    let at = |w: &[kontur_interpreter::record::CycleRecord]| {
+        let turn = (w[1].axes[SPINDLE].set - w[0].axes[SPINDLE].set) / run.cycle_s / 6.0;
+        (w[1].line, w[1].axes[0].set, turn)
+    };
+    run.records.windows(2).map(at).collect()
+}
+
+/// F = S x pitch (tapping, 208104203): in every cycle the spindle has turned once for each pitch, back with a negative speed.
+#[test]
+fn tapping_turns_the_spindle_with_the_path() {
+    for (text, sense) in [
+        ("M19 S200 S.POS0\nG01 Z5 F3000\nG63 Z-20 F300 S200\nZ5 S-200\nG01 Z10 F3000", 1.0),
+        ("M19 S200 S.POS0\nG01 Z5 F3000\nG63 Z-20 F300 S-200\nZ5 S200\nG01 Z10 F3000", -1.0),
+        ("M5\nG01 Z5 F3000\nG331 Z-20 K1.5 S200\nG332 Z5\nG01 Z10 F3000", 1.0),
+        ("M5\nG01 Z5 F3000\nG331 Z-20 K-1.5 S200\nG332 Z5 K-1.5 S200\nG01 Z10 F3000", -1.0),
+    ] {
+        let run = run(&format!("%P\n{text}\nM30\n"), &[]);
+        assert_eq!(run.diagnostics, [], "{text}");
+        let tapped = together(&run, 4..=5);
+        assert!(tapped.iter().any(|(z, _)| (z + 20.0).abs() < 1e-9));
+        for (z, deg) in &tapped {
+            let want = sense * (5.0 - z) / 1.5 * 360.0;
+            assert!((deg - want).abs() < 1e-6, "{text}: {z} {deg}, not {want}");
+        }
+        let most = rpm(&run).iter().fold(0.0, |most: f64, (_, _, v)| most.max(v.abs()));
+        assert!((most - 200.0).abs() < 1e-6, "{text}: {most}");
+        assert!((run.records.last().unwrap().axes[Z].set - 10.0).abs() < 1e-9);
+        assert!(run.records.last().unwrap().axes[SPINDLE].set.abs() < 1e-6);
+    }
+}
+
+/// A spindle that cannot follow slows the path down: its speed and acceleration stay within its list, the pitch is kept.
+#[test]
+fn tapping_as_fast_as_the_spindle_can() {
+    let settings = [
+        "S.getriebe[0].dynamik.vb_max=3000000",
+        "S.getriebe[0].vb_eilgang=3000000",
+        "S.getriebe[0].lslope_profil.a_stufe_1=2000",
+    ];
+    let run = run("%P\nG63 Z-40 F3000 S2000\nG01 Z-41 F100\nM30\n", &settings);
+    assert_eq!(run.diagnostics, []);
+    let tapped = together(&run, 2..=2);
+    for (z, deg) in &tapped {
+        assert!((deg + z / 1.5 * 360.0).abs() < 1e-6, "{z} {deg}");
+    }
+    let speeds: Vec<f64> = rpm(&run).iter().map(|(_, _, v)| v * 6.0).collect();
+    let most = speeds.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    assert!(most <= 3000.0 + 1e-6, "{most} deg/s");
+    let acc = speeds.windows(2).map(|w| ((w[1] - w[0]) / run.cycle_s).abs()).fold(0.0, f64::max);
+    assert!(acc > 100.0 && acc <= 2000.0 * (1.0 + 1e-6), "{acc} deg/s2");
+}
+
+/// Where a thread lies: Z minus the pitch for every turn, within one pitch, in the steady part of the lines.
+fn thread(run: &Run, line: u32, pitch: f64, sense: f64) -> f64 {
+    let all = together(run, line..=line);
+    let (low, high) = (-30.0, -10.0);
+    let steady: Vec<f64> = all
+        .iter()
+        .filter(|(z, _)| (low..=high).contains(z))
+        .map(|(z, deg)| z + sense * pitch * deg / 360.0)
+        .collect();
+    assert!(steady.len() > 20);
+    for x in &steady {
+        assert!((x - steady[0]).abs() < 1e-7, "the pitch is not kept: {x} {}", steady[0]);
+    }
+    steady[0].rem_euclid(pitch)
+}
+
+fn apart(a: f64, b: f64, pitch: f64) -> f64 {
+    let d = (a - b).rem_euclid(pitch);
+    d.min(pitch - d)
+}
+
+/// Passes of G33 hit the same thread whenever they begin, other starts lie beside it (thread cutting, 400186379), and the
+/// override changes nothing.
+#[test]
+fn passes_of_a_thread_lie_in_each_other() {
+    for (m, sense) in [("M3", 1.0), ("M4", -1.0)] {
+        let text = format!(
+            "%P\n{m} S500\nG33 Z-40 K1.5\nG00 X1\nZ0\nG04 0.1234\nG33 Z-40 K1.5\nG00 Z0\nG33 Z-40 K1.5 S.OFFSET=120\n\
+             G00 Z0\nG33 Z-35\nZ-40\nG01 Z-41 F100\nM5\nM30\n"
+        );
+        for inputs in [&[][..], &[(0.0, "override_percent", 50.0)]] {
+            let run = run_with_inputs(machine(&[]), &text, inputs);
+            assert_eq!(run.diagnostics, [], "{text}");
+            let passes = [3, 7, 9, 11].map(|line| thread(&run, line, 1.5, sense));
+            assert!(apart(passes[0], passes[1], 1.5) < 1e-7, "{passes:?}");
+            assert!(apart(passes[0], passes[3], 1.5) < 1e-7, "{passes:?}");
+            let third = apart(passes[0] + sense * 0.5, passes[2], 1.5);
+            assert!(third < 1e-7, "{passes:?}");
+            for (line, z) in [(3, -40.0), (12, -40.0), (13, -41.0)] {
+                let last = run.records.iter().rfind(|r| r.line == line).unwrap().axes[Z].set;
+                assert!((last - z).abs() < 1e-9, "line {line}: {last}");
+            }
+        }
+    }
+}
+
+/// A tapered thread of 30 deg: the pitch is that of Z, whatever X does (tapered threads, K below 45 deg).
+#[test]
+fn a_tapered_thread() {
+    let run = run("%P\nM3 S500\nG33 Z-40 X23.0940107676 K1.5\nG01 X24 F100\nM5\nM30\n", &[]);
+    assert_eq!(run.diagnostics, []);
+    thread(&run, 3, 1.5, 1.0);
+}
+
+const FACE: &str = "X.kenngr.achs_mode=65";
+
+/// The page's program (constant cutting speed at feed rate per revolution, 400190603) from X60 to X10: n = v / (2 pi x), the
+/// path 1.5 mm for each turn, the speed kept in rapid blocks.
+#[test]
+fn constant_cutting_speed_and_feed_per_revolution() {
+    let run = run(
+        "%P\nM03 S2000 G01 X60 Z100 F1500\nG196 S2500\nG95 F1.5\nG96 S100\nG04 1\nZ49\nX10\nG00 Z50\nX60\nZ48\nG04 1\nG01 X10\n\
+         G97\nG94\nX11 F100\nM30\n",
+        &[FACE, "S.getriebe[0].lslope_profil.a_stufe_1=60000"],
+    );
+    assert_eq!(run.ids(), [0_u32; 0], "{:?}", run.diagnostics);
+    let n = |x: f64| (100_000.0 / (TAU * x)).min(2500.0);
+    let speeds = rpm(&run);
+    // at X60 on the way in Z, after the dwell
+    for (line, x, v) in speeds.iter().filter(|(line, _, _)| matches!(line, 7 | 8)) {
+        // of the cycle before or this one
+        assert!((v - n(*x)).abs() < 0.01 * n(*x), "line {line}: X{x} {v} {}", n(*x));
+    }
+    let rapid: Vec<f64> =
+        speeds.iter().filter(|(l, _, _)| matches!(l, 9..=11)).map(|s| s.2).collect();
+    // the first cycle still rises to it
+    assert!(rapid[1..].iter().all(|v| (v - n(10.0)).abs() < 1e-6), "G00 keeps the speed");
+    // the feed per turn where nothing accelerates: within the step of a hundredth
+    let on = run
+        .records
+        .windows(2)
+        .filter(|w| w[1].line == 8 && w[1].axes[0].set < 50.0 && w[1].axes[0].set > 15.0);
+    for w in on {
+        let turn = (w[1].axes[SPINDLE].set - w[0].axes[SPINDLE].set) / 360.0;
+        let feed = (w[0].axes[0].set - w[1].axes[0].set) / turn;
+        assert!((feed - 1.5).abs() < 0.04, "X{}: {feed} mm/rev", w[1].axes[0].set);
+    }
+    // G97 keeps what was reached
+    let last = speeds.iter().rfind(|(line, _, _)| *line == 16).unwrap();
+    assert!((last.2 - n(10.0)).abs() < 1e-3, "{last:?}");
+}
+
+/// Near the centre the speed is that of G196 or of the list, and 20633 says so.
+#[test]
+fn the_turning_centre() {
+    let run = run("%P\nM3 S100\nG01 X0.5 F1000\nG196 S1000\nG96 S100\nG04 1\nX0\nM30\n", &[FACE]);
+    assert_eq!(run.ids(), [20633]);
+    let at = rpm(&run).into_iter().rfind(|(line, _, _)| *line == 7).unwrap();
+    assert!((at.2 - 1000.0).abs() < 1e-6, "{at:?}");
+}
+
+/// Blocks that the path rests between are threads of their own, each with the mark: exact stop, dwell, flush.
+#[test]
+fn a_rest_in_a_thread_waits_for_the_mark_again() {
+    for rest in ["G360", "", "#FLUSH"] {
+        let dwell = if rest.is_empty() { "G04 0.0377" } else { rest };
+        let text = format!(
+            "%P\nM3 S500\n{rest}\nG33 Z-5 K1.5\n{dwell}\nG33 Z-40\nG01 Z-41 F100\nM5\nM30\n"
+        );
+        let run = run(&text, &[]);
+        assert_eq!(run.diagnostics, [], "{text}");
+        let begins = run.records.iter().position(|r| r.line == 6 && r.axes[Z].set < -5.0).unwrap();
+        // the spindle has turned from its mark for one cycle at most: 500 rev/min are 3 deg in it
+        let angle = run.records[begins].axes[SPINDLE].set.rem_euclid(360.0);
+        assert!(angle <= 3.0 + 1e-6, "{angle}");
+    }
+}
+
+/// What would give another pitch is refused.
+#[test]
+fn threads_that_cannot_be_kept() {
+    for (text, id) in [
+        ("M3 S100\nG33 Z-10 K1\nG33 Z-20 X5", "K-0019"),
+        ("M3 S100\nG33 Z-10 K0.00000001", "K-0124"),
+        ("M3 S100\nG33 Z-10 K-1", "K-0124"),
+        ("M3 S100\nG33 Z-10 I1", "K-0124"),
+        ("G33 Z-10 K1", "20007"),
+        ("G331 Z-10 K1", "20007"),
+        ("G331 Z-10 K1 S2000000", "K-0009"),
+        ("G63 Z-10 F100 S100 M3", "K-0123"),
+        ("G41 G33 Z-10 K1 S100", "K-0019"),
+        ("G68 R30\nG63 Z-10 F100 S100", "K-0019"),
+    ] {
+        let run = run(&format!("%P\n{text}\nM30\n"), &[]);
+        let ids: Vec<String> =
+            run.diagnostics.iter().filter(|d| d.is_error()).map(|d| d.id.to_string()).collect();
+        assert_eq!(ids, [id], "{text}");
+    }
+}
+
+/// S counts as it was programmed last, before tapping or within it.
+#[test]
+fn the_last_speed_counts_for_tapping() {
+    for text in
+        ["S200\nG63 Z-20 F300", "G63 F300\nS200\nZ-20", "G63 Z-1 F300 S100\nG01 Z-2 S200\nG63 Z-20"]
+    {
+        let run = run(&format!("%P\n{text}\nM30\n"), &[]);
+        assert_eq!(run.diagnostics, [], "{text}");
+        let most = rpm(&run).iter().fold(0.0, |most: f64, (_, _, v)| most.max(v.abs()));
+        assert!((most - 200.0).abs() < 1e-6, "{text}: {most}");
+    }
+}
