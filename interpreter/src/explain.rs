@@ -85,6 +85,23 @@ pub fn explain(thing: &str) -> Result<Explanation, Vec<String>> {
         .ok_or_else(|| probably(thing))
 }
 
+/// Everything of one kind in the order of its table: the reference, entry by entry.
+///
+/// ```
+/// use kontur_interpreter::explain::{Kind, all, explain};
+///
+/// let guard = all(Kind::Command).into_iter().find(|e| e.title == "#VIB GUARD");
+/// assert_eq!(guard, explain("#VIB GUARD").ok());
+/// ```
+pub fn all(kind: Kind) -> Vec<Explanation> {
+    match kind {
+        Kind::Message => condition::rows().map(message).collect(),
+        Kind::Parameter => table::rows().map(parameter).collect(),
+        Kind::Command => commands::all().collect(),
+        Kind::Word => words::all().map(words::explained).collect(),
+    }
+}
+
 fn message_of(thing: &str) -> Option<&'static condition::Row> {
     let upper = thing.to_ascii_uppercase();
     let digits =

@@ -1,4 +1,16 @@
 //! Axis values and the dynamic limits of one axis.
+//!
+//! First of all: values per axis, and the limits that blocks refer to.
+//!
+//! ```
+//! use kontur_motion::axis::{AxisVec, FeedSlope};
+//!
+//! let at = AxisVec::from_slice(&[10.0, 0.0, -5.0]);
+//! assert_eq!(at.len(), 3);
+//! // P-AXIS-00001, 00002: 3500 mm/s2; P-AXIS-00195 to 00198: 30 ms
+//! let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
+//! assert_eq!(feed.acc_mm_s2 / feed.ramps_s[0], 3500.0 / 0.03);
+//! ```
 
 use smallvec::SmallVec;
 use std::ops::{Deref, DerefMut};

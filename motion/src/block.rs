@@ -1,4 +1,18 @@
 //! What the planner is fed with: one programmed motion with everything that limits it.
+//!
+//! Made from limits ([`crate::axis`]) and geometry ([`crate::path`]), for [`crate::planner::Planner::push`].
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! use kontur_motion::block::{Slope, SlopeKind, Tolerance};
+//!
+//! let dynamics = Arc::new(ChannelDynamics::new(vec![axis(); 2]));
+//! let mut block = Block::new(1, line([0.0, 0.0], [30.0, 40.0]), Feed::PathVelocity(100.0), dynamics);
+//! block.slope = Slope { kind: SlopeKind::Hsc, ..Slope::default() };
+//! block.tolerance = Tolerance { ax_dev_mm: Some(0.01), ..Tolerance::default() };
+//! assert_eq!(block.path.length(), 50.0);
+//! ```
 
 use crate::axis::AxisDynamics;
 use crate::contouring::ContourSettings;

@@ -4,6 +4,24 @@
 //! relevant one behind it are shortened by the corner distances, the curve takes the number of the block before it.
 //! Where that is not possible the corner stays as programmed and a [`Notice`] says why. The stage holds one block, and
 //! those too short to be relevant behind it, at most [`SKIPPED`] of them.
+//!
+//! In front of the planner: blocks go in, blocks and curves come out; [`Contouring::flush`] where the path stops.
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! use kontur_motion::contouring::{ContourMode, ContourSettings, Contouring};
+//!
+//! let mut stage = Contouring::new();
+//! let mut first = block(1, [0.0, 0.0], [10.0, 0.0], 100.0);
+//! first.contour = Some(ContourSettings::default());
+//! assert_eq!(stage.push(first).count(), 0);
+//! let rounded: Vec<Block> = stage.push(block(2, [10.0, 0.0], [10.0, 10.0], 100.0)).collect();
+//! // what is left of the first block, then the parts of the curve in its name
+//! assert!(rounded.iter().all(|b| b.seq == 1));
+//! assert!(rounded[0].path.is_straight() && !rounded[1].path.is_straight());
+//! assert_eq!(stage.flush().count(), 1);
+//! ```
 
 mod blend;
 mod corner;

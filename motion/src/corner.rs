@@ -2,6 +2,23 @@
 //!
 //! At a kink the axis velocity jumps by `v |du_i|`. Sampled with the cycle `T` that is an acceleration of `v |du_i| / T`
 //! for one cycle, which P-AXIS-00013 weights (source: TF5200 axis parameters; formula derived).
+//!
+//! Called for every pair of neighbours as they enter the planner; [`crate::lookahead`] reads the result as a cap.
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! # use kontur_filters::time::CycleTime;
+//! use kontur_motion::corner::{Ends, transition};
+//! use kontur_motion::limit::SpeedLimit;
+//!
+//! let (along_x, along_y) = (block(1, [0.0, 0.0], [10.0, 0.0], 100.0), block(2, [10.0, 0.0], [10.0, 10.0], 100.0));
+//! let (a, b) = (Ends::of(&along_x), Ends::of(&along_y));
+//! let cycle = CycleTime::from_us(1000).unwrap();
+//! // both axes jump by v; 3500 mm/s2 in a cycle of 1 ms are 3.5 mm/s
+//! let (v_mm_s, why) = transition(&along_x, &along_y, &a, &b, cycle, false);
+//! assert!((v_mm_s - 3.5).abs() < 1e-9 && why == SpeedLimit::Corner);
+//! ```
 
 use crate::axis::{AxisDynamics, AxisVec};
 use crate::block::{Block, Feed, SlopeKind, TransitionJerkMode};

@@ -1,6 +1,22 @@
 //! An independent axis: one axis on its own timeline, from rest to rest, with the legs of the path.
 //!
 //! When the next block may start (`INDP_SYN`, `INDP_ASYN`, `#WAIT INDP`) is the caller's.
+//!
+//! Made at the start of the motion and asked for its state in each cycle; [`IndependentMove::stop`] brakes it.
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! # use kontur_filters::time::CycleTime;
+//! use kontur_motion::block::SlopeKind;
+//! use kontur_motion::independent::{IndependentMove, IndependentSpeed};
+//!
+//! let cycle = CycleTime::from_us(1000).unwrap();
+//! let speed = IndependentSpeed::Feed(100.0);
+//! let motion = IndependentMove::new(0.0, -20.0, speed, SlopeKind::Trapez, &axis(), cycle).unwrap();
+//! assert!(motion.state(motion.cycles() / 2).v_mm_s < 0.0);
+//! assert_eq!(motion.state(motion.cycles()).position_mm, -20.0);
+//! ```
 
 use crate::axis::{AxisDynamics, AxisVec, StepSlope};
 use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};

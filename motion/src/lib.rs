@@ -2,6 +2,30 @@
 //!
 //! Units: `_mm _mm_s _mm_s2 _mm_s3` (degrees for rotary axes), `_s`, `_rad`, `_ratio` (1.0 = 100 %), `_cycles`.
 //! The crate knows axes, paths and limits; it knows no NC text, no files and no clock.
+//!
+//! Order of calls: limits of axes and modes of the channel become [`block::ChannelDynamics`], a programmed motion with its
+//! [`path::Path`] a [`block::Block`]. Blocks pass the stages that change the path ([`contouring`], [`spline`]) where the program asks
+//! for them, and go into a [`planner::Planner`], which gives a setpoint for every cycle. The other modules are what it consists of,
+//! and serve whoever looks at a part alone.
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! # use kontur_filters::time::CycleTime;
+//! use kontur_motion::planner::{Next, Planner};
+//!
+//! // 10 mm along X, then 10 mm along Y, at 100 mm/s, with a cycle of 1 ms
+//! let mut planner = Planner::new(CycleTime::from_us(1000).unwrap(), 10, &[0.0, 0.0]);
+//! planner.push(block(1, [0.0, 0.0], [10.0, 0.0], 100.0));
+//! planner.push(block(2, [10.0, 0.0], [10.0, 10.0], 100.0));
+//! planner.finish();
+//! let mut fastest = 0.0_f64;
+//! while planner.advance().unwrap() == Next::Setpoint {
+//!     fastest = fastest.max(planner.setpoint().v_mm_s);
+//! }
+//! assert_eq!(&planner.setpoint().position[..], [10.0, 10.0]);
+//! assert!(fastest <= 100.0);
+//! ```
 
 pub mod axis;
 pub mod block;

@@ -1,4 +1,13 @@
 //! Why the path is not faster.
+//!
+//! The answer that every stage passes on, up to [`crate::planner::Setpoint::limit`].
+//!
+//! ```
+//! use kontur_motion::limit::SpeedLimit;
+//!
+//! assert_eq!(SpeedLimit::AxDev.name(), "ax_dev");
+//! assert_eq!(SpeedLimit::ALL.len(), 7);
+//! ```
 
 /// What held the path speed down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,6 +3,20 @@
 //! On a path with one profile `s(t)` every axis follows `q_i(s)`: its velocity is `v |q_i'|`, its acceleration
 //! `|a q_i' + v^2 q_i''|`. Every limit below is a named function of the block alone; what happens between blocks
 //! stands in [`crate::corner`].
+//!
+//! Called once per block, when it enters the queue ([`crate::queue::Queued::new`]).
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! use kontur_motion::limits::{PathExtremes, PathSpeeds};
+//!
+//! // 1000 mm/s per axis: on the diagonal the path may be sqrt(2) times as fast
+//! let block = block(1, [0.0, 0.0], [10.0, 10.0], 2000.0);
+//! let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
+//! assert!((speeds.axis_mm_s - 1000.0 * 2.0_f64.sqrt()).abs() < 1e-9);
+//! assert_eq!(speeds.programmed_mm_s, 2000.0);
+//! ```
 
 use crate::axis::{AxisDynamics, AxisVec};
 use crate::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind};

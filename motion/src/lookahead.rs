@@ -15,6 +15,28 @@
 //!
 //! Guarantee: every span is feasible, and by induction a stop is possible from every state that is ever output, because
 //! the passes only lower velocities and `reach_down` is monotone.
+//!
+//! Called by the planner with what is in the queue, again for every window.
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! # use kontur_filters::time::CycleTime;
+//! use kontur_motion::limit::SpeedLimit;
+//! use kontur_motion::lookahead::plan;
+//! use kontur_motion::queue::Queued;
+//!
+//! let cycle = CycleTime::from_us(1000).unwrap();
+//! let blocks = [block(1, [0.0, 0.0], [20.0, 0.0], 100.0), block(2, [20.0, 0.0], [20.0, 20.0], 100.0)];
+//! let blocks = blocks.map(|block| Arc::new(Queued::new(block, cycle)));
+//! let feeds: Vec<_> = blocks.iter().map(|queued| queued.velocity).collect();
+//! let caps = [(0.0, SpeedLimit::Stop), (3.5, SpeedLimit::Corner)];
+//! let start = ((0.0, SpeedLimit::Stop), 0.0);
+//! let plan = plan(&blocks, &feeds, &caps, &[false; 2], start, SpeedLimit::Stop).unwrap();
+//! // from rest to the corner, from there to rest
+//! assert!((plan.spans[0].profile.at(plan.spans[0].profile.duration()).v_mm_s - 3.5).abs() < 1e-6);
+//! assert_eq!(plan.spans.last().unwrap().end, 2);
+//! ```
 
 mod late;
 

@@ -2,6 +2,23 @@
 //!
 //! `s` is measured over the feed axes; the other axes are slaved and run linearly in `s`. If no feed axis moves, `s` is
 //! measured over all axes that move (Assumption: the documents are silent; every axis then counts alike).
+//!
+//! Paths are made before their block; the planner asks them for positions and derivatives.
+//!
+//! ```
+//! use kontur_motion::axis::AxisVec;
+//! use kontur_motion::path::{ArcPath, ArcShape, Path};
+//!
+//! // a quarter of a circle of 10 mm around the origin
+//! let [from, to] = [[10.0, 0.0], [0.0, 10.0]].map(|p| AxisVec::from_slice(&p));
+//! let sweep_rad = std::f64::consts::FRAC_PI_2;
+//! let shape = ArcShape { plane: [0, 1], centre_mm: [0.0, 0.0], sweep_rad };
+//! let path = Path::Arc(ArcPath::new(from, to, shape, &[true, true]).unwrap());
+//! assert!((path.length() - 10.0 * sweep_rad).abs() < 1e-12);
+//! let mut curvature = [0.0; 2];
+//! path.curvature(0.0, &mut curvature);
+//! assert!((curvature[0] + 0.1).abs() < 1e-12);
+//! ```
 
 mod arc;
 mod extremes;

@@ -8,6 +8,26 @@
 //!
 //! Override and feedhold take back what is final from the next cycle on, bring the speed to its new value and have the
 //! rest planned again, see `replan`.
+//!
+//! Order of calls: kernels and modes at rest, [`Planner::push`] until [`Planner::advance`] no longer asks for input,
+//! [`Planner::finish`] behind the last block, then [`Planner::advance`] to [`Next::Rest`].
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! # use kontur_filters::time::CycleTime;
+//! use kontur_motion::planner::{Next, Planner};
+//!
+//! let mut planner = Planner::new(CycleTime::from_us(1000).unwrap(), 10, &[0.0, 0.0]);
+//! planner.push(block(7, [0.0, 0.0], [5.0, 0.0], 50.0));
+//! // a window of look-ahead is missing
+//! assert_eq!(planner.advance().unwrap(), Next::Input);
+//! planner.finish();
+//! assert_eq!(planner.advance().unwrap(), Next::Setpoint);
+//! assert_eq!(planner.setpoint().seq, 7);
+//! while planner.advance().unwrap() == Next::Setpoint {}
+//! assert_eq!(planner.setpoint().s_mm, 5.0);
+//! ```
 
 mod extend;
 mod replan;

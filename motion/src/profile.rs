@@ -10,6 +10,20 @@
 //!   acceleration to any other with one jerk limit, for replanning from a moving state and for positioning.
 //!
 //! Nothing here knows axes or geometry: limits arrive already referred to the path.
+//!
+//! A slope is asked what it can reach, then for a profile over a length; a profile is evaluated at times.
+//!
+//! ```
+//! use kontur_motion::profile::{RampShape, RampedLimits, SlopeLimits};
+//!
+//! let limits = RampedLimits::new(RampShape::Trapez, false, 3500.0, 3500.0, [0.03; 4]);
+//! let slope = SlopeLimits::Ramped(limits);
+//! let profile = slope.plan(0.0, 0.0, 200.0, 100.0).unwrap();
+//! // one ramp comes on top of length / speed: v / a + tr, on the way half the speed
+//! let expected = 100.0 / 200.0 + 200.0 / 3500.0 + 0.03;
+//! assert!((profile.duration() - expected).abs() < 1e-9);
+//! assert!((profile.at(0.25).v_mm_s - 200.0).abs() < 1e-9);
+//! ```
 
 mod chain;
 mod join;

@@ -1,4 +1,18 @@
 //! A block in the look-ahead queue with everything that depends on it alone.
+//!
+//! Made by the planner from what is pushed, and read by [`crate::lookahead::plan`].
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! # use kontur_filters::time::CycleTime;
+//! use kontur_motion::limit::SpeedLimit;
+//! use kontur_motion::queue::Queued;
+//!
+//! let queued = Queued::new(block(1, [0.0, 0.0], [10.0, 0.0], 100.0), CycleTime::from_us(1000).unwrap());
+//! assert_eq!(queued.velocity, (100.0, SpeedLimit::Feed));
+//! assert_eq!(queued.ceiling, (1000.0, SpeedLimit::Axis));
+//! ```
 
 use crate::block::{Block, Feed, SlopeKind};
 use crate::corner::Ends;

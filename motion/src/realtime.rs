@@ -1,6 +1,26 @@
 //! What acts on a running path from outside: override and feedhold.
 //!
 //! They are applied at the next cycle; see [`crate::planner`] for how the path gets there.
+//!
+//! Set at the planner at any time between two cycles.
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! # use kontur_filters::time::CycleTime;
+//! use kontur_motion::planner::{Next, Planner};
+//! use kontur_motion::realtime::{FeedholdBraking, OverrideRatios};
+//!
+//! let mut planner = Planner::new(CycleTime::from_us(1000).unwrap(), 10, &[0.0, 0.0]);
+//! planner.push(block(1, [0.0, 0.0], [50.0, 0.0], 100.0));
+//! planner.finish();
+//! planner.set_override(OverrideRatios { feed: 0.5, ..OverrideRatios::default() });
+//! for _ in 0..200 { planner.advance().unwrap(); }
+//! assert!((planner.setpoint().v_mm_s - 50.0).abs() < 1e-9);
+//! planner.feedhold(true, FeedholdBraking::Active);
+//! for _ in 0..200 { planner.advance().unwrap(); }
+//! assert!(planner.is_held() && planner.setpoint().v_mm_s == 0.0);
+//! ```
 
 use crate::block::Block;
 use crate::limit::SpeedLimit;

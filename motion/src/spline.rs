@@ -24,6 +24,26 @@
 //! `PATH_DEV` and `TRACK_DEV` hold for both together: what fairing takes is missing for the corners.
 //!
 //! An edge becomes several blocks with the number of the programmed one where its parts allow different speeds.
+//!
+//! In front of the planner, as [`crate::contouring`]: [`Splining::push`] block by block, [`Splining::flush`] where the path stops.
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! use kontur_motion::spline::{SplineSettings, Splining};
+//!
+//! // a circle of 10 mm in chords of 10 degrees
+//! let point = |i: u64| { let (sin, cos) = libm::sincos(i as f64 * 0.1745); [10.0 * cos, 10.0 * sin] };
+//! let mut stage = Splining::new();
+//! let mut out: Vec<Block> = Vec::new();
+//! for i in 0..36 {
+//!     let mut chord = block(i, point(i), point(i + 1), 100.0);
+//!     chord.spline = Some(SplineSettings::default());
+//!     out.extend(stage.push(chord));
+//! }
+//! out.extend(stage.flush());
+//! assert!(out.iter().all(|block| !block.path.is_straight()));
+//! ```
 
 mod fairing;
 mod pace;

@@ -46,6 +46,39 @@
 //!
 //! Neither: the choice of who slows down. It keeps the tolerance, but is no optimum; `motion/tests/promise.rs` compares it
 //! with the best even speed (`EVEN=1`).
+//!
+//! Set at the planner at rest; what could not be kept is told by [`crate::planner::Planner::take_unkept`].
+//!
+//! ```
+//! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+//! # use doc::*;
+//! # use kontur_filters::time::CycleTime;
+//! use kontur_filters::vib_guard::VibGuardSettings;
+//! use kontur_motion::block::Tolerance;
+//! use kontur_motion::planner::{Next, Planner};
+//! use kontur_motion::tolerance::Kernels;
+//!
+//! let cycle = CycleTime::from_us(1000).unwrap();
+//! let guard = VibGuardSettings { mode: 1, freq_hz: 40.0, damping: 0.1 };
+//! let kernel = Arc::new(guard.kernel(cycle).unwrap());
+//! let seconds = |ax_dev_mm: Option<f64>| {
+//!     let mut planner = Planner::new(cycle, 10, &[0.0, 0.0]);
+//!     let kernels = Kernels::new(vec![Some(Arc::clone(&kernel)); 2]);
+//!     let reach = kernels.length();
+//!     planner.set_kernels(kernels, reach);
+//!     for (seq, from, to) in [(1, [0.0, 0.0], [10.0, 0.0]), (2, [10.0, 0.0], [10.0, 10.0])] {
+//!         let mut block = block(seq, from, to, 100.0);
+//!         block.tolerance = Tolerance { ax_dev_mm, ..Tolerance::default() };
+//!         planner.push(block);
+//!     }
+//!     planner.finish();
+//!     while planner.advance().unwrap() == Next::Setpoint {}
+//!     assert!(planner.take_unkept().is_empty());
+//!     cycle.time_of(planner.setpoint().k)
+//! };
+//! // the promise costs time
+//! assert!(seconds(Some(0.001)) > seconds(None));
+//! ```
 
 mod blame;
 mod even;

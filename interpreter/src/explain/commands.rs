@@ -84,6 +84,11 @@ pub(super) fn names() -> impl Iterator<Item = String> {
     commands::explained().map(|row| format!("#{}", row.name)).chain(functions)
 }
 
+/// Every command, then every function.
+pub(super) fn all() -> impl Iterator<Item = Explanation> {
+    commands::explained().map(of_row).chain(COMMANDS.iter().map(Command::explained))
+}
+
 /// The command with a name; blanks and case do not count, what follows the name is ignored (`#VIB GUARD ON`).
 pub(super) fn find(thing: &str) -> Option<Explanation> {
     let words: Vec<String> = thing.split_whitespace().map(str::to_ascii_uppercase).collect();
@@ -93,24 +98,34 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
         wanted == name || wanted.strip_prefix(name).is_some_and(|rest| rest.starts_with(' '))
     };
     if let Some(function) = COMMANDS.iter().find(|c| c.names.iter().any(|name| is_named(name))) {
-        return Some(explained(
-            function.names.join(", "),
-            [function.syntax, function.meaning, function.note, function.example],
-            function.keys.to_owned(),
-            function.related,
-        ));
+        return Some(function.explained());
     }
     // the longest name: `#CS DEF` is not `#CS`
     let row = commands::explained()
         .filter(|row| is_named(&format!("#{}", row.name)))
         .max_by_key(|row| row.name.len())?;
+    Some(of_row(row))
+}
+
+fn of_row(row: &commands::Row) -> Explanation {
     let keys: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
-    Some(explained(
+    explained(
         format!("#{}", row.name),
         [row.form, row.meaning, row.note, row.example],
         keys.join("; "),
         row.related,
-    ))
+    )
+}
+
+impl Command {
+    fn explained(&self) -> Explanation {
+        explained(
+            self.names.join(", "),
+            [self.syntax, self.meaning, self.note, self.example],
+            self.keys.to_owned(),
+            self.related,
+        )
+    }
 }
 
 fn explained(

@@ -2,7 +2,7 @@
 
 use super::{Explanation, Kind};
 
-struct Word {
+pub(super) struct Word {
     name: &'static str,
     meaning: &'static str,
     facts: &'static [(&'static str, &'static str)],
@@ -104,7 +104,8 @@ const LIMITS: &[Word] = &[
         facts: &[], related: &[] },
 ];
 
-fn all() -> impl Iterator<Item = &'static Word> {
+/// Every word.
+pub(super) fn all() -> impl Iterator<Item = &'static Word> {
     WORDS.iter().chain(LIMITS)
 }
 
@@ -116,8 +117,12 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 /// The word with a name, without regard to case; `S_0_0037` is `S-0-0037`.
 pub(super) fn find(thing: &str) -> Option<Explanation> {
     let wanted = thing.replace("S_0_", "S-0-");
-    let word = all().find(|w| w.name.eq_ignore_ascii_case(&wanted))?;
-    Some(Explanation {
+    all().find(|w| w.name.eq_ignore_ascii_case(&wanted)).map(explained)
+}
+
+/// What is known about a word.
+pub(super) fn explained(word: &Word) -> Explanation {
+    Explanation {
         kind: Kind::Word,
         title: word.name.to_owned(),
         meaning: word.meaning.to_owned(),
@@ -125,5 +130,5 @@ pub(super) fn find(thing: &str) -> Option<Explanation> {
         notes: Vec::new(),
         example: None,
         related: word.related.iter().map(|s| (*s).to_owned()).collect(),
-    })
+    }
 }

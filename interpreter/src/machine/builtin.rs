@@ -10,14 +10,14 @@ use crate::diag::Diagnostic;
 struct Builtin;
 
 const FILES: &[(&str, &str)] = &[
-    ("xyz/hochlauf.lis", include_str!("../../../programs/machines/xyz/hochlauf.lis")),
-    ("xyz/channel.lis", include_str!("../../../programs/machines/xyz/channel.lis")),
-    ("xyz/axes.lis", include_str!("../../../programs/machines/xyz/axes.lis")),
-    ("xyz/x.lis", include_str!("../../../programs/machines/xyz/x.lis")),
-    ("xyz/y.lis", include_str!("../../../programs/machines/xyz/y.lis")),
-    ("xyz/z.lis", include_str!("../../../programs/machines/xyz/z.lis")),
-    ("xyz/s.lis", include_str!("../../../programs/machines/xyz/s.lis")),
-    ("xyz/kontur.lis", include_str!("../../../programs/machines/xyz/kontur.lis")),
+    ("xyz/hochlauf.lis", include_str!("../../machines/xyz/hochlauf.lis")),
+    ("xyz/channel.lis", include_str!("../../machines/xyz/channel.lis")),
+    ("xyz/axes.lis", include_str!("../../machines/xyz/axes.lis")),
+    ("xyz/x.lis", include_str!("../../machines/xyz/x.lis")),
+    ("xyz/y.lis", include_str!("../../machines/xyz/y.lis")),
+    ("xyz/z.lis", include_str!("../../machines/xyz/z.lis")),
+    ("xyz/s.lis", include_str!("../../machines/xyz/s.lis")),
+    ("xyz/kontur.lis", include_str!("../../machines/xyz/kontur.lis")),
 ];
 
 impl ListFiles for Builtin {

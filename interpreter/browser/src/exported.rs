@@ -1,0 +1,119 @@
+//! The names that a page calls. Texts are UTF-8; addresses hold until the next call.
+
+#![expect(unsafe_code, reason = "a name for another language is an unsafe attribute")]
+
+use crate::Session;
+use std::cell::RefCell;
+use std::panic::{PanicHookInfo, set_hook};
+use std::sync::Once;
+
+/// Longest request in bytes.
+const REQUEST_MAX: usize = 4 << 20;
+
+#[derive(Default)]
+struct State {
+    session: Session,
+    request: Vec<u8>,
+    answer: String,
+}
+
+thread_local! {
+    static STATE: RefCell<State> = RefCell::default();
+    /// What the module said when it stopped; it can be read then, too.
+    static LAST_WORDS: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+fn remember(panic: &PanicHookInfo<'_>) {
+    LAST_WORDS.with_borrow_mut(|words| *words = panic.to_string());
+}
+
+fn with<T>(f: impl FnOnce(&mut State) -> T) -> T {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| set_hook(Box::new(remember)));
+    STATE.with_borrow_mut(f)
+}
+
+fn answered(f: impl FnOnce(&mut Session, &str) -> String) {
+    with(|state| {
+        let text = String::from_utf8_lossy(&state.request);
+        state.answer = f(&mut state.session, &text);
+    });
+}
+
+/// Room for a request of so many bytes; null if that is too long.
+#[unsafe(no_mangle)]
+pub extern "C" fn request(bytes: usize) -> *mut u8 {
+    with(|state| {
+        if bytes > REQUEST_MAX {
+            return std::ptr::null_mut();
+        }
+        state.request = vec![0; bytes];
+        state.request.as_mut_ptr()
+    })
+}
+
+/// [`Session::check`] of the request.
+#[unsafe(no_mangle)]
+pub extern "C" fn check() {
+    answered(|session, request| session.check(request));
+}
+
+/// [`Session::explain`] of the request.
+#[unsafe(no_mangle)]
+pub extern "C" fn explain() {
+    answered(|session, request| session.explain(request));
+}
+
+/// [`Session::start`] of the request.
+#[unsafe(no_mangle)]
+pub extern "C" fn start() {
+    answered(Session::start);
+}
+
+/// [`Session::advance`]; 1 while there are more cycles.
+#[unsafe(no_mangle)]
+pub extern "C" fn advance(cycles: u32) -> u32 {
+    with(|state| u32::from(state.session.advance(cycles)))
+}
+
+/// [`Session::finish`].
+#[unsafe(no_mangle)]
+pub extern "C" fn finish() {
+    answered(|session, _| session.finish());
+}
+
+/// Where the answer begins.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer() -> *const u8 {
+    with(|state| state.answer.as_ptr())
+}
+
+/// Its length in bytes.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer_length() -> usize {
+    with(|state| state.answer.len())
+}
+
+/// Where [`Session::column`] begins.
+#[unsafe(no_mangle)]
+pub extern "C" fn column(i: usize) -> *const f64 {
+    with(|state| state.session.column(i).as_ptr())
+}
+
+/// Its number of values.
+#[unsafe(no_mangle)]
+pub extern "C" fn rows() -> usize {
+    with(|state| state.session.column(0).len())
+}
+
+/// Where the reason of a stop of the module begins.
+#[unsafe(no_mangle)]
+pub extern "C" fn last_words() -> *const u8 {
+    LAST_WORDS.with_borrow(|words| words.as_ptr())
+}
+
+/// Its length in bytes.
+#[unsafe(no_mangle)]
+pub extern "C" fn last_words_length() -> usize {
+    LAST_WORDS.with_borrow(String::len)
+}
