@@ -1,8 +1,7 @@
 // The module beside the library: the same bits, messages with places, an end to whatever a program does.
 
 import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
-import { mkdtempSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
@@ -119,6 +118,21 @@ describe("an end", () => {
     expect(messages[0]?.severity).toBe("error");
     // and the module goes on
     expect(engine.check(request("M30\n")).refused).toBe(false);
+  });
+
+  test("no program of the suite of faults, whole or cut anywhere, stops the module", () => {
+    const suite = new URL("tests/suite/faults/", root);
+    const names = readdirSync(suite).filter((name) => name.endsWith(".nc"));
+    expect(names.length).toBeGreaterThan(100);
+    for (const name of names) {
+      const program = readFileSync(new URL(name, suite), "latin1");
+      for (const part of [program, program.slice(0, program.length / 2), program.slice(program.length / 3)]) {
+        if (!engine.start(request(part, { max_rows: 3000 })).refused) {
+          while (engine.advance(1000));
+          engine.finish();
+        }
+      }
+    }
   });
 
   test("what is no request is refused", () => {
