@@ -304,6 +304,7 @@ function load(state: State): void {
   choose(sampleOf(state.sample) ?? (SAMPLES[0] as Sample));
   controls = state.controls;
   trace = undefined;
+  contour.forget();
   keep(undefined);
   editor.text = state.program;
   showControls();
@@ -340,7 +341,6 @@ function prepareHeader(): void {
     const next = sampleOf(select.value);
     if (next) {
       load({ sample: next.id, program: next.program, controls: controlsOf({ ...DEFAULTS, ...next.controls }) });
-      contour.fit();
     }
   });
   $("share").addEventListener("click", async () => {
