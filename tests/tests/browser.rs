@@ -15,7 +15,7 @@ const errors = [];
 window.addEventListener("error", e => errors.push(String(e.message)));
 </script>"#;
 
-const REPORT: &str = r#"<script>
+const REPORT: &str = r##"<script>
 const drawn = canvas => {
   const c = canvas.getContext("2d");
   if (!canvas.width || !canvas.height) return 0;
@@ -36,15 +36,54 @@ const swatches = [...document.querySelectorAll(".key")].map(k => ({
   width: k.querySelector("line").getAttribute("stroke-width"), card: k.parentElement.querySelector("button") ? k.parentElement.querySelector("button").textContent : "contour",
 }));
 const before = view.scale;
+const label = contour.getAttribute("aria-label"), shownKeys = [...document.querySelectorAll(".key")];
+// keys: a step over time, a legend, a turn in space
+const press = (target, key) => target.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true }));
+view.at = 0.05;
+press(plots[0].canvas, "ArrowRight");
+const stepped = view.at;
+press(shownKeys[0], "Enter");
+const hiddenByKey = view.hidden.size;
+press(shownKeys[0], "Enter");
+// a click on a line of the text lights its samples: as many bands of colour on the speed as pixels of the mark
+const rowOf = line => document.querySelectorAll("#program div")[line - 1];
+const marked = () => {
+  const [r, g, b] = /rgba?\((\d+), (\d+), (\d+)/.exec((() => { const e = make("i"); e.style.color = "var(--mark)"; document.body.append(e); return getComputedStyle(e).color; })()).slice(1).map(Number);
+  const canvas = plots[0].canvas, pixels = canvas.getContext("2d").getImageData(0, Math.round(canvas.height / 3), canvas.width, 1).data;
+  // the mark over the ground of the card: red stays high while green and blue fall
+  let n = 0;
+  for (let i = 0; i < pixels.length; i += 4) n += pixels[i] - pixels[i + 1] > 40 && pixels[i + 3] > 0;
+  return n / canvas.width;
+};
+const dark = marked();
+rowOf(4).click();
+const lit = marked(), chosen = rowOf(4).classList.contains("chosen"), chosenLine = view.line;
+rowOf(4).click();
+const unlit = marked();
+// under the pointer the text follows
+view.at = 0.05;
+draw();
+const follows = document.querySelector("#program div.at span").textContent;
+// in space, in the colours of what limits
+const buttons = [...document.querySelectorAll("#planes button")];
+buttons[3].click();
+[...document.querySelectorAll("#paints button")][2].click();
+const inSpace = drawn(contour), limits = [...document.querySelectorAll("#legend .note .key")].map(k => k.textContent);
+const turned = [...view.turn];
+press(contour, "ArrowLeft");
+const turns = view.turn[0] !== turned[0];
+buttons[0].click();
+const shares = [...document.querySelectorAll("#times table")].map(t => [...t.rows].slice(1).map(row => Number(row.cells[2].textContent)).reduce((a, b) => a + b, 0));
 contour.dispatchEvent(new WheelEvent("wheel", { deltaY: -500, clientX: box.left + x, clientY: box.top + y, cancelable: true }));
 const probe = document.createElement("pre");
 probe.id = "probe";
 probe.textContent = JSON.stringify({
-  errors, colours, tip: tipText, swatches, zoomed: view.scale > before,
+  errors, colours, tip: tipText, swatches, zoomed: view.scale > before, label, stepped, hiddenByKey, dark, lit, unlit, chosen, chosenLine,
+  follows, inSpace, limits, turns, shares, span: [begin, end], buckets: runs.map(r => r.k.length),
   requests: performance.getEntriesByType("resource").length, points: runs.map(r => r.pk.length), within: runs.map(r => r.within),
 });
 document.body.append(probe);
-</script>"#;
+</script>"##;
 
 fn browser() -> Option<PathBuf> {
     if let Some(named) = std::env::var_os("KONTUR_BROWSER") {
@@ -57,7 +96,7 @@ fn browser() -> Option<PathBuf> {
 }
 
 /// What the probe sees of the page of some programs.
-fn look(browser: &Path, programs: &[&str]) -> Value {
+fn look(browser: &Path, programs: &[&str], options: &[&str]) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let mut words = vec!["report".to_owned()];
@@ -67,6 +106,7 @@ fn look(browser: &Path, programs: &[&str]) -> Value {
         words.push(name);
     }
     words.extend(["-o".to_owned(), path("page.html")]);
+    words.extend(options.iter().map(|word| (*word).to_owned()));
     let done = command(&words);
     assert_eq!(done.exit, Exit::Finished, "{}", done.err);
     let page = std::fs::read_to_string(path("page.html")).unwrap();
@@ -96,7 +136,7 @@ fn the_page_draws_and_answers() {
         println!("no browser found: nothing tested");
         return;
     };
-    let one = look(&browser, &[SQUARE]);
+    let one = look(&browser, &[SQUARE], &[]);
     assert_eq!(one["errors"], serde_json::json!([]), "{one}");
     assert_eq!(one["requests"], 0, "{one}");
     let colours = one["colours"].as_array().unwrap();
@@ -105,6 +145,36 @@ fn the_page_draws_and_answers() {
     let tip = one["tip"].as_str().unwrap();
     assert!(tip.contains("line 4") && tip.contains("Y  set 10.0000"), "{tip}");
     assert_eq!(one["zoomed"], true);
+    // without a pointer: one step over time is a cycle, a legend hides its curve, an arrow turns the view in space
+    assert!((one["stepped"].as_f64().unwrap() - 0.051).abs() < 1e-9, "{one}");
+    assert_eq!((&one["hiddenByKey"], &one["turns"]), (&1.into(), &true.into()));
+    assert!(one["label"].as_str().unwrap().contains("contour error at most"), "{one}");
+    // the chosen line takes about a quarter of the time, and nothing is lit before and after
+    let lit = one["lit"].as_f64().unwrap();
+    assert!(lit > 0.1 && lit < 0.4, "{one}");
+    assert_eq!((&one["dark"], &one["unlit"], &one["chosen"]), (&0.into(), &0.into(), &true.into()));
+    assert_eq!(one["follows"], "2");
+    assert!(
+        one["inSpace"].as_u64().unwrap() > 3 && one["limits"].as_array().unwrap().len() > 1,
+        "{one}"
+    );
+    // all reasons make up the time
+    assert!((one["shares"][0].as_f64().unwrap() - 100.0).abs() < 0.5, "{one}");
+}
+
+/// Only the part that is asked for is drawn, cycle by cycle.
+#[test]
+fn a_window_draws_a_part() {
+    let Some(browser) = browser() else {
+        println!("no browser found: nothing tested");
+        return;
+    };
+    let all = look(&browser, &[SQUARE], &[]);
+    let part = look(&browser, &[SQUARE], &["--window", "0.05..0.1"]);
+    assert_eq!(part["errors"], serde_json::json!([]), "{part}");
+    assert_eq!(part["span"], serde_json::json!([0.05, 0.1]));
+    assert_eq!(part["buckets"], serde_json::json!([51]));
+    assert!(all["buckets"][0].as_u64().unwrap() > 400, "{all}");
 }
 
 /// With several runs a colour is a run and a dash is an axis, in every plot and its legend; what is actual is thin.
@@ -114,7 +184,7 @@ fn legends_of_several_runs_say_what_is_drawn() {
         println!("no browser found: nothing tested");
         return;
     };
-    let two = look(&browser, &[SQUARE, &SQUARE.replace("FREQ=20", "FREQ=40")]);
+    let two = look(&browser, &[SQUARE, &SQUARE.replace("FREQ=20", "FREQ=40")], &[]);
     assert_eq!(two["errors"], serde_json::json!([]), "{two}");
     let swatches = two["swatches"].as_array().unwrap();
     let of = |card: &str, end: &str| -> Vec<(String, String, f64)> {

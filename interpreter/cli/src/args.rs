@@ -303,8 +303,8 @@ pub struct ReportArgs {
     #[arg(long, value_name = "HZ..HZ", requires = "signals", value_parser = crate::sweep::args::span)]
     pub spectrum: Option<(f64, f64)>,
 
-    /// Part of the run in s that --signals shows, e.g. `0.7..1.9`
-    #[arg(long, value_name = "S..S", requires = "signals", value_parser = crate::sweep::args::span)]
+    /// Part of the run in s that is drawn, e.g. `0.7..1.9`: of a long run every cycle of it
+    #[arg(long, value_name = "S..S", value_parser = crate::sweep::args::span)]
     pub window: Option<(f64, f64)>,
 
     /// What is simulated

@@ -19,10 +19,18 @@ use crate::request::{Opened, Request};
 use crate::run::{Shown, announce_lists, drive};
 use crate::target::keep_apart;
 use crate::vary::{combinations, put};
-use crate::{Error, Exit};
+use crate::{Error, Exit, times};
+use kontur_interpreter::diag::render::printable;
 use kontur_interpreter::summary::{Collector, State, Summary};
+use page::Beside;
 use recording::Recording;
+use std::collections::BTreeSet;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
+
+/// Bytes and lines of a program that a page shows at most.
+const MOST_TEXT_BYTES: u64 = 1 << 19;
+const MOST_TEXT_LINES: usize = 5000;
 
 /// Runs every program and writes the page (`.html`) or the picture (`.svg`). An aborted run is drawn up to its stop.
 ///
@@ -43,26 +51,50 @@ pub fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, Error> {
     if let Some(names) = &args.signals {
         return signals::report(args, names, &output, console);
     }
-    let draw = drawer(&output)?;
+    let form = form(&output)?;
     let mut runs: Vec<(Recording, Summary)> = Vec::new();
+    let mut beside: Vec<Beside> = Vec::new();
+    let mut read_texts = BTreeSet::new();
     for (program, values, request) in requests(args)? {
         let opened = request.open().map_err(|e| announce_lists(e, console))?;
         let Opened { mut run, reads } = opened;
         keep_apart(&reads, std::slice::from_ref(&output))?;
         let mut summary = Collector::new(run.facts());
         let mut recording = Recording::new(run.facts());
+        let mut times = times::Collector::new(run.facts());
+        let cycle_s = run.facts().cycle_s();
+        let is_drawn = |t: f64| args.window.is_none_or(|(from, to)| t >= from && t <= to);
         drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
-            recording.add(record);
+            times.add(record);
+            if is_drawn(record.k as f64 * cycle_s) {
+                recording.add(record);
+            }
             Ok(())
         })?;
         let summary = summary.finish(&run.totals());
+        if let (Some((from, to)), true) = (args.window, summary.cycles > 0)
+            && recording.buckets.is_empty()
+        {
+            let text = format!("--window {from}..{to}: the run ends at {} s", summary.duration_s);
+            return Err(Error::Usage(text));
+        }
+        // several runs of one program show its text once
+        let files = run.facts().files.all();
+        let texts =
+            files.iter().map(|f| read_texts.insert(f.clone()).then(|| lines_of(f)).flatten());
+        let texts = texts.collect();
+        beside.push(Beside { times: times.finish(), texts, window: args.window });
         // runs of one program are told apart by what they vary
         let program = if values.is_empty() { program } else { format!("{program}, {values}") };
         runs.push((recording, Summary { program, ..summary }));
     }
     // of refused programs there is nothing to draw
     if runs.iter().any(|(_, s)| s.cycles > 0) {
-        crate::target::write(&output, draw(&runs).as_bytes())?;
+        let drawn = match form {
+            Form::Picture => picture::draw(&runs),
+            Form::Page => page::draw(&runs, &beside),
+        };
+        crate::target::write(&output, drawn.as_bytes())?;
     }
     let aborted = runs.iter().any(|(_, s)| s.state == State::Aborted);
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
@@ -85,16 +117,32 @@ fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request)>, Error> 
     Ok(all)
 }
 
-type Draw = fn(&[(Recording, Summary)]) -> String;
+/// What a report is written as.
+#[derive(Clone, Copy, Debug)]
+enum Form {
+    Picture,
+    Page,
+}
 
-fn drawer(output: &Path) -> Result<Draw, Error> {
+fn form(output: &Path) -> Result<Form, Error> {
     let is = |end: &str| output.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
     if is("svg") {
-        Ok(picture::draw)
+        Ok(Form::Picture)
     } else if is("html") || is("htm") {
-        Ok(page::draw)
+        Ok(Form::Page)
     } else {
         let name = PathBuf::from(output).display().to_string();
         Err(Error::Usage(format!("{name}: a report is a page (.html) or a picture (.svg)")))
     }
+}
+
+/// The lines of a program, if it is a file and not longer than a page should hold.
+fn lines_of(file: &str) -> Option<Vec<String>> {
+    let file = crate::files::regular(Path::new(file)).ok()?;
+    let mut bytes = Vec::new();
+    file.take(MOST_TEXT_BYTES + 1).read_to_end(&mut bytes).ok()?;
+    let fits = bytes.len() as u64 <= MOST_TEXT_BYTES;
+    let text = String::from_utf8_lossy(&bytes);
+    let lines: Vec<String> = text.lines().map(printable).collect();
+    (fits && lines.len() <= MOST_TEXT_LINES).then_some(lines)
 }

@@ -203,7 +203,10 @@ impl Collector {
                 Reason::AxisA => self.nearest_to_its_limit(record, true),
                 _ => None,
             };
-            let key = (reason, axis, record.path.limit);
+            // what a speed is held by is its reason already
+            let changes = matches!(reason, Reason::AxisA | Reason::Slope);
+            let towards = if changes { record.path.limit } else { SpeedLimit::Feed };
+            let key = (reason, axis, towards);
             self.count(record, key, record.k.saturating_sub(before));
         }
         self.last_k = Some(record.k);

@@ -5,8 +5,11 @@ use crate::args::setting;
 use crate::request::Request;
 use crate::response::args::Numbers;
 use kontur_interpreter::machine::Override;
+use kontur_interpreter::machine::table::{Bound, Raw};
 use std::str::FromStr;
 
+/// A whole parameter with fewer values than this chooses one of several ways.
+const MOST_CHOICES: f64 = 8.0;
 /// More combinations than this are a slip of the hand.
 const MOST_COMBINATIONS: usize = 100_000;
 
@@ -53,6 +56,19 @@ impl Vary {
     /// The last part of the key, where it says enough: `kv`, `enable`.
     pub(crate) fn short(&self) -> &str {
         self.key.rsplit('.').next().unwrap_or(&self.key)
+    }
+
+    /// True if its numbers only name one of a few ways, as a mode does: nothing lies between two of them.
+    pub(crate) fn is_choice(&self) -> bool {
+        let row =
+            self.values.first().and_then(|v| Override::parse(&format!("{}={v}", self.key)).ok());
+        let Some(row) = row.and_then(|o| o.parameter()) else { return false };
+        match (row.raw, row.low, row.high) {
+            (Raw::Boolean | Raw::Names(_) | Raw::Word(_) | Raw::Flags(_), _, _) => true,
+            (Raw::Real64 | Raw::Text, _, _) => false,
+            (_, Bound::At(low), Bound::At(high)) => high - low < MOST_CHOICES,
+            _ => false,
+        }
     }
 
     /// What the parameter is, with its ID, as `explain` says it.

@@ -2,18 +2,42 @@
 
 use super::recording::{Bucket, Curve, Kind, Point, Recording, programmed};
 use super::stops::Stop;
+use crate::times::Times;
 use crate::trace::fixed::push_fixed;
 use kontur_interpreter::summary::Summary;
 use serde_json::json;
 
 /// Page with the places `/*STYLE*/`, `/*DATA*/` and `/*SCRIPT*/`.
-const PAGE: &str = include_str!("page.html");
-const STYLE: &str = include_str!("page.css");
-const SCRIPT: &str = include_str!("page.js");
+const PAGE: &str = include_str!("page/page.html");
+const STYLE: &str = include_str!("page/page.css");
+/// One script in the order in which its parts need each other.
+const SCRIPT: &str = concat!(
+    include_str!("page/base.js"),
+    include_str!("page/legend.js"),
+    include_str!("page/contour.js"),
+    include_str!("page/plots.js"),
+    include_str!("page/program.js"),
+    include_str!("page/pointer.js"),
+    include_str!("page/around.js"),
+);
+
+/// Lines whose times the page knows, the most expensive ones.
+const MOST_LINES: usize = 5000;
+
+/// What a page shows of a run beside its curves.
+#[derive(Debug)]
+pub(super) struct Beside {
+    /// Where the time went.
+    pub(super) times: Times,
+    /// The lines of each source file, as far as they are shown.
+    pub(super) texts: Vec<Option<Vec<String>>>,
+    /// The part of the run that is drawn, in s.
+    pub(super) window: Option<(f64, f64)>,
+}
 
 /// The page of one or several runs.
-pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
-    let data: Vec<String> = runs.iter().map(|(r, s)| run(r, s)).collect();
+pub(super) fn draw(runs: &[(Recording, Summary)], beside: &[Beside]) -> String {
+    let data: Vec<String> = runs.iter().zip(beside).map(|((r, s), b)| run(r, s, b)).collect();
     let title = runs.iter().map(|(_, s)| s.program.as_str()).collect::<Vec<_>>().join(", ");
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
     PAGE.replace("/*TITLE*/", &title)
@@ -22,7 +46,7 @@ pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
         .replacen("/*DATA*/", &format!("[{}]", data.join(",\n")), 1)
 }
 
-fn run(r: &Recording, s: &Summary) -> String {
+fn run(r: &Recording, s: &Summary, beside: &Beside) -> String {
     let points: Vec<Point> = r.points().copied().collect();
     let names: Vec<&str> = r.plane.iter().map(|&i| r.facts.axes[i].name.as_str()).collect();
     let mut out = Json::new();
@@ -39,6 +63,7 @@ fn run(r: &Recording, s: &Summary) -> String {
     out.text("block", &buckets(|b| b.block.map_or_else(|| "null".to_owned(), |n| n.to_string())));
     out.text("limit", &buckets(|b| format!("\"{}\"", b.limit.name())));
     out.text("pk", &join(points.iter().map(|p| p.k.to_string())));
+    out.text("pline", &join(points.iter().map(|p| p.line.to_string())));
     out.text("pass", &join(points.iter().map(|p| p.pass.to_string())));
     for (name, of) in
         [("ipo", (|p| p.ipo) as fn(&Point) -> [f64; 3]), ("set", |p| p.set), ("act", |p| p.act)]
@@ -56,6 +81,14 @@ fn run(r: &Recording, s: &Summary) -> String {
     );
     let shown = r.curves.iter().enumerate().filter(|(i, c)| tells_something(r, *i, c));
     out.text("curves", &join(shown.map(|(i, c)| curve(r, i, c))));
+    let times = &beside.times;
+    let lines = times.lines.get(..MOST_LINES).unwrap_or(&times.lines);
+    let times = json!({
+        "duration_s": times.duration_s, "reasons": times.reasons, "lines": lines, "axes": times.axes,
+    });
+    out.text("times", &safe(&times.to_string()));
+    out.text("texts", &safe(&json!(beside.texts).to_string()));
+    out.text("window", &json!(beside.window).to_string());
     out.text("stops", &join(r.stops.found().iter().map(|s| stop(r, s))));
     out.finish()
 }

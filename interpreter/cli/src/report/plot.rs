@@ -1,6 +1,7 @@
 //! Pictures of curves: panels with linear or logarithmic axes, one legend.
 
 use super::svg::{COLOURS, FAINT, INK, Panel, Stroke, Svg, ticks};
+use std::borrow::Cow;
 
 const WIDTH: f64 = 1100.0;
 const MARGIN: f64 = 70.0;
@@ -10,6 +11,8 @@ const GRID: &str = "#e9ecef";
 const LONG_NAME: usize = 66;
 /// Dashes tell curves apart when the colours are used up.
 const DASHES: [&str; 3] = ["", "7 4", "2 3"];
+/// Part of the distance of two places that the points of the series at one of them take.
+const DODGE: f64 = 0.5;
 /// Dashes of a curve that covers another one.
 const OVER: &str = "8 8";
 
@@ -46,20 +49,28 @@ pub(crate) struct Diagram {
 /// One direction of a panel.
 #[derive(Clone, Debug)]
 pub(crate) struct Scale {
-    pub(crate) label: &'static str,
+    pub(crate) label: Cow<'static, str>,
     pub(crate) range: (f64, f64),
     pub(crate) logarithmic: bool,
+    /// Names of the places 0, 1, 2, ... of a direction that is no quantity: nothing lies between them.
+    pub(crate) categories: Vec<String>,
 }
 
 impl Scale {
     /// A linear scale.
-    pub(crate) const fn linear(label: &'static str, range: (f64, f64)) -> Self {
-        Self { label, range, logarithmic: false }
+    pub(crate) fn linear(label: impl Into<Cow<'static, str>>, range: (f64, f64)) -> Self {
+        Self { label: label.into(), range, logarithmic: false, categories: Vec::new() }
     }
 
     /// A logarithmic scale; both ends are above 0.
-    pub(crate) const fn logarithmic(label: &'static str, range: (f64, f64)) -> Self {
-        Self { label, range, logarithmic: true }
+    pub(crate) fn logarithmic(label: impl Into<Cow<'static, str>>, range: (f64, f64)) -> Self {
+        Self { logarithmic: true, ..Self::linear(label, range) }
+    }
+
+    /// Named places side by side.
+    pub(crate) fn categories(label: impl Into<Cow<'static, str>>, names: Vec<String>) -> Self {
+        let range = (-0.5, names.len() as f64 - 0.5);
+        Self { categories: names, ..Self::linear(label, range) }
     }
 
     /// What is drawn for a value.
@@ -132,13 +143,17 @@ impl Plot {
 
 impl Diagram {
     fn draw(&self, svg: &mut Svg, panel: &Panel) {
+        // the frame and the other direction; the ticks of this one follow
+        let flat = Panel { x: (0.0, 0.0), ..*panel };
         if self.x.logarithmic {
-            // the frame and the other direction; the ticks of this one follow
-            let flat = Panel { x: (0.0, 0.0), ..*panel };
-            svg.axes(&flat, &self.title, self.x.label, self.y.label);
+            svg.axes(&flat, &self.title, &self.x.label, &self.y.label);
             decades(svg, panel, self.x.range);
+        } else if self.x.categories.is_empty() {
+            svg.axes(panel, &self.title, &self.x.label, &self.y.label);
         } else {
-            svg.axes(panel, &self.title, self.x.label, self.y.label);
+            svg.axes(&flat, &self.title, &self.x.label, &self.y.label);
+            self.places(svg, panel);
+            return;
         }
         svg.clip(panel);
         for &level in &self.levels {
@@ -160,6 +175,26 @@ impl Diagram {
             }
         }
         svg.end_group();
+    }
+
+    /// Places with names and, side by side, a point of every series.
+    fn places(&self, svg: &mut Svg, panel: &Panel) {
+        let style = format!("fill=\"{FAINT}\" font-size=\"11\"");
+        for (place, name) in (0_u32..).zip(&self.x.categories) {
+            let [x, bottom] = panel.at([f64::from(place), panel.y.0]);
+            svg.text([x, bottom + 15.0], "middle", &style, name);
+        }
+        let step = DODGE / (self.lines.len() as f64).max(1.0);
+        for (number, line) in (0_u32..).zip(&self.lines) {
+            let aside = step * (f64::from(number) - 0.5 * (self.lines.len() as f64 - 1.0));
+            let stroke = line.series.map_or(FAINT, |series| stroke(series, 1.0).colour);
+            for point in line.points.iter().filter(|p| p[1].is_finite()) {
+                let foot = panel.at([point[0] + aside, panel.y.0.max(0.0)]);
+                let at = panel.at([point[0] + aside, self.y.drawn(point[1])]);
+                svg.line(foot, at, Stroke { colour: stroke, width: 1.4, dash: "" });
+                svg.dot(at, 4.0, stroke);
+            }
+        }
     }
 
     /// Two series have the same points, but for `tolerance` upwards.
@@ -257,6 +292,31 @@ mod tests {
             assert!(svg.contains(name), "{name}");
         }
         assert!(!svg.contains("NaN"));
+    }
+
+    /// Between two modes there is nothing: points with names, beside each other where several series have one.
+    #[test]
+    fn categories_are_points() {
+        let line =
+            |series, y| Line { series: Some(series), points: vec![[0.0, y], [1.0, 2.0 * y]] };
+        let names = vec!["HSC".to_owned(), "TRAPEZ".to_owned()];
+        let diagram = Diagram {
+            title: String::new(),
+            x: Scale::categories("type", names),
+            y: Scale::linear("s", (0.0, 4.0)),
+            equal: false,
+            lines: vec![line(0, 1.0), line(1, 1.0)],
+            levels: Vec::new(),
+        };
+        let plot = Plot { columns: 1, row_height: 300.0, panels: vec![diagram], ..Plot::default() };
+        let svg = plot.draw();
+        let dots: Vec<&str> = svg.lines().filter(|l| l.starts_with("<circle")).collect();
+        assert_eq!(dots.len(), 4);
+        assert!((1..4).all(|i| {
+            dots[..i].iter().all(|d| d.split(" cy").next() != dots[i].split(" cy").next())
+        }));
+        assert!(svg.contains(">HSC<") && svg.contains(">TRAPEZ<") && svg.contains(">type<"));
+        assert!(!svg.contains("<path"));
     }
 
     #[test]

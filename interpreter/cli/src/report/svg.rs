@@ -106,6 +106,12 @@ impl Svg {
         self.push(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" {style}/>"));
     }
 
+    /// A filled circle.
+    pub(super) fn dot(&mut self, [x, y]: [f64; 2], radius: f64, colour: &str) {
+        let [x, y, r] = [x, y, radius].map(px);
+        self.push(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{colour}\"/>"));
+    }
+
     /// Opens a group that shows nothing outside the panel; [`Svg::end_group`] closes it.
     pub(super) fn clip(&mut self, p: &Panel) {
         self.clips += 1;

@@ -22,7 +22,7 @@ struct Series<'a> {
 /// Draws the results.
 ///
 /// # Errors
-/// [`Error::Usage`] if the first parameter takes words, or if there are too many curves.
+/// [`Error::Usage`] if there are too many curves.
 pub(super) fn draw(
     args: &SweepArgs,
     combinations: &[Vec<usize>],
@@ -32,9 +32,11 @@ pub(super) fn draw(
         .vary
         .split_first()
         .ok_or_else(|| Error::Usage("--vary names what the picture goes over".to_owned()))?;
-    let values = first.numbers().ok_or_else(|| {
-        Error::Usage(format!("--vary {}: a picture needs numbers to go over", first.key))
-    })?;
+    // a mode is no quantity, even if it has a number
+    let numbers = first.numbers().filter(|_| !first.is_choice());
+    let is_choice = numbers.is_none();
+    let values =
+        numbers.unwrap_or_else(|| (0_u32..).map(f64::from).take(first.values.len()).collect());
     let mut series: Vec<Series<'_>> = Vec::new();
     for (row, combination) in combinations.iter().enumerate() {
         let (&i, rest) = combination.split_first().unwrap_or((&0, &[]));
@@ -91,11 +93,15 @@ pub(super) fn draw(
                     Line { series: Some(number), points }
                 })
                 .collect();
-            let x = around(values.iter().copied(), 1e-9);
+            let x = if is_choice {
+                Scale::categories(first.key.clone(), first.values.clone())
+            } else {
+                Scale::linear(first.key.clone(), around(values.iter().copied(), 1e-9))
+            };
             let y = around(lines.iter().flat_map(|l| &l.points).map(|p| p[1]).chain([0.0]), 1e-9);
             Diagram {
                 title: name.clone(),
-                x: Scale::linear("", x),
+                x,
                 y: Scale::linear("", y),
                 equal: false,
                 lines,

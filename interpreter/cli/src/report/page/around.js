@@ -1,0 +1,98 @@
+// ---- what stands around the plots
+key(byId("legend"), "programmed", "var(--programmed)", "programmed", [], 5);
+groups.forEach(g => key(byId("legend"), g.name, g.colour, g, g.dash));
+if (groups.length > 1) key(byId("legend"), "set", "var(--ink)", "set");
+key(byId("legend"), "actual", "var(--ink)", "act", [4, 3], 1);
+const scaleLegend = make("div", undefined, "note");
+byId("legend").append(scaleLegend);
+// one of several: buttons of which one is on
+function choice(parent, names, chosen, pick) {
+  const buttons = names.map(([what, name]) => {
+    const b = make("button", name, what === chosen ? "on" : "");
+    b.setAttribute("aria-pressed", what === chosen);
+    b.onclick = () => {
+      for (const other of buttons) {
+        other.className = other === b ? "on" : "";
+        other.setAttribute("aria-pressed", other === b);
+      }
+      pick(what);
+      draw();
+    };
+    parent.append(b);
+    return b;
+  });
+}
+const most = Math.max(...runs.map(r => r.plane.length));
+const HOW = "wheel or two fingers zoom, drag moves, double click shows all; arrows, + and - do so, too";
+byId("how").textContent = HOW;
+if (most === 3) {
+  const plane = (p, i) => [i, p.map(a => runs.find(r => r.plane.length > a).plane[a]).join("")];
+  choice(byId("planes"), [...PLANES.map(plane), [SPACE, "3D"]], 0, i => {
+    view.plane = i;
+    view.turn = [...ISOMETRIC];
+    byId("how").textContent = i === SPACE ? "drag turns, with Shift or two fingers it moves" : HOW;
+    showAll();
+  });
+}
+choice(byId("paints"), [["run", groups.length > 1 && one ? "by pass" : "by run"], ["speed", "by speed"], ["limit", "by limit"]], "run", what => {
+  view.paint = what;
+  scaleLegend.replaceChildren();
+  if (what === "speed") {
+    const ramp = make("span", undefined, "ramp");
+    ramp.style.background = `linear-gradient(90deg, ${RAMP.join(",")})`;
+    scaleLegend.append("0", ramp, `${fastest.toFixed(1)} mm/s reached`);
+  } else if (what === "limit") {
+    const used = new Set(runs.flatMap(r => r.limit));
+    LIMITS.forEach((name, i) => {
+      if (!used.has(name)) return;
+      const k = make("span", undefined, "key");
+      k.append(swatchOf(colour(i), DASHES[i], 2.4), name);
+      scaleLegend.append(k);
+    });
+  }
+});
+byId("facts").textContent = runs.map(({ summary: s, window: w }) => {
+  const e = s.max_contour_error;
+  return `${one ? "" : s.program + ": "}machine ${s.machine} · cycle ${s.cycle_us / 1000} ms · ${s.duration_s.toFixed(3)} s (path / feed ${s.ideal_duration_s.toFixed(3)} s) · ${s.state}`
+    + (e && e.mm > VISIBLE ? ` · contour error at most ${e.mm.toFixed(5)} mm at ${e.time_s.toFixed(4)} s, line ${e.line}` : "")
+    + (w ? ` · drawn: ${w[0]} to ${w[1]} s` : "");
+}).join("\n");
+const head = make("tr");
+["axis", "|vel| /s", "|acc| /s²", "|jerk| /s³", "|err|", "|dev|", "|lag|", "delay", "position", "torque Nm"].forEach(t => head.append(make("th", t)));
+byId("axes").append(head);
+for (const { summary: s, times } of runs) for (const a of s.axes) {
+  const row = make("tr"), range = times.axes.find(r => r.name === a.name), span = (list, digits) => list.map(v => v.toFixed(digits)).join(" .. ");
+  [`${one ? "" : s.program + " "}${a.name} ${a.unit}`, a.max_vel.toFixed(3), a.max_acc.toFixed(1), a.max_jerk.toFixed(0), a.max_err.toFixed(6),
+    a.max_dev.toFixed(6), a.max_lag.toFixed(6), (a.filter_delay_cycles * s.cycle_us / 1000).toFixed(2) + " ms",
+    range ? span(range.position, 3) : "", range && range.torque_n_m.some(v => v !== 0) ? span(range.torque_n_m, 2) : "-"].forEach(t => row.append(make("td", t)));
+  byId("axes").append(row);
+}
+for (const { summary: s } of runs) for (const m of s.messages.slice(0, 50)) {
+  const place = m.source ? `${m.source.file}:${m.source.line}:${m.source.column}: ` : "";
+  byId("messages").append(make("div", `${place}${m.severity} ${m.id || m.kontur_id}: ${m.text}`, m.severity));
+}
+const widest = Math.max(...runs.map(r => r.width)), within = Math.max(...runs.map(r => r.within));
+if (within > VISIBLE) byId("legend").append(make("div",
+  `Points of the contour are left out where they lie within ${(within * 1000).toPrecision(2)} µm of the lines that are drawn; --window draws a part of the run with all of them.`, "note"));
+if (widest > 1) byId("legend").append(make("div",
+  `Over time least and greatest value of ${widest} cycles each; under the pointer their middle. --window draws a part of the run cycle by cycle.`, "note"));
+
+// what a canvas shows, for those who do not see it
+function describe() {
+  contour.setAttribute("aria-label", `Contour of ${runs.map(r => r.summary.program).join(", ")}. ` + runs.map(({ summary: s }) =>
+    `${s.duration_s.toFixed(3)} s, ${s.path_length_mm.toFixed(3)} mm` + (s.max_contour_error ? `, contour error at most ${s.max_contour_error.mm.toFixed(5)} mm` : "")).join("; "));
+  for (const { canvas, title, lines } of plots) canvas.setAttribute("aria-label", `${title} over time. ` + lines.map(({ name, c }) => {
+    const low = c.low.reduce((m, v) => Math.min(m, v), Infinity), high = (c.high || c.low).reduce((m, v) => Math.max(m, v), -Infinity);
+    return `${name} ${low.toPrecision(5)} to ${high.toPrecision(5)} ${c.unit}`;
+  }).join("; "));
+}
+function draw() { drawContour(); plots.forEach(drawPlot); followProgram(); }
+function redraw() { values.clear(); if (view.whole) showAll(); draw(); }
+describe();
+showAll();
+draw();
+window.addEventListener("resize", () => { if (view.whole) showAll(); draw(); });
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+// paper is white
+window.addEventListener("beforeprint", () => { document.documentElement.dataset.theme = "light"; view.at = null; redraw(); });
+window.addEventListener("afterprint", () => { delete document.documentElement.dataset.theme; redraw(); });
