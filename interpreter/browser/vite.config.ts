@@ -12,5 +12,5 @@ export default defineConfig({
   build: { outDir: "../dist", emptyOutDir: true, assetsInlineLimit: 1 << 26, chunkSizeWarningLimit: 1 << 14, target: "es2022" },
   // a worker of modules may not start from a file
   worker: { format: "iife" },
-  test: { root: ".", include: ["test/**/*.test.ts"], testTimeout: 120_000, hookTimeout: 120_000, fileParallelism: false },
+  test: { root: ".", include: ["test/**/*.test.ts"], globalSetup: ["test/native.ts"], testTimeout: 120_000, hookTimeout: 120_000, fileParallelism: false },
 });

@@ -20,6 +20,9 @@ fn hash(program: &str, signals: &str, settings: &[String]) -> Result<String, Box
     let sources = MemorySources::new().with("part.nc", std::fs::read(program)?);
     let job = Job::new(machine, sources, "part.nc");
     let mut run = job.start().map_err(|said| render::all(&said))?;
+    if run.is_over() {
+        return Err(render::all(&run.take_diagnostics()).into());
+    }
     let mut columns = select(signals, run.facts())?;
     columns.retain(|column| column.number(run.record()).is_some());
     let mut values = vec![Vec::new(); columns.len()];

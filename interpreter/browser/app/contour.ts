@@ -61,6 +61,12 @@ export class Contour {
     }
   }
 
+  /** The next run is shown as a whole. */
+  forget(): void {
+    this.trace = undefined;
+    this.view = undefined;
+  }
+
   keep(trace: Trace | undefined): void {
     this.kept = trace;
     this.draw();

@@ -40,6 +40,8 @@ let sample: Sample = SAMPLES[0] as Sample;
 let trace: Trace | undefined;
 let kept: Trace | undefined;
 let asked = 0;
+/** What stays to be said beside a result, until another program is chosen. */
+let remark = "";
 let editor: Editor;
 let client: Client;
 
@@ -113,7 +115,7 @@ function finished(result: RunResult): void {
   contour.show(trace);
   plots.forEach((plot) => trace && plot.show(trace));
   $("results-title").closest(".results")?.classList.remove("stale");
-  notice(trace.cut ? `Stopped after ${(trace.rows * trace.cycle_s).toFixed(0)} s of the program: the page shows no more. The command line has no such limit.` : "");
+  notice(trace.cut ? `Stopped after ${(trace.rows * trace.cycle_s).toFixed(0)} s of the program: the page shows no more. The command line has no such limit.` : remark);
   goal();
   void hash();
   const drawn = performance.now() - asked;
@@ -304,6 +306,8 @@ function load(state: State): void {
   choose(sampleOf(state.sample) ?? (SAMPLES[0] as Sample));
   controls = state.controls;
   trace = undefined;
+  remark = "";
+  contour.forget();
   keep(undefined);
   editor.text = state.program;
   showControls();
@@ -340,7 +344,6 @@ function prepareHeader(): void {
     const next = sampleOf(select.value);
     if (next) {
       load({ sample: next.id, program: next.program, controls: controlsOf({ ...DEFAULTS, ...next.controls }) });
-      contour.fit();
     }
   });
   $("share").addEventListener("click", async () => {
@@ -401,7 +404,8 @@ async function main(): Promise<void> {
   });
   load(first);
   if (location.hash.length > 1 && !linked) {
-    notice("The link holds no program of this page.");
+    remark = "The link holds no program of this page.";
+    notice(remark);
   }
 }
 

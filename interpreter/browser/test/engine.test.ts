@@ -1,8 +1,6 @@
 // The module beside the library: the same bits, messages with places, an end to whatever a program does.
 
-import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
-import { mkdtempSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
@@ -15,6 +13,7 @@ import { EXERCISES, SAMPLES, sampleOf } from "../app/samples";
 import { DEFAULTS, RANGES, controlsOf, settings, tolerance, type Controls } from "../app/settings";
 import { fromLink, toLink } from "../app/share";
 import { SIGNALS, Trace } from "../app/trace";
+import { native } from "./native";
 
 const root = new URL("../../../", import.meta.url);
 const bytes = gunzipSync(readFileSync(new URL("../app/generated/kontur.wasm.gz", import.meta.url)));
@@ -38,12 +37,6 @@ function run(program: string, more: Partial<Request> = {}): RunResult {
   return { started, finished, columns, lines: engine.column(started.columns.length), took_ms: 0 };
 }
 
-function native(words: string[]): string {
-  // what `cargo test` has built already
-  const command = ["run", "--quiet", "--profile", "test", "-p", "kontur-interpreter", "--example", "trace_hash", "--", ...words];
-  return execFileSync("cargo", command, { cwd: root }).toString();
-}
-
 describe("bits", () => {
   const controls = { ...DEFAULTS, guard: true, freq_hz: 33.5, slope: "HSC", ramp_ms: 25 } as Controls;
   test.each([
@@ -57,7 +50,7 @@ describe("bits", () => {
     writeFileSync(path, program);
     const trace = new Trace(run(program, { settings: set }));
     const hash = await traceHash(trace.all());
-    const expected = native(["--signals", SIGNALS.join(","), ...set.flatMap((s) => ["--set", s]), path]);
+    const expected = native("examples/trace_hash", ["--signals", SIGNALS.join(","), ...set.flatMap((s) => ["--set", s]), path]);
     expect(expected.split(" ")[0]).toBe(hash);
   });
 
@@ -119,6 +112,21 @@ describe("an end", () => {
     expect(messages[0]?.severity).toBe("error");
     // and the module goes on
     expect(engine.check(request("M30\n")).refused).toBe(false);
+  });
+
+  test("no program of the suite of faults, whole or cut anywhere, stops the module", () => {
+    const suite = new URL("tests/suite/faults/", root);
+    const names = readdirSync(suite).filter((name) => name.endsWith(".nc"));
+    expect(names.length).toBeGreaterThan(100);
+    for (const name of names) {
+      const program = readFileSync(new URL(name, suite), "latin1");
+      for (const part of [program, program.slice(0, program.length / 2), program.slice(program.length / 3)]) {
+        if (!engine.start(request(part, { max_rows: 3000 })).refused) {
+          while (engine.advance(1000));
+          engine.finish();
+        }
+      }
+    }
   });
 
   test("what is no request is refused", () => {
@@ -219,12 +227,7 @@ describe("problem matcher of the book", () => {
     const [head, place] = tasks.tasks[0].problemMatcher.pattern as { regexp: string; [group: string]: string | number }[];
     const path = join(folder, "wrong.nc");
     writeFileSync(path, `${"N10 G04 0.1\n".repeat(120)}N20 G777\n`);
-    let said = "";
-    try {
-      execFileSync("cargo", ["run", "--quiet", "--profile", "test", "-p", "kontur", "--", "check", path], { cwd: root, stdio: "pipe" });
-    } catch (e) {
-      said = (e as { stderr: Buffer }).stderr.toString();
-    }
+    const said = native("kontur", ["check", path]);
     const lines = said.split("\n");
     const at = lines.findIndex((line) => new RegExp(head?.regexp ?? "").test(line));
     const first = lines[at]?.match(head?.regexp ?? "");

@@ -2,7 +2,6 @@
 //
 // KONTUR_BROWSER names the browser; without one nothing is tested, and the tests say so.
 
-import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -12,10 +11,10 @@ import { SAMPLES } from "../app/samples";
 import { DEFAULTS, settings } from "../app/settings";
 import { toLink } from "../app/share";
 import { SIGNALS } from "../app/trace";
+import { native } from "./native";
 
 const executablePath = process.env.KONTUR_BROWSER ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path)) ?? "";
 const url = new URL("../dist/index.html", import.meta.url).href;
-const root = new URL("../../../", import.meta.url);
 const SQUARE = SAMPLES[0];
 
 describe.skipIf(executablePath === "")("the page", () => {
@@ -92,8 +91,7 @@ describe.skipIf(executablePath === "")("the page", () => {
     const path = join(folder, "square.nc");
     writeFileSync(path, SQUARE?.program ?? "");
     const set = settings({ ...DEFAULTS, ...SQUARE?.controls, freq_hz: 33 }).flatMap((s) => ["--set", s]);
-    const words = ["run", "--quiet", "--profile", "test", "-p", "kontur-interpreter", "--example", "trace_hash", "--", "--signals", SIGNALS.join(","), ...set, path];
-    const expected = execFileSync("cargo", words, { cwd: root }).toString().split(" ")[0];
+    const expected = native("examples/trace_hash", ["--signals", SIGNALS.join(","), ...set, path]).split(" ")[0];
     expect(await page.locator("#hash").textContent()).toBe(expected);
     await page.context().close();
   });
@@ -143,7 +141,8 @@ describe.skipIf(executablePath === "")("the page", () => {
     await page.context().close();
     await again.context().close();
     const broken = await open("#nonsense");
-    await expect.poll(() => broken.locator("#notice").textContent()).toContain("no program");
+    await broken.waitForFunction(() => document.documentElement.dataset.drawn !== undefined);
+    expect(await broken.locator("#notice").textContent()).toContain("no program");
     await broken.context().close();
   });
 

@@ -3,6 +3,7 @@
 //! Owns the modal state ([`modal`]) and the words of the block in work; reads values, and tells motion, contour, shaping
 //! and geometry what to do. It knows no files and no other block.
 
+mod addresses;
 pub(super) mod brackets;
 pub(super) mod dialect;
 pub(super) mod din;

@@ -10,4 +10,5 @@ pub(super) mod files;
 pub(super) mod flow;
 pub(super) mod index;
 pub(super) mod info;
+pub(super) mod sequence;
 pub(super) mod unreached;

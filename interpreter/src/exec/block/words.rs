@@ -11,8 +11,8 @@ use crate::exec::options::Value;
 use crate::exec::suggest;
 use crate::exec::values::system;
 use crate::syntax::ast::{
-    Assign, Bracket, Call, CodeNumber, Expr, ExprKind, GValue, HashWord, Label, Name, PlaceKind,
-    Sign, Span, Word, WordKind,
+    Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Label, PlaceKind, Sign, Span, Word,
+    WordKind,
 };
 use smallvec::SmallVec;
 
@@ -90,11 +90,6 @@ impl Words<'_> {
     pub(in crate::exec) fn group(&self, group: Group) -> Option<&GWord> {
         self.g.iter().find(|g| g.row.group == group)
     }
-}
-
-/// Letters I, J, K.
-fn centre_index(letter: u8) -> Option<usize> {
-    (b'I'..=b'K').contains(&letter).then(|| usize::from(letter - b'I'))
 }
 
 impl Decoder {
@@ -185,55 +180,6 @@ impl Decoder {
             WordKind::Goto(label) => {
                 block.goto = Some(label);
                 Ok(())
-            }
-        }
-    }
-
-    /// `@X=..`, `@I=..`, `@S=..`: words of cycles for the main axes, the centre and the main spindle, whatever their
-    /// names in the channel are.
-    ///
-    /// Source: TF5200 programming manual, cycles (a cycle does not depend on the plane and the names of axes); diagnosis
-    /// 21383 to 21385. Assumption: so `@X` and `@Y` are the first and second axis of the active plane, `@Z` stands on it.
-    fn cycle_address(
-        &mut self,
-        name: &str,
-        assign: &Assign,
-        span: Span,
-        block: &mut Words<'_>,
-    ) -> Outcome<()> {
-        let condition = match name {
-            "X" | "Y" | "Z" => Condition::CycleAxisOutside,
-            "I" | "J" | "K" => Condition::CycleCentreOutside,
-            "S" => Condition::CycleSpindleOutside,
-            _ => {
-                let text = format!("@{name} is no word of a cycle");
-                let hint = "cycles have @P1 to @P200, @X, @Y, @Z, @I, @J, @K and @S";
-                return Err(Fault::new(Condition::Syntax, text, assign.target.span).hint(hint));
-            }
-        };
-        if !self.values.variables.is_cycle() {
-            let text = format!("@{name} stands outside of a cycle");
-            return Err(Fault::new(condition, text, assign.target.span));
-        }
-        let letter = name.as_bytes().first().copied().unwrap_or_default();
-        match letter {
-            b'S' => {
-                let value = self.number(&assign.value)?;
-                spindle_word(block, 0, value, span)
-            }
-            b'X'..=b'Z' => {
-                let main = self.modal.plane.main_axes()[usize::from(letter - b'X')];
-                let Some(axis) = self.geometry.coordinates.main_axis(main) else {
-                    let text = format!("@{name}: the channel has no main axis of that place");
-                    return Err(Fault::new(Condition::AxisOrCommandExpected, text, span)
-                        .hint(self.axis_hint()));
-                };
-                self.axis_word(axis, None, &assign.value, span, block)
-            }
-            _ => {
-                let main = self.modal.plane.main_axes()[usize::from(letter.saturating_sub(b'I'))];
-                let letter = [b'I', b'J', b'K'][main];
-                self.address(&Name::Letter(letter), None, &assign.value, span, block)
             }
         }
     }
@@ -376,166 +322,6 @@ impl Decoder {
         }
         Ok(())
     }
-
-    fn address(
-        &mut self,
-        name: &Name,
-        sign: Option<Sign>,
-        value: &Expr,
-        span: Span,
-        block: &mut Words<'_>,
-    ) -> Outcome<()> {
-        let axis = match name {
-            Name::Letter(letter) => self.axis_of_letter(*letter),
-            Name::Long(name) => self.axis_of_name(name),
-        };
-        if let Some(axis) = axis {
-            return self.axis_word(axis, sign, value, span, block);
-        }
-        if let Some(spindle) = self.spindle_of_name(name.as_str()) {
-            let value = self.number(value)?;
-            return spindle_word(block, spindle, value, span);
-        }
-        if let Some((spindle, what)) = name.as_str().split_once('.') {
-            return self.spindle_angle(spindle, what, value, span, block);
-        }
-        // R1 is the only index of the radius
-        let radius = name.as_str().eq_ignore_ascii_case("R1").then_some(b'R');
-        let Some(letter) = name.letter().or(radius) else {
-            return Err(self.unknown_name(name.as_str(), span));
-        };
-        let slot = match letter {
-            b'F' => &mut block.feed,
-            b'R' => &mut block.radius,
-            b'E' => &mut block.end_feed,
-            b'T' => &mut block.tool,
-            b'D' => &mut block.tool_data,
-            b'I'..=b'K' => match centre_index(letter) {
-                Some(i) => &mut block.centre[i],
-                None => return Ok(()),
-            },
-            _ => return Err(self.unknown_letter(letter, span)),
-        };
-        let twice = slot.is_some();
-        *slot = Some((self.number(value)?, span));
-        if twice {
-            let text = format!("{} twice in one block", name.as_str());
-            return Err(match letter {
-                b'F' => Fault::new(Condition::FeedTwice, text, span),
-                b'I'..=b'K' => Fault::new(Condition::CentreTwice, text, span),
-                b'D' => Fault::new(Condition::ToolDataTwice, text, span),
-                _ => Fault::new(Condition::Syntax, text, span),
-            });
-        }
-        Ok(())
-    }
-
-    /// `S.POS=180`, `S.OFFSET=90`.
-    fn spindle_angle(
-        &self,
-        name: &str,
-        what: &str,
-        value: &Expr,
-        span: Span,
-        block: &mut Words<'_>,
-    ) -> Outcome<()> {
-        let Some(spindle) = self.spindle_of_name(name) else {
-            let text = format!("{name}.{what}: the channel has no spindle {name}");
-            return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
-        };
-        let angle = self.number(value)?;
-        let (angles, condition) = if what == "POS" {
-            (&mut block.angles, Condition::SpindleTwice)
-        } else {
-            (&mut block.offsets, Condition::ThreadOffsetTwice)
-        };
-        if angles.iter().any(|(other, _, _)| *other == spindle) {
-            return Err(Fault::new(condition, format!("{name}.{what} twice in one block"), span));
-        }
-        angles.push((spindle, angle, span));
-        Ok(())
-    }
-
-    /// The value of an axis of the channel.
-    fn axis_word(
-        &mut self,
-        axis: usize,
-        sign: Option<Sign>,
-        value: &Expr,
-        span: Span,
-        block: &mut Words<'_>,
-    ) -> Outcome<()> {
-        if let Some(sign) = sign
-            && self.machine.axes[axis].is_modulo()
-        {
-            let sum = matches!(value.kind, ExprKind::Binary(_));
-            block.turns.push((axis, if sum { Err(value.span) } else { Ok(sign) }));
-        }
-        let value = self.number(value)?;
-        if block.axes.iter().any(|(a, _, _)| *a == axis) {
-            return Err(self.axis_twice(axis, span));
-        }
-        block.axes.push((axis, value, span));
-        Ok(())
-    }
-
-    /// An axis that one block moves twice.
-    pub(in crate::exec) fn axis_twice(&self, axis: usize, span: Span) -> Box<Fault> {
-        let number = self.machine.axes[axis].number();
-        let name = self.axis_name(axis).to_owned();
-        let text = format!("axis {name} twice in one block");
-        Fault::new(Condition::AxisTwice, text, span)
-            .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"))
-    }
-
-    fn unknown_letter(&self, letter: u8, span: Span) -> Box<Fault> {
-        let name = char::from(letter);
-        match letter {
-            b'O' => Fault::new(
-                Condition::ONotImplemented,
-                "the O word does not exist in this dialect",
-                span,
-            )
-            .hint("a program begins with %NAME, a subroutine is called by L or LL"),
-            b'S' => Fault::unsupported("S: the machine has no spindle of that name", span),
-            b'A'..=b'C' | b'U'..=b'Z' | b'Q' => self.unknown_axis(&name.to_string(), span),
-            _ => Fault::new(
-                Condition::AxisOrCommandExpected,
-                format!("{name} is no word of this dialect"),
-                span,
-            )
-            .hint(super::dialect::letter(letter)),
-        }
-    }
-
-    fn unknown_name(&self, name: &str, span: Span) -> Box<Fault> {
-        match name.as_bytes().first() {
-            Some(b'R' | b'r') if name[1..].bytes().all(|b| b.is_ascii_digit()) => {
-                let text = format!("the radius has the index 1 only, not {}", &name[1..]);
-                Fault::new(Condition::RadiusIndex, text, span)
-            }
-            Some(b'R' | b'r') => {
-                Fault::new(Condition::RadiusName, format!("unknown radius name {name}"), span)
-                    .hint("write R=..")
-            }
-            _ => self.unknown_axis(name, span),
-        }
-    }
-
-    pub(in crate::exec) fn unknown_axis(&self, name: &str, span: Span) -> Box<Fault> {
-        let text = format!("the channel has no axis {name}");
-        Fault::new(Condition::AxisOrCommandExpected, text, span).hint(self.axis_hint())
-    }
-}
-
-/// The speed of a spindle, once in a block.
-fn spindle_word(block: &mut Words<'_>, spindle: usize, rpm: f64, span: Span) -> Outcome<()> {
-    if block.speeds.iter().any(|(other, _, _)| *other == spindle) {
-        let text = "the speed of a spindle twice in one block";
-        return Err(Fault::new(Condition::SpindleTwice, text, span));
-    }
-    block.speeds.push((spindle, rpm, span));
-    Ok(())
 }
 
 /// A function stands once in a block.

@@ -33,7 +33,7 @@ pub(in crate::exec) struct Calls {
 }
 
 /// Program levels. Assumption: the vendor prints no number.
-const LEVELS_MAX: usize = 32;
+pub(super) const LEVELS_MAX: usize = 32;
 
 /// Local subroutines that a hint names.
 const NAMED_MAX: usize = 12;
@@ -52,9 +52,9 @@ pub(in crate::exec) struct ModalCycle {
 }
 
 /// What a call names.
-struct Target {
-    file: usize,
-    section: usize,
+pub(super) struct Target {
+    pub(super) file: usize,
+    pub(super) section: usize,
 }
 
 impl Executor {
@@ -225,7 +225,7 @@ impl Executor {
                 Err(fault) => self.decoder.note(fault),
             },
             CallKind::Cycle(group) => self.call_cycle(group, call.local, span),
-            CallKind::Sequence(_) => self.decoder.note(Fault::unsupported("L SEQUENCE", span)),
+            CallKind::Sequence(group) => self.call_sequence(group),
         }
     }
 
@@ -264,7 +264,7 @@ impl Executor {
         None
     }
 
-    fn global(&mut self, name: &Ident) -> Option<Target> {
+    pub(super) fn global(&mut self, name: &Ident) -> Option<Target> {
         let caller = self.levels.last().map(|l| l.file);
         let path = name.text.replace('\\', "/");
         let file = self.open_called(&path, caller, name.span)?;

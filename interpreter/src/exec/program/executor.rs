@@ -6,6 +6,7 @@ mod run;
 use super::files::Files;
 use super::flow::Frame;
 use super::index::Index;
+use super::sequence::Sequences;
 use super::unreached::Reached;
 use crate::diag::{Condition, Diagnostic, Id, Location, Severity};
 use crate::exec::block::modal::Modal;
@@ -57,6 +58,8 @@ pub(crate) struct Executor {
     pub(in crate::exec) parser: Parser,
     pub(in crate::exec) files: Files,
     pub(in crate::exec) levels: Vec<Level>,
+    /// Block numbers for `L SEQUENCE`.
+    pub(in crate::exec) sequences: Sequences,
     pub(in crate::exec) skip: SkipLevels,
     state: State,
     start: AxisVec,
@@ -124,6 +127,7 @@ impl Executor {
             sources,
             files: Files::new(),
             levels: Vec::new(),
+            sequences: Sequences::default(),
             skip,
             state: State::Running,
             start,

@@ -20,6 +20,9 @@ use std::sync::Arc;
 /// Blocks of all files that are kept parsed; those beyond are parsed again on every pass.
 const CACHED_MAX: usize = 50_000;
 
+/// Block numbers that are kept of one program, for `L SEQUENCE`.
+const NUMBERS_MAX: usize = 500_000;
+
 /// A parsed block.
 #[derive(Debug)]
 pub(in crate::exec) struct Parsed {
@@ -318,6 +321,29 @@ impl Files {
             }));
         }
         Ok(Some((block, reader.position())))
+    }
+
+    /// Begin and end of the first block of each number between two places.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub(in crate::exec) fn numbers(
+        &mut self,
+        file: usize,
+        from: Position,
+        end: u64,
+    ) -> io::Result<BTreeMap<u64, (Position, Position)>> {
+        let reader = &mut self.open[file].reader;
+        reader.seek(from);
+        let mut numbers = BTreeMap::new();
+        while reader.position().offset < end && numbers.len() < NUMBERS_MAX {
+            let Some(raw) = reader.next_block()? else { break };
+            let (position, number) = (raw.position, super::index::number_of(raw.text));
+            if let Some(number) = number {
+                numbers.entry(number).or_insert((position, reader.position()));
+            }
+        }
+        Ok(numbers)
     }
 
     /// Place of all of the block at a position.

@@ -12,6 +12,7 @@ mod tests;
 use crate::source::Position;
 use crate::syntax::ast::{LabelKind, Span};
 pub(in crate::exec) use build::build;
+pub(in crate::exec) use head::number_of;
 pub(in crate::exec) use keyword::Keyword;
 use std::collections::BTreeMap;
 use std::sync::Arc;

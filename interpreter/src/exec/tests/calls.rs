@@ -286,3 +286,27 @@ fn other_capital_letters_than_the_files_get_a_note() {
     let run = run_with(Lenient(sources), machine(&[]), Options::default());
     assert_eq!((run.ids(), run.end[0]), (vec!["K-0109".to_owned()], 1.0));
 }
+
+/// The blocks from one number to another, the last one included, as a subroutine: in this program or in another one.
+#[test]
+fn block_sequences() {
+    let run = clean(
+        "G91 F1000\nN10 G01 X1\nN20 Y1\n/N30 Z1\nN40 X10\nL SEQUENCE [N10 N30]\nL SEQUENCE [N40]\nM30\n",
+    );
+    assert_eq!(run.end, [22.0, 2.0, 2.0]);
+    let run = clean("G91 F1000\nN10 G01 X1\n$FOR P1=1,3,1\nL SEQUENCE [N10 N10]\n$ENDFOR\nM30\n");
+    assert_eq!(run.end[0], 4.0);
+    let sub = "X100\nN5 X1\nN6 Y2\nN7 Z3\nM17\n";
+    let run = with(
+        "G01 F1000\nL SEQUENCE [NAME=\"sub.nc\" N5 N6]\nL SEQUENCE [N7 N8]\nM30\nN7 X7\nN8 Y8\n",
+        "sub.nc",
+        sub,
+    );
+    assert_eq!(run.end, [7.0, 8.0, 0.0]);
+    assert!(run.ids().is_empty(), "{:?}", run.ids());
+    // whole structures inside, and the end of the program
+    let run = clean("G91 F1000\nN10 $IF 1 == 1\nX1\n$ENDIF\nN20 Y1\nL SEQUENCE [N10 N20]\nM30\n");
+    assert_eq!(run.end, [2.0, 2.0, 0.0]);
+    let run = super::run("N10 L SEQUENCE [N10]\nM30\n");
+    assert_eq!(run.ids(), ["20360"]);
+}

@@ -59,6 +59,16 @@ pub(super) fn head(text: &str) -> Head<'_> {
     Head { skip, label, label_at, rest, at: text.len() - rest.len() }
 }
 
+/// Number of a block, unless it is computed.
+pub(in crate::exec) fn number_of(text: &str) -> Option<u64> {
+    let mut rest = blank(text);
+    if let Some(behind) = rest.strip_prefix('/') {
+        rest = blank(&behind[digits(behind)..]);
+    }
+    let behind = blank(rest.strip_prefix(['N', 'n'])?);
+    behind[..digits(behind)].parse().ok()
+}
+
 fn digits(text: &str) -> usize {
     text.bytes().take_while(u8::is_ascii_digit).count()
 }

@@ -1,0 +1,146 @@
+//! Block sequences: `L SEQUENCE [NAME=.. N10 N50]` runs the blocks from one number to another as a subroutine.
+//!
+//! Assumptions: of several blocks with a number the first one in the program counts, numbers that are computed do not; one
+//! number alone is a sequence of one block.
+//!
+//! Source: TF5200 programming manual, calling block sequences; 21696.
+
+use super::calls::{LEVELS_MAX, Target};
+use super::executor::Executor;
+use crate::diag::Condition;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::Value;
+use crate::exec::values::expr::whole;
+use crate::source::Position;
+use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, Span};
+use std::collections::BTreeMap;
+
+/// Begin and end of the first block of each number of a program.
+type Blocks = BTreeMap<u64, (Position, Position)>;
+
+/// Block numbers of the programs that sequences were called from, by file and section.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Sequences {
+    known: BTreeMap<(usize, usize), Blocks>,
+}
+
+/// What stands in the bracket.
+#[derive(Default)]
+struct Words {
+    name: Option<Ident>,
+    numbers: Vec<(u64, Span)>,
+}
+
+impl Executor {
+    /// `L SEQUENCE [..]`.
+    pub(super) fn call_sequence(&mut self, group: &Group) {
+        let outcome = self.sequence(group);
+        self.decoder.keep(outcome);
+    }
+
+    fn sequence(&mut self, group: &Group) -> Outcome<()> {
+        let words = self.sequence_words(group)?;
+        if self.levels.len() >= LEVELS_MAX {
+            let text = format!("subroutines nested more than {LEVELS_MAX} deep");
+            return Err(Fault::new(Condition::SubroutineNesting, text, group.span));
+        }
+        let Some(Target { file, section }) = (match &words.name {
+            Some(name) => self.global(name),
+            None => self.levels.last().map(|l| Target { file: l.file, section: l.section }),
+        }) else {
+            return Ok(());
+        };
+        let (Some((first, at)), Some((last, to))) =
+            (words.numbers.first().copied(), words.numbers.last().copied())
+        else {
+            let text = "L SEQUENCE needs the number of its first block";
+            return Err(Fault::new(Condition::TokenUnknown, text, group.span));
+        };
+        self.learn_numbers(file, section, group.span)?;
+        let place = |number: u64, span: Span| {
+            let known = self.sequences.known.get(&(file, section));
+            known.and_then(|blocks| blocks.get(&number)).copied().ok_or_else(|| {
+                let text = format!("the program has no block N{number}");
+                Fault::new(Condition::Label, text, span)
+            })
+        };
+        let ((start, _), (end, behind)) = (place(first, at)?, place(last, to)?);
+        if end.offset < start.offset {
+            let text = format!("the block N{last} stands before N{first}");
+            return Err(Fault::new(Condition::Label, text, to));
+        }
+        self.push_level(file, section, None);
+        if let Some(level) = self.levels.last_mut() {
+            (level.at, level.end) = (start, behind.offset);
+        }
+        Ok(())
+    }
+
+    fn sequence_words(&mut self, group: &Group) -> Outcome<Words> {
+        let mut words = Words::default();
+        let wrong = |span| {
+            let text = "L SEQUENCE: NAME=.., N.. and N.. are expected";
+            Fault::new(Condition::TokenUnknown, text, span)
+        };
+        for item in &group.items {
+            let number = match &item.kind {
+                ItemKind::Missing => continue,
+                ItemKind::Pair { key, .. } if key.is("REPEAT") => {
+                    let hint = "call the sequence in a loop: $FOR P1 = 1, 3, 1";
+                    return Err(Fault::unsupported("REPEAT of L SEQUENCE", item.span).hint(hint));
+                }
+                ItemKind::Flag(word) if word.is("ENDTAG") => {
+                    return Err(Fault::unsupported("ENDTAG of L SEQUENCE", item.span));
+                }
+                ItemKind::Pair { key, value } if key.is("NAME") => {
+                    let name = match value {
+                        ItemValue::Name(name) => name.clone(),
+                        ItemValue::Expr(expr) => match self.decoder.value(expr)? {
+                            Value::Text(text) => Ident { text, span: expr.span },
+                            Value::Number(_) => return Err(wrong(expr.span)),
+                        },
+                        ItemValue::List(list) => return Err(wrong(list.span)),
+                    };
+                    if words.name.replace(name).is_some() {
+                        let text = "NAME twice";
+                        return Err(Fault::new(Condition::SequenceTwice, text, item.span));
+                    }
+                    continue;
+                }
+                ItemKind::Flag(word) => match word.split_number() {
+                    Some((name, number)) if name.eq_ignore_ascii_case("N") => number,
+                    _ if word.text.starts_with(['R', 'r']) => {
+                        return Err(Fault::unsupported("REPEAT of L SEQUENCE", item.span));
+                    }
+                    _ => return Err(wrong(item.span)),
+                },
+                ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("N") => {
+                    self.decoder.number(expr)?
+                }
+                _ => return Err(wrong(item.span)),
+            };
+            let number = whole(number, 0, u32::MAX).ok_or_else(|| wrong(item.span))?;
+            words.numbers.push((u64::from(number), item.span));
+            if words.numbers.len() > 2 {
+                let text = "more than two block numbers";
+                return Err(Fault::new(Condition::SequenceTwice, text, item.span));
+            }
+        }
+        Ok(words)
+    }
+
+    /// Looks once for the block numbers of a program.
+    fn learn_numbers(&mut self, file: usize, section: usize, span: Span) -> Outcome<()> {
+        if self.sequences.known.contains_key(&(file, section)) {
+            return Ok(());
+        }
+        let index = std::sync::Arc::clone(&self.files.file(file).index);
+        let part = &index.sections[section];
+        let blocks = self.files.numbers(file, part.start, part.end).map_err(|error| {
+            let name = std::sync::Arc::clone(&self.files.file(file).name);
+            Fault::new(Condition::NoFile, format!("{name}: {error}"), span)
+        })?;
+        self.sequences.known.insert((file, section), blocks);
+        Ok(())
+    }
+}

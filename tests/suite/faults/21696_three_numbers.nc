@@ -1,0 +1,5 @@
+; check: exit 1
+; error 21696 at 4:21
+N10 G01 X1 F1000
+L SEQUENCE [N10 N10 N10]
+M30

@@ -1,0 +1,8 @@
+; check: exit 1
+; error K-0015 at 6:17
+; error K-0015 at 7:17
+N10 G01 X1 F1000
+N20 X2
+L SEQUENCE [N10 N30]
+L SEQUENCE [N20 N10]
+M30
