@@ -11,6 +11,7 @@ const DOCUMENTS: &[(&str, &str)] = &[
     ("interpreter/docs/language.md", "language.md"),
     ("interpreter/cli/docs/figures.md", "figures.md"),
     ("interpreter/docs/ci.md", "ci.md"),
+    ("interpreter/python/README.md", "python.md"),
     ("CHANGELOG.md", "changelog.md"),
 ];
 
