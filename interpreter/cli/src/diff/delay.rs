@@ -23,12 +23,21 @@ struct Candidate {
     changes: usize,
 }
 
+/// A row that has been taken.
+#[derive(Debug)]
+struct Row {
+    /// Nothing where the trace has ended.
+    cells: Option<ByteRecord>,
+    /// It is the same as the one before.
+    repeats: bool,
+}
+
 /// The candidates, from the first difference on.
 #[derive(Debug)]
 pub(super) struct Delays {
     candidates: Vec<Candidate>,
-    /// The rows before, the last one in front; nothing where a trace has ended.
-    before: [VecDeque<Option<ByteRecord>>; 2],
+    /// The rows before, the last one in front.
+    before: [VecDeque<Row>; 2],
 }
 
 impl Delays {
@@ -53,20 +62,25 @@ impl Delays {
             return;
         }
         let [before_a, before_b] = &self.before;
+        let row = |cells: Option<ByteRecord>, before: &VecDeque<Row>| {
+            let repeats = before.front().is_some_and(|b| b.cells == cells);
+            Row { cells, repeats }
+        };
+        let (a, b) = (row(a, before_a), row(b, before_b));
         self.candidates.retain_mut(|candidate| {
             let back = usize::try_from(candidate.rows.unsigned_abs()).unwrap_or(usize::MAX) - 1;
-            let (earlier, later, before) = if candidate.rows > 0 {
-                (before_a.get(back), &b, before_b.front())
+            let (earlier, later) = if candidate.rows > 0 {
+                (before_a.get(back), &b)
             } else {
-                (before_b.get(back), &a, before_a.front())
+                (before_b.get(back), &a)
             };
-            let (Some(earlier), Some(later)) = (earlier, later) else { return true };
-            let goes_on = earlier.as_ref().is_some_and(|earlier| equal(earlier, later));
-            let before = before.and_then(Option::as_ref);
-            let changes = candidate.compared > 0 && before.is_some_and(|b| b != later);
-            candidate.changes += usize::from(changes);
+            let (Some(earlier), Some(cells)) = (earlier, &later.cells) else { return true };
+            let first = candidate.compared == 0;
+            candidate.changes += usize::from(!first && !later.repeats);
             candidate.compared += 1;
-            goes_on
+            // where both stand still the answer of the rows before holds: a long standstill costs little
+            let stands = !first && earlier.repeats && later.repeats;
+            stands || earlier.cells.as_ref().is_some_and(|earlier| equal(earlier, cells))
         });
         for (before, row) in self.before.iter_mut().zip([a, b]) {
             before.truncate(MOST_ROWS - 1);
@@ -77,5 +91,64 @@ impl Delays {
     /// Rows by which B is later (negative: earlier), if a delay explains the rest: the smallest one over which both traces move.
     pub(super) fn found(&self) -> Option<i64> {
         self.candidates.iter().find(|c| c.changes >= LEAST_CHANGES).map(|c| c.rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Delays, LEAST_CHANGES};
+    use csv::ByteRecord;
+
+    /// Rows from the first difference on, and what the definition gives for every delay, tried out one by one.
+    fn brute_force(a: &[u8], b: &[u8]) -> Option<i64> {
+        let explains = |earlier: &[u8], later: &[u8], n: usize| {
+            let pairs = || (n..later.len()).map(|k| (earlier.get(k - n), later[k]));
+            let changes = (n + 1..later.len()).filter(|k| later[*k] != later[k - 1]).count();
+            pairs().all(|(x, y)| x == Some(&y)) && changes >= LEAST_CHANGES
+        };
+        (1..a.len().max(b.len())).zip(1_i64..).find_map(|(n, rows)| {
+            let behind = explains(a, b, n).then_some(rows);
+            behind.or_else(|| explains(b, a, n).then_some(-rows))
+        })
+    }
+
+    /// Steps of a few values with pauses; one trace has another pause, or another step, or ends elsewhere.
+    #[test]
+    fn as_every_delay_tried_out() {
+        let mut state = 7_u64;
+        let mut random = |n: u64| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % n
+        };
+        let mut found = 0;
+        for _ in 0..3000 {
+            let mut a: Vec<u8> = Vec::new();
+            for _ in 0..1 + random(8) {
+                let (value, pause) = (random(4) as u8, 1 + random(6));
+                a.extend((0..pause).map(|_| value));
+            }
+            let mut b = a.clone();
+            let place = random(a.len() as u64) as usize;
+            match random(4) {
+                0 => b[place] = 9,
+                1 => b.truncate(place),
+                _ => (0..1 + random(9)).for_each(|_| b.insert(place, a[place])),
+            }
+            if random(2) == 0 {
+                std::mem::swap(&mut a, &mut b);
+            }
+            let same = a.iter().zip(&b).take_while(|(x, y)| x == y).count();
+            let (a, b) = (&a[same..], &b[same..]);
+            let mut delays = Delays::new();
+            let record = |x: &u8| ByteRecord::from(vec![vec![*x]]);
+            for k in 0..a.len().max(b.len()) {
+                delays.take(a.get(k).map(record), b.get(k).map(record), |x, y| x == y);
+            }
+            assert_eq!(delays.found(), brute_force(a, b), "{a:?} {b:?}");
+            found += usize::from(delays.found().is_some());
+        }
+        assert!(found > 100, "{found} delays");
     }
 }
