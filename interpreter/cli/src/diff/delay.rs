@@ -125,7 +125,7 @@ mod tests {
         let mut found = 0;
         for _ in 0..3000 {
             let mut a: Vec<u8> = Vec::new();
-            for _ in 0..1 + random(8) {
+            for _ in 0..=random(8) {
                 let (value, pause) = (random(4) as u8, 1 + random(6));
                 a.extend((0..pause).map(|_| value));
             }
@@ -134,7 +134,7 @@ mod tests {
             match random(4) {
                 0 => b[place] = 9,
                 1 => b.truncate(place),
-                _ => (0..1 + random(9)).for_each(|_| b.insert(place, a[place])),
+                _ => (0..=random(9)).for_each(|_| b.insert(place, a[place])),
             }
             if random(2) == 0 {
                 std::mem::swap(&mut a, &mut b);
