@@ -16,6 +16,8 @@ mod shaping;
 pub(super) mod signals;
 mod slope;
 mod spindles;
+mod tools;
+mod turning;
 
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
@@ -214,7 +216,7 @@ const ROWS: &[Row] = &[
     off_only("CAX"),
     off_only("CAXTRACK"),
     off_only("TANGFEED"),
-    off_only("TURN"),
+    turning::TURN,
     off_only("NIBBLE"),
     off_only("PUNCH"),
     off_only("DYNAMIC WEIGHT"),
@@ -278,9 +280,9 @@ const ROWS: &[Row] = &[
     // no influence on set positions
     ignored("SINGLE STEP"),
     ignored("BLOCKSEARCH"),
-    ignored("TOOL DATA"),
-    ignored("TOOL PREP"),
-    ignored("TOOL REFRESH"),
+    tools::TOOL_DATA,
+    tools::TOOL_PREP,
+    tools::TOOL_REFRESH,
     unsupported("TOOL"),
     ignored("EXPL SYN"),
     unsupported("LOAD CONFIG"),

@@ -23,7 +23,7 @@ use super::program::calls::Calls;
 use super::shaping::{ShapingState, Worked};
 use super::step::{Event, Feedback, SourceRef, Sync};
 use super::values::Values;
-use super::values::system::Timers;
+use super::values::timers::Timers;
 use super::values::variables::Variables;
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::exec::motion::technology::Technology;
@@ -135,7 +135,7 @@ impl Decoder {
                     weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
                 },
                 spindles,
-                threads: Threads::default(),
+                threads: Threads::new(&machine.channel),
                 contour_line: ContourLines::default(),
                 cutting_speed: None,
                 cutting_waits: false,
