@@ -6,6 +6,7 @@
 //! Source: TF5200 programming manual, list of commands.
 
 mod axes;
+mod compensation;
 mod contour;
 mod frames;
 pub(in crate::exec) mod keys;
@@ -258,7 +259,7 @@ const ROWS: &[Row] = &[
     unsupported("START"),
     unsupported("STROKE DEF"),
     off_only("TGC"),
-    unsupported("TRC"),
+    compensation::TRC,
     unsupported("UNLOCK"),
     unsupported("WCS TO MCS"),
     unsupported("RT CYCLE"),

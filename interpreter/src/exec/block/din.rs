@@ -198,7 +198,7 @@ impl Decoder {
                 self.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
             }
             Act::Compensation(side) => self.compensation(side, g.span),
-            Act::PerpendicularSelection(on) => self.modal.perpendicular_selection = on,
+            Act::Selection(selection) => self.select_compensation_by(selection, g, words)?,
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.unit_mm();
                 self.modal.radius_mm = Some(radius);
