@@ -1,5 +1,5 @@
 ; check: exit 1
-; error 90127 at 6:18
+; error 90127 at 6:1
 V.G.WZ_AKT.R=2
 G238 G41 X10 F100
 X20

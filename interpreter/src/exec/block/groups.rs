@@ -263,7 +263,7 @@ const ROWS: &[Row] = &[
     g(69, Group::Rotation, Act::RotateOff),
     g(70, Group::Unit, Act::Inch(true)),
     g(71, Group::Unit, Act::Inch(false)),
-    g(74, Group::Path, Act::Unsupported("homing")),
+    g(74, Group::Path, Act::Simplified("the axes count as homed where they stand, nothing moves")),
     g(90, Group::Dimension, Act::Absolute(true)),
     g(91, Group::Dimension, Act::Absolute(false)),
     g(92, Group::None, Act::Preset),

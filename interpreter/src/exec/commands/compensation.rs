@@ -79,7 +79,7 @@ pub(super) const TRC: Row = Row::run("TRC", options)
     )
     .keys(TrcArguments::KEYS)
     .example("#TRC [KERF_MASKING=0]")
-    .related(&["G41", "G238"]);
+    .related(&["G41"]);
 
 fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;

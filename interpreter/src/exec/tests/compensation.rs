@@ -287,7 +287,7 @@ fn what_inside_corner_selection_does_not_allow() {
     assert_eq!(id("G238 G41 G01 X0 Y0\nX20\nG42 Y20\nX0 Y0\nG40 X5 Y5"), ["K-0115"]);
     assert_eq!(id("G238 G41 G01 X0 Y0\nX20\nV.G.WZ_AKT.R=1\nY20\nX0 Y0\nG40 X5 Y5"), ["90127"]);
     assert_eq!(id("G41 G01 X0 Y0\nG238\nX20\nG40 X5 Y5"), ["21317"]);
-    assert_eq!(id("G238 G41 G01 X0 Y0\nX20\nG139\nX0 Y0\nG40 X5 Y5"), ["21318"]);
+    assert_eq!(id("G238 G41 G01 X0 Y0\nX20\nG139\nY20\nX0 Y0\nG40 X5 Y5"), ["21318"]);
     assert_eq!(id(&format!("G238\nG05 G41 {square}\nG40 X5 Y5")), ["21316"]);
 }
 

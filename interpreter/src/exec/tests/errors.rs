@@ -80,6 +80,43 @@ fn tools_by_their_id() {
     }
 }
 
+/// What the manual knows and nothing here carries out is not supported, never unknown.
+#[test]
+fn what_the_manual_knows_is_never_unknown() {
+    for text in [
+        "#CS DEF ACT [1]",
+        "#CS DEL ALL",
+        "#MCS ON EX TOOL",
+        "#INFO",
+        "#GANTRY ON ALL",
+        "#AX LINK ON [1]",
+        "#SET AX LINK [1, X=Y]",
+        "#RT CYCLE [ID=1]",
+        "#MEAS MODE [1]",
+        "#SPLINE ON",
+        "#TOOL LIFE READ",
+        "#VOLCOMP ON",
+        "Z[OSC ON 1ST_POS=1 2ND_POS=2]",
+        "X[SET_POSITION 5]",
+        "X[LIFT 1]",
+        "X[MC_MoveAbsolute Position=5]",
+        "S[OVERRIDE SPEED_FACT=50]",
+        "S[SYNC]",
+        "S[G131=50]",
+        "S[CALLAX]",
+        "P1=V.A.MESS.X",
+        "P1=V.A.MEAS.ACS.VALUE.X",
+        "P1=V.G.MEAS_TYPE",
+        "G100 X5",
+        "G151",
+        "G236",
+    ] {
+        assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), ["K-0019"], "{text}");
+    }
+    assert_eq!(super::run("G74 X1 Y2 S1\nX5 F100\nM30\n").ids(), ["K-0111"]);
+    clean("S[G167 REV1000 M3]\nS[M5]\nM30\n");
+}
+
 /// What may change path, position, speed or spindle is refused, or the message says what happens in its place.
 #[test]
 fn what_may_change_the_motion_is_not_ignored() {

@@ -267,11 +267,28 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     Ok(parts.join("."))
 }
 
+/// Variables of functions that are not simulated. Source: TF5200 measurement; volumetric compensation.
+const OTHERS: &[(&str, &str)] = &[
+    ("A", "MESS"),
+    ("A", "MERF"),
+    ("A", "MOFFS"),
+    ("A", "MEIN"),
+    ("A", "MEAS"),
+    ("G", "MEAS_TYPE"),
+    ("G", "VOLCOMP"),
+];
+
 fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
     let name = written(segments);
     let class = segments.first().map_or("", |s| &*s.name).to_ascii_uppercase();
     if matches!(class.as_str(), "TOOL" | "TLM" | "RTG" | "RTA" | "I") {
         return Fault::unsupported(format!("variables V.{class}."), span);
+    }
+    let names: Vec<String> = segments.iter().map(|s| s.name.to_ascii_uppercase()).collect();
+    if let [class, name, ..] = &names[..]
+        && OTHERS.contains(&(class.as_str(), name.as_str()))
+    {
+        return Fault::unsupported(format!("variables V.{class}.{name}"), span);
     }
     let axis = d.names.axes.iter().flatten().next().map_or("X", String::as_str);
     let names: Vec<String> =
