@@ -247,6 +247,9 @@ impl Contour {
     /// End of the program.
     pub(super) fn end(&mut self, reason: EndReason, source: SourceRef) -> Vec<Fault> {
         let mut faults = self.flush();
+        if reason == EndReason::Aborted {
+            self.compensator.abandon();
+        }
         faults.extend(self.compensator.end(&mut self.done).err().map(|f| *f));
         self.emit();
         let events = self.take_events();

@@ -186,6 +186,11 @@ impl Compensator {
         }
     }
 
+    /// An error ends the program: what waits for the end of its contour is not driven.
+    pub(in crate::exec) fn abandon(&mut self) {
+        self.closed = None;
+    }
+
     /// The program ends: the last element ends perpendicular above its end.
     pub(in crate::exec) fn end(&mut self, out: &mut Vec<Item>) -> Fallible<()> {
         if let Some(closed) = self.closed.take() {

@@ -248,14 +248,14 @@ fn inside_corner_selection() {
         [100.0, 0.0],
         [20.0, 20.0],
     ];
-    let blocks: String = STAR[1..].iter().map(|[x, y]| format!("X{x} Y{y}\n")).collect();
+    let blocks: Vec<String> = STAR[1..].iter().map(|[x, y]| format!("X{x} Y{y}")).collect();
+    let blocks = blocks.join("\n");
     let text = format!(
-        "G17 G00 X0 Y0 Z0 G90\nF10000\nG238\nV.G.WZR = 10\nG41\nG01 X0 Y100\n{blocks}G01 X0 Y100\nG40\nG00 X0 Y0\nM30\n"
+        "G17 G00 X0 Y0 Z0 G90\nF10000\nG238\nV.G.WZR = 10\nG41\nG01 X0 Y100\n{blocks}\nG01 X0 Y100\nG40\nG00 X0 Y0\nM30\n"
     );
     let run = clean(&text);
     // from a line through (0, 100) and (20, 20) the point (0, y) is (100 - y) * 20 / |(20, 80)| away
-    let tip = 100.0 - 10.0 * 20.0_f64.hypot(80.0) / 20.0;
-    // parallels of a tip's two sides and of the next tip's meet on the diagonal: outside corners of the tool's way
+    let tip = 100.0 - 10.0 * 6800.0_f64.sqrt() / 20.0;
     let e = run.ends();
     assert_near(&e[0][..2], &[0.0, tip]);
     assert_near(&e[e.len() - 2][..2], &[0.0, tip]);
@@ -265,7 +265,7 @@ fn inside_corner_selection() {
         let away = |p: &[f64]| {
             let (d, r) = ([to[0] - from[0], to[1] - from[1]], [p[0] - from[0], p[1] - from[1]]);
             let t = ((d[0] * r[0] + d[1] * r[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
-            (r[0] - t * d[0]).hypot(r[1] - t * d[1])
+            libm::hypot(r[0] - t * d[0], r[1] - t * d[1])
         };
         let nearest = e[..e.len() - 1].iter().map(|p| away(p)).fold(f64::MAX, f64::min);
         assert!((nearest - 10.0).abs() < 1e-9, "{nearest}");
