@@ -1,6 +1,34 @@
 //! The entries `filter[0..2]` of an axis list: which of them are standard filters, which one is the HSC filter.
 //!
 //! Source: TF5200 axis filters; P-AXIS-00319, 00140, 00153, 00204.
+//!
+//! The order of calls: the entries of the list, [`Cascade::design`], then the [`shaping`](crate::shaping) chain of the axis
+//! from its filters.
+//!
+//! ```
+//! use kontur_filters::cascade::{Cascade, FilterEntry, ListedPrototype, ListedType};
+//! use kontur_filters::hsc::HscKind;
+//! use kontur_filters::iir::FilterKind;
+//! use kontur_filters::time::CycleTime;
+//!
+//! let hsc = FilterEntry {
+//!     prototype: ListedPrototype::Hsc,
+//!     listed_type: Some(ListedType::Hsc(HscKind::Mean)),
+//!     ..FilterEntry::default()
+//! };
+//! let low_pass = FilterEntry {
+//!     enable: true,
+//!     listed_type: Some(ListedType::Standard(FilterKind::LowPass)),
+//!     order: 2,
+//!     f_hz: 30.0,
+//!     ..FilterEntry::default()
+//! };
+//! let cascade = Cascade::design(&[hsc, low_pass], false, CycleTime::DEFAULT);
+//! assert!(cascade.hsc.is_some() && cascade.filters.len() == 1 && cascade.issues.is_empty());
+//! // the HSC filter has to be the first one of its axis: 110501, at the entry 1
+//! let wrong = Cascade::design(&[low_pass, hsc], false, CycleTime::DEFAULT);
+//! assert_eq!(wrong.issues[0].0, 1);
+//! ```
 
 use crate::hsc::{HscConfig, HscKind};
 use crate::iir::prototype::Prototype;

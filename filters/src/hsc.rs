@@ -4,6 +4,21 @@
 //! recommends FIR filters instead.
 //!
 //! Source: TF5200 axis filters; P-AXIS-00067, 00140, 00164, 00204, 00357.
+//!
+//! ```
+//! use kontur_filters::hsc::{HscConfig, HscKind};
+//! use kontur_filters::response::Angle;
+//! use kontur_filters::time::CycleTime;
+//!
+//! let cycle = CycleTime::DEFAULT;
+//! let config =
+//!     HscConfig { kind: HscKind::NoVib, order: 1, time_constant_us: 10_000, f_hz: 30.0, share_ratio: 1.0 };
+//! let (kernel, issues) = config.design(cycle);
+//! let kernel = kernel.unwrap();
+//! assert!(issues.is_empty());
+//! // one period of 30 Hz is 33.3 cycles: blocked completely
+//! assert!(kernel.response(Angle::of(30.0, cycle)).magnitude() < 1e-12);
+//! ```
 
 use crate::fir::{MAX_ORDER, check_share, moving_average, no_filter_off, order, with_share};
 use crate::issue::FilterIssue;

@@ -2,6 +2,18 @@
 //!
 //! A filter knows neither its axis nor its place in a list, nor how a control numbers the condition; who configured it
 //! adds all three. The numbers in the texts below are those of the vendor's documents.
+//!
+//! ```
+//! use kontur_filters::fir::{FirConfig, FirKind};
+//! use kontur_filters::issue::{Effect, FilterIssue};
+//! use kontur_filters::time::CycleTime;
+//!
+//! let config = FirConfig { order: 500, ..FirConfig::new(FirKind::MovingAverage) };
+//! let (kernel, issues) = config.design(CycleTime::DEFAULT);
+//! assert_eq!(issues, [FilterIssue::OrderTooHigh { order: 500, used: 200 }]);
+//! assert_eq!(issues[0].effect(), Effect::Corrected);
+//! assert_eq!(kernel.unwrap().length(), 200);
+//! ```
 
 /// What a condition does to the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

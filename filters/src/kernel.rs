@@ -2,6 +2,21 @@
 //!
 //! A [`Kernel`] is configuration: FIR filters, HSC filters and the Vibration Guard are kernels and differ in nothing
 //! else. A [`KernelFilter`] is the state of one axis: its raw input history and a shared kernel.
+//!
+//! The order of calls: a kernel once, a filter for each axis at rest at its position, then a step for each cycle.
+//!
+//! ```
+//! use kontur_filters::kernel::{Kernel, KernelFilter, Tap};
+//! use kontur_filters::stage::Stage;
+//! use std::sync::Arc;
+//!
+//! // two equal impulses, half a period of 25 Hz apart at 1 ms: the shaper ZV of an undamped axis
+//! let kernel = Kernel::from_taps([0, 20].map(|delay| Tap { delay, weight: 1.0 })).unwrap();
+//! assert_eq!(kernel.delay_cycles(), 10.0);
+//! let mut axis = KernelFilter::new(Arc::new(kernel), 0.0);
+//! let step: Vec<f64> = (0..30).map(|_| axis.step(1.0)).collect();
+//! assert_eq!((step[0], step[19], step[20]), (0.5, 0.5, 1.0));
+//! ```
 
 use crate::stage::Stage;
 use std::sync::Arc;

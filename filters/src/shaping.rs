@@ -4,6 +4,26 @@
 //! position; all stages are linear, so the order changes rounding and start-up only.
 //!
 //! Assumption: the order; the vendor does not state it.
+//!
+//! ```
+//! use kontur_filters::kernel::Kernel;
+//! use kontur_filters::shaping::Shaping;
+//! use kontur_filters::stage::Stage;
+//! use std::sync::Arc;
+//!
+//! let mut axis = Shaping::new(Vec::new(), 0.0);
+//! axis.set_kernel(Some(Arc::new(Kernel::delay(3))))?;
+//! assert_eq!(axis.step(5.0), 0.0);
+//! // neither taken away in motion nor said to have arrived before it has
+//! assert!(axis.set_kernel(None).is_err() && !axis.settled(0.001));
+//! for _ in 0..3 {
+//!     axis.step(5.0);
+//! }
+//! assert!(axis.settled(0.001));
+//! axis.set_kernel(None)?;
+//! assert_eq!(axis.step(5.0), 5.0);
+//! # Ok::<(), kontur_filters::kernel::SwitchWhileMoving>(())
+//! ```
 
 use crate::iir::AxisFilter;
 use crate::kernel::{Kernel, KernelFilter, SwitchWhileMoving};

@@ -1,4 +1,19 @@
 //! What every causal stage of an axis can do.
+//!
+//! ```
+//! use kontur_filters::kernel::{Kernel, KernelFilter};
+//! use kontur_filters::stage::Stage;
+//! use std::sync::Arc;
+//!
+//! /// Positions of a ramp of one unit per cycle after the stage.
+//! fn ramp(stage: &mut impl Stage) -> Vec<f64> {
+//!     stage.settle(0.0);
+//!     (1..=50).map(|k| stage.step(f64::from(k))).collect()
+//! }
+//! let mut delay = KernelFilter::new(Arc::new(Kernel::delay(7)), 0.0);
+//! // late by its delay
+//! assert_eq!(ramp(&mut delay)[49], 50.0 - delay.delay_cycles());
+//! ```
 
 /// One causal stage of one axis, called exactly once per cycle.
 pub trait Stage {

@@ -1,4 +1,13 @@
 //! The cycle of the interpolator: an integer number of microseconds, counted, never accumulated.
+//!
+//! ```
+//! use kontur_filters::time::CycleTime;
+//!
+//! let cycle = CycleTime::from_us(500).unwrap();
+//! // counted: no sum of rounded cycles after a day
+//! assert_eq!(cycle.time_of(2 * 86_400_000 / 10), 8640.0);
+//! assert!(CycleTime::from_us(50).is_none());
+//! ```
 
 /// Length of one interpolator cycle `T`.
 ///
