@@ -403,10 +403,7 @@ conditions! {
     ContourLineMissed = Kontur 127 "K-CONTOUR-LINE": Error ProgramAbort 3 1, "end of a contour line that its angle does not reach (no vendor ID known)", cause "#ANG=90 X20, or the other direction", hint "the angle counts from the first main axis of the plane, counter-clockwise";
     Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop stands or swings outside the window, and no input is left that could move it", hint "raise the window or the gain kv, or take the force away";
     SpindleLimit = Kontur 131 "K-SPINDLE-LIMIT": Warning None 1 1, "spindle speed above the limit of the spindle, limited", cause "S word or REV above P-AXIS-00212", hint "the limit is getriebe[0].dynamik.vb_max of the spindle", parameter "P-AXIS-00212";
-<<<<<<< HEAD
     ProjectRead = Kontur 140 "K-PROJECT": Note None 1 2, "lists taken out of a TwinCAT project", cause "-m names a .tsproj, an .xti, or a folder with them";
     ProjectWrong = Kontur 141 "K-PROJECT-WRONG": Error JobAbort 3 0, "TwinCAT project that is no XML or holds no CNC", cause "-m names a .tsproj, an .xti, or a folder with them", hint "name the project that has the axes and the channel of the CNC, or a folder with its exported .xti files";
-=======
     ThreadBroken = Kontur 132 "K-THREAD-BROKEN": Warning None 1 1, "thread whose pitch is not kept", cause "feedhold or override during G33, also a programmed one", hint "#TURN [THREAD_CUT_IGNORE_OV=1] or G166 keep the override out of threads; give a feedhold another time", parameter "P-CHAN-00836";
->>>>>>> line
 }
