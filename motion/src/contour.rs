@@ -137,8 +137,17 @@ impl Contour {
         (from, to): (f64, f64),
         slack: (f64, f64),
     ) -> Around<'_> {
-        let among = self.numbers(from, to);
-        let all = self.numbers(from - slack.0, to + slack.1);
+        let Range { start, end } = self.entries(from, to);
+        let among = start..self.whole(end);
+        // a search of its own would end a step or two further
+        let mut all = start..end;
+        while all.start > 0 && self.blocks[all.start].cycles > from - slack.0 {
+            all.start -= 1;
+        }
+        while self.blocks.get(all.end).is_some_and(|b| b.cycles <= to + slack.1) {
+            all.end += 1;
+        }
+        all.end = if all.end == end { among.end } else { self.whole(all.end) };
         let (mut middle, mut half) = (AxisVec::zeros(line.0.len()), 0.0);
         for ((m, a), b) in middle.iter_mut().zip(line.0).zip(line.1) {
             *m = 0.5 * (a + b);
@@ -312,11 +321,16 @@ fn nearest<'a>(
         }
         before = Some(passed);
         passed.queued.block.path.nearest_point(point, &mut q);
-        let d2: f64 = q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
+        let n = point.len();
+        let (q, point, out) = (&q[..n], &point[..n], &mut out[..n]);
+        let mut d2 = 0.0;
+        for i in 0..n {
+            d2 += (q[i] - point[i]) * (q[i] - point[i]);
+        }
         if best.is_none_or(|(least, _)| d2 < least) {
             best = Some((d2, passed));
-            for ((o, q), p) in out.iter_mut().zip(q.iter()).zip(point) {
-                *o = p - q;
+            for i in 0..n {
+                out[i] = point[i] - q[i];
             }
         }
     }

@@ -145,8 +145,11 @@ impl SetPath {
             _ => return shortest,
         };
         // the largest distance lies where the nearest point passes from one block to another
+        let mut point = AxisVec::zeros(self.axes);
         let mut look = |u: f64| {
-            let point: AxisVec = before.iter().zip(here).map(|(a, b)| a + u * (b - a)).collect();
+            for ((p, a), b) in point.iter_mut().zip(before).zip(here) {
+                *p = a + u * (b - a);
+            }
             let found = around.nearest_of_all(&point, &mut vector).map(|n| n.block);
             out.take(&vector);
             found

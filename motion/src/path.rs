@@ -166,7 +166,8 @@ impl Path {
     pub(crate) fn nearest_point(&self, point: &[f64], out: &mut [f64]) {
         match self {
             Self::Curve(p) => p.nearest_point(point, out),
-            Self::Line(_) | Self::Arc(_) | Self::Tilted(_) => {
+            Self::Line(p) => p.nearest_point(point, out),
+            Self::Arc(_) | Self::Tilted(_) => {
                 self.position(self.nearest(point), out);
             }
         }

@@ -1,4 +1,17 @@
 //! The command line as clap sees it. Wrong usage ends with exit code 2.
+//!
+//! The first thing of all: words become arguments, these a [`Request`].
+//!
+//! ```
+//! use clap::Parser as _;
+//! use kontur::args::{Args, Command};
+//!
+//! let words = ["kontur", "run", "part.nc", "--set", "X.getriebe[0].kv=3000", "--max-time", "5"];
+//! let Command::Run(run) = Args::try_parse_from(words)?.command else { unreachable!() };
+//! let request = run.simulation.request(&run.program);
+//! assert_eq!((request.settings.len(), request.max_time_s), (1, 5.0));
+//! # Ok::<(), clap::Error>(())
+//! ```
 
 use crate::request::Request;
 use clap::{Parser, Subcommand, ValueEnum};

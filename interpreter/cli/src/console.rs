@@ -1,4 +1,17 @@
 //! Where text goes: results to stdout, messages to stderr, a progress bar to stderr if somebody watches.
+//!
+//! One console for a whole command, which ends with [`Console::finish`].
+//!
+//! ```
+//! use kontur::console::Console;
+//! use kontur::{Error, Exit};
+//!
+//! let mut console = Console::new(std::io::sink(), std::io::sink());
+//! console.print("a result\n")?;
+//! let done = Err(Error::Usage("no such option".to_owned()));
+//! assert_eq!(console.finish(done), Exit::Usage);
+//! # Ok::<(), Error>(())
+//! ```
 
 use crate::args::MessageForm;
 use crate::{Error, Exit};

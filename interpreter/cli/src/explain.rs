@@ -1,4 +1,11 @@
 //! `kontur explain`: an error ID, a parameter, a command.
+//!
+//! ```
+//! let text = kontur::explain::text("P-AXIS-00099")?;
+//! assert!(text.contains("getriebe[i].kv"));
+//! assert!(kontur::explain::text("P-AXIS-99999").is_err());
+//! # Ok::<(), kontur::Error>(())
+//! ```
 
 use crate::args::ExplainArgs;
 use crate::console::Console;

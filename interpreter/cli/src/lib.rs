@@ -3,6 +3,19 @@
 //! One file per subcommand. Each of them is a function of its arguments and a [`console::Console`] (where text goes), so
 //! that tests call it without a process and without a terminal. What computes is the library's
 //! [`Job`](kontur_interpreter::job::Job), which [`request`] makes from files and options.
+//!
+//! The order of calls: [`main_with`] is the whole program; [`run_with`] the same on a console of the caller. Both read [`args`] and
+//! call the function of the subcommand.
+//!
+//! ```
+//! use kontur::console::Console;
+//! use kontur::{Exit, run_with};
+//!
+//! let mut console = Console::new(std::io::sink(), std::io::sink());
+//! let words = ["kontur", "check", "../../programs/square_corner.nc"].map(Into::into);
+//! assert_eq!(run_with(words, &mut console), Exit::Finished);
+//! assert_eq!(run_with(["kontur", "measure"].map(Into::into), &mut console), Exit::Usage);
+//! ```
 
 pub mod args;
 pub mod check;

@@ -1,4 +1,21 @@
 //! What a user asks for on the command line, and the library's job that does it: files, lists, options.
+//!
+//! The order of calls: a request, then [`Request::check`], [`Request::job`] or [`Request::open`], which read everything anew.
+//!
+//! ```
+//! use kontur::request::Request;
+//!
+//! let request = Request {
+//!     program: "../../programs/square_corner.nc".into(),
+//!     settings: vec!["X.getriebe[0].kv=3000".to_owned()],
+//!     max_blocks: 1000,
+//!     max_time_s: 60.0,
+//!     ..Request::default()
+//! };
+//! assert!(request.check().is_ok_and(|checked| checked.diagnostics.is_empty()));
+//! let mut run = request.open().unwrap().run;
+//! assert!(run.next_cycle().is_some());
+//! ```
 
 use crate::Error;
 use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};

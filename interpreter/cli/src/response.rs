@@ -3,6 +3,19 @@
 //! Four views: frequency response (magnitude, phase, group delay), step response, residual vibration of a machine
 //! driven through a shaper, and the contour at a 90 degree corner.
 //!
+//! ```
+//! use clap::Parser as _;
+//! use kontur::args::{Args, Command};
+//! use kontur::console::Console;
+//!
+//! let words = ["kontur", "response", "--guard", "FREQ=40"];
+//! let Command::Response(args) = Args::try_parse_from(words)?.command else { unreachable!() };
+//! let mut console = Console::new(std::io::sink(), std::io::sink());
+//! let table = kontur::response::table(&args, &mut console).unwrap();
+//! assert_eq!(table.header()[0], "f_hz");
+//! # Ok::<(), clap::Error>(())
+//! ```
+//!
 #![doc = include_str!("../docs/figures.md")]
 
 pub mod args;

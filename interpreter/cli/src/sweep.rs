@@ -2,6 +2,21 @@
 //!
 //! The runs share nothing and go over all cores; rows stand in the order of the combinations whatever finishes first. A
 //! run that an error ends has its row, with the ID of the error.
+//!
+//! On the command line [`sweep()`]; where somebody else distributes the runs, a [`Plan`] and its rows in any order.
+//!
+//! ```
+//! use clap::Parser as _;
+//! use kontur::args::{Args, Command};
+//! use kontur::sweep::Plan;
+//!
+//! let program = "../../programs/square_corner.nc";
+//! let words = ["kontur", "sweep", program, "--vary", "X.getriebe[0].kv=3000,5000"];
+//! let Command::Sweep(args) = Args::try_parse_from(words)?.command else { unreachable!() };
+//! let plan = Plan::new(args).unwrap();
+//! assert_eq!((plan.len(), plan.keys().collect::<Vec<_>>()), (2, vec!["X.getriebe[0].kv"]));
+//! # Ok::<(), clap::Error>(())
+//! ```
 
 pub mod args;
 mod columns;

@@ -1,4 +1,19 @@
 //! Tables of results, and their form as CSV: one header line, decimal points, an empty cell where there is no number.
+//!
+//! Made by [`response`](crate::response::table) and [`tune`](crate::tune::answer), read by rows.
+//!
+//! ```
+//! use clap::Parser as _;
+//! use kontur::args::{Args, Command};
+//! use kontur::console::Console;
+//!
+//! let words = ["kontur", "response", "--guard", "FREQ=40"];
+//! let Command::Response(args) = Args::try_parse_from(words)?.command else { unreachable!() };
+//! let mut console = Console::new(std::io::sink(), std::io::sink());
+//! let table = kontur::response::table(&args, &mut console).unwrap();
+//! assert!(table.rows().iter().all(|row| row.len() == table.header().len()));
+//! # Ok::<(), clap::Error>(())
+//! ```
 
 use crate::Error;
 use serde::{Deserialize, Serialize};

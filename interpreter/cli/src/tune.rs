@@ -3,6 +3,19 @@
 //! Residual vibration is computed for the kernels of the cycle time, never looked up: the vendor's table of permitted
 //! deviations normalises the set frequency by the real one, its worked example the other way round. Both stand in every
 //! answer.
+//!
+//! ```
+//! use clap::Parser as _;
+//! use kontur::args::{Args, Command};
+//! use kontur::console::Console;
+//!
+//! let words = ["kontur", "tune", "--freq", "32"];
+//! let Command::Tune(args) = Args::try_parse_from(words)?.command else { unreachable!() };
+//! let mut console = Console::new(std::io::sink(), std::io::sink());
+//! let answer = kontur::tune::answer(&args, &mut console).unwrap();
+//! assert!(answer.command.is_some_and(|command| command.contains("FREQ=32")));
+//! # Ok::<(), clap::Error>(())
+//! ```
 
 pub mod args;
 mod combined;

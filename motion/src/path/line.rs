@@ -89,6 +89,26 @@ impl LinePath {
         Self { start, end, direction, norm: self.norm, length: to - from }
     }
 
+    /// The point nearest to `point`: as [`position`](Self::position) of [`nearest`](Self::nearest), value by value, because the
+    /// few values of a point are not worth a call that copies memory.
+    pub(super) fn nearest_point(&self, point: &[f64], out: &mut [f64]) {
+        let n = point.len();
+        let s = self.nearest(point);
+        let (start, end, out) = (&self.start[..n], &self.end[..n], &mut out[..n]);
+        let direction = &self.direction[..n];
+        let inside = s > 0.0 && s < self.length;
+        for i in 0..n {
+            let stands = start[i].to_bits() == end[i].to_bits();
+            out[i] = if inside && !stands {
+                start[i] + s * direction[i]
+            } else if s <= 0.0 {
+                start[i]
+            } else {
+                end[i]
+            };
+        }
+    }
+
     pub(super) fn nearest(&self, point: &[f64]) -> f64 {
         let n = point.len();
         let (start, direction) = (&self.start[..n], &self.direction[..n]);
