@@ -5,6 +5,7 @@
 //! [`Job`](kontur_interpreter::job::Job), which [`request`] makes from files and options.
 
 pub mod args;
+pub mod chart;
 pub mod check;
 pub mod console;
 pub mod diff;
