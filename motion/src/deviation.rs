@@ -26,6 +26,7 @@
 use crate::axis::AxisVec;
 use crate::contour::Contour;
 use smallvec::SmallVec;
+use std::ops::Range;
 
 /// Parts into which the line between two set points is divided where it passes a border of blocks.
 const PARTS: u32 = 8;
@@ -226,6 +227,26 @@ impl SetPath {
             }
         }
         Some((k + 1, nearest))
+    }
+
+    /// Distance in mm of a point from the line to the set point of cycle `k` from the one before.
+    pub(crate) fn distance(&self, k: u64, point: &[f64]) -> f64 {
+        self.to_line(k.saturating_sub(1), point).0.sqrt()
+    }
+
+    /// Largest distance in mm of the set points of some cycles from the line through two points.
+    pub(crate) fn bulge(&self, cycles: Range<u64>, from: &[f64], to: &[f64]) -> f64 {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<AxisVec>();
+        let along = minus(to, from);
+        let square = dot(&along, &along);
+        let beside = cycles.filter_map(|k| {
+            let off = minus(self.get(k)?, from);
+            let part = dot(&off, &along);
+            let on_line = if square > 0.0 { part * part / square } else { 0.0 };
+            Some(dot(&off, &off) - on_line)
+        });
+        beside.fold(0.0, f64::max).sqrt()
     }
 
     /// Square of the distance of a point from the line between cycle `k` and cycle `k + 1`, and where along the line.

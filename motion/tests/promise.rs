@@ -27,6 +27,9 @@ use std::sync::Arc;
 
 type Point = [f64; 3];
 
+/// Distance between the points of the contour that are looked at, in tolerances.
+const SPACING: f64 = 0.05;
+
 /// A contour, what drives it, and what it is held to.
 #[derive(Clone, Debug)]
 struct Case {
@@ -156,8 +159,11 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
             left += 1;
         }
         let around = &set[entered.saturating_sub(2)..(left + reach + 3).min(set.len())];
-        for sub in 0..=8 {
-            let u = f64::from(sub) / 8.0;
+        // dents of the set path are as short as its lines
+        let length = to_segment(w[0], w[1], w[1]).0.sqrt();
+        let parts = (length / (SPACING * case.tolerance_mm)).ceil().clamp(8.0, 256.0) as u32;
+        for sub in 0..=parts {
+            let u = f64::from(sub) / f64::from(parts);
             let p = [0, 1, 2].map(|k| w[0][k] + u * (w[1][k] - w[0][k]));
             let new = aside(p, around);
             if new > misses.0 {
@@ -387,16 +393,17 @@ fn random_contours_are_kept_both_ways() {
 }
 
 /// The largest distance of these contours from the set path lies between the points of a cycle, where the nearest set point
-/// passes to another part of the path.
+/// passes to another part of the path. With a slow cycle and unequal filters one way of a cycle is many tolerances long, and a
+/// dent lies between two points of the contour that are missed by far less.
 #[test]
 fn dents_between_the_points_of_a_cycle() {
-    for n in [74, 345] {
-        let mut r = Random(5 * 1_000_003 + n);
+    for (seed, n) in [(5, 74), (5, 290), (5, 345), (9, 156), (9, 201)] {
+        let mut r = Random(seed * 1_000_003 + n);
         r.next();
         let (name, case) = random_case(&mut r, (n % 8) as usize);
         let d = drive(&case);
         for (most, at) in both_ways(&case, &d.points, &d.seqs) {
-            assert!(most <= case.tolerance_mm + 1e-9, "{name} {n}: {most} at {at}");
+            assert!(most <= case.tolerance_mm + 1e-9, "{name} {seed} {n}: {most} at {at}");
         }
     }
 }

@@ -12,6 +12,7 @@ pub mod diff;
 pub mod explain;
 pub mod files;
 mod interrupt;
+mod project;
 mod recorded;
 pub mod report;
 pub mod request;

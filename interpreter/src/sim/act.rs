@@ -47,6 +47,7 @@ impl Simulation {
                     spindle.weigh_acceleration(ratio);
                 }
             }
+            Event::Timer { id, act } => self.executor.timer(id, act, self.cycle.time_of(k)),
             other => {
                 let block = match &other {
                     Event::Message { source, .. } => Some(*source),

@@ -50,6 +50,7 @@ impl Simulation {
             }
         }
         self.take_inputs(k);
+        self.watch_thread();
         let setpoint = self.planner.setpoint();
         let n = self.vector.len();
         let mut faults = Vec::new();

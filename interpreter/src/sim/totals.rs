@@ -117,6 +117,7 @@ impl Totals {
             | Event::SpindleAcceleration { .. }
             | Event::SpindleFollows { .. }
             | Event::CuttingSpeed { .. }
+            | Event::Timer { .. }
             | Event::Independent { .. }
             | Event::Spindle { .. } => None,
         }

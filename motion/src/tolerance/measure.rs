@@ -4,13 +4,18 @@ use super::view::{Buffer, View};
 use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
 use crate::axis::AxisVec;
 use crate::deviation::{ALIKE, Excursion, SetPath};
+use smallvec::{SmallVec, smallvec};
 
 /// Cycles around the set point nearest to the last point of the contour among which that of the next one is looked for.
 const HINT: u64 = 3;
-/// Halvings in the search for the point of the contour where the nearest set point changes.
-const HALVINGS: u32 = 8;
+/// Halvings of a piece of the contour in the search for the point that is missed most: the way of a cycle down to rounding.
+const HALVINGS: u32 = 24;
 /// Way of the nearest set point, in ways along the contour, from which on it has passed to another part of the set path.
 const JUMP: f64 = 1.1;
+/// Distance between points of the contour, in tolerances, up to which the vectors to the set path are alike.
+const CLOSE: f64 = 0.1;
+/// Lines of the set path that the nearest set point may pass on its way between two points.
+const MOST_LINES: u64 = 8;
 /// Points of the contour looked at in a cycle in which it may be missed.
 const PARTS: f64 = 4.0;
 /// Distance between the points of the contour that are looked at, in tolerances.
@@ -68,10 +73,15 @@ impl Record {
 #[derive(Clone)]
 struct Foot {
     s: f64,
+    /// The point of the contour.
+    of: AxisVec,
     /// Cycle behind the set point.
     cycle: u64,
     /// Distance in mm.
     length: f64,
+    /// Largest component in mm.
+    deviation_mm: f64,
+    /// The set point.
     point: AxisVec,
 }
 
@@ -81,11 +91,40 @@ impl Foot {
         squares.sum::<f64>().sqrt()
     }
 
-    /// True if a point of the contour between two can be further away than `limit`: the distance changes by the way at most,
-    /// and where the nearest set point moves along with the contour it has no peak.
-    fn may_rise_to(&self, other: &Self, limit: f64) -> bool {
+    /// True if a point of the contour between two can be missed by more than both of them and the tolerance. `bend` is that
+    /// of the contour between them, 0 for a straight line.
+    ///
+    /// The distance from a point changes by the way of the point at most. On straight lines the vector between two points
+    /// that move along evenly has no peak; so no point between is missed by more than both ends, but for what the bend leaves
+    /// its chord by (`bend way^2 / 8` in an axis) and what the set path leaves the chord between the nearest set points by.
+    /// Where the nearest set point passes to another part of the set path both ends may still keep the same line of it. A vector
+    /// longer than the tolerance may have components that keep it: they count between points close to each other, where the
+    /// vector hardly turns.
+    fn may_hide_more(&self, other: &Self, set: &SetPath, bend: f64, tolerance_mm: f64) -> bool {
+        let limit = within(tolerance_mm);
+        let most = self.deviation_mm.max(other.deviation_mm);
+        if most > limit {
+            return false;
+        }
         let way = (other.s - self.s).abs();
-        0.5 * (self.length + other.length + way) > limit && self.apart(other) > JUMP * way
+        if 0.5 * (self.length + other.length + way) <= certain(tolerance_mm) {
+            return false;
+        }
+        let beside = bend * way * way / 8.0 * (self.of.len() as f64).sqrt();
+        let lines = [self.cycle.min(other.cycle), self.cycle.max(other.cycle)];
+        let aside = if lines[1] - lines[0] <= MOST_LINES {
+            set.bulge(lines[0]..lines[1], &self.point, &other.point)
+        } else {
+            f64::INFINITY
+        };
+        let close = lines[0] == lines[1] || way <= CLOSE * tolerance_mm;
+        let goes_along = close && self.apart(other) <= JUMP * way;
+        let largest = if goes_along { most } else { self.length.max(other.length) };
+        if goes_along && way <= SPACING * tolerance_mm || largest + aside + beside <= limit {
+            return false;
+        }
+        let keeps = |foot: &Self, line: u64| set.distance(line, &foot.of) + beside <= limit;
+        !lines.iter().any(|line| keeps(self, *line) && keeps(other, *line))
     }
 }
 
@@ -199,8 +238,9 @@ impl View<'_> {
                         &record,
                     );
                 }
+                let of = AxisVec::from_slice(point);
                 let point = point.iter().zip(vector.iter()).map(|(p, v)| p + v).collect();
-                Some(Foot { s, cycle, length: out.length, point })
+                Some(Foot { s, of, cycle, length: out.length, deviation_mm, point })
             };
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
@@ -224,30 +264,49 @@ impl View<'_> {
             hint = hint.max(passed);
             let parts =
                 ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
-            for part in 1..=parts {
-                let s = from + f64::from(part) / f64::from(parts) * (to - from);
+            let even = (1..=parts).map(|i| from + f64::from(i) / f64::from(parts) * (to - from));
+            // at a kink the contour is not straight
+            let first_mark = marks.partition_point(|m| m.s_mm <= from);
+            let kinks = marks[first_mark..].iter().map(|m| m.s_mm).take_while(|s| *s < to);
+            let mut places: SmallVec<[f64; 8]> = even.chain(kinks).collect();
+            places.sort_by(f64::total_cmp);
+            for s in places {
                 walk.position(s, &mut between);
                 // the nearest set point is found close to the last one
                 let near = (hint.saturating_sub(HINT).max(passed), hint + HINT);
                 let foot = missed(&between, near, passed as f64, s);
                 hint = foot.as_ref().map_or(near.0, |foot| foot.cycle);
                 let before = std::mem::replace(&mut last, foot);
-                let (Some(mut low), Some(mut high)) = (before, last.clone()) else { continue };
-                // the vector is largest where the nearest set point passes to another part of the set path
-                for _ in 0..HALVINGS {
-                    if !low.may_rise_to(&high, within(tolerance)) {
-                        break;
+                let (Some(low), Some(high)) = (before, last.clone()) else { continue };
+                let bend = self.bend_between(low.s, high.s);
+                let mut open: SmallVec<[(Foot, Foot, u32); 4]> = smallvec![(low, high, HALVINGS)];
+                while let Some((low, high, halvings)) = open.pop() {
+                    if halvings == 0 || !low.may_hide_more(&high, &set, bend, tolerance) {
+                        continue;
                     }
                     let mid = 0.5 * (low.s + high.s);
                     walk.position(mid, &mut between);
+                    let around = [low.cycle, high.cycle];
+                    let near = (
+                        around[0].min(around[1]).saturating_sub(HINT).max(passed),
+                        around[0].max(around[1]) + HINT,
+                    );
                     let Some(foot) = missed(&between, near, passed as f64, mid) else { break };
-                    if foot.apart(&low) <= foot.apart(&high) { low = foot } else { high = foot }
+                    open.push((foot.clone(), high, halvings - 1));
+                    open.push((low, foot, halvings - 1));
                 }
             }
         }
         if let Some(v) = bucket {
             found(&v, &record);
         }
+    }
+
+    /// Largest `|q''|` of an axis in 1/mm between two path lengths.
+    fn bend_between(&self, from: f64, to: f64) -> f64 {
+        let first = self.marks.partition_point(|m| m.s_mm <= from).max(1) - 1;
+        let inside = self.marks[first..].iter().take_while(|m| m.s_mm <= to);
+        inside.map(|m| m.queued.bend_between(from - m.s_mm, to - m.s_mm)).fold(0.0, f64::max)
     }
 
     /// Least tolerance of the blocks interpolated between two moments.
