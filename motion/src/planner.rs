@@ -38,8 +38,7 @@ use crate::brake::Brake;
 use crate::contour::Contour;
 use crate::corner::transition;
 use crate::deviation::Gauge;
-use crate::limit::SpeedLimit;
-use crate::lookahead::Cap;
+use crate::limit::{Cap, SpeedLimit};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
@@ -142,7 +141,7 @@ impl Planner {
             finishing: false,
             timeline: Timeline::default(),
             cursor: Moment::default(),
-            speed: (0.0, SpeedLimit::Stop),
+            speed: Cap::STOP,
             acceleration: 0.0,
             travelled: 0.0,
             state: PathState::at_rest(&position),
@@ -201,8 +200,8 @@ impl Planner {
 
     /// At rest although there is something to do: by feedhold or override 0.
     pub fn is_held(&self) -> bool {
-        let barred = self.queue.front().is_some_and(|q| q.velocity.0 <= 0.0);
-        self.speed.0 <= 0.0 && (self.active.hold.is_some() || barred)
+        let barred = self.queue.front().is_some_and(|q| q.velocity.v_mm_s <= 0.0);
+        self.speed.v_mm_s <= 0.0 && (self.active.hold.is_some() || barred)
     }
 
     /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.
@@ -218,7 +217,7 @@ impl Planner {
                 self.cycle,
                 self.kernels.any(),
             ),
-            None => (0.0, SpeedLimit::Stop),
+            None => Cap::STOP,
         };
         self.caps.push_back(cap);
         if self.queue.back().is_none_or(|last| last.block.seq != queued.block.seq) {
@@ -248,7 +247,7 @@ impl Planner {
                 self.output(k);
                 return Ok(Next::Setpoint);
             }
-            if self.queue.is_empty() && self.speed.0 <= 0.0 {
+            if self.queue.is_empty() && self.speed.v_mm_s <= 0.0 {
                 return Ok(if self.finishing { Next::Rest } else { Next::Input });
             }
             if !self.finishing && self.programmed < 2 * self.window {

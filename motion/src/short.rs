@@ -5,8 +5,7 @@
 //! single jump. On a fine chord polygon that is the limit of the circle, `v^2 / r <= w a` (derived).
 
 use crate::corner::{TANGENT, admissible_jump};
-use crate::limit::SpeedLimit;
-use crate::lookahead::Cap;
+use crate::limit::{Cap, SpeedLimit};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
@@ -40,7 +39,7 @@ pub(crate) fn lower_caps(
         // an override may come later
         let before_last = &queue[newest - 1];
         let fastest = to.fastest_behind(before_last).min(inner.fastest_behind(from));
-        let fastest = fastest.min(caps[newest].0).min(caps[first].0);
+        let fastest = fastest.min(caps[newest].v_mm_s).min(caps[first].v_mm_s);
         if apart >= fastest {
             return;
         }
@@ -58,9 +57,7 @@ pub(crate) fn lower_caps(
         }
         let v = if kinks == KINKS { (together * apart).sqrt() } else { together }.max(apart);
         for boundary in [first, newest] {
-            if v < caps[boundary].0 {
-                caps[boundary] = (v, SpeedLimit::Curve);
-            }
+            caps[boundary] = caps[boundary].lower(Cap::new(v, SpeedLimit::Curve));
         }
         if kinks == KINKS {
             return;

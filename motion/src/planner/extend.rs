@@ -1,8 +1,8 @@
 //! From the queue to the timeline: plans, their examination, and what of them becomes final.
 
 use super::{Planner, programmed};
-use crate::limit::SpeedLimit;
-use crate::lookahead::{Cap, plan};
+use crate::limit::{Cap, SpeedLimit};
+use crate::lookahead::plan;
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
@@ -17,12 +17,12 @@ const FALL_BACK_PARTS: usize = 8;
 impl Planner {
     /// Plans what is queued and makes all but the last window final, or divides queued blocks first.
     pub(super) fn extend(&mut self) -> Result<(), Infeasible> {
-        let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
+        let free = |q: &&Arc<Queued>| q.velocity.v_mm_s > 0.0;
         let window: Vec<Arc<Queued>> = self.queue.iter().take_while(free).cloned().collect();
         let n = window.len();
         // a block without speed ends the path in front of it
         let barred = n < self.queue.len();
-        let start = if self.speed.0 > 0.0 {
+        let start = if self.speed.v_mm_s > 0.0 {
             self.cursor
         } else {
             Moment::tick(self.cursor.origin.max(self.setpoint.k))
@@ -115,14 +115,14 @@ impl Planner {
             kernels: &self.kernels,
             cycle: self.cycle,
             now: self.setpoint.k,
-            at_rest: self.speed.0 <= 0.0,
+            at_rest: self.speed.v_mm_s <= 0.0,
         }
     }
 
     /// The way to rest from the cursor on with the tolerance kept; `None` if there is none.
     pub(super) fn way_out(&mut self) -> Option<Vec<Entry>> {
         loop {
-            let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
+            let free = |q: &&Arc<Queued>| q.velocity.v_mm_s > 0.0;
             let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
             self.demands.reach_over(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
@@ -152,20 +152,18 @@ impl Planner {
         start: Moment,
         end: SpeedLimit,
     ) -> Result<Vec<Entry>, Infeasible> {
-        let lower = |cap: Cap, demand: f64| {
-            if demand < cap.0 { (demand, SpeedLimit::AxDev) } else { cap }
-        };
+        let lower = |cap: Cap, demand: f64| cap.lower(Cap::new(demand, SpeedLimit::AxDev));
         let (n, demands) = (window.len(), &self.demands);
         let feeds: Vec<Cap> = window
             .iter()
             .enumerate()
             .map(|(i, q)| {
-                let floor = if i == 0 { self.speed.0 } else { 0.0 };
+                let floor = if i == 0 { self.speed.v_mm_s } else { 0.0 };
                 lower(q.velocity, demands.feed[i].max(floor))
             })
             .collect();
         let caps: Vec<Cap> = (0..=n)
-            .map(|i| lower(self.caps.get(i).copied().unwrap_or((0.0, end)), demands.cap[i]))
+            .map(|i| lower(self.caps.get(i).copied().unwrap_or(Cap::new(0.0, end)), demands.cap[i]))
             .collect();
         let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
         let gentle = demands.soften(window);
@@ -278,7 +276,7 @@ impl Planner {
             }
             for part in parts[1..].iter().rev() {
                 self.queue.insert(b + 1, Arc::clone(part));
-                self.caps.insert(b + 1, (f64::INFINITY, SpeedLimit::Curve));
+                self.caps.insert(b + 1, Cap::new(f64::INFINITY, SpeedLimit::Curve));
             }
             self.queue[b] = Arc::clone(&parts[0]);
             self.demands.insert(b + 1, parts.len() - 1, self.demands.feed[b]);
@@ -329,12 +327,12 @@ impl Planner {
             self.contour.enter(cycles, s, Arc::clone(queued));
         }
         self.travelled = entry.s0 + entry.profile.length();
-        self.speed = (entry.profile.end().v_mm_s, entry.why_down);
+        self.speed = Cap::new(entry.profile.end().v_mm_s, entry.why_down);
         self.acceleration = entry.profile.left_with();
         self.cursor = entry.end;
         if entry.stops {
             self.cursor = Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell));
-            (self.speed, self.acceleration) = ((0.0, entry.why_down), 0.0);
+            (self.speed, self.acceleration) = (Cap::new(0.0, entry.why_down), 0.0);
         }
         self.timeline.push(entry);
     }

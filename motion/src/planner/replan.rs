@@ -18,8 +18,8 @@
 
 use super::{Planner, programmed};
 use crate::course::Course;
-use crate::limit::SpeedLimit;
-use crate::lookahead::{Cap, plan};
+use crate::limit::{Cap, SpeedLimit};
+use crate::lookahead::plan;
 use crate::profile::SlopeLimits;
 use crate::queue::Queued;
 use crate::realtime::feedhold_slope;
@@ -176,7 +176,7 @@ impl Planner {
     /// The leg from a spot that moves; `None` if the old plan has to go on.
     fn leg(&self, spot: &Spot, rest: &[(Arc<Queued>, Cap)], old: &[Entry]) -> Option<Leg> {
         let first = &rest.first()?.0;
-        let target = if self.active.hold.is_some() { 0.0 } else { first.velocity.0 };
+        let target = if self.active.hold.is_some() { 0.0 } else { first.velocity.v_mm_s };
         let slope = self.slope_of(first);
         let settled = slope.settled(spot.v, spot.a);
         let steady = (settled - spot.v).abs() <= 1e-12 * spot.v;
@@ -236,7 +236,7 @@ impl Planner {
         let falls = matches!(aim, Aim::Brake(_));
         if falls {
             // into a slower block
-            let crossed = rest[1..=crossed.len()].iter().map(|(q, _)| q.velocity.0);
+            let crossed = rest[1..=crossed.len()].iter().map(|(q, _)| q.velocity.v_mm_s);
             let slowest = crossed.fold(f64::INFINITY, f64::min);
             if slowest < v_end * (1.0 - SLACK) {
                 return self.fit(Aim::Brake(slowest), spot, first, rest, old);
@@ -254,7 +254,8 @@ impl Planner {
         } else {
             crossed.iter().zip(&rest[1..]).all(|(s, (queued, cap))| {
                 let v = speed_in(&leg, *s);
-                v <= cap.0 * (1.0 + SLACK) && v.max(v_end) <= queued.velocity.0 * (1.0 + SLACK)
+                v <= cap.v_mm_s * (1.0 + SLACK)
+                    && v.max(v_end) <= queued.velocity.v_mm_s * (1.0 + SLACK)
             })
         };
         let length = leg.iter().map(Course::length).sum();
@@ -270,7 +271,7 @@ impl Planner {
         next.contour.forget_from(spot.moment.cycles(self.cycle) - SLACK);
         next.cursor = spot.moment;
         next.travelled = spot.s;
-        (next.speed, next.acceleration) = ((spot.v, spot.why), 0.0);
+        (next.speed, next.acceleration) = (Cap::new(spot.v, spot.why), 0.0);
         let why = if self.active.hold.is_some() { SpeedLimit::Stop } else { SpeedLimit::Feed };
         for course in leg {
             let length = course.length();
@@ -293,7 +294,7 @@ impl Planner {
         next.programmed = programmed(&next.queue);
         next.reserve.clear();
         next.demands = Demands::default();
-        if next.speed.0 > 0.0 {
+        if next.speed.v_mm_s > 0.0 {
             let Some(way_out) = next.way_out() else { return false };
             next.reserve = way_out.into();
         } else if let Some(unkept) = moves.then(|| next.excess()).flatten() {
@@ -372,14 +373,21 @@ fn speed_at(old: &[Entry], s: f64) -> f64 {
 /// The look-ahead finds a plan that starts with `v`.
 fn goes_on(rest: &[(Arc<Queued>, Cap)], v: f64) -> bool {
     let (mut blocks, mut caps, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
-    for (queued, cap) in rest.iter().take_while(|(q, _)| q.velocity.0 > 0.0) {
+    for (queued, cap) in rest.iter().take_while(|(q, _)| q.velocity.v_mm_s > 0.0) {
         feeds.push(queued.velocity);
         blocks.push(Arc::clone(queued));
         caps.push(*cap);
     }
-    caps.push((0.0, SpeedLimit::Stop));
+    caps.push(Cap::STOP);
     let free = vec![false; caps.len()];
     !blocks.is_empty()
-        && plan(&blocks, &feeds, &caps, &free, ((v, SpeedLimit::Feed), 0.0), SpeedLimit::Stop)
-            .is_ok()
+        && plan(
+            &blocks,
+            &feeds,
+            &caps,
+            &free,
+            (Cap::new(v, SpeedLimit::Feed), 0.0),
+            SpeedLimit::Stop,
+        )
+        .is_ok()
 }
