@@ -32,10 +32,10 @@
 //! let feeds: Vec<_> = blocks.iter().map(|queued| queued.velocity).collect();
 //! let caps = [Cap::STOP, Cap::new(3.5, SpeedLimit::Corner)];
 //! let start = (Cap::STOP, 0.0);
-//! let plan = plan(&blocks, &feeds, &caps, &[false; 2], start, SpeedLimit::Stop).unwrap();
+//! let spans = plan(&blocks, &feeds, &caps, &[false; 2], start, SpeedLimit::Stop).unwrap();
 //! // from rest to the corner, from there to rest
-//! assert!((plan.spans[0].profile.at(plan.spans[0].profile.duration()).v_mm_s - 3.5).abs() < 1e-6);
-//! assert_eq!(plan.spans.last().unwrap().end, 2);
+//! assert!((spans[0].profile.at(spans[0].profile.duration()).v_mm_s - 3.5).abs() < 1e-6);
+//! assert_eq!(spans.last().unwrap().end, 2);
 //! ```
 
 mod late;
@@ -75,13 +75,6 @@ pub struct Span {
     pub why_down: SpeedLimit,
 }
 
-/// The plan of a window.
-#[derive(Clone, Debug, Default)]
-pub struct Plan {
-    /// Spans in order; together they cover every block.
-    pub spans: Vec<Span>,
-}
-
 struct Stretch {
     first: usize,
     end: usize,
@@ -107,7 +100,7 @@ struct Window<'a> {
     carried: Vec<bool>,
 }
 
-/// Plans a window of blocks from `v_start` to rest. An acceleration at the start (mm/s2) is the one at which a plan of
+/// Plans a window of blocks from `v_start` to rest, in spans that cover every block. An acceleration at the start (mm/s2) is the one at which a plan of
 /// constant jerk was left.
 ///
 /// `caps[i]` belongs to the boundary before block `i`; `caps[0]` is not read. `forced` boundaries are knots.
@@ -121,9 +114,9 @@ pub fn plan(
     forced: &[bool],
     (v_start, a_start): (Cap, f64),
     end: SpeedLimit,
-) -> Result<Plan, Infeasible> {
+) -> Result<Vec<Span>, Infeasible> {
     if blocks.is_empty() {
-        return Ok(Plan::default());
+        return Ok(Vec::new());
     }
     let (entries, carried) = (feeds.to_vec(), vec![false; blocks.len()]);
     // where a plan was left inside, its speed has been computed in another way
@@ -143,7 +136,7 @@ impl Window<'_> {
         self.caps[b].lower(self.feeds[b - 1]).lower(self.entries[b])
     }
 
-    fn plan(&self) -> Result<Plan, Infeasible> {
+    fn plan(&self) -> Result<Vec<Span>, Infeasible> {
         let Self { blocks, feeds, caps, .. } = *self;
         let n = blocks.len();
         let mut knot = vec![false; n + 1];
@@ -218,7 +211,7 @@ impl Window<'_> {
                 });
             }
             if !again {
-                return Ok(Plan { spans });
+                return Ok(spans);
             }
             known = spans;
         }

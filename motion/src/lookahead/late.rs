@@ -13,7 +13,7 @@
 //! Nothing here is promised to be faster: of the plans with carried braking, without it, and without G901 the fastest one
 //! is taken.
 
-use super::{Plan, Span, Stretch, Window, is_above};
+use super::{Span, Stretch, Window, is_above};
 use crate::limit::Cap;
 use crate::profile::Infeasible;
 use crate::queue::Queued;
@@ -46,7 +46,7 @@ fn highest(blocks: &[Arc<Queued>], feeds: &[Cap], i: usize) -> Cap {
 }
 
 /// Plans a window with these entries, `early` without them.
-pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Plan, Infeasible> {
+pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Vec<Span>, Infeasible> {
     let mut late = Window { entries, ..early.clone() };
     late.carry_start();
     let best = match (late.plan(), early.plan()) {
@@ -61,8 +61,8 @@ pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Plan, Infeas
 }
 
 /// The faster one of two plans, the second one if they are equal.
-fn faster(a: Plan, b: Plan) -> Plan {
-    let time = |plan: &Plan| plan.spans.iter().map(|s| s.profile.duration()).sum::<f64>();
+fn faster(a: Vec<Span>, b: Vec<Span>) -> Vec<Span> {
+    let time = |plan: &Vec<Span>| plan.iter().map(|s| s.profile.duration()).sum::<f64>();
     if time(&a) < time(&b) { a } else { b }
 }
 
@@ -124,11 +124,11 @@ impl Window<'_> {
     }
 
     /// A plan in which braking goes on across the ends of runs, as far as that makes it faster; `None` if nowhere.
-    fn carried(&self, base: &Plan) -> Option<Plan> {
+    fn carried(&self, base: &[Span]) -> Option<Vec<Span>> {
         let mut window = self.clone();
-        let mut plan: Option<Plan> = None;
+        let mut plan: Option<Vec<Span>> = None;
         for _ in 0..ROUNDS {
-            let now = plan.as_ref().unwrap_or(base);
+            let now = plan.as_deref().unwrap_or(base);
             let joints = window.joints(now);
             if joints.is_empty() {
                 break;
@@ -146,11 +146,11 @@ impl Window<'_> {
 
     /// Ends of runs across which braking should go on: with the speeds around as they are, the two runs and what lies
     /// in front of them take less time.
-    fn joints(&self, plan: &Plan) -> Vec<usize> {
+    fn joints(&self, plan: &[Span]) -> Vec<usize> {
         let mut out = Vec::new();
         let mut k = 1;
-        while k + 1 < plan.spans.len() {
-            let b = plan.spans[k + 1].first;
+        while k + 1 < plan.len() {
+            let b = plan[k + 1].first;
             if self.gains(plan, k) {
                 out.push(b);
                 // the speeds around change
@@ -163,8 +163,8 @@ impl Window<'_> {
     }
 
     /// True if spans `k` and `k + 1` as one are faster.
-    fn gains(&self, plan: &Plan, k: usize) -> bool {
-        let [before, first, second] = &plan.spans[k - 1..=k + 1] else { return false };
+    fn gains(&self, plan: &[Span], k: usize) -> bool {
+        let [before, first, second] = &plan[k - 1..=k + 1] else { return false };
         let start = |s: &Span| s.profile.at(0.0).v_mm_s;
         let best = self.limit(first.first).v_mm_s;
         if !is_above(self.entries[first.first].v_mm_s, self.feeds[first.first].v_mm_s)
