@@ -62,8 +62,19 @@ struct Underway {
     seq: u64,
     source: SourceRef,
     motion: Motion,
+    /// Where it ends as it is programmed.
+    target: AxisVec,
     jerk_limited: bool,
     events: Vec<Event>,
+}
+
+/// A thread of G33 that is being cut.
+#[derive(Clone, Copy, Debug)]
+struct Thread {
+    /// The override does not act on it.
+    full_override: bool,
+    /// Its pitch has changed, and that has been said.
+    broken: bool,
 }
 
 /// What follows when the path has come to rest.
@@ -107,6 +118,8 @@ pub(crate) struct Simulation {
     path_position: AxisVec,
     /// G33: the share of a cycle by which the axes come behind the planner, so that they go with the mark of the spindle.
     thread_delay: f64,
+    /// A thread of G33 is cut, and what may break it.
+    thread: Option<Thread>,
     /// Set positions of the path axes in the cycle before as the planner has them, in a thread.
     planned: AxisVec,
     vector: AxisVec,
@@ -175,6 +188,7 @@ impl Simulation {
             set: start.clone(),
             path_position: start[..n].iter().copied().collect(),
             thread_delay: 0.0,
+            thread: None,
             planned: start[..n].iter().copied().collect(),
             vector: AxisVec::zeros(n),
             max_cycles,
@@ -270,9 +284,15 @@ impl Simulation {
                         independent: &self.independent,
                         cycle: self.cycle,
                     };
-                    if wait.is_over(parts) {
+                    // a held path does not begin a thread: it would miss the mark
+                    let bars = wait.mark().is_some_and(|(_, _, full)| self.inputs.bar(full));
+                    if !bars && wait.is_over(parts) {
                         self.go_on();
                         continue;
+                    }
+                    if bars && self.inputs.is_over() {
+                        self.held_for_ever();
+                        return None;
                     }
                     if self.inputs.is_over()
                         && let Some((chain, lacks)) = wait.hopeless(parts, self.cycle)
@@ -322,6 +342,21 @@ impl Simulation {
         self.planner.feedhold(self.inputs.feedhold, braking);
     }
 
+    /// K-0132, once for each thread: the path does not go with the spindle.
+    fn watch_thread(&mut self) {
+        let Some(thread) = &mut self.thread else { return };
+        let why = self.inputs.changes_speed(thread.full_override);
+        if let (Some(why), false) = (why, thread.broken)
+            && matches!(self.phase, Phase::Running)
+        {
+            thread.broken = true;
+            let at = self.current;
+            let mut d = fault::thread_broken(why, self.planner.setpoint().k, self.cycle);
+            d.source = self.executor.locate(at);
+            self.diagnostics.push(d);
+        }
+    }
+
     fn input_fails(&mut self, failure: Diagnostic) {
         self.diagnostics.push(failure);
         (self.totals.aborted, self.totals.input_failed) = (true, true);
@@ -338,11 +373,16 @@ impl Simulation {
         }
         self.is_held = true;
         if self.inputs.is_over() {
-            let failure = fault::held(setpoint.k, self.cycle, self.inputs.feedhold);
-            self.diagnostics.push(failure);
-            self.totals.aborted = true;
-            self.phase = Phase::Done;
+            self.held_for_ever();
         }
+    }
+
+    /// K-0083: nothing will release the path any more.
+    fn held_for_ever(&mut self) {
+        let k = self.planner.setpoint().k;
+        self.diagnostics.push(fault::held(k, self.cycle, self.inputs.feedhold));
+        self.totals.aborted = true;
+        self.phase = Phase::Done;
     }
 
     /// Takes the next step of the program.
@@ -368,7 +408,8 @@ impl Simulation {
         self.totals.count(&block);
         let jerk_limited = block.slope.kind != SlopeKind::Step;
         let motion = Motion::of(&block);
-        self.underway.push_back(Underway { seq: block.seq, source, motion, jerk_limited, events });
+        let (seq, target) = (block.seq, block.path.end().clone());
+        self.underway.push_back(Underway { seq, source, motion, target, jerk_limited, events });
         self.smoothing.push(*block, &mut self.planner);
         self.not_contoured();
     }
@@ -411,14 +452,18 @@ impl Simulation {
         let Phase::Waiting(wait) = std::mem::replace(&mut self.phase, Phase::Running) else {
             return;
         };
-        if let Some((spindle, deg)) = wait.mark() {
+        if let Some((spindle, deg, full_override)) = wait.mark() {
+            self.thread = Some(Thread { full_override, broken: false });
             let share = self.spindles.get(spindle).and_then(|s| s.mark_ahead(deg, self.cycle));
             self.thread_delay = share.unwrap_or(0.0);
             self.planned.copy_from_slice(&self.path_position);
         }
         match wait.into_action() {
             wait::Action::None => {}
-            wait::Action::ThreadEnd => self.thread_delay = 0.0,
+            wait::Action::ThreadEnd => {
+                self.thread_delay = 0.0;
+                self.thread = None;
+            }
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
             wait::Action::MachineData { axis } => self.machine_data(axis),
             wait::Action::End(reason) => {

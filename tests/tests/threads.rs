@@ -82,13 +82,130 @@ fn thread(run: &Run, line: u32, pitch: f64, sense: f64) -> f64 {
     steady[0].rem_euclid(pitch)
 }
 
+/// P-CHAN-00836.
+const KEEPS_PITCH: &str = "channel.thread_cutting.ignore_override=1";
+
+/// P-CHAN-00837.
+const CHAIN: &str = "channel.thread_cutting.thread_chain=1";
+
+/// The pitch that is cut: the way of Z for each turn in the steady part of line 3.
+fn pitch(run: &Run) -> f64 {
+    let all = together(run, 3..=3);
+    let steady: Vec<_> = all.iter().filter(|(z, _)| (-30.0..=-20.0).contains(z)).collect();
+    let (first, last) = (steady[0], steady[steady.len() - 1]);
+    (first.0 - last.0) / (last.1 - first.1) * 360.0
+}
+
+/// The override acts on G33 (P-CHAN-00836 = 0, the default) and the pitch shrinks with it, which is said; P-CHAN-00836,
+/// `#TURN`, G166 and a chain keep it out. The override of the program likewise.
+#[test]
+fn the_override_in_a_thread() {
+    let half = [(0.0, "override_percent", 50.0)];
+    let thread = "G33 Z-40 K1.5\nG01 Z-41 F100\nM5\nM30\n";
+    for (first, settings, broken) in [
+        ("M3 S500", &[][..], true),
+        ("M3 S500", &[KEEPS_PITCH], false),
+        ("M3 S500", &[CHAIN], false),
+    ] {
+        let run = run_with_inputs(machine(settings), &format!("%P\n{first}\n{thread}"), &half);
+        let ids: Vec<String> = run.diagnostics.iter().map(|d| d.id.to_string()).collect();
+        assert_eq!(ids, if broken { vec!["K-0132"] } else { vec![] });
+        let want = if broken { 0.75 } else { 1.5 };
+        assert!((pitch(&run) - want).abs() < 1e-6, "{}", pitch(&run));
+    }
+    for (second, want, broken) in [
+        ("#TURN [THREAD_CUT_IGNORE_OV=1]", 1.5, false),
+        ("#TURN [THREAD_CHAIN=1]", 1.5, false),
+        ("#OVERRIDE [FEED_FACT=80]", 0.6, true),
+    ] {
+        let text = format!("N1 M3 S500\n{second}\n{thread}");
+        let run = run_with_inputs(machine(&[]), &text, &half);
+        assert_eq!(run.diagnostics.is_empty(), !broken, "{text} {:?}", run.diagnostics);
+        assert!((pitch(&run) - want).abs() < 1e-6, "{text}: {}", pitch(&run));
+    }
+    let text = "%P\nM3 S500\nG166 G33 Z-40 K1.5\nG01 Z-41 F100\nM5\nM30\n";
+    let run = run_with_inputs(machine(&[]), text, &half);
+    assert_eq!(run.diagnostics, []);
+    assert!((pitch(&run) - 1.5).abs() < 1e-6);
+}
+
+/// A feedhold cuts the thread through; the path goes on afterwards, and the block is named.
+#[test]
+fn a_feedhold_breaks_a_thread() {
+    let text = "%P\nM3 S500\nG33 Z-40 K1.5\nG01 Z-41 F100\nM5\nM30\n";
+    let free = run_with_inputs(machine(&[]), text, &[]);
+    let inside =
+        free.records.iter().position(|r| r.axes[Z].set < -10.0).unwrap() as f64 * free.cycle_s;
+    let inputs = [(inside, "feedhold", 1.0), (inside + 0.5, "feedhold", 0.0)];
+    let run = run_with_inputs(machine(&[]), text, &inputs);
+    let said: Vec<_> = run
+        .diagnostics
+        .iter()
+        .map(|d| (d.id.to_string(), d.source.as_ref().map(|s| s.line)))
+        .collect();
+    assert_eq!(said, [("K-0132".to_owned(), Some(3))]);
+    assert!((run.records.last().unwrap().axes[Z].set + 41.0).abs() < 1e-9);
+    let longer = (run.records.len() - free.records.len()) as f64 * run.cycle_s;
+    assert!(longer > 0.4, "{longer}");
+}
+
+/// A feedhold before the thread delays it: it begins at the mark all the same. Without an end it ends the run (K-0083).
+#[test]
+fn a_feedhold_before_a_thread_delays_it() {
+    let text = "%P\nM3 S500\nG33 Z-40 K1.5\nG01 Z-41 F100\nM5\nM30\n";
+    let free = run_with_inputs(machine(&[]), text, &[]);
+    let inputs = [(0.01, "feedhold", 1.0), (3.0371, "feedhold", 0.0)];
+    let late = run_with_inputs(machine(&[]), text, &inputs);
+    assert_eq!(late.diagnostics, []);
+    assert!(late.records.len() > free.records.len() + 1000);
+    assert!(apart(thread(&free, 3, 1.5, 1.0), thread(&late, 3, 1.5, 1.0), 1.5) < 1e-7);
+    let held = run_with_inputs(machine(&[]), text, &[(0.01, "feedhold", 1.0)]);
+    let ids: Vec<String> = held.diagnostics.iter().map(|d| d.id.to_string()).collect();
+    assert_eq!(ids, ["K-0083"]);
+}
+
+/// Blocks of G33 behind each other: threads of their own, each from the mark (P-CHAN-00837 = 0), or one without a stop.
+#[test]
+fn a_chain_of_threads() {
+    let text = "%P\nM3 S500\nG33 Z-15.4 K1.5\nZ-40\nG01 Z-41 F100\nM5\nM30\n";
+    let rests = |run: &Run| {
+        let before = run.records.iter().filter(|r| matches!(r.line, 3 | 4));
+        before.filter(|r| (r.axes[Z].set + 15.4).abs() < 1e-6 && r.path.v_mm_s <= 0.0).count()
+    };
+    let single = run(text, &[]);
+    assert_eq!(single.diagnostics, []);
+    assert!(rests(&single) > 1);
+    let begins = single.records.iter().position(|r| r.axes[Z].set < -15.4 - 1e-9).unwrap();
+    let angle = single.records[begins].axes[SPINDLE].set.rem_euclid(360.0);
+    assert!(angle <= 3.0 + 1e-6, "{angle}");
+    let chain = run(text, &[CHAIN]);
+    assert_eq!(chain.diagnostics, []);
+    assert_eq!(rests(&chain), 0);
+    let (a, b) = (together(&chain, 3..=3), together(&chain, 4..=4));
+    let lies = |(z, deg): &(f64, f64)| z + 1.5 * deg / 360.0;
+    assert!((lies(&a[a.len() - 20]) - lies(&b[20])).abs() < 1e-7);
+    for (text, id) in [
+        ("G33 Z-10 K1\nG33 Z-20 X5", "K-0019"),
+        ("G33 Z-10 K1\nS200\nG33 Z-20", "K-0019"),
+        ("#TURN [TAPPING_ACT_POS=1]", "K-0019"),
+        ("#TURN [THREAD_CHAIN=0.5]", "K-0009"),
+        ("#TURN [THREAD_CHIAN=1]", "21220"),
+        ("#TURN", "21220"),
+    ] {
+        let run = run(&format!("%P\nM3 S100\n{text}\nM30\n"), &[CHAIN]);
+        let errors = run.diagnostics.iter().filter(|d| d.is_error());
+        let ids: Vec<String> = errors.map(|d| d.id.to_string()).collect();
+        assert_eq!(ids, [id], "{text}");
+    }
+}
+
 fn apart(a: f64, b: f64, pitch: f64) -> f64 {
     let d = (a - b).rem_euclid(pitch);
     d.min(pitch - d)
 }
 
-/// Passes of G33 hit the same thread whenever they begin, other starts lie beside it (thread cutting, 400186379), and the
-/// override changes nothing.
+/// Passes of G33 hit the same thread whenever they begin, other starts lie beside it (thread cutting, 400186379), and an
+/// override that does not act on G33 (P-CHAN-00836) changes nothing.
 #[test]
 fn passes_of_a_thread_lie_in_each_other() {
     for (m, sense) in [("M3", 1.0), ("M4", -1.0)] {
@@ -97,7 +214,7 @@ fn passes_of_a_thread_lie_in_each_other() {
              G00 Z0\nG33 Z-35\nZ-40\nG01 Z-41 F100\nM5\nM30\n"
         );
         for inputs in [&[][..], &[(0.0, "override_percent", 50.0)]] {
-            let run = run_with_inputs(machine(&[]), &text, inputs);
+            let run = run_with_inputs(machine(&[KEEPS_PITCH]), &text, inputs);
             assert_eq!(run.diagnostics, [], "{text}");
             let passes = [3, 7, 9, 11].map(|line| thread(&run, line, 1.5, sense));
             assert!(apart(passes[0], passes[1], 1.5) < 1e-7, "{passes:?}");
@@ -188,7 +305,6 @@ fn a_rest_in_a_thread_waits_for_the_mark_again() {
 #[test]
 fn threads_that_cannot_be_kept() {
     for (text, id) in [
-        ("M3 S100\nG33 Z-10 K1\nG33 Z-20 X5", "K-0019"),
         ("M3 S100\nG33 Z-10 K0.00000001", "K-0124"),
         ("M3 S100\nG33 Z-10 K-1", "K-0124"),
         ("M3 S100\nG33 Z-10 I1", "K-0124"),

@@ -159,3 +159,29 @@ fn proposals_save_what_they_say() {
     let line = &run.summary["times"]["most_expensive_lines"][0];
     assert!(line["line"] == 2 && line["helps"][0] == "velocity +10 % of Y", "{line}");
 }
+
+/// Time measurement (207464587): START and STOP count, READ puts the count into V.G.TIMER, CLEAR leaves it there. With SYN the
+/// moments are those of the motion.
+#[test]
+fn timers_measure_program_time() {
+    let text = "%P\n#TIMER START SYN [ID=2]\nG04 1.5\n#TIMER STOP SYN [ID=2]\nG04 4\n#TIMER START SYN [ID=2]\nG04 0.25\n\
+        #TIMER READ SYN [ID=2]\n#MSG [\"%f\", V.G.TIMER[2]]\n#TIMER CLEAR SYN [ID=2]\nG04 1\n#MSG [\"%f\", V.G.TIMER[2]]\n\
+        #TIMER READ SYN [ID=2]\n#MSG [\"%f\", V.G.TIMER[2]]\nM30\n";
+    let run = kontur_tests::run(text, &[]);
+    let said: Vec<f64> = run.diagnostics.iter().map(|d| d.text.parse().unwrap()).collect();
+    let want = [1750.0, 1750.0, 0.0];
+    assert_eq!(said.len(), 3);
+    for (ms, want) in said.iter().zip(want) {
+        assert!((ms - want).abs() <= 4.0 * run.cycle_s * 1e3, "{said:?}");
+    }
+}
+
+/// The path does not stop for a timer that is started or stopped with SYN.
+#[test]
+fn a_timer_does_not_stop_the_path() {
+    let text = |timer: &str| format!("%P\nG01 X10 F3000\n{timer}X20\nX30\nM30\n");
+    let with = kontur_tests::run(&text("#TIMER START SYN [ID=1]\n"), &[]);
+    let without = kontur_tests::run(&text(""), &[]);
+    assert_eq!(with.diagnostics, []);
+    assert_eq!(with.records.len(), without.records.len());
+}

@@ -6,6 +6,7 @@
 //! Source: TF5200 programming manual, list of commands.
 
 mod axes;
+mod compensation;
 mod contour;
 mod frames;
 pub(in crate::exec) mod keys;
@@ -16,6 +17,8 @@ mod shaping;
 pub(super) mod signals;
 mod slope;
 mod spindles;
+mod tools;
+mod turning;
 
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
@@ -214,7 +217,7 @@ const ROWS: &[Row] = &[
     off_only("CAX"),
     off_only("CAXTRACK"),
     off_only("TANGFEED"),
-    off_only("TURN"),
+    turning::TURN,
     off_only("NIBBLE"),
     off_only("PUNCH"),
     off_only("DYNAMIC WEIGHT"),
@@ -234,6 +237,8 @@ const ROWS: &[Row] = &[
     unsupported("CONTOUR END"),
     unsupported("CORNER PARAM"),
     unsupported("CS ADD"),
+    unsupported("CS DEF ACT"),
+    unsupported("CS DEL"),
     off_only("CS MODE"),
     unsupported("CS SELECT"),
     unsupported("DEL DIST2GO"),
@@ -243,6 +248,7 @@ const ROWS: &[Row] = &[
     unsupported("ESCAPE PATH"),
     off_only("FREE TOOL CHANGE"),
     unsupported("GET MANUAL OFFSETS"),
+    unsupported("INFO"),
     unsupported("GET WCS POSLIMIT"),
     unsupported("LOCK"),
     unsupported("MANUAL LIMITS"),
@@ -256,7 +262,7 @@ const ROWS: &[Row] = &[
     unsupported("START"),
     unsupported("STROKE DEF"),
     off_only("TGC"),
-    unsupported("TRC"),
+    compensation::TRC,
     unsupported("UNLOCK"),
     unsupported("WCS TO MCS"),
     unsupported("RT CYCLE"),
@@ -278,9 +284,9 @@ const ROWS: &[Row] = &[
     // no influence on set positions
     ignored("SINGLE STEP"),
     ignored("BLOCKSEARCH"),
-    ignored("TOOL DATA"),
-    ignored("TOOL PREP"),
-    ignored("TOOL REFRESH"),
+    tools::TOOL_DATA,
+    tools::TOOL_PREP,
+    tools::TOOL_REFRESH,
     unsupported("TOOL"),
     ignored("EXPL SYN"),
     unsupported("LOAD CONFIG"),

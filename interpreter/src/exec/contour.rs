@@ -9,7 +9,9 @@ use self::bottleneck::Cut;
 use self::compensation::{Compensator, Item, Rest};
 use self::contouring::{Contouring, Hsc};
 use self::insertion::Insertion;
+use super::block::modal::Selection;
 use super::fault::Fault;
+use super::geometry::arc::Point;
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
@@ -42,8 +44,8 @@ pub(super) struct Compensated {
     pub(super) distance_mm: f64,
     /// Outer corners by lines (G25) instead of arcs (G26).
     pub(super) straight_corners: bool,
-    /// Selection and deselection perpendicular to the contour (G237).
-    pub(super) perpendicular: bool,
+    /// How it begins and ends.
+    pub(super) selection: Selection,
 }
 
 impl Motion {
@@ -228,9 +230,26 @@ impl Contour {
         faults
     }
 
+    /// G40 with G239: axes of the plane, and where the tool's centre stands, if compensation was active.
+    pub(super) fn deselect_in_place(&mut self) -> (Option<([usize; 2], Point)>, Vec<Fault>) {
+        let mut faults = self.flush();
+        let left = self.compensator.leave(&mut self.done);
+        self.emit();
+        match left {
+            Ok(left) => (left, faults),
+            Err(fault) => {
+                faults.push(*fault);
+                (None, faults)
+            }
+        }
+    }
+
     /// End of the program.
     pub(super) fn end(&mut self, reason: EndReason, source: SourceRef) -> Vec<Fault> {
         let mut faults = self.flush();
+        if reason == EndReason::Aborted {
+            self.compensator.abandon();
+        }
         faults.extend(self.compensator.end(&mut self.done).err().map(|f| *f));
         self.emit();
         let events = self.take_events();

@@ -3,7 +3,7 @@
 //! The decoder knows blocks, not files: where the next block comes from is the business of the executor.
 
 use super::block::dialect::Seen;
-use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane};
+use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane, Selection};
 use super::commands::signals::Signal;
 use super::contour::Contour;
 use super::fault::Fault;
@@ -23,7 +23,7 @@ use super::program::calls::Calls;
 use super::shaping::{ShapingState, Worked};
 use super::step::{Event, Feedback, SourceRef, Sync};
 use super::values::Values;
-use super::values::system::Timers;
+use super::values::timers::Timers;
 use super::values::variables::Variables;
 use crate::diag::{Condition, Diagnostic, Location};
 use crate::exec::motion::technology::Technology;
@@ -135,8 +135,9 @@ impl Decoder {
                     weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
                 },
                 spindles,
-                threads: Threads::default(),
+                threads: Threads::new(&machine.channel),
                 contour_line: ContourLines::default(),
+                left_contour: false,
                 cutting_speed: None,
                 cutting_waits: false,
                 cutting_rpm_max: None,
@@ -200,7 +201,10 @@ impl Decoder {
                 (12, 70) => self.modal.inch = true,
                 (12, 71) => self.modal.inch = false,
                 (14, 91) => self.modal.absolute = false,
-                (22, 237) => self.modal.perpendicular_selection = true,
+                (22, 138) => self.modal.selection = Selection::Direct,
+                (22, 237) => self.modal.selection = Selection::Perpendicular,
+                (22, 238) => self.modal.selection = Selection::InsideCorner,
+                (22, 239) => self.modal.selection = Selection::WithoutBlock,
                 (23, 161) => self.modal.centre_absolute = true,
                 (25, 164) => self.modal.centre_correction = false,
                 // start values of the language; feedforward has a warning of its own

@@ -61,6 +61,8 @@ pub(super) struct MotionState {
     pub(super) spindles: Vec<Spindle>,
     pub(super) threads: Threads,
     pub(super) contour_line: ContourLines,
+    /// G40 with G239: the tool stands beside the contour, not where the program was.
+    pub(super) left_contour: bool,
     /// G96 with its S word.
     pub(super) cutting_speed: Option<CuttingSpeed>,
     /// G96 is in force, whether or not an S word has come.
@@ -274,6 +276,11 @@ impl Decoder {
     }
 
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
+        let left = std::mem::take(&mut self.motion.left_contour);
+        if left && (is_arc || self.modal.path == PathMode::ArcInSpace) {
+            let text = "an arc behind G40 with G239: its start is not where it was programmed";
+            return Err(Fault::new(Condition::CompensationInArc, text, span));
+        }
         let before = self.programmed_point();
         let start = self.program_targets(words)?;
         let path = if self.modal.path == PathMode::ArcInSpace {
@@ -411,7 +418,7 @@ impl Decoder {
         let compensation = compensated.then_some(Compensated {
             distance_mm: if left { radius } else { -radius },
             straight_corners: self.modal.corners == Corners::Straight,
-            perpendicular: self.modal.perpendicular_selection,
+            selection: self.modal.selection,
         });
         Ok(InPlane { plane: [first, second], tilt, compensation })
     }

@@ -1,5 +1,6 @@
 //! What the executor tells the simulation: motions, rests and events, in the order of the program.
 
+use crate::exec::values::timers::TimerAct;
 use kontur_filters::fir::FirConfig;
 use kontur_filters::hsc::HscConfig;
 use kontur_filters::kernel::Kernel;
@@ -221,6 +222,13 @@ pub(crate) enum Event {
         /// The function, with its duration if the lists declare one.
         function: String,
     },
+    /// `#TIMER .. SYN`: at this moment of the motion.
+    Timer {
+        /// Number.
+        id: u32,
+        /// What happens to it.
+        act: TimerAct,
+    },
     /// `#MSG`: text for the log.
     Message {
         /// Receiver as written, `ISG_DIAG_BED` if none was.
@@ -265,6 +273,8 @@ pub(crate) enum SpindleState {
     Mark {
         /// Angle.
         deg: f64,
+        /// The override does not act on the thread.
+        full_override: bool,
     },
 }
 

@@ -6,10 +6,11 @@
 pub(super) mod expr;
 pub(super) mod functions;
 pub(super) mod system;
+pub(super) mod timers;
 pub(super) mod variables;
 
 use std::collections::BTreeMap;
-use system::Timers;
+use timers::Timers;
 use variables::Variables;
 
 /// What the room owns.

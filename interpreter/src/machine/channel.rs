@@ -127,6 +127,12 @@ pub struct Channel {
     pub spindle_durations_s: Vec<SpindleDurations>,
     /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169), by G number.
     pub g8x_programs: BTreeMap<u32, String>,
+    /// T takes the tool data of its number too (P-CHAN-00014).
+    pub tool_data_with_tool: bool,
+    /// The override does not act on G33 (P-CHAN-00836).
+    pub thread_ignores_override: bool,
+    /// Consecutive blocks of G33 are one thread (P-CHAN-00837).
+    pub thread_chain: bool,
     /// Messages to the diagnosis receiver (P-CHAN-00518).
     pub diagnosis_messages: DiagnosisMessages,
     /// Subroutine called at the start of every program (P-CHAN-00119).
@@ -255,6 +261,9 @@ impl Channel {
                 .zip(CYCLE_PROGRAMS)
                 .filter_map(|(g, param)| Some((g, p.get(param)?)))
                 .collect(),
+            tool_data_with_tool: p.get(of::TOOL_DATA_WITH_TOOL),
+            thread_ignores_override: p.get(of::THREAD_IGNORES_OVERRIDE),
+            thread_chain: p.get(of::THREAD_CHAIN),
             diagnosis_messages: match p.get(of::DIAGNOSIS_MESSAGES).as_deref() {
                 Some("DISABLED") => DiagnosisMessages::Disabled,
                 Some("WARNING") => DiagnosisMessages::Warning,

@@ -6,6 +6,7 @@
 
 use super::axes::Driver;
 use super::chain::Remaining;
+use super::inputs::SpeedChange;
 use super::{Phase, Simulation};
 use crate::diag::{Condition, Diagnostic, Reaction, ValueKind, rounded};
 use crate::exec::SpindleMotion;
@@ -324,6 +325,23 @@ pub(super) fn held(k: u64, cycle: CycleTime, feedhold: bool) -> Diagnostic {
         format!("the path is held by {what} and no later input releases it: the run was stopped");
     let mut d =
         Diagnostic::new(Condition::Held, text).hint(format!("give {release} a later time stamp"));
+    d.cycle = Some(k);
+    d.time_s = Some(cycle.time_of(k));
+    d
+}
+
+/// The pitch of a thread is not kept.
+pub(super) fn thread_broken(why: SpeedChange, k: u64, cycle: CycleTime) -> Diagnostic {
+    let text = match why {
+        SpeedChange::Feedhold => {
+            "a feedhold stops the path in a thread while the spindle turns on: the thread is cut through".to_owned()
+        }
+        SpeedChange::Override(ratio) => format!(
+            "the override of {} % acts on G33: the thread gets that share of its pitch",
+            rounded(ratio * 100.0)
+        ),
+    };
+    let mut d = Diagnostic::new(Condition::ThreadBroken, text);
     d.cycle = Some(k);
     d.time_s = Some(cycle.time_of(k));
     d

@@ -131,6 +131,14 @@ impl Change {
     }
 }
 
+/// What changes the speed of the path from outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum SpeedChange {
+    Feedhold,
+    /// Ratio of the override.
+    Override(f64),
+}
+
 /// Changes in the order of time; an error ends the run.
 pub type Changes = Box<dyn Iterator<Item = Result<Change, Box<Diagnostic>>> + Send>;
 
@@ -218,6 +226,20 @@ impl Inputs {
             self.axes.resize(i + 1, AxisInputs::default());
         }
         &mut self.axes[i]
+    }
+
+    /// They keep a thread from beginning; `full_override`: the override does not act on it.
+    pub(super) fn bar(&self, full_override: bool) -> bool {
+        self.feedhold || (self.feed_ratio <= 0.0 && !full_override)
+    }
+
+    /// What lets the path go at another speed than a thread needs.
+    pub(super) fn changes_speed(&self, full_override: bool) -> Option<SpeedChange> {
+        if self.feedhold {
+            return Some(SpeedChange::Feedhold);
+        }
+        let changed = self.feed_ratio.to_bits() != 1.0_f64.to_bits();
+        (changed && !full_override).then_some(SpeedChange::Override(self.feed_ratio))
     }
 
     /// Overrides of feed and rapid blocks (P-CHAN-00181).

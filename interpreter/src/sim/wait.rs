@@ -115,7 +115,7 @@ impl Wait {
             Until::Spindle(spindle, state) => {
                 !parts.spindles.get(*spindle).is_none_or(|s| match state {
                     SpindleState::Rest => s.rests(),
-                    SpindleState::Mark { deg } => s.mark_ahead(*deg, parts.cycle).is_some(),
+                    SpindleState::Mark { deg, .. } => s.mark_ahead(*deg, parts.cycle).is_some(),
                 })
             }
             Until::Arrived(axes) => axes.iter().any(|axis| parts.independent.is_moving(*axis)),
@@ -168,10 +168,12 @@ impl Wait {
         matches!(self.until, Until::Cycles(..) | Until::Spindle(..))
     }
 
-    /// The spindle and the mark that the wait is for.
-    pub(super) fn mark(&self) -> Option<(usize, f64)> {
+    /// The spindle and the mark that the wait is for, and whether the override does not act on the thread behind it.
+    pub(super) fn mark(&self) -> Option<(usize, f64, bool)> {
         match self.until {
-            Until::Spindle(spindle, SpindleState::Mark { deg }) => Some((spindle, deg)),
+            Until::Spindle(spindle, SpindleState::Mark { deg, full_override }) => {
+                Some((spindle, deg, full_override))
+            }
             _ => None,
         }
     }

@@ -205,6 +205,9 @@ conditions! {
     ExchangeNumber = Vendor 21252: Error ProgramAbort 3 1, "axis exchange: axis number wrong", hint "write [name, number, index]";
     ExchangeNumberRange = Vendor 21253: Error ProgramAbort 3 1, "axis exchange: axis number outside the data format", hint "the logical axis numbers stand in the axis lists (kopf.achs_nr)";
     PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "remarks begin with ; or (; no block stands before %NAME";
+    TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "leave G05 out";
+    InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
+    SelectionActive = Vendor 21318: Error ProgramAbort 3 1, "change of the way of selection within that of G238", cause "G139 between G41 and G40", hint "write G40 first";
     SynchronousParameters = Vendor 21344: Error ProgramAbort 3 1, "#WAIT SYN with parameters of a signal", cause "#WAIT SYN [ID=1 P[0]=P5]", hint "leave SYN out: parameters are read without synchronisation";
     CycleKeyTwice = Vendor 21379: Error ProgramAbort 3 1, "keyword twice in L CYCLE[...]", hint "leave one of the two out";
     CycleWhileModal = Vendor 21381: Error ProgramAbort 3 1, "cycle called while a modal cycle is active", hint "write #DISABLE MODAL CYCLE before the call";
@@ -276,6 +279,7 @@ conditions! {
     SimulationDamping = Vendor 80044: Warning None 1 11, "damping of the simulated drive ≥ 1", cause "00051/00050", hint "write daempfung_z below daempfung_n (P-AXIS-00051, P-AXIS-00050)";
     CompensationInArc = Vendor 90008: Error ProgramAbort 6 1, "tool radius compensation selected in a circular block", cause "a linear block must follow G41 and G42", hint "write a linear block behind G41 and G42";
     ToolTooLarge = Vendor 90031: Error ProgramAbort 6 1, "tool radius compensation: tool too large", hint "use a smaller tool, or a larger radius of the contour";
+    InsideCornerRadius = Vendor 90127: Error ProgramAbort 3 1, "change of the tool radius within the contour of G238", hint "change the tool before G41 or behind G40";
     DeadTime = Vendor 110040: Warning None 1 2, "dead time of the simulated drive above the maximum, limited to 5", cause "P-AXIS-00194", hint "write 0 to 5 cycles";
     AxisSpeedZero = Vendor 110079: Warning None 1 2, "maximum axis speed is 0, default used", cause "P-AXIS-00212", hint "write the maximum speed of the axis";
     ShortestRampTime = Vendor 110083: Warning None 1 2, "shortest ramp time below its limit, limited", cause "P-AXIS-00201";
@@ -399,4 +403,7 @@ conditions! {
     ContourLineMissed = Kontur 127 "K-CONTOUR-LINE": Error ProgramAbort 3 1, "end of a contour line that its angle does not reach (no vendor ID known)", cause "#ANG=90 X20, or the other direction", hint "the angle counts from the first main axis of the plane, counter-clockwise";
     Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop stands or swings outside the window, and no input is left that could move it", hint "raise the window or the gain kv, or take the force away";
     SpindleLimit = Kontur 131 "K-SPINDLE-LIMIT": Warning None 1 1, "spindle speed above the limit of the spindle, limited", cause "S word or REV above P-AXIS-00212", hint "the limit is getriebe[0].dynamik.vb_max of the spindle", parameter "P-AXIS-00212";
+    ProjectRead = Kontur 140 "K-PROJECT": Note None 1 2, "lists taken out of a TwinCAT project", cause "-m names a .tsproj, an .xti, or a folder with them";
+    ProjectWrong = Kontur 141 "K-PROJECT-WRONG": Error JobAbort 3 0, "TwinCAT project that is no XML or holds no CNC", cause "-m names a .tsproj, an .xti, or a folder with them", hint "name the project that has the axes and the channel of the CNC, or a folder with its exported .xti files";
+    ThreadBroken = Kontur 132 "K-THREAD-BROKEN": Warning None 1 1, "thread whose pitch is not kept", cause "feedhold or override during G33, also a programmed one", hint "#TURN [THREAD_CUT_IGNORE_OV=1] or G166 keep the override out of threads; give a feedhold another time", parameter "P-CHAN-00836";
 }

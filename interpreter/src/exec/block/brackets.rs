@@ -15,6 +15,29 @@ use crate::exec::step::Event;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 use std::mem::discriminant;
 
+/// Beginnings of further words of spindle brackets that the manual knows. Source: TF5200 programming manual, programming in
+/// spindle-specific syntax.
+const OTHER_WORDS: &[&str] = &[
+    "OVERRIDE",
+    "CALLAX",
+    "PUTAX",
+    "SYNC",
+    "LINK",
+    "FEED_LINK",
+    "TRANS",
+    "DYNAMIC",
+    "MC_",
+    "G74",
+    "G112",
+    "G131",
+    "G132",
+    "G133",
+    "G134",
+    "G230",
+    "G231",
+    "G233",
+];
+
 /// What one item of a spindle bracket means.
 enum SpindleItem {
     /// M3, M4, M5, M19.
@@ -31,6 +54,8 @@ enum SpindleItem {
     Weight(f64),
     /// M or H function of the user.
     Function(Function),
+    /// G167.
+    FullOverride,
 }
 
 arguments! {
@@ -86,7 +111,10 @@ impl Decoder {
                 }
                 self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
             }
-            Some((Item { kind: ItemKind::Flag(word), span }, _)) => {
+            Some((
+                Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
+                _,
+            )) => {
                 let name = self.axis_name(axis);
                 Err(Fault::unsupported(format!("{name}[{}]", word.text), *span))
             }
@@ -238,6 +266,12 @@ impl Decoder {
             ("G137", None) => SpindleItem::Feedforward(false),
             ("G136", Some(x)) => SpindleItem::Weight(x),
             ("G130", Some(x)) => SpindleItem::Acceleration(x),
+            // no override from outside acts on spindles
+            ("G167", None) => SpindleItem::FullOverride,
+            (other, _) if OTHER_WORDS.iter().any(|w| other.starts_with(w)) => {
+                let name = format!("{other} in a spindle bracket");
+                return Err(Fault::unsupported(name, item.span));
+            }
             (other, _) => return Err(unknown(other)),
         })
     }
@@ -265,6 +299,7 @@ impl Decoder {
                 }
             }
             SpindleItem::Function(function) => self.call_function(function),
+            SpindleItem::FullOverride => {}
             SpindleItem::Speed(rpm) if !(0.0..=1e6).contains(&rpm) => {
                 let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
                 let condition =

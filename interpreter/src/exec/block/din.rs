@@ -46,8 +46,9 @@ impl Decoder {
         self.tools_and_offsets(&words, takes_axes);
         let preset = self.position_presets(&words);
         self.feeds_and_modes(&words, takes_axes);
-        // behind G04 the S word is a number of revolutions
-        if words.group(Group::Path).is_none_or(|g| g.row.act != Act::Dwell) {
+        // behind G04 the S word is a number of revolutions, behind G74 an order
+        let arguments = |g: &GWord| g.row.act == Act::Dwell || g.row.number == 74;
+        if !words.group(Group::Path).is_some_and(arguments) {
             self.spindle_speeds(&words);
         }
         self.functions_before(&words);
@@ -198,7 +199,7 @@ impl Decoder {
                 self.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
             }
             Act::Compensation(side) => self.compensation(side, g.span),
-            Act::PerpendicularSelection(on) => self.modal.perpendicular_selection = on,
+            Act::Selection(selection) => self.select_compensation_by(selection, g, words)?,
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.unit_mm();
                 self.modal.radius_mm = Some(radius);

@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 programming manual, list of G functions; diagnosis manual for the IDs of double programming.
 
-use super::modal::{Compensation, Corners, FeedType, PathMode, Plane};
+use super::modal::{Compensation, Corners, FeedType, PathMode, Plane, Selection};
 use crate::diag::Condition;
 use crate::exec::motion::dynamics::Weight;
 
@@ -146,8 +146,8 @@ pub(in crate::exec) enum Act {
     Compensation(Compensation),
     /// G25, G26.
     Corners(Corners),
-    /// G237 (true), G139.
-    PerpendicularSelection(bool),
+    /// G138, G139, G237 to G239.
+    Selection(Selection),
     CentreAbsolute(bool),
     CentreCorrection(bool),
     /// G163.
@@ -263,7 +263,7 @@ const ROWS: &[Row] = &[
     g(69, Group::Rotation, Act::RotateOff),
     g(70, Group::Unit, Act::Inch(true)),
     g(71, Group::Unit, Act::Inch(false)),
-    g(74, Group::Path, Act::Unsupported("homing")),
+    g(74, Group::Path, Act::Simplified("the axes count as homed where they stand, nothing moves")),
     g(90, Group::Dimension, Act::Absolute(true)),
     g(91, Group::Dimension, Act::Absolute(false)),
     g(92, Group::None, Act::Preset),
@@ -295,8 +295,8 @@ const ROWS: &[Row] = &[
     g(135, Group::Feedforward, Act::Feedforward(true)),
     g(136, Group::None, Act::FeedforwardWeights),
     g(137, Group::Feedforward, Act::Feedforward(false)),
-    g(138, Group::CompensationSelection, Act::Unsupported("direct selection of tool radius compensation")),
-    g(139, Group::CompensationSelection, Act::PerpendicularSelection(false)),
+    g(138, Group::CompensationSelection, Act::Selection(Selection::Direct)),
+    g(139, Group::CompensationSelection, Act::Selection(Selection::Indirect)),
     g(140, Group::Masking, Act::Nothing),
     g(141, Group::Masking, Act::Unsupported("contour masking")),
     g(150, Group::Splines, Act::Nothing),
@@ -318,10 +318,10 @@ const ROWS: &[Row] = &[
     g(230, Group::None, Act::WeightOfAxes(Weight::RapidAcceleration)),
     v(231, Group::None, Act::WeightOfAll(Weight::RapidAcceleration)),
     v(233, Group::None, Act::WeightOfAll(Weight::RapidRamp)),
-    g(236, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
-    g(237, Group::CompensationSelection, Act::PerpendicularSelection(true)),
-    g(238, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
-    g(239, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation")),
+    g(236, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation on the path")),
+    g(237, Group::CompensationSelection, Act::Selection(Selection::Perpendicular)),
+    g(238, Group::CompensationSelection, Act::Selection(Selection::InsideCorner)),
+    g(239, Group::CompensationSelection, Act::Selection(Selection::WithoutBlock)),
     g(260, Group::Transition, Act::Contour(false)),
     g(261, Group::Transition, Act::Contour(true)),
     g(293, Group::FeedInterpolation, Act::Unsupported("feed interpolation over the time")),

@@ -105,6 +105,22 @@ pub(in crate::exec) enum Corners {
     Round,
 }
 
+/// How tool radius compensation is selected and deselected.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::exec) enum Selection {
+    /// G139.
+    #[default]
+    Indirect,
+    /// G138.
+    Direct,
+    /// G237.
+    Perpendicular,
+    /// G238.
+    InsideCorner,
+    /// G239.
+    WithoutBlock,
+}
+
 /// Everything that G words and F, R, I keep.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a group of two words")]
@@ -133,8 +149,8 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) compensation: Compensation,
     /// Outer corners of tool radius compensation.
     pub(in crate::exec) corners: Corners,
-    /// G237.
-    pub(in crate::exec) perpendicular_selection: bool,
+    /// How tool radius compensation begins and ends.
+    pub(in crate::exec) selection: Selection,
     /// I of G301/G302 in mm.
     pub(in crate::exec) insertion_mm: Option<f64>,
     /// Transition velocity of `#TRANSVELMIN` in mm/s.
@@ -166,7 +182,7 @@ impl Modal {
             look_ahead: LookAhead::Complete,
             compensation: Compensation::Off,
             corners: Corners::Straight,
-            perpendicular_selection: false,
+            selection: Selection::default(),
             insertion_mm: None,
             transition_min_mm_s: 0.0,
         }

@@ -1,6 +1,7 @@
 //! Weights, feedforward, tools, rotation and tool radius compensation: words that change how later blocks move.
 
-use super::modal::Compensation;
+use super::groups::Group;
+use super::modal::{Compensation, Selection};
 use super::words::{GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
@@ -190,12 +191,54 @@ impl Decoder {
         Ok(())
     }
 
+    /// G138, G139, G237 to G239; 21317, 21318 where G238 and an active compensation meet.
+    pub(in crate::exec) fn select_compensation_by(
+        &mut self,
+        selection: Selection,
+        g: &GWord,
+        words: &Words<'_>,
+    ) -> Outcome<()> {
+        let selects = words.group(Group::Compensation).is_some();
+        let active = self.modal.compensation != Compensation::Off && !selects;
+        let (old, inside) = (self.modal.selection, Selection::InsideCorner);
+        if active && old != selection && (old == inside || selection == inside) {
+            let (condition, text) = if selection == inside {
+                (Condition::InsideCornerActive, "G238 while tool radius compensation is active")
+            } else {
+                (Condition::SelectionActive, "the way of selection changes within that of G238")
+            };
+            return Err(Fault::new(condition, text, g.span)
+                .with(|d| d.value(ValueKind::Wrong, g.row.number, "-")));
+        }
+        self.modal.selection = selection;
+        Ok(())
+    }
+
+    /// G40 with G239: the tool stays where it is, and the program counts from there.
+    fn deselect_in_place(&mut self) {
+        let (left, faults) = self.contour.deselect_in_place();
+        for fault in faults {
+            self.note(Box::new(fault));
+        }
+        let Some((plane, at)) = left else { return };
+        let mut target = self.geometry.coordinates.target().clone();
+        for (axis, x) in plane.into_iter().zip(at) {
+            target[axis] = x + self.motion.independent.way[axis];
+        }
+        self.geometry.coordinates.set_target(&target);
+        self.motion.left_contour = true;
+    }
+
     /// G40, G41, G42.
     pub(in crate::exec) fn compensation(&mut self, side: Compensation, span: Span) {
         if side != Compensation::Off && self.geometry.tools.active.radius_mm == 0.0 {
             let text = "the tool has the radius 0: the path is the programmed contour";
             let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
             self.note_once("G41", Fault::new(Condition::NoTool, text, span).hint(hint));
+        }
+        let leaves = side == Compensation::Off && self.modal.compensation != Compensation::Off;
+        if leaves && self.modal.selection == Selection::WithoutBlock {
+            self.deselect_in_place();
         }
         self.modal.compensation = side;
     }

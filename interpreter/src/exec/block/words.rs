@@ -4,6 +4,7 @@
 //! else acts afterwards, in the order that [`super::din`] keeps.
 
 use super::groups::{self, Act, Group, Row, ValueRule};
+use super::modal::Selection;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -254,6 +255,11 @@ impl Decoder {
             && let Some(first) = block.group(row.group)
         {
             return Err(duplicate(first.row, row, span));
+        }
+        if number == 5 && self.modal.selection == Selection::InsideCorner {
+            let text = "G05 does not go with the inside corner selection G238: it is ignored";
+            self.note(Fault::new(Condition::TangentialInsideCorner, text, span));
+            return Ok(());
         }
         if let Act::Unsupported(what) = row.act {
             // it takes its axis words and the place of its group all the same

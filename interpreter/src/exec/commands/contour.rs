@@ -34,7 +34,7 @@ arguments! {
         remain_part: Number "REMAIN_PART" in between(0.0, 100.0), "%", "default 0; part of a block that stays";
         max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "";
         const_vel: MaybeNumber "CONST_VEL", "", "constant velocity in the corner";
-        check_jerk: MaybeNumber "CHECK_JERK" in between(0.0, 3.0), "", "as P-CHAN-00110";
+        check_jerk: MaybeNumber "CHECK_JERK" in between(0.0, 3.0).whole(), "", "as P-CHAN-00110";
         track_dist: Number "TRACK_DIST", "", "no effect";
         merge: MaybeNumber "MERGE", "", "no effect";
         sym_dist: Number "SYM_DIST", "", "not supported";

@@ -192,6 +192,11 @@ pub(super) fn define_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<(
 
 /// `#MCS ON|OFF`: nothing to do while no frame is active.
 pub(super) fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if let [word, ..] = &call.command.tail[..]
+        && word.is("EX")
+    {
+        return Err(Fault::unsupported("#MCS ON EX TOOL", call.span()));
+    }
     call.no_more_words()?;
     if call.command.on == Some(true) && !decoder.geometry.coordinates.frame().is_identity() {
         let what = "#MCS ON with an active coordinate system, rotation or mirroring";

@@ -5,6 +5,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::suggest;
+use crate::exec::values::expr::is_whole;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 
 /// The arguments of a command: a struct with one field per key, and the description of the keys.
@@ -84,12 +85,14 @@ pub(crate) struct Range {
     high: f64,
     /// The lower end does not belong to it.
     open: bool,
+    /// Fractions do not belong to it.
+    whole: bool,
     condition: Condition,
 }
 
 /// From `low` to `high`.
 pub(in crate::exec) const fn between(low: f64, high: f64) -> Range {
-    Range { low, high, open: false, condition: Condition::Range }
+    Range { low, high, open: false, whole: false, condition: Condition::Range }
 }
 
 /// From `low` upwards.
@@ -113,13 +116,23 @@ impl Range {
         Self { condition, ..self }
     }
 
+    /// Whole numbers alone.
+    pub(in crate::exec) const fn whole(self) -> Self {
+        Self { whole: true, ..self }
+    }
+
     fn contains(&self, x: f64) -> bool {
-        (self.low..=self.high).contains(&x) && !(self.open && x <= self.low)
+        (self.low..=self.high).contains(&x)
+            && !(self.open && x <= self.low)
+            && (!self.whole || is_whole(x))
     }
 
     /// For the message of a wrong value.
     fn allowed(&self) -> String {
         let Self { low, high, .. } = self;
+        if self.whole {
+            return format!("the whole numbers {low} to {high}");
+        }
         match (self.open, *high < f64::MAX) {
             (true, false) => format!("values above {low}"),
             (true, true) => format!("values above {low}, up to {high}"),

@@ -143,7 +143,7 @@ fn one(value: &Value, letter: char, precision: &str) -> String {
 arguments! {
     /// Keys of `#ERROR`.
     struct ErrorArguments {
-        id: Number "ID" in between(1.0, 1000.0), "", "number of the message";
+        id: Number "ID" in between(1.0, 1000.0).whole(), "", "number of the message";
         rc: Number "RC", "", "0 warning, 2 error (the program aborts), 7 fatal; default 2";
         _mid: Number "MID", "", "no effect";
         pv1: Number "PV1", "", "a value";

@@ -7,7 +7,8 @@ use super::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::step::Sync;
+use crate::exec::step::{Event, Sync};
+use crate::exec::values::timers::TimerAct;
 use crate::syntax::ast::{ExprKind, ItemKind, ItemValue};
 
 /// Row of `#FLUSH`.
@@ -153,34 +154,49 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 arguments! {
     /// Keys of `#TIMER`.
     struct TimerArguments {
-        id: Number "ID" in between(0.0, 127.0), "", "default 0";
+        id: Number "ID" in between(0.0, 127.0).whole(), "", "default 0";
     }
 }
 
 /// Row of `#TIMER`.
 pub(super) const TIMER: Row = Row::run("TIMER", timer)
-    .form("#TIMER START|READ|CLEAR|STOP [ID=i]")
-    .meaning("starts a timer that V.G.TIMER[i] reads in ms")
+    .form("#TIMER START|STOP|READ|CLEAR [SYN] [ID=i]")
+    .meaning("starts or stops a timer, puts its count in ms into V.G.TIMER[i], or sets it to 0")
     .keys(TimerArguments::KEYS)
-    .example("#TIMER START [ID=3]");
+    .note("without SYN the time is that of the decoder, which is ahead of the motion; READ SYN lets the path come to rest")
+    .example("#TIMER START SYN [ID=3]");
 
-/// `#TIMER START|READ|CLEAR|STOP [ID=i]`.
+/// `#TIMER START|STOP|READ|CLEAR [SYN] [ID=i]`.
 fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let keys = TimerArguments::read(decoder, &call.title(), call.command.groups.first())?;
     let id = keys.id.and_then(|(id, _)| crate::exec::values::expr::whole(id, 0, 127)).unwrap_or(0);
-    match call.rest {
-        [word] if word.is("START") || word.is("CLEAR") => {
-            decoder.values.timers.start(id, decoder.feedback.time_s);
-            Ok(())
+    let (word, synchronous) = match call.rest {
+        [word] => (word, false),
+        [word, mode] if mode.is("SYN") => (word, true),
+        [_, other, ..] => return Err(call.unexpected(other)),
+        [] => {
+            let text = "#TIMER needs START, STOP, READ or CLEAR";
+            return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
         }
-        [word] if word.is("READ") || word.is("STOP") => Ok(()),
-        [word, ..] => Err(call.unexpected(word)),
-        [] => Err(Fault::new(
-            Condition::TokenUnknown,
-            "#TIMER needs START, READ or CLEAR",
-            call.span(),
-        )),
+    };
+    let acts = [
+        ("START", TimerAct::Start),
+        ("STOP", TimerAct::Stop),
+        ("READ", TimerAct::Read),
+        ("CLEAR", TimerAct::Clear),
+    ];
+    let Some((_, act)) = acts.into_iter().find(|(name, _)| word.is(name)) else {
+        return Err(call.unexpected(word));
+    };
+    if !synchronous {
+        decoder.values.timers.act(id, act, decoder.feedback.time_s);
+        return Ok(());
     }
+    decoder.event(Event::Timer { id, act });
+    if act == TimerAct::Read {
+        decoder.sync(Sync::Stop);
+    }
+    Ok(())
 }
 
 /// `#DELETE V.., V..`.

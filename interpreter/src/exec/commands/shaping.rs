@@ -182,8 +182,7 @@ fn note_command(decoder: &mut Decoder, keys: &GuardArguments, on: Option<bool>) 
 }
 
 fn mode(x: f64, span: Span) -> Outcome<u8> {
-    let whole =
-        crate::exec::values::expr::whole(x, 1, 4).filter(|m| (f64::from(*m) - x).abs() < 1e-9);
+    let whole = crate::exec::values::expr::whole(x, 1, 4);
     whole.and_then(|m| u8::try_from(m).ok()).ok_or_else(|| {
         let text = format!("Vibration Guard mode {x} does not exist, allowed are 1 to 4");
         Fault::new(Condition::GuardMode, text, span).with(|d| {
@@ -217,8 +216,8 @@ arguments! {
     struct FilterArguments {
         hsc: Flag "HSC", "", "the HSC filter of the axis list";
         mode: Number "MODE", "", "does not exist here (22068)";
-        order: Number "ORDER" in between(0.0, ORDER_MAX).or(Condition::FilterRange), "", "used up to 200";
-        order_time: Number "ORDER_TIME" in between(0.0, 1e8).or(Condition::FilterRange), "us", "";
+        order: Number "ORDER" in between(0.0, ORDER_MAX).whole().or(Condition::FilterRange), "", "used up to 200";
+        order_time: Number "ORDER_TIME" in between(0.0, 1e8).whole().or(Condition::FilterRange), "us", "";
         share: Number "SHARE" in between(0.0, 100.0).or(Condition::FilterRange), "%", "default 100";
         ax_dev: Number "AX_DEV" in at_least(0.0).or(Condition::FilterRange), "mm", "default 0 = no monitoring";
         fcut: Number "FCUT" in at_least(1.0).or(Condition::FilterRange), "Hz", "default 30";

@@ -3,18 +3,22 @@
 //! Outer corners are rounded by arcs about the corner (G26) or go round by lines (G25), inner corners are the
 //! intersection of the parallels. The first line behind G41 or G42 leads to the point perpendicular above the beginning
 //! of the next element, the first line behind G40 leads back to the contour. With G237 a line perpendicular to the
-//! contour does both, and the contour may begin and end with arcs.
+//! contour does both, and the contour may begin and end with arcs. With G238 the tool enters and leaves a closed contour at
+//! an inside corner; with G239 it stays behind G40 where it is.
 //!
-//! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G139, G237); generation of
-//! compensation blocks; 90008, 90031, 20651. Derived: the lines of G25 from the numbers of inserted blocks that the manual
+//! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G138, G139, G237 to G239); generation
+//! of compensation blocks; restrictions of inside corner selection; 90008, 90031, 90127, 20651. Derived: the lines of G25 from the numbers of inserted blocks that the manual
 //! lists by angle.
-//! Assumption: the approach for every angle between approach and first element.
+//! Assumption: the approach for every angle between approach and first element, with G139 as with G138; the figures of the
+//! manual show more lines for G139 at outer corners.
 
 mod corner;
 mod element;
+mod inside;
 
 use super::bottleneck::{Cut, Watch};
 use crate::diag::Condition;
+use crate::exec::block::modal::Selection;
 use crate::exec::contour::{Compensated, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::geometry::arc::Point;
@@ -23,6 +27,7 @@ use crate::exec::step::{Event, SourceRef, Sync};
 use crate::syntax::ast::Span;
 use corner::{above, corner_arc, inner_corner, straight, straight_corner};
 use element::{Element, emit_between, line, moving_side};
+use inside::Closed;
 use kontur_motion::path::Tilt;
 use smallvec::SmallVec;
 
@@ -62,6 +67,8 @@ struct Active {
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Compensator {
     active: Option<Box<Active>>,
+    /// A closed contour that waits for its end (G238).
+    closed: Option<Box<Closed>>,
     /// The last motion.
     source: SourceRef,
     /// The first bottleneck, until it is told.
@@ -84,7 +91,22 @@ impl Compensator {
 
     /// True between G41 or G42 and the motion behind G40.
     pub(in crate::exec) fn is_active(&self) -> bool {
-        self.active.is_some()
+        self.active.is_some() || self.closed.is_some()
+    }
+
+    /// G40 with G239: axes of the plane, and where the tool's centre stands then.
+    pub(in crate::exec) fn leave(
+        &mut self,
+        out: &mut Vec<Item>,
+    ) -> Fallible<Option<([usize; 2], Point)>> {
+        let Some(active) = self.active.take() else { return Ok(None) };
+        if active.tilt.is_some() {
+            let what = "G239 in a plane askew to the axes";
+            return Err(Fault::unsupported(what, Span::default()).in_block(self.source));
+        }
+        let plane = active.plane;
+        let at = active.finish(out).map_err(|f| f.in_block(self.source))?;
+        Ok(Some((plane, at)))
     }
 
     /// The first bottleneck of the program, once.
@@ -95,6 +117,20 @@ impl Compensator {
     }
 
     fn next(&mut self, motion: Box<Motion>, out: &mut Vec<Item>) -> Fallible<()> {
+        if let Some(mut closed) = self.closed.take() {
+            let Some(motion) = closed.gather(motion)? else {
+                self.closed = Some(closed);
+                return Ok(());
+            };
+            if !motion.block.path.is_straight() {
+                return Err(circular(&motion));
+            }
+            let (at, cut) = closed.close(out)?;
+            if !self.told {
+                self.cut = cut;
+            }
+            return self.select(motion, Some(at), out);
+        }
         let Some(active) = self.active.take() else {
             return self.select(motion, None, out);
         };
@@ -118,7 +154,9 @@ impl Compensator {
             return Ok(());
         }
         // another side or radius, or none: a line leads there
-        if active.perpendicular || motion.compensation.is_some_and(|c| c.perpendicular) {
+        if active.perpendicular
+            || motion.compensation.is_some_and(|c| c.selection == Selection::Perpendicular)
+        {
             active.return_to_contour(out)?;
             return self.select(motion, None, out);
         }
@@ -131,20 +169,33 @@ impl Compensator {
 
     /// A step at rest between motions.
     pub(in crate::exec) fn sync(&mut self, rest: Rest, out: &mut Vec<Item>) -> Fallible<()> {
-        let Some(active) = &mut self.active else {
+        if self.active.is_none() && self.closed.is_none() {
             out.push(Item::Rest(Box::new(rest)));
             return Ok(());
-        };
+        }
         if matches!(rest.what, Sync::Stop | Sync::FlushWait | Sync::ReadActual) {
             let text = "the channel cannot be flushed while tool radius compensation is active";
             return Err(Fault::new(Condition::FlushWithCompensation, text, Span::default())
                 .in_block(rest.source));
         }
-        active.hold(Item::Rest(Box::new(rest)), Span::default())
+        let item = Item::Rest(Box::new(rest));
+        match (&mut self.active, &mut self.closed) {
+            (_, Some(closed)) => closed.hold(item, Span::default()),
+            (Some(active), None) => active.hold(item, Span::default()),
+            (None, None) => Ok(()),
+        }
+    }
+
+    /// An error ends the program: what waits for the end of its contour is not driven.
+    pub(in crate::exec) fn abandon(&mut self) {
+        self.closed = None;
     }
 
     /// The program ends: the last element ends perpendicular above its end.
     pub(in crate::exec) fn end(&mut self, out: &mut Vec<Item>) -> Fallible<()> {
+        if let Some(closed) = self.closed.take() {
+            return closed.close(out).map(|_| ()).map_err(|f| f.in_block(self.source));
+        }
         match self.active.take() {
             Some(active) => active.finish(out).map(|_| ()).map_err(|f| f.in_block(self.source)),
             None => Ok(()),
@@ -167,8 +218,7 @@ impl Compensator {
                 None => return Ok(()),
             }
         }
-        let Some(Compensated { distance_mm: distance, perpendicular, .. }) = motion.compensation
-        else {
+        let Some(Compensated { distance_mm: distance, selection, .. }) = motion.compensation else {
             out.push(Item::Motion(motion));
             return Ok(());
         };
@@ -177,6 +227,14 @@ impl Compensator {
             out.push(Item::Motion(motion));
             return Ok(());
         };
+        let perpendicular = selection == Selection::Perpendicular;
+        if selection == Selection::InsideCorner {
+            if !matches!(side, Side::Line { .. }) {
+                return Err(circular(&motion));
+            }
+            self.closed = Some(Box::new(Closed::new(motion, distance)));
+            return Ok(());
+        }
         let tilt = motion.tilt.clone();
         let (start, approach) = if perpendicular {
             let from = side.start_point();

@@ -2,21 +2,28 @@
 //!
 //! Tapping begins and ends at rest, and the spindle turns with the way of the path: both are exact. G33 begins when the
 //! spindle turns with its speed and passes its mark, and then goes on with pitch times speed; the ramp at its begin and
-//! end cuts another pitch, as on the machine.
+//! end cuts another pitch, as on the machine. Each block of G33 is a thread of its own, unless P-CHAN-00837 or `#TURN` makes
+//! a chain of them. The override acts on G33 and so changes the pitch, unless P-CHAN-00836, `#TURN` or a chain forbids it;
+//! that and a feedhold are said when they happen (K-0132).
 //!
 //! Assumptions: the pitch of a thread at 45 deg or more is that of its other axis only if it is written so; between blocks
-//! of tapping the path rests; the path rests behind the last block of G33.
+//! of tapping the path rests; the path rests behind the last block of G33; what suppresses the override suppresses that of
+//! the program too. The manual says that the sign of S (G63) and of the pitch (G331) tells right-hand from left-hand
+//! threads; that the positive sign is the right-hand one is inferred.
 //!
-//! Source: TF5200 programming manual, tapping (G63), thread cutting with endlessly rotating spindle (G33); TF5200 turning
-//! functions, tapping (G331/G332); 20007, 20635, 20636, 21540.
+//! Source: TF5200 programming manual, tapping (G63), thread cutting with endlessly rotating spindle (G33), settings for
+//! turning functions (`#TURN`); TF5200 turning functions, tapping (G331/G332), thread chain; P-CHAN-00836, P-CHAN-00837;
+//! 20007, 20635, 20636, 21540.
 
-use crate::diag::Condition;
+use crate::diag::{Condition, rounded};
+use crate::exec::block::groups::Act;
 use crate::exec::block::modal::{Compensation, FeedType, PathMode};
 use crate::exec::block::words::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
 use crate::exec::step::{Event, SpindleState, Sync};
+use crate::machine::Channel;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
@@ -44,9 +51,38 @@ pub(in crate::exec) struct Threads {
     pub(in crate::exec) cutting: bool,
     /// Direction of the block of G33 before.
     direction: AxisVec,
+    /// Speed of the spindle in the block of G33 before in rev/min.
+    rpm: f64,
+    /// What `#TURN` has switched.
+    pub(in crate::exec) turning: TurningModes,
+}
+
+/// How blocks of G33 go together and what the override does to them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::exec) struct TurningModes {
+    /// Blocks behind each other are one thread (P-CHAN-00837).
+    pub(in crate::exec) chain: bool,
+    /// The override does not act (P-CHAN-00836).
+    pub(in crate::exec) ignore_override: bool,
+}
+
+impl TurningModes {
+    /// G33 keeps its pitch under an override.
+    const fn full_override(self) -> bool {
+        self.ignore_override || self.chain
+    }
 }
 
 impl Threads {
+    /// As the channel list has it.
+    pub(in crate::exec) fn new(channel: &Channel) -> Self {
+        let turning = TurningModes {
+            chain: channel.thread_chain,
+            ignore_override: channel.thread_ignores_override,
+        };
+        Self { turning, ..Self::default() }
+    }
+
     /// An S word: with a sign under tapping, else it ends that of tapping.
     pub(in crate::exec) fn speed(&mut self, tapping_rpm: Option<f64>) {
         self.tapping_rpm = tapping_rpm;
@@ -160,6 +196,10 @@ impl Decoder {
     }
 
     fn cut_thread(&mut self, path: Path, words: &Words<'_>, span: Span) -> Outcome<()> {
+        let modes = self.motion.threads.turning;
+        if !modes.chain {
+            self.end_thread();
+        }
         let (axis, pitch_mm) = self.pitch(&path, span)?;
         if pitch_mm < 0.0 {
             let text = "the pitch of G33 has no sign: M03 and M04 tell the direction";
@@ -176,7 +216,21 @@ impl Decoder {
         let way = (path.end()[axis] - path.start()[axis]).abs();
         let feed_mm_s = pitch_mm * rev_s * path.length() / way;
         let dynamics = self.dynamics(false);
-        let block = self.thread_block(path, feed_mm_s, dynamics);
+        let mut block = self.thread_block(path, feed_mm_s, dynamics);
+        block.full_override =
+            modes.full_override() || words.g.iter().any(|g| g.row.act == Act::FullOverride);
+        if !block.full_override {
+            let moved = (0..block.path.start().len())
+                .filter(|a| block.path.start()[*a].to_bits() != block.path.end()[*a].to_bits());
+            block.feed_ratio = self.motion.overrides.ratio(false, moved);
+            if (block.feed_ratio - 1.0).abs() > 1e-12 {
+                let text = format!(
+                    "the programmed override acts on G33: the thread gets {} % of its pitch",
+                    rounded(block.feed_ratio * 100.0)
+                );
+                self.note_once("G33", Fault::new(Condition::ThreadBroken, text, span));
+            }
+        }
         let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
         if speeds.highest() < feed_mm_s * (1.0 - 1e-9) {
             let text = format!(
@@ -190,7 +244,12 @@ impl Decoder {
             return Ok(());
         }
         let direction = direction_of(&block.path);
+        let rpm = self.motion.spindles[0].rpm;
         if self.motion.threads.cutting {
+            if rpm.to_bits() != self.motion.threads.rpm.to_bits() {
+                let what = "a chain of threads in which the speed of the spindle changes";
+                return Err(Fault::unsupported(what, span));
+            }
             // the planner slows down at a bend, which would give another pitch
             let cosine: f64 = direction
                 .iter()
@@ -202,9 +261,11 @@ impl Decoder {
             }
         }
         self.motion.threads.direction = direction;
+        self.motion.threads.rpm = rpm;
         if !self.motion.threads.cutting {
             let offset = words.offsets.iter().find(|(spindle, _, _)| *spindle == 0);
-            let state = SpindleState::Mark { deg: offset.map_or(0.0, |(_, deg, _)| *deg) };
+            let deg = offset.map_or(0.0, |(_, deg, _)| *deg);
+            let state = SpindleState::Mark { deg, full_override: block.full_override };
             self.sync(Sync::Spindle { spindle: index, state });
             self.motion.threads.cutting = true;
         }
@@ -288,8 +349,7 @@ impl Decoder {
             path,
             feed: Feed::PathVelocity(feed_mm_s),
             feed_ratio: 1.0,
-            // the override would change the pitch of G33
-            full_override: self.modal.path == PathMode::Thread,
+            full_override: false,
             end_velocity_mm_s: None,
             late_braking: false,
             slope: self.modal.slope,

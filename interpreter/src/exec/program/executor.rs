@@ -13,6 +13,7 @@ use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
 use crate::exec::options::{GuardCommands, Options, SkipLevels, Stop};
 use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
+use crate::exec::values::timers::TimerAct;
 use crate::machine::Machine;
 use crate::source::{Position, Sources};
 use crate::syntax::Parser;
@@ -267,6 +268,11 @@ impl Executor {
     /// What the commands executed so far say about the Vibration Guard.
     pub(crate) fn guard_commands(&self) -> &GuardCommands {
         &self.decoder.shaping.commands
+    }
+
+    /// `#TIMER .. SYN` at a program time in s.
+    pub(crate) fn timer(&mut self, id: u32, act: TimerAct, now_s: f64) {
+        self.decoder.values.timers.act(id, act, now_s);
     }
 
     /// The machine as the program has it: with the values of `#MACHINE DATA` up to the step handed out last.

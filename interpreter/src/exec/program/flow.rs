@@ -17,7 +17,7 @@ use crate::syntax::ast::{
 use std::sync::Arc;
 
 /// Values closer than this are equal in `$SWITCH`. Source: TF5200 programming manual.
-const SWITCH_TOLERANCE: f64 = 0.001;
+const SWITCH_TOLERANCE: f64 = crate::exec::values::expr::NEARLY;
 
 /// An open control block.
 #[derive(Clone, Debug)]

@@ -233,3 +233,136 @@ fn contouring_may_be_switched_between_compensated_blocks() {
     // the path is that without contouring
     assert_eq!(run.ends(), ends("G42 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30"));
 }
+
+/// The star of the page on inside corner selection (207798283): eight lines round the origin, radius 10 inside of it. Each tip is
+/// entered at the distance r / sin(half of its angle), each notch at r / sin(half of the outer one) from the corner.
+#[test]
+fn inside_corner_selection() {
+    const STAR: [[f64; 2]; 8] = [
+        [0.0, 100.0],
+        [-20.0, 20.0],
+        [-100.0, 0.0],
+        [-20.0, -20.0],
+        [0.0, -100.0],
+        [20.0, -20.0],
+        [100.0, 0.0],
+        [20.0, 20.0],
+    ];
+    let blocks: Vec<String> = STAR[1..].iter().map(|[x, y]| format!("X{x} Y{y}")).collect();
+    let blocks = blocks.join("\n");
+    let text = format!(
+        "G17 G00 X0 Y0 Z0 G90\nF10000\nG238\nV.G.WZR = 10\nG41\nG01 X0 Y100\n{blocks}\nG01 X0 Y100\nG40\nG00 X0 Y0\nM30\n"
+    );
+    let run = clean(&text);
+    // from a line through (0, 100) and (20, 20) the point (0, y) is (100 - y) * 20 / |(20, 80)| away
+    let tip = 100.0 - 10.0 * 6800.0_f64.sqrt() / 20.0;
+    let e = run.ends();
+    assert_near(&e[0][..2], &[0.0, tip]);
+    assert_near(&e[e.len() - 2][..2], &[0.0, tip]);
+    assert_near(&e[e.len() - 1], &[0.0, 0.0, 0.0]);
+    // nowhere nearer to the contour than the radius, and at it on every side
+    for (from, to) in STAR.iter().zip(STAR.iter().cycle().skip(1)) {
+        let away = |p: &[f64]| {
+            let (d, r) = ([to[0] - from[0], to[1] - from[1]], [p[0] - from[0], p[1] - from[1]]);
+            let t = ((d[0] * r[0] + d[1] * r[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
+            libm::hypot(r[0] - t * d[0], r[1] - t * d[1])
+        };
+        let nearest = e[..e.len() - 1].iter().map(|p| away(p)).fold(f64::MAX, f64::min);
+        assert!((nearest - 10.0).abs() < 1e-9, "{nearest}");
+    }
+}
+
+/// Contours of G238 that the restrictions of the page (207803403) forbid.
+#[test]
+fn what_inside_corner_selection_does_not_allow() {
+    let square = "G01 X0 Y0\nX20\nY20\nX0\nY0";
+    let id = |text: &str| run(&format!("{TOOL}G00 X5 Y5\n{text}\nM30\n")).ids();
+    assert_eq!(id(&format!("G238 G41 {square}\nG40 X5 Y5")), [""; 0]);
+    // outside of the square the corner is none of the inside
+    assert_eq!(id(&format!("G238 G42 {square}\nG40 X5 Y5")), ["K-0115"]);
+    assert_eq!(id("G238 G41 G01 X0 Y0\nX20\nY20\nG40 X5 Y5"), ["K-0115"]);
+    assert_eq!(id("G238 G41 G01 X0 Y0\nG02 I5\nG40 G01 X5 Y5"), ["K-0115"]);
+    assert_eq!(id("G238 G41 G02 X0 Y0 I-2.5 J-2.5"), ["90008"]);
+    assert_eq!(id(&format!("G238 G41 {square}\nG40 G02 X5 Y5 I2.5 J2.5")), ["90008"]);
+    assert_eq!(id("G238 G41 G01 X0 Y0\nX20\nG42 Y20\nX0 Y0\nG40 X5 Y5"), ["K-0115"]);
+    assert_eq!(id("G238 G41 G01 X0 Y0\nX20\nV.G.WZ_AKT.R=1\nY20\nX0 Y0\nG40 X5 Y5"), ["90127"]);
+    assert_eq!(id("G41 G01 X0 Y0\nG238\nX20\nG40 X5 Y5"), ["21317"]);
+    assert_eq!(id("G238 G41 G01 X0 Y0\nX20\nG139\nY20\nX0 Y0\nG40 X5 Y5"), ["21318"]);
+    assert_eq!(id(&format!("G238\nG05 G41 {square}\nG40 X5 Y5")), ["21316"]);
+}
+
+/// A motion of another axis and a rest inside a contour of G238 keep their places.
+#[test]
+fn rests_and_other_axes_inside_a_closed_contour() {
+    let e = ends("G00 X5 Y5\nG238 G41 G01 X0 Y0\nZ-3\nX20\nG04 0.1\nY20\nX0\nY0\nZ0\nG40 X5 Y5");
+    let expected = [
+        [5.0, 5.0, 0.0],
+        [2.0, 2.0, 0.0],
+        [2.0, 2.0, -3.0],
+        [18.0, 2.0, -3.0],
+        [18.0, 18.0, -3.0],
+        [2.0, 18.0, -3.0],
+        [2.0, 2.0, -3.0],
+        [2.0, 2.0, 0.0],
+        [5.0, 5.0, 0.0],
+    ];
+    assert_eq!(e.len(), expected.len(), "{e:?}");
+    for (e, x) in e.iter().zip(expected) {
+        assert_near(e, &x);
+    }
+}
+
+/// G239 (207810059): the tool goes to the parallel at once and stays there behind G40; a coordinate that is not programmed then is
+/// that of the tool.
+#[test]
+fn deselection_without_a_block() {
+    let text = |end: &str| {
+        format!(
+            "G0 X0 Y0 Z0 F1000\nG239\nV.G.WZ_AKT.R = 10\nG41 G01 X30 Y20\nG01 X60\nG01 X90\nG01 X120\nG40\n{end}\nM30\n"
+        )
+    };
+    let parallel = [[30.0, 30.0], [60.0, 30.0], [90.0, 30.0], [120.0, 30.0]];
+    for (end, after) in [
+        ("G00 X150 Y0", &[[150.0, 0.0]][..]),
+        ("G00 X150\nG00 X200", &[[150.0, 30.0], [200.0, 30.0]]),
+        ("G91 G00 X30\nG90", &[[150.0, 30.0]]),
+    ] {
+        let run = clean(&text(end));
+        let expected: Vec<[f64; 2]> = parallel.iter().chain(after).copied().collect();
+        assert_points(&run.ends(), &expected);
+    }
+    assert_eq!(run(&text("G02 X150 Y0 I15 J0")).ids(), ["90008"]);
+    // with an offset and mirrored the program counts from the tool all the same
+    let run = clean(
+        "G92 X100\nG239\nV.G.WZ_AKT.R = 10\nG41 G01 X30 Y20 F1000\nX60\nG40\nP1=V.A.ABS.X P2=V.A.ABS.Y\nX[P1+1] Y[P2]\nM30\n",
+    );
+    assert_near(&run.ends().last().unwrap()[..2], &[161.0, 30.0]);
+}
+
+/// G138: straight to the point above the beginning of the contour, as G239.
+#[test]
+fn direct_selection() {
+    let direct = ends(&format!("G138\n{ROUND_A_SQUARE}"));
+    assert_points(&direct, &OUTSIDE_OF_IT);
+}
+
+/// Options at their values of the program start change nothing, others are named.
+#[test]
+fn options_of_compensation() {
+    for (text, id) in [
+        ("#TRC [KERF_MASKING=0 TANGENTIAL_LIMIT=3 ONLINE=0 SPLIT_OFF]", None),
+        ("#TRC [KERF_MASKING=1]", Some("K-0019")),
+        ("#TRC [SPLIT AX=X PRE DIST_SEG1=5 FEED_SEG1=100]", Some("K-0019")),
+        ("#TRC [REVERSE=0.5]", Some("K-0009")),
+        ("#TRC [REVRSE=1]", Some("21220")),
+        ("#TRC", Some("21220")),
+        ("G236", Some("K-0019")),
+        ("G05", Some("K-0019")),
+    ] {
+        assert_eq!(
+            run(&format!("{text}\nM30\n")).ids(),
+            id.into_iter().collect::<Vec<_>>(),
+            "{text}"
+        );
+    }
+}

@@ -49,7 +49,7 @@ impl Decoder {
         self.number(expr).map(is_true)
     }
 
-    /// A whole number in a range; fractions are rounded.
+    /// A whole number in a range.
     pub(in crate::exec) fn whole(
         &self,
         expr: &Expr,
@@ -59,7 +59,7 @@ impl Decoder {
     ) -> Outcome<u32> {
         let x = self.number(expr)?;
         whole(x, low, high).ok_or_else(|| {
-            let text = format!("{what} is {x}, allowed are {low} to {high}");
+            let text = format!("{what} is {x}, allowed are the whole numbers {low} to {high}");
             Fault::new(Condition::Range, text, expr.span)
         })
     }
@@ -105,10 +105,20 @@ pub(in crate::exec) fn as_number(value: &Value, span: Span) -> Outcome<f64> {
     }
 }
 
-/// `x` rounded, if it is within the range.
+/// How far a number may lie from a whole one and still be it, so that calculated numbers serve. It is what `$SWITCH` takes
+/// for equal.
+pub(in crate::exec) const NEARLY: f64 = 0.001;
+
+/// True for a whole number.
+pub(in crate::exec) fn is_whole(x: f64) -> bool {
+    (x - x.round()).abs() < NEARLY
+}
+
+/// The whole number that `x` is, if it is within the range; no number with a fraction is rounded silently.
 pub(in crate::exec) fn whole(x: f64, low: u32, high: u32) -> Option<u32> {
     let rounded = x.round();
-    (rounded >= f64::from(low) && rounded <= f64::from(high)).then_some(rounded as u32)
+    let within = rounded >= f64::from(low) && rounded <= f64::from(high);
+    (within && is_whole(x)).then_some(rounded as u32)
 }
 
 fn apply(

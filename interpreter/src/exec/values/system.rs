@@ -92,7 +92,7 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "WZ", "ME"], read: |_, _| number(0.0) },
     Row { name: &["G", "T_AKT"], read: |d, _| number(f64::from(d.geometry.tools.tool)) },
     Row { name: &["G", "D_AKT"], read: |d, _| number(f64::from(d.geometry.tools.data)) },
-    Row { name: &["G", "TIMER"], read: |d, p| { let i = p.index(d, 1, 127)?; number(d.values.timers.read(i, d.feedback.time_s)) } },
+    Row { name: &["G", "TIMER"], read: |d, p| { let i = p.index(d, 1, 127)?; number(d.values.timers.latched_ms(i)) } },
     Row { name: &["G", "RANDOM"], read: |_, _| number(0.5) },
     Row { name: &["G", "MAIN_FILE_NAME"], read: |d, _| text(&d.calls.info.main_file) },
     Row { name: &["G", "MAIN_PROG_NAME"], read: |d, _| text(&d.calls.info.main_program) },
@@ -181,7 +181,8 @@ impl Path<'_> {
                         self.segments.get(1).is_some_and(|s| s.name.eq_ignore_ascii_case("WZ"));
                     let condition =
                         if tool { Condition::ToolIndex } else { Condition::VariableNumber };
-                    let text = format!("the index is {x}, allowed are 0 to {high}");
+                    let text =
+                        format!("the index is {x}, allowed are the whole numbers 0 to {high}");
                     Fault::new(condition, text, expr.span).with(|d| {
                         d.value(ValueKind::Wrong, x, "-")
                             .value(ValueKind::LowerLimit, 0, "-")
@@ -266,11 +267,28 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     Ok(parts.join("."))
 }
 
+/// Variables of functions that are not simulated. Source: TF5200 measurement; volumetric compensation.
+const OTHERS: &[(&str, &str)] = &[
+    ("A", "MESS"),
+    ("A", "MERF"),
+    ("A", "MOFFS"),
+    ("A", "MEIN"),
+    ("A", "MEAS"),
+    ("G", "MEAS_TYPE"),
+    ("G", "VOLCOMP"),
+];
+
 fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
     let name = written(segments);
     let class = segments.first().map_or("", |s| &*s.name).to_ascii_uppercase();
     if matches!(class.as_str(), "TOOL" | "TLM" | "RTG" | "RTA" | "I") {
         return Fault::unsupported(format!("variables V.{class}."), span);
+    }
+    let names: Vec<String> = segments.iter().map(|s| s.name.to_ascii_uppercase()).collect();
+    if let [class, name, ..] = &names[..]
+        && OTHERS.contains(&(class.as_str(), name.as_str()))
+    {
+        return Fault::unsupported(format!("variables V.{class}.{name}"), span);
     }
     let axis = d.names.axes.iter().flatten().next().map_or("X", String::as_str);
     let names: Vec<String> =
@@ -379,22 +397,4 @@ pub(in crate::exec) fn is_active_tool(segments: &[Segment]) -> bool {
     let is =
         |i: usize, name: &str| segments.get(i).is_some_and(|s| s.name.eq_ignore_ascii_case(name));
     is(0, "G") && (is(1, "WZ_AKT") || is(1, "WZR"))
-}
-
-/// Timers of `#TIMER`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::exec) struct Timers {
-    started_s: std::collections::BTreeMap<u32, f64>,
-}
-
-impl Timers {
-    pub(in crate::exec) fn start(&mut self, index: u32, now_s: f64) {
-        self.started_s.insert(index, now_s);
-    }
-
-    /// Milliseconds since the start; 0 if it was not started.
-    fn read(&self, index: u32, now_s: f64) -> f64 {
-        let started = whole(f64::from(index), 0, 127).and_then(|i| self.started_s.get(&i));
-        started.map_or(0.0, |s| (now_s - s) * 1e3)
-    }
 }

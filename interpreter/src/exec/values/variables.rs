@@ -100,9 +100,14 @@ impl Decoder {
                 name.push('.');
             }
             name.push_str(&segment.name);
-            for x in self.subscripts(&segment.subscripts)? {
+            for expr in &segment.subscripts {
+                let x = self.number(expr)?;
+                let index = whole(x, 0, u32::MAX).ok_or_else(|| {
+                    let text = format!("subscript {x} is no whole number from 0");
+                    Fault::new(Condition::VariableIndex, text, expr.span)
+                })?;
                 // writing to a String cannot fail
-                let _ = write!(name, "[{}]", x.round());
+                let _ = write!(name, "[{index}]");
             }
         }
         Ok(name)
@@ -226,7 +231,12 @@ impl Decoder {
             }
             Target::Own(class, name, subscripts) => {
                 if let Some(variable) = self.values.variables.find_mut(class, &name) {
-                    return variable.set(&subscripts, value, Owner::Variable, value_span);
+                    let rounded = variable.kind.and_then(|kind| kind.rounds(&value));
+                    variable.set(&subscripts, value, Owner::Variable, value_span)?;
+                    if let Some(x) = rounded {
+                        self.note_rounded(&place.to_string(), x, value_span);
+                    }
+                    return Ok(());
                 }
                 let by_write = matches!(class, Class::Program | Class::Shared);
                 if !by_write || !subscripts.is_empty() {

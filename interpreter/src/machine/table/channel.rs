@@ -124,6 +124,12 @@ parameters! {
         .default(0.0).unit("us", "us"), as SPINDLE_SPEED_DURATION: Optional;
     chan("P-CHAN-00082", "spdl_anzahl", Raw::Uns16, "number of spindles of the channel")
         .range(Bound::None, Bound::At(16.0)).default(0.0), as SPINDLE_COUNT: Whole;
+    chan("P-CHAN-00014", "einrechnen_mit_t", Raw::Boolean, "T takes the tool data of its number too, as T5 D5")
+        .default(0.0).source("TF5200 tool data"), as TOOL_DATA_WITH_TOOL: Switch;
+    chan("P-CHAN-00836", "thread_cutting.ignore_override", Raw::Boolean, "G33: 0 the override acts and changes the pitch, 1 it does not act")
+        .default(0.0).source("TF5200 channel parameters"), as THREAD_IGNORES_OVERRIDE: Switch;
+    chan("P-CHAN-00837", "thread_cutting.thread_chain", Raw::Boolean, "consecutive blocks of G33: 0 each is a thread of its own, 1 one thread without a stop")
+        .default(0.0).source("TF5200 channel parameters"), as THREAD_CHAIN: Switch;
     chan("P-CHAN-00161", "g81_prog_file", Raw::Text, "global subroutine called by G81"), as G81_PROGRAM: Text;
     chan("P-CHAN-00162", "g82_prog_file", Raw::Text, "global subroutine called by G82"), as G82_PROGRAM: Text;
     chan("P-CHAN-00163", "g83_prog_file", Raw::Text, "global subroutine called by G83"), as G83_PROGRAM: Text;

@@ -36,6 +36,9 @@ impl Decoder {
     pub(super) fn tools_and_offsets(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {
         if let Some((number, span)) = words.tool {
             self.select_tool(number, span);
+            if self.machine.channel.tool_data_with_tool && words.tool_data.is_none() {
+                self.select_tool_data(number, span);
+            }
         }
         if let Some((number, span)) = words.tool_data {
             self.select_tool_data(number, span);

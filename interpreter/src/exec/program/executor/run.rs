@@ -8,6 +8,7 @@ use crate::exec::fault::Fault;
 use crate::exec::program::files::{Fetched, Parsed, Reading, Tree};
 use crate::exec::program::index::{EntryId, Keyword};
 use crate::exec::step::{EndReason, SourceRef, Sync};
+use crate::exec::values::expr::whole;
 use crate::source::Position;
 use crate::syntax::Parser;
 use crate::syntax::ast::{Block, BlockNumber, Body, Command, Span};
@@ -243,7 +244,13 @@ impl Executor {
             None => None,
             Some(BlockNumber::Literal(n)) => Some(*n),
             Some(BlockNumber::Computed(expr)) => {
-                let outcome = self.decoder.whole(expr, "a block number", 0, u32::MAX);
+                // the one number that the control rounds itself
+                let outcome = self.decoder.number(expr).and_then(|x| {
+                    whole(x.round(), 0, u32::MAX).ok_or_else(|| {
+                        let text = format!("a block number is {x}, allowed are 0 to {}", u32::MAX);
+                        Fault::new(Condition::Range, text, expr.span)
+                    })
+                });
                 self.decoder.keep(outcome).map(u64::from)
             }
         }

@@ -45,6 +45,7 @@ impl Decoder {
             return Err(Fault::new(Condition::DimensionTooLarge, text, span));
         }
         let values = self.start_values(declaration, kind, &sizes, count)?;
+        self.note_fractions(declaration, kind);
         let variable = Variable { kind: Some(kind), sizes, values };
         let exists = match class_of {
             None => {
@@ -123,11 +124,15 @@ impl Decoder {
         let size = |e: &Expr| {
             let x = self.number(e)?;
             whole(x, 1, high).map(|n| n as usize).ok_or_else(|| {
-                let text = format!("the size of a dimension is {x}, allowed are 1 to {high}");
+                let text = format!(
+                    "the size of a dimension is {x}, allowed are the whole numbers 1 to {high}"
+                );
                 let condition = if x < 1.0 {
                     Condition::DimensionTooSmall
-                } else {
+                } else if x > f64::from(high) {
                     Condition::DimensionTooLarge
+                } else {
+                    Condition::Range
                 };
                 Fault::new(condition, text, e.span)
             })
@@ -139,6 +144,39 @@ impl Decoder {
             }
             PlaceKind::Cycle(_) => Ok(SmallVec::new()),
         }
+    }
+
+    /// Start values with fractions of a variable that holds whole numbers.
+    fn note_fractions(&mut self, declaration: &Declaration, kind: Type) {
+        let exprs: Vec<&Expr> = match &declaration.value {
+            Some(ItemValue::Expr(e)) => vec![e],
+            Some(ItemValue::List(group)) => group
+                .items
+                .iter()
+                .filter_map(|item| match &item.kind {
+                    ItemKind::Value(ItemValue::Expr(e)) => Some(e),
+                    _ => None,
+                })
+                .collect(),
+            Some(ItemValue::Name(_)) | None => return,
+        };
+        for e in exprs {
+            if let Ok(value) = self.value(e)
+                && let Some(x) = kind.rounds(&value)
+            {
+                self.note_rounded(&declaration.place.to_string(), x, e.span);
+            }
+        }
+    }
+
+    /// A number with a fraction goes into a variable that holds whole numbers.
+    ///
+    /// Assumption: it is rounded; the vendor does not print whether the control rounds or cuts.
+    pub(super) fn note_rounded(&mut self, name: &str, x: f64, span: Span) {
+        let text = format!("{name} holds whole numbers: {x} is rounded to {}", x.round());
+        let fault = Fault::new(Condition::Odd, text, span).warning();
+        let hint = "ROUND, INT, FLOOR or CEIL tell which whole number is meant";
+        self.note_once(&format!("rounded {name}"), fault.hint(hint));
     }
 
     fn start_values(

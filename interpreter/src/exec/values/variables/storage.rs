@@ -3,7 +3,7 @@
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::values::expr::{as_number, is_true, whole};
+use crate::exec::values::expr::{as_number, is_true, is_whole, whole};
 use crate::syntax::ast::Span;
 use smallvec::SmallVec;
 
@@ -50,6 +50,14 @@ impl Type {
         match self {
             Self::Text(_) => Value::Text("".into()),
             _ => Value::Number(0.0),
+        }
+    }
+
+    /// The number with a fraction that a variable of this type would round.
+    pub(super) fn rounds(self, value: &Value) -> Option<f64> {
+        match (self, value) {
+            (Self::Integer { .. }, Value::Number(x)) if !is_whole(*x) => Some(*x),
+            _ => None,
         }
     }
 
@@ -156,7 +164,7 @@ impl Variable {
         for (x, size) in subscripts.iter().zip(&self.sizes) {
             let high = u32::try_from(size - 1).unwrap_or(u32::MAX);
             let Some(i) = whole(*x, 0, high) else {
-                let text = format!("subscript {x} is outside 0 to {high}");
+                let text = format!("subscript {x} is none of 0 to {high}");
                 return Err(Fault::new(wrong_index, text, span)
                     .with(|d| d.value(ValueKind::Wrong, *x, "-")));
             };

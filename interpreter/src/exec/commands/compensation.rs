@@ -1,0 +1,96 @@
+//! `#TRC`: options of tool radius compensation.
+//!
+//! Source: TF5200 programming manual, programmable additional options of TRC.
+
+use super::keys::{arguments, between};
+use super::{Call, Row};
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::syntax::ast::Span;
+
+/// Value of `TANGENTIAL_LIMIT` without a word, in degrees.
+const TANGENTIAL_LIMIT_DEG: f64 = 3.0;
+
+arguments! {
+    /// Keys of `#TRC`.
+    struct TrcArguments {
+        conv_cir_to_lin: Number "CONV_CIR_TO_LIN" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
+        kerf_masking: Number "KERF_MASKING" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
+        reverse: Number "REVERSE" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
+        ignore_cont_damage: Number "IGNORE_CONT_DAMAGE" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
+        remove_masked_blocks: Number "REMOVE_MASKED_BLOCKS", "", "0; others are not supported";
+        ext_angle: Number "EXT_ANGLE_BLOCK_INTERSECTION", "", "0; others are not supported";
+        g236_lin: Number "G236_LIN" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
+        tangential_limit: Number "TANGENTIAL_LIMIT" in between(0.1, 3.0), "deg", "3; others are not supported";
+        online: Number "ONLINE", "", "0; others are not supported";
+        inverse: Number "INVERSE", "", "0; 1 is not supported";
+        split: Flag "SPLIT", "", "not supported";
+        split_path: Flag "SPLIT_PATH", "", "not supported";
+        _split_off: Flag "SPLIT_OFF", "", "as without it";
+        ax: Word "AX", "", "of SPLIT";
+        axnr: Number "AXNR", "", "of SPLIT";
+        combined: Flag "COMBINED", "", "of SPLIT";
+        pre: Flag "PRE", "", "of SPLIT";
+        post: Flag "POST", "", "of SPLIT";
+        dist_seg1: Number "DIST_SEG1", "mm", "of SPLIT";
+        feed_seg1: Number "FEED_SEG1", "mm/min", "of SPLIT";
+        dist_seg2: Number "DIST_SEG2", "mm", "of SPLIT";
+        feed_seg2: Number "FEED_SEG2", "mm/min", "of SPLIT";
+    }
+}
+
+impl TrcArguments {
+    /// The first option that is not simulated.
+    fn unsupported(&self) -> Option<(&'static str, Span)> {
+        let numbers = [
+            ("CONV_CIR_TO_LIN", self.conv_cir_to_lin, 0.0),
+            ("KERF_MASKING", self.kerf_masking, 0.0),
+            ("REVERSE", self.reverse, 0.0),
+            ("IGNORE_CONT_DAMAGE", self.ignore_cont_damage, 0.0),
+            ("REMOVE_MASKED_BLOCKS", self.remove_masked_blocks, 0.0),
+            ("EXT_ANGLE_BLOCK_INTERSECTION", self.ext_angle, 0.0),
+            ("G236_LIN", self.g236_lin, 0.0),
+            ("TANGENTIAL_LIMIT", self.tangential_limit, TANGENTIAL_LIMIT_DEG),
+            ("ONLINE", self.online, 0.0),
+            ("INVERSE", self.inverse, 0.0),
+        ];
+        let changed = numbers.into_iter().find_map(|(name, key, default)| {
+            let (x, span) = key?;
+            ((x - default).abs() > 0.0).then_some((name, span))
+        });
+        let of_numbers =
+            [self.axnr, self.dist_seg1, self.feed_seg1, self.dist_seg2, self.feed_seg2];
+        let split = [self.split, self.split_path, self.combined, self.pre, self.post]
+            .into_iter()
+            .chain(of_numbers.into_iter().map(|key| key.map(|(_, span)| span)))
+            .chain([self.ax.as_ref().map(|(_, span)| *span)])
+            .flatten()
+            .next();
+        changed.or(split.map(|span| ("SPLIT", span)))
+    }
+}
+
+/// Row of `#TRC`.
+pub(super) const TRC: Row = Row::run("TRC", options)
+    .form("#TRC [key=value ..]")
+    .meaning(
+        "options of tool radius compensation; only their values at program start are supported",
+    )
+    .keys(TrcArguments::KEYS)
+    .example("#TRC [KERF_MASKING=0]")
+    .related(&["G41"]);
+
+fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let group = call.command.groups.first();
+    if group.is_none_or(|g| g.items.is_empty()) {
+        let text = "#TRC needs its options in brackets";
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+    }
+    let keys = TrcArguments::read(decoder, &call.title(), group)?;
+    match keys.unsupported() {
+        Some((name, span)) => Err(Fault::unsupported(format!("#TRC [{name}]"), span)),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,83 @@
+//! Tools by their ID: `#TOOL DATA`, `#TOOL PREP`, `#TOOL REFRESH`.
+//!
+//! Source: TF5200 programming manual, using tool ID, refreshing tool data.
+
+use super::{Call, Row};
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::Value;
+use crate::syntax::ast::{Item, ItemKind, ItemValue, Span};
+
+/// Row of `#TOOL DATA`.
+pub(super) const TOOL_DATA: Row = Row::run("TOOL DATA", tool_data)
+    .form("#TOOL DATA [basic, sister, variant]")
+    .meaning("takes tool data, as the D word; sister and variant 0 or left out, others are not supported")
+    .example("#TOOL DATA [5]")
+    .related(&["#TOOL PREP", "#TOOL REFRESH"]);
+
+/// Row of `#TOOL PREP`.
+pub(super) const TOOL_PREP: Row = Row::run("TOOL PREP", tool_prep)
+    .form("#TOOL PREP [basic, sister, variant]")
+    .meaning(
+        "selects a tool, as the T word; sister and variant 0 or left out, others are not supported",
+    )
+    .example("#TOOL PREP [5]")
+    .related(&["#TOOL DATA"]);
+
+/// Row of `#TOOL REFRESH`.
+pub(super) const TOOL_REFRESH: Row = Row::run("TOOL REFRESH", refresh)
+    .form("#TOOL REFRESH")
+    .meaning("takes the data of the active tool into account anew, e.g. after an exchange of axes")
+    .example("#TOOL REFRESH")
+    .related(&["#TOOL DATA"]);
+
+fn tool_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let (number, span) = basic_number(decoder, call)?;
+    decoder.select_tool_data(number, span);
+    Ok(())
+}
+
+fn tool_prep(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let (number, span) = basic_number(decoder, call)?;
+    decoder.select_tool(number, span);
+    Ok(())
+}
+
+fn refresh(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    decoder.tool_offsets();
+    Ok(())
+}
+
+/// The number of the basic tool.
+fn basic_number(decoder: &Decoder, call: &Call<'_>) -> Outcome<(f64, Span)> {
+    call.no_more_words()?;
+    let wrong = |span| {
+        let text = format!("{} needs the number of a tool in brackets", call.title());
+        Fault::new(Condition::TokenUnknown, text, span)
+    };
+    let [group] = &call.command.groups[..] else { return Err(wrong(call.span())) };
+    let Some((basic, others)) = group.items.split_first() else { return Err(wrong(group.span)) };
+    for item in others {
+        if !is_zero(decoder, item)? {
+            let what = format!("{} with sister tools and variants", call.title());
+            return Err(Fault::unsupported(what, item.span));
+        }
+    }
+    match &basic.kind {
+        ItemKind::Value(ItemValue::Expr(expr)) => Ok((decoder.number(expr)?, expr.span)),
+        _ => Err(wrong(basic.span)),
+    }
+}
+
+/// Left out or 0.
+fn is_zero(decoder: &Decoder, item: &Item) -> Outcome<bool> {
+    Ok(match &item.kind {
+        ItemKind::Missing => true,
+        ItemKind::Value(ItemValue::Expr(expr)) => {
+            matches!(decoder.value(expr)?, Value::Number(x) if x.abs() <= 0.0)
+        }
+        _ => false,
+    })
+}

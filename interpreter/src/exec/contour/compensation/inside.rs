@@ -1,0 +1,166 @@
+//! G238: a closed contour that the tool enters and leaves at one of its inside corners.
+//!
+//! Where the tool enters is known when the contour is: its blocks wait until G40.
+//!
+//! Source: TF5200 programming manual, selecting inside corner of TRC, restrictions of inside corner selection; 90127.
+
+use super::corner::{above, inner_corner};
+use super::element::{Element, emit_between, line, moving_side};
+use super::{Active, Cut, Fallible, Item, Watch, too_tight};
+use crate::diag::Condition;
+use crate::exec::contour::Motion;
+use crate::exec::fault::Fault;
+use crate::exec::geometry::arc::Point;
+use crate::exec::geometry::planar::{Side, cross, dot, norm, sub};
+use crate::syntax::ast::Span;
+
+/// Most blocks of a contour. Assumption: the vendor prints no number.
+const BLOCKS_MAX: usize = 10_000;
+
+/// How far the ends of a closed contour may lie apart in mm.
+const CLOSED_MM: f64 = 1e-6;
+
+/// A closed contour that waits for its end.
+#[derive(Debug)]
+pub(super) struct Closed {
+    /// The line that leads to the contour.
+    approach: Box<Motion>,
+    distance: f64,
+    items: Vec<Item>,
+}
+
+impl Closed {
+    pub(super) fn new(approach: Box<Motion>, distance: f64) -> Self {
+        Self { approach, distance, items: Vec::new() }
+    }
+
+    /// A motion of the contour; it comes back if it is the one that leaves it.
+    pub(super) fn gather(&mut self, motion: Box<Motion>) -> Fallible<Option<Box<Motion>>> {
+        if motion.tilt != self.approach.tilt {
+            let what = "a change of the coordinate system during tool radius compensation";
+            return Err(Fault::unsupported(what, motion.span));
+        }
+        let span = motion.span;
+        // G40 acts with the next motion in the plane
+        let stays = match motion.compensation {
+            Some(c) if c.distance_mm.to_bits() == self.distance.to_bits() => true,
+            Some(c) if c.distance_mm.abs().to_bits() != self.distance.abs().to_bits() => {
+                let text = "the radius of the tool changes within the contour of G238";
+                return Err(Fault::new(Condition::InsideCornerRadius, text, span));
+            }
+            Some(_) => {
+                let text = "the side of the tool changes within the contour of G238";
+                return Err(Fault::new(Condition::Compensation, text, span));
+            }
+            None => moving_side(&motion, self.approach.plane)?.is_none(),
+        };
+        if !stays {
+            return Ok(Some(motion));
+        }
+        self.hold(Item::Motion(motion), span)?;
+        Ok(None)
+    }
+
+    pub(super) fn hold(&mut self, item: Item, span: Span) -> Fallible<()> {
+        if self.items.len() >= BLOCKS_MAX {
+            let text = format!("a contour of G238 has more than {BLOCKS_MAX} blocks");
+            return Err(Fault::new(Condition::Compensation, text, span));
+        }
+        self.items.push(item);
+        Ok(())
+    }
+
+    /// The contour, complete: the corner where the tool leaves it, and the first bottleneck.
+    pub(super) fn close(self, out: &mut Vec<Item>) -> Fallible<(Point, Option<Cut>)> {
+        let Self { mut approach, distance, items } = self;
+        let plane = approach.plane;
+        let at = corner(&approach, distance, &items)?;
+        let from = approach.block.path.start();
+        let from = [from[plane[0]], from[plane[1]]];
+        let tilt = approach.tilt.clone();
+        if let Some(path) = line(&approach, plane, from, at) {
+            approach.block.path = path;
+            out.push(Item::Motion(approach));
+        }
+        let mut active: Option<Active> = None;
+        let (mut before, mut found) = (Vec::new(), None);
+        for item in items {
+            let motion = match item {
+                Item::Motion(motion) => motion,
+                rest @ Item::Rest(_) => {
+                    match &mut active {
+                        Some(active) => active.hold(rest, Span::default())?,
+                        None => before.push(rest),
+                    }
+                    continue;
+                }
+            };
+            match (active.take(), moving_side(&motion, plane)?) {
+                (Some(last), Some(side)) => {
+                    let mut cut = None;
+                    active = Some(last.join(motion, side, out, &mut cut)?);
+                    found = found.or(cut);
+                }
+                (Some(mut last), None) => {
+                    let span = motion.span;
+                    last.hold(Item::Motion(motion), span)?;
+                    active = Some(last);
+                }
+                (None, Some(side)) => {
+                    emit_between(std::mem::take(&mut before), at, plane, out);
+                    let mut watch = Watch::default();
+                    watch.contour(side, motion.source, distance.abs());
+                    active = Some(Active {
+                        distance,
+                        perpendicular: false,
+                        plane,
+                        tilt: tilt.clone(),
+                        last: Element { motion, side, start: at, approach: false },
+                        between: Vec::new(),
+                        watch,
+                    });
+                }
+                (None, None) => before.push(Item::Motion(motion)),
+            }
+        }
+        if let Some(Active { last, between, .. }) = active {
+            last.emit(at, plane, distance, out)?;
+            emit_between(between, at, plane, out);
+        }
+        Ok((at, found))
+    }
+}
+
+/// The intersection of the parallels of the last and the first element.
+fn corner(approach: &Motion, distance: f64, items: &[Item]) -> Fallible<Point> {
+    let refused = |text: &str| {
+        Fault::new(Condition::Compensation, text, approach.span).in_block(approach.source)
+    };
+    let mut sides = Vec::new();
+    for item in items {
+        if let Item::Motion(motion) = item
+            && let Some(side) = moving_side(motion, approach.plane)?
+        {
+            sides.push(side);
+        }
+    }
+    let (Some(first), Some(last), true) = (sides.first(), sides.last(), sides.len() > 1) else {
+        return Err(refused("a contour of G238 has at least two blocks"));
+    };
+    if !matches!(first, Side::Line { .. }) {
+        return Err(refused("the contour of G238 does not begin with a line"));
+    }
+    let corner = first.start_point();
+    if norm(sub(last.end_point(), corner)) > CLOSED_MM {
+        return Err(refused("the contour of G238 is not closed"));
+    }
+    let (u, w) = (last.tangent(true), first.tangent(false));
+    let turn = cross(u, w);
+    if turn.abs() < 1e-9 && dot(u, w) > 0.0 {
+        return Ok(above(corner, w, distance));
+    }
+    if turn * distance <= 0.0 {
+        return Err(refused("the contour of G238 does not begin at an inside corner"));
+    }
+    inner_corner(last, first, corner, distance).ok_or_else(|| too_tight(approach))
+}

@@ -1,0 +1,10 @@
+; check: exit 1
+; error 21318 at 6:1
+V.G.WZ_AKT.R=2
+G238 G41 X10 F100
+X40
+G139
+Y40
+X10 Y0
+G40 X20 Y10
+M30

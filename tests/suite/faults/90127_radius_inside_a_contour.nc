@@ -1,0 +1,8 @@
+; check: exit 1
+; error 90127 at 6:1
+V.G.WZ_AKT.R=2
+G238 G41 X10 F100
+X20
+V.G.WZ_AKT.R=1 Y20
+G40 X0
+M30
