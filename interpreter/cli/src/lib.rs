@@ -18,6 +18,7 @@
 //! ```
 
 pub mod args;
+pub mod chart;
 pub mod check;
 pub mod console;
 pub mod diff;
