@@ -17,6 +17,7 @@ mod shaping;
 pub(super) mod signals;
 mod slope;
 mod spindles;
+mod splines;
 mod tools;
 mod turning;
 
@@ -226,6 +227,7 @@ const ROWS: &[Row] = &[
     off_only("OTC"),
     off_only("LIFT"),
     unsupported("ACHSTAUSCH"),
+    splines::AKIMA_TRANS,
     unsupported("AKIMA"),
     unsupported("AX LOCK"),
     unsupported("AX UNLOCK"),
@@ -258,7 +260,11 @@ const ROWS: &[Row] = &[
     off_only("SEGMENTATION"),
     unsupported("SET JOG"),
     unsupported("SET TIP"),
-    off_only("SPLINE"),
+    splines::SPLINE,
+    splines::SPLINE_TYPE,
+    unsupported("SET SPLINE"),
+    unsupported("SET SPLINETYPE"),
+    unsupported("SET ASPLINE"),
     unsupported("START"),
     unsupported("STROKE DEF"),
     off_only("TGC"),

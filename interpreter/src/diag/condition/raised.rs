@@ -72,6 +72,7 @@ conditions! {
     DwellWrongAxis = Vendor 20014: Error ProgramAbort 3 1, "G04 names a wrong axis", cause "only the first main axis", hint "write G04 2.5, or the time behind the first main axis";
     FullCircleWithRadius = Vendor 20034: Error ProgramAbort 3 1, "full circle with R", cause "end = start with radius", hint "write the centre with I, J, K, without R";
     ArcRadiusZero = Vendor 20036: Error ProgramAbort 3 1, "circle radius 0", cause "G164, centre missing or end = start", hint "is I, J or K missing?";
+    NoFaceTurningAxis = Vendor 20042: Error ProgramAbort 3 1, "no face turning axis in the plane of G51", hint "set the bit 0x40 of P-AXIS-00015 for exactly one axis of the plane", parameter "P-AXIS-00015";
     VariableNotReadable = Vendor 20097: Error ProgramAbort 3 1, "variable may not be read", hint "its access rights allow writing only";
     VariableNotWritable = Vendor 20100: Error ProgramAbort 3 1, "variable may not be written", hint "assign to a P parameter or to a variable of the classes V.P, V.L, V.S";
     GNumberTooLarge = Vendor 20107: Error ProgramAbort 3 1, "G number outside the data format", hint "G functions have numbers up to 999";
@@ -157,6 +158,7 @@ conditions! {
     CommandUnknown = Vendor 20509: Error ProgramAbort 3 1, "unknown # command", hint "kontur explain '#NAME' tells about the commands that exist";
     ExchangeMode = Vendor 20521: Error ProgramAbort 3 1, "axis exchange: offset mode unknown", hint "offset modes are CMDPOS, ACTPOS, OFFSETS, NO_OFFSETS, ALL";
     ExchangeName = Vendor 20524: Error ProgramAbort 3 1, "axis exchange: axis name wrong", hint "axis names begin with X, Y, Z, A, B, C, U, V, W or Q and have up to 16 characters";
+    FaceAxisReleased = Vendor 20546: Error ProgramAbort 1 1, "face turning axis released while diameters are programmed", cause "#PUT AX [X] under G51", hint "write G52 first";
     CommentBeginNotAlone = Vendor 20566: Error ProgramAbort 3 1, "#COMMENT BEGIN does not stand alone", hint "put the words into the next block";
     CommentEndNotAlone = Vendor 20569: Error ProgramAbort 3 1, "#COMMENT END does not stand alone", hint "put the words into the next block";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may stand before it";
