@@ -199,7 +199,7 @@ const ROWS: &[Row] = &[
     run("ROTATION", frames::rotation),
     run("CS", frames::coordinate_system),
     run("CS DEF", frames::define_system),
-    run("MCS", frames::machine_coordinates),
+    frames::MCS,
     run("FGROUP", axes::feed_group),
     off_only("SCALE"),
     off_only("ACS"),

@@ -176,6 +176,7 @@ conditions! {
     MTwice = Vendor 20765: Error ProgramAbort 3 1, "M function twice in one block", cause "M10 M10", hint "leave one of the two out";
     HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "leave one of the two out";
     AxisNameUnknown = Vendor 20797: Error ProgramAbort 3 1, "unknown axis designation in a command", hint "write the name of an axis of the channel";
+    SystemWithCompensation = Vendor 20802: Error ProgramAbort 3 1, "change of the coordinate system while tool radius compensation is active", cause "#MCS ON between G41 and G40", hint "write G40 first";
     LabelTwice = Vendor 20836: Error ProgramAbort 3 1, "label defined twice", hint "give one of the two another name";
     GotoTarget = Vendor 20839: Error ProgramAbort 3 1, "something else than a label behind $GOTO", hint "write $GOTO N20 or $GOTO [NAME]";
     BlockNumberTwice = Vendor 20841: Error ProgramAbort 3 1, "block number twice in one block", cause "N100 N100: X1", hint "leave one of the two out; N100: is number and label";

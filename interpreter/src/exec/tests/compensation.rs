@@ -173,7 +173,8 @@ fn compensation_in_a_tilted_plane() {
         assert_near(e, &[x * c, y, -x * s]);
     }
     let id = |text: &str| run(&format!("{TOOL}{text}\nM30\n")).ids();
-    assert_eq!(id("#CS ON [0,0,0,0,30,0]\nG41 X10\nX20\n#CS OFF\nX30"), ["K-0019"]);
+    assert_eq!(id("#CS ON [0,0,0,0,30,0]\nG41 X10\nX20\n#CS OFF\nX30"), ["20802"]);
+    assert_eq!(id("G41 X10\nX20\n#CS ON [5,0,0,0,0,0]\nX30"), ["20802"]);
 }
 
 #[test]

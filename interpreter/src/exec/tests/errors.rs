@@ -86,7 +86,6 @@ fn what_the_manual_knows_is_never_unknown() {
     for text in [
         "#CS DEF ACT [1]",
         "#CS DEL ALL",
-        "#MCS ON EX TOOL",
         "#INFO",
         "#GANTRY ON ALL",
         "#AX LINK ON [1]",
