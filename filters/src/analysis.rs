@@ -18,4 +18,5 @@
 pub mod corner;
 pub mod decay;
 pub mod order;
+pub mod spring;
 pub mod tuning;

@@ -24,6 +24,7 @@ pub mod lists;
 mod overrides;
 mod parameters;
 mod plausible;
+pub mod project;
 mod setup;
 pub mod table;
 mod tools;

@@ -165,6 +165,8 @@ pub struct AxisRecord {
     pub tcp: f64,
     /// Acceleration of the tool point.
     pub tcp_acc: f64,
+    /// Where the block that is interpolated ends as it is programmed: before its corner is rounded.
+    pub target: f64,
     /// Speed command in the drive's format.
     pub cmd_drive: f64,
     /// Velocity feedforward in the drive's format.

@@ -62,6 +62,8 @@ struct Underway {
     seq: u64,
     source: SourceRef,
     motion: Motion,
+    /// Where it ends as it is programmed.
+    target: AxisVec,
     jerk_limited: bool,
     events: Vec<Event>,
 }
@@ -406,7 +408,8 @@ impl Simulation {
         self.totals.count(&block);
         let jerk_limited = block.slope.kind != SlopeKind::Step;
         let motion = Motion::of(&block);
-        self.underway.push_back(Underway { seq: block.seq, source, motion, jerk_limited, events });
+        let (seq, target) = (block.seq, block.path.end().clone());
+        self.underway.push_back(Underway { seq, source, motion, target, jerk_limited, events });
         self.smoothing.push(*block, &mut self.planner);
         self.not_contoured();
     }

@@ -88,11 +88,20 @@ impl Contour {
         }
     }
 
-    /// Forgets blocks that were to be entered at `cycles` or later.
-    pub(crate) fn forget_from(&mut self, cycles: f64) {
-        while self.blocks.back().is_some_and(|b| b.cycles >= cycles) {
-            self.blocks.pop_back();
-        }
+    /// Takes out the blocks that are to be entered at `cycles` or later.
+    pub(crate) fn part_at(&mut self, cycles: f64) -> VecDeque<Passed> {
+        self.blocks.split_off(self.blocks.partition_point(|b| b.cycles < cycles))
+    }
+
+    /// Number of blocks.
+    pub(crate) fn len(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// The first `count` blocks, and others behind them.
+    pub(crate) fn restore(&mut self, count: usize, mut others: VecDeque<Passed>) {
+        self.blocks.truncate(count);
+        self.blocks.append(&mut others);
     }
 
     /// Blocks that were being interpolated at some time in `from..=to` (cycles).

@@ -179,7 +179,7 @@ impl Contouring {
             let Some(path) = PolyPath::through(vec![piece.clone()], &feed_axes) else { continue };
             block.path = Path::Curve(Box::new(path));
             let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
-            let v = speeds.limited(speeds.programmed_mm_s).0;
+            let v = speeds.limited(speeds.programmed_mm_s).v_mm_s;
             let same =
                 settings.constant_velocity || speed.is_some_and(|w: f64| (v - w).abs() <= 1e-9 * w);
             if !same && !group.is_empty() {

@@ -16,13 +16,13 @@
 //! let (a, b) = (Ends::of(&along_x), Ends::of(&along_y));
 //! let cycle = CycleTime::from_us(1000).unwrap();
 //! // both axes jump by v; 3500 mm/s2 in a cycle of 1 ms are 3.5 mm/s
-//! let (v_mm_s, why) = transition(&along_x, &along_y, &a, &b, cycle, false);
-//! assert!((v_mm_s - 3.5).abs() < 1e-9 && why == SpeedLimit::Corner);
+//! let cap = transition(&along_x, &along_y, &a, &b, cycle, false);
+//! assert!((cap.v_mm_s - 3.5).abs() < 1e-9 && cap.why == SpeedLimit::Corner);
 //! ```
 
 use crate::axis::{AxisDynamics, AxisVec};
 use crate::block::{Block, Feed, SlopeKind, TransitionJerkMode};
-use crate::limit::SpeedLimit;
+use crate::limit::{Cap, SpeedLimit};
 use crate::limits::{contour_acceleration, longest_ramp};
 use kontur_filters::time::CycleTime;
 
@@ -264,13 +264,9 @@ pub fn transition(
     b: &Ends,
     cycle: CycleTime,
     kernel_active: bool,
-) -> (f64, SpeedLimit) {
-    let mut cap = (f64::INFINITY, SpeedLimit::Feed);
-    let mut take = |v: f64, why: SpeedLimit| {
-        if v < cap.0 {
-            cap = (v, why);
-        }
-    };
+) -> Cap {
+    let mut cap = Cap::new(f64::INFINITY, SpeedLimit::Feed);
+    let mut take = |v: f64, why: SpeedLimit| cap = cap.lower(Cap::new(v, why));
     take(
         kink_velocity(from, to, &a.tangent_out, &b.tangent_in, cycle, kernel_active),
         SpeedLimit::Corner,

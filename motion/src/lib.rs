@@ -41,6 +41,7 @@ pub mod limits;
 pub mod lookahead;
 mod overshoot;
 pub mod path;
+mod plan;
 pub mod planner;
 pub mod profile;
 pub mod queue;

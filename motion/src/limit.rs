@@ -3,10 +3,12 @@
 //! The answer that every stage passes on, up to [`crate::planner::Setpoint::limit`].
 //!
 //! ```
-//! use kontur_motion::limit::SpeedLimit;
+//! use kontur_motion::limit::{Cap, SpeedLimit};
 //!
 //! assert_eq!(SpeedLimit::AxDev.name(), "ax_dev");
 //! assert_eq!(SpeedLimit::ALL.len(), 7);
+//! let corner = Cap::new(12.0, SpeedLimit::Corner);
+//! assert_eq!(corner.lower(Cap::new(3.0, SpeedLimit::AxDev)).why, SpeedLimit::AxDev);
 //! ```
 
 /// What held the path speed down.
@@ -52,5 +54,30 @@ impl SpeedLimit {
             Self::AxDev => "ax_dev",
             Self::Lookahead => "lookahead",
         }
+    }
+}
+
+/// A path velocity that is not exceeded, and why.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cap {
+    /// Velocity in mm/s; infinite if nothing bounds it.
+    pub v_mm_s: f64,
+    /// What it comes from.
+    pub why: SpeedLimit,
+}
+
+impl Cap {
+    /// At rest.
+    pub const STOP: Self = Self::new(0.0, SpeedLimit::Stop);
+
+    /// A velocity in mm/s with its reason.
+    pub const fn new(v_mm_s: f64, why: SpeedLimit) -> Self {
+        Self { v_mm_s, why }
+    }
+
+    /// The lower one of two, this one if they are equal.
+    #[must_use]
+    pub fn lower(self, other: Self) -> Self {
+        if other.v_mm_s < self.v_mm_s { other } else { self }
     }
 }

@@ -20,7 +20,7 @@
 
 use crate::axis::{AxisDynamics, AxisVec};
 use crate::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind};
-use crate::limit::SpeedLimit;
+use crate::limit::{Cap, SpeedLimit};
 use crate::path::{ArcPath, Path, TiltedArc};
 use crate::profile::{RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
 use kontur_filters::time::CycleTime;
@@ -257,15 +257,12 @@ impl PathSpeeds {
     }
 
     /// Velocity in mm/s with `commanded` in place of the programmed one, and what it comes from.
-    pub fn limited(&self, commanded: f64) -> (f64, SpeedLimit) {
-        let mut best = (commanded.min(self.vector_mm_s), SpeedLimit::Feed);
-        if self.axis_mm_s < best.0 || self.rapid && self.axis_mm_s <= best.0 {
-            best = (self.axis_mm_s, SpeedLimit::Axis);
+    pub fn limited(&self, commanded: f64) -> Cap {
+        let mut best = Cap::new(commanded.min(self.vector_mm_s), SpeedLimit::Feed);
+        if self.axis_mm_s < best.v_mm_s || self.rapid && self.axis_mm_s <= best.v_mm_s {
+            best = Cap::new(self.axis_mm_s, SpeedLimit::Axis);
         }
-        if self.curve_mm_s < best.0 {
-            best = (self.curve_mm_s, SpeedLimit::Curve);
-        }
-        best
+        best.lower(Cap::new(self.curve_mm_s, SpeedLimit::Curve))
     }
 }
 

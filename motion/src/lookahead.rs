@@ -22,7 +22,7 @@
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
 //! # use kontur_filters::time::CycleTime;
-//! use kontur_motion::limit::SpeedLimit;
+//! use kontur_motion::limit::{Cap, SpeedLimit};
 //! use kontur_motion::lookahead::plan;
 //! use kontur_motion::queue::Queued;
 //!
@@ -30,17 +30,17 @@
 //! let blocks = [block(1, [0.0, 0.0], [20.0, 0.0], 100.0), block(2, [20.0, 0.0], [20.0, 20.0], 100.0)];
 //! let blocks = blocks.map(|block| Arc::new(Queued::new(block, cycle)));
 //! let feeds: Vec<_> = blocks.iter().map(|queued| queued.velocity).collect();
-//! let caps = [(0.0, SpeedLimit::Stop), (3.5, SpeedLimit::Corner)];
-//! let start = ((0.0, SpeedLimit::Stop), 0.0);
-//! let plan = plan(&blocks, &feeds, &caps, &[false; 2], start, SpeedLimit::Stop).unwrap();
+//! let caps = [Cap::STOP, Cap::new(3.5, SpeedLimit::Corner)];
+//! let start = (Cap::STOP, 0.0);
+//! let spans = plan(&blocks, &feeds, &caps, &[false; 2], start, SpeedLimit::Stop).unwrap();
 //! // from rest to the corner, from there to rest
-//! assert!((plan.spans[0].profile.at(plan.spans[0].profile.duration()).v_mm_s - 3.5).abs() < 1e-6);
-//! assert_eq!(plan.spans.last().unwrap().end, 2);
+//! assert!((spans[0].profile.at(spans[0].profile.duration()).v_mm_s - 3.5).abs() < 1e-6);
+//! assert_eq!(spans.last().unwrap().end, 2);
 //! ```
 
 mod late;
 
-use crate::limit::SpeedLimit;
+use crate::limit::{Cap, SpeedLimit};
 use crate::profile::{Infeasible, Rates, SlopeLimits, SpanProfile};
 use crate::queue::Queued;
 use crate::ride::{Cell, has_hill, ride};
@@ -60,9 +60,6 @@ const ROUNDING: f64 = 1e-7;
 /// Acceleration that is zero but for rounding.
 const FLAT_MM_S2: f64 = 1e-6;
 
-/// A velocity with its reason.
-pub type Cap = (f64, SpeedLimit);
-
 /// Blocks planned as one profile.
 #[derive(Clone, Debug)]
 pub struct Span {
@@ -76,13 +73,6 @@ pub struct Span {
     pub why_up: SpeedLimit,
     /// What held the speed down while braking.
     pub why_down: SpeedLimit,
-}
-
-/// The plan of a window.
-#[derive(Clone, Debug, Default)]
-pub struct Plan {
-    /// Spans in order; together they cover every block.
-    pub spans: Vec<Span>,
 }
 
 struct Stretch {
@@ -110,7 +100,7 @@ struct Window<'a> {
     carried: Vec<bool>,
 }
 
-/// Plans a window of blocks from `v_start` to rest. An acceleration at the start (mm/s2) is the one at which a plan of
+/// Plans a window of blocks from `v_start` to rest, in spans that cover every block. An acceleration at the start (mm/s2) is the one at which a plan of
 /// constant jerk was left.
 ///
 /// `caps[i]` belongs to the boundary before block `i`; `caps[0]` is not read. `forced` boundaries are knots.
@@ -124,14 +114,15 @@ pub fn plan(
     forced: &[bool],
     (v_start, a_start): (Cap, f64),
     end: SpeedLimit,
-) -> Result<Plan, Infeasible> {
+) -> Result<Vec<Span>, Infeasible> {
     if blocks.is_empty() {
-        return Ok(Plan::default());
+        return Ok(Vec::new());
     }
     let (entries, carried) = (feeds.to_vec(), vec![false; blocks.len()]);
     // where a plan was left inside, its speed has been computed in another way
-    let rounded = !is_above(v_start.0, feeds[0].0) && a_start.abs() > FLAT_MM_S2;
-    let v_start = if rounded { (v_start.0.min(feeds[0].0), v_start.1) } else { v_start };
+    let rounded = !is_above(v_start.v_mm_s, feeds[0].v_mm_s) && a_start.abs() > FLAT_MM_S2;
+    let v_start =
+        if rounded { v_start.lower(Cap { v_mm_s: feeds[0].v_mm_s, ..v_start }) } else { v_start };
     let early = Window { blocks, feeds, caps, forced, v_start, a_start, end, entries, carried };
     match late::entries(blocks, feeds) {
         Some(entries) => late::plan(&early, entries),
@@ -142,16 +133,10 @@ pub fn plan(
 impl Window<'_> {
     /// Speed and reason that the boundary before block `b` allows.
     fn limit(&self, b: usize) -> Cap {
-        let mut best = self.caps[b];
-        for feed in [self.feeds[b - 1], self.entries[b]] {
-            if feed.0 < best.0 {
-                best = feed;
-            }
-        }
-        best
+        self.caps[b].lower(self.feeds[b - 1]).lower(self.entries[b])
     }
 
-    fn plan(&self) -> Result<Plan, Infeasible> {
+    fn plan(&self) -> Result<Vec<Span>, Infeasible> {
         let Self { blocks, feeds, caps, .. } = *self;
         let n = blocks.len();
         let mut knot = vec![false; n + 1];
@@ -169,13 +154,13 @@ impl Window<'_> {
             let mut spans: Vec<Span> = Vec::with_capacity(stretches.len());
             let mut again = false;
             // a speed that is final already; the plan that it comes from goes on
-            if !self.keeps(&stretches[0], speeds[0].0, speeds[1].0) {
+            if !self.keeps(&stretches[0], speeds[0].v_mm_s, speeds[1].v_mm_s) {
                 let (length_mm, needed_mm) = (stretches[0].length, f64::INFINITY);
                 return Err(Infeasible { length_mm, needed_mm });
             }
             for (k, s) in stretches.iter().enumerate() {
                 let (from, to) = (speeds[k], speeds[k + 1]);
-                if let Some(same) = unchanged(&known, s, from.0, to.0) {
+                if let Some(same) = unchanged(&known, s, from.v_mm_s, to.v_mm_s) {
                     spans.push(same);
                     continue;
                 }
@@ -184,7 +169,7 @@ impl Window<'_> {
                 let a0 = if k == 0 { self.a_start } else { 0.0 };
                 if a0.abs() > FLAT_MM_S2 {
                     let going_on = cells(blocks, feeds, caps, s.first, s.end)
-                        .and_then(|cells| ride(&cells, (from.0, a0), to.0));
+                        .and_then(|cells| ride(&cells, (from.v_mm_s, a0), to.v_mm_s));
                     let Some(chain) = going_on else {
                         if s.end < blocks.len() && soft[s.end] && !knot[s.end] {
                             soft[s.end] = false;
@@ -194,18 +179,19 @@ impl Window<'_> {
                         return Err(Infeasible { length_mm: s.length, needed_mm: f64::INFINITY });
                     };
                     let (first, end) = (s.first, s.end);
-                    let (why_up, why_down) = (from.1, to.1);
+                    let (why_up, why_down) = (from.why, to.why);
                     let profile = SpanProfile::from_chain(chain);
                     spans.push(Span { first, end, profile, why_up, why_down });
                     continue;
                 }
-                let mut profile = s.profile(from.0, to.0)?;
-                if s.end - s.first > 1 && blocks[s.first].plans_across() && !s.is_above(from.0) {
+                let mut profile = s.profile(from.v_mm_s, to.v_mm_s)?;
+                if s.end - s.first > 1 && blocks[s.first].plans_across() && !s.is_above(from.v_mm_s)
+                {
                     let worst = most_exceeded(blocks, feeds, caps, s, &profile);
                     let chain = (worst.is_some() || s.is_uneven(blocks, profile.peak()))
                         .then(|| cells(blocks, feeds, caps, s.first, s.end))
                         .flatten()
-                        .and_then(|cells| ride(&cells, (from.0, 0.0), to.0));
+                        .and_then(|cells| ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s));
                     match (chain.map(SpanProfile::from_chain), worst) {
                         (Some(ride), None) if ride.duration() >= profile.duration() => {}
                         (Some(ride), _) => profile = ride,
@@ -220,12 +206,12 @@ impl Window<'_> {
                     first: s.first,
                     end: s.end,
                     profile,
-                    why_up: from.1,
-                    why_down: to.1,
+                    why_up: from.why,
+                    why_down: to.why,
                 });
             }
             if !again {
-                return Ok(Plan { spans });
+                return Ok(spans);
             }
             known = spans;
         }
@@ -236,8 +222,9 @@ impl Window<'_> {
     fn minima(&self, knot: &[bool], plain: &[bool]) -> Vec<bool> {
         let blocks = self.blocks;
         let n = blocks.len();
-        let mut square: Vec<f64> = (1..n).map(|i| self.limit(i).0 * self.limit(i).0).collect();
-        square.insert(0, self.v_start.0 * self.v_start.0);
+        let mut square: Vec<f64> =
+            (1..n).map(|i| self.limit(i).v_mm_s * self.limit(i).v_mm_s).collect();
+        square.insert(0, self.v_start.v_mm_s * self.v_start.v_mm_s);
         square.push(0.0);
         let own = square.clone();
         let gain = |i: usize, up: bool| {
@@ -280,7 +267,7 @@ impl Window<'_> {
         let mut any = false;
         // from the speed at the start, which is final, the first one may be out of reach
         if let [first, second, ..] = stretches {
-            let (v0, v1) = (speeds[0].0, speeds[1].0);
+            let (v0, v1) = (speeds[0].v_mm_s, speeds[1].v_mm_s);
             if soft[second.first] && first.slope.down_distance(v0.max(v1), v1) > first.length {
                 soft[second.first] = false;
                 any = true;
@@ -288,7 +275,7 @@ impl Window<'_> {
         }
         for (s, v) in stretches.iter().zip(speeds).skip(1) {
             let b = s.first;
-            if soft[b] && !knot[b] && v.0 < self.limit(b).0 * (1.0 - 1e-9) {
+            if soft[b] && !knot[b] && v.v_mm_s < self.limit(b).v_mm_s * (1.0 - 1e-9) {
                 soft[b] = false;
                 any = true;
             }
@@ -302,19 +289,19 @@ impl Window<'_> {
         let Self { blocks, feeds, caps, .. } = *self;
         let mut run = 0;
         let mut plain = vec![false; blocks.len()];
-        plain[0] = is_above(self.v_start.0, feeds[0].0);
+        plain[0] = is_above(self.v_start.v_mm_s, feeds[0].v_mm_s);
         for i in 1..blocks.len() {
             let (a, b) = (&blocks[i - 1], &blocks[i]);
-            let drops = is_above(self.entries[i].0, feeds[i].0);
+            let drops = is_above(self.entries[i].v_mm_s, feeds[i].v_mm_s);
             let joined = self.carried[i]
                 || !self.forced[i]
                     && a.block.slope == b.block.slope
                     && if a.plans_across() && !plain[i - 1] {
-                        caps[i].0 > 0.0 && !drops
+                        caps[i].v_mm_s > 0.0 && !drops
                     } else {
-                        let feed = feeds[i - 1].0.min(feeds[i].0);
-                        caps[i].0 >= feed
-                            && (feeds[i - 1].0 - feeds[i].0).abs() <= 1e-9 * feed
+                        let feed = feeds[i - 1].v_mm_s.min(feeds[i].v_mm_s);
+                        caps[i].v_mm_s >= feed
+                            && (feeds[i - 1].v_mm_s - feeds[i].v_mm_s).abs() <= 1e-9 * feed
                             && blocks[run].slope.nearly_equals(&b.slope, NEARLY_EQUAL)
                     };
             plain[i] = if joined { plain[i - 1] } else { drops };
@@ -342,17 +329,17 @@ impl Window<'_> {
             first,
             end,
             length: blocks[first].length,
-            feed: feeds[first].0,
+            feed: feeds[first].v_mm_s,
             slope: blocks[first].slope.clone(),
         };
         for i in first + 1..end {
             s.length += blocks[i].length;
             s.feed = if self.carried[i] {
                 // what the braking ends at
-                feeds[i].0
+                feeds[i].v_mm_s
             } else {
                 // across blocks of different feed the check finds what is exceeded
-                s.feed.max(feeds[i].0)
+                s.feed.max(feeds[i].v_mm_s)
             };
             s.slope = s.slope.weaker(&blocks[i].slope);
         }
@@ -363,24 +350,23 @@ impl Window<'_> {
     fn passes(&self, stretches: &[Stretch]) -> Vec<Cap> {
         let m = stretches.len();
         let mut v = vec![self.v_start; m + 1];
-        v[m] = (0.0, self.end);
+        v[m] = Cap::new(0.0, self.end);
         for k in (1..m).rev() {
             let s = &stretches[k];
             let best = self.limit(s.first);
-            let reach = s.slope.reach_down(v[k + 1].0, s.length);
-            v[k] = if reach < best.0 { (reach, v[k + 1].1) } else { best };
-            v[k].0 = self.entry_speed(s, v[k].0, v[k + 1].0);
+            let behind = v[k + 1];
+            let reach = s.slope.reach_down(behind.v_mm_s, s.length);
+            v[k] = best.lower(Cap::new(reach, behind.why));
+            v[k].v_mm_s = self.entry_speed(s, v[k].v_mm_s, behind.v_mm_s);
         }
         for k in 1..m {
             let s = &stretches[k - 1];
             let reach = if k == 1 {
-                s.reach_from(self.v_start.0, self.a_start)
+                s.reach_from(self.v_start.v_mm_s, self.a_start)
             } else {
-                s.slope.reach_up(v[k - 1].0, s.length)
+                s.slope.reach_up(v[k - 1].v_mm_s, s.length)
             };
-            if reach < v[k].0 {
-                v[k] = (reach, v[k - 1].1);
-            }
+            v[k] = v[k].lower(Cap::new(reach, v[k - 1].why));
         }
         v
     }
@@ -455,9 +441,9 @@ fn cells(
         .map(|i| {
             at += blocks[i].length;
             // the boundary belongs to both blocks
-            let both = |i: usize| caps[i + 1].0.min(feeds[i].0).min(feeds[i + 1].0);
+            let both = |i: usize| caps[i + 1].v_mm_s.min(feeds[i].v_mm_s).min(feeds[i + 1].v_mm_s);
             let cap = if i + 1 < end { both(i) } else { f64::INFINITY };
-            Some(Cell { end: at, v: feeds[i].0, cap, rates: rates(&blocks[i])? })
+            Some(Cell { end: at, v: feeds[i].v_mm_s, cap, rates: rates(&blocks[i])? })
         })
         .collect()
 }
@@ -488,7 +474,7 @@ fn most_exceeded(
             profile.at(profile.time_at(at)).v_mm_s
         };
         if i + 1 < s.end {
-            let cap = caps[i + 1].0.min(feeds[i].0).min(feeds[i + 1].0);
+            let cap = caps[i + 1].v_mm_s.min(feeds[i].v_mm_s).min(feeds[i + 1].v_mm_s);
             let ratio = behind / cap.max(1e-12);
             if ratio > worst.0 {
                 worst = (ratio, Some(i + 1));
@@ -496,10 +482,10 @@ fn most_exceeded(
         }
         // a peak inside the block: both ends are within the block's velocity, the middle is not
         let peak = profile.highest_between(at - blocks[i].length, at).max(before).max(behind);
-        if peak / feeds[i].0 > worst.0 {
+        if peak / feeds[i].v_mm_s > worst.0 {
             let inner = if i > s.first { i } else { i + 1 };
             if inner > s.first && inner < s.end {
-                worst = (peak / feeds[i].0, Some(inner));
+                worst = (peak / feeds[i].v_mm_s, Some(inner));
             }
         }
         before = behind;

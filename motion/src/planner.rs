@@ -7,7 +7,7 @@
 //! new plan starts from such a state the old one goes on for a few blocks. What is final lies on a [`crate::timeline`] that is sampled cycle by cycle.
 //!
 //! Override and feedhold take back what is final from the next cycle on, bring the speed to its new value and have the
-//! rest planned again, see `replan`.
+//! rest planned again, see `replan`. What is ahead is one plan, see `plan`.
 //!
 //! Order of calls: kernels and modes at rest, [`Planner::push`] until [`Planner::advance`] no longer asks for input,
 //! [`Planner::finish`] behind the last block, then [`Planner::advance`] to [`Next::Rest`].
@@ -38,16 +38,14 @@ use crate::brake::Brake;
 use crate::contour::Contour;
 use crate::corner::transition;
 use crate::deviation::Gauge;
-use crate::limit::SpeedLimit;
-use crate::lookahead::Cap;
+use crate::limit::{Cap, SpeedLimit};
+use crate::plan::{Plan, Segment};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
-use crate::short::lower_caps;
-use crate::timeline::{Entry, Moment, PathState, Timeline};
-use crate::tolerance::{Demands, Kernels, Monitor, Unkept};
+use crate::timeline::{Moment, PathState, Timeline};
+use crate::tolerance::{Kernels, Monitor, Unkept};
 use kontur_filters::time::CycleTime;
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// One cycle of the path.
@@ -87,35 +85,21 @@ pub enum Next {
 pub struct Planner {
     cycle: CycleTime,
     window: usize,
-    queue: VecDeque<Arc<Queued>>,
-    /// Programmed blocks in the queue: a spline or a rounded corner is planned in parts.
-    programmed: usize,
-    /// Caps between the queued blocks; entry `i` stands before block `i`.
-    caps: VecDeque<Cap>,
     last: Option<Arc<Queued>>,
     finishing: bool,
+    /// What is final, and the contour there.
     timeline: Timeline,
-    /// Where the next span begins.
-    cursor: Moment,
-    /// Speed there, and what holds it down.
-    speed: Cap,
-    /// Path acceleration there in mm/s2.
-    acceleration: f64,
-    /// Path length there.
-    travelled: f64,
+    contour: Contour,
+    /// What lies ahead of it.
+    plan: Plan,
     setpoint: Setpoint,
     state: PathState,
     kernels: Kernels,
     monitor: Monitor,
-    contour: Contour,
     gauge: Gauge,
     reach_cycles: u32,
     unkept: Vec<Unkept>,
     brake: Option<Brake>,
-    /// What the tolerance asks of the queued blocks, as far as they have been planned.
-    demands: Demands,
-    /// Rest of the last plan, from the cursor to rest.
-    reserve: VecDeque<Entry>,
     /// Override and feedhold in effect, and those asked for.
     active: Realtime,
     wanted: Realtime,
@@ -135,27 +119,19 @@ impl Planner {
         Self {
             cycle,
             window: window.max(1),
-            queue: VecDeque::new(),
-            programmed: 0,
-            caps: VecDeque::new(),
             last: None,
             finishing: false,
             timeline: Timeline::default(),
-            cursor: Moment::default(),
-            speed: (0.0, SpeedLimit::Stop),
-            acceleration: 0.0,
-            travelled: 0.0,
+            contour: Contour::default(),
+            plan: Plan::default(),
             state: PathState::at_rest(&position),
             setpoint: Setpoint { position, ..Setpoint::default() },
             kernels: Kernels::default(),
             monitor: Monitor::default(),
-            contour: Contour::default(),
             gauge: Gauge::default(),
             reach_cycles: 0,
             unkept: Vec::new(),
             brake: None,
-            demands: Demands::default(),
-            reserve: VecDeque::new(),
             active: Realtime::default(),
             wanted: Realtime::default(),
         }
@@ -201,8 +177,7 @@ impl Planner {
 
     /// At rest although there is something to do: by feedhold or override 0.
     pub fn is_held(&self) -> bool {
-        let barred = self.queue.front().is_some_and(|q| q.velocity.0 <= 0.0);
-        self.speed.0 <= 0.0 && (self.active.hold.is_some() || barred)
+        self.plan.is_at_rest() && (self.active.hold.is_some() || self.plan.is_barred())
     }
 
     /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.
@@ -218,14 +193,10 @@ impl Planner {
                 self.cycle,
                 self.kernels.any(),
             ),
-            None => (0.0, SpeedLimit::Stop),
+            None => Cap::STOP,
         };
-        self.caps.push_back(cap);
-        if self.queue.back().is_none_or(|last| last.block.seq != queued.block.seq) {
-            self.programmed += 1;
-        }
-        self.queue.push_back(Arc::clone(&queued));
-        lower_caps(&self.queue, &mut self.caps, self.cycle, self.kernels.any());
+        let segment = Segment { queued: Arc::clone(&queued), cap };
+        self.plan.push(segment, self.cycle, self.kernels.any());
         self.last = Some(queued);
     }
 
@@ -248,10 +219,10 @@ impl Planner {
                 self.output(k);
                 return Ok(Next::Setpoint);
             }
-            if self.queue.is_empty() && self.speed.0 <= 0.0 {
+            if self.plan.segments.is_empty() && self.plan.is_at_rest() {
                 return Ok(if self.finishing { Next::Rest } else { Next::Input });
             }
-            if !self.finishing && self.programmed < 2 * self.window {
+            if !self.finishing && self.plan.programmed() < 2 * self.window {
                 return Ok(Next::Input);
             }
             if self.is_held() {
@@ -266,7 +237,8 @@ impl Planner {
     /// One more cycle at the current position; only at rest.
     pub fn hold(&mut self, limit: SpeedLimit) {
         self.setpoint.k += 1;
-        self.cursor = Moment::tick(self.cursor.origin.max(self.setpoint.k));
+        let start = &mut self.plan.start;
+        start.moment = Moment::tick(start.moment.origin.max(self.setpoint.k));
         (self.setpoint.v_mm_s, self.setpoint.a_mm_s2, self.setpoint.j_mm_s3) = (0.0, 0.0, 0.0);
         self.setpoint.limit = limit;
         self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
@@ -280,8 +252,8 @@ impl Planner {
                 path.push((entry.s0 + s_end - queued.length - queued.offset, Arc::clone(queued)));
             }
         }
-        let mut s = self.travelled;
-        for queued in &self.queue {
+        let mut s = self.plan.start.s_mm;
+        for Segment { queued, .. } in &self.plan.segments {
             path.push((s - queued.offset, Arc::clone(queued)));
             s += queued.length;
         }
@@ -353,11 +325,4 @@ impl Planner {
         self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
         self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
     }
-}
-
-/// Programmed blocks among parts of them.
-fn programmed(parts: &VecDeque<Arc<Queued>>) -> usize {
-    let seqs = parts.iter().map(|q| q.block.seq);
-    let behind = seqs.clone().skip(1);
-    usize::from(!parts.is_empty()) + seqs.zip(behind).filter(|(a, b)| a != b).count()
 }

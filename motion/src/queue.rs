@@ -6,17 +6,17 @@
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
 //! # use kontur_filters::time::CycleTime;
-//! use kontur_motion::limit::SpeedLimit;
+//! use kontur_motion::limit::{Cap, SpeedLimit};
 //! use kontur_motion::queue::Queued;
 //!
 //! let queued = Queued::new(block(1, [0.0, 0.0], [10.0, 0.0], 100.0), CycleTime::from_us(1000).unwrap());
-//! assert_eq!(queued.velocity, (100.0, SpeedLimit::Feed));
-//! assert_eq!(queued.ceiling, (1000.0, SpeedLimit::Axis));
+//! assert_eq!(queued.velocity, Cap::new(100.0, SpeedLimit::Feed));
+//! assert_eq!(queued.ceiling, Cap::new(1000.0, SpeedLimit::Axis));
 //! ```
 
 use crate::block::{Block, Feed, SlopeKind};
 use crate::corner::Ends;
-use crate::limit::SpeedLimit;
+use crate::limit::Cap;
 use crate::limits::{PathExtremes, PathSpeeds, path_slope};
 use crate::path::Path;
 use crate::profile::SlopeLimits;
@@ -42,9 +42,9 @@ pub struct Queued {
     /// Path velocities without the real-time override.
     pub speeds: PathSpeeds,
     /// Path velocity in mm/s under the real-time override, and what it comes from.
-    pub velocity: (f64, SpeedLimit),
+    pub velocity: Cap,
     /// What the path velocity would be if no feed were programmed.
-    pub ceiling: (f64, SpeedLimit),
+    pub ceiling: Cap,
     /// Path slope.
     pub slope: SlopeLimits,
     /// Largest `|q''|` over the axes in 1/mm; 0 for a line.

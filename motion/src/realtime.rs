@@ -23,7 +23,7 @@
 //! ```
 
 use crate::block::Block;
-use crate::limit::SpeedLimit;
+use crate::limit::Cap;
 use crate::limits::{PathExtremes, PathSpeeds, weakest};
 use crate::profile::SlopeLimits;
 use crate::queue::Queued;
@@ -87,7 +87,7 @@ pub(crate) struct Override {
 
 impl Override {
     /// Path velocity of a block in mm/s, and what it comes from.
-    pub(crate) fn velocity(&self, speeds: &PathSpeeds) -> (f64, SpeedLimit) {
+    pub(crate) fn velocity(&self, speeds: &PathSpeeds) -> Cap {
         let ratio = if speeds.rapid { self.ratios.rapid } else { self.ratios.feed };
         let of_programmed = match self.mode {
             OverrideMode::OfReached => false,
@@ -137,7 +137,7 @@ mod tests {
 
     fn velocity(mode: OverrideMode, ratio: f64, speeds: &PathSpeeds) -> f64 {
         let ratios = OverrideRatios { feed: ratio, rapid: 1.0 };
-        Override { ratios, mode }.velocity(speeds).0
+        Override { ratios, mode }.velocity(speeds).v_mm_s
     }
 
     /// 200 mm/s programmed, 100 allowed: 50 % are 50 of what is reached and 100 of what is programmed.

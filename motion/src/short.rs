@@ -5,42 +5,35 @@
 //! single jump. On a fine chord polygon that is the limit of the circle, `v^2 / r <= w a` (derived).
 
 use crate::corner::{TANGENT, admissible_jump};
-use crate::limit::SpeedLimit;
-use crate::lookahead::Cap;
+use crate::limit::{Cap, SpeedLimit};
+use crate::plan::Segment;
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
-use std::sync::Arc;
 
 /// Kinks that are looked at one by one; a run with more of them in a cycle is taken as a curve.
 const KINKS: usize = 64;
 /// Blocks that are looked at for them: most may go straight on.
 const BLOCKS: usize = 1024;
 
-/// Lowers the caps in front of the newest block and of those before it. `caps[i]` stands before block `i`.
-pub(crate) fn lower_caps(
-    queue: &VecDeque<Arc<Queued>>,
-    caps: &mut VecDeque<Cap>,
-    cycle: CycleTime,
-    kernel_active: bool,
-) {
-    let newest = queue.len() - 1;
-    let to = &queue[newest];
-    if newest == 0 || !is_kink(&queue[newest - 1], to) {
+/// Lowers the caps in front of the newest segment and of those before it.
+pub(crate) fn lower_caps(segments: &mut VecDeque<Segment>, cycle: CycleTime, kernel_active: bool) {
+    let newest = segments.len() - 1;
+    if newest == 0 || !is_kink(&segments[newest - 1].queued, &segments[newest].queued) {
         return;
     }
     let (mut distance, mut kinks) = (0.0, 0);
     for first in (1..newest).rev().take(BLOCKS) {
-        let (from, inner) = (&queue[first - 1], &queue[first]);
+        let [from, inner, before_last, to] =
+            [first - 1, first, newest - 1, newest].map(|i| &segments[i].queued);
         if ![from, inner, to].iter().all(|q| q.block.path.is_straight()) {
             return;
         }
         distance += inner.length;
         let apart = distance / cycle.seconds();
         // an override may come later
-        let before_last = &queue[newest - 1];
         let fastest = to.fastest_behind(before_last).min(inner.fastest_behind(from));
-        let fastest = fastest.min(caps[newest].0).min(caps[first].0);
+        let fastest = fastest.min(segments[newest].cap.v_mm_s).min(segments[first].cap.v_mm_s);
         if apart >= fastest {
             return;
         }
@@ -58,9 +51,8 @@ pub(crate) fn lower_caps(
         }
         let v = if kinks == KINKS { (together * apart).sqrt() } else { together }.max(apart);
         for boundary in [first, newest] {
-            if v < caps[boundary].0 {
-                caps[boundary] = (v, SpeedLimit::Curve);
-            }
+            let cap = &mut segments[boundary].cap;
+            *cap = cap.lower(Cap::new(v, SpeedLimit::Curve));
         }
         if kinks == KINKS {
             return;

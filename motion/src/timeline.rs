@@ -6,8 +6,8 @@
 
 use crate::axis::AxisVec;
 use crate::course::Course;
-use crate::limit::SpeedLimit;
-use crate::lookahead::{Cap, Span};
+use crate::limit::{Cap, SpeedLimit};
+use crate::lookahead::Span;
 use crate::profile::State;
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
@@ -243,8 +243,8 @@ impl Entry {
                 self.why_up
             } else if state.a_mm_s2 < 0.0 {
                 self.why_down
-            } else if state.v_mm_s >= top.0 * (1.0 - 1e-9) {
-                top.1
+            } else if state.v_mm_s >= top.v_mm_s * (1.0 - 1e-9) {
+                top.why
             } else {
                 self.why_down
             };

@@ -95,7 +95,7 @@ fn bound(blocks: &[Block], a: &AxisDynamics) -> (f64, usize) {
     for (k, block) in blocks.iter().enumerate() {
         let extremes = PathExtremes::of(&block.path);
         let speeds = PathSpeeds::of(block, &extremes);
-        let v = speeds.limited(speeds.programmed_mm_s).0;
+        let v = speeds.limited(speeds.programmed_mm_s).v_mm_s;
         let largest = extremes.first.iter().copied().fold(0.0, f64::max);
         let last = limit.len() - 1;
         limit[last] = limit[last].min(v * v);

@@ -147,7 +147,7 @@ fn speed_on_the_curve() {
         curves(&blocks)
             .iter()
             .map(|b| PathSpeeds::of(b, &PathExtremes::of(&b.path)))
-            .map(|speeds| speeds.limited(speeds.programmed_mm_s).0)
+            .map(|speeds| speeds.limited(speeds.programmed_mm_s).v_mm_s)
             .fold(f64::INFINITY, f64::min)
     };
     assert!((slowest(dev(1.0), &job) - 48.004).abs() < 5e-4);

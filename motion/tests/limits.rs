@@ -33,7 +33,7 @@ fn kink(weight: f64, cycle_us: u32, degrees: f64, kind: SlopeKind) -> f64 {
     let a = job.block(0, line(&[0.0, 0.0], &[1.0, 0.0]), 1e6);
     let b = job.block(1, line(&[1.0, 0.0], &turned), 1e6);
     let cycle = CycleTime::from_us(cycle_us).unwrap();
-    transition(&a, &b, &Ends::of(&a), &Ends::of(&b), cycle, false).0 * 60.0
+    transition(&a, &b, &Ends::of(&a), &Ends::of(&b), cycle, false).v_mm_s * 60.0
 }
 
 /// Table of kink velocities: a = 1000 mm/s2, ramps of 50 ms, first leg along X.
@@ -71,7 +71,7 @@ fn direct_jerk_at_kinks() {
         job.dynamics = std::sync::Arc::new(d.clone());
         let a = job.block(0, line(&[0.0, 0.0], &[1.0, 0.0]), 1e6);
         let b = job.block(1, line(&[1.0, 0.0], &[1.0, 1.0]), 1e6);
-        let v = transition(&a, &b, &Ends::of(&a), &Ends::of(&b), CYCLE, false).0;
+        let v = transition(&a, &b, &Ends::of(&a), &Ends::of(&b), CYCLE, false).v_mm_s;
         assert!((v - want).abs() < 1e-12, "{jerk}: {v}");
     }
 }
@@ -91,12 +91,12 @@ fn circle_table() {
         [(0.5, 22.361), (1.0, 31.623), (5.0, 70.711), (10.0, 100.0), (50.0, 223.607)]
     {
         let queued = Queued::new(arc(&job, radius, 2.0 * PI), CYCLE);
-        assert!((queued.velocity.0 - want).abs() < 6e-4, "r {radius}: {:?}", queued.velocity);
-        assert_eq!(queued.velocity.1, SpeedLimit::Curve);
+        assert!((queued.velocity.v_mm_s - want).abs() < 6e-4, "r {radius}: {:?}", queued.velocity);
+        assert_eq!(queued.velocity.why, SpeedLimit::Curve);
     }
     // below r = a tr_geom^2 = 0.1 mm the geometric ramp time rules: v^3 / r^2 = a / tr_geom
     let queued = Queued::new(arc(&job, 0.05, 2.0 * PI), CYCLE);
-    assert!((queued.velocity.0 - libm::cbrt(1e5 * 0.0025)).abs() < 1e-9);
+    assert!((queued.velocity.v_mm_s - libm::cbrt(1e5 * 0.0025)).abs() < 1e-9);
 }
 
 /// Line to arc with P-CHAN-00009: the step of curvature, weights 0, 100 and 1000.
@@ -119,7 +119,7 @@ fn tangential_transition_table() {
         let before = job.block(0, line(&[0.0, -5.0], &[0.0, 0.0]), 1e6);
         let behind = arc(&job, radius, PI);
         let v = transition(&before, &behind, &Ends::of(&before), &Ends::of(&behind), CYCLE, false);
-        assert!((v.0 - want).abs() < 6e-4, "r {radius}, weight {weight}: {v:?}");
+        assert!((v.v_mm_s - want).abs() < 6e-4, "r {radius}, weight {weight}: {v:?}");
     }
 }
 
@@ -138,9 +138,9 @@ fn oblique_lines() {
         [([30.0, 40.0], 375.0, 0.558257569495), ([96.0, 28.0], 520.8333333, 0.668916667)]
     {
         let fast = Queued::new(job.block(0, line(&[0.0, 0.0], &end), 1e6), CYCLE);
-        assert!((fast.velocity.0 - velocity).abs() < 1e-6);
+        assert!((fast.velocity.v_mm_s - velocity).abs() < 1e-6);
         let queued = Queued::new(job.block(0, line(&[0.0, 0.0], &end), 200.0), CYCLE);
-        let profile = queued.slope.plan(0.0, 0.0, queued.velocity.0, queued.length).unwrap();
+        let profile = queued.slope.plan(0.0, 0.0, queued.velocity.v_mm_s, queued.length).unwrap();
         assert!((profile.duration() - duration).abs() < 1e-9, "{}", profile.duration());
     }
 }

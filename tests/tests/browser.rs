@@ -4,7 +4,11 @@
 //! `KONTUR_BROWSER` names the browser; without it Chromium is looked for. Where there is none, nothing is tested, and the test says so.
 
 use kontur::Exit;
+use kontur::chart::scale::ticks;
+use kontur_filters::analysis::spring::SpringMass;
+use kontur_filters::time::CycleTime;
 use kontur_tests::command::command;
+use kontur_tests::run;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -28,14 +32,14 @@ const colours = shown.map(drawn);
 const event = (name, target, x, y, more) => target.dispatchEvent(new PointerEvent(name, { clientX: x, clientY: y, bubbles: true, ...more }));
 const box = contour.getBoundingClientRect();
 // on the way along the upper edge of the square
-const [x, y] = toScreen(5, 10);
+const [x, y] = toScreen(wide, 5, 10);
 event("pointermove", contour, box.left + x, box.top + y);
 const tipText = byId("tip").hidden ? "" : byId("tip").textContent;
 const swatches = [...document.querySelectorAll(".key")].map(k => ({
   name: k.textContent, dash: k.querySelector("line").getAttribute("stroke-dasharray"), colour: k.querySelector("line").getAttribute("stroke"),
   width: k.querySelector("line").getAttribute("stroke-width"), card: k.parentElement.querySelector("button") ? k.parentElement.querySelector("button").textContent : "contour",
 }));
-const before = view.scale;
+const before = wide.scale;
 const label = contour.getAttribute("aria-label"), shownKeys = [...document.querySelectorAll(".key")];
 // keys: a step over time, a legend, a turn in space
 const press = (target, key) => target.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true }));
@@ -57,29 +61,46 @@ const marked = () => {
 };
 const dark = marked();
 rowOf(4).click();
+drawAll();
 const lit = marked(), chosen = rowOf(4).classList.contains("chosen"), chosenLine = view.line;
 rowOf(4).click();
+drawAll();
 const unlit = marked();
 // under the pointer the text follows
 view.at = 0.05;
-draw();
+drawAll();
 const follows = document.querySelector("#program div.at span").textContent;
 // in space, in the colours of what limits
 const buttons = [...document.querySelectorAll("#planes button")];
 buttons[3].click();
 [...document.querySelectorAll("#paints button")][2].click();
+drawAll();
 const inSpace = drawn(contour), limits = [...document.querySelectorAll("#legend .note .key")].map(k => k.textContent);
 const turned = [...view.turn];
 press(contour, "ArrowLeft");
 const turns = view.turn[0] !== turned[0];
 buttons[0].click();
+// round numbers of any range, and the spring of another frequency
+const ranges = [];
+for (let i = 0, seed = 1; i < 400; i++) {
+  const next = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+  const low = (next() - 0.5) * 10 ** Math.floor(12 * next() - 6), high = low + next() * 10 ** Math.floor(12 * next() - 6), wanted = 2 + 10 * next();
+  ranges.push([low, high, wanted, ticks(low, high, wanted).map(t => t[1])]);
+}
+const spring = plots.find(p => p.kind === "spring"), fields = [...spring.card.querySelectorAll("input")], springs = [];
+for (const [hz, damping] of [["", ""], ["37", "0.05"]]) {
+  if (hz) [hz, damping].forEach((v, i) => { fields[i].value = v; fields[i].dispatchEvent(new Event("input")); });
+  springs.push(spring.lines.map(l => ({ axis: l.axis, ...modelOf(l), most: responseOf(l).most, left: responseOf(l).left, said: spring.card.textContent })));
+}
+// what can be clicked can be reached by keys
+const keyless = [...document.querySelectorAll("canvas, .key, #program, tr[data-line]")].filter(e => e.tabIndex < 0 && !e.closest("#legend .note")).length;
 const shares = [...document.querySelectorAll("#times table")].map(t => [...t.rows].slice(1).map(row => Number(row.cells[2].textContent)).reduce((a, b) => a + b, 0));
 contour.dispatchEvent(new WheelEvent("wheel", { deltaY: -500, clientX: box.left + x, clientY: box.top + y, cancelable: true }));
 const probe = document.createElement("pre");
 probe.id = "probe";
 probe.textContent = JSON.stringify({
-  errors, colours, tip: tipText, swatches, zoomed: view.scale > before, label, stepped, hiddenByKey, dark, lit, unlit, chosen, chosenLine,
-  follows, inSpace, limits, turns, shares, span: [begin, end], buckets: runs.map(r => r.k.length),
+  errors, colours, tip: tipText, swatches, zoomed: wide.scale > before, label, stepped, hiddenByKey, dark, lit, unlit, chosen, chosenLine,
+  ranges, springs, keyless, follows, inSpace, limits, turns, shares, span: [begin, end], buckets: runs.map(r => r.k.length),
   requests: performance.getEntriesByType("resource").length, points: runs.map(r => r.pk.length), within: runs.map(r => r.within),
 });
 document.body.append(probe);
@@ -158,32 +179,53 @@ fn the_page_draws_and_answers() {
         one["inSpace"].as_u64().unwrap() > 3 && one["limits"].as_array().unwrap().len() > 1,
         "{one}"
     );
+    // the same round numbers as in a picture
+    for range in one["ranges"].as_array().unwrap() {
+        let [low, high, wanted] = [0, 1, 2].map(|i| range[i].as_f64().unwrap());
+        let picture: Vec<String> =
+            ticks((low, high), wanted).into_iter().map(|(_, text)| text).collect();
+        assert_eq!(range[3], serde_json::json!(picture), "{low} {high} {wanted}");
+    }
+    // the spring of the page against that of the library, first as the guard is set, then as it is chosen
+    let trace = run(SQUARE, &[]);
+    for (spring, (hz, damping)) in
+        one["springs"].as_array().unwrap().iter().zip([(20.0, 0.1), (37.0, 0.05)])
+    {
+        for line in spring.as_array().unwrap() {
+            let axis = usize::try_from(line["axis"].as_u64().unwrap()).unwrap();
+            let mut model = SpringMass::new(hz, damping, CycleTime::DEFAULT).unwrap();
+            let (mut most, mut left): (f64, f64) = (0.0, 0.0);
+            for a in trace.axis(axis, |a| a.acc) {
+                most = most.max(model.step(a).abs());
+                if a.abs() >= 0.0005 {
+                    left = model.amplitude();
+                }
+            }
+            let near = |key: &str, to: f64| (line[key].as_f64().unwrap() - to).abs() < 1e-6;
+            assert!(
+                near("hz", hz) && near("most", most) && near("left", left),
+                "{line} {most} {left}"
+            );
+            assert!(line["said"].as_str().unwrap().contains(&format!("{left:.5} mm")), "{line}");
+        }
+    }
+    assert_eq!(one["keyless"], 0);
     // all reasons make up the time
     assert!((one["shares"][0].as_f64().unwrap() - 100.0).abs() < 0.5, "{one}");
 }
 
-/// Only the part that is asked for is drawn, cycle by cycle.
+/// With several runs a colour is a run and a dash is an axis, in every plot and its legend; what is actual is thin.
 #[test]
-fn a_window_draws_a_part() {
+fn parts_and_several_runs() {
     let Some(browser) = browser() else {
         println!("no browser found: nothing tested");
         return;
     };
-    let all = look(&browser, &[SQUARE], &[]);
+    // only the part that is asked for is drawn, cycle by cycle
     let part = look(&browser, &[SQUARE], &["--window", "0.05..0.1"]);
     assert_eq!(part["errors"], serde_json::json!([]), "{part}");
     assert_eq!(part["span"], serde_json::json!([0.05, 0.1]));
     assert_eq!(part["buckets"], serde_json::json!([51]));
-    assert!(all["buckets"][0].as_u64().unwrap() > 400, "{all}");
-}
-
-/// With several runs a colour is a run and a dash is an axis, in every plot and its legend; what is actual is thin.
-#[test]
-fn legends_of_several_runs_say_what_is_drawn() {
-    let Some(browser) = browser() else {
-        println!("no browser found: nothing tested");
-        return;
-    };
     let two = look(&browser, &[SQUARE, &SQUARE.replace("FREQ=20", "FREQ=40")], &[]);
     assert_eq!(two["errors"], serde_json::json!([]), "{two}");
     let swatches = two["swatches"].as_array().unwrap();

@@ -10,8 +10,13 @@ fn path(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().unwrap().to_owned()
 }
 
-/// Data of the page that `kontur report` makes of programs with settings.
+/// The runs in the page that `kontur report` makes of programs with settings.
 fn page(texts: &[&str], settings: &str) -> Vec<Value> {
+    whole_page(texts, settings)["runs"].as_array().unwrap().clone()
+}
+
+/// All data of such a page.
+fn whole_page(texts: &[&str], settings: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let html = path(folder.path(), "report.html");
     let mut words = vec!["report".to_owned()];
@@ -171,4 +176,85 @@ fn a_choice_for_a_program_does_what_it_says() {
     // a bound that nothing leaves costs nothing, and stands in the line all the same
     let text = command(["tune", "--freq", "38,42", "--program", &part, "--max-dev", "5"]).out;
     assert!(text.contains(" AX_DEV=5]\n"), "{text}");
+}
+
+const SHAPED: &str =
+    "%P\n#VIB GUARD ON [MODE=1 FREQ=25 DAMPING=0.05]\nG90 G01 X20 F9000\nX5 Y3\nM30\n";
+
+/// The spectrum of the commanded acceleration against the sum that defines it, and the mark of the guard.
+#[test]
+fn the_spectrum_of_a_page_is_that_of_the_accelerations() {
+    let page = whole_page(&[SHAPED], "");
+    let views = page["chart"]["views"].as_array().unwrap();
+    let view = &views.iter().find(|v| v["kind"] == "spectrum").unwrap()["view"];
+    assert_eq!(view["marks"], serde_json::json!([{ "at": 25.0, "name": "guard X Y Z 25 Hz" }]));
+    assert_eq!(view["x"]["label"], "frequency in Hz");
+    let trace: Run = run(SHAPED, &[]);
+    for (axis, line) in view["lines"].as_array().unwrap().iter().enumerate() {
+        let a = trace.axis(axis, |a| a.acc);
+        let n = a.len() as f64;
+        let hann: Vec<f64> = (0..a.len())
+            .map(|i| libm::pow(libm::sin(std::f64::consts::PI * (i as f64 + 0.5) / n), 2.0))
+            .collect();
+        let mean = a.iter().zip(&hann).map(|(a, w)| a * w).sum::<f64>() / (0.5 * n);
+        let points = line["points"]["given"]["points"].as_array().unwrap();
+        assert!(points.len() > 50, "{}", points.len());
+        for point in points.iter().step_by(points.len() / 40) {
+            let [f, shown] = [0, 1].map(|i| point[i].as_f64().unwrap());
+            let (mut re, mut im) = (0.0, 0.0);
+            for (k, (a, w)) in a.iter().zip(&hann).enumerate() {
+                let angle = std::f64::consts::TAU * f * 1e-3 * k as f64;
+                re += (a - mean) * w * libm::cos(angle);
+                im += (a - mean) * w * libm::sin(angle);
+            }
+            let amplitude = libm::hypot(re, im) / (0.25 * n);
+            assert!(
+                (amplitude - shown).abs() < 1e-6 * amplitude.max(1.0),
+                "{f} Hz: {amplitude} {shown}"
+            );
+        }
+    }
+}
+
+/// What is left of the swinging of a mass on a spring, as the picture says it, against small steps of its differential equation; without the
+/// guard, whose frequency is then any other, much more is left.
+#[test]
+fn what_a_spring_is_left_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let (program, svg) = (path(folder.path(), "a.nc"), path(folder.path(), "a.svg"));
+    std::fs::write(&program, SHAPED).unwrap();
+    assert_eq!(command(["report", &program, "-o", &svg]).exit, Exit::Finished);
+    let picture = std::fs::read_to_string(svg).unwrap();
+    let title =
+        picture.split("Mass on a spring of 25 Hz, damping 0.05; left at the end: ").nth(1).unwrap();
+    let said = title.split('<').next().unwrap();
+    let left = |text: &str, axis: usize| -> f64 {
+        let (w, damping) = (std::f64::consts::TAU * 25.0, 0.05);
+        let (mut q, mut v, mut left) = (0.0, 0.0, 0.0);
+        for a in run(text, &[]).axis(axis, |a| a.acc) {
+            let h = 1e-3 / 20.0;
+            for _ in 0..20 {
+                let slope = |q: f64, v: f64| (v, -a - 2.0 * damping * w * v - w * w * q);
+                let (a1, b1) = slope(q, v);
+                let (a2, b2) = slope(q + 0.5 * h * a1, v + 0.5 * h * b1);
+                let (a3, b3) = slope(q + 0.5 * h * a2, v + 0.5 * h * b2);
+                let (a4, b4) = slope(q + h * a3, v + h * b3);
+                q += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+                v += h / 6.0 * (b1 + 2.0 * b2 + 2.0 * b3 + b4);
+            }
+            if a.abs() >= 0.0005 {
+                let damped: f64 = w * (1.0_f64 - damping * damping).sqrt();
+                left = libm::hypot(q, (v + damping * w * q) / damped);
+            }
+        }
+        left
+    };
+    assert_eq!(said, format!("X {:.5} mm, Y {:.5} mm", left(SHAPED, 0), left(SHAPED, 1)));
+    let unshaped = SHAPED.replace("#VIB GUARD ON [MODE=1 FREQ=25 DAMPING=0.05]", "");
+    assert!(
+        left(&unshaped, 1) > 3.0 * left(SHAPED, 1),
+        "{} {}",
+        left(&unshaped, 1),
+        left(SHAPED, 1)
+    );
 }

@@ -50,7 +50,7 @@ describe("bits", () => {
     writeFileSync(path, program);
     const trace = new Trace(run(program, { settings: set }));
     const hash = await traceHash(trace.all());
-    const expected = native("examples/trace_hash", ["--signals", SIGNALS.join(","), ...set.flatMap((s) => ["--set", s]), path]);
+    const expected = native("trace-hash", ["--signals", SIGNALS.join(","), ...set.flatMap((s) => ["--set", s]), path]);
     expect(expected.split(" ")[0]).toBe(hash);
   });
 

@@ -1,15 +1,14 @@
-// Builds what the page is compared with, once and before any test; `cargo test` has built most of it already.
+// Builds what the page is compared with, once and before any test; after `cargo test --workspace` all of it is there.
 import { execFileSync } from "node:child_process";
 
 const root = new URL("../../../", import.meta.url);
 
 export function setup(): void {
-  execFileSync("cargo", ["build", "--quiet", "--profile", "test", "-p", "kontur-interpreter", "--example", "trace_hash"], { cwd: root, stdio: "inherit" });
-  execFileSync("cargo", ["build", "--quiet", "--profile", "test", "-p", "kontur", "--bin", "kontur"], { cwd: root, stdio: "inherit" });
+  execFileSync("cargo", ["build", "--quiet", "--profile", "test", "--workspace", "--bins", "--examples"], { cwd: root, stdio: "inherit" });
 }
 
 /** A program of the profile of the tests: what it prints, or its messages if it fails. */
-export function native(program: "examples/trace_hash" | "kontur", words: string[]): string {
+export function native(program: "trace-hash" | "kontur", words: string[]): string {
   const metadata = execFileSync("cargo", ["metadata", "--no-deps", "--format-version", "1"], { cwd: root, maxBuffer: 1 << 28 });
   const { target_directory: folder } = JSON.parse(metadata.toString()) as { target_directory: string };
   try {

@@ -91,7 +91,7 @@ describe.skipIf(executablePath === "")("the page", () => {
     const path = join(folder, "square.nc");
     writeFileSync(path, SQUARE?.program ?? "");
     const set = settings({ ...DEFAULTS, ...SQUARE?.controls, freq_hz: 33 }).flatMap((s) => ["--set", s]);
-    const expected = native("examples/trace_hash", ["--signals", SIGNALS.join(","), ...set, path]).split(" ")[0];
+    const expected = native("trace-hash", ["--signals", SIGNALS.join(","), ...set, path]).split(" ")[0];
     expect(await page.locator("#hash").textContent()).toBe(expected);
     await page.context().close();
   });

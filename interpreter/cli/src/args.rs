@@ -109,7 +109,7 @@ pub enum Deny {
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
 #[derive(Clone, Debug, clap::Args)]
 pub struct SimulationArgs {
-    /// Machine: a folder with a start-up list, or the list itself [default: the built-in xyz]
+    /// Machine: a folder with a start-up list, the list itself, or a TwinCAT project (.tsproj, .xti) [default: the built-in xyz]
     #[arg(short, long, value_name = "DIR")]
     pub machine: Option<PathBuf>,
 

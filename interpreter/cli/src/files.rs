@@ -22,6 +22,8 @@ const MOST_PIPED_BYTES: u64 = 1 << 28;
 
 /// Bytes of a list at most, 16 MiB.
 const MOST_LIST_BYTES: u64 = 1 << 24;
+/// Most bytes of a file of a project, which holds far more than lists.
+const MOST_PROJECT_BYTES: u64 = 1 << 26;
 
 /// NC programs in files: subroutines relative to the caller, then in the folders given; the program `-` is standard input.
 ///
@@ -303,6 +305,23 @@ impl Lists {
     /// The lists that were read.
     pub fn read_so_far(self) -> Vec<PathBuf> {
         self.read.into_inner()
+    }
+}
+
+impl Lists {
+    /// The text of a file of a project, whose lines may have any length.
+    ///
+    /// # Errors
+    /// The system's, a file of more than 64 MiB, and text that is no UTF-8.
+    pub(crate) fn project(&self, path: &Path) -> io::Result<String> {
+        let file = regular(path)?;
+        self.read.borrow_mut().push(path.into());
+        let mut text = String::new();
+        file.take(MOST_PROJECT_BYTES + 1).read_to_string(&mut text)?;
+        if text.len() as u64 > MOST_PROJECT_BYTES {
+            return Err(io::Error::other("more than 64 MiB, too long for a project"));
+        }
+        Ok(text)
     }
 }
 

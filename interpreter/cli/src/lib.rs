@@ -5,12 +5,14 @@
 //! [`Job`](kontur_interpreter::job::Job), which [`request`] makes from files and options.
 
 pub mod args;
+pub mod chart;
 pub mod check;
 pub mod console;
 pub mod diff;
 pub mod explain;
 pub mod files;
 mod interrupt;
+mod project;
 mod recorded;
 pub mod report;
 pub mod request;

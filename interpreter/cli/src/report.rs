@@ -1,16 +1,16 @@
 //! `kontur report`: runs programs and draws them, as one interactive page or one still picture.
 //!
-//! The page holds its own script: a plotting library would weigh more than the data, and none links a point of the
-//! contour to its moment in time. With `--signals` the picture shows columns of the trace over time, and their spectra.
+//! Both show the same [`views`]. The page holds its own script: a plotting library would weigh more than the data, and
+//! none links a point of the contour to its moment in time. With `--signals` the picture shows columns of the trace over time, and their spectra.
 
 mod page;
 mod picture;
-pub(crate) mod plot;
 mod recording;
 mod signals;
 mod stops;
-mod svg;
 mod track;
+mod vibration;
+mod views;
 
 use crate::args::ReportArgs;
 use crate::console::Console;
@@ -20,6 +20,7 @@ use crate::run::{Shown, announce_lists, drive};
 use crate::target::keep_apart;
 use crate::vary::{combinations, put};
 use crate::{Error, Exit, times};
+use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_interpreter::diag::render::printable;
 use kontur_interpreter::summary::{Collector, State, Summary};
 use page::Beside;
@@ -31,6 +32,15 @@ use std::path::{Path, PathBuf};
 /// Bytes and lines of a program that a page shows at most.
 const MOST_TEXT_BYTES: u64 = 1 << 19;
 const MOST_TEXT_LINES: usize = 5000;
+
+/// A run that is drawn.
+#[derive(Debug)]
+struct Drawn {
+    recording: Recording,
+    summary: Summary,
+    /// Settings that the Vibration Guard of an axis worked with.
+    guards: Vec<(usize, VibGuardSettings)>,
+}
 
 /// Runs every program and writes the page (`.html`) or the picture (`.svg`). An aborted run is drawn up to its stop.
 ///
@@ -52,7 +62,7 @@ pub fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, Error> {
         return signals::report(args, names, &output, console);
     }
     let form = form(&output)?;
-    let mut runs: Vec<(Recording, Summary)> = Vec::new();
+    let mut runs: Vec<Drawn> = Vec::new();
     let mut beside: Vec<Beside> = Vec::new();
     let mut read_texts = BTreeSet::new();
     for (program, values, request) in requests(args)? {
@@ -71,7 +81,9 @@ pub fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, Error> {
             }
             Ok(())
         })?;
-        let summary = summary.finish(&run.totals());
+        recording.finish();
+        let totals = run.totals();
+        let summary = summary.finish(&totals);
         if let (Some((from, to)), true) = (args.window, summary.cycles > 0)
             && recording.buckets.is_empty()
         {
@@ -86,17 +98,21 @@ pub fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, Error> {
         beside.push(Beside { times: times.finish(), texts, window: args.window });
         // runs of one program are told apart by what they vary
         let program = if values.is_empty() { program } else { format!("{program}, {values}") };
-        runs.push((recording, Summary { program, ..summary }));
+        runs.push(Drawn {
+            recording,
+            summary: Summary { program, ..summary },
+            guards: totals.guards,
+        });
     }
     // of refused programs there is nothing to draw
-    if runs.iter().any(|(_, s)| s.cycles > 0) {
+    if runs.iter().any(|r| r.summary.cycles > 0) {
         let drawn = match form {
             Form::Picture => picture::draw(&runs),
             Form::Page => page::draw(&runs, &beside),
         };
         crate::target::write(&output, drawn.as_bytes())?;
     }
-    let aborted = runs.iter().any(|(_, s)| s.state == State::Aborted);
+    let aborted = runs.iter().any(|r| r.summary.state == State::Aborted);
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
 }
 

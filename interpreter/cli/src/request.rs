@@ -2,12 +2,14 @@
 
 use crate::Error;
 use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
+use crate::project::{self, Place};
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::job::{
     Access, Changes, Checked, External, ForcedGuard, Job, MachineLists, Options, Run, SkipLevels,
     Stop, Value, inputs,
 };
-use kontur_interpreter::machine::{Axis, Machine};
+use kontur_interpreter::machine::project::Project;
+use kontur_interpreter::machine::{Axis, ListFiles, Machine};
 use std::path::{Path, PathBuf};
 
 /// What a user may say about a run, apart from what becomes of its results.
@@ -16,7 +18,7 @@ use std::path::{Path, PathBuf};
 pub struct Request {
     /// The NC program.
     pub program: PathBuf,
-    /// Folder or start-up list of the machine; none: the built-in `xyz`.
+    /// Folder or start-up list of the machine, or a TwinCAT project; none: the built-in `xyz`.
     pub machine: Option<PathBuf>,
     /// `AXIS.key=value` or `channel.key=value`, in the order given.
     pub settings: Vec<String>,
@@ -97,23 +99,26 @@ impl Request {
     /// # Errors
     /// [`OpenError`] if a setting is wrong or the lists are refused.
     pub fn machine(&self, lists: &Lists) -> Result<(Machine, Vec<Diagnostic>), OpenError> {
-        let start_up = match &self.machine {
-            Some(path) if path.is_dir() => Some(path.join("hochlauf.lis")),
-            other => other.clone(),
+        let load = |files: Option<(&dyn ListFiles, &str)>| {
+            let (settings, cycle_us, strict) = (&self.settings, self.cycle_us, self.strict);
+            MachineLists { files, settings, cycle_us, strict }.load().map_err(OpenError::Lists)
         };
-        let name = |path: &PathBuf| {
-            let reason = "lists refer to each other by name: it has to be UTF-8";
-            let e = || OpenError::Io(path.clone(), std::io::Error::other(reason));
-            path.to_str().map(str::to_owned).ok_or_else(e)
-        };
-        let start_up = start_up.as_ref().map(name).transpose()?;
-        let lists = MachineLists {
-            files: start_up.as_deref().map(|name| (lists as _, name)),
-            settings: &self.settings,
-            cycle_us: self.cycle_us,
-            strict: self.strict,
-        };
-        lists.load().map_err(OpenError::Lists)
+        match self.machine.as_deref().map(Place::of).transpose()? {
+            None => load(None),
+            Some(Place::StartUp(path)) => load(Some((lists, utf8(&path)?))),
+            Some(Place::Project { name, paths }) => {
+                paths.iter().try_for_each(|path| utf8(path).map(|_| ()))?;
+                let parts = project::parts(paths, lists)?;
+                let project =
+                    Project::read(lists, utf8(&name)?, &parts).map_err(OpenError::Lists)?;
+                let said = |more| project.said().iter().cloned().chain(more).collect();
+                match load(Some((&project, project.start_up()))) {
+                    Ok((machine, warnings)) => Ok((machine, said(warnings))),
+                    Err(OpenError::Lists(errors)) => Err(OpenError::Lists(said(errors))),
+                    Err(other) => Err(other),
+                }
+            }
+        }
     }
 
     fn prepare(&self) -> Result<Prepared, OpenError> {
@@ -161,6 +166,12 @@ impl Request {
         let others = lists.into_iter().chain(self.inputs.clone());
         Ok(Opened { run, reads: others.chain(sources.opened()).collect() })
     }
+}
+
+/// The name of a list.
+fn utf8(path: &Path) -> Result<&str, OpenError> {
+    let reason = "lists refer to each other by name: it has to be UTF-8";
+    path.to_str().ok_or_else(|| OpenError::Io(path.to_owned(), std::io::Error::other(reason)))
 }
 
 /// Folders of subroutines that do not exist would only be missed much later.

@@ -17,7 +17,7 @@ use crate::table::Table;
 use crate::{Error, Exit};
 use args::ResponseArgs;
 use std::path::Path;
-use view::View;
+use view::Answer;
 
 /// Computes one view of all curves and writes it: a table on stdout, or to each `-o` a table (`.csv`) or a picture
 /// (`.svg`).
@@ -51,7 +51,7 @@ pub fn table(args: &ResponseArgs, console: &mut Console) -> Result<Table, Error>
     Ok(answer(args, console)?.table)
 }
 
-fn answer(args: &ResponseArgs, console: &mut Console) -> Result<View, Error> {
+fn answer(args: &ResponseArgs, console: &mut Console) -> Result<Answer, Error> {
     let (curves, cycle) = select::curves(args, console)?;
     view::view(args, &curves, cycle)
 }

@@ -199,6 +199,7 @@ fn report_is_one_self_contained_file() {
     assert!(!page.contains("/*"), "every place of the template is filled");
     let data = page.split("type=\"application/json\">").nth(1).unwrap().split("</script>").next();
     let data: serde_json::Value = serde_json::from_str(data.unwrap()).unwrap();
+    let data = &data["runs"];
     assert_eq!(data.as_array().unwrap().len(), 2);
     let (_, out, _) = f.call(&["run", "@corner.nc", "--summary", "json"]);
     let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
@@ -512,7 +513,12 @@ fn sweep_has_a_row_for_every_combination() {
     assert_eq!(f.read("a.csv"), first);
     assert_eq!(f.call(&words("@a.svg")).0, Exit::Finished);
     let picture = f.read("a.svg");
-    assert!(picture.contains("freq = 40") && picture.contains(">duration_s<"), "{picture}");
+    assert!(
+        picture.contains("freq = 40")
+            && picture.contains(">duration_s<")
+            && picture.contains(">duration in s<"),
+        "{picture}"
+    );
     #[cfg(feature = "parquet")]
     {
         assert_eq!(f.call(&words("@a.parquet")).0, Exit::Finished);

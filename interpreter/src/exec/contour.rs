@@ -225,11 +225,11 @@ impl Contour {
     }
 
     /// Segments of splines go on.
-    fn splined(&mut self, curves: Vec<Box<Motion>>, outcome: Outcome<()>) -> Vec<Fault> {
+    fn splined(&mut self, curves: Vec<Motion>, outcome: Outcome<()>) -> Vec<Fault> {
         let mut faults = Vec::new();
         for curve in curves {
             self.driven.push(akima::driven(&curve));
-            faults.extend(self.joined(curve));
+            faults.extend(self.joined(Box::new(curve)));
         }
         faults.extend(outcome.err().map(|fault| *fault));
         faults

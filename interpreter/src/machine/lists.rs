@@ -61,17 +61,20 @@ pub fn read(kind: ListKind, file: &str, bytes: &[u8], diagnostics: &mut Vec<Diag
     let mut reader =
         Reader { kind, list: BTreeMap::new(), order: 0, unknown: BTreeMap::new(), diagnostics };
     let file: Arc<str> = file.into();
+    let mut end = None;
     for line in line::lines(bytes) {
         let text = line.text.trim();
         if text.is_empty() || text.starts_with('#') {
             continue;
         }
-        if text.eq_ignore_ascii_case("ende") || text.eq_ignore_ascii_case("end") {
+        if let Some(at) = end {
             let message = "the list ends here: what follows the end mark is not read";
-            reader
-                .diagnostics
-                .push(Diagnostic::new(Condition::ListEnd, message).at(line.location(&file, text)));
+            reader.diagnostics.push(Diagnostic::new(Condition::ListEnd, message).at(at));
             break;
+        }
+        if text.eq_ignore_ascii_case("ende") || text.eq_ignore_ascii_case("end") {
+            end = Some(line.location(&file, text));
+            continue;
         }
         reader.entry(&line, text, &file);
     }

@@ -101,6 +101,7 @@ impl Simulation {
         let path = &self.chains[..self.vector.len()];
         let reach = path.iter().map(AxisChain::reach_cycles).max().unwrap_or(0);
         self.planner.set_kernels(kernels, reach);
+        self.totals.shaped(setup);
         for (delay, chain) in self.totals.filter_delay_cycles.iter_mut().zip(&self.chains) {
             *delay = delay.max(chain.delay_cycles());
         }

@@ -37,6 +37,11 @@ impl Simulation {
             if let Some(block) = self.underway.pop_front() {
                 self.current = block.source;
                 self.motion = block.motion;
+                for (record, driver) in self.record.axes.iter_mut().zip(&self.drivers) {
+                    if let Driver::Path(p) = driver {
+                        record.target = block.target[*p];
+                    }
+                }
                 self.jerk_limited = block.jerk_limited;
                 // the block began after the cycle before
                 for event in block.events {

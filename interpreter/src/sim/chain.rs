@@ -268,6 +268,7 @@ impl AxisChain {
             settling_s: self.control.exact_stop().settling_s(),
             tcp: out.tcp_mm,
             tcp_acc: out.tcp_acc_mm_s2,
+            target: record.target,
             cmd_drive: out.drive.command,
             vff_drive: out.drive.feedforward,
             vadd_drive: out.drive.additive_speed,

@@ -1,7 +1,8 @@
 //! What a run adds up beside its records.
 
 use crate::diag::{Condition, Diagnostic, Severity};
-use crate::exec::{Event, SourceRef};
+use crate::exec::{Event, ShapingSettings, ShapingSetup, SourceRef};
+use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::{Block, Feed};
 use std::collections::BTreeMap;
@@ -63,9 +64,28 @@ pub struct Totals {
     pub not_counted: Vec<String>,
     /// Largest mean delay of the shaping of each axis in cycles.
     pub filter_delay_cycles: Vec<f64>,
+    /// Settings that the Vibration Guard of an axis (index into the axes of a record) worked with, in the order in which they came up, at most
+    /// [`Self::GUARDS_KEPT`].
+    pub guards: Vec<(usize, VibGuardSettings)>,
 }
 
 impl Totals {
+    /// Different settings of the Vibration Guard that are kept; a program may change them without end.
+    pub const GUARDS_KEPT: usize = 100;
+
+    /// Notes what the kernels are made from.
+    pub(super) fn shaped(&mut self, setup: &ShapingSetup) {
+        for (axis, shaping) in setup.axes.iter().enumerate() {
+            if let ShapingSettings::VibGuard(settings) = shaping.settings
+                && shaping.kernel.is_some()
+                && self.guards.len() < Self::GUARDS_KEPT
+                && !self.guards.contains(&(axis, settings))
+            {
+                self.guards.push((axis, settings));
+            }
+        }
+    }
+
     /// Adds a motion.
     pub(super) fn count(&mut self, block: &Block) {
         self.ideal_duration_s += match block.feed {

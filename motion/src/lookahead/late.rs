@@ -13,7 +13,8 @@
 //! Nothing here is promised to be faster: of the plans with carried braking, without it, and without G901 the fastest one
 //! is taken.
 
-use super::{Cap, Plan, Span, Stretch, Window, is_above};
+use super::{Span, Stretch, Window, is_above};
+use crate::limit::Cap;
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use std::sync::Arc;
@@ -28,8 +29,8 @@ pub(super) fn entries(blocks: &[Arc<Queued>], feeds: &[Cap]) -> Option<Vec<Cap>>
     let mut entries = feeds.to_vec();
     for i in 1..blocks.len() {
         let most = highest(blocks, feeds, i);
-        let reached = if feeds[i - 1].0 < most.0 { feeds[i - 1] } else { most };
-        if is_above(reached.0, feeds[i].0) {
+        let reached = most.lower(feeds[i - 1]);
+        if is_above(reached.v_mm_s, feeds[i].v_mm_s) {
             entries[i] = reached;
         }
     }
@@ -39,13 +40,13 @@ pub(super) fn entries(blocks: &[Arc<Queued>], feeds: &[Cap]) -> Option<Vec<Cap>>
 /// Highest speed at which block `i` may be entered, whatever the feed of the block before.
 fn highest(blocks: &[Arc<Queued>], feeds: &[Cap], i: usize) -> Cap {
     // what lowers a feed below that of the block (tolerance monitoring) is a limit
-    let own = feeds[i].0 >= blocks[i].velocity.0;
+    let own = feeds[i].v_mm_s >= blocks[i].velocity.v_mm_s;
     let late = own && blocks[i - 1].brakes_late_into(&blocks[i]);
-    if late && blocks[i].ceiling.0 > feeds[i].0 { blocks[i].ceiling } else { feeds[i] }
+    if late && blocks[i].ceiling.v_mm_s > feeds[i].v_mm_s { blocks[i].ceiling } else { feeds[i] }
 }
 
 /// Plans a window with these entries, `early` without them.
-pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Plan, Infeasible> {
+pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Vec<Span>, Infeasible> {
     let mut late = Window { entries, ..early.clone() };
     late.carry_start();
     let best = match (late.plan(), early.plan()) {
@@ -60,8 +61,8 @@ pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Plan, Infeas
 }
 
 /// The faster one of two plans, the second one if they are equal.
-fn faster(a: Plan, b: Plan) -> Plan {
-    let time = |plan: &Plan| plan.spans.iter().map(|s| s.profile.duration()).sum::<f64>();
+fn faster(a: Vec<Span>, b: Vec<Span>) -> Vec<Span> {
+    let time = |plan: &Vec<Span>| plan.iter().map(|s| s.profile.duration()).sum::<f64>();
     if time(&a) < time(&b) { a } else { b }
 }
 
@@ -94,7 +95,7 @@ impl Window<'_> {
         let mut at = 0.0;
         (s.first + 1..s.end).all(|i| {
             at += self.blocks[i - 1].length;
-            let limit = self.caps[i].0.min(highest(self.blocks, self.feeds, i).0);
+            let limit = self.caps[i].v_mm_s.min(highest(self.blocks, self.feeds, i).v_mm_s);
             !is_above(profile.at(profile.time_at(at)).v_mm_s, limit)
         })
     }
@@ -104,14 +105,14 @@ impl Window<'_> {
     fn joins(&self, b: usize) -> bool {
         let (from, to) = (&self.blocks[b - 1], &self.blocks[b]);
         !self.forced[b]
-            && self.feeds[b].0 <= self.feeds[b - 1].0.min(self.caps[b].0)
+            && self.feeds[b].v_mm_s <= self.feeds[b - 1].v_mm_s.min(self.caps[b].v_mm_s)
             && from.block.slope == to.block.slope
             && from.brakes_late_into(to)
     }
 
     /// Carries the braking that begins in front of the window as far as it needs.
     fn carry_start(&mut self) {
-        let v0 = self.v_start.0;
+        let v0 = self.v_start.v_mm_s;
         for end in 1..self.blocks.len() {
             let s = self.stretch(0, end);
             if !s.is_above(v0) || s.slope.down_distance(v0, s.feed) <= s.length || !self.joins(end)
@@ -123,11 +124,11 @@ impl Window<'_> {
     }
 
     /// A plan in which braking goes on across the ends of runs, as far as that makes it faster; `None` if nowhere.
-    fn carried(&self, base: &Plan) -> Option<Plan> {
+    fn carried(&self, base: &[Span]) -> Option<Vec<Span>> {
         let mut window = self.clone();
-        let mut plan: Option<Plan> = None;
+        let mut plan: Option<Vec<Span>> = None;
         for _ in 0..ROUNDS {
-            let now = plan.as_ref().unwrap_or(base);
+            let now = plan.as_deref().unwrap_or(base);
             let joints = window.joints(now);
             if joints.is_empty() {
                 break;
@@ -145,11 +146,11 @@ impl Window<'_> {
 
     /// Ends of runs across which braking should go on: with the speeds around as they are, the two runs and what lies
     /// in front of them take less time.
-    fn joints(&self, plan: &Plan) -> Vec<usize> {
+    fn joints(&self, plan: &[Span]) -> Vec<usize> {
         let mut out = Vec::new();
         let mut k = 1;
-        while k + 1 < plan.spans.len() {
-            let b = plan.spans[k + 1].first;
+        while k + 1 < plan.len() {
+            let b = plan[k + 1].first;
             if self.gains(plan, k) {
                 out.push(b);
                 // the speeds around change
@@ -162,11 +163,11 @@ impl Window<'_> {
     }
 
     /// True if spans `k` and `k + 1` as one are faster.
-    fn gains(&self, plan: &Plan, k: usize) -> bool {
-        let [before, first, second] = &plan.spans[k - 1..=k + 1] else { return false };
+    fn gains(&self, plan: &[Span], k: usize) -> bool {
+        let [before, first, second] = &plan[k - 1..=k + 1] else { return false };
         let start = |s: &Span| s.profile.at(0.0).v_mm_s;
-        let best = self.limit(first.first).0;
-        if !is_above(self.entries[first.first].0, self.feeds[first.first].0)
+        let best = self.limit(first.first).v_mm_s;
+        if !is_above(self.entries[first.first].v_mm_s, self.feeds[first.first].v_mm_s)
             || !is_above(best, start(first))
             || !self.joins(second.first)
         {

@@ -1,14 +1,13 @@
 //! From the queue to the timeline: plans, their examination, and what of them becomes final.
 
-use super::{Planner, programmed};
-use crate::limit::SpeedLimit;
-use crate::lookahead::{Cap, plan};
+use super::Planner;
+use crate::limit::{Cap, SpeedLimit};
+use crate::plan::{Start, last_blocks};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
 use crate::tolerance::{Demands, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
-use smallvec::SmallVec;
 use std::sync::Arc;
 
 /// Parts in which a span of the last plan becomes final where there is no new one.
@@ -17,16 +16,13 @@ const FALL_BACK_PARTS: usize = 8;
 impl Planner {
     /// Plans what is queued and makes all but the last window final, or divides queued blocks first.
     pub(super) fn extend(&mut self) -> Result<(), Infeasible> {
-        let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
-        let window: Vec<Arc<Queued>> = self.queue.iter().take_while(free).cloned().collect();
-        let n = window.len();
+        let window = self.plan.window();
         // a block without speed ends the path in front of it
-        let barred = n < self.queue.len();
-        let start = if self.speed.0 > 0.0 {
-            self.cursor
-        } else {
-            Moment::tick(self.cursor.origin.max(self.setpoint.k))
-        };
+        let barred = window.len() < self.plan.segments.len();
+        let mut start = self.plan.start.moment;
+        if self.plan.is_at_rest() {
+            start = Moment::tick(start.origin.max(self.setpoint.k));
+        }
         let end = if barred {
             SpeedLimit::Feed
         } else if self.finishing {
@@ -34,23 +30,24 @@ impl Planner {
         } else {
             SpeedLimit::Lookahead
         };
-        self.demands.reach_over(&window, &self.kernels, self.cycle);
-        let mut forced = vec![false; n + 1];
+        self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
+        let mut forced = vec![false; window.len() + 1];
+        let last_window = last_blocks(&window, self.window);
         let mut last: Option<Vec<Entry>> = None;
         let (mut round, mut given_up) = (0, false);
         loop {
-            let mut entries = match self.place(&window, &forced, start, end) {
+            let mut entries = match self.plan.place(&window, &forced, (start, end), self.cycle) {
                 Ok(entries) => entries,
                 Err(e) => return self.fall_back().ok_or(e),
             };
-            let before = last.as_deref().unwrap_or_else(|| self.reserve.make_contiguous());
+            let before = last.as_deref().unwrap_or_else(|| self.plan.reserve.make_contiguous());
             recall(&mut entries, before, self.cycle);
             let verdict = self.verdict(&mut entries, round);
             round += 1;
             match verdict {
                 Verdict::Kept => {}
                 Verdict::Divided(parts) => {
-                    self.divide(parts);
+                    self.plan.divide(parts);
                     return Ok(());
                 }
                 Verdict::Tightened => {
@@ -65,18 +62,19 @@ impl Planner {
                 }
             }
             let rests = end != SpeedLimit::Lookahead;
-            let entries =
-                if rests { entries } else { self.part(entries, self.last_window(&window)) };
-            let Some(count) = self.final_entries(&entries, &window, rests) else {
+            let entries = if rests { entries } else { self.part(entries, last_window) };
+            let count =
+                if rests { Some(entries.len()) } else { entries_before(&entries, last_window) };
+            let Some(count) = count else {
                 // one span over more than a window: it is cut where the last window begins
-                forced[self.last_window(&window)] = true;
+                forced[last_window] = true;
                 last = Some(entries);
                 continue;
             };
             self.commit(entries, count);
             if given_up {
                 // what was of no help is asked no longer
-                self.demands = Demands::default();
+                self.plan.demands = Demands::default();
             }
             return Ok(());
         }
@@ -90,9 +88,9 @@ impl Planner {
         if !blocks.any(|(q, _)| q.block.tolerance.ax_dev_mm.is_some()) || !self.kernels.any() {
             return Verdict::Kept;
         }
-        let mut demands = std::mem::take(&mut self.demands);
+        let mut demands = std::mem::take(&mut self.plan.demands);
         let (verdict, kept) = self.monitor.examine(&self.trial(entries), round, &mut demands);
-        self.demands = demands;
+        self.plan.demands = demands;
         for (entry, kept) in entries.iter_mut().zip(kept) {
             entry.kept = kept;
         }
@@ -115,22 +113,21 @@ impl Planner {
             kernels: &self.kernels,
             cycle: self.cycle,
             now: self.setpoint.k,
-            at_rest: self.speed.0 <= 0.0,
+            at_rest: self.plan.is_at_rest(),
         }
     }
 
     /// The way to rest from the cursor on with the tolerance kept; `None` if there is none.
     pub(super) fn way_out(&mut self) -> Option<Vec<Entry>> {
         loop {
-            let free = |q: &&Arc<Queued>| q.velocity.0 > 0.0;
-            let window: Vec<_> = self.queue.iter().take_while(free).cloned().collect();
-            self.demands.reach_over(&window, &self.kernels, self.cycle);
+            let window = self.plan.window();
+            self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
             let mut last = Vec::new();
             let mut round = 0;
             let parts = loop {
-                let stop = SpeedLimit::Stop;
-                let mut entries = self.place(&window, &forced, self.cursor, stop).ok()?;
+                let ends = (self.plan.start.moment, SpeedLimit::Stop);
+                let mut entries = self.plan.place(&window, &forced, ends, self.cycle).ok()?;
                 recall(&mut entries, &last, self.cycle);
                 match self.verdict(&mut entries, round) {
                     Verdict::Kept => return Some(entries),
@@ -140,73 +137,8 @@ impl Planner {
                 }
                 last = entries;
             };
-            self.divide(parts);
+            self.plan.divide(parts);
         }
-    }
-
-    /// Plans the window and places the spans on the time axis.
-    fn place(
-        &self,
-        window: &[Arc<Queued>],
-        forced: &[bool],
-        start: Moment,
-        end: SpeedLimit,
-    ) -> Result<Vec<Entry>, Infeasible> {
-        let lower = |cap: Cap, demand: f64| {
-            if demand < cap.0 { (demand, SpeedLimit::AxDev) } else { cap }
-        };
-        let (n, demands) = (window.len(), &self.demands);
-        let feeds: Vec<Cap> = window
-            .iter()
-            .enumerate()
-            .map(|(i, q)| {
-                let floor = if i == 0 { self.speed.0 } else { 0.0 };
-                lower(q.velocity, demands.feed[i].max(floor))
-            })
-            .collect();
-        let caps: Vec<Cap> = (0..=n)
-            .map(|i| lower(self.caps.get(i).copied().unwrap_or((0.0, end)), demands.cap[i]))
-            .collect();
-        let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
-        let gentle = demands.soften(window);
-        let from = (self.speed, self.acceleration);
-        let plan = plan(&gentle, &feeds, &caps, &forced, from, end)?;
-        // behind a rest the start may have to wait until the filters have left the corner in front of it
-        let mut at = match demands.stop[0] {
-            Some(wait) => Moment::tick(start.next_tick(self.cycle) + u64::from(wait)),
-            None => start,
-        };
-        let mut s = self.travelled;
-        let mut entries = Vec::with_capacity(plan.spans.len());
-        for span in &plan.spans {
-            let stop = demands.stop[span.end];
-            let stops = stop.is_some() || (span.end == n && end != SpeedLimit::Lookahead);
-            let mut entry = Entry::new(at, s, span, window, stops);
-            entry.feeds = SmallVec::from_slice(&feeds[span.first..span.end]);
-            at = match stop {
-                Some(dwell) => Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell)),
-                None => entry.end,
-            };
-            s += span.profile.length();
-            entries.push(entry);
-        }
-        Ok(entries)
-    }
-
-    /// Where the last window of programmed blocks begins.
-    fn last_window(&self, blocks: &[Arc<Queued>]) -> usize {
-        let mut left = self.window;
-        let mut at = blocks.len();
-        while at > 0 {
-            if at == blocks.len() || blocks[at - 1].block.seq != blocks[at].block.seq {
-                if left == 0 {
-                    break;
-                }
-                left -= 1;
-            }
-            at -= 1;
-        }
-        at
     }
 
     /// The entries with the one that reaches over the start of block `limit` in two, where its blocks may be left with an
@@ -233,56 +165,8 @@ impl Planner {
         let whole = |q: &Queued| {
             q.block.late_braking || self.kernels.any() && q.block.tolerance.ax_dev_mm.is_some()
         };
-        !entry.blocks.iter().map(|b| &b.0).chain(&self.queue).any(|q| whole(q))
-    }
-
-    /// Takes planned blocks out of the queue.
-    fn dequeue(&mut self, blocks: usize) {
-        self.queue.drain(..blocks);
-        self.demands.pass(blocks);
-        self.programmed = programmed(&self.queue);
-    }
-
-    /// How many entries become final; `None` if the first one already reaches into the last window.
-    fn final_entries(
-        &self,
-        entries: &[Entry],
-        window: &[Arc<Queued>],
-        rests: bool,
-    ) -> Option<usize> {
-        if rests {
-            return Some(entries.len());
-        }
-        let limit = self.last_window(window);
-        let mut blocks = 0;
-        let count = entries
-            .iter()
-            .take_while(|e| {
-                blocks += e.blocks.len();
-                blocks <= limit
-            })
-            .count();
-        (count > 0).then_some(count)
-    }
-
-    /// Puts parts in the place of queued blocks.
-    fn divide(&mut self, blocks: Vec<(usize, Vec<Arc<Queued>>)>) {
-        for (b, parts) in blocks.into_iter().rev() {
-            let mut first = 0;
-            for entry in &mut self.reserve {
-                if b < first + entry.blocks.len() {
-                    entry.divide(b - first, &parts);
-                    break;
-                }
-                first += entry.blocks.len();
-            }
-            for part in parts[1..].iter().rev() {
-                self.queue.insert(b + 1, Arc::clone(part));
-                self.caps.insert(b + 1, (f64::INFINITY, SpeedLimit::Curve));
-            }
-            self.queue[b] = Arc::clone(&parts[0]);
-            self.demands.insert(b + 1, parts.len() - 1, self.demands.feed[b]);
-        }
+        let ahead = self.plan.segments.iter().map(|s| &s.queued);
+        !entry.blocks.iter().map(|b| &b.0).chain(ahead).any(|q| whole(q))
     }
 
     /// Makes the next span of the last plan, or the first blocks of it, final, because there is no new plan from where it
@@ -291,36 +175,39 @@ impl Planner {
     /// New blocks can make the window infeasible: with ramps, braking to the crawl that they ask for may be longer than
     /// braking to the rest that was planned, and runs of blocks are joined anew from the cursor on.
     pub(super) fn fall_back(&mut self) -> Option<()> {
-        let mut entry = self.reserve.pop_front()?;
+        let mut entry = self.plan.reserve.pop_front()?;
         let few = entry.blocks.len().div_ceil(FALL_BACK_PARTS);
         if few < entry.blocks.len()
             && self.may_part(&entry)
             && let Some([now, later]) = entry.split(few)
         {
-            self.reserve.push_front(later);
+            self.plan.reserve.push_front(later);
             entry = now;
         }
-        entry.stops |= self.reserve.is_empty();
-        let blocks = entry.blocks.len();
-        entry.caps = self.caps.drain(..blocks).collect();
-        self.dequeue(blocks);
+        entry.stops |= self.plan.reserve.is_empty();
+        entry.caps = self.plan.pass(entry.blocks.len()).into();
         self.append(entry, 0);
-        if let Some(next) = self.reserve.front() {
+        if let Some(next) = self.plan.reserve.front() {
             // a dwell in between
-            self.cursor = next.start;
+            self.plan.start.moment = next.start;
         }
         Some(())
     }
 
     fn commit(&mut self, mut entries: Vec<Entry>, count: usize) {
+        self.plan.reserve = entries.split_off(count).into();
         let mut blocks = 0;
-        self.reserve = entries.split_off(count).into();
-        for mut entry in entries {
+        let demands = &self.plan.demands;
+        let dwells = entries.iter().map(|entry| {
             blocks += entry.blocks.len();
-            entry.caps = self.caps.drain(..entry.blocks.len()).collect();
-            self.append(entry, self.demands.stop[blocks].unwrap_or(0));
+            demands.stop[blocks].unwrap_or(0)
+        });
+        let dwells: Vec<u32> = dwells.collect();
+        let mut caps = self.plan.pass(blocks).into_iter();
+        for (mut entry, dwell) in entries.into_iter().zip(dwells) {
+            entry.caps = caps.by_ref().take(entry.blocks.len()).collect();
+            self.append(entry, dwell);
         }
-        self.dequeue(blocks);
     }
 
     /// Puts an entry behind the others on the timeline; what follows a stop starts after `dwell` cycles.
@@ -328,16 +215,29 @@ impl Planner {
         for (cycles, s, queued) in entry.entries(self.cycle) {
             self.contour.enter(cycles, s, Arc::clone(queued));
         }
-        self.travelled = entry.s0 + entry.profile.length();
-        self.speed = (entry.profile.end().v_mm_s, entry.why_down);
-        self.acceleration = entry.profile.left_with();
-        self.cursor = entry.end;
+        let mut start = Start {
+            moment: entry.end,
+            s_mm: entry.s0 + entry.profile.length(),
+            speed: Cap::new(entry.profile.end().v_mm_s, entry.why_down),
+            a_mm_s2: entry.profile.left_with(),
+        };
         if entry.stops {
-            self.cursor = Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell));
-            (self.speed, self.acceleration) = ((0.0, entry.why_down), 0.0);
+            start.moment = Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell));
+            (start.speed.v_mm_s, start.a_mm_s2) = (0.0, 0.0);
         }
+        self.plan.start = start;
         self.timeline.push(entry);
     }
+}
+
+/// How many entries end in front of block `limit` of the window or there; `None` if the first one goes on.
+fn entries_before(entries: &[Entry], limit: usize) -> Option<usize> {
+    let mut blocks = 0;
+    let before = entries.iter().take_while(|e| {
+        blocks += e.blocks.len();
+        blocks <= limit
+    });
+    Some(before.count()).filter(|count| *count > 0)
 }
 
 /// Notes in a plan which entries have been measured in the plan before it, over the same blocks: those with the same profile,

@@ -12,19 +12,22 @@
 //! So every state that is output still has a stop in front of it. Until its leg begins the path follows the old plan:
 //! close in front of a slower place, where the path is braking already, a change takes effect behind that place.
 //!
+//! Each of these is a transaction on the plan: the kept part, the leg and a new plan behind it take the place of what is there,
+//! and what was there comes back where that does not keep the tolerance.
+//!
 //! Tolerance monitoring (`AX_DEV`) examines a leg with what is planned behind it before it is taken; where the tolerance
 //! cannot be kept that way the old plan, which keeps it, goes on to the next place. A leg that ends at rest waits for such
 //! a place no longer than the kernel is; then it is taken, and what it exceeds is reported as not kept.
 
-use super::{Planner, programmed};
+use super::Planner;
 use crate::course::Course;
-use crate::limit::SpeedLimit;
-use crate::lookahead::{Cap, plan};
+use crate::limit::{Cap, SpeedLimit};
+use crate::lookahead::plan;
+use crate::plan::{Plan, Segment, Start};
 use crate::profile::SlopeLimits;
 use crate::queue::Queued;
 use crate::realtime::feedhold_slope;
 use crate::timeline::{Entry, Moment};
-use crate::tolerance::Demands;
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
 
@@ -34,8 +37,6 @@ const SLACK: f64 = 1e-9;
 /// Parts of a block that end closer together than this, in mm, end at the same place.
 const SAME_END_MM: f64 = 1e-9;
 
-/// Blocks ahead with the caps at their starts.
-type Ahead = Vec<(Arc<Queued>, Cap)>;
 /// One or two courses in a row.
 type Leg = SmallVec<[Course; 2]>;
 
@@ -98,16 +99,16 @@ impl Planner {
     }
 
     /// Everything known from the entry of the present cycle on, with the path length at which it starts.
-    fn ahead(&self, old: &[Entry]) -> Vec<(f64, Arc<Queued>, Cap)> {
-        let mut out: Vec<(f64, Arc<Queued>, Cap)> = Vec::new();
+    fn ahead(&self, old: &[Entry]) -> Vec<(f64, Segment)> {
+        let mut out: Vec<(f64, Segment)> = Vec::new();
         let mut add = |s: f64, queued: &Arc<Queued>, cap: Cap| {
             // not the rest of a block that is listed already
-            let listed = out.last().is_some_and(|(_, listed, _)| {
+            let listed = out.last().is_some_and(|(_, Segment { queued: listed, .. })| {
                 let [own, other] = [queued, listed].map(|q| q.offset + q.length);
                 queued.offset > listed.offset && (own - other).abs() <= SAME_END_MM
             });
             if !listed {
-                out.push((s, queued.rated(&self.active.ratios), cap));
+                out.push((s, Segment { queued: queued.rated(&self.active.ratios), cap }));
             }
         };
         for entry in old {
@@ -115,8 +116,8 @@ impl Planner {
                 add(entry.s0 + (s_end - queued.length), queued, *cap);
             }
         }
-        let mut s = self.travelled;
-        for (queued, cap) in self.queue.iter().zip(&self.caps) {
+        let mut s = self.plan.start.s_mm;
+        for Segment { queued, cap } in &self.plan.segments {
             add(s, queued, *cap);
             s += queued.length;
         }
@@ -132,8 +133,8 @@ impl Planner {
         let before = i.checked_sub(1).and_then(|i| old.get(i)).filter(|e| !e.stops);
         let last = before.map(Entry::last).unwrap_or_default();
         Spot {
-            moment: next.map_or(self.cursor, |e| e.start),
-            s: next.map_or(self.travelled, |e| e.s0),
+            moment: next.map_or(self.plan.start.moment, |e| e.start),
+            s: next.map_or(self.plan.start.s_mm, |e| e.s0),
             v: last.v_mm_s,
             a: last.a_mm_s2,
             why: before.map_or(SpeedLimit::Stop, |e| e.why_down),
@@ -157,9 +158,9 @@ impl Planner {
     fn leg_from(
         &self,
         spot: &Spot,
-        ahead: &[(f64, Arc<Queued>, Cap)],
+        ahead: &[(f64, Segment)],
         old: &[Entry],
-    ) -> Option<(Leg, Ahead)> {
+    ) -> Option<(Leg, Vec<Segment>)> {
         let rest = behind(ahead, spot.s);
         let leg = if spot.v > 0.0 { self.leg(spot, &rest, old)? } else { Leg::new() };
         Some((leg, rest))
@@ -174,16 +175,16 @@ impl Planner {
     }
 
     /// The leg from a spot that moves; `None` if the old plan has to go on.
-    fn leg(&self, spot: &Spot, rest: &[(Arc<Queued>, Cap)], old: &[Entry]) -> Option<Leg> {
-        let first = &rest.first()?.0;
-        let target = if self.active.hold.is_some() { 0.0 } else { first.velocity.0 };
+    fn leg(&self, spot: &Spot, rest: &[Segment], old: &[Entry]) -> Option<Leg> {
+        let first = &rest.first()?.queued;
+        let target = if self.active.hold.is_some() { 0.0 } else { first.velocity.v_mm_s };
         let slope = self.slope_of(first);
         let settled = slope.settled(spot.v, spot.a);
         let steady = (settled - spot.v).abs() <= 1e-12 * spot.v;
         let spot = Spot { a: if steady { 0.0 } else { spot.a }, ..*spot };
         // the old plan keeps the tolerance, and so does what is slower; what is faster has to be examined first
         let monitored =
-            self.kernels.any() && rest.iter().any(|(q, _)| q.block.tolerance.ax_dev_mm.is_some());
+            self.kernels.any() && rest.iter().any(|s| s.queued.block.tolerance.ax_dev_mm.is_some());
         let aims: &[Aim] = if steady {
             if spot.v <= target { &[Aim::Stay] } else { &[Aim::Brake(target)] }
         } else if spot.a > 0.0 {
@@ -210,20 +211,20 @@ impl Planner {
         aim: Aim,
         spot: &Spot,
         first: &SlopeLimits,
-        rest: &[(Arc<Queued>, Cap)],
+        rest: &[Segment],
         old: &[Entry],
     ) -> Option<Leg> {
         let mut slope = first.clone();
         // boundaries crossed, by their distance
         let mut crossed: SmallVec<[f64; 8]> = SmallVec::new();
-        let mut reach = rest.first()?.0.length;
+        let mut reach = rest.first()?.queued.length;
         let leg = loop {
             let leg = courses(aim, spot, &slope)?;
             let length: f64 = leg.iter().map(Course::length).sum();
             if length <= reach {
                 break leg;
             }
-            let (queued, _) = rest.get(crossed.len() + 1)?;
+            let queued = &rest.get(crossed.len() + 1)?.queued;
             let own = self.slope_of(queued);
             if !slope.is_like(&own) {
                 return None;
@@ -236,7 +237,7 @@ impl Planner {
         let falls = matches!(aim, Aim::Brake(_));
         if falls {
             // into a slower block
-            let crossed = rest[1..=crossed.len()].iter().map(|(q, _)| q.velocity.0);
+            let crossed = rest[1..=crossed.len()].iter().map(|s| s.queued.velocity.v_mm_s);
             let slowest = crossed.fold(f64::INFINITY, f64::min);
             if slowest < v_end * (1.0 - SLACK) {
                 return self.fit(Aim::Brake(slowest), spot, first, rest, old);
@@ -252,80 +253,87 @@ impl Planner {
                     not_faster(s, c.end().v_mm_s)
                 })
         } else {
-            crossed.iter().zip(&rest[1..]).all(|(s, (queued, cap))| {
+            crossed.iter().zip(&rest[1..]).all(|(s, Segment { queued, cap })| {
                 let v = speed_in(&leg, *s);
-                v <= cap.0 * (1.0 + SLACK) && v.max(v_end) <= queued.velocity.0 * (1.0 + SLACK)
+                v <= cap.v_mm_s * (1.0 + SLACK)
+                    && v.max(v_end) <= queued.velocity.v_mm_s * (1.0 + SLACK)
             })
         };
         let length = leg.iter().map(Course::length).sum();
         (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
-    /// Puts what is kept and a leg on the timeline and what lies behind it into the queue; false, and nothing is changed,
-    /// if the path would be too fast there for the tolerance.
-    fn install(&mut self, spot: &Spot, kept: Vec<Entry>, leg: Leg, mut rest: Ahead) -> bool {
-        let mut next = self.clone();
+    /// Puts what is kept and a leg on the timeline and what lies behind it into the plan; false, and nothing is changed but
+    /// the timeline, if the path would be too fast there for the tolerance.
+    fn install(&mut self, spot: &Spot, kept: Vec<Entry>, leg: Leg, rest: Vec<Segment>) -> bool {
+        let speed = Cap::new(spot.v, spot.why);
+        let start = Start { moment: spot.moment, s_mm: spot.s, speed, a_mm_s2: 0.0 };
+        let before = std::mem::replace(&mut self.plan, Plan::from_state(start));
+        self.timeline.put(kept);
+        let left = self.contour.part_at(spot.moment.cycles(self.cycle) - SLACK);
+        let stays = self.contour.len();
+        let keeps = self.follow(spot, leg, rest);
+        if !keeps {
+            self.plan = before;
+            self.contour.restore(stays, left);
+        }
+        keeps
+    }
+
+    /// Appends a leg and finds the way to rest behind it; false if it does not keep the tolerance.
+    fn follow(&mut self, spot: &Spot, leg: Leg, mut rest: Vec<Segment>) -> bool {
         let moves = !leg.is_empty();
-        next.timeline.put(kept);
-        next.contour.forget_from(spot.moment.cycles(self.cycle) - SLACK);
-        next.cursor = spot.moment;
-        next.travelled = spot.s;
-        (next.speed, next.acceleration) = ((spot.v, spot.why), 0.0);
         let why = if self.active.hold.is_some() { SpeedLimit::Stop } else { SpeedLimit::Feed };
         for course in leg {
             let length = course.length();
             let mut from = 0.0;
-            let along = rest.iter().take_while(|(queued, _)| {
+            let along = rest.iter().take_while(|segment| {
                 let inside = from < length;
-                from += queued.length;
+                from += segment.queued.length;
                 inside
             });
-            let (blocks, caps): (Vec<_>, Vec<_>) = along.cloned().unzip();
+            let (blocks, caps): (Vec<_>, Vec<_>) =
+                along.map(|s| (Arc::clone(&s.queued), s.cap)).unzip();
             let stops = course.end().v_mm_s <= 0.0;
-            let mut entry =
-                Entry::along(next.cursor, next.travelled, course, (why, why), &blocks, stops);
+            let Start { moment, s_mm, .. } = self.plan.start;
+            let mut entry = Entry::along(moment, s_mm, course, (why, why), &blocks, stops);
             entry.caps = caps.into();
-            next.append(entry, 0);
+            self.append(entry, 0);
             rest = cut(rest, length);
         }
-        let (queue, caps): (Vec<_>, Vec<_>) = rest.into_iter().unzip();
-        (next.queue, next.caps) = (queue.into(), caps.into());
-        next.programmed = programmed(&next.queue);
-        next.reserve.clear();
-        next.demands = Demands::default();
-        if next.speed.0 > 0.0 {
-            let Some(way_out) = next.way_out() else { return false };
-            next.reserve = way_out.into();
-        } else if let Some(unkept) = moves.then(|| next.excess()).flatten() {
+        self.plan.replace(rest);
+        if !self.plan.is_at_rest() {
+            let Some(way_out) = self.way_out() else { return false };
+            self.plan.reserve = way_out.into();
+        } else if let Some(unkept) = moves.then(|| self.excess()).flatten() {
             let waited = spot.moment.cycles(self.cycle) - self.setpoint.k as f64;
             if waited < f64::from(self.kernels.length()) {
                 return false;
             }
-            next.unkept.push(unkept);
+            self.unkept.push(unkept);
         }
-        *self = next;
         true
     }
 }
 
 /// What of it lies behind path length `s` of the program.
-fn behind(ahead: &[(f64, Arc<Queued>, Cap)], s: f64) -> Ahead {
+fn behind(ahead: &[(f64, Segment)], s: f64) -> Vec<Segment> {
     let first = ahead.partition_point(|b| b.0 <= s).max(1) - 1;
-    let rest = ahead[first.min(ahead.len())..].iter().map(|(_, q, cap)| (Arc::clone(q), *cap));
+    let rest = ahead[first.min(ahead.len())..].iter().map(|(_, segment)| segment.clone());
     let into = ahead.get(first).map_or(0.0, |b| s - b.0);
     cut(rest.collect(), into)
 }
 
 /// What lies behind `s` mm.
-fn cut(mut blocks: Ahead, mut s: f64) -> Ahead {
+fn cut(mut blocks: Vec<Segment>, mut s: f64) -> Vec<Segment> {
     let mut gone = 0;
-    while gone < blocks.len() && s >= blocks[gone].0.length {
-        s -= blocks[gone].0.length;
+    while gone < blocks.len() && s >= blocks[gone].queued.length {
+        s -= blocks[gone].queued.length;
         gone += 1;
     }
     blocks.drain(..gone);
-    if let Some((first, _)) = blocks.first_mut() {
-        *first = first.remainder(s);
+    if let Some(first) = blocks.first_mut() {
+        first.queued = first.queued.remainder(s);
     }
     blocks
 }
@@ -370,16 +378,23 @@ fn speed_at(old: &[Entry], s: f64) -> f64 {
 }
 
 /// The look-ahead finds a plan that starts with `v`.
-fn goes_on(rest: &[(Arc<Queued>, Cap)], v: f64) -> bool {
+fn goes_on(rest: &[Segment], v: f64) -> bool {
     let (mut blocks, mut caps, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
-    for (queued, cap) in rest.iter().take_while(|(q, _)| q.velocity.0 > 0.0) {
+    for Segment { queued, cap } in rest.iter().take_while(|s| s.queued.velocity.v_mm_s > 0.0) {
         feeds.push(queued.velocity);
         blocks.push(Arc::clone(queued));
         caps.push(*cap);
     }
-    caps.push((0.0, SpeedLimit::Stop));
+    caps.push(Cap::STOP);
     let free = vec![false; caps.len()];
     !blocks.is_empty()
-        && plan(&blocks, &feeds, &caps, &free, ((v, SpeedLimit::Feed), 0.0), SpeedLimit::Stop)
-            .is_ok()
+        && plan(
+            &blocks,
+            &feeds,
+            &caps,
+            &free,
+            (Cap::new(v, SpeedLimit::Feed), 0.0),
+            SpeedLimit::Stop,
+        )
+        .is_ok()
 }

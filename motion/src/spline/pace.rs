@@ -29,8 +29,9 @@ impl Part {
         let block = Block { path: Path::Curve(Box::new(path)), ..block.clone() };
         let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
         let length = block.path.length();
-        let (v, limit) = speeds.limited(speeds.programmed_mm_s);
-        Some(Self { piece, length, time_s: length / v, at_feed: limit != SpeedLimit::Curve })
+        let cap = speeds.limited(speeds.programmed_mm_s);
+        let (time_s, at_feed) = (length / cap.v_mm_s, cap.why != SpeedLimit::Curve);
+        Some(Self { piece, length, time_s, at_feed })
     }
 }
 

@@ -243,7 +243,7 @@ fn kinks(window: &[Arc<Queued>], start: f64) -> Vec<Kink> {
             continue;
         }
         let acute = out_of.iter().zip(into.iter()).map(|(a, b)| a * b).sum::<f64>() < 0.0;
-        let feed = from.velocity.0.max(to.velocity.0);
+        let feed = from.velocity.v_mm_s.max(to.velocity.v_mm_s);
         out.push(Kink { boundary: b + 1, s, turn, acute, tolerance_mm, feed });
     }
     out

@@ -27,7 +27,7 @@ impl View<'_> {
         });
         blamed
             .map(|(b, queued, tolerance)| {
-                let fastest = queued.velocity.0;
+                let fastest = queued.velocity.v_mm_s;
                 (b, queued.parts(|bend| on_a_bend(trial, bend, tolerance).min(fastest)))
             })
             .filter(|(_, parts)| parts.len() > 1)

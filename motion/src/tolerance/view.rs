@@ -129,7 +129,7 @@ fn marks(trial: &Trial<'_>) -> Vec<Mark> {
     for passed in trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY) {
         let queued = &passed.queued;
         let speed = if passed.above_feed { queued.ceiling } else { queued.velocity };
-        add(passed.cycles, queued, None, passed.s_mm, speed.0);
+        add(passed.cycles, queued, None, passed.s_mm, speed.v_mm_s);
     }
     let mut index = 0;
     for entry in trial.plan {

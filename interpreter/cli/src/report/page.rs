@@ -1,10 +1,15 @@
 //! The interactive page: one file, no network; data as JSON beside its own script.
 
-use super::recording::{Bucket, Curve, Kind, Point, Recording, programmed};
+use super::Drawn;
+use super::recording::{Bucket, Curve, Point, Recording, programmed};
 use super::stops::Stop;
+use super::vibration;
+use super::views;
+use crate::chart::scale::{Scale, steps};
+use crate::chart::style::{DASHES, variables};
+use crate::chart::view::MOST_STRETCHES;
 use crate::times::Times;
 use crate::trace::fixed::push_fixed;
-use kontur_interpreter::summary::Summary;
 use serde_json::json;
 
 /// Page with the places `/*STYLE*/`, `/*DATA*/` and `/*SCRIPT*/`.
@@ -16,6 +21,7 @@ const SCRIPT: &str = concat!(
     include_str!("page/legend.js"),
     include_str!("page/contour.js"),
     include_str!("page/plots.js"),
+    include_str!("page/spring.js"),
     include_str!("page/program.js"),
     include_str!("page/pointer.js"),
     include_str!("page/around.js"),
@@ -36,17 +42,29 @@ pub(super) struct Beside {
 }
 
 /// The page of one or several runs.
-pub(super) fn draw(runs: &[(Recording, Summary)], beside: &[Beside]) -> String {
-    let data: Vec<String> = runs.iter().zip(beside).map(|((r, s), b)| run(r, s, b)).collect();
-    let title = runs.iter().map(|(_, s)| s.program.as_str()).collect::<Vec<_>>().join(", ");
+pub(super) fn draw(runs: &[Drawn], beside: &[Beside]) -> String {
+    let title = runs.iter().map(|r| r.summary.program.as_str()).collect::<Vec<_>>().join(", ");
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
+    let groups = views::groups(runs);
+    let scale = || Scale::linear("", (0.0, 0.0));
+    let chart = json!({
+        "steps": steps(), "dashes": DASHES, "most_stretches": MOST_STRETCHES,
+        "contour": views::contour(runs, &groups, "Contour", [scale(), scale()]),
+        "actual": views::actual(),
+        "views": views::over_time(runs, &groups),
+    });
+    let all: Vec<String> = runs.iter().zip(beside).map(|(r, b)| run(runs, r, b)).collect();
+    let mut data = Json::new();
+    data.text("chart", &safe(&chart.to_string()));
+    data.text("runs", &format!("[{}]", all.join(",\n")));
     PAGE.replace("/*TITLE*/", &title)
-        .replacen("/*STYLE*/", STYLE, 1)
+        .replacen("/*STYLE*/", &(variables() + STYLE), 1)
         .replacen("/*SCRIPT*/", SCRIPT, 1)
-        .replacen("/*DATA*/", &format!("[{}]", data.join(",\n")), 1)
+        .replacen("/*DATA*/", &data.finish(), 1)
 }
 
-fn run(r: &Recording, s: &Summary, beside: &Beside) -> String {
+fn run(runs: &[Drawn], drawn: &Drawn, beside: &Beside) -> String {
+    let Drawn { recording: r, summary: s, .. } = drawn;
     let points: Vec<Point> = r.points().copied().collect();
     let names: Vec<&str> = r.plane.iter().map(|&i| r.facts.axes[i].name.as_str()).collect();
     let mut out = Json::new();
@@ -79,8 +97,21 @@ fn run(r: &Recording, s: &Summary, beside: &Beside) -> String {
             join((0..2).map(|i| join(path.iter().map(|p| number(p[i])))))
         })),
     );
-    let shown = r.curves.iter().enumerate().filter(|(i, c)| tells_something(r, *i, c));
-    out.text("curves", &join(shown.map(|(i, c)| curve(r, i, c))));
+    out.text("passed", &buckets(|b| b.pass.to_string()));
+    out.text("curves", &join(r.curves.iter().enumerate().map(|(i, c)| curve(r, i, c))));
+    let acceleration = |a: &Vec<f64>| join(a.iter().map(|v| rounded(*v, 3)));
+    out.text("accelerations", &join(r.accelerations.iter().map(acceleration)));
+    let model = |axis: usize| {
+        let settings = vibration::model(runs, axis);
+        let axis = &r.facts.axes[axis];
+        let (unit, name) = (axis.unit(), &axis.name);
+        json!({ "name": name, "unit": unit, "hz": settings.freq_hz, "damping": settings.damping })
+    };
+    out.text(
+        "models",
+        &safe(&json!((0..r.facts.axes.len()).map(model).collect::<Vec<_>>()).to_string()),
+    );
+    out.text("worst", &json!(r.worst.map(|p| (p.error, p.set))).to_string());
     let times = &beside.times;
     let lines = times.lines.get(..MOST_LINES).unwrap_or(&times.lines);
     let times = json!({
@@ -93,15 +124,6 @@ fn run(r: &Recording, s: &Summary, beside: &Beside) -> String {
     out.finish()
 }
 
-/// The load of a stiff axis is where its motor is.
-fn tells_something(r: &Recording, i: usize, c: &Curve) -> bool {
-    let actual = |other: &Curve| other.kind == Kind::Actual && other.axis == c.axis;
-    let Some(beside) = r.curves.iter().position(actual).filter(|_| c.kind == Kind::Load) else {
-        return true;
-    };
-    r.buckets.iter().any(|b| b.range[i] != b.range[beside])
-}
-
 /// Axis, target, window, then t1, t2 and t3 in cycles.
 fn stop(r: &Recording, s: &Stop) -> String {
     let axis = &r.facts.axes[s.axis];
@@ -109,19 +131,9 @@ fn stop(r: &Recording, s: &Stop) -> String {
 }
 
 fn curve(r: &Recording, i: usize, c: &Curve) -> String {
-    let kind = match c.kind {
-        Kind::Speed => "speed",
-        Kind::ContourError => "error",
-        Kind::Deviation => "dev",
-        Kind::Lag => "lag",
-        Kind::Velocity => "vel",
-        Kind::Acceleration => "acc",
-        Kind::Set | Kind::Actual | Kind::Load => "pos",
-    };
     let mut out = Json::new();
     out.text("name", &safe(&json!(c.name).to_string()));
     out.text("unit", &safe(&json!(c.unit).to_string()));
-    out.text("kind", &format!("\"{kind}\""));
     out.text("low", &join(r.buckets.iter().map(|b| number(b.range[i].0))));
     // a run that keeps every cycle has one value per cycle
     let high = if r.width > 1 {
@@ -145,8 +157,12 @@ fn join(items: impl Iterator<Item = String>) -> String {
 
 /// Seven decimals without the zeros at the end.
 fn number(v: f64) -> String {
+    rounded(v, 7)
+}
+
+fn rounded(v: f64, decimals: u8) -> String {
     let mut text = Vec::new();
-    push_fixed(&mut text, v, 7);
+    push_fixed(&mut text, v, decimals);
     let text = String::from_utf8_lossy(&text);
     let short = text.trim_end_matches('0').trim_end_matches('.');
     if short.is_empty() { "null".to_owned() } else { short.to_owned() }

@@ -1,39 +1,24 @@
 //! The still picture: contour, a close look at its worst corner or at the largest difference of its passes, path
 //! speed and deviations over time.
 
-use super::recording::{Kind, Point, Recording, programmed};
-use super::svg::{COLOURS, FAINT, INK, Panel, Stroke, Svg};
+use super::Drawn;
+use super::recording::{Point, Recording};
+use super::views::{self, Group, Shown, Source, VISIBLE_MM};
+use crate::chart::scale::Scale;
+use crate::chart::style::{INK, Style};
+use crate::chart::svg::{Font, Panel, Svg};
+use crate::chart::view::{Mark, View};
 use kontur_interpreter::source::text::beginning;
-use kontur_interpreter::summary::Summary;
 
 const WIDTH: f64 = 1200.0;
 const LEFT: f64 = 76.0;
 const RIGHT: f64 = 1172.0;
-/// Lines of the program are marked in the time plots up to this many changes.
-const MOST_MARKS: usize = 60;
 /// Set points that are compared with the first pass.
 const MOST_COMPARED: usize = 2000;
-/// Deviations below this are rounding.
-const VISIBLE_MM: f64 = 1e-7;
-
-/// What shares a colour: a pass of a single program, or one of several programs.
-struct Group {
-    run: usize,
-    pass: Option<usize>,
-    colour: &'static str,
-    label: String,
-}
-
-impl Group {
-    fn draws(&self, point: &Point) -> bool {
-        self.pass.is_none_or(|pass| pass == point.pass)
-    }
-}
-
 /// Draws one or several runs.
-pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
+pub(super) fn draw(runs: &[Drawn]) -> String {
     let mut svg = Svg::new();
-    let groups = groups(runs);
+    let groups = views::groups(runs);
     head(&mut svg, runs);
     let plane = plane(runs);
     let visible = |p: &Point| p.error > VISIBLE_MM;
@@ -49,88 +34,55 @@ pub(super) fn draw(runs: &[(Recording, Summary)]) -> String {
         y: extent(runs, plane[1]),
     };
     let panel = panel.equal_scale();
-    let names = plane.map(|i| axis_label(&runs[0].0, i));
-    contour(&mut svg, &panel, &drawn(runs), &groups, plane, "Contour", &names);
+    let scales = |p: &Panel| {
+        let [x, y] = plane.map(|i| axis_label(&runs[0].recording, i));
+        [Scale::linear(x, p.x), Scale::linear(y, p.y)]
+    };
+    let width = panel.width;
+    let whole = views::contour(runs, &groups, "Contour", scales(&panel));
+    whole.draw_from(&mut svg, &panel, |source| views::points(source, runs, plane, width));
     if let Some(look) = look {
         let zoom = zoom_panel(&look, plane, 0.2 * (panel.x.1 - panel.x.0));
         let (a, b) = (panel.at([zoom.x.0, zoom.y.1]), panel.at([zoom.x.1, zoom.y.0]));
-        let close = drawn(runs);
         let title = if worst.is_some() { "Largest contour error" } else { "Largest difference" };
-        contour(&mut svg, &zoom, &close, &groups, plane, title, &names);
+        let close = views::contour(runs, &groups, title, scales(&zoom));
+        close.draw_from(&mut svg, &zoom, |source| views::points(source, runs, plane, width));
         let size = [(b[0] - a[0]).max(4.0), (b[1] - a[1]).max(4.0)];
-        let lens_style = format!("fill=\"{INK}\" fill-opacity=\"0.05\" stroke=\"{INK}\"");
+        let ink = INK.light;
         svg.clip(&panel);
-        svg.rect(a, size, &lens_style);
+        svg.rect(a, size, &format!("fill=\"{ink}\" fill-opacity=\"0.05\" stroke=\"{ink}\""));
         svg.end_group();
     }
-    legend(&mut svg, &groups);
-    let top = 640.0 + 20.0 * (groups.len().div_ceil(2) as f64);
-    let bottom = times(&mut svg, runs, &groups, top);
+    let top = legend(&mut svg, &groups, 608.0);
+    let bottom = strips(&mut svg, runs, &groups, top + 12.0);
     svg.finish(WIDTH, bottom)
 }
 
-fn head(svg: &mut Svg, runs: &[(Recording, Summary)]) {
+fn head(svg: &mut Svg, runs: &[Drawn]) {
     let title = match runs {
-        [(_, one)] => one.program.clone(),
+        [one] => one.summary.program.clone(),
         several => {
-            several.iter().map(|(_, s)| s.program.as_str()).collect::<Vec<_>>().join("  ·  ")
+            several.iter().map(|r| r.summary.program.as_str()).collect::<Vec<_>>().join("  ·  ")
         }
     };
-    let style = format!("fill=\"{INK}\" font-size=\"20\" font-weight=\"700\"");
-    svg.text([LEFT, 36.0], "start", &style, &beginning(&title));
+    svg.text([LEFT, 36.0], Font::HEAD, &beginning(&title));
     let mut facts = Vec::new();
-    if let Some((_, s)) = runs.first() {
+    if let Some(s) = runs.first().map(|r| &r.summary) {
         facts.push(format!("machine {}", s.machine));
         facts.push(format!("cycle {} ms", f64::from(s.cycle_us) / 1000.0));
     }
-    if let [(_, s)] = runs {
+    if let [Drawn { summary: s, .. }] = runs {
         facts.push(format!("{:.3} s", s.duration_s));
         facts.push(format!("path {:.3} mm", s.path_length_mm));
         if let Some(e) = s.max_contour_error.as_ref().filter(|e| e.mm > VISIBLE_MM) {
             facts.push(format!("contour error at most {:.4} mm, line {}", e.mm, e.line));
         }
     }
-    let style = format!("fill=\"{FAINT}\" font-size=\"13\"");
-    svg.text([LEFT, 58.0], "start", &style, &facts.join("  ·  "));
-}
-
-fn groups(runs: &[(Recording, Summary)]) -> Vec<Group> {
-    let colour = |i: usize| COLOURS[i % COLOURS.len()];
-    let of_run = |s: &Summary| s.max_contour_error.as_ref().map_or(0.0, |e| e.mm);
-    let errors = runs.iter().any(|(_, s)| of_run(s) > VISIBLE_MM);
-    // nobody needs to read that there are none
-    let error = |before: &str, mm: f64| {
-        if errors { format!("{before}contour error at most {mm:.4} mm") } else { String::new() }
-    };
-    match runs {
-        [(run, _)] if run.passes.len() > 1 => (0..run.passes.len())
-            .map(|i| {
-                let p = run.passes[i];
-                let label = format!(
-                    "set, pass {}, lines {} to {}{}",
-                    i + 1,
-                    p.first_line,
-                    p.last_line,
-                    error(": ", p.error_mm)
-                );
-                Group { run: 0, pass: Some(i), colour: colour(i), label }
-            })
-            .collect(),
-        _ => runs
-            .iter()
-            .enumerate()
-            .map(|(i, (_, s))| {
-                let error = error(", ", of_run(s));
-                let name = if runs.len() > 1 { format!("{}, ", s.program) } else { String::new() };
-                let label = format!("set, {name}{:.3} s{error}", s.duration_s);
-                Group { run: i, pass: None, colour: colour(i), label }
-            })
-            .collect(),
-    }
+    svg.text([LEFT, 58.0], Font::FACTS, &facts.join("  ·  "));
 }
 
 /// The two linear axes that move most, in channel order.
-fn plane(runs: &[(Recording, Summary)]) -> [usize; 2] {
+fn plane(runs: &[Drawn]) -> [usize; 2] {
     let mut spans: Vec<(f64, usize)> =
         (0..3).map(|i| (extent_of(runs, i).map_or(0.0, |e| e.1 - e.0), i)).collect();
     spans.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -143,8 +95,9 @@ fn axis_label(run: &Recording, i: usize) -> String {
     format!("{} in mm", name.unwrap_or("-"))
 }
 
-fn extent_of(runs: &[(Recording, Summary)], axis: usize) -> Option<(f64, f64)> {
-    let values = runs.iter().flat_map(|(r, _)| r.points()).flat_map(|p| [p.ipo[axis], p.set[axis]]);
+fn extent_of(runs: &[Drawn], axis: usize) -> Option<(f64, f64)> {
+    let values =
+        runs.iter().flat_map(|r| r.recording.points()).flat_map(|p| [p.ipo[axis], p.set[axis]]);
     values.filter(|v| v.is_finite()).fold(None, |range, v| {
         let (low, high) = range.unwrap_or((v, v));
         Some((f64::min(low, v), f64::max(high, v)))
@@ -152,14 +105,14 @@ fn extent_of(runs: &[(Recording, Summary)], axis: usize) -> Option<(f64, f64)> {
 }
 
 /// The range of an axis with some air around it.
-fn extent(runs: &[(Recording, Summary)], axis: usize) -> (f64, f64) {
+fn extent(runs: &[Drawn], axis: usize) -> (f64, f64) {
     let (low, high) = extent_of(runs, axis).unwrap_or((0.0, 1.0));
     let air = (0.06 * (high - low)).max(1e-3);
     (low - air, high + air)
 }
 
-fn worst(runs: &[(Recording, Summary)]) -> Option<Point> {
-    let found = runs.iter().filter_map(|(r, _)| r.worst);
+fn worst(runs: &[Drawn]) -> Option<Point> {
+    let found = runs.iter().filter_map(|r| r.recording.worst);
     found.max_by(|a, b| a.error.total_cmp(&b.error))
 }
 
@@ -202,170 +155,99 @@ fn zoom_panel(worst: &Point, [x, y]: [usize; 2], most: f64) -> Panel {
 }
 
 /// The points to draw of every run.
-fn drawn(runs: &[(Recording, Summary)]) -> Vec<Vec<Point>> {
-    runs.iter().map(|(r, _)| r.points().copied().collect()).collect()
+fn drawn(runs: &[Drawn]) -> Vec<Vec<Point>> {
+    runs.iter().map(|r| r.recording.points().copied().collect()).collect()
 }
 
-fn contour(
-    svg: &mut Svg,
-    panel: &Panel,
-    runs: &[Vec<Point>],
-    groups: &[Group],
-    plane: [usize; 2],
-    title: &str,
-    names: &[String; 2],
-) {
-    svg.axes(panel, title, &names[0], &names[1]);
-    svg.clip(panel);
-    let wide = Stroke { colour: "#ced4da", width: 5.0, dash: "" };
-    for points in runs {
-        svg.curve(panel, programmed(points, plane).into_iter(), wide);
-    }
-    for (actual, width, dash) in [(true, 1.0, "3 3"), (false, 1.7, "")] {
-        for group in groups {
-            let points = runs[group.run].iter().filter(|p| group.draws(p));
-            let at = points.map(|p| if actual { p.act } else { p.set });
-            let stroke = Stroke { colour: group.colour, width, dash };
-            svg.curve(panel, at.map(|p| [p[plane[0]], p[plane[1]]]), stroke);
-        }
-    }
-    svg.end_group();
-}
-
-fn legend(svg: &mut Svg, groups: &[Group]) {
-    let style = format!("fill=\"{INK}\"");
-    let mut entries: Vec<(Stroke<'_>, &str)> =
-        vec![(Stroke { colour: "#ced4da", width: 5.0, dash: "" }, "programmed")];
-    let actual = Stroke { colour: INK, width: 1.0, dash: "3 3" };
-    entries.push((actual, "actual position (dashed, colour of its set position)"));
-    for g in groups {
-        entries.push((Stroke { colour: g.colour, width: 2.0, dash: "" }, &g.label));
-    }
-    for (i, (stroke, label)) in entries.into_iter().enumerate() {
+/// The legend of the contour; gives its lower end.
+fn legend(svg: &mut Svg, groups: &[Group], top: f64) -> f64 {
+    let mut entries = vec![
+        (Style::programmed(), "programmed"),
+        (views::actual(), "actual position (dashed, colour of its set position)"),
+    ];
+    entries.extend(groups.iter().map(|g| (g.style.wide(2.0), g.label.as_str())));
+    let rows = entries.len().div_ceil(2);
+    for (i, (style, label)) in entries.into_iter().enumerate() {
         let x = LEFT + if i % 2 == 0 { 0.0 } else { 560.0 };
-        let y = 605.0 + 20.0 * ((i / 2) as f64);
-        svg.line([x, y - 4.0], [x + 26.0, y - 4.0], stroke);
-        svg.text([x + 34.0, y], "start", &style, label);
+        let y = top + 20.0 * ((i / 2) as f64);
+        svg.line([x, y - 4.0], [x + 26.0, y - 4.0], style);
+        svg.text([x + 34.0, y], Font::NAME, label);
     }
+    top + 20.0 * rows as f64
 }
 
-/// Path speed and, if there are any, deviations over time; gives the lower end of the picture.
-fn times(svg: &mut Svg, runs: &[(Recording, Summary)], groups: &[Group], top: f64) -> f64 {
-    let end = runs.iter().map(|(_, s)| s.duration_s).fold(0.0, f64::max).max(1e-6);
-    let panel = |top: f64, y: (f64, f64)| Panel {
-        left: LEFT,
-        top,
-        width: RIGHT - LEFT,
-        height: 130.0,
-        x: (0.0, end),
-        y,
-    };
-    let range = |kinds: &[Kind]| {
-        let all = runs.iter().flat_map(|(r, _)| {
-            let wanted = r.curves.iter().enumerate().filter(|(_, c)| kinds.contains(&c.kind));
-            wanted.flat_map(|(i, _)| r.buckets.iter().map(move |b| b.range[i]))
-        });
-        let (low, high) = all.fold((0.0, 0.0), |m: (f64, f64), r| (m.0.min(r.0), m.1.max(r.1)));
-        // room for the numbers of the lines
-        let air = (0.16 * (high - low)).max(1e-6);
-        (if low < 0.0 { low - air } else { low }, high + air)
-    };
-    let speed = panel(top + 20.0, range(&[Kind::Speed]));
-    marks(svg, &speed, runs);
+/// Views over time or frequency below each other; gives the lower end of the picture.
+fn strips(svg: &mut Svg, runs: &[Drawn], groups: &[Group], top: f64) -> f64 {
     // one program: what AX_DEV bounds, axis by axis; several: one curve each
     let one = runs.len() == 1;
-    let kind = if one { Kind::Deviation } else { Kind::ContourError };
-    let deviates = runs.iter().any(|(r, _)| {
-        let wanted = r.curves.iter().enumerate().filter(|(_, c)| c.kind == kind);
-        let mut ranges = wanted.flat_map(|(i, _)| r.buckets.iter().map(move |b| b.range[i]));
-        ranges.any(|(low, high)| low.abs().max(high.abs()) > VISIBLE_MM)
-    });
-    svg.axes(&speed, "Path speed", if deviates { "" } else { "time in s" }, "mm/s");
-    svg.clip(&speed);
-    for g in groups {
-        let run = &runs[g.run].0;
-        let stroke = Stroke { colour: g.colour, width: 1.5, dash: "" };
-        svg.curve(&speed, over_time(run, 0, g.pass).into_iter(), stroke);
-    }
-    svg.end_group();
-    if !deviates {
-        return top + 210.0;
-    }
-    let deviation = panel(top + 210.0, range(&[kind]));
-    marks(svg, &deviation, runs);
-    let title = if one { "Deviation from the contour by axis" } else { "Contour error" };
-    svg.axes(&deviation, title, "time in s", "mm");
-    let mut labels = Vec::new();
-    svg.clip(&deviation);
-    for (r, (run, _)) in runs.iter().enumerate() {
-        let curves = run.curves.iter().enumerate().filter(|(_, c)| c.kind == kind);
-        for (n, (i, curve)) in curves.enumerate() {
-            let colour = COLOURS[if one { n + 3 } else { r } % COLOURS.len()];
-            let stroke = Stroke { colour, width: 1.3, dash: "" };
-            svg.curve(&deviation, over_time(run, i, None).into_iter(), stroke);
-            if one {
-                labels.push((colour, curve.name.clone()));
-            }
+    let deviates = if one { "dev" } else { "error" };
+    let is_flat = |view: &View<Source>| view.y.range.0.abs().max(view.y.range.1.abs()) < 2e-6;
+    let wanted = |shown: &Shown| match shown.kind {
+        "speed" => true,
+        "spectrum" | "spring" => shown.open,
+        kind => kind == deviates && !is_flat(&shown.view),
+    };
+    let mut top = top;
+    for mut shown in views::over_time(runs, groups).into_iter().filter(wanted) {
+        let panel = Panel {
+            left: LEFT,
+            top: top + 20.0,
+            width: RIGHT - LEFT,
+            height: 130.0,
+            x: shown.view.x.range,
+            y: shown.view.y.range,
+        };
+        if shown.kind == "speed" || shown.kind == deviates {
+            shown.view.stretches = stretches(runs);
         }
+        shown
+            .view
+            .draw_from(svg, &panel, |source| views::points(source, runs, [0, 1], panel.width));
+        names(svg, &panel, runs, &shown.view);
+        top += 206.0;
     }
-    svg.end_group();
-    for (i, (colour, name)) in labels.iter().rev().enumerate() {
-        let style = format!("fill=\"{colour}\" font-weight=\"700\"");
-        svg.text([RIGHT - 18.0 * i as f64, deviation.top - 9.0], "end", &style, name);
-    }
-    top + 400.0
+    top
 }
 
-/// A curve over time: smallest and largest value per pixel, or of each bucket where there are fewer.
-fn over_time(run: &Recording, curve: usize, pass: Option<usize>) -> Vec<[f64; 2]> {
-    let per_px = (run.buckets.len() as f64 / (RIGHT - LEFT)).max(1.0);
-    let mut points: Vec<[f64; 2]> = Vec::new();
-    let mut pixel = None;
-    for (i, bucket) in run.buckets.iter().enumerate() {
-        if pass.is_some_and(|p| p != bucket.pass) {
+/// The names of the lines of a view, to the right of its title; of several runs the dashes of the axes, as their colours are those of the
+/// contour.
+fn names(svg: &mut Svg, panel: &Panel, runs: &[Drawn], view: &View<Source>) {
+    let mut entries: Vec<(&str, Style)> = Vec::new();
+    for line in &view.lines {
+        let axis = match line.points {
+            Source::Curve { run, curve, .. } => runs[run].recording.curves[curve].axis,
+            Source::Given { axis, .. } | Source::Spring { axis, .. } => Some(axis),
+            Source::Contour { .. } => None,
+        };
+        let Some(axis) = axis.map(|i| runs[0].recording.facts.axes[i].name.as_str()) else {
             continue;
-        }
-        let (low, high) = bucket.range[curve];
-        let t = run.seconds(bucket.k);
-        let this = Some(libm::floor(i as f64 / per_px));
-        if this == pixel
-            && let [.., bottom, top] = points.as_mut_slice()
-        {
-            bottom[1] = bottom[1].min(low);
-            top[1] = top[1].max(high);
-        } else {
-            pixel = this;
-            points.extend([[t, low], [t, high]]);
+        };
+        if entries.iter().all(|(name, _)| *name != axis) {
+            let style =
+                if runs.len() > 1 { Style { tone: &INK, ..line.style } } else { line.style };
+            entries.push((axis, style));
         }
     }
-    points
+    let mut right = RIGHT;
+    for (name, style) in entries.into_iter().rev() {
+        svg.text([right, panel.top - 9.0], Font::NAME.end(), name);
+        let swatch = right - 7.0 * name.chars().count() as f64 - 6.0;
+        svg.line([swatch - 26.0, panel.top - 13.0], [swatch, panel.top - 13.0], style);
+        right = swatch - 44.0;
+    }
 }
 
-/// Where the line of the program changes, with the line's number where there is room.
-fn marks(svg: &mut Svg, panel: &Panel, runs: &[(Recording, Summary)]) {
-    let [(run, _)] = runs else { return };
+/// Where the line of the program changes, if there is one program.
+fn stretches(runs: &[Drawn]) -> Vec<Mark> {
+    let [Drawn { recording: run, .. }] = runs else { return Vec::new() };
     let mut starts: Vec<(f64, u32)> = Vec::new();
     for b in &run.buckets {
         if starts.last().is_none_or(|s| s.1 != b.line) {
-            starts.push((panel.at([run.seconds(b.k), 0.0])[0], b.line));
+            starts.push((run.seconds(b.k), b.line));
         }
     }
-    if starts.len() > MOST_MARKS {
-        return;
-    }
-    let end = panel.left + panel.width;
-    for (i, &(x, line)) in starts.iter().enumerate() {
-        let next = starts.get(i + 1).map_or(end, |n| n.0);
-        let shade = if i % 2 == 0 { "#f8f9fa" } else { "#ffffff" };
-        let size = [next - x, panel.height];
-        svg.rect([x, panel.top], size, &format!("fill=\"{shade}\""));
-        let text = line.to_string();
-        if line > 0 && next - x > 7.0 * text.len() as f64 + 4.0 {
-            let style = "fill=\"#adb5bd\" font-size=\"10\"";
-            let at = [f64::midpoint(x, next), panel.top + 12.0];
-            svg.text(at, "middle", style, &text);
-        }
-    }
+    let name = |line: u32| if line > 0 { line.to_string() } else { String::new() };
+    starts.into_iter().map(|(at, line)| Mark { at, name: name(line) }).collect()
 }
 
 #[cfg(test)]
@@ -385,8 +267,12 @@ mod tests {
             point(1, 0.7, 0.2),
             point(1, 1.0, 0.5),
         ]];
-        let group =
-            |pass| Group { run: 0, pass: Some(pass), colour: COLOURS[0], label: String::new() };
+        let group = |pass| Group {
+            run: 0,
+            pass: Some(pass),
+            style: Style::series(pass),
+            label: String::new(),
+        };
         let far = farthest(&runs, &[group(0), group(1)], [0, 1]).unwrap();
         assert!((far.set[0] - 0.7).abs() < 1e-15 && far.pass == 1, "{far:?}");
         assert!((far.error - 0.2).abs() < 1e-15, "{}", far.error);

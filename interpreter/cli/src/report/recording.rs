@@ -4,10 +4,13 @@
 use super::stops::Stops;
 use super::track::Track;
 use kontur_interpreter::job::Facts;
-use kontur_interpreter::record::{CycleRecord, SpeedLimit};
+use kontur_interpreter::record::{CycleRecord, Motion, SpeedLimit};
 
 /// Buckets of a finished recording are at least half of this many, once a run is longer than that.
 const MOST_BUCKETS: usize = 4000;
+
+/// Cycles of which the acceleration of every axis is kept as it is.
+pub(crate) const MOST_SAMPLES: usize = 300_000;
 
 /// More passes than this over one contour are drawn as one.
 pub(crate) const MOST_PASSES: usize = 8;
@@ -21,6 +24,8 @@ pub(crate) struct Point {
     pub(crate) k: u64,
     pub(crate) line: u32,
     pub(crate) pass: usize,
+    /// End of its block as it is programmed, if that is a straight line.
+    pub(crate) target: Option<[f64; 3]>,
     pub(crate) error: f64,
     pub(crate) ipo: [f64; 3],
     pub(crate) set: [f64; 3],
@@ -107,6 +112,8 @@ pub(crate) struct Recording {
     track: Track,
     /// The point with the largest contour error.
     pub(crate) worst: Option<Point>,
+    /// Commanded acceleration of each axis of [`Facts::axes`], cycle by cycle from the first one on; empty for spindles.
+    pub(crate) accelerations: Vec<Vec<f64>>,
 }
 
 impl Recording {
@@ -154,6 +161,23 @@ impl Recording {
             moved: false,
             track: Track::default(),
             worst: None,
+            accelerations: vec![Vec::new(); facts.axes.len()],
+        }
+    }
+
+    /// The last cycle has been added: what tells nothing goes. (The load of a stiff axis is where its motor is.)
+    pub(crate) fn finish(&mut self) {
+        for i in (0..self.curves.len()).rev() {
+            let actual = |c: &Curve| c.kind == Kind::Actual && c.axis == self.curves[i].axis;
+            if self.curves[i].kind == Kind::Load
+                && let Some(beside) = self.curves.iter().position(actual)
+                && self.buckets.iter().all(|b| b.range[i] == b.range[beside])
+            {
+                self.curves.remove(i);
+                for bucket in &mut self.buckets {
+                    bucket.range.remove(i);
+                }
+            }
         }
     }
 
@@ -180,6 +204,11 @@ impl Recording {
             self.worst = Some(point);
         }
         self.stops.add(record, &self.facts.axes);
+        for (i, (samples, a)) in self.accelerations.iter_mut().zip(&record.axes).enumerate() {
+            if samples.len() < MOST_SAMPLES && !self.facts.axes[i].spindle {
+                samples.push(a.acc);
+            }
+        }
         let value = |c: &Curve| match (c.kind, c.axis) {
             (Kind::Speed, _) => record.path.v_mm_s,
             (Kind::ContourError, _) => record.contour_err_mm,
@@ -214,6 +243,8 @@ impl Recording {
             at
         };
         let (ipo, set, act) = (of(|a| a.ipo), of(|a| a.set), of(|a| a.act));
+        let is_straight = matches!(record.path.motion, Motion::Line | Motion::Rapid);
+        let target = is_straight.then(|| of(|a| a.target));
         let near = |p: [f64; 3]| (0..3).all(|i| (p[i] - ipo[i]).abs() < CLOSED_MM);
         // a new pass begins when the path, after a trip, leaves a stop at the place where the trip began
         let start = *self.start.get_or_insert(ipo);
@@ -236,7 +267,8 @@ impl Recording {
             self.one_pass();
         }
         let pass = pass.min(self.passes.len().saturating_sub(1));
-        Point { k: record.k, line: record.line, pass, error: record.contour_err_mm, ipo, set, act }
+        let (k, line, error) = (record.k, record.line, record.contour_err_mm);
+        Point { k, line, pass, target, error, ipo, set, act }
     }
 
     /// Too many passes to tell apart: from here on they are one.
@@ -277,35 +309,20 @@ impl Bucket {
     }
 }
 
-/// The programmed path in a plane: the interpolated points and, between two samples on different lines of the program,
-/// the corner that both straight ways point to. (No sample needs to lie in a corner that is passed without a stop.)
+/// The programmed path in a plane: a straight block goes to its end, whatever is made of its corner; what is no straight line is the
+/// interpolated points. The last block ends where the run does.
 pub(crate) fn programmed(points: &[Point], [x, y]: [usize; 2]) -> Vec<[f64; 2]> {
-    let at = |i: usize| [points[i].ipo[x], points[i].ipo[y]];
-    let mut path = Vec::with_capacity(points.len());
-    for i in 0..points.len() {
-        path.push(at(i));
-        let known = i > 0 && i + 2 < points.len();
-        if known && points[i].line != points[i + 1].line && points[i].k + 1 == points[i + 1].k {
-            path.extend(corner(at(i - 1), at(i), at(i + 1), at(i + 2)));
+    let flat = |p: [f64; 3]| [p[x], p[y]];
+    let mut path: Vec<[f64; 2]> = points.first().map(|p| flat(p.ipo)).into_iter().collect();
+    let mut blocks = points.chunk_by(|a, b| a.target == b.target && a.line == b.line).peekable();
+    while let Some(block) = blocks.next() {
+        let Some(last) = block.last() else { continue };
+        match last.target {
+            Some(end) => path.push(flat(if blocks.peek().is_some() { end } else { last.ipo })),
+            None => path.extend(block.iter().map(|p| flat(p.ipo))),
         }
     }
     path
-}
-
-/// Where the ways `a -> b` and `c -> d` meet, if that lies ahead of `b`, before `c`, and no farther than two steps: `b` and `c`
-/// are one cycle apart.
-fn corner(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Option<[f64; 2]> {
-    let minus = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
-    let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
-    let (u, v, gap) = (minus(b, a), minus(d, c), minus(c, b));
-    let turn = cross(u, v);
-    if turn.abs() < 1e-3 * libm::hypot(u[0], u[1]) * libm::hypot(v[0], v[1]) || turn == 0.0 {
-        return None;
-    }
-    let (ahead, behind) = (cross(gap, v) / turn, -cross(gap, u) / turn);
-    let most = 2.0 * libm::hypot(gap[0], gap[1]);
-    let near = |part: f64, way: [f64; 2]| part >= 0.0 && part * libm::hypot(way[0], way[1]) <= most;
-    (near(ahead, u) && near(behind, v)).then(|| [b[0] + ahead * u[0], b[1] + ahead * u[1]])
 }
 
 #[cfg(test)]
@@ -372,18 +389,33 @@ mod tests {
         assert!(r.points().all(|p| p.pass == 0));
     }
 
+    /// An L of two edges of 1 mm, sampled every 0.3 mm: no sample in the corner, or one on the curve that rounds it.
     #[test]
-    fn corners_between_samples_come_back() {
-        // an L of two edges of 1 mm, sampled every 0.3 mm: no sample in the corner
-        let points: Vec<Point> = (0..7)
-            .map(|k: u32| {
-                let s = f64::from(k) * 0.3;
-                let ipo = if s < 1.0 { [s, 0.0, 0.0] } else { [1.0, s - 1.0, 0.0] };
-                Point { k: u64::from(k), line: 1 + u32::from(s >= 1.0), ipo, ..Point::default() }
-            })
-            .collect();
-        let path = programmed(&points, [0, 1]);
-        assert_eq!(path.len(), 8);
-        assert!(path.iter().any(|p| (p[0] - 1.0).abs() < 1e-12 && p[1].abs() < 1e-12), "{path:?}");
+    fn corners_stay_where_they_are_programmed() {
+        for rounded in [false, true] {
+            let mut points: Vec<Point> = (0..7)
+                .map(|k: u32| {
+                    let s = f64::from(k) * 0.3;
+                    let (line, ipo, end) = if s < 1.0 {
+                        (1, [s, 0.0, 0.0], [1.0, 0.0, 0.0])
+                    } else {
+                        (2, [1.0, s - 1.0, 0.0], [1.0, 1.0, 0.0])
+                    };
+                    let target = Some(end);
+                    Point { k: u64::from(k), line, ipo, target, ..Point::default() }
+                })
+                .collect();
+            if rounded {
+                points[3].ipo = [0.85, 0.1, 0.0];
+            }
+            let path = programmed(&points, [0, 1]);
+            assert_eq!(path.len(), 3);
+            let ends = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.8]];
+            let apart = |(p, q): (&[f64; 2], &[f64; 2])| libm::hypot(p[0] - q[0], p[1] - q[1]);
+            assert!(path.iter().zip(&ends).all(|pair| apart(pair) < 1e-9), "{path:?}");
+        }
+        // a circle is its points
+        let arc = vec![Point::default(); 5];
+        assert_eq!(programmed(&arc, [0, 1]).len(), 6);
     }
 }

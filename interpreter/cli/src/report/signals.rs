@@ -1,8 +1,10 @@
 //! Columns of the trace over time, and their spectra: one panel each, one curve per run.
 
-use super::plot::{Diagram, Line, Plot, Scale, around};
 use super::requests;
 use crate::args::ReportArgs;
+use crate::chart::plot::Plot;
+use crate::chart::scale::{Scale, around, of_column};
+use crate::chart::view::{Line, Points, View};
 use crate::console::Console;
 use crate::request::Opened;
 use crate::run::{Shown, announce_lists, drive};
@@ -168,22 +170,6 @@ fn subtitle(args: &ReportArgs) -> String {
     window.into_iter().chain(varied).collect::<Vec<_>>().join("  \u{b7}  ")
 }
 
-/// The unit that a column's name ends with.
-fn unit(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 9] = [
-        ("_mm", "mm"),
-        ("_mm_s", "mm/s"),
-        ("_mm_s2", "mm/s\u{b2}"),
-        ("_mm_s3", "mm/s\u{b3}"),
-        ("_deg", "deg"),
-        ("_deg_s", "deg/s"),
-        ("_deg_s2", "deg/s\u{b2}"),
-        ("_deg_s3", "deg/s\u{b3}"),
-        ("_nm", "N m"),
-    ];
-    UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("", |(_, unit)| *unit)
-}
-
 fn panel(
     column: &Column,
     title: &str,
@@ -191,17 +177,16 @@ fn panel(
     x: (f64, f64),
     runs: &[Recorded],
     points: impl Fn(&Recorded) -> Option<Vec<[f64; 2]>>,
-) -> Diagram {
-    let line = |(series, r)| Some(Line { series: Some(series), points: points(r)? });
-    let lines: Vec<Line> = runs.iter().enumerate().filter_map(line).collect();
+) -> View<Points> {
+    let line = |(series, r)| Some(Line::series(series, points(r)?));
+    let lines: Vec<Line<Points>> = runs.iter().enumerate().filter_map(line).collect();
     let y = around(lines.iter().flat_map(|l| &l.points).map(|p| p[1]).chain([0.0]), 1e-6);
-    Diagram {
+    View {
         title: title.to_owned(),
         x: Scale::linear(x_label, x),
-        y: Scale::linear(unit(&column.name), y),
-        equal: false,
+        y: Scale::linear(of_column(&column.name), y),
         lines,
-        levels: Vec::new(),
+        ..View::default()
     }
 }
 

@@ -101,7 +101,7 @@ pub struct ResponseArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
 
-    /// Machine of --axis: a folder with a start-up list, or the list itself [default: the built-in xyz]
+    /// Machine of --axis: a folder with a start-up list, the list itself, or a TwinCAT project [default: the built-in xyz]
     #[arg(short, long, value_name = "DIR")]
     pub machine: Option<PathBuf>,
 

@@ -8,13 +8,13 @@ mod step;
 use super::args::ResponseArgs;
 use super::curve::Curve;
 use crate::Error;
-use crate::report::plot::Plot;
+use crate::chart::plot::Plot;
 use crate::table::Table;
 use kontur_filters::time::CycleTime;
 
 /// A view: numbers and their picture.
 #[derive(Debug)]
-pub(super) struct View {
+pub(super) struct Answer {
     pub(super) table: Table,
     pub(super) plot: Plot,
 }
@@ -23,7 +23,11 @@ pub(super) struct View {
 ///
 /// # Errors
 /// [`Error::Usage`] if the view does not suit a curve.
-pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> Result<View, Error> {
+pub(super) fn view(
+    args: &ResponseArgs,
+    curves: &[Curve],
+    cycle: CycleTime,
+) -> Result<Answer, Error> {
     if args.step {
         Ok(step::view(curves, cycle))
     } else if args.residual {

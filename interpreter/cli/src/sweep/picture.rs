@@ -3,7 +3,9 @@
 use super::Rows;
 use super::args::SweepArgs;
 use crate::Error;
-use crate::report::plot::{Diagram, Line, Plot, Scale, around};
+use crate::chart::plot::Plot;
+use crate::chart::scale::{Scale, around, of_column};
+use crate::chart::view::{Line, Points, View};
 use crate::table::Cell;
 use kontur_interpreter::summary::State;
 
@@ -80,7 +82,7 @@ pub(super) fn draw(
     };
     let panels =
         rows.header.iter().enumerate().filter(|(_, name)| shown(name)).map(|(column, name)| {
-            let lines: Vec<Line> = series
+            let lines: Vec<Line<Points>> = series
                 .iter()
                 .enumerate()
                 .map(|(number, s)| {
@@ -90,7 +92,7 @@ pub(super) fn draw(
                         cell.filter(|_| finished(row)).unwrap_or(f64::NAN)
                     };
                     let points = s.points.iter().map(|&(x, row)| [x, value(row)]).collect();
-                    Line { series: Some(number), points }
+                    Line::series(number, points)
                 })
                 .collect();
             let x = if is_choice {
@@ -99,13 +101,12 @@ pub(super) fn draw(
                 Scale::linear(first.key.clone(), around(values.iter().copied(), 1e-9))
             };
             let y = around(lines.iter().flat_map(|l| &l.points).map(|p| p[1]).chain([0.0]), 1e-9);
-            Diagram {
+            View {
                 title: name.clone(),
                 x,
-                y: Scale::linear("", y),
-                equal: false,
+                y: Scale::linear(of_column(name), y),
                 lines,
-                levels: Vec::new(),
+                ..View::default()
             }
         });
     let panels = panels.collect();

@@ -1,29 +1,14 @@
 //! `tune -o picture.svg`: the recording with what was seen in it.
 
 use super::recording::Recording;
-use crate::report::plot::{Diagram, Line, Plot, Scale, around};
+use crate::chart::plot::Plot;
+use crate::chart::scale::{Scale, around};
+use crate::chart::view::{Line, Points, View, thinned};
 use crate::spectrum::AmplitudeSpectrum;
 use crate::table::number;
 
 /// Points of a curve; longer ones are thinned out to their extremes.
 const MOST_POINTS: usize = 4000;
-
-/// Smallest and largest value of every stretch, so that no swing is lost.
-fn thinned(points: impl ExactSizeIterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
-    let stretch = points.len().div_ceil(MOST_POINTS / 2).max(1);
-    if stretch == 1 {
-        return points.collect();
-    }
-    let all: Vec<[f64; 2]> = points.collect();
-    let extremes = |part: &[[f64; 2]]| {
-        let low = part.iter().copied().reduce(|a, b| if b[1] < a[1] { b } else { a });
-        let high = part.iter().copied().reduce(|a, b| if b[1] > a[1] { b } else { a });
-        let mut pair: Vec<[f64; 2]> = low.into_iter().chain(high).collect();
-        pair.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        pair
-    };
-    all.chunks(stretch).flat_map(extremes).collect()
-}
 
 /// Every recording over time and its spectrum below, with the fitted decays over both.
 pub(super) fn draw(recordings: &[Recording]) -> String {
@@ -55,33 +40,28 @@ pub(super) fn draw(recordings: &[Recording]) -> String {
     plot.draw()
 }
 
-fn over_time(recording: &Recording) -> Diagram {
+fn over_time(recording: &Recording) -> View<Points> {
     let Recording { name, samples, rate_hz, found } = recording;
     let at = |(i, x): (usize, &f64)| [i as f64 / rate_hz, *x];
-    let mut lines =
-        vec![Line { series: Some(0), points: thinned(samples.iter().enumerate().map(at)) }];
+    let mut lines = vec![Line::series(0, thinned(samples.iter().enumerate().map(at), MOST_POINTS))];
     for decay in &found.decays {
         let at = |(i, x): (usize, &f64)| {
             let middle = 0.5 * (decay.stride as f64 - 1.0);
             [(decay.samples.start as f64 + (i * decay.stride) as f64 + middle) / rate_hz, *x]
         };
-        lines.push(Line {
-            series: Some(1),
-            points: thinned(decay.curve.iter().enumerate().map(at)),
-        });
+        lines.push(Line::series(1, thinned(decay.curve.iter().enumerate().map(at), MOST_POINTS)));
     }
     let end = samples.len() as f64 / rate_hz;
-    Diagram {
+    View {
         title: name.clone(),
-        x: Scale::linear("s", (0.0, end)),
-        y: Scale::linear("recorded", around(samples.iter().copied(), 1e-9)),
-        equal: false,
+        x: Scale::linear("time in s", (0.0, end)),
+        y: Scale::linear("recorded value", around(samples.iter().copied(), 1e-9)),
         lines,
-        levels: Vec::new(),
+        ..View::default()
     }
 }
 
-fn spectrum(recording: &Recording) -> Diagram {
+fn spectrum(recording: &Recording) -> View<Points> {
     let Recording { samples, rate_hz, found, .. } = recording;
     let range = found.decays.first().map_or(0..samples.len(), |d| d.samples.clone());
     let range = range.start..range.end.min(range.start + crate::spectrum::MOST_SAMPLES);
@@ -91,21 +71,23 @@ fn spectrum(recording: &Recording) -> Diagram {
     let of = |x: &[f64], step_s: f64| -> Vec<[f64; 2]> {
         AmplitudeSpectrum::of(x, step_s).lines((0.0, top)).collect()
     };
-    let mut lines = vec![Line { series: Some(0), points: of(&samples[range], 1.0 / rate_hz) }];
+    let mut lines = vec![Line::series(0, of(&samples[range], 1.0 / rate_hz))];
     if let Some(decay) = found.decays.first() {
         let points = of(&decay.curve, decay.stride as f64 / rate_hz);
-        lines.push(Line { series: Some(1), points });
+        lines.push(Line::series(1, points));
     }
     let heights = lines.iter().flat_map(|l| &l.points).map(|p| p[1]);
-    Diagram {
+    View {
         title: "spectrum of the strongest decay".to_owned(),
-        x: Scale::linear("Hz", (0.0, top)),
-        y: Scale::linear("amplitude", (0.0, 1.05 * heights.fold(1e-12, f64::max))),
-        equal: false,
+        x: Scale::linear("frequency in Hz", (0.0, top)),
+        y: Scale::linear(
+            "amplitude of the recorded value",
+            (0.0, 1.05 * heights.fold(1e-12, f64::max)),
+        ),
         lines: lines
             .into_iter()
-            .map(|l| Line { points: thinned(l.points.into_iter()), ..l })
+            .map(|l| Line { points: thinned(l.points.into_iter(), MOST_POINTS), ..l })
             .collect(),
-        levels: Vec::new(),
+        ..View::default()
     }
 }

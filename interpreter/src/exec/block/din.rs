@@ -251,8 +251,8 @@ impl Decoder {
                     feed = value.map(|v| (v, *span));
                     continue;
                 }
-                "PSET" | "PRESET" | "SUPPRESS OFFSETS" | "ANG" => continue,
-                "AKIMA STARTVECTOR" | "AKIMA ENDVECTOR" => continue,
+                "PSET" | "PRESET" | "SUPPRESS OFFSETS" | "ANG" | "AKIMA STARTVECTOR"
+                | "AKIMA ENDVECTOR" => continue,
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,

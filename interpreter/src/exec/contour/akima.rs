@@ -136,8 +136,8 @@ impl Run {
     /// Slope of a chord counted from the first segment that waits; beyond the ends it is extrapolated.
     fn slope(&self, chord: isize) -> AxisVec {
         let before = self.slopes.len() - self.waiting.len();
-        let index = chord + before as isize;
-        let last = self.slopes.len() as isize - 1;
+        let index = chord + before.cast_signed();
+        let last = self.slopes.len().cast_signed() - 1;
         let beyond = |edge: usize, next: usize, steps: f64| {
             let (edge, next) = (&self.slopes[edge], &self.slopes[next]);
             edge.iter().zip(next.iter()).map(|(e, n)| e + (e - n) * steps).collect()
@@ -148,9 +148,9 @@ impl Run {
         if index < 0 {
             beyond(0, 1, -index as f64)
         } else if index > last {
-            beyond(last as usize, last as usize - 1, (index - last) as f64)
+            beyond(last.cast_unsigned(), last.cast_unsigned() - 1, (index - last) as f64)
         } else {
-            self.slopes[index as usize].clone()
+            self.slopes[index.cast_unsigned()].clone()
         }
     }
 
@@ -255,7 +255,7 @@ impl Akima {
         &mut self,
         motion: Box<Motion>,
         before: Option<&Motion>,
-        out: &mut Vec<Box<Motion>>,
+        out: &mut Vec<Motion>,
     ) -> Outcome<()> {
         let (_, slope) = chord(&motion);
         let run = self.run.get_or_insert_with(|| {
@@ -274,17 +274,13 @@ impl Akima {
         run.waiting.push_back(motion);
         run.slopes.push_back(slope);
         while run.waiting.len() > AHEAD {
-            out.extend(run.complete(Given::Nothing).transpose()?);
+            out.extend(run.complete(Given::Nothing).transpose()?.map(|motion| *motion));
         }
         Ok(())
     }
 
     /// The spline ends; `behind`: the motion that follows it without a rest.
-    pub(super) fn finish(
-        &mut self,
-        behind: Option<&Motion>,
-        out: &mut Vec<Box<Motion>>,
-    ) -> Outcome<()> {
+    pub(super) fn finish(&mut self, behind: Option<&Motion>, out: &mut Vec<Motion>) -> Outcome<()> {
         let Some(mut run) = self.run.take() else { return Ok(()) };
         let neighbour = behind.map(|behind| direction(&behind.block.path, false));
         let is_arc = behind.is_some_and(|b| !b.block.path.is_straight());
@@ -299,7 +295,7 @@ impl Akima {
             } else {
                 Given::Nothing
             };
-            out.extend(run.complete(given).transpose()?);
+            out.extend(run.complete(given).transpose()?.map(|motion| *motion));
         }
         Ok(())
     }

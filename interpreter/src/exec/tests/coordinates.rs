@@ -8,6 +8,8 @@ use kontur_motion::block::Feed;
 /// are not.
 #[test]
 fn diameters() {
+    const ABSOLUTE: &str = "X.kenngr.durchm_prog_abs=1";
+    const RELATIVE: &str = "X.kenngr.durchm_prog_rel=1";
     let ends = |settings: &[&str], text: &str| {
         let mut all = vec!["X.kenngr.achs_mode=65"];
         all.extend(settings);
@@ -16,8 +18,6 @@ fn diameters() {
         let run = super::run_with(sources, super::machine(&all), super::Options::default());
         (run.ids(), run.ends().into_iter().map(|e| [e[0], e[2]]).collect::<Vec<_>>())
     };
-    const ABSOLUTE: &str = "X.kenngr.durchm_prog_abs=1";
-    const RELATIVE: &str = "X.kenngr.durchm_prog_rel=1";
     let text = "X10\nG51\nX10 Z5\nX20\nG91 X4\nG90 G02 X40 Z11 R6\nG52 G01\nX40\nG92 X1\nG51 X40";
     let (ids, found) = ends(&[ABSOLUTE], text);
     assert_eq!(ids, [""; 0]);

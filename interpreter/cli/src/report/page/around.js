@@ -1,8 +1,8 @@
 // ---- what stands around the plots
-key(byId("legend"), "programmed", "var(--programmed)", "programmed", [], 5);
+key(byId("legend"), "programmed", programmedLine.style.colour, "programmed", [], 5);
 groups.forEach(g => key(byId("legend"), g.name, g.colour, g, g.dash));
 if (groups.length > 1) key(byId("legend"), "set", "var(--ink)", "set");
-key(byId("legend"), "actual", "var(--ink)", "act", [4, 3], 1);
+key(byId("legend"), "actual", CHART.actual.colour, "act", CHART.actual.dash, CHART.actual.width);
 const scaleLegend = make("div", undefined, "note");
 byId("legend").append(scaleLegend);
 // one of several: buttons of which one is on
@@ -31,7 +31,7 @@ if (most === 3) {
     view.plane = i;
     view.turn = [...ISOMETRIC];
     byId("how").textContent = i === SPACE ? "drag turns, with Shift or two fingers it moves" : HOW;
-    showAll();
+    frames.forEach(showAll);
   });
 }
 choice(byId("paints"), [["run", groups.length > 1 && one ? "by pass" : "by run"], ["speed", "by speed"], ["limit", "by limit"]], "run", what => {
@@ -46,7 +46,7 @@ choice(byId("paints"), [["run", groups.length > 1 && one ? "by pass" : "by run"]
     LIMITS.forEach((name, i) => {
       if (!used.has(name)) return;
       const k = make("span", undefined, "key");
-      k.append(swatchOf(colour(i), DASHES[i], 2.4), name);
+      k.append(swatchOf(colour(i), CHART.dashes[i], 2.4), name);
       scaleLegend.append(k);
     });
   }
@@ -79,19 +79,25 @@ if (widest > 1) byId("legend").append(make("div",
 
 // what a canvas shows, for those who do not see it
 function describe() {
+  byId("close").setAttribute("aria-label", worst ? `The contour within ${(3 * worst[0]).toPrecision(2)} mm of its largest error of ${worst[0].toFixed(5)} mm` : "");
   contour.setAttribute("aria-label", `Contour of ${runs.map(r => r.summary.program).join(", ")}. ` + runs.map(({ summary: s }) =>
     `${s.duration_s.toFixed(3)} s, ${s.path_length_mm.toFixed(3)} mm` + (s.max_contour_error ? `, contour error at most ${s.max_contour_error.mm.toFixed(5)} mm` : "")).join("; "));
-  for (const { canvas, title, lines } of plots) canvas.setAttribute("aria-label", `${title} over time. ` + lines.map(({ name, c }) => {
-    const low = c.low.reduce((m, v) => Math.min(m, v), Infinity), high = (c.high || c.low).reduce((m, v) => Math.max(m, v), -Infinity);
-    return `${name} ${low.toPrecision(5)} to ${high.toPrecision(5)} ${c.unit}`;
+  for (const { canvas, title, lines, shown } of plots) canvas.setAttribute("aria-label", `${title}: ${shown.y.label} over ${shown.x.label}. ` + lines.filter(l => l.c || l.points).map(({ name, c, points }) => {
+    const low = (c ? c.low : points.map(p => p[1])).reduce((m, v) => Math.min(m, v), Infinity);
+    const high = (c ? c.high || c.low : points.map(p => p[1])).reduce((m, v) => Math.max(m, v), -Infinity);
+    return `${name} ${low.toPrecision(5)} to ${high.toPrecision(5)}`;
   }).join("; "));
 }
-function draw() { drawContour(); plots.forEach(drawPlot); followProgram(); }
-function redraw() { values.clear(); if (view.whole) showAll(); draw(); }
+function drawAll() { frames.forEach(drawContour); plots.forEach(drawPlot); followProgram(); }
+// once per picture of the screen, however many events there are
+let waiting = null;
+function draw() { if (waiting === null) waiting = requestAnimationFrame(() => { waiting = null; drawAll(); }); }
+function fit() { frames.filter(f => f.whole).forEach(showAll); }
+function redraw() { values.clear(); fit(); drawAll(); }
 describe();
-showAll();
-draw();
-window.addEventListener("resize", () => { if (view.whole) showAll(); draw(); });
+frames.forEach(showAll);
+drawAll();
+window.addEventListener("resize", () => { fit(); draw(); });
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 // paper is white
 window.addEventListener("beforeprint", () => { document.documentElement.dataset.theme = "light"; view.at = null; redraw(); });

@@ -1,15 +1,23 @@
 // ---- contour
-const contour = byId("contour");
-const MARGIN = [56, 8, 10, 22];
-const contourBox = () => [MARGIN[0], MARGIN[1], contour.clientWidth - MARGIN[0] - MARGIN[2], contour.clientHeight - MARGIN[1] - MARGIN[3]];
-function toScreen(x, y) {
-  const [x0, y0, w, h] = contourBox();
-  return [x0 + w / 2 + (x - view.middle[0]) * view.scale, y0 + h / 2 - (y - view.middle[1]) * view.scale];
+const contour = byId("contour"), programmedLine = contourLines("programmed")[0];
+const MARGIN = [68, 8, 10, 36];
+// two windows on it: all of it, and where its error is largest; whole: back to that whenever the size of the canvas changes
+const frames = [contour, byId("close")].map(canvas => ({ canvas, middle: [0, 0], scale: 1, whole: true }));
+const [wide, close] = frames;
+const contourBox = f => [MARGIN[0], MARGIN[1], f.canvas.clientWidth - MARGIN[0] - MARGIN[2], f.canvas.clientHeight - MARGIN[1] - MARGIN[3]];
+// the size of a canvas is asked for once, not for every point
+function screenOf(f) {
+  const [x0, y0, w, h] = contourBox(f), { middle: [mx, my], scale } = f;
+  return (x, y) => [x0 + w / 2 + (x - mx) * scale, y0 + h / 2 - (y - my) * scale];
 }
-function toData(px, py) {
-  const [x0, y0, w, h] = contourBox();
-  return [view.middle[0] + (px - x0 - w / 2) / view.scale, view.middle[1] - (py - y0 - h / 2) / view.scale];
+const toScreen = (f, x, y) => screenOf(f)(x, y);
+function toData(f, px, py) {
+  const [x0, y0, w, h] = contourBox(f);
+  return [f.middle[0] + (px - x0 - w / 2) / f.scale, f.middle[1] - (py - y0 - h / 2) / f.scale];
 }
+// the largest contour error of all runs: how much, and where
+const worst = runs.map(r => r.worst).filter(w => w && w[0] > VISIBLE).sort((a, b) => b[0] - a[0])[0] || null;
+byId("close-box").hidden = worst === null;
 const axesOf = r => PLANES[view.plane].map(i => Math.min(i, r.plane.length - 1));
 // a point in space as it is seen: turned about Z, then tipped
 function seen(x, y, z) {
@@ -35,7 +43,7 @@ function points(r, name) {
   }
   return flatViews.get(key);
 }
-function showAll() {
+function showAll(f) {
   const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
   for (const r of runs) for (const name of ["ipo", "set"]) (points(r, name) || []).forEach((list, i) => {
     for (const v of list) {
@@ -43,22 +51,33 @@ function showAll() {
       if (v > high[i]) high[i] = v;
     }
   });
-  const [, , w, h] = contourBox();
-  view.middle = low.map((l, i) => isFinite(l) ? (l + high[i]) / 2 : 0);
-  const span = low.map((l, i) => Math.max(high[i] - l, 1e-3));
-  view.scale = 0.9 * Math.min(w / span[0], h / span[1]);
-  if (!isFinite(view.scale) || view.scale <= 0) view.scale = 1;
-  view.whole = true;
-}
-function trail(c, [xs, ys], use) {
-  c.beginPath();
-  let down = false;
-  for (let i = 0; i < xs.length; i++) {
-    if (use && !use(i)) { down = false; continue; }
-    const [x, y] = toScreen(xs[i], ys[i]);
-    if (down) c.lineTo(x, y); else c.moveTo(x, y);
-    down = true;
+  const [, , w, h] = contourBox(f), span = low.map((l, i) => Math.max(high[i] - l, 1e-3));
+  f.middle = low.map((l, i) => isFinite(l) ? (l + high[i]) / 2 : 0);
+  f.scale = 0.9 * Math.min(w / span[0], h / span[1]);
+  if (f === close && worst) {
+    const at = worst[1];
+    f.middle = view.plane === SPACE ? seen(...at) : axesOf({ plane: at }).map(i => at[i]);
+    f.scale = Math.min(w, h) / 2 / Math.min(3 * worst[0], 0.2 * Math.max(...span));
   }
+  if (!isFinite(f.scale) || f.scale <= 0) f.scale = 1;
+  f.whole = true;
+}
+// what moves less than half a pixel and what lies outside is left out, as in a picture
+function trail(f, c, [xs, ys], use) {
+  const [x0, y0, w, h] = contourBox(f), [x1, y1] = [x0 + w, y0 + h], onScreen = screenOf(f);
+  let last = null, pen = null;
+  c.beginPath();
+  for (let i = 0; i < xs.length; i++) {
+    if (use && !use(i)) { if (pen) c.lineTo(...last); last = pen = null; continue; }
+    const [x, y] = onScreen(xs[i], ys[i]);
+    const outside = last && (Math.max(x, last[0]) < x0 || Math.min(x, last[0]) > x1 || Math.max(y, last[1]) < y0 || Math.min(y, last[1]) > y1);
+    if (last && !outside) {
+      if (!pen) c.moveTo(...last);
+      if (!pen || Math.abs(x - pen[0]) > 0.5 || Math.abs(y - pen[1]) > 0.5) { c.lineTo(x, y); pen = [x, y]; }
+    } else if (pen) { c.lineTo(...last); pen = null; }
+    last = [x, y];
+  }
+  if (pen) c.lineTo(...last);
   c.stroke();
 }
 // the set path in the colours of what is asked for: the speed, or what limits it
@@ -71,16 +90,17 @@ function paintAt(r, i) {
   if (view.paint === "limit") return Math.max(0, LIMITS.indexOf(r.limit[bucket]));
   return Math.min(RAMP.length - 1, Math.floor(valueOf(r.speed, bucket) / fastest * RAMP.length));
 }
-function painted(c, g, [xs, ys]) {
+function painted(f, c, g, [xs, ys]) {
   let last = null, from = null;
+  const onScreen = screenOf(f);
   for (let i = 0; i < xs.length; i++) {
     if (g.pass !== null && g.r.pass[i] !== g.pass) { if (last !== null) c.stroke(); last = from = null; continue; }
-    const [x, y] = toScreen(xs[i], ys[i]), now = paintAt(g.r, i);
+    const [x, y] = onScreen(xs[i], ys[i]), now = paintAt(g.r, i);
     if (now !== last) {
       if (last !== null) c.stroke();
       c.beginPath();
       c.strokeStyle = view.paint === "limit" ? paint(colour(now)) : RAMP[now];
-      c.setLineDash(view.paint === "limit" ? DASHES[now] : []);
+      c.setLineDash(view.paint === "limit" ? CHART.dashes[now] : []);
       c.moveTo(...(from || [x, y]));
       last = now;
     }
@@ -90,7 +110,7 @@ function painted(c, g, [xs, ys]) {
   if (last !== null) c.stroke();
 }
 // in space there are no scales: three directions and a length
-function drawDirections(c, [x0, y0, , h], names) {
+function drawDirections(f, c, [x0, y0, , h], names) {
   const origin = [x0 + 34, y0 + h - 34];
   c.lineWidth = 1.5; c.textAlign = "center"; c.textBaseline = "middle";
   [[1, 0, 0], [0, 1, 0], [0, 0, 1]].forEach((unit, i) => {
@@ -100,20 +120,21 @@ function drawDirections(c, [x0, y0, , h], names) {
     c.beginPath(); c.moveTo(...origin); c.lineTo(origin[0] + 24 * u, origin[1] - 24 * v); c.stroke();
     c.fillText(names[i], origin[0] + 33 * u, origin[1] - 33 * v);
   });
-  const length = marks(0, 140 / view.scale, 2)[0][1] || 1, from = x0 + 84, at = y0 + h - 14;
-  c.beginPath(); c.moveTo(from, at - 4); c.lineTo(from, at); c.lineTo(from + length * view.scale, at); c.lineTo(from + length * view.scale, at - 4); c.stroke();
+  const length = (ticks(0, 140 / f.scale, 2)[1] || [1])[0], from = x0 + 84, at = y0 + h - 14;
+  c.beginPath(); c.moveTo(from, at - 4); c.lineTo(from, at); c.lineTo(from + length * f.scale, at); c.lineTo(from + length * f.scale, at - 4); c.stroke();
   c.textAlign = "left";
-  c.fillText(`${+length.toPrecision(3)} mm`, from + length * view.scale + 6, at - 2);
+  c.fillText(`${+length.toPrecision(3)} mm`, from + length * f.scale + 6, at - 2);
 }
-function drawContour() {
-  const [c] = fitted(contour), box = contourBox(), [x0, y0, w, h] = box;
+function drawContour(f) {
+  if (f === close && worst === null) return;
+  const [c] = fitted(f.canvas), box = contourBox(f), [x0, y0, w, h] = box;
   const names = runs.reduce((most, r) => r.plane.length > most.length ? r.plane : most, []);
   if (view.plane < SPACE) {
-    const low = toData(x0, y0 + h), high = toData(x0 + w, y0), [a, b] = PLANES[view.plane];
-    grid(c, box, [low[0], high[0]], [low[1], high[1]], `${names[a] || ""} mm`, `${names[b] || ""} mm`);
+    const low = toData(f, x0, y0 + h), high = toData(f, x0 + w, y0), [a, b] = PLANES[view.plane];
+    grid(c, box, [low[0], high[0]], [low[1], high[1]], `${names[a] || "-"} in mm`, `${names[b] || "-"} in mm`);
   } else {
     c.strokeStyle = paint("var(--frame)"); c.strokeRect(...box);
-    drawDirections(c, box, names);
+    drawDirections(f, c, box, names);
   }
   c.save();
   c.beginPath(); c.rect(...box); c.clip();
@@ -121,26 +142,31 @@ function drawContour() {
   const own = (g, i) => g.pass === null || g.r.pass[i] === g.pass;
   if (!view.hidden.has("programmed")) for (const r of runs) {
     const p = points(r, "programmed");
-    c.strokeStyle = paint("var(--programmed)"); c.lineWidth = 6;
-    if (p) trail(c, p);
+    c.strokeStyle = paint(programmedLine.style.colour); c.lineWidth = programmedLine.style.width;
+    if (p) trail(f, c, p);
   }
   if (view.line) for (const g of groups) {
     const p = points(g.r, "set");
     c.strokeStyle = paint("var(--mark)"); c.lineWidth = 11;
-    if (p && !view.hidden.has(g)) trail(c, p, i => own(g, i) && isChosen(g.r, g.r.file[g.r.bucketOf[i]], g.r.pline[i]));
+    if (p && !view.hidden.has(g)) trail(f, c, p, i => own(g, i) && isChosen(g.r, g.r.file[g.r.bucketOf[i]], g.r.pline[i]));
   }
   for (const name of ["act", "set"]) {
     if (view.hidden.has(name)) continue;
     for (const g of groups) {
       const p = points(g.r, name);
       if (view.hidden.has(g) || !p) continue;
-      c.lineWidth = name === "act" ? 0.9 : 1.7;
-      if (name === "set" && view.paint !== "run") { c.lineWidth = 2.4; painted(c, g, p); continue; }
+      c.lineWidth = name === "act" ? CHART.actual.width : g.width;
+      if (name === "set" && view.paint !== "run") { c.lineWidth = 2.4; painted(f, c, g, p); continue; }
       c.strokeStyle = paint(g.colour);
-      c.setLineDash(name === "act" ? [4, 3] : g.dash);
-      trail(c, p, g.pass === null ? null : i => own(g, i));
+      c.setLineDash(name === "act" ? CHART.actual.dash : g.dash);
+      trail(f, c, p, g.pass === null ? null : i => own(g, i));
     }
     c.setLineDash([]);
+  }
+  if (f === wide && worst && close.whole) {
+    const [, , cw, ch] = contourBox(close), half = [cw / 2, ch / 2].map(v => v / close.scale * f.scale), [x, y] = toScreen(f, ...close.middle);
+    c.strokeStyle = paint("var(--ink)"); c.lineWidth = 1;
+    c.strokeRect(x - half[0], y - half[1], 2 * half[0], 2 * half[1]);
   }
   if (view.at !== null) for (const g of groups) {
     if (view.hidden.has(g)) continue;
@@ -150,15 +176,16 @@ function drawContour() {
       if (view.hidden.has(name)) continue;
       const at = curves.map(curve => curve ? valueOf(curve, i) : 0), [a, b] = view.plane < SPACE ? axesOf(g.r).map(n => at[n]) : seen(...at);
       if (a === undefined || b === undefined) continue;
-      c.beginPath(); c.arc(...toScreen(a, b), 4, 0, 7); c.fillStyle = fill; c.fill();
+      c.beginPath(); c.arc(...toScreen(f, a, b), 4, 0, 7); c.fillStyle = fill; c.fill();
       c.strokeStyle = paint(g.colour); c.lineWidth = 1.5; c.stroke();
     }
   }
   c.restore();
 }
 // the moment at which the set path is nearest to a place of the view
-function momentAt(px, py) {
+function momentAt(f, px, py) {
   let best = 900, at = null;
+  const onScreen = screenOf(f);
   for (const g of groups) {
     const found = points(g.r, "set");
     if (view.hidden.has(g) || !found) continue;
@@ -167,7 +194,7 @@ function momentAt(px, py) {
     let before = null;
     for (let i = 0; i < xs.length; i++) {
       if (g.pass !== null && g.r.pass[i] !== g.pass) { before = null; continue; }
-      const [x, y] = toScreen(xs[i], ys[i]), k = g.r.pk[i];
+      const [x, y] = onScreen(xs[i], ys[i]), k = g.r.pk[i];
       const [x0, y0, k0] = before || [x, y, k], dx = x - x0, dy = y - y0, square = dx * dx + dy * dy;
       const part = square > 0 ? Math.min(1, Math.max(0, ((px - x0) * dx + (py - y0) * dy) / square)) : 1;
       const d = (x0 + part * dx - px) ** 2 + (y0 + part * dy - py) ** 2;

@@ -1,24 +1,12 @@
-// ---- curves over time
-const KINDS = [
-  ["speed", "Path speed", true], ["error", "Contour error", false], ["dev", "Deviation from the contour", true],
-  ["lag", "Lag", true], ["pos", "Position", false], ["vel", "Axis velocity", false], ["acc", "Axis acceleration", false],
-];
+// ---- curves over time and over frequency
 const plots = [];
 const baseName = name => name.replace(/ (set|actual|load)$/, "");
-const axisNames = [...new Set(runs.flatMap(r => r.curves.filter(c => c.kind !== "speed" && c.kind !== "error").map(c => baseName(c.name))))];
-// one run: an axis has a colour, what is actual is dashed; several: a run has a colour, an axis its dashes, what is actual is thin
-function styleOf(c, i) {
-  const axis = axisNames.indexOf(baseName(c.name)), actual = c.name.endsWith(" actual"), load = c.name.endsWith(" load");
-  if (!one) return { colour: colour(i), dash: axis < 0 ? [] : DASHES[axis % DASHES.length], width: actual ? 0.8 : load ? 0.5 : 1.8 };
-  return { colour: axis < 0 ? colour(0) : colour(1 + axis), dash: actual ? [5, 3] : load ? [2, 2] : [], width: 1.4 };
-}
-const flat = ({ low, high }) => [...low, ...(high || [])].every(v => Math.abs(v) < VISIBLE);
-for (const [kind, title, wanted] of KINDS) {
-  const lines = runs.flatMap((r, i) => r.curves.filter(c => c.kind === kind).map(c => ({
-    r, c, name: (one ? "" : r.summary.program + " ") + c.name, ...styleOf(c, i),
-  })));
-  if (!lines.length) continue;
-  const open = wanted && !(kind === "dev" && lines.every(l => flat(l.c)));
+for (const { kind, open, note, view: shown } of CHART.views) {
+  const lines = shown.lines.map(l => {
+    const of = l.points.curve || l.points.spring || l.points.given, r = runs[of.run];
+    return { r, c: l.points.curve && r.curves[of.curve], pass: of.pass === undefined ? null : of.pass, axis: l.points.spring && of.axis, points: of.points, name: l.name, ...l.style };
+  });
+  const overTime = kind !== "spectrum", title = shown.title;
   const card = make("div", undefined, "card"), bar = make("div", undefined, "bar"), canvas = make("canvas");
   const head = make("button", title, open ? "on" : "");
   head.setAttribute("aria-expanded", open);
@@ -28,7 +16,8 @@ for (const [kind, title, wanted] of KINDS) {
   lines.forEach(l => key(bar, l.name, l.colour, l, l.dash, l.width));
   card.append(bar, canvas);
   byId("plots").append(card);
-  const plot = { lines, canvas, open, kind, title };
+  if (note) card.append(make("div", note, "note"));
+  const plot = { lines, canvas, open, kind, title, shown, overTime, x: overTime ? null : [...shown.x.range], head, card };
   canvas.style.display = open ? "" : "none";
   head.onclick = () => {
     plot.open = !plot.open;
@@ -39,16 +28,18 @@ for (const [kind, title, wanted] of KINDS) {
   };
   plots.push(plot);
 }
-const plotBox = canvas => [64, 8, canvas.clientWidth - 72, canvas.clientHeight - 28];
-function timeOf(canvas, px) {
-  const [x0, , w] = plotBox(canvas);
-  return view.time[0] + (px - x0) / w * (view.time[1] - view.time[0]);
+const plotBox = canvas => [68, 8, canvas.clientWidth - 76, canvas.clientHeight - 42];
+const rangeOf = plot => plot.overTime ? view.time : plot.x;
+function setRange(plot, x) { if (plot.overTime) view.time = x; else plot.x = x; }
+function placeOf(plot, px) {
+  const [x0, , w] = plotBox(plot.canvas), [from, to] = rangeOf(plot);
+  return from + (px - x0) / w * (to - from);
 }
 // the window of an exact stop as a band from t1 on, and t1, t2 (inside the window), t3 (time limit)
 function drawStops(c, { lines, kind }, X, Y, y0, h) {
   c.font = "10px sans-serif"; c.textBaseline = "top"; c.textAlign = "left"; c.lineWidth = 1;
   for (const l of lines) for (const [axis, target, range, ...at] of l.r.stops) {
-    if (view.hidden.has(l) || (kind === "lag" ? l.c.name !== axis : l.c.name !== axis + " actual")) continue;
+    if (view.hidden.has(l) || l.c.name !== axis + (kind === "lag" ? "" : " actual")) continue;
     const [t1, t2, t3] = at.map(k => k === null ? null : X(seconds(l.r, k)));
     const middle = kind === "lag" ? 0 : target, high = Y(middle + range), last = Math.max(t1 + 1, t2 || 0, t3 || 0);
     c.fillStyle = paint(l.colour); c.globalAlpha = 0.15;
@@ -80,53 +71,105 @@ function drawChosen(c, X, y0, h) {
     }
   }
 }
+// the number of the program's line where there is room
+function drawLines(c, r, X, y0, h, last) {
+  let i = Math.max(0, bucketAt(r, view.time[0])), n = 0;
+  const starts = [], end = bucketAt(r, view.time[1]);
+  for (; i <= end; i++) if (!starts.length || r.line[i] !== starts[starts.length - 1][1]) starts.push([X(seconds(r, r.k[i])), r.line[i]]);
+  if (starts.length > CHART.most_stretches) return;
+  c.textAlign = "center"; c.textBaseline = "top"; c.font = "10px sans-serif";
+  for (const [x, line] of starts) {
+    const to = n + 1 < starts.length ? starts[n + 1][0] : last, text = String(line);
+    c.fillStyle = paint("var(--shade)");
+    if (n % 2 === 0) c.fillRect(x, y0, to - x, h);
+    c.fillStyle = paint("var(--faint)");
+    if (line > 0 && to - x > 7 * text.length + 4) c.fillText(text, (x + to) / 2, y0 + 2);
+    n++;
+  }
+}
+// a line between two ends of the range: what it holds of least and greatest values, and its points
+function* pointsOf(line, [from, to]) {
+  if (line.points || line.swing) {
+    for (const [x, y] of line.points || line.swing) yield [x, y, y];
+    return;
+  }
+  const { r, c, pass } = line, last = Math.min(r.k.length - 1, bucketAt(r, to) + 1);
+  for (let i = Math.max(0, bucketAt(r, from)); i <= last; i++)
+    yield pass !== null && r.passed[i] !== pass ? null : [seconds(r, r.k[i]), c.low[i], (c.high || c.low)[i]];
+}
+const inside = (points, [from, to]) => points && points.filter(([x], i) => (i + 1 >= points.length || points[i + 1][0] >= from) && (i === 0 || points[i - 1][0] <= to));
 // the axis at the right end of its curve: a second cue beside the colour
-function drawNames(c, shown, windows, Y, x) {
-  const ends = shown.map(({ c: curve, colour }, n) => ({ name: baseName(curve.name), colour, y: Y(valueOf(curve, windows[n][1])), skip: / (actual|load)$/.test(curve.name) }));
+function drawNames(c, shown, Y, x) {
+  const ends = shown.filter(l => l.last && !/ (actual|load)$/.test(l.name)).map(l => ({ name: baseName(l.name), colour: l.colour, y: Y(l.last[1]) }));
   let last = Infinity;
   c.textAlign = "right"; c.textBaseline = "bottom"; c.font = "bold 10px sans-serif";
-  for (const e of ends.filter(e => !e.skip).sort((a, b) => b.y - a.y)) {
+  for (const e of ends.sort((a, b) => b.y - a.y)) {
     last = Math.min(e.y, last - 11);
     c.fillStyle = paint(e.colour);
     c.fillText(e.name, x, last);
   }
 }
 function drawPlot(plot) {
-  const { lines, canvas, open, kind } = plot;
+  const { lines, canvas, open, kind, shown: what } = plot;
   if (!open) return;
-  const [c] = fitted(canvas), box = plotBox(canvas), [x0, y0, w, h] = box, [t0, t1] = view.time;
+  const [c] = fitted(canvas), box = plotBox(canvas), [x0, y0, w, h] = box, range = rangeOf(plot), [t0, t1] = range;
   const shown = lines.filter(l => !view.hidden.has(l));
   let low = 0, high = 0;
-  const windows = shown.map(({ r, c: curve }) => {
-    const from = Math.max(0, bucketAt(r, t0)), to = Math.min(r.k.length - 1, bucketAt(r, t1) + 1);
-    for (let i = from; i <= to; i++) {
-      low = Math.min(low, curve.low[i]);
-      high = Math.max(high, (curve.high || curve.low)[i]);
+  for (const line of shown) {
+    if (line.axis !== undefined) line.swing = inside(swing(line), range);
+    for (const p of pointsOf(line, range)) if (p) {
+      low = Math.min(low, p[1]);
+      high = Math.max(high, p[2]);
+      line.last = p;
     }
-    return [from, to];
-  });
-  const air = Math.max((high - low) * 0.06, 1e-6), y = [low < 0 ? low - air : low, high + air];
-  grid(c, box, view.time, y, "s", lines[0].c.unit);
+  }
+  const air = Math.max((high - low) * 0.1, 1e-6), y = [low < 0 ? low - air : low, high + air];
+  const X = t => x0 + (t - t0) / (t1 - t0) * w, Y = v => y0 + h - (v - y[0]) / (y[1] - y[0]) * h;
   c.save();
   c.beginPath(); c.rect(...box); c.clip();
-  const X = t => x0 + (t - t0) / (t1 - t0) * w, Y = v => y0 + h - (v - y[0]) / (y[1] - y[0]) * h;
-  drawChosen(c, X, y0, h);
-  shown.forEach(({ r, c: curve, colour, dash, width }, n) => {
-    c.strokeStyle = paint(colour); c.lineWidth = width; c.setLineDash(dash); c.lineJoin = "round";
+  if (one && (kind === "speed" || kind === "dev" || kind === "error")) drawLines(c, runs[0], X, y0, h, x0 + w);
+  c.restore();
+  grid(c, box, range, y, what.x.label, what.y.label);
+  c.save();
+  c.beginPath(); c.rect(...box); c.clip();
+  if (plot.overTime) drawChosen(c, X, y0, h);
+  for (const line of shown) {
+    c.strokeStyle = paint(line.colour); c.lineWidth = line.width; c.setLineDash(line.dash); c.lineJoin = "round";
     c.beginPath();
-    const [from, to] = windows[n];
-    for (let i = from; i <= to; i++) {
-      const x = X(seconds(r, r.k[i]));
-      if (i === from) c.moveTo(x, Y(curve.low[i])); else c.lineTo(x, Y(curve.low[i]));
-      if (curve.high && curve.high[i] !== curve.low[i]) c.lineTo(x, Y(curve.high[i]));
+    // least and greatest value of a pixel
+    let down = false, pixel = null, least = 0, most = 0;
+    const put = () => {
+      if (pixel === null) return;
+      if (down) c.lineTo(pixel[1], Y(least)); else c.moveTo(pixel[1], Y(least));
+      if (most !== least) c.lineTo(pixel[1], Y(most));
+      down = true;
+    };
+    for (const p of pointsOf(line, range)) {
+      if (!p) { put(); down = false; pixel = null; continue; }
+      const x = X(p[0]), at = Math.floor(2 * x);
+      if (pixel !== null && pixel[0] === at) {
+        least = Math.min(least, p[1]);
+        most = Math.max(most, p[2]);
+      } else {
+        put();
+        pixel = [at, x];
+        [least, most] = [p[1], p[2]];
+      }
     }
+    put();
     c.stroke();
+  }
+  what.marks.forEach((m, i) => {
+    c.strokeStyle = c.fillStyle = paint("var(--faint)"); c.lineWidth = 1.2; c.setLineDash([5, 4]);
+    c.beginPath(); c.moveTo(X(m.at), y0); c.lineTo(X(m.at), y0 + h); c.stroke();
+    c.textAlign = "left"; c.textBaseline = "top"; c.font = "11px sans-serif";
+    c.fillText(m.name, X(m.at) + 4, y0 + 3 + 13 * (i % 4));
   });
   c.setLineDash([]);
-  if (one && kind !== "speed" && kind !== "error") drawNames(c, shown, windows, Y, x0 + w - 3);
+  if (one && kind !== "speed" && kind !== "error") drawNames(c, shown, Y, x0 + w - 3);
   // many stops at once would hide the curves
   if ((kind === "lag" || kind === "pos") && (t1 - t0) < 3) drawStops(c, plot, X, Y, y0, h);
-  if (view.at !== null) {
+  if (plot.overTime && view.at !== null) {
     c.strokeStyle = paint("var(--ink)"); c.lineWidth = 1;
     c.beginPath(); c.moveTo(X(view.at), y0); c.lineTo(X(view.at), y0 + h); c.stroke();
   }

@@ -1,20 +1,21 @@
 // ---- pointer, fingers and keys: what is under them, zoom, move
-const zoomContour = (factor, px, py) => {
-  const at = toData(px, py);
-  view.scale = Math.min(1e9, Math.max(1e-4, view.scale * factor));
-  const now = toData(px, py);
-  view.middle = view.middle.map((m, i) => m + at[i] - now[i]);
-  view.whole = false;
+const zoomContour = (f, factor, px, py) => {
+  const at = toData(f, px, py);
+  f.scale = Math.min(1e9, Math.max(1e-4, f.scale * factor));
+  const now = toData(f, px, py);
+  f.middle = f.middle.map((m, i) => m + at[i] - now[i]);
+  f.whole = false;
 };
-const moveContour = (dx, dy) => { view.whole = false; view.middle = [view.middle[0] - dx / view.scale, view.middle[1] + dy / view.scale]; };
-const turnContour = (dx, dy) => {
+const moveContour = (f, dx, dy) => { f.whole = false; f.middle = [f.middle[0] - dx / f.scale, f.middle[1] + dy / f.scale]; };
+const turnContour = (f, dx, dy) => {
   view.turn = [view.turn[0] + dx * 0.008, Math.min(Math.PI / 2, Math.max(-Math.PI / 2, view.turn[1] + dy * 0.008))];
 };
-const zoomTime = (factor, at) => { view.time = view.time.map(t => at + (t - at) / factor); };
-function moveTime(canvas, px) {
-  const [, , w] = plotBox(canvas), by = px / w * (view.time[1] - view.time[0]);
-  view.time = view.time.map(t => t - by);
+const zoomPlot = (plot, factor, at) => setRange(plot, rangeOf(plot).map(t => at + (t - at) / factor));
+function movePlot(plot, px) {
+  const [, , w] = plotBox(plot.canvas), [from, to] = rangeOf(plot), by = px / w * (to - from);
+  setRange(plot, [from - by, to - by]);
 }
+const wholePlot = plot => setRange(plot, plot.overTime ? [begin, end] : [...plot.shown.x.range]);
 function pointer(canvas, { at, zoom, move, all }) {
   const down = new Map();
   const spread = () => {
@@ -43,13 +44,13 @@ function pointer(canvas, { at, zoom, move, all }) {
   canvas.addEventListener("wheel", e => { e.preventDefault(); zoom(Math.exp(-e.deltaY * 0.0015), e.offsetX, e.offsetY); draw(); }, { passive: false });
   canvas.addEventListener("dblclick", () => { all(); draw(); });
 }
-pointer(contour, {
-  at: momentAt, zoom: zoomContour, all: showAll,
-  move: (dx, dy, aside) => (view.plane === SPACE && !aside ? turnContour : moveContour)(dx, dy),
+for (const f of frames) pointer(f.canvas, {
+  at: (px, py) => momentAt(f, px, py), zoom: (factor, px, py) => zoomContour(f, factor, px, py), all: () => showAll(f),
+  move: (dx, dy, aside) => (view.plane === SPACE && !aside ? turnContour : moveContour)(f, dx, dy),
 });
-for (const { canvas } of plots) pointer(canvas, {
-  at: px => timeOf(canvas, px), zoom: (factor, px) => zoomTime(factor, timeOf(canvas, px)), move: dx => moveTime(canvas, dx),
-  all: () => { view.time = [begin, end]; },
+for (const plot of plots) pointer(plot.canvas, {
+  at: px => plot.overTime ? placeOf(plot, px) : null, zoom: (factor, px) => zoomPlot(plot, factor, placeOf(plot, px)), move: dx => movePlot(plot, dx),
+  all: () => wholePlot(plot),
 });
 // one step of the pointer over time is a bucket of the first run; with Shift a hundredth of what is shown
 function step(sign, far) {
@@ -61,13 +62,14 @@ function step(sign, far) {
 }
 const PAN = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
 function keys(e) {
-  const isContour = e.currentTarget === contour, pan = PAN[e.key], grow = { "+": 1.25, "=": 1.25, "-": 0.8 }[e.key];
-  const middle = [contour.clientWidth / 2, contour.clientHeight / 2];
-  if (pan && isContour) (view.plane === SPACE && !e.shiftKey ? turnContour : moveContour)(...pan);
+  const f = frames.find(f => f.canvas === e.currentTarget), pan = PAN[e.key], grow = { "+": 1.25, "=": 1.25, "-": 0.8 }[e.key];
+  const middle = [e.currentTarget.clientWidth / 2, e.currentTarget.clientHeight / 2], plot = plots.find(p => p.canvas === e.currentTarget);
+  if (pan && f) (view.plane === SPACE && !e.shiftKey ? turnContour : moveContour)(f, ...pan);
+  else if (pan && pan[0] && !plot.overTime) movePlot(plot, pan[0]);
   else if (pan && pan[0]) step(-Math.sign(pan[0]), e.shiftKey);
-  else if (grow && isContour) zoomContour(grow, ...middle);
-  else if (grow) zoomTime(grow, view.at === null ? (view.time[0] + view.time[1]) / 2 : view.at);
-  else if (e.key === "Home") { if (isContour) showAll(); else view.time = [begin, end]; }
+  else if (grow && f) zoomContour(f, grow, ...middle);
+  else if (grow) zoomPlot(plot, grow, plot.overTime && view.at !== null ? view.at : (rangeOf(plot)[0] + rangeOf(plot)[1]) / 2);
+  else if (e.key === "Home") { if (f) showAll(f); else wholePlot(plot); }
   else if (e.key === "Escape") { view.at = null; if (view.line) choose(view.line.file, view.line.line); }
   else return;
   e.preventDefault();
@@ -75,7 +77,7 @@ function keys(e) {
   tip(box.left + 8, box.bottom);
   draw();
 }
-for (const canvas of [contour, ...plots.map(p => p.canvas)]) {
+for (const canvas of [...frames.map(f => f.canvas), ...plots.map(p => p.canvas)]) {
   canvas.addEventListener("keydown", keys);
   canvas.addEventListener("blur", () => { byId("tip").hidden = true; });
 }
@@ -95,7 +97,7 @@ function tip(x, y) {
       text.push(`${name}  set ${set}   act ${act} mm`);
     });
     for (const kind of ["speed", "error", "dev", "lag"]) {
-      const all = r.curves.filter(c => c.kind === kind);
+      const all = [...new Set(plots.filter(p => p.kind === kind).flatMap(p => p.lines.filter(l => l.r === r).map(l => l.c)))];
       const value = c => (c.high && Math.abs(c.high[i]) > Math.abs(c.low[i]) ? c.high : c.low)[i];
       const words = { speed: "", error: "", dev: "deviation ", lag: "lag " };
       if (all.length) text.push(all.map(c => `${words[kind]}${c.name} ${value(c).toFixed(kind === "speed" ? 3 : 5)} ${c.unit}`).join("   "));

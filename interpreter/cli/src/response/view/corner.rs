@@ -1,7 +1,9 @@
 //! The contour at a 90 degree corner passed without slowing down.
 
-use super::{Curve, Error, View, cycle_text, labels};
-use crate::report::plot::{Diagram, Line, Plot, Scale, around};
+use super::{Answer, Curve, Error, cycle_text, labels};
+use crate::chart::plot::Plot;
+use crate::chart::scale::{Scale, around};
+use crate::chart::view::{Line, Points, View};
 use crate::table::{Cell, Table};
 use kontur_filters::analysis::corner::CornerPath;
 use kontur_filters::stage::Stage;
@@ -10,7 +12,7 @@ use kontur_filters::time::CycleTime;
 /// More paths than this are not told apart; the picture draws the error over the order then.
 const MOST_PATHS: usize = 12;
 
-pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Result<View, Error> {
+pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Result<Answer, Error> {
     let speed_mm_s = feed_mm_min / 60.0;
     let mut table = Table::new(&[
         "curve",
@@ -49,13 +51,15 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
         panels.push(contour(&paths, worst));
     }
     if let Some(points) = over_order {
-        panels.push(Diagram {
+        panels.push(View {
             title: "Contour error over the filter order".to_owned(),
-            x: Scale::linear("order", around(points.iter().map(|p| p[0]), 2.0)),
-            y: Scale::linear("mm", around(points.iter().map(|p| p[1]).chain([0.0]), 1e-6)),
-            equal: false,
-            lines: vec![Line { series: Some(0), points }],
-            levels: Vec::new(),
+            x: Scale::linear("filter order", around(points.iter().map(|p| p[0]), 2.0)),
+            y: Scale::linear(
+                "contour error in mm",
+                around(points.iter().map(|p| p[1]).chain([0.0]), 1e-6),
+            ),
+            lines: vec![Line::series(0, points)],
+            ..View::default()
         });
     } else if !few {
         let text = format!(
@@ -78,26 +82,23 @@ pub(super) fn view(curves: &[Curve], feed_mm_min: f64, cycle: CycleTime) -> Resu
         row_height: 560.0,
         panels,
     };
-    Ok(View { table, plot })
+    Ok(Answer { table, plot })
 }
 
 /// The paths around the corner, some errors wide.
-fn contour(paths: &[CornerPath], worst: f64) -> Diagram {
+fn contour(paths: &[CornerPath], worst: f64) -> View<Points> {
     let reach = (6.0 * worst).max(1e-6);
     let programmed = vec![[-4.0 * reach, 0.0], [0.0, 0.0], [0.0, 4.0 * reach]];
-    let mut lines = vec![Line { series: None, points: programmed }];
+    let mut lines = vec![Line::reference(programmed)];
     lines.extend(
-        paths
-            .iter()
-            .enumerate()
-            .map(|(series, path)| Line { series: Some(series), points: path.points.clone() }),
+        paths.iter().enumerate().map(|(series, path)| Line::series(series, path.points.clone())),
     );
-    Diagram {
+    View {
         title: "Path around the corner".to_owned(),
         x: Scale::linear("x in mm", (-reach, 0.25 * reach)),
         y: Scale::linear("y in mm", (-0.25 * reach, reach)),
         equal: true,
         lines,
-        levels: Vec::new(),
+        ..View::default()
     }
 }

@@ -1,7 +1,9 @@
 //! Magnitude, phase and group delay over frequency.
 
-use super::{Curve, Error, ResponseArgs, View, cycle_text, labels, spread};
-use crate::report::plot::{Diagram, Line, Plot, Scale, around};
+use super::{Answer, Curve, Error, ResponseArgs, cycle_text, labels, spread};
+use crate::chart::plot::Plot;
+use crate::chart::scale::{Scale, around};
+use crate::chart::view::{Line, Points, View};
 use crate::table::{Cell, Table};
 use kontur_filters::response::Angle;
 use kontur_filters::time::CycleTime;
@@ -22,7 +24,11 @@ struct Sample {
     delay_ms: f64,
 }
 
-pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> Result<View, Error> {
+pub(super) fn view(
+    args: &ResponseArgs,
+    curves: &[Curve],
+    cycle: CycleTime,
+) -> Result<Answer, Error> {
     let nyquist_hz = 0.5 / cycle.seconds();
     let range = args.range.unwrap_or((0.5_f64.min(0.001 * nyquist_hz), nyquist_hz));
     if range.1 > nyquist_hz {
@@ -47,30 +53,37 @@ pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> R
         let values = [Sample::magnitude, Sample::phase, Sample::delay];
         for (lines, value) in lines.iter_mut().zip(values) {
             let points = samples.iter().map(|s| [s.f_hz, value(s)]).collect();
-            lines.push(Line { series: Some(series), points });
+            lines.push(Line::series(series, points));
         }
     }
     let [magnitude, phase, delay] = lines;
-    let all =
-        |lines: &[Line]| lines.iter().flat_map(|l| &l.points).map(|p| p[1]).collect::<Vec<_>>();
+    let all = |lines: &[Line<Points>]| {
+        lines.iter().flat_map(|l| &l.points).map(|p| p[1]).collect::<Vec<_>>()
+    };
     let high = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(0.0, f64::max);
     let low = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(-3.0, f64::min);
     // near a zero the group delay has no bound; the picture shows what the frequencies get that pass
     let passing = magnitude.iter().zip(&delay).flat_map(|(m, d)| m.points.iter().zip(&d.points));
     let shown = passing.filter(|(m, _)| m[1] > PASSING_DB).map(|(_, d)| d[1]).chain([0.0]);
     let shown = around(shown, 0.1);
-    let panel = |title: &str, unit: &'static str, range_y, lines, levels| Diagram {
+    let panel = |title: &str, label: &'static str, range_y, lines, levels| View {
         title: title.to_owned(),
         x: Scale::logarithmic("frequency in Hz", range),
-        y: Scale::linear(unit, range_y),
-        equal: false,
+        y: Scale::linear(label, range_y),
         lines,
         levels,
+        ..View::default()
     };
     let panels = vec![
-        panel("Magnitude", "dB", (low.max(FLOOR_DB) - 2.0, high + 3.0), magnitude, vec![-3.0103]),
-        panel("Phase", "deg", around(all(&phase).into_iter(), 10.0), phase, Vec::new()),
-        panel("Group delay", "ms", shown, delay, Vec::new()),
+        panel(
+            "Magnitude",
+            "magnitude in dB",
+            (low.max(FLOOR_DB) - 2.0, high + 3.0),
+            magnitude,
+            vec![-3.0103],
+        ),
+        panel("Phase", "phase in deg", around(all(&phase).into_iter(), 10.0), phase, Vec::new()),
+        panel("Group delay", "group delay in ms", shown, delay, Vec::new()),
     ];
     let plot = Plot {
         title: "Frequency response".to_owned(),
@@ -80,7 +93,7 @@ pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> R
         row_height: 270.0,
         panels,
     };
-    Ok(View { table, plot })
+    Ok(Answer { table, plot })
 }
 
 impl Sample {

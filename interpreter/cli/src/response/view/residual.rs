@@ -3,8 +3,10 @@
 //! The vendor's table normalises the set frequency by the real one, its worked example the real one by the set one:
 //! table and picture show both.
 
-use super::{Curve, Error, ResponseArgs, View, cycle_text, spread};
-use crate::report::plot::{Diagram, Line, Plot, Scale};
+use super::{Answer, Curve, Error, ResponseArgs, cycle_text, spread};
+use crate::chart::plot::Plot;
+use crate::chart::scale::Scale;
+use crate::chart::view::{Line, Points, View};
 use crate::table::{Cell, Table};
 use kontur_filters::response::{SensitivityBand, residual_vibration_ratio};
 use kontur_filters::time::CycleTime;
@@ -14,7 +16,11 @@ const STEPS: u32 = 600;
 /// The vendor's limit of the residual vibration.
 const LIMIT_RATIO: f64 = 0.05;
 
-pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> Result<View, Error> {
+pub(super) fn view(
+    args: &ResponseArgs,
+    curves: &[Curve],
+    cycle: CycleTime,
+) -> Result<Answer, Error> {
     if let Some(curve) = curves.iter().find(|curve| curve.has_filters) {
         return Err(Error::Usage(format!(
             "--residual: {} holds standard filters, which have no last impulse; \
@@ -44,7 +50,7 @@ pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> R
             if !(0.0..1.0).contains(&damping) {
                 return Err(Error::Usage(format!("--damping {damping}: 0 to below 1 expected")));
             }
-            let series = Some(legend.len());
+            let series = legend.len();
             let band = set_hz.and_then(|f| SensitivityBand::of(&impulses, f, damping, LIMIT_RATIO));
             legend.push(name(curve, damping, band));
             let mut lines = [Vec::new(), Vec::new(), Vec::new()];
@@ -65,21 +71,21 @@ pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> R
                 lines[1].push([100.0 * (over_set - 1.0), 100.0 * ratio]);
                 lines[2].push([f_hz, 100.0 * ratio]);
             }
-            let [a, b, c] = lines.map(|points| Line { series, points });
+            let [a, b, c] = lines.map(|points| Line::series(series, points));
             inverse.push(a);
             real.push(b);
             hertz.push(c);
         }
     }
-    let panel = |title: &str, x: Scale, top: f64, lines| Diagram {
+    let panel = |title: &str, x: Scale, top: f64, lines| View {
         title: title.to_owned(),
         x,
-        y: Scale::linear("%", (0.0, top)),
-        equal: false,
+        y: Scale::linear("residual in %", (0.0, top)),
         lines,
         levels: vec![100.0 * LIMIT_RATIO],
+        ..View::default()
     };
-    let ends = |lines: &[Line]| {
+    let ends = |lines: &[Line<Points>]| {
         let points = lines.iter().flat_map(|l| &l.points);
         points.fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p[0]), high.max(p[0])))
     };
@@ -88,13 +94,13 @@ pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> R
         vec![
             panel(
                 "Residual over f_set / f_real - 1",
-                Scale::linear("deviation in %", deviation),
+                Scale::linear("f_set / f_real - 1 in %", deviation),
                 20.0,
                 inverse,
             ),
             panel(
                 "Residual over f_real / f_set - 1",
-                Scale::linear("deviation in %", deviation),
+                Scale::linear("f_real / f_set - 1 in %", deviation),
                 20.0,
                 real,
             ),
@@ -111,7 +117,7 @@ pub(super) fn view(args: &ResponseArgs, curves: &[Curve], cycle: CycleTime) -> R
         row_height: if all_set { 330.0 } else { 480.0 },
         panels,
     };
-    Ok(View { table, plot })
+    Ok(Answer { table, plot })
 }
 
 /// Name with the permitted deviations for 5 %, by both conventions.

@@ -1,7 +1,9 @@
 //! The answer to a step from 0 to 1.
 
-use super::{Curve, View, cycle_text, labels};
-use crate::report::plot::{Diagram, Line, Plot, Scale, around};
+use super::{Answer, Curve, cycle_text, labels};
+use crate::chart::plot::Plot;
+use crate::chart::scale::{Scale, around};
+use crate::chart::view::{Line, View};
 use crate::table::{Cell, Table};
 use kontur_filters::response::step_response;
 use kontur_filters::time::CycleTime;
@@ -11,7 +13,7 @@ const MOST_CYCLES: usize = 20_000;
 /// Cycles before the step.
 const BEFORE: i64 = 10;
 
-pub(super) fn view(curves: &[Curve], cycle: CycleTime) -> View {
+pub(super) fn view(curves: &[Curve], cycle: CycleTime) -> Answer {
     let all: Vec<Vec<f64>> =
         curves.iter().map(|curve| step_response(&mut curve.shaping.clone(), MOST_CYCLES)).collect();
     let cycles = all.iter().map(|y| settled(y)).max().unwrap_or(0);
@@ -33,18 +35,18 @@ pub(super) fn view(curves: &[Curve], cycle: CycleTime) -> View {
             let held = points.last().map_or(output, |last: &[f64; 2]| last[1]);
             points.extend([[1000.0 * time(k), held], [1000.0 * time(k), output]]);
         }
-        lines.push(Line { series: Some(series), points });
+        lines.push(Line::series(series, points));
     }
     let values = lines.iter().flat_map(|l| &l.points).map(|p| p[1]);
     let y = around(values.chain([0.0, 1.0]), 0.1);
     let end = cycles as f64 * 1000.0 * cycle.seconds();
-    let panel = Diagram {
+    let panel = View {
         title: "Step from 0 to 1 at time 0".to_owned(),
         x: Scale::linear("time in ms", (-BEFORE as f64 * 1000.0 * cycle.seconds(), end)),
-        y: Scale::linear("", y),
-        equal: false,
+        y: Scale::linear("output, step = 1", y),
         lines,
         levels: vec![0.0, 1.0],
+        ..View::default()
     };
     let plot = Plot {
         title: "Step response".to_owned(),
@@ -54,7 +56,7 @@ pub(super) fn view(curves: &[Curve], cycle: CycleTime) -> View {
         row_height: 480.0,
         panels: vec![panel],
     };
-    View { table, plot }
+    Answer { table, plot }
 }
 
 /// Cycles until the response stays within 1 % of the step around its end.

@@ -1,47 +1,79 @@
 //! A small writer of SVG: enough for plots with axes, deterministic to the last digit.
 
+use super::scale::Scale;
+use super::style::{CARD, FAINT, FRAME, GRID, INK, Style, Tone};
 use std::fmt::Write as _;
-
-/// Colours that stay apart in print and for colour-blind eyes.
-pub(super) const COLOURS: [&str; 8] =
-    ["#1c6dd0", "#d9480f", "#2b8a3e", "#9c36b5", "#0c8599", "#b08900", "#e64980", "#495057"];
-/// Text and axes.
-pub(super) const INK: &str = "#343a40";
-/// Secondary text.
-pub(super) const FAINT: &str = "#868e96";
-/// Grid lines.
-const GRID: &str = "#e9ecef";
 
 /// A picture under way.
 #[derive(Debug)]
-pub(super) struct Svg {
+pub(crate) struct Svg {
     body: String,
     clips: u32,
 }
 
-/// How a line is drawn.
+/// How text is written.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stroke<'a> {
-    pub(super) colour: &'a str,
-    pub(super) width: f64,
-    /// `stroke-dasharray`, empty for a solid line.
-    pub(super) dash: &'a str,
+pub(crate) struct Font {
+    pub(crate) tone: &'static Tone,
+    pub(crate) size: f64,
+    pub(crate) bold: bool,
+    /// `start`, `middle` or `end`.
+    pub(crate) anchor: &'static str,
+    /// From below to above.
+    pub(crate) upward: bool,
+}
+
+impl Font {
+    /// A headline.
+    pub(crate) const HEAD: Self = Self::new(&INK, 20.0).bold();
+    /// A title above a panel.
+    pub(crate) const TITLE: Self = Self::new(&INK, 13.0).bold();
+    /// Names in a legend.
+    pub(crate) const NAME: Self = Self::new(&INK, 12.0);
+    /// What stands below a headline.
+    pub(crate) const FACTS: Self = Self::new(&FAINT, 13.0);
+    /// Beside a scale.
+    pub(crate) const SCALE: Self = Self::new(&FAINT, 11.0);
+
+    /// Text that begins at its place.
+    pub(crate) const fn new(tone: &'static Tone, size: f64) -> Self {
+        Self { tone, size, bold: false, anchor: "start", upward: false }
+    }
+
+    const fn bold(self) -> Self {
+        Self { bold: true, ..self }
+    }
+
+    /// Text around its place.
+    pub(crate) const fn middle(self) -> Self {
+        Self { anchor: "middle", ..self }
+    }
+
+    /// Text that ends at its place.
+    pub(crate) const fn end(self) -> Self {
+        Self { anchor: "end", ..self }
+    }
+
+    /// Text from below to above.
+    pub(crate) const fn upward(self) -> Self {
+        Self { upward: true, ..self }
+    }
 }
 
 /// A rectangle of the picture with data coordinates.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Panel {
-    pub(super) left: f64,
-    pub(super) top: f64,
-    pub(super) width: f64,
-    pub(super) height: f64,
-    pub(super) x: (f64, f64),
-    pub(super) y: (f64, f64),
+pub(crate) struct Panel {
+    pub(crate) left: f64,
+    pub(crate) top: f64,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) x: (f64, f64),
+    pub(crate) y: (f64, f64),
 }
 
 impl Panel {
     /// Widens the data range so that both directions have the same scale.
-    pub(super) fn equal_scale(mut self) -> Self {
+    pub(crate) fn equal_scale(mut self) -> Self {
         let per_px = ((self.x.1 - self.x.0) / self.width).max((self.y.1 - self.y.0) / self.height);
         let widen = |range: (f64, f64), size: f64| {
             let (middle, half) = (f64::midpoint(range.0, range.1), per_px * size / 2.0);
@@ -53,7 +85,7 @@ impl Panel {
     }
 
     /// Data to picture coordinates.
-    pub(super) fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [
             self.left + (x - self.x.0) / (self.x.1 - self.x.0) * self.width,
             self.top + (self.y.1 - y) / (self.y.1 - self.y.0) * self.height,
@@ -63,18 +95,18 @@ impl Panel {
 
 impl Svg {
     /// An empty picture.
-    pub(super) const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self { body: String::new(), clips: 0 }
     }
 
     /// The file.
-    pub(super) fn finish(self, width: f64, height: f64) -> String {
+    pub(crate) fn finish(self, width: f64, height: f64) -> String {
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
              width=\"{width}\" height=\"{height}\" \
              font-family=\"Inter, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif\" font-size=\"12\">\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}</svg>\n",
-            self.body
+             <rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n{}</svg>\n",
+            CARD.light, self.body
         )
     }
 
@@ -84,36 +116,44 @@ impl Svg {
         self.body.push('\n');
     }
 
-    /// Text; `anchor` is `start`, `middle` or `end`.
-    pub(super) fn text(&mut self, [x, y]: [f64; 2], anchor: &str, style: &str, text: &str) {
+    /// Text in a size and a colour.
+    pub(crate) fn text(&mut self, [x, y]: [f64; 2], font: Font, text: &str) {
         let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
         let (x, y) = (px(x), px(y));
+        let Font { tone, size, bold, anchor, upward } = font;
+        let weight = if bold { " font-weight=\"600\"" } else { "" };
+        let turn =
+            if upward { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
         self.push(format_args!(
-            "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" {style}>{text}</text>"
+            "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" fill=\"{}\" font-size=\"{size}\"{weight}{turn}>{text}</text>",
+            tone.light
         ));
     }
 
     /// A straight line.
-    pub(super) fn line(&mut self, a: [f64; 2], b: [f64; 2], stroke: Stroke<'_>) {
+    pub(crate) fn line(&mut self, a: [f64; 2], b: [f64; 2], style: Style) {
         let [x1, y1, x2, y2] = [a[0], a[1], b[0], b[1]].map(px);
-        let style = stroke.attributes();
+        let style = attributes(style);
         self.push(format_args!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {style}/>"));
     }
 
     /// A rectangle; `style` holds fill and stroke.
-    pub(super) fn rect(&mut self, [x, y]: [f64; 2], [w, h]: [f64; 2], style: &str) {
+    pub(crate) fn rect(&mut self, [x, y]: [f64; 2], [w, h]: [f64; 2], style: &str) {
         let [x, y, w, h] = [x, y, w, h].map(px);
         self.push(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" {style}/>"));
     }
 
     /// A filled circle.
-    pub(super) fn dot(&mut self, [x, y]: [f64; 2], radius: f64, colour: &str) {
+    pub(crate) fn dot(&mut self, [x, y]: [f64; 2], radius: f64, tone: &Tone) {
         let [x, y, r] = [x, y, radius].map(px);
-        self.push(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{colour}\"/>"));
+        self.push(format_args!(
+            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{}\"/>",
+            tone.light
+        ));
     }
 
     /// Opens a group that shows nothing outside the panel; [`Svg::end_group`] closes it.
-    pub(super) fn clip(&mut self, p: &Panel) {
+    pub(crate) fn clip(&mut self, p: &Panel) {
         self.clips += 1;
         let n = self.clips;
         let [x, y, w, h] = [p.left, p.top, p.width, p.height].map(px);
@@ -124,16 +164,41 @@ impl Svg {
     }
 
     /// Closes a group.
-    pub(super) fn end_group(&mut self) {
+    pub(crate) fn end_group(&mut self) {
         self.body.push_str("</g>\n");
     }
 
+    /// Grid, frame and what stands beside a panel.
+    pub(crate) fn axes(&mut self, p: &Panel, title: &str, x: &Scale, y: &Scale) {
+        let grid = Style::thin(&GRID);
+        let (bottom, right) = (p.top + p.height, p.left + p.width);
+        for (x, text) in x.places(p.x, p.width / 90.0) {
+            let at = p.at([x, p.y.0])[0];
+            self.line([at, p.top], [at, bottom], grid);
+            self.text([at, bottom + 15.0], Font::SCALE.middle(), &text);
+        }
+        for (y, text) in y.places(p.y, p.height / 35.0) {
+            let at = p.at([p.x.0, y])[1];
+            self.line([p.left, at], [right, at], grid);
+            self.text([p.left - 6.0, at + 4.0], Font::SCALE.end(), &text);
+        }
+        self.rect(
+            [p.left, p.top],
+            [p.width, p.height],
+            &format!("fill=\"none\" stroke=\"{}\"", FRAME.light),
+        );
+        self.text([p.left, p.top - 9.0], Font::TITLE, title);
+        self.text([f64::midpoint(p.left, right), bottom + 31.0], Font::SCALE.middle(), &x.label);
+        let middle = f64::midpoint(p.top, bottom);
+        self.text([p.left - 54.0, middle], Font::SCALE.middle().upward(), &y.label);
+    }
+
     /// A line through data points; what moves less than a third of a pixel and what lies outside is left out.
-    pub(super) fn curve(
+    pub(crate) fn curve(
         &mut self,
         panel: &Panel,
         points: impl Iterator<Item = [f64; 2]>,
-        stroke: Stroke<'_>,
+        style: Style,
     ) {
         let mut path = String::new();
         let mut last: Option<[f64; 2]> = None;
@@ -168,48 +233,20 @@ impl Svg {
             put('L', w);
         }
         if !path.is_empty() {
-            let style = stroke.attributes();
+            let style = attributes(style);
             self.push(format_args!("<path d=\"{path}\" fill=\"none\" {style}/>"));
         }
     }
-
-    /// Frame, grid and ticks of a panel, with a title above and units at the axes.
-    pub(super) fn axes(&mut self, p: &Panel, title: &str, x_label: &str, y_label: &str) {
-        let grid = Stroke { colour: GRID, width: 1.0, dash: "" };
-        let (bottom, right) = (p.top + p.height, p.left + p.width);
-        let (x_ticks, x_decimals) = ticks(p.x, p.width / 90.0);
-        for x in x_ticks {
-            let at = p.at([x, p.y.0])[0];
-            self.line([at, p.top], [at, bottom], grid);
-            let style = format!("fill=\"{FAINT}\" font-size=\"11\"");
-            self.text([at, bottom + 15.0], "middle", &style, &tick(x, x_decimals));
-        }
-        let (y_ticks, y_decimals) = ticks(p.y, p.height / 35.0);
-        for y in y_ticks {
-            let at = p.at([p.x.0, y])[1];
-            self.line([p.left, at], [right, at], grid);
-            let style = format!("fill=\"{FAINT}\" font-size=\"11\"");
-            self.text([p.left - 6.0, at + 4.0], "end", &style, &tick(y, y_decimals));
-        }
-        let frame = "fill=\"none\" stroke=\"#ced4da\"";
-        self.rect([p.left, p.top], [p.width, p.height], frame);
-        let heading = format!("fill=\"{INK}\" font-weight=\"600\" font-size=\"13\"");
-        self.text([p.left, p.top - 9.0], "start", &heading, title);
-        let unit = format!("fill=\"{FAINT}\" font-size=\"11\"");
-        self.text([right, bottom + 30.0], "end", &unit, x_label);
-        self.text([p.left - 6.0, p.top - 9.0], "end", &unit, y_label);
-    }
 }
 
-impl Stroke<'_> {
-    fn attributes(&self) -> String {
-        let dash = if self.dash.is_empty() {
-            String::new()
-        } else {
-            format!(" stroke-dasharray=\"{}\"", self.dash)
-        };
-        format!("stroke=\"{}\" stroke-width=\"{}\"{dash}", self.colour, self.width)
-    }
+fn attributes(style: Style) -> String {
+    let dash: Vec<String> = style.dash.iter().map(u8::to_string).collect();
+    let dash = if dash.is_empty() {
+        String::new()
+    } else {
+        format!(" stroke-dasharray=\"{}\"", dash.join(" "))
+    };
+    format!("stroke=\"{}\" stroke-width=\"{}\"{dash}", style.tone.light, style.width)
 }
 
 fn may_cross(panel: &Panel, a: [f64; 2], b: [f64; 2]) -> bool {
@@ -226,49 +263,9 @@ fn px(v: f64) -> f64 {
     rounded + 0.0
 }
 
-/// Round numbers inside a range, about `wanted` of them, and the decimals they need.
-pub(super) fn ticks(range: (f64, f64), wanted: f64) -> (Vec<f64>, usize) {
-    let span = range.1 - range.0;
-    if !(span > 0.0 && span.is_finite()) {
-        return (Vec::new(), 0);
-    }
-    let rough = span / wanted.max(2.0);
-    let power = libm::floor(libm::log10(rough));
-    let magnitude = libm::pow(10.0, power);
-    let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * magnitude >= rough).unwrap_or(10.0);
-    let step = factor * magnitude;
-    let finest = if factor >= 10.0 { power + 1.0 } else { power };
-    let decimals = (-finest).clamp(0.0, 12.0) as usize;
-    let first = libm::ceil(range.0 / step - 1e-9);
-    let values = (0..200).map(|i| (first + f64::from(i)) * step);
-    (values.take_while(|v| *v <= range.1 + 1e-9 * span).collect(), decimals)
-}
-
-fn tick(v: f64, decimals: usize) -> String {
-    let text = format!("{v:.decimals$}");
-    if text.trim_start_matches(['-', '0', '.']).is_empty() {
-        "0".to_owned()
-    } else {
-        text.replace('-', "−")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ticks_are_round_and_inside() {
-        let (t, decimals) = ticks((0.0, 1.0), 5.0);
-        assert_eq!((t.len(), decimals), (6, 1));
-        let (t, decimals) = ticks((-0.013, 0.021), 4.0);
-        assert_eq!(
-            t.iter().map(|&v| tick(v, decimals)).collect::<Vec<_>>(),
-            ["−0.01", "0", "0.01", "0.02"]
-        );
-        assert!(ticks((1.0, 1.0), 4.0).0.is_empty());
-        assert!(ticks((0.0, f64::NAN), 4.0).0.is_empty());
-    }
 
     #[test]
     fn equal_scale_keeps_the_middle() {
@@ -288,7 +285,7 @@ mod tests {
     #[test]
     fn text_is_escaped() {
         let mut svg = Svg::new();
-        svg.text([0.0, 0.0], "start", "", "<a&b>");
+        svg.text([0.0, 0.0], Font::NAME, "<a&b>");
         assert!(svg.finish(1.0, 1.0).contains("&lt;a&amp;b&gt;"));
     }
 }

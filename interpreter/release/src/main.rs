@@ -1,5 +1,5 @@
 //! SHA-256 of what programs give on the built-in machine, to compare bits between machines:
-//! `cargo run -p kontur-interpreter --example trace_hash [--signals NAMES] [--set KEY=VALUE]... PROGRAM...` prints a line per program.
+//! `cargo run -p kontur-release -- [--signals NAMES] [--set KEY=VALUE]... PROGRAM...` prints a line per program.
 //!
 //! The canonical form of columns is, for each of them, its name in UTF-8, a zero byte, and its values as little-endian f64.
 

@@ -1,0 +1,140 @@
+//! A mass on a spring and a damper whose foot follows a set position: what a machine that gives way makes of it.
+
+use crate::time::CycleTime;
+use std::f64::consts::TAU;
+
+/// The mass, described by the deflection `q` of its spring in mm: `q'' + 2 D w q' + w^2 q = -a`, with the acceleration `a` of the foot.
+///
+/// The acceleration of a cycle is constant over it, as that of a set position interpolated by the drive; the solution is exact then:
+/// behind `q = -a / w^2`, where the spring would rest, the free decaying vibration goes on.
+#[derive(Clone, Copy, Debug)]
+pub struct SpringMass {
+    /// Undamped natural frequency in 1/s.
+    w: f64,
+    damped_w: f64,
+    damping: f64,
+    /// `exp(-D w T)`, `sin` and `cos` of the damped angle of a cycle.
+    decay: f64,
+    sin: f64,
+    cos: f64,
+    /// Deflection in mm and its speed in mm/s.
+    q: f64,
+    v: f64,
+}
+
+impl SpringMass {
+    /// At rest. Undamped natural frequency in Hz, above 0; damping ratio from 0 to below 1. `None` for other numbers.
+    pub fn new(freq_hz: f64, damping: f64, cycle: CycleTime) -> Option<Self> {
+        if !(freq_hz > 0.0 && freq_hz.is_finite() && (0.0..1.0).contains(&damping)) {
+            return None;
+        }
+        let w = TAU * freq_hz;
+        let damped_w = w * ((1.0 - damping) * (1.0 + damping)).sqrt();
+        let (sin, cos) = libm::sincos(damped_w * cycle.seconds());
+        let decay = libm::exp(-damping * w * cycle.seconds());
+        Some(Self { w, damped_w, damping, decay, sin, cos, q: 0.0, v: 0.0 })
+    }
+
+    /// The deflection in mm behind a cycle in which the foot accelerates by `a` in mm/s2.
+    pub fn step(&mut self, a: f64) -> f64 {
+        let rest = -a / (self.w * self.w);
+        let (x, v, lean) = (self.q - rest, self.v, self.damping * self.w / self.damped_w);
+        self.q =
+            rest + self.decay * ((self.cos + lean * self.sin) * x + self.sin / self.damped_w * v);
+        self.v = self.decay
+            * ((self.cos - lean * self.sin) * v - self.w * self.w / self.damped_w * self.sin * x);
+        self.q
+    }
+
+    /// Amplitude in mm of the vibration that is left if the foot does not accelerate any more.
+    pub fn amplitude(&self) -> f64 {
+        libm::hypot(self.q, (self.v + self.damping * self.w * self.q) / self.damped_w)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::response::residual_vibration_ratio;
+    use crate::vib_guard::VibGuardSettings;
+
+    fn cycle() -> CycleTime {
+        CycleTime::from_us(1000).unwrap()
+    }
+
+    /// A constant acceleration for a time `t` leaves `2 a / w^2 |sin(w t / 2)|` on an undamped spring, nothing if `t` is a period.
+    #[test]
+    fn a_rectangle_of_acceleration_leaves_its_closed_form() {
+        for (freq_hz, cycles) in [(10.0, 100), (10.0, 37), (12.5, 40), (3.7, 250)] {
+            let mut spring = SpringMass::new(freq_hz, 0.0, cycle()).unwrap();
+            let most = (0..cycles).map(|_| spring.step(2000.0)).fold(0.0, |m: f64, q| m.max(-q));
+            let w = TAU * freq_hz;
+            let left = 2.0 * 2000.0 / (w * w) * libm::sin(0.5 * w * f64::from(cycles) * 1e-3).abs();
+            assert!((spring.amplitude() - left).abs() < 1e-9 * most.max(1.0), "{freq_hz} {cycles}");
+            // free, the amplitude stays
+            for _ in 0..500 {
+                spring.step(0.0);
+            }
+            assert!((spring.amplitude() - left).abs() < 1e-9);
+            if cycles == 100 {
+                // half a period: twice the deflection at rest
+                assert!((most - 2.0 * 2000.0 / (w * w)).abs() < 1e-6 * most, "{most}");
+            }
+        }
+    }
+
+    /// Against small steps of the differential equation (Runge and Kutta), with damping.
+    #[test]
+    fn follows_the_differential_equation() {
+        let (freq_hz, damping) = (23.0, 0.07);
+        let w = TAU * freq_hz;
+        let a = |k: u32| 3000.0 * libm::sin(f64::from(k) * 0.11) * f64::from(k % 7);
+        let mut spring = SpringMass::new(freq_hz, damping, cycle()).unwrap();
+        let (mut q, mut v) = (0.0, 0.0);
+        for k in 0..400 {
+            let slope = |q: f64, v: f64| (v, -a(k) - 2.0 * damping * w * v - w * w * q);
+            for _ in 0..50 {
+                let h = 1e-3 / 50.0;
+                let (a1, b1) = slope(q, v);
+                let (a2, b2) = slope(q + 0.5 * h * a1, v + 0.5 * h * b1);
+                let (a3, b3) = slope(q + 0.5 * h * a2, v + 0.5 * h * b2);
+                let (a4, b4) = slope(q + h * a3, v + h * b3);
+                q += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+                v += h / 6.0 * (b1 + 2.0 * b2 + 2.0 * b3 + b4);
+            }
+            assert!((spring.step(a(k)) - q).abs() < 1e-9, "{k}");
+        }
+    }
+
+    /// A jump of speed through a shaper leaves the share that its impulses promise; at the set frequency nothing.
+    #[test]
+    fn shapers_leave_what_their_impulses_promise() {
+        let settings = VibGuardSettings { mode: 2, freq_hz: 20.0, damping: 0.05 };
+        let impulses = settings.kernel(cycle()).unwrap().impulses(cycle());
+        let left = |pulses: &[(u64, f64)], freq_hz: f64| {
+            let mut spring = SpringMass::new(freq_hz, 0.05, cycle()).unwrap();
+            let last = pulses.iter().map(|p| p.0).max().unwrap();
+            for k in 0..=last {
+                let share: f64 = pulses.iter().filter(|p| p.0 == k).map(|p| p.1).sum();
+                spring.step(share * 1e5);
+            }
+            spring.amplitude()
+        };
+        let shaped: Vec<(u64, f64)> =
+            impulses.iter().map(|i| ((i.time_s * 1e3).round() as u64, i.amplitude)).collect();
+        for freq_hz in [14.0, 17.0, 20.0, 26.0] {
+            let ratio = left(&shaped, freq_hz) / left(&[(0, 1.0)], freq_hz);
+            let promised = residual_vibration_ratio(&impulses, freq_hz, 0.05);
+            assert!((ratio - promised).abs() < 1e-9, "{freq_hz}: {ratio} {promised}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_spring() {
+        for (freq_hz, damping) in
+            [(0.0, 0.1), (-1.0, 0.1), (f64::NAN, 0.1), (10.0, 1.0), (10.0, -0.1)]
+        {
+            assert!(SpringMass::new(freq_hz, damping, cycle()).is_none());
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! `-m` names a TwinCAT project: which files belong to it.
+
+use crate::files::Lists;
+use crate::request::OpenError;
+use kontur_interpreter::machine::project::Part;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use walkdir::WalkDir;
+
+/// Name of the start-up list of a folder of lists.
+const START_UP: &str = "hochlauf.lis";
+/// Folder beside a project with the parts that stand in files of their own.
+const CONFIGURATION: &str = "_Config";
+
+/// Where the lists of a machine are.
+pub(crate) enum Place {
+    /// A start-up list.
+    StartUp(PathBuf),
+    /// A project, and the files that hold it.
+    Project {
+        /// What messages call it.
+        name: PathBuf,
+        /// Its files.
+        paths: Vec<PathBuf>,
+    },
+}
+
+impl Place {
+    /// What `-m` names: a start-up list, a project, or a folder with one of them or with exported items.
+    ///
+    /// # Errors
+    /// A folder with several projects, or one that cannot be read.
+    pub(crate) fn of(named: &Path) -> Result<Self, OpenError> {
+        if !named.is_dir() {
+            return Ok(match extension(named).as_str() {
+                "tsproj" => Self::project(named.to_owned())?,
+                "xti" => Self::Project { name: named.to_owned(), paths: vec![named.to_owned()] },
+                _ => Self::StartUp(named.to_owned()),
+            });
+        }
+        let start_up = named.join(START_UP);
+        if start_up.exists() {
+            return Ok(Self::StartUp(start_up));
+        }
+        let mut projects = files(named, 1, "tsproj")?;
+        if projects.len() > 1 {
+            let names: Vec<String> =
+                projects.iter().map(|path| path.display().to_string()).collect();
+            let text = format!(
+                "{} has several projects, name one of them: {}",
+                named.display(),
+                names.join(", ")
+            );
+            return Err(OpenError::Usage(text));
+        }
+        if let Some(project) = projects.pop() {
+            return Self::project(project);
+        }
+        let paths = files(named, usize::MAX, "xti")?;
+        let name = named.join("*.xti");
+        Ok(if paths.is_empty() { Self::StartUp(start_up) } else { Self::Project { name, paths } })
+    }
+
+    /// A project with the files of its configuration, in the order of their names.
+    fn project(name: PathBuf) -> Result<Self, OpenError> {
+        let folder = name.parent().unwrap_or_else(|| Path::new("")).join(CONFIGURATION);
+        let parts = if folder.is_dir() { files(&folder, usize::MAX, "xti")? } else { Vec::new() };
+        Ok(Self::Project { paths: [name.clone()].into_iter().chain(parts).collect(), name })
+    }
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
+/// Files of a folder with an extension, sorted so that `Axis 2` comes before `Axis 10`.
+fn files(folder: &Path, depth: usize, wanted: &str) -> Result<Vec<PathBuf>, OpenError> {
+    let mut found = Vec::new();
+    for entry in WalkDir::new(folder).max_depth(depth) {
+        let entry = entry.map_err(|e| OpenError::Io(folder.to_owned(), e.into()))?;
+        if entry.file_type().is_file() && extension(entry.path()) == wanted {
+            found.push(entry.into_path());
+        }
+    }
+    found.sort_by_cached_key(|path| natural(&path.to_string_lossy()));
+    Ok(found)
+}
+
+/// A key that sorts by the value of numbers: they are written with as many digits as any number has.
+fn natural(text: &str) -> String {
+    let mut key = String::new();
+    let mut digits = String::new();
+    for c in text.chars().chain(['\0']) {
+        if c.is_ascii_digit() {
+            digits.push(c);
+            continue;
+        }
+        if !digits.is_empty() {
+            let _ = write!(key, "{digits:0>20}");
+            digits.clear();
+        }
+        key.push(c);
+    }
+    key
+}
+
+/// The texts of the files of a project, which count as read through `lists`.
+///
+/// # Errors
+/// A file that cannot be read, is too long or is no UTF-8.
+pub(crate) fn parts(paths: Vec<PathBuf>, lists: &Lists) -> Result<Vec<Part>, OpenError> {
+    let of = |path: PathBuf| {
+        let text = lists.project(&path).map_err(|e| OpenError::Io(path.clone(), e))?;
+        Ok(Part { name: path.display().to_string(), text })
+    };
+    paths.into_iter().map(of).collect()
+}

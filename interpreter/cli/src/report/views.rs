@@ -1,0 +1,293 @@
+//! What a report shows of its runs: the same views in the picture and in the page.
+
+use super::Drawn;
+use super::recording::{Kind, Point, Recording, programmed};
+use super::vibration;
+use crate::chart::scale::{Scale, label};
+use crate::chart::style::{DASHES, Style};
+use crate::chart::view::{Line, Points, View};
+use kontur_interpreter::summary::Summary;
+use serde::Serialize;
+use std::borrow::Cow;
+
+/// Deviations below this are rounding.
+pub(super) const VISIBLE_MM: f64 = 1e-7;
+/// Dashes of the actual position.
+const ACTUAL: &[u8] = &[4, 3];
+
+/// Which of the contours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Contour {
+    Programmed,
+    Set,
+    Act,
+}
+
+/// Where the points of a line come from.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Source {
+    /// A contour of a run, or of one pass of it.
+    Contour { what: Contour, run: usize, pass: Option<usize> },
+    /// A curve of a run over time.
+    Curve { run: usize, curve: usize, pass: Option<usize> },
+    /// The deflection of the spring-mass model of an axis.
+    Spring { run: usize, axis: usize },
+    /// The points themselves.
+    Given { run: usize, axis: usize, points: Points },
+}
+
+/// A view and how a page begins with it.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Shown {
+    pub(super) kind: &'static str,
+    pub(super) open: bool,
+    /// What stands below it.
+    pub(super) note: String,
+    pub(super) view: View<Source>,
+}
+
+/// What shares a colour: a pass of a single program, or one of several programs.
+#[derive(Clone, Debug)]
+pub(super) struct Group {
+    pub(super) run: usize,
+    pub(super) pass: Option<usize>,
+    pub(super) style: Style,
+    pub(super) label: String,
+}
+
+impl Group {
+    pub(super) fn draws(&self, point: &Point) -> bool {
+        self.pass.is_none_or(|pass| pass == point.pass)
+    }
+}
+
+/// The passes of one run, or the runs.
+pub(super) fn groups(runs: &[Drawn]) -> Vec<Group> {
+    let of_run = |s: &Summary| s.max_contour_error.as_ref().map_or(0.0, |e| e.mm);
+    let errors = runs.iter().any(|r| of_run(&r.summary) > VISIBLE_MM);
+    // nobody needs to read that there are none
+    let error = |before: &str, mm: f64| {
+        if errors { format!("{before}contour error at most {mm:.4} mm") } else { String::new() }
+    };
+    if let [one] = runs
+        && one.recording.passes.len() > 1
+    {
+        let of_pass = |(i, p): (usize, &super::recording::Pass)| {
+            let lines = format!("set, pass {}, lines {} to {}", i + 1, p.first_line, p.last_line);
+            let label = lines + &error(": ", p.error_mm);
+            Group { run: 0, pass: Some(i), style: Style::series(i), label }
+        };
+        return one.recording.passes.iter().enumerate().map(of_pass).collect();
+    }
+    let of_run = |(i, r): (usize, &Drawn)| {
+        let error = error(", ", of_run(&r.summary));
+        let name = if runs.len() > 1 { format!("{}, ", r.summary.program) } else { String::new() };
+        let label = format!("set, {name}{:.3} s{error}", r.summary.duration_s);
+        Group { run: i, pass: None, style: Style::series(i), label }
+    };
+    runs.iter().enumerate().map(of_run).collect()
+}
+
+/// The contour in a plane: programmed, actual and set.
+pub(super) fn contour(
+    runs: &[Drawn],
+    groups: &[Group],
+    title: &str,
+    [x, y]: [Scale; 2],
+) -> View<Source> {
+    let mut lines: Vec<Line<Source>> = (0..runs.len())
+        .map(|run| Line {
+            name: "programmed".to_owned(),
+            style: Style::programmed(),
+            points: Source::Contour { what: Contour::Programmed, run, pass: None },
+        })
+        .collect();
+    for what in [Contour::Act, Contour::Set] {
+        lines.extend(groups.iter().map(|g| Line {
+            name: g.label.clone(),
+            style: if what == Contour::Act { g.style.wide(1.0).dashed(ACTUAL) } else { g.style },
+            points: Source::Contour { what, run: g.run, pass: g.pass },
+        }));
+    }
+    View { title: title.to_owned(), x, y, equal: true, lines, ..View::default() }
+}
+
+/// The actual position in a legend.
+pub(super) fn actual() -> Style {
+    Style::thin(&crate::chart::style::INK).dashed(ACTUAL)
+}
+
+/// The views over time, each with all its lines, then the vibration.
+pub(super) fn over_time(runs: &[Drawn], groups: &[Group]) -> Vec<Shown> {
+    const KINDS: [(&str, &str, &str, &[Kind]); 7] = [
+        ("speed", "Path speed", "speed", &[Kind::Speed]),
+        ("error", "Contour error", "contour error", &[Kind::ContourError]),
+        ("dev", "Deviation from the contour by axis", "deviation", &[Kind::Deviation]),
+        ("lag", "Lag", "lag", &[Kind::Lag]),
+        ("pos", "Position", "position", &[Kind::Set, Kind::Actual, Kind::Load]),
+        ("vel", "Axis velocity", "velocity", &[Kind::Velocity]),
+        ("acc", "Axis acceleration", "acceleration", &[Kind::Acceleration]),
+    ];
+    let mut all = Vec::new();
+    for (kind, title, quantity, kinds) in KINDS {
+        let lines = if kind == "speed" { speeds(runs, groups) } else { curves(runs, kinds) };
+        if lines.is_empty() {
+            continue;
+        }
+        let unit = units(runs, kinds);
+        let range = range(runs, kinds);
+        let flat = range.0.abs().max(range.1.abs()) < VISIBLE_MM;
+        let view = View {
+            title: title.to_owned(),
+            x: Scale::linear("time in s", span(runs)),
+            y: Scale::linear(label(quantity, &unit), with_air(range)),
+            lines,
+            ..View::default()
+        };
+        let open = matches!(kind, "speed" | "lag") || (kind == "dev" && !flat);
+        all.push(Shown { kind, open, note: String::new(), view });
+    }
+    all.extend(vibration::views(runs));
+    all
+}
+
+/// From the first to the last cycle that is drawn, in s.
+pub(super) fn span(runs: &[Drawn]) -> (f64, f64) {
+    let times = runs
+        .iter()
+        .map(|r| &r.recording)
+        .filter_map(|r| Some((r.seconds(r.buckets.first()?.k), r.seconds(r.buckets.last()?.k))));
+    let (from, to) =
+        times.fold((f64::INFINITY, 0.0), |m: (f64, f64), t| (m.0.min(t.0), m.1.max(t.1)));
+    if from < to { (from, to) } else { (0.0, 1e-6) }
+}
+
+/// The path speed in the colours of the contour.
+fn speeds(runs: &[Drawn], groups: &[Group]) -> Vec<Line<Source>> {
+    let line = |g: &Group| {
+        let curve = runs[g.run].recording.curves.iter().position(|c| c.kind == Kind::Speed)?;
+        let name =
+            g.pass.map_or_else(|| name(runs, g.run, "path speed"), |p| format!("pass {}", p + 1));
+        Some(Line {
+            name,
+            style: g.style,
+            points: Source::Curve { run: g.run, curve, pass: g.pass },
+        })
+    };
+    groups.iter().filter_map(line).collect()
+}
+
+/// One run: an axis has a colour and dashes. Several: a run has a colour, an axis its dashes. What is actual is thin.
+fn curves(runs: &[Drawn], kinds: &[Kind]) -> Vec<Line<Source>> {
+    let mut lines = Vec::new();
+    for (run, r) in runs.iter().enumerate() {
+        for (curve, c) in r.recording.curves.iter().enumerate() {
+            if !kinds.contains(&c.kind) {
+                continue;
+            }
+            let width = match c.kind {
+                Kind::Actual => 0.9,
+                Kind::Load => 0.5,
+                _ => 1.8,
+            };
+            let name = name(runs, run, &c.name);
+            let style = style(runs, run, c.axis).wide(width);
+            lines.push(Line { name, style, points: Source::Curve { run, curve, pass: None } });
+        }
+    }
+    lines
+}
+
+/// Colour and dashes of an axis of a run.
+pub(super) fn style(runs: &[Drawn], run: usize, axis: Option<usize>) -> Style {
+    let Some(axis) = axis else { return Style::series(run) };
+    // the contour of a single run has the first colour
+    let colour = if runs.len() > 1 { run } else { axis + 1 };
+    Style::series(colour).dashed(DASHES[axis % DASHES.len()])
+}
+
+/// A name, with its run if there are several.
+pub(super) fn name(runs: &[Drawn], run: usize, name: &str) -> String {
+    if runs.len() > 1 { format!("{} {name}", runs[run].summary.program) } else { name.to_owned() }
+}
+
+/// The units of curves, each once.
+fn units(runs: &[Drawn], kinds: &[Kind]) -> String {
+    let mut units: Vec<&str> = Vec::new();
+    for c in runs.iter().flat_map(|r| &r.recording.curves).filter(|c| kinds.contains(&c.kind)) {
+        if !units.contains(&c.unit.as_str()) {
+            units.push(&c.unit);
+        }
+    }
+    units.join(", ")
+}
+
+/// Least and greatest value of curves, and 0.
+fn range(runs: &[Drawn], kinds: &[Kind]) -> (f64, f64) {
+    let all = runs.iter().flat_map(|r| {
+        let wanted = r.recording.curves.iter().enumerate().filter(|(_, c)| kinds.contains(&c.kind));
+        wanted.flat_map(|(i, _)| r.recording.buckets.iter().map(move |b| b.range[i]))
+    });
+    all.fold((0.0, 0.0), |m: (f64, f64), r| (m.0.min(r.0), m.1.max(r.1)))
+}
+
+/// Room for the numbers of the lines.
+fn with_air((low, high): (f64, f64)) -> (f64, f64) {
+    let air = (0.16 * (high - low)).max(1e-6);
+    (if low < 0.0 { low - air } else { low }, high + air)
+}
+
+/// The points of a line in a picture of `pixels`, the contour in a plane.
+pub(super) fn points<'a>(
+    source: &'a Source,
+    runs: &[Drawn],
+    plane: [usize; 2],
+    pixels: f64,
+) -> Cow<'a, [[f64; 2]]> {
+    match source {
+        Source::Given { points, .. } => Cow::Borrowed(points),
+        Source::Curve { run, curve, pass } => {
+            Cow::Owned(over_pixels(&runs[*run].recording, *curve, *pass, pixels))
+        }
+        Source::Spring { run, axis } => Cow::Owned(vibration::deflection(runs, *run, *axis)),
+        Source::Contour { what, run, pass } => {
+            let all = runs[*run].recording.points().filter(|p| pass.is_none_or(|i| i == p.pass));
+            let all: Vec<Point> = all.copied().collect();
+            let of = |value: fn(&Point) -> [f64; 3]| -> Points {
+                all.iter().map(|p| plane.map(|i| value(p)[i])).collect()
+            };
+            Cow::Owned(match what {
+                Contour::Programmed => programmed(&all, plane),
+                Contour::Set => of(|p| p.set),
+                Contour::Act => of(|p| p.act),
+            })
+        }
+    }
+}
+
+/// A curve over time: smallest and largest value per pixel, or of each bucket where there are fewer.
+fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) -> Points {
+    let per_px = (run.buckets.len() as f64 / pixels).max(1.0);
+    let mut points: Points = Vec::new();
+    let mut pixel = None;
+    for (i, bucket) in run.buckets.iter().enumerate() {
+        if pass.is_some_and(|p| p != bucket.pass) {
+            continue;
+        }
+        let (low, high) = bucket.range[curve];
+        let t = run.seconds(bucket.k);
+        let this = Some(libm::floor(i as f64 / per_px));
+        if this == pixel
+            && let [.., bottom, top] = points.as_mut_slice()
+        {
+            bottom[1] = bottom[1].min(low);
+            top[1] = top[1].max(high);
+        } else {
+            pixel = this;
+            points.extend([[t, low], [t, high]]);
+        }
+    }
+    points
+}

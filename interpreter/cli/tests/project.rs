@@ -1,0 +1,233 @@
+//! A TwinCAT project as machine: the built-in machine packed into one must move as it does out of its folder.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod kit;
+
+use kit::Folder;
+use kontur::Exit;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+fn list(name: &str) -> String {
+    let xyz = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../programs/machines/xyz");
+    fs::read_to_string(xyz.join(name)).unwrap()
+}
+
+/// An axis as the engineering tool keeps it; its list holds the defaults as well.
+fn axis(name: &str, list_of: &str, (channel, index): (u32, u32)) -> String {
+    // the own values follow those of the defaults, whose keys they replace
+    let own = list(list_of);
+    let is_own = |line: &&str| {
+        let key = line.split_whitespace().next().unwrap_or("#");
+        key.starts_with('#') || !own.lines().any(|l| l.split_whitespace().next() == Some(key))
+    };
+    let defaults: Vec<String> =
+        list("axes.lis").lines().filter(is_own).map(str::to_owned).collect();
+    format!(
+        "<Axis Id=\"1\">\r\n<ItemName>{name}-Achse</ItemName>\r\n<AxisPara><DefaultChannel>{channel}</DefaultChannel>\r\n\
+         <DefaultIndex>{index}</DefaultIndex><DefaultProgName>{name}</DefaultProgName></AxisPara>\r\n\
+         <AchsMds><![CDATA[# {name}\r\n{}\r\n{own}Ende\r\nnot read]]></AchsMds></Axis>\r\n",
+        defaults.join("\r\n"),
+    )
+}
+
+fn channel(names: &str) -> String {
+    format!(
+        "<Channel><ItemName>Channel 1</ItemName><ChnPara><SdaMds><![CDATA[{names}]]></SdaMds>\
+         <NullpD><![CDATA[# nothing]]></NullpD><VeD><![CDATA[anzahl_belegt 1]]></VeD></ChnPara></Channel>\n"
+    )
+}
+
+const TASK: &str = "<Task Priority=\"2\" CycleTime=\"10000\"><Name>CNC-Task GEO</Name></Task>\n\
+                    <Task CycleTime=\"200000\"><Name>PlcTask</Name></Task>\n";
+
+fn project(inside: &str) -> String {
+    format!(
+        "\u{feff}<?xml version=\"1.0\"?>\n<TcSmProject>\n<Project><Motion><CNC>\n{inside}</CNC></Motion></Project>\n</TcSmProject>\n"
+    )
+}
+
+/// A folder with a program and `kontur.lis` of the built-in machine without its cycle.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    let write = |name: &str, text: &str| fs::write(folder.path(name), text).unwrap();
+    write("part.nc", "G01 X10 Y5 F6000\nS100 M3\nG00 Z20\nG02 X20 Y5 I5 J0 F3000\nM5\nM30\n");
+    let own: String = list("kontur.lis").lines().filter(|l| !l.contains("cycle_time")).fold(
+        String::new(),
+        |mut s, l| {
+            writeln!(s, "{l}").unwrap();
+            s
+        },
+    );
+    write("kontur.lis", &own);
+    folder
+}
+
+fn all_axes() -> String {
+    ["X", "Y", "Z"]
+        .iter()
+        .zip(0..)
+        .map(|(name, i)| axis(name, &format!("{}.lis", name.to_lowercase()), (1, i)))
+        .chain([axis("", "s.lis", (1, 3))])
+        .collect()
+}
+
+/// Exit, trace and messages of the program on a machine.
+fn run(folder: &Folder, machine: &str) -> (Exit, String, String) {
+    let machine = format!("@{machine}");
+    let words = ["run", "@part.nc", "-m", &machine, "-o", "@out.csv", "--summary", "none"];
+    let (exit, _, said) = folder.call(&words);
+    let trace = if exit == Exit::Finished { folder.read("out.csv") } else { String::new() };
+    (exit, trace, said)
+}
+
+fn expected() -> String {
+    let folder = folder();
+    let xyz = folder.path("xyz");
+    fs::create_dir(&xyz).unwrap();
+    for name in [
+        "hochlauf.lis",
+        "channel.lis",
+        "axes.lis",
+        "x.lis",
+        "y.lis",
+        "z.lis",
+        "s.lis",
+        "kontur.lis",
+    ] {
+        fs::write(xyz.join(name), list(name)).unwrap();
+    }
+    let (exit, trace, said) = run(&folder, "xyz");
+    assert_eq!((exit, said.as_str()), (Exit::Finished, ""));
+    trace
+}
+
+#[test]
+fn a_project_moves_as_its_lists_do() {
+    let folder = folder();
+    let inside = format!("{TASK}{}{}", all_axes(), channel(&list("channel.lis")));
+    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    let expected = expected();
+    // by name, and as the only project of its folder
+    for machine in ["machine.tsproj", "."] {
+        let (exit, trace, said) = run(&folder, machine);
+        assert_eq!(exit, Exit::Finished, "{said}");
+        assert_eq!(trace, expected);
+        assert!(
+            said.contains("K-0140") && said.contains("cycle 1000 us of the GEO task"),
+            "{said}"
+        );
+        assert!(said.contains("X (1), Y (2), Z (3)") && said.contains("not read: VeD"), "{said}");
+    }
+}
+
+#[test]
+fn parts_in_files_of_their_own_and_exported_items_too() {
+    let expected = expected();
+    let folder = folder();
+    let parts = folder.path("_Config/CNC/Axes");
+    fs::create_dir_all(&parts).unwrap();
+    let item = |inside: &str| format!("<TcSmItem>{inside}</TcSmItem>");
+    for (name, i) in ["X", "Y", "Z"].iter().zip(0..) {
+        let text = item(&axis(name, &format!("{}.lis", name.to_lowercase()), (1, i)));
+        fs::write(parts.join(format!("Axis {}.xti", i + 9)), text).unwrap();
+    }
+    fs::write(parts.join("Axis 12.xti"), item(&axis("", "s.lis", (1, 3)))).unwrap();
+    fs::write(parts.join("../Channel.xti"), item(&channel(&list("channel.lis")))).unwrap();
+    fs::write(folder.path("machine.tsproj"), project(TASK)).unwrap();
+    let (exit, trace, said) = run(&folder, "machine.tsproj");
+    assert_eq!(exit, Exit::Finished, "{said}");
+    assert_eq!(trace, expected);
+
+    // the items alone, exported into a folder; without the project nobody knows the cycle
+    fs::remove_file(folder.path("machine.tsproj")).unwrap();
+    let (exit, trace, said) = run(&folder, "_Config");
+    assert_eq!(exit, Exit::Finished, "{said}");
+    assert!(said.contains("no GEO task with a cycle"), "{said}");
+    // kontur.lis is not in that folder: other drives, the same set positions
+    let column = |text: &str, name: &str| -> Vec<String> {
+        let at = text.lines().next().unwrap().split(',').position(|c| c == name).unwrap();
+        text.lines().map(|l| l.split(',').nth(at).unwrap_or_default().to_owned()).collect()
+    };
+    let head = |text: &str, name: &str| column(text, name)[..200].to_vec();
+    assert_eq!(head(&trace, "X_set_mm"), head(&expected, "X_set_mm"));
+}
+
+#[test]
+fn prototypes_are_numbered_and_dialogs_name_the_axes() {
+    let folder = folder();
+    // every list says number 1, the channel has other names: as a configuration that was never activated
+    let axes = all_axes();
+    let mut same = String::new();
+    for line in axes.split("\r\n") {
+        let line = if line.starts_with("kopf.achs_nr") { "kopf.achs_nr 1" } else { line };
+        // lists of this repository end their lines with LF only
+        for part in line.split('\n') {
+            let part = if part.starts_with("kopf.achs_nr") { "kopf.achs_nr 1" } else { part };
+            writeln!(same, "{part}").unwrap();
+        }
+    }
+    let other = list("channel.lis").replace("bezeichnung     X", "bezeichnung     X1");
+    let inside = format!("{TASK}{same}{}", channel(&other));
+    fs::write(folder.path("machine.tsproj"), project(&inside)).unwrap();
+    let (exit, trace, said) = run(&folder, "machine.tsproj");
+    assert_eq!(exit, Exit::Finished, "{said}");
+    assert!(said.contains("numbered in their order"), "{said}");
+    assert!(
+        said.contains("the list of the channel says X1 (1), Y (2), Z (3): the dialogs count"),
+        "{said}"
+    );
+    assert_eq!(trace, expected());
+}
+
+#[test]
+fn mistakes_are_named_at_their_line_of_the_project() {
+    let folder = folder();
+    let place = folder.path("machine.tsproj");
+    let whole = format!("{TASK}{}{}", all_axes(), channel(&list("channel.lis")));
+
+    let wrong = project(&whole).replacen(
+        "getriebe[0].kv                         5000",
+        "getriebe[0].kv                         fast",
+        1,
+    );
+    let line = wrong.lines().position(|l| l.contains("                         fast")).unwrap() + 1;
+    fs::write(&place, wrong).unwrap();
+    let (_, _, said) = run(&folder, "machine.tsproj");
+    assert!(
+        said.contains("1001138") && said.contains(&format!("machine.tsproj#X-Achse:{line}:")),
+        "{line}: {said}"
+    );
+
+    fs::write(&place, project(&whole).replacen("</Axis>", "", 1)).unwrap();
+    let (exit, _, said) = run(&folder, "machine.tsproj");
+    assert_eq!(exit, Exit::Usage);
+    assert!(said.contains("K-0141") && said.contains("no XML"), "{said}");
+
+    fs::write(&place, project(TASK)).unwrap();
+    let (exit, _, said) = run(&folder, "machine.tsproj");
+    assert_eq!(exit, Exit::Usage);
+    assert!(said.contains("K-0141") && said.contains("no axis list (AchsMds)"), "{said}");
+
+    fs::write(folder.path("other.tsproj"), project(&whole)).unwrap();
+    let (exit, _, said) = run(&folder, ".");
+    assert_eq!(exit, Exit::Usage);
+    assert!(said.contains("several projects"), "{said}");
+}
+
+#[test]
+fn hostile_xml_ends_in_a_message() {
+    let folder = folder();
+    let deep = format!("{}{}", "<a>".repeat(200_000), "</a>".repeat(200_000));
+    let laughs = "<!DOCTYPE l [<!ENTITY a \"ha\"><!ENTITY b \"&a;&a;\">]><l>&b;</l>".to_owned();
+    let many = format!("<P>{}</P>", "<SdaMds>x 1</SdaMds>".repeat(5_000));
+    let axes = format!("<P>{}</P>", "<AchsMds>kopf.achs_nr 1</AchsMds>".repeat(40));
+    for text in [deep, laughs, many, axes, String::new()] {
+        fs::write(folder.path("machine.tsproj"), text).unwrap();
+        let (exit, _, said) = run(&folder, "machine.tsproj");
+        assert_eq!(exit, Exit::Usage);
+        assert!(said.contains("K-0141"), "{said}");
+    }
+}

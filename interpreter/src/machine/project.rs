@@ -1,0 +1,327 @@
+//! The lists inside a TwinCAT project: `.tsproj`, and `.xti` files of its parts or of exported axes and channels.
+//!
+//! The engineering tool keeps every list of the CNC as text inside XML. They are taken out as they are, each at its place in
+//! the file, so that messages name lines of the project; what the tool itself enters when it activates a configuration
+//! (names, numbers and count of the axes, cycle of the GEO task) is entered here too, and said in one note.
+//!
+//! The vendor does not describe the files. Assumption: elements as public tools that edit such projects find them. An axis
+//! holds `AchsMds`, a channel `SdaMds`, `NullpD`, `WerkzD`, `PzvD`, `VeD`; beside the list of an axis stand `ItemName` and the
+//! fields of its dialog `DefaultChannel` (from 1), `DefaultIndex` (from 0) and `DefaultProgName`. A text with keys of a
+//! start-up list is one, whatever its element is called; lists of defaults are called `DefaultAchsMds`, `DefaultSdaMds`.
+//!
+//! ```
+//! use kontur_interpreter::machine::Machine;
+//! use kontur_interpreter::machine::lists::ListFiles;
+//! use kontur_interpreter::machine::project::{Part, Project};
+//!
+//! struct NoFiles;
+//! impl ListFiles for NoFiles {
+//!     fn read(&self, _: &str) -> Result<Option<Vec<u8>>, String> {
+//!         Ok(None)
+//!     }
+//! }
+//! let text = "<P><Axis><ItemName>X-Axis</ItemName><DefaultChannel>1</DefaultChannel><DefaultProgName>X</DefaultProgName>
+//! <AchsMds><![CDATA[
+//! kopf.achs_nr 1
+//! getriebe[0].kv 2000
+//! ]]></AchsMds></Axis><Channel><SdaMds/></Channel></P>";
+//! let part = Part { name: "machine.tsproj".to_owned(), text: text.to_owned() };
+//! let project = Project::read(&NoFiles, "machine.tsproj", &[part]).unwrap();
+//! let (machine, _) = Machine::load(&project, project.start_up(), &[]).unwrap();
+//! assert_eq!(machine.axes[0].name(), "X");
+//! ```
+
+mod content;
+
+use super::axis::{AxisKind, kind_of, logical_number};
+use super::lists::{self, ListFiles};
+use super::parameters::Parameters;
+use super::table::{ListKind, channel as of};
+use crate::diag::{Condition, Diagnostic, Severity};
+use content::{Content, ListText};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::{self, Write as _};
+
+/// One file of a project.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Path as the user gave it, in the folder of the project.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// The lists of a project as files: those that the XML holds, and real ones for the rest.
+pub struct Project<'a> {
+    files: &'a dyn ListFiles,
+    start_up: String,
+    lists: BTreeMap<String, String>,
+    said: Vec<Diagnostic>,
+}
+
+impl fmt::Debug for Project<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Project").field("lists", &self.lists.keys()).finish_non_exhaustive()
+    }
+}
+
+impl ListFiles for Project<'_> {
+    fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        match self.lists.get(path) {
+            Some(list) => Ok(Some(list.clone().into_bytes())),
+            None => self.files.read(path),
+        }
+    }
+}
+
+impl<'a> Project<'a> {
+    /// Takes the lists out of the parts. `name` is the path by which messages call the project; beside it `files` may have a
+    /// `kontur.lis`.
+    ///
+    /// # Errors
+    /// K-0141 for a part that is no XML, and for a project without axes or channel of a CNC.
+    pub fn read(
+        files: &'a dyn ListFiles,
+        name: &str,
+        parts: &[Part],
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let mut content = Content::default();
+        let wrong: Vec<Diagnostic> =
+            parts.iter().filter_map(|part| content.add(part).err()).map(|e| *e).collect();
+        if !wrong.is_empty() {
+            return Err(wrong);
+        }
+        let start_up = name.to_owned();
+        if content.axes.is_empty() || content.channels.is_empty() {
+            let missing = if content.axes.is_empty() {
+                "axis list (AchsMds)"
+            } else {
+                "channel list (SdaMds)"
+            };
+            let message = format!("{start_up} and its parts hold no {missing} of a CNC");
+            return Err(vec![Diagnostic::new(Condition::ProjectWrong, message)]);
+        }
+        let mut project = Self { files, start_up, lists: BTreeMap::new(), said: Vec::new() };
+        project.fill(content);
+        Ok(project)
+    }
+
+    /// Name of the start-up list for [`Machine::load`](super::Machine::load).
+    pub fn start_up(&self) -> &str {
+        &self.start_up
+    }
+
+    /// What was taken out of the project: K-0140.
+    pub fn said(&self) -> &[Diagnostic] {
+        &self.said
+    }
+
+    /// The folder of the project with its slash.
+    fn folder(&self) -> &str {
+        let end = self.start_up.rfind(['/', '\\']).map_or(0, |at| at + 1);
+        &self.start_up[..end]
+    }
+
+    /// Keeps a list and returns the name by which the start-up list calls it.
+    fn keep(&mut self, list: &ListText) -> String {
+        let inside = list.file.strip_prefix(self.folder()).unwrap_or(&list.file);
+        let plain = |text: &str| -> String {
+            let of = |c: char| if c.is_alphanumeric() || "._-/ ".contains(c) { c } else { '_' };
+            text.chars().map(of).collect()
+        };
+        let mut name = format!("{}#{}", plain(inside), plain(&list.name));
+        while self.lists.contains_key(&self.path(&name)) {
+            name.push('\'');
+        }
+        self.lists.insert(self.path(&name), list.placed());
+        name
+    }
+
+    /// The path that the chain of lists makes of a name in the start-up list.
+    fn path(&self, name: &str) -> String {
+        let folder = self.folder().trim_end_matches(['/', '\\']);
+        match self.folder() {
+            "" => name.to_owned(),
+            _ => format!("{folder}/{name}"),
+        }
+    }
+
+    fn fill(&mut self, mut content: Content) {
+        let mut note = String::new();
+        let defaults =
+            content.axis_defaults.as_ref().map(|list| parameters(ListKind::Axis, &[list]));
+        let axes: Vec<Parameters> = content
+            .axes
+            .iter()
+            .map(|axis| {
+                let mut of = defaults.clone().unwrap_or_else(|| Parameters::new(ListKind::Axis));
+                of.apply(&lists::read(
+                    ListKind::Axis,
+                    "",
+                    axis.list.text.as_bytes(),
+                    &mut Vec::new(),
+                ));
+                of
+            })
+            .collect();
+        let mut numbers: Vec<u32> = axes.iter().map(logical_number).collect();
+        if numbers.iter().collect::<BTreeSet<_>>().len() < numbers.len() {
+            // lists of one prototype, which the tool numbers
+            numbers = (1..).take(axes.len()).collect();
+            for (axis, number) in content.axes.iter_mut().zip(&numbers) {
+                axis.list.replace(&["kopf.achs_nr"], &format!("kopf.achs_nr {number}\n"));
+            }
+            note.push_str("; lists with the same kopf.achs_nr, numbered in their order");
+        }
+        let spindle: Vec<bool> =
+            axes.iter().map(|axis| kind_of(axis) == AxisKind::Spindle).collect();
+        let named = self.name_axes(&mut content, &numbers, &spindle);
+
+        let mut start_up = content.start_up.take().unwrap_or_default();
+        let mut entries = format!(
+            "listen ASCII\nkanal_anzahl {}\nzahl_mds {}\n",
+            content.channels.len(),
+            axes.len()
+        );
+        for (i, axis) in content.axes.iter().enumerate() {
+            let _ = writeln!(entries, "achs_mds[{i}] \"{}\"", self.keep(&axis.list));
+        }
+        let first = &content.channels[0];
+        let channel_lists = [
+            ("default_achs_mds", content.axis_defaults.as_ref()),
+            ("default_sda_mds", content.channel_defaults.as_ref()),
+            ("sda_mds[0]", Some(&first.list)),
+            ("werkz_data[0]", first.tools.as_ref()),
+            ("nullp_data[0]", first.zero_offsets.as_ref()),
+        ];
+        for (key, list) in channel_lists {
+            if let Some(list) = list {
+                let _ = writeln!(entries, "{key} \"{}\"", self.keep(list));
+            }
+        }
+        let own = [
+            "listen",
+            "kanal_anzahl",
+            "zahl_mds",
+            "achs_mds[",
+            "default_achs_mds",
+            "default_sda_mds",
+        ];
+        let own: Vec<&str> =
+            own.into_iter().chain(["sda_mds[", "werkz_data[", "nullp_data["]).collect();
+        start_up.replace(&own, &entries);
+        self.lists.insert(self.start_up.clone(), start_up.placed());
+
+        match content.cycle_us {
+            Some(us) => {
+                let _ = write!(note, "; cycle {us} us of the GEO task{}", self.cycle(us));
+            }
+            None => note.push_str("; no GEO task with a cycle: kontur.lis or --cycle-us says it"),
+        }
+        if !first.unread.is_empty() {
+            let _ = write!(note, "; not read: {}", first.unread.join(", "));
+        }
+        let list: Vec<String> =
+            named.iter().map(|(name, number)| format!("{name} ({number})")).collect();
+        let message = format!(
+            "machine of {}: {} axis lists, channel `{}` with {}{note}",
+            self.start_up,
+            axes.len(),
+            first.list.name,
+            if list.is_empty() {
+                "the axes of its list".to_owned()
+            } else {
+                format!("the axes {}", list.join(", "))
+            }
+        );
+        self.said.insert(0, Diagnostic::new(Condition::ProjectRead, message));
+    }
+
+    /// Enters the axes of the first channel by their dialogs, as the tool does, and says where its list has others. Empty
+    /// if no dialog names one: the list of the channel rules.
+    fn name_axes(
+        &mut self,
+        content: &mut Content,
+        numbers: &[u32],
+        spindle: &[bool],
+    ) -> Vec<(String, u32)> {
+        let mut named: Vec<(u32, String, u32)> = content
+            .axes
+            .iter()
+            .zip(numbers)
+            .zip(spindle)
+            .filter(|((axis, _), spindle)| {
+                !**spindle && axis.channel == Some(1) && !axis.program_name.is_empty()
+            })
+            .map(|((axis, number), _)| (axis.index, axis.program_name.clone(), *number))
+            .collect();
+        named.sort_by_key(|(index, ..)| *index);
+        let named: Vec<(String, u32)> =
+            named.into_iter().map(|(_, name, number)| (name, number)).collect();
+        let list = &mut content.channels[0].list;
+        let before = parameters(ListKind::Channel, &[list]);
+        let listed: Vec<(String, u32)> = (0..32)
+            .map_while(|i| {
+                let number = before.listed(of::AXIS_NUMBER.and(i).place())?;
+                Some((before.get(of::AXIS_NAME.and(i))?, number as u32))
+            })
+            .collect();
+        if named.is_empty() || named == listed {
+            return named;
+        }
+        if !listed.is_empty() {
+            let names = |of: &[(String, u32)]| -> String {
+                let each: Vec<String> =
+                    of.iter().map(|(name, number)| format!("{name} ({number})")).collect();
+                each.join(", ")
+            };
+            let message = format!(
+                "the dialogs of the axes say {}, the list of the channel says {}: the dialogs count",
+                names(&named),
+                names(&listed)
+            );
+            let said = Diagnostic::new(Condition::ProjectRead, message).severity(Severity::Warning);
+            self.said.push(said.hint("activate the configuration once, or make both say the same"));
+        }
+        let mut entries = format!("gruppe[0].achs_anzahl {}\n", named.len());
+        for (i, (name, number)) in named.iter().enumerate() {
+            let _ = writeln!(
+                entries,
+                "gruppe[0].achse[{i}].bezeichnung {name}\ngruppe[0].achse[{i}].log_achs_nr {number}"
+            );
+        }
+        let own: Vec<String> = (0..32)
+            .flat_map(|i| {
+                ["bezeichnung", "log_achs_nr"].map(|key| format!("gruppe[0].achse[{i}].{key}"))
+            })
+            .chain(["gruppe[0].achs_anzahl".to_owned()])
+            .collect();
+        list.replace(&own.iter().map(String::as_str).collect::<Vec<_>>(), &entries);
+        named
+    }
+
+    /// Enters the cycle into `kontur.lis`, unless the file beside the project has one; what became of it.
+    fn cycle(&mut self, us: u32) -> &'static str {
+        let path = self.path("kontur.lis");
+        let real = match self.files.read(&path) {
+            Ok(Some(bytes)) => String::from_utf8_lossy(&bytes).into_owned(),
+            Ok(None) => String::new(),
+            // the chain reads it again and says why it cannot be read
+            Err(_) => return "",
+        };
+        if real.lines().any(|line| line.trim_start().starts_with("kontur.cycle_time_us")) {
+            return ", replaced by that of kontur.lis";
+        }
+        self.lists.insert(path, format!("{real}\nkontur.cycle_time_us {us}\n"));
+        ""
+    }
+}
+
+/// The parameters of texts, without their messages: the lists are read once more as files.
+fn parameters(kind: ListKind, texts: &[&ListText]) -> Parameters {
+    let mut all = Parameters::new(kind);
+    for text in texts {
+        all.apply(&lists::read(kind, "", text.text.as_bytes(), &mut Vec::new()));
+    }
+    all
+}

@@ -1,0 +1,228 @@
+//! What the XML of a project holds: texts of lists with their places, and the fields beside them.
+
+use super::Part;
+use crate::diag::{Condition, Diagnostic, Location};
+use roxmltree::{Document, Node, ParsingOptions};
+
+/// Elements and texts of one file: with more it is nothing that an engineering tool has written.
+const NODES_MAX: u32 = 1_000_000;
+/// Levels between a list and the fields of its item.
+const LEVELS_MAX: usize = 6;
+/// Most axis lists of a control (P-STUP-00015).
+const AXES_MAX: usize = 32;
+
+/// Most channels of a control (P-STUP-00001).
+const CHANNELS_MAX: usize = 12;
+
+/// The text of a list and where it stands.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ListText {
+    /// File that holds it.
+    pub(super) file: String,
+    /// What its item is called.
+    pub(super) name: String,
+    /// Its lines.
+    pub(super) text: String,
+    /// Lines of the file before it.
+    before: usize,
+}
+
+impl ListText {
+    /// The text behind as many empty lines that its lines have the numbers they have in the file.
+    pub(super) fn placed(&self) -> String {
+        format!("{}{}", "\n".repeat(self.before), self.text)
+    }
+
+    /// Takes the lines of these keys out and puts entries behind the rest of the list.
+    ///
+    /// A key that ends in `[` stands for the whole array, any other one for itself.
+    pub(super) fn replace(&mut self, keys: &[&str], entries: &str) {
+        let is_one = |line: &str| {
+            let word = line.split_whitespace().next().unwrap_or_default();
+            keys.iter().any(|key| {
+                word.get(..key.len()).is_some_and(|start| start.eq_ignore_ascii_case(key))
+                    && (key.ends_with('[') || word.len() == key.len())
+            })
+        };
+        let is_end =
+            |line: &str| ["ende", "end"].iter().any(|end| line.trim().eq_ignore_ascii_case(end));
+        let kept = self.text.split('\n').take_while(|line| !is_end(line));
+        let lines: Vec<&str> = kept.map(|line| if is_one(line) { "" } else { line }).collect();
+        self.text = format!("{}\n{entries}", lines.join("\n"));
+    }
+}
+
+/// An axis of the project.
+#[derive(Clone, Debug)]
+pub(super) struct AxisItem {
+    /// Its list.
+    pub(super) list: ListText,
+    /// Channel it belongs to from the start, from 1.
+    pub(super) channel: Option<u32>,
+    /// Place in that channel, from 0.
+    pub(super) index: u32,
+    /// Name in programs.
+    pub(super) program_name: String,
+}
+
+/// A channel of the project.
+#[derive(Clone, Debug)]
+pub(super) struct ChannelItem {
+    /// Its list.
+    pub(super) list: ListText,
+    /// List of tools.
+    pub(super) tools: Option<ListText>,
+    /// List of zero offsets.
+    pub(super) zero_offsets: Option<ListText>,
+    /// Elements with entries that nothing here reads.
+    pub(super) unread: Vec<&'static str>,
+}
+
+/// Everything of the CNC in a project, in the order of its files.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Content {
+    pub(super) axes: Vec<AxisItem>,
+    pub(super) channels: Vec<ChannelItem>,
+    pub(super) axis_defaults: Option<ListText>,
+    pub(super) channel_defaults: Option<ListText>,
+    pub(super) start_up: Option<ListText>,
+    /// Cycle of the GEO task in microseconds.
+    pub(super) cycle_us: Option<u32>,
+}
+
+impl Content {
+    /// Adds what a file holds.
+    ///
+    /// # Errors
+    /// K-0141 if it is no XML, or has more axes or channels than a control.
+    pub(super) fn add(&mut self, part: &Part) -> Result<(), Box<Diagnostic>> {
+        let text = part.text.trim_start_matches('\u{feff}');
+        let options = ParsingOptions { nodes_limit: NODES_MAX, ..ParsingOptions::default() };
+        let document =
+            Document::parse_with_options(text, options).map_err(|e| no_xml(part, text, &e))?;
+        for node in document.descendants().filter(Node::is_element) {
+            match node.tag_name().name() {
+                "AchsMds" if self.axes.len() == AXES_MAX => {
+                    return Err(too_many(part, AXES_MAX, "axis lists"));
+                }
+                "SdaMds" if self.channels.len() == CHANNELS_MAX => {
+                    return Err(too_many(part, CHANNELS_MAX, "channel lists"));
+                }
+                "AchsMds" => self.axes.push(axis(part, node, self.axes.len())),
+                "SdaMds" => self.channels.push(channel(part, node, self.channels.len())),
+                "DefaultAchsMds" => self.axis_defaults = list(part, node, "defaults of axes"),
+                "DefaultSdaMds" => self.channel_defaults = list(part, node, "defaults of channels"),
+                "NullpD" | "WerkzD" | "PzvD" | "VeD" => {}
+                _ if node.attribute("CycleTime").is_some() => self.task(node),
+                _ if is_start_up(node) => self.start_up = list(part, node, "start-up list"),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// The cycle of the interpolator's task, which the tool keeps in units of 100 ns.
+    fn task(&mut self, node: Node<'_, '_>) {
+        let name = node.attribute("Name").or_else(|| child(node, "Name")).unwrap_or_default();
+        let cycle = node.attribute("CycleTime").and_then(|text| text.trim().parse::<u32>().ok());
+        if name.to_ascii_uppercase().contains("GEO") && self.cycle_us.is_none() {
+            self.cycle_us = cycle.map(|units| units / 10).filter(|us| *us > 0);
+        }
+    }
+}
+
+fn too_many(part: &Part, most: usize, what: &str) -> Box<Diagnostic> {
+    let message = format!("{}: more than {most} {what}", part.name);
+    Box::new(Diagnostic::new(Condition::ProjectWrong, message))
+}
+
+fn no_xml(part: &Part, text: &str, e: &roxmltree::Error) -> Box<Diagnostic> {
+    let at = e.pos();
+    let line = text.split('\n').nth(at.row.saturating_sub(1) as usize).unwrap_or_default();
+    let place = Location {
+        file: part.name.as_str().into(),
+        line: at.row,
+        column: at.col,
+        offset: 0,
+        length: 1,
+        block: None,
+        text: crate::source::text::beginning(line.trim_end()).into(),
+    };
+    Box::new(Diagnostic::new(Condition::ProjectWrong, format!("no XML: {e}")).at(place))
+}
+
+/// Texts and CDATA sections of an element itself.
+fn texts<'a>(node: Node<'a, '_>) -> impl Iterator<Item = &'a str> {
+    node.children().filter(Node::is_text).filter_map(|text| text.text())
+}
+
+/// A text that has entries only a start-up list has.
+fn is_start_up(node: Node<'_, '_>) -> bool {
+    let begins = |line: &str| {
+        ["configuration.channel[", "kanal_anzahl", "zahl_mds", "error_protocol_mode"]
+            .iter()
+            .any(|key| line.trim_start().starts_with(key))
+    };
+    texts(node).any(|text| text.lines().any(begins))
+}
+
+/// The list in an element.
+fn list_text(part: &Part, node: Node<'_, '_>, name: String) -> ListText {
+    let first = node.children().find(Node::is_text).unwrap_or(node).range().start;
+    let before = node.document().text_pos_at(first).row.saturating_sub(1) as usize;
+    ListText { file: part.name.clone(), name, text: texts(node).collect(), before }
+}
+
+/// The list in an element, `None` without entries.
+fn list(part: &Part, node: Node<'_, '_>, name: &str) -> Option<ListText> {
+    let entry = |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
+    texts(node).any(|text| text.lines().any(entry)).then(|| list_text(part, node, name.to_owned()))
+}
+
+/// The text of a child element.
+fn child<'a>(node: Node<'a, '_>, tag: &str) -> Option<&'a str> {
+    node.children().find(|child| child.tag_name().name() == tag)?.text().map(str::trim)
+}
+
+/// The nearest element of a name that belongs to the same item.
+fn near<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
+    let own = node.tag_name().name();
+    for scope in node.ancestors().skip(1).take(LEVELS_MAX) {
+        let mut same = scope.descendants().filter(|other| other.tag_name().name() == own);
+        if same.nth(1).is_some() {
+            return None;
+        }
+        let mut all = scope.descendants();
+        if let Some(found) = all.find(|other| other.tag_name().name() == tag) {
+            return Some(found);
+        }
+    }
+    None
+}
+
+/// What the item of a list is called.
+fn name(node: Node<'_, '_>, otherwise: &str) -> String {
+    let named = ["ItemName", "Name"].iter().find_map(|tag| near(node, tag)?.text());
+    named.map(str::trim).filter(|name| !name.is_empty()).unwrap_or(otherwise).to_owned()
+}
+
+fn axis(part: &Part, node: Node<'_, '_>, count: usize) -> AxisItem {
+    let field = |tag: &str| near(node, tag).and_then(|field| field.text()).map(str::trim);
+    let number = |tag: &str| field(tag).and_then(|text| text.parse::<u32>().ok());
+    AxisItem {
+        list: list_text(part, node, name(node, &format!("axis {}", count + 1))),
+        channel: number("DefaultChannel"),
+        index: number("DefaultIndex").unwrap_or(count as u32),
+        program_name: field("DefaultProgName").unwrap_or_default().to_owned(),
+    }
+}
+
+fn channel(part: &Part, node: Node<'_, '_>, count: usize) -> ChannelItem {
+    let beside = |tag: &str| list(part, near(node, tag)?, tag);
+    ChannelItem {
+        list: list_text(part, node, name(node, &format!("channel {}", count + 1))),
+        tools: beside("WerkzD"),
+        zero_offsets: beside("NullpD"),
+        unread: ["PzvD", "VeD"].into_iter().filter(|tag| beside(tag).is_some()).collect(),
+    }
+}

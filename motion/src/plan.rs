@@ -1,0 +1,209 @@
+//! The plan: everything that lies ahead of what is final.
+//!
+//! Segments with the boundaries in front of them, what `AX_DEV` asks of them, the state in which the path gets to the first
+//! one, and the way to rest found last. The passes are functions on it: [`crate::lookahead`] finds the speed of a window
+//! ([`Plan::place`]), [`crate::tolerance`] examines that and tightens the demands, the planner makes the front of it final.
+//! A change of override or feedhold puts another plan in its place, or leaves it as it was.
+//!
+//! It knows segments, speeds and moments; it does not touch setpoints, filters or what is final.
+
+use crate::limit::{Cap, SpeedLimit};
+use crate::lookahead::plan;
+use crate::profile::Infeasible;
+use crate::queue::Queued;
+use crate::short::lower_caps;
+use crate::timeline::{Entry, Moment};
+use crate::tolerance::Demands;
+use kontur_filters::time::CycleTime;
+use smallvec::SmallVec;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// A block, or a part of one, with the boundary in front of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Segment {
+    pub(crate) queued: Arc<Queued>,
+    /// What the boundary allows.
+    pub(crate) cap: Cap,
+}
+
+/// State in which a path gets to its first segment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start {
+    pub(crate) moment: Moment,
+    /// Path length of the program in mm.
+    pub(crate) s_mm: f64,
+    /// Speed, and what holds it down.
+    pub(crate) speed: Cap,
+    /// Path acceleration in mm/s2.
+    pub(crate) a_mm_s2: f64,
+}
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    pub(crate) segments: VecDeque<Segment>,
+    /// Programmed blocks among them: a spline or a rounded corner is planned in parts.
+    programmed: usize,
+    pub(crate) start: Start,
+    /// What the tolerance asks of the segments, as far as they have been planned.
+    pub(crate) demands: Demands,
+    /// Rest of the spans found last, from the start to rest.
+    pub(crate) reserve: VecDeque<Entry>,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        let rest = Start { moment: Moment::default(), s_mm: 0.0, speed: Cap::STOP, a_mm_s2: 0.0 };
+        Self::from_state(rest)
+    }
+}
+
+impl Plan {
+    /// A plan without segments.
+    pub(crate) fn from_state(start: Start) -> Self {
+        Self {
+            segments: VecDeque::new(),
+            programmed: 0,
+            start,
+            demands: Demands::default(),
+            reserve: VecDeque::new(),
+        }
+    }
+
+    /// Adds a segment behind the others, and lowers the caps of those that lie in one cycle with it.
+    pub(crate) fn push(&mut self, segment: Segment, cycle: CycleTime, kernel_active: bool) {
+        let seq = segment.queued.block.seq;
+        if self.segments.back().is_none_or(|last| last.queued.block.seq != seq) {
+            self.programmed += 1;
+        }
+        self.segments.push_back(segment);
+        lower_caps(&mut self.segments, cycle, kernel_active);
+    }
+
+    /// Puts segments in the place of all of them.
+    pub(crate) fn replace(&mut self, segments: Vec<Segment>) {
+        self.segments = segments.into();
+        self.programmed = programmed(&self.segments);
+    }
+
+    /// Number of programmed blocks.
+    pub(crate) fn programmed(&self) -> usize {
+        self.programmed
+    }
+
+    /// True if the path is at rest where the plan starts.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        self.start.speed.v_mm_s <= 0.0
+    }
+
+    /// True if the first segment may not be entered (override 0).
+    pub(crate) fn is_barred(&self) -> bool {
+        self.segments.front().is_some_and(|s| s.queued.velocity.v_mm_s <= 0.0)
+    }
+
+    /// The blocks up to the first one without speed, which ends the path in front of it.
+    pub(crate) fn window(&self) -> Vec<Arc<Queued>> {
+        let blocks = self.segments.iter().map(|s| &s.queued);
+        blocks.take_while(|q| q.velocity.v_mm_s > 0.0).cloned().collect()
+    }
+
+    /// Plans a window and places the spans on the time axis; `forced` boundaries are knots, `end` is why the path ends.
+    ///
+    /// # Errors
+    /// [`Infeasible`] where no speed leads from the start to rest.
+    pub(crate) fn place(
+        &self,
+        window: &[Arc<Queued>],
+        forced: &[bool],
+        (start, end): (Moment, SpeedLimit),
+        cycle: CycleTime,
+    ) -> Result<Vec<Entry>, Infeasible> {
+        let lower = |cap: Cap, demand: f64| cap.lower(Cap::new(demand, SpeedLimit::AxDev));
+        let (n, demands) = (window.len(), &self.demands);
+        let feeds: Vec<Cap> = window
+            .iter()
+            .enumerate()
+            .map(|(i, q)| {
+                let floor = if i == 0 { self.start.speed.v_mm_s } else { 0.0 };
+                lower(q.velocity, demands.feed[i].max(floor))
+            })
+            .collect();
+        let cap = |i: usize| self.segments.get(i).map_or(Cap::new(0.0, end), |s| s.cap);
+        let caps: Vec<Cap> = (0..=n).map(|i| lower(cap(i), demands.cap[i])).collect();
+        let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
+        let gentle = demands.soften(window);
+        let from = (self.start.speed, self.start.a_mm_s2);
+        let spans = plan(&gentle, &feeds, &caps, &forced, from, end)?;
+        // behind a rest the start may have to wait until the filters have left the corner in front of it
+        let mut at = match demands.stop[0] {
+            Some(wait) => Moment::tick(start.next_tick(cycle) + u64::from(wait)),
+            None => start,
+        };
+        let mut s = self.start.s_mm;
+        let mut entries = Vec::with_capacity(spans.len());
+        for span in &spans {
+            let stop = demands.stop[span.end];
+            let stops = stop.is_some() || (span.end == n && end != SpeedLimit::Lookahead);
+            let mut entry = Entry::new(at, s, span, window, stops);
+            entry.feeds = SmallVec::from_slice(&feeds[span.first..span.end]);
+            at = match stop {
+                Some(dwell) => Moment::tick(entry.end.next_tick(cycle) + u64::from(dwell)),
+                None => entry.end,
+            };
+            s += span.profile.length();
+            entries.push(entry);
+        }
+        Ok(entries)
+    }
+
+    /// Takes the first segments out, which become final; returns the caps at their starts.
+    pub(crate) fn pass(&mut self, count: usize) -> Vec<Cap> {
+        let caps = self.segments.drain(..count).map(|s| s.cap).collect();
+        self.demands.pass(count);
+        self.programmed = programmed(&self.segments);
+        caps
+    }
+
+    /// Puts parts in the place of segments, by their index.
+    pub(crate) fn divide(&mut self, blocks: Vec<(usize, Vec<Arc<Queued>>)>) {
+        for (b, parts) in blocks.into_iter().rev() {
+            let mut first = 0;
+            for entry in &mut self.reserve {
+                if b < first + entry.blocks.len() {
+                    entry.divide(b - first, &parts);
+                    break;
+                }
+                first += entry.blocks.len();
+            }
+            for part in parts[1..].iter().rev() {
+                let cap = Cap::new(f64::INFINITY, SpeedLimit::Curve);
+                self.segments.insert(b + 1, Segment { queued: Arc::clone(part), cap });
+            }
+            self.segments[b].queued = Arc::clone(&parts[0]);
+            self.demands.insert(b + 1, parts.len() - 1, self.demands.feed[b]);
+        }
+    }
+}
+
+/// Where the last `count` programmed blocks of a window begin.
+pub(crate) fn last_blocks(window: &[Arc<Queued>], count: usize) -> usize {
+    let (mut left, mut at) = (count, window.len());
+    while at > 0 {
+        if at == window.len() || window[at - 1].block.seq != window[at].block.seq {
+            if left == 0 {
+                break;
+            }
+            left -= 1;
+        }
+        at -= 1;
+    }
+    at
+}
+
+/// Programmed blocks among parts of them.
+fn programmed(segments: &VecDeque<Segment>) -> usize {
+    let seqs = segments.iter().map(|s| s.queued.block.seq);
+    let behind = seqs.clone().skip(1);
+    usize::from(!segments.is_empty()) + seqs.zip(behind).filter(|(a, b)| a != b).count()
+}
