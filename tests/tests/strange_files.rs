@@ -268,3 +268,64 @@ fn a_program_that_changes_while_it_runs_ends_as_an_error() {
         }
     }
 }
+
+/// A checkout with the line ends of Windows, in its code page, with its separators in names of programs: the same trace, to the last byte, and
+/// the same lines in messages.
+#[test]
+fn a_checkout_of_windows_moves_the_same() {
+    let root = kontur_tests::programs();
+    let names = ["square_corner.nc", "parametric_pocket.nc", "lessons/6_lag.nc"];
+    let windows = |bytes: &[u8], comment: &str| -> Vec<u8> {
+        // a comment of the editor, which no line of the program is moved by
+        let mut all = bytes.strip_suffix(b"\n").unwrap_or(bytes).to_vec();
+        all.extend_from_slice(comment.as_bytes());
+        all.extend_from_slice(b"\n");
+        let mut converted = Vec::new();
+        for byte in all {
+            match byte {
+                b'\n' => converted.extend_from_slice(b"\r\n"),
+                b'?' => converted.push(0xE4),
+                _ => converted.push(byte),
+            }
+        }
+        converted
+    };
+    let mut f = Folder::new();
+    for entry in fs::read_dir(root.join("machines/xyz")).unwrap() {
+        let path = entry.unwrap().path();
+        let (name, bytes) = (path.file_name().unwrap().to_str().unwrap(), fs::read(&path).unwrap());
+        f = f.with(&format!("lf/xyz/{name}"), &bytes);
+        f = f.with(&format!("crlf/xyz/{name}"), windows(&bytes, "\n# ge?ndert"));
+    }
+    for (name, n) in names.iter().zip(0..) {
+        let bytes = fs::read(root.join(name)).unwrap();
+        f = f.with(&format!("lf/{n}.nc"), &bytes);
+        f = f.with(&format!("crlf/{n}.nc"), windows(&bytes, "\n(ge?ndert)"));
+    }
+    let text = b"%MAIN\nG01 X1 F1000\nL sub\\part.nc\nX0\nM30\n";
+    f = f.with("lf/3.nc", text).with("crlf/3.nc", windows(text, ""));
+    f = f.with("lf/sub/part.nc", "Y1\nM17\n").with("crlf/sub/part.nc", "Y1 (\u{e4})\r\nM17\r\n");
+    for n in 0..4 {
+        let trace = |kind: &str| {
+            let (program, machine) = (format!("@{kind}/{n}.nc"), format!("@{kind}/xyz"));
+            let output = format!("@{kind}/{n}.csv");
+            let said = f.call(&["run", &program, "-m", &machine, "-o", &output]);
+            assert_eq!(said.exit, Exit::Finished, "{}", said.err);
+            fs::read_to_string(f.path(&output[1..])).unwrap().replace("crlf/", "lf/")
+        };
+        let (lf, crlf) = (trace("lf"), trace("crlf"));
+        let same = lf.lines().zip(crlf.lines()).position(|(a, b)| a != b);
+        assert!(lf == crlf, "program {n}: first difference in row {same:?}");
+    }
+    // the same place in a message
+    let wrong = "G01 X1 F100\n(x)\nQQ 7\nM30\n";
+    let f = f.with("lf/w.nc", wrong).with("crlf/w.nc", windows(wrong.as_bytes(), ""));
+    let place = |kind: &str| {
+        let said = f.call(&["check", &format!("@{kind}/w.nc"), "--diagnostics", "json"]);
+        let first: serde_json::Value =
+            serde_json::from_str(said.err.lines().next().unwrap()).unwrap();
+        [&first["source"]["line"], &first["source"]["column"], &first["source"]["end_column"]]
+            .map(|v| v.as_u64().unwrap())
+    };
+    assert_eq!((place("lf"), place("lf")[0]), (place("crlf"), 3));
+}

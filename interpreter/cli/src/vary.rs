@@ -71,6 +71,15 @@ impl Vary {
         }
     }
 
+    /// The key with the unit of its numbers in a list.
+    pub(crate) fn label(&self) -> String {
+        let first = self.values.first().map_or("", String::as_str);
+        let row = Override::parse(&format!("{}={first}", self.key)).ok();
+        let unit = row.and_then(|o| o.parameter()).map_or("-", |row| row.unit);
+        let unit = if unit == "-" { "" } else { unit };
+        crate::chart::scale::label(&self.key, unit)
+    }
+
     /// What the parameter is, with its ID, as `explain` says it.
     pub(crate) fn meaning(&self) -> Option<String> {
         let row = Override::parse(&format!("{}={}", self.key, self.values.first()?)).ok()?;

@@ -138,6 +138,12 @@ fn junit_has_a_case_for_each_signal() {
     let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
     let suite = &report.test_suites[0];
     assert_eq!((suite.tests, suite.failures), (columns + 2, failed), "{xml}");
+    // the attributes that Jenkins' junit-10.xsd has for it, no others
+    let whole = xml.split("<testsuites ").nth(1).unwrap().split('>').next().unwrap();
+    let names: Vec<&str> =
+        whole.split('"').step_by(2).map(|s| s.trim_matches([' ', '='])).collect();
+    let known = ["name", "time", "tests", "failures", "errors", ""];
+    assert!(names.iter().all(|name| known.contains(name)), "{whole}");
     let (exit, xml, _) = f.call(&["diff", "@corner.csv", "@corner.nc", "--format", "junit"]);
     let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
     let suite = &report.test_suites[0];

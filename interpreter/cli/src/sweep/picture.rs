@@ -98,7 +98,7 @@ pub(super) fn draw(
             let x = if is_choice {
                 Scale::categories(first.key.clone(), first.values.clone())
             } else {
-                Scale::linear(first.key.clone(), around(values.iter().copied(), 1e-9))
+                Scale::linear(first.label(), around(values.iter().copied(), 1e-9))
             };
             let y = around(lines.iter().flat_map(|l| &l.points).map(|p| p[1]).chain([0.0]), 1e-9);
             View {
