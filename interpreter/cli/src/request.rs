@@ -14,7 +14,8 @@
 //! };
 //! assert!(request.check().is_ok_and(|checked| checked.diagnostics.is_empty()));
 //! let mut run = request.open().unwrap().run;
-//! assert!(run.next_cycle().is_some());
+//! let Ok(()) = run.to_end(&mut |_: &_| ());
+//! assert!(!run.totals().aborted);
 //! ```
 
 use crate::Error;

@@ -12,7 +12,7 @@
 //! let Command::Response(args) = Args::try_parse_from(words)?.command else { unreachable!() };
 //! let mut console = Console::new(std::io::sink(), std::io::sink());
 //! let table = kontur::response::table(&args, &mut console).unwrap();
-//! assert_eq!(table.header()[0], "f_hz");
+//! assert_eq!(table.header()[..2], ["curve", "f_hz"]);
 //! # Ok::<(), clap::Error>(())
 //! ```
 //!
