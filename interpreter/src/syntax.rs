@@ -61,7 +61,7 @@ use grammar::{Grammar, Rule};
 ///
 /// Source: TF5200 programming manual (chamfers, #ANG, #CANG, #PSET, #ACHSE) and diagnosis, 20207.
 const HASH_WORDS: &[&str] =
-    &["FRC", "CHR", "CHF", "RND", "ANG", "CANG", "ACHSE", "PSET", "PRESET", "ADD"];
+    &["FRC", "CHR", "CHF", "RND", "ANG", "CANG", "ACHSE", "AKIMA", "PSET", "PRESET", "ADD"];
 
 /// Diagnostics per block; what follows is most likely noise.
 const PROBLEMS_MAX: usize = 10;

@@ -20,10 +20,9 @@
 
 use crate::axis::{AxisDynamics, AxisVec, StepSlope};
 use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};
-use crate::course::Course;
 use crate::limits::PathSpeeds;
 use crate::path::{LinePath, Path};
-use crate::profile::{Infeasible, SlopeLimits, State};
+use crate::profile::{Infeasible, SlopeLimits, SpanProfile, State};
 use crate::queue::Queued;
 use crate::timeline::Moment;
 use kontur_filters::time::CycleTime;
@@ -64,8 +63,8 @@ pub struct IndependentMove {
     to_mm: f64,
     /// `None` if there is nothing to do.
     slope: Option<SlopeLimits>,
-    /// Courses in order with the time in s at their start and the distance there.
-    parts: SmallVec<[(f64, f64, Course); 1]>,
+    /// Profiles in order with the time in s at their start and the distance there.
+    parts: SmallVec<[(f64, f64, SpanProfile); 1]>,
     stopped: bool,
 }
 
@@ -106,7 +105,7 @@ impl IndependentMove {
                 }
             }
         }
-        let parts = smallvec![(0.0, 0.0, Course::Span(profile))];
+        let parts = smallvec![(0.0, 0.0, profile)];
         Ok(Self { cycle, from_mm, to_mm, slope: Some(slope), parts, stopped: false })
     }
 
@@ -139,7 +138,7 @@ impl IndependentMove {
     /// # Errors
     /// [`Infeasible`] is an internal error.
     pub fn stop(&mut self, k: u64) -> Result<(), Infeasible> {
-        let (Some(slope), Some((start, s0, Course::Span(span)))) =
+        let (Some(slope), Some((start, s0, span))) =
             (self.slope.clone(), self.parts.first().cloned())
         else {
             return Ok(());
@@ -157,7 +156,7 @@ impl IndependentMove {
         }
         let mut at = (t, state.s_mm);
         let mut v = state.v_mm_s;
-        let mut parts = smallvec![(start, s0, Course::Span(span.clone()))];
+        let mut parts = smallvec![(start, s0, span.clone())];
         let settled = slope.settled(v, state.a_mm_s2);
         if settled > v {
             if settled > span.peak() * (1.0 + 1e-9) {
@@ -165,12 +164,12 @@ impl IndependentMove {
                 (at, v) = ((up, span.at(up).s_mm), span.peak());
             } else if let Some(change) = slope.change(v, state.a_mm_s2, settled) {
                 let next = (at.0 + change.duration(), at.1 + change.length());
-                parts.push((at.0, at.1, Course::Change(change)));
+                parts.push((at.0, at.1, change));
                 (at, v) = (next, settled);
             }
         }
         let braking = slope.plan(v, 0.0, v, slope.down_distance(v, 0.0))?;
-        parts.push((at.0, at.1, Course::Span(braking)));
+        parts.push((at.0, at.1, braking));
         (self.parts, self.stopped) = (parts, true);
         Ok(())
     }
@@ -178,8 +177,8 @@ impl IndependentMove {
     fn distance(&self, k: u64) -> State {
         let t = self.cycle.time_of(k);
         let i = self.parts.partition_point(|p| p.0 <= t).max(1) - 1;
-        self.parts.get(i).map_or_else(State::default, |(start, s0, course)| {
-            let state = course.at(t - start);
+        self.parts.get(i).map_or_else(State::default, |(start, s0, profile)| {
+            let state = profile.at(t - start);
             State { s_mm: s0 + state.s_mm, ..state }
         })
     }

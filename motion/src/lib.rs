@@ -33,7 +33,6 @@ mod brake;
 mod contour;
 pub mod contouring;
 pub mod corner;
-mod course;
 mod deviation;
 pub mod independent;
 pub mod limit;

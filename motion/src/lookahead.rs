@@ -38,21 +38,16 @@
 //! assert_eq!(spans.last().unwrap().end, 2);
 //! ```
 
+mod knots;
 mod late;
+mod stretch;
 
 use crate::limit::{Cap, SpeedLimit};
-use crate::profile::{Infeasible, Rates, SlopeLimits, SpanProfile};
+use crate::profile::{Infeasible, SpanProfile};
 use crate::queue::Queued;
-use crate::ride::{Cell, has_hill, ride};
+use crate::ride::ride;
 use std::sync::Arc;
-
-/// Relative difference of path acceleration up to which blocks of one run are planned as one span with the smaller
-/// value (Assumption: a CAM contour changes its direction from block to block by little, and the control does not
-/// stop accelerating there).
-const NEARLY_EQUAL: f64 = 0.1;
-
-/// Relative difference of path acceleration from which on blocks planned across are not planned with the weakest of them.
-const UNEVEN: f64 = 0.01;
+use stretch::{Stretch, cells, most_exceeded};
 
 /// Relative difference of speeds that is rounding.
 const ROUNDING: f64 = 1e-7;
@@ -73,14 +68,6 @@ pub struct Span {
     pub why_up: SpeedLimit,
     /// What held the speed down while braking.
     pub why_down: SpeedLimit,
-}
-
-struct Stretch {
-    first: usize,
-    end: usize,
-    length: f64,
-    feed: f64,
-    slope: SlopeLimits,
 }
 
 /// What is planned: blocks with what each of them and each boundary allows. Entry `i` of `caps`, `forced`, `entries` and
@@ -217,102 +204,6 @@ impl Window<'_> {
         }
     }
 
-    /// Boundaries at which the fastest speed without a jerk limit has a local minimum worth the name: there the acceleration
-    /// passes through zero in any case, so they are knots that cost nothing. `plain`: blocks that are not planned across.
-    fn minima(&self, knot: &[bool], plain: &[bool]) -> Vec<bool> {
-        let blocks = self.blocks;
-        let n = blocks.len();
-        let mut square: Vec<f64> =
-            (1..n).map(|i| self.limit(i).v_mm_s * self.limit(i).v_mm_s).collect();
-        square.insert(0, self.v_start.v_mm_s * self.v_start.v_mm_s);
-        square.push(0.0);
-        let own = square.clone();
-        let gain = |i: usize, up: bool| {
-            rates(&blocks[i])
-                .map_or(0.0, |r| 2.0 * blocks[i].length * if up { r.acc } else { r.dec })
-        };
-        for i in (0..n).rev() {
-            square[i] = square[i].min(square[i + 1] + gain(i, false));
-        }
-        for i in 0..n {
-            square[i + 1] = square[i + 1].min(square[i] + gain(i, true));
-        }
-        let own_hill = |i: usize| {
-            let v = square[i].max(square[i + 1]).sqrt();
-            rates(&blocks[i]).is_some_and(|r| has_hill(blocks[i].length, v, &r))
-        };
-        (0..=n)
-            .map(|i| {
-                i > 0
-                    && i < n
-                    && !knot[i]
-                    && !plain[i]
-                    && blocks[i].plans_across()
-                    && rates(&blocks[i]).is_some()
-                    && square[i] >= own[i]
-                    && (square[i] <= square[i - 1] || own_hill(i - 1))
-                    && (square[i] <= square[i + 1] || own_hill(i))
-            })
-            .collect()
-    }
-
-    /// Drops the minima at which acceleration zero would cost speed; true if there were any.
-    fn drop_lowered(
-        &self,
-        stretches: &[Stretch],
-        speeds: &[Cap],
-        knot: &[bool],
-        soft: &mut [bool],
-    ) -> bool {
-        let mut any = false;
-        // from the speed at the start, which is final, the first one may be out of reach
-        if let [first, second, ..] = stretches {
-            let (v0, v1) = (speeds[0].v_mm_s, speeds[1].v_mm_s);
-            if soft[second.first] && first.slope.down_distance(v0.max(v1), v1) > first.length {
-                soft[second.first] = false;
-                any = true;
-            }
-        }
-        for (s, v) in stretches.iter().zip(speeds).skip(1) {
-            let b = s.first;
-            if soft[b] && !knot[b] && v.v_mm_s < self.limit(b).v_mm_s * (1.0 - 1e-9) {
-                soft[b] = false;
-                any = true;
-            }
-        }
-        any
-    }
-
-    /// Marks the boundaries that are knots in any case. Returns which blocks are planned as with plain TRAPEZ or SIN2: the
-    /// run of equal feed in which braking under G901 begins.
-    fn mark_knots(&self, knot: &mut [bool]) -> Vec<bool> {
-        let Self { blocks, feeds, caps, .. } = *self;
-        let mut run = 0;
-        let mut plain = vec![false; blocks.len()];
-        plain[0] = is_above(self.v_start.v_mm_s, feeds[0].v_mm_s);
-        for i in 1..blocks.len() {
-            let (a, b) = (&blocks[i - 1], &blocks[i]);
-            let drops = is_above(self.entries[i].v_mm_s, feeds[i].v_mm_s);
-            let joined = self.carried[i]
-                || !self.forced[i]
-                    && a.block.slope == b.block.slope
-                    && if a.plans_across() && !plain[i - 1] {
-                        caps[i].v_mm_s > 0.0 && !drops
-                    } else {
-                        let feed = feeds[i - 1].v_mm_s.min(feeds[i].v_mm_s);
-                        caps[i].v_mm_s >= feed
-                            && (feeds[i - 1].v_mm_s - feeds[i].v_mm_s).abs() <= 1e-9 * feed
-                            && blocks[run].slope.nearly_equals(&b.slope, NEARLY_EQUAL)
-                    };
-            plain[i] = if joined { plain[i - 1] } else { drops };
-            if !joined {
-                knot[i] = true;
-                run = i;
-            }
-        }
-        plain
-    }
-
     fn stretches(&self, knot: &[bool]) -> Vec<Stretch> {
         let mut out = Vec::with_capacity(self.blocks.len());
         let mut first = 0;
@@ -372,48 +263,6 @@ impl Window<'_> {
     }
 }
 
-impl Stretch {
-    /// Both in one, with the feed of the second one: braking goes on from the first to the second.
-    fn carried_into(self, second: &Self) -> Self {
-        Self {
-            first: self.first,
-            end: second.end,
-            length: self.length + second.length,
-            feed: second.feed,
-            slope: self.slope.weaker(&second.slope),
-        }
-    }
-
-    /// Largest speed at its end, acceleration zero, from a speed and an acceleration at its start: the acceleration is
-    /// reduced to zero first.
-    fn reach_from(&self, v: f64, a: f64) -> f64 {
-        let settled = self.slope.settled(v, a);
-        let length = self.slope.change(v, a, settled).map_or(0.0, |c| c.length());
-        self.slope.reach_up(settled.max(0.0), (self.length - length).max(0.0))
-    }
-
-    /// True if one of its blocks allows more than all of them together, and is long enough at this speed to use it.
-    fn is_uneven(&self, blocks: &[Arc<Queued>], v: f64) -> bool {
-        blocks[self.first..self.end].iter().any(|b| {
-            !b.slope.nearly_equals(&self.slope, UNEVEN)
-                && rates(b).is_some_and(|r| has_hill(b.length, v, &r))
-        })
-    }
-
-    /// True if a speed at its start is above its feed (G901).
-    fn is_above(&self, v0: f64) -> bool {
-        is_above(v0, self.feed)
-    }
-
-    fn profile(&self, v0: f64, v1: f64) -> Result<SpanProfile, Infeasible> {
-        if self.is_above(v0) {
-            self.slope.plan_from_above(v0, v1, self.feed, self.length)
-        } else {
-            self.slope.plan(v0, v1, self.feed, self.length)
-        }
-    }
-}
-
 /// True if a speed exceeds a feed by more than rounding.
 fn is_above(v: f64, feed: f64) -> bool {
     v > feed * (1.0 + ROUNDING)
@@ -426,69 +275,4 @@ fn unchanged(known: &[Span], s: &Stretch, v0: f64, v1: f64) -> Option<Span> {
     let same =
         span.end == s.end && ends.0.to_bits() == v0.to_bits() && ends.1.to_bits() == v1.to_bits();
     same.then(|| span.clone())
-}
-
-/// Limits of the blocks of a stretch; `None` with STEP and with constant ramp times.
-fn cells(
-    blocks: &[Arc<Queued>],
-    feeds: &[Cap],
-    caps: &[Cap],
-    first: usize,
-    end: usize,
-) -> Option<Vec<Cell>> {
-    let mut at = 0.0;
-    (first..end)
-        .map(|i| {
-            at += blocks[i].length;
-            // the boundary belongs to both blocks
-            let both = |i: usize| caps[i + 1].v_mm_s.min(feeds[i].v_mm_s).min(feeds[i + 1].v_mm_s);
-            let cap = if i + 1 < end { both(i) } else { f64::INFINITY };
-            Some(Cell { end: at, v: feeds[i].v_mm_s, cap, rates: rates(&blocks[i])? })
-        })
-        .collect()
-}
-
-fn rates(block: &Queued) -> Option<Rates> {
-    match &block.slope {
-        SlopeLimits::Ramped(limits) => limits.rates(),
-        SlopeLimits::Step(_) => None,
-    }
-}
-
-/// The boundary inside a span whose cap, or whose block's velocity, the profile exceeds most.
-fn most_exceeded(
-    blocks: &[Arc<Queued>],
-    feeds: &[Cap],
-    caps: &[Cap],
-    s: &Stretch,
-    profile: &SpanProfile,
-) -> Option<usize> {
-    let mut worst = (1.0 + 1e-9, None);
-    let mut at = 0.0;
-    let mut before = profile.at(0.0).v_mm_s;
-    for i in s.first..s.end {
-        at += blocks[i].length;
-        let behind = if i + 1 == s.end {
-            profile.at(profile.duration()).v_mm_s
-        } else {
-            profile.at(profile.time_at(at)).v_mm_s
-        };
-        if i + 1 < s.end {
-            let cap = caps[i + 1].v_mm_s.min(feeds[i].v_mm_s).min(feeds[i + 1].v_mm_s);
-            let ratio = behind / cap.max(1e-12);
-            if ratio > worst.0 {
-                worst = (ratio, Some(i + 1));
-            }
-        }
-        // a peak inside the block: both ends are within the block's velocity, the middle is not
-        let peak = profile.highest_between(at - blocks[i].length, at).max(before).max(behind);
-        if peak / feeds[i].v_mm_s > worst.0 {
-            let inner = if i > s.first { i } else { i + 1 };
-            if inner > s.first && inner < s.end {
-                worst = (peak / feeds[i].v_mm_s, Some(inner));
-            }
-        }
-        before = behind;
-    }
-    worst.1
 }

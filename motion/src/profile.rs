@@ -4,8 +4,8 @@
 //! - slope profiles ([`SlopeLimits`], [`SpanProfile`]): the vendor's STEP, TRAPEZ and SIN2 slopes of a
 //!   path length between two velocities, acceleration zero at both ends. The look-ahead asks
 //!   [`SlopeLimits::reach_up`] and [`SlopeLimits::reach_down`], the interpolator evaluates the plan.
-//! - the change of speed (`SpeedChange`) from a moving state with any acceleration, with the ramps of a slope: feedhold
-//!   and override.
+//! - the change of speed (`SlopeLimits::change`) from a moving state with any acceleration, with the ramps of a slope:
+//!   feedhold and override.
 //! - the general third-order profile ([`ThirdOrderProfile`]): one coordinate from any position, velocity and
 //!   acceleration to any other with one jerk limit, for replanning from a moving state and for positioning.
 //!
@@ -43,6 +43,5 @@ pub use ramped::RampedLimits;
 pub(crate) use ramped::Rates;
 pub use slope::{Infeasible, SlopeLimits};
 pub use span::{SpanProfile, State};
-pub(crate) use speed_change::SpeedChange;
 pub use step::{StepAxis, StepLimits};
 pub use third_order::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderProfile};

@@ -5,10 +5,9 @@
 //! cycle of a motion is its exact end.
 
 use crate::axis::AxisVec;
-use crate::course::Course;
 use crate::limit::{Cap, SpeedLimit};
 use crate::lookahead::Span;
-use crate::profile::State;
+use crate::profile::{SpanProfile, State};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
@@ -59,7 +58,7 @@ pub(crate) struct Entry {
     pub(crate) end: Moment,
     /// Path length of the program at the start of the span.
     pub(crate) s0: f64,
-    pub(crate) profile: Course,
+    pub(crate) profile: SpanProfile,
     pub(crate) why_up: SpeedLimit,
     pub(crate) why_down: SpeedLimit,
     /// Blocks with the path length inside the span at their end; the last one may reach beyond the span.
@@ -112,14 +111,14 @@ impl Entry {
     ) -> Self {
         let why = (span.why_up, span.why_down);
         let blocks = &window[span.first..span.end];
-        Self::along(start, s0, Course::Span(span.profile.clone()), why, blocks, stops)
+        Self::along(start, s0, span.profile.clone(), why, blocks, stops)
     }
 
-    /// A course along blocks; `why` holds the speed down while accelerating and while braking.
+    /// A profile along blocks; `why` holds the speed down while accelerating and while braking.
     pub(crate) fn along(
         start: Moment,
         s0: f64,
-        profile: Course,
+        profile: SpanProfile,
         why: (SpeedLimit, SpeedLimit),
         blocks: &[Arc<Queued>],
         stops: bool,
@@ -156,14 +155,13 @@ impl Entry {
     /// The parts before and behind block `n`, the acceleration between them as it is; `None` where the profile cannot be
     /// parted.
     pub(crate) fn split(&self, n: usize) -> Option<[Self; 2]> {
-        let Course::Span(profile) = &self.profile else { return None };
         let s = self.blocks[n - 1].1;
-        let (before, behind) = profile.split(s)?;
+        let (before, behind) = self.profile.split(s)?;
         let mut parts = [self.clone(), self.clone()];
         let [first, second] = &mut parts;
         first.end = first.start.plus(before.duration());
         (second.start, second.s0) = (first.end, first.s0 + s);
-        (first.profile, second.profile) = (Course::Span(before), Course::Span(behind));
+        (first.profile, second.profile) = (before, behind);
         first.blocks.truncate(n);
         first.feeds.truncate(n);
         first.stops = false;

@@ -17,6 +17,7 @@ mod shaping;
 pub(super) mod signals;
 mod slope;
 mod spindles;
+mod splines;
 mod tools;
 mod turning;
 
@@ -198,7 +199,7 @@ const ROWS: &[Row] = &[
     run("ROTATION", frames::rotation),
     run("CS", frames::coordinate_system),
     run("CS DEF", frames::define_system),
-    run("MCS", frames::machine_coordinates),
+    frames::MCS,
     run("FGROUP", axes::feed_group),
     off_only("SCALE"),
     off_only("ACS"),
@@ -226,6 +227,7 @@ const ROWS: &[Row] = &[
     off_only("OTC"),
     off_only("LIFT"),
     unsupported("ACHSTAUSCH"),
+    splines::AKIMA_TRANS,
     unsupported("AKIMA"),
     unsupported("AX LOCK"),
     unsupported("AX UNLOCK"),
@@ -258,7 +260,11 @@ const ROWS: &[Row] = &[
     off_only("SEGMENTATION"),
     unsupported("SET JOG"),
     unsupported("SET TIP"),
-    off_only("SPLINE"),
+    splines::SPLINE,
+    splines::SPLINE_TYPE,
+    unsupported("SET SPLINE"),
+    unsupported("SET SPLINETYPE"),
+    unsupported("SET ASPLINE"),
     unsupported("START"),
     unsupported("STROKE DEF"),
     off_only("TGC"),

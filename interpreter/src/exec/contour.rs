@@ -1,16 +1,18 @@
 //! From programmed motions to steps: holds a motion back until the next one is known, where something may come between.
 
+pub(super) mod akima;
 pub(super) mod bottleneck;
 pub(super) mod compensation;
 pub(super) mod contouring;
 pub(super) mod insertion;
 
+use self::akima::Akima;
 use self::bottleneck::Cut;
 use self::compensation::{Compensator, Item, Rest};
 use self::contouring::{Contouring, Hsc};
 use self::insertion::Insertion;
 use super::block::modal::Selection;
-use super::fault::Fault;
+use super::fault::{Fault, Outcome};
 use super::geometry::arc::Point;
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
@@ -33,6 +35,8 @@ pub(super) struct Motion {
     /// The path is in the coordinates of the tilt.
     pub(super) local: bool,
     pub(super) compensation: Option<Compensated>,
+    /// It leads to a point of an Akima spline.
+    pub(super) akima: bool,
     /// The block, for conditions.
     pub(super) span: Span,
 }
@@ -138,6 +142,8 @@ pub(super) struct Contour {
     held: Option<Box<Motion>>,
     insertion: Option<Box<Insertion>>,
     compensator: Compensator,
+    /// G151.
+    pub(super) akima: Akima,
     driven: Vec<Driven>,
     blocks: u64,
 }
@@ -178,6 +184,9 @@ impl Contour {
 
     /// Drops the last motion: its block has an error.
     pub(super) fn drop_held(&mut self) {
+        if self.akima.drop_last() {
+            return;
+        }
         self.held = None;
         self.insertion = None;
     }
@@ -185,6 +194,9 @@ impl Contour {
     /// G301, G302 and relatives: between the motion before and the next one.
     pub(super) fn insert(&mut self, insertion: Insertion) -> Option<Box<Fault>> {
         let span = insertion.span;
+        if self.akima.runs() {
+            return Some(Fault::unsupported("a chamfer or rounding in a spline", span));
+        }
         if self.held.is_none() {
             let text = "no motion before to which a chamfer or rounding could be joined";
             return Some(Fault::new(Condition::InsertionWithoutMotion, text, span).warning());
@@ -197,7 +209,33 @@ impl Contour {
     }
 
     /// A motion.
-    pub(super) fn motion(&mut self, mut motion: Box<Motion>) -> Vec<Fault> {
+    pub(super) fn motion(&mut self, motion: Box<Motion>) -> Vec<Fault> {
+        if !motion.akima && !self.akima.runs() {
+            return self.joined(motion);
+        }
+        let mut curves = Vec::new();
+        let (outcome, behind) = if motion.akima {
+            (self.akima.point(motion, self.held.as_deref(), &mut curves), None)
+        } else {
+            (self.akima.finish(Some(&motion), &mut curves), Some(motion))
+        };
+        let mut faults = self.splined(curves, outcome);
+        faults.extend(behind.into_iter().flat_map(|behind| self.joined(behind)));
+        faults
+    }
+
+    /// Segments of splines go on.
+    fn splined(&mut self, curves: Vec<Motion>, outcome: Outcome<()>) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        for curve in curves {
+            self.driven.push(akima::driven(&curve));
+            faults.extend(self.joined(Box::new(curve)));
+        }
+        faults.extend(outcome.err().map(|fault| *fault));
+        faults
+    }
+
+    fn joined(&mut self, mut motion: Box<Motion>) -> Vec<Fault> {
         let mut faults = Vec::new();
         if let Some(mut before) = self.held.take() {
             let inserted = match self.insertion.take() {
@@ -222,7 +260,11 @@ impl Contour {
 
     /// A step at rest.
     pub(super) fn sync(&mut self, what: Sync, source: SourceRef) -> Vec<Fault> {
-        let mut faults = self.flush();
+        if self.akima.runs() && self.akima.selected {
+            return vec![*akima::rest_inside().in_block(source)];
+        }
+        let mut faults = self.end_spline();
+        faults.extend(self.flush());
         let events = self.take_events();
         let rest = Rest { what, source, events };
         faults.extend(self.compensator.sync(rest, &mut self.done).err().map(|f| *f));
@@ -246,7 +288,8 @@ impl Contour {
 
     /// End of the program.
     pub(super) fn end(&mut self, reason: EndReason, source: SourceRef) -> Vec<Fault> {
-        let mut faults = self.flush();
+        let mut faults = self.end_spline();
+        faults.extend(self.flush());
         if reason == EndReason::Aborted {
             self.compensator.abandon();
         }
@@ -255,6 +298,13 @@ impl Contour {
         let events = self.take_events();
         self.end = Some(Box::new(Step::End { reason, source, events }));
         faults
+    }
+
+    /// Nothing follows a spline.
+    fn end_spline(&mut self) -> Vec<Fault> {
+        let mut curves = Vec::new();
+        let outcome = self.akima.finish(None, &mut curves);
+        self.splined(curves, outcome)
     }
 
     /// The path rests behind the held motion: nothing can be inserted any more.

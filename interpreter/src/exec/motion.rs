@@ -240,10 +240,10 @@ impl Decoder {
             .axes
             .iter()
             .enumerate()
-            .map(|(i, (axis, value, _))| Target {
-                axis: *axis,
-                value: value * self.axis_unit(*axis),
-                absolute: words.is_absolute(i, self.modal.absolute),
+            .map(|(i, (axis, value, _))| {
+                let absolute = words.is_absolute(i, self.modal.absolute);
+                let value = value * self.coordinate_unit(*axis, absolute);
+                Target { axis: *axis, value, absolute }
             })
             .collect();
         targets.extend(self.motion.contour_line.target.take());
@@ -332,6 +332,9 @@ impl Decoder {
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
         let late_braking = self.late_braking(once(Act::EarlyBrakingOnce), span);
         let in_plane = self.in_plane(span)?;
+        if self.contour.akima.selected {
+            self.spline_fits(rapid, span)?;
+        }
         // of a block with an error nothing moves; what was said before it is still said
         if self.failed() && !self.checking {
             return Ok(());
@@ -363,6 +366,24 @@ impl Decoder {
         Ok(())
     }
 
+    /// What does not go with splines.
+    fn spline_fits(&self, rapid: bool, span: Span) -> Outcome<()> {
+        let what = if rapid {
+            "G00 in a spline"
+        } else if self.modal.compensation != Compensation::Off {
+            "a spline with tool radius compensation"
+        } else if !self.geometry.coordinates.frame().is_identity() {
+            "a spline in a turned or mirrored system"
+        } else if self.modal.feed_type == FeedType::PerRevolution
+            && self.motion.cutting_speed.is_some()
+        {
+            "a spline with G95 under G96"
+        } else {
+            return Ok(());
+        };
+        Err(Fault::unsupported(what, span))
+    }
+
     /// A motion with G95 under G96: its feed changes with the speed of the spindle.
     fn send_pieces(&mut self, block: &Block, in_plane: &InPlane, span: Span) -> Outcome<()> {
         if in_plane.compensation.is_some() {
@@ -382,6 +403,7 @@ impl Decoder {
     /// A motion goes on its way.
     fn send(&mut self, block: Box<Block>, in_plane: InPlane, span: Span) {
         let InPlane { plane, tilt, compensation } = in_plane;
+        let akima = self.contour.akima.selected && block.path.is_straight();
         let motion = Box::new(Motion {
             block,
             source: self.report.source,
@@ -390,6 +412,7 @@ impl Decoder {
             tilt,
             local: false,
             compensation,
+            akima,
             span,
         });
         self.moved = true;

@@ -1,5 +1,6 @@
 //! Programs and what becomes of them. Expected values are those of the language's documents and plain geometry.
 
+mod akima;
 mod arcs;
 mod calls;
 mod compensation;

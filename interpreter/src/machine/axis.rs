@@ -73,6 +73,16 @@ impl Axis {
         self.get(axis_general::MODE)
     }
 
+    /// Under G51 its words are diameters, with G90 (P-AXIS-00058) or with G91 (P-AXIS-00059).
+    pub fn takes_diameters(&self, absolute: bool) -> bool {
+        let parameter = if absolute {
+            axis_general::DIAMETER_ABSOLUTE
+        } else {
+            axis_general::DIAMETER_RELATIVE
+        };
+        self.get(parameter)
+    }
+
     /// Logical number of the gantry master (P-AXIS-00070), `None` if the axis is no slave.
     pub fn gantry_master(&self) -> Option<u32> {
         Some(self.get(axis_general::GANTRY_MASTER)).filter(|n| *n != 0)

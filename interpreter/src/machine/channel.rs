@@ -127,6 +127,8 @@ pub struct Channel {
     pub spindle_durations_s: Vec<SpindleDurations>,
     /// Subroutines called by G80 to G89 (P-CHAN-00160 to 00169), by G number.
     pub g8x_programs: BTreeMap<u32, String>,
+    /// Offsets of a face turning axis are diameters (P-CHAN-00091).
+    pub offsets_in_diameters: bool,
     /// T takes the tool data of its number too (P-CHAN-00014).
     pub tool_data_with_tool: bool,
     /// The override does not act on G33 (P-CHAN-00836).
@@ -261,6 +263,7 @@ impl Channel {
                 .zip(CYCLE_PROGRAMS)
                 .filter_map(|(g, param)| Some((g, p.get(param)?)))
                 .collect(),
+            offsets_in_diameters: p.get(of::OFFSETS_IN_DIAMETERS),
             tool_data_with_tool: p.get(of::TOOL_DATA_WITH_TOOL),
             thread_ignores_override: p.get(of::THREAD_IGNORES_OVERRIDE),
             thread_chain: p.get(of::THREAD_CHAIN),

@@ -20,11 +20,10 @@
 //! a place no longer than the kernel is; then it is taken, and what it exceeds is reported as not kept.
 
 use super::Planner;
-use crate::course::Course;
 use crate::limit::{Cap, SpeedLimit};
 use crate::lookahead::plan;
 use crate::plan::{Plan, Segment, Start};
-use crate::profile::SlopeLimits;
+use crate::profile::{SlopeLimits, SpanProfile};
 use crate::queue::Queued;
 use crate::realtime::feedhold_slope;
 use crate::timeline::{Entry, Moment};
@@ -37,8 +36,8 @@ const SLACK: f64 = 1e-9;
 /// Parts of a block that end closer together than this, in mm, end at the same place.
 const SAME_END_MM: f64 = 1e-9;
 
-/// One or two courses in a row.
-type Leg = SmallVec<[Course; 2]>;
+/// One or two profiles in a row.
+type Leg = SmallVec<[SpanProfile; 2]>;
 
 /// Where a leg may begin.
 #[derive(Clone, Copy, Debug)]
@@ -219,8 +218,8 @@ impl Planner {
         let mut crossed: SmallVec<[f64; 8]> = SmallVec::new();
         let mut reach = rest.first()?.queued.length;
         let leg = loop {
-            let leg = courses(aim, spot, &slope)?;
-            let length: f64 = leg.iter().map(Course::length).sum();
+            let leg = profiles(aim, spot, &slope)?;
+            let length: f64 = leg.iter().map(SpanProfile::length).sum();
             if length <= reach {
                 break leg;
             }
@@ -259,7 +258,7 @@ impl Planner {
                     && v.max(v_end) <= queued.velocity.v_mm_s * (1.0 + SLACK)
             })
         };
-        let length = leg.iter().map(Course::length).sum();
+        let length = leg.iter().map(SpanProfile::length).sum();
         (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
@@ -284,8 +283,8 @@ impl Planner {
     fn follow(&mut self, spot: &Spot, leg: Leg, mut rest: Vec<Segment>) -> bool {
         let moves = !leg.is_empty();
         let why = if self.active.hold.is_some() { SpeedLimit::Stop } else { SpeedLimit::Feed };
-        for course in leg {
-            let length = course.length();
+        for profile in leg {
+            let length = profile.length();
             let mut from = 0.0;
             let along = rest.iter().take_while(|segment| {
                 let inside = from < length;
@@ -294,9 +293,9 @@ impl Planner {
             });
             let (blocks, caps): (Vec<_>, Vec<_>) =
                 along.map(|s| (Arc::clone(&s.queued), s.cap)).unzip();
-            let stops = course.end().v_mm_s <= 0.0;
+            let stops = profile.end().v_mm_s <= 0.0;
             let Start { moment, s_mm, .. } = self.plan.start;
-            let mut entry = Entry::along(moment, s_mm, course, (why, why), &blocks, stops);
+            let mut entry = Entry::along(moment, s_mm, profile, (why, why), &blocks, stops);
             entry.caps = caps.into();
             self.append(entry, 0);
             rest = cut(rest, length);
@@ -338,35 +337,35 @@ fn cut(mut blocks: Vec<Segment>, mut s: f64) -> Vec<Segment> {
     blocks
 }
 
-fn courses(aim: Aim, spot: &Spot, slope: &SlopeLimits) -> Option<Leg> {
+fn profiles(aim: Aim, spot: &Spot, slope: &SlopeLimits) -> Option<Leg> {
     let (v, a) = (spot.v, spot.a);
     let settled = slope.settled(v, a);
     Some(match aim {
         Aim::Stay => Leg::new(),
-        Aim::Settle => smallvec![Course::Change(slope.change(v, a, settled)?)],
-        Aim::Rise(target) => smallvec![Course::Change(slope.change(v, a, target)?)],
-        Aim::Brake(target) if a < 0.0 => smallvec![Course::Change(slope.change(v, a, target)?)],
+        Aim::Settle => smallvec![slope.change(v, a, settled)?],
+        Aim::Rise(target) => smallvec![slope.change(v, a, target)?],
+        Aim::Brake(target) if a < 0.0 => smallvec![slope.change(v, a, target)?],
         Aim::Brake(target) => {
             let mut leg = Leg::new();
             if a > 0.0 && settled > v {
-                leg.push(Course::Change(slope.change(v, a, settled)?));
+                leg.push(slope.change(v, a, settled)?);
             }
             let length = slope.down_distance(settled, target);
-            leg.push(Course::Span(slope.plan(settled, target, settled, length).ok()?));
+            leg.push(slope.plan(settled, target, settled, length).ok()?);
             leg
         }
     })
 }
 
 /// Velocity of a leg after `s` mm.
-fn speed_in(leg: &[Course], mut s: f64) -> f64 {
+fn speed_in(leg: &[SpanProfile], mut s: f64) -> f64 {
     let mut v = 0.0;
-    for course in leg {
-        v = course.at(course.time_at(s)).v_mm_s;
-        if s <= course.length() {
+    for profile in leg {
+        v = profile.at(profile.time_at(s)).v_mm_s;
+        if s <= profile.length() {
             break;
         }
-        s -= course.length();
+        s -= profile.length();
     }
     v
 }

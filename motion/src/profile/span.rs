@@ -230,6 +230,11 @@ impl SpanProfile {
         }
     }
 
+    /// State at the end.
+    pub(crate) fn end(&self) -> State {
+        self.at(self.duration())
+    }
+
     /// Time in s at which path length `s_mm` is reached; the inverse of [`Self::at`], not decreasing.
     pub fn time_at(&self, s_mm: f64) -> f64 {
         match &self.0 {

@@ -6,123 +6,49 @@
 //! the middle has no shape of its own (Assumption: the documents describe ramps from zero only). So the jerk of a SIN2
 //! slope, `π/2` times as large in the middle of its ramps, is never exceeded.
 
-use super::roots::increasing_root;
+use super::chain::{Chain, Phase};
+use super::ramp::RampShape;
 use super::slope::SlopeLimits;
-use super::span::State;
+use super::span::SpanProfile;
 use super::step::StepLimits;
 
 /// How far (relative) a change of speed may be too small for its acceleration before it is refused.
 const SLACK: f64 = 1e-9;
 
-/// A phase of constant jerk.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Phase {
-    start_s: f64,
-    duration_s: f64,
-    from: State,
-}
-
-impl Phase {
-    fn at(&self, x: f64) -> State {
-        let State { s_mm: s, v_mm_s: v, a_mm_s2: a, j_mm_s3: j } = self.from;
-        State {
-            s_mm: s + x * (v + x * (0.5 * a + x * j / 6.0)),
-            v_mm_s: v + x * (a + 0.5 * x * j),
-            a_mm_s2: a + x * j,
-            j_mm_s3: j,
-        }
+/// From a velocity and an acceleration to a velocity with zero acceleration: builds acceleration up and reduces it within
+/// the limits of a leg; `sign` is -1 for braking.
+///
+/// `None` if the acceleration is outside the limits, or too large to reach zero within the change.
+fn change(v: f64, a: f64, target: f64, sign: f64, limits: Ramps) -> Option<SpanProfile> {
+    let Ramps { plateau, build, reduce } = limits;
+    let (gain, a0) = (sign * (target - v), sign * a);
+    let settling = 0.5 * a0 * a0 * reduce;
+    let fits = target >= 0.0
+        && a0 >= 0.0
+        && a0 <= plateau * (1.0 + SLACK)
+        && gain >= settling - SLACK * (settling + gain.abs());
+    if !fits || gain <= 0.0 {
+        return None;
     }
-}
-
-/// From a velocity and an acceleration to a velocity with zero acceleration.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct SpeedChange {
-    phases: [Phase; 3],
-    end: State,
-    duration: f64,
-}
-
-impl SpeedChange {
-    /// Builds acceleration up and reduces it within the limits of a leg; `sign` is -1 for braking.
-    ///
-    /// `None` if the acceleration is outside the limits, or too large to reach zero within the change.
-    fn new(v: f64, a: f64, target: f64, sign: f64, limits: Ramps) -> Option<Self> {
-        let Ramps { plateau, build, reduce } = limits;
-        let (gain, a0) = (sign * (target - v), sign * a);
-        let settling = 0.5 * a0 * a0 * reduce;
-        let fits = target >= 0.0
-            && a0 >= 0.0
-            && a0 <= plateau * (1.0 + SLACK)
-            && gain >= settling - SLACK * (settling + gain.abs());
-        if !fits || gain <= 0.0 {
-            return None;
-        }
-        // gain = (p^2 - a0^2) build / 2 + p^2 reduce / 2
-        let square = (2.0 * gain + a0 * a0 * build) / (build + reduce);
-        let peak = if build + reduce > 0.0 { square.max(0.0).sqrt() } else { plateau };
-        let peak = peak.min(plateau).max(a0);
-        let ramps = 0.5 * ((peak * peak - a0 * a0) * build + peak * peak * reduce);
-        let times = [(peak - a0) * build, (gain - ramps).max(0.0) / peak, peak * reduce];
-        let jerks = [1.0 / build, 0.0, -1.0 / reduce];
-        let mut from = State { v_mm_s: v, a_mm_s2: a, ..State::default() };
-        let mut duration = 0.0;
-        let mut phases = [Phase { start_s: 0.0, duration_s: 0.0, from }; 3];
-        for (i, (t, j)) in times.into_iter().zip(jerks).enumerate() {
-            // where a ramp takes no time the acceleration jumps
-            from.a_mm_s2 = if i == 0 { a } else { sign * peak };
-            from.j_mm_s3 = if t > 0.0 { sign * j } else { 0.0 };
-            phases[i] = Phase { start_s: duration, duration_s: t, from };
-            from = phases[i].at(t);
-            duration += t;
-        }
-        let end = State { s_mm: from.s_mm, v_mm_s: target, ..State::default() };
-        Some(Self { phases, end, duration })
+    // gain = (p^2 - a0^2) build / 2 + p^2 reduce / 2
+    let square = (2.0 * gain + a0 * a0 * build) / (build + reduce);
+    let peak = if build + reduce > 0.0 { square.max(0.0).sqrt() } else { plateau };
+    let peak = peak.min(plateau).max(a0);
+    let ramps = 0.5 * ((peak * peak - a0 * a0) * build + peak * peak * reduce);
+    let times = [(peak - a0) * build, (gain - ramps).max(0.0) / peak, peak * reduce];
+    let jerks = [1.0 / build, 0.0, -1.0 / reduce];
+    let mut at = Phase::state(0.0, v, a);
+    let mut phases = [at; 4];
+    for (i, (t, j)) in times.into_iter().zip(jerks).enumerate() {
+        // where a ramp takes no time the acceleration jumps
+        let a = if i == 0 { a } else { sign * peak };
+        let jerk = if t > 0.0 { sign * j } else { 0.0 };
+        phases[i] = Phase::state(at.s, at.v, a).ramp(RampShape::Trapez, jerk, t);
+        at = phases[i].end();
     }
-
-    /// Duration in s.
-    pub(crate) fn duration(&self) -> f64 {
-        self.duration
-    }
-
-    /// Length in mm.
-    pub(crate) fn length(&self) -> f64 {
-        self.end.s_mm
-    }
-
-    /// Highest velocity in mm/s: the change goes one way only.
-    pub(crate) fn peak(&self) -> f64 {
-        self.phases[0].from.v_mm_s.max(self.end.v_mm_s)
-    }
-
-    /// State at time `t` in s since the start; before the start and after the end the state of that end.
-    pub(crate) fn at(&self, t: f64) -> State {
-        if t >= self.duration {
-            return self.end;
-        }
-        let i = self.phases.partition_point(|p| p.start_s <= t).max(1) - 1;
-        let mut state = self.phases[i].at((t - self.phases[i].start_s).max(0.0));
-        state.v_mm_s = state.v_mm_s.max(0.0);
-        state.s_mm = state.s_mm.clamp(0.0, self.end.s_mm);
-        state
-    }
-
-    /// Time in s at which path length `s_mm` is reached; the inverse of [`Self::at`], not decreasing.
-    pub(crate) fn time_at(&self, s_mm: f64) -> f64 {
-        if s_mm <= 0.0 {
-            return 0.0;
-        }
-        if s_mm >= self.end.s_mm {
-            return self.duration;
-        }
-        let i = self.phases.partition_point(|p| p.from.s_mm <= s_mm).max(1) - 1;
-        let phase = &self.phases[i];
-        let guess = (s_mm - phase.from.s_mm) / phase.from.v_mm_s;
-        phase.start_s
-            + increasing_root(0.0, phase.duration_s, guess, 1e-15, |x| {
-                let state = phase.at(x);
-                (state.s_mm - s_mm, state.v_mm_s)
-            })
-    }
+    // the end without the rounding of the phases
+    phases[3] = Phase::state(at.s, target, 0.0);
+    Some(SpanProfile::from_chain(Chain::new(phases, at.s)))
 }
 
 /// Plateau and, per unit of acceleration, the times in which it builds up and falls.
@@ -151,10 +77,10 @@ impl SlopeLimits {
     /// Change from velocity `v` and acceleration `a` to the velocity `target` with zero acceleration.
     ///
     /// `None` for STEP, whose acceleration jumps, and where acceleration has to cross zero on the way.
-    pub(crate) fn change(&self, v: f64, a: f64, target: f64) -> Option<SpeedChange> {
+    pub(crate) fn change(&self, v: f64, a: f64, target: f64) -> Option<SpanProfile> {
         let braking = target < v;
         let sign = if braking { -1.0 } else { 1.0 };
-        SpeedChange::new(v, a, target, sign, self.ramps(braking)?)
+        change(v, a, target, sign, self.ramps(braking)?)
     }
 
     /// The same limits with another deceleration; `ramp_s` is not used by STEP.

@@ -44,7 +44,7 @@ impl Decoder {
         self.planes_and_units(&words);
         let takes_axes = self.axis_functions(&words);
         self.tools_and_offsets(&words, takes_axes);
-        let preset = self.position_presets(&words);
+        let preset = self.position_presets(&words) || self.spline_vectors(&words);
         self.feeds_and_modes(&words, takes_axes);
         // behind G04 the S word is a number of revolutions, behind G74 an order
         let arguments = |g: &GWord| g.row.act == Act::Dwell || g.row.number == 74;
@@ -199,6 +199,8 @@ impl Decoder {
                 self.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
             }
             Act::Compensation(side) => self.compensation(side, g.span),
+            Act::Diameter(on) => self.diameter_programming(on, g.span)?,
+            Act::Spline(on) => self.contour.akima.select(on),
             Act::Selection(selection) => self.select_compensation_by(selection, g, words)?,
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.unit_mm();
@@ -249,7 +251,8 @@ impl Decoder {
                     feed = value.map(|v| (v, *span));
                     continue;
                 }
-                "PSET" | "PRESET" | "SUPPRESS OFFSETS" | "ANG" => continue,
+                "PSET" | "PRESET" | "SUPPRESS OFFSETS" | "ANG" | "AKIMA STARTVECTOR"
+                | "AKIMA ENDVECTOR" => continue,
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,

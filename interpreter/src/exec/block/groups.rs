@@ -172,6 +172,10 @@ pub(in crate::exec) enum Act {
     /// G301, G302.
     Chamfer,
     Rounding,
+    /// G51 (true), G52.
+    Diameter(bool),
+    /// G151 (true), G150.
+    Spline(bool),
     /// G96 (true), G97.
     CuttingSpeed(bool),
     /// G196.
@@ -216,7 +220,6 @@ const FEED_CHANGE: &str = "a higher feed is reached behind the start of its bloc
 const FEED_HOLD: &str = "feedhold brakes without the weights of its own";
 const MEASURING: &str = "measuring";
 const MANUAL: &str = "manual mode";
-const SPLINES: &str = "splines";
 
 /// Every row, ordered by number. G80 to G89 and G800 to G899 are subroutine calls and not in it.
 #[rustfmt::skip]
@@ -246,8 +249,8 @@ const ROWS: &[Row] = &[
     g(40, Group::Compensation, Act::Compensation(Compensation::Off)),
     g(41, Group::Compensation, Act::Compensation(Compensation::Left)),
     g(42, Group::Compensation, Act::Compensation(Compensation::Right)),
-    g(51, Group::Diameter, Act::Unsupported("diameter programming")),
-    g(52, Group::Diameter, Act::Nothing),
+    g(51, Group::Diameter, Act::Diameter(true)),
+    g(52, Group::Diameter, Act::Diameter(false)),
     g(53, Group::ZeroOffset, Act::ZeroGroup(0)),
     g(54, Group::ZeroOffset, Act::ZeroGroup(1)),
     g(55, Group::ZeroOffset, Act::ZeroGroup(2)),
@@ -299,8 +302,8 @@ const ROWS: &[Row] = &[
     g(139, Group::CompensationSelection, Act::Selection(Selection::Indirect)),
     g(140, Group::Masking, Act::Nothing),
     g(141, Group::Masking, Act::Unsupported("contour masking")),
-    g(150, Group::Splines, Act::Nothing),
-    g(151, Group::Splines, Act::Unsupported(SPLINES)),
+    g(150, Group::Splines, Act::Spline(false)),
+    g(151, Group::Splines, Act::Spline(true)),
     v(159, Group::ZeroOffset, Act::ZeroGroupValue),
     v(160, Group::None, Act::ZeroGroupAxes),
     g(161, Group::CentreType, Act::CentreAbsolute(true)),

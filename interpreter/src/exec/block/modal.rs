@@ -151,6 +151,8 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) corners: Corners,
     /// How tool radius compensation begins and ends.
     pub(in crate::exec) selection: Selection,
+    /// G51: the face turning axis whose words are diameters.
+    pub(in crate::exec) diameter: Option<usize>,
     /// I of G301/G302 in mm.
     pub(in crate::exec) insertion_mm: Option<f64>,
     /// Transition velocity of `#TRANSVELMIN` in mm/s.
@@ -183,6 +185,7 @@ impl Modal {
             compensation: Compensation::Off,
             corners: Corners::Straight,
             selection: Selection::default(),
+            diameter: None,
             insertion_mm: None,
             transition_min_mm_s: 0.0,
         }

@@ -156,6 +156,9 @@ impl Decoder {
 
     /// Offsets of the selected tool.
     pub(in crate::exec) fn tool_offsets(&mut self) {
+        if self.geometry.coordinates.is_without_tools() {
+            return;
+        }
         let mut offsets = AxisVec::zeros(self.machine.axes.len());
         let normal = self.modal.plane.main_axes()[2];
         if let Some(axis) = self.geometry.coordinates.main_axis(normal) {

@@ -32,6 +32,15 @@ pub(super) const PUT_AX: Row = Row::run("PUT AX", put)
 pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     exchange(decoder, call.span());
     let all = call.rest.iter().chain(&call.command.tail).any(|w| w.is("ALL"));
+    let released = |item: &crate::syntax::ast::Item| match &item.kind {
+        ItemKind::Flag(name) => decoder.axis_of_name(&name.text),
+        _ => None,
+    };
+    let mut named = call.command.groups.iter().flat_map(|g| &g.items).filter_map(released);
+    if decoder.modal.diameter.is_some_and(|axis| all || named.any(|a| a == axis)) {
+        let text = "the face turning axis cannot be released under G51";
+        return Err(Fault::new(Condition::FaceAxisReleased, text, call.span()));
+    }
     if all {
         decoder.names.axes.fill(None);
         for main in 0..3 {

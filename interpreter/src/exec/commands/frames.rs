@@ -2,9 +2,10 @@
 //!
 //! Source: TF5200 programming manual, coordinate systems; P-CHAN-00394 (rotations ZYX).
 
-use super::Call;
 use super::keys::arguments;
+use super::{Call, Row};
 use crate::diag::Condition;
+use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::SYSTEMS_MAX;
@@ -96,6 +97,10 @@ fn undefined(id: u32, span: Span) -> Box<Fault> {
 
 /// `#CS ON [..]`, `#CS ON [id]`, `#CS OFF`, `#CS OFF ALL`.
 pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if decoder.geometry.coordinates.is_machine() {
+        return Err(Fault::unsupported("#CS between #MCS ON and #MCS OFF", call.span()));
+    }
+    no_compensation(decoder, call)?;
     if let Some(word) = call.rest.first() {
         if word.is("MODE") {
             return Err(Fault::unsupported("#CS MODE", call.span()));
@@ -190,17 +195,42 @@ pub(super) fn define_system(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<(
     }
 }
 
-/// `#MCS ON|OFF`: nothing to do while no frame is active.
-pub(super) fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    if let [word, ..] = &call.command.tail[..]
-        && word.is("EX")
-    {
-        return Err(Fault::unsupported("#MCS ON EX TOOL", call.span()));
+/// 20802 for a change of the coordinate system between G41 or G42 and G40.
+fn no_compensation(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
+    if decoder.modal.compensation == Compensation::Off {
+        return Ok(());
     }
-    call.no_more_words()?;
-    if call.command.on == Some(true) && !decoder.geometry.coordinates.frame().is_identity() {
-        let what = "#MCS ON with an active coordinate system, rotation or mirroring";
-        return Err(Fault::unsupported(what, call.span()));
+    let text = format!("{} while tool radius compensation is active", call.title());
+    Err(Fault::new(Condition::SystemWithCompensation, text, call.span()))
+}
+
+/// Row of `#MCS`.
+pub(super) const MCS: Row = Row::run("MCS", machine_coordinates)
+    .form("#MCS ON [EX TOOL]   #MCS OFF")
+    .meaning("puts coordinate systems, rotation, mirroring and all offsets aside: words are positions of the axes; OFF restores them")
+    .note("written EX TOOL without brackets: a tool change in between does not act before OFF")
+    .example("#MCS ON")
+    .related(&["20802"]);
+
+/// `#MCS ON`, `#MCS ON EX TOOL`, `#MCS OFF`.
+fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if let Some(word) = call.rest.first() {
+        return Err(call.unexpected(word));
+    }
+    let without_tools = match &call.command.tail[..] {
+        [] => false,
+        [ex, tool] if ex.is("EX") && tool.is("TOOL") => true,
+        [word, ..] => return Err(call.unexpected(word)),
+    };
+    let Some(on) = call.command.on else {
+        let text = "#MCS needs ON or OFF";
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+    };
+    no_compensation(decoder, call)?;
+    if on {
+        decoder.geometry.coordinates.enter_machine(without_tools);
+    } else if decoder.geometry.coordinates.leave_machine() {
+        decoder.tool_offsets();
     }
     Ok(())
 }

@@ -7,8 +7,11 @@
 //! Source: TF5200 programming manual, G53 to G59, G92, G20 to G23, G68, #CS. Assumption: axes that a
 //! rotation couples take their offsets over together.
 
+mod machine;
+
 use super::frame::Frame;
 use kontur_motion::axis::AxisVec;
+use machine::Suspended;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Contour rotation (G68, `#ROTATION`).
@@ -59,6 +62,8 @@ pub(in crate::exec) struct Coordinates {
     rotation: Option<Rotation>,
     systems: Vec<Frame>,
     stored: BTreeMap<u32, Frame>,
+    /// What `#MCS ON` has put aside.
+    suspended: Option<Box<Suspended>>,
     frame: Frame,
     /// The frame changes nothing.
     plain: bool,
@@ -84,6 +89,7 @@ impl Coordinates {
             rotation: None,
             systems: Vec::new(),
             stored: BTreeMap::new(),
+            suspended: None,
             frame: Frame::IDENTITY,
             plain: true,
         }

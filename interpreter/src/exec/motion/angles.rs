@@ -82,8 +82,8 @@ impl Decoder {
         // the end in the coordinates of the program
         let end = [first, second].map(|axis| {
             word(axis).map(|i| {
-                let value = words.axes[i].1 * self.axis_unit(axis);
                 let absolute = words.is_absolute(i, self.modal.absolute);
+                let value = words.axes[i].1 * self.coordinate_unit(axis, absolute);
                 let from = self.geometry.coordinates.programmed(axis);
                 (if absolute { value } else { from + value }, absolute)
             })
@@ -166,7 +166,7 @@ impl Decoder {
         for (m, value) in [main[0], main[1]].into_iter().zip(corner) {
             if let Some(axis) = self.geometry.coordinates.main_axis(m) {
                 let at = words.axes.first().map_or(span, |(_, _, at)| *at);
-                first.axes.push((axis, value / self.axis_unit(axis), at));
+                first.axes.push((axis, value / self.coordinate_unit(axis, true), at));
             }
         }
         first.dimensions.push((0, true));

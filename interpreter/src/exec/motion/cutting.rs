@@ -110,11 +110,55 @@ impl Decoder {
     }
 
     /// The one axis of the plane that P-AXIS-00015 marks.
-    fn face_turning_axis(&self, span: Span) -> Outcome<usize> {
+    fn marked_face_axis(&self) -> Option<usize> {
         let [a, b, _] = self.modal.plane.main_axes();
         let axes = [a, b].into_iter().filter_map(|m| self.geometry.coordinates.main_axis(m));
         let mut marked = axes.filter(|i| self.machine.axes[*i].mode_bits() & FACE_TURNING != 0);
-        if let (Some(axis), None) = (marked.next(), marked.next()) {
+        match (marked.next(), marked.next()) {
+            (Some(axis), None) => Some(axis),
+            _ => None,
+        }
+    }
+
+    /// G51, G52: words of the face turning axis are diameters; centres and radii of arcs are not.
+    ///
+    /// Assumptions: neither are G92, the words of independent axes and `V.A.ABS`.
+    ///
+    /// Source: TF5200 turning functions, diameter programming; P-AXIS-00058, P-AXIS-00059, P-CHAN-00091; 20042.
+    pub(in crate::exec) fn diameter_programming(&mut self, on: bool, span: Span) -> Outcome<()> {
+        if !on {
+            self.modal.diameter = None;
+            return Ok(());
+        }
+        let Some(axis) = self.marked_face_axis() else {
+            let text = "G51 needs exactly one face turning axis in the plane";
+            return Err(Fault::new(Condition::NoFaceTurningAxis, text, span));
+        };
+        if self.machine.channel.offsets_in_diameters {
+            let what = "diameter programming with offsets in diameters (P-CHAN-00091)";
+            return Err(Fault::unsupported(what, span));
+        }
+        let listed = &self.machine.axes[axis];
+        if !listed.takes_diameters(true) && !listed.takes_diameters(false) {
+            let name = self.axis_name(axis).to_owned();
+            let text = format!("G51 without effect: axis {name} takes no diameters");
+            let hint = "kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059) make them diameters";
+            let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
+            self.note_once("G51", fault.with(|d| d.parameter("P-AXIS-00058")));
+        }
+        self.modal.diameter = Some(axis);
+        Ok(())
+    }
+
+    /// What a coordinate word of an axis counts in mm: its unit, half of it for diameters.
+    pub(in crate::exec) fn coordinate_unit(&self, axis: usize, absolute: bool) -> f64 {
+        let halves =
+            self.modal.diameter == Some(axis) && self.machine.axes[axis].takes_diameters(absolute);
+        self.axis_unit(axis) * if halves { 0.5 } else { 1.0 }
+    }
+
+    fn face_turning_axis(&self, span: Span) -> Outcome<usize> {
+        if let Some(axis) = self.marked_face_axis() {
             return Ok(axis);
         }
         let text = "G96 needs exactly one face turning axis in the plane";

@@ -86,10 +86,13 @@ impl Decoder {
             && !modal.exact_stop
             && !modal.contouring
             && !self.motion.threads.cutting
+            && !self.motion.left_contour
+            && !self.contour.akima.selected
             && !self.motion.contour_line.is_open()
             && self.motion.cutting_speed.is_none()
             && !modal.late_braking
             && modal.compensation == Compensation::Off
+            && modal.diameter.is_none()
             && modal.feed_type == FeedType::PerMinute
             && modal.feed().is_none_or(|word| !word.inch)
             && self.calls.modal_cycle.is_none()

@@ -150,6 +150,9 @@ impl Decoder {
         if self.modal.compensation != Compensation::Off {
             return Err(Fault::unsupported("a thread with tool radius compensation", span));
         }
+        if self.contour.akima.selected {
+            return Err(Fault::unsupported("a thread in a spline", span));
+        }
         if !self.geometry.coordinates.frame().is_identity() {
             return Err(Fault::unsupported("a thread in a turned or mirrored system", span));
         }

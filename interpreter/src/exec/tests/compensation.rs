@@ -173,7 +173,8 @@ fn compensation_in_a_tilted_plane() {
         assert_near(e, &[x * c, y, -x * s]);
     }
     let id = |text: &str| run(&format!("{TOOL}{text}\nM30\n")).ids();
-    assert_eq!(id("#CS ON [0,0,0,0,30,0]\nG41 X10\nX20\n#CS OFF\nX30"), ["K-0019"]);
+    assert_eq!(id("#CS ON [0,0,0,0,30,0]\nG41 X10\nX20\n#CS OFF\nX30"), ["20802"]);
+    assert_eq!(id("G41 X10\nX20\n#CS ON [5,0,0,0,0,0]\nX30"), ["20802"]);
 }
 
 #[test]
@@ -332,6 +333,7 @@ fn deselection_without_a_block() {
         assert_points(&run.ends(), &expected);
     }
     assert_eq!(run(&text("G02 X150 Y0 I15 J0")).ids(), ["90008"]);
+    clean(&text("G01 X150 Y0\nX160\nG02 X170 I5"));
     // with an offset and mirrored the program counts from the tool all the same
     let run = clean(
         "G92 X100\nG239\nV.G.WZ_AKT.R = 10\nG41 G01 X30 Y20 F1000\nX60\nG40\nP1=V.A.ABS.X P2=V.A.ABS.Y\nX[P1+1] Y[P2]\nM30\n",

@@ -4,6 +4,48 @@ use super::{Options, assert_end, assert_near, clean, machine, run, run_with};
 use crate::source::MemorySources;
 use kontur_motion::block::Feed;
 
+/// G51 (400180619): words of the face turning axis are diameters with G90, G91 or both as its list says; centres, radii and offsets
+/// are not.
+#[test]
+fn diameters() {
+    const ABSOLUTE: &str = "X.kenngr.durchm_prog_abs=1";
+    const RELATIVE: &str = "X.kenngr.durchm_prog_rel=1";
+    let ends = |settings: &[&str], text: &str| {
+        let mut all = vec!["X.kenngr.achs_mode=65"];
+        all.extend(settings);
+        let sources = crate::source::MemorySources::new()
+            .with("main.nc", format!("F1000 G18\n{text}\nM30\n"));
+        let run = super::run_with(sources, super::machine(&all), super::Options::default());
+        (run.ids(), run.ends().into_iter().map(|e| [e[0], e[2]]).collect::<Vec<_>>())
+    };
+    let text = "X10\nG51\nX10 Z5\nX20\nG91 X4\nG90 G02 X40 Z11 R6\nG52 G01\nX40\nG92 X1\nG51 X40";
+    let (ids, found) = ends(&[ABSOLUTE], text);
+    assert_eq!(ids, [""; 0]);
+    assert_eq!(
+        found,
+        [
+            [10.0, 0.0],
+            [5.0, 5.0],
+            [10.0, 5.0],
+            [14.0, 5.0],
+            [20.0, 11.0],
+            [40.0, 11.0],
+            [21.0, 11.0]
+        ]
+    );
+    let (_, found) = ends(&[ABSOLUTE, RELATIVE], text);
+    assert_eq!(found[3], [12.0, 5.0]);
+    let (_, found) = ends(&[RELATIVE], text);
+    assert_eq!(found[..4], [[10.0, 0.0], [10.0, 5.0], [20.0, 5.0], [22.0, 5.0]]);
+    // a line of 45 deg from the radius 5 to the diameter 30 goes 10 mm in both
+    let (_, found) = ends(&[ABSOLUTE], "G17 X5\nG51\n#ANG=45 X30");
+    assert_eq!(found[1][0], 15.0);
+    assert_eq!(ends(&[], "G51 X10").0, ["K-0075"]);
+    assert_eq!(ends(&[ABSOLUTE], "G19 G51").0.last().map(String::as_str), Some("20042"));
+    assert_eq!(ends(&[ABSOLUTE], "G51\n#PSET X10").0, ["K-0019"]);
+    assert_eq!(ends(&[ABSOLUTE, "channel.versch_im_durchm=1"], "G51").0, ["K-0019"]);
+}
+
 #[test]
 fn zero_offsets() {
     assert_end("V.G.NP[1].V.X=10\nG90 G54 X0 F100", [10.0, 0.0, 0.0]);

@@ -1,6 +1,6 @@
 //! Mirroring, rotation and coordinate systems carry a whole path along: arcs, helices, chamfers and compensation.
 
-use super::clean;
+use super::{assert_near, clean};
 
 /// Points of every motion of a program.
 fn points(text: &str) -> Vec<[f64; 3]> {
@@ -37,6 +37,50 @@ fn assert_carried(frame: &str, image: impl Fn([f64; 3]) -> [f64; 3]) {
             assert!(near, "{frame}: {text}: {p:?} at {q:?} instead of {expected:?}");
         }
     }
+}
+
+/// `#MCS ON` (208517515): words are positions of the axes, whatever offsets, systems and mirroring there are; with `#MCS OFF` the
+/// state before is back, offsets of the machine coordinates are forgotten.
+#[test]
+fn machine_coordinates() {
+    let all = "V.G.NP[1].V.X=100\nV.G.NP[1].V.Z=7\nV.G.WZ[1].L=30\nG54 D1 G92 Y5\n#CS ON [10,0,0,0,0,90]\nX1 Y2 Z3 F1000\n";
+    let before = clean(&format!("{all}M30\n")).end;
+    assert_near(&before, &[100.0 + 10.0 - 2.0, 5.0 + 1.0, 7.0 + 30.0 + 3.0]);
+    let text =
+        format!("{all}#MCS ON\nX11 Y12 Z13\nG91 X1\nG90 G92 X200\nX1\n#MCS OFF\nX1 Y2 Z3\nM30\n");
+    let run = clean(&text);
+    let e = run.ends();
+    assert_near(&e[1], &[11.0, 12.0, 13.0]);
+    assert_near(&e[2], &[12.0, 12.0, 13.0]);
+    assert_near(&e[3], &[201.0, 12.0, 13.0]);
+    assert_near(&e[4], &before);
+    // the coordinates of the program are those of where the axes are
+    let run = clean(&format!(
+        "{all}#MCS ON\nX108 Y16 Z50\n#MCS OFF\nP1=V.A.ABS.X P2=V.A.ABS.Y P3=V.A.ABS.Z\nX0 Y0 Z0\nX P1 Y P2 Z P3\nM30\n"
+    ));
+    assert_near(&run.end, &[108.0, 16.0, 50.0]);
+    // a tool change acts in the machine coordinates, or behind them
+    for (ex, inside) in [("", 19.0), ("EX TOOL", 9.0)] {
+        let run =
+            clean(&format!("V.G.WZ[2].L=10\n#MCS ON {ex}\nD2\nZ9 F1000\n#MCS OFF\nZ0\nM30\n"));
+        let z: Vec<f64> = run.ends().iter().map(|e| e[2]).collect();
+        assert_eq!(z, [inside, 10.0], "{ex}");
+    }
+    // mirroring and rotation too
+    let e =
+        clean("G71 G21 G68 R30\nX10 Y10 F1000\n#MCS ON\nX5 Y5\n#MCS OFF\nX10 Y10\nM30\n").ends();
+    assert_near(&e[1][..2], &[5.0, 5.0]);
+    assert_near(&e[2], &e[0]);
+    for text in ["#MCS ON\n#CS ON [1,0,0,0,0,0]", "V.G.WZ_AKT.R=1\nG41 X10 F100\nX20\n#MCS ON"] {
+        assert!(
+            run_ids(text).iter().any(|id| ["K-0019", "20802"].contains(&id.as_str())),
+            "{text}"
+        );
+    }
+}
+
+fn run_ids(text: &str) -> Vec<String> {
+    super::run(&format!("{text}\nM30\n")).ids()
 }
 
 #[test]

@@ -23,6 +23,10 @@ parameters! {
         .range(Bound::At(1.0), Bound::None).default(0.0).axes("TR").special(0.0).source("TF5200 gantry"), as GANTRY_MASTER: Whole;
     axis("P-AXIS-00086", "", Raw::Uns32, "stroke of the probe; to be raised for measuring moves, whose distance shrinks by what the feedforward buffer holds")
         .axes("TR").source("TF5200 feedforward control");
+    axis("P-AXIS-00058", "kenngr.durchm_prog_abs", Raw::Boolean, "with G51 and G90 words of a face turning axis are diameters")
+        .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_ABSOLUTE: Switch;
+    axis("P-AXIS-00059", "kenngr.durchm_prog_rel", Raw::Boolean, "the same with G91")
+        .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_RELATIVE: Switch;
     axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "override ceiling of single axes and spindles")
         .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(Condition::OverrideRange, Correction::Limit);
     axis("P-AXIS-00176", "kenngr.suppress_pos_lag_error", Raw::Boolean, "the lag is monitored and traced but raises no error; no document prints the prefix of the key, kenngr., lr_param., getriebe[0]. and none are taken")

@@ -50,6 +50,8 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(4.0)).default(0.0).above(Condition::SlopeWeighting, Correction::Refuse).below(Condition::SlopeWeighting, Correction::Refuse), as RAMP_SELECTION: Whole;
     chan("P-CHAN-00090", "vector.velocity", Raw::Real64, "path speed limit")
         .default(2000000000.0).unit("mm/min", "mm/min"), as PATH_SPEED: Number;
+    chan("P-CHAN-00091", "versch_im_durchm", Raw::Boolean, "offsets of a face turning axis are diameters; 1 is not supported with G51")
+        .default(0.0).source("TF5200 channel parameters"), as OFFSETS_IN_DIAMETERS: Switch;
     chan("P-CHAN-00097", "use_drive_curr_limit", Raw::Boolean, "feedhold uses its own parameters")
         .default(0.0), as OWN_FEEDHOLD: Switch;
     chan("P-CHAN-00099", "prog_start.feedrate", Raw::Real64, "F at program start; 0 means F must be programmed (20008)")

@@ -91,6 +91,10 @@ impl Decoder {
             self.note(Fault::new(Condition::Syntax, text, at));
             return true;
         }
+        if words.axes.iter().any(|(axis, _, _)| self.modal.diameter == Some(*axis)) {
+            self.note(Fault::unsupported("#PSET and #PRESET of an axis with diameters (G51)", at));
+            return true;
+        }
         for (axis, value, _) in &words.axes {
             let value = sets.then(|| value * self.axis_unit(*axis));
             self.geometry.coordinates.preset_position(*axis, value);

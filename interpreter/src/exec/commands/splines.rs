@@ -1,0 +1,112 @@
+//! `#SPLINE`, `#AKIMA`: Akima splines.
+//!
+//! Source: TF5200 programming manual, Akima splines.
+
+use super::keys::arguments;
+use super::{Call, Row};
+use crate::diag::Condition;
+use crate::exec::block::words::Words;
+use crate::exec::contour::akima::Transition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::syntax::ast::Span;
+
+/// Row of `#SPLINE`.
+pub(super) const SPLINE: Row = Row::run("SPLINE", spline)
+    .form("#SPLINE ON|OFF")
+    .meaning("a curve through the points of the following lines, as G151 and G150")
+    .note("it begins at the last point before it; arcs interrupt it tangentially; no rest, G00 or tool radius compensation in it")
+    .example("#SPLINE ON")
+    .related(&["#AKIMA TRANS", "#SPLINE TYPE"]);
+
+fn spline(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let Some(on) = call.command.on else {
+        let text = "#SPLINE needs ON or OFF";
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+    };
+    decoder.contour.akima.select(on);
+    Ok(())
+}
+
+/// Row of `#SPLINE TYPE`.
+pub(super) const SPLINE_TYPE: Row = Row::run("SPLINE TYPE", spline_type)
+    .form("#SPLINE TYPE AKIMA")
+    .meaning("kind of the splines of #SPLINE ON and G151; B-splines are those of #HSC")
+    .example("#SPLINE TYPE AKIMA")
+    .related(&["#SPLINE", "#HSC"]);
+
+fn spline_type(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    let _ = decoder;
+    match call.rest {
+        [word] if word.is("AKIMA") => Ok(()),
+        [word] if word.is("BSPLINE") => {
+            Err(Fault::unsupported("#SPLINE TYPE BSPLINE", call.span()))
+        }
+        [word, ..] => Err(call.unexpected(word)),
+        [] => {
+            let text = "#SPLINE TYPE needs AKIMA or BSPLINE";
+            Err(Fault::new(Condition::TokenUnknown, text, call.span()))
+        }
+    }
+}
+
+arguments! {
+    /// Keys of `#AKIMA TRANS`.
+    struct TransitionArguments {
+        start: Word "START", "", "AUTO, TANGENTIAL or USER; default AUTO";
+        end: Word "END", "", "AUTO, TANGENTIAL or USER; default AUTO";
+    }
+}
+
+/// Row of `#AKIMA TRANS`.
+pub(super) const AKIMA_TRANS: Row = Row::run("AKIMA TRANS", transitions)
+    .form("#AKIMA TRANS [START=AUTO|TANGENTIAL|USER END=..]")
+    .meaning("tangents of splines at their ends: from their points, of the motions before and behind, or of #AKIMA STARTVECTOR and ENDVECTOR")
+    .keys(TransitionArguments::KEYS)
+    .example("#AKIMA TRANS [START=TANGENTIAL END=AUTO]")
+    .related(&["#SPLINE"]);
+
+fn transitions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let group = call.command.groups.first();
+    let keys = TransitionArguments::read(decoder, &call.title(), group)?;
+    let start = transition(keys.start)?;
+    let end = transition(keys.end)?;
+    let akima = &mut decoder.contour.akima;
+    (akima.start.transition, akima.end.transition) = (start, end);
+    Ok(())
+}
+
+/// A transition that is not written is AUTO.
+fn transition(written: Option<(Box<str>, Span)>) -> Outcome<Transition> {
+    let Some((name, span)) = written else { return Ok(Transition::Auto) };
+    let known = [
+        ("AUTO", Transition::Auto),
+        ("TANGENTIAL", Transition::Tangential),
+        ("USER", Transition::User),
+    ];
+    let found = known.into_iter().find(|(word, _)| name.eq_ignore_ascii_case(word));
+    found.map(|(_, transition)| transition).ok_or_else(|| {
+        let text = format!("#AKIMA TRANS: unknown transition `{name}`");
+        Fault::new(Condition::TokenUnknown, text, span)
+            .hint("transitions are AUTO, TANGENTIAL and USER")
+    })
+}
+
+impl Decoder {
+    /// `#AKIMA STARTVECTOR X1 Y1`, `#AKIMA ENDVECTOR`: true if the axis words of the block belong to one of them.
+    pub(in crate::exec) fn spline_vectors(&mut self, words: &Words<'_>) -> bool {
+        let named = |name: &str| words.hashes.iter().any(|(hash, _, _)| &*hash.name == name);
+        let (start, end) = (named("AKIMA STARTVECTOR"), named("AKIMA ENDVECTOR"));
+        let vector: Vec<(usize, f64)> =
+            words.axes.iter().map(|(axis, value, _)| (*axis, *value)).collect();
+        if start {
+            self.contour.akima.start.vector.clone_from(&vector);
+        }
+        if end {
+            self.contour.akima.end.vector = vector;
+        }
+        start || end
+    }
+}

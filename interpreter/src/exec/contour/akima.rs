@@ -1,0 +1,319 @@
+//! Akima splines: a curve through the programmed points with a continuous tangent (G151, `#SPLINE ON`).
+//!
+//! Each axis is a cubic over the lengths of the chords; the derivative at a point comes from the two chords on either side
+//! of it, weighed as Akima does (J. ACM 17 (1970) 589, equation 1): the chord whose neighbours agree more counts more. At
+//! the ends two chords are extrapolated, or the tangent is that of the motion before or behind, or of the program.
+//!
+//! Assumptions: the parameter is the chord length over the feed axes, over all axes where none of them moves; where the
+//! weights of both sides are 0, both chords count the same; a given tangent has the length 1.
+//!
+//! Source: TF5200 programming manual, Akima splines (`#AKIMA TRANS`, `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`).
+
+use super::{Driven, Motion};
+use crate::exec::fault::{Fault, Outcome};
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::path::{Path, PolyPath, PolyPiece};
+use std::collections::VecDeque;
+
+/// Chords behind a segment that decide its end.
+const AHEAD: usize = 2;
+
+/// Chords before a segment that decide its start.
+const BEHIND: usize = 2;
+
+/// Smallest speed of the parameter, as a part of that on a straight line: below it the curve has a cusp.
+const CUSP: f64 = 1e-3;
+
+/// Samples of a segment in the search for a cusp.
+const SAMPLES: u32 = 64;
+
+/// How the tangent at an end of a spline is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::exec) enum Transition {
+    /// From the points.
+    #[default]
+    Auto,
+    /// That of the motion before or behind.
+    Tangential,
+    /// `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`.
+    User,
+}
+
+/// One end of splines.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::exec) struct End {
+    pub(in crate::exec) transition: Transition,
+    /// Components of the tangent by axis; axes without one get theirs from the points.
+    pub(in crate::exec) vector: Vec<(usize, f64)>,
+}
+
+impl End {
+    /// Derivatives of single axes, or of all.
+    fn tangent(&self, neighbour: Option<AxisVec>) -> Given {
+        match (self.transition, neighbour) {
+            (Transition::Auto, _) | (Transition::Tangential, None) => Given::Nothing,
+            (Transition::Tangential, Some(direction)) => Given::All(direction),
+            (Transition::User, _) => {
+                let length = self.vector.iter().map(|(_, x)| x * x).sum::<f64>().sqrt();
+                if length <= 0.0 {
+                    return Given::Nothing;
+                }
+                Given::Some(self.vector.iter().map(|(axis, x)| (*axis, x / length)).collect())
+            }
+        }
+    }
+}
+
+/// What is given of a tangent.
+#[derive(Clone, Debug)]
+enum Given {
+    Nothing,
+    Some(Vec<(usize, f64)>),
+    All(AxisVec),
+}
+
+impl Given {
+    fn over(self, mut automatic: AxisVec) -> AxisVec {
+        match self {
+            Self::Nothing => {}
+            Self::Some(axes) => axes.into_iter().for_each(|(axis, x)| automatic[axis] = x),
+            Self::All(direction) => automatic = direction,
+        }
+        automatic
+    }
+}
+
+/// A spline whose segments are not all complete.
+#[derive(Debug)]
+struct Run {
+    /// Segments that wait for the chords behind them.
+    waiting: VecDeque<Box<Motion>>,
+    /// Slopes of up to [`BEHIND`] chords before them, then their own.
+    slopes: VecDeque<AxisVec>,
+    /// What is given at the start, until the first segment is complete.
+    start: Option<Given>,
+    /// Derivative at the start of the first segment that waits.
+    tangent: Option<AxisVec>,
+}
+
+/// The stage.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Akima {
+    pub(in crate::exec) start: End,
+    pub(in crate::exec) end: End,
+    /// G151 is in force.
+    pub(in crate::exec) selected: bool,
+    /// An arc has interrupted the spline: it goes on tangentially.
+    behind_arc: bool,
+    run: Option<Box<Run>>,
+}
+
+/// Direction of a path at one of its ends, by its length.
+fn direction(path: &Path, end: bool) -> AxisVec {
+    let mut direction = path.start().clone();
+    path.tangent(if end { path.length() } else { 0.0 }, &mut direction);
+    direction
+}
+
+/// Length and slope of the chord of a motion.
+fn chord(motion: &Motion) -> (f64, AxisVec) {
+    let path = &motion.block.path;
+    let way: AxisVec =
+        path.start().iter().zip(path.end().iter()).map(|(from, to)| to - from).collect();
+    let feed = &motion.block.dynamics.feed_axes;
+    let of = |counts: &dyn Fn(usize) -> bool| {
+        let ways = way.iter().enumerate().filter(|(i, _)| counts(*i));
+        ways.map(|(_, w)| w * w).sum::<f64>().sqrt()
+    };
+    let over_feed = of(&|i| feed.get(i).copied().unwrap_or(true));
+    let length = if over_feed > 0.0 { over_feed } else { of(&|_| true) };
+    let slope = way.iter().map(|w| w / length).collect();
+    (length, slope)
+}
+
+impl Run {
+    /// Slope of a chord counted from the first segment that waits; beyond the ends it is extrapolated.
+    fn slope(&self, chord: isize) -> AxisVec {
+        let before = self.slopes.len() - self.waiting.len();
+        let index = chord + before.cast_signed();
+        let last = self.slopes.len().cast_signed() - 1;
+        let beyond = |edge: usize, next: usize, steps: f64| {
+            let (edge, next) = (&self.slopes[edge], &self.slopes[next]);
+            edge.iter().zip(next.iter()).map(|(e, n)| e + (e - n) * steps).collect()
+        };
+        if self.slopes.len() == 1 {
+            return self.slopes[0].clone();
+        }
+        if index < 0 {
+            beyond(0, 1, -index as f64)
+        } else if index > last {
+            beyond(last.cast_unsigned(), last.cast_unsigned() - 1, (index - last) as f64)
+        } else {
+            self.slopes[index.cast_unsigned()].clone()
+        }
+    }
+
+    /// Akima's derivative at the start of a segment.
+    fn derivative(&self, segment: isize) -> AxisVec {
+        let [a, b, c, d] = [-2, -1, 0, 1].map(|k| self.slope(segment + k));
+        (0..a.len())
+            .map(|i| {
+                let (before, behind) = ((d[i] - c[i]).abs(), (b[i] - a[i]).abs());
+                let both = before + behind;
+                if both > 0.0 {
+                    (before * b[i] + behind * c[i]) / both
+                } else {
+                    0.5 * (b[i] + c[i])
+                }
+            })
+            .collect()
+    }
+
+    /// Completes the first segment that waits; `end` is given at its end.
+    fn complete(&mut self, end: Given) -> Option<Outcome<Box<Motion>>> {
+        let from = match (self.start.take(), self.tangent.take()) {
+            (Some(given), _) => given.over(self.derivative(0)),
+            (None, Some(tangent)) => tangent,
+            (None, None) => self.derivative(0),
+        };
+        let to = end.over(self.derivative(1));
+        let motion = self.waiting.pop_front()?;
+        let before = self.slopes.len() - self.waiting.len();
+        for _ in BEHIND..before {
+            self.slopes.pop_front();
+        }
+        let done = curved(motion, &from, &to);
+        self.tangent = Some(to);
+        Some(done)
+    }
+}
+
+/// The motion on the cubic between its ends with these derivatives.
+fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Box<Motion>> {
+    let (length, _) = chord(&motion);
+    let path = &motion.block.path;
+    let (start, end) = (path.start().clone(), path.end().clone());
+    let piece: PolyPiece = (0..start.len())
+        .map(|i| {
+            let (way, a, b) = (end[i] - start[i], length * from[i], length * to[i]);
+            [start[i], a, 3.0 * way - 2.0 * a - b, a + b - 2.0 * way, 0.0, 0.0]
+        })
+        .collect();
+    let feed = &motion.block.dynamics.feed_axes;
+    let moves = |i: usize| feed.get(i).copied().unwrap_or(true);
+    let measured = (0..start.len()).any(|i| moves(i) && start[i].to_bits() != end[i].to_bits());
+    let pace = |x: f64| {
+        let axes = piece.iter().enumerate().filter(|(i, _)| !measured || moves(*i));
+        axes.map(|(_, c)| c[1] + x * (2.0 * c[2] + x * 3.0 * c[3]))
+            .map(|d| d * d)
+            .sum::<f64>()
+            .sqrt()
+    };
+    let slowest = (0..=SAMPLES)
+        .map(|k| pace(f64::from(k) / f64::from(SAMPLES)))
+        .fold(f64::INFINITY, f64::min);
+    if slowest < CUSP * length {
+        return Err(Fault::unsupported("a spline with a cusp", motion.span).in_block(motion.source));
+    }
+    if let Some(path) = PolyPath::new(start, end, vec![piece], feed) {
+        motion.block.path = Path::Curve(Box::new(path));
+    }
+    (motion.block.contour, motion.block.spline) = (None, None);
+    Ok(motion)
+}
+
+/// Lowest and highest positions of a cubic.
+fn extents(motion: &Motion) -> Vec<(f64, f64)> {
+    let mut at = motion.block.path.start().clone();
+    let path = &motion.block.path;
+    let mut found: Vec<(f64, f64)> =
+        path.start().iter().zip(path.end().iter()).map(|(a, b)| (a.min(*b), a.max(*b))).collect();
+    for k in 1..SAMPLES {
+        path.position(path.length() * f64::from(k) / f64::from(SAMPLES), &mut at);
+        for ((low, high), x) in found.iter_mut().zip(at.iter()) {
+            (*low, *high) = (low.min(*x), high.max(*x));
+        }
+    }
+    found
+}
+
+impl Akima {
+    /// G150, G151.
+    pub(in crate::exec) fn select(&mut self, on: bool) {
+        self.selected = on;
+        self.behind_arc = false;
+    }
+
+    /// A spline is under way.
+    pub(in crate::exec) fn runs(&self) -> bool {
+        self.run.is_some()
+    }
+
+    /// A point of the spline; `before`: the motion before it, if the path does not rest.
+    pub(super) fn point(
+        &mut self,
+        motion: Box<Motion>,
+        before: Option<&Motion>,
+        out: &mut Vec<Motion>,
+    ) -> Outcome<()> {
+        let (_, slope) = chord(&motion);
+        let run = self.run.get_or_insert_with(|| {
+            let neighbour = before.map(|before| direction(&before.block.path, true));
+            let given = match (std::mem::take(&mut self.behind_arc), &neighbour) {
+                (true, Some(direction)) => Given::All(direction.clone()),
+                _ => self.start.tangent(neighbour),
+            };
+            Box::new(Run {
+                waiting: VecDeque::new(),
+                slopes: VecDeque::new(),
+                start: Some(given),
+                tangent: None,
+            })
+        });
+        run.waiting.push_back(motion);
+        run.slopes.push_back(slope);
+        while run.waiting.len() > AHEAD {
+            out.extend(run.complete(Given::Nothing).transpose()?.map(|motion| *motion));
+        }
+        Ok(())
+    }
+
+    /// The spline ends; `behind`: the motion that follows it without a rest.
+    pub(super) fn finish(&mut self, behind: Option<&Motion>, out: &mut Vec<Motion>) -> Outcome<()> {
+        let Some(mut run) = self.run.take() else { return Ok(()) };
+        let neighbour = behind.map(|behind| direction(&behind.block.path, false));
+        let is_arc = behind.is_some_and(|b| !b.block.path.is_straight());
+        self.behind_arc = self.selected && is_arc;
+        let mut end = match (self.behind_arc, neighbour) {
+            (true, Some(direction)) => Given::All(direction),
+            (_, neighbour) => self.end.tangent(neighbour),
+        };
+        while !run.waiting.is_empty() {
+            let given = if run.waiting.len() == 1 {
+                std::mem::replace(&mut end, Given::Nothing)
+            } else {
+                Given::Nothing
+            };
+            out.extend(run.complete(given).transpose()?.map(|motion| *motion));
+        }
+        Ok(())
+    }
+
+    /// Drops the last point: its block has an error.
+    pub(super) fn drop_last(&mut self) -> bool {
+        let Some(run) = &mut self.run else { return false };
+        run.slopes.pop_back();
+        run.waiting.pop_back().is_some()
+    }
+}
+
+/// Extents of a segment, for the software limits.
+pub(super) fn driven(motion: &Motion) -> Driven {
+    Driven { extents_mm: extents(motion), source: motion.source, span: motion.span }
+}
+
+/// A rest in a spline.
+pub(super) fn rest_inside() -> Box<Fault> {
+    Fault::unsupported("a stop of the path inside a spline", Span::default())
+}

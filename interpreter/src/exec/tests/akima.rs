@@ -1,0 +1,136 @@
+//! Akima splines.
+
+use super::{assert_near, clean, run};
+use kontur_motion::block::Block;
+
+const SPLINE: &str =
+    "G01 X20 Y0 F1000\n#AKIMA TRANS[START=USER END=AUTO]\n#AKIMA STARTVECTOR X1 Y1 Z0\n";
+const POINTS: &str = "G01 X40 Y20\nX60\nY0\nX80\nY10\n";
+
+/// Direction of a block at one of its ends.
+fn direction(block: &Block, end: bool) -> Vec<f64> {
+    let mut direction = block.path.start().clone();
+    block.path.tangent(if end { block.path.length() } else { 0.0 }, &mut direction);
+    direction.to_vec()
+}
+
+fn unit(v: [f64; 2]) -> [f64; 2] {
+    let length = libm::hypot(v[0], v[1]);
+    [v[0] / length, v[1] / length]
+}
+
+/// The page's first program (1255466635): through its points, at the start with the slope 1, and in between with the
+/// derivatives that the chords give.
+#[test]
+fn the_example_with_a_start_tangent() {
+    let run = clean(&format!("{SPLINE}G151\n{POINTS}G150\nX70\nM30\n"));
+    let blocks = run.blocks();
+    let ends = run.ends();
+    let expected = [
+        [20.0, 0.0],
+        [40.0, 20.0],
+        [60.0, 20.0],
+        [60.0, 0.0],
+        [80.0, 0.0],
+        [80.0, 10.0],
+        [70.0, 10.0],
+    ];
+    assert_eq!(ends.len(), expected.len());
+    for (end, want) in ends.iter().zip(expected) {
+        assert_near(&end[..2], &want);
+    }
+    let straight: Vec<bool> = blocks.iter().map(|b| b.path.is_straight()).collect();
+    assert_eq!(straight, [true, false, false, false, false, false, true]);
+    assert_near(&direction(blocks[1], false)[..2], &[0.5_f64.sqrt(); 2]);
+    // no corner between the blocks of the spline
+    for pair in blocks[1..6].windows(2) {
+        assert_near(&direction(pair[0], true), &direction(pair[1], false));
+    }
+    // chords (h, h), (1, 0), (0, -1), (1, 0), (0, 1) with h = 1 / sqrt 2: at (60, 20) the weights of X are |1 - 0| and 1 - h,
+    // those of Y |0 + 1| and h
+    let h = 0.5_f64.sqrt();
+    let at_60_20 = unit([1.0 / (2.0 - h), -h / (1.0 + h)]);
+    assert_near(&direction(blocks[2], true)[..2], &at_60_20);
+    // at (60, 0): X from (0, -1) and (1, 0) between (1, 0) and (0, 1): both weights 1; Y likewise
+    assert_near(&direction(blocks[3], true)[..2], &unit([0.5, -0.5]));
+    // the end: the chord behind (1, 0), (0, 1) is extrapolated to (-1, 2) and (-2, 3), all of them change alike
+    assert_near(&direction(blocks[5], true)[..2], &unit([-0.5, 1.5]));
+    // the other words for the same
+    for words in [("#SPLINE ON\n", "#SPLINE OFF\n"), ("#SPLINE TYPE AKIMA\nG151 ", "G150 ")] {
+        let other = clean(&format!("{SPLINE}{}{POINTS}{}X70\nM30\n", words.0, words.1));
+        assert_eq!(other.ends(), ends);
+        assert_eq!(direction(other.blocks()[3], true), direction(blocks[3], true));
+    }
+}
+
+/// Points on a line are a line, whatever their distances; a spline through two points is one too.
+#[test]
+fn straight_points_stay_straight() {
+    for text in ["G151\nX1 Y2\nX3 Y6\nX4 Y8\nX10 Y20\nG150", "G151\nX1 Y2\nG150"] {
+        let run = clean(&format!("F1000\n{text}\nM30\n"));
+        for block in run.blocks() {
+            let mut at = block.path.start().clone();
+            for k in 0..=10 {
+                block.path.position(block.path.length() * f64::from(k) / 10.0, &mut at);
+                assert!((at[1] - 2.0 * at[0]).abs() < 1e-9, "{at:?}");
+            }
+        }
+    }
+}
+
+/// TANGENTIAL takes the directions of the motions before and behind; an arc between points always does.
+#[test]
+fn tangential_transitions() {
+    let text = |ends: &str| {
+        format!(
+            "F1000\n#AKIMA TRANS [{ends}]\nX10\nG151\nX20 Y10\nX30 Y20\nX50 Y20\nG150\nX50 Y0\nM30\n"
+        )
+    };
+    let both = clean(&text("START=TANGENTIAL END=TANGENTIAL"));
+    let blocks = both.blocks();
+    assert_near(&direction(blocks[1], false), &[1.0, 0.0, 0.0]);
+    assert_near(&direction(blocks[3], true), &[0.0, -1.0, 0.0]);
+    let none = clean(&text("START=AUTO"));
+    assert!((direction(none.blocks()[1], false)[1] - 0.5).abs() < 0.3);
+    // an end tangent of the program
+    let user = clean(
+        "F1000\n#AKIMA TRANS [END=USER]\n#AKIMA ENDVECTOR X-1\nX10\nG151\nX20 Y10\nX30 Y20\nX50 Y20\nG150\nM30\n",
+    );
+    assert!(direction(user.blocks()[3], true)[0] < 0.0);
+    let arc = clean(
+        "F1000\nG151\nX10 Y0\nX20 Y5\nG02 X30 Y-5 I0 J-10\nG01 X35 Y-20\nX40 Y-20\nG150\nM30\n",
+    );
+    let blocks = arc.blocks();
+    assert_near(&direction(blocks[1], true), &direction(blocks[2], false));
+    assert_near(&direction(blocks[2], true), &direction(blocks[3], false));
+}
+
+/// What does not go with splines is refused, and what leaves the software limits is found.
+#[test]
+fn what_splines_do_not_do() {
+    for (text, id) in [
+        ("G151\nX10\nG04 1\nX20", "K-0019"),
+        ("G151\nX10\nG00 X20", "K-0019"),
+        ("G151\nX10\nG60 X20\nX30", "K-0019"),
+        ("G151\nX10\nX20\nG301 I1 X30", "K-0019"),
+        ("G68 R30\nG151\nX10", "K-0019"),
+        ("V.G.WZ_AKT.R=1\nG41 X5\nX10\nG151\nX20\nX30", "K-0019"),
+        ("#SPLINE TYPE BSPLINE", "K-0019"),
+        ("#SPLINE", "21220"),
+        ("#AKIMA TRANS [START=TANG]", "21220"),
+        ("G150 G151", "K-0008"),
+    ] {
+        let ids = run(&format!("F1000\n{text}\nM30\n")).ids();
+        assert_eq!(ids.first().map(String::as_str), Some(id), "{text}");
+    }
+    // the points stay inside 200 mm, the curve does not
+    let limits = super::machine(&["X.kenngr.swe_pos=2000000"]);
+    let text = "F1000\nG151\nX190 Y0\nX199 Y10\nX199 Y20\nX190 Y30\nG150\nM30\n";
+    let sources = crate::source::MemorySources::new().with("main.nc", text);
+    let outside = super::run_with(sources, limits, super::Options::default());
+    assert_eq!(outside.ids(), [""; 0], "{:?}", outside.ids());
+    let limits = super::machine(&["X.kenngr.swe_pos=1990001"]);
+    let sources = crate::source::MemorySources::new().with("main.nc", text);
+    let outside = super::run_with(sources, limits, super::Options::default());
+    assert_eq!(outside.ids().first().map(String::as_str), Some("21897"));
+}

@@ -1,0 +1,111 @@
+//! Knots: the boundaries of a window at which the acceleration is zero.
+//!
+//! Reads a window, touches nothing but the marks.
+
+use super::stretch::{Stretch, rates};
+use super::{Window, is_above};
+use crate::limit::Cap;
+use crate::ride::has_hill;
+
+/// Relative difference of path acceleration up to which blocks of one run are planned as one span with the smaller
+/// value (Assumption: a CAM contour changes its direction from block to block by little, and the control does not
+/// stop accelerating there).
+const NEARLY_EQUAL: f64 = 0.1;
+
+impl Window<'_> {
+    /// Boundaries at which the fastest speed without a jerk limit has a local minimum worth the name: there the acceleration
+    /// passes through zero in any case, so they are knots that cost nothing. `plain`: blocks that are not planned across.
+    pub(super) fn minima(&self, knot: &[bool], plain: &[bool]) -> Vec<bool> {
+        let blocks = self.blocks;
+        let n = blocks.len();
+        let mut square: Vec<f64> =
+            (1..n).map(|i| self.limit(i).v_mm_s * self.limit(i).v_mm_s).collect();
+        square.insert(0, self.v_start.v_mm_s * self.v_start.v_mm_s);
+        square.push(0.0);
+        let own = square.clone();
+        let gain = |i: usize, up: bool| {
+            rates(&blocks[i])
+                .map_or(0.0, |r| 2.0 * blocks[i].length * if up { r.acc } else { r.dec })
+        };
+        for i in (0..n).rev() {
+            square[i] = square[i].min(square[i + 1] + gain(i, false));
+        }
+        for i in 0..n {
+            square[i + 1] = square[i + 1].min(square[i] + gain(i, true));
+        }
+        let own_hill = |i: usize| {
+            let v = square[i].max(square[i + 1]).sqrt();
+            rates(&blocks[i]).is_some_and(|r| has_hill(blocks[i].length, v, &r))
+        };
+        (0..=n)
+            .map(|i| {
+                i > 0
+                    && i < n
+                    && !knot[i]
+                    && !plain[i]
+                    && blocks[i].plans_across()
+                    && rates(&blocks[i]).is_some()
+                    && square[i] >= own[i]
+                    && (square[i] <= square[i - 1] || own_hill(i - 1))
+                    && (square[i] <= square[i + 1] || own_hill(i))
+            })
+            .collect()
+    }
+
+    /// Drops the minima at which acceleration zero would cost speed; true if there were any.
+    pub(super) fn drop_lowered(
+        &self,
+        stretches: &[Stretch],
+        speeds: &[Cap],
+        knot: &[bool],
+        soft: &mut [bool],
+    ) -> bool {
+        let mut any = false;
+        // from the speed at the start, which is final, the first one may be out of reach
+        if let [first, second, ..] = stretches {
+            let (v0, v1) = (speeds[0].v_mm_s, speeds[1].v_mm_s);
+            if soft[second.first] && first.slope.down_distance(v0.max(v1), v1) > first.length {
+                soft[second.first] = false;
+                any = true;
+            }
+        }
+        for (s, v) in stretches.iter().zip(speeds).skip(1) {
+            let b = s.first;
+            if soft[b] && !knot[b] && v.v_mm_s < self.limit(b).v_mm_s * (1.0 - 1e-9) {
+                soft[b] = false;
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Marks the boundaries that are knots in any case. Returns which blocks are planned as with plain TRAPEZ or SIN2: the
+    /// run of equal feed in which braking under G901 begins.
+    pub(super) fn mark_knots(&self, knot: &mut [bool]) -> Vec<bool> {
+        let Self { blocks, feeds, caps, .. } = *self;
+        let mut run = 0;
+        let mut plain = vec![false; blocks.len()];
+        plain[0] = is_above(self.v_start.v_mm_s, feeds[0].v_mm_s);
+        for i in 1..blocks.len() {
+            let (a, b) = (&blocks[i - 1], &blocks[i]);
+            let drops = is_above(self.entries[i].v_mm_s, feeds[i].v_mm_s);
+            let joined = self.carried[i]
+                || !self.forced[i]
+                    && a.block.slope == b.block.slope
+                    && if a.plans_across() && !plain[i - 1] {
+                        caps[i].v_mm_s > 0.0 && !drops
+                    } else {
+                        let feed = feeds[i - 1].v_mm_s.min(feeds[i].v_mm_s);
+                        caps[i].v_mm_s >= feed
+                            && (feeds[i - 1].v_mm_s - feeds[i].v_mm_s).abs() <= 1e-9 * feed
+                            && blocks[run].slope.nearly_equals(&b.slope, NEARLY_EQUAL)
+                    };
+            plain[i] = if joined { plain[i - 1] } else { drops };
+            if !joined {
+                knot[i] = true;
+                run = i;
+            }
+        }
+        plain
+    }
+}

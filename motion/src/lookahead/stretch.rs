@@ -1,0 +1,131 @@
+//! A stretch: the blocks between two knots, as one length with the weakest of their limits.
+//!
+//! It knows its blocks; what stands at its ends is the window's.
+
+use super::is_above;
+use crate::limit::Cap;
+use crate::profile::{Infeasible, Rates, SlopeLimits, SpanProfile};
+use crate::queue::Queued;
+use crate::ride::{Cell, has_hill};
+use std::sync::Arc;
+
+/// Relative difference of path acceleration from which on blocks planned across are not planned with the weakest of them.
+const UNEVEN: f64 = 0.01;
+
+/// Blocks `first..end` between two knots.
+pub(super) struct Stretch {
+    pub(super) first: usize,
+    pub(super) end: usize,
+    /// Length in mm.
+    pub(super) length: f64,
+    /// Highest feed in mm/s.
+    pub(super) feed: f64,
+    pub(super) slope: SlopeLimits,
+}
+
+impl Stretch {
+    /// Both in one, with the feed of the second one: braking goes on from the first to the second.
+    pub(super) fn carried_into(self, second: &Self) -> Self {
+        Self {
+            first: self.first,
+            end: second.end,
+            length: self.length + second.length,
+            feed: second.feed,
+            slope: self.slope.weaker(&second.slope),
+        }
+    }
+
+    /// Largest speed at its end, acceleration zero, from a speed and an acceleration at its start: the acceleration is
+    /// reduced to zero first.
+    pub(super) fn reach_from(&self, v: f64, a: f64) -> f64 {
+        let settled = self.slope.settled(v, a);
+        let length = self.slope.change(v, a, settled).map_or(0.0, |c| c.length());
+        self.slope.reach_up(settled.max(0.0), (self.length - length).max(0.0))
+    }
+
+    /// True if one of its blocks allows more than all of them together, and is long enough at this speed to use it.
+    pub(super) fn is_uneven(&self, blocks: &[Arc<Queued>], v: f64) -> bool {
+        blocks[self.first..self.end].iter().any(|b| {
+            !b.slope.nearly_equals(&self.slope, UNEVEN)
+                && rates(b).is_some_and(|r| has_hill(b.length, v, &r))
+        })
+    }
+
+    /// True if a speed at its start is above its feed (G901).
+    pub(super) fn is_above(&self, v0: f64) -> bool {
+        is_above(v0, self.feed)
+    }
+
+    pub(super) fn profile(&self, v0: f64, v1: f64) -> Result<SpanProfile, Infeasible> {
+        if self.is_above(v0) {
+            self.slope.plan_from_above(v0, v1, self.feed, self.length)
+        } else {
+            self.slope.plan(v0, v1, self.feed, self.length)
+        }
+    }
+}
+
+/// Limits of the blocks of a stretch; `None` with STEP and with constant ramp times.
+pub(super) fn cells(
+    blocks: &[Arc<Queued>],
+    feeds: &[Cap],
+    caps: &[Cap],
+    first: usize,
+    end: usize,
+) -> Option<Vec<Cell>> {
+    let mut at = 0.0;
+    (first..end)
+        .map(|i| {
+            at += blocks[i].length;
+            // the boundary belongs to both blocks
+            let both = |i: usize| caps[i + 1].v_mm_s.min(feeds[i].v_mm_s).min(feeds[i + 1].v_mm_s);
+            let cap = if i + 1 < end { both(i) } else { f64::INFINITY };
+            Some(Cell { end: at, v: feeds[i].v_mm_s, cap, rates: rates(&blocks[i])? })
+        })
+        .collect()
+}
+
+pub(super) fn rates(block: &Queued) -> Option<Rates> {
+    match &block.slope {
+        SlopeLimits::Ramped(limits) => limits.rates(),
+        SlopeLimits::Step(_) => None,
+    }
+}
+
+/// The boundary inside a span whose cap, or whose block's velocity, the profile exceeds most.
+pub(super) fn most_exceeded(
+    blocks: &[Arc<Queued>],
+    feeds: &[Cap],
+    caps: &[Cap],
+    s: &Stretch,
+    profile: &SpanProfile,
+) -> Option<usize> {
+    let mut worst = (1.0 + 1e-9, None);
+    let mut at = 0.0;
+    let mut before = profile.at(0.0).v_mm_s;
+    for i in s.first..s.end {
+        at += blocks[i].length;
+        let behind = if i + 1 == s.end {
+            profile.at(profile.duration()).v_mm_s
+        } else {
+            profile.at(profile.time_at(at)).v_mm_s
+        };
+        if i + 1 < s.end {
+            let cap = caps[i + 1].v_mm_s.min(feeds[i].v_mm_s).min(feeds[i + 1].v_mm_s);
+            let ratio = behind / cap.max(1e-12);
+            if ratio > worst.0 {
+                worst = (ratio, Some(i + 1));
+            }
+        }
+        // a peak inside the block: both ends are within the block's velocity, the middle is not
+        let peak = profile.highest_between(at - blocks[i].length, at).max(before).max(behind);
+        if peak / feeds[i].v_mm_s > worst.0 {
+            let inner = if i > s.first { i } else { i + 1 };
+            if inner > s.first && inner < s.end {
+                worst = (peak / feeds[i].v_mm_s, Some(inner));
+            }
+        }
+        before = behind;
+    }
+    worst.1
+}
