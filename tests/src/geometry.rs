@@ -100,9 +100,14 @@ impl Piece {
         }
     }
 
+    /// Point at a parameter.
+    pub fn point(&self, u: f64) -> Point {
+        self.at(u)[0]
+    }
+
     /// Last point.
     pub fn end(&self) -> Point {
-        self.at(1.0)[0]
+        self.point(1.0)
     }
 
     /// Direction of travel at the end, length 1.

@@ -118,10 +118,7 @@ fn an_akima_spline_runs_through_its_points() {
     assert!((last.axes[0].set - 70.0).abs() < 1e-9 && (last.axes[1].set - 10.0).abs() < 1e-9);
     let step = 1000.0 / 60.0 * run.cycle_s;
     for (x, y) in [(40.0, 20.0), (60.0, 20.0), (60.0, 0.0), (80.0, 0.0)] {
-        let near = run
-            .records
-            .iter()
-            .map(|r| ((r.axes[0].set - x).powi(2) + (r.axes[1].set - y).powi(2)).sqrt());
+        let near = run.records.iter().map(|r| libm::hypot(r.axes[0].set - x, r.axes[1].set - y));
         assert!(near.fold(f64::MAX, f64::min) <= step, "{x} {y}");
     }
     let inside = run.records.iter().filter(|r| (7..=9).contains(&r.line));

@@ -216,8 +216,6 @@ fn run_all(
     mut journal: Option<&mut Journal>,
     console: &mut Console,
 ) -> Result<Rows, Error> {
-    let mut progress = console.progress();
-    let _running = Running::start();
     let mut done: Vec<Option<Row>> = vec![None; combinations.len()];
     for (i, row) in journal.as_mut().map(|j| j.take_rows()).unwrap_or_default() {
         if let Some(place) = done.get_mut(i) {
@@ -226,6 +224,13 @@ fn run_all(
     }
     let open: Vec<usize> = (0..done.len()).filter(|i| done[*i].is_none()).collect();
     let before = done.len() - open.len();
+    if before > 0 {
+        let text =
+            format!("goes on where it was stopped: {before} of {} runs are done", done.len());
+        console.say(Severity::Note, &text);
+    }
+    let mut progress = console.progress();
+    let _running = Running::start();
     let mut failed: Option<(usize, Failure)> = None;
     let mut written = Ok(());
     std::thread::scope(|scope| {

@@ -218,7 +218,10 @@ fn a_sweep_that_was_killed_goes_on_where_it_stopped() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(!f.join("a.csv").exists() && rows() > 3);
-    assert!(run(f, &sweep("a.csv")).status.success());
+    let done = run(f, &sweep("a.csv"));
+    assert!(done.status.success());
+    let said = String::from_utf8(done.stderr).unwrap();
+    assert!(said.contains("goes on where it was stopped") && said.contains("of 30 runs"), "{said}");
     assert_eq!(fs::read(f.join("a.csv")).unwrap(), fs::read(f.join("whole.csv")).unwrap());
     assert!(!f.join("a.csv.rows").exists());
 }

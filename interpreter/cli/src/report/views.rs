@@ -83,7 +83,7 @@ pub(super) fn groups(runs: &[Drawn]) -> Vec<Group> {
     }
     let of_run = |(i, r): (usize, &Drawn)| {
         let error = error(", ", of_run(&r.summary));
-        let name = if runs.len() > 1 { format!("{}, ", r.summary.program) } else { String::new() };
+        let name = if runs.len() > 1 { format!("{}, ", short(runs, i)) } else { String::new() };
         let label = format!("set, {name}{:.3} s{error}", r.summary.duration_s);
         Group { run: i, pass: None, style: Style::series(i), label }
     };
@@ -210,7 +210,25 @@ pub(super) fn style(runs: &[Drawn], run: usize, axis: Option<usize>) -> Style {
 
 /// A name, with its run if there are several.
 pub(super) fn name(runs: &[Drawn], run: usize, name: &str) -> String {
-    if runs.len() > 1 { format!("{} {name}", runs[run].summary.program) } else { name.to_owned() }
+    if runs.len() > 1 { format!("{} {name}", short(runs, run)) } else { name.to_owned() }
+}
+
+/// What tells a run from the others: its name without the folders, the program or the parameters that all of them begin with.
+fn short(runs: &[Drawn], run: usize) -> &str {
+    let names: Vec<&str> = runs.iter().map(|r| r.summary.program.as_str()).collect();
+    names.get(run).map_or("", |name| &name[common(&names)..])
+}
+
+/// Bytes of the whole parts that all names begin with and none of them consists of.
+fn common(names: &[&str]) -> usize {
+    let Some((first, others)) = names.split_first() else { return 0 };
+    // a blank inside `kv = 5` separates nothing
+    let ends = first.char_indices().filter(|(i, c)| match c {
+        '/' | '\\' => true,
+        c => *c == ' ' && first[..*i].ends_with(','),
+    });
+    let shared = |end: &usize| others.iter().all(|o| o.starts_with(&first[..*end]));
+    ends.map(|(i, _)| i + 1).rfind(shared).unwrap_or(0)
 }
 
 /// The units of curves, each once.
@@ -290,4 +308,23 @@ fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) 
         }
     }
     points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_named_by_what_tells_them_apart() {
+        let rest = |names: [&'static str; 2]| names.map(|name| &name[common(&names)..]);
+        for (names, short) in [
+            (["p/a.nc, HZ = 20", "p/a.nc, HZ = 40"], ["HZ = 20", "HZ = 40"]),
+            (["p/a.nc, m = 1, f = 2", "p/a.nc, m = 1, f = 3"], ["f = 2", "f = 3"]),
+            (["p/a.nc", "p/b.nc"], ["a.nc", "b.nc"]),
+            (["p\\a.nc", "q\\a.nc"], ["p\\a.nc", "q\\a.nc"]),
+            (["a.nc", "a.nc"], ["a.nc", "a.nc"]),
+        ] {
+            assert_eq!(rest(names), short);
+        }
+    }
 }
