@@ -294,6 +294,8 @@ pub(crate) struct Gauge {
     set: SetPath,
     path: SetPath,
     found: Excursion,
+    /// Cycle and set point of the last cycle in which nothing was filtered.
+    unfiltered: Option<(u64, AxisVec)>,
     /// Shortest vector to the last set point with its length in mm.
     shortest: Option<(f64, AxisVec)>,
 }
@@ -314,6 +316,19 @@ impl Gauge {
         self.shortest.as_ref().map(|(length, vector)| (*length, &**vector))
     }
 
+    /// Takes the set point of a cycle that filters left as it was interpolated: the line to the next one starts there.
+    pub(crate) fn unfiltered(&mut self, k: u64, point: &[f64]) {
+        match &mut self.unfiltered {
+            Some((at, kept)) if kept.len() == point.len() => {
+                *at = k;
+                for (kept, new) in kept.iter_mut().zip(point) {
+                    *kept = *new;
+                }
+            }
+            unfiltered => *unfiltered = Some((k, AxisVec::from_slice(point))),
+        }
+    }
+
     /// Takes the set point and the interpolated point of cycle `k`. Finds the largest components of what the line to the
     /// set point leaves the contour by, and of what the points of the contour that the filters have just let go were
     /// missed by.
@@ -321,7 +336,13 @@ impl Gauge {
         let axes = set.len();
         if self.set.end() != k {
             // nothing was filtered in between: the set point was the path
-            (self.set, self.path) = (SetPath::starting(k, axes), SetPath::starting(k, axes));
+            let before =
+                self.unfiltered.as_ref().filter(|(at, point)| at + 1 == k && point.len() == axes);
+            let mut path = SetPath::starting(before.map_or(k, |(at, _)| *at), axes);
+            if let Some((_, point)) = before {
+                path.push(point);
+            }
+            (self.set, self.path) = (path.clone(), path);
         }
         self.set.push(set);
         self.path.push(path);

@@ -302,6 +302,11 @@ impl Planner {
         }
     }
 
+    /// In place of [`Self::deviation`] in a cycle whose set point is the interpolated one.
+    pub fn undeviated(&mut self) {
+        self.gauge.unfiltered(self.setpoint.k, &self.setpoint.position);
+    }
+
     /// Largest components in mm of what the set path leaves the contour by in this cycle, and of what it has missed of the
     /// contour that the filters have just let go: the two directions that `AX_DEV` bounds.
     pub fn excursion(&self) -> &[f64] {

@@ -126,6 +126,7 @@ impl Simulation {
         self.record.contour_err_mm = if shaped {
             self.planner.deviation(&self.set, &mut self.vector)
         } else {
+            self.planner.undeviated();
             self.vector.fill(0.0);
             0.0
         };

@@ -96,10 +96,11 @@ impl View<'_> {
                 if trial.kernels.overshoot {
                     note(&mut soften[b], excess, tolerance);
                 }
+                let slow_enough = harmless(trial, tolerance);
                 // on a straight block with equal kernels only starts and stops leave the contour
                 let starts_only = trial.kernels.overshoot && !trial.kernels.unequal;
                 if queued.bend > 0.0 || !starts_only || findings.even[b].is_finite() {
-                    demands.feed[b] = demands.feed[b].min(findings.even[b]);
+                    demands.feed[b] = demands.feed[b].min(findings.even[b].max(slow_enough));
                 }
             }
             if let Some((excess, tolerance)) = soften[b] {
@@ -160,6 +161,15 @@ pub(super) fn on_a_bend(trial: &Trial<'_>, bend: f64, tolerance: f64) -> f64 {
     let spread = trial.kernels.axes.iter().flatten().map(|k| spread_cycles2(k)).fold(0.0, f64::max);
     let t = trial.cycle.seconds();
     (2.0 * tolerance / (spread * t * t * bend.max(1e-6))).sqrt()
+}
+
+/// Speed in mm/s at which nothing can be left by the tolerance: what the filters hold is then shorter than that, and the set
+/// point is a mean of it. Who is slower still is not to blame.
+fn harmless(trial: &Trial<'_>, tolerance: f64) -> f64 {
+    let gain = |k: &Kernel| k.taps().iter().map(|t| t.weight.abs()).sum::<f64>();
+    let gain = trial.kernels.axes.iter().flatten().map(|k| gain(k)).fold(1.0, f64::max);
+    let held_s = f64::from(trial.kernels.length().max(1)) * trial.cycle.seconds();
+    0.5 * tolerance / (gain * held_s)
 }
 
 /// Variance of the kernel in cycles squared, negative weights counted like positive ones.
