@@ -376,12 +376,20 @@ fn recomputed(run: &Run, case: &Case) -> (f64, u64) {
     worst
 }
 
+/// True if the filter is on in a line: without one a corner lies between two set points wherever it pleases.
+fn is_filtered(case: &Case, line: u32) -> bool {
+    let before = case.text.lines().take(line as usize);
+    let switch = before.filter(|l| l.starts_with("#VIB GUARD") || l.starts_with("#FILTER")).last();
+    switch.is_some_and(|l| l.contains(" ON"))
+}
+
 /// Largest axis component of the shortest vector from the lines between the set points to a point of the contour, over all
-/// blocks, with the line of the program: of a block those count between its first cycle and the reach behind its last one.
+/// filtered blocks, with the line of the program: of a block those count between its first cycle and the reach behind its last one.
 fn missed(run: &Run, case: &Case) -> (f64, u32) {
     let records = &run.records;
     let mut worst = (0.0, 0);
-    for (i, (line, pieces)) in case.blocks.iter().enumerate() {
+    let blocks = case.blocks.iter().enumerate();
+    for (i, (line, pieces)) in blocks.filter(|(_, (line, _))| is_filtered(case, *line)) {
         let first = records.partition_point(|r| r.line < *line);
         let behind = case.blocks.get(i + 1).map_or(u32::MAX, |block| block.0);
         let last = records.partition_point(|r| r.line < behind) + case.reach;
