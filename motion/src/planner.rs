@@ -99,6 +99,12 @@ pub struct Planner {
     gauge: Gauge,
     reach_cycles: u32,
     unkept: Vec<Unkept>,
+    /// Least tolerance of any block so far in mm; what is output is compared with that of its blocks from there on.
+    least_tolerance_mm: f64,
+    /// The first cycle whose output exceeded the tolerance of its blocks, until it is told.
+    exceeded: Option<Unkept>,
+    /// One was told.
+    exceeded_told: bool,
     brake: Option<Brake>,
     /// Override and feedhold in effect, and those asked for.
     active: Realtime,
@@ -111,6 +117,10 @@ struct Realtime {
     ratios: Override,
     hold: Option<FeedholdBraking>,
 }
+
+/// Share and mm by which the output may exceed a tolerance before it is told: what a trace rounds away.
+const ALLOWANCE: f64 = 1.001;
+const ALLOWANCE_MM: f64 = 1e-6;
 
 impl Planner {
     /// A planner at rest at `start`, with a look-ahead of `window` blocks (P-STUP-00071, 10..=10000).
@@ -131,6 +141,9 @@ impl Planner {
             gauge: Gauge::default(),
             reach_cycles: 0,
             unkept: Vec::new(),
+            least_tolerance_mm: f64::INFINITY,
+            exceeded: None,
+            exceeded_told: false,
             brake: None,
             active: Realtime::default(),
             wanted: Realtime::default(),
@@ -195,6 +208,9 @@ impl Planner {
             ),
             None => Cap::STOP,
         };
+        if let Some(tolerance) = queued.block.tolerance.ax_dev_mm {
+            self.least_tolerance_mm = self.least_tolerance_mm.min(tolerance);
+        }
         let segment = Segment { queued: Arc::clone(&queued), cap };
         self.plan.push(segment, self.cycle, self.kernels.any());
         self.last = Some(queued);
@@ -293,6 +309,7 @@ impl Planner {
                 .map(|nearest| nearest.distance),
             "blocks left out are not the nearest"
         );
+        self.judge(k);
         if let Some((length_mm, vector)) = self.gauge.shortest() {
             out.copy_from_slice(vector);
             length_mm
@@ -300,6 +317,34 @@ impl Planner {
             out.fill(0.0);
             0.0
         }
+    }
+
+    /// Compares what is output with the loosest tolerance of the blocks that the filters hold.
+    fn judge(&mut self, k: u64) {
+        let most = self.gauge.found().iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        if self.exceeded_told || most <= self.least_tolerance_mm {
+            return;
+        }
+        let (reach, moment) = (f64::from(self.reach_cycles), k as f64);
+        let mut loosest = (0.0, 0);
+        for passed in self.contour.between(moment - 2.0 * reach - 3.0, moment) {
+            let block = &passed.queued.block;
+            let tolerance = block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
+            if tolerance >= loosest.0 {
+                loosest = (tolerance, block.seq);
+            }
+        }
+        let (tolerance_mm, seq) = loosest;
+        if most > ALLOWANCE * tolerance_mm + ALLOWANCE_MM {
+            self.exceeded_told = true;
+            self.exceeded = Some(Unkept { seq, deviation_mm: most, tolerance_mm });
+        }
+    }
+
+    /// The first excess that was measured in what is output although the plan had kept the tolerance; each run has one at
+    /// most.
+    pub fn take_exceeded(&mut self) -> Option<Unkept> {
+        self.exceeded.take()
     }
 
     /// In place of [`Self::deviation`] in a cycle whose set point is the interpolated one.

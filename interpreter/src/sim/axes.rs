@@ -135,6 +135,9 @@ impl Simulation {
             axis.dev = *dev;
             axis.dev_both_ways = both_ways.get(i).map_or(dev.abs(), |d| d.abs().max(dev.abs()));
         }
+        if let Some(exceeded) = self.planner.take_exceeded() {
+            self.exceeded(&exceeded);
+        }
         for unkept in self.planner.take_unkept() {
             self.unkept(&unkept);
         }

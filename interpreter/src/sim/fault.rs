@@ -8,7 +8,7 @@ use super::axes::Driver;
 use super::chain::Remaining;
 use super::inputs::SpeedChange;
 use super::{Phase, Simulation};
-use crate::diag::{Condition, Diagnostic, Reaction, ValueKind, rounded};
+use crate::diag::{Condition, Diagnostic, Reaction, Severity, ValueKind, rounded};
 use crate::exec::SpindleMotion;
 use crate::machine::{Axis, AxisKind, Machine};
 use kontur_filters::control::fault::{Derivative, Fault};
@@ -384,6 +384,22 @@ impl Simulation {
         d.source = self.executor.locate(source);
         self.diagnostics.push(d);
         self.stop(Vec::new());
+    }
+
+    /// Tells that the set path, as it is output, leaves the contour by more than the plan had promised.
+    pub(super) fn exceeded(&mut self, exceeded: &Unkept) {
+        let Unkept { seq, deviation_mm, tolerance_mm } = *exceeded;
+        let text = format!(
+            "deviation {deviation_mm:.6} mm exceeds AX_DEV {tolerance_mm:.6} mm, which the plan had kept"
+        );
+        let mut d = Diagnostic::new(Condition::AxDevNotKept, text)
+            .severity(Severity::Warning)
+            .value(ValueKind::Current, deviation_mm, "mm")
+            .value(ValueKind::Limit, tolerance_mm, "mm")
+            .hint("the first place of the run; |dev| of the summary is the largest; a lower feed helps");
+        let source = self.underway.iter().find(|u| u.seq == seq).map_or(self.current, |u| u.source);
+        d.source = self.executor.locate(source);
+        self.diagnostics.push(d);
     }
 
     /// Reports the corners that were not contoured as asked for, each place once.
