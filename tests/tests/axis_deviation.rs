@@ -418,48 +418,74 @@ fn off_contour(run: &Run, case: &Case) -> f64 {
     ipo.map(|p| deviation(pieces.iter().copied(), p)).fold(0.0, f64::max)
 }
 
+/// Runs a random program and judges it; returns the largest deviation of a set point as a share of the tolerance.
+fn holds(n: u64) -> f64 {
+    let case = case(n);
+    let settings: Vec<&str> = case.settings.iter().map(String::as_str).collect();
+    let run = run(&case.text, &settings);
+    let about = || format!("program {n}\n{}\n{:?}", case.text, case.settings);
+    assert!(!run.totals.aborted, "{:?}\n{}", run.diagnostics, about());
+    let unkept: Vec<_> =
+        run.diagnostics.iter().filter(|d| d.id == Condition::AxDevNotKept).collect();
+    assert!(unkept.is_empty(), "{unkept:?}\n{}", about());
+    let off = off_contour(&run, &case);
+    assert!(off <= case.off_mm + SLACK_MM, "setpoints {off} mm off the contour\n{}", about());
+    let own = largest(&run, |a| a.dev.abs());
+    let both = largest(&run, |a| a.dev_both_ways);
+    let limit = case.tolerance_mm + SLACK_MM;
+    assert!(own <= limit, "X_dev_mm {own}, AX_DEV {}\n{}", case.tolerance_mm, about());
+    assert!(both <= limit, "both ways {both}, AX_DEV {}\n{}", case.tolerance_mm, about());
+    let (dev, k) = recomputed(&run, &case);
+    assert!(
+        dev <= case.within_mm() + SLACK_MM,
+        "cycle {k}: {dev} mm, AX_DEV {}\n{}",
+        case.tolerance_mm,
+        about()
+    );
+    // the contour of a spline is known within `off_mm` only
+    let (most, line) = if case.off_mm > 0.0 { (0.0, 0) } else { missed(&run, &case) };
+    assert!(
+        most <= limit,
+        "line {line}: missed by {most}, AX_DEV {}\n{}",
+        case.tolerance_mm,
+        about()
+    );
+    own / case.tolerance_mm
+}
+
+/// Largest value of the axes over a run.
+fn largest(run: &Run, of: fn(&AxisRecord) -> f64) -> f64 {
+    run.records.iter().flat_map(|r| &r.axes[..3]).map(of).fold(0.0, f64::max)
+}
+
 /// Conformance: V002, V055, V056.
 #[test]
 fn the_tolerance_holds_over_random_programs() {
     let first = seed() * 1_000_000;
-    let mut tightest: f64 = 0.0;
-    for n in 0..count(6) as u64 {
-        let case = case(first + n);
-        let settings: Vec<&str> = case.settings.iter().map(String::as_str).collect();
-        let run = run(&case.text, &settings);
-        let about = || format!("program {}\n{}\n{:?}", first + n, case.text, case.settings);
-        assert!(!run.totals.aborted, "{:?}\n{}", run.diagnostics, about());
-        let unkept: Vec<_> =
-            run.diagnostics.iter().filter(|d| d.id == Condition::AxDevNotKept).collect();
-        assert!(unkept.is_empty(), "{unkept:?}\n{}", about());
-        let off = off_contour(&run, &case);
-        assert!(off <= case.off_mm + SLACK_MM, "setpoints {off} mm off the contour\n{}", about());
-        let own = |of: fn(&AxisRecord) -> f64| {
-            run.records.iter().flat_map(|r| &r.axes[..3]).map(of).fold(0.0, f64::max)
-        };
-        let both = own(|a| a.dev_both_ways);
-        let own = own(|a| a.dev.abs());
-        let limit = case.tolerance_mm + SLACK_MM;
-        assert!(own <= limit, "X_dev_mm {own}, AX_DEV {}\n{}", case.tolerance_mm, about());
-        assert!(both <= limit, "both ways {both}, AX_DEV {}\n{}", case.tolerance_mm, about());
-        let (dev, k) = recomputed(&run, &case);
-        assert!(
-            dev <= case.within_mm() + SLACK_MM,
-            "cycle {k}: {dev} mm, AX_DEV {}\n{}",
-            case.tolerance_mm,
-            about()
-        );
-        // the contour of a spline is known within `off_mm` only
-        let (most, line) = if case.off_mm > 0.0 { (0.0, 0) } else { missed(&run, &case) };
-        assert!(
-            most <= limit,
-            "line {line}: missed by {most}, AX_DEV {}\n{}",
-            case.tolerance_mm,
-            about()
-        );
-        tightest = tightest.max(own / case.tolerance_mm);
-    }
+    let shares = (0..count(6) as u64).map(|n| holds(first + n));
+    let tightest = shares.fold(0.0, f64::max);
     assert!(tightest > 0.9, "the tolerance is used: {tightest}");
+}
+
+/// Arcs of 0.02 mm, one of which was asked to crawl for what another one caused; a rest at a corner under a filter of three
+/// cycles, which was met and counted as missed.
+#[test]
+fn random_programs_that_were_wrong() {
+    for n in [8_000_031, 8_000_043] {
+        holds(n);
+    }
+}
+
+/// Rounded corners in a row under a slow guard: what is output exceeds the tolerance, which is told at least.
+#[test]
+fn an_excess_that_the_plan_does_not_see_is_told() {
+    let case = case(21_000_060);
+    let settings: Vec<&str> = case.settings.iter().map(String::as_str).collect();
+    let run = run(&case.text, &settings);
+    let kept = largest(&run, |a| a.dev_both_ways) <= 1.001 * case.tolerance_mm + 1e-6;
+    let told = run.diagnostics.iter().filter(|d| d.id == Condition::AxDevNotKept).count();
+    assert_eq!(told, usize::from(!kept));
+    assert!(!run.totals.aborted);
 }
 
 /// A square of 50 mm under `#HSC ON [BSPLINE]`, its corners rounded within `path_dev`.
