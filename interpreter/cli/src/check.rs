@@ -63,7 +63,7 @@ impl Findings {
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong.
-pub fn check(args: &CheckArgs, console: &mut Console) -> Result<Exit, Error> {
+pub(crate) fn check(args: &CheckArgs, console: &mut Console) -> Result<Exit, Error> {
     let programs = programs::find(&args.programs)?;
     let mut findings = Findings::default();
     for program in &programs {

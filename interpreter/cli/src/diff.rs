@@ -18,7 +18,7 @@ use crate::args::{DiffArgs, OutputForm};
 use crate::console::Console;
 use crate::{Error, Exit};
 use compare::Comparison;
-pub use recording::Pairing;
+pub(crate) use recording::Pairing;
 use serde::Serialize;
 use std::path::Path;
 use table::Table;
@@ -72,7 +72,7 @@ impl Tolerance {
 ///
 /// # Errors
 /// [`Error`] if a trace cannot be read or a program cannot be run.
-pub fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error> {
+pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error> {
     let is_a = table::is_trace(&args.a)?;
     let mut open = |path: &Path, trace: bool, like: Option<&[String]>| {
         if trace {

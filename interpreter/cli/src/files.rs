@@ -12,9 +12,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
 /// The name that stands for standard input or output in place of a file.
-pub const STANDARD: &str = "-";
+pub(crate) const STANDARD: &str = "-";
 /// What messages call a program from standard input.
-pub const STANDARD_INPUT: &str = "<stdin>";
+pub(crate) const STANDARD_INPUT: &str = "<stdin>";
 
 /// Bytes of a program at most that comes through a pipe, 256 MiB (about ten million blocks): it is copied to a temporary
 /// file, where a program in a file is not.
@@ -29,7 +29,7 @@ const MOST_PROJECT_BYTES: u64 = 1 << 26;
 ///
 /// Copies share what they have opened.
 #[derive(Clone, Debug)]
-pub struct ProgramFiles {
+pub(crate) struct ProgramFiles {
     /// The main program.
     program: PathBuf,
     /// Its folder: no subroutine lies outside it and `folders`.
@@ -125,7 +125,7 @@ fn piped(path: &Path) -> io::Result<Arc<Mutex<File>>> {
 }
 
 /// True for `-`, standard input or output.
-pub fn is_standard(path: &Path) -> bool {
+pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == STANDARD
 }
 
@@ -138,7 +138,7 @@ fn is_pipe(path: &Path) -> bool {
 ///
 /// # Errors
 /// The system's, and anything else than a file.
-pub fn regular(path: &Path) -> io::Result<File> {
+pub(crate) fn regular(path: &Path) -> io::Result<File> {
     // before it is opened: that waits already
     if !path.metadata()?.is_file() {
         return Err(io::Error::other("not a regular file"));
@@ -150,7 +150,7 @@ pub fn regular(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 /// The system's, and more than 256 MiB from a pipe.
-pub fn readable(program: &Path) -> io::Result<()> {
+pub(crate) fn readable(program: &Path) -> io::Result<()> {
     if is_pipe(program) {
         return piped(program).map(|_| ());
     }
@@ -162,14 +162,14 @@ pub fn readable(program: &Path) -> io::Result<()> {
 
 impl ProgramFiles {
     /// The files of a program on the command line.
-    pub fn new(program: &Path, folders: Vec<PathBuf>, anywhere: bool) -> Self {
+    pub(crate) fn new(program: &Path, folders: Vec<PathBuf>, anywhere: bool) -> Self {
         let home = if is_pipe(program) { None } else { program.parent() };
         let home = home.unwrap_or_else(|| Path::new("")).to_owned();
         Self { program: program.to_owned(), home, folders, anywhere, opened: Arc::default() }
     }
 
     /// The files opened so far.
-    pub fn opened(&self) -> Vec<PathBuf> {
+    pub(crate) fn opened(&self) -> Vec<PathBuf> {
         self.opened.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect()
     }
 

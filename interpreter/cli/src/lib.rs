@@ -19,26 +19,26 @@
 
 pub mod args;
 pub mod chart;
-pub mod check;
+mod check;
 pub mod console;
-pub mod diff;
+mod diff;
 pub mod explain;
-pub mod files;
+mod files;
 mod interrupt;
 mod project;
 mod recorded;
-pub mod report;
+mod report;
 pub mod request;
 pub mod response;
-pub mod run;
+mod run;
 mod spectrum;
 pub mod sweep;
 pub mod table;
-pub mod target;
-pub mod times;
-pub mod trace;
+mod target;
+mod times;
+mod trace;
 pub mod tune;
-pub mod vary;
+mod vary;
 mod workflow;
 
 use clap::Parser as _;

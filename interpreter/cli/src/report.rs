@@ -46,7 +46,7 @@ struct Drawn {
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or the output cannot be written.
-pub fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, Error> {
+pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, Error> {
     let output = match (&args.output, args.programs.first()) {
         (Some(output), _) => output.clone(),
         (None, Some(program)) if program.as_os_str() == STANDARD => {

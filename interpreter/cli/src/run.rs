@@ -17,7 +17,7 @@ use std::path::PathBuf;
 ///
 /// # Errors
 /// [`Error`] if options, lists or files are wrong, or a trace cannot be written.
-pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
+pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
     let opened = args.simulation.request(&args.program).open();
     let Opened { mut run, reads } = opened.map_err(|e| announce_lists(e, console))?;
     let table = args.times.iter().flatten();
@@ -93,7 +93,7 @@ pub fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
 
 /// How a run is shown on the terminal while it goes on.
 #[derive(Clone, Copy, Debug)]
-pub struct Shown<'a> {
+pub(crate) struct Shown<'a> {
     /// What tells it from others, in front of its progress.
     pub label: &'a str,
     /// Other messages are not printed.
@@ -102,14 +102,14 @@ pub struct Shown<'a> {
 
 impl Shown<'_> {
     /// A run that is the only one.
-    pub const ALONE: Self = Self { label: "", errors_only: false };
+    pub(crate) const ALONE: Self = Self { label: "", errors_only: false };
 }
 
 /// Drives a run to its end: every record to `take` and to the summary, every message to the console.
 ///
 /// # Errors
 /// The first error of `take`, or [`Error::Interrupted`]; messages raised up to then have been printed.
-pub fn drive(
+pub(crate) fn drive(
     run: &mut Run,
     shown: Shown<'_>,
     console: &mut Console,
@@ -157,7 +157,7 @@ impl<F: FnMut(&CycleRecord) -> Result<(), Error>> Sink for Watch<'_, F> {
 }
 
 /// Prints the messages of refused lists or inputs and turns the rest into an error.
-pub fn announce_lists(e: OpenError, console: &mut Console) -> Error {
+pub(crate) fn announce_lists(e: OpenError, console: &mut Console) -> Error {
     if let OpenError::Lists(messages) | OpenError::Inputs(messages) = &e {
         for message in messages {
             console.announce(message);

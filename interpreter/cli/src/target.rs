@@ -12,7 +12,7 @@ use tempfile::NamedTempFile;
 
 /// A file to be written.
 #[derive(Debug)]
-pub struct Target {
+pub(crate) struct Target {
     path: PathBuf,
     place: Place,
 }
@@ -32,7 +32,7 @@ impl Target {
     ///
     /// # Errors
     /// The system's; also if an existing file of this name may not be written.
-    pub fn create(path: &Path) -> io::Result<Self> {
+    pub(crate) fn create(path: &Path) -> io::Result<Self> {
         // a link stays, and what it leads to is replaced
         let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         let existing = match path.metadata() {
@@ -54,7 +54,7 @@ impl Target {
     ///
     /// # Errors
     /// Never, but between two names.
-    pub fn file(&mut self) -> io::Result<&mut File> {
+    pub(crate) fn file(&mut self) -> io::Result<&mut File> {
         match &mut self.place {
             Place::Hidden(hidden) => Ok(hidden.as_file_mut()),
             Place::Shown(file) => Ok(file),
@@ -66,7 +66,7 @@ impl Target {
     ///
     /// # Errors
     /// The system's; the existing file is as it was then.
-    pub fn show(&mut self) -> io::Result<()> {
+    pub(crate) fn show(&mut self) -> io::Result<()> {
         match std::mem::replace(&mut self.place, Place::Between) {
             Place::Hidden(hidden) => {
                 self.place = Place::Shown(hidden.persist(&self.path).map_err(|e| e.error)?);
@@ -109,7 +109,7 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
 ///
 /// # Errors
 /// [`Error::Io`], e.g. a full disk.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let written = || {
         let mut target = Target::create(path)?;
         target.file()?.write_all(bytes)?;
@@ -122,7 +122,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 ///
 /// # Errors
 /// [`Error::Usage`] that names the file.
-pub fn keep_apart(read: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error> {
+pub(crate) fn keep_apart(read: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error> {
     let files = read.iter().filter(|p| !is_standard(p));
     let mut taken: Vec<Identity> = files.map(|p| Identity::of(p)).collect();
     for output in outputs {

@@ -13,7 +13,7 @@ use kontur_interpreter::record::{AxisRecord, CycleRecord, Motion, Rest, SpeedLim
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 
-pub use proposals::{Proposal, try_out};
+pub(crate) use proposals::{Proposal, try_out};
 
 /// Lines of the readable form and of the summary.
 const MOST_EXPENSIVE: usize = 10;
@@ -25,7 +25,7 @@ const CONSTANT: f64 = 1e-6;
 
 /// What a cycle was needed for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Reason {
+pub(crate) enum Reason {
     /// The programmed feed is reached.
     Feed,
     /// An axis is at its velocity limit.
@@ -50,7 +50,7 @@ pub enum Reason {
 
 impl Reason {
     /// Every value, in the order of the columns.
-    pub const ALL: [Self; 16] = [
+    pub(crate) const ALL: [Self; 16] = [
         Self::Feed,
         Self::AxisV,
         Self::AxisA,
@@ -70,7 +70,7 @@ impl Reason {
     ];
 
     /// Name in results.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Feed => "feed",
             Self::AxisV => "axis_v",
@@ -165,7 +165,7 @@ impl Reached {
 
 /// Collects the times, record by record. It takes about 100 bytes for each line that moves or waits.
 #[derive(Clone, Debug)]
-pub struct Collector {
+pub(crate) struct Collector {
     facts: Facts,
     lines: Vec<Line>,
     index: HashMap<(u32, u32), usize>,
@@ -179,7 +179,7 @@ pub struct Collector {
 
 impl Collector {
     /// Starts the accounting.
-    pub fn new(facts: &Facts) -> Self {
+    pub(crate) fn new(facts: &Facts) -> Self {
         Self {
             facts: facts.clone(),
             lines: Vec::new(),
@@ -192,7 +192,7 @@ impl Collector {
     }
 
     /// Adds a cycle.
-    pub fn add(&mut self, record: &CycleRecord) {
+    pub(crate) fn add(&mut self, record: &CycleRecord) {
         for (reached, axis) in self.reached.iter_mut().zip(&record.axes) {
             reached.add(axis);
         }
@@ -255,7 +255,7 @@ impl Collector {
     }
 
     /// The times of the run.
-    pub fn finish(self) -> Times {
+    pub(crate) fn finish(self) -> Times {
         let cycle_s = f64::from(self.facts.cycle_us) / 1e6;
         let total: u64 = self.lines.iter().flat_map(|l| &l.cycles).map(|(_, n)| n).sum();
         let name_of = |axis: Option<u8>| {
@@ -322,7 +322,7 @@ impl Collector {
 
 /// Seconds of one reason.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct TimeByReason {
+pub(crate) struct TimeByReason {
     /// Why.
     pub reason: Reason,
     /// Axis at its limit (`axis_v`, `axis_a`): of several, the one that uses the largest share of its velocity (P-AXIS-00212) or
@@ -340,7 +340,7 @@ pub struct TimeByReason {
 
 /// Times of one line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct TimeOfLine {
+pub(crate) struct TimeOfLine {
     /// File.
     pub file: String,
     /// Line of the file; 0: before the first motion.
@@ -362,7 +362,7 @@ pub struct TimeOfLine {
 
 /// Least and greatest values of one axis in mm (deg) and s.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct AxisRange {
+pub(crate) struct AxisRange {
     /// Name in the NC program.
     pub name: String,
     /// `mm` or `deg`.
@@ -379,7 +379,7 @@ pub struct AxisRange {
 
 /// Where the time of a run went.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Times {
+pub(crate) struct Times {
     /// Duration in s.
     pub duration_s: f64,
     /// By reason, the longest first.

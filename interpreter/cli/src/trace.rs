@@ -1,9 +1,9 @@
 //! The trace: columns, and the files they go to.
 
-pub mod csv;
-pub mod fixed;
+pub(crate) mod csv;
+pub(crate) mod fixed;
 #[cfg(feature = "parquet")]
-pub mod parquet;
+pub(crate) mod parquet;
 
 use crate::Error;
 use crate::console::Console;
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// One trace file.
 #[derive(Debug)]
-pub struct Trace {
+pub(crate) struct Trace {
     path: PathBuf,
     writer: Writer,
     decimate: u64,
@@ -37,7 +37,7 @@ impl Trace {
     ///
     /// # Errors
     /// [`Error::Usage`] for an unknown signal, [`Error::Io`] if the file cannot be created.
-    pub fn create(
+    pub(crate) fn create(
         path: &Path,
         signals: &str,
         decimate: u64,
@@ -85,7 +85,7 @@ impl Trace {
     ///
     /// # Errors
     /// [`Error::Io`], e.g. a full disk.
-    pub fn write(&mut self, record: &CycleRecord) -> Result<(), Error> {
+    pub(crate) fn write(&mut self, record: &CycleRecord) -> Result<(), Error> {
         if !record.k.is_multiple_of(self.decimate) {
             return Ok(());
         }
@@ -99,7 +99,7 @@ impl Trace {
     }
 
     /// Writes no more.
-    pub fn close(&mut self) {
+    pub(crate) fn close(&mut self) {
         self.writer = Writer::Closed;
     }
 
@@ -107,7 +107,7 @@ impl Trace {
     ///
     /// # Errors
     /// As [`Trace::write`].
-    pub fn finish(mut self, run: &Run) -> Result<(), Error> {
+    pub(crate) fn finish(mut self, run: &Run) -> Result<(), Error> {
         let finished = match self.writer {
             Writer::Csv(ref mut w) => w.flush(),
             #[cfg(feature = "parquet")]

@@ -65,7 +65,7 @@ const GEOMETRY: Group = Group {
 
 /// A change of the lists and what it saves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Proposal {
+pub(crate) struct Proposal {
     /// `accelerations +10 % of Y`.
     pub what: String,
     /// The parameters.
@@ -79,7 +79,7 @@ pub struct Proposal {
 /// Tries out what the reasons suggest, one run each; the longest saving first. The lines get the proposal that helps them most.
 ///
 /// Nothing is tried for a program or for lists that cannot be read again (standard input, a pipe).
-pub fn try_out(times: &mut Times, request: &Request) {
+pub(crate) fn try_out(times: &mut Times, request: &Request) {
     if files::is_standard(&request.program) || files::regular(&request.program).is_err() {
         return;
     }

@@ -29,7 +29,7 @@ impl TimeByReason {
 
 impl Times {
     /// The readable form: by reason, the ten most expensive lines, the ranges of the axes.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let mut out = String::new();
         let _ = self.write_text(&mut out);
         out
@@ -97,7 +97,7 @@ impl Times {
     }
 
     /// The JSON object of a summary with the times as its last field, `times`.
-    pub fn json_of(&self, summary: &Summary) -> String {
+    pub(crate) fn json_of(&self, summary: &Summary) -> String {
         #[derive(Serialize)]
         struct WithTimes<'a> {
             #[serde(flatten)]
@@ -123,7 +123,7 @@ impl Times {
     ///
     /// # Errors
     /// None while it writes to memory.
-    pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
+    pub(crate) fn csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
         let fixed = ["file", "line", "block", "kind", "total_s", "share"].map(str::to_owned);
         let reasons = Reason::ALL.iter().map(|r| format!("{}_s", r.name()));

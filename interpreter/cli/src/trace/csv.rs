@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 /// Turns records into lines of CSV.
 #[derive(Clone, Debug)]
-pub struct Rows {
+pub(crate) struct Rows {
     columns: Vec<Column>,
     cycle_us: u64,
     files: FileNames,
@@ -19,12 +19,12 @@ pub struct Rows {
 
 impl Rows {
     /// Rows with the given columns.
-    pub fn new(columns: Vec<Column>, facts: &Facts) -> Self {
+    pub(crate) fn new(columns: Vec<Column>, facts: &Facts) -> Self {
         Self { columns, cycle_us: u64::from(facts.cycle_us), files: facts.files.clone() }
     }
 
     /// Appends the header line.
-    pub fn push_header(&self, out: &mut Vec<u8>) {
+    pub(crate) fn push_header(&self, out: &mut Vec<u8>) {
         for (i, column) in self.columns.iter().enumerate() {
             if i > 0 {
                 out.push(b',');
@@ -35,7 +35,7 @@ impl Rows {
     }
 
     /// Appends the line of one record.
-    pub fn push_row(&self, out: &mut Vec<u8>, record: &CycleRecord) {
+    pub(crate) fn push_row(&self, out: &mut Vec<u8>, record: &CycleRecord) {
         for column in &self.columns {
             match column.content {
                 Content::Axis(i, value) => {
@@ -81,7 +81,7 @@ fn quoted(cell: &str) -> String {
 
 /// Where the lines go.
 #[derive(Debug)]
-pub enum Target {
+pub(crate) enum Target {
     /// A file.
     File(target::Target),
     /// Stdout.
@@ -116,7 +116,7 @@ impl Target {
 
 /// A trace file that holds whole lines at every moment between two writes.
 #[derive(Debug)]
-pub struct CsvWriter {
+pub(crate) struct CsvWriter {
     rows: Rows,
     target: Target,
     buffer: Vec<u8>,
@@ -137,7 +137,7 @@ impl CsvWriter {
     const LOOK_EVERY: u64 = 16;
 
     /// Starts a trace with its header.
-    pub fn new(target: Target, rows: Rows) -> Self {
+    pub(crate) fn new(target: Target, rows: Rows) -> Self {
         let mut buffer = Vec::with_capacity(Self::PIECE + 4096);
         rows.push_header(&mut buffer);
         Self { rows, target, buffer, written: 0, waiting: 0, flushed: now() }
@@ -147,7 +147,7 @@ impl CsvWriter {
     ///
     /// # Errors
     /// The system's, e.g. a full disk; what stands in the file then ends with a whole line.
-    pub fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
+    pub(crate) fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
         self.rows.push_row(&mut self.buffer, record);
         self.waiting += 1;
         let late =
@@ -159,7 +159,7 @@ impl CsvWriter {
     ///
     /// # Errors
     /// As [`CsvWriter::write`].
-    pub fn flush(&mut self) -> io::Result<()> {
+    pub(crate) fn flush(&mut self) -> io::Result<()> {
         self.flushed = now();
         if std::mem::take(&mut self.waiting) == 0 {
             return Ok(());

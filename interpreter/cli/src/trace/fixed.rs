@@ -25,7 +25,7 @@ const EXACT_BELOW: f64 = 4_503_599_627_370_496.0;
 ///
 /// Zero has no sign. A value that is not finite leaves nothing: an empty cell reads as "not a number" everywhere and
 /// keeps the columns in place.
-pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u8) {
+pub(crate) fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u8) {
     // with the number of decimals known, divisions become multiplications and loops straight lines
     match decimals {
         0 => push::<0>(out, value),
@@ -131,14 +131,14 @@ fn push_slow(out: &mut Vec<u8>, value: f64, decimals: u8) {
 }
 
 /// Appends an unsigned integer.
-pub fn push_integer(out: &mut Vec<u8>, n: u64) {
+pub(crate) fn push_integer(out: &mut Vec<u8>, n: u64) {
     let mut text: Digits = [b'0'; 2 * END];
     let at = put_digits(&mut text, END, n, 1);
     push_digits(out, &text, at);
 }
 
 /// Appends microseconds as seconds with six decimals, exactly.
-pub fn push_seconds(out: &mut Vec<u8>, micros: u64) {
+pub(crate) fn push_seconds(out: &mut Vec<u8>, micros: u64) {
     push_integer(out, micros / 1_000_000);
     let mut text: Digits = [b'0'; 2 * END];
     let at = put_digits(&mut text, END, micros % 1_000_000, 6);

@@ -41,7 +41,7 @@ enum Values {
 }
 
 /// A Parquet trace.
-pub struct ParquetWriter {
+pub(crate) struct ParquetWriter {
     columns: Vec<(Column, Values)>,
     rows: usize,
     cycle_us: u64,
@@ -66,7 +66,7 @@ impl ParquetWriter {
     ///
     /// # Errors
     /// The system's.
-    pub fn new(
+    pub(crate) fn new(
         path: &Path,
         target: Target,
         columns: Vec<Column>,
@@ -129,7 +129,7 @@ impl ParquetWriter {
     ///
     /// # Errors
     /// The system's, e.g. a full disk.
-    pub fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
+    pub(crate) fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
         for (column, values) in &mut self.columns {
             match (values, &column.content) {
                 (Values::Number(v), Content::Time) => {
@@ -190,7 +190,7 @@ impl ParquetWriter {
     ///
     /// # Errors
     /// The system's, e.g. a full disk; what was written stays in the folder that the error names.
-    pub fn finish(mut self, facts: &Facts, totals: &Totals) -> io::Result<()> {
+    pub(crate) fn finish(mut self, facts: &Facts, totals: &Totals) -> io::Result<()> {
         let written = if self.rows > 0 { self.write_group() } else { Ok(()) };
         let done = written.and_then(|()| self.join(facts, totals));
         done.map_err(|e| {
