@@ -37,12 +37,15 @@ describe.skipIf(executablePath === "")("the page", () => {
     return page;
   }
 
-  /** Waits for the result of what an action asks for, and gives the time from asking to drawing in ms. */
-  async function drawn(page: Page, action: () => Promise<unknown> = async () => {}): Promise<number> {
-    if (await page.evaluate(() => document.documentElement.dataset.drawn !== undefined)) {
+  /**
+   * Waits for the result of what an action asks for, and gives the time from asking to drawing in ms. Without an action it waits for the
+   * first result of the page, which may be there already.
+   */
+  async function drawn(page: Page, action?: () => Promise<unknown>): Promise<number> {
+    if (action) {
       await page.evaluate(() => delete document.documentElement.dataset.drawn);
+      await action();
     }
-    await action();
     await page.waitForFunction(() => document.documentElement.dataset.drawn !== undefined);
     return Number(await page.evaluate(() => document.documentElement.dataset.drawn));
   }
