@@ -4,6 +4,7 @@ mod ball;
 
 use crate::axis::AxisVec;
 use crate::corner::TANGENT;
+use crate::path::Path;
 use crate::queue::Queued;
 use ball::Ball;
 use smallvec::SmallVec;
@@ -18,7 +19,7 @@ pub(crate) const SAME_START_MM: f64 = 1e-9;
 const WARY: f64 = 0.05;
 
 /// What rounding may make of a distance in mm.
-const ROUNDING_MM: f64 = 1e-9;
+pub(crate) const ROUNDING_MM: f64 = 1e-9;
 
 /// How fast the say of a block falls that is further away than the nearest one: its power of the ratio of both.
 const FADING: f64 = 8.0;
@@ -53,10 +54,9 @@ impl Passed {
 }
 
 impl Passed {
-    /// Distance of a point from the path of the block; `q` becomes the nearest point.
-    fn distance(&self, point: &[f64], q: &mut AxisVec) -> f64 {
-        self.queued.block.path.nearest_point(point, q);
-        q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum::<f64>().sqrt()
+    /// Vector from the nearest point of the path of the block to a point, and the square of its length.
+    fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
+        self.queued.block.path.vector_to(point, out)
     }
 
     /// True if the direction of an axis changes between two blocks.
@@ -133,7 +133,7 @@ impl Contour {
         from: f64,
         to: f64,
         out: &mut [f64],
-    ) -> Option<Nearest> {
+    ) -> Option<Nearest<'_>> {
         nearest(self.blocks.range(self.numbers(from, to)), point, out)
     }
 
@@ -163,31 +163,26 @@ impl Contour {
             half += 0.25 * (b - a) * (b - a);
         }
         let half: f64 = f64::sqrt(half);
-        let mut q = AxisVec::zeros(middle.len());
-        let reaches: SmallVec<[f64; 64]> =
-            self.blocks.range(all.clone()).map(|b| b.ball.least_distance(&middle)).collect();
-        let reach = |i: usize| reaches[i - all.start] - ROUNDING_MM;
-        let mut known: SmallVec<[(usize, f64); 16]> = SmallVec::new();
-        let mut least = f64::INFINITY;
-        // the later blocks are the nearer ones as a rule
-        for i in among.clone().rev().filter(|i| all.contains(i)) {
-            if reach(i) <= least {
-                let distance = self.blocks[i].distance(&middle, &mut q);
-                least = least.min(distance);
-                known.push((i, distance));
+        let near = |i: usize| self.blocks[i].ball.least_distance(&middle) - ROUNDING_MM;
+        let mut vector = AxisVec::zeros(middle.len());
+        let mut far = |i: usize| self.blocks[i].vector_to(&middle, &mut vector).sqrt();
+        // the one whose ball is nearest leaves few of the others
+        let counts = |i: &usize| among.contains(i);
+        let first = all.clone().filter(counts).min_by(|a, b| near(*a).total_cmp(&near(*b)));
+        let mut least = first.map_or(f64::INFINITY, &mut far);
+        let within = |least: f64| (1.0 + WARY) * (least + half) + half;
+        let mut blocks: SmallVec<[Candidate<'_>; 16]> = SmallVec::new();
+        for i in all {
+            if near(i) <= within(least) {
+                let distance = far(i);
+                if counts(&i) {
+                    least = least.min(distance);
+                }
+                blocks.push(Candidate { passed: &self.blocks[i], distance, counts: counts(&i) });
             }
         }
-        let within = (1.0 + WARY) * (least + half) + half;
-        let mut blocks: SmallVec<[(usize, &Passed); 16]> = SmallVec::new();
-        for i in all.clone().filter(|i| reach(*i) <= within) {
-            let passed = &self.blocks[i];
-            let measured = known.iter().find(|k| k.0 == i).map(|k| k.1);
-            let distance = measured.unwrap_or_else(|| passed.distance(&middle, &mut q));
-            if distance <= within {
-                blocks.push((i, passed));
-            }
-        }
-        Around { blocks, among }
+        blocks.retain(|b| b.distance <= within(least));
+        Around { blocks, half }
     }
 
     /// Numbers of the blocks that [`Self::nearest`] looks at.
@@ -204,8 +199,8 @@ impl Contour {
         let mut q = AxisVec::zeros(point.len());
         let mut vectors: SmallVec<[(f64, f64); 16]> = SmallVec::new();
         for passed in self.blocks.range(first..self.whole(last)) {
-            let distance = passed.distance(point, &mut q);
-            let component = q.iter().zip(point).map(|(q, p)| (q - p).abs()).fold(0.0, f64::max);
+            let distance = passed.vector_to(point, &mut q).sqrt();
+            let component = q.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
             vectors.push((distance, component));
         }
         let least = vectors.iter().map(|v| v.0).fold(f64::INFINITY, f64::min);
@@ -267,22 +262,36 @@ impl Walk<'_> {
 
 /// Blocks of a contour, see [`Contour::around`].
 pub(crate) struct Around<'a> {
-    /// Number in the contour, and the block.
-    blocks: SmallVec<[(usize, &'a Passed); 16]>,
-    /// Numbers of the blocks within reach of the second moment without slack.
-    among: Range<usize>,
+    blocks: SmallVec<[Candidate<'a>; 16]>,
+    /// Half the length of the line in mm.
+    half: f64,
 }
 
-impl Around<'_> {
+struct Candidate<'a> {
+    passed: &'a Passed,
+    /// From the middle of the line in mm.
+    distance: f64,
+    /// Within reach of the second moment without slack.
+    counts: bool,
+}
+
+impl<'a> Around<'a> {
     /// As [`Contour::nearest`] between the two moments without slack.
-    pub(crate) fn nearest(&self, point: &[f64], out: &mut [f64]) -> Option<Nearest> {
-        let blocks = self.blocks.iter().filter(|(i, _)| self.among.contains(i));
-        nearest(blocks.map(|(_, passed)| *passed), point, out)
+    pub(crate) fn nearest(&self, point: &[f64], out: &mut [f64]) -> Option<Nearest<'a>> {
+        nearest(self.blocks.iter().filter(|b| b.counts).map(|b| b.passed), point, out)
     }
 
     /// As [`Contour::nearest`] between the two moments with slack.
-    pub(crate) fn nearest_of_all(&self, point: &[f64], out: &mut [f64]) -> Option<Nearest> {
-        nearest(self.blocks.iter().map(|(_, passed)| *passed), point, out)
+    pub(crate) fn nearest_of_all(&self, point: &[f64], out: &mut [f64]) -> Option<Nearest<'a>> {
+        nearest(self.blocks.iter().map(|b| b.passed), point, out)
+    }
+
+    /// True if some other block can be nearer somewhere on the line: on the way of half the line, one comes nearer and the other
+    /// goes away by that much at most.
+    pub(crate) fn may_be_nearer_than(&self, nearest: &Nearest<'_>) -> bool {
+        let is = |b: &&Candidate<'_>| b.passed.queued.block.seq == nearest.block();
+        let own = self.blocks.iter().filter(is).map(|b| b.distance).fold(f64::INFINITY, f64::min);
+        self.blocks.iter().any(|b| !is(&b) && b.distance <= own + 2.0 * self.half)
     }
 
     /// Largest component of all vectors to a point that could be called the shortest: those from any of the blocks that are
@@ -291,27 +300,48 @@ impl Around<'_> {
     pub(crate) fn worst_component(&self, point: &[f64]) -> f64 {
         let mut vector = AxisVec::zeros(point.len());
         let Some(nearest) = self.nearest(point, &mut vector) else { return 0.0 };
-        let within = (1.0 + WARY) * nearest.distance;
+        let within = (1.0 + WARY) * (1.0 + WARY) * nearest.distance * nearest.distance;
         let mut worst = vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        for (_, passed) in &self.blocks {
-            if passed.distance(point, &mut vector) <= within {
-                let aside = vector.iter().zip(point).map(|(q, p)| (q - p).abs());
-                worst = aside.fold(worst, f64::max);
+        for Candidate { passed, .. } in &self.blocks {
+            if passed.vector_to(point, &mut vector) <= within {
+                worst = vector.iter().fold(worst, |m, c| m.max(c.abs()));
             }
         }
         worst
     }
 }
 
-/// Where on the contour the shortest vector starts.
+/// The block that the shortest vector starts on.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Nearest {
+pub(crate) struct Nearest<'a> {
     /// Length of the vector in mm.
     pub(crate) distance: f64,
+    passed: &'a Passed,
+}
+
+impl Nearest<'_> {
     /// Programmed block, the same for all parts of it.
-    pub(crate) block: u64,
-    /// The block is a straight line.
-    pub(crate) straight: bool,
+    pub(crate) fn block(&self) -> u64 {
+        self.passed.queued.block.seq
+    }
+
+    /// It is a straight line.
+    pub(crate) fn is_straight(&self) -> bool {
+        self.passed.queued.block.path.is_straight()
+    }
+
+    /// Where along a line (as a share of it) the nearest point of this block comes to an end of it, if it is straight: no
+    /// order, and shares outside the line, too.
+    pub(crate) fn ends_along(&self, line: (&[f64], &[f64])) -> SmallVec<[f64; 2]> {
+        let Path::Line(straight) = &self.passed.queued.block.path else { return SmallVec::new() };
+        let [from, to] = [line.0, line.1].map(|p| straight.share(p));
+        [0.0, 1.0].into_iter().map(|end| (end - from) / (to - from)).collect()
+    }
+
+    /// Shortest vector from the path of this block to a point, and its length in mm.
+    pub(crate) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
+        self.passed.vector_to(point, out).sqrt()
+    }
 }
 
 /// Shortest vector from the paths of the blocks to a point; `None`, and no vector, if there are no blocks.
@@ -319,9 +349,9 @@ fn nearest<'a>(
     blocks: impl Iterator<Item = &'a Passed>,
     point: &[f64],
     out: &mut [f64],
-) -> Option<Nearest> {
+) -> Option<Nearest<'a>> {
     let mut best: Option<(f64, &Passed)> = None;
-    let mut q = AxisVec::zeros(point.len());
+    let mut vector = AxisVec::zeros(point.len());
     let mut before: Option<&Passed> = None;
     for passed in blocks {
         // every path is searched over its whole length, so once is enough for its parts
@@ -329,26 +359,14 @@ fn nearest<'a>(
             continue;
         }
         before = Some(passed);
-        passed.queued.block.path.nearest_point(point, &mut q);
-        let n = point.len();
-        let (q, point, out) = (&q[..n], &point[..n], &mut out[..n]);
-        let mut d2 = 0.0;
-        for i in 0..n {
-            d2 += (q[i] - point[i]) * (q[i] - point[i]);
-        }
-        if best.is_none_or(|(least, _)| d2 < least) {
-            best = Some((d2, passed));
-            for i in 0..n {
-                out[i] = point[i] - q[i];
-            }
+        let square = passed.vector_to(point, &mut vector);
+        if best.is_none_or(|(least, _)| square < least) {
+            best = Some((square, passed));
+            out.copy_from_slice(&vector);
         }
     }
     if best.is_none() {
         out.fill(0.0);
     }
-    best.map(|(d2, passed)| Nearest {
-        distance: d2.sqrt(),
-        block: passed.queued.block.seq,
-        straight: passed.queued.block.path.is_straight(),
-    })
+    best.map(|(square, passed)| Nearest { distance: square.sqrt(), passed })
 }

@@ -23,20 +23,21 @@
 //! bent blocks, at the interpolated points. Along a straight block (b) follows from (a) by continuity, as long as all axes
 //! have the same filter; otherwise the interpolated points count there, too.
 
+mod between;
+mod gauge;
+
 use crate::axis::AxisVec;
 use crate::contour::Contour;
+pub(crate) use gauge::Gauge;
 use smallvec::SmallVec;
 use std::ops::Range;
 
-/// Parts into which the line between two set points is divided where it passes a border of blocks.
+/// Parts into which the line between two set points is divided at most where it is in doubt what is within reach.
 const PARTS: u32 = 8;
 
 /// Share by which a vector to a point of the contour may be longer than the shortest one and still be taken for it. On a
 /// straight set path that is 4.5 % of the vector along the path.
 pub(crate) const ALIKE: f64 = 1e-3;
-
-/// Halvings in the search for the point where the nearest block changes.
-const HALVINGS: u32 = 8;
 
 /// Set points of consecutive cycles.
 #[derive(Clone, Debug, Default)]
@@ -133,40 +134,7 @@ impl SetPath {
         let now = around.nearest(here, &mut vector);
         out.take(&vector);
         let shortest = now.map(|now| (now.distance, vector.clone()));
-        let then = around.nearest_of_all(before, &mut vector);
-        let parts = match (now, then) {
-            (Some(now), Some(then)) if now.block == then.block => {
-                if now.straight {
-                    return shortest;
-                }
-                2
-            }
-            (Some(_), Some(_)) => PARTS,
-            _ => return shortest,
-        };
-        // the largest distance lies where the nearest point passes from one block to another
-        let mut point = AxisVec::zeros(self.axes);
-        let mut look = |u: f64| {
-            for ((p, a), b) in point.iter_mut().zip(before).zip(here) {
-                *p = a + u * (b - a);
-            }
-            let found = around.nearest_of_all(&point, &mut vector).map(|n| n.block);
-            out.take(&vector);
-            found
-        };
-        let mut last = then.map(|n| n.block);
-        for part in 1..=parts {
-            let mut high = f64::from(part) / f64::from(parts);
-            let found = look(high);
-            if found != last {
-                let mut low = high - 1.0 / f64::from(parts);
-                for _ in 0..HALVINGS {
-                    let mid = 0.5 * (low + high);
-                    if look(mid) == last { low = mid } else { high = mid }
-                }
-            }
-            last = found;
-        }
+        between::largest(&around, (before, here), now, out);
         shortest
     }
 
@@ -282,88 +250,5 @@ impl SetPath {
         for (((v, p), a), b) in vector.iter_mut().zip(point).zip(a).zip(b) {
             *v = a + u * (b - a) - p;
         }
-    }
-}
-
-/// Both ways, cycle by cycle, for what is output.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Gauge {
-    reach: u64,
-    /// The filters of the axes differ.
-    every: bool,
-    set: SetPath,
-    path: SetPath,
-    found: Excursion,
-    /// Cycle and set point of the last cycle in which nothing was filtered.
-    unfiltered: Option<(u64, AxisVec)>,
-    /// Shortest vector to the last set point with its length in mm.
-    shortest: Option<(f64, AxisVec)>,
-}
-
-impl Gauge {
-    /// For filters that reach `reach` cycles back; `every`: they differ between the axes.
-    pub(crate) fn new(reach: u32, every: bool) -> Self {
-        Self { reach: u64::from(reach), every, ..Self::default() }
-    }
-
-    /// Largest components found in the last cycle, per axis.
-    pub(crate) fn found(&self) -> &[f64] {
-        &self.found.vector
-    }
-
-    /// Length in mm and components of the shortest vector from the contour to the last set point, if there is a contour.
-    pub(crate) fn shortest(&self) -> Option<(f64, &[f64])> {
-        self.shortest.as_ref().map(|(length, vector)| (*length, &**vector))
-    }
-
-    /// Takes the set point of a cycle that filters left as it was interpolated: the line to the next one starts there.
-    pub(crate) fn unfiltered(&mut self, k: u64, point: &[f64]) {
-        match &mut self.unfiltered {
-            Some((at, kept)) if kept.len() == point.len() => {
-                *at = k;
-                for (kept, new) in kept.iter_mut().zip(point) {
-                    *kept = *new;
-                }
-            }
-            unfiltered => *unfiltered = Some((k, AxisVec::from_slice(point))),
-        }
-    }
-
-    /// Takes the set point and the interpolated point of cycle `k`. Finds the largest components of what the line to the
-    /// set point leaves the contour by, and of what the points of the contour that the filters have just let go were
-    /// missed by.
-    pub(crate) fn step(&mut self, contour: &Contour, k: u64, set: &[f64], path: &[f64]) {
-        let axes = set.len();
-        if self.set.end() != k {
-            // nothing was filtered in between: the set point was the path
-            let before =
-                self.unfiltered.as_ref().filter(|(at, point)| at + 1 == k && point.len() == axes);
-            let mut path = SetPath::starting(before.map_or(k, |(at, _)| *at), axes);
-            if let Some((_, point)) = before {
-                path.push(point);
-            }
-            (self.set, self.path) = (path.clone(), path);
-        }
-        self.set.push(set);
-        self.path.push(path);
-        let (reach, moment) = (self.reach as f64, k as f64);
-        let mut found = Excursion::none(axes);
-        self.shortest = self.set.leaves(contour, k, (moment - reach, moment), &mut found);
-        let passed = moment - reach - 1.0;
-        for (moment, point) in contour.kinks(passed - 1.0, passed) {
-            let first = moment.floor().max(0.0) as u64;
-            let among = (first, first + self.reach + 2);
-            self.set.misses(&point, among, f64::INFINITY, &mut found);
-        }
-        if let Some(first) = k.checked_sub(self.reach + 1)
-            && let Some(point) = self.path.get(first)
-            && (self.every || contour.is_bent(passed))
-        {
-            self.set.misses(point, (first, k), f64::INFINITY, &mut found);
-        }
-        self.found = found;
-        let old = k.saturating_sub(2 * self.reach + 4);
-        self.set.forget_before(old);
-        self.path.forget_before(old);
     }
 }

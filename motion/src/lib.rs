@@ -52,3 +52,7 @@ mod timeline;
 pub mod tolerance;
 #[cfg(test)]
 mod work;
+
+// so that unit tests can share the fixtures of the documentation's examples
+#[cfg(test)]
+extern crate self as kontur_motion;

@@ -162,14 +162,19 @@ impl Path {
         }
     }
 
-    /// The point of the path nearest to `point`: of a curve without the way by the path length.
-    pub(crate) fn nearest_point(&self, point: &[f64], out: &mut [f64]) {
+    /// Vector to `point` from the point of the path nearest to it, and the square of its length.
+    pub(crate) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         match self {
+            Self::Line(p) => return p.vector_to(point, out),
+            // without the way by the path length
             Self::Curve(p) => p.nearest_point(point, out),
-            Self::Line(p) => p.nearest_point(point, out),
-            Self::Arc(_) | Self::Tilted(_) => {
-                self.position(self.nearest(point), out);
-            }
+            Self::Arc(_) | Self::Tilted(_) => self.position(self.nearest(point), out),
         }
+        let mut square = 0.0;
+        for (out, p) in out.iter_mut().zip(point) {
+            *out = p - *out;
+            square += *out * *out;
+        }
+        square
     }
 }

@@ -89,33 +89,38 @@ impl LinePath {
         Self { start, end, direction, norm: self.norm, length: to - from }
     }
 
-    /// The point nearest to `point`: as [`position`](Self::position) of [`nearest`](Self::nearest), value by value, because the
-    /// few values of a point are not worth a call that copies memory.
-    pub(super) fn nearest_point(&self, point: &[f64], out: &mut [f64]) {
+    /// Vector to `point` from the point nearest to it, and the square of its length.
+    pub(super) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         let n = point.len();
-        let s = self.nearest(point);
-        let (start, end, out) = (&self.start[..n], &self.end[..n], &mut out[..n]);
-        let direction = &self.direction[..n];
-        let inside = s > 0.0 && s < self.length;
+        let s = self.foot(point);
+        let (from, s) = if s >= self.length { (&self.end, 0.0) } else { (&self.start, s.max(0.0)) };
+        let (from, direction, out) = (&from[..n], &self.direction[..n], &mut out[..n]);
+        let mut square = 0.0;
         for i in 0..n {
-            let stands = start[i].to_bits() == end[i].to_bits();
-            out[i] = if inside && !stands {
-                start[i] + s * direction[i]
-            } else if s <= 0.0 {
-                start[i]
-            } else {
-                end[i]
-            };
+            let away = (point[i] - from[i]) - s * direction[i];
+            out[i] = away;
+            square += away * away;
         }
+        square
     }
 
     pub(super) fn nearest(&self, point: &[f64]) -> f64 {
+        self.foot(point).clamp(0.0, self.length)
+    }
+
+    /// Where the perpendicular from a point meets the line through start and end, as a share of the way between them.
+    pub(crate) fn share(&self, point: &[f64]) -> f64 {
+        self.foot(point) / self.length
+    }
+
+    /// The same in mm of path length.
+    fn foot(&self, point: &[f64]) -> f64 {
         let n = point.len();
         let (start, direction) = (&self.start[..n], &self.direction[..n]);
         let mut dot = 0.0;
         for i in 0..n {
             dot += (point[i] - start[i]) * direction[i];
         }
-        (dot / self.norm).clamp(0.0, self.length)
+        dot / self.norm
     }
 }

@@ -53,7 +53,7 @@ pub(crate) fn enclosed_root(
     (mut low, mut at_low): (f64, f64),
     (mut high, mut at_high): (f64, f64),
     precision: f64,
-    eval: impl Fn(f64) -> f64,
+    mut eval: impl FnMut(f64) -> f64,
 ) -> (f64, f64) {
     let close = precision * (high - low);
     let mut stays = None;

@@ -1,0 +1,199 @@
+//! The largest distance from the contour between two set points.
+//!
+//! Along the line between them the distance from one straight block is convex, so it is largest at an end; the distance from
+//! the contour is the least of those from all blocks, which is larger than at both ends only where the nearest block changes.
+//! These places are roots of the difference of two distances and are found as such: between the blocks nearest to both
+//! ends first, and, where a third block is nearer still, once more on either side. A component of the vector from one straight
+//! block goes straight with the line except where the nearest point comes to an end of the block, so it is largest at an
+//! end of the line or there. Along a bent block the middle is looked at.
+
+use super::Excursion;
+use crate::axis::AxisVec;
+use crate::contour::{Around, Nearest, ROUNDING_MM};
+use crate::profile::roots::enclosed_root;
+use smallvec::{SmallVec, smallvec};
+
+/// Points of one line that are looked at, at most: beyond that, blocks are so short that no distance is missed between them.
+const LOOKS: usize = 64;
+
+/// Share of a stretch of the line that the place of a change is found to.
+const PRECISION: f64 = 1e-9;
+
+/// A point of the line, as a share of it, and the block nearest to it.
+type Foot<'a> = (f64, Nearest<'a>);
+
+/// Takes every vector that can be the largest one between the ends of a line. `now` is the nearest block at its end among those
+/// that count there.
+pub(super) fn largest<'a>(
+    around: &Around<'a>,
+    line: (&[f64], &[f64]),
+    now: Option<Nearest<'a>>,
+    out: &mut Excursion,
+) {
+    let mut vector = AxisVec::zeros(line.0.len());
+    let then = around.nearest_of_all(line.0, &mut vector);
+    let (Some(then), Some(mut now)) = (then, now) else { return };
+    if then.block() != now.block()
+        && let Some(nearer) = around.nearest_of_all(line.1, &mut vector)
+    {
+        out.take(&vector);
+        now = nearer;
+    }
+    let mut point = AxisVec::zeros(line.0.len());
+    let mut open: SmallVec<[(Foot<'a>, Foot<'a>); 8]> = smallvec![((0.0, then), (1.0, now))];
+    for _ in 0..LOOKS {
+        let Some((low, high)) = open.pop() else { return };
+        let same = low.1.block() == high.1.block();
+        let mut places: SmallVec<[f64; 3]> = SmallVec::new();
+        if same {
+            if !low.1.is_straight() || around.may_be_nearer_than(&low.1) {
+                places.push(0.5 * (low.0 + high.0));
+            }
+            places.extend(low.1.ends_along(line).into_iter().filter(|u| *u > low.0 && *u < high.0));
+        } else {
+            places.push(change(line, low, high));
+        }
+        for u in places {
+            on_the_line(line, u, &mut point);
+            let Some(found) = around.nearest_of_all(&point, &mut vector) else { return };
+            out.take(&vector);
+            if same && found.block() == low.1.block() {
+                continue;
+            }
+            // where the nearest block changes both are equally near
+            let as_near = [low, high].into_iter().filter(|end| {
+                let near = end.1.vector_to(&point, &mut vector) <= found.distance + ROUNDING_MM;
+                if near {
+                    out.take(&vector);
+                }
+                near
+            });
+            if as_near.count() == 0 {
+                open.extend([(low, (u, found)), ((u, found), high)]);
+                break;
+            } else if !same {
+                open.extend([(low, (u, low.1)), ((u, high.1), high)]);
+            }
+        }
+    }
+}
+
+/// Where between two points of the line their nearest blocks are equally near.
+fn change(line: (&[f64], &[f64]), low: Foot<'_>, high: Foot<'_>) -> f64 {
+    let mut point = AxisVec::zeros(line.0.len());
+    let mut vector = point.clone();
+    let mut nearer = |u: f64| {
+        on_the_line(line, u, &mut point);
+        low.1.vector_to(&point, &mut vector) - high.1.vector_to(&point, &mut vector)
+    };
+    let ends = [low.0, high.0].map(|u| (u, nearer(u)));
+    if ends[0].1 >= 0.0 {
+        low.0
+    } else if ends[1].1 <= 0.0 {
+        high.0
+    } else {
+        enclosed_root(ends[0], ends[1], PRECISION, nearer).1
+    }
+}
+
+fn on_the_line((from, to): (&[f64], &[f64]), u: f64, point: &mut [f64]) {
+    for ((p, a), b) in point.iter_mut().zip(from).zip(to) {
+        *p = a + u * (b - a);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
+    mod doc {
+        include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
+    }
+
+    use super::*;
+    use crate::contour::Contour;
+    use crate::queue::Queued;
+    use doc::{Arc, block};
+    use kontur_filters::time::CycleTime;
+    use proptest::prelude::*;
+
+    /// Straight blocks through points, one per cycle.
+    fn contour(points: &[[f64; 2]]) -> Contour {
+        let mut contour = Contour::default();
+        let mut s_mm = 0.0;
+        for (ends, i) in points.windows(2).zip(0_u32..) {
+            let block = block(u64::from(i) + 1, ends[0], ends[1], 10.0);
+            let length = block.path.length();
+            let queued = Queued::new(block, CycleTime::from_us(1000).unwrap());
+            contour.enter(f64::from(i), s_mm, Arc::new(queued));
+            s_mm += length;
+        }
+        contour
+    }
+
+    /// What the function under test finds between two points, with what counts at them.
+    fn found(points: &[[f64; 2]], ends: &[[f64; 2]; 2]) -> Excursion {
+        let contour = contour(points);
+        let line = (&ends[0][..], &ends[1][..]);
+        let around = contour.around(line, (0.0, points.len() as f64), (1.0, 0.0));
+        let mut out = Excursion::none(2);
+        let mut vector = [0.0; 2];
+        for end in ends {
+            around.nearest(end, &mut vector);
+            out.take(&vector);
+        }
+        let now = around.nearest(line.1, &mut vector);
+        largest(&around, line, now, &mut out);
+        out
+    }
+
+    /// The same from 4,000 points of the line, each with its nearest point on each block, and how far apart they are.
+    fn of_many_points(points: &[[f64; 2]], ends: &[[f64; 2]; 2]) -> (Excursion, f64) {
+        let [from, to] = ends;
+        let mut out = Excursion::none(2);
+        for i in 0..=4000 {
+            let u = f64::from(i) / 4000.0;
+            let point = [0, 1].map(|i| from[i] + u * (to[i] - from[i]));
+            let aside = points.windows(2).map(|block| {
+                let along = [0, 1].map(|i| block[1][i] - block[0][i]);
+                let off = [0, 1].map(|i| point[i] - block[0][i]);
+                let share = (along[0] * off[0] + along[1] * off[1])
+                    / (along[0] * along[0] + along[1] * along[1]);
+                [0, 1].map(|i| off[i] - share.clamp(0.0, 1.0) * along[i])
+            });
+            let length = |v: &[f64; 2]| libm::hypot(v[0], v[1]);
+            out.take(&aside.min_by(|a, b| length(a).total_cmp(&length(b))).unwrap());
+        }
+        (out, libm::hypot(to[0] - from[0], to[1] - from[1]) / 4000.0)
+    }
+
+    proptest! {
+        /// Any contour and any line: the largest distance is found, and no component is invented.
+        #[test]
+        fn the_largest_distance_is_found(
+            points in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 2..9),
+            ends in prop::array::uniform2(prop::array::uniform2(-1.5..1.5f64)),
+        ) {
+            let out = found(&points, &ends);
+            let (many, apart) = of_many_points(&points, &ends);
+            prop_assert!((out.length - many.length).abs() <= apart, "{out:?} {many:?}");
+            for (out, many) in out.vector.iter().zip(many.vector.iter()) {
+                prop_assert!(out.abs() <= many.abs() + 2.0 * apart, "{out} {many}");
+            }
+        }
+
+        /// Lines that are short beside the blocks, as they are between two cycles: every component, too.
+        #[test]
+        fn of_a_short_line_every_component_is_found(
+            points in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 2..9),
+            from in prop::array::uniform2(-1.5..1.5f64),
+            step in prop::array::uniform2(-0.05..0.05f64),
+        ) {
+            let ends = [from, [0, 1].map(|i| from[i] + step[i])];
+            let out = found(&points, &ends);
+            let (many, apart) = of_many_points(&points, &ends);
+            for (out, many) in out.vector.iter().zip(many.vector.iter()) {
+                prop_assert!((out.abs() - many.abs()).abs() <= 2.0 * apart, "{out} {many}");
+            }
+        }
+    }
+}
