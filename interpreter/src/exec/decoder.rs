@@ -13,6 +13,7 @@ use super::geometry::{Geometry, LastArc};
 use super::motion::angles::ContourLines;
 use super::motion::dynamics::{Weights, channel_dynamics};
 use super::motion::independent::Independent;
+use super::motion::measuring::Measuring;
 use super::motion::overrides::Overrides;
 use super::motion::spindles::Spindle;
 use super::motion::straight::Straight;
@@ -136,6 +137,7 @@ impl Decoder {
                 },
                 spindles,
                 threads: Threads::new(&machine.channel),
+                measuring: Measuring::new(&machine.channel, n),
                 contour_line: ContourLines::default(),
                 left_contour: false,
                 cutting_speed: None,

@@ -7,6 +7,7 @@ pub(super) mod dynamics;
 mod feed;
 pub(super) mod independent;
 mod limits;
+pub(super) mod measuring;
 pub(super) mod overrides;
 mod space;
 pub(super) mod spindles;
@@ -17,6 +18,7 @@ pub(super) mod threads;
 use self::angles::{ContourLine, ContourLines};
 use self::dynamics::Weights;
 use self::independent::Independent;
+use self::measuring::Measuring;
 use self::overrides::Overrides;
 use self::spindles::Spindle;
 use self::threads::Threads;
@@ -60,6 +62,7 @@ pub(super) struct MotionState {
     pub(super) feedforward: Feedforward,
     pub(super) spindles: Vec<Spindle>,
     pub(super) threads: Threads,
+    pub(super) measuring: Measuring,
     pub(super) contour_line: ContourLines,
     /// G40 with G239: the tool stands beside the contour, not where the program was.
     pub(super) left_contour: bool,
@@ -94,6 +97,7 @@ struct PlaneImage {
 }
 
 impl Decoder {
+    /// Moves, measures or dwells.
     pub(super) fn motion_or_dwell(
         &mut self,
         words: &Words<'_>,
@@ -109,6 +113,12 @@ impl Decoder {
         if let Some(g) = path_word.filter(|g| g.row.act == Act::Dwell) {
             let outcome = self.dwell(g, words);
             self.keep(outcome);
+            return;
+        }
+        if let Some(g) = words.group(Group::Measuring).filter(|g| g.row.act == Act::Measure) {
+            let outcome = self.measuring_run(g, words, span);
+            self.keep(outcome);
+            self.motion.measuring.jump(words.goto.cloned());
             return;
         }
         let is_arc = matches!(self.modal.path, PathMode::Clockwise | PathMode::CounterClockwise);
