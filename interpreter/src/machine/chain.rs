@@ -12,9 +12,9 @@ use crate::diag::{AxisRef, Condition, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
 
 /// What separates the folders of a path, on either system.
-const SEPARATORS: [char; 2] = ['/', '\\'];
+pub(super) const SEPARATORS: [char; 2] = ['/', '\\'];
 /// Name of kontur's own list, beside the start-up list.
-const OWN_LIST: &str = "kontur.lis";
+pub(super) const OWN_LIST: &str = "kontur.lis";
 
 /// The settled parameters of a whole machine.
 #[derive(Debug)]
@@ -52,6 +52,18 @@ pub(super) fn load(
     }
 }
 
+/// The path of a list named in a start-up list: relative to its folder, either slash.
+pub(super) fn beside(start_up: &str, named: &str) -> String {
+    let named = named.replace('\\', "/");
+    let absolute = named.starts_with('/') || named.as_bytes().get(1) == Some(&b':');
+    match start_up.rsplit_once(SEPARATORS) {
+        Some((folder, _)) if !absolute => {
+            format!("{folder}/{}", named.strip_prefix("./").unwrap_or(&named))
+        }
+        _ => named,
+    }
+}
+
 struct Chain<'a> {
     files: &'a dyn ListFiles,
     start_up: &'a str,
@@ -72,16 +84,8 @@ impl Chain<'_> {
         Some(machine)
     }
 
-    /// The path of a list named in the start-up list: relative to its folder, either slash.
     fn path(&self, named: &str) -> String {
-        let named = named.replace('\\', "/");
-        let absolute = named.starts_with('/') || named.as_bytes().get(1) == Some(&b':');
-        match self.start_up.rsplit_once(SEPARATORS) {
-            Some((folder, _)) if !absolute => {
-                format!("{folder}/{}", named.strip_prefix("./").unwrap_or(&named))
-            }
-            _ => named,
-        }
+        beside(self.start_up, named)
     }
 
     /// Reads a list that must exist; `at` is the place that names it.
