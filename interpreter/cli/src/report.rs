@@ -6,6 +6,7 @@
 mod page;
 mod picture;
 mod recording;
+mod shown;
 mod signals;
 mod stops;
 mod track;
@@ -13,12 +14,12 @@ mod vibration;
 mod views;
 
 use crate::args::ReportArgs;
+use crate::combinations::{combinations, put};
 use crate::console::Console;
 use crate::files::STANDARD;
 use crate::request::{Opened, Request};
 use crate::run::{Shown, announce_lists, drive};
 use crate::target::keep_apart;
-use crate::vary::{combinations, put};
 use crate::{Error, Exit, times};
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_interpreter::diag::render::printable;

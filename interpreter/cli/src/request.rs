@@ -18,7 +18,7 @@
 //! assert!(!run.totals().aborted);
 //! ```
 
-use crate::Error;
+pub use crate::error::OpenError;
 use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
 use crate::project::{self, Place};
 use kontur_interpreter::diag::Diagnostic;
@@ -68,30 +68,6 @@ pub struct Request {
     pub guard: Option<ForcedGuard>,
     /// Ends it from another thread.
     pub stop: Stop,
-}
-
-/// Why a program could not be opened.
-#[derive(Debug)]
-pub enum OpenError {
-    /// A setting or option is wrong.
-    Usage(String),
-    /// The machine lists are wrong.
-    Lists(Vec<Diagnostic>),
-    /// A file of real-time inputs is wrong.
-    Inputs(Vec<Diagnostic>),
-    /// A file cannot be read.
-    Io(PathBuf, std::io::Error),
-}
-
-impl From<OpenError> for Error {
-    fn from(e: OpenError) -> Self {
-        match e {
-            OpenError::Usage(text) => Self::Usage(text),
-            OpenError::Lists(_) => Self::Lists,
-            OpenError::Inputs(_) => Self::Inputs,
-            OpenError::Io(path, e) => Self::io(path.display().to_string(), e),
-        }
-    }
 }
 
 /// A run before its first cycle.

@@ -18,17 +18,16 @@
 //!
 #![doc = include_str!("../docs/figures.md")]
 
-pub mod args;
 mod axis;
 pub mod curve;
 mod describe;
 mod select;
 mod view;
 
+use crate::args::ResponseArgs;
 use crate::console::Console;
 use crate::table::Table;
 use crate::{Error, Exit};
-use args::ResponseArgs;
 use std::path::Path;
 use view::Answer;
 

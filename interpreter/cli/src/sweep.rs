@@ -18,22 +18,21 @@
 //! # Ok::<(), clap::Error>(())
 //! ```
 
-pub mod args;
 mod columns;
 mod journal;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod picture;
 
+use crate::args::{Amplitude, SweepArgs};
+use crate::combinations::{combinations, put, settings, without_effect};
 use crate::console::Console;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened, Request};
 use crate::spectrum::AmplitudeSpectrum;
 use crate::table::{Cell, Table};
 use crate::target::{Target, create_all, keep_apart};
-use crate::vary::{combinations, put, settings, without_effect};
 use crate::{Error, Exit};
-use args::{Amplitude, SweepArgs};
 use journal::Journal;
 use kontur_interpreter::diag::Severity;
 use kontur_interpreter::job::{Run, Sink};

@@ -17,7 +17,6 @@
 //! # Ok::<(), clap::Error>(())
 //! ```
 
-pub mod args;
 mod combined;
 mod order;
 mod picture;
@@ -25,12 +24,12 @@ mod program;
 mod recording;
 pub mod vibration;
 
+use crate::args::TuneArgs;
 use crate::console::Console;
 use crate::files::Lists;
 use crate::table::{Cell, Table, number};
 use crate::target::{keep_apart, write};
 use crate::{Error, Exit};
-use args::TuneArgs;
 use kontur_filters::analysis::tuning::{Choice, VibrationBand};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;

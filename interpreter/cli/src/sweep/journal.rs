@@ -4,8 +4,8 @@
 //! written when its run has ended. A journal of another sweep, or of files that were changed since, is begun anew.
 
 use super::Row;
-use super::args::SweepArgs;
 use crate::Error;
+use crate::args::SweepArgs;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};

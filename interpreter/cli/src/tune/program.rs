@@ -7,8 +7,8 @@
 //! A program without `AX_DEV` is run once more with each choice that leaves the bound: with the bound as its tolerance.
 //! A choice that keeps the bound anyway is not slowed down by the key.
 
-use super::args::TuneArgs;
 use super::{Answer, Choice, Row, Task, command};
+use crate::args::TuneArgs;
 use crate::console::Console;
 use crate::request::{OpenError, Opened, Request};
 use crate::run::{Shown, announce_lists, drive};
