@@ -17,7 +17,7 @@ use loops::Counter;
 use std::sync::Arc;
 
 /// Values closer than this are equal in `$SWITCH`. Source: TF5200 programming manual.
-const SWITCH_TOLERANCE: f64 = crate::exec::values::expr::NEARLY;
+const SWITCH_TOLERANCE: f64 = crate::exec::values::number::NEARLY;
 
 /// An open control block.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::program::executor::Executor;
 use crate::exec::program::index::{EntryId, Keyword};
-use crate::exec::values::expr::is_true;
+use crate::exec::values::number::is_true;
 use crate::syntax::ast::{Expr, Place, PlaceKind, Span};
 
 /// Counter, last value and step of `$FOR`.
