@@ -4,7 +4,8 @@
     interpreter/benches/peers.py [--blocks 200000] [--repeats 3] [--kontur PATH]
 
 Every round runs every case once, so that a machine that slows down slows all of them; medians are printed, with the least and the
-greatest of the rounds. CPU time counts, wall time stands beside it. Peers, each left out by name where it is not installed:
+greatest of the rounds. CPU time counts, wall time stands beside it. Peak memory is never below that of this script, from
+which the processes are started. Peers, each left out by name where it is not installed:
 
 * `rs274` of LinuxCNC (Debian: linuxcnc-uspace) reads the same blocks and only interprets them: the yardstick, 1.
 * `pyarrow` writes the columns of the same trace as Parquet, `polars` as CSV (pip install pyarrow polars).
@@ -164,7 +165,7 @@ def main():
             for case, work in found.items():
                 measured[case].append(work())
     print(f"{asked.blocks} blocks, {asked.repeats} rounds; medians, least and greatest in brackets\n")
-    print("| case | CPU in s | wall in s | peak memory in MiB |\n|---|---|---|---|")
+    print("| case | CPU in s | wall in s | peak memory in MiB, at most |\n|---|---|---|---|")
     for case, rounds in measured.items():
         cpu, wall, memory = zip(*rounds)
         peak = "" if math.isnan(memory[0]) else f"{max(memory):.0f}"

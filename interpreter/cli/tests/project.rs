@@ -217,6 +217,25 @@ fn mistakes_are_named_at_their_line_of_the_project() {
     assert!(said.contains("several projects"), "{said}");
 }
 
+/// A project is read like a list: no output takes its place; and a path may be written in any way.
+#[test]
+fn a_project_is_not_overwritten() {
+    let folder = folder();
+    let whole = project(&format!("{TASK}{}{}", all_axes(), channel(&list("channel.lis"))));
+    fs::write(folder.path("machine.tsproj"), &whole).unwrap();
+    fs::hard_link(folder.path("machine.tsproj"), folder.path("trace.csv")).unwrap();
+    let words = ["run", "@part.nc", "-m", "@machine.tsproj", "-o", "@trace.csv"];
+    let (exit, _, said) = folder.call(&words);
+    assert_eq!(exit, Exit::Usage, "{said}");
+    assert_eq!(folder.read("machine.tsproj"), whole);
+
+    let machine = folder.path("").display().to_string() + "//machine.tsproj";
+    let (exit, _, said) =
+        folder.call(&["run", "@part.nc", "-m", &machine, "-o", "@out.csv", "--summary", "none"]);
+    assert_eq!(exit, Exit::Finished, "{said}");
+    assert_eq!(folder.read("out.csv"), expected());
+}
+
 #[test]
 fn hostile_xml_ends_in_a_message() {
     let folder = folder();

@@ -6,7 +6,7 @@ pub(super) mod compensation;
 pub(super) mod contouring;
 pub(super) mod insertion;
 
-use self::akima::Akima;
+use self::akima::{Akima, Curve};
 use self::bottleneck::Cut;
 use self::compensation::{Compensator, Item, Rest};
 use self::contouring::{Contouring, Hsc};
@@ -225,11 +225,12 @@ impl Contour {
     }
 
     /// Segments of splines go on.
-    fn splined(&mut self, curves: Vec<Motion>, outcome: Outcome<()>) -> Vec<Fault> {
+    fn splined(&mut self, curves: Vec<Curve>, outcome: Outcome<()>) -> Vec<Fault> {
         let mut faults = Vec::new();
         for curve in curves {
-            self.driven.push(akima::driven(&curve));
-            faults.extend(self.joined(Box::new(curve)));
+            let (driven, motion) = curve.parts();
+            self.driven.push(driven);
+            faults.extend(self.joined(motion));
         }
         faults.extend(outcome.err().map(|fault| *fault));
         faults

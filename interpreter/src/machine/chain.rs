@@ -5,6 +5,7 @@ use super::lists::{self, List, ListFiles};
 use super::overrides::Override;
 use super::parameters::Parameters;
 use super::plausible;
+use super::settled::{AxisList, Settled};
 use super::table::param::{Param, Text, whole};
 use super::table::{ListKind, kontur, start_up as stup};
 use super::{Machine, hints, link};
@@ -12,28 +13,9 @@ use crate::diag::{AxisRef, Condition, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
 
 /// What separates the folders of a path, on either system.
-const SEPARATORS: [char; 2] = ['/', '\\'];
+pub(super) const SEPARATORS: [char; 2] = ['/', '\\'];
 /// Name of kontur's own list, beside the start-up list.
-const OWN_LIST: &str = "kontur.lis";
-
-/// The settled parameters of a whole machine.
-#[derive(Debug)]
-pub(super) struct Settled {
-    pub(super) start_up: Parameters,
-    pub(super) channel: Parameters,
-    /// Axis lists in the order of the start-up list.
-    pub(super) axes: Vec<AxisList>,
-    pub(super) own: Parameters,
-    pub(super) tools: Parameters,
-    pub(super) zero: Parameters,
-}
-
-/// One axis list.
-#[derive(Debug)]
-pub(super) struct AxisList {
-    pub(super) file: String,
-    pub(super) parameters: Parameters,
-}
+pub(super) const OWN_LIST: &str = "kontur.lis";
 
 /// Loads a machine, see [`Machine::load`].
 pub(super) fn load(
@@ -49,6 +31,18 @@ pub(super) fn load(
             Ok((machine, diagnostics))
         }
         _ => Err(diagnostics),
+    }
+}
+
+/// The path of a list named in a start-up list: relative to its folder, either slash.
+pub(super) fn beside(start_up: &str, named: &str) -> String {
+    let named = named.replace('\\', "/");
+    let absolute = named.starts_with('/') || named.as_bytes().get(1) == Some(&b':');
+    match start_up.rsplit_once(SEPARATORS) {
+        Some((folder, _)) if !absolute => {
+            format!("{folder}/{}", named.strip_prefix("./").unwrap_or(&named))
+        }
+        _ => named,
     }
 }
 
@@ -72,16 +66,8 @@ impl Chain<'_> {
         Some(machine)
     }
 
-    /// The path of a list named in the start-up list: relative to its folder, either slash.
     fn path(&self, named: &str) -> String {
-        let named = named.replace('\\', "/");
-        let absolute = named.starts_with('/') || named.as_bytes().get(1) == Some(&b':');
-        match self.start_up.rsplit_once(SEPARATORS) {
-            Some((folder, _)) if !absolute => {
-                format!("{folder}/{}", named.strip_prefix("./").unwrap_or(&named))
-            }
-            _ => named,
-        }
+        beside(self.start_up, named)
     }
 
     /// Reads a list that must exist; `at` is the place that names it.

@@ -34,6 +34,7 @@
 mod content;
 
 use super::axis::{AxisKind, kind_of, logical_number};
+use super::chain::{OWN_LIST, SEPARATORS, beside};
 use super::lists::{self, ListFiles};
 use super::parameters::Parameters;
 use super::table::{ListKind, channel as of};
@@ -116,15 +117,10 @@ impl<'a> Project<'a> {
         &self.said
     }
 
-    /// The folder of the project with its slash.
-    fn folder(&self) -> &str {
-        let end = self.start_up.rfind(['/', '\\']).map_or(0, |at| at + 1);
-        &self.start_up[..end]
-    }
-
     /// Keeps a list and returns the name by which the start-up list calls it.
     fn keep(&mut self, list: &ListText) -> String {
-        let inside = list.file.strip_prefix(self.folder()).unwrap_or(&list.file);
+        let folder = self.start_up.rfind(SEPARATORS).map_or("", |at| &self.start_up[..=at]);
+        let inside = list.file.strip_prefix(folder).unwrap_or(&list.file);
         let plain = |text: &str| -> String {
             let of = |c: char| if c.is_alphanumeric() || "._-/ ".contains(c) { c } else { '_' };
             text.chars().map(of).collect()
@@ -137,13 +133,8 @@ impl<'a> Project<'a> {
         name
     }
 
-    /// The path that the chain of lists makes of a name in the start-up list.
     fn path(&self, name: &str) -> String {
-        let folder = self.folder().trim_end_matches(['/', '\\']);
-        match self.folder() {
-            "" => name.to_owned(),
-            _ => format!("{folder}/{name}"),
-        }
+        beside(&self.start_up, name)
     }
 
     fn fill(&mut self, mut content: Content) {
@@ -302,7 +293,7 @@ impl<'a> Project<'a> {
 
     /// Enters the cycle into `kontur.lis`, unless the file beside the project has one; what became of it.
     fn cycle(&mut self, us: u32) -> &'static str {
-        let path = self.path("kontur.lis");
+        let path = self.path(OWN_LIST);
         let real = match self.files.read(&path) {
             Ok(Some(bytes)) => String::from_utf8_lossy(&bytes).into_owned(),
             Ok(None) => String::new(),

@@ -396,7 +396,7 @@ impl Simulation {
             .severity(Severity::Warning)
             .value(ValueKind::Current, deviation_mm, "mm")
             .value(ValueKind::Limit, tolerance_mm, "mm")
-            .hint("the first place of the run; |dev| of the summary is the largest; a lower feed helps");
+            .hint("the first place of the run; |dev| of the summary is the largest");
         let source = self.underway.iter().find(|u| u.seq == seq).map_or(self.current, |u| u.source);
         d.source = self.executor.locate(source);
         self.diagnostics.push(d);

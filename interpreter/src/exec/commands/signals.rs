@@ -10,7 +10,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::values::expr::whole;
+use crate::exec::values::number::whole;
 use crate::syntax::ast::{
     ExprKind, Group, ItemKind, ItemValue, ParameterIndex, Place, PlaceKind, Span,
 };

@@ -36,8 +36,7 @@ pub(super) const SPLINE_TYPE: Row = Row::run("SPLINE TYPE", spline_type)
     .example("#SPLINE TYPE AKIMA")
     .related(&["#SPLINE", "#HSC"]);
 
-fn spline_type(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    let _ = decoder;
+fn spline_type(_: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [word] if word.is("AKIMA") => Ok(()),
         [word] if word.is("BSPLINE") => {

@@ -13,7 +13,7 @@ use super::{Driven, Motion};
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::path::{Path, PolyPath, PolyPiece};
+use kontur_motion::path::{Coefficients, Path, PolyPath, PolyPiece};
 use std::collections::VecDeque;
 
 /// Chords behind a segment that decide its end.
@@ -21,6 +21,9 @@ const AHEAD: usize = 2;
 
 /// Chords before a segment that decide its start.
 const BEHIND: usize = 2;
+
+/// What rounding may make of a position in mm.
+const ROUNDING_MM: f64 = 1e-9;
 
 /// Smallest speed of the parameter, as a part of that on a straight line: below it the curve has a cusp.
 const CUSP: f64 = 1e-3;
@@ -97,6 +100,22 @@ struct Run {
     tangent: Option<AxisVec>,
 }
 
+/// A complete segment.
+#[derive(Debug)]
+pub(super) struct Curve {
+    motion: Box<Motion>,
+    /// Lowest and highest position of each axis.
+    extents_mm: Vec<(f64, f64)>,
+}
+
+impl Curve {
+    /// What the software limits are compared with, and the motion.
+    pub(super) fn parts(self) -> (Driven, Box<Motion>) {
+        let Self { motion, extents_mm } = self;
+        (Driven { extents_mm, source: motion.source, span: motion.span }, motion)
+    }
+}
+
 /// The stage.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Akima {
@@ -171,7 +190,7 @@ impl Run {
     }
 
     /// Completes the first segment that waits; `end` is given at its end.
-    fn complete(&mut self, end: Given) -> Option<Outcome<Box<Motion>>> {
+    fn complete(&mut self, end: Given) -> Option<Outcome<Curve>> {
         let from = match (self.start.take(), self.tangent.take()) {
             (Some(given), _) => given.over(self.derivative(0)),
             (None, Some(tangent)) => tangent,
@@ -190,7 +209,7 @@ impl Run {
 }
 
 /// The motion on the cubic between its ends with these derivatives.
-fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Box<Motion>> {
+fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Curve> {
     let (length, _) = chord(&motion);
     let path = &motion.block.path;
     let (start, end) = (path.start().clone(), path.end().clone());
@@ -213,29 +232,31 @@ fn curved(mut motion: Box<Motion>, from: &[f64], to: &[f64]) -> Outcome<Box<Moti
     let slowest = (0..=SAMPLES)
         .map(|k| pace(f64::from(k) / f64::from(SAMPLES)))
         .fold(f64::INFINITY, f64::min);
+    let cusp = || Fault::unsupported("a spline with a cusp", motion.span).in_block(motion.source);
     if slowest < CUSP * length {
-        return Err(Fault::unsupported("a spline with a cusp", motion.span).in_block(motion.source));
+        return Err(cusp());
     }
-    if let Some(path) = PolyPath::new(start, end, vec![piece], feed) {
-        motion.block.path = Path::Curve(Box::new(path));
-    }
+    let extents = piece.iter().zip(start.iter().zip(end.iter()));
+    let extents_mm = extents.map(|(c, (start, end))| cubic_extent(c, *start, *end)).collect();
+    let path = PolyPath::new(start, end, vec![piece], feed).ok_or_else(cusp)?;
+    motion.block.path = Path::Curve(Box::new(path));
     (motion.block.contour, motion.block.spline) = (None, None);
-    Ok(motion)
+    Ok(Curve { motion, extents_mm })
 }
 
-/// Lowest and highest positions of a cubic.
-fn extents(motion: &Motion) -> Vec<(f64, f64)> {
-    let mut at = motion.block.path.start().clone();
-    let path = &motion.block.path;
-    let mut found: Vec<(f64, f64)> =
-        path.start().iter().zip(path.end().iter()).map(|(a, b)| (a.min(*b), a.max(*b))).collect();
-    for k in 1..SAMPLES {
-        path.position(path.length() * f64::from(k) / f64::from(SAMPLES), &mut at);
-        for ((low, high), x) in found.iter_mut().zip(at.iter()) {
-            (*low, *high) = (low.min(*x), high.max(*x));
-        }
-    }
-    found
+/// Lowest and highest value of a cubic over 0 to 1: at its ends, exactly, or where its derivative is zero.
+fn cubic_extent(c: &Coefficients, start: f64, end: f64) -> (f64, f64) {
+    let (square, linear, constant) = (3.0 * c[3], 2.0 * c[2], c[1]);
+    let root = (linear * linear - 4.0 * square * constant).sqrt();
+    // free of cancellation; what is no root here is not finite
+    let sum = -0.5 * (linear + root.copysign(linear));
+    [sum / square, constant / sum]
+        .into_iter()
+        .filter(|x| *x > 0.0 && *x < 1.0)
+        .map(|x| c[0] + x * (c[1] + x * (c[2] + x * c[3])))
+        // a point on a software limit, where the curve turns, is not beyond it by rounding
+        .filter(|q| *q < start.min(end) - ROUNDING_MM || *q > start.max(end) + ROUNDING_MM)
+        .fold((start.min(end), start.max(end)), |(low, high), q| (low.min(q), high.max(q)))
 }
 
 impl Akima {
@@ -255,7 +276,7 @@ impl Akima {
         &mut self,
         motion: Box<Motion>,
         before: Option<&Motion>,
-        out: &mut Vec<Motion>,
+        out: &mut Vec<Curve>,
     ) -> Outcome<()> {
         let (_, slope) = chord(&motion);
         let run = self.run.get_or_insert_with(|| {
@@ -274,13 +295,13 @@ impl Akima {
         run.waiting.push_back(motion);
         run.slopes.push_back(slope);
         while run.waiting.len() > AHEAD {
-            out.extend(run.complete(Given::Nothing).transpose()?.map(|motion| *motion));
+            out.extend(run.complete(Given::Nothing).transpose()?);
         }
         Ok(())
     }
 
     /// The spline ends; `behind`: the motion that follows it without a rest.
-    pub(super) fn finish(&mut self, behind: Option<&Motion>, out: &mut Vec<Motion>) -> Outcome<()> {
+    pub(super) fn finish(&mut self, behind: Option<&Motion>, out: &mut Vec<Curve>) -> Outcome<()> {
         let Some(mut run) = self.run.take() else { return Ok(()) };
         let neighbour = behind.map(|behind| direction(&behind.block.path, false));
         let is_arc = behind.is_some_and(|b| !b.block.path.is_straight());
@@ -295,7 +316,7 @@ impl Akima {
             } else {
                 Given::Nothing
             };
-            out.extend(run.complete(given).transpose()?.map(|motion| *motion));
+            out.extend(run.complete(given).transpose()?);
         }
         Ok(())
     }
@@ -308,12 +329,30 @@ impl Akima {
     }
 }
 
-/// Extents of a segment, for the software limits.
-pub(super) fn driven(motion: &Motion) -> Driven {
-    Driven { extents_mm: extents(motion), source: motion.source, span: motion.span }
-}
-
 /// A rest in a spline.
 pub(super) fn rest_inside() -> Box<Fault> {
     Fault::unsupported("a stop of the path inside a spline", Span::default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cubic_extent;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// A thousand points of the cubic: none lies outside, and one comes near to each end.
+        #[test]
+        fn nothing_lies_outside_the_extent(c in prop::array::uniform4(-10.0..10.0_f64), zeros in 0..16_u32) {
+            let mut all = [0.0; 6];
+            for (i, c) in c.into_iter().enumerate() {
+                all[i] = if zeros & (1 << i) == 0 { c } else { 0.0 };
+            }
+            let at = |x: f64| all[0] + all[1] * x + all[2] * x * x + all[3] * x * x * x;
+            let (low, high) = cubic_extent(&all, at(0.0), at(1.0));
+            let points = (0..=1000).map(|k| at(f64::from(k) / 1000.0));
+            let (least, most) = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), q| (l.min(q), h.max(q)));
+            prop_assert!(low <= least + 2e-9 && high >= most - 2e-9);
+            prop_assert!(low >= least - 1e-4 && high <= most + 1e-4);
+        }
+    }
 }

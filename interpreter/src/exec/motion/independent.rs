@@ -164,7 +164,7 @@ impl Decoder {
             return Err(Fault::unsupported(what, word.span));
         }
         let (name, number) = word.split_number().unwrap_or((&word.text, f64::NAN));
-        let code = crate::exec::values::expr::whole(number, 0, 65535);
+        let code = crate::exec::values::number::whole(number, 0, 65535);
         match (name.to_ascii_uppercase().as_str(), code) {
             ("G", Some(90)) => words.relative = Some(false),
             ("G", Some(91)) => words.relative = Some(true),
@@ -202,7 +202,7 @@ impl Decoder {
             return Ok(());
         }
         if key.is("SLOPE_PROFIL") {
-            let number = crate::exec::values::expr::whole(value, 0, 3);
+            let number = crate::exec::values::number::whole(value, 0, 3);
             let kind = number.and_then(crate::exec::commands::slope_of_number);
             words.slope = Some(kind.ok_or_else(|| wrong("slope types are 0 to 3", span))?);
             return Ok(());

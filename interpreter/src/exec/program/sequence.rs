@@ -10,7 +10,7 @@ use super::executor::Executor;
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::values::expr::whole;
+use crate::exec::values::number::whole;
 use crate::source::Position;
 use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, Span};
 use std::collections::BTreeMap;
