@@ -50,7 +50,7 @@ fn the_surface_is_measured_and_the_rest_of_the_run_is_dropped() {
     for r in of_run(5) {
         near(r.axes[1].ipo, 2.0 * (r.axes[0].ipo - 5.0), 1e-9);
     }
-    let rest = of_run(5).last().unwrap();
+    let rest = of_run(5).next_back().unwrap();
     let (x, y) = (rest.axes[0].ipo, rest.axes[1].ipo);
     assert!(x > 8.0 && x < 8.2, "{x}");
     // N40 goes on from there: Y stays, X goes back

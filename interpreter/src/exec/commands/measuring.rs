@@ -8,7 +8,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::measuring::Measuring;
-use crate::exec::values::expr::is_true;
+use crate::exec::values::number::is_true;
 use crate::syntax::ast::{ItemKind, ItemValue};
 
 arguments! {
