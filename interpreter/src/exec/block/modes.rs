@@ -8,7 +8,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Rotation;
 use crate::exec::motion::dynamics::{Weight, channel_dynamics};
-use crate::exec::motion::technology::Function;
+use crate::exec::motion::state::Function;
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;

@@ -7,7 +7,7 @@ use super::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::measuring::Measuring;
+use crate::exec::motion::state::measuring::Measuring;
 use crate::exec::values::number::is_true;
 use crate::syntax::ast::{ItemKind, ItemValue};
 

@@ -8,86 +8,16 @@
 //! Assumptions, where they are silent: the path rests before a run; a run without a signal leaves the measured values as
 //! they were and takes FALSE into V.A.MERF; types 3 to 6 take a missing signal as type 1 does (P-CHAN-00176).
 
+use super::state::measuring::{Measured, Pending};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::{Compensation, PathMode};
 use crate::exec::block::words::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::step::{SourceRef, Sync};
-use crate::machine::Channel;
+use crate::exec::step::Sync;
 use crate::syntax::ast::{Label, Span};
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Feed;
-
-/// What was measured of an axis, in mm (deg).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::exec) struct Measured {
-    /// In the coordinates of the program, with all offsets (`V.A.MESS`).
-    pub(in crate::exec) value: f64,
-    /// Position of the axis (`V.A.MEAS.ACS.VALUE`).
-    pub(in crate::exec) axis: f64,
-    /// In the coordinates of the program (`V.A.MEAS.PCS.VALUE`).
-    pub(in crate::exec) program: f64,
-    /// Way from the target to the measured position (`V.A.MOFFS`); `None` before the first signal.
-    pub(in crate::exec) offset: Option<f64>,
-    /// The signal came in the last run (`V.A.MERF`).
-    pub(in crate::exec) signalled: bool,
-}
-
-/// A run that has been sent and whose end the program waits for.
-#[derive(Debug)]
-struct Pending {
-    axes: Vec<usize>,
-    /// Programmed coordinates of the target.
-    target: AxisVec,
-    /// A missing signal is an error.
-    needs_signal: bool,
-    jump: Option<Label>,
-    source: SourceRef,
-    span: Span,
-}
-
-/// What the room knows of measuring.
-#[derive(Debug)]
-pub(in crate::exec) struct Measuring {
-    /// Measuring type, 1 to 7 (`#MEAS MODE`).
-    pub(in crate::exec) kind: u32,
-    /// `ERR_NO_SIGNAL`; `None`: as the list and the type say.
-    pub(in crate::exec) missing_is_error: Option<bool>,
-    /// V.G.RW in mm.
-    pub(in crate::exec) residual_path_mm: f64,
-    /// Of every axis.
-    pub(in crate::exec) results: Vec<Measured>,
-    /// Speed of a run of type 2 while it is made.
-    pub(super) feed: Option<Feed>,
-    pending: Option<Box<Pending>>,
-}
-
-impl Measuring {
-    pub(in crate::exec) fn new(channel: &Channel, axes: usize) -> Self {
-        Self {
-            kind: channel.measuring_type,
-            missing_is_error: None,
-            residual_path_mm: channel.residual_path_mm,
-            results: vec![Measured::default(); axes],
-            feed: None,
-            pending: None,
-        }
-    }
-
-    /// The program waits for the end of a run.
-    pub(in crate::exec) fn is_under_way(&self) -> bool {
-        self.pending.is_some()
-    }
-
-    /// What follows a signal (`G310 .. $GOTO`).
-    pub(in crate::exec) fn jump(&mut self, label: Option<Label>) {
-        if let Some(pending) = &mut self.pending {
-            pending.jump = label;
-        }
-    }
-}
 
 impl Decoder {
     /// G100, G310.
