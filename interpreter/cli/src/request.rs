@@ -75,8 +75,23 @@ pub struct Request {
 pub struct Opened {
     /// The run.
     pub run: Run,
-    /// Every file that was read so far: programs, lists, inputs.
-    pub reads: Vec<PathBuf>,
+    /// What it reads.
+    pub reads: Reads,
+}
+
+/// Files that a run reads: lists, inputs and programs.
+#[derive(Clone, Debug)]
+pub struct Reads {
+    others: Vec<PathBuf>,
+    programs: ProgramFiles,
+}
+
+impl Reads {
+    /// Every file that was read so far: what only the moving machine decides may call subroutines that the check ahead has not
+    /// seen.
+    pub fn so_far(&self) -> Vec<PathBuf> {
+        self.others.iter().cloned().chain(self.programs.opened()).collect()
+    }
 }
 
 /// A job with what it is made from.
@@ -157,8 +172,8 @@ impl Request {
     pub fn open(&self) -> Result<Opened, OpenError> {
         let Prepared { job, sources, lists, changes } = self.prepare()?;
         let run = job.start().map_err(OpenError::Lists)?.with_inputs(changes);
-        let others = lists.into_iter().chain(self.inputs.clone());
-        Ok(Opened { run, reads: others.chain(sources.opened()).collect() })
+        let others = lists.into_iter().chain(self.inputs.clone()).collect();
+        Ok(Opened { run, reads: Reads { others, programs: sources } })
     }
 }
 

@@ -45,13 +45,17 @@ pub fn response(args: &ResponseArgs, console: &mut Console) -> Result<Exit, Erro
     if args.output.is_empty() {
         console.print(&view.table.csv())?;
     }
-    for output in &args.output {
-        let text = match kind(output)? {
+    let text = |output: &Path| {
+        Ok(match kind(output)? {
             Kind::Table => view.table.csv(),
             Kind::Picture => view.plot.draw(),
-        };
-        crate::target::write(output, text.as_bytes())?;
-    }
+        })
+    };
+    let texts: Vec<String> = args.output.iter().map(|o| text(o)).collect::<Result<_, Error>>()?;
+    let files = args.output.iter().zip(&texts);
+    let files: Vec<(&Path, &[u8])> =
+        files.map(|(o, text)| (o.as_path(), text.as_bytes())).collect();
+    crate::target::write(&files)?;
     Ok(Exit::Finished)
 }
 

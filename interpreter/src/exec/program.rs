@@ -11,5 +11,7 @@ pub(super) mod files;
 pub(super) mod flow;
 pub(super) mod index;
 pub(super) mod info;
+mod reached;
 pub(super) mod sequence;
+pub(super) mod state;
 pub(super) mod unreached;

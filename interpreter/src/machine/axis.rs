@@ -1,9 +1,12 @@
 //! One axis of the machine: its parameters and what the planner makes of them.
 
-use super::key::{Indices, Key};
+use super::key::Key;
+use super::parameters::Kind;
 use super::parameters::{Parameters, Setting};
-use super::table::param::{Kind, Number, Param, Place};
-use super::table::{ListKind, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general};
+use super::table::param::{Number, Param, Place};
+use super::table::{
+    Indices, ListKind, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general,
+};
 use super::value;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 

@@ -8,25 +8,16 @@ mod loops;
 
 use super::executor::Executor;
 use super::index::{EntryId, Keyword};
+use super::state::{Counter, Frame};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::source::Position;
 use crate::syntax::ast::{Body, Control, ControlKind, Expr, Label, LabelKind, Place, Span};
-use loops::Counter;
 use std::sync::Arc;
 
 /// Values closer than this are equal in `$SWITCH`. Source: TF5200 programming manual.
-const SWITCH_TOLERANCE: f64 = crate::exec::values::expr::NEARLY;
-
-/// An open control block.
-#[derive(Clone, Debug)]
-pub(in crate::exec) struct Frame {
-    pub(in crate::exec) open: EntryId,
-    pub(in crate::exec) keyword: Keyword,
-    /// Counter, last value and step of `$FOR`.
-    counter: Option<Arc<Counter>>,
-}
+const SWITCH_TOLERANCE: f64 = crate::exec::values::number::NEARLY;
 
 impl Executor {
     /// Carries out a control statement that stands in the index as `id`.

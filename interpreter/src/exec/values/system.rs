@@ -3,7 +3,7 @@
 //! Positions are in the unit of the program (G70: inch). Source: TF5200 programming manual, V.A. and V.G.; served
 //! values are kontur's choice where a headless tool has none.
 
-use super::expr::{as_number, whole};
+use super::number::{as_number, whole};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

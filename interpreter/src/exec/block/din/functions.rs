@@ -6,7 +6,7 @@ use crate::exec::block::words::{Code, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::motion::spindles::Turning;
-use crate::exec::motion::technology::Function;
+use crate::exec::motion::state::Function;
 use crate::exec::step::{Event, Sync};
 use crate::syntax::ast::Span;
 

@@ -4,17 +4,11 @@ use crate::diag::{Condition, Diagnostic};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::program::executor::Executor;
-use crate::exec::program::index::{EntryId, Keyword};
-use crate::exec::values::expr::is_true;
+use crate::exec::program::index::EntryId;
+use crate::exec::program::index::Keyword;
+use crate::exec::program::state::Counter;
+use crate::exec::values::number::is_true;
 use crate::syntax::ast::{Expr, Place, PlaceKind, Span};
-
-/// Counter, last value and step of `$FOR`.
-#[derive(Debug)]
-pub(super) struct Counter {
-    place: Place,
-    end: f64,
-    step: f64,
-}
 
 impl Executor {
     pub(super) fn for_loop(
