@@ -13,7 +13,7 @@ mod words;
 
 use crate::diag::condition;
 use crate::diag::{Condition, Id};
-use crate::machine::key::{self, Key};
+use crate::machine::key::Key;
 use crate::machine::table::{self, Bound, Correction, Default, ListKind, Raw, Row};
 use crate::machine::value::{self, Value};
 
@@ -295,7 +295,7 @@ fn example(row: &Row) -> Option<String> {
     if row.key.is_empty() {
         return None;
     }
-    let key = key::with_indices(row.key, [0; 2]);
+    let key = table::with_indices(row.key, [0; 2]);
     let value = match (notes::example(row.id), row.raw) {
         (Some(value), _) => value.to_owned(),
         (None, Raw::Word(words)) => words.first().copied().unwrap_or_default().to_owned(),

@@ -23,7 +23,6 @@
 //! # Ok::<(), String>(())
 //! ```
 
-mod facts;
 pub mod inputs;
 mod lists;
 mod run;
@@ -33,14 +32,14 @@ mod tests;
 pub use crate::exec::{
     Access, Checked, External, ForcedGuard, GuardCommands, Options, SkipLevels, Stop, Value,
 };
+pub use crate::record::facts::{AxisFacts, Facts, FileNames};
 pub use crate::sim::{Change, Changes, SettledStop, Signal, Stops, Totals};
-pub use facts::{AxisFacts, Facts, FileNames};
 pub use lists::MachineLists;
 pub use run::{Run, Sink};
 
 use crate::diag::{Condition, Diagnostic};
 use crate::exec;
-use crate::machine::Machine;
+use crate::machine::{AxisKind, Machine};
 use crate::sim::Simulation;
 use crate::source::Sources;
 use std::fmt;
@@ -135,8 +134,32 @@ impl Job {
             &self.program,
             self.options.clone(),
         )?;
-        let facts = Facts::of(&self.program, &self.machine, &simulation, several_files);
+        let facts = facts(&self.program, &self.machine, &simulation, several_files);
         let stop = self.options.stop.clone();
         Ok(Run::new(simulation, Arc::clone(&self.sources), facts, messages, refused, stop))
+    }
+}
+
+/// What stays the same during a run; `several_files`: the check ahead has opened more than the program.
+fn facts(program: &str, machine: &Machine, simulation: &Simulation, several_files: bool) -> Facts {
+    let (chains, _) = machine.chains();
+    let stop = |i: usize| chains.get(i).map(|chain| chain.control.exact_stop).unwrap_or_default();
+    let axes = machine.all_axes().enumerate().map(|(i, axis)| AxisFacts {
+        name: axis.name().to_owned(),
+        rotary: axis.kind() != AxisKind::Linear,
+        spindle: axis.kind() == AxisKind::Spindle,
+        modal: simulation.has_tool_point(i),
+        v_max: axis.dynamics().v_max_mm_s,
+        a_max: axis.dynamics().a_max_mm_s2,
+        window: stop(i).window_mm,
+        settling_s: stop(i).settling_s,
+    });
+    let files = simulation.files().iter().map(ToString::to_string).collect();
+    Facts {
+        program: program.to_owned(),
+        machine: machine.name.clone(),
+        cycle_us: machine.cycle.us(),
+        axes: axes.collect(),
+        files: FileNames::new(files, several_files),
     }
 }

@@ -25,9 +25,11 @@ mod overrides;
 mod parameters;
 mod plausible;
 pub mod project;
+mod settled;
 mod setup;
 pub mod table;
 mod tools;
+mod transmission;
 pub mod value;
 
 pub use axis::{Axis, AxisKind};

@@ -9,6 +9,7 @@
 //! ```
 
 pub mod columns;
+pub(crate) mod facts;
 
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::Path;

@@ -39,7 +39,7 @@ use crate::contour::Contour;
 use crate::corner::transition;
 use crate::deviation::Gauge;
 use crate::limit::{Cap, SpeedLimit};
-use crate::plan::{Plan, Segment};
+use crate::plan::{Plan, Segment, Start};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
@@ -101,10 +101,7 @@ pub struct Planner {
     unkept: Vec<Unkept>,
     /// Least tolerance of any block so far in mm; what is output is compared with that of its blocks from there on.
     least_tolerance_mm: f64,
-    /// The first cycle whose output exceeded the tolerance of its blocks, until it is told.
-    exceeded: Option<Unkept>,
-    /// One was told.
-    exceeded_told: bool,
+    output_excess: OutputExcess,
     brake: Option<Brake>,
     /// Override and feedhold in effect, and those asked for.
     active: Realtime,
@@ -116,6 +113,18 @@ pub struct Planner {
 struct Realtime {
     ratios: Override,
     hold: Option<FeedholdBraking>,
+}
+
+/// What is known of an excess in what is output.
+#[derive(Clone, Copy, Debug, Default)]
+enum OutputExcess {
+    /// No cycle exceeded the tolerance of its blocks.
+    #[default]
+    None,
+    /// One did, and nobody has asked yet.
+    Found(Unkept),
+    /// It was told; later ones are not looked for.
+    Told,
 }
 
 /// Share and mm by which the output may exceed a tolerance before it is told: what a trace rounds away.
@@ -142,8 +151,7 @@ impl Planner {
             reach_cycles: 0,
             unkept: Vec::new(),
             least_tolerance_mm: f64::INFINITY,
-            exceeded: None,
-            exceeded_told: false,
+            output_excess: OutputExcess::default(),
             brake: None,
             active: Realtime::default(),
             wanted: Realtime::default(),
@@ -191,6 +199,15 @@ impl Planner {
     /// At rest although there is something to do: by feedhold or override 0.
     pub fn is_held(&self) -> bool {
         self.plan.is_at_rest() && (self.active.hold.is_some() || self.plan.is_barred())
+    }
+
+    /// Drops what lies ahead of a path that feedhold has brought to rest: the next block starts where it stands.
+    pub fn drop_ahead(&mut self) {
+        if self.is_held() {
+            let start = Start { speed: Cap::STOP, a_mm_s2: 0.0, ..self.plan.start };
+            self.plan = Plan::from_state(start);
+            self.last = None;
+        }
     }
 
     /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.
@@ -322,7 +339,8 @@ impl Planner {
     /// Compares what is output with the loosest tolerance of the blocks that the filters hold.
     fn judge(&mut self, k: u64) {
         let most = self.gauge.found().iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        if self.exceeded_told || most <= self.least_tolerance_mm {
+        let looked_for = matches!(self.output_excess, OutputExcess::None);
+        if !looked_for || most <= self.least_tolerance_mm {
             return;
         }
         let (reach, moment) = (f64::from(self.reach_cycles), k as f64);
@@ -336,15 +354,17 @@ impl Planner {
         }
         let (tolerance_mm, seq) = loosest;
         if most > ALLOWANCE * tolerance_mm + ALLOWANCE_MM {
-            self.exceeded_told = true;
-            self.exceeded = Some(Unkept { seq, deviation_mm: most, tolerance_mm });
+            let unkept = Unkept { seq, deviation_mm: most, tolerance_mm };
+            self.output_excess = OutputExcess::Found(unkept);
         }
     }
 
     /// The first excess that was measured in what is output although the plan had kept the tolerance; each run has one at
     /// most.
     pub fn take_exceeded(&mut self) -> Option<Unkept> {
-        self.exceeded.take()
+        let OutputExcess::Found(unkept) = self.output_excess else { return None };
+        self.output_excess = OutputExcess::Told;
+        Some(unkept)
     }
 
     /// In place of [`Self::deviation`] in a cycle whose set point is the interpolated one.

@@ -15,6 +15,9 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::Tolerance;
 use kontur_motion::path::{LinePath, Path};
+use kontur_motion::planner::{Next, Planner};
+use kontur_motion::tolerance::{Kernels, Unkept};
+use std::sync::Arc;
 
 const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];
 
@@ -322,4 +325,34 @@ fn negative_weights_keep_the_tolerance_too() {
             }
         }
     }
+}
+
+/// The output is judged by what the filters really gave: set points `aside_mm` beside a straight line.
+fn told_of_output(aside_mm: f64) -> Vec<Unkept> {
+    let job = guarded(Job::new(1.0, Trapez), 1, 40.0, 0.1, Some(0.01));
+    let cycle = CycleTime::from_us(job.cycle_us).unwrap();
+    let mut planner = Planner::new(cycle, job.window, &[0.0; 2]);
+    let kernel = job.kernel.clone().map(Arc::new);
+    planner.set_kernels(Kernels::new(vec![kernel; 2]), 0);
+    let ends = [[0.0; 2], [20.0, 0.0]].map(|p| AxisVec::from_slice(&p));
+    let [from, to] = ends;
+    planner.push(job.block(7, Path::Line(LinePath::new(from, to, &[]).unwrap()), 50.0));
+    planner.finish();
+    let mut told = Vec::new();
+    while planner.advance().unwrap() == Next::Setpoint {
+        let set = [planner.setpoint().position[0], aside_mm];
+        planner.deviation(&set, &mut [0.0; 2]);
+        told.extend(planner.take_exceeded());
+    }
+    assert!(planner.take_unkept().is_empty());
+    told
+}
+
+#[test]
+fn an_excess_that_the_plan_does_not_see_is_told_once() {
+    assert_eq!(told_of_output(0.0099), []);
+    let told = told_of_output(0.0125);
+    let [excess] = told[..] else { panic!("{told:?}") };
+    assert_eq!((excess.seq, excess.tolerance_mm), (7, 0.01));
+    assert!((excess.deviation_mm - 0.0125).abs() < 1e-12, "{excess:?}");
 }

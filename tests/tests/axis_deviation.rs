@@ -468,24 +468,13 @@ fn the_tolerance_holds_over_random_programs() {
 }
 
 /// Arcs of 0.02 mm, one of which was asked to crawl for what another one caused; a rest at a corner under a filter of three
-/// cycles, which was met and counted as missed.
+/// cycles, which was met and counted as missed; rounded corners in a row, and arcs with the filter switched between them, run
+/// through so slowly that the plan did not look for what is missed.
 #[test]
 fn random_programs_that_were_wrong() {
-    for n in [8_000_031, 8_000_043] {
+    for n in [8_000_031, 8_000_043, 21_000_060, 23_000_025] {
         holds(n);
     }
-}
-
-/// Rounded corners in a row under a slow guard: what is output exceeds the tolerance, which is told at least.
-#[test]
-fn an_excess_that_the_plan_does_not_see_is_told() {
-    let case = case(21_000_060);
-    let settings: Vec<&str> = case.settings.iter().map(String::as_str).collect();
-    let run = run(&case.text, &settings);
-    let kept = largest(&run, |a| a.dev_both_ways) <= 1.001 * case.tolerance_mm + 1e-6;
-    let told = run.diagnostics.iter().filter(|d| d.id == Condition::AxDevNotKept).count();
-    assert_eq!(told, usize::from(!kept));
-    assert!(!run.totals.aborted);
 }
 
 /// A square of 50 mm under `#HSC ON [BSPLINE]`, its corners rounded within `path_dev`.

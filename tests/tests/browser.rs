@@ -88,8 +88,8 @@ for (let i = 0, seed = 1; i < 400; i++) {
   ranges.push([low, high, wanted, ticks(low, high, wanted).map(t => t[1])]);
 }
 const spring = plots.find(p => p.kind === "spring"), fields = [...spring.card.querySelectorAll("input")], springs = [];
-for (const [hz, damping] of [["", ""], ["37", "0.05"]]) {
-  if (hz) [hz, damping].forEach((v, i) => { fields[i].value = v; fields[i].dispatchEvent(new Event("input")); });
+for (const values of [[], ["37", "0.05"], ["", "", "61", "0.3"]]) {
+  values.forEach((v, i) => { if (v && fields[i]) { fields[i].value = v; fields[i].dispatchEvent(new Event("input")); } });
   springs.push(spring.lines.map(l => ({ axis: l.axis, ...modelOf(l), most: responseOf(l).most, left: responseOf(l).left, said: spring.card.textContent })));
 }
 // what can be clicked can be reached by keys
@@ -186,13 +186,14 @@ fn the_page_draws_and_answers() {
             ticks((low, high), wanted).into_iter().map(|(_, text)| text).collect();
         assert_eq!(range[3], serde_json::json!(picture), "{low} {high} {wanted}");
     }
-    // the spring of the page against that of the library, first as the guard is set, then as it is chosen
+    // the spring of the page against that of the library: as the guard is set, then of each axis as it is chosen
     let trace = run(SQUARE, &[]);
-    for (spring, (hz, damping)) in
-        one["springs"].as_array().unwrap().iter().zip([(20.0, 0.1), (37.0, 0.05)])
-    {
+    let guard = (20.0, 0.1);
+    let chosen = [[guard; 2], [(37.0, 0.05), guard], [(37.0, 0.05), (61.0, 0.3)]];
+    for (spring, models) in one["springs"].as_array().unwrap().iter().zip(chosen) {
         for line in spring.as_array().unwrap() {
             let axis = usize::try_from(line["axis"].as_u64().unwrap()).unwrap();
+            let (hz, damping) = models[axis];
             let mut model = SpringMass::new(hz, damping, CycleTime::DEFAULT).unwrap();
             let (mut most, mut left): (f64, f64) = (0.0, 0.0);
             for a in trace.axis(axis, |a| a.acc) {

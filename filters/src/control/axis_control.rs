@@ -1,4 +1,4 @@
-//! One axis behind its set position: the parts in their fixed order, once per cycle.
+//! One axis downstream of its set position: the parts in their fixed order, once per cycle.
 //!
 //! 1. Actual values of the cycle start.
 //! 2. Setpoint out of the buffer.
@@ -9,32 +9,19 @@
 //! 7. Monitors.
 //! 8. The plant advances by one cycle.
 
+mod config;
+
 use super::{
     buffer::{Setpoint, SetpointBuffer},
-    fault::{Fault, Faults, Issue},
-    feedforward::{AdditiveInputs, Feedforward, FeedforwardConfig, FeedforwardOutput},
+    fault::{Fault, Faults},
+    feedforward::{Feedforward, FeedforwardOutput},
     ipc::{Ipc, IpcConfig, IpcInput, IpcOutput},
-    monitor::{
-        ExactStopConfig, ExactStopMonitor, LagMonitor, LagMonitorConfig, SetpointMonitor,
-        SetpointMonitorConfig,
-    },
-    plant::{Plant, PlantConfig, PlantError, PlantInput},
-    position::{PositionConfig, PositionLoop, SpeedLimiter},
-    scaling::{SpeedFormat, TorqueFormat},
+    monitor::{ExactStopMonitor, LagMonitor, SetpointMonitor},
+    plant::{Plant, PlantError, PlantInput},
+    position::{PositionLoop, SpeedLimiter},
 };
 use crate::time::CycleTime;
-
-/// Measuring system that closes the position loop.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Encoder {
-    /// Motor encoder (default).
-    #[default]
-    Motor,
-    /// Direct measuring system at the load (`lr_hw[1]`).
-    ///
-    /// Assumption: an axis that has one is controlled by it.
-    Direct,
-}
+pub use config::{AxisControlConfig, Encoder};
 
 /// What acts on an axis from outside; nothing by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,88 +35,6 @@ pub struct AxisInputs {
     pub force_mm_s2: f64,
     /// Error of the measuring system of the position loop in mm.
     pub encoder_offset_mm: f64,
-}
-
-/// Configuration of everything behind the set position of one axis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AxisControlConfig {
-    /// Feedforward.
-    pub feedforward: FeedforwardConfig,
-    /// Additive inputs of the drive.
-    pub additive_inputs: AdditiveInputs,
-    /// Delay of the position path in cycles, the same for every axis of a channel
-    /// ([`channel_delay_cycles`](super::feedforward::channel_delay_cycles)). Never less than the axis' own feedforward
-    /// needs.
-    pub delay_cycles: usize,
-    /// Position controller.
-    pub position: PositionConfig,
-    /// Measuring system of the position loop.
-    pub encoder: Encoder,
-    /// Smallest step of that measuring system in mm ([`increment_mm`](super::scaling::increment_mm)); 0: it reads
-    /// without steps.
-    pub increment_mm: f64,
-    /// Improved Position Control.
-    pub ipc: IpcConfig,
-    /// Drive and mechanics.
-    pub plant: PlantConfig,
-    /// Following-error monitoring.
-    pub lag: LagMonitorConfig,
-    /// Exact stop.
-    pub exact_stop: ExactStopConfig,
-    /// Monitoring of the set positions.
-    pub setpoint: SetpointMonitorConfig,
-    /// Format of the speed command, and of the additive speed of Improved Position Control.
-    pub command_format: SpeedFormat,
-    /// Format of the velocity feedforward.
-    pub feedforward_format: SpeedFormat,
-    /// Format of the additive torque.
-    pub torque: TorqueFormat,
-}
-
-impl AxisControlConfig {
-    /// The vendor's defaults for an axis with the given limits of velocity, acceleration and jerk.
-    pub fn new(v_max_mm_s: f64, a_max_mm_s2: f64, j_max_mm_s3: f64) -> Self {
-        Self {
-            feedforward: FeedforwardConfig::default(),
-            additive_inputs: AdditiveInputs { velocity: false, torque: false },
-            delay_cycles: 0,
-            position: PositionConfig { v_max_mm_s, ..PositionConfig::default() },
-            encoder: Encoder::Motor,
-            increment_mm: 0.0,
-            ipc: IpcConfig::default(),
-            plant: PlantConfig::default(),
-            lag: LagMonitorConfig::default(),
-            exact_stop: ExactStopConfig::default(),
-            setpoint: SetpointMonitorConfig::new(v_max_mm_s, a_max_mm_s2, j_max_mm_s3),
-            command_format: SpeedFormat::default(),
-            feedforward_format: SpeedFormat::default(),
-            torque: TorqueFormat::default(),
-        }
-    }
-
-    /// The configuration with every documented correction, and what was found.
-    pub fn checked(mut self, cycle: CycleTime) -> (Self, Vec<Issue>) {
-        let (feedforward, mut issues) = self.feedforward.checked(cycle, self.additive_inputs);
-        self.feedforward = feedforward;
-        let (plant, found) = self.plant.checked();
-        self.plant = plant;
-        issues.extend(found);
-        self.exact_stop.window_mm = self
-            .exact_stop
-            .window_mm
-            .max(ExactStopConfig::HALF_INCREMENT_MM)
-            .max(0.5 * self.increment_mm);
-        issues.extend(self.ipc.check(cycle));
-        let in_drive = self.position.closed_in == PositionLoop::Drive;
-        if self.ipc.enable && in_drive && !self.additive_inputs.velocity {
-            issues.push(Issue::IpcNoInput);
-            self.ipc.enable = false;
-        }
-        if self.feedforward.uses_torque() {
-            issues.extend(self.torque.check(self.setpoint.a_max_mm_s2));
-        }
-        (self, issues)
-    }
 }
 
 /// Values in the drive's format, in counts unless the name says otherwise.
@@ -176,7 +81,7 @@ pub struct ControlOutput {
     pub faulty: bool,
 }
 
-/// One axis behind its set position.
+/// One axis downstream of its set position.
 #[derive(Clone, Debug)]
 pub struct AxisControl {
     config: AxisControlConfig,
@@ -422,7 +327,7 @@ impl AxisControl {
     }
 
     /// One cycle: set position behind filters or Vibration Guard, feedforward gain of this motion
-    /// ([`FeedforwardConfig::gain`]; 0 when off) and whether its slope is jerk-limited.
+    /// ([`gain`](super::feedforward::FeedforwardConfig::gain); 0 when off) and whether its slope is jerk-limited.
     ///
     /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.
     #[inline] // the output is large: used where it is made

@@ -18,55 +18,11 @@ use crate::args::{DiffArgs, OutputForm};
 use crate::console::Console;
 use crate::{Error, Exit};
 use compare::Comparison;
-pub(crate) use recording::Pairing;
 use serde::Serialize;
 use std::path::Path;
 use table::Table;
 use text::text;
 use verdict::Verdict;
-
-/// Largest differences that count as equal, by unit.
-#[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
-pub struct Tolerance {
-    /// Positions in mm or deg
-    #[arg(long = "tol-mm", value_name = "MM", default_value = "1e-6", value_parser = tolerance)]
-    pub mm: f64,
-    /// Speeds in mm/s or deg/s
-    #[arg(long = "tol-mm-s", value_name = "MM/S", default_value = "1e-3", value_parser = tolerance)]
-    pub mm_s: f64,
-    /// Accelerations in mm/s2 or deg/s2
-    #[arg(long = "tol-mm-s2", value_name = "MM/S2", default_value = "1", value_parser = tolerance)]
-    pub mm_s2: f64,
-    /// Jerks in mm/s3 or deg/s3
-    #[arg(long = "tol-mm-s3", value_name = "MM/S3", default_value = "1000", value_parser = tolerance)]
-    pub mm_s3: f64,
-    /// Everything else: drive counts, Nm
-    #[arg(long = "tol-other", value_name = "X", default_value = "1e-3", value_parser = tolerance)]
-    pub other: f64,
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(v) if v >= 0.0 => Ok(v),
-        _ => Err("a number, 0 or more, is expected".to_owned()),
-    }
-}
-
-impl Tolerance {
-    /// How cells of a column are compared; none: as text.
-    fn of(&self, column: &str) -> Option<f64> {
-        let ends = |end: &str| ["mm", "deg"].iter().any(|u| column.ends_with(&format!("{u}{end}")));
-        match column {
-            "t_s" => Some(0.0),
-            "line" | "block" | "file" | "v_limit" => None,
-            _ if ends("_s3") => Some(self.mm_s3),
-            _ if ends("_s2") => Some(self.mm_s2),
-            _ if ends("_s") => Some(self.mm_s),
-            _ if ends("") => Some(self.mm),
-            _ => Some(self.other),
-        }
-    }
-}
 
 /// Compares; exit code 0 if equal, 1 if different.
 ///
@@ -149,31 +105,5 @@ impl<O: Serialize> Done<'_, O> {
         };
         console.print(&printed)?;
         Ok(if self.equal { Exit::Finished } else { Exit::Aborted })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_come_from_the_name() {
-        let t = Tolerance { mm: 1.0, mm_s: 2.0, mm_s2: 3.0, mm_s3: 4.0, other: 5.0 };
-        for (column, expected) in [
-            ("X_set_mm", Some(1.0)),
-            ("C_lag_deg", Some(1.0)),
-            ("s_mm", Some(1.0)),
-            ("v_mm_s", Some(2.0)),
-            ("C_vel_deg_s", Some(2.0)),
-            ("X_tcp_acc_mm_s2", Some(3.0)),
-            ("j_mm_s3", Some(4.0)),
-            ("X_torque_nm", Some(5.0)),
-            ("X_cmd_drive", Some(5.0)),
-            ("t_s", Some(0.0)),
-            ("line", None),
-            ("v_limit", None),
-        ] {
-            assert_eq!(t.of(column), expected, "{column}");
-        }
     }
 }

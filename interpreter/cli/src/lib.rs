@@ -20,8 +20,10 @@
 pub mod args;
 pub mod chart;
 mod check;
+mod combinations;
 pub mod console;
 mod diff;
+mod error;
 pub mod explain;
 mod files;
 mod interrupt;
@@ -38,76 +40,13 @@ mod target;
 mod times;
 mod trace;
 pub mod tune;
-mod vary;
 mod workflow;
 
 use clap::Parser as _;
 use console::Console;
+pub use error::{Error, Exit};
 use std::ffi::OsString;
 use std::process::ExitCode;
-
-/// How a command ends; the number is the exit code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Exit {
-    /// Finished, warnings allowed; for `diff`: equal.
-    Finished = 0,
-    /// The program was refused or aborted by an NC or axis error; for `diff`: different.
-    Aborted = 1,
-    /// Wrong usage or wrong machine lists.
-    Usage = 2,
-    /// Input or output failed.
-    Io = 3,
-}
-
-/// Why a command could not do its work.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// Wrong usage: the message names the option and the choices.
-    #[error("{0}")]
-    Usage(String),
-    /// The machine lists were refused; their diagnostics have been printed.
-    #[error("the machine lists were refused")]
-    Lists,
-    /// A file of real-time inputs is wrong; its diagnostics have been printed.
-    #[error("the file of real-time inputs was refused")]
-    Inputs,
-    /// Ctrl-C stopped the run; what was computed up to then is written.
-    #[error("interrupted at t = {time_s:.6} s")]
-    Interrupted {
-        /// Program time of the last row in seconds.
-        time_s: f64,
-    },
-    /// Ctrl-C stopped a sweep; finished rows are kept in its journal.
-    #[error("interrupted; the same sweep goes on behind its finished rows")]
-    Stopped,
-    /// Nobody reads stdout any more; nothing is left to say.
-    #[error("stdout is closed")]
-    ClosedPipe,
-    /// A file could not be read or written.
-    #[error("{what}: {source}")]
-    Io {
-        /// The file, and whether it was read or written.
-        what: String,
-        /// What the system said.
-        source: std::io::Error,
-    },
-}
-
-impl Error {
-    /// An input or output error that names what was read or written.
-    pub fn io(what: impl Into<String>, source: std::io::Error) -> Self {
-        Self::Io { what: what.into(), source }
-    }
-
-    /// Exit code of this error.
-    pub const fn exit(&self) -> Exit {
-        match self {
-            Self::Usage(_) | Self::Lists | Self::Inputs => Exit::Usage,
-            Self::Interrupted { .. } | Self::Stopped => Exit::Aborted,
-            Self::ClosedPipe | Self::Io { .. } => Exit::Io,
-        }
-    }
-}
 
 /// Runs one command on the process' own stdout and stderr.
 pub fn main_with(args: impl IntoIterator<Item = OsString>) -> ExitCode {

@@ -6,6 +6,7 @@
 mod page;
 mod picture;
 mod recording;
+mod shown;
 mod signals;
 mod stops;
 mod track;
@@ -13,12 +14,12 @@ mod vibration;
 mod views;
 
 use crate::args::ReportArgs;
+use crate::combinations::{combinations, put};
 use crate::console::Console;
 use crate::files::STANDARD;
 use crate::request::{Opened, Request};
 use crate::run::{Shown, announce_lists, drive};
 use crate::target::keep_apart;
-use crate::vary::{combinations, put};
 use crate::{Error, Exit, times};
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_interpreter::diag::render::printable;
@@ -68,7 +69,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
     for (program, values, request) in requests(args)? {
         let opened = request.open().map_err(|e| announce_lists(e, console))?;
         let Opened { mut run, reads } = opened;
-        keep_apart(&reads, std::slice::from_ref(&output))?;
+        keep_apart(&reads.so_far(), std::slice::from_ref(&output))?;
         let mut summary = Collector::new(run.facts());
         let mut recording = Recording::new(run.facts());
         let mut times = times::Collector::new(run.facts());
@@ -81,6 +82,8 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
             }
             Ok(())
         })?;
+        // with what the run came to on its way
+        keep_apart(&reads.so_far(), std::slice::from_ref(&output))?;
         recording.finish();
         let totals = run.totals();
         let summary = summary.finish(&totals);
@@ -110,7 +113,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
             Form::Picture => picture::draw(&runs),
             Form::Page => page::draw(&runs, &beside),
         };
-        crate::target::write(&output, drawn.as_bytes())?;
+        crate::target::write(&[(&output, drawn.as_bytes())])?;
     }
     let aborted = runs.iter().any(|r| r.summary.state == State::Aborted);
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })

@@ -18,7 +18,7 @@
 //! assert!(!run.totals().aborted);
 //! ```
 
-use crate::Error;
+pub use crate::error::OpenError;
 use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
 use crate::project::{self, Place};
 use kontur_interpreter::diag::Diagnostic;
@@ -70,37 +70,28 @@ pub struct Request {
     pub stop: Stop,
 }
 
-/// Why a program could not be opened.
-#[derive(Debug)]
-pub enum OpenError {
-    /// A setting or option is wrong.
-    Usage(String),
-    /// The machine lists are wrong.
-    Lists(Vec<Diagnostic>),
-    /// A file of real-time inputs is wrong.
-    Inputs(Vec<Diagnostic>),
-    /// A file cannot be read.
-    Io(PathBuf, std::io::Error),
-}
-
-impl From<OpenError> for Error {
-    fn from(e: OpenError) -> Self {
-        match e {
-            OpenError::Usage(text) => Self::Usage(text),
-            OpenError::Lists(_) => Self::Lists,
-            OpenError::Inputs(_) => Self::Inputs,
-            OpenError::Io(path, e) => Self::io(path.display().to_string(), e),
-        }
-    }
-}
-
 /// A run before its first cycle.
 #[derive(Debug)]
 pub struct Opened {
     /// The run.
     pub run: Run,
-    /// Every file that was read so far: programs, lists, inputs.
-    pub reads: Vec<PathBuf>,
+    /// What it reads.
+    pub reads: Reads,
+}
+
+/// Files that a run reads: lists, inputs and programs.
+#[derive(Clone, Debug)]
+pub struct Reads {
+    others: Vec<PathBuf>,
+    programs: ProgramFiles,
+}
+
+impl Reads {
+    /// Every file that was read so far: what only the moving machine decides may call subroutines that the check ahead has not
+    /// seen.
+    pub fn so_far(&self) -> Vec<PathBuf> {
+        self.others.iter().cloned().chain(self.programs.opened()).collect()
+    }
 }
 
 /// A job with what it is made from.
@@ -181,8 +172,8 @@ impl Request {
     pub fn open(&self) -> Result<Opened, OpenError> {
         let Prepared { job, sources, lists, changes } = self.prepare()?;
         let run = job.start().map_err(OpenError::Lists)?.with_inputs(changes);
-        let others = lists.into_iter().chain(self.inputs.clone());
-        Ok(Opened { run, reads: others.chain(sources.opened()).collect() })
+        let others = lists.into_iter().chain(self.inputs.clone()).collect();
+        Ok(Opened { run, reads: Reads { others, programs: sources } })
     }
 }
 

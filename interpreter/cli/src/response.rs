@@ -18,17 +18,16 @@
 //!
 #![doc = include_str!("../docs/figures.md")]
 
-pub mod args;
 mod axis;
 pub mod curve;
 mod describe;
 mod select;
 mod view;
 
+use crate::args::ResponseArgs;
 use crate::console::Console;
 use crate::table::Table;
 use crate::{Error, Exit};
-use args::ResponseArgs;
 use std::path::Path;
 use view::Answer;
 
@@ -46,13 +45,17 @@ pub fn response(args: &ResponseArgs, console: &mut Console) -> Result<Exit, Erro
     if args.output.is_empty() {
         console.print(&view.table.csv())?;
     }
-    for output in &args.output {
-        let text = match kind(output)? {
+    let text = |output: &Path| {
+        Ok(match kind(output)? {
             Kind::Table => view.table.csv(),
             Kind::Picture => view.plot.draw(),
-        };
-        crate::target::write(output, text.as_bytes())?;
-    }
+        })
+    };
+    let texts: Vec<String> = args.output.iter().map(|o| text(o)).collect::<Result<_, Error>>()?;
+    let files = args.output.iter().zip(&texts);
+    let files: Vec<(&Path, &[u8])> =
+        files.map(|(o, text)| (o.as_path(), text.as_bytes())).collect();
+    crate::target::write(&files)?;
     Ok(Exit::Finished)
 }
 

@@ -5,13 +5,14 @@ use crate::console::{Console, Progress};
 use crate::files::is_standard;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened};
-use crate::target::{self, keep_apart};
+use crate::target::{create_all, keep_apart};
 use crate::trace::Trace;
 use crate::{Error, Exit, times};
 use kontur_interpreter::job::{Run, Sink, Totals};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::summary::Collector;
-use std::path::PathBuf;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
 
 /// Runs a program.
 ///
@@ -20,12 +21,14 @@ use std::path::PathBuf;
 pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> {
     let opened = args.simulation.request(&args.program).open();
     let Opened { mut run, reads } = opened.map_err(|e| announce_lists(e, console))?;
-    let table = args.times.iter().flatten();
-    let written: Vec<PathBuf> = args.output.iter().chain(table).cloned().collect();
-    keep_apart(&reads, &written)?;
+    let table = args.times.as_ref().and_then(Option::as_deref);
+    let outputs = args.output.iter().map(PathBuf::as_path).chain(table);
+    let outputs: Vec<PathBuf> = outputs.map(Path::to_owned).collect();
+    keep_apart(&reads.so_far(), &outputs)?;
     let create = |path| Trace::create(path, &args.signals, args.decimate, run.facts(), console);
     let mut traces: Vec<Trace> =
         args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
+    let mut table = create_all(table)?.pop();
     let mut summary = Collector::new(run.facts());
     let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;
@@ -42,6 +45,8 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
             other => other,
         })
     });
+    // a subroutine that it came to on the way may be one of the outputs
+    keep_apart(&reads.so_far(), &outputs)?;
     // every trace is brought to its file even if another one failed
     let finished: Vec<_> = traces.into_iter().map(|t| t.finish(&run)).collect();
     let interrupted = match written {
@@ -56,9 +61,11 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     totals.aborted |= interrupted.is_some();
     let summary = summary.finish(&totals);
     let mut times = times.map(times::Collector::finish);
-    if let (Some(times), Some(Some(path))) = (&times, &args.times) {
-        let table = times.csv().map_err(|e| Error::io(path.display().to_string(), e.into()))?;
-        target::write(path, &table)?;
+    if let (Some(times), Some(table)) = (&times, &mut table) {
+        let text = times.csv().map_err(io::Error::from);
+        let written = text.and_then(|text| table.file()?.write_all(&text));
+        let name = || outputs.last().map(|path| path.display().to_string()).unwrap_or_default();
+        written.and_then(|()| table.show()).map_err(|e| Error::io(name(), e))?;
     }
     let shown = args.summary != SummaryForm::None && !totals.aborted;
     if let Some(times) = times.as_mut().filter(|_| shown) {

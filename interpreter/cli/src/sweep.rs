@@ -18,22 +18,21 @@
 //! # Ok::<(), clap::Error>(())
 //! ```
 
-pub mod args;
 mod columns;
 mod journal;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod picture;
 
+use crate::args::{Amplitude, SweepArgs};
+use crate::combinations::{combinations, put, settings, without_effect};
 use crate::console::Console;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened, Request};
 use crate::spectrum::AmplitudeSpectrum;
 use crate::table::{Cell, Table};
-use crate::target::{Target, keep_apart};
-use crate::vary::{combinations, put, settings, without_effect};
+use crate::target::{Target, create_all, keep_apart};
 use crate::{Error, Exit};
-use args::{Amplitude, SweepArgs};
 use journal::Journal;
 use kontur_interpreter::diag::Severity;
 use kontur_interpreter::job::{Run, Sink};
@@ -41,6 +40,7 @@ use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::record::columns::Column;
 use kontur_interpreter::summary::{Collector, State, Summary};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
@@ -54,6 +54,8 @@ struct Outcome {
     summary: Summary,
     /// In the order of `--amplitude`; not a number if the run did not get that far.
     amplitudes: Vec<f64>,
+    /// Files that it has read.
+    reads: Vec<PathBuf>,
 }
 
 /// The row of one run under its header.
@@ -102,17 +104,14 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
         args.output.iter().partition(|o| crate::files::is_standard(o));
     // a file that cannot be written ends the sweep before its first run
     let (title, reads) = first(args, &combinations, console)?;
-    keep_apart(&reads, &args.output)?;
-    let mut targets = Vec::new();
-    for path in files {
-        let target = Target::create(path).map_err(|e| Error::io(path.display().to_string(), e))?;
-        targets.push((path, target));
-    }
-    let mut journal = match targets.first() {
-        Some((path, _)) => Some(Journal::open(path, args, &reads)?),
-        None => None,
-    };
-    let rows = run_all(args, &combinations, journal.as_mut(), console)?;
+    let journal = files.first().map(|path| journal::beside(path));
+    let written: Vec<PathBuf> = args.output.iter().cloned().chain(journal.clone()).collect();
+    keep_apart(&reads, &written)?;
+    let targets = create_all(files.iter().map(|path| path.as_path()))?;
+    let mut journal = journal.map(|path| Journal::open(&path, args, &reads)).transpose()?;
+    let (rows, reads) = run_all(args, &combinations, journal.as_mut(), console)?;
+    // one of the runs may have come to another subroutine
+    keep_apart(&reads.into_iter().collect::<Vec<_>>(), &args.output)?;
     let rows = Rows { title, ..rows };
     let results: Vec<&[Cell]> = rows.cells.iter().map(|row| &row[args.vary.len()..]).collect();
     // of a shard nobody knows the other rows
@@ -126,7 +125,7 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     if args.output.is_empty() || !standard.is_empty() {
         console.print(&rows.table().csv())?;
     }
-    for (path, mut target) in targets {
+    for (path, mut target) in files.into_iter().zip(targets) {
         write(path, &mut target, args, &combinations, &rows)?;
     }
     if let Some(journal) = journal {
@@ -157,7 +156,7 @@ fn first(
     match request.open() {
         Ok(Opened { run, reads }) => {
             let facts = run.facts();
-            Ok((format!("{}, machine {}", facts.program, facts.machine), reads))
+            Ok((format!("{}, machine {}", facts.program, facts.machine), reads.so_far()))
         }
         Err(e) => Err(refused(args, first, e, console)),
     }
@@ -209,13 +208,14 @@ impl Rows {
     }
 }
 
-/// Runs what the journal does not have, with a count of what is done on the terminal.
+/// Runs what the journal does not have, with a count of what is done on the terminal: all rows, and the files that were
+/// read for them.
 fn run_all(
     args: &SweepArgs,
     combinations: &[Vec<usize>],
     mut journal: Option<&mut Journal>,
     console: &mut Console,
-) -> Result<Rows, Error> {
+) -> Result<(Rows, BTreeSet<PathBuf>), Error> {
     let mut done: Vec<Option<Row>> = vec![None; combinations.len()];
     for (i, row) in journal.as_mut().map(|j| j.take_rows()).unwrap_or_default() {
         if let Some(place) = done.get_mut(i) {
@@ -233,6 +233,7 @@ fn run_all(
     let _running = Running::start();
     let mut failed: Option<(usize, Failure)> = None;
     let mut written = Ok(());
+    let mut reads = BTreeSet::new();
     std::thread::scope(|scope| {
         let (send, receive) = mpsc::channel();
         scope.spawn(move || {
@@ -248,7 +249,8 @@ fn run_all(
         for (count, (i, row)) in receive.into_iter().enumerate() {
             progress.show_rest(before + count + 1, combinations.len(), count + 1);
             match row {
-                Ok(row) => {
+                Ok((row, read)) => {
+                    reads.extend(read);
                     if let (Some(journal), Ok(())) = (&mut journal, &written) {
                         written = journal.write(i, &row);
                     }
@@ -278,7 +280,7 @@ fn run_all(
         rows.header = header;
         rows.cells.push(cells);
     }
-    Ok(rows)
+    Ok((rows, reads))
 }
 
 /// Collects the row of one run.
@@ -366,24 +368,26 @@ impl Plan {
     pub fn row(&self, number: usize) -> Result<Row, OpenError> {
         let usage = |text: &str| OpenError::Usage(text.to_owned());
         let combination = self.combinations.get(number).ok_or_else(|| usage("no such run"))?;
-        row(&self.args, combination).map_err(|failure| match failure {
+        let done = row(&self.args, combination).map_err(|failure| match failure {
             Failure::Open(e) => e,
             Failure::Interrupted => usage("interrupted"),
-        })
+        });
+        Ok(done?.0)
     }
 }
 
-/// Runs one combination.
-fn row(args: &SweepArgs, combination: &[usize]) -> Result<Row, Failure> {
+/// Runs one combination: its row, and the files that it has read.
+fn row(args: &SweepArgs, combination: &[usize]) -> Result<(Row, Vec<PathBuf>), Failure> {
     let mut request = args.simulation.request(&args.program);
     put(&args.vary, combination, &mut request);
     let outcome = one(args, &request)?;
-    columns::row(args, combination, &outcome).map_err(Failure::usage)
+    let row = columns::row(args, combination, &outcome).map_err(Failure::usage)?;
+    Ok((row, outcome.reads))
 }
 
 /// One run.
 fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
-    let mut run = request.open().map_err(Failure::Open)?.run;
+    let Opened { mut run, reads } = request.open().map_err(Failure::Open)?;
     let facts = run.facts();
     let cycle_s = facts.cycle_s();
     let mut wanted = Vec::new();
@@ -402,5 +406,5 @@ fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
         peak.map_or(f64::NAN, |p| p[1])
     });
     let amplitudes = amplitudes.collect();
-    Ok(Outcome { summary: summary.finish(&run.totals()), amplitudes })
+    Ok(Outcome { summary: summary.finish(&run.totals()), amplitudes, reads: reads.so_far() })
 }

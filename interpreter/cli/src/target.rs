@@ -1,12 +1,13 @@
 //! Files that commands write.
 //!
 //! A file is written under a temporary name beside its target (`.NAME.*.part`) and gets its name when it is worth it:
-//! until then, and if the command fails, an existing file stays as it was.
+//! until then, and if the command fails, an existing file stays as it was. The temporary file comes with the first byte, so
+//! that a killed run leaves none that is empty.
 
 use crate::Error;
 use crate::files::is_standard;
 use std::fs::{File, OpenOptions, Permissions};
-use std::io::{self, Write};
+use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
@@ -19,6 +20,8 @@ pub(crate) struct Target {
 
 #[derive(Debug)]
 enum Place {
+    /// Not begun; with the permissions of the file that it replaces.
+    Planned(Option<Permissions>),
     /// Under its temporary name.
     Hidden(NamedTempFile),
     /// Under its own name; a device or pipe always is.
@@ -46,23 +49,45 @@ impl Target {
             }
             Err(_) => None,
         };
-        let hidden = hidden(&path, existing)?;
-        Ok(Self { path, place: Place::Hidden(hidden) })
+        // what can be begun now can be begun later
+        drop(hidden(&path, None)?);
+        Ok(Self { path, place: Place::Planned(existing) })
     }
 
     /// What the bytes go to.
     ///
     /// # Errors
-    /// Never, but between two names.
+    /// The system's, at the first call.
     pub(crate) fn file(&mut self) -> io::Result<&mut File> {
+        if let Place::Planned(permissions) = &mut self.place {
+            self.place = Place::Hidden(hidden(&self.path, permissions.take())?);
+        }
         match &mut self.place {
             Place::Hidden(hidden) => Ok(hidden.as_file_mut()),
             Place::Shown(file) => Ok(file),
-            Place::Between => Err(io::ErrorKind::NotFound.into()),
+            Place::Planned(_) | Place::Between => Err(io::ErrorKind::NotFound.into()),
         }
     }
 
-    /// Gives the file its name, in place of an existing one.
+    /// Gives the file its name while it still grows, if nothing is lost by that: there is none of that name, or one that
+    /// begins alike. Of any other nobody knows yet that it is not to be read.
+    ///
+    /// # Errors
+    /// As [`Target::show`].
+    pub(crate) fn show_over(&mut self, start: &[u8]) -> io::Result<()> {
+        if !matches!(self.place, Place::Hidden(_)) {
+            return Ok(());
+        }
+        let mut begins = Vec::new();
+        match File::open(&self.path) {
+            Ok(file) => file.take(start.len() as u64).read_to_end(&mut begins).map(|_| ())?,
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return self.show(),
+            Err(e) => return Err(e),
+        }
+        if begins == start { self.show() } else { Ok(()) }
+    }
+
+    /// Gives the file its name, in place of an existing one; one that was not begun gets none.
     ///
     /// # Errors
     /// The system's; the existing file is as it was then.
@@ -105,17 +130,31 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."))
 }
 
-/// Writes a whole file, or leaves an existing one as it was.
+/// Writes whole files: all of them, or every existing one stays as it was.
 ///
 /// # Errors
 /// [`Error::Io`], e.g. a full disk.
-pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let written = || {
-        let mut target = Target::create(path)?;
-        target.file()?.write_all(bytes)?;
-        target.show()
+pub(crate) fn write(files: &[(&Path, &[u8])]) -> Result<(), Error> {
+    let each = |target: &mut [Target], what: fn(&mut Target, &[u8]) -> io::Result<()>| {
+        target.iter_mut().zip(files).try_for_each(|(target, (path, bytes))| {
+            what(target, bytes).map_err(|e| Error::io(path.display().to_string(), e))
+        })
     };
-    written().map_err(|e| Error::io(path.display().to_string(), e))
+    let mut targets = create_all(files.iter().map(|(path, _)| *path))?;
+    each(&mut targets, |target, bytes| target.file()?.write_all(bytes))?;
+    each(&mut targets, |target, _| target.show())
+}
+
+/// Begins files.
+///
+/// # Errors
+/// [`Error::Io`] if one of them cannot be written.
+pub(crate) fn create_all<'a>(
+    paths: impl IntoIterator<Item = &'a Path>,
+) -> Result<Vec<Target>, Error> {
+    let create =
+        |path: &Path| Target::create(path).map_err(|e| Error::io(path.display().to_string(), e));
+    paths.into_iter().map(create).collect()
 }
 
 /// Refuses to write over what is read, or two outputs into one file, whatever the names.
@@ -123,15 +162,22 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 /// # Errors
 /// [`Error::Usage`] that names the file.
 pub(crate) fn keep_apart(read: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Error> {
-    let files = read.iter().filter(|p| !is_standard(p));
-    let mut taken: Vec<Identity> = files.map(|p| Identity::of(p)).collect();
+    let of_files = |paths: &[PathBuf]| {
+        let files = paths.iter().filter(|p| !is_standard(p));
+        files.map(|p| Identity::of(p)).filter(|i| *i != Identity::Device).collect::<Vec<_>>()
+    };
+    let (read, mut taken) = (of_files(read), Vec::new());
     for output in outputs {
         let this = Identity::of(output);
-        if taken.contains(&this) && this != Identity::Device {
-            let message = format!("-o {}: the file is used twice", output.display());
-            return Err(Error::Usage(message));
-        }
-        taken.push(this);
+        let wrong = if read.contains(&this) {
+            "the command reads this file"
+        } else if taken.contains(&this) && this != Identity::Device {
+            "two outputs into one file"
+        } else {
+            taken.push(this);
+            continue;
+        };
+        return Err(Error::Usage(format!("-o {}: {wrong}", output.display())));
     }
     Ok(())
 }
@@ -180,24 +226,29 @@ mod tests {
         let mut target = Target::create(&path).unwrap();
         target.file().unwrap().write_all(b"new").unwrap();
         assert_eq!(names().len(), 2);
+        // a file that is no trace stays until the end
+        target.show_over(b"t_s,").unwrap();
+        assert_eq!((names().len(), fs::read(&path).unwrap()), (2, b"old".to_vec()));
         drop(target);
         assert_eq!(
             (names(), fs::read(&path).unwrap()),
             (vec!["a.csv".to_owned()], b"old".to_vec())
         );
-        write(&path, b"new").unwrap();
+        write(&[(&path, b"new")]).unwrap();
         assert_eq!(
             (names(), fs::read(&path).unwrap()),
             (vec!["a.csv".to_owned()], b"new".to_vec())
         );
         // and goes on behind the name
         let mut target = Target::create(&path).unwrap();
+        assert_eq!(names().len(), 1, "nothing was written");
         target.file().unwrap().write_all(b"1").unwrap();
-        target.show().unwrap();
+        target.show_over(b"ne").unwrap();
         target.file().unwrap().write_all(b"2").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"12");
-        assert!(write(&folder.path().join("no/such/a.csv"), b"").is_err());
-        assert!(write(folder.path(), b"").is_err());
+        assert!(write(&[(&path, b"3"), (&folder.path().join("no/such.csv"), b"")]).is_err());
+        assert_eq!(fs::read(&path).unwrap(), b"12");
+        assert!(write(&[(folder.path(), b"")]).is_err());
     }
 
     #[test]
@@ -209,11 +260,11 @@ mod tests {
         fs::write(&file, "old").unwrap();
         fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
         symlink(&file, &link).unwrap();
-        write(&link, b"new").unwrap();
+        write(&[(&link, b"new")]).unwrap();
         assert!(link.symlink_metadata().unwrap().is_symlink());
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(file.metadata().unwrap().permissions().mode() & 0o777, 0o640);
-        write("/dev/null".as_ref(), b"x").unwrap();
+        write(&[("/dev/null".as_ref(), b"x")]).unwrap();
     }
 
     #[test]

@@ -109,7 +109,7 @@ impl Trace {
     /// As [`Trace::write`].
     pub(crate) fn finish(mut self, run: &Run) -> Result<(), Error> {
         let finished = match self.writer {
-            Writer::Csv(ref mut w) => w.flush(),
+            Writer::Csv(ref mut w) => w.finish(),
             #[cfg(feature = "parquet")]
             Writer::Parquet(w) => w.finish(run.facts(), &run.totals()),
             Writer::Closed => Ok(()),

@@ -17,7 +17,6 @@
 //! # Ok::<(), clap::Error>(())
 //! ```
 
-pub mod args;
 mod combined;
 mod order;
 mod picture;
@@ -25,12 +24,12 @@ mod program;
 mod recording;
 pub mod vibration;
 
+use crate::args::TuneArgs;
 use crate::console::Console;
 use crate::files::Lists;
 use crate::table::{Cell, Table, number};
 use crate::target::{keep_apart, write};
 use crate::{Error, Exit};
-use args::TuneArgs;
 use kontur_filters::analysis::tuning::{Choice, VibrationBand};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -104,9 +103,6 @@ pub fn answer(args: &TuneArgs, console: &mut Console) -> Result<Answer, Error> {
         } else {
             recording::measured(args, console)?
         };
-    if let Some(output) = &args.output {
-        write(output, picture::draw(&recordings).as_bytes())?;
-    }
     // what is judged is what stands in the command to paste
     let damping = args.damping.or(measured_damping.map(rounded));
     let damping = damping.unwrap_or(VibGuardSettings::default().damping);
@@ -130,34 +126,15 @@ pub fn answer(args: &TuneArgs, console: &mut Console) -> Result<Answer, Error> {
     };
     let rows = task.rows();
     console.print(&task.text(&rows))?;
-    if let (Some(file), Some(max_dev_mm)) = (&args.program, args.max_dev) {
-        return program::answer(&task, args, file, max_dev_mm, console);
+    let answer = match (&args.program, args.max_dev) {
+        (Some(file), Some(max_dev_mm)) => program::answer(&task, args, file, max_dev_mm, console)?,
+        _ => task.answer(&rows, console)?,
+    };
+    // last: what the program reads is known now
+    if let Some(output) = &args.output {
+        write(&[(output, picture::draw(&recordings).as_bytes())])?;
     }
-    console.print(&task.proposal(&rows))?;
-    let mut choices = Table::new(&[
-        "mode",
-        "freq_hz",
-        "damping",
-        "given",
-        "residual_ratio",
-        "contour_err_mm",
-        "delay_s",
-        "keeps",
-    ]);
-    for Row { choice, given } in &rows {
-        choices.push([
-            Cell::from(u32::from(choice.settings.mode)),
-            Cell::Given(choice.settings.freq_hz),
-            Cell::Given(choice.settings.damping),
-            Cell::from(u32::from(*given)),
-            Cell::Given(choice.worst_ratio),
-            Cell::Given(task.corner_error_mm(choice)),
-            Cell::Given(choice.delay_cycles * task.cycle.seconds()),
-            Cell::from(u32::from(task.keeps(choice))),
-        ]);
-    }
-    let proposed = task.proposed(&rows).map(|choice| command(&choice.settings, &task.tolerance()));
-    Ok(Answer { choices, command: proposed, exit: Exit::Finished })
+    Ok(answer)
 }
 
 /// The cycle of the machine, if one is named, else that of the option.
@@ -209,6 +186,36 @@ impl Task {
         });
         let row = |given| move |choice| Row { choice, given };
         best.map(row(false)).into_iter().chain(at.map(row(true)))
+    }
+
+    /// The proposal and the numbers behind it.
+    fn answer(&self, rows: &[Row], console: &mut Console) -> Result<Answer, Error> {
+        console.print(&self.proposal(rows))?;
+        let mut choices = Table::new(&[
+            "mode",
+            "freq_hz",
+            "damping",
+            "given",
+            "residual_ratio",
+            "contour_err_mm",
+            "delay_s",
+            "keeps",
+        ]);
+        for Row { choice, given } in rows {
+            choices.push([
+                Cell::from(u32::from(choice.settings.mode)),
+                Cell::Given(choice.settings.freq_hz),
+                Cell::Given(choice.settings.damping),
+                Cell::from(u32::from(*given)),
+                Cell::Given(choice.worst_ratio),
+                Cell::Given(self.corner_error_mm(choice)),
+                Cell::Given(choice.delay_cycles * self.cycle.seconds()),
+                Cell::from(u32::from(self.keeps(choice))),
+            ]);
+        }
+        let proposed =
+            self.proposed(rows).map(|choice| command(&choice.settings, &self.tolerance()));
+        Ok(Answer { choices, command: proposed, exit: Exit::Finished })
     }
 
     fn keeps(&self, choice: &Choice) -> bool {

@@ -31,6 +31,20 @@ fn names(folder: &Path, start: &str) -> Vec<PathBuf> {
 /// Takes longer than any test: 4000 s of program time.
 const LONG: &str = "G01 X400 F6\nM30\n";
 
+/// Calls `sub.nc` if the motion has taken time, which the check ahead cannot know.
+const LATE: &str = "#TIMER START SYN [ID=1]\nG01 X2 F6000\n#TIMER READ SYN [ID=1]\n\
+                    $IF V.G.TIMER[1] > 0\nL sub.nc\n$ENDIF\nM30\n";
+
+/// A recording of a vibration of 30 Hz that decays.
+fn ringing() -> String {
+    let sample = |k: u32| {
+        let t = f64::from(k) * 1e-3;
+        let a = (-6.0 * t).exp() * (2.0 * std::f64::consts::PI * 30.0 * t).sin();
+        format!("{t:.3},{a:.9}\n")
+    };
+    "t_s,a\n".to_owned() + &(0..1000).map(sample).collect::<String>()
+}
+
 /// Waits until a condition holds.
 fn until(mut condition: impl FnMut() -> bool) {
     while !condition() {
@@ -58,7 +72,10 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         ("sub.nc", "G01 X1 F6000\n"),
         ("bad.nc", "G01 X1 F6000\nG7\nM30\n"),
         ("in.csv", "t_s,override_percent\n0,100\n"),
-        ("rec.csv", "t_s,a\n0,1\n"),
+        ("rec.csv", &ringing()),
+        // only the moving axes tell that it is called
+        ("late.nc", LATE),
+        ("table.csv.rows", "G01 X1 F6000\nM30\n"),
         ("old.csv", "old"),
         ("old.parquet", "old"),
         ("old.html", "old"),
@@ -72,12 +89,20 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
     {
         fs::hard_link(f.join(name), f.join(link)).unwrap();
     }
-    for (name, link) in [("m/x.lis", "x.csv"), ("m/x.lis", "x.svg"), ("rec.csv", "rec.svg")] {
+    for (name, link) in [
+        ("m/x.lis", "x.csv"),
+        ("m/x.lis", "x.svg"),
+        ("rec.csv", "rec.svg"),
+        ("sub.nc", "sub.svg"),
+        ("sub.nc", "sub.html"),
+        ("sub.nc", "sub.csv"),
+    ] {
         std::os::unix::fs::symlink(name, f.join(link)).unwrap();
     }
     let run_a = ["run", "a.nc", "-m", "m", "--input", "in.csv", "-o"];
     let with = |more: &[&'static str]| [&run_a[..], more].concat();
     let vary = ["--vary", "X.getriebe[0].kv=1000,2000", "-o"];
+    let tune = ["tune", "--recording", "rec.csv", "--max-dev", "0.01", "--program"];
     let cases: Vec<(Vec<&str>, i32)> = vec![
         (vec!["run", "bad.nc", "-o", "old.csv", "-o", "old.parquet"], 1),
         (vec!["report", "bad.nc", "-o", "old.html"], 1),
@@ -102,6 +127,19 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         (vec!["response", "-m", "m", "--axis", "X", "-o", "x.csv"], 2),
         (vec!["tune", "-m", "m", "--freq", "40", "-o", "x.svg"], 2),
         (vec!["tune", "--recording", "rec.csv", "-o", "rec.svg"], 2),
+        ([&tune[..], &["a.nc", "-o", "sub.svg"]].concat(), 2),
+        ([&tune[..], &["late.nc", "-o", "sub.svg"]].concat(), 2),
+        (vec!["run", "late.nc", "-o", "old.csv", "-o", "sub.nc"], 2),
+        (vec!["run", "late.nc", "-o", "2"], 2),
+        (vec!["run", "late.nc", "--times=sub.csv"], 2),
+        (with(&["old.csv", "--times=no/such.csv"]), 3),
+        (vec!["report", "late.nc", "-o", "sub.html"], 2),
+        (vec!["report", "late.nc", "-o", "sub.svg"], 2),
+        (vec!["report", "late.nc", "--signals", "ipo", "-o", "sub.csv"], 2),
+        ([&["sweep", "late.nc"], &vary[..], &["sub.csv"]].concat(), 2),
+        ([&["sweep", "table.csv.rows"], &vary[..], &["table.csv"]].concat(), 2),
+        ([&["sweep", "a.nc"], &vary[..], &["table.csv"]].concat(), 3),
+        (vec!["response", "--guard", "FREQ=40", "-o", "old.csv", "-o", "no/such.svg"], 3),
     ];
     for (words, exit) in cases {
         let said = run(f, &words);
@@ -115,6 +153,7 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
         let left = [names(f, "new"), names(f, ".")].concat();
         assert!(left.is_empty(), "{words:?}: {left:?}");
         let _ = fs::remove_file(f.join("old.csv.rows"));
+        let _ = fs::remove_file(f.join("sub.csv.rows"));
     }
     // and what succeeds replaces the file, and the file alone
     assert_eq!(run(f, &with(&["old.csv", "-o", "old.parquet"])).status.code(), Some(0));
@@ -156,6 +195,7 @@ fn a_signal_ends_a_run_with_whole_files() {
             assert_eq!(parquet_rows(&[parquet]), rows);
         } else {
             assert!(!parquet.exists());
+            assert_eq!(names(f, ".").len(), 1, "the parts, and no file that is empty");
             // what was in work when the kill came has another name
             let parts = names(f, ".a.parquet.").into_iter().find(|p| p.is_dir()).unwrap();
             let parts = names(&parts, "").into_iter();
@@ -218,6 +258,7 @@ fn a_sweep_that_was_killed_goes_on_where_it_stopped() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(!f.join("a.csv").exists() && rows() > 3);
+    assert!(names(f, ".").is_empty(), "no file that is empty stays behind");
     let done = run(f, &sweep("a.csv"));
     assert!(done.status.success());
     let said = String::from_utf8(done.stderr).unwrap();

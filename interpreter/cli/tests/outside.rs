@@ -53,7 +53,7 @@ fn a_trace_on_stdout_leaves_the_summary_to_stderr() {
     assert_eq!((exit, out), (Exit::Finished, f.read("a.csv")));
     assert!(err.contains("corner.nc  finished"), "{err}");
     let (exit, _, err) = f.call(&["run", "@corner.nc", "-o", "-", "-o", "-"]);
-    assert_eq!((exit, err.contains("used twice")), (Exit::Usage, true));
+    assert_eq!((exit, err.contains("two outputs into one file")), (Exit::Usage, true));
     let vary = ["sweep", "@corner.nc", "--vary", "X.getriebe[0].kv=1000,2000"];
     let words = [&vary[..], &["-o", "-"]].concat();
     assert_eq!(f.call(&words).1, f.call(&vary).1);

@@ -2,12 +2,12 @@
 
 use crate::errors::{self, Said, said};
 use crate::{arguments, interruptible};
+use kontur::args::ResponseArgs;
+use kontur::args::SweepArgs;
+use kontur::args::TuneArgs;
 use kontur::console::Console;
-use kontur::response::args::ResponseArgs;
 use kontur::sweep::Plan;
-use kontur::sweep::args::SweepArgs;
 use kontur::table::{Cell, Table};
-use kontur::tune::args::TuneArgs;
 use kontur_interpreter::job::Stop;
 use numpy::IntoPyArray as _;
 use pyo3::prelude::*;

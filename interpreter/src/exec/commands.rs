@@ -10,11 +10,13 @@ mod compensation;
 mod contour;
 mod frames;
 pub(in crate::exec) mod keys;
+mod measuring;
 mod messages;
 mod misc;
 mod positions;
+mod row;
 mod shaping;
-pub(super) mod signals;
+mod signals;
 mod slope;
 mod spindles;
 mod splines;
@@ -25,109 +27,10 @@ use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::suggest;
 use crate::diag::Condition;
-use crate::syntax::ast::{Command, Ident, Span};
-pub(crate) use keys::Key;
+use crate::syntax::ast::{Command, Span};
+pub(crate) use row::Row;
+use row::{Act, Call};
 pub(super) use slope::{slope_of_number, slope_type};
-
-/// What a command does.
-enum Act {
-    /// It does something.
-    Run(fn(&mut Decoder, &Call<'_>) -> Outcome<()>),
-    /// It changes neither path nor position, speed or spindle; what else there is to say about it.
-    Ignored(&'static str),
-    /// Switching it off does nothing; on it changes the path and is not simulated.
-    OffOnly,
-    /// It would change the path and is not simulated.
-    Unsupported,
-}
-
-/// One row: what a command does and what there is to say about it.
-pub(crate) struct Row {
-    /// Words of the name without `#`.
-    pub(crate) name: &'static str,
-    act: Act,
-    /// How it is written; empty if there is nothing to explain.
-    pub(crate) form: &'static str,
-    /// What it does, in one sentence.
-    pub(crate) meaning: &'static str,
-    /// Its keys.
-    pub(crate) keys: &'static [Key],
-    /// What else to know.
-    pub(crate) note: &'static str,
-    /// A line for a program.
-    pub(crate) example: &'static str,
-    /// Things to look up next.
-    pub(crate) related: &'static [&'static str],
-}
-
-impl Row {
-    const fn of(name: &'static str, act: Act) -> Self {
-        Self { name, act, form: "", meaning: "", keys: &[], note: "", example: "", related: &[] }
-    }
-
-    /// A command that does something.
-    const fn run(name: &'static str, f: fn(&mut Decoder, &Call<'_>) -> Outcome<()>) -> Self {
-        Self::of(name, Act::Run(f))
-    }
-
-    const fn form(self, form: &'static str) -> Self {
-        Self { form, ..self }
-    }
-
-    const fn meaning(self, meaning: &'static str) -> Self {
-        Self { meaning, ..self }
-    }
-
-    const fn keys(self, keys: &'static [Key]) -> Self {
-        Self { keys, ..self }
-    }
-
-    const fn note(self, note: &'static str) -> Self {
-        Self { note, ..self }
-    }
-
-    const fn example(self, example: &'static str) -> Self {
-        Self { example, ..self }
-    }
-
-    const fn related(self, related: &'static [&'static str]) -> Self {
-        Self { related, ..self }
-    }
-}
-
-/// A command with the words that are not part of its name.
-pub(super) struct Call<'c> {
-    pub(super) command: &'c Command,
-    /// Name of the row.
-    pub(super) name: &'static str,
-    /// Words behind the name.
-    pub(super) rest: &'c [Ident],
-}
-
-impl Call<'_> {
-    /// `#NAME`, for messages.
-    pub(super) fn title(&self) -> String {
-        format!("#{}", self.name)
-    }
-
-    pub(super) fn span(&self) -> Span {
-        self.command.span
-    }
-
-    /// 21220 for a word that does not belong here.
-    pub(super) fn unexpected(&self, word: &Ident) -> Box<Fault> {
-        let text = format!("{}: unexpected `{}`", self.title(), word.text);
-        Fault::new(Condition::TokenUnknown, text, word.span)
-    }
-
-    /// No further words, neither behind the name nor behind ON and OFF.
-    pub(super) fn no_more_words(&self) -> Outcome<()> {
-        match self.rest.first().or(self.command.tail.first()) {
-            Some(word) => Err(self.unexpected(word)),
-            None => Ok(()),
-        }
-    }
-}
 
 const fn run(name: &'static str, f: fn(&mut Decoder, &Call<'_>) -> Outcome<()>) -> Row {
     Row::run(name, f)
@@ -255,7 +158,10 @@ const ROWS: &[Row] = &[
     unsupported("LOCK"),
     unsupported("MANUAL LIMITS"),
     unsupported("MCS TO WCS"),
-    unsupported("MEAS"),
+    measuring::MEAS,
+    measuring::MEAS_MODE,
+    measuring::MEAS_DEFAULT,
+    unsupported("MEAS PREPARE"),
     unsupported("MICROJOINT"),
     off_only("SEGMENTATION"),
     unsupported("SET JOG"),

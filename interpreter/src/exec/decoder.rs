@@ -4,29 +4,26 @@
 
 use super::block::dialect::Seen;
 use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane, Selection};
-use super::commands::signals::Signal;
 use super::contour::Contour;
 use super::fault::Fault;
 use super::geometry::coordinates::Coordinates;
 use super::geometry::tools::Tools;
 use super::geometry::{Geometry, LastArc};
-use super::motion::angles::ContourLines;
 use super::motion::dynamics::{Weights, channel_dynamics};
-use super::motion::independent::Independent;
 use super::motion::overrides::Overrides;
 use super::motion::spindles::Spindle;
-use super::motion::straight::Straight;
-use super::motion::threads::Threads;
-use super::motion::{Feedforward, MotionState};
+use super::motion::state::measuring::Measuring;
+use super::motion::state::{
+    ContourLines, Feedforward, Independent, MotionState, Straight, Technology, Threads,
+};
 use super::options::Options;
-use super::program::calls::Calls;
+use super::program::state::Calls;
 use super::shaping::{ShapingState, Worked};
 use super::step::{Event, Feedback, SourceRef, Sync};
 use super::values::Values;
 use super::values::timers::Timers;
 use super::values::variables::Variables;
 use crate::diag::{Condition, Diagnostic, Location};
-use crate::exec::motion::technology::Technology;
 use crate::machine::{Axis, AxisKind, Machine};
 use crate::syntax::ast::{Group, Ident, ItemKind, Span};
 use kontur_motion::axis::AxisVec;
@@ -57,6 +54,17 @@ pub(super) struct Report {
     /// Conditions without a place in a block.
     pub(super) unplaced: Vec<Diagnostic>,
     said: BTreeSet<String>,
+}
+
+/// A signal that has been sent.
+#[derive(Debug)]
+pub(super) struct Signal {
+    pub(super) id: u32,
+    /// Sent to everybody; else to this channel itself.
+    pub(super) broadcast: bool,
+    /// Waits that it still serves, `None` without limit.
+    pub(super) count: Option<u32>,
+    pub(super) parameters: Vec<(u32, f64)>,
 }
 
 /// State of a running program: what the rooms own, and what all of them read.
@@ -136,6 +144,7 @@ impl Decoder {
                 },
                 spindles,
                 threads: Threads::new(&machine.channel),
+                measuring: Measuring::new(&machine.channel, n),
                 contour_line: ContourLines::default(),
                 left_contour: false,
                 cutting_speed: None,

@@ -1,25 +1,22 @@
 //! The motion of a block: target, path, feed and limits; or the dwell.
 
-pub(super) mod angles;
+mod angles;
 mod arcs;
 mod cutting;
 pub(super) mod dynamics;
 mod feed;
-pub(super) mod independent;
+mod independent;
 mod limits;
+mod measuring;
 pub(super) mod overrides;
 mod space;
 pub(super) mod spindles;
-pub(super) mod straight;
-pub(super) mod technology;
-pub(super) mod threads;
+pub(super) mod state;
+mod straight;
+mod technology;
+mod threads;
 
-use self::angles::{ContourLine, ContourLines};
-use self::dynamics::Weights;
-use self::independent::Independent;
-use self::overrides::Overrides;
-use self::spindles::Spindle;
-use self::threads::Threads;
+use self::angles::ContourLine;
 use super::block::groups::{Act, Group};
 use super::block::modal::{Compensation, Corners, FeedType, PathMode};
 use super::block::words::{GWord, Words};
@@ -29,47 +26,12 @@ use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use super::geometry::coordinates::Target;
 use super::geometry::modulo;
-use super::step::{CuttingSpeed, Sync};
+use super::step::Sync;
 use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed, SlopeKind};
-use kontur_motion::block::{ChannelDynamics, VectorLimits};
 use kontur_motion::path::{LinePath, Path, Tilt};
-use std::sync::Arc;
-
-/// Feedforward of the path axes.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Feedforward {
-    pub(super) on: bool,
-    pub(super) weight_ratios: AxisVec,
-}
-
-/// What the room owns.
-#[derive(Debug)]
-pub(super) struct MotionState {
-    pub(super) weights: Weights,
-    /// Members of the feed group (`#FGROUP`).
-    pub(super) feed_axes: Vec<bool>,
-    /// `#VECTOR LIMIT` in force in feed and in rapid blocks.
-    pub(super) vector: [VectorLimits; 2],
-    /// Dynamics in feed and in rapid blocks; the same while the limits are.
-    pub(super) dynamics: [Option<Arc<ChannelDynamics>>; 2],
-    pub(super) overrides: Overrides,
-    pub(super) independent: Independent,
-    pub(super) feedforward: Feedforward,
-    pub(super) spindles: Vec<Spindle>,
-    pub(super) threads: Threads,
-    pub(super) contour_line: ContourLines,
-    /// G40 with G239: the tool stands beside the contour, not where the program was.
-    pub(super) left_contour: bool,
-    /// G96 with its S word.
-    pub(super) cutting_speed: Option<CuttingSpeed>,
-    /// G96 is in force, whether or not an S word has come.
-    pub(super) cutting_waits: bool,
-    /// S of G196.
-    pub(super) cutting_rpm_max: Option<f64>,
-}
 
 /// Longest dwell in s: 32 bits of microseconds. Source: TF5200 diagnosis, 20752.
 const DWELL_MAX_S: f64 = 4294.967295;
@@ -94,6 +56,7 @@ struct PlaneImage {
 }
 
 impl Decoder {
+    /// Moves, measures or dwells.
     pub(super) fn motion_or_dwell(
         &mut self,
         words: &Words<'_>,
@@ -109,6 +72,12 @@ impl Decoder {
         if let Some(g) = path_word.filter(|g| g.row.act == Act::Dwell) {
             let outcome = self.dwell(g, words);
             self.keep(outcome);
+            return;
+        }
+        if let Some(g) = words.group(Group::Measuring).filter(|g| g.row.act == Act::Measure) {
+            let outcome = self.measuring_run(g, words, span);
+            self.keep(outcome);
+            self.motion.measuring.jump(words.goto.cloned());
             return;
         }
         let is_arc = matches!(self.modal.path, PathMode::Clockwise | PathMode::CounterClockwise);

@@ -3,6 +3,7 @@
 //! Owns the open files, their indices and the levels of the program; it hands blocks to the decoder and reads nothing of
 //! its state but values of conditions and what a call has left behind.
 
+mod actual;
 pub(super) mod calls;
 pub(super) mod check;
 pub(super) mod executor;
@@ -10,5 +11,7 @@ pub(super) mod files;
 pub(super) mod flow;
 pub(super) mod index;
 pub(super) mod info;
+mod reached;
 pub(super) mod sequence;
+pub(super) mod state;
 pub(super) mod unreached;

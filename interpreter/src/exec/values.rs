@@ -5,6 +5,7 @@
 
 pub(super) mod expr;
 pub(super) mod functions;
+pub(super) mod number;
 pub(super) mod system;
 pub(super) mod timers;
 pub(super) mod variables;

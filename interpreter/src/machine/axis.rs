@@ -1,9 +1,12 @@
 //! One axis of the machine: its parameters and what the planner makes of them.
 
-use super::key::{Indices, Key};
+use super::key::Key;
+use super::parameters::Kind;
 use super::parameters::{Parameters, Setting};
-use super::table::param::{Kind, Number, Param, Place};
-use super::table::{ListKind, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general};
+use super::table::param::{Number, Param, Place};
+use super::table::{
+    Indices, ListKind, axis_control, axis_drive, axis_dynamics, axis_filters, axis_general,
+};
 use super::value;
 use kontur_motion::axis::{AxisDynamics, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 
@@ -81,6 +84,16 @@ impl Axis {
             axis_general::DIAMETER_RELATIVE
         };
         self.get(parameter)
+    }
+
+    /// It takes part in measuring runs (P-AXIS-00118).
+    pub fn measures(&self) -> bool {
+        self.get(axis_general::MEASURES)
+    }
+
+    /// Speed of measuring runs of type 2 in mm/s (deg/s), P-AXIS-00215.
+    pub fn measuring_speed_mm_s(&self) -> f64 {
+        self.get(axis_general::MEASURING_SPEED)
     }
 
     /// Logical number of the gantry master (P-AXIS-00070), `None` if the axis is no slave.

@@ -5,6 +5,7 @@ use super::lists::{self, List, ListFiles};
 use super::overrides::Override;
 use super::parameters::Parameters;
 use super::plausible;
+use super::settled::{AxisList, Settled};
 use super::table::param::{Param, Text, whole};
 use super::table::{ListKind, kontur, start_up as stup};
 use super::{Machine, hints, link};
@@ -15,25 +16,6 @@ use kontur_filters::time::CycleTime;
 pub(super) const SEPARATORS: [char; 2] = ['/', '\\'];
 /// Name of kontur's own list, beside the start-up list.
 pub(super) const OWN_LIST: &str = "kontur.lis";
-
-/// The settled parameters of a whole machine.
-#[derive(Debug)]
-pub(super) struct Settled {
-    pub(super) start_up: Parameters,
-    pub(super) channel: Parameters,
-    /// Axis lists in the order of the start-up list.
-    pub(super) axes: Vec<AxisList>,
-    pub(super) own: Parameters,
-    pub(super) tools: Parameters,
-    pub(super) zero: Parameters,
-}
-
-/// One axis list.
-#[derive(Debug)]
-pub(super) struct AxisList {
-    pub(super) file: String,
-    pub(super) parameters: Parameters,
-}
 
 /// Loads a machine, see [`Machine::load`].
 pub(super) fn load(

@@ -4,9 +4,10 @@
 
 use super::Axis;
 use super::axis::AxisKind;
-use super::setup::{FilterKeys, has_rotary_motor};
+use super::table::axis_filters::FilterKeys;
 use super::table::param::{Number, Param, Place};
 use super::table::{axis_drive, axis_general, axis_guard};
+use super::transmission::has_rotary_motor;
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use kontur_filters::{
     control::{

@@ -1,9 +1,6 @@
 //! Keys of list entries: dotted names with indices, `getriebe[0].dynamik.vb_max`.
 
-use super::table::{self, ListKind, Row};
-
-/// Indices of a key from left to right, 0 where it has fewer than two.
-pub type Indices = [u32; 2];
+use super::table::{self, Indices, ListKind, Row};
 
 /// A key as it was written, taken apart.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -92,21 +89,6 @@ fn within(key: &str, indices: Indices) -> bool {
     })
 }
 
-/// A key of the table with indices put in: `filter[i].order`, `[2, 0]` gives `filter[2].order`.
-pub fn with_indices(key: &str, indices: Indices) -> String {
-    let mut text = String::with_capacity(key.len());
-    let mut indices = indices.into_iter();
-    let mut chars = key.chars();
-    while let Some(c) = chars.next() {
-        text.push(c);
-        if c == '[' {
-            chars.next();
-            text.push_str(&indices.next().unwrap_or_default().to_string());
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,14 +122,5 @@ mod tests {
         let stage = |k| find(&format!("lr_param.improved_position_control.stage[1].{k}")).unwrap();
         assert_eq!(stage("filter.order"), stage("filter[0].order"));
         assert_eq!(stage("filter[1].order").1, [1, 1]);
-    }
-
-    #[test]
-    fn indices_go_back_into_the_key() {
-        assert_eq!(
-            with_indices("gruppe[i].achse[j].bezeichnung", [0, 7]),
-            "gruppe[0].achse[7].bezeichnung"
-        );
-        assert_eq!(with_indices("mass_einh", [0, 0]), "mass_einh");
     }
 }

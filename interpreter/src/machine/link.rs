@@ -2,13 +2,12 @@
 
 use super::Machine;
 use super::axis::{Axis, AxisKind, kind_of, logical_number};
-use super::chain::Settled;
 use super::channel::Channel;
-use super::key::with_indices;
 use super::overrides::OVERRIDE;
 use super::parameters::Parameters;
+use super::settled::Settled;
 use super::table::param::{Place, whole};
-use super::table::{ListKind, axis_general, channel as of};
+use super::table::{ListKind, axis_general, channel as of, with_indices};
 use super::tools;
 use crate::diag::{Condition, Diagnostic, Location};
 use kontur_filters::time::CycleTime;

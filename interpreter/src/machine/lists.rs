@@ -6,8 +6,8 @@
 
 mod line;
 
-use super::key::{Indices, Key, with_indices};
-use super::table::{self, ListKind, Raw, Row};
+use super::key::Key;
+use super::table::{self, Indices, ListKind, Raw, Row, with_indices};
 use super::value::{self, Value};
 use crate::diag::{Condition, Diagnostic, Location, Severity, ValueKind};
 use std::collections::BTreeMap;

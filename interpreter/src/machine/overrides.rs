@@ -1,9 +1,9 @@
 //! Values that the command line puts over the lists (`--set X.getriebe[0].kv=5000`).
 
-use super::key::{Indices, Key};
+use super::key::Key;
 use super::lists::parameter;
 use super::parameters::Parameters;
-use super::table::{self, ListKind, Row};
+use super::table::{self, Indices, ListKind, Row};
 use super::value;
 use crate::diag::{Condition, Diagnostic, Location};
 

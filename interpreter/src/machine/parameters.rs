@@ -1,9 +1,9 @@
 //! The settled parameters of one axis, one channel or the machine: defaults, overwritten by list after list.
 
-use super::key::{Indices, Key};
+use super::key::Key;
 use super::lists::List;
-use super::table::param::{Kind, Param, Place};
-use super::table::{self, Default, ListKind, Row};
+use super::table::param::{Number, Optional, Param, Place, Switch, Text, Whole, whole};
+use super::table::{self, Default, Indices, ListKind, Row};
 use super::value::Value;
 use crate::diag::Location;
 use std::collections::BTreeMap;
@@ -89,7 +89,7 @@ impl Parameters {
     }
 
     /// The number of a parameter in mm (deg), s and ratios instead of 0.1 um, us and 0.1 %.
-    pub(super) fn converted(&self, at: Place) -> Option<f64> {
+    fn converted(&self, at: Place) -> Option<f64> {
         Some(convert(at.row, self.listed(at)?))
     }
 
@@ -109,6 +109,56 @@ impl Parameters {
                 Some(Value::Text((*text).to_owned()))
             }
         }
+    }
+}
+
+/// How the values of a kind are read.
+pub(crate) trait Kind: Copy {
+    /// What the code gets.
+    type Value;
+
+    /// The value in force.
+    fn read(parameters: &Parameters, at: Place) -> Self::Value;
+}
+
+impl Kind for Number {
+    type Value = f64;
+
+    fn read(parameters: &Parameters, at: Place) -> f64 {
+        // the row has a default, see `Param::new`
+        parameters.converted(at).unwrap_or_default()
+    }
+}
+
+impl Kind for Optional {
+    type Value = Option<f64>;
+
+    fn read(parameters: &Parameters, at: Place) -> Option<f64> {
+        parameters.converted(at)
+    }
+}
+
+impl Kind for Whole {
+    type Value = u32;
+
+    fn read(parameters: &Parameters, at: Place) -> u32 {
+        parameters.listed(at).and_then(whole).unwrap_or_default()
+    }
+}
+
+impl Kind for Switch {
+    type Value = bool;
+
+    fn read(parameters: &Parameters, at: Place) -> bool {
+        parameters.listed(at).is_some_and(|x| x.abs() > 0.0)
+    }
+}
+
+impl Kind for Text {
+    type Value = Option<String>;
+
+    fn read(parameters: &Parameters, at: Place) -> Option<String> {
+        parameters.of(at.row, at.indices)?.text().map(str::to_owned)
     }
 }
 

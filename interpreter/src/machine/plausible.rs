@@ -4,11 +4,12 @@
 //! function is set up.
 
 use super::axis::{AxisKind, kind_of};
-use super::key::{Indices, with_indices};
 use super::lists::parameter;
 use super::parameters::Parameters;
 use super::table::param::{Number, Param, Place, whole};
-use super::table::{self, Bound, Correction, Default, ListKind, Raw, Reaction, Row};
+use super::table::{
+    self, Bound, Correction, Default, Indices, ListKind, Raw, Reaction, Row, with_indices,
+};
 use super::table::{axis_drive, axis_general, channel, kontur};
 use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic, Severity, ValueKind};

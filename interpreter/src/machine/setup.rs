@@ -8,8 +8,6 @@ mod filters;
 mod ipc;
 mod plant;
 
-pub(super) use control::has_rotary_motor;
-pub(super) use filters::FilterKeys;
 pub use filters::{AdditionalInterface, FirPreset, KernelPreset, VibGuardPreset};
 
 use super::{Axis, Machine, issues};

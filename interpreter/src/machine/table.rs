@@ -10,6 +10,7 @@ pub(super) mod axis_filters;
 pub(super) mod axis_general;
 pub(super) mod axis_guard;
 pub(super) mod channel;
+mod indices;
 pub(super) mod kontur;
 mod lookup;
 pub(crate) mod param;
@@ -18,6 +19,7 @@ pub(super) mod start_up;
 pub(super) mod tool;
 pub(super) mod zero;
 
+pub use indices::{Indices, with_indices};
 pub(crate) use lookup::edit_distance;
 pub use lookup::{by_id, by_key, misspelt, rows, suggestions};
 pub use row::{Bound, Correction, Default, ListKind, Raw, Reaction, Row};

@@ -16,7 +16,7 @@
 //! assert_eq!(x_mm.last(), Some(&10.0));
 //! ```
 
-use crate::job::{AxisFacts, Facts};
+use super::facts::{AxisFacts, Facts};
 use crate::record::{AxisRecord, CycleRecord};
 
 /// Groups in the order of the trace; `time` is always there.

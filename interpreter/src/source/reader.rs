@@ -1,7 +1,7 @@
 //! Bytes to logical blocks.
 
+use super::regions::{bracket_is_open, ends_in_comment};
 use super::{BLOCK_LENGTH_MAX, Piece, Position, RawBlock, Source};
-use crate::syntax::scan::{bracket_is_open, ends_in_comment};
 use std::fmt;
 use std::io;
 use std::ops::Range;

@@ -12,6 +12,7 @@ mod control;
 mod expr;
 mod word;
 
+pub use crate::source::Span;
 pub use command::{Command, Group, Ident, Item, ItemKind, ItemValue};
 pub use control::{Control, ControlKind, Declaration, ProgramHead};
 pub use expr::{
@@ -22,35 +23,6 @@ pub use word::{
     Assign, Bracket, Call, CallKind, CodeNumber, GValue, HashWord, MacroDefinition, Name, Word,
     WordKind,
 };
-
-/// A piece of the text of a block, in bytes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Span {
-    /// Offset of the first byte from the start of the block's text.
-    pub start: u32,
-    /// Length in bytes; 0 marks a place between two bytes.
-    pub len: u32,
-}
-
-impl Span {
-    /// The span from `start` up to, but not including, `end` (bytes of the block's text).
-    pub fn new(start: usize, end: usize) -> Self {
-        let clamp = |v: usize| u32::try_from(v).unwrap_or(u32::MAX);
-        Self { start: clamp(start), len: clamp(end.saturating_sub(start)) }
-    }
-
-    /// First byte behind the span.
-    pub fn end(self) -> u32 {
-        self.start.saturating_add(self.len)
-    }
-
-    /// The smallest span that holds both.
-    #[must_use]
-    pub fn to(self, other: Self) -> Self {
-        let start = self.start.min(other.start);
-        Self { start, len: self.end().max(other.end()) - start }
-    }
-}
 
 /// One block of an NC program.
 #[derive(Clone, Debug, Default, PartialEq)]

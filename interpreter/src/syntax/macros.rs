@@ -4,9 +4,8 @@
 //! `"NAME" = "text"`. Places in the expanded text map to the use in the program.
 
 use super::ast::Span;
-use super::scan;
 use crate::diag::{Condition, Diagnostic};
-use crate::source::{BLOCK_LENGTH_MAX, Piece, Position, RawBlock};
+use crate::source::{BLOCK_LENGTH_MAX, Piece, Position, RawBlock, regions};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -109,7 +108,7 @@ fn insert<'m>(
     if depth > MACRO_DEPTH_MAX {
         return Err(Wrong::TooDeep);
     }
-    if !scan::brackets_are_complete(text) {
+    if !regions::brackets_are_complete(text) {
         return Err(Wrong::HalfBracket(text));
     }
     let mut at = 0;
@@ -130,7 +129,7 @@ fn insert<'m>(
 fn uses<'m>(text: &str, lookup: &impl Fn(&str) -> Option<&'m str>) -> Vec<(Range<usize>, &'m str)> {
     let mut found = Vec::new();
     let mut defined = false;
-    for range in scan::strings(text) {
+    for range in regions::strings(text) {
         let behind = text[range.end..].trim_ascii_start();
         let definition = behind.starts_with('=') && !behind.starts_with("==");
         let skip = std::mem::replace(&mut defined, definition) || definition;

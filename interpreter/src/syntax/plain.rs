@@ -11,7 +11,7 @@ use super::ast::{
     WordKind,
 };
 use super::number::short_decimal;
-use super::scan::comment_length;
+use crate::source::regions::comment_length;
 use smallvec::SmallVec;
 
 /// A plain block.

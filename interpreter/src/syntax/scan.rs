@@ -1,11 +1,11 @@
-//! What has to be known about the characters of a block before its grammar: comments, strings, brackets.
+//! What has to be known about the characters of a block before its grammar.
 //!
 //! The grammar sees a masked text of the same length: comments and invalid characters are blanks, and names of
 //! several characters that the machine configures (`X1`, `AP`) are marked, because which of them exist is not a
 //! question of grammar.
 
 use super::ast::Span;
-use std::ops::Range;
+use crate::source::regions::{self, Region, regions};
 
 /// Byte that stands in the masked text for every character of a configured name.
 pub(super) const MARK: u8 = 1;
@@ -16,134 +16,6 @@ pub(super) const UNCLOSED: char = '\u{2}';
 /// Deepest nesting of square brackets; deeper blocks get K-0006. Far beyond anything written by hand or post-processor,
 /// and small enough for the stack of every platform.
 pub const NESTING_MAX: usize = 64;
-
-/// What a stretch of text is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Region {
-    Code,
-    /// `"..."`, quotes included; a quote that is never closed is code.
-    Text,
-    /// `(...)`, nested, or everything behind `;` or an unclosed `(`.
-    Comment {
-        closed: bool,
-    },
-}
-
-/// Cuts a text into regions.
-struct Regions<'a> {
-    bytes: &'a [u8],
-    at: usize,
-    /// A quote was never closed: no later one is, and none of them is looked for.
-    unclosed: bool,
-}
-
-impl Iterator for Regions<'_> {
-    type Item = (Region, Range<usize>);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let start = self.at;
-        let rest = &self.bytes[start..];
-        let (region, length) = match rest.first()? {
-            b';' => (Region::Comment { closed: false }, rest.len()),
-            b'(' => comment(rest),
-            b'"' => {
-                let length = if self.unclosed { None } else { string(rest) };
-                self.unclosed = length.is_none();
-                length.map_or((Region::Code, 1), |length| (Region::Text, length))
-            }
-            _ => {
-                let length = memchr::memchr3(b';', b'(', b'"', rest).unwrap_or(rest.len());
-                (Region::Code, length)
-            }
-        };
-        self.at += length;
-        Some((region, start..self.at))
-    }
-}
-
-fn regions(text: &str) -> Regions<'_> {
-    Regions { bytes: text.as_bytes(), at: 0, unclosed: false }
-}
-
-/// Length of a comment in round brackets.
-fn comment(bytes: &[u8]) -> (Region, usize) {
-    let mut depth = 0_usize;
-    for (i, byte) in bytes.iter().enumerate() {
-        match byte {
-            b'(' => depth += 1,
-            b')' => {
-                depth -= 1;
-                if depth == 0 {
-                    return (Region::Comment { closed: true }, i + 1);
-                }
-            }
-            _ => {}
-        }
-    }
-    (Region::Comment { closed: false }, bytes.len())
-}
-
-/// Length of the comment that begins with the first byte.
-pub(super) fn comment_length(bytes: &[u8]) -> usize {
-    comment(bytes).1
-}
-
-/// Length of a string with its quotes, `None` if the closing one is missing.
-fn string(bytes: &[u8]) -> Option<usize> {
-    let mut i = 1;
-    loop {
-        match bytes.get(i)? {
-            b'\\' if bytes.get(i + 1) == Some(&b'"') => i += 2,
-            b'"' => return Some(i + 1),
-            _ => i += 1,
-        }
-    }
-}
-
-/// True if what is written behind `text` would be part of a comment.
-pub(crate) fn ends_in_comment(text: &str) -> bool {
-    regions(text).last().is_some_and(|(region, _)| region == Region::Comment { closed: false })
-}
-
-/// True if a square bracket is open at the end of `text`.
-pub(crate) fn bracket_is_open(text: &str) -> bool {
-    let mut depth = 0_usize;
-    for (region, range) in regions(text) {
-        if region == Region::Code {
-            for byte in &text.as_bytes()[range] {
-                match byte {
-                    b'[' => depth += 1,
-                    b']' => depth = depth.saturating_sub(1),
-                    _ => {}
-                }
-            }
-        }
-    }
-    depth > 0
-}
-
-/// True if every square bracket of `text` has its partner in it.
-pub(super) fn brackets_are_complete(text: &str) -> bool {
-    let mut depth = 0_usize;
-    for (region, range) in regions(text) {
-        if region == Region::Code {
-            for byte in &text.as_bytes()[range] {
-                match byte {
-                    b'[' => depth += 1,
-                    b']' if depth == 0 => return false,
-                    b']' => depth -= 1,
-                    _ => {}
-                }
-            }
-        }
-    }
-    depth == 0
-}
-
-/// Places of the strings of a block, quotes included.
-pub(super) fn strings(text: &str) -> impl Iterator<Item = Range<usize>> {
-    regions(text).filter(|(region, _)| *region == Region::Text).map(|(_, range)| range)
-}
 
 /// Text as the grammar sees it.
 pub(super) struct Masked {
@@ -218,7 +90,7 @@ fn mark_names(bytes: &mut [u8], names: &[Box<str>]) {
             b'$' => return,
             b'#' if hash_word(rest).is_none() => return,
             b'#' => i += hash_word(rest).unwrap_or(1),
-            b'"' => i += string(rest).unwrap_or(1),
+            b'"' => i += regions::string(rest).unwrap_or(1),
             b'[' => {
                 depth += 1;
                 i += 1;
@@ -297,7 +169,7 @@ fn run(bytes: &[u8], accept: impl Fn(u8) -> bool) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{bracket_is_open, ends_in_comment, mask};
+    use super::mask;
 
     fn masked(text: &str, names: &[&str]) -> String {
         let names: Vec<Box<str>> = names.iter().map(|n| Box::from(*n)).collect();
@@ -311,13 +183,6 @@ mod tests {
         assert_eq!(masked(r#"["(a;\"" ;x"#, &[]), r#"["(a;\""   "#);
         assert_eq!(masked("X1 ;(Y2)", &[]).trim_end(), "X1");
         assert_eq!(masked("\"a ;b", &[]), "\u{2}a   ");
-    }
-
-    #[test]
-    fn open_comments_and_brackets_are_seen() {
-        assert!(ends_in_comment("X1 (a") && ends_in_comment("X1 ;a"));
-        assert!(!ends_in_comment("X1 (a) "));
-        assert!(bracket_is_open("L CYCLE [A=1") && !bracket_is_open("X[1](["));
     }
 
     #[test]

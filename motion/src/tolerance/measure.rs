@@ -67,6 +67,11 @@ impl Record {
         let at = k.saturating_sub(self.first) as usize;
         self.s_mm.get(at).or(self.s_mm.last()).copied().unwrap_or(0.0)
     }
+
+    /// Last cycle of the record in which the path has not got beyond a path length: a rest there is over then.
+    fn leaves(&self, s: f64) -> u64 {
+        self.first + self.s_mm.partition_point(|passed| *passed <= s).saturating_sub(1) as u64
+    }
 }
 
 /// A point of the contour, by its path length, and the set point nearest to it.
@@ -153,8 +158,8 @@ impl View<'_> {
         let mut between = AxisVec::zeros(n);
         let mut walk = contour.walk();
         let newest_passed = from.saturating_sub(length + 1);
-        let (mut hint, mut looked) = (newest_passed + delay, f64::NEG_INFINITY);
-        let mut last: Option<Foot> = None;
+        let mut hint = newest_passed + delay;
+        let (mut looked, mut last): (Option<f64>, Option<Foot>) = (None, None);
         let half = (length / 2).max(1);
         let mut note = |v: Violation, record: &Record| {
             if worst.as_ref().is_none_or(|w| w.deviation_mm < v.deviation_mm) {
@@ -255,13 +260,13 @@ impl View<'_> {
                 continue;
             }
             let tolerance = self.tolerance(passed as f64, moment);
-            let (from, to) = (looked.max(record.s(passed - 1)), record.s(passed));
+            // a slow path is looked at only now and then, but from where it was looked at last
+            let (from, to) = (looked.unwrap_or_else(|| record.s(passed - 1)), record.s(passed));
+            looked = Some(from);
             if to - from < SPACING * tolerance && tolerance.is_finite() {
-                looked = from;
                 continue;
             }
-            looked = to;
-            hint = hint.max(passed);
+            looked = Some(to);
             let parts =
                 ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
             let even = (1..=parts).map(|i| from + f64::from(i) / f64::from(parts) * (to - from));
@@ -272,9 +277,11 @@ impl View<'_> {
             places.sort_by(f64::total_cmp);
             for s in places {
                 walk.position(s, &mut between);
+                let held = record.leaves(s).min(passed);
                 // the nearest set point is found close to the last one
-                let near = (hint.saturating_sub(HINT).max(passed), hint + HINT);
-                let foot = missed(&between, near, passed as f64, s);
+                hint = hint.max(held);
+                let near = (hint.saturating_sub(HINT).max(held), hint + HINT);
+                let foot = missed(&between, near, held as f64, s);
                 hint = foot.as_ref().map_or(near.0, |foot| foot.cycle);
                 let before = std::mem::replace(&mut last, foot);
                 let (Some(low), Some(high)) = (before, last.clone()) else { continue };
@@ -286,12 +293,13 @@ impl View<'_> {
                     }
                     let mid = 0.5 * (low.s + high.s);
                     walk.position(mid, &mut between);
+                    let held = record.leaves(mid).min(passed);
                     let around = [low.cycle, high.cycle];
                     let near = (
-                        around[0].min(around[1]).saturating_sub(HINT).max(passed),
+                        around[0].min(around[1]).saturating_sub(HINT).max(held),
                         around[0].max(around[1]) + HINT,
                     );
-                    let Some(foot) = missed(&between, near, passed as f64, mid) else { break };
+                    let Some(foot) = missed(&between, near, held as f64, mid) else { break };
                     open.push((foot.clone(), high, halvings - 1));
                     open.push((low, foot, halvings - 1));
                 }

@@ -1,7 +1,7 @@
 //! Compares two streams of rows and remembers what to report.
 
-use super::Tolerance;
 use super::delay::Delays;
+use crate::args::Tolerance;
 use csv::ByteRecord;
 use serde::Serialize;
 

@@ -7,10 +7,10 @@
 mod shift;
 mod signals;
 
-use super::Tolerance;
 use super::table::Table;
 use super::verdict::{Failure, Signal, Verdict};
 use crate::Error;
+use crate::args::{Pairing, Tolerance};
 use crate::recorded;
 use serde::Serialize;
 use signals::{MOST_CYCLES, Recorded, Trace, rows, statistics};
@@ -20,34 +20,6 @@ use std::path::Path;
 const MOST_NAMED: usize = 10;
 /// Finest difference of positions that a recording can show, in mm or deg: one increment of the control, 0.1 um.
 const FLOOR_MM: f64 = 1e-4;
-/// A column of the trace and the channel that recorded it: `X_act_mm=MAIN.fAct`, `X_act_mm=-1000*Axis1.Pos`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pairing {
-    column: String,
-    channel: String,
-    factor: f64,
-}
-
-impl std::str::FromStr for Pairing {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let form = || "COLUMN=CHANNEL or COLUMN=FACTOR*CHANNEL is expected".to_owned();
-        let (column, right) = text.split_once('=').ok_or_else(form)?;
-        let (factor, channel) = match right.split_once('*') {
-            Some((factor, channel)) => (factor.trim().parse::<f64>().map_err(|_| form())?, channel),
-            None => match right.trim().strip_prefix('-') {
-                Some(channel) => (-1.0, channel),
-                None => (1.0, right),
-            },
-        };
-        let (column, channel) = (column.trim().to_owned(), channel.trim().to_owned());
-        if column.is_empty() || channel.is_empty() || !factor.is_finite() || factor.abs() <= 0.0 {
-            return Err(form());
-        }
-        Ok(Self { column, channel, factor })
-    }
-}
 
 /// What one pair of signals shows.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -1,8 +1,9 @@
 //! The interactive page: one file, no network; data as JSON beside its own script.
 
 use super::Drawn;
-use super::recording::{Bucket, Curve, Point, Recording, programmed};
+use super::recording::{Bucket, Curve, Recording, programmed};
 use super::stops::Stop;
+use super::track::Point;
 use super::vibration;
 use super::views;
 use crate::chart::scale::{Scale, steps};

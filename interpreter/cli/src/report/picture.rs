@@ -2,8 +2,10 @@
 //! speed and deviations over time.
 
 use super::Drawn;
-use super::recording::{Point, Recording};
-use super::views::{self, Group, Shown, Source, VISIBLE_MM};
+use super::recording::Recording;
+use super::shown::{Shown, Source};
+use super::track::Point;
+use super::views::{self, Group, VISIBLE_MM};
 use crate::chart::scale::Scale;
 use crate::chart::style::{INK, Style};
 use crate::chart::svg::{Font, Panel, Svg};

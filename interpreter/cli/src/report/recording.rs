@@ -2,7 +2,7 @@
 //! value of every curve, and the contour as a [`Track`]. Short runs have one bucket per cycle.
 
 use super::stops::Stops;
-use super::track::Track;
+use super::track::{Point, Track};
 use kontur_interpreter::job::Facts;
 use kontur_interpreter::record::{CycleRecord, Motion, SpeedLimit};
 
@@ -17,20 +17,6 @@ pub(crate) const MOST_PASSES: usize = 8;
 
 /// The set point that starts a pass is met again within this distance in mm.
 const CLOSED_MM: f64 = 1e-6;
-
-/// One point of the contour: up to three linear axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Point {
-    pub(crate) k: u64,
-    pub(crate) line: u32,
-    pub(crate) pass: usize,
-    /// End of its block as it is programmed, if that is a straight line.
-    pub(crate) target: Option<[f64; 3]>,
-    pub(crate) error: f64,
-    pub(crate) ipo: [f64; 3],
-    pub(crate) set: [f64; 3],
-    pub(crate) act: [f64; 3],
-}
 
 /// Some consecutive cycles.
 #[derive(Clone, Debug)]

@@ -10,6 +10,7 @@ use crate::request::Opened;
 use crate::run::{Shown, announce_lists, drive};
 use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
 use crate::table::{Table, number};
+use crate::target::{keep_apart, write};
 use crate::trace::select;
 use crate::{Error, Exit};
 use kontur_interpreter::job::Facts;
@@ -57,7 +58,7 @@ pub(super) fn report(
         };
         let opened = request.open().map_err(|e| announce_lists(e, console))?;
         let Opened { mut run, reads } = opened;
-        crate::target::keep_apart(&reads, &[output.to_owned()])?;
+        keep_apart(&reads.so_far(), &[output.to_owned()])?;
         let mut summary = Collector::new(run.facts());
         let mut recorded = Recorded::new(label, names, run.facts())?;
         drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
@@ -76,6 +77,8 @@ pub(super) fn report(
             }
             Ok(())
         })?;
+        // with what the run came to on its way
+        keep_apart(&reads.so_far(), &[output.to_owned()])?;
         aborted |= run.totals().aborted;
         if recorded.times.is_empty() && summary.cycles() > 0 {
             let end_s = summary.cycles().saturating_sub(1) as f64 * recorded.cycle_s;
@@ -95,7 +98,7 @@ pub(super) fn report(
     // of refused programs there is nothing to show
     if runs.iter().any(|run| !run.times.is_empty()) {
         let text = if is("csv") { table(args, &runs).csv() } else { plot(args, &runs).draw() };
-        crate::target::write(output, text.as_bytes())?;
+        write(&[(output, text.as_bytes())])?;
     }
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
 }

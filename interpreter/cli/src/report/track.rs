@@ -1,7 +1,19 @@
 //! The contour of a run in bounded memory: points that are left out lie within a known distance of the lines between those
 //! that are kept.
 
-use super::recording::Point;
+/// One point of the contour: up to three linear axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Point {
+    pub(crate) k: u64,
+    pub(crate) line: u32,
+    pub(crate) pass: usize,
+    /// End of its block as it is programmed, if that is a straight line.
+    pub(crate) target: Option<[f64; 3]>,
+    pub(crate) error: f64,
+    pub(crate) ipo: [f64; 3],
+    pub(crate) set: [f64; 3],
+    pub(crate) act: [f64; 3],
+}
 
 /// Points at once, before some of them are left out.
 const CHUNK: usize = 2048;

@@ -2,7 +2,7 @@
 
 use super::Drawn;
 use super::recording::MOST_SAMPLES;
-use super::views::{Shown, Source, name, span, style};
+use super::shown::{Shown, Source, name, span, style};
 use crate::chart::scale::Scale;
 use crate::chart::view::{Line, Mark, Points, View, thinned};
 use crate::spectrum::AmplitudeSpectrum;

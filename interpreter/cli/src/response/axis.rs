@@ -1,7 +1,7 @@
 //! The shaping chain of an axis as its lists state it.
 
-use super::args::ResponseArgs;
 use super::curve::Curve;
+use crate::args::ResponseArgs;
 use crate::console::Console;
 use crate::files::Lists;
 use crate::request::Request;

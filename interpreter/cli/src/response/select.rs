@@ -1,14 +1,14 @@
 //! From the arguments to the curves they name.
 
-use super::args::{Numbers, ResponseArgs};
 use super::curve::Curve;
 use super::describe;
 use crate::Error;
+use crate::args::values::Numbers;
+use crate::args::{FILTER_TYPES, PROTOTYPES, ResponseArgs};
 use crate::console::Console;
 use crate::table::number;
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::hsc::{HscConfig, HscKind};
-use kontur_filters::iir::prototype::Prototype;
 use kontur_filters::iir::transform::band_edges_hz;
 use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};
 use kontur_filters::issue::{Effect, FilterIssue};
@@ -18,25 +18,6 @@ use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_interpreter::diag::Severity;
 use std::sync::Arc;
-
-/// Names of P-AXIS-00204.
-pub(super) const FILTER_TYPES: [(&str, FilterKind); 8] = [
-    ("LOWPASS", FilterKind::LowPass),
-    ("HIGHPASS", FilterKind::HighPass),
-    ("BANDPASS", FilterKind::BandPass),
-    ("BANDSTOP", FilterKind::BandStop),
-    ("ALLPASS", FilterKind::AllPass),
-    ("PT1", FilterKind::Pt1),
-    ("PT2", FilterKind::Pt2),
-    ("TIME_DELAY", FilterKind::TimeDelay),
-];
-
-/// Names of P-AXIS-00153.
-pub(super) const PROTOTYPES: [(&str, Prototype); 3] = [
-    ("CRIT_DAMPING", Prototype::CritDamping),
-    ("BUTTERWORTH", Prototype::Butterworth),
-    ("BESSEL", Prototype::Bessel),
-];
 
 /// All curves in the order filter, guard, fir, hsc, axis, and the cycle they run in.
 pub(super) fn curves(

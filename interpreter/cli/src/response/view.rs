@@ -5,9 +5,9 @@ mod frequency;
 mod residual;
 mod step;
 
-use super::args::ResponseArgs;
 use super::curve::Curve;
 use crate::Error;
+use crate::args::ResponseArgs;
 use crate::chart::plot::Plot;
 use crate::table::Table;
 use kontur_filters::time::CycleTime;

@@ -1,7 +1,7 @@
 //! The rows of a sweep: parameters, how the run ended, results.
 
 use super::Outcome;
-use super::args::SweepArgs;
+use crate::args::SweepArgs;
 use crate::table::Cell;
 use kontur_interpreter::summary::Summary;
 

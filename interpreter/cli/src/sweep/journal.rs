@@ -4,12 +4,15 @@
 //! written when its run has ended. A journal of another sweep, or of files that were changed since, is begun anew.
 
 use super::Row;
-use super::args::SweepArgs;
 use crate::Error;
+use crate::args::SweepArgs;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
-use std::io::{self, BufRead as _, BufReader, Write as _};
+use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
 use std::path::{Path, PathBuf};
+
+/// How every journal begins, and no program or table.
+const HEAD: &[u8] = b"{\"files\":[";
 
 /// The journal of one sweep.
 pub(super) struct Journal {
@@ -25,21 +28,24 @@ struct Line {
 }
 
 impl Journal {
-    /// Opens the journal of an output and reads what an earlier sweep of the same left.
+    /// Opens the journal and reads what an earlier sweep of the same left.
     ///
     /// # Errors
-    /// The system's.
-    pub(super) fn open(output: &Path, args: &SweepArgs, reads: &[PathBuf]) -> Result<Self, Error> {
-        let mut name = output.file_name().unwrap_or_default().to_owned();
-        name.push(".rows");
-        let path = output.with_file_name(name);
+    /// The system's; also if the file is something else.
+    pub(super) fn open(path: &Path, args: &SweepArgs, reads: &[PathBuf]) -> Result<Self, Error> {
         let head = head(args, reads);
-        Self::begin(path.clone(), &head).map_err(|e| Error::io(path.display().to_string(), e))
+        Self::begin(path.to_owned(), &head).map_err(|e| Error::io(path.display().to_string(), e))
     }
 
     fn begin(path: PathBuf, head: &str) -> io::Result<Self> {
         let (mut rows, mut kept) = (Vec::new(), 0);
-        if let Ok(file) = File::open(&path) {
+        if let Ok(mut file) = File::open(&path) {
+            let mut start = Vec::new();
+            io::Read::take(&file, HEAD.len() as u64).read_to_end(&mut start)?;
+            if !HEAD.starts_with(&start) {
+                return Err(io::Error::other("not the journal of a sweep: it stays as it is"));
+            }
+            io::Seek::rewind(&mut file)?;
             let mut lines = BufReader::new(file);
             let mut line = String::new();
             // a line without its end was cut off
@@ -89,6 +95,13 @@ impl Journal {
     }
 }
 
+/// The journal of an output.
+pub(super) fn beside(output: &Path) -> PathBuf {
+    let mut name = output.file_name().unwrap_or_default().to_owned();
+    name.push(".rows");
+    output.with_file_name(name)
+}
+
 /// What makes a sweep another one: the version, the options, and the files as they are.
 fn head(args: &SweepArgs, reads: &[PathBuf]) -> String {
     let mut reads = reads.to_vec();
@@ -108,8 +121,27 @@ fn head(args: &SweepArgs, reads: &[PathBuf]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::Journal;
+    use super::{Journal, head};
     use crate::table::Cell;
+    use clap::Parser as _;
+
+    const HEADS: [&str; 2] = ["{\"files\":[1]}", "{\"files\":[2]}"];
+
+    #[test]
+    fn what_is_no_journal_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv.rows");
+        let words = ["kontur", "sweep", "a.nc", "--vary", "X.a=1", "-o", "a.csv"];
+        let args = crate::args::Args::try_parse_from(words).unwrap();
+        let crate::args::Command::Sweep(args) = args.command else { panic!("sweep") };
+        let head = head(&args, &["a.nc".into()]);
+        for (text, is_journal) in [("", true), ("{\"fil", true), (&*head, true), ("G01 X1", false)]
+        {
+            std::fs::write(&path, text).unwrap();
+            assert_eq!(Journal::begin(path.clone(), &head).is_ok(), is_journal, "{text}");
+        }
+        assert_eq!(std::fs::read(&path).unwrap(), b"G01 X1");
+    }
 
     #[test]
     fn what_was_cut_off_is_done_again() {
@@ -118,7 +150,7 @@ mod tests {
         let row = |x: f64| {
             (vec!["a".to_owned(), "b".to_owned()], vec![Cell::Number(x, 3), Cell::Word("w".into())])
         };
-        let mut journal = Journal::begin(path.clone(), "{1}").unwrap();
+        let mut journal = Journal::begin(path.clone(), HEADS[0]).unwrap();
         for (run, x) in [(2, 0.1), (0, f64::NAN), (7, -1e-300)] {
             journal.write(run, &row(x)).unwrap();
         }
@@ -127,7 +159,7 @@ mod tests {
         for cut in 0..=whole.len() {
             std::fs::write(&path, &whole[..cut]).unwrap();
             let lines = memchr::memchr_iter(b'\n', &whole[..cut]).count();
-            let mut journal = Journal::begin(path.clone(), "{1}").unwrap();
+            let mut journal = Journal::begin(path.clone(), HEADS[0]).unwrap();
             let found = journal.take_rows();
             assert_eq!(found.len(), lines.saturating_sub(1), "{cut}");
             if let Some((run, (_, cells))) = found.last()
@@ -138,9 +170,9 @@ mod tests {
             }
             // and goes on behind the last whole line
             journal.write(9, &row(4.0)).unwrap();
-            let again = Journal::begin(path.clone(), "{1}").unwrap().take_rows();
+            let again = Journal::begin(path.clone(), HEADS[0]).unwrap().take_rows();
             assert_eq!(again.len(), lines.saturating_sub(1) + 1);
         }
-        assert!(Journal::begin(path, "{2}").unwrap().take_rows().is_empty());
+        assert!(Journal::begin(path, HEADS[1]).unwrap().take_rows().is_empty());
     }
 }

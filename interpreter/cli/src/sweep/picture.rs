@@ -1,8 +1,8 @@
 //! The picture of a sweep: results over the first parameter, one curve for each combination of the others.
 
 use super::Rows;
-use super::args::SweepArgs;
 use crate::Error;
+use crate::args::SweepArgs;
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around, of_column};
 use crate::chart::view::{Line, Points, View};

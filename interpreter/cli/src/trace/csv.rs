@@ -79,6 +79,9 @@ fn quoted(cell: &str) -> String {
     }
 }
 
+/// How every trace begins.
+const START: &[u8] = b"t_s,";
+
 /// Where the lines go.
 #[derive(Debug)]
 pub(crate) enum Target {
@@ -99,8 +102,15 @@ impl Target {
     fn flush(&mut self) -> io::Result<()> {
         match self {
             // the run has begun well: the file gets its name
-            Self::File(target) => target.show(),
+            Self::File(target) => target.show_over(START),
             Self::Standard(out) => out.flush(),
+        }
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        match self {
+            Self::File(target) => target.show(),
+            Self::Standard(_) => Ok(()),
         }
     }
 
@@ -126,6 +136,8 @@ pub(crate) struct CsvWriter {
     waiting: u64,
     /// When lines were handed over last.
     flushed: Instant,
+    /// Lines are missing.
+    failed: bool,
 }
 
 impl CsvWriter {
@@ -140,7 +152,7 @@ impl CsvWriter {
     pub(crate) fn new(target: Target, rows: Rows) -> Self {
         let mut buffer = Vec::with_capacity(Self::PIECE + 4096);
         rows.push_header(&mut buffer);
-        Self { rows, target, buffer, written: 0, waiting: 0, flushed: now() }
+        Self { rows, target, buffer, written: 0, waiting: 0, flushed: now(), failed: false }
     }
 
     /// Adds a record.
@@ -174,6 +186,7 @@ impl CsvWriter {
                 Err(e) => break Err(e),
             }
         };
+        self.failed |= result.is_err();
         if result.is_err() {
             let whole = self.buffer[..done].iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
             self.target.cut(self.written + whole as u64);
@@ -181,6 +194,15 @@ impl CsvWriter {
         self.written += done as u64;
         self.buffer.clear();
         result
+    }
+
+    /// Brings everything to the file, which has its name then, unless there is no record or lines are missing.
+    ///
+    /// # Errors
+    /// As [`CsvWriter::write`].
+    pub(crate) fn finish(&mut self) -> io::Result<()> {
+        self.flush()?;
+        if self.written == 0 || self.failed { Ok(()) } else { self.target.finish() }
     }
 }
 
@@ -244,7 +266,7 @@ mod tests {
         }
         let before = std::fs::read(&path).unwrap();
         assert!(!before.is_empty() && before.ends_with(b"\n"), "pieces end with a line");
-        writer.flush().unwrap();
+        writer.finish().unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(text.lines().count(), 20_001);
         assert!(text.lines().last().unwrap().starts_with("9.999500,6,50,"));

@@ -50,8 +50,10 @@ pub(crate) struct ParquetWriter {
     schema: Arc<Type>,
     properties: Arc<WriterProperties>,
     target: Target,
-    /// Where the groups before are.
-    folder: TempDir,
+    /// Path of the trace.
+    path: PathBuf,
+    /// Where the groups before are, if there are any.
+    folder: Option<TempDir>,
     parts: Vec<PathBuf>,
 }
 
@@ -100,11 +102,6 @@ impl ParquetWriter {
         }
         let schema = Type::group_type_builder("trace").with_fields(fields).build();
         let schema = Arc::new(schema.map_err(to_io)?);
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let folder = tempfile::Builder::new()
-            .prefix(&format!(".{name}."))
-            .suffix(".parts")
-            .tempdir_in(folder_of(path))?;
         let empty = |c: &Column| match c.content {
             Content::Line => Values::Integer(Vec::new()),
             Content::Block => Values::Optional(Vec::new(), Vec::new()),
@@ -120,7 +117,8 @@ impl ParquetWriter {
             schema,
             properties: Arc::new(properties.build()),
             target,
-            folder,
+            path: path.to_owned(),
+            folder: None,
             parts: Vec::new(),
         })
     }
@@ -160,7 +158,12 @@ impl ParquetWriter {
 
     /// Writes the rows that wait to a file of their own.
     fn write_group(&mut self) -> io::Result<()> {
-        let path = self.folder.path().join(format!("{:06}.parquet", self.parts.len() + 1));
+        let folder = match self.folder.take() {
+            Some(folder) => folder,
+            None => folder_beside(&self.path)?,
+        };
+        let path = folder.path().join(format!("{:06}.parquet", self.parts.len() + 1));
+        self.folder = Some(folder);
         // until it is whole it has another name
         let unfinished = path.with_extension("part");
         let file = File::create(&unfinished)?;
@@ -195,8 +198,8 @@ impl ParquetWriter {
         let done = written.and_then(|()| self.join(facts, totals));
         done.map_err(|e| {
             let e = self.kept(e);
-            if !self.parts.is_empty() {
-                self.folder.disable_cleanup(true);
+            if let (Some(folder), false) = (&mut self.folder, self.parts.is_empty()) {
+                folder.disable_cleanup(true);
             }
             e
         })
@@ -204,11 +207,13 @@ impl ParquetWriter {
 
     /// An error that says where the parts are.
     fn kept(&self, e: io::Error) -> io::Error {
-        if self.parts.is_empty() {
-            return e;
+        match &self.folder {
+            Some(folder) if !self.parts.is_empty() => {
+                let folder = folder.path().display();
+                io::Error::new(e.kind(), format!("{e}; the rows up to there are in {folder}"))
+            }
+            _ => e,
         }
-        let folder = self.folder.path().display();
-        io::Error::new(e.kind(), format!("{e}; the rows up to there are in {folder}"))
     }
 
     fn join(&mut self, facts: &Facts, totals: &Totals) -> io::Result<()> {
@@ -248,6 +253,13 @@ impl ParquetWriter {
         writer.close().map_err(to_io)?;
         self.target.show()
     }
+}
+
+/// The folder of the parts of a trace.
+fn folder_beside(path: &Path) -> io::Result<TempDir> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&format!(".{name}.")).suffix(".parts").tempdir_in(folder_of(path))
 }
 
 fn put<T: DataType>(

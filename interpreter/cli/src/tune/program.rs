@@ -7,12 +7,13 @@
 //! A program without `AX_DEV` is run once more with each choice that leaves the bound: with the bound as its tolerance.
 //! A choice that keeps the bound anyway is not slowed down by the key.
 
-use super::args::TuneArgs;
 use super::{Answer, Choice, Row, Task, command};
+use crate::args::TuneArgs;
 use crate::console::Console;
-use crate::request::{OpenError, Request};
+use crate::request::{OpenError, Opened, Request};
 use crate::run::{Shown, announce_lists, drive};
 use crate::table::{Cell, Table, number};
+use crate::target::keep_apart;
 use crate::{Error, Exit};
 use kontur_interpreter::diag::Location;
 use kontur_interpreter::job::{ForcedGuard, GuardCommands};
@@ -55,10 +56,13 @@ pub(super) fn answer(
         let guard = Some(ForcedGuard { settings, ax_dev_mm });
         let name = choice.map_or_else(|| "guard off".to_owned(), |c| command(&c.settings, ""));
         let shown = Shown { label: &(name + ": "), errors_only: !first };
-        let mut run =
-            Request { guard, ..request.clone() }.open().map_err(|e| refused(e, console))?.run;
+        let opened = Request { guard, ..request.clone() }.open();
+        let Opened { mut run, reads } = opened.map_err(|e| refused(e, console))?;
+        keep_apart(&reads.so_far(), args.output.as_slice())?;
         let mut summary = Collector::new(run.facts());
         drive(&mut run, shown, console, &mut summary, |_| Ok(()))?;
+        // with what the run came to on its way
+        keep_apart(&reads.so_far(), args.output.as_slice())?;
         let summary = summary.finish(&run.totals());
         let axes = summary.axes.iter().zip(&run.facts().axes);
         let dev_mm = axes.filter(|(_, axis)| !axis.spindle).map(|(axis, _)| axis.max_dev);

@@ -1,8 +1,8 @@
 //! Natural frequencies and damping from recordings: which column and times of which file, and what they tell together.
 
-use super::args::TuneArgs;
 use super::vibration::{Analysis, Estimate, Focus, Mode, analyse};
 use crate::Error;
+use crate::args::TuneArgs;
 use crate::console::Console;
 use crate::recorded::{self, Channel, DropOut};
 use crate::table::{Table, number};

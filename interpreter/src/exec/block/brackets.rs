@@ -10,7 +10,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::spindles::Turning;
-use crate::exec::motion::technology::Function;
+use crate::exec::motion::state::Function;
 use crate::exec::step::Event;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, ItemValue, Span};
 use std::mem::discriminant;

@@ -190,7 +190,7 @@ impl Decoder {
             }
             Act::LookAheadFunctions => {
                 let value = g.value.unwrap_or_default();
-                if crate::exec::values::expr::whole(value, 0, 14).is_none() {
+                if crate::exec::values::number::whole(value, 0, 14).is_none() {
                     let text = format!("G115={value}, allowed are 0 to 14");
                     return Err(Fault::new(Condition::LookAheadRange, text, g.span)
                         .with(|d| d.value(ValueKind::Wrong, value, "-")));

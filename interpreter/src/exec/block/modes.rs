@@ -8,7 +8,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Rotation;
 use crate::exec::motion::dynamics::{Weight, channel_dynamics};
-use crate::exec::motion::technology::Function;
+use crate::exec::motion::state::Function;
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -120,7 +120,7 @@ impl Decoder {
 
     /// T.
     pub(in crate::exec) fn select_tool(&mut self, number: f64, span: Span) {
-        if let Some(number) = crate::exec::values::expr::whole(number, 0, u32::MAX) {
+        if let Some(number) = crate::exec::values::number::whole(number, 0, u32::MAX) {
             self.geometry.tools.tool = number;
             self.event(Event::Tool { number });
             self.takes_time(Function::Tool);
@@ -132,7 +132,7 @@ impl Decoder {
 
     /// D: tool data; the length acts on the third main axis of the plane.
     pub(in crate::exec) fn select_tool_data(&mut self, number: f64, span: Span) {
-        let Some(number) = crate::exec::values::expr::whole(number, 0, u32::MAX) else {
+        let Some(number) = crate::exec::values::number::whole(number, 0, u32::MAX) else {
             let text = format!("D{number} is no number of tool data");
             self.note(Fault::new(Condition::Range, text, span));
             return;

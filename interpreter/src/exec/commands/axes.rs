@@ -247,11 +247,11 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         (Condition::ExchangeNumber, "the axis index is missing"),
         group.span,
     )?;
-    let Some(logical) = crate::exec::values::expr::whole(logical, 1, 65535) else {
+    let Some(logical) = crate::exec::values::number::whole(logical, 1, 65535) else {
         let text = format!("logical axis number {logical} is none of 1 to 65535");
         return Err(Fault::new(Condition::ExchangeNumberRange, text, at(1)));
     };
-    let Some(index) = crate::exec::values::expr::whole(index, 0, PLACES - 1) else {
+    let Some(index) = crate::exec::values::number::whole(index, 0, PLACES - 1) else {
         let text = format!("axis index {index} is none of 0 to {}", PLACES - 1);
         return Err(Fault::new(Condition::Range, text, at(2)));
     };

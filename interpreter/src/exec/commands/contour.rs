@@ -9,7 +9,7 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::contour::contouring::{Contouring, Mode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::values::expr::is_true;
+use crate::exec::values::number::is_true;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
 use kontur_motion::block::{CurveJerk, VectorLimits};
 
@@ -153,7 +153,7 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     switch(&mut common.constant_velocity, keys.const_vel);
     if let Some((mode, _)) = keys.check_jerk {
         common.curve_jerk =
-            Some(match crate::exec::values::expr::whole(mode.unwrap_or(1.0), 0, 3) {
+            Some(match crate::exec::values::number::whole(mode.unwrap_or(1.0), 0, 3) {
                 Some(0) => CurveJerk::Unlimited,
                 Some(2) => CurveJerk::Ramps,
                 _ => CurveJerk::Geometric,
@@ -270,7 +270,7 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let keys = HscArguments::read(decoder, &call.title(), call.command.groups.first())?;
     let mut hsc = decoder.contour.hsc;
     if let Some((mode, span)) = keys.opmode {
-        match crate::exec::values::expr::whole(mode, 1, 2) {
+        match crate::exec::values::number::whole(mode, 1, 2) {
             Some(1) => hsc.rounds_corners = true,
             Some(_) => return Err(Fault::unsupported("#HSC [OPMODE=2]", span)),
             None => {

@@ -5,7 +5,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::suggest;
-use crate::exec::values::expr::is_whole;
+use crate::exec::values::number::is_whole;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 
 /// The arguments of a command: a struct with one field per key, and the description of the keys.

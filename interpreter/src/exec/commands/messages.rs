@@ -178,9 +178,9 @@ fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let Some((id, _)) = keys.id else {
         return Err(Fault::new(Condition::TokenUnknown, "#ERROR needs ID", call.span()));
     };
-    let id = crate::exec::values::expr::whole(id, 1, 1000).unwrap_or(1);
+    let id = crate::exec::values::number::whole(id, 1, 1000).unwrap_or(1);
     let rc = keys.rc.map_or(2.0, |(rc, _)| rc);
-    let severity = match crate::exec::values::expr::whole(rc, 0, 7) {
+    let severity = match crate::exec::values::number::whole(rc, 0, 7) {
         Some(0) => Severity::Warning,
         Some(2 | 7) => Severity::Error,
         _ => {

@@ -169,7 +169,8 @@ pub(super) const TIMER: Row = Row::run("TIMER", timer)
 /// `#TIMER START|STOP|READ|CLEAR [SYN] [ID=i]`.
 fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let keys = TimerArguments::read(decoder, &call.title(), call.command.groups.first())?;
-    let id = keys.id.and_then(|(id, _)| crate::exec::values::expr::whole(id, 0, 127)).unwrap_or(0);
+    let id =
+        keys.id.and_then(|(id, _)| crate::exec::values::number::whole(id, 0, 127)).unwrap_or(0);
     let (word, synchronous) = match call.rest {
         [word] => (word, false),
         [word, mode] if mode.is("SYN") => (word, true),

@@ -182,7 +182,7 @@ fn note_command(decoder: &mut Decoder, keys: &GuardArguments, on: Option<bool>) 
 }
 
 fn mode(x: f64, span: Span) -> Outcome<u8> {
-    let whole = crate::exec::values::expr::whole(x, 1, 4);
+    let whole = crate::exec::values::number::whole(x, 1, 4);
     whole.and_then(|m| u8::try_from(m).ok()).ok_or_else(|| {
         let text = format!("Vibration Guard mode {x} does not exist, allowed are 1 to 4");
         Fault::new(Condition::GuardMode, text, span).with(|d| {
@@ -278,7 +278,7 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 fn filter_keys(keys: &FilterArguments, stored: &mut FilterKeys) {
     let number = |key: Option<(f64, Span)>| key.map(|(x, _)| x);
-    let whole = |key| number(key).and_then(|x| crate::exec::values::expr::whole(x, 0, u32::MAX));
+    let whole = |key| number(key).and_then(|x| crate::exec::values::number::whole(x, 0, u32::MAX));
     if keys.order.is_some() || keys.order_time.is_some() {
         // the newer of the two rules; both in one command: the order
         (stored.order, stored.order_time_us) = (whole(keys.order), whole(keys.order_time));

@@ -7,10 +7,10 @@
 
 use super::{Call, Row};
 use crate::diag::Condition;
-use crate::exec::decoder::Decoder;
+use crate::exec::decoder::{Decoder, Signal};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::values::expr::whole;
+use crate::exec::values::number::whole;
 use crate::syntax::ast::{
     ExprKind, Group, ItemKind, ItemValue, ParameterIndex, Place, PlaceKind, Span,
 };
@@ -23,17 +23,6 @@ const MOST: usize = 1000;
 
 /// Highest index of a signal parameter.
 const PARAMETER_MAX: u32 = 11;
-
-/// A signal that has been sent.
-#[derive(Debug)]
-pub(in crate::exec) struct Signal {
-    id: u32,
-    /// Sent to everybody; else to this channel itself.
-    broadcast: bool,
-    /// Waits that it still serves, `None` without limit.
-    count: Option<u32>,
-    parameters: Vec<(u32, f64)>,
-}
 
 /// Row of `#SIGNAL`.
 pub(super) const SIGNAL: Row = Row::run("SIGNAL", signal)

@@ -112,7 +112,7 @@ fn set_slope_profile(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::new(Condition::TokenUnknown, "a number is expected: 0 to 3", item.span));
     };
     let value = decoder.number(expr)?;
-    let Some(i) = crate::exec::values::expr::whole(value, 0, 3) else {
+    let Some(i) = crate::exec::values::number::whole(value, 0, 3) else {
         let text = format!("slope profile {value} does not exist");
         return Err(Fault::new(Condition::SlopeWeighting, text, expr.span).with(|d| {
             use crate::diag::ValueKind::{LowerLimit, UpperLimit, Wrong};

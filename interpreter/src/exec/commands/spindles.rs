@@ -6,7 +6,7 @@ use super::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::values::expr::whole;
+use crate::exec::values::number::whole;
 use crate::machine::Axis;
 use crate::syntax::ast::{ItemKind, ItemValue, Span};
 

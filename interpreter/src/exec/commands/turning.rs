@@ -7,7 +7,7 @@ use super::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::values::expr::is_true;
+use crate::exec::values::number::is_true;
 
 arguments! {
     /// Keys of `#TURN`.

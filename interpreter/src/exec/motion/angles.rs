@@ -19,22 +19,6 @@ use crate::syntax::ast::Span;
 /// Sine of an angle between two lines below which they are parallel.
 const PARALLEL: f64 = 1e-9;
 
-/// What contour lines keep.
-#[derive(Clone, Debug, Default)]
-pub(in crate::exec) struct ContourLines {
-    /// First line of two: its angle in deg and its block.
-    open: Option<(f64, Span, SourceRef)>,
-    /// The coordinate that the angle gives to the block in work.
-    pub(super) target: Option<Target>,
-}
-
-impl ContourLines {
-    /// A first line waits for its second one.
-    pub(in crate::exec) fn is_open(&self) -> bool {
-        self.open.is_some()
-    }
-}
-
 /// What a block is for contour lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ContourLine {

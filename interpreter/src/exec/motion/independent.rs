@@ -6,44 +6,16 @@
 //!
 //! Source: TF5200 programming manual, independent axes; 21068.
 
+use super::state::Function;
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Target;
-use crate::exec::motion::technology::Function;
 use crate::exec::step::{Event, IndependentMotion, Sync};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind;
 use kontur_motion::independent::IndependentSpeed;
 use kontur_motion::path::Path;
-
-/// Independent axes of a program.
-#[derive(Clone, Debug)]
-pub(in crate::exec) struct Independent {
-    /// Sum of the ways that each axis has gone alone.
-    pub(in crate::exec) way: AxisVec,
-    /// Axes that may still be on their way: INDP_ASYN that nothing has joined.
-    open: Vec<usize>,
-    /// INDP_SYN of the block in work.
-    synchronous: Vec<usize>,
-}
-
-impl Independent {
-    pub(in crate::exec) fn new(axes: usize) -> Self {
-        Self { way: AxisVec::zeros(axes), open: Vec::new(), synchronous: Vec::new() }
-    }
-
-    /// No axis has ever moved alone.
-    pub(in crate::exec) fn is_unused(&self) -> bool {
-        self.open.is_empty() && self.way.iter().all(|way| way.to_bits() == 0)
-    }
-
-    /// The path is at rest and every axis has arrived.
-    pub(in crate::exec) fn all_arrived(&mut self) {
-        self.open.clear();
-    }
-}
 
 /// What stands in the bracket.
 #[derive(Debug, Default)]
@@ -164,7 +136,7 @@ impl Decoder {
             return Err(Fault::unsupported(what, word.span));
         }
         let (name, number) = word.split_number().unwrap_or((&word.text, f64::NAN));
-        let code = crate::exec::values::expr::whole(number, 0, 65535);
+        let code = crate::exec::values::number::whole(number, 0, 65535);
         match (name.to_ascii_uppercase().as_str(), code) {
             ("G", Some(90)) => words.relative = Some(false),
             ("G", Some(91)) => words.relative = Some(true),
@@ -202,7 +174,7 @@ impl Decoder {
             return Ok(());
         }
         if key.is("SLOPE_PROFIL") {
-            let number = crate::exec::values::expr::whole(value, 0, 3);
+            let number = crate::exec::values::number::whole(value, 0, 3);
             let kind = number.and_then(crate::exec::commands::slope_of_number);
             words.slope = Some(kind.ok_or_else(|| wrong("slope types are 0 to 3", span))?);
             return Ok(());

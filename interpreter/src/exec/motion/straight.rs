@@ -4,31 +4,17 @@
 //! a row have in common is worked out once and holds until another kind of block comes.
 
 use super::InPlane;
+use super::state::Straight;
 use crate::exec::block::modal::{Compensation, FeedType, PathMode};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::Target;
 use crate::syntax::ast::Span;
 use crate::syntax::{Plain, PlainValue};
-use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, Tolerance};
-use kontur_motion::contouring::ContourSettings;
+use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::{LinePath, Path};
-use kontur_motion::spline::SplineSettings;
 use smallvec::SmallVec;
 use std::sync::Arc;
-
-/// What the motions of a row share.
-#[derive(Debug)]
-pub(in crate::exec) struct Straight {
-    feed: Feed,
-    feed_ratio: f64,
-    slope: Slope,
-    dynamics: Arc<ChannelDynamics>,
-    tolerance: Tolerance,
-    contour: Option<ContourSettings>,
-    spline: Option<SplineSettings>,
-    plane: [usize; 2],
-}
 
 /// The words of a block.
 #[derive(Default)]

@@ -3,42 +3,9 @@
 //! The vendor's production time calculation takes them from the channel list (TF5200 M and H functions, production time
 //! calculation; P-CHAN-00026, 00040, 00042, 00044, 00046, 00048, 00080).
 
+use super::state::Function;
 use crate::exec::decoder::Decoder;
 use crate::exec::step::{Event, Sync};
-use std::collections::BTreeSet;
-
-/// A function that the machine carries out beside the motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::exec) enum Function {
-    M(u32),
-    H(u32),
-    Tool,
-    /// M03, M04, M05, M19 of a spindle of the machine.
-    Spindle {
-        spindle: usize,
-        m: u32,
-    },
-    /// S word of a spindle of the machine.
-    Speed {
-        spindle: usize,
-    },
-}
-
-/// What the functions of the block in work take.
-#[derive(Debug, Default)]
-pub(in crate::exec) struct Technology {
-    /// Declared durations are waited for.
-    counted: bool,
-    /// Time in s that is still to be waited.
-    pending_s: f64,
-    named: BTreeSet<Function>,
-}
-
-impl Technology {
-    pub(in crate::exec) fn new(counted: bool) -> Self {
-        Self { counted, ..Self::default() }
-    }
-}
 
 impl Decoder {
     /// A function goes to the machine: its duration is waited for ([`Self::technology_wait`]) or named once.

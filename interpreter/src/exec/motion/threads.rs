@@ -23,7 +23,6 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
 use crate::exec::step::{Event, SpindleState, Sync};
-use crate::machine::Channel;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
@@ -39,55 +38,6 @@ const SPEED_MAX: f64 = 1e6;
 
 /// Cosine of the largest bend of a thread of several blocks.
 const STRAIGHT: f64 = 1.0 - 1e-9;
-
-/// What threads keep.
-#[derive(Clone, Debug, Default)]
-pub(in crate::exec) struct Threads {
-    /// Pitches in mm by main axis (I, J, K); that of G331 has a sign.
-    pitch_mm: [Option<f64>; 3],
-    /// Speed of the last tapping in rev/min, with its sign.
-    tapping_rpm: Option<f64>,
-    /// The path follows the turning spindle.
-    pub(in crate::exec) cutting: bool,
-    /// Direction of the block of G33 before.
-    direction: AxisVec,
-    /// Speed of the spindle in the block of G33 before in rev/min.
-    rpm: f64,
-    /// What `#TURN` has switched.
-    pub(in crate::exec) turning: TurningModes,
-}
-
-/// How blocks of G33 go together and what the override does to them.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::exec) struct TurningModes {
-    /// Blocks behind each other are one thread (P-CHAN-00837).
-    pub(in crate::exec) chain: bool,
-    /// The override does not act (P-CHAN-00836).
-    pub(in crate::exec) ignore_override: bool,
-}
-
-impl TurningModes {
-    /// G33 keeps its pitch under an override.
-    const fn full_override(self) -> bool {
-        self.ignore_override || self.chain
-    }
-}
-
-impl Threads {
-    /// As the channel list has it.
-    pub(in crate::exec) fn new(channel: &Channel) -> Self {
-        let turning = TurningModes {
-            chain: channel.thread_chain,
-            ignore_override: channel.thread_ignores_override,
-        };
-        Self { turning, ..Self::default() }
-    }
-
-    /// An S word: with a sign under tapping, else it ends that of tapping.
-    pub(in crate::exec) fn speed(&mut self, tapping_rpm: Option<f64>) {
-        self.tapping_rpm = tapping_rpm;
-    }
-}
 
 /// Direction of a straight path.
 fn direction_of(path: &Path) -> AxisVec {

@@ -3,8 +3,8 @@
 //! Source: TF5200 programming manual, subroutine techniques. Assumption: modal state that a cycle changes is restored
 //! at its end, plain subroutines share everything with their caller.
 
-use super::executor::{Executor, Level};
-use super::info::ProgramInfo;
+use super::executor::Executor;
+use super::state::{Level, ModalCycle, Passed};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::exec::block::words::CycleCall;
 use crate::exec::fault::Fault;
@@ -12,44 +12,13 @@ use crate::exec::options::Value;
 use crate::exec::step::EndReason;
 use crate::exec::suggest;
 use crate::syntax::ast::{Call, CallKind, Group, Ident, ItemKind, ItemValue, Span};
-use std::collections::BTreeMap;
 use std::sync::Arc;
-
-/// What calls own: subroutines that words call, and what is called behind every block.
-#[derive(Debug, Default)]
-pub(in crate::exec) struct Calls {
-    pub(in crate::exec) info: ProgramInfo,
-    pub(in crate::exec) macros: BTreeMap<Box<str>, Box<str>>,
-    /// The table of macros has changed: parsed blocks are out of date.
-    pub(in crate::exec) macros_changed: bool,
-    /// Subroutines of G80 to G89 and G800 to G839.
-    pub(in crate::exec) cycle_files: BTreeMap<u32, String>,
-    /// Subroutine of M06.
-    pub(in crate::exec) tool_change_file: Option<String>,
-    /// Cycle that is called behind every motion or block.
-    pub(in crate::exec) modal_cycle: Option<ModalCycle>,
-    /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
-    pub(in crate::exec) retain_cycle_changes: bool,
-}
 
 /// Program levels. Assumption: the vendor prints no number.
 pub(super) const LEVELS_MAX: usize = 32;
 
 /// Local subroutines that a hint names.
 const NAMED_MAX: usize = 12;
-
-/// Values of a cycle by the name behind `@`.
-type Passed = BTreeMap<Box<str>, Value>;
-
-/// A cycle that follows every motion or block.
-#[derive(Clone, Debug)]
-pub(in crate::exec) struct ModalCycle {
-    name: Ident,
-    local: bool,
-    passed: Passed,
-    /// Behind every block, not only behind motions.
-    every_block: bool,
-}
 
 /// What a call names.
 pub(super) struct Target {

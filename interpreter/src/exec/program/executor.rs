@@ -4,12 +4,9 @@ mod report;
 mod run;
 
 use super::files::Files;
-use super::flow::Frame;
-use super::index::Index;
-use super::sequence::Sequences;
-use super::unreached::Reached;
+use super::reached::Reached;
+use super::state::{Level, Sequences};
 use crate::diag::{Condition, Diagnostic, Id, Location, Severity};
-use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
 use crate::exec::options::{GuardCommands, Options, SkipLevels, Stop};
 use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
@@ -22,26 +19,6 @@ use kontur_motion::axis::AxisVec;
 use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
-
-/// One program level.
-#[derive(Debug)]
-pub(in crate::exec) struct Level {
-    pub(in crate::exec) file: usize,
-    pub(in crate::exec) section: usize,
-    pub(in crate::exec) index: Arc<Index>,
-    /// Next block.
-    pub(in crate::exec) at: Position,
-    pub(in crate::exec) end: u64,
-    pub(in crate::exec) frames: Vec<Frame>,
-    /// Modal state to return to: the level is a cycle.
-    pub(in crate::exec) cycle: Option<Box<Modal>>,
-    /// Between `#VAR` and `#ENDVAR`.
-    pub(in crate::exec) declarations: bool,
-    /// A control block without its end took the rest of the text.
-    pub(in crate::exec) cut: bool,
-    /// First and last block that jumps back lead through again, by their offsets.
-    pub(in crate::exec) again: Option<(u64, u64)>,
-}
 
 /// Where the execution stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -224,6 +201,13 @@ impl Executor {
                     self.blocks_at_rest = 0;
                 }
                 return step;
+            }
+            if self.decoder.motion.measuring.is_under_way() {
+                if let Some(label) = self.decoder.end_of_measuring() {
+                    self.goto(&label);
+                }
+                self.settle(false);
+                continue;
             }
             match self.state {
                 State::Ended => {

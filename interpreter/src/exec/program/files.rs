@@ -1,17 +1,13 @@
 //! Open program files: text, structure, and the parsed blocks of what runs more than once.
 
+use super::actual::needs_actual;
 use super::index::{Index, build};
 use crate::diag::{Diagnostic, Location};
 use crate::exec::options::SkipLevels;
-use crate::exec::values::system;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position, RawBlock, Sources};
-use crate::syntax::ast::{
-    Block, Body, ControlKind, Expr, ExprKind, GValue, Group, ItemKind, ItemValue, Place, PlaceKind,
-    Span, WordKind,
-};
+use crate::syntax::ast::{Block, Body, Span};
 use crate::syntax::macros;
 use crate::syntax::{Parser, Plain};
-use smallvec::{SmallVec, smallvec};
 use std::collections::BTreeMap;
 use std::io;
 use std::ops::Deref;
@@ -406,100 +402,4 @@ fn parse(
             Block::default()
         }
     }
-}
-
-/// True if the block reads actual positions of the machine.
-fn needs_actual(block: &Block) -> bool {
-    match &block.body {
-        Body::Empty | Body::ProgramHead(_) => false,
-        Body::Declarations(list) => {
-            list.iter().any(|d| d.value.as_ref().is_some_and(item_needs_actual))
-        }
-        Body::Words(words) => words.iter().any(|word| match &word.kind {
-            WordKind::G { value: Some(value), .. } => match &**value {
-                GValue::Scalar(e) => expr_needs_actual(e),
-                GValue::List(list) => list.iter().flatten().any(expr_needs_actual),
-            },
-            WordKind::Address { value, .. } => expr_needs_actual(value),
-            WordKind::Assign(assign) => {
-                expr_needs_actual(&assign.value) || place_needs_actual(&assign.target)
-            }
-            WordKind::M(_, Some(value)) | WordKind::H(_, Some(value)) => expr_needs_actual(value),
-            WordKind::Bracket(bracket) => group_needs_actual(&bracket.group),
-            WordKind::Hash(hash) => hash.value.as_ref().is_some_and(expr_needs_actual),
-            WordKind::Call(call) => match &call.kind {
-                crate::syntax::ast::CallKind::Cycle(group)
-                | crate::syntax::ast::CallKind::Sequence(group) => group_needs_actual(group),
-                crate::syntax::ast::CallKind::Program(_)
-                | crate::syntax::ast::CallKind::Variable(_) => false,
-            },
-            _ => false,
-        }),
-        Body::Command(command) => {
-            command.is("GET ACTPOS")
-                || command.is("CHANNEL INIT") && command.groups.iter().any(|g| g.has("ACTPOS"))
-                || command.arguments.iter().any(expr_needs_actual)
-                || command.groups.iter().any(group_needs_actual)
-        }
-        Body::Control(control) => match &control.kind {
-            ControlKind::If { condition: e, .. }
-            | ControlKind::ElseIf(e)
-            | ControlKind::Switch { value: e, .. }
-            | ControlKind::Case(e)
-            | ControlKind::While(e)
-            | ControlKind::EndDo(Some(e))
-            | ControlKind::Until(e) => expr_needs_actual(e),
-            ControlKind::For { start, end, step, .. } => {
-                expr_needs_actual(start)
-                    || expr_needs_actual(end)
-                    || step.as_ref().is_some_and(expr_needs_actual)
-            }
-            _ => false,
-        },
-    }
-}
-
-fn group_needs_actual(group: &Group) -> bool {
-    group.items.iter().any(|item| match &item.kind {
-        ItemKind::Target { place, value } => place_needs_actual(place) || item_needs_actual(value),
-        ItemKind::Pair { value, .. } | ItemKind::Value(value) => item_needs_actual(value),
-        ItemKind::Flag(_) | ItemKind::Missing => false,
-    })
-}
-
-fn item_needs_actual(value: &ItemValue) -> bool {
-    match value {
-        ItemValue::Expr(e) => expr_needs_actual(e),
-        ItemValue::List(group) => group_needs_actual(group),
-        ItemValue::Name(_) => false,
-    }
-}
-
-fn place_needs_actual(place: &Place) -> bool {
-    match &place.kind {
-        PlaceKind::Variable(segments) => {
-            system::needs_actual(segments)
-                || segments.iter().flat_map(|s| &s.subscripts).any(expr_needs_actual)
-        }
-        PlaceKind::Parameter { subscripts, .. } => subscripts.iter().any(expr_needs_actual),
-        PlaceKind::Cycle(_) => false,
-    }
-}
-
-/// Without recursion along chains of operators.
-fn expr_needs_actual(expr: &Expr) -> bool {
-    if matches!(expr.kind, ExprKind::Number(_)) {
-        return false;
-    }
-    let mut open: SmallVec<[&Expr; 8]> = smallvec![expr];
-    while let Some(expr) = open.pop() {
-        match &expr.kind {
-            ExprKind::Place(place) if place_needs_actual(place) => return true,
-            ExprKind::Negate(inner) => open.push(inner),
-            ExprKind::Binary(binary) => open.extend([&binary.left, &binary.right]),
-            ExprKind::Call(call) => open.extend(&call.arguments),
-            _ => {}
-        }
-    }
-    false
 }

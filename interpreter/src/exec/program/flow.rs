@@ -1,39 +1,23 @@
-//! Control statements and jumps.
+//! Control statements and jumps; loops are in `loops`.
 //!
 //! Source: TF5200 programming manual, control blocks. Assumptions: `$CASE` falls through; bounds of `$FOR` are taken
 //! once; a jump may leave control blocks, which closes them. It may enter branches of `$IF` (chapter `$GOTO`), which are
 //! then as if their condition had been true (assumption), but neither loops (21480) nor `$SWITCH`.
 
+mod loops;
+
 use super::executor::Executor;
 use super::index::{EntryId, Keyword};
-use crate::diag::{Condition, Diagnostic, ValueKind};
+use super::state::{Counter, Frame};
+use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::values::expr::is_true;
 use crate::source::Position;
-use crate::syntax::ast::{
-    Body, Control, ControlKind, Expr, Label, LabelKind, Place, PlaceKind, Span,
-};
+use crate::syntax::ast::{Body, Control, ControlKind, Expr, Label, LabelKind, Place, Span};
 use std::sync::Arc;
 
 /// Values closer than this are equal in `$SWITCH`. Source: TF5200 programming manual.
-const SWITCH_TOLERANCE: f64 = crate::exec::values::expr::NEARLY;
-
-/// An open control block.
-#[derive(Clone, Debug)]
-pub(in crate::exec) struct Frame {
-    pub(in crate::exec) open: EntryId,
-    pub(in crate::exec) keyword: Keyword,
-    /// Counter, last value and step of `$FOR`.
-    counter: Option<Arc<Counter>>,
-}
-
-#[derive(Debug)]
-struct Counter {
-    place: Place,
-    end: f64,
-    step: f64,
-}
+const SWITCH_TOLERANCE: f64 = crate::exec::values::number::NEARLY;
 
 impl Executor {
     /// Carries out a control statement that stands in the index as `id`.
@@ -280,179 +264,6 @@ impl Executor {
         Ok(())
     }
 
-    fn for_loop(
-        &mut self,
-        counter: &Place,
-        start: &Expr,
-        end: &Expr,
-        step: Option<&Expr>,
-        id: EntryId,
-        span: Span,
-    ) -> Outcome<()> {
-        let closed = self.levels.last().is_some_and(|l| l.index.entry(id).end.is_some());
-        if !closed {
-            return Err(self.unclosed(id, span));
-        }
-        let bounds = (|| {
-            let step = match step {
-                Some(step) => self.decoder.number(step)?,
-                None => 1.0,
-            };
-            Ok((self.decoder.number(start)?, self.decoder.number(end)?, step))
-        })();
-        let (first, end, by) = match bounds {
-            Ok(bounds) => bounds,
-            Err(fault) => {
-                self.leave_structure(id);
-                return Err(fault);
-            }
-        };
-        if matches!(&counter.kind, PlaceKind::Variable(name) if name.is_empty()) {
-            // told while the block was read
-            self.leave_structure(id);
-            return Ok(());
-        }
-        let is_counter =
-            matches!(counter.kind, PlaceKind::Parameter { .. } | PlaceKind::Variable(_));
-        if !is_counter {
-            self.leave_structure(id);
-            let text = "the counter of $FOR is a P parameter or a variable";
-            return Err(Fault::new(Condition::ForCounter, text, counter.span));
-        }
-        if by == 0.0 {
-            let at = step.map_or(span, |s| s.span);
-            let text = "$FOR with step 0 does not end";
-            self.decoder.note(Fault::new(Condition::Odd, text, at).warning());
-        }
-        if let Err(fault) = self.decoder.write(counter, Value::Number(first), start.span) {
-            self.leave_structure(id);
-            return Err(fault.with(|d| Diagnostic { id: Condition::ForCounter.id(), ..d }));
-        }
-        if passed(first, end, by) {
-            self.leave_structure(id);
-            return Ok(());
-        }
-        self.push_frame(id, Some(Counter { place: counter.clone(), end, step: by }));
-        Ok(())
-    }
-
-    fn end_for(&mut self, id: EntryId) -> Outcome<()> {
-        let Some(level) = self.levels.last() else { return Ok(()) };
-        let open = level.index.entry(id).open;
-        let frame = level.frames.iter().rfind(|f| Some(f.open) == open);
-        let Some(counter) = frame.and_then(|f| f.counter.clone()) else { return Ok(()) };
-        let value = match self.decoder.read(&counter.place) {
-            Ok(Value::Number(x)) => x + counter.step,
-            Ok(Value::Text(_)) => f64::NAN,
-            Err(fault) => {
-                self.pop_frame_of(id);
-                return Err(fault);
-            }
-        };
-        self.decoder.write(&counter.place, Value::Number(value), counter.place.span)?;
-        if passed(value, counter.end, counter.step) || value.is_nan() {
-            self.pop_frame_of(id);
-        } else {
-            self.repeat(id, false);
-        }
-        Ok(())
-    }
-
-    /// Back to the opening statement (`test`: which tests again) or behind it.
-    fn repeat(&mut self, id: EntryId, test: bool) {
-        let Some(level) = self.levels.last() else { return };
-        let open = level.index.entry(id).open;
-        // a stray closing statement repeats nothing
-        if !level.frames.iter().any(|f| Some(f.open) == open) {
-            return;
-        }
-        let Some(position) = self.position_of(open) else { return };
-        if test {
-            self.pop_frame_of(id);
-            self.jump_to(position);
-        } else {
-            if let (Some(level), Some(open)) = (self.levels.last_mut(), open)
-                && let Some(depth) = level.frames.iter().rposition(|f| f.open == open)
-            {
-                level.frames.truncate(depth + 1);
-            }
-            self.jump_behind(position);
-        }
-    }
-
-    fn while_loop(&mut self, condition: &Expr, id: EntryId, span: Span) -> Outcome<()> {
-        let end = self.levels.last().and_then(|l| l.index.entry(id).end);
-        if end.is_none() {
-            return Err(self.unclosed(id, span));
-        }
-        if self.test(condition) {
-            self.push_frame(id, None);
-        } else {
-            self.leave_structure(id);
-        }
-        Ok(())
-    }
-
-    fn open_loop(&mut self, id: EntryId, span: Span) -> Outcome<()> {
-        let end = self.levels.last().and_then(|l| l.index.entry(id).end);
-        if end.is_none() {
-            return Err(self.unclosed(id, span));
-        }
-        self.push_frame(id, None);
-        Ok(())
-    }
-
-    /// Repeats while the condition is true, without one for ever.
-    fn end_do(&mut self, condition: Option<&Expr>, id: EntryId) {
-        if condition.is_none_or(|c| self.test(c)) {
-            self.repeat(id, false);
-        } else {
-            self.pop_frame_of(id);
-        }
-    }
-
-    /// Repeats until the condition is true.
-    fn until(&mut self, condition: &Expr, id: EntryId) -> Outcome<()> {
-        match self.decoder.number(condition) {
-            Ok(x) if !is_true(x) => self.repeat(id, false),
-            Ok(_) => self.pop_frame_of(id),
-            Err(fault) => {
-                self.pop_frame_of(id);
-                return Err(fault);
-            }
-        }
-        Ok(())
-    }
-
-    fn innermost(&self, wanted: impl Fn(Keyword) -> bool) -> Option<EntryId> {
-        let level = self.levels.last()?;
-        level.frames.iter().rfind(|f| wanted(f.keyword)).map(|f| f.open)
-    }
-
-    fn break_out(&mut self, span: Span) -> Outcome<()> {
-        if let Some(open) = self.innermost(|k| k.is_loop() || k == Keyword::Switch) {
-            self.leave_structure(open);
-            Ok(())
-        } else {
-            let text = "$BREAK outside loops and $SWITCH";
-            Err(Fault::new(Condition::BreakOutside, text, span))
-        }
-    }
-
-    fn go_on(&mut self, span: Span) -> Outcome<()> {
-        let Some(open) = self.innermost(Keyword::is_loop) else {
-            return Err(Fault::new(Condition::ContinueOutside, "$CONTINUE outside loops", span));
-        };
-        let end = self.levels.last().and_then(|l| l.index.entry(open).end);
-        if let (Some(level), Some(end)) = (self.levels.last_mut(), end) {
-            if let Some(depth) = level.frames.iter().rposition(|f| f.open == open) {
-                level.frames.truncate(depth + 1);
-            }
-            level.at = level.index.entry(end).position;
-        }
-        Ok(())
-    }
-
     /// `$GOTO`.
     pub(in crate::exec) fn goto(&mut self, label: &Label) {
         let Some(level) = self.levels.last_mut() else { return };
@@ -507,11 +318,6 @@ impl Executor {
             self.decoder.note(Fault::new(condition, text, label.span));
         }
     }
-}
-
-/// True if a counter has passed its last value, which is included.
-fn passed(value: f64, end: f64, step: f64) -> bool {
-    if step > 0.0 { value > end } else { step < 0.0 && value < end }
 }
 
 fn matches(value: &Value, case: &Value) -> bool {

@@ -10,19 +10,8 @@ use super::executor::Executor;
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::values::expr::whole;
-use crate::source::Position;
+use crate::exec::values::number::whole;
 use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, Span};
-use std::collections::BTreeMap;
-
-/// Begin and end of the first block of each number of a program.
-type Blocks = BTreeMap<u64, (Position, Position)>;
-
-/// Block numbers of the programs that sequences were called from, by file and section.
-#[derive(Debug, Default)]
-pub(in crate::exec) struct Sequences {
-    known: BTreeMap<(usize, usize), Blocks>,
-}
 
 /// What stands in the bracket.
 #[derive(Default)]

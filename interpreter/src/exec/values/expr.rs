@@ -1,9 +1,10 @@
 //! Values of expressions.
 //!
-//! Source: TF5200 programming manual, arithmetic expressions. Assumption: a condition is true from 0.5 on (absolute);
-//! results that are no finite numbers are K-0009.
+//! Source: TF5200 programming manual, arithmetic expressions. Assumption: results that are not finite numbers
+//! are K-0009.
 
 use super::functions;
+use super::number::{as_number, bits, finite, is_true, whole};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
@@ -14,11 +15,6 @@ impl Value {
     pub(in crate::exec) fn truth(value: bool) -> Self {
         Self::Number(if value { 1.0 } else { 0.0 })
     }
-}
-
-/// Truth of a number.
-pub(in crate::exec) fn is_true(x: f64) -> bool {
-    x.abs() >= 0.5
 }
 
 impl Decoder {
@@ -95,32 +91,6 @@ impl Decoder {
     }
 }
 
-/// The number of a value.
-pub(in crate::exec) fn as_number(value: &Value, span: Span) -> Outcome<f64> {
-    match value {
-        Value::Number(x) => Ok(*x),
-        Value::Text(_) => {
-            Err(Fault::new(Condition::Syntax, "a number is expected, not a text", span))
-        }
-    }
-}
-
-/// How far a number may lie from a whole one and still be it, so that calculated numbers serve. It is what `$SWITCH` takes
-/// for equal.
-pub(in crate::exec) const NEARLY: f64 = 0.001;
-
-/// True for a whole number.
-pub(in crate::exec) fn is_whole(x: f64) -> bool {
-    (x - x.round()).abs() < NEARLY
-}
-
-/// The whole number that `x` is, if it is within the range; no number with a fraction is rounded silently.
-pub(in crate::exec) fn whole(x: f64, low: u32, high: u32) -> Option<u32> {
-    let rounded = x.round();
-    let within = rounded >= f64::from(low) && rounded <= f64::from(high);
-    (within && is_whole(x)).then_some(rounded as u32)
-}
-
 fn apply(
     op: BinaryOp,
     left: &Value,
@@ -164,26 +134,6 @@ fn apply(
         BinaryOp::Power => libm::pow(a, b),
     };
     finite(result, span).map(Value::Number)
-}
-
-/// Passes finite numbers.
-pub(in crate::exec) fn finite(x: f64, span: Span) -> Outcome<f64> {
-    if x.is_finite() {
-        return Ok(x);
-    }
-    Err(Fault::new(Condition::Range, "the result is not a number within the range of REAL64", span))
-}
-
-/// Bit pattern of a number: fractions are cut, negative numbers count as signed 32 bits.
-pub(in crate::exec) fn bits(x: f64, span: Span) -> Outcome<u32> {
-    let cut = x.trunc();
-    if cut >= 0.0 && cut <= f64::from(u32::MAX) {
-        Ok(cut as u32)
-    } else if cut < 0.0 && cut >= f64::from(i32::MIN) {
-        Ok(cut as i32 as u32)
-    } else {
-        Err(Fault::new(Condition::Range, format!("{x} does not fit into 32 bits"), span))
-    }
 }
 
 fn texts(op: BinaryOp, a: &str, b: &str, span: Span) -> Outcome<Value> {

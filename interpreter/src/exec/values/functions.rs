@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, arithmetic functions. Assumption: `INT` cuts towards 0, `ROUND` rounds half away
 //! from 0, positions in texts count from 1, `FIND` of something absent is 0.
 
-use super::expr::{as_number, bits, finite, is_true, whole};
+use super::number::{as_number, bits, finite, is_true, whole};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

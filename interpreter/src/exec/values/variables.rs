@@ -8,7 +8,7 @@ mod declare;
 mod scopes;
 mod storage;
 
-use super::expr::{as_number, whole};
+use super::number::{as_number, whole};
 use super::system;
 use crate::diag::{Condition, Diagnostic, ValueKind};
 use crate::exec::decoder::Decoder;

@@ -5,6 +5,9 @@ use crate::diag::{Condition, Diagnostic, Severity};
 use crate::machine::axis::AxisKind;
 use crate::machine::table::param::{Number, Param, Place};
 use crate::machine::table::{Row, axis_control, axis_drive as of, axis_general, kontur};
+use crate::machine::transmission::{
+    feed_constant, feed_constant_given, gear, has_rotary_motor, is_one,
+};
 use crate::machine::{Axis, issues};
 use kontur_filters::control::{
     AxisControlConfig, Encoder, FeedforwardConfig, FeedforwardMode, PositionConfig, PositionLoop,
@@ -289,11 +292,6 @@ fn increment_mm(axis: &Axis) -> f64 {
     scaling::increment_mm(resolution, axis.get(of::DROPPED_BITS))
 }
 
-/// P-AXIS-00362 or P-AXIS-00363 is not 1: the feed constant rules the resolution.
-fn feed_constant_given(axis: &Axis) -> bool {
-    !feed_constant(axis).into_iter().all(one)
-}
-
 fn lag(axis: &Axis, drive: Drive) -> LagMonitorConfig {
     // P-AXIS-00191: the default holds for digital drives
     let digital = matches!(drive, Drive::Bus | Drive::Profidrive);
@@ -354,26 +352,6 @@ fn resolution(axis: &Axis) -> SpeedFormat {
     }
 }
 
-fn one(x: f64) -> bool {
-    (x - 1.0).abs() <= 0.0
-}
-
-/// Feed constant: path in 0.1 um and the revolutions of the gear output for it.
-fn feed_constant(axis: &Axis) -> [f64; 2] {
-    [of::FEED_CONSTANT_PATH, of::FEED_CONSTANT_REVS].map(|param| axis.listed(param))
-}
-
-/// Gear ratio: revolutions of input and output.
-fn gear(axis: &Axis) -> [f64; 2] {
-    [axis_control::GEAR_IN, axis_control::GEAR_OUT].map(|param| axis.listed(param))
-}
-
-/// Motor-side scaling (a feed constant or gear ratio other than 1) means a rotary motor, otherwise the motor of a linear
-/// axis is linear.
-pub(in crate::machine) fn has_rotary_motor(axis: &Axis) -> bool {
-    axis.kind() != AxisKind::Linear || !feed_constant(axis).into_iter().chain(gear(axis)).all(one)
-}
-
 /// Assumption: a rotary axis without feed constant turns by 360 degrees per revolution of the gear output.
 fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     let (feed, gear) = (feed_constant(axis), gear(axis));
@@ -389,7 +367,7 @@ fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFormat {
     };
     for param in [axis_control::RESOLUTION_INCREMENTS, axis_control::RESOLUTION_PATH] {
         let resolution = axis.listed(param);
-        if feed_given && !one(resolution) {
+        if feed_given && !is_one(resolution) {
             let what = format!("encoder resolution {resolution} beside a feed constant");
             diagnostics.push(
                 issues::about(axis, Condition::ResolutionWithoutEffect, param, &what, "the feed constant rules, it has no effect")

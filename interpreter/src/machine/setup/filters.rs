@@ -6,7 +6,6 @@ use crate::machine::axis::AxisKind;
 use crate::machine::issues;
 use crate::machine::table::axis_filters as of;
 use crate::machine::table::axis_guard;
-use crate::machine::table::param::{Number, Param, Switch, Whole};
 use kontur_filters::{
     cascade::{Cascade, FilterEntry, ListedPrototype, ListedType},
     fir::{FirConfig, FirKind},
@@ -53,61 +52,9 @@ pub struct KernelPreset {
     pub hsc: Option<HscConfig>,
 }
 
-/// The parameters of one filter.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FilterKeys {
-    pub(in crate::machine) enable: Param<Switch>,
-    pub(in crate::machine) kind: Param<Whole>,
-    /// Of a FIR filter, which has none, its type.
-    pub(in crate::machine) prototype: Param<Whole>,
-    pub(in crate::machine) order: Param<Whole>,
-    pub(in crate::machine) time: Param<Whole>,
-    pub(in crate::machine) frequency: Param<Number>,
-    pub(in crate::machine) quality: Param<Number>,
-    pub(in crate::machine) share: Param<Number>,
-}
-
-/// A standard filter, or the HSC filter.
-const fn standard(index: u32) -> FilterKeys {
-    FilterKeys {
-        enable: of::ENABLE.at(index),
-        kind: of::TYPE.at(index),
-        prototype: of::PROTOTYPE.at(index),
-        order: of::ORDER.at(index),
-        time: of::TIME.at(index),
-        frequency: of::FREQUENCY.at(index),
-        quality: of::QUALITY.at(index),
-        share: of::SHARE.at(index),
-    }
-}
-
-/// The FIR filter.
-const FIR: FilterKeys = FilterKeys {
-    enable: of::FIR_ENABLE,
-    kind: of::FIR_TYPE,
-    prototype: of::FIR_TYPE,
-    order: of::FIR_ORDER,
-    time: of::FIR_TIME,
-    frequency: of::FIR_FREQUENCY,
-    quality: of::FIR_QUALITY,
-    share: of::FIR_SHARE,
-};
-
-/// The filter of the additional interface.
-const ADDITIONAL: FilterKeys = FilterKeys {
-    enable: of::ADDITIONAL_ENABLE,
-    kind: of::ADDITIONAL_TYPE,
-    prototype: of::ADDITIONAL_PROTOTYPE,
-    order: of::ADDITIONAL_ORDER,
-    time: of::ADDITIONAL_TIME,
-    frequency: of::ADDITIONAL_FREQUENCY,
-    quality: of::ADDITIONAL_QUALITY,
-    share: of::ADDITIONAL_SHARE,
-};
-
 /// The standard filters of an axis, designed, and its HSC filter.
 pub(super) fn cascade(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagnostic>) -> Cascade {
-    let keys = [standard(0), standard(1), standard(2)];
+    let keys = [of::standard(0), of::standard(1), of::standard(2)];
     // `filter[i]` without a type is no low-pass: with the prototype HSC it means the mean
     let entries: Vec<FilterEntry> =
         keys.iter().map(|k| entry(axis, k, axis.set_by(k.kind).is_some(), diagnostics)).collect();
@@ -127,15 +74,17 @@ pub(super) fn additional(
     if !axis.has_additional_interface() {
         return None;
     }
-    let (filter, issues) = entry(axis, &ADDITIONAL, true, diagnostics).additional(cycle);
-    diagnostics.extend(issues.iter().map(|issue| issues::filter(axis, Some(&ADDITIONAL), issue)));
+    let (filter, issues) = entry(axis, &of::ADDITIONAL_FILTER, true, diagnostics).additional(cycle);
+    diagnostics.extend(
+        issues.iter().map(|issue| issues::filter(axis, Some(&of::ADDITIONAL_FILTER), issue)),
+    );
     Some(AdditionalInterface { filter })
 }
 
 /// One filter of the list, with a type if it is `typed`; what no entry of the list can mean leaves it off.
 fn entry(
     axis: &Axis,
-    keys: &FilterKeys,
+    keys: &of::FilterKeys,
     typed: bool,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> FilterEntry {
@@ -194,7 +143,7 @@ pub(super) fn preset(axis: &Axis, cycle: CycleTime) -> KernelPreset {
 }
 
 fn fir(axis: &Axis) -> Option<FirPreset> {
-    let kind = match axis.get(FIR.kind) {
+    let kind = match axis.get(of::FIR_FILTER.kind) {
         1 => FirKind::MovingAverage,
         2 => FirKind::Gauss,
         3 => FirKind::WindowedSinc,
@@ -203,27 +152,33 @@ fn fir(axis: &Axis) -> Option<FirPreset> {
     };
     let config = FirConfig {
         kind,
-        order: axis.get(FIR.order),
-        order_time_us: axis.get(FIR.time),
-        share_ratio: axis.get(FIR.share),
-        fcut_hz: axis.get(FIR.frequency),
-        quality: axis.get(FIR.quality),
+        order: axis.get(of::FIR_FILTER.order),
+        order_time_us: axis.get(of::FIR_FILTER.time),
+        share_ratio: axis.get(of::FIR_FILTER.share),
+        fcut_hz: axis.get(of::FIR_FILTER.frequency),
+        quality: axis.get(of::FIR_FILTER.quality),
     };
-    Some(FirPreset { enable: axis.get(FIR.enable), config })
+    Some(FirPreset { enable: axis.get(of::FIR_FILTER.enable), config })
 }
 
 /// What is wrong with the kernels that are on from program start, and with the HSC filter.
 pub(super) fn check_kernels(axis: &Axis, cycle: CycleTime, diagnostics: &mut Vec<Diagnostic>) {
     let preset = preset(axis, cycle);
-    let number = axis.get(FIR.kind);
+    let number = axis.get(of::FIR_FILTER.kind);
     if number > 4 {
         let what = format!("type {number} of the FIR filter, 0 to 4 exist");
         let effect = "no FIR filter";
-        diagnostics.push(issues::about(axis, Condition::ListRange, FIR.kind, &what, effect));
+        diagnostics.push(issues::about(
+            axis,
+            Condition::ListRange,
+            of::FIR_FILTER.kind,
+            &what,
+            effect,
+        ));
     }
     let fir = preset.fir.filter(|fir| fir.enable).map(|fir| fir.config.design(cycle).1);
     let hsc = preset.hsc.map(|hsc| hsc.design(cycle).1);
-    for (keys, found) in [(FIR, fir), (standard(0), hsc)] {
+    for (keys, found) in [(of::FIR_FILTER, fir), (of::standard(0), hsc)] {
         let found = found.unwrap_or_default();
         diagnostics.extend(found.iter().map(|issue| issues::filter(axis, Some(&keys), issue)));
     }

@@ -1,6 +1,6 @@
 //! Axis lists: standard and HSC filters, FIR filter, filter of the additional interface.
 
-use super::param::parameters;
+use super::param::{Number, Param, Switch, Whole, parameters};
 use super::row::{Bound, Raw, axis};
 
 /// Prototypes (P-AXIS-00153).
@@ -75,3 +75,55 @@ parameters! {
     axis("", "lr_param.add_interface.enable", Raw::Boolean, "switches the additional interface (used in the examples)")
         .source("TF5200 axis filters"), as ADDITIONAL_INTERFACE: Switch;
 }
+
+/// The parameters of one filter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FilterKeys {
+    pub(in crate::machine) enable: Param<Switch>,
+    pub(in crate::machine) kind: Param<Whole>,
+    /// Of a FIR filter, which has none, its type.
+    pub(in crate::machine) prototype: Param<Whole>,
+    pub(in crate::machine) order: Param<Whole>,
+    pub(in crate::machine) time: Param<Whole>,
+    pub(in crate::machine) frequency: Param<Number>,
+    pub(in crate::machine) quality: Param<Number>,
+    pub(in crate::machine) share: Param<Number>,
+}
+
+/// A standard filter, or the HSC filter.
+pub(in crate::machine) const fn standard(index: u32) -> FilterKeys {
+    FilterKeys {
+        enable: ENABLE.at(index),
+        kind: TYPE.at(index),
+        prototype: PROTOTYPE.at(index),
+        order: ORDER.at(index),
+        time: TIME.at(index),
+        frequency: FREQUENCY.at(index),
+        quality: QUALITY.at(index),
+        share: SHARE.at(index),
+    }
+}
+
+/// The FIR filter.
+pub(in crate::machine) const FIR_FILTER: FilterKeys = FilterKeys {
+    enable: FIR_ENABLE,
+    kind: FIR_TYPE,
+    prototype: FIR_TYPE,
+    order: FIR_ORDER,
+    time: FIR_TIME,
+    frequency: FIR_FREQUENCY,
+    quality: FIR_QUALITY,
+    share: FIR_SHARE,
+};
+
+/// The filter of the additional interface.
+pub(in crate::machine) const ADDITIONAL_FILTER: FilterKeys = FilterKeys {
+    enable: ADDITIONAL_ENABLE,
+    kind: ADDITIONAL_TYPE,
+    prototype: ADDITIONAL_PROTOTYPE,
+    order: ADDITIONAL_ORDER,
+    time: ADDITIONAL_TIME,
+    frequency: ADDITIONAL_FREQUENCY,
+    quality: ADDITIONAL_QUALITY,
+    share: ADDITIONAL_SHARE,
+};

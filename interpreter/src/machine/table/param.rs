@@ -1,8 +1,7 @@
 //! Parameters that the code reads, named and typed by their rows: a wrong name or type does not compile.
 
+use super::indices::{Indices, with_indices};
 use super::row::{Default, Raw, Row};
-use crate::machine::key::{Indices, with_indices};
-use crate::machine::parameters::Parameters;
 use std::marker::PhantomData;
 
 /// Rows of one family; `as NAME: KIND` gives a parameter the name and type by which the code reads it.
@@ -38,56 +37,6 @@ pub(crate) enum Switch {}
 /// A text or word; `None` if neither list nor row has one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Text {}
-
-/// How the values of a kind are read.
-pub(crate) trait Kind: Copy {
-    /// What the code gets.
-    type Value;
-
-    /// The value in force.
-    fn read(parameters: &Parameters, at: Place) -> Self::Value;
-}
-
-impl Kind for Number {
-    type Value = f64;
-
-    fn read(parameters: &Parameters, at: Place) -> f64 {
-        // the row has a default, see `Param::new`
-        parameters.converted(at).unwrap_or_default()
-    }
-}
-
-impl Kind for Optional {
-    type Value = Option<f64>;
-
-    fn read(parameters: &Parameters, at: Place) -> Option<f64> {
-        parameters.converted(at)
-    }
-}
-
-impl Kind for Whole {
-    type Value = u32;
-
-    fn read(parameters: &Parameters, at: Place) -> u32 {
-        parameters.listed(at).and_then(whole).unwrap_or_default()
-    }
-}
-
-impl Kind for Switch {
-    type Value = bool;
-
-    fn read(parameters: &Parameters, at: Place) -> bool {
-        parameters.listed(at).is_some_and(|x| x.abs() > 0.0)
-    }
-}
-
-impl Kind for Text {
-    type Value = Option<String>;
-
-    fn read(parameters: &Parameters, at: Place) -> Option<String> {
-        parameters.of(at.row, at.indices)?.text().map(str::to_owned)
-    }
-}
 
 /// A row with the indices of its key.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The signals of a comparison with a recording: columns of the trace, channels of the recording, and both row by row.
 
-use super::Pairing;
 use crate::Error;
+use crate::args::Pairing;
 use crate::diff::table::Table;
 use crate::recorded::{self, Channel};
 

@@ -1,6 +1,6 @@
 // ---- a mass on a spring of wished frequency and damping, as filters/analysis/spring.rs says
-const wished = { hz: null, damping: null };
-const modelOf = ({ r, axis }) => ({ hz: wished.hz === null ? r.models[axis].hz : wished.hz, damping: wished.damping === null ? r.models[axis].damping : wished.damping });
+const wished = new Map();
+const modelOf = ({ r, axis }) => ({ ...r.models[axis], ...wished.get(r.models[axis].name) });
 // deflection over time, its greatest value, and the amplitude when the axis has accelerated for the last time
 function respond({ r, axis }, { hz, damping }) {
   const w = 2 * Math.PI * hz, wd = w * Math.sqrt((1 - damping) * (1 + damping)), T = r.summary.cycle_us / 1e6, lean = damping * w / wd;
@@ -43,28 +43,33 @@ function swing(line) {
 const springPlot = plots.find(p => p.kind === "spring");
 if (springPlot) {
   const bar = make("div", undefined, "bar"), left = make("span", undefined, "note");
-  const field = (name, what, step, from, to) => {
+  const field = (model, name, what, step, from, to) => {
     const label = make("label", name + " "), input = make("input");
-    Object.assign(input, { type: "number", step, min: from, max: to, value: modelOf(springPlot.lines[0])[what] });
+    Object.assign(input, { type: "number", step, min: from, max: to, value: model[what] });
+    input.setAttribute("aria-label", `${model.name} ${name}`);
     input.oninput = () => {
       const v = Number(input.value), fits = input.value !== "" && v >= from && v <= to;
       input.setCustomValidity(fits ? "" : `${from} to ${to}`);
       if (!fits) return;
-      wished[what] = v;
+      wished.set(model.name, { ...wished.get(model.name), [what]: v });
       say();
       draw();
     };
     label.append(input);
-    bar.append(label);
+    return label;
   };
   const say = () => {
     left.textContent = springPlot.lines.map(l => {
-      const { most, left } = responseOf(l), { hz, damping } = modelOf(l);
-      return `${l.name}${wished.hz === null ? ` (${hz} Hz, ${damping})` : ""}: at most ${most.toFixed(5)}, left when it stands ${left.toFixed(5)} ${l.r.models[l.axis].unit}`;
+      const { most, left } = responseOf(l), { hz, damping, unit } = modelOf(l);
+      return `${l.name} (${hz} Hz, ${damping}): at most ${most.toFixed(5)}, left when it stands ${left.toFixed(5)} ${unit}`;
     }).join("; ");
   };
-  field("frequency in Hz", "hz", "any", 0.1, 10000);
-  field("damping", "damping", 0.01, 0, 0.99);
+  // several runs are runs of one machine: an axis has one spring
+  for (const model of new Map(springPlot.lines.map(l => [l.r.models[l.axis].name, l.r.models[l.axis]])).values()) {
+    const axis = make("span", model.name + " ", "axis");
+    axis.append(field(model, "Hz", "hz", "any", 0.1, 10000), " ", field(model, "damping", "damping", 0.01, 0, 0.99));
+    bar.append(axis);
+  }
   springPlot.head.textContent = "Mass on a spring";
   springPlot.card.append(bar, left);
   say();

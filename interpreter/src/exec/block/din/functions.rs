@@ -6,7 +6,7 @@ use crate::exec::block::words::{Code, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::motion::spindles::Turning;
-use crate::exec::motion::technology::Function;
+use crate::exec::motion::state::Function;
 use crate::exec::step::{Event, Sync};
 use crate::syntax::ast::Span;
 
@@ -178,6 +178,8 @@ impl Decoder {
             return After::ToolChange(m.span);
         }
         match words.goto {
+            // of a measuring run, the signal decides
+            Some(_) if self.motion.measuring.is_under_way() => After::Next,
             Some(label) => After::Goto(label),
             None => After::Next,
         }

@@ -71,6 +71,7 @@ impl Decoder {
             Act::MirrorAxes => self.mirror_axes(&g, words),
             Act::Rotate => self.rotate(&g, words),
             Act::SoftwareLimits(positive) => self.software_limits(&g, words, positive),
+            Act::MeasuringOffsets(takes_in) => self.measuring_offsets(takes_in, &g, words),
             _ => Ok(()),
         };
         self.keep(outcome);
@@ -128,7 +129,7 @@ impl Decoder {
 
     fn zero_group(g: &GWord) -> Outcome<u32> {
         let value = g.value.unwrap_or_default();
-        crate::exec::values::expr::whole(value, 0, 999).ok_or_else(|| {
+        crate::exec::values::number::whole(value, 0, 999).ok_or_else(|| {
             let text = format!("zero-offset group {value} does not exist");
             Fault::new(Condition::Range, text, g.span)
         })
@@ -147,7 +148,7 @@ impl Decoder {
         let group = Self::zero_group(g)?;
         // 0 takes the offset of the axis in, 1 leaves it out
         for (axis, value, _) in &words.axes {
-            let masked = crate::exec::values::expr::is_true(*value);
+            let masked = crate::exec::values::number::is_true(*value);
             self.geometry.coordinates.mask_zero_entry(group, *axis, masked);
         }
         Ok(())

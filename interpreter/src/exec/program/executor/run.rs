@@ -8,7 +8,7 @@ use crate::exec::fault::Fault;
 use crate::exec::program::files::{Fetched, Parsed, Reading, Tree};
 use crate::exec::program::index::{EntryId, Keyword};
 use crate::exec::step::{EndReason, SourceRef, Sync};
-use crate::exec::values::expr::whole;
+use crate::exec::values::number::whole;
 use crate::source::Position;
 use crate::syntax::Parser;
 use crate::syntax::ast::{Block, BlockNumber, Body, Command, Span};

@@ -6,7 +6,7 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::values::expr::whole;
+use crate::exec::values::number::whole;
 use crate::syntax::ast::{Declaration, Expr, ItemKind, ItemValue, Place, PlaceKind, Span};
 use smallvec::SmallVec;
 

@@ -3,7 +3,7 @@
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::values::expr::{as_number, is_true, is_whole, whole};
+use crate::exec::values::number::{as_number, is_true, is_whole, whole};
 use crate::syntax::ast::Span;
 use smallvec::SmallVec;
 

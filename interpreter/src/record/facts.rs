@@ -1,7 +1,5 @@
 //! What stays the same during a run: names and units of what its records hold.
 
-use crate::machine::{AxisKind, Machine};
-use crate::sim::Simulation;
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// What stays the same during a run.
@@ -21,35 +19,6 @@ pub struct Facts {
 
 impl Facts {
     /// `several_files`: the check ahead has opened more than the program.
-    pub(super) fn of(
-        program: &str,
-        machine: &Machine,
-        simulation: &Simulation,
-        several_files: bool,
-    ) -> Self {
-        let (chains, _) = machine.chains();
-        let stop =
-            |i: usize| chains.get(i).map(|chain| chain.control.exact_stop).unwrap_or_default();
-        let axes = machine.all_axes().enumerate().map(|(i, axis)| AxisFacts {
-            name: axis.name().to_owned(),
-            rotary: axis.kind() != AxisKind::Linear,
-            spindle: axis.kind() == AxisKind::Spindle,
-            modal: simulation.has_tool_point(i),
-            v_max: axis.dynamics().v_max_mm_s,
-            a_max: axis.dynamics().a_max_mm_s2,
-            window: stop(i).window_mm,
-            settling_s: stop(i).settling_s,
-        });
-        let files = simulation.files().iter().map(ToString::to_string).collect();
-        Self {
-            program: program.to_owned(),
-            machine: machine.name.clone(),
-            cycle_us: machine.cycle.us(),
-            axes: axes.collect(),
-            files: FileNames::new(files, several_files),
-        }
-    }
-
     /// Cycle time in s.
     pub fn cycle_s(&self) -> f64 {
         f64::from(self.cycle_us) / 1e6
@@ -120,7 +89,7 @@ impl FileNames {
     }
 
     /// Takes the names of all files that are open now.
-    pub(super) fn update(&mut self, open: &[Arc<str>]) {
+    pub(crate) fn update(&mut self, open: &[Arc<str>]) {
         if open.len() > self.known {
             let mut names = self.names.write().unwrap_or_else(PoisonError::into_inner);
             names.extend(open[self.known..].iter().map(ToString::to_string));

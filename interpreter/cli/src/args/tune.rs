@@ -1,6 +1,7 @@
 //! The arguments of `kontur tune`.
 
-use crate::args::SimulationArgs;
+use super::SimulationArgs;
+use super::values::{feed, span};
 use clap::ArgGroup;
 use std::path::PathBuf;
 
@@ -40,11 +41,11 @@ pub struct TuneArgs {
     pub rate: Option<f64>,
 
     /// Look at these frequencies of the recordings only
-    #[arg(long, value_name = "HZ..HZ", requires = "recording", value_parser = crate::sweep::args::span)]
+    #[arg(long, value_name = "HZ..HZ", requires = "recording", value_parser = span)]
     pub range: Option<(f64, f64)>,
 
     /// Look at this part of the recordings only, in seconds from their first sample
-    #[arg(long, value_name = "S..S", requires = "recording", value_parser = crate::sweep::args::span)]
+    #[arg(long, value_name = "S..S", requires = "recording", value_parser = span)]
     pub window: Option<(f64, f64)>,
 
     /// Draw the recordings, their spectra and what was seen in them (.svg)
@@ -64,7 +65,7 @@ pub struct TuneArgs {
     pub max_residual: f64,
 
     /// Feed in mm/min at which a 90 degree corner is judged
-    #[arg(long, value_name = "FEED", default_value = "F1000", value_parser = crate::response::args::feed)]
+    #[arg(long, value_name = "FEED", default_value = "F1000", value_parser = feed)]
     pub feed: f64,
 
     /// The largest order of a mean or Gauss filter whose contour error at a corner stays within this, in mm

@@ -1,7 +1,7 @@
 //! The arguments of `kontur sweep`.
 
-use crate::args::SimulationArgs;
-use crate::vary::Vary;
+use super::values::span;
+use super::{SimulationArgs, Vary};
 use kontur_interpreter::job::Facts;
 use kontur_interpreter::record::columns::{Column, Content, all};
 use std::ops::Range;
@@ -132,12 +132,12 @@ impl FromStr for Amplitude {
 
 impl Amplitude {
     /// The time belongs to the window.
-    pub(super) fn holds(&self, t_s: f64) -> bool {
+    pub(crate) fn holds(&self, t_s: f64) -> bool {
         self.window_s.is_none_or(|(from, to)| (from..to).contains(&t_s))
     }
 
     /// The column of the trace.
-    pub(super) fn column(&self, facts: &Facts) -> Result<Column, String> {
+    pub(crate) fn column(&self, facts: &Facts) -> Result<Column, String> {
         let columns = all(facts);
         let found = columns.iter().find(|c| c.name == self.signal && is_number(c)).cloned();
         found.ok_or_else(|| {
@@ -154,20 +154,6 @@ impl Amplitude {
 
 fn is_number(column: &Column) -> bool {
     matches!(column.content, Content::Path(_) | Content::Axis(..))
-}
-
-/// Two numbers from 0 on in rising order: `50..56`.
-///
-/// # Errors
-/// Any other text.
-pub(crate) fn span(text: &str) -> Result<(f64, f64), String> {
-    let parsed = text.split_once("..").and_then(|(low, high)| {
-        Some((low.trim().parse::<f64>().ok()?, high.trim().parse::<f64>().ok()?))
-    });
-    match parsed {
-        Some((low, high)) if low >= 0.0 && high > low && high.is_finite() => Ok((low, high)),
-        _ => Err(format!("`{text}`: two numbers in rising order are expected, e.g. 50..56")),
-    }
 }
 
 #[cfg(test)]

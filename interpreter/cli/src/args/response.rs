@@ -1,8 +1,10 @@
 //! The arguments of `kontur response`.
 
+use super::values::{Numbers, feed, setting};
 use clap::ArgGroup;
+use kontur_filters::iir::FilterKind;
+use kontur_filters::iir::prototype::Prototype;
 use std::path::PathBuf;
-use std::str::FromStr;
 
 const EXAMPLES: &str = "\
 Every list of values spans curves, and every repetition adds one; all of them share one picture.
@@ -20,6 +22,25 @@ Examples:
     kontur response --hsc-mean 2..200:2 --corner F1000
   all that the lists of a machine do to an axis, table and picture
     kontur response --axis X -m machines/mill -o x.csv -o x.svg";
+
+/// Names of P-AXIS-00204.
+pub(crate) const FILTER_TYPES: [(&str, FilterKind); 8] = [
+    ("LOWPASS", FilterKind::LowPass),
+    ("HIGHPASS", FilterKind::HighPass),
+    ("BANDPASS", FilterKind::BandPass),
+    ("BANDSTOP", FilterKind::BandStop),
+    ("ALLPASS", FilterKind::AllPass),
+    ("PT1", FilterKind::Pt1),
+    ("PT2", FilterKind::Pt2),
+    ("TIME_DELAY", FilterKind::TimeDelay),
+];
+
+/// Names of P-AXIS-00153.
+pub(crate) const PROTOTYPES: [(&str, Prototype); 3] = [
+    ("CRIT_DAMPING", Prototype::CritDamping),
+    ("BUTTERWORTH", Prototype::Butterworth),
+    ("BESSEL", Prototype::Bessel),
+];
 
 /// `kontur response`.
 #[derive(Clone, Debug, clap::Args)]
@@ -86,7 +107,7 @@ pub struct ResponseArgs {
     pub residual: bool,
 
     /// Contour at a 90 degree corner at this feed in mm/min (`F1000`) instead of frequency response
-    #[arg(long, value_name = "FEED", value_parser = crate::response::args::feed)]
+    #[arg(long, value_name = "FEED", value_parser = feed)]
     pub corner: Option<f64>,
 
     /// Damping of the vibration for --residual [default: that of the guard, 0.1 for other shapers]
@@ -106,62 +127,12 @@ pub struct ResponseArgs {
     pub machine: Option<PathBuf>,
 
     /// A list parameter in place of the machine's, e.g. `X.vib_guard.active=1`
-    #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = crate::args::setting, requires = "axis")]
+    #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = setting, requires = "axis")]
     pub set: Vec<String>,
 
     /// Cycle time in microseconds [default: the machine's, without --axis 1000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(100..=20_000))]
     pub cycle_us: Option<u32>,
-}
-
-/// One or more numbers: `4`, `1,2,5`, `1..6`, `2..200:2`, and any of these separated by commas.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Numbers(pub Vec<f64>);
-
-/// More curves than this are a slip of the hand.
-const MOST_NUMBERS: usize = 1000;
-
-impl FromStr for Numbers {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("`{text}`: 4 or 1,2,5 or 1..6 or 2..200:2 expected");
-        let number = |text: &str| match text.trim().parse::<f64>() {
-            Ok(v) if v.is_finite() => Ok(v),
-            _ => Err(wrong()),
-        };
-        let mut numbers = Vec::new();
-        for part in text.split(',') {
-            let Some((first, rest)) = part.split_once("..") else {
-                numbers.push(number(part)?);
-                continue;
-            };
-            let (last, step) = rest.split_once(':').unwrap_or((rest, "1"));
-            let (first, last, step) = (number(first)?, number(last)?, number(step)?);
-            if !(step > 0.0 && last >= first && (last - first) / step < MOST_NUMBERS as f64) {
-                return Err(wrong());
-            }
-            let steps = (last - first) / step + 1e-9;
-            let indices = (0..=MOST_NUMBERS).map(|i| i as f64).take_while(|i| *i <= steps);
-            numbers.extend(indices.map(|i| first + i * step));
-        }
-        if numbers.len() > MOST_NUMBERS {
-            return Err(format!("more than {MOST_NUMBERS} values"));
-        }
-        Ok(Self(numbers))
-    }
-}
-
-/// `F1000` or `1000`: mm/min, above 0.
-///
-/// # Errors
-/// A text that is neither.
-pub fn feed(text: &str) -> Result<f64, String> {
-    let number = text.trim().trim_start_matches(['F', 'f']);
-    match number.parse::<f64>() {
-        Ok(v) if v.is_finite() && v > 0.0 => Ok(v),
-        _ => Err("a feed in mm/min above 0 is expected, e.g. F1000".to_owned()),
-    }
 }
 
 fn range(text: &str) -> Result<(f64, f64), String> {
@@ -181,28 +152,16 @@ fn one_of(text: &str, names: &[&str]) -> Result<String, String> {
 }
 
 fn filter_type(text: &str) -> Result<String, String> {
-    one_of(text, &super::select::FILTER_TYPES.map(|(name, _)| name))
+    one_of(text, &FILTER_TYPES.map(|(name, _)| name))
 }
 
 fn prototype(text: &str) -> Result<String, String> {
-    one_of(text, &super::select::PROTOTYPES.map(|(name, _)| name))
+    one_of(text, &PROTOTYPES.map(|(name, _)| name))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lists_and_ranges() {
-        let numbers = |text: &str| text.parse::<Numbers>().map(|n| n.0);
-        assert_eq!(numbers("4").unwrap(), [4.0]);
-        assert_eq!(numbers("1,2, 5").unwrap(), [1.0, 2.0, 5.0]);
-        assert_eq!(numbers("1..3,10..20:5").unwrap(), [1.0, 2.0, 3.0, 10.0, 15.0, 20.0]);
-        assert_eq!(numbers("0.1..0.3:0.1").unwrap().len(), 3);
-        for wrong in ["", "a", "1..", "3..1", "1..2:0", "1..2:-1", "1..1e9", "nan", "1,"] {
-            assert!(numbers(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn feeds_and_frequency_ranges() {

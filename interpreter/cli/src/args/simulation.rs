@@ -1,0 +1,147 @@
+//! Options that every command with a simulation has.
+
+use super::values::setting;
+use crate::request::Request;
+use clap::ValueEnum;
+use kontur_interpreter::job::Stop;
+use std::path::PathBuf;
+
+/// How messages are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MessageForm {
+    /// Readable text with the source line.
+    Text,
+    /// One JSON object per line.
+    Json,
+}
+
+/// Options that decide what is simulated.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own for the user")]
+#[derive(Clone, Debug, clap::Args)]
+pub struct SimulationArgs {
+    /// Machine: a folder with a start-up list, the list itself, or a TwinCAT project (.tsproj, .xti) [default: the built-in xyz]
+    #[arg(short, long, value_name = "DIR")]
+    pub machine: Option<PathBuf>,
+
+    /// A list parameter in place of the machine's, e.g. `X.getriebe[0].kv=5000`, `X,Y.key=value`, `*.key=value` for every path axis
+    /// or `channel.key=value`
+    #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = setting)]
+    pub set: Vec<String>,
+
+    /// Folder with global subroutines, searched after the caller's own
+    #[arg(long, value_name = "DIR")]
+    pub path: Vec<PathBuf>,
+
+    /// Let subroutines lie outside the program's folder and --path
+    #[arg(long)]
+    pub allow_outside: bool,
+
+    /// Real-time inputs: CSV with the columns `t_s` and signals (`override_percent`, `rapid_override_percent`,
+    /// `feedhold`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value holds until the next time stamp. May be
+    /// given several times
+    #[arg(long, value_name = "FILE")]
+    pub input: Vec<PathBuf>,
+
+    /// Cycle time in microseconds in place of the machine's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub cycle_us: Option<u32>,
+
+    /// Start positions in mm (deg), e.g. `X10,Y5`
+    #[arg(long, value_name = "POSITIONS", value_delimiter = ',', value_parser = position)]
+    pub start: Vec<(String, f64)>,
+
+    /// Active skip levels, e.g. `1,3`
+    #[arg(long, value_name = "LEVELS", value_delimiter = ',', value_parser = clap::value_parser!(u8).range(1..=10))]
+    pub skip: Vec<u8>,
+
+    /// Stop after this program time in seconds
+    #[arg(long, value_name = "S", default_value = "86400", value_parser = positive)]
+    pub max_time: f64,
+
+    /// Stop after this number of executed blocks
+    #[arg(long, value_name = "N", default_value_t = 100_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    pub max_blocks: u64,
+
+    /// Refuse list keys that are not modelled
+    #[arg(long)]
+    pub strict: bool,
+
+    /// Take kinematic transformations (#TRAFO, #RTCP, #KIN ID) as identity, with a warning
+    #[arg(long)]
+    pub identity_trafo: bool,
+
+    /// Wait for M, H and S functions as long as the channel list declares (P-CHAN-00026, 00040, 00042 to 00048, 00080); without
+    /// it they take no time and the summary names them
+    #[arg(long)]
+    pub techno_times: bool,
+
+    /// Value of an external variable at program start, e.g. `Speed=1200` for V.E.Speed
+    #[arg(long, value_name = "NAME=VALUE", value_parser = external)]
+    pub external: Vec<(String, String)>,
+
+    /// Form of the messages on stderr
+    #[arg(long, value_enum, default_value_t = MessageForm::Text)]
+    pub diagnostics: MessageForm,
+
+    /// Ends check and run from another thread; nothing on the command line
+    #[arg(skip)]
+    pub stop: Stop,
+}
+
+impl SimulationArgs {
+    /// The request for one program.
+    pub fn request(&self, program: impl Into<PathBuf>) -> Request {
+        Request {
+            program: program.into(),
+            machine: self.machine.clone(),
+            settings: self.set.clone(),
+            path: self.path.clone(),
+            allow_outside: self.allow_outside,
+            inputs: self.input.clone(),
+            cycle_us: self.cycle_us,
+            start: self.start.clone(),
+            skip: self.skip.clone(),
+            max_time_s: self.max_time,
+            max_blocks: self.max_blocks,
+            strict: self.strict,
+            identity_trafo: self.identity_trafo,
+            techno_times: self.techno_times,
+            external: self.external.clone(),
+            guard: None,
+            stop: self.stop.clone(),
+        }
+    }
+}
+
+/// `NAME=VALUE`.
+fn external(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.to_owned()))
+        }
+        _ => Err("NAME=VALUE is expected".to_owned()),
+    }
+}
+
+/// `X10`, `X=10`, `X1=10`: an axis name that ends in a digit needs the equals sign.
+fn position(text: &str) -> Result<(String, f64), String> {
+    let text = text.trim();
+    let (name, number) = match text.split_once('=') {
+        Some((name, number)) => (name, number),
+        None => text.split_at(text.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(text.len())),
+    };
+    let value: f64 =
+        number.trim().parse().map_err(|_| format!("`{text}`: X10 or X=10 expected"))?;
+    if name.trim().is_empty() || !value.is_finite() {
+        return Err(format!("`{text}`: X10 or X=10 expected"));
+    }
+    Ok((name.trim().to_owned(), value))
+}
+
+/// A finite number above zero.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(v) if v.is_finite() && v > 0.0 => Ok(v),
+        _ => Err("a number above 0 is expected".to_owned()),
+    }
+}

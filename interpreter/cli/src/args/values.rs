@@ -1,0 +1,93 @@
+//! Values that options of several commands share.
+
+use kontur_interpreter::machine::Override;
+use std::str::FromStr;
+
+/// One or more numbers: `4`, `1,2,5`, `1..6`, `2..200:2`, and any of these separated by commas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbers(pub Vec<f64>);
+
+/// More curves than this are a slip of the hand.
+const MOST_NUMBERS: usize = 1000;
+
+impl FromStr for Numbers {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("`{text}`: 4 or 1,2,5 or 1..6 or 2..200:2 expected");
+        let number = |text: &str| match text.trim().parse::<f64>() {
+            Ok(v) if v.is_finite() => Ok(v),
+            _ => Err(wrong()),
+        };
+        let mut numbers = Vec::new();
+        for part in text.split(',') {
+            let Some((first, rest)) = part.split_once("..") else {
+                numbers.push(number(part)?);
+                continue;
+            };
+            let (last, step) = rest.split_once(':').unwrap_or((rest, "1"));
+            let (first, last, step) = (number(first)?, number(last)?, number(step)?);
+            if !(step > 0.0 && last >= first && (last - first) / step < MOST_NUMBERS as f64) {
+                return Err(wrong());
+            }
+            let steps = (last - first) / step + 1e-9;
+            let indices = (0..=MOST_NUMBERS).map(|i| i as f64).take_while(|i| *i <= steps);
+            numbers.extend(indices.map(|i| first + i * step));
+        }
+        if numbers.len() > MOST_NUMBERS {
+            return Err(format!("more than {MOST_NUMBERS} values"));
+        }
+        Ok(Self(numbers))
+    }
+}
+
+/// `F1000` or `1000`: mm/min, above 0.
+///
+/// # Errors
+/// A text that is neither.
+pub(crate) fn feed(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_start_matches(['F', 'f']);
+    match number.parse::<f64>() {
+        Ok(v) if v.is_finite() && v > 0.0 => Ok(v),
+        _ => Err("a feed in mm/min above 0 is expected, e.g. F1000".to_owned()),
+    }
+}
+
+/// Two numbers from 0 on in rising order: `50..56`.
+///
+/// # Errors
+/// Any other text.
+pub(crate) fn span(text: &str) -> Result<(f64, f64), String> {
+    let parsed = text.split_once("..").and_then(|(low, high)| {
+        Some((low.trim().parse::<f64>().ok()?, high.trim().parse::<f64>().ok()?))
+    });
+    match parsed {
+        Some((low, high)) if low >= 0.0 && high > low && high.is_finite() => Ok((low, high)),
+        _ => Err(format!("`{text}`: two numbers in rising order are expected, e.g. 50..56")),
+    }
+}
+
+/// The form only; what the words name is the machine's business.
+pub(crate) fn setting(text: &str) -> Result<String, String> {
+    match Override::parse(text) {
+        Ok(_) => Ok(text.to_owned()),
+        Err(d) => Err(d.hint.unwrap_or(d.text)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_and_ranges() {
+        let numbers = |text: &str| text.parse::<Numbers>().map(|n| n.0);
+        assert_eq!(numbers("4").unwrap(), [4.0]);
+        assert_eq!(numbers("1,2, 5").unwrap(), [1.0, 2.0, 5.0]);
+        assert_eq!(numbers("1..3,10..20:5").unwrap(), [1.0, 2.0, 3.0, 10.0, 15.0, 20.0]);
+        assert_eq!(numbers("0.1..0.3:0.1").unwrap().len(), 3);
+        for wrong in ["", "a", "1..", "3..1", "1..2:0", "1..2:-1", "1..1e9", "nan", "1,"] {
+            assert!(numbers(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! How commands end, and why they cannot do their work.
+
+use kontur_interpreter::diag::Diagnostic;
+use std::path::PathBuf;
+
+/// How a command ends; the number is the exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Finished, warnings allowed; for `diff`: equal.
+    Finished = 0,
+    /// The program was refused or aborted by an NC or axis error; for `diff`: different.
+    Aborted = 1,
+    /// Wrong usage or wrong machine lists.
+    Usage = 2,
+    /// Input or output failed.
+    Io = 3,
+}
+
+/// Why a command could not do its work.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// Wrong usage: the message names the option and the choices.
+    #[error("{0}")]
+    Usage(String),
+    /// The machine lists were refused; their diagnostics have been printed.
+    #[error("the machine lists were refused")]
+    Lists,
+    /// A file of real-time inputs is wrong; its diagnostics have been printed.
+    #[error("the file of real-time inputs was refused")]
+    Inputs,
+    /// Ctrl-C stopped the run; what was computed up to then is written.
+    #[error("interrupted at t = {time_s:.6} s")]
+    Interrupted {
+        /// Program time of the last row in seconds.
+        time_s: f64,
+    },
+    /// Ctrl-C stopped a sweep; finished rows are kept in its journal.
+    #[error("interrupted; the same sweep goes on behind its finished rows")]
+    Stopped,
+    /// Nobody reads stdout any more; nothing is left to say.
+    #[error("stdout is closed")]
+    ClosedPipe,
+    /// A file could not be read or written.
+    #[error("{what}: {source}")]
+    Io {
+        /// The file, and whether it was read or written.
+        what: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+}
+
+impl Error {
+    /// An input or output error that names what was read or written.
+    pub fn io(what: impl Into<String>, source: std::io::Error) -> Self {
+        Self::Io { what: what.into(), source }
+    }
+
+    /// Exit code of this error.
+    pub const fn exit(&self) -> Exit {
+        match self {
+            Self::Usage(_) | Self::Lists | Self::Inputs => Exit::Usage,
+            Self::Interrupted { .. } | Self::Stopped => Exit::Aborted,
+            Self::ClosedPipe | Self::Io { .. } => Exit::Io,
+        }
+    }
+}
+
+/// Why a program could not be opened.
+#[derive(Debug)]
+pub enum OpenError {
+    /// A setting or option is wrong.
+    Usage(String),
+    /// The machine lists are wrong.
+    Lists(Vec<Diagnostic>),
+    /// A file of real-time inputs is wrong.
+    Inputs(Vec<Diagnostic>),
+    /// A file cannot be read.
+    Io(PathBuf, std::io::Error),
+}
+
+impl From<OpenError> for Error {
+    fn from(e: OpenError) -> Self {
+        match e {
+            OpenError::Usage(text) => Self::Usage(text),
+            OpenError::Lists(_) => Self::Lists,
+            OpenError::Inputs(_) => Self::Inputs,
+            OpenError::Io(path, e) => Self::io(path.display().to_string(), e),
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! What the room of motions keeps from block to block.
+
+pub(in crate::exec) mod measuring;
+
+use self::measuring::Measuring;
+use super::dynamics::Weights;
+use super::overrides::Overrides;
+use super::spindles::Spindle;
+use crate::exec::geometry::coordinates::Target;
+use crate::exec::step::{CuttingSpeed, SourceRef};
+use crate::machine::Channel;
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::{ChannelDynamics, Feed, Slope, Tolerance, VectorLimits};
+use kontur_motion::contouring::ContourSettings;
+use kontur_motion::spline::SplineSettings;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Feedforward of the path axes.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::exec) struct Feedforward {
+    pub(in crate::exec) on: bool,
+    pub(in crate::exec) weight_ratios: AxisVec,
+}
+
+/// What the room owns.
+#[derive(Debug)]
+pub(in crate::exec) struct MotionState {
+    pub(in crate::exec) weights: Weights,
+    /// Members of the feed group (`#FGROUP`).
+    pub(in crate::exec) feed_axes: Vec<bool>,
+    /// `#VECTOR LIMIT` in force in feed and in rapid blocks.
+    pub(in crate::exec) vector: [VectorLimits; 2],
+    /// Dynamics in feed and in rapid blocks; the same while the limits are.
+    pub(in crate::exec) dynamics: [Option<Arc<ChannelDynamics>>; 2],
+    pub(in crate::exec) overrides: Overrides,
+    pub(in crate::exec) independent: Independent,
+    pub(in crate::exec) feedforward: Feedforward,
+    pub(in crate::exec) spindles: Vec<Spindle>,
+    pub(in crate::exec) threads: Threads,
+    pub(in crate::exec) measuring: Measuring,
+    pub(in crate::exec) contour_line: ContourLines,
+    /// G40 with G239: the tool stands beside the contour, not where the program was.
+    pub(in crate::exec) left_contour: bool,
+    /// G96 with its S word.
+    pub(in crate::exec) cutting_speed: Option<CuttingSpeed>,
+    /// G96 is in force, whether or not an S word has come.
+    pub(in crate::exec) cutting_waits: bool,
+    /// S of G196.
+    pub(in crate::exec) cutting_rpm_max: Option<f64>,
+}
+
+/// What contour lines keep.
+#[derive(Clone, Debug, Default)]
+pub(in crate::exec) struct ContourLines {
+    /// First line of two: its angle in deg and its block.
+    pub(super) open: Option<(f64, Span, SourceRef)>,
+    /// The coordinate that the angle gives to the block in work.
+    pub(super) target: Option<Target>,
+}
+
+impl ContourLines {
+    /// A first line waits for its second one.
+    pub(in crate::exec) fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+}
+
+/// Independent axes of a program.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct Independent {
+    /// Sum of the ways that each axis has gone alone.
+    pub(in crate::exec) way: AxisVec,
+    /// Axes that may still be on their way: INDP_ASYN that nothing has joined.
+    pub(super) open: Vec<usize>,
+    /// INDP_SYN of the block in work.
+    pub(super) synchronous: Vec<usize>,
+}
+
+impl Independent {
+    pub(in crate::exec) fn new(axes: usize) -> Self {
+        Self { way: AxisVec::zeros(axes), open: Vec::new(), synchronous: Vec::new() }
+    }
+
+    /// No axis has ever moved alone.
+    pub(in crate::exec) fn is_unused(&self) -> bool {
+        self.open.is_empty() && self.way.iter().all(|way| way.to_bits() == 0)
+    }
+
+    /// The path is at rest and every axis has arrived.
+    pub(in crate::exec) fn all_arrived(&mut self) {
+        self.open.clear();
+    }
+}
+
+/// What the motions of a row share.
+#[derive(Debug)]
+pub(in crate::exec) struct Straight {
+    pub(super) feed: Feed,
+    pub(super) feed_ratio: f64,
+    pub(super) slope: Slope,
+    pub(super) dynamics: Arc<ChannelDynamics>,
+    pub(super) tolerance: Tolerance,
+    pub(super) contour: Option<ContourSettings>,
+    pub(super) spline: Option<SplineSettings>,
+    pub(super) plane: [usize; 2],
+}
+
+/// A function that the machine carries out beside the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::exec) enum Function {
+    M(u32),
+    H(u32),
+    Tool,
+    /// M03, M04, M05, M19 of a spindle of the machine.
+    Spindle {
+        spindle: usize,
+        m: u32,
+    },
+    /// S word of a spindle of the machine.
+    Speed {
+        spindle: usize,
+    },
+}
+
+/// What the functions of the block in work take.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Technology {
+    /// Declared durations are waited for.
+    pub(super) counted: bool,
+    /// Time in s that is still to be waited.
+    pub(super) pending_s: f64,
+    pub(super) named: BTreeSet<Function>,
+}
+
+impl Technology {
+    pub(in crate::exec) fn new(counted: bool) -> Self {
+        Self { counted, ..Self::default() }
+    }
+}
+
+/// What threads keep.
+#[derive(Clone, Debug, Default)]
+pub(in crate::exec) struct Threads {
+    /// Pitches in mm by main axis (I, J, K); that of G331 has a sign.
+    pub(super) pitch_mm: [Option<f64>; 3],
+    /// Speed of the last tapping in rev/min, with its sign.
+    pub(super) tapping_rpm: Option<f64>,
+    /// The path follows the turning spindle.
+    pub(in crate::exec) cutting: bool,
+    /// Direction of the block of G33 before.
+    pub(super) direction: AxisVec,
+    /// Speed of the spindle in the block of G33 before in rev/min.
+    pub(super) rpm: f64,
+    /// What `#TURN` has switched.
+    pub(in crate::exec) turning: TurningModes,
+}
+
+/// How blocks of G33 go together and what the override does to them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::exec) struct TurningModes {
+    /// Blocks behind each other are one thread (P-CHAN-00837).
+    pub(in crate::exec) chain: bool,
+    /// The override does not act (P-CHAN-00836).
+    pub(in crate::exec) ignore_override: bool,
+}
+
+impl TurningModes {
+    /// G33 keeps its pitch under an override.
+    pub(super) const fn full_override(self) -> bool {
+        self.ignore_override || self.chain
+    }
+}
+
+impl Threads {
+    /// As the channel list has it.
+    pub(in crate::exec) fn new(channel: &Channel) -> Self {
+        let turning = TurningModes {
+            chain: channel.thread_chain,
+            ignore_override: channel.thread_ignores_override,
+        };
+        Self { turning, ..Self::default() }
+    }
+
+    /// An S word: with a sign under tapping, else it ends that of tapping.
+    pub(in crate::exec) fn speed(&mut self, tapping_rpm: Option<f64>) {
+        self.tapping_rpm = tapping_rpm;
+    }
+}

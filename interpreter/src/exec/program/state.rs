@@ -1,0 +1,86 @@
+//! What a program keeps from block to block: its levels with their control blocks, what it calls, the numbers it knows.
+
+use super::index::{EntryId, Index, Keyword};
+use super::info::ProgramInfo;
+use crate::exec::block::modal::Modal;
+use crate::exec::options::Value;
+use crate::source::Position;
+use crate::syntax::ast::{Ident, Place};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// One program level.
+#[derive(Debug)]
+pub(in crate::exec) struct Level {
+    pub(in crate::exec) file: usize,
+    pub(in crate::exec) section: usize,
+    pub(in crate::exec) index: Arc<Index>,
+    /// Next block.
+    pub(in crate::exec) at: Position,
+    pub(in crate::exec) end: u64,
+    pub(in crate::exec) frames: Vec<Frame>,
+    /// Modal state to return to: the level is a cycle.
+    pub(in crate::exec) cycle: Option<Box<Modal>>,
+    /// Between `#VAR` and `#ENDVAR`.
+    pub(in crate::exec) declarations: bool,
+    /// A control block without its end took the rest of the text.
+    pub(in crate::exec) cut: bool,
+    /// First and last block that jumps back lead through again, by their offsets.
+    pub(in crate::exec) again: Option<(u64, u64)>,
+}
+
+/// An open control block.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct Frame {
+    pub(in crate::exec) open: EntryId,
+    pub(in crate::exec) keyword: Keyword,
+    /// Counter, last value and step of `$FOR`.
+    pub(super) counter: Option<Arc<Counter>>,
+}
+
+/// Counter, last value and step of `$FOR`.
+#[derive(Debug)]
+pub(super) struct Counter {
+    pub(super) place: Place,
+    pub(super) end: f64,
+    pub(super) step: f64,
+}
+
+/// What calls own: subroutines that words call, and what is called behind every block.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Calls {
+    pub(in crate::exec) info: ProgramInfo,
+    pub(in crate::exec) macros: BTreeMap<Box<str>, Box<str>>,
+    /// The table of macros has changed: parsed blocks are out of date.
+    pub(in crate::exec) macros_changed: bool,
+    /// Subroutines of G80 to G89 and G800 to G839.
+    pub(in crate::exec) cycle_files: BTreeMap<u32, String>,
+    /// Subroutine of M06.
+    pub(in crate::exec) tool_change_file: Option<String>,
+    /// Cycle that is called behind every motion or block.
+    pub(in crate::exec) modal_cycle: Option<ModalCycle>,
+    /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
+    pub(in crate::exec) retain_cycle_changes: bool,
+}
+
+/// Values of a cycle by the name behind `@`.
+pub(super) type Passed = BTreeMap<Box<str>, Value>;
+
+/// A cycle that follows every motion or block.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct ModalCycle {
+    pub(super) name: Ident,
+    pub(super) local: bool,
+    pub(super) passed: Passed,
+    /// Behind every block, not only behind motions.
+    pub(super) every_block: bool,
+}
+
+/// Begin and end of the first block of each number of a program.
+pub(super) type Blocks = BTreeMap<u64, (Position, Position)>;
+
+/// Block numbers of the programs that sequences were called from, by file and section.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Sequences {
+    pub(super) known: BTreeMap<(usize, usize), Blocks>,
+}

@@ -1,0 +1,144 @@
+//! Code, strings and comments of a block: where lines continue, and what the grammar must not see, depends on them.
+
+use std::ops::Range;
+
+/// What a stretch of text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Region {
+    Code,
+    /// `"..."`, quotes included; a quote that is never closed is code.
+    Text,
+    /// `(...)`, nested, or everything behind `;` or an unclosed `(`.
+    Comment {
+        closed: bool,
+    },
+}
+
+/// Cuts a text into regions.
+pub(crate) struct Regions<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    /// A quote was never closed: no later one is, and none of them is looked for.
+    unclosed: bool,
+}
+
+impl Iterator for Regions<'_> {
+    type Item = (Region, Range<usize>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let start = self.at;
+        let rest = &self.bytes[start..];
+        let (region, length) = match rest.first()? {
+            b';' => (Region::Comment { closed: false }, rest.len()),
+            b'(' => comment(rest),
+            b'"' => {
+                let length = if self.unclosed { None } else { string(rest) };
+                self.unclosed = length.is_none();
+                length.map_or((Region::Code, 1), |length| (Region::Text, length))
+            }
+            _ => {
+                let length = memchr::memchr3(b';', b'(', b'"', rest).unwrap_or(rest.len());
+                (Region::Code, length)
+            }
+        };
+        self.at += length;
+        Some((region, start..self.at))
+    }
+}
+
+/// The regions of a text.
+pub(crate) fn regions(text: &str) -> Regions<'_> {
+    Regions { bytes: text.as_bytes(), at: 0, unclosed: false }
+}
+
+/// Length of a comment in round brackets.
+fn comment(bytes: &[u8]) -> (Region, usize) {
+    let mut depth = 0_usize;
+    for (i, byte) in bytes.iter().enumerate() {
+        match byte {
+            b'(' => depth += 1,
+            b')' => {
+                depth -= 1;
+                if depth == 0 {
+                    return (Region::Comment { closed: true }, i + 1);
+                }
+            }
+            _ => {}
+        }
+    }
+    (Region::Comment { closed: false }, bytes.len())
+}
+
+/// Length of the comment that begins with the first byte.
+pub(crate) fn comment_length(bytes: &[u8]) -> usize {
+    comment(bytes).1
+}
+
+/// Length of a string with its quotes, `None` if the closing one is missing.
+pub(crate) fn string(bytes: &[u8]) -> Option<usize> {
+    let mut i = 1;
+    loop {
+        match bytes.get(i)? {
+            b'\\' if bytes.get(i + 1) == Some(&b'"') => i += 2,
+            b'"' => return Some(i + 1),
+            _ => i += 1,
+        }
+    }
+}
+
+/// True if what is written behind `text` would be part of a comment.
+pub(crate) fn ends_in_comment(text: &str) -> bool {
+    regions(text).last().is_some_and(|(region, _)| region == Region::Comment { closed: false })
+}
+
+/// True if a square bracket is open at the end of `text`.
+pub(crate) fn bracket_is_open(text: &str) -> bool {
+    let mut depth = 0_usize;
+    for (region, range) in regions(text) {
+        if region == Region::Code {
+            for byte in &text.as_bytes()[range] {
+                match byte {
+                    b'[' => depth += 1,
+                    b']' => depth = depth.saturating_sub(1),
+                    _ => {}
+                }
+            }
+        }
+    }
+    depth > 0
+}
+
+/// True if every square bracket of `text` has its partner in it.
+pub(crate) fn brackets_are_complete(text: &str) -> bool {
+    let mut depth = 0_usize;
+    for (region, range) in regions(text) {
+        if region == Region::Code {
+            for byte in &text.as_bytes()[range] {
+                match byte {
+                    b'[' => depth += 1,
+                    b']' if depth == 0 => return false,
+                    b']' => depth -= 1,
+                    _ => {}
+                }
+            }
+        }
+    }
+    depth == 0
+}
+
+/// Places of the strings of a block, quotes included.
+pub(crate) fn strings(text: &str) -> impl Iterator<Item = Range<usize>> {
+    regions(text).filter(|(region, _)| *region == Region::Text).map(|(_, range)| range)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn open_comments_and_brackets_are_seen() {
+        assert!(ends_in_comment("X1 (a") && ends_in_comment("X1 ;a"));
+        assert!(!ends_in_comment("X1 (a) "));
+        assert!(bracket_is_open("L CYCLE [A=1") && !bracket_is_open("X[1](["));
+    }
+}
