@@ -98,6 +98,7 @@ impl Delays {
 mod tests {
     use super::{Delays, LEAST_CHANGES};
     use csv::ByteRecord;
+    use kontur_kit::Random;
 
     /// Rows from the first difference on, and what the definition gives for every delay, tried out one by one.
     fn brute_force(a: &[u8], b: &[u8]) -> Option<i64> {
