@@ -3,7 +3,8 @@
 //! Around the middle `s*` of what the filter of an axis holds, the path is a straight line plus its kinks and bends. A kink
 //! at `s_b` with the change of direction `du` moves the set point aside by `du E[(s - s_b)+]` (or `(s_b - s)+` before the
 //! middle), with the mean `E` over the kernel: its *part* in the deviation (derived; exact for polygons). A bend is many
-//! small kinks.
+//! small kinks. A short filter holds one set point in front of a corner and the next one behind it, and the line between them cuts
+//! the corner off: where a set point has no parts, those of the middle of its line count.
 //!
 //! One part that outweighs the others is an isolated corner: its speed alone is lowered, down to a rest, and then it waits.
 //! Parts alike are a curve: they share one speed, that of the whole stretch between them, and it is the speed at which the
@@ -93,9 +94,12 @@ impl View<'_> {
     ) {
         let Self { trial, marks, .. } = self;
         let length = u64::from(trial.kernels.length());
-        let oldest = v.cycle.saturating_sub(length);
+        // a point of the line between two set points: the filters held one cycle more for the first of them
+        let oldest = v.cycle.saturating_sub(length + 1);
         let first = marks.partition_point(|m| m.cycles <= oldest as f64).saturating_sub(1);
-        let last = marks.partition_point(|m| m.cycles <= v.cycle as f64);
+        // the set path turns off behind the point of it that comes nearest to what is missed
+        let newest = v.cycle + u64::from(v.missed.is_some());
+        let last = marks.partition_point(|m| m.cycles <= newest as f64);
         if first >= last {
             return;
         }
@@ -107,7 +111,7 @@ impl View<'_> {
             return;
         }
         *told = Some((place, excess));
-        let mut parts = self.parts_of(v, record, first, last);
+        let mut parts = self.parts_of(v, &[v.cycle], record, (first, last));
         let free = |p: &Part| {
             let m = &marks[p.mark];
             if p.bend {
@@ -117,6 +121,11 @@ impl View<'_> {
                     .is_some_and(|b| demands.stop[b].is_none_or(|dwell| u64::from(dwell) < length))
             }
         };
+        // the filters hold the set point on one side of a corner, and the line to it comes from the other side
+        if !parts.iter().any(|p| free(p) && p.size > 0.0) {
+            let line = [v.cycle.saturating_sub(1), v.cycle];
+            parts = self.parts_of(v, &line, record, (first, last));
+        }
         // far off the contour the nearest point is not the middle of what the filters hold, and no part may point the same way
         if !parts.iter().any(|p| free(p) && p.size > 0.0) {
             for part in &mut parts {
@@ -238,20 +247,33 @@ impl View<'_> {
         steps.fold(0.0, f64::max) / self.trial.cycle.seconds()
     }
 
-    /// Parts in a deviation that push the way it points, in order of the path.
-    fn parts_of(&self, v: &Violation, record: &Record, first: usize, last: usize) -> Vec<Part> {
+    /// Parts in a deviation that push the way it points, in order of the path: of the set point of a cycle, or of the middle
+    /// of the line between two.
+    fn parts_of(
+        &self,
+        v: &Violation,
+        cycles: &[u64],
+        record: &Record,
+        (first, last): (usize, usize),
+    ) -> Vec<Part> {
         let Self { trial, marks, .. } = self;
         let Some(kernel) = trial.kernels.get(v.axis).or_else(|| trial.kernels.longest()) else {
             return Vec::new();
         };
         let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));
-        let middle: f64 = kernel.taps().iter().map(|t| t.weight * at(t.delay)).sum();
-        let weight = |s: f64| -> f64 {
-            let beyond = |t: &kontur_filters::kernel::Tap| {
-                let d = at(t.delay) - s;
-                t.weight.abs() * if s >= middle { d.max(0.0) } else { (-d).max(0.0) }
+        let mean = |weighed: &dyn Fn(f64, f64) -> f64| -> f64 {
+            let of = |cycle: &u64| -> f64 {
+                let held = |delay: u32| record.s(cycle.saturating_sub(u64::from(delay)));
+                kernel.taps().iter().map(|t| weighed(t.weight, held(t.delay))).sum()
             };
-            kernel.taps().iter().map(beyond).sum()
+            cycles.iter().map(of).sum::<f64>() / cycles.len() as f64
+        };
+        let middle = mean(&|weight, s| weight * s);
+        let weight = |s: f64| {
+            mean(&|weight, held| {
+                let d = held - s;
+                weight.abs() * if s >= middle { d.max(0.0) } else { (-d).max(0.0) }
+            })
         };
         let (oldest, newest) = (at(kernel.length()), at(0));
         let sign = if v.positive { 1.0 } else { -1.0 };
