@@ -166,19 +166,20 @@ impl Contour {
         let near = |i: usize| self.blocks[i].ball.least_distance(&middle) - ROUNDING_MM;
         let mut vector = AxisVec::zeros(middle.len());
         let mut far = |i: usize| self.blocks[i].vector_to(&middle, &mut vector).sqrt();
-        // the one whose ball is nearest leaves few of the others
-        let counts = |i: &usize| among.contains(i);
-        let first = all.clone().filter(counts).min_by(|a, b| near(*a).total_cmp(&near(*b)));
-        let mut least = first.map_or(f64::INFINITY, &mut far);
+        // a filter takes the set point half of its length back as a rule: that block leaves few of the others
+        let counts = |i: usize| among.contains(&i);
+        let guess = all.start.midpoint(all.end);
+        let mut least =
+            if all.contains(&guess) && counts(guess) { far(guess) } else { f64::INFINITY };
         let within = |least: f64| (1.0 + WARY) * (least + half) + half;
         let mut blocks: SmallVec<[Candidate<'_>; 16]> = SmallVec::new();
         for i in all {
             if near(i) <= within(least) {
                 let distance = far(i);
-                if counts(&i) {
+                if counts(i) {
                     least = least.min(distance);
                 }
-                blocks.push(Candidate { passed: &self.blocks[i], distance, counts: counts(&i) });
+                blocks.push(Candidate { passed: &self.blocks[i], distance, counts: counts(i) });
             }
         }
         blocks.retain(|b| b.distance <= within(least));

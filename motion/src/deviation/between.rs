@@ -17,7 +17,7 @@ use smallvec::{SmallVec, smallvec};
 const LOOKS: usize = 64;
 
 /// Share of a stretch of the line that the place of a change is found to.
-const PRECISION: f64 = 1e-9;
+const PRECISION: f64 = 1e-6;
 
 /// A point of the line, as a share of it, and the block nearest to it.
 type Foot<'a> = (f64, Nearest<'a>);
@@ -31,8 +31,10 @@ pub(super) fn largest<'a>(
     out: &mut Excursion,
 ) {
     let mut vector = AxisVec::zeros(line.0.len());
-    let then = around.nearest_of_all(line.0, &mut vector);
-    let (Some(then), Some(mut now)) = (then, now) else { return };
+    let Some(mut now) = now else { return };
+    let alone = now.is_straight() && !around.may_be_nearer_than(&now);
+    let then = if alone { Some(now) } else { around.nearest_of_all(line.0, &mut vector) };
+    let Some(then) = then else { return };
     if then.block() != now.block()
         && let Some(nearer) = around.nearest_of_all(line.1, &mut vector)
     {
@@ -60,18 +62,18 @@ pub(super) fn largest<'a>(
             if same && found.block() == low.1.block() {
                 continue;
             }
-            // where the nearest block changes both are equally near
-            let as_near = [low, high].into_iter().filter(|end| {
-                let near = end.1.vector_to(&point, &mut vector) <= found.distance + ROUNDING_MM;
-                if near {
-                    out.take(&vector);
-                }
-                near
-            });
-            if as_near.count() == 0 {
+            let ends = if same { &[low][..] } else { &[low, high] };
+            let near = found.distance + ROUNDING_MM;
+            let is_third = ends.iter().all(|end| end.1.vector_to(&point, &mut vector) > near);
+            if is_third {
                 open.extend([(low, (u, found)), ((u, found), high)]);
                 break;
             } else if !same {
+                // both are equally near
+                for end in ends {
+                    end.1.vector_to(&point, &mut vector);
+                    out.take(&vector);
+                }
                 open.extend([(low, (u, low.1)), ((u, high.1), high)]);
             }
         }
