@@ -17,7 +17,7 @@ use smallvec::{SmallVec, smallvec};
 const LOOKS: usize = 64;
 
 /// Share of a stretch of the line that the place of a change is found to.
-const PRECISION: f64 = 1e-6;
+const PRECISION: f64 = 1e-9;
 
 /// A point of the line, as a share of it, and the block nearest to it.
 type Foot<'a> = (f64, Nearest<'a>);
