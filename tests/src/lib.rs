@@ -2,7 +2,6 @@
 
 pub mod command;
 pub mod geometry;
-pub mod random;
 pub mod targets;
 
 use kontur_interpreter::diag::{Diagnostic, Id};

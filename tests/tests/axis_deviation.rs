@@ -7,8 +7,8 @@
 
 use kontur_interpreter::diag::Condition;
 use kontur_interpreter::record::AxisRecord;
+use kontur_kit::{Random, count, seed};
 use kontur_tests::geometry::{Piece, Point, deviation, direction, dot, minus, norm};
-use kontur_tests::random::{Random, count, seed};
 use kontur_tests::{Run, from_polyline, machine, run, run_with_inputs};
 
 /// Rounding of the sums over the kernel; a trace prints two digits less.

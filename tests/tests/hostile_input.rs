@@ -2,7 +2,7 @@
 //!
 //! `COUNT=100000 SEED=7 cargo test --release -p kontur-tests --test hostile_input` goes on for longer.
 
-use kontur_tests::random::{Random, count, seed};
+use kontur_kit::{Random, count, seed};
 use kontur_tests::targets::{TARGETS, corpus, dictionary, mutated};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
