@@ -105,7 +105,10 @@ impl View<'_> {
         }
         let excess = v.excess();
         // a slow run over the same blocks would be told the same again and again
-        let place = (first, last);
+        // where a straight line is divided does not matter
+        let mut causes = (first..last)
+            .filter(|m| *m > first && marks[*m].jump > 1e-9 || marks[*m].queued.bend > 0.0);
+        let place = causes.next().map_or((0, 0), |m| (m, causes.next_back().unwrap_or(m)));
         let told = &mut findings.last[usize::from(v.missed.is_some())];
         if told.is_some_and(|(at, most)| at == place && excess <= LITTLE_MORE * most) {
             return;

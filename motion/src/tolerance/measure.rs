@@ -272,7 +272,8 @@ impl View<'_> {
             let even = (1..=parts).map(|i| from + f64::from(i) / f64::from(parts) * (to - from));
             // at a kink the contour is not straight
             let first_mark = marks.partition_point(|m| m.s_mm <= from);
-            let kinks = marks[first_mark..].iter().map(|m| m.s_mm).take_while(|s| *s < to);
+            let ahead = marks[first_mark..].iter().take_while(|m| m.s_mm < to);
+            let kinks = ahead.filter(|m| m.jump > 1e-9 || m.queued.bend > 0.0).map(|m| m.s_mm);
             let mut places: SmallVec<[f64; 8]> = even.chain(kinks).collect();
             places.sort_by(f64::total_cmp);
             for s in places {
