@@ -23,7 +23,7 @@ pub use program::check::Checked;
 pub(crate) use program::check::check;
 pub(crate) use program::executor::Executor;
 pub(crate) use step::{
-    Approach, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion, ShapingSettings,
+    Approach, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion, Probed, ShapingSettings,
     ShapingSetup, SourceRef, SpindleMotion, SpindleState, Step, Sync,
 };
 

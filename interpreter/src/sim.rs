@@ -12,6 +12,7 @@ mod fault;
 mod independent;
 mod inputs;
 mod patience;
+mod probe;
 mod smoothing;
 mod spindle;
 mod totals;
@@ -36,6 +37,7 @@ use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::limit::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::realtime::{FeedholdBraking, OverrideMode};
+use probe::Probing;
 use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
@@ -120,6 +122,8 @@ pub(crate) struct Simulation {
     thread_delay: f64,
     /// A thread of G33 is cut, and what may break it.
     thread: Option<Thread>,
+    /// A measuring run is on its way.
+    probing: Option<Probing>,
     /// Set positions of the path axes in the cycle before as the planner has them, in a thread.
     planned: AxisVec,
     vector: AxisVec,
@@ -189,6 +193,7 @@ impl Simulation {
             path_position: start[..n].iter().copied().collect(),
             thread_delay: 0.0,
             thread: None,
+            probing: None,
             planned: start[..n].iter().copied().collect(),
             vector: AxisVec::zeros(n),
             max_cycles,
@@ -320,6 +325,7 @@ impl Simulation {
             }
         }
         self.through_the_axes();
+        self.watch_probe();
         self.check_time();
         Some(&self.record)
     }
@@ -337,9 +343,15 @@ impl Simulation {
         }
         let channel = &self.machine.channel;
         self.planner.set_override(self.inputs.ratios(channel.rapid_override));
-        let own = channel.own_feed_hold;
+        self.hold_path();
+    }
+
+    /// Feedhold and the signal of the probe brake the path, or let it go on.
+    fn hold_path(&mut self) {
+        let own = self.machine.channel.own_feed_hold && self.inputs.feedhold;
         let braking = if own { FeedholdBraking::Own } else { FeedholdBraking::Active };
-        self.planner.feedhold(self.inputs.feedhold, braking);
+        let probed = self.probing.as_ref().is_some_and(Probing::holds);
+        self.planner.feedhold(self.inputs.feedhold || probed, braking);
     }
 
     /// K-0132, once for each thread: the path does not go with the spindle.
@@ -371,6 +383,9 @@ impl Simulation {
         if !stands || !self.planner.is_held() {
             return;
         }
+        if self.drop_rest_of_run() {
+            return;
+        }
         self.is_held = true;
         if self.inputs.is_over() {
             self.held_for_ever();
@@ -388,14 +403,22 @@ impl Simulation {
     /// Takes the next step of the program.
     fn pull(&mut self) {
         let feedback = Feedback {
-            actual_mm: self.record.axes.iter().map(|a| a.act).take(self.vector.len()).collect(),
+            actual_mm: self.actual_mm(),
             time_s: self.cycle.time_of(self.planner.setpoint().k),
+            measured: self.end_probing(),
         };
         match self.executor.next(feedback) {
             Step::Motion { block, source, events } => self.motion(block, source, events),
             Step::Sync { what, source, events } => {
+                let measures = match &what {
+                    Sync::Measured { through } => Some(*through),
+                    _ => None,
+                };
                 self.pending = Some((After::Sync(what), source, events));
                 self.path_stops();
+                if let Some(through) = measures {
+                    self.begin_probing(through);
+                }
             }
             Step::End { reason, source, events } => {
                 self.pending = Some((After::End(reason), source, events));

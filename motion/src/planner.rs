@@ -39,7 +39,7 @@ use crate::contour::Contour;
 use crate::corner::transition;
 use crate::deviation::Gauge;
 use crate::limit::{Cap, SpeedLimit};
-use crate::plan::{Plan, Segment};
+use crate::plan::{Plan, Segment, Start};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
@@ -199,6 +199,15 @@ impl Planner {
     /// At rest although there is something to do: by feedhold or override 0.
     pub fn is_held(&self) -> bool {
         self.plan.is_at_rest() && (self.active.hold.is_some() || self.plan.is_barred())
+    }
+
+    /// Drops what lies ahead of a path that feedhold has brought to rest: the next block starts where it stands.
+    pub fn drop_ahead(&mut self) {
+        if self.is_held() {
+            let start = Start { speed: Cap::STOP, a_mm_s2: 0.0, ..self.plan.start };
+            self.plan = Plan::from_state(start);
+            self.last = None;
+        }
     }
 
     /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.

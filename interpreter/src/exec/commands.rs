@@ -10,6 +10,7 @@ mod compensation;
 mod contour;
 mod frames;
 pub(in crate::exec) mod keys;
+mod measuring;
 mod messages;
 mod misc;
 mod positions;
@@ -157,7 +158,10 @@ const ROWS: &[Row] = &[
     unsupported("LOCK"),
     unsupported("MANUAL LIMITS"),
     unsupported("MCS TO WCS"),
-    unsupported("MEAS"),
+    measuring::MEAS,
+    measuring::MEAS_MODE,
+    measuring::MEAS_DEFAULT,
+    unsupported("MEAS PREPARE"),
     unsupported("MICROJOINT"),
     off_only("SEGMENTATION"),
     unsupported("SET JOG"),

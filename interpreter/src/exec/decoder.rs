@@ -12,6 +12,7 @@ use super::geometry::{Geometry, LastArc};
 use super::motion::dynamics::{Weights, channel_dynamics};
 use super::motion::overrides::Overrides;
 use super::motion::spindles::Spindle;
+use super::motion::state::measuring::Measuring;
 use super::motion::state::{
     ContourLines, Feedforward, Independent, MotionState, Straight, Technology, Threads,
 };
@@ -143,6 +144,7 @@ impl Decoder {
                 },
                 spindles,
                 threads: Threads::new(&machine.channel),
+                measuring: Measuring::new(&machine.channel, n),
                 contour_line: ContourLines::default(),
                 left_contour: false,
                 cutting_speed: None,

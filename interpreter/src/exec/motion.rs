@@ -7,6 +7,7 @@ pub(super) mod dynamics;
 mod feed;
 mod independent;
 mod limits;
+mod measuring;
 pub(super) mod overrides;
 mod space;
 pub(super) mod spindles;
@@ -55,6 +56,7 @@ struct PlaneImage {
 }
 
 impl Decoder {
+    /// Moves, measures or dwells.
     pub(super) fn motion_or_dwell(
         &mut self,
         words: &Words<'_>,
@@ -70,6 +72,12 @@ impl Decoder {
         if let Some(g) = path_word.filter(|g| g.row.act == Act::Dwell) {
             let outcome = self.dwell(g, words);
             self.keep(outcome);
+            return;
+        }
+        if let Some(g) = words.group(Group::Measuring).filter(|g| g.row.act == Act::Measure) {
+            let outcome = self.measuring_run(g, words, span);
+            self.keep(outcome);
+            self.motion.measuring.jump(words.goto.cloned());
             return;
         }
         let is_arc = matches!(self.modal.path, PathMode::Clockwise | PathMode::CounterClockwise);

@@ -87,6 +87,11 @@ pub(crate) enum Sync {
         /// What is waited for.
         state: SpindleState,
     },
+    /// The end of a measuring run: the motion before it ends where the probe signals.
+    Measured {
+        /// The signal does not stop the path (G106).
+        through: bool,
+    },
     /// The end of G33.
     ThreadEnd,
     /// M00, M01; headless the program goes on at once.
@@ -338,4 +343,15 @@ pub(crate) struct Feedback {
     pub actual_mm: AxisVec,
     /// Program time in s.
     pub time_s: f64,
+    /// What a measuring run has found, behind [`Sync::Measured`].
+    pub measured: Option<Box<Probed>>,
+}
+
+/// The end of a measuring run, in mm (deg).
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Probed {
+    /// Actual position of each path axis where the probe has signalled; `None` if it has not.
+    pub signal_mm: Option<AxisVec>,
+    /// Where the axes have come to rest, as set positions.
+    pub rest_mm: AxisVec,
 }

@@ -117,7 +117,7 @@ pub(super) fn run_with(
     let mut executor = Executor::new(Arc::new(sources), "main.nc", machine, options);
     let mut steps = Vec::new();
     loop {
-        let feedback = Feedback { actual_mm: executor.target().clone(), time_s: 0.0 };
+        let feedback = Feedback { actual_mm: executor.target().clone(), ..Feedback::default() };
         let step = executor.next(feedback);
         let ended = matches!(step, Step::End { .. });
         steps.push(step);

@@ -86,6 +86,16 @@ impl Axis {
         self.get(parameter)
     }
 
+    /// It takes part in measuring runs (P-AXIS-00118).
+    pub fn measures(&self) -> bool {
+        self.get(axis_general::MEASURES)
+    }
+
+    /// Speed of measuring runs of type 2 in mm/s (deg/s), P-AXIS-00215.
+    pub fn measuring_speed_mm_s(&self) -> f64 {
+        self.get(axis_general::MEASURING_SPEED)
+    }
+
     /// Logical number of the gantry master (P-AXIS-00070), `None` if the axis is no slave.
     pub fn gantry_master(&self) -> Option<u32> {
         Some(self.get(axis_general::GANTRY_MASTER)).filter(|n| *n != 0)

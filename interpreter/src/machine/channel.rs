@@ -131,6 +131,12 @@ pub struct Channel {
     pub offsets_in_diameters: bool,
     /// T takes the tool data of its number too (P-CHAN-00014).
     pub tool_data_with_tool: bool,
+    /// Measuring type at program start, 1 to 7 (P-CHAN-00057).
+    pub measuring_type: u32,
+    /// Measuring type 1: a run without a signal of the probe is an error (P-CHAN-00176).
+    pub missing_signal_is_error: bool,
+    /// Way behind the signal in edge banding in mm (P-CHAN-00030).
+    pub residual_path_mm: f64,
     /// The override does not act on G33 (P-CHAN-00836).
     pub thread_ignores_override: bool,
     /// Consecutive blocks of G33 are one thread (P-CHAN-00837).
@@ -265,6 +271,9 @@ impl Channel {
                 .collect(),
             offsets_in_diameters: p.get(of::OFFSETS_IN_DIAMETERS),
             tool_data_with_tool: p.get(of::TOOL_DATA_WITH_TOOL),
+            measuring_type: p.get(of::MEASURING_TYPE),
+            missing_signal_is_error: p.get(of::MISSING_SIGNAL_IS_ERROR),
+            residual_path_mm: p.get(of::RESIDUAL_PATH),
             thread_ignores_override: p.get(of::THREAD_IGNORES_OVERRIDE),
             thread_chain: p.get(of::THREAD_CHAIN),
             diagnosis_messages: match p.get(of::DIAGNOSIS_MESSAGES).as_deref() {

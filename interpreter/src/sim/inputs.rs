@@ -23,6 +23,11 @@ pub enum Signal {
     ///
     /// Assumption: dwells, waits and independent axes go on under feedhold; it holds the path.
     Feedhold,
+    /// `probe`: 1 is the signal of the probe in measuring runs (G100, G310); default 0.
+    Probe,
+    /// `X_probe_mm`: position of an axis in mm (deg) where the probe signals, if the actual position passes it in a
+    /// measuring run.
+    Surface(usize),
     /// `X_add_mm`: position of the additional interface of an axis in mm (deg), in front of its filter.
     Additional(usize),
     /// `X_force_mm_s2`: external force on an axis as acceleration of the whole mass in mm/s2 (deg/s2).
@@ -38,6 +43,7 @@ impl Signal {
             ("override_percent".to_owned(), Self::Override),
             ("rapid_override_percent".to_owned(), Self::RapidOverride),
             ("feedhold".to_owned(), Self::Feedhold),
+            ("probe".to_owned(), Self::Probe),
         ];
         for (i, axis) in machine.all_axes().enumerate() {
             let unit = if axis.kind() == AxisKind::Linear { "mm" } else { "deg" };
@@ -45,6 +51,9 @@ impl Signal {
             all.push((format!("{name}_add_{unit}"), Self::Additional(i)));
             all.push((format!("{name}_force_{unit}_s2"), Self::Force(i)));
             all.push((format!("{name}_encoder_offset_{unit}"), Self::EncoderOffset(i)));
+            if i < machine.axes.len() {
+                all.push((format!("{name}_probe_{unit}"), Self::Surface(i)));
+            }
         }
         all
     }
@@ -53,8 +62,8 @@ impl Signal {
     pub const fn range(self) -> (f64, f64) {
         match self {
             Self::Override | Self::RapidOverride => (0.0, 200.0),
-            Self::Feedhold => (0.0, 1.0),
-            Self::Additional(_) | Self::EncoderOffset(_) => (-1e6, 1e6),
+            Self::Feedhold | Self::Probe => (0.0, 1.0),
+            Self::Additional(_) | Self::EncoderOffset(_) | Self::Surface(_) => (-1e6, 1e6),
             Self::Force(_) => (-1e9, 1e9),
         }
     }
@@ -107,13 +116,14 @@ impl Change {
     /// A value from a program time in s on.
     ///
     /// # Errors
-    /// What is wrong with the value; feedhold is 0 or 1.
+    /// What is wrong with the value; feedhold and probe are 0 or 1.
     pub fn new(time_s: f64, signal: Signal, value: f64) -> Result<Self, String> {
         let (low, high) = signal.range();
-        let whole = signal != Signal::Feedhold || value.fract().abs() <= 0.0;
+        let switch = matches!(signal, Signal::Feedhold | Signal::Probe);
+        let whole = !switch || value.fract().abs() <= 0.0;
         if whole && (low..=high).contains(&value) {
             Ok(Self { time_s, signal, value })
-        } else if signal == Signal::Feedhold {
+        } else if switch {
             Err(format!("{value}, 0 or 1 is expected"))
         } else {
             Err(format!("{value}, allowed are {low} to {high}"))
@@ -149,6 +159,10 @@ pub(super) struct Inputs {
     feed_ratio: f64,
     rapid_ratio: f64,
     pub(super) feedhold: bool,
+    /// The probe signals.
+    pub(super) probe: bool,
+    /// Where it signals, for each path axis.
+    pub(super) surfaces_mm: Vec<Option<f64>>,
     pub(super) axes: Vec<AxisInputs>,
     seen: BTreeSet<Signal>,
 }
@@ -168,6 +182,8 @@ impl Inputs {
             feed_ratio: 1.0,
             rapid_ratio: 1.0,
             feedhold: false,
+            probe: false,
+            surfaces_mm: Vec::new(),
             axes: vec![AxisInputs::default(); axes],
             seen: BTreeSet::new(),
         }
@@ -212,6 +228,12 @@ impl Inputs {
                 Signal::Override => self.feed_ratio = value / 100.0,
                 Signal::RapidOverride => self.rapid_ratio = value / 100.0,
                 Signal::Feedhold => self.feedhold = value > 0.0,
+                Signal::Probe => self.probe = value > 0.0,
+                Signal::Surface(i) => {
+                    let axes = self.surfaces_mm.len().max(i + 1);
+                    self.surfaces_mm.resize(axes, None);
+                    self.surfaces_mm[i] = Some(value);
+                }
                 Signal::Additional(i) => self.axis(i).additional_mm = value,
                 Signal::Force(i) => self.axis(i).force_mm_s2 = value,
                 Signal::EncoderOffset(i) => self.axis(i).encoder_offset_mm = value,

@@ -77,7 +77,9 @@ impl Wait {
             Sync::Dwell { seconds } => (cycles(seconds, Rest::Dwell), Action::None),
             Sync::Technology { seconds } => (cycles(seconds, Rest::Technology), Action::None),
             Sync::Independent { axes } => (Until::Arrived(axes), Action::None),
-            Sync::FlushWait | Sync::ReadActual => (Until::Flushed, Action::None),
+            Sync::FlushWait | Sync::ReadActual | Sync::Measured { .. } => {
+                (Until::Flushed, Action::None)
+            }
             Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
             Sync::MachineData { axis } => (Until::Flushed, Action::MachineData { axis }),
         };

@@ -1,5 +1,4 @@
 ; check: exit 1
-; error K-0019 at 4:1
-; error 20123 at 4:6
-G100 G101
+; error 20123 at 3:10
+G100 X10 G310 F500
 M30

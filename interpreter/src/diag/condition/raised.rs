@@ -96,6 +96,7 @@ conditions! {
     TwoInsertions = Vendor 20130: Error ProgramAbort 3 1, "two of G301/G302", hint "one of G301, G302 per block";
     GUnknown = Vendor 20131: Error ProgramAbort 3 1, "unknown G function", hint "the number is not assigned in this dialect: kontur explain G<number> tells about those that are";
     PlaneWithCompensation = Vendor 20133: Error ProgramAbort 3 1, "plane selection with active tool radius compensation", hint "switch the compensation off with G40 before G17, G18, G19";
+    MeasuringTypeOfG100 = Vendor 20138: Error ProgramAbort 3 1, "G100 does not go with the measuring type", cause "types 5 and 6 measure by G310", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
     LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
     SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
     ToolDataTwice = Vendor 20170: Error ProgramAbort 3 1, "D twice in one block", hint "leave one of the two out";
@@ -175,6 +176,7 @@ conditions! {
     DwellRange = Vendor 20752: Error ProgramAbort 3 1, "dwell time out of range", hint "the time stands in seconds";
     MTwice = Vendor 20765: Error ProgramAbort 3 1, "M function twice in one block", cause "M10 M10", hint "leave one of the two out";
     HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "leave one of the two out";
+    MeasuringFunction = Vendor 20772: Error ProgramAbort 3 1, "G function does not go with the measuring type", cause "G106 without type 3", hint "select the type of the function by #MEAS MODE [3]", parameter "P-CHAN-00057";
     AxisNameUnknown = Vendor 20797: Error ProgramAbort 3 1, "unknown axis designation in a command", hint "write the name of an axis of the channel";
     SystemWithCompensation = Vendor 20802: Error ProgramAbort 3 1, "change of the coordinate system while tool radius compensation is active", cause "#MCS ON between G41 and G40", hint "write G40 first";
     LabelTwice = Vendor 20836: Error ProgramAbort 3 1, "label defined twice", hint "give one of the two another name";
@@ -193,6 +195,8 @@ conditions! {
     ArrayNotDeclared = Vendor 20921: Error ProgramAbort 3 1, "P array not declared", hint "declare it between #VAR and #ENDVAR";
     ParameterUnknown = Vendor 20925: Error ProgramAbort 3 1, "unknown parameter", cause "read before it was written, or with other dimensions than declared", hint "assign a value before it is read: P1=5";
     DeletedUnknown = Vendor 20932: Error ProgramAbort 3 1, "variable to be deleted does not exist", cause "#DELETE V.P.NAME", hint "EXIST[V.P.NAME] tells whether it exists";
+    MeasuringArc = Vendor 20954: Error ProgramAbort 3 1, "arc as a measuring run", cause "G02 or G03 beside G100 or G310", hint "measuring runs are straight";
+    MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not go with the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
     DimensionTooSmall = Vendor 20966: Error ProgramAbort 3 1, "size of an array below 1", hint "write 1 or more";
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "arrays have up to 4 dimensions";
     SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before";
@@ -253,6 +257,9 @@ conditions! {
     RotationAxis = Vendor 22156: Error ProgramAbort 3 1, "axis outside the plane of a contour rotation", cause "G68 with the third main axis", hint "the centre of the rotation stands behind the two axes of the plane";
     MessageSuppressed = Vendor 22194: Warning None 1 1, "#MSG to the diagnosis receiver is suppressed, warning", cause "P-CHAN-00518", parameter "P-CHAN-00518";
     MessageForbidden = Vendor 22195: Error ProgramAbort 3 1, "#MSG to the diagnosis receiver is suppressed, error", cause "P-CHAN-00518", parameter "P-CHAN-00518";
+    ProbeActuated = Vendor 50052: Error FeedHold 6 1, "the probe is actuated before the measuring run", hint "clear the probe first: the input `probe` is 1 where the run begins";
+    NoMeasuringAxis = Vendor 50059: Error FeedHold 6 1, "axis that does not take part in measuring runs", cause "kenngr.messachse 0", hint "set kenngr.messachse to 1", parameter "P-AXIS-00118";
+    MeasuringAxes = Vendor 50061: Error FeedHold 6 1, "more axes in a measuring run than its type allows", cause "type 2 has one axis, type 4 the three main axes", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
     SpeedError = Vendor 50118: Error FeedHold 6 0, "axis speed above the limit", cause "> vb_max·(1+P-AXIS-00440/1000), default +9 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     SpeedWarning = Vendor 50119: Warning None 1 0, "axis speed above the warning level", cause "P-AXIS-00439, +5 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     DynamicsLimited = Vendor 50130: Warning None 1 0, "dynamics limited", cause "weighting G130-G133, G231, G233 beyond the limit", hint "lower the weight, or raise what the axis list allows (P-AXIS-00008 for accelerations)";
@@ -407,6 +414,9 @@ conditions! {
     Standstill = Kontur 130 "K-STANDSTILL": Error ProgramAbort 3 11, "an axis will never arrive where the program waits for it", cause "its loop stands or swings outside the window, and no input is left that could move it", hint "raise the window or the gain kv, or take the force away";
     SpindleLimit = Kontur 131 "K-SPINDLE-LIMIT": Warning None 1 1, "spindle speed above the limit of the spindle, limited", cause "S word or REV above P-AXIS-00212", hint "the limit is getriebe[0].dynamik.vb_max of the spindle", parameter "P-AXIS-00212";
     ThreadBroken = Kontur 132 "K-THREAD-BROKEN": Warning None 1 1, "thread whose pitch is not kept", cause "feedhold or override during G33, also a programmed one", hint "#TURN [THREAD_CUT_IGNORE_OV=1] or G166 keep the override out of threads; give a feedhold another time", parameter "P-CHAN-00836";
+    NoProbeSignal = Kontur 133 "K-NO-SIGNAL": Error ProgramAbort 3 1, "measuring run without a signal of the probe (no vendor ID known)", cause "type 2, or P-CHAN-00176 or ERR_NO_SIGNAL=1 with the others", hint "--input gives the signal: `probe` at a time, `X_probe_mm` at a position of an axis", parameter "P-CHAN-00176";
+    NotMeasured = Kontur 134 "K-NOT-MEASURED": Error ProgramAbort 3 1, "measuring offset of an axis that has not been measured (no vendor ID known)", cause "G101 without a signal in a G100 before it", hint "V.A.MERF.X tells whether the signal came";
+    MeasuringWay = Kontur 135 "K-MEASURING-WAY": Error ProgramAbort 3 1, "measuring run without a way (no vendor ID known)", cause "G100 X10 where the axis stands at 10", hint "the target lies behind the surface that is to be measured";
     ProjectRead = Kontur 140 "K-PROJECT": Note None 1 2, "lists taken out of a TwinCAT project", cause "-m names a .tsproj, an .xti, or a folder with them";
     ProjectWrong = Kontur 141 "K-PROJECT-WRONG": Error JobAbort 3 0, "TwinCAT project that is no XML or holds no CNC", cause "-m names a .tsproj, an .xti, or a folder with them", hint "name the project that has the axes and the channel of the CNC, or a folder with its exported .xti files";
 }

@@ -180,6 +180,12 @@ pub(in crate::exec) enum Act {
     CuttingSpeed(bool),
     /// G196.
     CuttingSpeedMax,
+    /// G100, G310.
+    Measure,
+    /// G106.
+    MeasureThrough,
+    /// G101 (true), G102.
+    MeasuringOffsets(bool),
     /// What holds anyway in this tool.
     Nothing,
     /// No influence on set positions.
@@ -218,7 +224,7 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
 
 const FEED_CHANGE: &str = "a higher feed is reached behind the start of its block, as at start";
 const FEED_HOLD: &str = "feedhold brakes without the weights of its own";
-const MEASURING: &str = "measuring";
+const EDGE_BANDING: &str = "edge banding";
 const MANUAL: &str = "manual mode";
 
 /// Every row, ordered by number. G80 to G89 and G800 to G899 are subroutine calls and not in it.
@@ -277,12 +283,12 @@ const ROWS: &[Row] = &[
     g(97, Group::SpindleMode, Act::CuttingSpeed(false)),
     g(98, Group::None, Act::SoftwareLimits(false)),
     g(99, Group::None, Act::SoftwareLimits(true)),
-    g(100, Group::Measuring, Act::Unsupported(MEASURING)),
-    g(101, Group::Measuring, Act::Unsupported(MEASURING)),
-    g(102, Group::Measuring, Act::Unsupported(MEASURING)),
-    g(106, Group::Measuring, Act::Unsupported(MEASURING)),
-    g(107, Group::Measuring, Act::Unsupported(MEASURING)),
-    g(108, Group::Measuring, Act::Unsupported(MEASURING)),
+    g(100, Group::Measuring, Act::Measure),
+    g(101, Group::Measuring, Act::MeasuringOffsets(true)),
+    g(102, Group::Measuring, Act::MeasuringOffsets(false)),
+    g(106, Group::None, Act::MeasureThrough),
+    g(107, Group::Measuring, Act::Unsupported(EDGE_BANDING)),
+    g(108, Group::Measuring, Act::Unsupported(EDGE_BANDING)),
     g(112, Group::None, Act::Unsupported("gear stages")),
     v(115, Group::LookAhead, Act::LookAheadFunctions),
     g(116, Group::LookAhead, Act::StopAtTransitions(true)),
@@ -331,7 +337,7 @@ const ROWS: &[Row] = &[
     g(301, Group::Insertion, Act::Chamfer),
     g(302, Group::Insertion, Act::Rounding),
     g(303, Group::Path, Act::Path(PathMode::ArcInSpace)),
-    g(310, Group::Measuring, Act::Unsupported(MEASURING)),
+    g(310, Group::Measuring, Act::Measure),
     g(331, Group::Path, Act::Path(PathMode::TapIn)),
     g(332, Group::Path, Act::Path(PathMode::TapBack)),
     g(333, Group::None, Act::Simplified(FEED_HOLD)),
@@ -372,7 +378,8 @@ pub(in crate::exec) fn takes_axes(row: &Row) -> bool {
             | Act::FeedforwardWeights
             | Act::MirrorAxes
             | Act::Rotate
-    ) || matches!(row.number, 74 | 100..=108 | 112 | 310 | 333 | 338)
+            | Act::MeasuringOffsets(_)
+    ) || matches!(row.number, 74 | 107 | 108 | 112 | 333 | 338)
 }
 
 #[cfg(test)]

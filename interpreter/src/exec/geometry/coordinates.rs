@@ -1,7 +1,7 @@
 //! Positions of the axes, offsets and frames: from programmed values to targets of the axes.
 //!
 //! `target = offsets + frame(programmed)`. The frame is made of contour rotation (first), mirroring and coordinate
-//! systems; offsets are zero offset, G92 and tool. A change of offsets or frames moves nothing: an axis takes the
+//! systems; offsets are zero offset, G92, tool and measuring offset. A change of offsets or frames moves nothing: an axis takes the
 //! active offset over when it is next programmed absolutely.
 //!
 //! Source: TF5200 programming manual, G53 to G59, G92, G20 to G23, G68, #CS. Assumption: axes that a
@@ -58,6 +58,8 @@ pub(in crate::exec) struct Coordinates {
     /// Position presets (`#PSET`).
     position_preset: AxisVec,
     tool: AxisVec,
+    /// Measuring offsets (G101).
+    measuring: AxisVec,
     mirrored: Vec<bool>,
     rotation: Option<Rotation>,
     systems: Vec<Frame>,
@@ -85,6 +87,7 @@ impl Coordinates {
             preset: AxisVec::zeros(n),
             position_preset: AxisVec::zeros(n),
             tool: AxisVec::zeros(n),
+            measuring: AxisVec::zeros(n),
             mirrored: vec![false; n],
             rotation: None,
             systems: Vec::new(),
@@ -132,7 +135,25 @@ impl Coordinates {
 
     /// Offset that an absolute word of this axis would take over.
     pub(in crate::exec) fn active_offset(&self, axis: usize) -> f64 {
-        self.zero_offset(axis) + self.preset[axis] + self.position_preset[axis] + self.tool[axis]
+        self.zero_offset(axis)
+            + self.preset[axis]
+            + self.position_preset[axis]
+            + self.tool[axis]
+            + self.measuring[axis]
+    }
+
+    /// Offset contained in the target of an axis.
+    pub(in crate::exec) fn applied_offset(&self, axis: usize) -> f64 {
+        self.applied[axis]
+    }
+
+    /// Measuring offset that G101 has taken in.
+    pub(in crate::exec) fn measuring_offset(&self, axis: usize) -> f64 {
+        self.measuring[axis]
+    }
+
+    pub(in crate::exec) fn set_measuring_offset(&mut self, axis: usize, value_mm: f64) {
+        self.measuring[axis] = value_mm;
     }
 
     /// Active zero offset.

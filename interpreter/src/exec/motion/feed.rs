@@ -16,6 +16,9 @@ impl Decoder {
         if self.modal.path == PathMode::Rapid {
             return Ok(Feed::Rapid);
         }
+        if let Some(feed) = self.motion.measuring.feed {
+            return Ok(feed);
+        }
         let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
             let key = "20008".to_owned();
             let text = "the feed is 0: no F word has been programmed";

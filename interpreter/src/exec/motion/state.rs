@@ -1,5 +1,8 @@
 //! What the room of motions keeps from block to block.
 
+pub(in crate::exec) mod measuring;
+
+use self::measuring::Measuring;
 use super::dynamics::Weights;
 use super::overrides::Overrides;
 use super::spindles::Spindle;
@@ -36,6 +39,7 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) feedforward: Feedforward,
     pub(in crate::exec) spindles: Vec<Spindle>,
     pub(in crate::exec) threads: Threads,
+    pub(in crate::exec) measuring: Measuring,
     pub(in crate::exec) contour_line: ContourLines,
     /// G40 with G239: the tool stands beside the contour, not where the program was.
     pub(in crate::exec) left_contour: bool,

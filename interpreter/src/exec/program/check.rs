@@ -41,7 +41,7 @@ pub(crate) fn check(
     let mut executor = Executor::with_mode(sources, program, machine, options, true);
     let mut time_s = 0.0;
     loop {
-        let feedback = Feedback { actual_mm: executor.target().clone(), time_s: 0.0 };
+        let feedback = Feedback { actual_mm: executor.target().clone(), ..Feedback::default() };
         match executor.next(feedback) {
             Step::End { .. } => {
                 executor.check_unreached();

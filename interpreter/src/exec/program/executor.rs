@@ -202,6 +202,13 @@ impl Executor {
                 }
                 return step;
             }
+            if self.decoder.motion.measuring.is_under_way() {
+                if let Some(label) = self.decoder.end_of_measuring() {
+                    self.goto(&label);
+                }
+                self.settle(false);
+                continue;
+            }
             match self.state {
                 State::Ended => {
                     let (reason, source) = (self.reason, self.decoder.report.source);

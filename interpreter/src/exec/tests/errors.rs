@@ -91,7 +91,8 @@ fn what_the_manual_knows_is_never_unknown() {
         "#AX LINK ON [1]",
         "#SET AX LINK [1, X=Y]",
         "#RT CYCLE [ID=1]",
-        "#MEAS MODE [1]",
+        "#MEAS PREPARE",
+        "#MEAS [AX=X EDGE=POS]",
         "#SPLINE TYPE BSPLINE",
         "#SET SPLINE ON",
         "#TOOL LIFE READ",
@@ -104,10 +105,8 @@ fn what_the_manual_knows_is_never_unknown() {
         "S[SYNC]",
         "S[G131=50]",
         "S[CALLAX]",
-        "P1=V.A.MESS.X",
-        "P1=V.A.MEAS.ACS.VALUE.X",
-        "P1=V.G.MEAS_TYPE",
-        "G100 X5",
+        "#MEAS MODE [7]\nG100 X5 F100",
+        "G108",
         "G236",
     ] {
         assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), ["K-0019"], "{text}");

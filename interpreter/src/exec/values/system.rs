@@ -53,6 +53,14 @@ const ROWS: &[Row] = &[
     Row { name: &["A", "ACT_POS", "*"], read: |d, p| p.position(d, 2, |d, a| d.feedback.actual_mm.get(a).copied().unwrap_or_else(|| d.geometry.coordinates.target()[a])) },
     Row { name: &["A", "ACS", "ABS", "*"], read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.target()[a]) },
     Row { name: &["A", "BZP", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.preset(a)) },
+    Row { name: &["A", "MESS", "*"], read: |d, p| p.position(d, 2, |d, a| d.motion.measuring.results[a].value) },
+    Row { name: &["A", "MERF", "*"], read: |d, p| { let a = p.axis(d, 2)?; truth(d.motion.measuring.results[a].signalled) } },
+    Row { name: &["A", "MOFFS", "*"], read: |d, p| p.position(d, 2, |d, a| d.motion.measuring.results[a].offset.unwrap_or_default()) },
+    Row { name: &["A", "MEIN", "*"], read: |d, p| p.position(d, 2, |d, a| d.geometry.coordinates.measuring_offset(a)) },
+    Row { name: &["A", "MEAS", "ACS", "VALUE", "*"], read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].axis) },
+    Row { name: &["A", "MEAS", "PCS", "VALUE", "*"], read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].program) },
+    Row { name: &["G", "MEAS_TYPE"], read: |d, _| number(f64::from(d.motion.measuring.kind)) },
+    Row { name: &["G", "RW"], read: |d, _| number(d.motion.measuring.residual_path_mm / d.unit_mm()) },
     Row { name: &["A", "-SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).0) },
     Row { name: &["A", "+SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).1) },
     Row { name: &["A", "-SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).0) },
@@ -267,16 +275,8 @@ fn kinematic(d: &Decoder, segments: &[Segment], span: Span) -> Outcome<String> {
     Ok(parts.join("."))
 }
 
-/// Variables of functions that are not simulated. Source: TF5200 measurement; volumetric compensation.
-const OTHERS: &[(&str, &str)] = &[
-    ("A", "MESS"),
-    ("A", "MERF"),
-    ("A", "MOFFS"),
-    ("A", "MEIN"),
-    ("A", "MEAS"),
-    ("G", "MEAS_TYPE"),
-    ("G", "VOLCOMP"),
-];
+/// Variables of functions that are not simulated. Source: TF5200 volumetric compensation.
+const OTHERS: &[(&str, &str)] = &[("G", "VOLCOMP")];
 
 fn unknown(d: &Decoder, segments: &[Segment], span: Span) -> Box<Fault> {
     let name = written(segments);
@@ -332,6 +332,9 @@ pub(in crate::exec) fn write(
             let group = path.index(d, 1, 999)?;
             let axis = path.axis(d, 3)?;
             d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
+        }
+        ["G", "RW"] => {
+            d.motion.measuring.residual_path_mm = x()? * d.unit_mm();
         }
         ["G", "WZR"] => {
             d.geometry.tools.active.radius_mm = x()?;

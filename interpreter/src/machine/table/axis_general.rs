@@ -27,6 +27,10 @@ parameters! {
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_ABSOLUTE: Switch;
     axis("P-AXIS-00059", "kenngr.durchm_prog_rel", Raw::Boolean, "the same with G91")
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_RELATIVE: Switch;
+    axis("P-AXIS-00118", "kenngr.messachse", Raw::Boolean, "1: the axis takes part in measuring runs (G100, G310)")
+        .default(0.0).axes("TR").source("TF5200 axis parameters"), as MEASURES: Switch;
+    axis("P-AXIS-00215", "kenngr.vb_messen", Raw::Uns32, "speed of measuring runs of type 2")
+        .range(Bound::At(1.0), Bound::None).default(16666.0).unit("um/s", "0.001deg/s").axes("TR").source("TF5200 axis parameters"), as MEASURING_SPEED: Number;
     axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "override ceiling of single axes and spindles")
         .range(Bound::At(1.0), Bound::At(2000.0)).default(1000.0).unit("0.1%", "0.1%").below(Condition::OverrideRange, Correction::Limit);
     axis("P-AXIS-00176", "kenngr.suppress_pos_lag_error", Raw::Boolean, "the lag is monitored and traced but raises no error; no document prints the prefix of the key, kenngr., lr_param., getriebe[0]. and none are taken")

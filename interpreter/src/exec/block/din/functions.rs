@@ -178,6 +178,8 @@ impl Decoder {
             return After::ToolChange(m.span);
         }
         match words.goto {
+            // of a measuring run, the signal decides
+            Some(_) if self.motion.measuring.is_under_way() => After::Next,
             Some(label) => After::Goto(label),
             None => After::Next,
         }

@@ -71,6 +71,7 @@ impl Decoder {
             Act::MirrorAxes => self.mirror_axes(&g, words),
             Act::Rotate => self.rotate(&g, words),
             Act::SoftwareLimits(positive) => self.software_limits(&g, words, positive),
+            Act::MeasuringOffsets(takes_in) => self.measuring_offsets(takes_in, &g, words),
             _ => Ok(()),
         };
         self.keep(outcome);

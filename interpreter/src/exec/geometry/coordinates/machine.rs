@@ -16,6 +16,7 @@ pub(super) struct Suspended {
     zero_group: u32,
     preset: AxisVec,
     position_preset: AxisVec,
+    measuring: AxisVec,
     mirrored: Vec<bool>,
     rotation: Option<Rotation>,
     systems: Vec<Frame>,
@@ -41,6 +42,7 @@ impl Coordinates {
             zero_group: std::mem::replace(&mut self.zero_group, NO_GROUP),
             preset: std::mem::replace(&mut self.preset, zeros()),
             position_preset: std::mem::replace(&mut self.position_preset, zeros()),
+            measuring: std::mem::replace(&mut self.measuring, zeros()),
             mirrored: std::mem::replace(&mut self.mirrored, vec![false; n]),
             rotation: self.rotation.take(),
             systems: std::mem::take(&mut self.systems),
@@ -57,6 +59,7 @@ impl Coordinates {
         (self.applied, self.zero_group, self.preset) = (applied, zero_group, preset);
         (self.position_preset, self.mirrored) = (position_preset, mirrored);
         (self.rotation, self.systems) = (before.rotation, before.systems);
+        self.measuring = before.measuring;
         self.frame_changed();
         true
     }

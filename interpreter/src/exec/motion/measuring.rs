@@ -1,0 +1,231 @@
+//! Measuring runs: G100 and G310 move until the probe signals; G101 and G102 take what was measured into the offsets.
+//!
+//! A run is a straight motion from rest to rest. Where the probe signals, the simulation latches the actual positions, brakes
+//! the path and drops what is left of it; the program goes on from where the path came to rest.
+//!
+//! Source: TF5200 programming manual, measuring functions (206164491, 206171147, 206177803, 206185227, 206191115,
+//! 206197003, 206208011), settings for measuring (207084683, 207092107); functional description of measuring (342045451).
+//! Assumptions, where they are silent: the path rests before a run; a run without a signal leaves the measured values as
+//! they were and takes FALSE into V.A.MERF; types 3 to 6 take a missing signal as type 1 does (P-CHAN-00176).
+
+use super::state::measuring::{Measured, Pending};
+use crate::diag::{Condition, ValueKind};
+use crate::exec::block::groups::{Act, Group};
+use crate::exec::block::modal::{Compensation, PathMode};
+use crate::exec::block::words::{GWord, Words};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::step::Sync;
+use crate::syntax::ast::{Label, Span};
+use kontur_motion::block::Feed;
+
+impl Decoder {
+    /// G100, G310.
+    pub(super) fn measuring_run(
+        &mut self,
+        g: &GWord,
+        words: &Words<'_>,
+        span: Span,
+    ) -> Outcome<()> {
+        let interrupts = g.row.number == 310;
+        let through = words.g.iter().any(|g| g.row.act == Act::MeasureThrough);
+        let kind = self.motion.measuring.kind;
+        self.measuring_fits(g, words, through)?;
+        self.end_thread();
+        self.sync(Sync::Stop);
+        let modal = self.modal.path;
+        if !interrupts {
+            self.modal.path = PathMode::Linear;
+        }
+        if kind == 2
+            && let Some((axis, _, _)) = words.axes.first()
+        {
+            let speed = self.machine.axes[*axis].measuring_speed_mm_s();
+            self.motion.measuring.feed = Some(Feed::PathVelocity(speed));
+        }
+        let outcome = self.motion(words, false, span);
+        self.modal.path = modal;
+        self.motion.measuring.feed = None;
+        outcome?;
+        if self.failed() && !self.checking {
+            return Ok(());
+        }
+        if !self.moved {
+            let text = format!("G{}: the axes stand at the target already", g.row.number);
+            return Err(Fault::new(Condition::MeasuringWay, text, g.span));
+        }
+        self.sync(Sync::Measured { through });
+        let coordinates = &self.geometry.coordinates;
+        let axes = 0..self.machine.axes.len();
+        let needs_signal = kind == 2
+            || self
+                .motion
+                .measuring
+                .missing_is_error
+                .unwrap_or(self.machine.channel.missing_signal_is_error);
+        self.motion.measuring.pending = Some(Box::new(Pending {
+            axes: words.axes.iter().map(|(axis, _, _)| *axis).collect(),
+            target: axes.map(|axis| coordinates.programmed(axis)).collect(),
+            needs_signal,
+            jump: None,
+            source: self.report.source,
+            span: g.span,
+        }));
+        Ok(())
+    }
+
+    /// What does not go with a run, or with its type.
+    fn measuring_fits(&mut self, g: &GWord, words: &Words<'_>, through: bool) -> Outcome<()> {
+        let kind = self.motion.measuring.kind;
+        let of_kind = |condition, text| {
+            Fault::new(condition, text, g.span).with(|d| d.value(ValueKind::Current, kind, "-"))
+        };
+        if kind == 7 {
+            return Err(Fault::unsupported("measuring type 7 (motion to a fixed stop)", g.span));
+        }
+        match (g.row.number, kind) {
+            (100, 5 | 6) => {
+                let text = format!("G100 with measuring type {kind}");
+                return Err(of_kind(Condition::MeasuringTypeOfG100, text));
+            }
+            (310, 1..=4) => {
+                let text = format!("G310 with measuring type {kind}");
+                return Err(of_kind(Condition::MeasuringTypeOfG310, text));
+            }
+            _ => {}
+        }
+        if through && kind != 3 {
+            let text = format!("G106 with measuring type {kind}");
+            return Err(of_kind(Condition::MeasuringFunction, text));
+        }
+        match words.group(Group::Path).map(|g| g.row.act) {
+            Some(Act::Path(PathMode::Clockwise | PathMode::CounterClockwise)) => {
+                let text = format!("G{} beside an arc", g.row.number);
+                return Err(Fault::new(Condition::MeasuringArc, text, g.span));
+            }
+            Some(Act::Path(PathMode::Linear | PathMode::Rapid)) | None => {}
+            Some(_) => {
+                let text = format!("G{} beside another kind of motion", g.row.number);
+                return Err(Fault::new(Condition::DuplicateGroup, text, g.span));
+            }
+        }
+        let modal_arc = !matches!(self.modal.path, PathMode::Linear | PathMode::Rapid);
+        if g.row.number == 310 && modal_arc {
+            let text = "G310 without G00 or G01 behind arcs";
+            return Err(Fault::new(Condition::MeasuringArc, text, g.span));
+        }
+        if words.axes.is_empty() {
+            let text = format!("G{} without axis words", g.row.number);
+            return Err(Fault::new(Condition::MeasuringWay, text, g.span));
+        }
+        let most = match kind {
+            2 => 1,
+            4 => 3,
+            _ => usize::MAX,
+        };
+        let is_main = |axis: usize| self.geometry.coordinates.main_index(axis).is_some();
+        let other = words.axes.iter().find(|(axis, _, _)| kind == 4 && !is_main(*axis));
+        if words.axes.len() > most || other.is_some() {
+            let at = words.axes.get(most).or(other).map_or(g.span, |(_, _, at)| *at);
+            let count = words.axes.len();
+            let text = match other {
+                Some((axis, _, _)) if count <= most => {
+                    format!("axis {} with measuring type 4: main axes alone", self.axis_name(*axis))
+                }
+                _ => format!("{count} axes with measuring type {kind}, which allows {most}"),
+            };
+            return Err(Fault::new(Condition::MeasuringAxes, text, at).with(|d| {
+                d.value(ValueKind::Current, count as f64, "-").value(
+                    ValueKind::UpperLimit,
+                    most as f64,
+                    "-",
+                )
+            }));
+        }
+        for (axis, _, at) in &words.axes {
+            if !self.machine.axes[*axis].measures() {
+                let name = self.axis_name(*axis).to_owned();
+                let number = self.machine.axes[*axis].number();
+                let text = format!("axis {name} does not take part in measuring runs");
+                return Err(Fault::new(Condition::NoMeasuringAxis, text, *at)
+                    .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
+            }
+        }
+        if self.modal.compensation != Compensation::Off {
+            return Err(Fault::unsupported("measuring with tool radius compensation", g.span));
+        }
+        if self.contour.akima.selected {
+            return Err(Fault::unsupported("measuring in a spline", g.span));
+        }
+        Ok(())
+    }
+
+    /// The run has come to its end: takes over what was measured and where the axes stand. The label of G310 comes back
+    /// if the probe has signalled.
+    pub(in crate::exec) fn end_of_measuring(&mut self) -> Option<Label> {
+        let pending = self.motion.measuring.pending.take()?;
+        let Pending { axes, target, needs_signal, jump, source, span } = *pending;
+        // a check has no probe: it takes the target for the surface
+        let (signal, rest) = match self.feedback.measured.take() {
+            Some(probed) => (probed.signal_mm, Some(probed.rest_mm)),
+            None => (Some(self.geometry.coordinates.target().clone()), None),
+        };
+        if let Some(signal) = &signal {
+            self.geometry.coordinates.set_target(signal);
+            for axis in &axes {
+                let program = self.geometry.coordinates.programmed(*axis);
+                self.motion.measuring.results[*axis] = Measured {
+                    value: program + self.geometry.coordinates.applied_offset(*axis),
+                    axis: signal[*axis],
+                    program,
+                    offset: Some(program - target[*axis]),
+                    signalled: true,
+                };
+            }
+        } else {
+            for axis in &axes {
+                self.motion.measuring.results[*axis].signalled = false;
+            }
+            if needs_signal {
+                let text = "the probe has not signalled on the way to the target";
+                let fault = Fault::new(Condition::NoProbeSignal, text, span);
+                self.note(fault.in_block(source));
+            }
+        }
+        if let Some(rest) = rest {
+            self.geometry.coordinates.set_target(&rest);
+        }
+        jump.filter(|_| signal.is_some())
+    }
+
+    /// G101: takes measuring offsets times their factors into the offsets; G102: takes them out again, of all axes if it
+    /// names none.
+    pub(in crate::exec) fn measuring_offsets(
+        &mut self,
+        takes_in: bool,
+        g: &GWord,
+        words: &Words<'_>,
+    ) -> Outcome<()> {
+        if !takes_in {
+            let all = words.axes.is_empty();
+            for axis in 0..self.machine.axes.len() {
+                if all || words.axes.iter().any(|(a, _, _)| *a == axis) {
+                    self.geometry.coordinates.set_measuring_offset(axis, 0.0);
+                }
+            }
+            return Ok(());
+        }
+        if words.axes.is_empty() {
+            let text = format!("G{} without axis words", g.row.number);
+            return Err(Fault::new(Condition::AxisMissing, text, g.span));
+        }
+        for (axis, factor, at) in &words.axes {
+            let Some(offset) = self.motion.measuring.results[*axis].offset else {
+                let text = format!("axis {} has not been measured", self.axis_name(*axis));
+                return Err(Fault::new(Condition::NotMeasured, text, *at));
+            };
+            self.geometry.coordinates.set_measuring_offset(*axis, factor * offset);
+        }
+        Ok(())
+    }
+}

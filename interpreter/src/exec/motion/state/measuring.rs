@@ -1,0 +1,76 @@
+//! What measuring runs keep.
+
+use crate::exec::step::SourceRef;
+use crate::machine::Channel;
+use crate::syntax::ast::{Label, Span};
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::Feed;
+
+/// What was measured of an axis, in mm (deg).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::exec) struct Measured {
+    /// In the coordinates of the program, with all offsets (`V.A.MESS`).
+    pub(in crate::exec) value: f64,
+    /// Position of the axis (`V.A.MEAS.ACS.VALUE`).
+    pub(in crate::exec) axis: f64,
+    /// In the coordinates of the program (`V.A.MEAS.PCS.VALUE`).
+    pub(in crate::exec) program: f64,
+    /// Way from the target to the measured position (`V.A.MOFFS`); `None` before the first signal.
+    pub(in crate::exec) offset: Option<f64>,
+    /// The signal came in the last run (`V.A.MERF`).
+    pub(in crate::exec) signalled: bool,
+}
+
+/// A run that has been sent and whose end the program waits for.
+#[derive(Debug)]
+pub(in crate::exec::motion) struct Pending {
+    pub(in crate::exec::motion) axes: Vec<usize>,
+    /// Programmed coordinates of the target.
+    pub(in crate::exec::motion) target: AxisVec,
+    /// A missing signal is an error.
+    pub(in crate::exec::motion) needs_signal: bool,
+    pub(in crate::exec::motion) jump: Option<Label>,
+    pub(in crate::exec::motion) source: SourceRef,
+    pub(in crate::exec::motion) span: Span,
+}
+
+/// What the room knows of measuring.
+#[derive(Debug)]
+pub(in crate::exec) struct Measuring {
+    /// Measuring type, 1 to 7 (`#MEAS MODE`).
+    pub(in crate::exec) kind: u32,
+    /// `ERR_NO_SIGNAL`; `None`: as the list and the type say.
+    pub(in crate::exec) missing_is_error: Option<bool>,
+    /// V.G.RW in mm.
+    pub(in crate::exec) residual_path_mm: f64,
+    /// Of every axis.
+    pub(in crate::exec) results: Vec<Measured>,
+    /// Speed of a run of type 2 while it is made.
+    pub(in crate::exec::motion) feed: Option<Feed>,
+    pub(in crate::exec::motion) pending: Option<Box<Pending>>,
+}
+
+impl Measuring {
+    pub(in crate::exec) fn new(channel: &Channel, axes: usize) -> Self {
+        Self {
+            kind: channel.measuring_type,
+            missing_is_error: None,
+            residual_path_mm: channel.residual_path_mm,
+            results: vec![Measured::default(); axes],
+            feed: None,
+            pending: None,
+        }
+    }
+
+    /// The program waits for the end of a run.
+    pub(in crate::exec) fn is_under_way(&self) -> bool {
+        self.pending.is_some()
+    }
+
+    /// What follows a signal (`G310 .. $GOTO`).
+    pub(in crate::exec) fn jump(&mut self, label: Option<Label>) {
+        if let Some(pending) = &mut self.pending {
+            pending.jump = label;
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The probe of measuring runs: it signals at a time or where an axis passes a position, and the path stops.
+//!
+//! Assumption: the signal of `probe` latches the actual positions of the cycle in which it acts, that of `X_probe_mm` the
+//! positions at which the actual position of the axis passes it, with a straight line between two cycles. The path brakes
+//! as under feedhold, with the slope of its block.
+
+use super::inputs::Inputs;
+use super::{Phase, Simulation};
+use crate::diag::{Condition, Diagnostic};
+use crate::exec::Probed;
+use kontur_motion::axis::AxisVec;
+
+/// A measuring run.
+#[derive(Clone, Debug)]
+pub(super) struct Probing {
+    /// The signal does not stop the path.
+    through: bool,
+    /// Actual positions in the cycle before.
+    before_mm: AxisVec,
+    /// Actual positions at the signal.
+    signal_mm: Option<AxisVec>,
+}
+
+impl Probing {
+    /// The path is to stop, or has stopped.
+    pub(super) fn holds(&self) -> bool {
+        self.signal_mm.is_some() && !self.through
+    }
+
+    /// Actual positions at the signal of this cycle, if there is one.
+    fn latched(&self, inputs: &Inputs, now_mm: &[f64]) -> Option<AxisVec> {
+        if inputs.probe {
+            return Some(AxisVec::from_slice(now_mm));
+        }
+        let passed = |(axis, surface): (usize, Option<f64>)| {
+            let (before, now) = (*self.before_mm.get(axis)?, *now_mm.get(axis)?);
+            let surface = surface?;
+            let passes =
+                (before < surface && surface <= now) || (now <= surface && surface < before);
+            passes.then(|| (surface - before) / (now - before))
+        };
+        let surfaces = inputs.surfaces_mm.iter().copied().enumerate();
+        let share = surfaces.filter_map(passed).min_by(f64::total_cmp)?;
+        let between = |(before, now): (&f64, &f64)| before + (now - before) * share;
+        Some(self.before_mm.iter().zip(now_mm).map(between).collect())
+    }
+}
+
+impl Simulation {
+    /// The next motion is a measuring run: nothing of it has been driven yet.
+    pub(super) fn begin_probing(&mut self, through: bool) {
+        let before_mm = self.actual_mm();
+        self.probing = Some(Probing { through, before_mm, signal_mm: None });
+        if self.inputs.probe {
+            let text = "the probe signals before the measuring run begins";
+            let k = self.planner.setpoint().k;
+            let mut d = Diagnostic::new(Condition::ProbeActuated, text);
+            (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
+            d.source = self.pending.as_ref().and_then(|(_, at, _)| self.executor.locate(*at));
+            self.diagnostics.push(d);
+            self.totals.aborted = true;
+            self.phase = Phase::Done;
+        }
+    }
+
+    /// Actual positions of the path axes.
+    pub(super) fn actual_mm(&self) -> AxisVec {
+        self.record.axes.iter().map(|a| a.act).take(self.vector.len()).collect()
+    }
+
+    /// Looks for the signal behind a cycle; the path bends from the next one on.
+    pub(super) fn watch_probe(&mut self) {
+        if self.probing.is_none() || !matches!(self.phase, Phase::Running) {
+            return;
+        }
+        let now_mm = self.actual_mm();
+        let Some(probing) = &mut self.probing else { return };
+        if probing.signal_mm.is_none() {
+            probing.signal_mm = probing.latched(&self.inputs, &now_mm);
+        }
+        probing.before_mm = now_mm;
+        if probing.holds() {
+            self.hold_path();
+        }
+    }
+
+    /// The path stands where the signal has stopped it: what is left of the run is dropped.
+    pub(super) fn drop_rest_of_run(&mut self) -> bool {
+        let stopped = self.probing.as_ref().is_some_and(Probing::holds);
+        if stopped {
+            self.planner.drop_ahead();
+        }
+        stopped
+    }
+
+    /// What a run has found, when it is over.
+    pub(super) fn end_probing(&mut self) -> Option<Box<Probed>> {
+        let Probing { signal_mm, .. } = self.probing.take()?;
+        self.hold_path();
+        let k = self.planner.setpoint().k;
+        let position = &self.planner.setpoint().position;
+        let rest_mm =
+            position.iter().enumerate().map(|(p, x)| x + self.independent.way_mm(p, k)).collect();
+        Some(Box::new(Probed { signal_mm, rest_mm }))
+    }
+}

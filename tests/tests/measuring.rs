@@ -1,0 +1,195 @@
+//! Measuring runs with a probe from the real-time inputs: G100 with its types, G106, G310, G101 and G102.
+//!
+//! Programs after the examples of the TF5200 programming manual (206171147, 206177803, 206185227, 206197003, 206208011),
+//! with targets as printed there. What is measured is known beforehand: where a straight line meets the surface.
+
+use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::machine::Machine;
+use kontur_tests::{Run, machine, run_with_inputs};
+
+/// The built-in machine with a linear slope of 1000 mm/s2 in X and Y.
+fn linear(more: &[&str]) -> (Machine, Vec<Diagnostic>) {
+    let stages = ["a_stufe_1", "a_stufe_2", "a_grenz_stufe_1", "a_grenz_stufe_2"];
+    let mut settings: Vec<String> =
+        stages.iter().map(|s| format!("X,Y.getriebe[0].lslope_profil.{s}=1000")).collect();
+    settings.extend(more.iter().map(ToString::to_string));
+    machine(&settings.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+/// What the program says with `#MSG`, in order.
+fn said(run: &Run) -> Vec<String> {
+    let own = run.diagnostics.iter().filter(|d| d.id.to_string() == "K-0081");
+    own.map(|d| d.text.clone()).collect()
+}
+
+fn errors(run: &Run) -> Vec<String> {
+    run.diagnostics.iter().filter(|d| d.is_error()).map(|d| d.id.to_string()).collect()
+}
+
+fn end(run: &Run, axis: usize) -> f64 {
+    run.records.last().unwrap().axes[axis].ipo
+}
+
+fn near(a: f64, b: f64, tolerance: f64) {
+    assert!((a - b).abs() <= tolerance, "{a} instead of {b}");
+}
+
+/// From X5 Y0 to X10 Y10: a surface at X8 is met at Y6.
+const TYPE_1: &str = "%MEAS_RUN\n#SLOPE [TYPE=STEP]\nN10 G90 G00 X0 Y0 Z0\nN20 X5\nN30 G100 X10 Y10 F500\n\
+    #MSG [\"%.4f %.4f %d %.4f %.4f\", V.A.MESS.X, V.A.MESS.Y, V.A.MERF.X, V.A.MOFFS.X, V.A.MOFFS.Y]\n";
+
+#[test]
+fn the_surface_is_measured_and_the_rest_of_the_run_is_dropped() {
+    let program = format!("{TYPE_1}N40 G01 X7\nN50 M30\n");
+    let run = run_with_inputs(linear(&[]), &program, &[(0.0, "X_probe_mm", 8.0)]);
+    assert_eq!(said(&run), ["8.0000 6.0000 1 -2.0000 -4.0000"]);
+    assert!(errors(&run).is_empty() && !run.totals.aborted);
+    let of_run = |line: u32| run.records.iter().filter(move |r| r.line == line);
+    // every set position of the run lies on its line, and it ends soon behind the surface: by the lag and the way of
+    // braking, not at the target
+    for r in of_run(5) {
+        near(r.axes[1].ipo, 2.0 * (r.axes[0].ipo - 5.0), 1e-9);
+    }
+    let rest = of_run(5).next_back().unwrap();
+    let (x, y) = (rest.axes[0].ipo, rest.axes[1].ipo);
+    assert!(x > 8.0 && x < 8.2, "{x}");
+    // N40 goes on from there: Y stays, X goes back
+    near(end(&run, 0), 7.0, 1e-9);
+    near(end(&run, 1), y, 1e-9);
+}
+
+/// A signal at a time: braking from v = 500/60 mm/s takes v^2 / 2a, where a is what the steeper axis (2 / sqrt 5 of the
+/// way) does with 1000 mm/s2.
+#[test]
+fn a_signal_at_a_time_brakes_the_path_from_the_next_cycle_on() {
+    let program = format!("{TYPE_1}N50 M30\n");
+    let run = run_with_inputs(linear(&[]), &program, &[(0.5, "probe", 1.0), (0.6, "probe", 0.0)]);
+    let v = 500.0 / 60.0;
+    let at = &run.records[(0.5 / run.cycle_s).round() as usize];
+    near(at.path.v_mm_s, v, 1e-9);
+    let s = run.records.last().unwrap().path.s_mm;
+    let a = 1000.0 * 5.0_f64.sqrt() / 2.0;
+    near(s - at.path.s_mm, v * v / (2.0 * a), 1e-9);
+    // what is latched are the actual positions of that cycle
+    let latched = format!("{:.4} {:.4} 1", at.axes[0].act, at.axes[1].act);
+    assert!(said(&run)[0].starts_with(&latched), "{:?}, {latched}", said(&run));
+}
+
+/// Without a signal the run goes to its target; what that means is up to the type, the list and the program.
+#[test]
+fn a_missing_signal() {
+    let program = format!("{TYPE_1}N50 M30\n");
+    let run = run_with_inputs(linear(&[]), &program, &[]);
+    assert_eq!(said(&run), ["0.0000 0.0000 0 0.0000 0.0000"]);
+    near(end(&run, 1), 10.0, 1e-9);
+    assert!(errors(&run).is_empty());
+    let listed = run_with_inputs(linear(&["channel.meas_error_no_signal=1"]), &program, &[]);
+    assert_eq!(errors(&listed), ["K-0133"]);
+    let commanded = program.replace("N10", "#MEAS [ERR_NO_SIGNAL=1]\nN10");
+    assert_eq!(errors(&run_with_inputs(linear(&[]), &commanded, &[])), ["K-0133"]);
+    // the list is overruled both ways
+    let excused = program.replace("N10", "#MEAS [ERR_NO_SIGNAL=0]\nN10");
+    let run = run_with_inputs(linear(&["channel.meas_error_no_signal=1"]), &excused, &[]);
+    assert!(errors(&run).is_empty());
+}
+
+/// Type 2: one axis at the speed of P-AXIS-00215, whatever F is; a missing signal is an error.
+#[test]
+fn one_axis_at_its_own_speed() {
+    let program = "%MEAS_RUN\n#MEAS MODE [2]\nN10 G90 G00 X0 Y0 Z0\nN20 Y5\nN30 G100 X10\n\
+        #MSG [\"%.4f %d\", V.A.MESS.X, V.G.MEAS_TYPE]\nN40 G01 X7 F6000\nN50 M30\n";
+    let run = run_with_inputs(linear(&[]), program, &[(0.0, "X_probe_mm", 8.0)]);
+    assert_eq!(said(&run), ["8.0000 2"]);
+    let most = run.records.iter().filter(|r| r.line == 5).map(|r| r.path.v_mm_s);
+    near(most.fold(0.0, f64::max), 16.666, 1e-9);
+    assert_eq!(errors(&run_with_inputs(linear(&[]), program, &[])), ["K-0133"]);
+}
+
+/// Type 3: with G106 the path goes on to the target, without it it stops.
+#[test]
+fn through_to_the_target() {
+    let of = |g106: &str| {
+        let run = TYPE_1.replace("F500", &format!("F500 {g106}"));
+        let program = format!("#MEAS [TYPE=3]\n{run}N50 M30\n");
+        run_with_inputs(linear(&[]), &program, &[(0.0, "Y_probe_mm", 6.0)])
+    };
+    let (through, stopped) = (of("G106"), of(""));
+    assert_eq!(said(&through), said(&stopped));
+    assert_eq!(said(&through), ["8.0000 6.0000 1 -2.0000 -4.0000"]);
+    near(end(&through, 0), 10.0, 1e-9);
+    // without a dip at the signal
+    let slow = through
+        .records
+        .iter()
+        .filter(|r| r.line == 6 && r.axes[0].ipo > 6.0 && r.axes[0].ipo < 9.0);
+    assert!(slow.into_iter().all(|r| (r.path.v_mm_s - 500.0 / 60.0).abs() < 1e-9));
+    assert!(end(&stopped, 0) < 8.2);
+}
+
+/// G310: with a signal the program goes on at the label and from where the axes stand, without one behind the block.
+#[test]
+fn an_interrupted_motion_jumps() {
+    let program = "#MEAS MODE [5]\nN10 G00 X0 Y0\nN20 G310 G01 F1000 X10 Y20 $GOTO[N_LABEL]\nN30 G01 X20\n\
+        N40 $GOTO[ENDE]\nN50 [N_LABEL] X0 Y0\nN60 [ENDE] M30\n";
+    let hit = run_with_inputs(linear(&[]), program, &[(0.0, "X_probe_mm", 5.0)]);
+    assert!(errors(&hit).is_empty());
+    near(end(&hit, 0), 0.0, 1e-9);
+    assert!(hit.records.iter().all(|r| r.axes[0].ipo < 5.5 && r.line != 4));
+    let missed = run_with_inputs(linear(&[]), program, &[]);
+    near(end(&missed, 0), 20.0, 1e-9);
+    near(end(&missed, 1), 20.0, 1e-9);
+}
+
+/// Measuring offset = measured - target = -2, -4: with factors 1 and 7 the program is shifted by -2 and -28, with the
+/// next absolute words, until G102.
+#[test]
+fn measuring_offsets() {
+    let program = format!(
+        "{TYPE_1}N60 G101 X1 Y7\nN70 G01 X0 Y0\n#MSG [\"%.4f %.4f\", V.A.MEIN.X, V.A.ACS.ABS.Y]\n\
+         N80 G91 X1\n#MSG [\"%.4f\", V.A.ACS.ABS.X]\nN90 G90 G102 Y1\nN100 Y0 X0\nM30\n"
+    );
+    let run = run_with_inputs(linear(&[]), &program, &[(0.0, "X_probe_mm", 8.0)]);
+    assert_eq!(said(&run)[1..], ["-2.0000 -28.0000", "-1.0000"]);
+    near(end(&run, 0), -2.0, 1e-9);
+    near(end(&run, 1), 0.0, 1e-9);
+    assert_eq!(errors(&run_with_inputs(linear(&[]), &program, &[])), ["K-0134"]);
+}
+
+/// The measured value contains the offsets, the value in the coordinates of the program does not.
+#[test]
+fn measured_values_and_offsets() {
+    let program = "%P\nV.G.NP[1].V.X=3\nG54 G90 G00 X0\nG100 X10 F500\n\
+        #MSG [\"%.4f %.4f %.4f %.4f\", V.A.MESS.X, V.A.MEAS.ACS.VALUE.X, V.A.MEAS.PCS.VALUE.X, V.A.MOFFS.X]\n\
+        #MSG [\"%d\", V.A.ABS.X * 1000 - V.A.ACS.ABS.X * 1000]\nM30\n";
+    let run = run_with_inputs(linear(&[]), program, &[(0.0, "X_probe_mm", 8.0)]);
+    assert_eq!(said(&run), ["8.0000 8.0000 5.0000 -5.0000", "-3000"]);
+}
+
+/// A probe that signals already, and one that signals when nobody measures.
+#[test]
+fn signals_at_other_times() {
+    let program = format!("{TYPE_1}N50 M30\n");
+    let run = run_with_inputs(linear(&[]), &program, &[(0.01, "probe", 1.0)]);
+    assert_eq!(run.ids(), [50052]);
+    let run = run_with_inputs(linear(&[]), &program, &[(0.01, "probe", 1.0), (0.02, "probe", 0.0)]);
+    assert!(errors(&run).is_empty());
+    near(end(&run, 0), 10.0, 1e-9);
+}
+
+/// A feedhold inside a run only shifts it.
+#[test]
+fn feedhold_in_a_run() {
+    let program = format!("{TYPE_1}N50 M30\n");
+    let inputs = [(0.0, "X_probe_mm", 8.0), (0.3, "feedhold", 1.0), (0.8, "feedhold", 0.0)];
+    let held = run_with_inputs(linear(&[]), &program, &inputs);
+    assert_eq!(said(&held), ["8.0000 6.0000 1 -2.0000 -4.0000"]);
+}
+
+/// Nobody knows the surface before: the check takes the target for it, and refuses nothing that a run may do.
+#[test]
+fn a_check_refuses_no_measured_value() {
+    let program =
+        format!("{TYPE_1}N60 G101 X1\nN70 $IF V.A.MERF.X == 0\n#ERROR [ID100]\n$ENDIF\nM30\n");
+    let run = run_with_inputs(linear(&[]), &program, &[(0.0, "X_probe_mm", 8.0)]);
+    assert!(errors(&run).is_empty() && !run.records.is_empty());
+}
