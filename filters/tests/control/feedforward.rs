@@ -63,7 +63,7 @@ struct Row {
 #[test]
 fn lag_table() {
     let row = |what, kv, ta, feedforward, columns| Row { what, kv, ta, feedforward, columns };
-    // digits: three, two, one, none behind the point
+    // digits: three, two, one, none after the point
     let (m, c, d, u) = (5e-4, 5e-3, 5e-2, 5e-1);
     let none = FeedforwardConfig::default();
     let jerk =
@@ -159,7 +159,7 @@ fn constant_speed_closed_form() {
     }
 }
 
-/// Constant acceleration long enough for everything else to decay leaves `a Ta / Kv`, or nothing with ACC.
+/// Constant acceleration long enough foreverything else to decay leaves `a Ta / Kv`, or nothing with ACC.
 /// Conformance: F002, F004, F010.
 #[test]
 fn constant_acceleration_closed_form() {

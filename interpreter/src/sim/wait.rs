@@ -36,7 +36,7 @@ enum Until {
     Spindle(usize, SpindleState),
     /// Flushed, and the actual positions in their windows (P-AXIS-00236).
     InPosition,
-    /// The same for everything that moves, independent axes and spindles on their way to a position too, and seen by the
+    /// The same foreverything that moves, independent axes and spindles on their way to a position too, and seen by the
     /// monitors: the last row of the trace shows the axes inside their windows.
     AllInPosition,
 }
@@ -170,7 +170,7 @@ impl Wait {
         matches!(self.until, Until::Cycles(..) | Until::Spindle(..))
     }
 
-    /// The spindle and the mark that the wait is for, and whether the override does not act on the thread behind it.
+    /// The spindle and the mark that the wait is for, and whether the override does not act on the thread after it.
     pub(super) fn mark(&self) -> Option<(usize, f64, bool)> {
         match self.until {
             Until::Spindle(spindle, SpindleState::Mark { deg, full_override }) => {

@@ -7,7 +7,7 @@
 use super::ast::Span;
 use crate::source::regions::{self, Region, regions};
 
-/// Byte that stands in the masked text for every character of a configured name.
+/// Byte that stands in the masked text forevery character of a configured name.
 pub(super) const MARK: u8 = 1;
 
 /// Stands in the masked text for a quote that is never closed.
@@ -151,7 +151,7 @@ fn variable(bytes: &[u8]) -> usize {
     i
 }
 
-/// Length of `L`, `LL` with the name behind it.
+/// Length of `L`, `LL` with the name after it.
 fn call(bytes: &[u8]) -> usize {
     let letters = run(bytes, |b| matches!(b, b'L' | b'l'));
     let blanks = run(&bytes[letters..], |b| matches!(b, b' ' | b'\t'));

@@ -1,4 +1,4 @@
-//! Monitoring of the set positions behind the axis filters: velocity, acceleration, jerk.
+//! Monitoring of the set positions after the axis filters: velocity, acceleration, jerk.
 //!
 //! Threshold = (1 + p/1000) x limit. An overshooting band-stop filter can trip it.
 //!
@@ -102,7 +102,7 @@ impl SetpointMonitor {
         self.levels = [Level::Good; 3];
     }
 
-    /// One cycle: a fault for every derivative whose level rises.
+    /// One cycle: a fault forevery derivative whose level rises.
     pub(crate) fn step(&mut self, set_mm: f64, faults: &mut Faults) {
         let [p1, p2, p3] = self.past_mm;
         let t = self.cycle_s;

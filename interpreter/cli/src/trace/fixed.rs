@@ -1,6 +1,6 @@
 //! Fixed-point formatting of f64 and exact formatting of times.
 //!
-//! The standard library's `{:.7}` is exact for every f64 and needs 80 ns per number; a trace of a machine needs 13
+//! The standard library's `{:.7}` is exact forevery f64 and needs 80 ns per number; a trace of a machine needs 13
 //! numbers per cycle. Here `value * 10^d` is rounded half away from zero to an integer, exactly: the product's own
 //! rounding error matters only when the product lands on a tie, and then a fused multiply-add tells its sign.
 
@@ -66,7 +66,7 @@ fn round_product(value: f64, scale: f64, product: f64) -> i64 {
     if away { whole + if product < 0.0 { -1 } else { 1 } } else { whole }
 }
 
-/// Room for the digits of a number, which end at [`END`], and as much again behind them.
+/// Room for the digits of a number, which end at [`END`], and as much again after them.
 type Digits = [u8; 2 * END];
 
 /// Longest number: 20 digits of an integer, or 16 with sign and point.

@@ -34,9 +34,9 @@ impl Ident {
 pub struct Command {
     /// Words up to `ON`/`OFF` or the first argument, in upper case: `["VIB", "GUARD"]`.
     pub words: Vec<Ident>,
-    /// `ON` (true) or `OFF` (false) behind the words.
+    /// `ON` (true) or `OFF` (false) after the words.
     pub on: Option<bool>,
-    /// Words behind `ON`/`OFF`: `ALL` of `#CS OFF ALL`; in upper case.
+    /// Words after `ON`/`OFF`: `ALL` of `#CS OFF ALL`; in upper case.
     pub tail: Vec<Ident>,
     /// Values without bracket: `#TIME 2.5`, `#WAIT FOR V.E.A == 1`, `#DELETE V.P.A, V.P.B`.
     pub arguments: Vec<Expr>,
