@@ -215,7 +215,7 @@ pub struct Diagnostic {
 }
 
 /// Characters of a word that a message quotes.
-pub const QUOTED_MAX: usize = 80;
+pub(crate) const QUOTED_MAX: usize = 80;
 
 /// A message in which what stands between backticks has at most [`QUOTED_MAX`] characters.
 pub fn shortened(text: String) -> String {

@@ -32,12 +32,12 @@ use std::sync::Arc;
 /// Longest block in characters; longer ones are warned about, 20301.
 ///
 /// Source: TF5200 programming manual, block structure.
-pub const BLOCK_LENGTH: u32 = 4000;
+pub(crate) const BLOCK_LENGTH: u32 = 4000;
 
 /// Longest block that is decoded, in characters; above it 20301 is an error.
 ///
 /// Source: TF5200 diagnosis, 20301. The limit holds for the joined block if lines are continued.
-pub const BLOCK_LENGTH_MAX: u32 = 4096;
+pub(crate) const BLOCK_LENGTH_MAX: u32 = 4096;
 
 /// Opens programs.
 pub trait Sources: Send + Sync {

@@ -31,7 +31,7 @@ mod problem;
 pub(crate) mod scan;
 
 pub(crate) use plain::{Plain, PlainValue};
-pub use scan::NESTING_MAX;
+pub(crate) use scan::NESTING_MAX;
 
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::source::{BLOCK_LENGTH, BLOCK_LENGTH_MAX, RawBlock};
@@ -67,7 +67,7 @@ const HASH_WORDS: &[&str] =
 const PROBLEMS_MAX: usize = 10;
 
 /// Binary operators per block. Bounds the depth of the tree together with [`NESTING_MAX`]; above it K-0006.
-pub const OPERATORS_MAX: usize = 500;
+pub(crate) const OPERATORS_MAX: usize = 500;
 
 /// Parses blocks.
 #[derive(Clone, Debug, Default)]

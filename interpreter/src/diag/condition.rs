@@ -88,7 +88,7 @@ pub struct Row {
 
 impl Row {
     /// What brings the control back. Source: TF5200 diagnosis manual, interface description.
-    pub const fn remedy_text(&self) -> &'static str {
+    pub(crate) const fn remedy_text(&self) -> &'static str {
         match self.remedy {
             1 => "nothing to do, remedied internally",
             2 | 3 => "reset of the channel",

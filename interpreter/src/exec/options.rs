@@ -99,7 +99,7 @@ impl Stop {
     }
 
     /// It has been stopped.
-    pub fn is_set(&self) -> bool {
+    pub(crate) fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }

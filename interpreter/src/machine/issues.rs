@@ -151,7 +151,7 @@ pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue
 }
 
 /// A filter, or Improved Position Control, that a list describes and that is off because it cannot be built.
-pub fn leaves_out(diagnostic: &Diagnostic) -> bool {
+pub(crate) fn leaves_out(diagnostic: &Diagnostic) -> bool {
     [
         Condition::FilterType,
         Condition::SecondHsc,

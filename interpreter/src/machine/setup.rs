@@ -99,7 +99,7 @@ impl Axis {
     }
 
     /// Mean delay of the standard filters that the list switches on, in cycles.
-    pub fn standard_filter_delay_cycles(&self, cycle: CycleTime) -> f64 {
+    pub(crate) fn standard_filter_delay_cycles(&self, cycle: CycleTime) -> f64 {
         let cascade = filters::cascade(self, cycle, &mut Vec::new());
         cascade.filters.iter().map(Stage::delay_cycles).sum()
     }

@@ -15,7 +15,7 @@ pub(super) const UNCLOSED: char = '\u{2}';
 
 /// Deepest nesting of square brackets; deeper blocks get K-0006. Far beyond anything written by hand or post-processor,
 /// and small enough for the stack of every platform.
-pub const NESTING_MAX: usize = 64;
+pub(crate) const NESTING_MAX: usize = 64;
 
 /// Text as the grammar sees it.
 pub(super) struct Masked {

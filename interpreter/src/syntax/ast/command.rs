@@ -18,7 +18,7 @@ impl Ident {
     }
 
     /// Splits a name written together with a number, `ID455` or `REV1000.5`, into both.
-    pub fn split_number(&self) -> Option<(&str, f64)> {
+    pub(crate) fn split_number(&self) -> Option<(&str, f64)> {
         let at = self.text.find(|c: char| c.is_ascii_digit() || c == '.')?;
         let (name, number) = self.text.split_at(at);
         let plain = number.bytes().all(|b| b.is_ascii_digit() || b == b'.');
