@@ -39,7 +39,7 @@ const LATE: &str = "#TIMER START SYN [ID=1]\nG01 X2 F6000\n#TIMER READ SYN [ID=1
 fn ringing() -> String {
     let sample = |k: u32| {
         let t = f64::from(k) * 1e-3;
-        let a = (-6.0 * t).exp() * (2.0 * std::f64::consts::PI * 30.0 * t).sin();
+        let a = libm::exp(-6.0 * t) * libm::sin(std::f64::consts::TAU * 30.0 * t);
         format!("{t:.3},{a:.9}\n")
     };
     "t_s,a\n".to_owned() + &(0..1000).map(sample).collect::<String>()
