@@ -10,7 +10,7 @@
 //!
 //! A file of `lists` takes the place of a list of the machine `xyz`: `# x.lis: exit 0`.
 //!
-//! `open.csv` tells forevery ID of the catalogue that has no file why it has none.
+//! `open.csv` tells for every ID of the catalogue that has no file why it has none.
 //! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test faults` writes the table of the folder's README anew.
 
 use kontur_interpreter::diag::condition::{self, Row};

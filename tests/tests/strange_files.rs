@@ -72,7 +72,7 @@ fn one_unreadable_program_does_not_end_a_check() {
     assert_eq!(f.call(&["check", "@a.nc", "@c.nc"]).exit, Exit::Aborted);
 }
 
-/// A place forevery message, also of an empty program and of one that speaks.
+/// A place for every message, also of an empty program and of one that speaks.
 #[test]
 fn messages_have_places_and_no_numbers_of_their_own() {
     let f = Folder::new()

@@ -66,7 +66,7 @@ fn tapping_as_fast_as_the_spindle_can() {
     assert!(acc > 100.0 && acc <= 2000.0 * (1.0 + 1e-6), "{acc} deg/s2");
 }
 
-/// Where a thread lies: Z minus the pitch forevery turn, within one pitch, in the steady part of the lines.
+/// Where a thread lies: Z minus the pitch for every turn, within one pitch, in the steady part of the lines.
 fn thread(run: &Run, line: u32, pitch: f64, sense: f64) -> f64 {
     let all = together(run, line..=line);
     let (low, high) = (-30.0, -10.0);

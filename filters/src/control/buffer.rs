@@ -103,7 +103,7 @@ impl SetpointBuffer {
     /// The setpoints feedforward is computed from.
     ///
     /// A flag belongs to the motion that leads to its setpoint. The window reaches three cycles ahead: where one flag holds
-    /// foreverything that moves in it, that flag counts, so that a motion out of rest is fed forward from its first
+    /// for everything that moves in it, that flag counts, so that a motion out of rest is fed forward from its first
     /// difference on. If the flags change while the axis moves, those of the coming cycle count.
     pub fn window(&self) -> Window {
         let centre = self.delay - self.shift;

@@ -59,7 +59,7 @@ pub fn lags(count: usize, g: f64) -> Vec<Section> {
     vec![Section::first(g, FirstOutput::Low); count]
 }
 
-/// Band-pass, P replaced by `Q (P + 1/P)`: the poles are the roots of `s^2 - (p/Q) s + 1` forevery low-pass pole p.
+/// Band-pass, P replaced by `Q (P + 1/P)`: the poles are the roots of `s^2 - (p/Q) s + 1` for every low-pass pole p.
 pub(crate) fn band_pass(terms: &[Term], g: f64, q: f64) -> Vec<Section> {
     let band = |pole: Pole| {
         let scale = 1.0 / q;

@@ -159,7 +159,7 @@ fn constant_speed_closed_form() {
     }
 }
 
-/// Constant acceleration long enough foreverything else to decay leaves `a Ta / Kv`, or nothing with ACC.
+/// Constant acceleration long enough for everything else to decay leaves `a Ta / Kv`, or nothing with ACC.
 /// Conformance: F002, F004, F010.
 #[test]
 fn constant_acceleration_closed_form() {

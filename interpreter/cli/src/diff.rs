@@ -1,7 +1,7 @@
 //! `kontur diff`: two traces, or a trace and a fresh run, row by row.
 //!
 //! Positions may differ by 1e-6 mm, a hundredth of the vendor's increment of 0.1 um; a speed by that divided by 1 ms,
-//! and so on forevery further derivative. Neither trace is ever held in memory.
+//! and so on for every further derivative. Neither trace is ever held in memory.
 //!
 //! With `--map` B is a recording of a machine ([`recording`]).
 

@@ -102,7 +102,7 @@ impl Table {
         &self.header
     }
 
-    /// The rows; each has a cell forevery column.
+    /// The rows; each has a cell for every column.
     pub fn rows(&self) -> &[Vec<Cell>] {
         &self.rows
     }

@@ -66,7 +66,7 @@ pub struct External {
 /// `OFF`, `ACC_FACT` and an `AX_DEV` of the program still act; its MODE, FREQ and DAMPING do not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForcedGuard {
-    /// On forevery path axis from program start with these settings; `None`: off until the program switches it on.
+    /// On for every path axis from program start with these settings; `None`: off until the program switches it on.
     pub settings: Option<VibGuardSettings>,
     /// Tolerance in mm where the program gives none: from program start, and in commands without `AX_DEV`.
     pub ax_dev_mm: Option<f64>,

@@ -5,7 +5,7 @@ use super::table::{self, Indices, ListKind, Row};
 /// A key as it was written, taken apart.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
-    /// In lower case, `[]` forevery index.
+    /// In lower case, `[]` for every index.
     pub shape: String,
     /// Indices from left to right.
     pub indices: Vec<u32>,

@@ -36,7 +36,7 @@ enum Until {
     Spindle(usize, SpindleState),
     /// Flushed, and the actual positions in their windows (P-AXIS-00236).
     InPosition,
-    /// The same foreverything that moves, independent axes and spindles on their way to a position too, and seen by the
+    /// The same for everything that moves, independent axes and spindles on their way to a position too, and seen by the
     /// monitors: the last row of the trace shows the axes inside their windows.
     AllInPosition,
 }

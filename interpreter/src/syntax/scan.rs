@@ -7,7 +7,7 @@
 use super::ast::Span;
 use crate::source::regions::{self, Region, regions};
 
-/// Byte that stands in the masked text forevery character of a configured name.
+/// Byte that stands in the masked text for every character of a configured name.
 pub(super) const MARK: u8 = 1;
 
 /// Stands in the masked text for a quote that is never closed.

@@ -30,7 +30,7 @@ pub struct AxisControlConfig {
     pub feedforward: FeedforwardConfig,
     /// Additive inputs of the drive.
     pub additive_inputs: AdditiveInputs,
-    /// Delay of the position path in cycles, the same forevery axis of a channel
+    /// Delay of the position path in cycles, the same for every axis of a channel
     /// ([`channel_delay_cycles`](crate::control::feedforward::channel_delay_cycles)). Never less than the axis' own feedforward
     /// needs.
     pub delay_cycles: usize,

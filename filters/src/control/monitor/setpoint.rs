@@ -102,7 +102,7 @@ impl SetpointMonitor {
         self.levels = [Level::Good; 3];
     }
 
-    /// One cycle: a fault forevery derivative whose level rises.
+    /// One cycle: a fault for every derivative whose level rises.
     pub(crate) fn step(&mut self, set_mm: f64, faults: &mut Faults) {
         let [p1, p2, p3] = self.past_mm;
         let t = self.cycle_s;

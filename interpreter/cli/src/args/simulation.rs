@@ -23,7 +23,7 @@ pub struct SimulationArgs {
     #[arg(short, long, value_name = "DIR")]
     pub machine: Option<PathBuf>,
 
-    /// A list parameter in place of the machine's, e.g. `X.getriebe[0].kv=5000`, `X,Y.key=value`, `*.key=value` forevery path axis
+    /// A list parameter in place of the machine's, e.g. `X.getriebe[0].kv=5000`, `X,Y.key=value`, `*.key=value` for every path axis
     /// or `channel.key=value`
     #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = setting)]
     pub set: Vec<String>,

@@ -100,7 +100,7 @@ mod tests {
     use csv::ByteRecord;
     use kontur_kit::Random;
 
-    /// Rows from the first difference on, and what the definition gives forevery delay, tried out one by one.
+    /// Rows from the first difference on, and what the definition gives for every delay, tried out one by one.
     fn brute_force(a: &[u8], b: &[u8]) -> Option<i64> {
         let explains = |earlier: &[u8], later: &[u8], n: usize| {
             let pairs = || (n..later.len()).map(|k| (earlier.get(k - n), later[k]));

@@ -1,6 +1,6 @@
 //! Fixed-point formatting of f64 and exact formatting of times.
 //!
-//! The standard library's `{:.7}` is exact forevery f64 and needs 80 ns per number; a trace of a machine needs 13
+//! The standard library's `{:.7}` is exact for every f64 and needs 80 ns per number; a trace of a machine needs 13
 //! numbers per cycle. Here `value * 10^d` is rounded half away from zero to an integer, exactly: the product's own
 //! rounding error matters only when the product lands on a tie, and then a fused multiply-add tells its sign.
 

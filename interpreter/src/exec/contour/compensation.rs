@@ -9,7 +9,7 @@
 //! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G138, G139, G237 to G239); generation
 //! of compensation blocks; restrictions of inside corner selection; 90008, 90031, 90127, 20651. Derived: the lines of G25 from the numbers of inserted blocks that the manual
 //! lists by angle.
-//! Assumption: the approach forevery angle between approach and first element, with G139 as with G138; the figures of the
+//! Assumption: the approach for every angle between approach and first element, with G139 as with G138; the figures of the
 //! manual show more lines for G139 at outer corners.
 
 mod corner;

@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-/// `x` modulo 360 in the sense of `x - 360 * floor(x / 360)`; exact forevery finite `x`.
+/// `x` modulo 360 in the sense of `x - 360 * floor(x / 360)`; exact for every finite `x`.
 fn reduced(deg: f64) -> f64 {
     let r = deg % 360.0;
     if r < 0.0 { r + 360.0 } else { r }

@@ -22,7 +22,7 @@ const FAMILIES: &[&[Row]] = &[
     kontur::ROWS,
 ];
 
-/// Other spellings of a key that mean the same parameter, with `[]` forevery index.
+/// Other spellings of a key that mean the same parameter, with `[]` for every index.
 ///
 /// Source: the channel manual's older edition (`syn_chk.fehler_*`); the overview of the start-up
 /// manual (`wrkz_data`); TF5200 Improved Position Control: builds with one
@@ -79,7 +79,7 @@ pub(crate) fn by_id(id: &str) -> Option<&'static Row> {
     BY_ID.get(id).or_else(|| BY_ID.get(id.to_ascii_uppercase().as_str())).copied()
 }
 
-/// The row of a key in a list; `shape` is the key in either case with `[]` forevery index.
+/// The row of a key in a list; `shape` is the key in either case with `[]` for every index.
 pub(crate) fn by_key(list: ListKind, shape: &str) -> Option<&'static Row> {
     let shape = match ALIASES.iter().find(|(from, _)| *from == shape) {
         Some((_, key)) => plain(key),
@@ -114,7 +114,7 @@ fn keys(list: Option<ListKind>) -> impl Iterator<Item = &'static str> {
     rows().filter(move |r| list.is_none_or(|l| l == r.list) && !r.key.is_empty()).map(|r| r.key)
 }
 
-/// A key of the table in lower case with `[]` forevery index.
+/// A key of the table in lower case with `[]` for every index.
 fn plain(key: &str) -> String {
     key.to_ascii_lowercase().replace("[i]", "[]").replace("[j]", "[]").replace("[k]", "[]")
 }
