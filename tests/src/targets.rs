@@ -5,7 +5,6 @@
 //! with coverage-guided input and a time budget, `tests/hostile_input.rs` with bounded random input.
 
 use crate::command::{Output, command};
-use crate::random::Random;
 use kontur::Exit;
 use kontur::args::Args;
 use kontur_interpreter::diag::Diagnostic;
@@ -13,6 +12,7 @@ use kontur_interpreter::job::{Checked, Job, Options};
 use kontur_interpreter::machine::{ListFiles, Machine};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::source::MemorySources;
+use kontur_kit::Random;
 use std::ffi::OsString;
 use std::path::Path;
 use std::sync::{Arc, LazyLock};

@@ -9,43 +9,19 @@ use kontur_interpreter::job::{Job, Options};
 use kontur_interpreter::machine::{Machine, Override};
 use kontur_interpreter::record::{AxisRecord, CycleRecord};
 use kontur_interpreter::source::MemorySources;
+use kontur_kit::{Random, count, seed};
 use kontur_tests::{programs, sample_machine};
 use std::path::Path;
 use std::sync::Arc;
 
 /// Programs by default.
-const COUNT: u64 = 150;
+const COUNT: usize = 150;
 
 /// Longest sample in bytes that is worth damaging.
 const LONGEST: usize = 6000;
 
 /// Cycles of a run at most: 2 s of program time.
 const TIME_S: f64 = 2.0;
-
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        // SplitMix64
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        usize::try_from(self.next() % n.max(1) as u64).unwrap()
-    }
-
-    fn pick<'a, T>(&mut self, list: &'a [T]) -> &'a T {
-        &list[self.below(list.len())]
-    }
-}
-
-fn environment(name: &str, default: u64) -> u64 {
-    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
-}
 
 /// Programs that run, and programs that are refused.
 struct Corpus {
@@ -177,13 +153,13 @@ fn damaged(random: &mut Random, corpus: &Corpus) -> String {
                 let numbers: Vec<usize> =
                     (0..program.len()).filter(|i| is_number(&program[*i])).collect();
                 if !numbers.is_empty() {
-                    let at = *random.pick(&numbers);
+                    let at = random.pick(&numbers);
                     program[at] = number(random, &program[at]);
                 }
             }
             6 => {
                 let donor = corpus.pick(random);
-                program[at] = random.pick(donor).clone();
+                program[at] = donor[random.below(donor.len())].clone();
             }
             7 => {
                 // some lines of another program
@@ -283,7 +259,7 @@ fn exercise(text: &str, machine: &Arc<Machine>) -> bool {
 
 #[test]
 fn damaged_programs_end() {
-    let (count, seed) = (environment("COUNT", COUNT), environment("SEED", 1));
+    let (count, seed) = (count(COUNT) as u64, seed());
     let corpus = corpus();
     let filters = "X.filter[0].enable=1 X.filter[0].order=2 X.filter[0].fg_f0=30";
     let filters: Vec<&str> = filters.split(' ').collect();
@@ -297,9 +273,9 @@ fn damaged_programs_end() {
     .map(|(machine, _)| Arc::new(machine));
     let mut moved = 0;
     for i in 0..count {
-        let mut random = Random(seed.wrapping_mul(1_000_003).wrapping_add(i));
+        let mut random = Random::new(seed.wrapping_mul(1_000_003).wrapping_add(i));
         let text = damaged(&mut random, &corpus);
-        let machine = random.pick(&machines);
+        let machine = &machines[random.below(machines.len())];
         let outcome = std::panic::catch_unwind(|| exercise(&text, machine));
         match outcome {
             Ok(runs) => moved += u64::from(runs),
@@ -316,19 +292,19 @@ fn damaged_programs_end() {
 /// Settings of the command line are text of the user too.
 #[test]
 fn damaged_settings_are_refused_or_taken() {
-    let mut random = Random(environment("SEED", 1));
+    let mut random = Random::new(seed());
     let good = [
         "X.getriebe[0].kv=5000",
         "channel.prog_start.slope.profile=1",
         "kontur.cycle_time_us=1000",
     ];
-    for _ in 0..environment("COUNT", COUNT) {
+    for _ in 0..count(COUNT) {
         let mut tokens = tokens(good[random.below(good.len())]);
         let at = random.below(tokens.len());
         match random.below(3) {
             0 => drop(tokens.remove(at)),
-            1 => tokens[at] = (*random.pick(NUMBERS)).to_owned(),
-            _ => tokens.insert(at, (*random.pick(&["[", "]", ".", "=", "-", "kv"])).to_owned()),
+            1 => tokens[at] = random.pick(NUMBERS).to_owned(),
+            _ => tokens.insert(at, random.pick(&["[", "]", ".", "=", "-", "kv"]).to_owned()),
         }
         let text = tokens.concat();
         if let Ok(setting) = Override::parse(&text) {

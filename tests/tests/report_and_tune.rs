@@ -1,6 +1,7 @@
 //! `kontur report` and `kontur tune` on real runs: what the pages show, and what is proposed for a program.
 
 use kontur::Exit;
+use kontur_kit::Oscillator;
 use kontur_tests::command::command;
 use kontur_tests::{Run, programs, run};
 use serde_json::Value;
@@ -118,7 +119,7 @@ fn the_course_of_an_exact_stop() {
     }
     let stops = page["stops"].as_array().unwrap();
     assert_eq!(stops.len(), 2, "{stops:?}");
-    // behind the second stop the program ends before the axis is in its window
+    // after the second stop the program ends before the axis is in its window
     for (stop, target) in stops.iter().zip([50.0_f64]) {
         let t1 = set.iter().position(|x| x.to_bits() == target.to_bits()).unwrap();
         let t2 = (t1..).find(|&k| (act[k] - target).abs() <= 0.05).unwrap();
@@ -127,7 +128,7 @@ fn the_course_of_an_exact_stop() {
             numbers(&Value::from(stop.as_array().unwrap()[1..].to_vec())),
             [target, 0.05, t1 as f64, t2 as f64, (t1 + 400) as f64]
         );
-        // ln(lag / window) over the slow pole of kv = 20/s behind a drive of 5 ms
+        // ln(lag / window) over the slow pole of kv = 20/s after a drive of 5 ms
         let pole_1_s = (1.0 - (1.0_f64 - 4.0 * 20.0 * 0.005).sqrt()) / (2.0 * 0.005);
         let lag = act[t1] - target;
         let closed = libm::log(lag.abs() / 0.05) / pole_1_s;
@@ -229,22 +230,11 @@ fn what_a_spring_is_left_with() {
         picture.split("Mass on a spring of 25 Hz, damping 0.05; left at the end: ").nth(1).unwrap();
     let said = title.split('<').next().unwrap();
     let left = |text: &str, axis: usize| -> f64 {
-        let (w, damping) = (std::f64::consts::TAU * 25.0, 0.05);
-        let (mut q, mut v, mut left) = (0.0, 0.0, 0.0);
+        let (mut spring, mut left) = (Oscillator::new(25.0, 0.05), 0.0);
         for a in run(text, &[]).axis(axis, |a| a.acc) {
-            let h = 1e-3 / 20.0;
-            for _ in 0..20 {
-                let slope = |q: f64, v: f64| (v, -a - 2.0 * damping * w * v - w * w * q);
-                let (a1, b1) = slope(q, v);
-                let (a2, b2) = slope(q + 0.5 * h * a1, v + 0.5 * h * b1);
-                let (a3, b3) = slope(q + 0.5 * h * a2, v + 0.5 * h * b2);
-                let (a4, b4) = slope(q + h * a3, v + h * b3);
-                q += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
-                v += h / 6.0 * (b1 + 2.0 * b2 + 2.0 * b3 + b4);
-            }
+            spring.advance(a, 1e-3, 20);
             if a.abs() >= 0.0005 {
-                let damped: f64 = w * (1.0_f64 - damping * damping).sqrt();
-                left = libm::hypot(q, (v + damping * w * q) / damped);
+                left = spring.amplitude();
             }
         }
         left

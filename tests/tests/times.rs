@@ -1,8 +1,8 @@
 //! `run --times`: every cycle belongs to one line and has one reason.
 
 use kontur::Exit;
+use kontur_kit::Random;
 use kontur_tests::command::command;
-use kontur_tests::random::Random;
 use serde_json::Value;
 use std::collections::BTreeMap;
 

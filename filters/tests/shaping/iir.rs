@@ -7,6 +7,7 @@ use kontur_filters::issue::FilterIssue;
 use kontur_filters::response::{Angle, Response, step_response};
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
+use kontur_kit::Random;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -199,13 +200,8 @@ fn cascades_have_the_frequency_response_of_the_biquads() {
 #[test]
 fn cascades_run_like_the_biquads() {
     // A fixed broad-band signal.
-    let mut seed = 1_u32;
-    let signal: Vec<f64> = (0..2000)
-        .map(|_| {
-            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            f64::from(seed) / f64::from(u32::MAX) - 0.5
-        })
-        .collect();
+    let mut random = Random::new(1);
+    let signal: Vec<f64> = (0..2000).map(|_| random.between(-0.5, 0.5)).collect();
     for (config, sections) in biquads() {
         let mut filter = design(&config);
         let want = sections.iter().fold(signal.clone(), |x, section| section.filter(&x));

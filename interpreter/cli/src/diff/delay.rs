@@ -98,6 +98,7 @@ impl Delays {
 mod tests {
     use super::{Delays, LEAST_CHANGES};
     use csv::ByteRecord;
+    use kontur_kit::Random;
 
     /// Rows from the first difference on, and what the definition gives for every delay, tried out one by one.
     fn brute_force(a: &[u8], b: &[u8]) -> Option<i64> {
@@ -115,28 +116,22 @@ mod tests {
     /// Steps of a few values with pauses; one trace has another pause, or another step, or ends elsewhere.
     #[test]
     fn as_every_delay_tried_out() {
-        let mut state = 7_u64;
-        let mut random = |n: u64| {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) % n
-        };
+        let mut random = Random::new(7);
         let mut found = 0;
         for _ in 0..3000 {
             let mut a: Vec<u8> = Vec::new();
-            for _ in 0..=random(8) {
-                let (value, pause) = (random(4) as u8, 1 + random(6));
+            for _ in 0..=random.below(8) {
+                let (value, pause) = (random.below(4) as u8, 1 + random.below(6));
                 a.extend((0..pause).map(|_| value));
             }
             let mut b = a.clone();
-            let place = random(a.len() as u64) as usize;
-            match random(4) {
+            let place = random.below(a.len());
+            match random.below(4) {
                 0 => b[place] = 9,
                 1 => b.truncate(place),
-                _ => (0..=random(9)).for_each(|_| b.insert(place, a[place])),
+                _ => (0..=random.below(9)).for_each(|_| b.insert(place, a[place])),
             }
-            if random(2) == 0 {
+            if random.below(2) == 0 {
                 std::mem::swap(&mut a, &mut b);
             }
             let same = a.iter().zip(&b).take_while(|(x, y)| x == y).count();

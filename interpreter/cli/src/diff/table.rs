@@ -48,7 +48,7 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
         // what can be read only once is a program, but for its name
         return if is("csv") { refused("no regular file") } else { Ok(false) };
     }
-    let start = beginning(path)?;
+    let start = first_bytes(path)?;
     let text = start.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&start);
     match text {
         [b'P', b'A', b'R', b'1', ..] if cfg!(feature = "parquet") => Ok(true),
@@ -71,13 +71,13 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
 
 fn unique(name: &str, header: &[String]) -> Result<(), Error> {
     match (1..header.len()).find(|i| header[..*i].contains(&header[*i])) {
-        Some(i) => Err(Error::Usage(format!("{name}: column `{}` stands twice", header[i]))),
+        Some(i) => Err(Error::Usage(format!("{name}: column `{}` occurs twice", header[i]))),
         None => Ok(()),
     }
 }
 
 /// The first bytes of a file.
-fn beginning(path: &Path) -> Result<Vec<u8>, Error> {
+fn first_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let mut start = Vec::new();
     let read = File::open(path).and_then(|file| file.take(8).read_to_end(&mut start));
     read.map_err(|e| Error::io(path.display().to_string(), e))?;
@@ -104,7 +104,7 @@ impl Table {
     pub(super) fn read(path: &Path) -> Result<Self, Error> {
         let name = path.display().to_string();
         #[cfg(feature = "parquet")]
-        if beginning(path)?.starts_with(b"PAR1") {
+        if first_bytes(path)?.starts_with(b"PAR1") {
             let (header, rows) = super::parquet::Rows::open(path)?;
             unique(&name, &header)?;
             let rows = Origin::Parquet(Box::new(rows));

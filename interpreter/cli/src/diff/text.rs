@@ -1,8 +1,8 @@
 //! A comparison in words.
 
 use super::compare::{Difference, Outcome};
-use kontur_interpreter::diag::QUOTED_MAX;
 use kontur_interpreter::diag::render::printable;
+use kontur_interpreter::source::text::beginning;
 use std::fmt::Write as _;
 
 pub(super) fn text(names: &[String; 2], outcome: &Outcome) -> String {
@@ -55,11 +55,7 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
 
 /// A cell as it may stand in a line of text.
 pub(super) fn brief(cell: &str) -> String {
-    let line = printable(cell).replace('\n', "\u{FFFD}");
-    match line.char_indices().nth(QUOTED_MAX) {
-        Some((end, _)) => format!("{}...", &line[..end]),
-        None => line,
-    }
+    beginning(&printable(cell).replace('\n', "\u{FFFD}"))
 }
 
 pub(super) fn number(difference: Option<f64>) -> String {

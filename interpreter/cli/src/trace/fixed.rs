@@ -66,7 +66,7 @@ fn round_product(value: f64, scale: f64, product: f64) -> i64 {
     if away { whole + if product < 0.0 { -1 } else { 1 } } else { whole }
 }
 
-/// Room for the digits of a number, which end at [`END`], and as much again behind them.
+/// Room for the digits of a number, which end at [`END`], and as much again after them.
 type Digits = [u8; 2 * END];
 
 /// Longest number: 20 digits of an integer, or 16 with sign and point.
@@ -149,6 +149,7 @@ pub(crate) fn push_seconds(out: &mut Vec<u8>, micros: u64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kontur_kit::Random;
 
     fn fixed(value: f64, decimals: u8) -> String {
         let mut out = Vec::new();
@@ -184,22 +185,11 @@ mod tests {
         if value < 0.0 && !zero { format!("-{text}") } else { text }
     }
 
-    struct Random(u64);
-
-    impl Random {
-        fn next(&mut self) -> u64 {
-            self.0 ^= self.0 << 13;
-            self.0 ^= self.0 >> 7;
-            self.0 ^= self.0 << 17;
-            self.0
-        }
-    }
-
     #[test]
     fn equals_the_exact_expansion() {
-        let mut random = Random(0x9E37_79B9_7F4A_7C15);
+        let mut random = Random::new(1);
         for i in 0..4000 {
-            let bits = random.next();
+            let bits = random.bits();
             // plain mantissas, halves of the last digit and their neighbours, and fractions that tie exactly
             let unit = (bits >> 11) as f64 / (1u64 << 53) as f64;
             let tie = ((bits >> 40) as f64 + 0.5) / 1e7;

@@ -3,6 +3,7 @@
 use super::{Options, machine, run_with};
 use crate::exec::check;
 use crate::source::MemorySources;
+use kontur_kit::Random;
 
 /// Words, commands and statements, right and wrong ones.
 pub(super) const PIECES: &[&str] = &[
@@ -120,37 +121,28 @@ pub(super) const LINES: &[&str] = &[
     "$FOO",
 ];
 
-pub(super) struct Random(pub(super) u64);
-
-impl Random {
-    pub(super) fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        usize::try_from(self.0 >> 33).unwrap() % n
-    }
-
-    fn program(&mut self) -> String {
-        let mut text = String::from("%L SUB\nG91 X1\nM17\n%L SELF\nLL SELF\n%MAIN\n");
-        for _ in 0..self.below(30) {
-            if self.below(3) == 0 {
-                text.push_str(LINES[self.below(LINES.len())]);
-            } else {
-                for _ in 0..=self.below(4) {
-                    text.push_str(PIECES[self.below(PIECES.len())]);
-                    text.push(' ');
-                }
+fn program(random: &mut Random) -> String {
+    let mut text = String::from("%L SUB\nG91 X1\nM17\n%L SELF\nLL SELF\n%MAIN\n");
+    for _ in 0..random.below(30) {
+        if random.below(3) == 0 {
+            text.push_str(random.pick(LINES));
+        } else {
+            for _ in 0..=random.below(4) {
+                text.push_str(random.pick(PIECES));
+                text.push(' ');
             }
-            text.push('\n');
         }
-        text
+        text.push('\n');
     }
+    text
 }
 
 #[test]
 fn random_programs_end() {
     let machine = machine(&[]);
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for _ in 0..400 {
-        let text = random.program();
+        let text = program(&mut random);
         let sources = MemorySources::new().with("main.nc", text).with("c.nc", "X @P1\nG91\n");
         let options = Options { max_blocks: 2000, max_blocks_at_rest: 500, ..Options::default() };
         let shared = std::sync::Arc::new(sources.clone());

@@ -1,11 +1,12 @@
 //! The short way of plain motions against the long one. `X 1` is the same word as `X1`, but takes the grammar and all
 //! rooms: a program with a blank in one word of every line has to give the same steps, messages and places.
 
-use super::random::{LINES, PIECES, Random};
+use super::random::{LINES, PIECES};
 use super::{Options, machine, places, run_with};
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::check;
 use crate::source::MemorySources;
+use kontur_kit::Random;
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -100,7 +101,7 @@ const MODES: &[&str] = &[
 #[test]
 fn plain_motions_do_what_the_words_say() {
     for seed in 0..400 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let stops = ["channel.exact_stop_after_g00=1"];
         let machine = machine(if seed % 5 == 0 { &stops } else { &[] });
         let mut texts = [(); 2].map(|()| String::from("%MAIN\nG01 F5000 P1=1\n"));

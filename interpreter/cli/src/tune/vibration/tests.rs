@@ -1,33 +1,8 @@
 //! Synthetic recordings with a known truth, made here and by nothing that is under test.
 
 use super::{Analysis, Focus, analyse};
+use kontur_kit::Random;
 use std::f64::consts::TAU;
-
-/// A fixed sequence of random numbers (xorshift) with uniform and normal distribution.
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        let (a, b) = (self.uniform().max(1e-300), self.uniform());
-        (-2.0 * libm::log(a)).sqrt() * libm::cos(TAU * b)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.uniform()
-    }
-
-    /// Every octave equally often.
-    fn octaves(&mut self, low: f64, high: f64) -> f64 {
-        libm::exp(self.between(libm::log(low), libm::log(high)))
-    }
-}
 
 /// What a recording suffers from.
 const KINDS: [&str; 9] =
@@ -48,18 +23,18 @@ fn swing(t: f64, (f, z): (f64, f64), phase: f64) -> f64 {
 
 fn record(kind: &str, r: &mut Random) -> Record {
     let rate_hz =
-        if kind == "long" { 250.0 } else { [500.0, 1000.0][usize::from(r.uniform() < 0.5)] };
+        if kind == "long" { 250.0 } else { [500.0, 1000.0][usize::from(r.ratio() < 0.5)] };
     let seconds = if kind == "long" { 20.0 } else { r.between(2.0, 4.0) };
-    let mut f = r.octaves(4.0, 0.08 * rate_hz);
+    let mut f = r.log(4.0, 0.08 * rate_hz);
     while kind == "hum" && [50.0_f64, 60.0].iter().any(|m| (f / m - 1.0).abs() < 0.03) {
-        f = r.octaves(4.0, 0.08 * rate_hz);
+        f = r.log(4.0, 0.08 * rate_hz);
     }
-    let mut z = r.octaves(0.01, 0.12);
-    let noise = if kind == "noise" { 0.2 } else { r.octaves(0.005, 0.05) };
+    let mut z = r.log(0.01, 0.12);
+    let noise = if kind == "noise" { 0.2 } else { r.log(0.005, 0.05) };
     let mut second = None;
     if kind == "two" {
-        (f, z) = (f.max(12.0), r.octaves(0.01, 0.04));
-        second = Some(((f + 4.0, r.octaves(0.01, 0.04)), r.between(0.5, 1.0)));
+        (f, z) = (f.max(12.0), r.log(0.01, 0.04));
+        second = Some(((f + 4.0, r.log(0.01, 0.04)), r.between(0.5, 1.0)));
     }
     let starts: Vec<f64> = match kind {
         "plain" => vec![0.0],
@@ -69,7 +44,7 @@ fn record(kind: &str, r: &mut Random) -> Record {
     };
     let strengths: Vec<f64> = starts.iter().map(|_| r.between(0.7, 1.0)).collect();
     let phase = r.between(0.0, TAU);
-    let mains = if r.uniform() < 0.5 { 50.0 } else { 60.0 } * r.between(0.999, 1.001);
+    let mains = if r.ratio() < 0.5 { 50.0 } else { 60.0 } * r.between(0.999, 1.001);
     let harmonics: Vec<(f64, f64, f64)> = (1..=3)
         .filter(|k| kind == "hum" && mains * f64::from(*k) < 0.45 * rate_hz)
         .map(|k| (mains * f64::from(k), r.between(0.05, 0.5) / f64::from(k), r.between(0.0, TAU)))
@@ -106,7 +81,7 @@ fn record(kind: &str, r: &mut Random) -> Record {
 /// that hold no more), and intervals of 95 % that cover 90 to 98 %.
 #[test]
 fn two_hundred_recordings() {
-    let mut r = Random(88_172_645_463_325_252);
+    let mut r = Random::new(1);
     let (mut all, mut good, mut covered) = (0_u32, [0_u32; 2], [0_u32; 2]);
     let mut bad = Vec::new();
     for case in 0..207 {
@@ -147,7 +122,7 @@ fn two_hundred_recordings() {
 }
 
 fn samples(x: impl Fn(f64) -> f64, noise: f64) -> Vec<f64> {
-    let mut r = Random(1234);
+    let mut r = Random::new(1234);
     (0..3000).map(|i| x(f64::from(i) * 1e-3) + noise * r.normal()).collect()
 }
 

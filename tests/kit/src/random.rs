@@ -14,11 +14,16 @@ impl Random {
         random
     }
 
-    /// From 0 up to, not including, 1.
-    pub fn ratio(&mut self) -> f64 {
+    /// 64 bits; the upper ones are good, the lower ones repeat soon.
+    pub fn bits(&mut self) -> u64 {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+        self.0
+    }
+
+    /// From 0 up to, not including, 1.
+    pub fn ratio(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Evenly spread.
@@ -31,7 +36,14 @@ impl Random {
         low * libm::pow(high / low, self.ratio())
     }
 
+    /// Normal distribution with mean 0 and standard deviation 1 (Box and Muller).
+    pub fn normal(&mut self) -> f64 {
+        let (a, b) = (self.ratio().max(f64::MIN_POSITIVE), self.ratio());
+        (-2.0 * libm::log(a)).sqrt() * libm::cos(std::f64::consts::TAU * b)
+    }
+
     /// 0 to `count - 1`.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 <= ratio < 1")]
     pub fn below(&mut self, count: usize) -> usize {
         (self.ratio() * count as f64) as usize
     }
