@@ -90,7 +90,7 @@ fn synchronous_beside_a_path() {
     near(arrival_s(&run, 1, 110.0), 2.2);
 }
 
-/// 20 mm at 10 mm/s take 2.01 s while the path goes on through two blocks without a stop; then it waits.
+/// 20 mm at 10 mm/s take 2.01 s while the path continues through two blocks without a stop; then it waits.
 #[test]
 fn asynchronous() {
     for wait in ["#WAIT INDP [X]", "#WAIT INDP ALL", "#WAIT INDP[X, Y]"] {
@@ -120,7 +120,7 @@ fn implicit_joins() {
     near(run.records.last().unwrap().axes[0].ipo, 20.0);
 }
 
-/// What the axis has gone alone is in the coordinates: lines and arcs go on from there; offsets do not act on it.
+/// What the axis has gone alone is in the coordinates: lines and arcs continue from there; offsets do not act on it.
 #[test]
 fn coordinates_go_on() {
     let run = go(

@@ -35,7 +35,7 @@ pub(crate) enum Step {
         /// They act in the first cycle of the motion, without a stop.
         events: Vec<Event>,
     },
-    /// The path comes to rest behind everything before; then the simulation acts or waits as told and asks for the
+    /// The path comes to rest after everything before; then the simulation acts or waits as told and asks for the
     /// next step.
     Sync {
         /// What happens at rest.
@@ -94,7 +94,7 @@ pub(crate) enum Sync {
     },
     /// The end of G33.
     ThreadEnd,
-    /// M00, M01; headless the program goes on at once.
+    /// M00, M01; headless the program continues at once.
     ProgramStop {
         /// M01.
         optional: bool,
@@ -367,7 +367,7 @@ pub(crate) struct Feedback {
     pub actual_mm: AxisVec,
     /// Program time in s.
     pub time_s: f64,
-    /// What a measuring run has found, behind [`Sync::Measured`].
+    /// What a measuring run has found, after [`Sync::Measured`].
     pub measured: Option<Box<Probed>>,
 }
 

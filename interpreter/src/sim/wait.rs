@@ -179,7 +179,7 @@ impl Wait {
         matches!(self.until, Until::Cycles(..) | Until::Spindle(..))
     }
 
-    /// The spindle and the mark that the wait is for, and whether the override does not act on the thread behind it.
+    /// The spindle and the mark that the wait is for, and whether the override does not act on the thread after it.
     pub(super) fn mark(&self) -> Option<(usize, f64, bool)> {
         match self.until {
             Until::Spindle(spindle, SpindleState::Mark { deg, full_override }) => {

@@ -46,7 +46,7 @@ impl Decoder {
         self.tools_and_offsets(&words, takes_axes);
         let preset = self.position_presets(&words) || self.spline_vectors(&words);
         self.feeds_and_modes(&words, takes_axes);
-        // behind G04 the S word is a number of revolutions, behind G74 an order
+        // after G04 the S word is a number of revolutions, after G74 an order
         let arguments = |g: &GWord| g.row.act == Act::Dwell || g.row.number == 74;
         if !words.group(Group::Path).is_some_and(arguments) {
             self.spindle_speeds(&words);

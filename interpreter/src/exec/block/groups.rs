@@ -198,7 +198,7 @@ pub(in crate::exec) enum Act {
     Unsupported(&'static str),
 }
 
-/// A value behind the number.
+/// A value after the number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum ValueRule {
     Never,
@@ -224,7 +224,7 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
     Row { number, group, act, value: ValueRule::Required }
 }
 
-const FEED_CHANGE: &str = "a higher feed is reached behind the start of its block, as at start";
+const FEED_CHANGE: &str = "a higher feed is reached after the start of its block, as at start";
 const FEED_HOLD: &str = "feedhold brakes without the weights of its own";
 const EDGE_BANDING: &str = "edge banding";
 const MANUAL: &str = "manual mode";
@@ -274,7 +274,7 @@ const ROWS: &[Row] = &[
     g(69, Group::Rotation, Act::RotateOff),
     g(70, Group::Unit, Act::Inch(true)),
     g(71, Group::Unit, Act::Inch(false)),
-    g(74, Group::Path, Act::Simplified("the axes count as homed where they stand, nothing moves")),
+    g(74, Group::Path, Act::Simplified("the axes count as homed where they are, nothing moves")),
     g(90, Group::Dimension, Act::Absolute(true)),
     g(91, Group::Dimension, Act::Absolute(false)),
     g(92, Group::None, Act::Preset),

@@ -134,7 +134,7 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) feeds: [Option<FeedWord>; 4],
     pub(in crate::exec) exact_stop: bool,
     pub(in crate::exec) contouring: bool,
-    /// G901: a lower feed of the next block may be reached behind the end of the block.
+    /// G901: a lower feed of the next block may be reached after the end of the block.
     pub(in crate::exec) late_braking: bool,
     /// G11: F acts where the tool touches compensated arcs.
     pub(in crate::exec) engagement_feed: bool,

@@ -407,7 +407,7 @@ impl Executor {
         }
     }
 
-    /// The modal cycle behind a block; not inside cycles.
+    /// The modal cycle after a block; not inside cycles.
     pub(in crate::exec) fn modal_cycle(&mut self) {
         let inside = self.levels.iter().any(|l| l.cycle.is_some());
         let Some(cycle) = &self.decoder.calls.modal_cycle else { return };

@@ -61,7 +61,7 @@ impl Executor {
         };
         let ((start, _), (end, behind)) = (place(first, at)?, place(last, to)?);
         if end.offset < start.offset {
-            let text = format!("the block N{last} stands before N{first}");
+            let text = format!("the block N{last} comes before N{first}");
             return Err(Fault::new(Condition::Label, text, to));
         }
         let call = self.position.offset;

@@ -127,7 +127,7 @@ fn a_program_of_the_list_runs_before_every_program() {
     let start = ["channel.start_init_prog_file=init.nc"];
     let run = listed(&start, &[main, ("init.nc", "P1=7 G91 Z1 F50\nM17\n")]);
     assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
-    // its modal state goes on: G91 holds in the main program
+    // its modal state continues: G91 holds in the main program
     assert_eq!(run.ends(), [[0.0, 0.0, 1.0], [7.0, 0.0, 1.0]]);
     let run = listed(&start, &[main]);
     assert_eq!((run.ids(), run.blocks().len()), (vec!["K-0013".to_owned()], 0));
@@ -195,7 +195,7 @@ fn calls_without_a_blank() {
     assert_eq!(with("\"TOOL\" = \"sub.nc\"\nL\"TOOL\"\nM30\n", "sub.nc", sub).end[0], 1.0);
     assert_eq!(with("LCYCLE [NAME=sub.nc]\nM30\n", "sub.nc", sub).end[0], 1.0);
     assert_eq!(with("L CYCLE[NAME=sub.nc]\nM30\n", "sub.nc", sub).end[0], 1.0);
-    // without a blank behind LL the call is global
+    // without a blank after LL the call is global
     assert_eq!(with("LLOCAL\nM30\n", "LOCAL", sub).end[0], 1.0);
     for call in ["LV.E.NAME", "L V.E.NAME"] {
         let run = with(&format!("V.E.NAME = \"sub.nc\"\n{call}\nM30\n"), "sub.nc", sub);

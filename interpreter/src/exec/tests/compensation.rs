@@ -69,7 +69,7 @@ fn a_change_of_side_crosses_the_contour() {
     let run = clean(text);
     let e = run.ends();
     assert_near(e.last().unwrap(), &[0.0, 0.0, 0.0]);
-    // above the first element, then below the one behind G42
+    // above the first element, then below the one after G42
     let u = [0.8, 0.6];
     assert_near(&e[0][..2], &[-2.0 * u[1], 10.0 + 2.0 * u[0]]);
     assert_near(&e[1][..2], &[20.0 - 2.0 * u[1], 25.0 + 2.0 * u[0]]);
@@ -210,7 +210,7 @@ fn full_circles_inside_and_outside() {
 
 #[test]
 fn bottlenecks_between_elements_that_are_far_apart_are_told() {
-    // a pocket behind a neck from X20 to X20 + width, which a tool of radius 2 passes down and up again
+    // a pocket after a neck from X20 to X20 + width, which a tool of radius 2 passes down and up again
     let slot = |width: f64| {
         let right = 20.0 + width;
         format!(
@@ -314,7 +314,7 @@ fn rests_and_other_axes_inside_a_closed_contour() {
     }
 }
 
-/// G239 (207810059): the tool goes to the parallel at once and stays there behind G40; a coordinate that is not programmed then is
+/// G239 (207810059): the tool goes to the parallel at once and stays there after G40; a coordinate that is not programmed then is
 /// that of the tool.
 #[test]
 fn deselection_without_a_block() {
