@@ -39,7 +39,7 @@ const LATE: &str = "#TIMER START SYN [ID=1]\nG01 X2 F6000\n#TIMER READ SYN [ID=1
 fn ringing() -> String {
     let sample = |k: u32| {
         let t = f64::from(k) * 1e-3;
-        let a = (-6.0 * t).exp() * (2.0 * std::f64::consts::PI * 30.0 * t).sin();
+        let a = libm::exp(-6.0 * t) * libm::sin(std::f64::consts::TAU * 30.0 * t);
         format!("{t:.3},{a:.9}\n")
     };
     "t_s,a\n".to_owned() + &(0..1000).map(sample).collect::<String>()
@@ -162,7 +162,7 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
     assert_eq!(fs::read_to_string(f.join("5")).unwrap(), "old", "a hard link keeps what it had");
 }
 
-/// Rows of a CSV trace; every line is whole, and time goes on by a cycle from line to line.
+/// Rows of a CSV trace; every line is whole, and time continues by a cycle from line to line.
 fn csv_rows(path: &Path) -> u64 {
     let text = fs::read_to_string(path).unwrap();
     assert!(text.ends_with('\n'));
@@ -206,7 +206,7 @@ fn a_signal_ends_a_run_with_whole_files() {
     }
 }
 
-/// Rows of Parquet files one after the other; time goes on by a cycle from row to row.
+/// Rows of Parquet files one after the other; time continues by a cycle from row to row.
 #[cfg(feature = "parquet")]
 fn parquet_rows(paths: &[PathBuf]) -> u64 {
     use parquet::file::reader::{FileReader, SerializedFileReader};

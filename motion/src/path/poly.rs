@@ -123,6 +123,8 @@ pub struct PolyPath {
     /// Axes over which the path length is measured.
     measured: SmallVec<[bool; 8]>,
     cells: Arc<[Cell]>,
+    /// Points at the middle of the cells' parameters, axis by axis: every search begins with all of them.
+    middles: Arc<[f64]>,
     length: f64,
     /// Largest absolute derivatives by `s`, see [`Self::extremes`].
     extremes: [AxisVec; 3],
@@ -156,6 +158,7 @@ impl PolyPath {
             pieces: pieces.into(),
             measured,
             cells: Arc::from([]),
+            middles: Arc::from([]),
             length: 0.0,
             extremes: [AxisVec::zeros(n), AxisVec::zeros(n), AxisVec::zeros(n)],
         };
@@ -168,6 +171,11 @@ impl PolyPath {
             path.subdivide(p, (0.0, 1.0), coarse, 0, &mut cells);
         }
         path.find_extremes(&mut cells);
+        let mut middles = vec![0.0; n * cells.len()];
+        for (cell, middle) in cells.iter().zip(middles.chunks_exact_mut(n)) {
+            path.point(cell.piece, cell.sample(SAMPLES / 2), middle);
+        }
+        path.middles = middles.into();
         path.cells = cells.into();
         Some(path)
     }
@@ -362,12 +370,14 @@ impl PolyPath {
         };
         let step = |cell: &Cell| (cell.to - cell.from) / SAMPLES as f64;
         // the middles tell which sub-intervals can hold the nearest sample: the others are further all over
+        let to_middle = |q: &[f64]| q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
         let middles: SmallVec<[f64; 64]> =
-            self.cells.iter().map(|cell| distance(cell.piece, cell.sample(SAMPLES / 2))).collect();
+            self.middles.chunks_exact(self.start.len()).map(to_middle).collect();
         let within = middles.iter().copied().fold(f64::INFINITY, f64::min).sqrt() * (1.0 + 1e-9);
         let mut best = (f64::INFINITY, 0, 0.0);
         for (i, cell) in self.cells.iter().enumerate() {
-            if middles[i].sqrt() - cell.radius > within {
+            let reach = within + cell.radius;
+            if middles[i] > reach * reach {
                 continue;
             }
             for k in 0..=SAMPLES {

@@ -2,15 +2,17 @@
 
 use crate::Error;
 use csv::ByteRecord;
-use parquet::basic::{Encoding, LogicalType, Type as Physical};
-use parquet::errors::ParquetError;
+use parquet::basic::{LogicalType, Type as Physical};
 use parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
 use parquet::file::reader::{FileReader as _, SerializedFileReader};
 use parquet::record::Field;
 use parquet::record::reader::RowIter;
+use std::cell::Cell;
 use std::fs::File;
 use std::io;
+use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
+use std::sync::Once;
 
 /// A Parquet trace that is being read.
 pub(super) struct Rows {
@@ -32,28 +34,27 @@ fn is_whole(metadata: &ParquetMetaData, length: u64) -> bool {
     })
 }
 
-/// True if every page of split bytes has as many of them as its numbers need; the decoder takes that for granted.
-fn holds_its_numbers(reader: &SerializedFileReader<File>) -> Result<bool, ParquetError> {
-    for group in 0..reader.num_row_groups() {
-        let group = reader.get_row_group(group)?;
-        for i in 0..group.num_columns() {
-            let column = group.metadata().column(i).column_descr();
-            let width = match column.physical_type() {
-                Physical::INT32 | Physical::FLOAT => 4,
-                _ => 8,
-            };
-            for page in group.get_column_page_reader(i)? {
-                let page = page?;
-                let split = page.encoding() == Encoding::BYTE_STREAM_SPLIT;
-                let count = page.num_values() as usize;
-                // of an optional column the number of values that are there is not known before it is decoded
-                if split && column.max_def_level() == 0 && page.buffer().len() < count * width {
-                    return Ok(false);
-                }
+thread_local! {
+    /// A panic of this thread is caught and told as what it means.
+    static TAKING_FOR_GRANTED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// The result of code that takes a file for whole and panics where it is not.
+fn guarded<T>(name: &str, code: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let usual = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            if !TAKING_FOR_GRANTED.get() {
+                usual(info);
             }
-        }
-    }
-    Ok(true)
+        }));
+    });
+    TAKING_FOR_GRANTED.set(true);
+    // what was being read is dropped with the error
+    let done = panic::catch_unwind(AssertUnwindSafe(code));
+    TAKING_FOR_GRANTED.set(false);
+    done.unwrap_or_else(|_| Err(damaged(name, "its pages do not hold what they name")))
 }
 
 impl Rows {
@@ -63,6 +64,10 @@ impl Rows {
     /// [`Error::Io`] if it cannot be read, [`Error::Usage`] for a table that is no trace.
     pub(super) fn open(path: &Path) -> Result<(Vec<String>, Self), Error> {
         let name = path.display().to_string();
+        guarded(&name, || Self::open_whole(path, name.clone()))
+    }
+
+    fn open_whole(path: &Path, name: String) -> Result<(Vec<String>, Self), Error> {
         let file = File::open(path).map_err(|e| Error::io(&name, e))?;
         let length = file.metadata().map_err(|e| Error::io(&name, e))?.len();
         let reader = SerializedFileReader::new(file).map_err(|e| damaged(&name, e))?;
@@ -88,9 +93,6 @@ impl Rows {
         if !is_whole(reader.metadata(), length) {
             return Err(damaged(&name, "its footer names data that lie outside the file"));
         }
-        if !holds_its_numbers(&reader).map_err(|e| damaged(&name, e))? {
-            return Err(damaged(&name, "a page holds fewer numbers than it names"));
-        }
         Ok((header, Self { name, rows: reader.into_iter() }))
     }
 
@@ -100,8 +102,9 @@ impl Rows {
     /// [`Error::Io`] for a damaged file.
     pub(super) fn read(&mut self, row: &mut ByteRecord) -> Result<bool, Error> {
         row.clear();
-        let Some(found) = self.rows.next() else { return Ok(false) };
-        let found = found.map_err(|e| damaged(&self.name, e))?;
+        let (name, rows) = (&self.name, &mut self.rows);
+        let next = guarded(name, || rows.next().transpose().map_err(|e| damaged(name, e)))?;
+        let Some(found) = next else { return Ok(false) };
         for (_, field) in found.get_column_iter() {
             match field {
                 Field::Null => row.push_field(b""),
@@ -111,5 +114,82 @@ impl Rows {
             }
         }
         Ok(true)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Rows;
+    use crate::Error;
+    use csv::ByteRecord;
+    use parquet::basic::{Encoding, Repetition, Type as Physical};
+    use parquet::data_type::DoubleType;
+    use parquet::file::properties::{WriterProperties, WriterVersion};
+    use parquet::file::writer::SerializedFileWriter;
+    use parquet::schema::types::Type;
+    use std::path::Path;
+    use std::sync::Arc;
+
+    /// A trace with a column of which every third number is missing, as other programs write it.
+    fn foreign(encoding: Encoding, version: WriterVersion) -> Vec<u8> {
+        let field = |name, repetition| {
+            let field = Type::primitive_type_builder(name, Physical::DOUBLE);
+            Arc::new(field.with_repetition(repetition).build().unwrap())
+        };
+        let fields = vec![field("t_s", Repetition::REQUIRED), field("a", Repetition::OPTIONAL)];
+        let schema = Type::group_type_builder("t").with_fields(fields).build().unwrap();
+        let properties = WriterProperties::builder()
+            .set_writer_version(version)
+            .set_dictionary_enabled(false)
+            .set_encoding(encoding)
+            .build();
+        let mut bytes = Vec::new();
+        let mut writer =
+            SerializedFileWriter::new(&mut bytes, Arc::new(schema), Arc::new(properties)).unwrap();
+        let mut group = writer.next_row_group().unwrap();
+        let numbers: Vec<f64> = (0..60).map(f64::from).collect();
+        let present: Vec<i16> = (0..60).map(|k| i16::from(k % 3 > 0)).collect();
+        for (values, levels) in [(&numbers[..], None), (&numbers[..40], Some(&present[..]))] {
+            let mut column = group.next_column().unwrap().unwrap();
+            column.typed::<DoubleType>().write_batch(values, levels, None).unwrap();
+            column.close().unwrap();
+        }
+        group.close().unwrap();
+        writer.close().unwrap();
+        bytes
+    }
+
+    /// How many rows there are.
+    fn read(bytes: &[u8], folder: &Path) -> Result<usize, Error> {
+        let path = folder.join("a.parquet");
+        std::fs::write(&path, bytes).unwrap();
+        let (_, mut rows) = Rows::open(&path)?;
+        let (mut count, mut row) = (0, ByteRecord::new());
+        while rows.read(&mut row)? {
+            count += 1;
+        }
+        Ok(count)
+    }
+
+    /// Whatever byte is wrong: rows or an error, never a panic.
+    #[test]
+    fn damaged_pages_are_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut caught = 0;
+        for encoding in [Encoding::PLAIN, Encoding::BYTE_STREAM_SPLIT] {
+            for version in [WriterVersion::PARQUET_1_0, WriterVersion::PARQUET_2_0] {
+                let whole = foreign(encoding, version);
+                assert_eq!(read(&whole, folder.path()).ok(), Some(60));
+                for (at, flip) in
+                    (4..whole.len() - 4).step_by(3).zip([0x01, 0x40, 0xFF].into_iter().cycle())
+                {
+                    let mut bytes = whole.clone();
+                    bytes[at] ^= flip;
+                    let said = read(&bytes, folder.path()).map_err(|e| e.to_string());
+                    caught += usize::from(said.is_err_and(|e| e.contains("what they name")));
+                }
+            }
+        }
+        assert!(caught > 0, "none of them would have been a panic");
     }
 }
