@@ -158,14 +158,31 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
         while left < last && block(left) <= i {
             left += 1;
         }
-        let around = &set[entered.saturating_sub(2)..(left + reach + 3).min(set.len())];
+        // share of the block that is behind the path in the cycles in which it is on the block or rests at an end of it
+        let along = [0, 1, 2].map(|c| w[1][c] - w[0][c]);
+        let square = along.iter().map(|c| c * c).sum::<f64>();
+        let share = |k: usize| {
+            let off = [0, 1, 2].map(|c| path[k][c] - w[0][c]);
+            off.iter().zip(&along).map(|(o, a)| o * a).sum::<f64>() / square
+        };
+        let rests = |k: usize, at: Point| largest([0, 1, 2].map(|c| path[k][c] - at[c])) < 1e-9;
+        while entered > 0 && rests(entered - 1, w[0]) {
+            entered -= 1;
+        }
+        while left < last && rests(left, w[1]) {
+            left += 1;
+        }
+        let shares: Vec<f64> = (entered..left).map(share).collect();
         // dents of the set path are as short as its lines
-        let length = to_segment(w[0], w[1], w[1]).0.sqrt();
-        let parts = (length / (SPACING * case.tolerance_mm)).ceil().clamp(8.0, 256.0) as u32;
+        let parts = (square.sqrt() / (SPACING * case.tolerance_mm)).ceil().clamp(8.0, 256.0) as u32;
         for sub in 0..=parts {
             let u = f64::from(sub) / f64::from(parts);
-            let p = [0, 1, 2].map(|k| w[0][k] + u * (w[1][k] - w[0][k]));
-            let new = aside(p, around);
+            let p = [0, 1, 2].map(|k| w[0][k] + u * along[k]);
+            // the filters hold a point from the cycle in which the path comes to it until their length after it has gone on
+            let comes = entered + shares.partition_point(|s| *s < u - 1e-9);
+            let goes = entered + shares.partition_point(|s| *s <= u + 1e-9);
+            let until = (goes + reach + 3).min(set.len());
+            let new = aside(p, &set[comes.saturating_sub(2)..until]);
             if new > misses.0 {
                 misses = (new, i);
             }
