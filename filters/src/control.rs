@@ -1,4 +1,4 @@
-//! Everything behind the set position of one axis: feedforward, position controller, drive and mechanics,
+//! Everything downstream of the set position of one axis: feedforward, position controller, drive and mechanics,
 //! Improved Position Control and the monitors of the position controller.
 //!
 //! One call of [`AxisControl::step`] per interpolation cycle; every part is configuration (`…Config`, in mm and s)

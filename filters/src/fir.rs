@@ -23,7 +23,7 @@ use std::f64::consts::PI;
 /// Highest order of FIR and HSC filters. Source: P-AXIS-00587, 00140.
 pub const MAX_ORDER: u32 = 200;
 /// Highest order of the pure delay. Source: P-AXIS-00587.
-pub const MAX_DELAY_ORDER: u32 = 100;
+pub(crate) const MAX_DELAY_ORDER: u32 = 100;
 
 /// Shape of a FIR kernel. Source: P-AXIS-00586.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,7 +79,7 @@ impl FirConfig {
 
     /// The kernel of the configuration and what there is to say about it.
     ///
-    /// No kernel with 50910, 50989 or a value out of range; 50911 goes on with the highest order.
+    /// No kernel with 50910, 50989 or a value out of range; 50911 continues with the highest order.
     pub fn design(&self, cycle: CycleTime) -> (Option<Kernel>, Vec<FilterIssue>) {
         let mut issues = Vec::new();
         let max_order = if self.kind == FirKind::TimeDelay { MAX_DELAY_ORDER } else { MAX_ORDER };

@@ -56,7 +56,7 @@ pub struct HscConfig {
 impl HscConfig {
     /// The kernel of the configuration and what there is to say about it.
     ///
-    /// No kernel with 50910, 50989 or a value out of range; 50911 goes on with the highest order.
+    /// No kernel with 50910, 50989 or a value out of range; 50911 continues with the highest order.
     pub fn design(&self, cycle: CycleTime) -> (Option<Kernel>, Vec<FilterIssue>) {
         let mut issues = Vec::new();
         let max_order = if self.kind == HscKind::NoVib { u32::MAX } else { MAX_ORDER };

@@ -67,7 +67,7 @@ impl FilterKind {
     ];
 
     /// Highest order of the range, resp. the only effective one. Source: P-AXIS-00140.
-    pub const fn max_order(self) -> u32 {
+    pub(crate) const fn max_order(self) -> u32 {
         match self {
             Self::LowPass | Self::HighPass | Self::AllPass => 6,
             Self::BandPass | Self::BandStop => 3,
@@ -123,7 +123,7 @@ impl Default for FilterConfig {
 ///
 /// Assumption: the vendor corrects lower values (110361) to a lowest frequency that no document states; down to this
 /// one the sections were checked against 40 digits.
-pub const LOWEST_FREQUENCY_RATIO: f64 = 1e-5;
+pub(crate) const LOWEST_FREQUENCY_RATIO: f64 = 1e-5;
 
 /// A standard filter at work: its design and its state.
 #[derive(Clone, Debug)]
@@ -207,7 +207,7 @@ impl AxisFilter {
     }
 
     /// The output that a constant input `x` leads to in the end: `x`, except for a high-pass or band-pass.
-    pub fn final_value(&self, x: f64) -> f64 {
+    pub(crate) fn final_value(&self, x: f64) -> f64 {
         self.start.map_or(x, |start| self.share.mix(x, start))
     }
 }

@@ -109,16 +109,6 @@ impl Kernel {
         self.central_moment(|s| (-s).max(0.0) * (-s).max(0.0))
     }
 
-    /// `sum h_k max(0, t_k - tbar)^3` in cycles cubed: weighs a jerk before a corner.
-    pub fn m3_before_cycles3(&self) -> f64 {
-        self.central_moment(|s| s.max(0.0) * s.max(0.0) * s.max(0.0))
-    }
-
-    /// `sum h_k max(0, tbar - t_k)^3` in cycles cubed: weighs a jerk after a corner.
-    pub fn m3_after_cycles3(&self) -> f64 {
-        self.central_moment(|s| (-s).max(0.0) * (-s).max(0.0) * (-s).max(0.0))
-    }
-
     /// Variance `sigma^2 = sum h_k (t_k - tbar)^2` in cycles squared: on a circle of radius R the path shrinks by about
     /// `v^2 sigma^2 T^2 / (2 R)`.
     pub fn variance_cycles2(&self) -> f64 {
@@ -127,7 +117,7 @@ impl Kernel {
 
     /// The kernel of both run one after the other.
     #[must_use]
-    pub fn convolve(&self, other: &Self) -> Self {
+    pub(crate) fn convolve(&self, other: &Self) -> Self {
         let products = self.taps.iter().flat_map(|a| {
             other.taps.iter().map(|b| Tap {
                 delay: a.delay.saturating_add(b.delay),
@@ -224,7 +214,7 @@ impl KernelFilter {
     }
 
     /// Whether `kernel` would see equal inputs only.
-    pub fn settled_for(&self, kernel: &Kernel) -> bool {
+    pub(crate) fn settled_for(&self, kernel: &Kernel) -> bool {
         self.rest_cycles > kernel.length()
     }
 
@@ -367,8 +357,6 @@ mod tests {
             (k.m1_cycles(), 0.5),
             (k.m2_before_cycles2(), 1.0),
             (k.m2_after_cycles2(), 1.0),
-            (k.m3_before_cycles3(), 2.0),
-            (k.m3_after_cycles3(), 2.0),
             (k.variance_cycles2(), 2.0),
         ];
         for (is, want) in moments {
@@ -378,8 +366,6 @@ mod tests {
         let k = kernel(&[(0, 3.0), (4, 1.0)]);
         assert_eq!(k.m2_before_cycles2().to_bits(), f64::to_bits(2.25));
         assert_eq!(k.m2_after_cycles2().to_bits(), f64::to_bits(0.75));
-        assert_eq!(k.m3_before_cycles3().to_bits(), f64::to_bits(6.75));
-        assert_eq!(k.m3_after_cycles3().to_bits(), f64::to_bits(0.75));
         assert_eq!(k.m1_cycles().to_bits(), f64::to_bits(0.75));
     }
 

@@ -72,7 +72,7 @@ impl Shaping {
     /// Whether the axis has arrived: the kernel is flushed and the output is closer than `window_mm` (P-AXIS-00351) to
     /// the value it tends to, the input.
     ///
-    /// A high-pass or band-pass never reaches its input; what it tends to instead counts, so that nobody waits for ever.
+    /// A high-pass or band-pass never reaches its input; what it tends to instead counts, so that nobody waits forever.
     pub fn settled(&self, window_mm: f64) -> bool {
         let (x, y) = self.newest;
         let target = self.filters.iter().fold(x, |x, filter| filter.final_value(x));
@@ -81,7 +81,7 @@ impl Shaping {
 
     /// Whether another cycle with the input `x` would give the output of the last one and change nothing but its number.
     ///
-    /// A chain with standard filters is never said to rest: they go on for as long as their states have digits.
+    /// A chain with standard filters is never said to rest: they continue for as long as their states have digits.
     pub fn rests_under(&self, x: f64) -> bool {
         self.filters.is_empty() && x.to_bits() == self.newest.0.to_bits() && self.kernel.rests()
     }

@@ -19,9 +19,9 @@ pub struct CycleTime {
 
 impl CycleTime {
     /// Shortest accepted cycle in us.
-    pub const MIN_US: u32 = 100;
+    pub(crate) const MIN_US: u32 = 100;
     /// Longest accepted cycle in us.
-    pub const MAX_US: u32 = 20_000;
+    pub(crate) const MAX_US: u32 = 20_000;
     /// The default of 1 ms.
     pub const DEFAULT: Self = Self { us: 1000 };
 

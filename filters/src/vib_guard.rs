@@ -87,7 +87,7 @@ impl VibGuardSettings {
     /// Largest damping with a kernel: towards 1 the damped period, and with it the kernel, grows without bound.
     pub const MAX_DAMPING: f64 = 0.99;
     /// Longest kernel in taps. Assumption: a bound against exhausted memory, 16 s at 1 ms.
-    pub const MAX_TAPS: u32 = 16_384;
+    pub(crate) const MAX_TAPS: u32 = 16_384;
 
     /// The kernel of these settings in the cycle time `cycle`.
     ///

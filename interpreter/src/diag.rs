@@ -47,7 +47,7 @@ impl std::fmt::Display for Id {
 pub enum Severity {
     /// Worth knowing.
     Note,
-    /// The run goes on; something was corrected, ignored or is not simulated.
+    /// The run continues; something was corrected, ignored or is not simulated.
     Warning,
     /// The program (or the list) is refused or aborted.
     Error,
@@ -83,7 +83,7 @@ pub struct Location {
 }
 
 impl Location {
-    /// The column behind the last marked character, from 1.
+    /// The column after the last marked character, from 1.
     pub fn end_column(&self) -> u32 {
         self.column.max(1).saturating_add(self.length.max(1))
     }
@@ -215,7 +215,7 @@ pub struct Diagnostic {
 }
 
 /// Characters of a word that a message quotes.
-pub const QUOTED_MAX: usize = 80;
+pub(crate) const QUOTED_MAX: usize = 80;
 
 /// A message in which what stands between backticks has at most [`QUOTED_MAX`] characters.
 pub fn shortened(text: String) -> String {

@@ -34,7 +34,8 @@ pub mod value;
 
 pub use axis::{Axis, AxisKind};
 pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, OverrideMode, RapidOverride};
-pub use issues::{filter_condition, leaves_out};
+pub use issues::filter_condition;
+pub(crate) use issues::leaves_out;
 pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};

@@ -330,7 +330,7 @@ impl Simulation {
         Some(&self.record)
     }
 
-    /// Takes over the inputs that are due in cycle `k`: the axes see them at once, the path bends behind the cycle.
+    /// Takes over the inputs that are due in cycle `k`: the axes see them at once, the path bends after the cycle.
     fn take_inputs(&mut self, k: u64) {
         let time_s = self.cycle.time_of(k);
         match self.inputs.take_due(time_s, &self.machine, &mut self.diagnostics) {
@@ -346,7 +346,7 @@ impl Simulation {
         self.hold_path();
     }
 
-    /// Feedhold and the signal of the probe brake the path, or let it go on.
+    /// Feedhold and the signal of the probe brake the path, or let it continue.
     fn hold_path(&mut self) {
         let own = self.machine.channel.own_feed_hold && self.inputs.feedhold;
         let braking = if own { FeedholdBraking::Own } else { FeedholdBraking::Active };
@@ -437,14 +437,14 @@ impl Simulation {
         self.not_contoured();
     }
 
-    /// The path stops behind the last motion.
+    /// The path stops after the last motion.
     fn path_stops(&mut self) {
         self.smoothing.flush(&mut self.planner);
         self.not_contoured();
         self.planner.finish();
     }
 
-    /// The path has come to rest behind everything that was pushed.
+    /// The path has come to rest after everything that was pushed.
     fn at_rest(&mut self) {
         let Some((after, source, events)) = self.pending.take() else {
             self.pull();
@@ -464,10 +464,12 @@ impl Simulation {
                 self.stops_at[i] = self.current;
             }
         }
-        self.phase = Phase::Waiting(match after {
+        let wait = match after {
             After::Sync(sync) => Wait::for_sync(sync, self.cycle),
             After::End(reason) => Wait::for_end(reason),
-        });
+        };
+        wait.end_oscillations(&mut self.independent);
+        self.phase = Phase::Waiting(wait);
     }
 
     /// A wait is over: acts and returns to the program.

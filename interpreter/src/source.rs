@@ -32,12 +32,12 @@ use std::sync::Arc;
 /// Longest block in characters; longer ones are warned about, 20301.
 ///
 /// Source: TF5200 programming manual, block structure.
-pub const BLOCK_LENGTH: u32 = 4000;
+pub(crate) const BLOCK_LENGTH: u32 = 4000;
 
 /// Longest block that is decoded, in characters; above it 20301 is an error.
 ///
 /// Source: TF5200 diagnosis, 20301. The limit holds for the joined block if lines are continued.
-pub const BLOCK_LENGTH_MAX: u32 = 4096;
+pub(crate) const BLOCK_LENGTH_MAX: u32 = 4096;
 
 /// Opens programs.
 pub trait Sources: Send + Sync {
@@ -110,7 +110,7 @@ pub struct Piece {
     pub line: u32,
     /// The line was decoded as Latin-1: each of its characters is one byte in the program.
     pub latin1: bool,
-    /// Where the line ends in the block's text; the text behind it belongs to the next piece.
+    /// Where the line ends in the block's text; the text after it belongs to the next piece.
     pub end: u32,
     /// The piece replaces text of this length, in bytes (use of a macro): all of it has one place in the program.
     pub replaces: Option<u32>,
@@ -134,7 +134,7 @@ impl Span {
         Self { start: clamp(start), len: clamp(end.saturating_sub(start)) }
     }
 
-    /// First byte behind the span.
+    /// First byte after the span.
     pub fn end(self) -> u32 {
         self.start.saturating_add(self.len)
     }

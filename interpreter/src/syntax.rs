@@ -31,7 +31,7 @@ mod problem;
 pub(crate) mod scan;
 
 pub(crate) use plain::{Plain, PlainValue};
-pub use scan::NESTING_MAX;
+pub(crate) use scan::NESTING_MAX;
 
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::source::{BLOCK_LENGTH, BLOCK_LENGTH_MAX, RawBlock};
@@ -67,7 +67,7 @@ const HASH_WORDS: &[&str] =
 const PROBLEMS_MAX: usize = 10;
 
 /// Binary operators per block. Bounds the depth of the tree together with [`NESTING_MAX`]; above it K-0006.
-pub const OPERATORS_MAX: usize = 500;
+pub(crate) const OPERATORS_MAX: usize = 500;
 
 /// Parses blocks.
 #[derive(Clone, Debug, Default)]
@@ -224,7 +224,7 @@ impl Parser {
                 if mode == Mode::Declaration && found.condition == Condition::Syntax {
                     found.condition = Condition::DeclarationCharacter;
                 }
-                // what stands behind a function without its bracket is no word
+                // what follows a function without its bracket is no word
                 let lost = found.condition == Condition::FunctionBracket;
                 builder.report_error(found);
                 let rule = match (context, mode) {
@@ -247,7 +247,7 @@ fn too_long(raw: &RawBlock<'_>) -> Problem {
     } else {
         (Severity::Warning, BLOCK_LENGTH)
     };
-    // the first character that is too many; the text is cut behind the last one that is decoded
+    // the first character that is too many; the text is cut after the last one that is decoded
     let at = raw.text.char_indices().nth(limit as usize).map_or(raw.text.len(), |(i, _)| i);
     Problem::new(
         Condition::LineTooLong,

@@ -132,7 +132,7 @@ fn weights_of_feedforward() {
     near(fed("", 50) - fed(fewer, 50), 0.2 * (fed("", 50) - 5.0), 1e-9);
 }
 
-/// Additive variant: nothing at the controller, both parts behind the global weight. Conformance: F015, F016.
+/// Additive variant: nothing at the controller, both parts after the global weight. Conformance: F015, F016.
 #[test]
 fn additive_feedforward() {
     let inputs = "kontur.axis[1].additive.velocity=1 kontur.axis[1].additive.torque=1";
@@ -313,7 +313,7 @@ fn limit_and_switch_of_the_additive_speed() {
 fn settling_time_of_the_lists() {
     let slow = "X.getriebe[0].kv=1000 X.getriebe[0].window=500 X.vorsteuer.vorsteuerung=NONE \
                 Y.vorsteuer.vorsteuerung=NONE Z.vorsteuer.vorsteuerung=NONE S.vorsteuer.vorsteuerung=NONE";
-    // cycle of 70082 behind the stop after 100 mm/s
+    // cycle of 70082 after the stop after 100 mm/s
     let late = |settings: &str| {
         let mut axis = axis(&format!("{slow} {settings}"));
         let at = |k: u32| 0.1 * f64::from(k.min(2000));

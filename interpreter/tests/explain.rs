@@ -44,7 +44,7 @@ fn prototypes_and_keys_of_axis_filters() {
     );
 }
 
-/// Axis filters, 2.1: objects of the control before and behind the filters.
+/// Axis filters, 2.1: objects of the control before and after the filters.
 /// Conformance: A014, A015.
 #[test]
 fn objects_of_the_control() {
@@ -54,7 +54,7 @@ fn objects_of_the_control() {
     );
     says(
         "Ft_sollwert_gestern",
-        &["behind the axis filters", "0x121300", "0x1C + 0x10000", "SGN64", "X_set_mm"],
+        &["after the axis filters", "0x121300", "0x1C + 0x10000", "SGN64", "X_set_mm"],
     );
 }
 

@@ -139,7 +139,7 @@ const HEADS: &[&str] = &[
     "[",
 ];
 
-/// Text of a few tokens repeated, a few levels deep or over the whole length of a block, with some text behind.
+/// Text of a few tokens repeated, a few levels deep or over the whole length of a block, with some text after it.
 fn text() -> impl Strategy<Value = String> {
     let token = || prop::sample::select(TOKENS);
     (

@@ -37,7 +37,7 @@ impl Write for Buffer {
     }
 }
 
-/// Runs `kontur` with words behind it.
+/// Runs `kontur` with words after it.
 pub fn command<W: Into<OsString>>(words: impl IntoIterator<Item = W>) -> Output {
     let (out, err) = (Buffer::default(), Buffer::default());
     let mut console = Console::new(out.clone(), err.clone());

@@ -127,7 +127,7 @@ pub fn from_polyline(point: &[f64], polyline: &[Vec<f64>]) -> Vec<f64> {
     best.1
 }
 
-/// Envelope of a spring-mass model (`f_hz`, `damping`) behind the last change of `u`, driven by `u` held over each cycle.
+/// Envelope of a spring-mass model (`f_hz`, `damping`) after the last change of `u`, driven by `u` held over each cycle.
 pub fn residual_mm(u: &[f64], cycle_s: f64, f_hz: f64, damping: f64) -> f64 {
     let w = 2.0 * std::f64::consts::PI * f_hz;
     let wd = w * (1.0 - damping * damping).sqrt();

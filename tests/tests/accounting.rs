@@ -77,7 +77,7 @@ fn places_in_subroutines_name_their_file() {
 /// A subroutine that only the moving machine opens has its name as well.
 #[test]
 fn a_file_that_the_check_did_not_see() {
-    // the check takes every axis for where it is told to be; the machine lags behind by some micrometres
+    // the check takes every axis for where it is told to be; the machine lags after by some micrometres
     let text = "G01 X10 F6000\n$IF V.A.ACT_POS.X < 10\nL late.nc\n$ENDIF\nG01 X0\nM30\n";
     let folder = Folder::new(&[("part.nc", text), ("late.nc", "G60 G01 Y5\nM17\n")]);
     let trace = folder.path("a.parquet");
@@ -162,7 +162,7 @@ fn declared_durations_are_waited_for() {
     }
 }
 
-/// A function with a duration stops the path where it acts: M07 in front of its block, M05 behind it. Its cycles are of its
+/// A function with a duration stops the path where it acts: M07 in front of its block, M05 after it. Its cycles are of its
 /// block.
 #[test]
 fn functions_that_take_time_stop_the_path() {
@@ -269,7 +269,7 @@ fn values_of_a_program_vary() {
     }
 }
 
-/// Part by part, in any order: the rows of the parts, one behind the other, are the table. All parts are refused alike where
+/// Part by part, in any order: the rows of the parts, one after the other, are the table. All parts are refused alike where
 /// there are more of them than runs.
 #[test]
 fn shards_together_are_the_sweep() {

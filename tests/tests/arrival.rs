@@ -55,7 +55,7 @@ fn an_axis_beside_the_block_that_stands_outside() {
     assert_eq!(only(&run).1, "Z");
 }
 
-/// An input that is still to come may release the axis: the wait goes on.
+/// An input that is still to come may release the axis: the wait continues.
 #[test]
 fn an_input_to_come_is_waited_for() {
     let force = [(0.0, "X_force_mm_s2", 1000.0), (5.0, "X_force_mm_s2", 0.0)];
@@ -196,7 +196,7 @@ fn a_speed_above_the_limit_is_said() {
     assert!((most_rpm(&run) - 12_000.0).abs() < 1e-6);
 }
 
-/// An error of an axis: the spindle runs down with its own deceleration, and the trace goes on until it stands.
+/// An error of an axis: the spindle runs down with its own deceleration, and the trace continues until it stands.
 #[test]
 fn spindles_stop_with_the_axes() {
     let run = run(

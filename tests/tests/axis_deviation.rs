@@ -49,7 +49,7 @@ struct Writer {
     at: Point,
     heading: f64,
     blocks: Vec<(u32, Vec<Piece>)>,
-    /// Commands that take turns behind every so many blocks.
+    /// Commands that take turns after every so many blocks.
     switch: Option<([String; 2], usize)>,
 }
 
@@ -384,7 +384,7 @@ fn is_filtered(case: &Case, line: u32) -> bool {
 }
 
 /// Largest axis component of the shortest vector from the lines between the set points to a point of the contour, over all
-/// filtered blocks, with the line of the program: of a block those count between its first cycle and the reach behind its last one.
+/// filtered blocks, with the line of the program: of a block those count between its first cycle and the reach after its last one.
 fn missed(run: &Run, case: &Case) -> (f64, u32) {
     let records = &run.records;
     let mut worst = (0.0, 0);

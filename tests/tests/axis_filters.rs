@@ -42,7 +42,7 @@ fn equal(run: &Run, axis: usize) -> bool {
     run.records.iter().all(|r| r.axes[axis].set.to_bits() == r.axes[axis].ipo.to_bits())
 }
 
-/// How many cycles `set` is behind `ipo` in the middle of the motion of a line, at constant speed.
+/// How many cycles `set` is after `ipo` in the middle of the motion of a line, at constant speed.
 fn delay(run: &Run, line: u32) -> f64 {
     let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
     let middle = of_line[of_line.len() / 2];
@@ -64,7 +64,7 @@ fn an_axis_is_two_cycles_late() {
     }
 }
 
-/// Behind the interpolator, on the axis that has the filter. Conformance: A001, A003.
+/// After the interpolator, on the axis that has the filter. Conformance: A001, A003.
 #[test]
 fn set_follows_the_interpolated_position() {
     let run = on("%P\nG90 G01 X10 Y10 F6000\nM30\n", &low_pass("X"));

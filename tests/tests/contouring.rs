@@ -119,7 +119,7 @@ fn stops_suppress_contouring() {
     }
 }
 
-/// 120129 and 120131 refuse the program; 120216 leaves the corner, names its line and the run goes on.
+/// 120129 and 120131 refuse the program; 120216 leaves the corner, names its line and the run continues.
 #[test]
 fn messages() {
     let refused =

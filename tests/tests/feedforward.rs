@@ -138,7 +138,7 @@ fn feedforward_keeps_the_arc() {
     assert!(with < 0.1 * without, "{with} of {without}");
 }
 
-/// Spindles on the machine with two of them: S and S2 behind X, Y, Z. Conformance: F014, F035, F036, F037, F038, F039,
+/// Spindles on the machine with two of them: S and S2 after X, Y, Z. Conformance: F014, F035, F036, F037, F038, F039,
 /// F040, F042.
 #[test]
 fn feedforward_of_spindles() {
@@ -179,7 +179,7 @@ fn feedforward_of_spindles_stands_alone() {
     assert!(run.records.is_empty() && at.length > 0, "{found:?}");
 }
 
-/// The speed at which a spindle falls behind, turns and comes back: what every form leaves of v / Kv = 6000 / 50 deg.
+/// The speed at which a spindle falls after, turns and comes back: what every form leaves of v / Kv = 6000 / 50 deg.
 /// Conformance: F035, F036, F037, F038, F039.
 #[test]
 fn the_sample_program_of_the_spindles() {
@@ -219,7 +219,7 @@ fn figures_of_the_sample_program() {
         settings.extend(more.iter().map(|s| format!("X.vorsteuer.{s}")));
         let run = run(&text, &settings.iter().map(String::as_str).collect::<Vec<_>>());
         assert!(!run.totals.aborted, "{:?}", run.diagnostics);
-        // N50 goes back to 0 under G135, with the dwell behind it: the lag in the direction of travel
+        // N50 goes back to 0 under G135, with the dwell after it: the lag in the direction of travel
         let of = |r: &&kontur_interpreter::record::CycleRecord| r.block == Some(50);
         let first = run.records.iter().position(|r| of(&r)).unwrap();
         let last = run.records.iter().rposition(|r| of(&r)).unwrap();
@@ -232,7 +232,7 @@ fn figures_of_the_sample_program() {
     let near = |is: f64, want: f64, tolerance: f64| {
         assert!((is - want).abs() < tolerance, "{is} is not {want}");
     };
-    // figure 3: behind over the whole motion
+    // figure 3: after over the whole motion
     let (plateau, most, least) = lags(&["vorsteuerung=NONE"]);
     near(plateau, 2.0, 1e-5);
     near(most, 2.0, 1e-3);
@@ -252,7 +252,7 @@ fn figures_of_the_sample_program() {
     assert!(least < -0.4, "{least}");
 }
 
-/// G135 between blocks that run on steps the speed command of the moving axis; behind an exact stop it does not.
+/// G135 between blocks that run on steps the speed command of the moving axis; after an exact stop it does not.
 #[test]
 fn switching_in_motion_is_told() {
     let switched = |first: &str| {

@@ -206,7 +206,7 @@ fn lag_without_and_with_feedforward() {
     assert!(most(&curves[2]) < 0.01 * peak, "{}", most(&curves[2]));
     let weights = drawn("weight");
     for (curve, want) in weights.iter().zip([-0.4, 0.0, 0.4]) {
-        // the axis travels back: behind is below 0
+        // the axis travels back: after is below 0
         near(column(curve, "X_lag_mm")[500], want, 1e-3);
     }
     let lowest = |curve: &Curve| column(curve, "X_act_mm").into_iter().fold(f64::MAX, f64::min);

@@ -45,7 +45,7 @@ fn the_surface_is_measured_and_the_rest_of_the_run_is_dropped() {
     assert_eq!(said(&run), ["8.0000 6.0000 1 -2.0000 -4.0000"]);
     assert!(errors(&run).is_empty() && !run.totals.aborted);
     let of_run = |line: u32| run.records.iter().filter(move |r| r.line == line);
-    // every set position of the run lies on its line, and it ends soon behind the surface: by the lag and the way of
+    // every set position of the run lies on its line, and it ends soon after the surface: by the lag and the way of
     // braking, not at the target
     for r in of_run(5) {
         near(r.axes[1].ipo, 2.0 * (r.axes[0].ipo - 5.0), 1e-9);
@@ -53,7 +53,7 @@ fn the_surface_is_measured_and_the_rest_of_the_run_is_dropped() {
     let rest = of_run(5).next_back().unwrap();
     let (x, y) = (rest.axes[0].ipo, rest.axes[1].ipo);
     assert!(x > 8.0 && x < 8.2, "{x}");
-    // N40 goes on from there: Y stays, X goes back
+    // N40 continues from there: Y stays, X goes back
     near(end(&run, 0), 7.0, 1e-9);
     near(end(&run, 1), y, 1e-9);
 }
@@ -105,7 +105,7 @@ fn one_axis_at_its_own_speed() {
     assert_eq!(errors(&run_with_inputs(linear(&[]), program, &[])), ["K-0133"]);
 }
 
-/// Type 3: with G106 the path goes on to the target, without it it stops.
+/// Type 3: with G106 the path continues to the target, without it it stops.
 #[test]
 fn through_to_the_target() {
     let of = |g106: &str| {
@@ -126,7 +126,7 @@ fn through_to_the_target() {
     assert!(end(&stopped, 0) < 8.2);
 }
 
-/// G310: with a signal the program goes on at the label and from where the axes stand, without one behind the block.
+/// G310: with a signal the program continues at the label and from where the axes stand, without one after the block.
 #[test]
 fn an_interrupted_motion_jumps() {
     let program = "#MEAS MODE [5]\nN10 G00 X0 Y0\nN20 G310 G01 F1000 X10 Y20 $GOTO[N_LABEL]\nN30 G01 X20\n\

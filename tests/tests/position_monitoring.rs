@@ -107,7 +107,7 @@ fn the_program_of_the_timeout() {
     let back = raised - 200;
     assert!(run.records[back - 1].axes[0].set > 0.0 && run.records[back].axes[0].set.abs() <= 0.0);
     assert!(run.records.iter().all(|r| r.block != Some(100)), "nothing follows");
-    // the trace goes on until the axis itself stands
+    // the trace continues until the axis itself stands
     let [.., before, last] = run.records.as_slice() else { panic!("an empty trace") };
     assert!((last.axes[0].act - before.axes[0].act).abs() < 1.1e-4, "0.1 mm/s");
     assert!(last.axes[0].lag.abs() < 0.02, "{}", last.axes[0].lag);

@@ -188,7 +188,7 @@ fn time_stamps_between_cycles() {
     }
 }
 
-/// The additional interface with the settings behind `filter[0]`, a step of 1 mm in cycle 10.
+/// The additional interface with the settings after `filter[0]`, a step of 1 mm in cycle 10.
 fn additional(filter: &str) -> Run {
     let prefix = "X.lr_param.add_interface";
     let mut settings = vec![format!("{prefix}.enable=1")];
@@ -197,7 +197,7 @@ fn additional(filter: &str) -> Run {
     run_with_inputs(machine(&settings), "%P\nG04 1\nM30\n", &[(0.01, "X_add_mm", 1.0)])
 }
 
-/// What flows through the interface: the input, its filter, and the sum behind the axis filters that the controller
+/// What flows through the interface: the input, its filter, and the sum after the axis filters that the controller
 /// follows; set position and deviation are those of the program. Conformance: A012, A106.
 #[test]
 fn additional_position() {
@@ -266,7 +266,7 @@ fn both_filters_add_up() {
         };
         assert_eq!(added[k].to_bits(), f64::to_bits(input));
     }
-    // the controller gets the sum behind its buffer
+    // the controller gets the sum after its buffer
     let delay = (0..10).find(|d| {
         (10..run.records.len()).all(|k| (reference[k] - set[k - d] - added[k - d]).abs() < 1e-12)
     });
@@ -330,7 +330,7 @@ fn inputs_last_over_machine_data() {
     assert_eq!(run.ids(), [0; 0]);
 }
 
-/// 3500 mm/s2: at 50 mm/s from 0.4143 s on; held from the tick behind 0.8143 s to 1.2 s.
+/// 3500 mm/s2: at 50 mm/s from 0.4143 s on; held from the tick after 0.8143 s to 1.2 s.
 #[test]
 fn sample_of_feedhold_and_override() {
     let file = |name: &str| kontur_tests::programs().join(name).display().to_string();

@@ -55,7 +55,7 @@ impl Bench {
         path.to_str().unwrap().to_owned()
     }
 
-    /// Position at a time, at rest before the begin and behind the end.
+    /// Position at a time, at rest before the begin and after the end.
     fn at(&self, axis: usize, time_s: f64) -> f64 {
         let place = (time_s / 0.001).clamp(0.0, (self.set.len() - 1) as f64);
         let (k, part) = (place.floor() as usize, place.fract());

@@ -119,7 +119,7 @@ fn the_course_of_an_exact_stop() {
     }
     let stops = page["stops"].as_array().unwrap();
     assert_eq!(stops.len(), 2, "{stops:?}");
-    // behind the second stop the program ends before the axis is in its window
+    // after the second stop the program ends before the axis is in its window
     for (stop, target) in stops.iter().zip([50.0_f64]) {
         let t1 = set.iter().position(|x| x.to_bits() == target.to_bits()).unwrap();
         let t2 = (t1..).find(|&k| (act[k] - target).abs() <= 0.05).unwrap();
@@ -128,7 +128,7 @@ fn the_course_of_an_exact_stop() {
             numbers(&Value::from(stop.as_array().unwrap()[1..].to_vec())),
             [target, 0.05, t1 as f64, t2 as f64, (t1 + 400) as f64]
         );
-        // ln(lag / window) over the slow pole of kv = 20/s behind a drive of 5 ms
+        // ln(lag / window) over the slow pole of kv = 20/s after a drive of 5 ms
         let pole_1_s = (1.0 - (1.0_f64 - 4.0 * 20.0 * 0.005).sqrt()) / (2.0 * 0.005);
         let lag = act[t1] - target;
         let closed = libm::log(lag.abs() / 0.05) / pole_1_s;

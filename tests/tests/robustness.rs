@@ -93,7 +93,7 @@ fn limits_stop_a_program_and_do_not_refuse_it() {
     assert!(said[0].starts_with("K-0017 ") && out.contains("aborted"), "{said:?} {out}");
 }
 
-/// A mistake in a program that moves without end: the check does not go on to the limit of blocks.
+/// A mistake in a program that moves without end: the check does not continue to the limit of blocks.
 #[test]
 fn a_wrong_program_without_end() {
     let said = refused("N5 G01 F600 X1 W1\nN10: X1\nX2\n$GOTO N10\nM30\n", &[]);

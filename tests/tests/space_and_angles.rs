@@ -107,7 +107,7 @@ fn contour_lines_of_two_angles() {
 }
 
 /// The page's program of an Akima spline (1255466635) as setpoints: it ends where it should, touches every point, and comes to
-/// rest at none of them but the corner behind the spline.
+/// rest at none of them but the corner after the spline.
 #[test]
 fn an_akima_spline_runs_through_its_points() {
     let text = "%P\nG01 X20 Y0 F1000\n#AKIMA TRANS[START=USER END=AUTO]\n#AKIMA STARTVECTOR X1 Y1 Z0\nG151\nG01 X40 Y20\nX60\nY0\nX80\nY10\n\

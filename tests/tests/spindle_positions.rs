@@ -19,7 +19,7 @@ fn turns(deg: f64) -> f64 {
     deg.rem_euclid(360.0)
 }
 
-/// The page's program (spindle-specific positioning, 208198923), with a pause behind each block so that it ends.
+/// The page's program (spindle-specific positioning, 208198923), with a pause after each block so that it ends.
 #[test]
 fn the_angle_holds_and_the_way_round_is_told() {
     let run = run(

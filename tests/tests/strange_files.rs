@@ -33,7 +33,7 @@ impl Folder {
     }
 }
 
-/// The beginning of the block is a blank or a comment, and what would move stands behind the limit.
+/// The beginning of the block is a blank or a comment, and what would move follows the limit.
 #[test]
 fn a_first_block_that_is_too_long_does_not_vanish() {
     for begin in [" ".repeat(4100), format!("({})", "x".repeat(4100)), ";".repeat(4100)] {
@@ -196,7 +196,7 @@ fn tables_of_another_form_are_refused_in_plain_words() {
     assert!(said.err.contains("longer than 65536 bytes"), "{}", said.err);
 }
 
-/// Nobody writes to a pipe that lies in a folder: a subroutine, a list or an input that is one would wait for ever.
+/// Nobody writes to a pipe that lies in a folder: a subroutine, a list or an input that is one would wait forever.
 #[test]
 #[cfg(unix)]
 fn pipes_are_no_subroutines_lists_or_inputs() {

@@ -129,7 +129,7 @@ fn the_override_in_a_thread() {
     assert!((pitch(&run) - 1.5).abs() < 1e-6);
 }
 
-/// A feedhold cuts the thread through; the path goes on afterwards, and the block is named.
+/// A feedhold cuts the thread through; the path continues afterwards, and the block is named.
 #[test]
 fn a_feedhold_breaks_a_thread() {
     let text = "%P\nM3 S500\nG33 Z-40 K1.5\nG01 Z-41 F100\nM5\nM30\n";
@@ -164,7 +164,7 @@ fn a_feedhold_before_a_thread_delays_it() {
     assert_eq!(ids, ["K-0083"]);
 }
 
-/// Blocks of G33 behind each other: threads of their own, each from the mark (P-CHAN-00837 = 0), or one without a stop.
+/// Blocks of G33 after each other: threads of their own, each from the mark (P-CHAN-00837 = 0), or one without a stop.
 #[test]
 fn a_chain_of_threads() {
     let text = "%P\nM3 S500\nG33 Z-15.4 K1.5\nZ-40\nG01 Z-41 F100\nM5\nM30\n";

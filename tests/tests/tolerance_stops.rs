@@ -15,7 +15,7 @@ fn off_polyline(run: &Run, corners: &[[f64; 2]]) -> f64 {
     run.set(2).iter().map(off).fold(0.0, f64::max)
 }
 
-/// The end of the motion in front of a stop is final when the motion behind it is planned; that one waits until the
+/// The end of the motion in front of a stop is final when the motion after it is planned; that one waits until the
 /// tolerance is kept, and no longer than without the stop.
 #[test]
 fn stops_shorter_than_the_kernel() {
@@ -51,7 +51,7 @@ fn a_stop_on_a_line_does_not_wait() {
 }
 
 /// A change of override or a feedhold while the path speeds up on a curve: the speed that the tolerance allows there
-/// holds behind it as well.
+/// holds after it as well.
 #[test]
 fn changes_of_speed_on_an_arc() {
     let fir: Vec<String> =

@@ -51,7 +51,7 @@ fn largest_step(values: &[f64]) -> f64 {
     values.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
 }
 
-/// How many cycles `set` is behind `ipo` in the middle of a long motion of X.
+/// How many cycles `set` is after `ipo` in the middle of a long motion of X.
 fn delay(run: &Run, line: u32) -> f64 {
     let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
     assert!(!of_line.is_empty(), "{:?}", run.diagnostics);

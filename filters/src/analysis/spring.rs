@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 /// The mass, described by the deflection `q` of its spring in mm: `q'' + 2 D w q' + w^2 q = -a`, with the acceleration `a` of the foot.
 ///
 /// The acceleration of a cycle is constant over it, as that of a set position interpolated by the drive; the solution is exact then:
-/// behind `q = -a / w^2`, where the spring would rest, the free decaying vibration goes on.
+/// after `q = -a / w^2`, where the spring would rest, the free decaying vibration continues.
 #[derive(Clone, Copy, Debug)]
 pub struct SpringMass {
     /// Undamped natural frequency in 1/s.
@@ -35,7 +35,7 @@ impl SpringMass {
         Some(Self { w, damped_w, damping, decay, sin, cos, q: 0.0, v: 0.0 })
     }
 
-    /// The deflection in mm behind a cycle in which the foot accelerates by `a` in mm/s2.
+    /// The deflection in mm after a cycle in which the foot accelerates by `a` in mm/s2.
     pub fn step(&mut self, a: f64) -> f64 {
         let rest = -a / (self.w * self.w);
         let (x, v, lean) = (self.q - rest, self.v, self.damping * self.w / self.damped_w);

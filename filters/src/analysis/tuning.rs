@@ -36,7 +36,7 @@ pub struct Choice {
 }
 
 /// Set frequencies are resolved to this in Hz: nobody measures better, and a program line stays short.
-pub const RESOLUTION_HZ: f64 = 0.01;
+pub(crate) const RESOLUTION_HZ: f64 = 0.01;
 
 /// Real frequencies at which a band is looked at, its ends included.
 const REAL_STEPS: u32 = 200;

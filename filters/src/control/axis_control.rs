@@ -26,7 +26,7 @@ pub use config::{AxisControlConfig, Encoder};
 /// What acts on an axis from outside; nothing by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisInputs {
-    /// Position of the additional interface behind its filter in mm, added to the set position.
+    /// Position of the additional interface after its filter in mm, added to the set position.
     ///
     /// The controller and its feedforward get the sum; the monitors of the set position and of the exact stop look at
     /// the programmed part (Assumption: the documents name the interface only).
@@ -131,7 +131,7 @@ impl Given {
 
 impl AxisControl {
     /// Largest set position in mm: far beyond any machine, and small enough for every difference to stay finite.
-    pub const RANGE_MM: f64 = 1e9;
+    pub(crate) const RANGE_MM: f64 = 1e9;
     /// Still cycles after which everything that remembers a fixed number of cycles (buffer, delays of the feedforward, dead
     /// time, differences) holds equal values only.
     const REST_CYCLES: u32 = 32;
@@ -326,7 +326,7 @@ impl AxisControl {
         if step_mm > 0.0 { (mm / step_mm).round() * step_mm } else { mm }
     }
 
-    /// One cycle: set position behind filters or Vibration Guard, feedforward gain of this motion
+    /// One cycle: set position after filters or Vibration Guard, feedforward gain of this motion
     /// ([`gain`](super::feedforward::FeedforwardConfig::gain); 0 when off) and whether its slope is jerk-limited.
     ///
     /// A set position beyond [`AxisControl::RANGE_MM`] (or not a number) counts as standing still.

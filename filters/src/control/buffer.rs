@@ -44,7 +44,7 @@ impl SetpointBuffer {
     /// Base delay 5, time offset 4, two setpoints before the reference, itself; rounded up to a power of two.
     const CAPACITY: usize = 16;
     /// Longest delay in cycles.
-    pub const MAX_DELAY: usize = Self::CAPACITY - 3;
+    pub(crate) const MAX_DELAY: usize = Self::CAPACITY - 3;
 
     /// A buffer that delays by `delay_cycles`; feedforward is taken `shift_cycles` before its setpoint.
     /// Both are limited to what the ring holds.
@@ -96,7 +96,7 @@ impl SetpointBuffer {
     }
 
     /// Speed with which the reference moved in the last cycle, mm per cycle.
-    pub fn reference_step_mm(&self) -> f64 {
+    pub(crate) fn reference_step_mm(&self) -> f64 {
         self.reference_mm() - self.at(self.delay + 1, 0).position_mm
     }
 

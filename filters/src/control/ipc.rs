@@ -170,7 +170,7 @@ impl IpcConfig {
     /// Stages of an axis.
     pub const MAX_STAGES: usize = 3;
     /// Largest configurable delay.
-    pub const MAX_DELAY: usize = 5;
+    pub(crate) const MAX_DELAY: usize = 5;
 
     /// What is wrong with the configuration; empty while it is off.
     ///

@@ -76,7 +76,7 @@ impl PositionConfig {
     }
 
     /// Smallest gain in 1/s that occurs.
-    pub fn lowest_gain(&self) -> f64 {
+    pub(crate) fn lowest_gain(&self) -> f64 {
         self.dynamic_kv.map_or(self.kv_per_s, |d| d.kv1_per_s.min(d.kv2_per_s))
     }
 
@@ -91,7 +91,7 @@ impl PositionConfig {
     }
 
     /// Limit of the speed command in mm/s, if the control has one: a drive that closes the loop limits its own.
-    pub fn speed_limit_mm_s(&self) -> Option<f64> {
+    pub(crate) fn speed_limit_mm_s(&self) -> Option<f64> {
         let limited = self.v_excess_ratio > 0.0 && self.closed_in == PositionLoop::Cnc;
         limited.then_some(self.v_max_mm_s * (1.0 + self.v_excess_ratio))
     }

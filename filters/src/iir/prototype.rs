@@ -46,7 +46,7 @@ impl Prototype {
     ///
     /// BESSEL: normalised so that the group delay has fallen to 1/sqrt(2) of its low-frequency value at `P = j`, the
     /// textbook design. Assumption: other prototypes use their low-pass factors; the vendor recommends BESSEL.
-    pub fn all_pass_terms(self, order: u32) -> Vec<Term> {
+    pub(crate) fn all_pass_terms(self, order: u32) -> Vec<Term> {
         match self {
             Self::Bessel => table(&BESSEL_ALL_PASS, order.min(6)),
             _ => self.terms(order),

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 ///
 /// Assumption: the vendor's own rule is not documented; the manual defines Q as `f0 / (fo - fu)` and says nothing of a
 /// change with the cycle time.
-pub fn warped_quality(f_hz: f64, q: f64, period_s: f64) -> f64 {
+pub(crate) fn warped_quality(f_hz: f64, q: f64, period_s: f64) -> f64 {
     let centre = PI * f_hz * period_s;
     libm::sin(2.0 * centre) / (2.0 * libm::tan(centre / q))
 }
@@ -50,7 +50,7 @@ pub fn high_pass(terms: &[Term], g: f64) -> Vec<Section> {
 }
 
 /// All-pass `(1 - a P + b P^2) / (1 + a P + b P^2)`.
-pub fn all_pass(terms: &[Term], g: f64) -> Vec<Section> {
+pub(crate) fn all_pass(terms: &[Term], g: f64) -> Vec<Section> {
     terms.iter().map(|term| pole(term, g, FirstOutput::All, SecondOutput::All)).collect()
 }
 
@@ -60,7 +60,7 @@ pub fn lags(count: usize, g: f64) -> Vec<Section> {
 }
 
 /// Band-pass, P replaced by `Q (P + 1/P)`: the poles are the roots of `s^2 - (p/Q) s + 1` for every low-pass pole p.
-pub fn band_pass(terms: &[Term], g: f64, q: f64) -> Vec<Section> {
+pub(crate) fn band_pass(terms: &[Term], g: f64, q: f64) -> Vec<Section> {
     let band = |pole: Pole| {
         let scale = 1.0 / q;
         let gain = pole.magnitude() * scale;

@@ -63,7 +63,7 @@ struct Row {
 #[test]
 fn lag_table() {
     let row = |what, kv, ta, feedforward, columns| Row { what, kv, ta, feedforward, columns };
-    // digits: three, two, one, none behind the point
+    // digits: three, two, one, none after the point
     let (m, c, d, u) = (5e-4, 5e-3, 5e-2, 5e-1);
     let none = FeedforwardConfig::default();
     let jerk =

@@ -499,7 +499,7 @@ fn a_band_stop_is_better_than_the_resonance() {
     assert!(stopped < 0.8 * plain, "{stopped} of {plain}");
 }
 
-/// Largest distance from the contour behind the corner, where the start no longer rings.
+/// Largest distance from the contour after the corner, where the start no longer rings.
 fn corner_of<S: Stage + Clone>(stage: &S, per_cycle: f64, cycles: u32) -> f64 {
     let points = path(stage, per_cycle, cycles);
     let distance = |&(x, y): &(f64, f64)| {

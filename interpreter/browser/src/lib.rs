@@ -2,7 +2,7 @@
 //!
 //! [`Session`] takes requests and gives answers as JSON; [`exported`] are the names under which a page calls it. Order of calls: a
 //! text of [`exported::request`] bytes is written, then [`exported::check`], [`exported::explain`] or [`exported::start`] reads it
-//! and leaves an answer ([`exported::answer`], [`exported::answer_length`]). A started run goes on with [`exported::advance`] until
+//! and leaves an answer ([`exported::answer`], [`exported::answer_length`]). A started run continues with [`exported::advance`] until
 //! that returns 0; [`exported::finish`] answers with its summary, and [`exported::column`] is where its columns lie.
 //!
 //! ```

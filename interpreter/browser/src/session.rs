@@ -296,7 +296,7 @@ impl Session {
         json(&Finished { cut, messages: messages(&*said), summary })
     }
 
-    /// Values of a column of the run in the order of the request; behind them the line of every row. Empty for others.
+    /// Values of a column of the run in the order of the request; after them the line of every row. Empty for others.
     pub fn column(&self, i: usize) -> &[f64] {
         let Some(UnderWay { columns, values, .. }) = &self.under_way else { return &[] };
         let i = if i == columns.len() { 0 } else { i + 1 };

@@ -35,7 +35,7 @@ pub enum Error {
         time_s: f64,
     },
     /// Ctrl-C stopped a sweep; finished rows are kept in its journal.
-    #[error("interrupted; the same sweep goes on behind its finished rows")]
+    #[error("interrupted; the same sweep continues after its finished rows")]
     Stopped,
     /// Nobody reads stdout any more; nothing is left to say.
     #[error("stdout is closed")]

@@ -1,4 +1,4 @@
-//! Ctrl-C: a run stops behind the present cycle, so that traces and summary are complete up to there.
+//! Ctrl-C: a run stops after the present cycle, so that traces and summary are complete up to there.
 
 use std::sync::atomic::{AtomicU8, Ordering};
 

@@ -63,7 +63,7 @@ pub struct Request {
     pub identity_trafo: bool,
     /// Declared durations of M, H and S functions are waited for.
     pub techno_times: bool,
-    /// External variables by their name behind `V.E.`: a number, or else a text.
+    /// External variables by their name after `V.E.`: a number, or else a text.
     pub external: Vec<(String, String)>,
     /// Numbers of the program in place of those that stand there.
     pub words: Vec<Word>,

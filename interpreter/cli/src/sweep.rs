@@ -83,7 +83,7 @@ struct Rows {
 
 /// Runs every combination and writes the rows: as a table on stdout, or to each `-o` as CSV, Parquet or picture.
 ///
-/// A sweep that was stopped goes on where it stopped: finished rows wait in a journal beside the first `-o`.
+/// A sweep that was stopped continues where it stopped: finished rows wait in a journal beside the first `-o`.
 ///
 /// Without any run that came to its end the exit is [`Exit::Aborted`], but for a shard: its job has been done.
 ///

@@ -239,7 +239,7 @@ mod tests {
             (names(), fs::read(&path).unwrap()),
             (vec!["a.csv".to_owned()], b"new".to_vec())
         );
-        // and goes on behind the name
+        // and continues after the name
         let mut target = Target::create(&path).unwrap();
         assert_eq!(names().len(), 1, "nothing was written");
         target.file().unwrap().write_all(b"1").unwrap();

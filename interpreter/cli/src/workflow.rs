@@ -13,7 +13,7 @@ pub(crate) struct Place<'a> {
     pub(crate) file: &'a str,
     /// Line, from 1.
     pub(crate) line: u32,
-    /// First column and the one behind the last, from 1.
+    /// First column and the one after the last, from 1.
     pub(crate) columns: Option<(u32, u32)>,
 }
 

@@ -11,7 +11,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// A block of commands: its page, what stands behind the fence, its lines.
+/// A block of commands: its page, what follows the fence, its lines.
 struct Block {
     page: String,
     info: String,

@@ -217,7 +217,7 @@ fn the_recipes_for_build_servers_work() {
     }
 }
 
-/// What stands behind a key of a recipe: the rest of the line, or the block below it.
+/// What follows a key of a recipe: the rest of the line, or the block below it.
 #[cfg(unix)]
 fn scripts(recipe: &str, key: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();

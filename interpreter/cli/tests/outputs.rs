@@ -162,7 +162,7 @@ fn a_command_that_fails_leaves_every_file_as_it_was() {
     assert_eq!(fs::read_to_string(f.join("5")).unwrap(), "old", "a hard link keeps what it had");
 }
 
-/// Rows of a CSV trace; every line is whole, and time goes on by a cycle from line to line.
+/// Rows of a CSV trace; every line is whole, and time continues by a cycle from line to line.
 fn csv_rows(path: &Path) -> u64 {
     let text = fs::read_to_string(path).unwrap();
     assert!(text.ends_with('\n'));
@@ -206,7 +206,7 @@ fn a_signal_ends_a_run_with_whole_files() {
     }
 }
 
-/// Rows of Parquet files one after the other; time goes on by a cycle from row to row.
+/// Rows of Parquet files one after the other; time continues by a cycle from row to row.
 #[cfg(feature = "parquet")]
 fn parquet_rows(paths: &[PathBuf]) -> u64 {
     use parquet::file::reader::{FileReader, SerializedFileReader};

@@ -211,7 +211,7 @@ fn report_is_one_self_contained_file() {
     let most = format!("{:.4} mm", summary["max_contour_error"]["mm"].as_f64().unwrap());
     assert!(svg.contains(&format!("pass 2, lines 9 to 12: contour error at most {most}")), "{svg}");
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
-    // a part of the run, and one that lies behind its end
+    // a part of the run, and one that lies beyond its end
     let window =
         |span: &str| f.call(&["report", "@corner.nc", "-o", "@part.html", "--window", span]);
     assert_eq!(window("0.1..0.2").0, Exit::Finished);

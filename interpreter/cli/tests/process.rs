@@ -91,7 +91,7 @@ fn a_splined_circle_has_no_ripple() {
             .collect();
         let steps: Vec<f64> =
             points.windows(2).map(|w| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1])).collect();
-        // the second half of the way: behind the rapid block, before the stop
+        // the second half of the way: after the rapid block, before the stop
         let middle = &steps[steps.len() / 2..steps.len() * 9 / 10];
         let high = middle.iter().copied().fold(0.0, f64::max);
         let low = middle.iter().copied().fold(f64::INFINITY, f64::min);

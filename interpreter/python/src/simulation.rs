@@ -151,7 +151,7 @@ impl Simulation {
         }
     }
 
-    /// Computes one cycle: its columns, or nothing behind the last one.
+    /// Computes one cycle: its columns, or nothing after the last one.
     fn next_cycle<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let state = self.state();
         loop {

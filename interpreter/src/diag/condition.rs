@@ -20,7 +20,7 @@ use super::{Id, Severity};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Reaction {
-    /// Class 1: none, the run goes on.
+    /// Class 1: none, the run continues.
     None = 1,
     /// Class 2: the program is aborted, prepared blocks are still driven.
     ProgramAbort = 2,
@@ -47,7 +47,7 @@ impl Reaction {
     /// What happens, in words.
     pub const fn text(self) -> &'static str {
         match self {
-            Self::None => "none, the run goes on",
+            Self::None => "none, the run continues",
             Self::ProgramAbort => "the program is aborted, prepared blocks are still driven",
             Self::JobAbort => "the job (loading a list) is aborted",
             Self::FeedHold => "feed hold for the whole axis group",
@@ -88,7 +88,7 @@ pub struct Row {
 
 impl Row {
     /// What brings the control back. Source: TF5200 diagnosis manual, interface description.
-    pub const fn remedy_text(&self) -> &'static str {
+    pub(crate) const fn remedy_text(&self) -> &'static str {
         match self.remedy {
             1 => "nothing to do, remedied internally",
             2 | 3 => "reset of the channel",

@@ -50,6 +50,8 @@ pub(super) struct Compensated {
     pub(super) straight_corners: bool,
     /// How it begins and ends.
     pub(super) selection: Selection,
+    /// G11: least radius in mm of the arcs whose feed is that of the tool's engagement.
+    pub(super) engagement_radius_mm: Option<f64>,
 }
 
 impl Motion {
@@ -134,7 +136,7 @@ pub(super) struct Contour {
     pub(super) hsc: Hsc,
     /// Steps in their order, still without the numbers of their blocks.
     queue: VecDeque<Item>,
-    /// The end, behind the queue.
+    /// The end, after the queue.
     end: Option<Box<Step>>,
     /// What the compensator has just completed.
     done: Vec<Item>,
@@ -224,7 +226,7 @@ impl Contour {
         faults
     }
 
-    /// Segments of splines go on.
+    /// Segments of splines continue.
     fn splined(&mut self, curves: Vec<Curve>, outcome: Outcome<()>) -> Vec<Fault> {
         let mut faults = Vec::new();
         for curve in curves {
@@ -308,7 +310,7 @@ impl Contour {
         self.splined(curves, outcome)
     }
 
-    /// The path rests behind the held motion: nothing can be inserted any more.
+    /// The path rests after the held motion: nothing can be inserted any more.
     fn flush(&mut self) -> Vec<Fault> {
         let mut faults = Vec::new();
         if let Some(motion) = self.held.take() {
@@ -336,7 +338,7 @@ impl Contour {
         fault.or_else(|| self.compensator.take_cut().map(|cut| bottleneck(&cut)))
     }
 
-    /// What is done goes on its way, in the coordinates of the machine.
+    /// What is done continues its way, in the coordinates of the machine.
     fn emit(&mut self) {
         for item in &mut self.done {
             if let Item::Motion(motion) = item {

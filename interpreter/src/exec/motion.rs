@@ -8,6 +8,7 @@ mod feed;
 mod independent;
 mod limits;
 mod measuring;
+mod oscillation;
 pub(super) mod overrides;
 mod space;
 pub(super) mod spindles;
@@ -155,7 +156,7 @@ impl Decoder {
             }
             (turns * 60.0 / rpm, *span)
         } else if let Some((_, _, span)) = words.axes.first() {
-            let text = "G04: the time stands behind the first main axis";
+            let text = "G04: the time follows the first main axis";
             return Err(Fault::new(Condition::DwellWrongAxis, text, *span));
         } else {
             return Err(Fault::new(Condition::Syntax, "G04 without a time", g.span));
@@ -177,7 +178,7 @@ impl Decoder {
         self.dwell_for(seconds, span)
     }
 
-    /// True if braking to a lower feed may begin behind the end of this block: G901 without G09 (source: TF5200
+    /// True if braking to a lower feed may begin after the end of this block: G901 without G09 (source: TF5200
     /// programming manual, G08/G09/G900/G901).
     fn late_braking(&mut self, early_once: bool, span: Span) -> bool {
         let late = self.modal.late_braking && !early_once;
@@ -247,7 +248,7 @@ impl Decoder {
     fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
         let left = std::mem::take(&mut self.motion.left_contour);
         if left && (is_arc || self.modal.path == PathMode::ArcInSpace) {
-            let text = "an arc behind G40 with G239: its start is not where it was programmed";
+            let text = "an arc after G40 with G239: its start is not where it was programmed";
             return Err(Fault::new(Condition::CompensationInArc, text, span));
         }
         let before = self.programmed_point();
@@ -369,7 +370,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// A motion goes on its way.
+    /// A motion continues its way.
     fn send(&mut self, block: Box<Block>, in_plane: InPlane, span: Span) {
         let InPlane { plane, tilt, compensation } = in_plane;
         let akima = self.contour.akima.selected && block.path.is_straight();
@@ -411,6 +412,10 @@ impl Decoder {
             distance_mm: if left { radius } else { -radius },
             straight_corners: self.modal.corners == Corners::Straight,
             selection: self.modal.selection,
+            engagement_radius_mm: self
+                .modal
+                .engagement_feed
+                .then_some(self.modal.engagement_radius_mm),
         });
         Ok(InPlane { plane: [first, second], tilt, compensation })
     }

@@ -99,7 +99,7 @@ impl Stop {
     }
 
     /// It has been stopped.
-    pub fn is_set(&self) -> bool {
+    pub(crate) fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
@@ -129,14 +129,14 @@ pub struct Options {
     pub max_blocks: u64,
     /// Blocks without motion or dwell after which a program counts as endless (K-0017), default 1e7.
     pub max_blocks_at_rest: u64,
-    /// Program time in s after which a run is stopped (K-0017), default unlimited; a check does not look behind it, by
+    /// Program time in s after which a run is stopped (K-0017), default unlimited; a check does not look beyond it, by
     /// the programmed speeds and dwells.
     pub max_time_s: f64,
     /// Takes `#TRAFO ON` and relatives as identity, with a warning, instead of refusing them.
     pub identity_trafo: bool,
     /// Durations of M, H and S functions that the lists declare are waited for (P-CHAN-00026, 00040, 00042 to 00048, 00080).
     pub techno_times: bool,
-    /// External variables by their name behind `V.E.`.
+    /// External variables by their name after `V.E.`.
     pub external: BTreeMap<String, External>,
     /// Vibration Guard in place of that of lists and program.
     pub guard: Option<ForcedGuard>,

@@ -35,7 +35,7 @@ pub(crate) enum Step {
         /// They act in the first cycle of the motion, without a stop.
         events: Vec<Event>,
     },
-    /// The path comes to rest behind everything before; then the simulation acts or waits as told and asks for the
+    /// The path comes to rest after everything before; then the simulation acts or waits as told and asks for the
     /// next step.
     Sync {
         /// What happens at rest.
@@ -94,7 +94,7 @@ pub(crate) enum Sync {
     },
     /// The end of G33.
     ThreadEnd,
-    /// M00, M01; headless the program goes on at once.
+    /// M00, M01; headless the program continues at once.
     ProgramStop {
         /// M01.
         optional: bool,
@@ -203,6 +203,13 @@ pub(crate) enum Event {
         /// What it does.
         motion: IndependentMotion,
     },
+    /// `X[OSC ON ..]`: an axis goes to and fro beside the path until the program waits for it.
+    Oscillation {
+        /// Path axis.
+        axis: usize,
+        /// What it does.
+        motion: OscillatingMotion,
+    },
     /// An M function without meaning of its own here.
     MFunction {
         /// Number, 0 to 65535.
@@ -299,6 +306,23 @@ pub(crate) struct IndependentMotion {
     pub slope: SlopeKind,
 }
 
+/// Motion of an oscillating axis; it always ends at its second position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OscillatingMotion {
+    /// Where the axis stands, in mm (deg).
+    pub from_mm: f64,
+    /// First and second reversal position in mm (deg), different ones.
+    pub reversal_mm: [f64; 2],
+    /// Rest at each of them in s.
+    pub rest_s: [f64; 2],
+    /// How fast; a time is that of one way.
+    pub speed: IndependentSpeed,
+    /// Shape of the acceleration.
+    pub slope: SlopeKind,
+    /// Number of oscillations; `None`: until the program waits for the axis.
+    pub count: Option<u32>,
+}
+
 /// What a spindle does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SpindleMotion {
@@ -343,7 +367,7 @@ pub(crate) struct Feedback {
     pub actual_mm: AxisVec,
     /// Program time in s.
     pub time_s: f64,
-    /// What a measuring run has found, behind [`Sync::Measured`].
+    /// What a measuring run has found, after [`Sync::Measured`].
     pub measured: Option<Box<Probed>>,
 }
 

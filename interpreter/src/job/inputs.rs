@@ -2,7 +2,7 @@
 //!
 //! CSV with a header `t_s,<signal>,...` and rows whose times rise; a value holds until the next one of its column, an
 //! empty cell changes nothing. Every file is read through once before the run, so that a mistake at its end refuses the
-//! run before its first cycle; then it is read again, line by line, as the run goes on.
+//! run before its first cycle; then it is read again, line by line, as the run continues.
 //!
 //! ```
 //! use kontur_interpreter::job::{Change, Signal, inputs};
@@ -75,7 +75,7 @@ impl Problem {
 struct InputFile<R> {
     name: Arc<str>,
     reader: BufReader<Text<R>>,
-    /// Signal of every column behind the time.
+    /// Signal of every column after the time.
     columns: Vec<Signal>,
     line: u32,
     /// Bytes in front of the line in work, and up to its end.
@@ -122,7 +122,7 @@ impl<R: Read> InputFile<R> {
                     return Err(self.wrong(at, name, &text).hint(hint));
                 }
                 Some((_, s)) if taken.contains(s) || self.columns.contains(s) => {
-                    return Err(self.wrong(at, name, &format!("{name} stands in two columns")));
+                    return Err(self.wrong(at, name, &format!("{name} is in two columns")));
                 }
                 Some((_, signal)) => self.columns.push(*signal),
             }

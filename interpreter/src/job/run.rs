@@ -118,7 +118,7 @@ impl Run {
         }
     }
 
-    /// Computes up to so many cycles, for callers that compare runs row by row or show them while they go on. A run that was
+    /// Computes up to so many cycles, for callers that compare runs row by row or show them while they continue. A run that was
     /// stopped ([`Stop`]) has no more.
     ///
     /// # Errors
@@ -140,7 +140,7 @@ impl Run {
         Ok(())
     }
 
-    /// A program that was changed while it ran, also behind what was read of it, is another one than the cycles show.
+    /// A program that was changed while it ran, also after what was read of it, is another one than the cycles show.
     fn look_for_changes(&mut self) {
         if let Some((name, e)) = self.sources.changed() {
             let text = format!("{name}: {e}");

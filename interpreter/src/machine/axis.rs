@@ -72,12 +72,12 @@ impl Axis {
     }
 
     /// Mode of the axis in bits (P-AXIS-00015).
-    pub fn mode_bits(&self) -> u32 {
+    pub(crate) fn mode_bits(&self) -> u32 {
         self.get(axis_general::MODE)
     }
 
     /// Under G51 its words are diameters, with G90 (P-AXIS-00058) or with G91 (P-AXIS-00059).
-    pub fn takes_diameters(&self, absolute: bool) -> bool {
+    pub(crate) fn takes_diameters(&self, absolute: bool) -> bool {
         let parameter = if absolute {
             axis_general::DIAMETER_ABSOLUTE
         } else {
@@ -92,7 +92,7 @@ impl Axis {
     }
 
     /// Speed of measuring runs of type 2 in mm/s (deg/s), P-AXIS-00215.
-    pub fn measuring_speed_mm_s(&self) -> f64 {
+    pub(crate) fn measuring_speed_mm_s(&self) -> f64 {
         self.get(axis_general::MEASURING_SPEED)
     }
 
@@ -202,22 +202,22 @@ impl Axis {
     /// Ceiling of accelerations under G130 and G131 in mm/s2 (P-AXIS-00292).
     ///
     /// Assumption: without an entry the ceiling is `a_max`; the table prints no default.
-    pub fn a_w_max_mm_s2(&self) -> f64 {
+    pub(crate) fn a_w_max_mm_s2(&self) -> f64 {
         self.get(axis_dynamics::WEIGHTED_ACC_MAX)
     }
 
     /// Floor of ramp times under G132 and G133 in s: P-AXIS-00293, never below the shortest ramp time P-AXIS-00201.
-    pub fn tr_w_min_s(&self) -> f64 {
+    pub(crate) fn tr_w_min_s(&self) -> f64 {
         self.get(axis_dynamics::WEIGHTED_RAMP_MIN).max(self.tr_min_s())
     }
 
     /// Shortest ramp time in s (P-AXIS-00201): with `a_max` the jerk limit of the monitor.
-    pub fn tr_min_s(&self) -> f64 {
+    pub(crate) fn tr_min_s(&self) -> f64 {
         self.get(axis_dynamics::SHORTEST_RAMP)
     }
 
     /// The list names something to feed forward (P-AXIS-00223).
-    pub fn has_feedforward(&self) -> bool {
+    pub(crate) fn has_feedforward(&self) -> bool {
         self.get(axis_drive::FEEDFORWARD) > 0
     }
 
@@ -227,7 +227,7 @@ impl Axis {
     }
 
     /// Software limits in mm (P-AXIS-00177, P-AXIS-00178); `None` for spindles and modulo axes.
-    pub fn software_limits_mm(&self) -> Option<(f64, f64)> {
+    pub(crate) fn software_limits_mm(&self) -> Option<(f64, f64)> {
         self.software_limits_mm
     }
 
@@ -244,12 +244,12 @@ impl Axis {
     }
 
     /// A position outside the software limits is a warning (P-AXIS-00554).
-    pub fn software_limits_only_warn(&self) -> bool {
+    pub(crate) fn software_limits_only_warn(&self) -> bool {
         self.get(axis_general::LIMIT_BEHAVIOUR).as_deref() == Some("WARNING")
     }
 
     /// The additional interface takes positions from outside (`lr_param.add_interface.enable`).
-    pub fn has_additional_interface(&self) -> bool {
+    pub(crate) fn has_additional_interface(&self) -> bool {
         self.get(axis_filters::ADDITIONAL_INTERFACE)
     }
 

@@ -135,7 +135,7 @@ pub struct Channel {
     pub measuring_type: u32,
     /// Measuring type 1: a run without a signal of the probe is an error (P-CHAN-00176).
     pub missing_signal_is_error: bool,
-    /// Way behind the signal in edge banding in mm (P-CHAN-00030).
+    /// Way after the signal in edge banding in mm (P-CHAN-00030).
     pub residual_path_mm: f64,
     /// The override does not act on G33 (P-CHAN-00836).
     pub thread_ignores_override: bool,

@@ -142,7 +142,7 @@ pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue
     };
     match (keys, effect) {
         (None, Effect::Note) => diagnostic.severity(Severity::Note),
-        // of a list, as the documents say: that part is off, the run goes on
+        // of a list, as the documents say: that part is off, the run continues
         (None, Effect::Corrected) | (Some(_), Effect::Off) => {
             diagnostic.severity(Severity::Warning)
         }
@@ -151,7 +151,7 @@ pub(crate) fn filter(axis: &Axis, keys: Option<&FilterKeys>, issue: &FilterIssue
 }
 
 /// A filter, or Improved Position Control, that a list describes and that is off because it cannot be built.
-pub fn leaves_out(diagnostic: &Diagnostic) -> bool {
+pub(crate) fn leaves_out(diagnostic: &Diagnostic) -> bool {
     [
         Condition::FilterType,
         Condition::SecondHsc,

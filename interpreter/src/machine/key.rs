@@ -51,7 +51,7 @@ impl Key {
     }
 
     /// The row of the key in a list and its indices; `None` for an unknown key or an index beyond the array.
-    pub fn resolve(&self, list: ListKind) -> Option<(&'static Row, Indices)> {
+    pub(crate) fn resolve(&self, list: ListKind) -> Option<(&'static Row, Indices)> {
         let row = table::by_key(list, &self.shape)?;
         let mut indices = [0; 2];
         for (slot, index) in indices.iter_mut().zip(&self.indices) {

@@ -274,7 +274,7 @@ fn check_numbers(settled: &Settled, names: &Names, diagnostics: &mut Vec<Diagnos
         } else if let Some(first) = earlier.iter().find(|n| n.number == *number) {
             Some(format!("{name}: logical axis number {number} is that of {} already", first.name))
         } else if earlier.iter().any(|n| n.name.eq_ignore_ascii_case(name)) {
-            Some(format!("the name {name} stands twice in the channel list"))
+            Some(format!("the name {name} is in the channel list twice"))
         } else if !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number) {
             Some(format!("{name}: no axis list has kopf.achs_nr {number}"))
         } else {

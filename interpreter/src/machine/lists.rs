@@ -150,7 +150,7 @@ impl Reader<'_> {
         let entry = Entry { row, indices, value, at };
         if let Some((_, earlier)) = self.list.get(&(row.key, indices)) {
             let message = format!(
-                "`{}` stands twice in this list, the value of line {} is replaced",
+                "`{}` occurs twice in this list, the value of line {} is replaced",
                 entry.key(),
                 earlier.at.line
             );

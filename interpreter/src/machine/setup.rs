@@ -1,4 +1,4 @@
-//! From the parameters of a machine to the configuration of what happens to each axis behind the planner.
+//! From the parameters of a machine to the configuration of what happens to each axis after the planner.
 //!
 //! Ranges are checked while the lists are loaded; what only shows when several values meet (a filter that cannot be
 //! designed, feedforward to an input that the drive does not have) is found here.
@@ -26,7 +26,7 @@ pub struct ChainSetup {
     pub filters: Vec<AxisFilter>,
     /// Additional interface, `None` if it is off.
     pub additional: Option<AdditionalInterface>,
-    /// Everything behind the set position, corrected; the delay is that of the whole channel.
+    /// Everything downstream of the set position, corrected; the delay is that of the whole channel.
     pub control: AxisControlConfig,
     /// Difference of input and output below which the filters count as settled, in mm (P-AXIS-00351).
     pub filter_window_mm: f64,
@@ -99,7 +99,7 @@ impl Axis {
     }
 
     /// Mean delay of the standard filters that the list switches on, in cycles.
-    pub fn standard_filter_delay_cycles(&self, cycle: CycleTime) -> f64 {
+    pub(crate) fn standard_filter_delay_cycles(&self, cycle: CycleTime) -> f64 {
         let cascade = filters::cascade(self, cycle, &mut Vec::new());
         cascade.filters.iter().map(Stage::delay_cycles).sum()
     }

@@ -19,7 +19,9 @@ pub(super) mod start_up;
 pub(super) mod tool;
 pub(super) mod zero;
 
-pub use indices::{Indices, with_indices};
+pub use indices::Indices;
+pub(crate) use indices::with_indices;
 pub(crate) use lookup::edit_distance;
-pub use lookup::{by_id, by_key, misspelt, rows, suggestions};
+pub use lookup::rows;
+pub(crate) use lookup::{by_id, by_key, misspelt, suggestions};
 pub use row::{Bound, Correction, Default, ListKind, Raw, Reaction, Row};

@@ -50,7 +50,7 @@ pub fn read(raw: Raw, text: &str) -> Result<Value, BadValue> {
             Some(word) => Ok(Value::Text((*word).to_owned())),
             None => Err(BadValue {
                 instead: None,
-                reason: format!("`{text}` is none of {}", words.join(", ")),
+                reason: format!("`{text}` is not one of {}", words.join(", ")),
             }),
         },
         Raw::Names(names) => match named(names, text) {

@@ -74,7 +74,7 @@ impl Column {
     }
 }
 
-/// How the unit of an axis quantity is written behind its name, and its decimals.
+/// How the unit of an axis quantity is written after its name, and its decimals.
 #[derive(Clone, Copy)]
 enum Unit {
     Length,

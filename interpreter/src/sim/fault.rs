@@ -2,7 +2,7 @@
 //!
 //! Reaction classes (TF5200 diagnosis manual): 1 a message; 4, 6, 7, 8 and 5 end the program - the axis concerned stops
 //! where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7), the others brake along the path with
-//! P-AXIS-00003. The run goes on until the axes themselves stand.
+//! P-AXIS-00003. The run continues until the axes themselves stand.
 
 use super::axes::Driver;
 use super::chain::Remaining;
@@ -18,9 +18,9 @@ use kontur_motion::contouring::NoContour;
 use kontur_motion::profile::Infeasible;
 use kontur_motion::tolerance::Unkept;
 
-/// Cycles of standstill shown behind the stop of a fault.
+/// Cycles of standstill shown after the stop of a fault.
 pub(super) const CYCLES_AT_REST: u32 = 5;
-/// Longest time behind the stop of the set positions that is waited for axes that do not come to rest.
+/// Longest time after the stop of the set positions that is waited for axes that do not come to rest.
 const LONGEST_COASTING_S: f64 = 2.0;
 
 /// How far the stop of a fault has come.
@@ -138,7 +138,7 @@ impl Simulation {
             )
         };
         let text = format!(
-            "axis {name} stands {} {unit} from its target, {window} is {} {unit}, and nothing moves it any more",
+            "axis {name} is {} {unit} from its target, {window} is {} {unit}, and nothing moves it any more",
             rounded(distance_mm),
             rounded(window_mm)
         );
@@ -296,7 +296,7 @@ pub(super) fn plant(error: &PlantError, machine: &Machine, chain: usize) -> Diag
 /// A condition that the look-ahead excludes.
 pub(super) fn internal(error: &Infeasible) -> Diagnostic {
     Diagnostic::new(Condition::Internal, format!("look-ahead: {error}")).hint(
-        "this is an error of kontur itself; the program and the machine lists help to find it",
+        "this is a fault in kontur itself: please report it with the program and the machine lists",
     )
 }
 
@@ -420,7 +420,7 @@ impl Simulation {
                     "contouring is not possible at the end of this block",
                 ),
                 NoContour::FeedGroup => {
-                    (Condition::ContouringFeedGroup, "the feed group changes behind this block")
+                    (Condition::ContouringFeedGroup, "the feed group changes after this block")
                 }
                 // at a stop there is no corner to round; MAX_ANGLE asks for it; the executor tells about the mode
                 NoContour::NothingFollows
@@ -433,7 +433,7 @@ impl Simulation {
                 .find(|u| u.seq == notice.seq)
                 .map_or(self.current, |u| u.source);
             if self.smoothing.is_new(condition, source) {
-                // Assumption: the run goes on, with the corner as programmed, where the control would abort
+                // Assumption: the run continues, with the corner as programmed, where the control would abort
                 let mut d =
                     Diagnostic::new(condition, format!("{text}: the corner stays as programmed"))
                         .severity(crate::diag::Severity::Warning);

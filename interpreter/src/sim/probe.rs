@@ -68,7 +68,7 @@ impl Simulation {
         self.record.axes.iter().map(|a| a.act).take(self.vector.len()).collect()
     }
 
-    /// Looks for the signal behind a cycle; the path bends from the next one on.
+    /// Looks for the signal after a cycle; the path bends from the next one on.
     pub(super) fn watch_probe(&mut self) {
         if self.probing.is_none() || !matches!(self.phase, Phase::Running) {
             return;

@@ -27,7 +27,7 @@ impl Smoothing {
         }
     }
 
-    /// The path stops behind the last motion: everything goes to the planner.
+    /// The path stops after the last motion: everything goes to the planner.
     pub(super) fn flush(&mut self, planner: &mut Planner) {
         for block in self.splining.flush() {
             for block in self.contouring.push(block) {

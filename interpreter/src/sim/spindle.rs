@@ -110,7 +110,7 @@ impl Spindle {
         (ahead < 1.0).then_some(ahead)
     }
 
-    /// A new motion; what turned goes on from its present speed.
+    /// A new motion; what turned continues from its present speed.
     pub(super) fn command(&mut self, motion: SpindleMotion) {
         self.wanted = motion;
         if let SpindleMotion::Position { approach: approach @ Approach::Free, .. } =

@@ -71,7 +71,7 @@ pub struct Totals {
 
 impl Totals {
     /// Different settings of the Vibration Guard that are kept; a program may change them without end.
-    pub const GUARDS_KEPT: usize = 100;
+    pub(crate) const GUARDS_KEPT: usize = 100;
 
     /// Notes what the kernels are made from.
     pub(super) fn shaped(&mut self, setup: &ShapingSetup) {
@@ -119,6 +119,7 @@ impl Totals {
             | Event::CuttingSpeed { .. }
             | Event::Timer { .. }
             | Event::Independent { .. }
+            | Event::Oscillation { .. }
             | Event::Spindle { .. } => None,
         }
     }

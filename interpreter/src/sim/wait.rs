@@ -92,6 +92,15 @@ impl Wait {
         Self { until: Until::AllInPosition, action, patience: Patience::default() }
     }
 
+    /// Axes that it waits for oscillate no more.
+    pub(super) fn end_oscillations(&self, independent: &mut IndependentAxes) {
+        match &self.until {
+            Until::Arrived(axes) => independent.end_oscillations(Some(axes)),
+            Until::Flushed | Until::AllInPosition => independent.end_oscillations(None),
+            Until::Now | Until::Cycles(..) | Until::Spindle(..) | Until::InPosition => {}
+        }
+    }
+
     /// The chains that the wait looks at, with their numbers.
     fn awaited<'a>(
         &'a self,
@@ -170,7 +179,7 @@ impl Wait {
         matches!(self.until, Until::Cycles(..) | Until::Spindle(..))
     }
 
-    /// The spindle and the mark that the wait is for, and whether the override does not act on the thread behind it.
+    /// The spindle and the mark that the wait is for, and whether the override does not act on the thread after it.
     pub(super) fn mark(&self) -> Option<(usize, f64, bool)> {
         match self.until {
             Until::Spindle(spindle, SpindleState::Mark { deg, full_override }) => {

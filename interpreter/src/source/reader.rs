@@ -32,7 +32,7 @@ pub struct BlockReader {
     base: u64,
     /// Next byte in `window`.
     at: usize,
-    /// The source gave 0 bytes behind the window.
+    /// The source gave 0 bytes after the window.
     ended: bool,
     /// Number of the next line.
     line: u32,
@@ -102,7 +102,7 @@ impl BlockReader {
     ///
     /// # Errors
     /// What the source met with.
-    pub fn next_block(&mut self) -> io::Result<Option<RawBlock<'_>>> {
+    pub(crate) fn next_block(&mut self) -> io::Result<Option<RawBlock<'_>>> {
         if self.base + self.at as u64 == 0 {
             self.skip_bom()?;
         }
@@ -115,7 +115,7 @@ impl BlockReader {
         if !plain || (!ascii && std::str::from_utf8(bytes).is_err()) {
             return self.assemble(position, line).map(Some);
         }
-        // The borrow of the window has to begin behind the other path: valid text is looked at once more.
+        // The borrow of the window has to begin after the other path: valid text is looked at once more.
         let text = std::str::from_utf8(&self.window[line.range]).unwrap_or_default();
         let characters = if ascii { text.len() } else { text.chars().count() };
         let characters = u32::try_from(characters).unwrap_or(u32::MAX);
@@ -246,7 +246,7 @@ impl BlockReader {
             let rest = &self.window[self.at..self.filled];
             let found = line_end(&rest[searched..]).map(|i| i + searched);
             if let Some(length) = found {
-                // CR may be the first half of CRLF: the byte behind it must be known.
+                // CR may be the first half of CRLF: the byte after it must be known.
                 if rest[length] == b'\r' && length + 1 == rest.len() && self.fill()? {
                     searched = length;
                     continue;

@@ -8,7 +8,7 @@ pub(crate) enum Region {
     Code,
     /// `"..."`, quotes included; a quote that is never closed is code.
     Text,
-    /// `(...)`, nested, or everything behind `;` or an unclosed `(`.
+    /// `(...)`, nested, or everything after `;` or an unclosed `(`.
     Comment {
         closed: bool,
     },
@@ -86,7 +86,7 @@ pub(crate) fn string(bytes: &[u8]) -> Option<usize> {
     }
 }
 
-/// True if what is written behind `text` would be part of a comment.
+/// True if what is written after `text` would be part of a comment.
 pub(crate) fn ends_in_comment(text: &str) -> bool {
     regions(text).last().is_some_and(|(region, _)| region == Region::Comment { closed: false })
 }

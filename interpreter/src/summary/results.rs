@@ -14,7 +14,7 @@ pub struct Measure {
     pub decimals: usize,
 }
 
-/// A result of an axis: word, suffix behind the unit, value, decimals.
+/// A result of an axis: word, suffix after the unit, value, decimals.
 type OfAxis = (&'static str, &'static str, fn(&AxisSummary) -> f64, usize);
 
 const OF_AXIS: [OfAxis; 6] = [

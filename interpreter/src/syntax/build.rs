@@ -40,7 +40,7 @@ impl<'a> Builder<'a> {
     /// Reports what the grammar met with.
     pub(super) fn report_error(&mut self, problem: Problem) {
         let rest = self.masked.get(problem.span.start as usize..).unwrap_or_default();
-        // Behind a misplaced command or control statement nothing is worth a second message.
+        // After a misplaced command or control statement nothing is worth a second message.
         let last = rest.starts_with(['#', '$']);
         self.reported = if last { u32::MAX } else { problem.span.start };
         self.report(problem);

@@ -36,12 +36,12 @@ impl BinaryOp {
     }
 
     /// True for `== != < <= > >=`, which do not chain.
-    pub fn is_comparison(self) -> bool {
+    pub(crate) fn is_comparison(self) -> bool {
         self.precedence() == Self::Equal.precedence()
     }
 
     /// The sign of the operator; words for those that have no sign.
-    pub fn symbol(self) -> &'static str {
+    pub(crate) fn symbol(self) -> &'static str {
         match self {
             Self::Or => "||",
             Self::Xor => "XOR",

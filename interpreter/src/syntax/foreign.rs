@@ -18,6 +18,13 @@ struct Found {
 
 /// The message for a block of another control. `masked` is the block without comments and texts; it did not parse.
 pub(super) fn recognise(masked: &str) -> Option<Problem> {
+    if masked.starts_with("t_s,") {
+        let span = Span::new(0, masked.trim_ascii_end().len());
+        let text = "this is a table over time, a trace or a file of inputs, not a program";
+        let hint =
+            "kontur diff compares traces, run --input reads inputs, report and check take programs";
+        return Some(Problem::new(Condition::ForeignProgram, span, text).hint(hint));
+    }
     let found = klartext(masked)
         .or_else(|| o_word(masked))
         .or_else(|| sinumerik(masked))
@@ -37,7 +44,7 @@ const MACRO_B: &str = "a control with macro B (Fanuc) or LinuxCNC";
 const HEIDENHAIN: &str = "a Heidenhain control";
 const SINUMERIK: &str = "a Sinumerik control";
 
-/// Two words with which Klartext blocks begin, behind a number without letter.
+/// Two words with which Klartext blocks begin, after a number without letter.
 fn klartext(masked: &str) -> Option<Found> {
     const STATEMENTS: [(&str, &str); 9] = [
         ("BEGIN", "PGM"),
@@ -94,7 +101,7 @@ fn o_word(masked: &str) -> Option<Found> {
     (name > 0 && known).then_some(Found { at, length, control: LINUXCNC, meaning: "an O word" })
 }
 
-/// `#100`, `#<name>`, `#[#1+2]`: a command of this dialect has a letter behind `#`.
+/// `#100`, `#<name>`, `#[#1+2]`: a command of this dialect has a letter after `#`.
 fn numbered_parameter(masked: &str) -> Option<Found> {
     masked.match_indices('#').find_map(|(at, _)| {
         let rest = &masked[at + 1..];
@@ -145,7 +152,7 @@ fn sinumerik(masked: &str) -> Option<Found> {
     Some(Found { at, length, control: SINUMERIK, meaning: "a keyword" })
 }
 
-/// Where the block goes on behind its number.
+/// Where the block continues after its number.
 fn content(masked: &str) -> (usize, &str) {
     let rest = masked.trim_ascii_start();
     let rest = match rest.strip_prefix(['N', 'n']) {

@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Deepest use of macros in the texts of macros; a macro that uses itself ends there with 20734.
-pub const MACRO_DEPTH_MAX: usize = 20;
+pub(crate) const MACRO_DEPTH_MAX: usize = 20;
 
 /// A block with its macros replaced.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl Expanded {
 /// 20734 if macros are nested more than [`MACRO_DEPTH_MAX`] deep, K-MACRO-BRACKET if the text of a macro holds one half of
 /// a pair of brackets (source: TF5200 programming manual, macros in mathematical expressions). An expansion that is too
 /// long is cut and gets 20301 from the parser.
-pub fn expand<'m>(
+pub(crate) fn expand<'m>(
     raw: &RawBlock<'_>,
     file: &Arc<str>,
     lookup: &impl Fn(&str) -> Option<&'m str>,

@@ -32,7 +32,7 @@ pub(crate) struct Plain {
 pub(crate) struct PlainWord {
     /// Letter in upper case.
     pub(crate) letter: u8,
-    /// What stands behind it.
+    /// What follows it.
     pub(crate) value: PlainValue,
     /// Place, value included.
     pub(crate) span: Span,
@@ -161,7 +161,7 @@ fn followed_by_word(bytes: &[u8], at: usize) -> Option<()> {
     }
 }
 
-/// Behind blanks and comments in brackets, which are blanks for the grammar.
+/// After blanks and comments in brackets, which are blanks for the grammar.
 fn blanks(bytes: &[u8], mut at: usize) -> usize {
     loop {
         match bytes.get(at) {

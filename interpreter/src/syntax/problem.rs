@@ -52,7 +52,7 @@ pub(super) fn invalid(text: &str, span: Span) -> Problem {
     let shown = text.get(span.start as usize..span.end() as usize).unwrap_or("?");
     let shown: String = shown.chars().take(10).flat_map(char::escape_debug).collect();
     Problem::new(Condition::InvalidCharacter, span, format!("invalid character `{shown}`"))
-        .hint("other characters than those of the dialect may stand in comments and strings only")
+        .hint("characters outside the dialect are allowed only in comments and strings")
 }
 
 /// 20386 for the bracket at `at`.
@@ -216,13 +216,13 @@ fn no_word(before: &str, expected: &[&str]) -> Option<(usize, String)> {
     }
     let text = match upper.as_bytes() {
         [] => return None,
-        [b'G' | b'M' | b'H'] => format!("`{word}` without a number directly behind it"),
+        [b'G' | b'M' | b'H'] => format!("`{word}` not followed by a number"),
         [b'G' | b'M' | b'H', b'0'..=b'9', ..] => {
             format!("`{word}` is followed by something that is no word")
         }
         [b'L'] | [b'L', b'L'] => format!("`{word}` without the name of a program"),
         [b'N'] | [b'N', b'0'..=b'9', ..] => {
-            format!("`{word}`: a block number stands at the beginning of its block")
+            format!("`{word}`: a block number comes first in its block")
         }
         _ => format!("`{word}` is no word of an NC program"),
     };
@@ -265,9 +265,9 @@ fn refine(
             raised(problem, Condition::EndForNotAlone)
         }
         Context::Words if rest.starts_with('#') => raised(problem, Condition::CommandNotAlone)
-            .hint("a # command stands alone in its block"),
+            .hint("a # command must be alone in its block"),
         Context::Words if rest.starts_with('$') => raised(problem, Condition::ControlNotAlone)
-            .hint("a control statement stands at the beginning of its block"),
+            .hint("a control statement comes first in its block"),
         Context::Words if rest.starts_with('\\') => {
             problem.hint("`\\` continues a block only as the last character of its line")
         }
@@ -295,7 +295,7 @@ fn asks_for_positions(content: &str) -> bool {
         .contains(&&words[..])
 }
 
-/// The vendor's number for what stands wrongly behind a control statement.
+/// The vendor's number for what stands wrongly after a control statement.
 fn behind_control(content: &str, before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {
     if starts_with(content, "$FOR") {
         return match before.contains('=') {
@@ -308,13 +308,13 @@ fn behind_control(content: &str, before: &str, rest: &str, expected: &[&str]) ->
             _ => None,
         };
     }
-    // behind a value that is complete, or behind a statement that takes none
+    // after a value that is complete, or after a statement that takes none
     let complete = !rest.is_empty() && expected.iter().any(|e| [OPERATOR, END].contains(e));
     let of = |(word, _): &&(&str, Condition)| starts_with(content, word);
     TRAILING.iter().find(of).filter(|_| complete).map(|(_, condition)| *condition)
 }
 
-/// Words behind each control statement.
+/// Words after each control statement.
 const TRAILING: [(&str, Condition); 16] = [
     ("$IF", Condition::IfTrailing),
     ("$ELSEIF", Condition::ElseIfTrailing),
@@ -334,7 +334,7 @@ const TRAILING: [(&str, Condition); 16] = [
     ("$CONTINUE", Condition::ContinueNotAlone),
 ];
 
-/// Hint for a word behind `$` that is no control statement.
+/// Hint for a word after `$` that is no control statement.
 const CONTROL_HINT: &str = "$IF $ELSEIF $ELSE $ENDIF $SWITCH $CASE $DEFAULT $ENDSWITCH $FOR $ENDFOR $WHILE $ENDWHILE \
                             $DO $ENDDO $REPEAT $UNTIL $BREAK $CONTINUE $GOTO exist";
 
@@ -444,9 +444,13 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         Rule::open | Rule::group | Rule::cycle_group | Rule::index | Rule::word_bracket => {
             (5, BRACKET)
         }
-        Rule::key | Rule::flag | Rule::item | Rule::pair | Rule::bare_pair | Rule::item_value => {
-            (6, "a key")
-        }
+        Rule::key
+        | Rule::ordinal
+        | Rule::flag
+        | Rule::item
+        | Rule::pair
+        | Rule::bare_pair
+        | Rule::item_value => (6, "a key"),
         Rule::operator => (7, OPERATOR),
         Rule::target | Rule::label_name => (8, "a label"),
         Rule::file_name | Rule::program_call => (8, "a program name"),

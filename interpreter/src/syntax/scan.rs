@@ -15,7 +15,7 @@ pub(super) const UNCLOSED: char = '\u{2}';
 
 /// Deepest nesting of square brackets; deeper blocks get K-0006. Far beyond anything written by hand or post-processor,
 /// and small enough for the stack of every platform.
-pub const NESTING_MAX: usize = 64;
+pub(crate) const NESTING_MAX: usize = 64;
 
 /// Text as the grammar sees it.
 pub(super) struct Masked {
@@ -151,7 +151,7 @@ fn variable(bytes: &[u8]) -> usize {
     i
 }
 
-/// Length of `L`, `LL` with the name behind it.
+/// Length of `L`, `LL` with the name after it.
 fn call(bytes: &[u8]) -> usize {
     let letters = run(bytes, |b| matches!(b, b'L' | b'l'));
     let blanks = run(&bytes[letters..], |b| matches!(b, b' ' | b'\t'));

@@ -105,7 +105,10 @@ impl View<'_> {
         }
         let excess = v.excess();
         // a slow run over the same blocks would be told the same again and again
-        let place = (first, last);
+        // where a straight line is divided does not matter
+        let mut causes = (first..last)
+            .filter(|m| *m > first && marks[*m].is_kink() || marks[*m].queued.bend > 0.0);
+        let place = causes.next().map_or((0, 0), |m| (m, causes.next_back().unwrap_or(m)));
         let told = &mut findings.last[usize::from(v.missed.is_some())];
         if told.is_some_and(|(at, most)| at == place && excess <= LITTLE_MORE * most) {
             return;
@@ -154,6 +157,9 @@ impl View<'_> {
                 && i.checked_sub(1).is_none_or(|b| !near(&alike[b]))
                 && alike.get(i + 1).is_none_or(|q| !near(q))
         };
+        // where the path rests already it can wait longer, and between two rests a lower speed is no help
+        let rests =
+            |p: &Part| !p.bend && marks[p.mark].boundary.is_some_and(|b| demands.stop[b].is_some());
         let mut shared = Shared::default();
         let mut blamed = false;
         for (i, part) in alike.iter().enumerate() {
@@ -162,18 +168,15 @@ impl View<'_> {
             blamed = true;
             if part.bend {
                 shared.marks.push(part.mark);
-            } else if isolated(i) {
+            } else if isolated(i) || rests(part) {
                 findings.corner[b] = findings.corner[b].max(excess);
             } else {
                 shared.kinks.push(part.mark);
-                if demands.stop[b].is_some() {
-                    findings.corner[b] = findings.corner[b].max(excess);
-                }
             }
         }
         // what lies between the likes shares their speed
         for pair in alike.windows(2) {
-            if (pair[1].s - pair[0].s).abs() <= apart {
+            if (pair[1].s - pair[0].s).abs() <= apart && !(rests(pair[0]) && rests(pair[1])) {
                 shared.marks.extend(pair[0].mark..pair[1].mark);
             }
         }
@@ -280,7 +283,7 @@ impl View<'_> {
         let mut curvature = AxisVec::zeros(marks[first].point.len());
         let mut parts = Vec::new();
         for (m, mark) in marks.iter().enumerate().take(last).skip(first) {
-            if m > first {
+            if m > first && mark.is_kink() {
                 let size = sign * self.turn(m, v.axis) * weight(mark.s_mm);
                 parts.push(Part { mark: m, bend: false, size, s: mark.s_mm });
             }

@@ -5,6 +5,7 @@
 //! feed changes nothing.
 
 use super::measure::within;
+use super::view::STRAIGHT;
 use super::{Demands, Kernels};
 use crate::axis::AxisVec;
 use crate::contour::Contour;
@@ -20,8 +21,6 @@ const HALVINGS: u32 = 24;
 const PLACES: i32 = 4;
 /// Rounds in which a guess comes closer.
 const ROUNDS: u32 = 8;
-/// Change of direction that is none.
-const STRAIGHT: f64 = 1e-9;
 /// Share of the largest part of a deviation from which on another one counts as its like.
 pub(super) const ALIKE: f64 = 0.3;
 

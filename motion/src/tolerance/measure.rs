@@ -249,7 +249,7 @@ impl View<'_> {
             };
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
-                if at > 0 && mark.jump > 1e-9 {
+                if at > 0 && mark.is_kink() {
                     missed(&mark.point, all(mark.cycles), mark.cycles, mark.s_mm);
                 }
                 at += 1;
@@ -272,7 +272,8 @@ impl View<'_> {
             let even = (1..=parts).map(|i| from + f64::from(i) / f64::from(parts) * (to - from));
             // at a kink the contour is not straight
             let first_mark = marks.partition_point(|m| m.s_mm <= from);
-            let kinks = marks[first_mark..].iter().map(|m| m.s_mm).take_while(|s| *s < to);
+            let ahead = marks[first_mark..].iter().take_while(|m| m.s_mm < to);
+            let kinks = ahead.filter(|m| m.is_kink() || m.queued.bend > 0.0).map(|m| m.s_mm);
             let mut places: SmallVec<[f64; 8]> = even.chain(kinks).collect();
             places.sort_by(f64::total_cmp);
             for s in places {

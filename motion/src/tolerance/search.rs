@@ -134,7 +134,7 @@ impl View<'_> {
             clip(begin.ceil()) as usize..clip(end.floor() + 1.0) as usize
         };
         for m in first.max(1)..last {
-            if marks[m].jump <= 1e-9 {
+            if !marks[m].is_kink() {
                 continue;
             }
             let passed = marks[m].cycles;
@@ -180,7 +180,7 @@ impl View<'_> {
         let (mark, reach) = (&marks[m], f64::from(kernels.length()));
         let restless = kernels.unequal || kernels.overshoot;
         let lasts = restless || mark.queued.bend > 0.0;
-        if !lasts && mark.jump <= 1e-9 {
+        if !lasts && !mark.is_kink() {
             return None;
         }
         let until = if lasts {
@@ -203,7 +203,7 @@ impl View<'_> {
         let Self { trial, marks, .. } = self;
         let begin = marks.partition_point(|m| m.cycles <= first as f64 - 1.0).saturating_sub(1);
         let end = marks.partition_point(|m| m.cycles <= last as f64);
-        if (begin + 1..end).any(|m| marks[m].jump > 1e-9) {
+        if (begin + 1..end).any(|m| marks[m].is_kink()) {
             return false;
         }
         let mut state = PathState::at_rest(&marks[begin].point);

@@ -8,6 +8,9 @@ use crate::timeline::{PathState, Reader};
 use kontur_filters::kernel::Kernel;
 use std::sync::Arc;
 
+/// Change of direction that is none.
+pub(super) const STRAIGHT: f64 = 1e-9;
+
 /// A block entered in a plan.
 pub(super) struct Mark {
     pub(super) cycles: f64,
@@ -28,6 +31,11 @@ pub(super) struct Mark {
 }
 
 impl Mark {
+    /// True if the path turns where it enters the block: a straight line may go on as another block.
+    pub(super) fn is_kink(&self) -> bool {
+        self.jump > STRAIGHT
+    }
+
     /// True if the path goes on without a corner: it is the rest of the block before.
     pub(super) fn goes_on_from(&self, before: &Self) -> bool {
         let start = |m: &Self| m.s_mm - m.queued.offset;

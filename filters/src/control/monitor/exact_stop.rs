@@ -1,6 +1,6 @@
 //! Position monitoring: the axis must be inside the exact-stop window in time.
 //!
-//! Source: TF5200 position monitoring. The timer starts (t1) in the cycle in which the set position, behind all
+//! Source: TF5200 position monitoring. The timer starts (t1) in the cycle in which the set position, after all
 //! filters, reaches the target of the stop; it ends (t2) when the actual position is inside the window.
 //!
 //! A window of 0 means half an increment: the vendor compares whole increments, and an actual position that is off by
@@ -22,7 +22,7 @@ pub struct ExactStopConfig {
 
 impl ExactStopConfig {
     /// Half of the vendor's position increment of 0.1 um (0.0001 deg).
-    pub const HALF_INCREMENT_MM: f64 = 0.5e-4;
+    pub(crate) const HALF_INCREMENT_MM: f64 = 0.5e-4;
 }
 
 impl Default for ExactStopConfig {
@@ -97,7 +97,7 @@ impl ExactStopMonitor {
         (self.state, self.moved, self.cycles) = (State::Idle, false, 0);
     }
 
-    /// The path comes to a stop, for this axis at `target_mm`; told at the latest right behind the cycle in which the
+    /// The path comes to a stop, for this axis at `target_mm`; told at the latest right after the cycle in which the
     /// set position got there. An axis that has not moved since its last stop, and need not, has no new one.
     pub fn expect(&mut self, target_mm: f64) {
         if (target_mm - self.last_mm).abs() > Self::REACHED_MM {
@@ -107,7 +107,7 @@ impl ExactStopMonitor {
         }
     }
 
-    /// One cycle: set position behind the filters, actual position at the start of the cycle.
+    /// One cycle: set position after the filters, actual position at the start of the cycle.
     pub fn step(&mut self, set_mm: f64, actual_mm: f64) -> Option<Fault> {
         self.last_mm = set_mm;
         self.moved |= (set_mm - self.rest_mm).abs() > Self::REACHED_MM;
@@ -196,7 +196,7 @@ mod tests {
         assert!(fault_after(&mut monitor(Some(0.149)), inside_then_out).is_some());
     }
 
-    /// Told before the last step or right behind it: the same cycle.
+    /// Told before the last step or right after it: the same cycle.
     #[test]
     fn a_stop_told_behind_the_last_step() {
         let mut m = monitor(Some(0.2));

@@ -85,7 +85,7 @@ pub struct LagMonitor {
 
 impl LagMonitor {
     /// Largest delay of the actual value in cycles.
-    pub const MAX_DELAY: usize = 10;
+    pub(crate) const MAX_DELAY: usize = 10;
     /// Longest shift of the limit curve in cycles.
     const MAX_SHIFT: usize = 10_000;
     /// Scale of P-AXIS-00167.

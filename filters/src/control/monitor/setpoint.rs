@@ -1,4 +1,4 @@
-//! Monitoring of the set positions behind the axis filters: velocity, acceleration, jerk.
+//! Monitoring of the set positions after the axis filters: velocity, acceleration, jerk.
 //!
 //! Threshold = (1 + p/1000) x limit. An overshooting band-stop filter can trip it.
 //!

@@ -57,7 +57,7 @@ fn simulated_drive_step_response_is_the_closed_form() {
         let want = 100.0 * (1.0 - libm::exp(-d * w0 * t) * swing);
         assert!((plant.measured().motor_mm_s - want).abs() < 1e-11, "speed in cycle {k}");
     }
-    // behind the transient the position trails by v 2D/w0
+    // after the transient the position trails by v 2D/w0
     let lag = 100.0 * 0.2 - plant.measured().motor_mm;
     assert!((lag - 100.0 * 2.0 * d / w0).abs() < 1e-4, "lag {lag}");
 }

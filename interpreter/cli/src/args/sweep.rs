@@ -22,7 +22,7 @@ Examples:
   what a weight leaves of the vibration at 53 Hz between 1 s and 2 s
     kontur sweep part.nc -m mill --vary X.lr_param.improved_position_control.stage[0].weight_fact_num=1..7 \\
       --amplitude X_tcp_acc_mm_s2@50..56@1..2
-  the third of twenty jobs of a batch system; started again it goes on behind its finished rows
+  the third of twenty jobs of a batch system; started again it continues after its finished rows
     kontur sweep part.nc --vary X,Y.getriebe[0].kv=1000..60000:10 --shard 3/20 -o part-03.csv";
 
 /// `kontur sweep`.
@@ -54,7 +54,7 @@ pub struct SweepArgs {
     pub amplitude: Vec<Amplitude>,
 
     /// Run the I-th of N equal parts of all combinations only, e.g. `3/20`: a job of a batch system. The parts in their order,
-    /// one behind the other, are the whole table, but for `without_effect`; the exit code is 0 also if every run has ended with an error
+    /// one after the other, are the whole table, but for `without_effect`; the exit code is 0 also if every run has ended with an error
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
 

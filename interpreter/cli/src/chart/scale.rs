@@ -172,7 +172,7 @@ pub(crate) fn of_column(column: &str) -> String {
         ("_hz", "Hz"),
         ("_s", "s"),
     ];
-    // an amplitude of a column names its band behind it
+    // an amplitude of a column names its band after it
     let (name, _) = column.split_once('@').unwrap_or((column, ""));
     let found = UNITS.iter().find_map(|(end, unit)| Some((name.strip_suffix(end)?, unit)));
     found.map_or_else(|| name.to_owned(), |(short, unit)| label(&short.replace('_', " "), unit))

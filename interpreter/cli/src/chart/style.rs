@@ -113,7 +113,7 @@ fn variable<S: Serializer>(tone: &&'static Tone, serializer: S) -> Result<S::Ok,
 impl Style {
     /// Colour and dash of one of several series.
     pub(crate) fn series(i: usize) -> Self {
-        // behind the eighth the same colours come with other dashes
+        // after the eighth the same colours come with other dashes
         let dash = DASHES[(i + i / SERIES.len()) % DASHES.len()];
         Self { tone: &SERIES[i % SERIES.len()], dash, width: 1.8 }
     }

@@ -71,7 +71,7 @@ pub(super) fn is_trace(path: &Path) -> Result<bool, Error> {
 
 fn unique(name: &str, header: &[String]) -> Result<(), Error> {
     match (1..header.len()).find(|i| header[..*i].contains(&header[*i])) {
-        Some(i) => Err(Error::Usage(format!("{name}: column `{}` stands twice", header[i]))),
+        Some(i) => Err(Error::Usage(format!("{name}: column `{}` occurs twice", header[i]))),
         None => Ok(()),
     }
 }

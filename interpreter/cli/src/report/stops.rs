@@ -72,7 +72,7 @@ impl Stops {
                 watch.open = Some(self.found.len());
                 self.found.push(Stop { axis: i, target: a.set, t1, t2: None, t3: limit });
             }
-            // the cycle in which the window lets the axis go on still counts
+            // the cycle in which the window lets the axis continue still counts
             if let Some(stop) = watch.open.and_then(|s| self.found.get_mut(s))
                 && (a.act - stop.target).abs() <= facts.window
             {
@@ -110,7 +110,7 @@ mod tests {
             };
             stops.add(&record, &facts.axes);
         }
-        // distances behind cycle 2: 0.75, 0.375, 0.1875, 0.09
+        // distances after cycle 2: 0.75, 0.375, 0.1875, 0.09
         let want = Stop { axis: 0, target: 2.0, t1: 2, t2: Some(5), t3: Some(22) };
         assert_eq!(stops.found(), [want]);
     }

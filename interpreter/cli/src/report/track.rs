@@ -70,7 +70,7 @@ impl Track {
         self.kept.iter_mut().chain(&mut self.tail).for_each(|p| p.pass = 0);
     }
 
-    /// Chooses among the points of the tail; the last one goes on as its beginning.
+    /// Chooses among the points of the tail; the last one continues as its beginning.
     fn settle(&mut self) {
         thin(&mut self.tail, self.tolerance_mm);
         let last = self.tail.pop();

@@ -1,4 +1,4 @@
-//! The finished rows of a sweep that is under way, so that one that was stopped goes on where it stopped.
+//! The finished rows of a sweep that is under way, so that one that was stopped continues where it stopped.
 //!
 //! A file of JSON lines, `NAME.rows` beside the output NAME: the first line says what is swept, every other line is a row,
 //! written when its run has ended. A journal of another sweep, or of files that were changed since, is begun anew.
@@ -168,7 +168,7 @@ mod tests {
                 let Cell::Number(x, 3) = cells[0] else { panic!() };
                 assert_eq!((*run, x.to_bits()), (7, (-1e-300_f64).to_bits()));
             }
-            // and goes on behind the last whole line
+            // and continues after the last whole line
             journal.write(9, &row(4.0)).unwrap();
             let again = Journal::begin(path.clone(), HEADS[0]).unwrap().take_rows();
             assert_eq!(again.len(), lines.saturating_sub(1) + 1);

@@ -55,7 +55,7 @@ pub(super) fn draw(
     for s in &mut series {
         s.points.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
-    // behind the parameters
+    // after the parameters
     let state = args.vary.len();
     let finished =
         |row: usize| rows.cells[row][state] == Cell::Word(State::Finished.name().to_owned());

@@ -66,7 +66,7 @@ fn round_product(value: f64, scale: f64, product: f64) -> i64 {
     if away { whole + if product < 0.0 { -1 } else { 1 } } else { whole }
 }
 
-/// Room for the digits of a number, which end at [`END`], and as much again behind them.
+/// Room for the digits of a number, which end at [`END`], and as much again after them.
 type Digits = [u8; 2 * END];
 
 /// Longest number: 20 digits of an integer, or 16 with sign and point.

@@ -108,7 +108,7 @@ fn remarks(recording: &Recording, gaps: &[DropOut]) -> String {
     let missing: usize = gaps.iter().map(|g| g.1).sum();
     if let Some((first_s, _)) = gaps.first() {
         notes.push(format!(
-            "{missing} samples missing in {} places, the first behind {first_s:.3} s; bridged by straight lines",
+            "{missing} samples missing in {} places, the first after {first_s:.3} s; bridged by straight lines",
             gaps.len()
         ));
     }

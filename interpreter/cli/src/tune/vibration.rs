@@ -71,7 +71,7 @@ impl Default for Focus {
 /// One free decay: where it is, and the curve that was fitted to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decay {
-    /// First sample and the one behind the last.
+    /// First sample and the one after the last.
     pub samples: Range<usize>,
     /// The fit, every so many samples.
     pub curve: Vec<f64>,
@@ -210,7 +210,7 @@ fn of_decay(
             (range, used, stride, fit) = (shorter, part, part_stride, part_fit);
         }
     }
-    // behind the decay there is only noise, and drift that no parabola follows
+    // after the decay there is only noise, and drift that no parabola follows
     let slowest = fit
         .vibrations(&used, |_| 1.0)
         .iter()

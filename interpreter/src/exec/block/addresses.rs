@@ -185,7 +185,7 @@ impl Decoder {
             }
         };
         if !self.values.variables.is_cycle() {
-            let text = format!("@{name} stands outside of a cycle");
+            let text = format!("@{name} is used outside a cycle");
             return Err(Fault::new(condition, text, assign.target.span));
         }
         let letter = name.as_bytes().first().copied().unwrap_or_default();

@@ -79,7 +79,7 @@ impl Decoder {
         if let ([Item { kind: ItemKind::Flag(_), .. }], true) =
             (&bracket.group.items[..], name.ends_with(|c: char| c.is_ascii_digit()))
         {
-            let text = "a label stands at the beginning of its block, not behind words";
+            let text = "a label comes first in its block, not after words";
             return Err(Fault::new(Condition::LabelBehindWords, text, bracket.group.span));
         }
         Err(self.unknown_axis(name, bracket.group.span))
@@ -110,6 +110,12 @@ impl Decoder {
                     return Err(self.axis_twice(axis, group.span));
                 }
                 self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
+            }
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OSC") => {
+                if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
+                    return Err(self.axis_twice(axis, group.span));
+                }
+                self.oscillating_axis(axis, rest, group.span)
             }
             Some((
                 Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
@@ -174,7 +180,7 @@ impl Decoder {
         let some = items.iter().find(|(i, _)| feedforward(i));
         let other = items.iter().find(|(i, _)| !feedforward(i));
         if let (Some(_), Some((_, span))) = (some, other) {
-            let text = "feedforward stands in a bracket of its own, not beside other commands";
+            let text = "feedforward needs a bracket of its own, without other commands";
             return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
         }
         let mut weights = items.iter().filter(|(i, _)| matches!(i, SpindleItem::Weight(_)));

@@ -46,7 +46,7 @@ impl Decoder {
         self.tools_and_offsets(&words, takes_axes);
         let preset = self.position_presets(&words) || self.spline_vectors(&words);
         self.feeds_and_modes(&words, takes_axes);
-        // behind G04 the S word is a number of revolutions, behind G74 an order
+        // after G04 the S word is a number of revolutions, after G74 an order
         let arguments = |g: &GWord| g.row.act == Act::Dwell || g.row.number == 74;
         if !words.group(Group::Path).is_some_and(arguments) {
             self.spindle_speeds(&words);
@@ -165,6 +165,13 @@ impl Decoder {
             Act::Contour(on) => {
                 self.modal.contouring = on;
                 self.modal.exact_stop &= !on;
+            }
+            Act::EngagementFeed(on) => {
+                self.modal.engagement_feed = on;
+                if on {
+                    let text = "G11: arcs that the compensation inserts at corners keep the programmed feed";
+                    self.note_once("G11", Fault::new(Condition::Fallback, text, g.span));
+                }
             }
             Act::LateBraking(late) => self.modal.late_braking = late,
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,

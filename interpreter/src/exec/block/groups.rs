@@ -64,8 +64,8 @@ impl Group {
             Self::Insertion => Condition::TwoInsertions,
             Self::SpindleMode => Condition::TwoSpeedModes,
             Self::FullOverride => Condition::OverrideSwitchTwice,
-            Self::CornerDeceleration
-            | Self::Deceleration
+            Self::CornerDeceleration => Condition::TwoCornerDecelerations,
+            Self::Deceleration
             | Self::Plane
             | Self::CompensationTransition
             | Self::Rotation
@@ -144,6 +144,8 @@ pub(in crate::exec) enum Act {
     /// G901 (true), G900.
     LateBraking(bool),
     Compensation(Compensation),
+    /// G11 (true), G10.
+    EngagementFeed(bool),
     /// G25, G26.
     Corners(Corners),
     /// G138, G139, G237 to G239.
@@ -196,7 +198,7 @@ pub(in crate::exec) enum Act {
     Unsupported(&'static str),
 }
 
-/// A value behind the number.
+/// A value after the number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) enum ValueRule {
     Never,
@@ -222,7 +224,7 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
     Row { number, group, act, value: ValueRule::Required }
 }
 
-const FEED_CHANGE: &str = "a higher feed is reached behind the start of its block, as at start";
+const FEED_CHANGE: &str = "a higher feed is reached after the start of its block, as at start";
 const FEED_HOLD: &str = "feedhold brakes without the weights of its own";
 const EDGE_BANDING: &str = "edge banding";
 const MANUAL: &str = "manual mode";
@@ -238,8 +240,8 @@ const ROWS: &[Row] = &[
     g(5, Group::None, Act::Unsupported("tangential selection of tool radius compensation")),
     g(8, Group::FeedInterpolation, Act::Ignored(FEED_CHANGE)),
     g(9, Group::None, Act::EarlyBrakingOnce),
-    g(10, Group::CompensationFeed, Act::Nothing),
-    g(11, Group::CompensationFeed, Act::Unsupported("adapted feed of tool radius compensation")),
+    g(10, Group::CompensationFeed, Act::EngagementFeed(false)),
+    g(11, Group::CompensationFeed, Act::EngagementFeed(true)),
     g(12, Group::CornerDeceleration, Act::Nothing),
     g(13, Group::CornerDeceleration, Act::Unsupported("corner deceleration")),
     g(17, Group::Plane, Act::Plane(Plane::Xy)),
@@ -272,7 +274,7 @@ const ROWS: &[Row] = &[
     g(69, Group::Rotation, Act::RotateOff),
     g(70, Group::Unit, Act::Inch(true)),
     g(71, Group::Unit, Act::Inch(false)),
-    g(74, Group::Path, Act::Simplified("the axes count as homed where they stand, nothing moves")),
+    g(74, Group::Path, Act::Simplified("the axes count as homed where they are, nothing moves")),
     g(90, Group::Dimension, Act::Absolute(true)),
     g(91, Group::Dimension, Act::Absolute(false)),
     g(92, Group::None, Act::Preset),

@@ -113,7 +113,7 @@ impl Decoder {
     fn collect_word<'b>(&mut self, word: &'b Word, block: &mut Words<'b>) -> Outcome<()> {
         let span = word.span;
         if block.call.is_some() && !matches!(word.kind, WordKind::Call(_)) {
-            let text = "nothing stands behind a subroutine or cycle call in its block";
+            let text = "nothing may follow a subroutine or cycle call in its block";
             return Err(Fault::new(Condition::BehindCall, text, span));
         }
         match &word.kind {

@@ -12,7 +12,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
 use crate::syntax::ast::{Group, Item, ItemKind, ItemValue, Span};
 
-/// Options behind name, number and index of an axis.
+/// Options after name, number and index of an axis.
 const OPTIONS: &[&str] = &["CMDPOS", "ACTPOS", "OFFSETS", "NO_OFFSETS", "ALL"];
 
 /// Places of an axis in the channel.
@@ -151,7 +151,7 @@ fn exchange(decoder: &mut Decoder, span: Span) {
     decoder.sync(Sync::FlushWait);
     if decoder.shaping.guard_on == Some(true) {
         let text = "the axis exchange switches the Vibration Guard of the program off";
-        let hint = "program #VIB GUARD ON again behind it";
+        let hint = "program #VIB GUARD ON again after it";
         decoder.note(Fault::new(Condition::GuardExchanged, text, span).hint(hint));
     }
     if decoder.shaping.guard_on.take().is_some() {
@@ -216,7 +216,7 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         Some((ItemKind::Pair { .. }, span)) => {
             return Err(Fault::new(
                 Condition::ExchangeComma,
-                "a comma is missing behind the axis name",
+                "a comma is missing after the axis name",
                 span,
             ));
         }
@@ -248,11 +248,11 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         group.span,
     )?;
     let Some(logical) = crate::exec::values::number::whole(logical, 1, 65535) else {
-        let text = format!("logical axis number {logical} is none of 1 to 65535");
+        let text = format!("logical axis number {logical} is not in 1 to 65535");
         return Err(Fault::new(Condition::ExchangeNumberRange, text, at(1)));
     };
     let Some(index) = crate::exec::values::number::whole(index, 0, PLACES - 1) else {
-        let text = format!("axis index {index} is none of 0 to {}", PLACES - 1);
+        let text = format!("axis index {index} is not in 0 to {}", PLACES - 1);
         return Err(Fault::new(Condition::Range, text, at(2)));
     };
     for item in items.iter().skip(3) {

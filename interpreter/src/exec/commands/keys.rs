@@ -65,7 +65,7 @@ macro_rules! arguments {
 }
 pub(in crate::exec) use arguments;
 
-/// What stands behind a key.
+/// What follows a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum KeyKind {
     /// A number.
@@ -158,7 +158,7 @@ impl Range {
 pub(crate) struct Key {
     /// As it is written.
     pub(crate) name: &'static str,
-    /// What stands behind it.
+    /// What follows it.
     pub(crate) kind: KeyKind,
     /// Range of its number, `None`: any, or checked by the command.
     pub(crate) range: Option<Range>,
@@ -327,7 +327,7 @@ pub(in crate::exec) fn read_all(
     Ok(found)
 }
 
-/// A key for a word and a word behind it as one item.
+/// A key for a word and a word after it as one item.
 fn pair_of_words(item: &Item, next: Option<&Item>, keys: &[Key]) -> Option<Item> {
     let (ItemKind::Flag(key), ItemKind::Flag(word)) = (&item.kind, &next?.kind) else {
         return None;

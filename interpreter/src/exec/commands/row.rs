@@ -80,7 +80,7 @@ pub(in crate::exec) struct Call<'c> {
     pub(in crate::exec) command: &'c Command,
     /// Name of the row.
     pub(in crate::exec) name: &'static str,
-    /// Words behind the name.
+    /// Words after the name.
     pub(in crate::exec) rest: &'c [Ident],
 }
 
@@ -100,7 +100,7 @@ impl Call<'_> {
         Fault::new(Condition::TokenUnknown, text, word.span)
     }
 
-    /// No further words, neither behind the name nor behind ON and OFF.
+    /// No further words, neither after the name nor after ON and OFF.
     pub(in crate::exec) fn no_more_words(&self) -> Outcome<()> {
         match self.rest.first().or(self.command.tail.first()) {
             Some(word) => Err(self.unexpected(word)),

@@ -19,7 +19,7 @@ impl Decoder {
         match &self.shaping.used {
             Some((first, place)) if *first != family => {
                 let text = format!(
-                    "{} and {} in one program: {} stands in line {} of {}",
+                    "{} and {} in one program: {} is in line {} of {}",
                     first.command(),
                     family.command(),
                     first.command(),
@@ -127,7 +127,7 @@ pub(super) const VIB_GUARD: Row = Row::run("VIB GUARD", vib_guard)
     )
     .keys(GuardArguments::KEYS)
     .note(
-        "independent of the FIR filter (#FILTER), which smooths a broad band: the two may not stand in one program (22060). ON from program start: vib_guard.active. AX_DEV missing in a command switches the tolerance monitoring off again, the other keys keep their last value. Without ON or OFF the values are stored",
+        "independent of the FIR filter (#FILTER), which smooths a broad band: the two cannot be used in one program (22060). ON from program start: vib_guard.active. AX_DEV missing in a command switches the tolerance monitoring off again, the other keys keep their last value. Without ON or OFF the values are stored",
     )
     .example("#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]")
     .related(&["22060", "22062", "50820", "P-AXIS-00588", "P-AXIS-00571", "P-AXIS-00589", "P-AXIS-00568", "P-AXIS-00013"]);

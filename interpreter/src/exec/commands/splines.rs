@@ -61,7 +61,7 @@ arguments! {
 /// Row of `#AKIMA TRANS`.
 pub(super) const AKIMA_TRANS: Row = Row::run("AKIMA TRANS", transitions)
     .form("#AKIMA TRANS [START=AUTO|TANGENTIAL|USER END=..]")
-    .meaning("tangents of splines at their ends: from their points, of the motions before and behind, or of #AKIMA STARTVECTOR and ENDVECTOR")
+    .meaning("tangents of splines at their ends: from their points, of the motions before and after, or of #AKIMA STARTVECTOR and ENDVECTOR")
     .keys(TransitionArguments::KEYS)
     .example("#AKIMA TRANS [START=TANGENTIAL END=AUTO]")
     .related(&["#SPLINE"]);

@@ -19,7 +19,7 @@ arguments! {
         thread_cut_act_speed: Number "THREAD_CUT_ACT_SPEED" in between(0.0, 1.0).whole(), "", "1, G33 follows the actual speed of the spindle, is not supported (P-CHAN-00834)";
         _thread_cut_n_cycles: Number "THREAD_CUT_N_CYCLES" in between(0.0, 20.0).whole(), "", "filter of THREAD_CUT_ACT_SPEED=1";
         thread_cut_ignore_ov: Number "THREAD_CUT_IGNORE_OV" in between(0.0, 1.0).whole(), "", "1: the override does not act on G33 (P-CHAN-00836)";
-        thread_chain: Number "THREAD_CHAIN" in between(0.0, 1.0).whole(), "", "1: blocks of G33 behind each other are one thread without a stop (P-CHAN-00837)";
+        thread_chain: Number "THREAD_CHAIN" in between(0.0, 1.0).whole(), "", "1: consecutive blocks of G33 are one thread without a stop (P-CHAN-00837)";
     }
 }
 

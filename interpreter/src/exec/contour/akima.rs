@@ -2,7 +2,7 @@
 //!
 //! Each axis is a cubic over the lengths of the chords; the derivative at a point comes from the two chords on either side
 //! of it, weighed as Akima does (J. ACM 17 (1970) 589, equation 1): the chord whose neighbours agree more counts more. At
-//! the ends two chords are extrapolated, or the tangent is that of the motion before or behind, or of the program.
+//! the ends two chords are extrapolated, or the tangent is that of the motion before or after, or of the program.
 //!
 //! Assumptions: the parameter is the chord length over the feed axes, over all axes where none of them moves; where the
 //! weights of both sides are 0, both chords count the same; a given tangent has the length 1.
@@ -16,7 +16,7 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{Coefficients, Path, PolyPath, PolyPiece};
 use std::collections::VecDeque;
 
-/// Chords behind a segment that decide its end.
+/// Chords after a segment that decide its end.
 const AHEAD: usize = 2;
 
 /// Chords before a segment that decide its start.
@@ -37,7 +37,7 @@ pub(in crate::exec) enum Transition {
     /// From the points.
     #[default]
     Auto,
-    /// That of the motion before or behind.
+    /// That of the motion before or after.
     Tangential,
     /// `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`.
     User,
@@ -90,7 +90,7 @@ impl Given {
 /// A spline whose segments are not all complete.
 #[derive(Debug)]
 struct Run {
-    /// Segments that wait for the chords behind them.
+    /// Segments that wait for the chords after them.
     waiting: VecDeque<Box<Motion>>,
     /// Slopes of up to [`BEHIND`] chords before them, then their own.
     slopes: VecDeque<AxisVec>,
@@ -123,7 +123,7 @@ pub(in crate::exec) struct Akima {
     pub(in crate::exec) end: End,
     /// G151 is in force.
     pub(in crate::exec) selected: bool,
-    /// An arc has interrupted the spline: it goes on tangentially.
+    /// An arc has interrupted the spline: it continues tangentially.
     behind_arc: bool,
     run: Option<Box<Run>>,
 }

@@ -1,10 +1,10 @@
 //! Tool radius compensation: the path of the tool's centre at the distance of its radius from the contour.
 //!
 //! Outer corners are rounded by arcs about the corner (G26) or go round by lines (G25), inner corners are the
-//! intersection of the parallels. The first line behind G41 or G42 leads to the point perpendicular above the beginning
-//! of the next element, the first line behind G40 leads back to the contour. With G237 a line perpendicular to the
+//! intersection of the parallels. The first line after G41 or G42 leads to the point perpendicular above the beginning
+//! of the next element, the first line after G40 leads back to the contour. With G237 a line perpendicular to the
 //! contour does both, and the contour may begin and end with arcs. With G238 the tool enters and leaves a closed contour at
-//! an inside corner; with G239 it stays behind G40 where it is.
+//! an inside corner; with G239 it stays after G40 where it is.
 //!
 //! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G138, G139, G237 to G239); generation
 //! of compensation blocks; restrictions of inside corner selection; 90008, 90031, 90127, 20651. Derived: the lines of G25 from the numbers of inserted blocks that the manual
@@ -89,7 +89,7 @@ impl Compensator {
         self.next(motion, out).map_err(|f| f.in_block(self.source))
     }
 
-    /// True between G41 or G42 and the motion behind G40.
+    /// True between G41 or G42 and the motion after G40.
     pub(in crate::exec) fn is_active(&self) -> bool {
         self.active.is_some() || self.closed.is_some()
     }
@@ -338,7 +338,7 @@ impl Active {
         } else {
             SmallVec::from_slice(&[before])
         };
-        // a line is prolonged, behind an arc its tangent is inserted
+        // a line is prolonged, after an arc its tangent is inserted
         let first = points[0];
         let end = if matches!(last.side, Side::Line { .. }) { first } else { before };
         let template = outside.then(|| last.motion.clone());

@@ -41,7 +41,7 @@ pub(in crate::exec) const SYSTEMS_MAX: usize = 5;
 pub(in crate::exec) struct Coordinates {
     /// Programmed absolute coordinates, without offsets.
     program: AxisVec,
-    /// Targets of the axes behind the last block.
+    /// Targets of the axes after the last block.
     target: AxisVec,
     /// Offset contained in the target of each axis.
     applied: AxisVec,

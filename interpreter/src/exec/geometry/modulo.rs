@@ -1,7 +1,7 @@
 //! Absolute positions of modulo axes: the number of turns that belongs to a programmed angle.
 //!
 //! Positions stay continuous; the axis never turns by more than one revolution. Without a sign it goes the shortest
-//! way; the first sign behind the name of the axis is the direction of rotation and no part of the position, so `C-200`
+//! way; the first sign after the name of the axis is the direction of rotation and no part of the position, so `C-200`
 //! turns in negative direction to 200 degrees, and `C[-200]` the shortest way to 160. With G91 a sign is a sign.
 //!
 //! Source: TF5200 programming manual, programming modulo axes. Assumption: of two shortest ways, 180 degrees each, the
@@ -31,9 +31,9 @@ pub(in crate::exec) fn unwrapped(value: f64, turn: Option<Sign>, from: f64) -> f
     }
 }
 
-/// A sum behind the sign of a modulo axis.
+/// A sum after the sign of a modulo axis.
 pub(in crate::exec) fn two_readings(span: Span) -> Box<Fault> {
-    let text = "the first sign behind a modulo axis is its direction, not that of a term";
+    let text = "the first sign after a modulo axis is its direction, not that of a term";
     let hint = "use brackets: C-[P1+5] turns in negative direction, C[-P1+5] the shortest way";
     Fault::new(Condition::Syntax, text, span).hint(hint)
 }

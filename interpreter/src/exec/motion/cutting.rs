@@ -202,7 +202,7 @@ impl Decoder {
         }
     }
 
-    /// Speed of the main spindle in rev/min behind the present position.
+    /// Speed of the main spindle in rev/min after the present position.
     pub(in crate::exec) fn spindle_rpm(&self) -> f64 {
         match self.motion.cutting_speed {
             Some(cutting) => {
@@ -243,7 +243,7 @@ impl Decoder {
                 other <= rpm * STEP && other * STEP >= rpm
             };
             let (mut low, mut high) = (from, 1.0);
-            // behind the turning centre the speed falls again: both halves of the way for themselves
+            // beyond the turning centre the speed falls again: both halves of the way for themselves
             let centre = -radius(0.0) / (radius(1.0) - radius(0.0));
             if centre > from && centre < 1.0 {
                 high = centre;

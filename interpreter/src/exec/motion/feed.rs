@@ -23,7 +23,7 @@ impl Decoder {
             let key = "20008".to_owned();
             let text = "the feed is 0: no F word has been programmed";
             self.note_once(&key, Fault::new(Condition::FeedZero, text, span));
-            // the block is left out, the positions go on
+            // the block is left out, the positions continue
             return Ok(Feed::PathVelocity(1.0));
         };
         let unit_mm = if word.inch && self.feed_is_linear(path) { 25.4 } else { 1.0 };

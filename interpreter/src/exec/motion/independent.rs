@@ -37,7 +37,7 @@ fn wrong(text: impl Into<String>, span: Span) -> Box<Fault> {
 }
 
 impl Decoder {
-    /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`; `rest`: what stands behind the first word.
+    /// `X[INDP_SYN ..]`, `X[INDP_ASYN ..]`; `rest`: what follows the first word.
     pub(in crate::exec) fn independent_axis(
         &mut self,
         axis: usize,
@@ -202,12 +202,12 @@ impl Decoder {
     }
 
     /// The path stops until these axes have arrived.
-    fn join(&mut self, axes: Vec<usize>) {
+    pub(super) fn join(&mut self, axes: Vec<usize>) {
         self.motion.independent.open.retain(|axis| !axes.contains(axis));
         self.sync(Sync::Independent { axes });
     }
 
-    /// Behind a block with INDP_SYN: the next one begins when all have arrived.
+    /// After a block with INDP_SYN: the next one begins when all have arrived.
     pub(in crate::exec) fn join_synchronous(&mut self) {
         if !self.motion.independent.synchronous.is_empty() {
             let axes = std::mem::take(&mut self.motion.independent.synchronous);

@@ -1,7 +1,7 @@
 //! Measuring runs: G100 and G310 move until the probe signals; G101 and G102 take what was measured into the offsets.
 //!
 //! A run is a straight motion from rest to rest. Where the probe signals, the simulation latches the actual positions, brakes
-//! the path and drops what is left of it; the program goes on from where the path came to rest.
+//! the path and drops what is left of it; the program continues from where the path came to rest.
 //!
 //! Source: TF5200 programming manual, measuring functions (206164491, 206171147, 206177803, 206185227, 206191115,
 //! 206197003, 206208011), settings for measuring (207084683, 207092107); functional description of measuring (342045451).

@@ -160,7 +160,7 @@ pub(in crate::exec) struct Threads {
 /// How blocks of G33 go together and what the override does to them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::exec) struct TurningModes {
-    /// Blocks behind each other are one thread (P-CHAN-00837).
+    /// Consecutive blocks are one thread (P-CHAN-00837).
     pub(in crate::exec) chain: bool,
     /// The override does not act (P-CHAN-00836).
     pub(in crate::exec) ignore_override: bool,

@@ -1,13 +1,13 @@
 //! Threads: G33 with a spindle that turns, tapping with a spindle that follows the path (G63, G331, G332).
 //!
 //! Tapping begins and ends at rest, and the spindle turns with the way of the path: both are exact. G33 begins when the
-//! spindle turns with its speed and passes its mark, and then goes on with pitch times speed; the ramp at its begin and
+//! spindle turns with its speed and passes its mark, and then continues with pitch times speed; the ramp at its begin and
 //! end cuts another pitch, as on the machine. Each block of G33 is a thread of its own, unless P-CHAN-00837 or `#TURN` makes
 //! a chain of them. The override acts on G33 and so changes the pitch, unless P-CHAN-00836, `#TURN` or a chain forbids it;
 //! that and a feedhold are said when they happen (K-0132).
 //!
 //! Assumptions: the pitch of a thread at 45 deg or more is that of its other axis only if it is written so; between blocks
-//! of tapping the path rests; the path rests behind the last block of G33; what suppresses the override suppresses that of
+//! of tapping the path rests; the path rests after the last block of G33; what suppresses the override suppresses that of
 //! the program too. The manual says that the sign of S (G63) and of the pitch (G331) tells right-hand from left-hand
 //! threads; that the positive sign is the right-hand one is inferred.
 //!
@@ -122,7 +122,7 @@ impl Decoder {
         }
         let turns = words.m.iter().find(|m| matches!(m.number, 3..=5 | 19));
         if turns.is_some() || self.motion.spindles[0].is_turning() {
-            let text = "tapping needs a spindle that stands: it turns with the path";
+            let text = "tapping needs a stopped spindle: it turns with the path";
             let at = turns.map_or(span, |m| m.span);
             return Err(Fault::new(Condition::SpindleTurns, text, at));
         }
@@ -155,7 +155,7 @@ impl Decoder {
         }
         let (axis, pitch_mm) = self.pitch(&path, span)?;
         if pitch_mm < 0.0 {
-            let text = "the pitch of G33 has no sign: M03 and M04 tell the direction";
+            let text = "the pitch of G33 has no sign: M03 and M04 set the direction";
             return Err(Fault::new(Condition::ThreadPitch, text, span));
         }
         let spindle = &self.motion.spindles[0];

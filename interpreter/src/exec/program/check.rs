@@ -28,7 +28,7 @@ impl Checked {
     }
 }
 
-/// Executes a program as if every axis were always where it is told to be, goes on after errors where it can, and
+/// Executes a program as if every axis were always where it is told to be, continues after errors where it can, and
 /// returns all diagnostics; it stops after 20 errors, and where the limits of the options stop a run (K-0017). What did
 /// not run is looked at for its syntax (K-0118).
 pub(crate) fn check(

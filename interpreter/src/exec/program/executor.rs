@@ -274,7 +274,7 @@ impl Executor {
         &self.start
     }
 
-    /// Targets of the axes behind the last block.
+    /// Targets of the axes after the last block.
     pub(crate) fn target(&self) -> &AxisVec {
         self.decoder.geometry.coordinates.target()
     }

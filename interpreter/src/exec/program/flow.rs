@@ -72,14 +72,14 @@ impl Executor {
         self.decoder.keep(outcome).unwrap_or(false)
     }
 
-    /// Execution goes on at a place.
+    /// Execution continues at a place.
     fn jump_to(&mut self, position: Position) {
         if let Some(level) = self.levels.last_mut() {
             level.at = position;
         }
     }
 
-    /// Execution goes on behind the block at a place.
+    /// Execution continues after the block at a place.
     pub(in crate::exec) fn jump_behind(&mut self, position: Position) {
         let Some(level) = self.levels.last() else { return };
         let file = level.file;
@@ -194,7 +194,7 @@ impl Executor {
         }
     }
 
-    /// The taken branch ends: execution goes on behind the structure.
+    /// The taken branch ends: execution continues after the structure.
     fn leave_structure(&mut self, id: EntryId) {
         let Some(level) = self.levels.last() else { return };
         let end = level.index.entry(id).end;
@@ -273,7 +273,7 @@ impl Executor {
         };
         let Some(place) = level.index.label(level.section, &label.kind).copied() else {
             let text = format!("label {shown} does not exist in this program");
-            let hint = "a label stands at the beginning of a block: N20: or [NAME]";
+            let hint = "a label comes first in its block: N20: or [NAME]";
             self.decoder.note(Fault::new(Condition::Label, text, label.span).hint(hint));
             return;
         };
@@ -310,7 +310,7 @@ impl Executor {
             }
         } else {
             let keyword = closed.map_or("", Keyword::text);
-            let text = format!("label {shown} stands inside {keyword}");
+            let text = format!("label {shown} is inside {keyword}");
             let condition = match closed {
                 Some(keyword) if keyword.is_loop() => Condition::JumpIntoLoop,
                 _ => Condition::LabelInto,

@@ -18,6 +18,9 @@ pub(in crate::exec) struct Level {
     /// Next block.
     pub(in crate::exec) at: Position,
     pub(in crate::exec) end: u64,
+    /// Where it begins again, and how often (REPEAT of `L SEQUENCE`).
+    pub(in crate::exec) begin: Position,
+    pub(in crate::exec) passes: u32,
     pub(in crate::exec) frames: Vec<Frame>,
     /// Modal state to return to: the level is a cycle.
     pub(in crate::exec) cycle: Option<Box<Modal>>,
@@ -46,7 +49,7 @@ pub(super) struct Counter {
     pub(super) step: f64,
 }
 
-/// What calls own: subroutines that words call, and what is called behind every block.
+/// What calls own: subroutines that words call, and what is called after every block.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Calls {
     pub(in crate::exec) info: ProgramInfo,
@@ -57,13 +60,13 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) cycle_files: BTreeMap<u32, String>,
     /// Subroutine of M06.
     pub(in crate::exec) tool_change_file: Option<String>,
-    /// Cycle that is called behind every motion or block.
+    /// Cycle that is called after every motion or block.
     pub(in crate::exec) modal_cycle: Option<ModalCycle>,
     /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
     pub(in crate::exec) retain_cycle_changes: bool,
 }
 
-/// Values of a cycle by the name behind `@`.
+/// Values of a cycle by the name after `@`.
 pub(super) type Passed = BTreeMap<Box<str>, Value>;
 
 /// A cycle that follows every motion or block.
@@ -72,7 +75,7 @@ pub(in crate::exec) struct ModalCycle {
     pub(super) name: Ident,
     pub(super) local: bool,
     pub(super) passed: Passed,
-    /// Behind every block, not only behind motions.
+    /// After every block, not only after motions.
     pub(super) every_block: bool,
 }
 

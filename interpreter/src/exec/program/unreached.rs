@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 programming manual, control blocks: of a branch that is not taken the control looks at block numbers
 //! and nested control statements only. Mistakes in those are errors here too. Whatever else is wrong there would stop no
-//! run of this program, so it is told as a warning, K-0118. Text behind the end of the main program, in `#COMMENT`
+//! run of this program, so it is told as a warning, K-0118. Text after the end of the main program, in `#COMMENT`
 //! blocks and in inactive `#IF` branches is not looked at.
 
 use super::executor::Executor;
@@ -18,7 +18,7 @@ const REPORTS_MAX: usize = 20;
 impl Executor {
     /// Looks at the syntax of everything that was not executed.
     pub(in crate::exec) fn check_unreached(&mut self) {
-        // what lies behind the limit might run
+        // what lies beyond the limit might run
         if self.is_limited() {
             return;
         }
@@ -98,7 +98,7 @@ impl Executor {
 
 /// Inactive `#IF` branches and comments of a file.
 struct Silence {
-    /// Where each of them begins, and the end furthest behind of all up to there.
+    /// Where each of them begins, and the furthest end of all up to there.
     ends: Vec<(Position, u64)>,
 }
 

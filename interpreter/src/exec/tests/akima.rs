@@ -53,7 +53,7 @@ fn the_example_with_a_start_tangent() {
     assert_near(&direction(blocks[2], true)[..2], &at_60_20);
     // at (60, 0): X from (0, -1) and (1, 0) between (1, 0) and (0, 1): both weights 1; Y likewise
     assert_near(&direction(blocks[3], true)[..2], &unit([0.5, -0.5]));
-    // the end: the chord behind (1, 0), (0, 1) is extrapolated to (-1, 2) and (-2, 3), all of them change alike
+    // the end: the chord after (1, 0), (0, 1) is extrapolated to (-1, 2) and (-2, 3), all of them change alike
     assert_near(&direction(blocks[5], true)[..2], &unit([-0.5, 1.5]));
     // the other words for the same
     for words in [("#SPLINE ON\n", "#SPLINE OFF\n"), ("#SPLINE TYPE AKIMA\nG151 ", "G150 ")] {
@@ -78,7 +78,7 @@ fn straight_points_stay_straight() {
     }
 }
 
-/// TANGENTIAL takes the directions of the motions before and behind; an arc between points always does.
+/// TANGENTIAL takes the directions of the motions before and after; an arc between points always does.
 #[test]
 fn tangential_transitions() {
     let text = |ends: &str| {

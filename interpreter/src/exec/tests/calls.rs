@@ -127,7 +127,7 @@ fn a_program_of_the_list_runs_before_every_program() {
     let start = ["channel.start_init_prog_file=init.nc"];
     let run = listed(&start, &[main, ("init.nc", "P1=7 G91 Z1 F50\nM17\n")]);
     assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
-    // its modal state goes on: G91 holds in the main program
+    // its modal state continues: G91 holds in the main program
     assert_eq!(run.ends(), [[0.0, 0.0, 1.0], [7.0, 0.0, 1.0]]);
     let run = listed(&start, &[main]);
     assert_eq!((run.ids(), run.blocks().len()), (vec!["K-0013".to_owned()], 0));
@@ -195,7 +195,7 @@ fn calls_without_a_blank() {
     assert_eq!(with("\"TOOL\" = \"sub.nc\"\nL\"TOOL\"\nM30\n", "sub.nc", sub).end[0], 1.0);
     assert_eq!(with("LCYCLE [NAME=sub.nc]\nM30\n", "sub.nc", sub).end[0], 1.0);
     assert_eq!(with("L CYCLE[NAME=sub.nc]\nM30\n", "sub.nc", sub).end[0], 1.0);
-    // without a blank behind LL the call is global
+    // without a blank after LL the call is global
     assert_eq!(with("LLOCAL\nM30\n", "LOCAL", sub).end[0], 1.0);
     for call in ["LV.E.NAME", "L V.E.NAME"] {
         let run = with(&format!("V.E.NAME = \"sub.nc\"\n{call}\nM30\n"), "sub.nc", sub);
@@ -309,4 +309,26 @@ fn block_sequences() {
     assert_eq!(run.end, [2.0, 2.0, 0.0]);
     let run = super::run("N10 L SEQUENCE [N10]\nM30\n");
     assert_eq!(run.ids(), ["20360"]);
+}
+
+/// REPEAT: so many passes in all; ENDTAG: the call ends the sequence too, whichever end comes first.
+#[test]
+fn repeated_block_sequences() {
+    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N20 REPEAT=3]\nM30\n");
+    assert_eq!(run.end, [4.0, 4.0, 0.0]);
+    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 REPEAT3 ENDTAG]\nZ5\nM30\n");
+    assert_eq!(run.end, [4.0, 4.0, 5.0]);
+    // N40 stands behind the call: the call is the end; N10 in front of it: N10 is
+    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N40 ENDTAG]\nN40 Z5\nM30\n");
+    assert_eq!(run.end, [2.0, 2.0, 5.0]);
+    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N10 ENDTAG]\nM30\n");
+    assert_eq!(run.end, [2.0, 1.0, 0.0]);
+    // loops inside are left in order, and begin anew with every pass
+    let run = clean(
+        "G91 F1000\nN10 G01\n$FOR P1=1,2,1\nX1\n$ENDFOR\nN20 Y1\nL SEQUENCE [N10 N20 REPEAT=2]\nM30\n",
+    );
+    assert_eq!(run.end, [6.0, 3.0, 0.0]);
+    let missing = super::run("L SEQUENCE [N10 ENDTAG]\nN10 G01 X1 F100\nM30\n");
+    assert_eq!(missing.ids()[0], "K-0015");
+    assert_eq!(super::run("N10 P1=1\nL SEQUENCE [N10 REPEAT=0]\nM30\n").ids()[0], "K-0009");
 }

@@ -1,6 +1,7 @@
 //! Tool radius compensation.
 
 use super::{assert_near, clean, run};
+use kontur_motion::block::Feed;
 use kontur_motion::path::Path;
 
 const TOOL: &str = "V.G.WZ[1].R=2\nG26 D1 F100\n";
@@ -68,7 +69,7 @@ fn a_change_of_side_crosses_the_contour() {
     let run = clean(text);
     let e = run.ends();
     assert_near(e.last().unwrap(), &[0.0, 0.0, 0.0]);
-    // above the first element, then below the one behind G42
+    // above the first element, then below the one after G42
     let u = [0.8, 0.6];
     assert_near(&e[0][..2], &[-2.0 * u[1], 10.0 + 2.0 * u[0]]);
     assert_near(&e[1][..2], &[20.0 - 2.0 * u[1], 25.0 + 2.0 * u[0]]);
@@ -209,7 +210,7 @@ fn full_circles_inside_and_outside() {
 
 #[test]
 fn bottlenecks_between_elements_that_are_far_apart_are_told() {
-    // a pocket behind a neck from X20 to X20 + width, which a tool of radius 2 passes down and up again
+    // a pocket after a neck from X20 to X20 + width, which a tool of radius 2 passes down and up again
     let slot = |width: f64| {
         let right = 20.0 + width;
         format!(
@@ -313,7 +314,7 @@ fn rests_and_other_axes_inside_a_closed_contour() {
     }
 }
 
-/// G239 (207810059): the tool goes to the parallel at once and stays there behind G40; a coordinate that is not programmed then is
+/// G239 (207810059): the tool goes to the parallel at once and stays there after G40; a coordinate that is not programmed then is
 /// that of the tool.
 #[test]
 fn deselection_without_a_block() {
@@ -367,4 +368,39 @@ fn options_of_compensation() {
             "{text}"
         );
     }
+}
+
+/// G11: F is the speed of the contour on arcs, at the centre of a tool of 5 mm that is 5/10 inside an arc of 10 mm; an arc
+/// below RMIN keeps F. After 207065483 of the programming manual.
+#[test]
+fn feed_of_the_engagement() {
+    let feeds = |before: &str| {
+        let text = format!(
+            "V.G.WZR=5\n{before}G41 G01 X0 Y20 F600\nX20 Y20\nG03 X40 R10\nG01 Y40\nG02 X44 R2\nG01 Y20\nG40 G10 X60\nM30\n"
+        );
+        let run = run(&text);
+        assert!(run.ids().iter().all(|id| id == "K-0111"), "{:?}", run.ids());
+        let arcs = |b: &kontur_motion::block::Block| match &b.path {
+            Path::Arc(arc) => Some((arc.radius(), b.feed)),
+            _ => None,
+        };
+        run.blocks().into_iter().filter_map(arcs).collect::<Vec<_>>()
+    };
+    let of = |feeds: &[(f64, Feed)], radius: f64| {
+        let arc = feeds.iter().find(|(r, _)| (r - radius).abs() < 1e-9).unwrap();
+        match arc.1 {
+            Feed::PathVelocity(v) => v,
+            other => panic!("{other:?}"),
+        }
+    };
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
+    let plain = feeds("G25\n");
+    near(of(&plain, 5.0), 10.0);
+    near(of(&plain, 7.0), 10.0);
+    let adapted = feeds("G25 G11\n");
+    near(of(&adapted, 5.0), 5.0);
+    near(of(&adapted, 7.0), 35.0);
+    let limited = feeds("#TANGFEED [RMIN=3]\nG25 G11\n");
+    near(of(&limited, 5.0), 5.0);
+    near(of(&limited, 7.0), 10.0);
 }

@@ -59,7 +59,7 @@ fn machine_coordinates() {
         "{all}#MCS ON\nX108 Y16 Z50\n#MCS OFF\nP1=V.A.ABS.X P2=V.A.ABS.Y P3=V.A.ABS.Z\nX0 Y0 Z0\nX P1 Y P2 Z P3\nM30\n"
     ));
     assert_near(&run.end, &[108.0, 16.0, 50.0]);
-    // a tool change acts in the machine coordinates, or behind them
+    // a tool change acts in the machine coordinates, or after them
     for (ex, inside) in [("", 19.0), ("EX TOOL", 9.0)] {
         let run =
             clean(&format!("V.G.WZ[2].L=10\n#MCS ON {ex}\nD2\nZ9 F1000\n#MCS OFF\nZ0\nM30\n"));
@@ -96,7 +96,7 @@ fn rotation_in_the_plane() {
     let turned = |[x, y, z]: [f64; 3]| [c * x - s * y, s * x + c * y, z];
     assert_carried("#ROTATION ON [ANGLE=37]", turned);
     assert_carried("G68 R37 X0 Y0", turned);
-    // mirrored behind the rotation
+    // mirrored after the rotation
     assert_carried("G71 G21\n#ROTATION ON [ANGLE=37]", |p| {
         let [x, y, z] = turned(p);
         [-x, y, z]

@@ -157,7 +157,7 @@ impl Path<'_> {
         number(f(d, axis) / d.axis_unit(axis))
     }
 
-    /// Axis by name in the segment `at`, or by the index behind the segment before.
+    /// Axis by name in the segment `at`, or by the index after the segment before.
     fn axis(&self, d: &Decoder, at: usize) -> Outcome<usize> {
         if let Some(segment) = self.segments.get(at) {
             return d.axis_of_name(&segment.name).ok_or_else(|| {
@@ -178,7 +178,7 @@ impl Path<'_> {
         })
     }
 
-    /// Index behind a segment.
+    /// Index after a segment.
     fn index(&self, d: &Decoder, at: usize, high: u32) -> Outcome<u32> {
         let subscripts = self.segments.get(at).map(|s| &s.subscripts[..]);
         match subscripts {
@@ -219,7 +219,7 @@ impl Path<'_> {
     }
 }
 
-/// The row of a variable. A last `*` may be missing: then an index stands behind the segment before.
+/// The row of a variable. A last `*` may be missing: then an index follows the segment before.
 fn find(segments: &[Segment]) -> Option<&'static Row> {
     ROWS.iter().find(|row| {
         let open = |pattern: &str| matches!(pattern, "*" | "s");

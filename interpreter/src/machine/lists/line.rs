@@ -54,12 +54,12 @@ impl Line<'_> {
     }
 }
 
-/// A value and what stands behind it.
+/// A value and what follows it.
 #[derive(Debug, PartialEq)]
 pub(super) struct Parts<'a> {
     /// The value without quotes; `None` if there is none.
     pub(super) value: Option<&'a str>,
-    /// Text behind a text value that is no comment.
+    /// Text after a text value that is no comment.
     pub(super) dropped: Option<&'a str>,
 }
 
@@ -67,7 +67,7 @@ fn is_comment(text: &str) -> bool {
     ["#", "(", "/*"].iter().any(|opener| text.starts_with(opener))
 }
 
-/// Takes the rest of a line (without blanks at its ends) behind the key apart.
+/// Takes the rest of a line (without blanks at its ends) after the key apart.
 pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     let rest = if raw == Raw::Text { rest } else { behind_remarks(rest) };
     if rest.is_empty() || is_comment(rest) {
@@ -108,7 +108,7 @@ fn behind_remarks(mut rest: &str) -> &str {
     rest
 }
 
-/// Behind numbers and names any text is a comment, behind a text a comment needs its opener.
+/// After numbers and names any text is a comment, after a text a comment needs its opener.
 fn leftover(raw: Raw, tail: &str) -> Option<&str> {
     let tail = tail.trim();
     (raw == Raw::Text && !tail.is_empty() && !is_comment(tail)).then_some(tail)

@@ -28,12 +28,12 @@ pub(super) struct ListText {
 }
 
 impl ListText {
-    /// The text behind as many empty lines that its lines have the numbers they have in the file.
+    /// The text after as many empty lines that its lines have the numbers they have in the file.
     pub(super) fn placed(&self) -> String {
         format!("{}{}", "\n".repeat(self.before), self.text)
     }
 
-    /// Takes the lines of these keys out and puts entries behind the rest of the list.
+    /// Takes the lines of these keys out and puts entries after the rest of the list.
     ///
     /// A key that ends in `[` stands for the whole array, any other one for itself.
     pub(super) fn replace(&mut self, keys: &[&str], entries: &str) {

@@ -43,7 +43,7 @@ impl Drive {
     }
 }
 
-/// Everything behind the set position but Improved Position Control, as the list states it.
+/// Everything downstream of the set position but Improved Position Control, as the list states it.
 pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisControlConfig {
     let limits = axis.dynamics();
     let j_max_mm_s3 = limits.a_max_mm_s2 / axis.tr_min_s();

@@ -33,7 +33,7 @@ pub struct FirPreset {
     pub config: FirConfig,
 }
 
-/// The additional interface of an axis (`lr_param.add_interface`): a position from outside that is added behind the axis
+/// The additional interface of an axis (`lr_param.add_interface`): a position from outside that is added after the axis
 /// filters.
 #[derive(Clone, Debug)]
 pub struct AdditionalInterface {

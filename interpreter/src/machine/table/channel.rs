@@ -18,7 +18,7 @@ parameters! {
         .default(0.0), as LIMIT_TANGENTIAL_JERK: Switch;
     chan("P-CHAN-00011", "gruppe[i].achse[j].default_feed_axis", Raw::Boolean, "member of the feed group; none given = the first three main axes")
         .default(0.0), as FEED_AXIS: Switch;
-    chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC: distance behind the corner; read and ignored");
+    chan("P-CHAN-00012", "speed_limit_look_ahead.dist_from_corner", Raw::Real64, "velocity look-ahead for the PLC: distance after the corner; read and ignored");
     chan("P-CHAN-00019", "syn_chk.errors_total", Raw::Uns16, "syntax check: stop after this many errors (old key syn_chk.fehler_gesamt)")
         .range(Bound::At(0.0), Bound::At(65535.0)).default(0.0);
     chan("P-CHAN-00020", "syn_chk.errors_per_block", Raw::Uns16, "errors per line before going to the next (old key syn_chk.fehler_pro_zeile)")

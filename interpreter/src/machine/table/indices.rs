@@ -4,7 +4,7 @@
 pub type Indices = [u32; 2];
 
 /// A key of the table with indices put in: `filter[i].order`, `[2, 0]` gives `filter[2].order`.
-pub fn with_indices(key: &str, indices: Indices) -> String {
+pub(crate) fn with_indices(key: &str, indices: Indices) -> String {
     let mut text = String::with_capacity(key.len());
     let mut indices = indices.into_iter();
     let mut chars = key.chars();

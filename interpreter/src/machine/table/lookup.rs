@@ -75,12 +75,12 @@ static BY_SHAPE: LazyLock<HashMap<String, Vec<&'static Row>>> = LazyLock::new(||
 });
 
 /// The row with an ID in either case.
-pub fn by_id(id: &str) -> Option<&'static Row> {
+pub(crate) fn by_id(id: &str) -> Option<&'static Row> {
     BY_ID.get(id).or_else(|| BY_ID.get(id.to_ascii_uppercase().as_str())).copied()
 }
 
 /// The row of a key in a list; `shape` is the key in either case with `[]` for every index.
-pub fn by_key(list: ListKind, shape: &str) -> Option<&'static Row> {
+pub(crate) fn by_key(list: ListKind, shape: &str) -> Option<&'static Row> {
     let shape = match ALIASES.iter().find(|(from, _)| *from == shape) {
         Some((_, key)) => plain(key),
         None => shape.to_ascii_lowercase(),
@@ -89,7 +89,7 @@ pub fn by_key(list: ListKind, shape: &str) -> Option<&'static Row> {
 }
 
 /// Keys that differ from `shape` by at most two letters, best first.
-pub fn misspelt(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
+pub(crate) fn misspelt(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
     let wanted = shape.to_ascii_lowercase();
     let mut near: Vec<(usize, &'static str)> =
         keys(list).filter_map(|key| Some((edit_distance(&plain(key), &wanted, 2)?, key))).collect();
@@ -99,7 +99,7 @@ pub fn misspelt(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
 
 /// Keys that were probably meant, best first, at most three: misspelt ones, otherwise those whose last name is the same
 /// (`getriebe[i].kv` for `kv`).
-pub fn suggestions(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
+pub(crate) fn suggestions(list: Option<ListKind>, shape: &str) -> Vec<&'static str> {
     let wanted = shape.to_ascii_lowercase();
     let last = |s: &str| s.rsplit('.').next().unwrap_or_default().to_owned();
     let mut found = misspelt(list, shape);

@@ -18,7 +18,7 @@ impl Ident {
     }
 
     /// Splits a name written together with a number, `ID455` or `REV1000.5`, into both.
-    pub fn split_number(&self) -> Option<(&str, f64)> {
+    pub(crate) fn split_number(&self) -> Option<(&str, f64)> {
         let at = self.text.find(|c: char| c.is_ascii_digit() || c == '.')?;
         let (name, number) = self.text.split_at(at);
         let plain = number.bytes().all(|b| b.is_ascii_digit() || b == b'.');
@@ -34,9 +34,9 @@ impl Ident {
 pub struct Command {
     /// Words up to `ON`/`OFF` or the first argument, in upper case: `["VIB", "GUARD"]`.
     pub words: Vec<Ident>,
-    /// `ON` (true) or `OFF` (false) behind the words.
+    /// `ON` (true) or `OFF` (false) after the words.
     pub on: Option<bool>,
-    /// Words behind `ON`/`OFF`: `ALL` of `#CS OFF ALL`; in upper case.
+    /// Words after `ON`/`OFF`: `ALL` of `#CS OFF ALL`; in upper case.
     pub tail: Vec<Ident>,
     /// Values without bracket: `#TIME 2.5`, `#WAIT FOR V.E.A == 1`, `#DELETE V.P.A, V.P.B`.
     pub arguments: Vec<Expr>,

@@ -76,9 +76,9 @@ pub enum ControlKind {
 pub struct ProgramHead {
     /// `%L NAME`.
     pub local: bool,
-    /// First word behind the head, as written; `% a remark` has the name `a`.
+    /// First word after the head, as written; `% a remark` has the name `a`.
     pub name: Option<Ident>,
-    /// Everything behind `%` or `%L`, without comment and blanks at the ends.
+    /// Everything after `%` or `%L`, without comment and blanks at the ends.
     pub text: Box<str>,
 }
 

@@ -32,7 +32,7 @@ pub enum ExprKind {
     Call(Box<FunctionCall>),
 }
 
-/// Sign directly behind an address, outside of brackets.
+/// Sign directly after an address, outside of brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// `C+10`.
@@ -162,9 +162,9 @@ pub enum PlaceKind {
         /// Subscripts of an array.
         subscripts: Vec<Expr>,
     },
-    /// `V.P.TAB[2].X`: the parts behind `V.`.
+    /// `V.P.TAB[2].X`: the parts after `V.`.
     Variable(Vec<Segment>),
-    /// `@P1`, `@X`, `@S`: name behind `@` in upper case.
+    /// `@P1`, `@X`, `@S`: name after `@` in upper case.
     Cycle(Box<str>),
 }
 
@@ -182,6 +182,6 @@ pub enum ParameterIndex {
 pub struct Segment {
     /// Name as written; may begin with a sign (`V.A.-SWE.X`).
     pub name: Box<str>,
-    /// Subscripts behind the name.
+    /// Subscripts after the name.
     pub subscripts: Vec<Expr>,
 }

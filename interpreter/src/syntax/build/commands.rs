@@ -102,7 +102,9 @@ impl Builder<'_> {
         for part in whole.into_inner() {
             match part.as_rule() {
                 Rule::place => target = Some(self.place(part)),
-                Rule::key | Rule::cycle_key | Rule::name_key => key = Some(self.upper(&part)),
+                Rule::key | Rule::cycle_key | Rule::ordinal | Rule::name_key => {
+                    key = Some(self.upper(&part));
+                }
                 Rule::equals => {}
                 _ => value = Some(self.item_value(part)),
             }
@@ -168,16 +170,16 @@ impl Builder<'_> {
             command.arguments.is_empty() && command.groups.is_empty() && command.tail.is_empty();
         match words.as_slice() {
             ["COMMENT", "BEGIN", rest @ ..] if !rest.is_empty() || !bare => {
-                let text = "#COMMENT BEGIN does not stand alone in its block";
+                let text = "#COMMENT BEGIN is not alone in its block";
                 self.report(Problem::new(Condition::CommentBeginNotAlone, command.span, text));
             }
             ["COMMENT", "END", rest @ ..] if !rest.is_empty() || !bare => {
-                let text = "#COMMENT END does not stand alone in its block";
+                let text = "#COMMENT END is not alone in its block";
                 self.report(Problem::new(Condition::CommentEndNotAlone, command.span, text));
             }
             ["IF" | "ELSE" | "ENDIF", ..] if block.number.is_some() || block.label.is_some() => {
-                let text = format!("#{} behind a block number", words.join(" "));
-                let hint = "only a skip mark may stand before it";
+                let text = format!("#{} after a block number", words.join(" "));
+                let hint = "only a skip mark may precede it";
                 self.report(
                     Problem::new(Condition::ConditionalNotFirst, command.span, text).hint(hint),
                 );
@@ -200,7 +202,7 @@ impl Builder<'_> {
             let text = "a remark that reads like keys: it has no effect";
             let problem = Problem::new(Condition::Odd, Span::new(start, start + 1), text)
                 .severity(Severity::Warning)
-                .hint("keys of a command stand in square brackets");
+                .hint("keys of a command go in square brackets");
             self.report(problem);
         }
     }

@@ -1,6 +1,6 @@
 //! Where the free decays of a record are: drift and hum taken out for the purpose, then the blows by their energy.
 //!
-//! A blow is where the energy of the time behind rises against that of the time before. The windows are longer than the
+//! A blow is where the energy of the time after rises against that of the time before. The windows are longer than the
 //! beats of neighbouring vibrations, so that a beat is no blow.
 
 use super::detect;
@@ -107,7 +107,7 @@ fn without_hum(samples: &mut [f64], rate_hz: f64) {
     }
 }
 
-/// Free decays of a record, the most energetic first: from behind a blow to the next one.
+/// Free decays of a record, the most energetic first: from after a blow to the next one.
 pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec<Range<usize>> {
     let mut clean = without_drift(samples);
     without_hum(&mut clean, rate_hz);
@@ -160,7 +160,7 @@ pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec
         .iter()
         .zip(ends)
         .filter_map(|(start, end)| {
-            // behind the largest swing the blow itself is over
+            // after the largest swing the blow itself is over
             let near = *start..(start + one + 1).min(end);
             let top = near.reduce(|a, b| if clean[b].abs() > clean[a].abs() { b } else { a })?;
             // the sharp front of the next blow begins a little before its energy

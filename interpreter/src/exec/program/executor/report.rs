@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// Errors after which a check stops. Source: P-CHAN-00019 is the vendor's counterpart.
 pub(super) const ERRORS_MAX: usize = 20;
-/// Blocks that a check executes behind the first error: a wrong program may also be an endless one.
+/// Blocks that a check executes after the first error: a wrong program may also be an endless one.
 pub(super) const BLOCKS_BEHIND_ERROR: u64 = 1_000_000;
 
 /// Diagnostics of one run; further ones are reported only if they are errors.

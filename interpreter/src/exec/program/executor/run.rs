@@ -375,7 +375,7 @@ impl Executor {
                 let text = if self.errors >= ERRORS_MAX {
                     format!("{} errors: the check stops here", self.errors)
                 } else {
-                    format!("{behind} blocks behind the first error: the check stops here")
+                    format!("{behind} blocks after the first error: the check stops here")
                 };
                 let d = Diagnostic::new(Condition::TooMany, text).severity(Severity::Note);
                 self.report(d);

@@ -89,7 +89,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Back to the opening statement (`test`: which tests again) or behind it.
+    /// Back to the opening statement (`test`: which tests again) or after it.
     pub(super) fn repeat(&mut self, id: EntryId, test: bool) {
         let Some(level) = self.levels.last() else { return };
         let open = level.index.entry(id).open;
@@ -133,7 +133,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Repeats while the condition is true, without one for ever.
+    /// Repeats while the condition is true, without one forever.
     pub(super) fn end_do(&mut self, condition: Option<&Expr>, id: EntryId) {
         if condition.is_none_or(|c| self.test(c)) {
             self.repeat(id, false);

@@ -63,7 +63,7 @@ impl Builder<'_> {
             self.program_head(raw, head.rest);
             return;
         }
-        // of a block that is too long something may stand behind what is looked at
+        // of a block that is too long something may follow what is looked at
         let comment = first == Some(b'#') && is_command(head.rest, "COMMENT", "BEGIN");
         let content = first.is_some_and(|b| b != b';' && !comment)
             || head.label.is_some()
@@ -143,7 +143,7 @@ impl Builder<'_> {
             self.close(raw.position.offset);
             let name = name_of(name);
             if self.has_main {
-                let text = "a local subroutine behind the main program: the control may refuse it";
+                let text = "a local subroutine after the main program: the control may refuse it";
                 let d = Diagnostic::new(Condition::Odd, text).severity(Severity::Note);
                 self.report(raw, raw.text.len() - rest.len(), 2, d);
             }
@@ -163,7 +163,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A `%` block ends the main program if the file goes on with a further program.
+    /// A `%` block ends the main program if the file continues with a further program.
     fn decide_remarks(&mut self) {
         let Some(main) = self.index.main() else { return };
         let subroutine_behind =
@@ -240,7 +240,7 @@ impl Builder<'_> {
         let behind = blank(&second[second.len() - word(second)..]);
         if !behind.is_empty() && !behind.starts_with(';') {
             let name = if condition == Condition::CommentBeginNotAlone { "BEGIN" } else { "END" };
-            let text = format!("#COMMENT {name} does not stand alone in its block");
+            let text = format!("#COMMENT {name} is not alone in its block");
             let d = Diagnostic::new(condition, text);
             self.report(raw, head.at, head.rest.trim_end().len(), d);
         }

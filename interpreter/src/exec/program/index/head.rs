@@ -8,7 +8,7 @@ pub(super) struct Head<'t> {
     pub(super) label: Option<LabelKind>,
     /// Where the label begins.
     pub(super) label_at: usize,
-    /// Text behind skip mark, number and label.
+    /// Text after skip mark, number and label.
     pub(super) rest: &'t str,
     /// Where it begins.
     pub(super) at: usize,
@@ -48,7 +48,7 @@ pub(super) fn head(text: &str) -> Head<'_> {
             label_at = text.len() - rest.len();
             label = Some(LabelKind::Name(name.to_uppercase().into()));
             rest = blank(&rest[end + 1..]);
-            // the block number may stand behind the name: `[NAME] N10`
+            // the block number may follow the name: `[NAME] N10`
             if let Some(behind) = rest.strip_prefix(['N', 'n'])
                 && digits(behind) > 0
             {
@@ -123,7 +123,7 @@ pub(super) fn says_nothing(line: &[u8]) -> bool {
         && memchr::memchr3(b'M', b'm', b'\\', rest).is_none()
 }
 
-/// Name behind a program head: the first word.
+/// Name after a program head: the first word.
 pub(super) fn name_of(text: &str) -> Option<&str> {
     let end = text.find([' ', '\t', '(', ';']).unwrap_or(text.len());
     (end > 0).then(|| &text[..end])
@@ -136,7 +136,7 @@ pub(super) fn is_command(rest: &str, first: &str, second: &str) -> bool {
     behind[..length].eq_ignore_ascii_case(first) && word(behind[length..].trim_start()) == second
 }
 
-/// True if `$GOTO` stands behind the condition.
+/// True if `$GOTO` follows the condition.
 pub(super) fn contains_goto(rest: &str) -> bool {
     let code = rest.split([';', '(']).next().unwrap_or("");
     code.to_ascii_uppercase().contains("$GOTO")

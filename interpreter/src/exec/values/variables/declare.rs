@@ -175,7 +175,7 @@ impl Decoder {
     pub(super) fn note_rounded(&mut self, name: &str, x: f64, span: Span) {
         let text = format!("{name} holds whole numbers: {x} is rounded to {}", x.round());
         let fault = Fault::new(Condition::Odd, text, span).warning();
-        let hint = "ROUND, INT, FLOOR or CEIL tell which whole number is meant";
+        let hint = "ROUND, INT, FLOOR or CEIL say which whole number is meant";
         self.note_once(&format!("rounded {name}"), fault.hint(hint));
     }
 

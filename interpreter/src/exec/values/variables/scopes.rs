@@ -11,7 +11,7 @@ type Table = BTreeMap<Box<str>, Variable>;
 pub(super) struct CycleScope {
     /// Own P parameters.
     parameters: BTreeMap<u32, Variable>,
-    /// `@P1`, `@X`, ... by the name behind `@`.
+    /// `@P1`, `@X`, ... by the name after `@`.
     pub(super) passed: BTreeMap<Box<str>, Value>,
 }
 

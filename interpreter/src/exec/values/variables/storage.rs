@@ -164,7 +164,7 @@ impl Variable {
         for (x, size) in subscripts.iter().zip(&self.sizes) {
             let high = u32::try_from(size - 1).unwrap_or(u32::MAX);
             let Some(i) = whole(*x, 0, high) else {
-                let text = format!("subscript {x} is none of 0 to {high}");
+                let text = format!("subscript {x} is not in 0 to {high}");
                 return Err(Fault::new(wrong_index, text, span)
                     .with(|d| d.value(ValueKind::Wrong, *x, "-")));
             };

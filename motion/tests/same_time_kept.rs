@@ -1,0 +1,137 @@
+//! Under `AX_DEV` the time of a contour does not depend on what does not matter.
+//!
+//! `COUNT=200 SEED=7 cargo test --release -p kontur-motion --test same_time_kept -- --nocapture` takes more contours and prints
+//! how much the forms of them differ.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests; exact values are meant")]
+
+mod common;
+
+use common::random::Random;
+use common::{Job, axis, channel};
+use kontur_filters::time::CycleTime;
+use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Trapez};
+use kontur_motion::block::Tolerance;
+
+const CYCLE_US: u32 = 500;
+const CYCLE_S: f64 = 5e-4;
+
+type Points = Vec<[f64; 3]>;
+
+#[derive(Debug)]
+struct Case {
+    points: Points,
+    axes: AxisDynamics,
+    kind: SlopeKind,
+    feed_mm_s: f64,
+    guard: VibGuardSettings,
+    tolerance_mm: f64,
+}
+
+impl Case {
+    fn new(r: &mut Random) -> Self {
+        let acc = r.log(1000.0, 8000.0);
+        let ramps_s = [r.log(0.005, 0.05); 4];
+        let feed = FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s };
+        Self {
+            points: r.contour(100),
+            axes: AxisDynamics { feed, ..axis(1.0) },
+            kind: r.pick(&[Trapez, Sin2, Hsc]),
+            feed_mm_s: r.log(8.0, 330.0),
+            guard: VibGuardSettings {
+                mode: r.pick(&[1, 2, 3, 4]),
+                freq_hz: r.log(10.0, 100.0),
+                damping: r.pick(&[0.0, 0.1, 0.3]),
+            },
+            tolerance_mm: r.log(2e-3, 0.2),
+        }
+    }
+
+    /// In s.
+    fn time(&self, points: &Points, freq: f64, tolerance: f64) -> f64 {
+        let cycle = CycleTime::from_us(CYCLE_US).unwrap();
+        let guard = VibGuardSettings { freq_hz: freq * self.guard.freq_hz, ..self.guard };
+        let ax_dev_mm = Some(tolerance * self.tolerance_mm);
+        let job = Job {
+            dynamics: channel(vec![self.axes; 3]),
+            cycle_us: CYCLE_US,
+            kernel: Some(guard.kernel(cycle).unwrap()),
+            tolerance: Tolerance { ax_dev_mm, acc_fact: 1.0 },
+            window: 500,
+            ..Job::new(1.0, self.kind)
+        };
+        let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        (job.drive(&points, &[self.feed_mm_s]).len() - 1) as f64 * CYCLE_S
+    }
+}
+
+/// The same contour in other words, and neighbouring settings; the largest part of the time that each of them may differ by.
+/// What they differ by comes from the choice of who slows down.
+const FORMS: [(&str, f64); 6] = [
+    ("mirrored", 1e-3),
+    ("moved by 1e-9 mm", 1e-3),
+    ("every line in two", 0.015),
+    ("reversed", 0.03),
+    ("FREQ 1 % higher", 0.03),
+    ("AX_DEV 1 % larger", 0.03),
+];
+/// Part of the contours that may differ by more than `1e-3` with every line in two.
+const SPLIT: f64 = 0.05;
+
+/// Times of the forms in s; 0 for what is another task.
+fn forms(case: &Case, r: &mut Random) -> [f64; 6] {
+    let points = &case.points;
+    let each =
+        |f: &mut dyn FnMut(&[f64; 3]) -> [f64; 3]| -> Points { points.iter().map(f).collect() };
+    let mut split = vec![points[0]];
+    for w in points.windows(2) {
+        let u = r.between(0.1, 0.9);
+        split.push([0, 1, 2].map(|i| w[0][i] + u * (w[1][i] - w[0][i])));
+        split.push(w[1]);
+    }
+    // a filter that is not the same backwards does not leave the same behind
+    let even = case.guard.damping <= 0.0;
+    let back = || case.time(&points.iter().rev().copied().collect(), 1.0, 1.0);
+    [
+        case.time(&each(&mut |p| [-p[0], p[1], p[2]]), 1.0, 1.0),
+        case.time(&each(&mut |p| p.map(|c| c + 1e-9 * r.between(-1.0, 1.0))), 1.0, 1.0),
+        case.time(&split, 1.0, 1.0),
+        if even { back() } else { 0.0 },
+        case.time(points, 1.01, 1.0),
+        case.time(points, 1.0, 1.01),
+    ]
+}
+
+#[test]
+fn another_form_of_a_contour_takes_the_same_time() {
+    let number = |name: &str| std::env::var(name).ok().and_then(|c| c.parse::<u64>().ok());
+    let mut r = Random(number("SEED").unwrap_or(3));
+    let mut all: [Vec<f64>; 6] = Default::default();
+    for n in 0..number("COUNT").unwrap_or(24) {
+        let case = Case::new(&mut r);
+        let time = case.time(&case.points, 1.0, 1.0);
+        let others = forms(&case, &mut Random(n));
+        for (((name, most), other), found) in FORMS.iter().zip(others).zip(&mut all) {
+            if other > 0.0 {
+                let differs = ((other - time).abs() - 2.0 * CYCLE_S).max(0.0) / time;
+                assert!(differs <= *most, "{n} {name}: {other} s instead of {time} s\n{case:?}");
+                found.push(differs);
+            }
+        }
+    }
+    for ((name, _), found) in FORMS.iter().zip(&mut all) {
+        found.sort_by(f64::total_cmp);
+        let at = |share: f64| found[((found.len() - 1) as f64 * share) as usize];
+        let over = found.iter().filter(|differs| **differs > 1e-3).count();
+        println!(
+            "{name}: 90 % {:.5} 99 % {:.5} most {:.5}, {over} of {} above 0.1 %",
+            at(0.9),
+            at(0.99),
+            at(1.0),
+            found.len()
+        );
+        assert!(*name != FORMS[2].0 || over as f64 <= (SPLIT * found.len() as f64).ceil());
+    }
+}
