@@ -23,8 +23,8 @@ pub use program::check::Checked;
 pub(crate) use program::check::check;
 pub(crate) use program::executor::Executor;
 pub(crate) use step::{
-    Approach, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion, Probed, ShapingSettings,
-    ShapingSetup, SourceRef, SpindleMotion, SpindleState, Step, Sync,
+    Approach, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion, OscillatingMotion,
+    Probed, ShapingSettings, ShapingSetup, SourceRef, SpindleMotion, SpindleState, Step, Sync,
 };
 
 #[cfg(test)]

@@ -464,10 +464,12 @@ impl Simulation {
                 self.stops_at[i] = self.current;
             }
         }
-        self.phase = Phase::Waiting(match after {
+        let wait = match after {
             After::Sync(sync) => Wait::for_sync(sync, self.cycle),
             After::End(reason) => Wait::for_end(reason),
-        });
+        };
+        wait.end_oscillations(&mut self.independent);
+        self.phase = Phase::Waiting(wait);
     }
 
     /// A wait is over: acts and returns to the program.

@@ -120,7 +120,7 @@ const ROWS: &[Row] = &[
     off_only("FACE"),
     off_only("CAX"),
     off_only("CAXTRACK"),
-    off_only("TANGFEED"),
+    compensation::TANGFEED,
     turning::TURN,
     off_only("NIBBLE"),
     off_only("PUNCH"),

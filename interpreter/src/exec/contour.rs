@@ -50,6 +50,8 @@ pub(super) struct Compensated {
     pub(super) straight_corners: bool,
     /// How it begins and ends.
     pub(super) selection: Selection,
+    /// G11: least radius in mm of the arcs whose feed is that of the tool's engagement.
+    pub(super) engagement_radius_mm: Option<f64>,
 }
 
 impl Motion {

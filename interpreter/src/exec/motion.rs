@@ -8,6 +8,7 @@ mod feed;
 mod independent;
 mod limits;
 mod measuring;
+mod oscillation;
 pub(super) mod overrides;
 mod space;
 pub(super) mod spindles;
@@ -411,6 +412,10 @@ impl Decoder {
             distance_mm: if left { radius } else { -radius },
             straight_corners: self.modal.corners == Corners::Straight,
             selection: self.modal.selection,
+            engagement_radius_mm: self
+                .modal
+                .engagement_feed
+                .then_some(self.modal.engagement_radius_mm),
         });
         Ok(InPlane { plane: [first, second], tilt, compensation })
     }

@@ -203,6 +203,13 @@ pub(crate) enum Event {
         /// What it does.
         motion: IndependentMotion,
     },
+    /// `X[OSC ON ..]`: an axis goes to and fro beside the path until the program waits for it.
+    Oscillation {
+        /// Path axis.
+        axis: usize,
+        /// What it does.
+        motion: OscillatingMotion,
+    },
     /// An M function without meaning of its own here.
     MFunction {
         /// Number, 0 to 65535.
@@ -297,6 +304,23 @@ pub(crate) struct IndependentMotion {
     pub speed: IndependentSpeed,
     /// Shape of the acceleration.
     pub slope: SlopeKind,
+}
+
+/// Motion of an oscillating axis; it always ends at its second position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OscillatingMotion {
+    /// Where the axis stands, in mm (deg).
+    pub from_mm: f64,
+    /// First and second reversal position in mm (deg), different ones.
+    pub reversal_mm: [f64; 2],
+    /// Rest at each of them in s.
+    pub rest_s: [f64; 2],
+    /// How fast; a time is that of one way.
+    pub speed: IndependentSpeed,
+    /// Shape of the acceleration.
+    pub slope: SlopeKind,
+    /// Number of oscillations; `None`: until the program waits for the axis.
+    pub count: Option<u32>,
 }
 
 /// What a spindle does.

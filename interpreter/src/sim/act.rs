@@ -21,6 +21,13 @@ impl Simulation {
                     self.diagnostics.push(super::fault::internal(&e));
                 }
             }
+            Event::Oscillation { axis, motion } => {
+                let dynamics = self.machine.axes[axis].dynamics();
+                let started = self.independent.oscillate(axis, k, &motion, &dynamics, self.cycle);
+                if let Err(e) = started {
+                    self.diagnostics.push(super::fault::internal(&e));
+                }
+            }
             Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
             Event::SpindleFeedforward { spindle, on, weight_ratio } => {
                 self.spindle_feedforward(spindle, on, weight_ratio);

@@ -4,7 +4,7 @@
 //! Assumption: override, feedhold and the weights of G130 to G133 do not act on them; an error stops them with their own
 //! deceleration.
 
-use crate::exec::IndependentMotion;
+use crate::exec::{IndependentMotion, OscillatingMotion};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::independent::IndependentMove;
@@ -19,12 +19,43 @@ struct Underway {
     k: u64,
 }
 
+/// An axis that goes to and fro.
+#[derive(Clone, Debug)]
+struct Oscillation {
+    /// From the first to the second reversal position, and back.
+    ways: [IndependentMove; 2],
+    reversal_mm: [f64; 2],
+    /// Rest at each of them in cycles.
+    rest_cycles: [u64; 2],
+    /// Where the motion under way ends: index of a reversal position.
+    to: usize,
+    /// Oscillations that are left; `None`: without end.
+    left: Option<u32>,
+}
+
+impl Oscillation {
+    /// The motion that follows one that ends in cycle `k`; `None` where it comes to its end.
+    fn next(&mut self, k: u64) -> Option<Underway> {
+        let at = self.to;
+        if at == 1 {
+            self.left = self.left.map(|left| left.saturating_sub(1));
+        }
+        if at == 1 && self.left == Some(0) {
+            return None;
+        }
+        self.to = 1 - at;
+        let k = k + self.rest_cycles[at];
+        Some(Underway { motion: self.ways[at].clone(), from_mm: self.reversal_mm[at], k })
+    }
+}
+
 /// One path axis.
 #[derive(Clone, Debug, Default)]
 struct Lane {
     /// Way of all motions that are over.
     done_mm: f64,
     underway: Option<Underway>,
+    oscillation: Option<Box<Oscillation>>,
 }
 
 /// The path axes as far as they move alone.
@@ -55,14 +86,57 @@ impl IndependentAxes {
         Ok(())
     }
 
+    /// Starts an oscillation in cycle `k`: to the first reversal position, and then to and fro.
+    pub(super) fn oscillate(
+        &mut self,
+        axis: usize,
+        k: u64,
+        motion: &OscillatingMotion,
+        dynamics: &AxisDynamics,
+        cycle: CycleTime,
+    ) -> Result<(), Infeasible> {
+        let OscillatingMotion { from_mm, reversal_mm, rest_s, speed, slope, count } = *motion;
+        let [first, second] = reversal_mm;
+        let way = |a: f64, b: f64| IndependentMove::new(a, b, speed, slope, dynamics, cycle);
+        let oscillation = Oscillation {
+            ways: [way(first, second)?, way(second, first)?],
+            reversal_mm,
+            rest_cycles: rest_s.map(|s| (s / cycle.seconds()).round() as u64),
+            to: 0,
+            left: count,
+        };
+        let motion = way(from_mm, first)?;
+        if let Some(lane) = self.lanes.get_mut(axis) {
+            lane.underway = Some(Underway { motion, from_mm, k });
+            lane.oscillation = Some(Box::new(oscillation));
+        }
+        Ok(())
+    }
+
+    /// An oscillation ends when the axis comes to its second position; all of them if no axis is named.
+    pub(super) fn end_oscillations(&mut self, axes: Option<&[usize]>) {
+        for (axis, lane) in self.lanes.iter_mut().enumerate() {
+            if axes.is_none_or(|axes| axes.contains(&axis))
+                && let Some(oscillation) = &mut lane.oscillation
+            {
+                oscillation.left = Some(oscillation.left.map_or(1, |left| left.min(1)));
+            }
+        }
+    }
+
     /// Way of an axis in cycle `k`; cycles do not fall.
     pub(super) fn way_mm(&mut self, axis: usize, k: u64) -> f64 {
         let Some(lane) = self.lanes.get_mut(axis) else { return 0.0 };
         let Some(underway) = &lane.underway else { return lane.done_mm };
         let cycles = k.saturating_sub(underway.k);
         let way_mm = lane.done_mm + (underway.motion.state(cycles).position_mm - underway.from_mm);
-        if cycles >= underway.motion.cycles() {
-            *lane = Lane { done_mm: way_mm, underway: None };
+        if cycles >= underway.motion.cycles() && k >= underway.k {
+            let end = underway.k + underway.motion.cycles();
+            lane.done_mm = way_mm;
+            lane.underway = lane.oscillation.as_mut().and_then(|o| o.next(end));
+            if lane.underway.is_none() {
+                lane.oscillation = None;
+            }
         }
         way_mm
     }
@@ -82,7 +156,9 @@ impl IndependentAxes {
 
     /// Brings all of them to a stop from cycle `k` on.
     pub(super) fn stop(&mut self, k: u64) -> Result<(), Infeasible> {
-        for underway in self.lanes.iter_mut().filter_map(|lane| lane.underway.as_mut()) {
+        for lane in &mut self.lanes {
+            lane.oscillation = None;
+            let Some(underway) = &mut lane.underway else { continue };
             underway.motion.stop(k.saturating_sub(underway.k))?;
         }
         Ok(())

@@ -119,6 +119,7 @@ impl Totals {
             | Event::CuttingSpeed { .. }
             | Event::Timer { .. }
             | Event::Independent { .. }
+            | Event::Oscillation { .. }
             | Event::Spindle { .. } => None,
         }
     }

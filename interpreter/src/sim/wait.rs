@@ -92,6 +92,15 @@ impl Wait {
         Self { until: Until::AllInPosition, action, patience: Patience::default() }
     }
 
+    /// Axes that it waits for oscillate no more.
+    pub(super) fn end_oscillations(&self, independent: &mut IndependentAxes) {
+        match &self.until {
+            Until::Arrived(axes) => independent.end_oscillations(Some(axes)),
+            Until::Flushed | Until::AllInPosition => independent.end_oscillations(None),
+            Until::Now | Until::Cycles(..) | Until::Spindle(..) | Until::InPosition => {}
+        }
+    }
+
     /// The chains that the wait looks at, with their numbers.
     fn awaited<'a>(
         &'a self,

@@ -18,6 +18,13 @@ struct Found {
 
 /// The message for a block of another control. `masked` is the block without comments and texts; it did not parse.
 pub(super) fn recognise(masked: &str) -> Option<Problem> {
+    if masked.starts_with("t_s,") {
+        let span = Span::new(0, masked.trim_ascii_end().len());
+        let text = "this is a table over time, a trace or a file of inputs, not a program";
+        let hint =
+            "kontur diff compares traces, run --input reads inputs, report and check take programs";
+        return Some(Problem::new(Condition::ForeignProgram, span, text).hint(hint));
+    }
     let found = klartext(masked)
         .or_else(|| o_word(masked))
         .or_else(|| sinumerik(masked))

@@ -444,9 +444,13 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         Rule::open | Rule::group | Rule::cycle_group | Rule::index | Rule::word_bracket => {
             (5, BRACKET)
         }
-        Rule::key | Rule::flag | Rule::item | Rule::pair | Rule::bare_pair | Rule::item_value => {
-            (6, "a key")
-        }
+        Rule::key
+        | Rule::ordinal
+        | Rule::flag
+        | Rule::item
+        | Rule::pair
+        | Rule::bare_pair
+        | Rule::item_value => (6, "a key"),
         Rule::operator => (7, OPERATOR),
         Rule::target | Rule::label_name => (8, "a label"),
         Rule::file_name | Rule::program_call => (8, "a program name"),

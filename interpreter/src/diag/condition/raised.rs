@@ -177,6 +177,7 @@ conditions! {
     MTwice = Vendor 20765: Error ProgramAbort 3 1, "M function twice in one block", cause "M10 M10", hint "leave one of the two out";
     HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "leave one of the two out";
     MeasuringFunction = Vendor 20772: Error ProgramAbort 3 1, "G function does not go with the measuring type", cause "G106 without type 3", hint "select the type of the function by #MEAS MODE [3]", parameter "P-CHAN-00057";
+    TwoCornerDecelerations = Vendor 20794: Error ProgramAbort 3 1, "two of G12, G13", hint "leave one of the two out";
     AxisNameUnknown = Vendor 20797: Error ProgramAbort 3 1, "unknown axis designation in a command", hint "write the name of an axis of the channel";
     SystemWithCompensation = Vendor 20802: Error ProgramAbort 3 1, "change of the coordinate system while tool radius compensation is active", cause "#MCS ON between G41 and G40", hint "write G40 first";
     LabelTwice = Vendor 20836: Error ProgramAbort 3 1, "label defined twice", hint "give one of the two another name";
@@ -264,6 +265,7 @@ conditions! {
     SpeedWarning = Vendor 50119: Warning None 1 0, "axis speed above the warning level", cause "P-AXIS-00439, +5 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     DynamicsLimited = Vendor 50130: Warning None 1 0, "dynamics limited", cause "weighting G130-G133, G231, G233 beyond the limit", hint "lower the weight, or raise what the axis list allows (P-AXIS-00008 for accelerations)";
     CuttingSpeedZero = Vendor 50182: Error ProgramAbort 6 1, "cutting speed 0", cause "G96 S0", hint "S is the cutting speed in m/min under G96";
+    OscillationFeed = Vendor 50593: Error AbruptStop 6 1, "oscillation without a feed", cause "X[OSC ON ..] with FEED=0, or without FEED, FREQ and TIME", hint "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]";
     FilterTime = Vendor 50663: Error JobAbort 7 0, "filter time constant not allowed", cause "P-AXIS-00357: PT1 and PT2 at least one cycle, delay below 6 cycles", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
     GuardNotRealisable = Vendor 50820: Error FeedHold 6 0, "frequency and damping do not fit Vibration Guard", cause "frequency too high or damping too large for T", hint "a smaller cycle, less damping or a higher frequency, (the manual's advice); kontur tune proposes both";
     FilterTimeBelowCycle = Vendor 50910: Warning None 1 0, "order_time/time_constant below the cycle time", hint "the filter gets at least one cycle: raise the time, or give ORDER";
@@ -320,6 +322,7 @@ conditions! {
     ContouringAtEnd = Vendor 120206: Warning None 1 0, "program ends with contouring on", hint "write G260 or #CONTOUR MODE OFF before the end";
     ContouringNotPossible = Vendor 120207: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "exclude the corner with G260";
     BlockTooShort = Vendor 120216: Warning None 1 0, "block too short for contouring", hint "lower PATH_DEV or the corner distances, or join the short blocks";
+    NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without a way", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "the reversal positions 1ST_POS and 2ND_POS differ";
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "switch contouring off before the feed group changes";
     SoftContouringActive = Vendor 120698: Error ProgramAbort 6 1, "contouring mode changed to or from DIST_SOFT while contouring is active", cause "#CONTOUR MODE [DIST_SOFT] under G261 of another mode", hint "write G260 before #CONTOUR MODE and G261 after it";
     ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict refuses unknown ones";

@@ -111,6 +111,12 @@ impl Decoder {
                 }
                 self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
             }
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OSC") => {
+                if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
+                    return Err(self.axis_twice(axis, group.span));
+                }
+                self.oscillating_axis(axis, rest, group.span)
+            }
             Some((
                 Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
                 _,

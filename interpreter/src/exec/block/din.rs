@@ -166,6 +166,13 @@ impl Decoder {
                 self.modal.contouring = on;
                 self.modal.exact_stop &= !on;
             }
+            Act::EngagementFeed(on) => {
+                self.modal.engagement_feed = on;
+                if on {
+                    let text = "G11: arcs that the compensation inserts at corners keep the programmed feed";
+                    self.note_once("G11", Fault::new(Condition::Fallback, text, g.span));
+                }
+            }
             Act::LateBraking(late) => self.modal.late_braking = late,
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
             Act::CentreCorrection(on) => self.modal.centre_correction = on,

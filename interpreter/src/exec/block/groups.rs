@@ -64,8 +64,8 @@ impl Group {
             Self::Insertion => Condition::TwoInsertions,
             Self::SpindleMode => Condition::TwoSpeedModes,
             Self::FullOverride => Condition::OverrideSwitchTwice,
-            Self::CornerDeceleration
-            | Self::Deceleration
+            Self::CornerDeceleration => Condition::TwoCornerDecelerations,
+            Self::Deceleration
             | Self::Plane
             | Self::CompensationTransition
             | Self::Rotation
@@ -144,6 +144,8 @@ pub(in crate::exec) enum Act {
     /// G901 (true), G900.
     LateBraking(bool),
     Compensation(Compensation),
+    /// G11 (true), G10.
+    EngagementFeed(bool),
     /// G25, G26.
     Corners(Corners),
     /// G138, G139, G237 to G239.
@@ -238,8 +240,8 @@ const ROWS: &[Row] = &[
     g(5, Group::None, Act::Unsupported("tangential selection of tool radius compensation")),
     g(8, Group::FeedInterpolation, Act::Ignored(FEED_CHANGE)),
     g(9, Group::None, Act::EarlyBrakingOnce),
-    g(10, Group::CompensationFeed, Act::Nothing),
-    g(11, Group::CompensationFeed, Act::Unsupported("adapted feed of tool radius compensation")),
+    g(10, Group::CompensationFeed, Act::EngagementFeed(false)),
+    g(11, Group::CompensationFeed, Act::EngagementFeed(true)),
     g(12, Group::CornerDeceleration, Act::Nothing),
     g(13, Group::CornerDeceleration, Act::Unsupported("corner deceleration")),
     g(17, Group::Plane, Act::Plane(Plane::Xy)),

@@ -136,6 +136,10 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) contouring: bool,
     /// G901: a lower feed of the next block may be reached after the end of the block.
     pub(in crate::exec) late_braking: bool,
+    /// G11: F acts where the tool touches compensated arcs.
+    pub(in crate::exec) engagement_feed: bool,
+    /// `#TANGFEED`: least radius of such arcs in mm.
+    pub(in crate::exec) engagement_radius_mm: f64,
     /// G161: centres in coordinates of the program.
     pub(in crate::exec) centre_absolute: bool,
     /// G165.
@@ -176,6 +180,8 @@ impl Modal {
             exact_stop: false,
             contouring: false,
             late_braking: false,
+            engagement_feed: false,
+            engagement_radius_mm: 0.0,
             centre_absolute: false,
             centre_correction: true,
             radius_mm: None,

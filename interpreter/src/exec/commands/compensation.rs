@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 programming manual, programmable additional options of TRC.
 
-use super::keys::{arguments, between};
+use super::keys::{arguments, at_least, between};
 use super::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
@@ -93,4 +93,28 @@ fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         Some((name, span)) => Err(Fault::unsupported(format!("#TRC [{name}]"), span)),
         None => Ok(()),
     }
+}
+
+arguments! {
+    /// Keys of `#TANGFEED`.
+    struct TangfeedArguments {
+        rmin: Number "RMIN" in at_least(0.0), "mm (G70: inch)", "arcs of a smaller radius keep F at the tool's centre; default 0";
+    }
+}
+
+/// Row of `#TANGFEED`.
+pub(super) const TANGFEED: Row = Row::run("TANGFEED", tangential_feed)
+    .form("#TANGFEED [RMIN=..]")
+    .meaning("least radius of the arcs on which F acts at the tool's engagement (G11)")
+    .keys(TangfeedArguments::KEYS)
+    .example("#TANGFEED [RMIN=3]")
+    .related(&["G11"]);
+
+fn tangential_feed(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let keys = TangfeedArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    if let Some((radius, _)) = keys.rmin {
+        decoder.modal.engagement_radius_mm = radius * decoder.unit_mm();
+    }
+    Ok(())
 }

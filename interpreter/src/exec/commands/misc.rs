@@ -31,11 +31,11 @@ fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// Row of `#CHANNEL INIT`.
 pub(super) const CHANNEL_INIT: Row = Row::run("CHANNEL INIT", channel_init)
-    .form("#CHANNEL INIT [CMDPOS|ACTPOS AX=.. AX=..]")
+    .form("#CHANNEL INIT [CMDPOS|ACTPOS AX=.. AXNR=..]")
     .meaning("the programmed position becomes the command or actual position")
     .example("#CHANNEL INIT [CMDPOS]");
 
-/// `#CHANNEL INIT [CMDPOS|ACTPOS AX=X AX=Y]`; the axes also without `AX=`.
+/// `#CHANNEL INIT [CMDPOS|ACTPOS AX=X AXNR=2]`; the axes also without `AX=`.
 fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let Some(group) = call.command.groups.first() else {
@@ -51,6 +51,15 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             ItemKind::Flag(word) => axes.push(decoder.axis_in_command(word)?),
             ItemKind::Pair { key, value: ItemValue::Name(name) } if key.is("AX") => {
                 axes.push(decoder.axis_in_command(name)?);
+            }
+            ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("AXNR") => {
+                let number = decoder.whole(expr, "AXNR", 1, u32::MAX)?;
+                let axis = decoder.machine.axes.iter().position(|a| a.number() == number);
+                axes.push(axis.ok_or_else(|| {
+                    let text = format!("no axis of the channel has the logical number {number}");
+                    Fault::new(Condition::AxisNameUnknown, text, expr.span)
+                        .hint(decoder.axis_hint())
+                })?);
             }
             ItemKind::Missing => {}
             ItemKind::Pair { .. } | ItemKind::Target { .. } | ItemKind::Value(_) => {

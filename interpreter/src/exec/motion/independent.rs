@@ -202,7 +202,7 @@ impl Decoder {
     }
 
     /// The path stops until these axes have arrived.
-    fn join(&mut self, axes: Vec<usize>) {
+    pub(super) fn join(&mut self, axes: Vec<usize>) {
         self.motion.independent.open.retain(|axis| !axes.contains(axis));
         self.sync(Sync::Independent { axes });
     }

@@ -11,6 +11,7 @@ use crate::exec::fault::Fault;
 use crate::exec::options::Value;
 use crate::exec::step::EndReason;
 use crate::exec::suggest;
+use crate::source::Position;
 use crate::syntax::ast::{Call, CallKind, Group, Ident, ItemKind, ItemValue, Span};
 use std::sync::Arc;
 
@@ -58,6 +59,8 @@ impl Executor {
             declarations: false,
             cut: false,
             again: None,
+            begin: Position::START,
+            passes: 0,
         });
         self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
     }
@@ -87,6 +90,13 @@ impl Executor {
     /// The text of a level ends.
     pub(in crate::exec) fn level_ends(&mut self) {
         self.open_blocks();
+        if let Some(level) = self.levels.last_mut()
+            && level.passes > 0
+        {
+            level.passes -= 1;
+            level.at = level.begin;
+            return;
+        }
         if self.levels.len() > 1 {
             self.pop_level();
             return;

@@ -1,7 +1,9 @@
 //! Block sequences: `L SEQUENCE [NAME=.. N10 N50]` runs the blocks from one number to another as a subroutine.
 //!
+//! `REPEAT=n` runs them n times; with `ENDTAG` the call itself ends the sequence, where it stands behind its first block.
+//!
 //! Assumptions: of several blocks with a number the first one in the program counts, numbers that are computed do not; one
-//! number alone is a sequence of one block.
+//! number alone, without ENDTAG, is a sequence of one block; REPEAT counts all passes, since the manual asks for more than 1.
 //!
 //! Source: TF5200 programming manual, calling block sequences; 21696.
 
@@ -18,6 +20,10 @@ use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, Span};
 struct Words {
     name: Option<Ident>,
     numbers: Vec<(u64, Span)>,
+    /// Passes, at least 1.
+    repeat: Option<u32>,
+    /// The call ends the sequence, too.
+    end_tag: Option<Span>,
 }
 
 impl Executor {
@@ -58,9 +64,22 @@ impl Executor {
             let text = format!("the block N{last} comes before N{first}");
             return Err(Fault::new(Condition::Label, text, to));
         }
+        let call = self.position.offset;
+        let here = self.levels.last().is_some_and(|l| (l.file, l.section) == (file, section));
+        let one_number = words.numbers.len() == 1;
+        let end = match words.end_tag {
+            Some(_) if here && start.offset < call && (one_number || call < behind.offset) => call,
+            Some(tag) if one_number => {
+                let text = "ENDTAG: the call does not stand behind the first block of the sequence";
+                return Err(Fault::new(Condition::Label, text, tag));
+            }
+            _ => behind.offset,
+        };
         self.push_level(file, section, None);
         if let Some(level) = self.levels.last_mut() {
-            (level.at, level.end) = (start, behind.offset);
+            (level.at, level.end) = (start, end);
+            level.passes = words.repeat.map_or(0, |n| n - 1);
+            level.begin = start;
         }
         Ok(())
     }
@@ -68,18 +87,26 @@ impl Executor {
     fn sequence_words(&mut self, group: &Group) -> Outcome<Words> {
         let mut words = Words::default();
         let wrong = |span| {
-            let text = "L SEQUENCE: NAME=.., N.. and N.. are expected";
+            let text = "L SEQUENCE: NAME=.., N.., N.., REPEAT=.. and ENDTAG are expected";
             Fault::new(Condition::TokenUnknown, text, span)
         };
         for item in &group.items {
             let number = match &item.kind {
                 ItemKind::Missing => continue,
-                ItemKind::Pair { key, .. } if key.is("REPEAT") => {
-                    let hint = "call the sequence in a loop: $FOR P1 = 1, 3, 1";
-                    return Err(Fault::unsupported("REPEAT of L SEQUENCE", item.span).hint(hint));
+                ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("REPEAT") => {
+                    let passes = self.decoder.whole(expr, "REPEAT", 1, u32::MAX)?;
+                    if words.repeat.replace(passes).is_some() {
+                        let text = "REPEAT twice";
+                        return Err(Fault::new(Condition::SequenceTwice, text, item.span));
+                    }
+                    continue;
                 }
                 ItemKind::Flag(word) if word.is("ENDTAG") => {
-                    return Err(Fault::unsupported("ENDTAG of L SEQUENCE", item.span));
+                    if words.end_tag.replace(item.span).is_some() {
+                        let text = "ENDTAG twice";
+                        return Err(Fault::new(Condition::SequenceTwice, text, item.span));
+                    }
+                    continue;
                 }
                 ItemKind::Pair { key, value } if key.is("NAME") => {
                     let name = match value {
@@ -98,8 +125,10 @@ impl Executor {
                 }
                 ItemKind::Flag(word) => match word.split_number() {
                     Some((name, number)) if name.eq_ignore_ascii_case("N") => number,
-                    _ if word.text.starts_with(['R', 'r']) => {
-                        return Err(Fault::unsupported("REPEAT of L SEQUENCE", item.span));
+                    Some((name, number)) if name.eq_ignore_ascii_case("REPEAT") => {
+                        let passes = whole(number, 1, u32::MAX).ok_or_else(|| wrong(item.span))?;
+                        words.repeat = Some(passes);
+                        continue;
                     }
                     _ => return Err(wrong(item.span)),
                 },

@@ -18,6 +18,9 @@ pub(in crate::exec) struct Level {
     /// Next block.
     pub(in crate::exec) at: Position,
     pub(in crate::exec) end: u64,
+    /// Where it begins again, and how often (REPEAT of `L SEQUENCE`).
+    pub(in crate::exec) begin: Position,
+    pub(in crate::exec) passes: u32,
     pub(in crate::exec) frames: Vec<Frame>,
     /// Modal state to return to: the level is a cycle.
     pub(in crate::exec) cycle: Option<Box<Modal>>,

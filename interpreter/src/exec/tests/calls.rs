@@ -310,3 +310,25 @@ fn block_sequences() {
     let run = super::run("N10 L SEQUENCE [N10]\nM30\n");
     assert_eq!(run.ids(), ["20360"]);
 }
+
+/// REPEAT: so many passes in all; ENDTAG: the call ends the sequence too, whichever end comes first.
+#[test]
+fn repeated_block_sequences() {
+    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N20 REPEAT=3]\nM30\n");
+    assert_eq!(run.end, [4.0, 4.0, 0.0]);
+    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 REPEAT3 ENDTAG]\nZ5\nM30\n");
+    assert_eq!(run.end, [4.0, 4.0, 5.0]);
+    // N40 stands behind the call: the call is the end; N10 in front of it: N10 is
+    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N40 ENDTAG]\nN40 Z5\nM30\n");
+    assert_eq!(run.end, [2.0, 2.0, 5.0]);
+    let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N10 ENDTAG]\nM30\n");
+    assert_eq!(run.end, [2.0, 1.0, 0.0]);
+    // loops inside are left in order, and begin anew with every pass
+    let run = clean(
+        "G91 F1000\nN10 G01\n$FOR P1=1,2,1\nX1\n$ENDFOR\nN20 Y1\nL SEQUENCE [N10 N20 REPEAT=2]\nM30\n",
+    );
+    assert_eq!(run.end, [6.0, 3.0, 0.0]);
+    let missing = super::run("L SEQUENCE [N10 ENDTAG]\nN10 G01 X1 F100\nM30\n");
+    assert_eq!(missing.ids()[0], "K-0015");
+    assert_eq!(super::run("N10 P1=1\nL SEQUENCE [N10 REPEAT=0]\nM30\n").ids()[0], "K-0009");
+}

@@ -1,6 +1,7 @@
 //! Tool radius compensation.
 
 use super::{assert_near, clean, run};
+use kontur_motion::block::Feed;
 use kontur_motion::path::Path;
 
 const TOOL: &str = "V.G.WZ[1].R=2\nG26 D1 F100\n";
@@ -367,4 +368,39 @@ fn options_of_compensation() {
             "{text}"
         );
     }
+}
+
+/// G11: F is the speed of the contour on arcs, at the centre of a tool of 5 mm that is 5/10 inside an arc of 10 mm; an arc
+/// below RMIN keeps F. After 207065483 of the programming manual.
+#[test]
+fn feed_of_the_engagement() {
+    let feeds = |before: &str| {
+        let text = format!(
+            "V.G.WZR=5\n{before}G41 G01 X0 Y20 F600\nX20 Y20\nG03 X40 R10\nG01 Y40\nG02 X44 R2\nG01 Y20\nG40 G10 X60\nM30\n"
+        );
+        let run = run(&text);
+        assert!(run.ids().iter().all(|id| id == "K-0111"), "{:?}", run.ids());
+        let arcs = |b: &kontur_motion::block::Block| match &b.path {
+            Path::Arc(arc) => Some((arc.radius(), b.feed)),
+            _ => None,
+        };
+        run.blocks().into_iter().filter_map(arcs).collect::<Vec<_>>()
+    };
+    let of = |feeds: &[(f64, Feed)], radius: f64| {
+        let arc = feeds.iter().find(|(r, _)| (r - radius).abs() < 1e-9).unwrap();
+        match arc.1 {
+            Feed::PathVelocity(v) => v,
+            other => panic!("{other:?}"),
+        }
+    };
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
+    let plain = feeds("G25\n");
+    near(of(&plain, 5.0), 10.0);
+    near(of(&plain, 7.0), 10.0);
+    let adapted = feeds("G25 G11\n");
+    near(of(&adapted, 5.0), 5.0);
+    near(of(&adapted, 7.0), 35.0);
+    let limited = feeds("#TANGFEED [RMIN=3]\nG25 G11\n");
+    near(of(&limited, 5.0), 5.0);
+    near(of(&limited, 7.0), 10.0);
 }

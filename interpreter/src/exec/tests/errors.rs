@@ -97,7 +97,7 @@ fn what_the_manual_knows_is_never_unknown() {
         "#SET SPLINE ON",
         "#TOOL LIFE READ",
         "#VOLCOMP ON",
-        "Z[OSC ON 1ST_POS=1 2ND_POS=2]",
+        "Z[OSC ON ZERO_POS=1 EXCUR=2 FEED=100]",
         "X[SET_POSITION 5]",
         "X[LIFT 1]",
         "X[MC_MoveAbsolute Position=5]",

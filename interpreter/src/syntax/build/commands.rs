@@ -102,7 +102,9 @@ impl Builder<'_> {
         for part in whole.into_inner() {
             match part.as_rule() {
                 Rule::place => target = Some(self.place(part)),
-                Rule::key | Rule::cycle_key | Rule::name_key => key = Some(self.upper(&part)),
+                Rule::key | Rule::cycle_key | Rule::ordinal | Rule::name_key => {
+                    key = Some(self.upper(&part));
+                }
                 Rule::equals => {}
                 _ => value = Some(self.item_value(part)),
             }

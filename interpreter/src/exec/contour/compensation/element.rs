@@ -3,11 +3,12 @@
 use super::corner::{side_sweep, trimmed};
 use super::{Fallible, Item, too_tight};
 use crate::diag::Condition;
-use crate::exec::contour::Motion;
+use crate::exec::contour::{Compensated, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, dot, sub};
 use kontur_motion::axis::AxisVec;
+use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 
 /// An element whose end is not known yet.
@@ -55,6 +56,14 @@ impl Element {
                 let sweep_rad = trimmed(&side, start, end);
                 if sweep_rad * side_sweep(&side) <= 0.0 {
                     return Err(too_tight(&motion));
+                }
+                if let Some(Compensated { engagement_radius_mm: Some(least), .. }) =
+                    motion.compensation
+                    && *radius >= least
+                    && let Feed::PathVelocity(v) = &mut motion.block.feed
+                {
+                    // G11: F is the speed on the contour
+                    *v *= new_radius / radius;
                 }
                 let shape = ArcShape { plane, centre_mm: *centre, sweep_rad };
                 let (from, to) = ends(&motion, plane, start, end);

@@ -1,0 +1,141 @@
+//! Oscillating axes: `X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]`, `X[OSC OFF]`.
+//!
+//! An axis goes to and fro beside the path. The program counts with it at its second position, where every oscillation ends:
+//! by OSC OFF, and by whatever waits for the axis - a path that moves it, `#WAIT INDP`, actual positions, the end.
+//!
+//! Source: TF5200 programming manual, oscillating axes (208621195); functional description (222108427); 50593, 120470.
+//! Assumptions: the axis goes to its first position first; offsets do not act; FREQ and TIME are those of an oscillation
+//! without its rests; the block behind OSC OFF begins when the axis stands.
+
+use crate::diag::Condition;
+use crate::exec::commands::keys::{above_zero, arguments, at_least};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Target;
+use crate::exec::step::{Event, OscillatingMotion, Sync};
+use crate::syntax::ast::{Group, Item, Span};
+use kontur_motion::independent::IndependentSpeed;
+
+arguments! {
+    /// Keys of `X[OSC ..]`.
+    struct OscArguments {
+        on: Flag "ON", "", "begins";
+        off: Flag "OFF", "", "ends at the second position";
+        first: Number "1ST_POS", "mm", "first reversal position";
+        second: Number "2ND_POS", "mm", "second reversal position";
+        first_rest: Number "1ST_DELT" in at_least(0.0), "s", "rest at the first position";
+        second_rest: Number "2ND_DELT" in at_least(0.0), "s", "rest at the second position";
+        feed: Number "FEED" in at_least(0.0), "mm/min", "";
+        frequency: Number "FREQ" in above_zero(), "1/s", "in place of FEED";
+        time: Number "TIME" in above_zero(), "s", "of an oscillation, in place of FEED";
+        count: Number "NBR_OSC" in above_zero().whole(), "", "so many oscillations";
+        zero: Number "ZERO_POS", "mm", "not supported";
+        excursion: Number "EXCUR", "mm", "not supported";
+        offsets: Flag "INCL_OFFSETS", "", "not supported";
+        short: Flag "SHORT", "", "not supported";
+        instant: Flag "INSTANT", "", "not supported";
+    }
+}
+
+impl OscArguments {
+    /// The first key that is not simulated.
+    fn unsupported(&self) -> Option<(&'static str, Span)> {
+        let number = |key: Option<(f64, Span)>| key.map(|(_, span)| span);
+        [
+            ("ZERO_POS", number(self.zero)),
+            ("EXCUR", number(self.excursion)),
+            ("INCL_OFFSETS", self.offsets),
+            ("SHORT", self.short),
+            ("OFF INSTANT", self.instant),
+            ("OFF FEED", self.off.and(number(self.feed))),
+        ]
+        .into_iter()
+        .find_map(|(name, span)| Some((name, span?)))
+    }
+}
+
+impl Decoder {
+    /// `X[OSC ..]`; `rest`: what stands behind the first word.
+    pub(in crate::exec) fn oscillating_axis(
+        &mut self,
+        axis: usize,
+        rest: &[Item],
+        span: Span,
+    ) -> Outcome<()> {
+        let title = format!("{}[OSC]", self.axis_name(axis));
+        let group = Group { items: rest.to_vec(), span };
+        let keys = OscArguments::read(self, &title, Some(&group))?;
+        if let Some((name, at)) = keys.unsupported() {
+            return Err(Fault::unsupported(format!("{title} with {name}"), at));
+        }
+        if self.machine.axes[axis].is_modulo() {
+            return Err(Fault::unsupported(format!("{title} of a modulo axis"), span));
+        }
+        match (keys.on, keys.off) {
+            (Some(_), None) => self.oscillation(axis, &keys, span),
+            (None, Some(_)) => {
+                self.join(vec![axis]);
+                Ok(())
+            }
+            _ => {
+                let text = format!("{title} needs ON or OFF");
+                Err(Fault::new(Condition::TokenUnknown, text, span))
+            }
+        }
+    }
+
+    fn oscillation(&mut self, axis: usize, keys: &OscArguments, span: Span) -> Outcome<()> {
+        let number = self.machine.axes[axis].number();
+        let name = self.axis_name(axis).to_owned();
+        let of_axis = |condition, text: String, at| {
+            Fault::new(condition, text, at).with(|d| d.axis(number, name.clone()))
+        };
+        let (Some((first, at)), Some((second, second_at))) = (keys.first, keys.second) else {
+            let text = format!("axis {name}: 1ST_POS and 2ND_POS are needed");
+            return Err(of_axis(Condition::NoOscillation, text, span));
+        };
+        let unit = self.axis_unit(axis);
+        let reversal_mm = [first * unit, second * unit];
+        if (second - first).abs() <= 0.0 {
+            let text = format!("axis {name}: both reversal positions are {first}");
+            return Err(of_axis(Condition::NoOscillation, text, second_at));
+        }
+        let feed = self.machine.channel.feed_unit_mm_min / 60.0 * unit;
+        let speed = match (keys.feed, keys.frequency, keys.time) {
+            (Some((f, _)), None, None) if f > 0.0 => IndependentSpeed::Feed(f * feed),
+            (None, Some((f, _)), None) => IndependentSpeed::Time(0.5 / f),
+            (None, None, Some((t, _))) => IndependentSpeed::Time(0.5 * t),
+            (Some(_) | None, None, None) => {
+                let text = format!("axis {name}: the oscillation has no feed");
+                return Err(of_axis(Condition::OscillationFeed, text, span));
+            }
+            _ => {
+                let text = "two of FEED, FREQ and TIME";
+                return Err(Fault::new(Condition::IndependentSyntax, text, span));
+            }
+        };
+        if self.motion.independent.open.contains(&axis) {
+            self.join(vec![axis]);
+        }
+        // a path that is under way stops first
+        self.sync(Sync::Stop);
+        self.check_limit(axis, reversal_mm[0], at);
+        self.check_limit(axis, reversal_mm[1], second_at);
+        let from_mm = self.geometry.coordinates.target()[axis];
+        let target = Target { axis, value: reversal_mm[1], absolute: true };
+        self.geometry.coordinates.program_without_offsets(&[target]);
+        self.motion.independent.way[axis] += reversal_mm[1] - from_mm;
+        let rest = |key: Option<(f64, Span)>| key.map_or(0.0, |(s, _)| s);
+        let motion = OscillatingMotion {
+            from_mm,
+            reversal_mm,
+            rest_s: [rest(keys.first_rest), rest(keys.second_rest)],
+            speed,
+            slope: self.machine.channel.slope,
+            count: keys.count.map(|(n, _)| n as u32),
+        };
+        self.event(Event::Oscillation { axis, motion });
+        self.motion.independent.open.push(axis);
+        Ok(())
+    }
+}

@@ -1,0 +1,4 @@
+; check: exit 1
+; error 120470 at 3:21
+X[OSC ON 1ST_POS=50 2ND_POS=50 FEED=1000]
+M30

@@ -1,6 +1,0 @@
-; check: exit 1
-; error K-0019 at 5:21
-%P
-N10 G01 X1 F1000
-L SEQUENCE [N10 N10 REPEAT=3]
-M30
