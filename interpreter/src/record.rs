@@ -15,7 +15,7 @@ use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::Path;
 
 /// What held the path speed down in a cycle (trace column `v_limit`).
-pub use kontur_motion::limit::SpeedLimit;
+pub use kontur_motion::cap::SpeedLimit;
 
 /// The path in one cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -34,7 +34,7 @@ use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, SlopeKind};
-use kontur_motion::limit::SpeedLimit;
+use kontur_motion::cap::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::realtime::{FeedholdBraking, OverrideMode};
 use probe::Probing;

@@ -3,7 +3,7 @@
 mod ball;
 
 use crate::axis::AxisVec;
-use crate::corner::TANGENT;
+use crate::junction::TANGENT;
 use crate::path::Path;
 use crate::queue::Queued;
 use ball::Ball;

@@ -24,14 +24,14 @@
 //! ```
 
 mod blend;
-mod corner;
+mod rounding;
 mod settings;
 
 use crate::block::{Block, ChannelDynamics, CurveJerk, Feed};
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::{Path, PolyPath, PolyPiece};
-pub(crate) use corner::NEEDLE_RAD;
-use corner::{Curve, curve};
+pub(crate) use rounding::NEEDLE_RAD;
+use rounding::{Curve, curve};
 use std::sync::Arc;
 
 pub use settings::{ContourMode, ContourSettings, NoContour, Notice};

@@ -29,13 +29,15 @@
 
 pub mod axis;
 pub mod block;
-mod brake;
+pub mod cap;
+#[cfg(test)]
+mod closed_forms;
 mod contour;
 pub mod contouring;
-pub mod corner;
 mod deviation;
+mod emergency;
 pub mod independent;
-pub mod limit;
+pub mod junction;
 pub mod limits;
 pub mod lookahead;
 mod overshoot;
@@ -50,8 +52,6 @@ mod short;
 pub mod spline;
 mod timeline;
 pub mod tolerance;
-#[cfg(test)]
-mod work;
 
 // so that unit tests can share the fixtures of the documentation's examples
 #[cfg(test)]

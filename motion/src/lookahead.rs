@@ -1,7 +1,7 @@
 //! Look-ahead: the speed at every block boundary of a window.
 //!
 //! Stages, each reads what the ones before guarantee:
-//! 1. *caps* (caller): the velocity that each boundary allows for itself, see [`crate::corner`];
+//! 1. *caps* (caller): the velocity that each boundary allows for itself, see [`crate::junction`];
 //! 2. *knots*: boundaries where the acceleration is zero. STEP: every boundary (its acceleration may jump anyway).
 //!    Constant ramp times (P-CHAN-00349): every boundary except those inside a run of blocks with equal feed, (nearly)
 //!    equal slope and no binding cap - such a run is one span. TRAPEZ, SIN2, HSC: the local minima of the speed, unless
@@ -22,7 +22,7 @@
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
 //! # use kontur_filters::time::CycleTime;
-//! use kontur_motion::limit::{Cap, SpeedLimit};
+//! use kontur_motion::cap::{Cap, SpeedLimit};
 //! use kontur_motion::lookahead::plan;
 //! use kontur_motion::queue::Queued;
 //!
@@ -42,7 +42,7 @@ mod knots;
 mod late;
 mod stretch;
 
-use crate::limit::{Cap, SpeedLimit};
+use crate::cap::{Cap, SpeedLimit};
 use crate::profile::{Infeasible, SpanProfile};
 use crate::queue::Queued;
 use crate::ride::ride;
@@ -152,7 +152,7 @@ impl Window<'_> {
                     continue;
                 }
                 #[cfg(test)]
-                crate::work::add();
+                crate::closed_forms::add();
                 let a0 = if k == 0 { self.a_start } else { 0.0 };
                 if a0.abs() > FLAT_MM_S2 {
                     let going_on = cells(blocks, feeds, caps, s.first, s.end)

@@ -7,7 +7,7 @@
 //!
 //! It knows segments, speeds and moments; it does not touch setpoints, filters or what is final.
 
-use crate::limit::{Cap, SpeedLimit};
+use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::plan;
 use crate::profile::Infeasible;
 use crate::queue::Queued;

@@ -34,11 +34,11 @@ mod replan;
 
 use crate::axis::AxisVec;
 use crate::block::Block;
-use crate::brake::Brake;
+use crate::cap::{Cap, SpeedLimit};
 use crate::contour::Contour;
-use crate::corner::transition;
 use crate::deviation::Gauge;
-use crate::limit::{Cap, SpeedLimit};
+use crate::emergency::EmergencyBraking;
+use crate::junction::transition;
 use crate::plan::{Plan, Segment, Start};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
@@ -102,7 +102,7 @@ pub struct Planner {
     /// Least tolerance of any block so far in mm; what is output is compared with that of its blocks from there on.
     least_tolerance_mm: f64,
     output_excess: OutputExcess,
-    brake: Option<Brake>,
+    brake: Option<EmergencyBraking>,
     /// Override and feedhold in effect, and those asked for.
     active: Realtime,
     wanted: Realtime,
@@ -290,12 +290,12 @@ impl Planner {
             path.push((s - queued.offset, Arc::clone(queued)));
             s += queued.length;
         }
-        self.brake = Some(Brake::new(path, self.setpoint.s_mm, self.setpoint.v_mm_s));
+        self.brake = Some(EmergencyBraking::new(path, self.setpoint.s_mm, self.setpoint.v_mm_s));
     }
 
     /// The braking has come to rest.
     pub fn brake_is_over(&self) -> bool {
-        self.brake.as_ref().is_none_or(Brake::is_over)
+        self.brake.as_ref().is_none_or(EmergencyBraking::is_over)
     }
 
     /// One cycle of braking, or of standstill behind it.

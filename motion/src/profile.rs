@@ -26,7 +26,6 @@
 //! ```
 
 mod chain;
-mod join;
 mod leg;
 mod ramp;
 mod ramped;
@@ -36,6 +35,7 @@ mod span;
 mod speed_change;
 mod step;
 mod third_order;
+mod weaker;
 
 pub(crate) use chain::{Chain, Phase};
 pub use ramp::RampShape;

@@ -6,7 +6,7 @@
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
 //! # use kontur_filters::time::CycleTime;
-//! use kontur_motion::limit::{Cap, SpeedLimit};
+//! use kontur_motion::cap::{Cap, SpeedLimit};
 //! use kontur_motion::queue::Queued;
 //!
 //! let queued = Queued::new(block(1, [0.0, 0.0], [10.0, 0.0], 100.0), CycleTime::from_us(1000).unwrap());
@@ -15,8 +15,8 @@
 //! ```
 
 use crate::block::{Block, Feed, SlopeKind};
-use crate::corner::Ends;
-use crate::limit::Cap;
+use crate::cap::Cap;
+use crate::junction::Ends;
 use crate::limits::{PathExtremes, PathSpeeds, path_slope};
 use crate::path::Path;
 use crate::profile::SlopeLimits;

@@ -23,7 +23,7 @@
 //! ```
 
 use crate::block::Block;
-use crate::limit::Cap;
+use crate::cap::Cap;
 use crate::limits::{PathExtremes, PathSpeeds, weakest};
 use crate::profile::SlopeLimits;
 use crate::queue::Queued;

@@ -4,8 +4,8 @@
 //! the path needs more than a cycle for it (`v <= d / T`) every kink counts for itself, else `v U_i` is bounded like a
 //! single jump. On a fine chord polygon that is the limit of the circle, `v^2 / r <= w a` (derived).
 
-use crate::corner::{TANGENT, admissible_jump};
-use crate::limit::{Cap, SpeedLimit};
+use crate::cap::{Cap, SpeedLimit};
+use crate::junction::{TANGENT, admissible_jump};
 use crate::plan::Segment;
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;

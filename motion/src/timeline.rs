@@ -5,7 +5,7 @@
 //! cycle of a motion is its exact end.
 
 use crate::axis::AxisVec;
-use crate::limit::{Cap, SpeedLimit};
+use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::Span;
 use crate::profile::{SpanProfile, State};
 use crate::queue::Queued;

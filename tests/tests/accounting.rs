@@ -232,6 +232,29 @@ fn a_value_that_the_program_sets_itself_is_told() {
     let (rows, err) = sweep(&own, &["*.vib_guard.freq=20,40"]);
     assert_eq!(rows[0][1..], rows[1][1..]);
     assert!(err.contains("*.vib_guard.freq: every value gives the same results"), "{err}");
+    // in every row, too
+    assert!(rows.iter().all(|row| row.last().unwrap() == "*.vib_guard.freq"), "{rows:?}");
+}
+
+/// A number in the program varies as if another program had been written; a name goes to several places at once.
+#[test]
+fn numbers_in_a_program_vary() {
+    let part = |x: &str, hz: &str| {
+        format!("P1={x} (P1=3)\n#VIB GUARD ON [MODE=1 FREQ={hz}]\nG01 X=P1 F4000\nY1\nM30\n")
+    };
+    let (rows, err) = sweep(&part("7", "30"), &["program.P1=1,2", "program.FREQ=20,40"]);
+    assert!(!err.contains("every value gives the same"), "{err}");
+    let places = [("1", "20"), ("1", "40"), ("2", "20"), ("2", "40")];
+    assert_eq!(rows.len(), places.len());
+    for (row, (x, hz)) in rows.iter().zip(places) {
+        let (written, _) = sweep(&part(x, hz), &["X.vib_guard.mode=1"]);
+        assert_eq!((&*row[0], &*row[1], &row[2..]), (x, hz, &written[0][1..]), "{x} {hz}");
+    }
+    let (named, _) =
+        sweep(&part("2", "30"), &["F=20,40", "program[2].FREQ={F}", "X.vib_guard.freq={F}"]);
+    for (row, of) in named.iter().zip(&rows[2..]) {
+        assert_eq!((&row[1], &row[2], &row[3..]), (&row[0], &row[0], &of[2..]));
+    }
 }
 
 /// External variables carry the words of a command.
@@ -255,6 +278,10 @@ fn shards_together_are_the_sweep() {
     let words = ["sweep", &part, "--vary", "*.vib_guard.freq=20..24", "--vary", "V.E.A=1,2"];
     let with = |more: &[&str]| command([&words[..], more].concat());
     let whole = with(&[]).out;
+    // the last column is what no part can know
+    assert!(whole.lines().next().is_some_and(|header| header.ends_with(",without_effect")));
+    let known = whole.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().0));
+    let whole: String = known.collect();
     let (header, rows) = whole.split_once('\n').unwrap();
     for parts in [1, 3, 10] {
         let mut all = vec![String::new(); parts];

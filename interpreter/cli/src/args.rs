@@ -19,7 +19,7 @@ mod simulation;
 mod sweep;
 mod tune;
 pub(crate) mod values;
-mod vary;
+pub(crate) mod vary;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use kontur_interpreter::record::columns::DEFAULT_SIGNALS;
@@ -175,7 +175,7 @@ pub struct ReportArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 
-    /// Run every program with each of these values of a list parameter or external variable, as in `sweep`. May be given
+    /// Run every program with each of these values of a list parameter, of a number in the program or of an external variable, as in `sweep`. May be given
     /// several times
     #[arg(long, value_name = "KEY=VALUES")]
     pub vary: Vec<Vary>,

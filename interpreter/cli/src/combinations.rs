@@ -2,7 +2,9 @@
 
 use crate::Error;
 use crate::args::Vary;
+use crate::args::vary::used_name;
 use crate::request::Request;
+use crate::words::Word;
 
 /// More combinations than this are a slip of the hand.
 const MOST_COMBINATIONS: usize = 100_000;
@@ -10,11 +12,28 @@ const MOST_COMBINATIONS: usize = 100_000;
 /// Every combination of values, the last parameter changing fastest: for each an index into the values of each parameter.
 ///
 /// # Errors
-/// [`Error::Usage`] for too many of them, or a parameter given twice.
+/// [`Error::Usage`] for too many of them, a parameter given twice, or a name that is not given or not used.
 pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
     for (i, v) in vary.iter().enumerate() {
         if vary[..i].iter().any(|other| other.key.eq_ignore_ascii_case(&v.key)) {
             return Err(Error::Usage(format!("--vary: {} twice", v.key)));
+        }
+    }
+    let used = |v: &Vary| -> Vec<String> {
+        v.values.iter().filter_map(|value| used_name(value)).map(str::to_owned).collect()
+    };
+    let all_used: Vec<String> = vary.iter().flat_map(used).collect();
+    for name in &all_used {
+        if !vary.iter().any(|v| v.is_name() && v.key == *name) {
+            return Err(Error::Usage(format!("--vary: {{{name}}} needs --vary {name}=VALUES")));
+        }
+    }
+    for v in vary.iter().filter(|v| v.is_name()) {
+        if !all_used.contains(&v.key) || !used(v).is_empty() {
+            let name = &v.key;
+            return Err(Error::Usage(format!(
+                "--vary: {name} is the name of values that another --vary uses as {{{name}}}; a list parameter is AXIS.{name}"
+            )));
         }
     }
     let count = vary.iter().try_fold(1_usize, |n, v| n.checked_mul(v.values.len()));
@@ -36,11 +55,28 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
 /// External variables (`V.E.NAME`) vary beside list parameters: a program reads them.
 const EXTERNAL: &str = "V.E.";
 
+/// The value of each parameter in one combination; what takes that of a name has the name's.
+pub(crate) fn values(vary: &[Vary], combination: &[usize]) -> Vec<String> {
+    let own = || vary.iter().zip(combination).map(|(v, &i)| (v, &v.values[i]));
+    let of_name = |name: &str| own().find(|(v, _)| v.is_name() && v.key == name);
+    own()
+        .map(|(_, value)| {
+            used_name(value)
+                .and_then(of_name)
+                .map_or_else(|| value.clone(), |(_, value)| value.clone())
+        })
+        .collect()
+}
+
 /// Puts one combination into a request.
 pub(crate) fn put(vary: &[Vary], combination: &[usize], request: &mut Request) {
-    for (v, &i) in vary.iter().zip(combination) {
-        let value = v.values[i].clone();
-        if let Some((_, name)) = v
+    for (v, value) in vary.iter().zip(values(vary, combination)) {
+        if v.is_name() {
+            continue;
+        }
+        if let Some((line, word)) = v.word() {
+            request.words.push(Word { line, name: word.to_owned(), value });
+        } else if let Some((_, name)) = v
             .key
             .split_at_checked(EXTERNAL.len())
             .filter(|(front, _)| front.eq_ignore_ascii_case(EXTERNAL))
@@ -71,7 +107,8 @@ pub(crate) fn without_effect<'v, R: PartialEq>(
 
 /// The settings of one combination, as `--set` takes them.
 pub(crate) fn settings(vary: &[Vary], combination: &[usize]) -> Vec<String> {
-    vary.iter().zip(combination).map(|(v, &i)| format!("{}={}", v.key, v.values[i])).collect()
+    let values = values(vary, combination);
+    vary.iter().zip(values).map(|(v, value)| format!("{}={value}", v.key)).collect()
 }
 
 #[cfg(test)]
@@ -103,6 +140,17 @@ mod tests {
         put(&external, &[1, 0], &mut request);
         assert_eq!(request.external, [("Speed".to_owned(), "200".to_owned())]);
         assert_eq!(request.settings, ["X.a=1"]);
+        // a name's values go where others use them, together
+        let texts = ["F=20,30", "X.a={F}", "program.FREQ={F}"];
+        let named: Vec<Vary> = texts.iter().map(|text| text.parse().unwrap()).collect();
+        assert_eq!(combinations(&named).unwrap().len(), 2);
+        let mut request = Request::default();
+        put(&named, &[1, 0, 0], &mut request);
+        assert_eq!(request.settings, ["X.a=30"]);
+        let word = Word { line: None, name: "FREQ".to_owned(), value: "30".to_owned() };
+        assert_eq!(request.words, [word]);
+        assert!(error(["X.a={F}", "Y.b=1"]).contains("needs --vary F="));
+        assert!(error(["kv=1,2", "Y.b=1"]).contains("AXIS.kv"));
         assert!(error(["X.a=1..900", "Y.a=1..900"]).contains("more than"));
         assert!(error(["X.a=1", "x.A=2"]).contains("twice"));
     }

@@ -38,6 +38,8 @@ pub(crate) struct ProgramFiles {
     folders: Vec<PathBuf>,
     /// Subroutines may lie anywhere.
     anywhere: bool,
+    /// What is read in place of the main program's own text.
+    text: Option<Arc<[u8]>>,
     opened: Arc<Mutex<BTreeMap<PathBuf, State>>>,
 }
 
@@ -97,6 +99,23 @@ impl Source for PipedProgram {
         let mut file = self.copy.lock().unwrap_or_else(PoisonError::into_inner);
         file.seek(SeekFrom::Start(offset))?;
         file.read(buffer)
+    }
+}
+
+/// A program whose text was changed.
+struct TextProgram {
+    name: Arc<str>,
+    text: Arc<[u8]>,
+}
+
+impl Source for TextProgram {
+    fn name(&self) -> Arc<str> {
+        Arc::clone(&self.name)
+    }
+
+    fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+        let from = usize::try_from(offset).unwrap_or(usize::MAX).min(self.text.len());
+        (&self.text[from..]).read(buffer)
     }
 }
 
@@ -165,7 +184,39 @@ impl ProgramFiles {
     pub(crate) fn new(program: &Path, folders: Vec<PathBuf>, anywhere: bool) -> Self {
         let home = if is_pipe(program) { None } else { program.parent() };
         let home = home.unwrap_or_else(|| Path::new("")).to_owned();
-        Self { program: program.to_owned(), home, folders, anywhere, opened: Arc::default() }
+        Self {
+            program: program.to_owned(),
+            home,
+            folders,
+            anywhere,
+            text: None,
+            opened: Arc::default(),
+        }
+    }
+
+    /// The text of the main program.
+    ///
+    /// # Errors
+    /// The system's, and more than 64 MiB.
+    pub(crate) fn text(&self) -> io::Result<Vec<u8>> {
+        let name = self.program.display().to_string();
+        let mut source = self.main(&name).map_err(|e| io::Error::other(e.reason))?;
+        let (mut text, mut piece) = (Vec::new(), vec![0; 1 << 16]);
+        loop {
+            let count = source.read_at(text.len() as u64, &mut piece)?;
+            text.extend_from_slice(&piece[..count]);
+            match (count, text.len() as u64 > MOST_PROJECT_BYTES) {
+                (0, _) => return Ok(text),
+                (_, true) => return Err(io::Error::other("more than 64 MiB, too long for that")),
+                _ => {}
+            }
+        }
+    }
+
+    /// The same files with another text of the main program.
+    pub(crate) fn with_text(mut self, text: Vec<u8>) -> Self {
+        self.text = Some(text.into());
+        self
     }
 
     /// The files opened so far.
@@ -183,6 +234,9 @@ impl ProgramFiles {
             reason: e.to_string(),
             searched: vec![name.to_owned()],
         };
+        if let Some(text) = &self.text {
+            return Ok(Box::new(TextProgram { name: name.into(), text: Arc::clone(text) }));
+        }
         if is_pipe(path) {
             return Ok(Box::new(PipedProgram {
                 name: name.into(),

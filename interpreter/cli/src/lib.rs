@@ -40,6 +40,7 @@ mod target;
 mod times;
 mod trace;
 pub mod tune;
+pub mod words;
 mod workflow;
 
 use clap::Parser as _;

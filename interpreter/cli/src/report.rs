@@ -14,7 +14,7 @@ mod vibration;
 mod views;
 
 use crate::args::ReportArgs;
-use crate::combinations::{combinations, put};
+use crate::combinations::{combinations, put, values};
 use crate::console::Console;
 use crate::files::STANDARD;
 use crate::request::{Opened, Request};
@@ -127,8 +127,8 @@ fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request)>, Error> 
         for combination in &combinations {
             let mut request = args.simulation.request(program);
             put(&args.vary, combination, &mut request);
-            let names = args.vary.iter().zip(combination);
-            let values = names.map(|(v, &i)| format!("{} = {}", v.short(), v.values[i]));
+            let names = args.vary.iter().zip(values(&args.vary, combination));
+            let values = names.map(|(v, value)| format!("{} = {value}", v.short()));
             let values = values.collect::<Vec<_>>().join(", ");
             all.push((program.display().to_string(), values, request));
         }

@@ -21,6 +21,7 @@
 pub use crate::error::OpenError;
 use crate::files::{self, Lists, ProgramFiles, STANDARD_INPUT, is_standard};
 use crate::project::{self, Place};
+use crate::words::{self, Word};
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::job::{
     Access, Changes, Checked, External, ForcedGuard, Job, MachineLists, Options, Run, SkipLevels,
@@ -64,6 +65,8 @@ pub struct Request {
     pub techno_times: bool,
     /// External variables by their name after `V.E.`: a number, or else a text.
     pub external: Vec<(String, String)>,
+    /// Numbers of the program in place of those that stand there.
+    pub words: Vec<Word>,
     /// Vibration Guard in place of that of lists and program.
     pub guard: Option<ForcedGuard>,
     /// Ends it from another thread.
@@ -138,6 +141,7 @@ impl Request {
         let options = options(self, &machine)?;
         let changes = changes(&self.inputs, &machine)?;
         let sources = ProgramFiles::new(&self.program, self.path.clone(), self.allow_outside);
+        let sources = self.with_words(sources)?;
         let program = if is_standard(&self.program) {
             STANDARD_INPUT.to_owned()
         } else {
@@ -147,6 +151,18 @@ impl Request {
             .with_warnings(warnings)
             .with_options(options);
         Ok(Prepared { job, sources, lists: lists.read_so_far(), changes })
+    }
+
+    /// The files with the program's own numbers replaced.
+    fn with_words(&self, sources: ProgramFiles) -> Result<ProgramFiles, OpenError> {
+        if self.words.is_empty() {
+            return Ok(sources);
+        }
+        let text = sources.text().map_err(|e| OpenError::Io(self.program.clone(), e))?;
+        let text = words::put(&text, &self.words);
+        let text =
+            text.map_err(|e| OpenError::Usage(format!("--vary: {}: {e}", self.program.display())))?;
+        Ok(sources.with_text(text))
     }
 
     /// The job itself, without its inputs.

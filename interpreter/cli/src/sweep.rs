@@ -116,12 +116,15 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     let results: Vec<&[Cell]> = rows.cells.iter().map(|row| &row[args.vary.len()..]).collect();
     // of a shard nobody knows the other rows
     let compared = if args.shard.is_none() { &args.vary[..] } else { &[] };
-    for vary in without_effect(compared, &combinations, &results) {
+    let without: Vec<&str> =
+        without_effect(compared, &combinations, &results).iter().map(|v| v.key.as_str()).collect();
+    for key in &without {
         console.say(Severity::Note, &format!(
-            "{}: every value gives the same results; the program sets its own, or nothing uses it",
-            vary.key
+            "{key}: every value gives the same results; the program sets its own, or nothing uses it"
         ));
     }
+    let rows =
+        if without.is_empty() { rows } else { rows.noting("without_effect", &without.join(" ")) };
     if args.output.is_empty() || !standard.is_empty() {
         console.print(&rows.table().csv())?;
     }
@@ -199,6 +202,15 @@ fn write(
 }
 
 impl Rows {
+    /// With one more column that says the same in every row.
+    fn noting(mut self, name: &str, text: &str) -> Self {
+        self.header.push(name.to_owned());
+        for row in &mut self.cells {
+            row.push(Cell::Word(text.to_owned()));
+        }
+        self
+    }
+
     fn table(&self) -> Table {
         let mut table = Table::new(&self.header.iter().map(String::as_str).collect::<Vec<_>>());
         for row in &self.cells {

@@ -4,7 +4,7 @@
 
 use super::stretch::{Stretch, rates};
 use super::{Window, is_above};
-use crate::limit::Cap;
+use crate::cap::Cap;
 use crate::ride::has_hill;
 
 /// Relative difference of path acceleration up to which blocks of one run are planned as one span with the smaller

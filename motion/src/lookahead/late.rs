@@ -14,7 +14,7 @@
 //! is taken.
 
 use super::{Span, Stretch, Window, is_above};
-use crate::limit::Cap;
+use crate::cap::Cap;
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 //! It knows its blocks; what stands at its ends is the window's.
 
 use super::is_above;
-use crate::limit::Cap;
+use crate::cap::Cap;
 use crate::profile::{Infeasible, Rates, SlopeLimits, SpanProfile};
 use crate::queue::Queued;
 use crate::ride::{Cell, has_hill};

@@ -1,7 +1,7 @@
 //! From the queue to the timeline: plans, their examination, and what of them becomes final.
 
 use super::Planner;
-use crate::limit::{Cap, SpeedLimit};
+use crate::cap::{Cap, SpeedLimit};
 use crate::plan::{Start, last_blocks};
 use crate::profile::Infeasible;
 use crate::queue::Queued;

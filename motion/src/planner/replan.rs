@@ -20,7 +20,7 @@
 //! a place no longer than the kernel is; then it is taken, and what it exceeds is reported as not kept.
 
 use super::Planner;
-use crate::limit::{Cap, SpeedLimit};
+use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::plan;
 use crate::plan::{Plan, Segment, Start};
 use crate::profile::{SlopeLimits, SpanProfile};

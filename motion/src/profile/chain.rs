@@ -110,7 +110,7 @@ impl Phase {
         }
         increasing_root(0.0, self.t, self.t * want / whole, ROOT, |t| {
             #[cfg(test)]
-            crate::work::add();
+            crate::closed_forms::add();
             let (way, v, _) = self.way_after(t);
             (way - want, v)
         })

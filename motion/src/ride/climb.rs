@@ -288,7 +288,7 @@ impl Climb<'_> {
     /// What a ramp down to zero touches that begins at a state in block `c`.
     fn lands(&self, mut c: usize, mut at: Phase, v_ref: f64) -> Result<(), Touch> {
         #[cfg(test)]
-        crate::work::add();
+        crate::closed_forms::add();
         loop {
             let cell = &self.cells[c];
             let down = cell.jerks[1];

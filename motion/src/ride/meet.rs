@@ -155,7 +155,7 @@ impl Meet<'_> {
     /// The connection from a state; `None` if it crosses the fall.
     fn way(&self, from: &Phase) -> Option<Way> {
         #[cfg(test)]
-        crate::work::add();
+        crate::closed_forms::add();
         let mut phases = Vec::new();
         let mut at = Phase::state(from.s, from.v, from.a);
         let same = self.same_mm();

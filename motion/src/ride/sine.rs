@@ -8,13 +8,13 @@
 //!
 //! Every connection is checked against every limit it passes.
 
+mod crossing;
 mod hill;
-mod join;
 mod rise;
 
 use super::{Block, Cell, SHORTEST_RAMP_S, joined, mirror, own, turned};
 use crate::profile::Phase;
-use join::join;
+use crossing::lower_one;
 use rise::Rise;
 
 /// Steps per longest ramp.
@@ -49,8 +49,8 @@ pub(super) fn speed(cells: &[Cell], v0: f64, v1: f64) -> Option<Vec<Phase>> {
     let forward = Rise { cells, dt }.run(v0)?;
     let backward = Rise { cells: mirrored, dt }.run(v1)?;
     // joined from either end, so that a reversed contour takes the same time
-    let there = join(cells, dt, forward.clone(), turned(&backward, length), v0);
-    let back = join(mirrored, dt, backward, turned(&forward, length), v1);
+    let there = lower_one(cells, dt, forward.clone(), turned(&backward, length), v0);
+    let back = lower_one(mirrored, dt, backward, turned(&forward, length), v1);
     let time = |list: &Vec<Phase>| list.iter().map(|p| p.t).sum::<f64>();
     let candidates = [there, back.map(|out| turned(&out, length))];
     candidates.into_iter().flatten().min_by(|a, b| time(a).total_cmp(&time(b)))

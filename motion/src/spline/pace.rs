@@ -2,7 +2,7 @@
 //! and that of the sharpest bend would hold over the whole edge.
 
 use crate::block::{Block, Feed};
-use crate::limit::SpeedLimit;
+use crate::cap::SpeedLimit;
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::piece::section;
 use crate::path::{Path, PolyPath, PolyPiece};

@@ -107,6 +107,7 @@ impl SimulationArgs {
             identity_trafo: self.identity_trafo,
             techno_times: self.techno_times,
             external: self.external.clone(),
+            words: Vec::new(),
             guard: None,
             stop: self.stop.clone(),
         }

@@ -14,6 +14,8 @@ Every --vary takes a list or a range of values; all combinations are run, over a
 Examples:
   a table on stdout: machining time and contour error over mode and frequency of the Vibration Guard
     kontur sweep part.nc --vary '*.vib_guard.mode=1..4' --vary '*.vib_guard.freq=20..60:10' --columns duration_s,contour_err_mm
+  the same for a guard that the program itself sets, with the list of X going along
+    kontur sweep part.nc --vary F=20..60:10 --vary 'program.FREQ={F}' --vary 'X.vib_guard.freq={F}'
   the largest gain at which the axis is stable, with and without Improved Position Control, table and picture
     kontur sweep part.nc -m mill --vary X.getriebe[0].kv=1000..60000:1000 \\
       --vary X.lr_param.improved_position_control.enable=0,1 -o kv.csv -o kv.svg
@@ -30,8 +32,10 @@ pub struct SweepArgs {
     /// The NC program
     pub program: PathBuf,
 
-    /// A list parameter and its values: `KEY=A..B:STEP`, `KEY=A,B,C`; of several axes `X,Y.key=..`, of all path axes
-    /// `*.key=..`; an external variable that the program reads `V.E.NAME=..`. May be given several times
+    /// What varies, and its values: `KEY=A..B:STEP`, `KEY=A,B,C`. A list parameter `AXIS.key=..`, of several axes `X,Y.key=..`, of
+    /// all path axes `*.key=..`; a number that stands in the program behind a word (P1=, V.P.R=, FREQ=) `program.P1=..`, in
+    /// line 12 `program[12].FREQ=..`; an external variable that the program reads `V.E.NAME=..`; a name `NAME=..` whose
+    /// values others take with `KEY={NAME}`. May be given several times
     #[arg(long, value_name = "KEY=VALUES", required = true)]
     pub vary: Vec<Vary>,
 
@@ -50,7 +54,7 @@ pub struct SweepArgs {
     pub amplitude: Vec<Amplitude>,
 
     /// Run the I-th of N equal parts of all combinations only, e.g. `3/20`: a job of a batch system. The parts in their order,
-    /// one after the other, are the whole table; the exit code is 0 also if every run has ended with an error
+    /// one after the other, are the whole table, but for `without_effect`; the exit code is 0 also if every run has ended with an error
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
 

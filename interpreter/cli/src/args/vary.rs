@@ -7,7 +7,12 @@ use std::str::FromStr;
 
 /// A whole parameter with fewer values than this chooses one of several ways.
 const MOST_CHOICES: f64 = 8.0;
-/// One list parameter and its values: `X.getriebe[0].kv=2000..60000:1000`, `X.vorsteuer.vorsteuerung=NONE,VEL,VEL|ACC`.
+
+/// Front of the key of a word that stands in the program.
+const PROGRAM: &str = "program";
+
+/// One list parameter and its values: `X.getriebe[0].kv=2000..60000:1000`, `X.vorsteuer.vorsteuerung=NONE,VEL,VEL|ACC`; a word of the
+/// program: `program.P1=1..5`, `program[12].FREQ=20,40`; or a name that others use: `F=20..60:10` with `X.vib_guard.freq={F}`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vary {
     /// What `--set` calls it.
@@ -34,7 +39,14 @@ impl FromStr for Vary {
         }
         let vary = Self { key: key.trim().to_owned(), values };
         for value in &vary.values {
-            setting(&format!("{}={value}", vary.key))?;
+            if vary.word().is_some() {
+                let number = used_name(value).is_some() || value.parse::<f64>().is_ok();
+                number
+                    .then_some(())
+                    .ok_or(format!("`{value}`: a word of a program takes numbers"))?;
+            } else if !vary.is_name() {
+                setting(&format!("{}={value}", vary.key))?;
+            }
         }
         Ok(vary)
     }
@@ -46,7 +58,29 @@ fn plain(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// The name in `{NAME}`, if that is what a value is.
+pub(crate) fn used_name(value: &str) -> Option<&str> {
+    value.strip_prefix('{')?.strip_suffix('}')
+}
+
 impl Vary {
+    /// A name for values that several others use.
+    pub(crate) fn is_name(&self) -> bool {
+        let mut letters = self.key.chars();
+        letters.next().is_some_and(char::is_alphabetic)
+            && letters.all(|c| c.is_alphanumeric() || c == '_')
+    }
+
+    /// The word of the program that it names, and its line if it names one.
+    pub(crate) fn word(&self) -> Option<(Option<u32>, &str)> {
+        let (front, word) = self.key.split_once('.')?;
+        let (front, line) = match front.split_once('[') {
+            Some((front, line)) => (front, Some(line.strip_suffix(']')?.parse().ok()?)),
+            None => (front, None),
+        };
+        front.eq_ignore_ascii_case(PROGRAM).then_some((line, word))
+    }
+
     /// The last part of the key, where it says enough: `kv`, `enable`.
     pub(crate) fn short(&self) -> &str {
         self.key.rsplit('.').next().unwrap_or(&self.key)
@@ -102,7 +136,13 @@ mod tests {
         let meaning = vary.meaning().unwrap();
         assert!(meaning.starts_with("profile (P-CHAN-00071): slope at program start"), "{meaning}");
         assert_eq!("X.a=1".parse::<Vary>().unwrap().meaning(), None);
-        for wrong in ["X.a", "a=1", "X.=1", "X.a=3..1", "X.a=1..2:0"] {
+        let word =
+            |text: &str| text.parse::<Vary>().unwrap().word().map(|(l, w)| (l, w.to_owned()));
+        assert_eq!(word("program.V.P.R=1..3"), Some((None, "V.P.R".to_owned())));
+        assert_eq!(word("Program[12].FREQ={F}"), Some((Some(12), "FREQ".to_owned())));
+        assert_eq!(word("X.vib_guard.freq={F}"), None);
+        assert!("F=1..3".parse::<Vary>().unwrap().is_name());
+        for wrong in ["X.a", "1=1", "program.FREQ=high", "X.=1", "X.a=3..1", "X.a=1..2:0"] {
             assert!(wrong.parse::<Vary>().is_err(), "{wrong}");
         }
     }

@@ -2,6 +2,7 @@
 
 use super::Outcome;
 use crate::args::SweepArgs;
+use crate::combinations::values;
 use crate::table::Cell;
 use kontur_interpreter::summary::Summary;
 
@@ -29,7 +30,7 @@ pub(super) fn row(
     let mut header: Vec<String> = args.vary.iter().map(|v| v.key.clone()).collect();
     header.extend(STATE.map(str::to_owned));
     let mut row: Vec<Cell> =
-        args.vary.iter().zip(combination).map(|(v, &i)| value(&v.values[i])).collect();
+        values(&args.vary, combination).iter().map(|text| value(text)).collect();
     row.extend(state(&outcome.summary));
     let wanted = |name: &String| args.columns.is_empty() || args.columns.contains(name);
     for (name, cell) in results.into_iter().filter(|(name, _)| wanted(name)) {

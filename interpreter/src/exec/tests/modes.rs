@@ -435,6 +435,8 @@ fn signals_of_the_own_channel() {
 fn older_spellings() {
     clean("X10 F1000\n#CHANNEL INIT [ACTPOS AX=X AX=Y]\n#CHANNEL INIT [CMDPOS AX=X]\nM30\n");
     assert_eq!(super::run("#CHANNEL INIT [ACTPOS AX=Q]\nM30\n").ids(), ["20797"]);
+    clean("X10 F1000\n#CHANNEL INIT [ACTPOS AXNR=1 AXNR=2]\nM30\n");
+    assert_eq!(super::run("#CHANNEL INIT [ACTPOS AXNR=77]\nM30\n").ids(), ["20797"]);
     let run = clean("Z[INDP_ASYN G01 G90 POS20 F0.5 SLOPE_PROFIL 0]\n#WAIT INDP [Z]\nM30\n");
     assert_eq!(run.end[2], 20.0);
     let run = clean("V.G.WZR=5\nG01 X[V.G.WZ_AKT.R] Y[V.G.WZR] F100\nM30\n");

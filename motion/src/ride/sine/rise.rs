@@ -108,7 +108,7 @@ impl Rise<'_> {
     /// the rise and is none of its business.
     fn is_safe(&self, mut c: usize, step: &Phase, v: f64) -> bool {
         #[cfg(test)]
-        crate::work::add();
+        crate::closed_forms::add();
         let end = step.end();
         if end.s >= self.cells[c].end || end.v > self.cells[c].v * (1.0 + SLACK) {
             loop {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// Braking with constant deceleration from the present speed, on the path that is already known.
 #[derive(Clone, Debug)]
-pub(crate) struct Brake {
+pub(crate) struct EmergencyBraking {
     /// Blocks from the present one on, with the path length of the program at the start of the whole block.
     path: Vec<(f64, Arc<Queued>)>,
     pub(crate) s: f64,
@@ -15,7 +15,7 @@ pub(crate) struct Brake {
     pub(crate) dec: f64,
 }
 
-impl Brake {
+impl EmergencyBraking {
     /// Brakes as hard as the axes' emergency deceleration (P-AXIS-00003) allows on the tangents of the path.
     pub(crate) fn new(path: Vec<(f64, Arc<Queued>)>, s: f64, v: f64) -> Self {
         let distance = |dec: f64| v * v / (2.0 * dec);

@@ -18,7 +18,7 @@ const ROUNDS: u32 = 12;
 const MISS_MM: f64 = 1e-11;
 
 /// The speed from `v0` along the rise and the fall; `None` if no connection fits.
-pub(super) fn join(
+pub(super) fn lower_one(
     cells: &[Block],
     dt: f64,
     rise: Vec<Phase>,
@@ -178,7 +178,7 @@ impl Join<'_> {
     /// The fastest third-order profile between two states, if it keeps every limit.
     fn between(&self, from: &Phase, to: &Phase, way: Way) -> Option<Vec<Phase>> {
         #[cfg(test)]
-        crate::work::add();
+        crate::closed_forms::add();
         if coincide(from, to) {
             return Some(Vec::new());
         }

@@ -3,7 +3,7 @@
 //! The answer that every stage passes on, up to [`crate::planner::Setpoint::limit`].
 //!
 //! ```
-//! use kontur_motion::limit::{Cap, SpeedLimit};
+//! use kontur_motion::cap::{Cap, SpeedLimit};
 //!
 //! assert_eq!(SpeedLimit::AxDev.name(), "ax_dev");
 //! assert_eq!(SpeedLimit::ALL.len(), 7);

@@ -9,8 +9,8 @@
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
 //! # use kontur_filters::time::CycleTime;
-//! use kontur_motion::corner::{Ends, transition};
-//! use kontur_motion::limit::SpeedLimit;
+//! use kontur_motion::junction::{Ends, transition};
+//! use kontur_motion::cap::SpeedLimit;
 //!
 //! let (along_x, along_y) = (block(1, [0.0, 0.0], [10.0, 0.0], 100.0), block(2, [10.0, 0.0], [10.0, 10.0], 100.0));
 //! let (a, b) = (Ends::of(&along_x), Ends::of(&along_y));
@@ -22,7 +22,7 @@
 
 use crate::axis::{AxisDynamics, AxisVec};
 use crate::block::{Block, Feed, SlopeKind, TransitionJerkMode};
-use crate::limit::{Cap, SpeedLimit};
+use crate::cap::{Cap, SpeedLimit};
 use crate::limits::{contour_acceleration, longest_ramp};
 use kontur_filters::time::CycleTime;
 
