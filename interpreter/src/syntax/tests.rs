@@ -2,6 +2,7 @@
 
 mod random;
 mod tables;
+mod whole;
 
 use super::ast::Block;
 use super::{Mode, Parser};

@@ -1,0 +1,329 @@
+//! What `explain`, `response`, `tune`, `sweep` and `report --signals` answer.
+
+#![expect(clippy::unwrap_used, reason = "a test that fails here has failed")]
+
+mod kit;
+
+use kit::Folder;
+use kontur::Exit;
+
+#[test]
+fn explain_knows_ids_and_commands() {
+    let f = Folder::new();
+    let (exit, out, _) = f.call(&["explain", "P-ERR-70082"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("70082") && out.contains("class 5"), "{out}");
+    let (exit, out, _) = f.call(&["explain", "#VIB", "GUARD"]);
+    assert_eq!((exit, out.contains("AX_DEV")), (Exit::Finished, true), "{out}");
+    let (exit, _, err) = f.call(&["explain", "#VIB GARD"]);
+    assert_eq!(exit, Exit::Usage);
+    assert!(err.contains("did you mean #VIB GUARD"), "{err}");
+}
+
+#[test]
+fn response_writes_tables_and_pictures() {
+    let f = Folder::new();
+    let filter = ["response", "--filter", "LOWPASS", "--prototype", "BUTTERWORTH,bessel"];
+    let words = |rest: &[&'static str]| -> Vec<&'static str> { [&filter[..], rest].concat() };
+    let (exit, out, err) = f.call(&words(&["--order", "4", "--f0", "15", "--range", "15..30"]));
+    assert_eq!((exit, err.as_str()), (Exit::Finished, ""));
+    assert!(out.starts_with("curve,f_hz,magnitude_db,phase_deg,group_delay_ms\n"), "{out}");
+    // -3.01 dB and -180 degrees: a Butterworth filter of order 4 at its corner frequency
+    let butterworth = out.lines().nth(1).unwrap();
+    assert!(
+        butterworth.contains("BUTTERWORTH 4, 15 Hz\",15.000000,-3.010300,-180.000000,"),
+        "{butterworth}"
+    );
+    assert_eq!(out.lines().count(), 1 + 2 * 801);
+    for view in [&["--step"][..], &["--corner", "F1000"], &["-o", "@extra.csv"]] {
+        let first = f.call(&words(&[view, &["-o", "@a.svg", "-o", "@a.csv"]].concat()));
+        assert_eq!(
+            (first.0, first.1.as_str(), first.2.as_str()),
+            (Exit::Finished, "", ""),
+            "{view:?}"
+        );
+        let picture = f.read("a.svg");
+        assert!(picture.starts_with("<svg") && picture.contains("LOWPASS BESSEL 2, 30 Hz"));
+        assert!(f.read("a.csv").starts_with("curve,"));
+        f.call(&words(&[view, &["-o", "@a.svg"]].concat()));
+        assert!(picture == f.read("a.svg"), "{view:?}");
+    }
+}
+
+#[test]
+fn response_of_shapers_and_axes() {
+    let f = Folder::new();
+    // at the set frequency nothing is left; a column per convention
+    let guard = ["response", "--guard", "MODE=2,FREQ=40"];
+    let residual = ["--residual", "--range", "40..80", "--damping", "0.1,0.2"];
+    let (exit, out, _) = f.call(&[&guard[..], &residual].concat());
+    assert_eq!(exit, Exit::Finished);
+    let rows: Vec<&str> = out.lines().collect();
+    assert_eq!(rows.len(), 1 + 2 * 601);
+    assert!(rows[1].ends_with(",0.1,40,40.000000,1.000000,1.000000,0.000000000"), "{}", rows[1]);
+    assert!(rows[601].contains(",80.000000,0.500000,2.000000,"), "{}", rows[601]);
+    // contour error of the mean filter: N(N+2)/(8(N+1)) v T
+    let (_, out, _) = f.call(&["response", "--hsc-mean", "10,50", "--corner", "F1000"]);
+    assert!(out.contains("HSC mean 10,10,1000,0.022727273,0.032141217,5.000000"), "{out}");
+    assert!(out.contains("HSC mean 50,50,1000,0.106209150,"), "{out}");
+    // the lists of the built-in machine switch nothing on; a setting does
+    let (exit, out, err) = f.call(&["response", "--axis", "X", "--step"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(err.contains("no filter") && out.contains("0.000000,1.000000000"), "{err}");
+    let set = ["--set", "X.vib_guard.active=1", "--set", "X.vib_guard.freq=40"];
+    let axis = ["response", "--axis", "X", "--corner", "F4000"];
+    let (_, with_lists, _) = f.call(&[&axis[..], &set].concat());
+    let (_, alone, _) = f.call(&["response", "--guard", "MODE=1,FREQ=40", "--corner", "F4000"]);
+    let numbers = |out: &str| out.lines().nth(1).unwrap().rsplit('"').next().unwrap().to_owned();
+    let numbers = [numbers(&with_lists), numbers(&alone)];
+    assert!(numbers[0].ends_with(numbers[1].trim_start_matches(',')), "{numbers:?}");
+}
+
+#[test]
+fn response_refuses_what_it_cannot_show() {
+    let f = Folder::new();
+    for (words, hint) in [
+        (&["response"][..], "--filter"),
+        (&["response", "--filter", "LOWPAS"], "LOWPASS"),
+        (&["response", "--filter", "LOWPASS", "--order", "0"], "order 0"),
+        (&["response", "--filter", "LOWPASS", "--order", "1.5"], "whole number"),
+        (&["response", "--filter", "LOWPASS", "--f0", "500"], "to below 500 Hz"),
+        (&["response", "--filter", "LOWPASS", "--step", "--corner", "F1000"], "--corner"),
+        (&["response", "--filter", "LOWPASS", "--residual"], "standard filters"),
+        (&["response", "--filter", "HIGHPASS", "--corner", "F1000"], "does not follow"),
+        (&["response", "--filter", "TIME_DELAY", "--time", "9000"], "50663"),
+        (&["response", "--guard", "MODE=5"], "mode 5"),
+        (&["response", "--guard", "DAMPING=1"], "damping 1"),
+        (&["response", "--guard", "HZ=5"], "MODE, FREQ, DAMPING"),
+        (&["response", "--fir", "MEAN"], "50989"),
+        (&["response", "--fir", "HANN,ORDER=4"], "GAUSS"),
+        (&["response", "--axis", "Q"], "X, Y, Z"),
+        (&["response", "--hsc-mean", "10", "-o", "@a.png"], ".svg"),
+        (&["response", "--hsc-mean", "10", "--range", "1..900"], "500 Hz"),
+    ] {
+        let (exit, _, err) = f.call(words);
+        assert_eq!(exit, Exit::Usage, "{words:?}");
+        assert!(err.contains(hint), "{words:?}: {err}");
+    }
+    assert_eq!(f.call(&["response", "--hsc-mean", "10", "-o", "@no/a.csv"]).0, Exit::Io);
+}
+
+/// Conformance: A083, V018, V021.
+#[test]
+fn tune_answers_the_vendors_questions() {
+    let f = Folder::new();
+    let (exit, out, _) = f.call(&["tune", "--freq", "6.9,6.0,5.4"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("proposal  #VIB GUARD ON [MODE=2 FREQ=6."), "{out}");
+    assert!(out.contains("#VIB GUARD ON [MODE=2 FREQ=6 DAMPING=0.1]"), "{out}");
+    let (exit, out, _) = f.call(&["tune", "--order-for", "0.1", "--feed", "F2000"]);
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("[ORDER=23]") && out.contains("[ORDER=22]"), "{out}");
+    for words in [
+        &["tune"][..],
+        &["tune", "--freq", "0"],
+        &["tune", "--freq", "6", "--damping", "1"],
+        &["tune", "--freq", "6", "--order-for", "0.1"],
+        &["tune", "--freq", "6", "--program", "@corner.nc"],
+        &["tune", "--recording", "@corner.nc"],
+    ] {
+        assert_eq!(f.call(words).0, Exit::Usage, "{words:?}");
+    }
+    assert_eq!(f.call(&["tune", "--recording", "@absent.csv"]).0, Exit::Io);
+}
+
+#[test]
+fn tune_judges_the_choices_on_a_program() {
+    let f = Folder::new();
+    let tune = |program: &str, max_dev: &str| {
+        f.call(&["tune", "--freq", "38,42", "--program", program, "--max-dev", max_dev])
+    };
+    let program = |text: &str| std::fs::write(f.path("corner.nc"), text).unwrap();
+    let square = "N10 G01 F3600\nX1\nY1\nX0\nY0\nM30\n";
+    program(square);
+    let (exit, out, err) = tune("@corner.nc", "1");
+    assert_eq!((exit, err.as_str()), (Exit::Finished, ""));
+    // the limits of the machine and what was assumed
+    assert!(out.contains("machine   xyz, cycle 1 ms") && out.contains("v_max"), "{out}");
+    assert!(out.contains("no AX_DEV in the program"), "{out}");
+    let rows: Vec<&str> = out.lines().skip_while(|l| !l.contains("machining time")).collect();
+    assert!(rows[1].starts_with("off") && rows[1].ends_with("no"), "{out}");
+    let chosen = rows.iter().find_map(|l| l.strip_prefix("choice    ")).unwrap();
+    // the shortest kernel that keeps 5 % has the least to flush at the end of a pass
+    let times: Vec<f64> = rows[2..]
+        .iter()
+        .filter(|row| row.ends_with("yes"))
+        .map(|row| row.split_whitespace().rev().nth(2).unwrap().parse().unwrap())
+        .collect();
+    let least = times.iter().copied().fold(f64::MAX, f64::min);
+    assert!(times.len() > 2 && out.contains(&format!("1 mm: {least:.3} s")), "{out}");
+    assert!(chosen.starts_with("#VIB GUARD ON [MODE="), "{chosen}");
+    // what leaves the bound runs again with it as AX_DEV, and keeps it or not
+    let (_, out, _) = tune("@corner.nc", "0.001");
+    let again = |l: &&str| l.contains(" 0.001  ");
+    assert!(out.lines().filter(again).count() > 2, "{out}");
+    // what the program says itself
+    program(&square.replace("N10", "N10 #VIB GUARD ON [AX_DEV=0.02]\nN20"));
+    let (_, out, _) = tune("@corner.nc", "1");
+    assert!(out.contains("AX_DEV=0.02 (line 1)") && out.contains(" AX_DEV=0.02]\n"), "{out}");
+    let rows = |out: &str| -> Vec<String> {
+        out.lines().skip_while(|l| !l.contains("machining time")).map(str::to_owned).collect()
+    };
+    // words that are to be chosen give way, also where they are computed or stand in a subroutine
+    let plain = rows(&out);
+    let computed = "#VIB GUARD ON [MODE=P1 FREQ=[P1*20] AX_DEV=0.02]";
+    program(&square.replace("N10", &format!("P1=2\n{computed}\nN20")));
+    let (exit, out, _) = tune("@corner.nc", "1");
+    assert_eq!(exit, Exit::Finished);
+    assert!(out.contains("(line 2) give way"), "{out}");
+    assert_eq!(rows(&out), plain);
+    let sub = format!("%L SUB\nP1=2\n{computed}\nM17\n%MAIN\nLL SUB\n{square}");
+    program(&sub);
+    let (_, out, _) = tune("@corner.nc", "1");
+    assert!(out.contains("(line 3) give way"), "{out}");
+    assert_eq!(rows(&out), plain);
+    assert_eq!(f.read("corner.nc"), sub);
+    // a program that ends the guard at once: none of the choices acts for long enough to compare
+    program(&square.replace("N10", "N10 #VIB GUARD OFF\nN20"));
+    let (_, out, _) = tune("@corner.nc", "1");
+    assert!(out.contains("line 1 switches the guard off"), "{out}");
+    assert_eq!(tune("@bad.nc", "1").0, Exit::Aborted);
+}
+
+/// One row per combination in their order, the same from the same input, whatever core was first.
+#[test]
+fn sweep_has_a_row_for_every_combination() {
+    let f = Folder::new();
+    let words = |name: &'static str| {
+        let vary = ["--vary", "X.vib_guard.mode=1..3", "--vary", "X.vib_guard.freq=20,40"];
+        let more = ["--set", "X.vib_guard.active=1", "--amplitude", "X_vel_mm_s@1..100"];
+        [&["sweep", "@listed.nc", "-o", name][..], &vary, &more].concat()
+    };
+    let (exit, out, err) = f.call(&words("@a.csv"));
+    assert_eq!((exit, out.as_str(), err.as_str()), (Exit::Finished, "", ""));
+    let first = f.read("a.csv");
+    let mut reader = csv::Reader::from_reader(first.as_bytes());
+    let header = reader.headers().unwrap().clone();
+    let cell = |row: &csv::StringRecord, name: &str| {
+        row[header.iter().position(|h| h == name).unwrap()].to_owned()
+    };
+    let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+    let varied = rows.iter().map(|r| format!("{} {}", &r[0], &r[1])).collect::<Vec<_>>();
+    assert_eq!(varied, ["1 20", "1 40", "2 20", "2 40", "3 20", "3 40"]);
+    assert_eq!((&header[0], &header[1]), ("X.vib_guard.mode", "X.vib_guard.freq"));
+    for row in &rows {
+        assert_eq!((cell(row, "state"), cell(row, "error")), ("finished".into(), String::new()));
+        // what `run` says of the same settings
+        let settings = [0, 1].map(|i| format!("{}={}", &header[i], &row[i]));
+        let (_, out, _) = f.call(&[
+            "run",
+            "@listed.nc",
+            "--summary",
+            "json",
+            "--set",
+            "X.vib_guard.active=1",
+            "--set",
+            &settings[0],
+            "--set",
+            &settings[1],
+        ]);
+        let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
+        let number = |name: &str| cell(row, name).parse::<f64>().unwrap();
+        let near = |a: f64, b: &serde_json::Value| (a - b.as_f64().unwrap()).abs() < 1e-6;
+        assert!(near(number("duration_s"), &summary["duration_s"]));
+        assert!(near(number("contour_err_mm"), &summary["max_contour_error"]["mm"]));
+        assert!(near(number("X_vel_max_mm_s"), &summary["axes"][0]["max_vel"]));
+        assert!(number("X_vel_mm_s@1..100") > 0.0);
+    }
+    assert_eq!(f.call(&words("@a.csv")).0, Exit::Finished);
+    assert_eq!(f.read("a.csv"), first);
+    assert_eq!(f.call(&words("@a.svg")).0, Exit::Finished);
+    let picture = f.read("a.svg");
+    assert!(
+        picture.contains("freq = 40")
+            && picture.contains(">duration_s<")
+            && picture.contains(">duration in s<"),
+        "{picture}"
+    );
+    #[cfg(feature = "parquet")]
+    {
+        assert_eq!(f.call(&words("@a.parquet")).0, Exit::Finished);
+        assert!(std::fs::read(f.path("a.parquet")).unwrap().ends_with(b"PAR1"));
+    }
+}
+
+/// Runs that an error ends have their rows; only if no run finishes, neither does the command.
+#[test]
+fn sweep_of_aborted_runs_and_wrong_words() {
+    let f = Folder::new();
+    let vary = "X.vib_guard.mode=1,2";
+    let (exit, out, _) = f.call(&["sweep", "@bad.nc", "--vary", vary, "--columns", "cycles"]);
+    assert_eq!(exit, Exit::Aborted);
+    let rows: Vec<&str> = out.lines().collect();
+    assert_eq!(rows[0], "X.vib_guard.mode,state,error,warnings,cycles");
+    assert!(rows[1].starts_with("1,aborted,20131,0,") && rows.len() == 3, "{out}");
+    for words in [
+        &["sweep", "@corner.nc"][..],
+        &["sweep", "@corner.nc", "--vary", "X.vib_guard.mode"],
+        &["sweep", "@corner.nc", "--vary", "X.vib_guard.mode=3..1"],
+        &["sweep", "@corner.nc", "--vary", vary, "--columns", "bogus"],
+        &["sweep", "@corner.nc", "--vary", vary, "--amplitude", "X_bogus_mm@1..2"],
+        &["sweep", "@corner.nc", "--vary", vary, "--amplitude", "v_limit@1..2"],
+        &["sweep", "@corner.nc", "--vary", "X.a.b=ON,OFF", "-o", "@a.svg"],
+        &["sweep", "@corner.nc", "--vary", vary, "-o", "@corner.nc"],
+    ] {
+        assert_eq!(f.call(words).0, Exit::Usage, "{words:?}");
+    }
+    assert_eq!(f.call(&["sweep", "@absent.nc", "--vary", vary]).0, Exit::Io);
+}
+
+/// Columns over time, and the variants of one program in one picture.
+#[test]
+fn report_draws_signals_and_variants() {
+    let f = Folder::new();
+    // beyond the end of the run, and beyond what the cycle can show, there is nothing to draw
+    for part in [["--window", "7000..9000"], ["--spectrum", "600..900"]] {
+        let words = ["report", "@corner.nc", "--signals", "set", "-o", "@a.svg"];
+        let (exit, _, err) = f.call(&[&words[..], &part].concat());
+        assert_eq!((exit, err.contains(part[0])), (Exit::Usage, true), "{err}");
+    }
+    let words = |name: &'static str| {
+        [
+            "report",
+            "@corner.nc",
+            "--vary",
+            "X.vib_guard.mode=1,4",
+            "--signals",
+            "X_set_mm,X_vel_mm_s",
+            "--window",
+            "0.01..0.05",
+            "-o",
+            name,
+        ]
+    };
+    assert_eq!(f.call(&words("@a.svg")).0, Exit::Finished);
+    let picture = f.read("a.svg");
+    for name in [">X_set_mm<", ">X_vel_mm_s<", "mode = 1", "mode = 4"] {
+        assert!(picture.contains(name), "{name}");
+    }
+    assert_eq!(f.call(&words("@a.csv")).0, Exit::Finished);
+    let table = f.read("a.csv");
+    let rows: Vec<&str> = table.lines().collect();
+    assert_eq!(rows[0], "curve,t_s,X_set_mm,X_vel_mm_s");
+    assert_eq!(rows.len(), 1 + 2 * 40, "40 cycles of either");
+    let spectrum = [&words("@s.csv")[..], &["--spectrum", "0..100"]].concat();
+    assert_eq!(f.call(&spectrum).0, Exit::Finished);
+    assert!(f.read("s.csv").starts_with("curve,f_hz,X_set_mm,X_vel_mm_s\n"));
+    for wrong in [
+        &["report", "@corner.nc", "--signals", "bogus", "-o", "@b.svg"][..],
+        &["report", "@corner.nc", "--signals", "time", "-o", "@b.svg"],
+        &["report", "@corner.nc", "--signals", "X_set_mm", "-o", "@b.html"],
+        &["report", "@corner.nc", "--spectrum", "0..100", "-o", "@b.svg"],
+    ] {
+        assert_eq!(f.call(wrong).0, Exit::Usage, "{wrong:?}");
+    }
+    // without --signals the contours overlay
+    let contours = ["report", "@corner.nc", "--vary", "X.vib_guard.mode=1,4", "-o", "@c.svg"];
+    assert_eq!(f.call(&contours).0, Exit::Finished);
+    assert!(f.read("c.svg").contains("mode = 4"));
+}

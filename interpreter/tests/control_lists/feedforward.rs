@@ -1,0 +1,150 @@
+//! Feedforward from the lists to the speed command.
+
+use super::*;
+
+/// P-AXIS-00223 allows, the program selects; P-AXIS-00255 selects always. Conformance: F001, F005, F006, F008, F078.
+#[test]
+fn feedforward_of_an_axis() {
+    let mode = |names: &str| format!("X.vorsteuer.vorsteuerung={names}");
+    near(last(&mode("NONE"), 1.0).lag_mm, 2.0, 1e-6);
+    near(last(&mode("VEL"), 0.0).lag_mm, 2.0, 1e-6);
+    near(last(&mode("VEL"), 1.0).lag_mm, 0.0, 1e-6);
+    let weighted = format!("{} X.vorsteuer.vs_v_faktor=9 X.vorsteuer.vs_v_nenner=10", mode("VEL"));
+    near(last(&weighted, 1.0).lag_mm, 0.2, 1e-6);
+    // acceleration and jerk alone: nothing at constant speed, something while accelerating
+    for names in ["ACC", "JERK", "VEL|JERK", "3"] {
+        let settings = format!("{} X.vorsteuer.vs_a_faktor=5000", mode(names));
+        assert_eq!(ids(&settings), [""; 0], "{names}");
+        let fed: Vec<f64> =
+            drive(&settings, 1.0).iter().map(|o| o.feedforward.speed_mm_s).collect();
+        let highest = fed.iter().copied().fold(0.0, f64::max);
+        match names {
+            // a Ta
+            "ACC" => {
+                near(fed[50], 5.0, 1e-6);
+                near(fed[999], 0.0, 1e-6);
+            }
+            "JERK" => {
+                assert!(highest > 0.0);
+                near(fed[999], 0.0, 1e-6);
+            }
+            _ => near(fed[999], 100.0, 1e-6),
+        }
+    }
+    let (machine, _) = machine(&split("X.vorsteuer.default_active=1"));
+    let feedforward = machine.chains().0.swap_remove(0).control.feedforward;
+    near(feedforward.gain(false, 1.0), 1.0, 0.0);
+}
+
+/// Notation of the flags: names, numbers. Conformance: F049, F057, F073.
+#[test]
+fn feedforward_flags() {
+    let mode = |text: &str| {
+        let (machine, _) = machine(&[
+            format!("X.vorsteuer.vorsteuerung={text}"),
+            "kontur.axis[1].additive.velocity=1".to_owned(),
+            "kontur.axis[1].additive.torque=1".to_owned(),
+        ]);
+        machine.chains().0.swap_remove(0).control.feedforward.mode
+    };
+    assert_eq!(mode("VEL | ACC"), mode("3"));
+    assert_eq!(mode("VEL | ACC"), mode("0x3"));
+    assert_eq!(mode("0x101"), mode("ADD_VEL"));
+    assert_eq!(mode("0x202"), mode("ADD_ACC"));
+    assert_eq!(mode("ADD_VEL | ADD_ACC"), mode("0x303"));
+    assert_ne!(mode("VEL"), mode("ADD_VEL"));
+}
+
+/// Velocity-only weight, and a weight above 1 that leads. Conformance: F007, F012.
+#[test]
+fn weights_of_feedforward() {
+    let over = last("X.vorsteuer.vs_v_faktor=12 X.vorsteuer.vs_v_nenner=10", 1.0);
+    near(over.lag_mm, -0.4, 1e-6);
+    let settings = |weights: &str| {
+        format!("X.vorsteuer.vorsteuerung=3 X.vorsteuer.vs_a_faktor=5000 {weights}")
+    };
+    let fed = |weights: &str, k: usize| drive(&settings(weights), 1.0)[k].feedforward.speed_mm_s;
+    let fewer = "X.vorsteuer.feedforward_v_add_num=8 X.vorsteuer.feedforward_v_add_denom=10";
+    // constant speed: the velocity part alone
+    near(fed(fewer, 999), 0.8 * fed("", 999), 1e-9);
+    // accelerating: the acceleration part, 5 mm/s, is left as it is
+    near(fed("", 50) - fed(fewer, 50), 0.2 * (fed("", 50) - 5.0), 1e-9);
+}
+
+/// Additive variant: nothing at the controller, both parts after the global weight. Conformance: F015, F016.
+#[test]
+fn additive_feedforward() {
+    let inputs = "kontur.axis[1].additive.velocity=1 kontur.axis[1].additive.torque=1";
+    let settings = |more: &str| format!("X.vorsteuer.vorsteuerung=0x303 {inputs} {more}");
+    let whole = drive(&settings(""), 1.0);
+    let half = drive(&settings("X.vorsteuer.vs_v_nenner=2"), 1.0);
+    for (whole, half) in whole.iter().zip(&half) {
+        let (whole, half) = (whole.feedforward, half.feedforward);
+        assert_eq!(whole.speed_mm_s.to_bits(), 0);
+        near(half.additive_speed_mm_s, 0.5 * whole.additive_speed_mm_s, 1e-9);
+        near(half.additive_acc_mm_s2, 0.5 * whole.additive_acc_mm_s2, 1e-9);
+    }
+    near(whole[999].feedforward.additive_speed_mm_s, 100.0, 1e-6);
+    near(whole[50].feedforward.additive_acc_mm_s2, 1000.0, 1e-6);
+}
+
+/// Feedforward delays the position path by five cycles, used or not. Conformance: F043.
+#[test]
+fn the_buffer_of_feedforward() {
+    for gain in [0.0, 1.0] {
+        let (with, without) = (
+            drive("X.vorsteuer.vorsteuerung=VEL", gain),
+            drive(
+                "X.vorsteuer.vorsteuerung=NONE Y.vorsteuer.vorsteuerung=NONE \
+                 Z.vorsteuer.vorsteuerung=NONE S.vorsteuer.vorsteuerung=NONE",
+                gain,
+            ),
+        );
+        for k in 5..1000 {
+            assert_eq!(with[k].reference_mm.to_bits(), without[k - 5].reference_mm.to_bits());
+        }
+    }
+}
+
+/// PROFIdrive takes the feedforward before its setpoint (P-AXIS-00165). Conformance: F018, F070.
+#[test]
+fn shift_of_profidrive() {
+    let begins = |settings: &str| {
+        let out = drive(settings, 1.0);
+        let fed = out.iter().position(|o| o.feedforward.speed_mm_s > 50.0).unwrap();
+        let moved = out.iter().position(|o| o.reference_mm > ramp(50)).unwrap();
+        moved - fed
+    };
+    let profidrive = |shift: u32| format!("X.kenngr.antr_typ=3 X.vorsteuer.shift_time={shift}");
+    let of_0 = begins(&profidrive(0));
+    assert_eq!(begins(&profidrive(2)), of_0 + 2);
+    assert_eq!(begins("X.kenngr.antr_typ=3"), of_0 + 3, "the default");
+    assert_eq!(begins("X.vorsteuer.shift_time=2"), of_0, "no PROFIdrive");
+    assert_eq!(ids(&profidrive(5)), ["K-0070", "K-0079"]);
+}
+
+/// What is out of range, and the values used. Conformance: F055, F065, F079, F080, F082, F086, F087, F088.
+#[test]
+fn corrections_of_feedforward() {
+    let torque = "X.vorsteuer.vorsteuerung=ADD_ACC kontur.axis[1].additive.torque=1";
+    let velocity = "X.vorsteuer.vorsteuerung=ADD_VEL kontur.axis[1].additive.velocity=1";
+    for (settings, id) in [
+        (format!("{velocity} X.vorsteuer.velocity_delay_time=5999"), ""),
+        (format!("{velocity} X.vorsteuer.velocity_delay_time=6000"), "70349"),
+        (format!("{torque} X.vorsteuer.acceleration_delay_time=5999"), ""),
+        (format!("{torque} X.vorsteuer.acceleration_delay_time=6000"), "70348"),
+        ("X.vorsteuer.jerk_fact_denom=0".to_owned(), "110473"),
+        ("X.getriebe[0].gear_fact_denom=0".to_owned(), "110579"),
+        ("X.getriebe[0].gear_fact_num=0".to_owned(), "K-0070"),
+        (format!("{torque} X.antr.torque_scale_denom=0"), "110465"),
+        (format!("{torque} X.antr.torque_scale_num=0"), "K-0070"),
+        (format!("{torque} X.antr.acc_reference_value=0"), "K-0062"),
+    ] {
+        assert_eq!(ids(&settings).join(" "), id, "{settings}");
+        let used = drive(&settings, 1.0)[50];
+        assert!(used.drive.torque.is_finite() && used.drive.torque_n_m.is_finite(), "{settings}");
+        if ["110465", "K-0062"].contains(&id) {
+            assert_eq!(used.drive.torque.to_bits(), 0, "{settings}: no torque output");
+        }
+    }
+}
