@@ -69,7 +69,7 @@ const unlit = marked();
 // under the pointer the text follows
 view.at = 0.05;
 drawAll();
-const follows = document.querySelector("#program div.at span").textContent;
+const followed = document.querySelector("#program div.at span"), follows = followed && followed.textContent;
 // in space, in the colours of what limits
 const buttons = [...document.querySelectorAll("#planes button")];
 buttons[3].click();
@@ -116,10 +116,9 @@ fn browser() -> Option<PathBuf> {
     all.into_iter().find(|p| p.is_file())
 }
 
-/// What the probe sees of the page of some programs.
-fn look(browser: &Path, programs: &[&str], options: &[&str]) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+/// Writes the page of some programs into a folder.
+fn write_page(folder: &Path, programs: &[&str], options: &[&str]) -> String {
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
     let mut words = vec!["report".to_owned()];
     for (i, text) in programs.iter().enumerate() {
         let name = path(&format!("{}.nc", ["a", "b", "c"][i]));
@@ -130,6 +129,33 @@ fn look(browser: &Path, programs: &[&str], options: &[&str]) -> Value {
     words.extend(options.iter().map(|word| (*word).to_owned()));
     let done = command(&words);
     assert_eq!(done.exit, Exit::Finished, "{}", done.err);
+    path("page.html")
+}
+
+/// Sheets of paper that the page of some programs takes.
+fn printed(browser: &Path, programs: &[&str]) -> usize {
+    let folder = tempfile::tempdir().unwrap();
+    let page = write_page(folder.path(), programs, &[]);
+    let [profile, paper] = ["profile", "page.pdf"].map(|name| folder.path().join(name));
+    let out = Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer"])
+        .arg(format!("--user-data-dir={}", profile.display()))
+        .arg(format!("--print-to-pdf={}", paper.display()))
+        .arg(format!("file://{page}"))
+        .output()
+        .unwrap();
+    let paper = std::fs::read(paper)
+        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&out.stderr)));
+    let text = String::from_utf8_lossy(&paper);
+    // the objects of pages, not that of their tree
+    text.split("/Type /Page").skip(1).filter(|behind| !behind.starts_with('s')).count()
+}
+
+/// What the probe sees of the page of some programs.
+fn look(browser: &Path, programs: &[&str], options: &[&str]) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    write_page(folder.path(), programs, options);
     let page = std::fs::read_to_string(path("page.html")).unwrap();
     let page = page.replacen("<body>", &format!("<body>{PROBE}"), 1);
     let page = page.replacen("</body>", &format!("{REPORT}</body>"), 1);
@@ -251,4 +277,30 @@ fn parts_and_several_runs() {
         );
     }
     assert!(of("Position", " X set")[0].2 > 1.5 * of("Position", " X actual")[0].2);
+}
+
+/// A run is one sheet of paper; what several runs need for their tables and legends is not bounded.
+#[test]
+fn a_page_prints_on_one_sheet() {
+    let Some(browser) = browser() else {
+        println!("no browser found: nothing tested");
+        return;
+    };
+    assert_eq!(printed(&browser, &[SQUARE]), 1);
+}
+
+/// A million cycles are a page that opens: what it holds of them has a bound, and it draws as any other.
+#[test]
+fn a_long_run_is_a_page_that_opens() {
+    let Some(browser) = browser() else {
+        println!("no browser found: nothing tested");
+        return;
+    };
+    let long = look(&browser, &[&SQUARE.replace("F6000", "F2.4")], &[]);
+    assert_eq!(long["errors"], serde_json::json!([]), "{long}");
+    assert!(long["span"][1].as_f64().unwrap() > 999.0, "{long}");
+    let buckets = long["buckets"][0].as_u64().unwrap();
+    assert!(buckets > 1000 && buckets < 20_000, "{buckets}");
+    let colours = long["colours"].as_array().unwrap();
+    assert!(colours.len() >= 4 && colours.iter().all(|n| n.as_u64().unwrap() > 3), "{colours:?}");
 }
