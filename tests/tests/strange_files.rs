@@ -173,7 +173,7 @@ fn tables_of_another_form_are_refused_in_plain_words() {
         ("@semicolon.csv", Exit::Usage, "not separated by commas"),
         ("@comment.csv", Exit::Usage, "`#` line"),
         ("@utf16.csv", Exit::Usage, "UTF-16"),
-        ("@twice.csv", Exit::Usage, "`X_set_mm` stands twice"),
+        ("@twice.csv", Exit::Usage, "`X_set_mm` occurs twice"),
         ("@ragged.csv", Exit::Io, "line 4: 2 columns where the header has 3"),
         ("@latin.csv", Exit::Io, "the header is not UTF-8"),
         ("@empty.parquet", Exit::Usage, "no Parquet file"),
@@ -233,7 +233,7 @@ fn cells_are_quoted_on_one_line_and_shortened() {
     }
     let twice = f.with("d.csv", format!("t_s,{0},{0}\n", "y\u{1b}".repeat(9_000)));
     let said = twice.call(&["diff", "@a.csv", "@d.csv"]);
-    assert!(said.err.contains("stands twice") && !said.err.contains('\u{1b}'), "{}", said.err);
+    assert!(said.err.contains("occurs twice") && !said.err.contains('\u{1b}'), "{}", said.err);
     assert!(said.err.len() < 300, "{}", said.err);
 }
 

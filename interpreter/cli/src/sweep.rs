@@ -114,8 +114,11 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     keep_apart(&reads.into_iter().collect::<Vec<_>>(), &args.output)?;
     let rows = Rows { title, ..rows };
     let results: Vec<&[Cell]> = rows.cells.iter().map(|row| &row[args.vary.len()..]).collect();
-    // of a shard nobody knows the other rows
-    let compared = if args.shard.is_none() { &args.vary[..] } else { &[] };
+    let finished = Cell::Word(State::Finished.name().to_owned());
+    let any_finished = rows.cells.iter().any(|row| row[args.vary.len()] == finished);
+    // of a shard nobody knows the other rows, and runs that an error has ended are alike because of it
+    let is_comparable = args.shard.is_none() && any_finished;
+    let compared = if is_comparable { &args.vary[..] } else { &[] };
     let without: Vec<&str> =
         without_effect(compared, &combinations, &results).iter().map(|v| v.key.as_str()).collect();
     for key in &without {
@@ -137,8 +140,6 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     if args.shard.is_some() {
         return Ok(Exit::Finished);
     }
-    let finished = Cell::Word(State::Finished.name().to_owned());
-    let any_finished = rows.cells.iter().any(|row| row[args.vary.len()] == finished);
     Ok(if any_finished { Exit::Finished } else { Exit::Aborted })
 }
 
