@@ -179,7 +179,7 @@ fn feedforward_of_spindles_stands_alone() {
     assert!(run.records.is_empty() && at.length > 0, "{found:?}");
 }
 
-/// The speed at which a spindle falls after, turns and comes back: what every form leaves of v / Kv = 6000 / 50 deg.
+/// The speed at which a spindle falls behind, turns and comes back: what every form leaves of v / Kv = 6000 / 50 deg.
 /// Conformance: F035, F036, F037, F038, F039.
 #[test]
 fn the_sample_program_of_the_spindles() {

@@ -152,7 +152,7 @@ fn the_sample_program_of_the_manuals_example() {
     assert!(on[0] <= 0.40 / 0.81 * off[0] && on[1] <= 0.28 / 0.52 * off[1], "{off:?} {on:?}");
 }
 
-/// A bridge: the second drive takes the set positions of the first, v / Kv after with a gain of its own, and none of
+/// A bridge: the second drive takes the set positions of the first, v / Kv behind it with a gain of its own, and none of
 /// it is left under G135.
 #[test]
 fn the_sample_program_of_the_gantry() {
