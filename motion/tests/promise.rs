@@ -181,8 +181,13 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
             // the filters hold a point from the cycle in which the path comes to it until their length after it has gone on
             let comes = entered + shares.partition_point(|s| *s < u - 1e-9);
             let goes = entered + shares.partition_point(|s| *s <= u + 1e-9);
-            let until = (goes + reach + 3).min(set.len());
-            let new = aside(p, &set[comes.saturating_sub(2)..until]);
+            // a line of the set path more or less at the border of that can be the nearest one, with another component
+            let windows = [0, 1, 2, 3].map(|border| (goes + reach + border).min(set.len()));
+            let from = comes.saturating_sub(2);
+            let new = windows
+                .map(|until| aside(p, &set[from..until]))
+                .into_iter()
+                .fold(f64::INFINITY, f64::min);
             if new > misses.0 {
                 misses = (new, i);
             }
