@@ -135,11 +135,14 @@ fn both_ways(case: &Case, path: &[Point], seqs: &[usize]) -> [(f64, usize); 2] {
     let block = |k: usize| seqs[k.min(last)];
     let mut leaves = (0.0_f64, 0);
     for k in 1..set.len() {
-        let lately = &case.points[block(k.saturating_sub(reach + 3))..=block(k) + 1];
+        // a block more or less at the border of the reach can be the nearest one, with another component
+        let lately = [0, 1, 2, 3]
+            .map(|border| &case.points[block(k.saturating_sub(reach + border))..=block(k) + 1]);
         for sub in 1..=16 {
             let u = f64::from(sub) / 16.0;
             let p = [0, 1, 2].map(|i| set[k - 1][i] + u * (set[k][i] - set[k - 1][i]));
-            let near = aside(p, lately);
+            let near =
+                lately.map(|blocks| aside(p, blocks)).into_iter().fold(f64::INFINITY, f64::min);
             if near > leaves.0 {
                 let new = near.min(aside(p, &case.points));
                 if new > leaves.0 {
