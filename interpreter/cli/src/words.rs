@@ -29,7 +29,7 @@ pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
             [] => {
                 let place =
                     word.line.map_or("in the program".to_owned(), |l| format!("in line {l}"));
-                return Err(format!("no {name}= stands {place}"));
+                return Err(format!("there is no {name}= {place}"));
             }
             [Place { number: Some((from, to)), .. }] => {
                 text.splice(*from..*to, value.bytes());
@@ -38,12 +38,12 @@ pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
                 return Err(format!("{name}= in line {line} is no plain number"));
             }
             [first, .., last] if first.line == last.line => {
-                return Err(format!("{name}= stands several times in line {}", first.line));
+                return Err(format!("{name}= occurs several times in line {}", first.line));
             }
             [first, .., last] => {
                 let (first, last) = (first.line, last.line);
                 return Err(format!(
-                    "{name}= stands in several lines, from {first} to {last}; program[{first}].{name} is the first"
+                    "{name}= occurs in several lines, from {first} to {last}; program[{first}].{name} is the first"
                 ));
             }
         }
@@ -143,8 +143,8 @@ mod tests {
         assert_eq!(with(guard, Some(1), "FREQ"), Ok(guard.replace("40", "7.5")));
         for (text, line, name, why) in [
             (guard, None, "FREQ", "from 1 to 2; program[1].FREQ"),
-            (guard, None, "P1", "no P1= stands in the program"),
-            (guard, Some(2), "MODE", "no MODE= stands in line 2"),
+            (guard, None, "P1", "there is no P1= in the program"),
+            (guard, Some(2), "MODE", "there is no MODE= in line 2"),
             ("P1=10+5", None, "P1", "no plain number"),
             ("P1=P2", None, "P1", "no plain number"),
             ("P1=", None, "P1", "no plain number"),

@@ -14,8 +14,8 @@ import pytest
 from conftest import SQUARE
 from kontur import _sweep
 
-GRID = {"X,Y.getriebe[0].kv": [2000, 3000, 4000], "*.vib_guard.freq": [20, 27.5, "40"]}
-WORDS = ["--vary", "X,Y.getriebe[0].kv=2000,3000,4000", "--vary", "*.vib_guard.freq=20,27.5,40"]
+GRID = {"X,Y.getriebe[0].kv": [2000, 3000, 4000], "program[7].FREQ": [20, 27.5, "40"]}
+WORDS = ["--vary", "X,Y.getriebe[0].kv=2000,3000,4000", "--vary", "program[7].FREQ=20,27.5,40"]
 
 
 def equals(table, text):
@@ -76,7 +76,7 @@ def test_a_data_set_by_what_varies(tmp_path):
     table = kontur.sweep(SQUARE, GRID, output=folder, columns=["duration_s"])
     found = pyarrow.dataset.dataset(folder, partitioning="hive").to_table()
     assert found.num_rows == len(table) == 9
-    key = ("X,Y.getriebe[0].kv", "*.vib_guard.freq")
+    key = ("X,Y.getriebe[0].kv", "program[7].FREQ")
     of = {(float(row[key[0]]), float(row[key[1]])): row["duration_s"] for row in found.to_pylist()}
     for *keys, duration_s in zip(table[key[0]], table[key[1]], table["duration_s"]):
         assert of[tuple(keys)] == duration_s
