@@ -181,7 +181,7 @@ pub struct AxisRecord {
 }
 
 /// One row of the trace.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct CycleRecord {
     /// Cycle count; the time is `k T`.
     pub k: u64,
@@ -197,4 +197,17 @@ pub struct CycleRecord {
     pub contour_err_mm: f64,
     /// Path axes in channel order, then spindles.
     pub axes: Vec<AxisRecord>,
+}
+
+impl Clone for CycleRecord {
+    fn clone(&self) -> Self {
+        Self { axes: self.axes.clone(), ..*self }
+    }
+
+    /// Keeps the memory of the axes.
+    fn clone_from(&mut self, other: &Self) {
+        let mut axes = std::mem::take(&mut self.axes);
+        axes.clone_from(&other.axes);
+        *self = Self { axes, ..*other };
+    }
 }

@@ -18,9 +18,8 @@ use crate::{Error, Exit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kontur_interpreter::diag::render::{self, printable};
 use kontur_interpreter::diag::{Diagnostic, Severity, shortened};
-use std::cell::RefCell;
 use std::io::{IsTerminal, Write};
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// Stdout and stderr of one command; tests put buffers in their place.
@@ -44,7 +43,7 @@ impl Console {
         let terminal = std::io::stderr().is_terminal();
         let unwanted = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         Self {
-            out: Output(Rc::new(RefCell::new(std::io::stdout()))),
+            out: Output(Arc::new(Mutex::new(std::io::stdout()))),
             err: Box::new(std::io::stderr()),
             terminal,
             colours: terminal && !unwanted,
@@ -53,9 +52,9 @@ impl Console {
     }
 
     /// Any two writers, neither of them a terminal.
-    pub fn new(out: impl Write + 'static, err: impl Write + 'static) -> Self {
+    pub fn new(out: impl Write + Send + 'static, err: impl Write + 'static) -> Self {
         Self {
-            out: Output(Rc::new(RefCell::new(out))),
+            out: Output(Arc::new(Mutex::new(out))),
             err: Box::new(err),
             terminal: false,
             colours: false,
@@ -136,9 +135,15 @@ impl Console {
     }
 }
 
-/// A handle on stdout.
+/// A handle on stdout; a trace is written by a thread of its own.
 #[derive(Clone)]
-pub struct Output(Rc<RefCell<dyn Write>>);
+pub struct Output(Arc<Mutex<dyn Write + Send>>);
+
+impl Output {
+    fn lock(&self) -> MutexGuard<'_, dyn Write + Send + 'static> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
 
 impl std::fmt::Debug for Output {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -148,11 +153,11 @@ impl std::fmt::Debug for Output {
 
 impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.borrow_mut().write(bytes)
+        self.lock().write(bytes)
     }
 
     fn flush(&mut self) -> std::io::Result<()> {
-        self.0.borrow_mut().flush()
+        self.lock().flush()
     }
 }
 

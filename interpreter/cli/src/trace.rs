@@ -1,5 +1,6 @@
 //! The trace: columns, and the files they go to.
 
+mod background;
 pub(crate) mod csv;
 pub(crate) mod fixed;
 #[cfg(feature = "parquet")]
@@ -9,6 +10,7 @@ use crate::Error;
 use crate::console::Console;
 use crate::files::STANDARD;
 use crate::target::Target;
+use background::Background;
 use kontur_interpreter::job::{Facts, Run};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::record::columns::{self, Column};
@@ -19,17 +21,57 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub(crate) struct Trace {
     path: PathBuf,
-    writer: Writer,
+    way: Way,
     decimate: u64,
 }
 
+/// How the records get to their file.
+#[derive(Debug)]
+enum Way {
+    /// By a thread of its own.
+    Thread(Background),
+    /// Not any more: the thread has ended with an error.
+    Ended(Writer),
+    /// Its reader has gone.
+    Closed,
+}
+
+/// What writes a file.
 #[derive(Debug)]
 enum Writer {
     Csv(csv::CsvWriter),
     #[cfg(feature = "parquet")]
     Parquet(Box<parquet::ParquetWriter>),
-    /// Its reader has gone.
-    Closed,
+}
+
+impl Writer {
+    fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
+        match self {
+            Self::Csv(w) => w.write(record),
+            #[cfg(feature = "parquet")]
+            Self::Parquet(w) => w.write(record),
+        }
+    }
+
+    /// Hands over what waits, as far as that is possible before the end.
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Csv(w) => w.flush(),
+            #[cfg(feature = "parquet")]
+            Self::Parquet(_) => Ok(()),
+        }
+    }
+
+    fn finish(self, run: &Run) -> io::Result<()> {
+        // only Parquet has a place for what is known at the end
+        #[cfg(not(feature = "parquet"))]
+        let _ = run;
+        match self {
+            Self::Csv(mut w) => w.finish(),
+            #[cfg(feature = "parquet")]
+            Self::Parquet(w) => w.finish(run.facts(), &run.totals()),
+        }
+    }
 }
 
 impl Trace {
@@ -59,48 +101,54 @@ impl Trace {
             let message = format!("{}: built without Parquet, use a .csv file", path.display());
             return Err(Error::Usage(message));
         }
-        let to_error = |e| Error::io(path.display().to_string(), e);
-        let decimate = decimate.max(1);
-        if path.as_os_str() == STANDARD {
+        let name = if path.as_os_str() == STANDARD { "stdout".into() } else { path.to_owned() };
+        let to_error = |e| Error::io(name.display().to_string(), e);
+        let rows = |columns| csv::Rows::new(columns, facts);
+        let writer = if path.as_os_str() == STANDARD {
             let target = csv::Target::Standard(console.output());
-            let writer = Writer::Csv(csv::CsvWriter::new(target, csv::Rows::new(columns, facts)));
-            return Ok(Self { path: "stdout".into(), writer, decimate });
-        }
-        let target = Target::create(path).map_err(to_error)?;
-        let writer = match is_parquet {
-            #[cfg(feature = "parquet")]
-            true => {
-                let writer = parquet::ParquetWriter::new(path, target, columns, facts);
-                Writer::Parquet(Box::new(writer.map_err(to_error)?))
-            }
-            _ => {
-                let rows = csv::Rows::new(columns, facts);
-                Writer::Csv(csv::CsvWriter::new(csv::Target::File(target), rows))
+            Writer::Csv(csv::CsvWriter::new(target, rows(columns)))
+        } else {
+            let target = Target::create(path).map_err(to_error)?;
+            match is_parquet {
+                #[cfg(feature = "parquet")]
+                true => {
+                    let writer = parquet::ParquetWriter::new(path, target, columns, facts);
+                    Writer::Parquet(Box::new(writer.map_err(to_error)?))
+                }
+                _ => Writer::Csv(csv::CsvWriter::new(csv::Target::File(target), rows(columns))),
             }
         };
-        Ok(Self { path: path.to_owned(), writer, decimate })
+        let way = Way::Thread(Background::start(writer).map_err(to_error)?);
+        Ok(Self { path: name, way, decimate: decimate.max(1) })
     }
 
     /// Adds a record, if it is one of every `decimate`.
     ///
     /// # Errors
-    /// [`Error::Io`], e.g. a full disk.
+    /// [`Error::Io`], e.g. a full disk: of this record, or of some before.
     pub(crate) fn write(&mut self, record: &CycleRecord) -> Result<(), Error> {
         if !record.k.is_multiple_of(self.decimate) {
             return Ok(());
         }
-        let written = match &mut self.writer {
-            Writer::Csv(w) => w.write(record),
-            #[cfg(feature = "parquet")]
-            Writer::Parquet(w) => w.write(record),
-            Writer::Closed => Ok(()),
-        };
-        written.map_err(|e| error(&self.path, e))
+        let Way::Thread(thread) = &mut self.way else { return Ok(()) };
+        if thread.write(record) { Ok(()) } else { self.end() }
     }
 
     /// Writes no more.
     pub(crate) fn close(&mut self) {
-        self.writer = Writer::Closed;
+        self.way = Way::Closed;
+    }
+
+    /// Ends the thread.
+    fn end(&mut self) -> Result<(), Error> {
+        let Way::Thread(thread) = std::mem::replace(&mut self.way, Way::Closed) else {
+            return Ok(());
+        };
+        let ended = thread.end().and_then(|(writer, written)| {
+            self.way = Way::Ended(writer);
+            written
+        });
+        ended.map_err(|e| error(&self.path, e))
     }
 
     /// Brings everything to the file; without a record none is written.
@@ -108,16 +156,12 @@ impl Trace {
     /// # Errors
     /// As [`Trace::write`].
     pub(crate) fn finish(mut self, run: &Run) -> Result<(), Error> {
-        let finished = match self.writer {
-            Writer::Csv(ref mut w) => w.finish(),
-            #[cfg(feature = "parquet")]
-            Writer::Parquet(w) => w.finish(run.facts(), &run.totals()),
-            Writer::Closed => Ok(()),
+        let ended = self.end();
+        let finished = match self.way {
+            Way::Ended(writer) => writer.finish(run).map_err(|e| error(&self.path, e)),
+            Way::Thread(_) | Way::Closed => Ok(()),
         };
-        // only Parquet has a place for what is known at the end
-        #[cfg(not(feature = "parquet"))]
-        let _ = run;
-        finished.map_err(|e| error(&self.path, e))
+        ended.and(finished)
     }
 }
 

@@ -12,9 +12,8 @@ use kontur_interpreter::job::Stop;
 use numpy::IntoPyArray as _;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::cell::RefCell;
 use std::io::{self, Write};
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Every diagnostic of a program.
 #[pyfunction]
@@ -34,11 +33,11 @@ pub(crate) fn explain(py: Python<'_>, thing: &str) -> PyResult<String> {
 
 /// What a command writes.
 #[derive(Clone, Default)]
-struct Text(Rc<RefCell<Vec<u8>>>);
+struct Text(Arc<Mutex<Vec<u8>>>);
 
 impl Write for Text {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.borrow_mut().write(bytes)
+        self.lock().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -47,8 +46,12 @@ impl Write for Text {
 }
 
 impl Text {
+    fn lock(&self) -> MutexGuard<'_, Vec<u8>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn take(&self) -> String {
-        String::from_utf8_lossy(&self.0.take()).into_owned()
+        String::from_utf8_lossy(&std::mem::take(&mut *self.lock())).into_owned()
     }
 }
 

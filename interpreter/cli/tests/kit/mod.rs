@@ -2,19 +2,18 @@
 
 use kontur::console::Console;
 use kontur::{Exit, run_with};
-use std::cell::RefCell;
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex};
 use tempfile::TempDir;
 
 #[derive(Clone, Default)]
-struct Buffer(Rc<RefCell<Vec<u8>>>);
+struct Buffer(Arc<Mutex<Vec<u8>>>);
 
 impl Write for Buffer {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.borrow_mut().extend_from_slice(bytes);
+        self.0.lock().unwrap().extend_from_slice(bytes);
         Ok(bytes.len())
     }
 
@@ -79,7 +78,7 @@ impl Folder {
         };
         let args = std::iter::once(OsString::from("kontur")).chain(words.iter().map(word));
         let exit = run_with(args, &mut console);
-        let text = |b: &Buffer| String::from_utf8(b.0.borrow().clone()).unwrap();
+        let text = |b: &Buffer| String::from_utf8(b.0.lock().unwrap().clone()).unwrap();
         (exit, text(&out), text(&err))
     }
 

@@ -1,0 +1,204 @@
+//! A trace file written by a thread of its own, so that a run does not wait for digits and disks.
+//!
+//! Records go to it in batches, and the empty batches come back: a few of them are all the memory that this takes, and
+//! a run that is faster than its file waits. The rows are the same, and in the same order, as without a thread.
+
+use super::Writer;
+use kontur_interpreter::record::CycleRecord;
+use std::io;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::thread::{Builder, JoinHandle};
+use std::time::{Duration, Instant};
+
+/// Records of a batch.
+const RECORDS: usize = 256;
+/// Batches on their way.
+const BATCHES: usize = 3;
+/// Records between two looks at the clock.
+const LOOK_EVERY: usize = 16;
+/// A batch waits no longer than this before it is handed over, and the thread no longer before it flushes.
+const PERIOD: Duration = Duration::from_millis(400);
+
+#[expect(
+    clippy::disallowed_methods,
+    reason = "what waits too long could be lost; no value depends on it"
+)]
+fn now() -> Instant {
+    Instant::now()
+}
+
+/// Records in the order of the run; those behind the first `filled` are left over from before.
+#[derive(Default)]
+struct Batch {
+    records: Vec<CycleRecord>,
+    filled: usize,
+}
+
+impl Batch {
+    fn push(&mut self, record: &CycleRecord) {
+        match self.records.get_mut(self.filled) {
+            Some(old) => old.clone_from(record),
+            None => self.records.push(record.clone()),
+        }
+        self.filled += 1;
+    }
+}
+
+/// A writer on a thread of its own.
+pub(super) struct Background {
+    batch: Batch,
+    sent: Instant,
+    /// `None` once the thread is to end.
+    sender: Option<SyncSender<Batch>>,
+    spare: Receiver<Batch>,
+    thread: Option<JoinHandle<(Writer, io::Result<()>)>>,
+}
+
+impl std::fmt::Debug for Background {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Background").field("waiting", &self.batch.filled).finish_non_exhaustive()
+    }
+}
+
+impl Background {
+    /// Gives a writer its thread.
+    ///
+    /// # Errors
+    /// The system's, if there can be no more threads.
+    pub(super) fn start(writer: Writer) -> io::Result<Self> {
+        let (sender, batches) = sync_channel(BATCHES);
+        let (back, spare) = sync_channel(BATCHES + 2);
+        let thread =
+            Builder::new().name("trace".to_owned()).spawn(move || work(writer, &batches, &back))?;
+        let (sender, thread) = (Some(sender), Some(thread));
+        Ok(Self { batch: Batch::default(), sent: now(), sender, spare, thread })
+    }
+
+    /// Takes a record; false if the thread has ended because of an error, which [`Self::end`] returns.
+    pub(super) fn write(&mut self, record: &CycleRecord) -> bool {
+        self.batch.push(record);
+        let full = self.batch.filled == RECORDS;
+        let late = || self.sent.elapsed() >= PERIOD;
+        if full || self.batch.filled.is_multiple_of(LOOK_EVERY) && late() {
+            return self.send();
+        }
+        true
+    }
+
+    fn send(&mut self) -> bool {
+        let empty = self.spare.try_recv().unwrap_or_default();
+        let batch = std::mem::replace(&mut self.batch, empty);
+        self.sent = now();
+        self.sender.as_ref().is_some_and(|sender| sender.send(batch).is_ok())
+    }
+
+    /// Ends the thread when it has written everything; the writer comes back, with the error that has stopped it.
+    ///
+    /// # Errors
+    /// If the thread has panicked.
+    pub(super) fn end(mut self) -> io::Result<(Writer, io::Result<()>)> {
+        self.send();
+        self.sender = None;
+        let ended = self.thread.take().map(JoinHandle::join);
+        let lost = || io::Error::other("the thread that writes the trace has failed");
+        ended.and_then(Result::ok).ok_or_else(lost)
+    }
+}
+
+impl Drop for Background {
+    /// Waits for the thread: what it has not given a name yet, it takes away.
+    fn drop(&mut self) {
+        self.sender = None;
+        if let Some(thread) = self.thread.take() {
+            // a panic has been reported by its own thread
+            drop(thread.join());
+        }
+    }
+}
+
+/// Writes until no more batches can come.
+fn work(
+    mut writer: Writer,
+    batches: &Receiver<Batch>,
+    back: &SyncSender<Batch>,
+) -> (Writer, io::Result<()>) {
+    loop {
+        let written = match batches.recv_timeout(PERIOD) {
+            Ok(mut batch) => {
+                let written =
+                    batch.records[..batch.filled].iter().try_for_each(|r| writer.write(r));
+                batch.filled = 0;
+                // whoever needs it no more does not take it
+                drop(back.try_send(batch));
+                written
+            }
+            Err(RecvTimeoutError::Timeout) => writer.flush(),
+            Err(RecvTimeoutError::Disconnected) => return (writer, Ok(())),
+        };
+        if written.is_err() {
+            return (writer, written);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::target::Target;
+    use crate::trace::csv::{self, CsvWriter, Rows};
+    use kontur_interpreter::job::Facts;
+    use kontur_interpreter::record::columns;
+
+    fn writer(path: &std::path::Path) -> Writer {
+        let facts = Facts { cycle_us: 1000, ..Facts::default() };
+        let rows = Rows::new(columns::select("s_mm", &facts).unwrap(), &facts);
+        let target = csv::Target::File(Target::create(path).unwrap());
+        Writer::Csv(CsvWriter::new(target, rows))
+    }
+
+    /// Every record of several batches arrives, in order, the last ones too.
+    #[test]
+    fn everything_arrives_in_order() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        let mut background = Background::start(writer(&path)).unwrap();
+        for k in 0..5000 {
+            assert!(background.write(&CycleRecord { k, ..CycleRecord::default() }));
+        }
+        let (writer, written) = background.end().unwrap();
+        written.unwrap();
+        let Writer::Csv(mut writer) = writer else { panic!("{writer:?}") };
+        writer.finish().unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let times = text.lines().skip(1).map(|l| l.split(',').next().unwrap().to_owned());
+        assert!(times.eq((0..5000).map(|k| format!("{}.{:03}000", k / 1000, k % 1000))));
+    }
+
+    /// A run that is given up leaves no file behind.
+    #[test]
+    fn what_is_dropped_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a.csv"), "old").unwrap();
+        let mut background = Background::start(writer(&folder.path().join("a.csv"))).unwrap();
+        for k in 0..100_000 {
+            background.write(&CycleRecord { k, ..CycleRecord::default() });
+        }
+        drop(background);
+        let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
+        assert_eq!(left.len(), 1);
+        assert_eq!(std::fs::read(folder.path().join("a.csv")).unwrap(), b"old");
+    }
+
+    /// The disk is full: the run is told, and the error is the system's.
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn an_error_comes_back() {
+        let mut background = Background::start(writer("/dev/full".as_ref())).unwrap();
+        let mut k = 0;
+        while background.write(&CycleRecord { k, ..CycleRecord::default() }) {
+            k += 1;
+        }
+        let (_, written) = background.end().unwrap();
+        assert_eq!(written.unwrap_err().kind(), io::ErrorKind::StorageFull);
+    }
+}
