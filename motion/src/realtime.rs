@@ -7,7 +7,8 @@
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
-//! # //! use kontur_motion::planner::{Next, Planner};
+//! # use kontur_filters::time::CycleTime;
+//! use kontur_motion::planner::{Next, Planner};
 //! use kontur_motion::realtime::{FeedholdBraking, OverrideRatios};
 //!
 //! let mut planner = Planner::new(CycleTime::from_us(1000).unwrap(), 10, &[0.0, 0.0]);
