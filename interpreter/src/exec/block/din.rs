@@ -258,8 +258,15 @@ impl Decoder {
                     feed = value.map(|v| (v, *span));
                     continue;
                 }
-                "PSET" | "PRESET" | "SUPPRESS OFFSETS" | "ANG" | "AKIMA STARTVECTOR"
-                | "AKIMA ENDVECTOR" => continue,
+                "PSET"
+                | "PRESET"
+                | "SUPPRESS OFFSETS"
+                | "ANG"
+                | "CANG"
+                | "AKIMA STARTVECTOR"
+                | "AKIMA ENDVECTOR"
+                | "SET ASPLINE STARTTANG"
+                | "SET ASPLINE ZIELTANG" => continue,
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,
