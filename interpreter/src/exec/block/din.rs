@@ -294,6 +294,15 @@ impl Decoder {
 
     /// Words that other dialects give another meaning: once per program and word.
     fn dialect_guard(&mut self, words: &Words<'_>) {
+        self.dialect.temperature |= super::dialect::is_temperature(words);
+        if let ([g], [], Some((_, end))) = (&words.g[..], &words.axes[..], words.end_feed)
+            && g.row.number == 92
+            && !self.dialect.own
+        {
+            let span = Span::new(g.span.start as usize, end.end() as usize);
+            self.note(super::dialect::printer("G92 E", "sets the way of an extruder", span));
+            return;
+        }
         for g in &words.g {
             match g.row.number {
                 22 | 23 | 70 | 71 | 351 => self.dialect.unit_or_mirror = true,

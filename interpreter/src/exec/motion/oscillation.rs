@@ -21,6 +21,7 @@ arguments! {
     /// Keys of `X[OSC ..]`.
     struct OscArguments {
         on: Flag "ON", "", "begins";
+        osc_on: Flag "OSC_ON", "", "as OSC ON";
         off: Flag "OFF", "", "ends at the second position";
         first: Number "1ST_POS", "mm", "first reversal position";
         second: Number "2ND_POS", "mm", "second reversal position";
@@ -69,7 +70,7 @@ impl Decoder {
         if self.machine.axes[axis].is_modulo() {
             return Err(Fault::unsupported(format!("{title} of a modulo axis"), span));
         }
-        match (keys.on, keys.off) {
+        match (keys.on.or(keys.osc_on), keys.off) {
             (Some(_), None) => self.oscillation(axis, &keys, span),
             (None, Some(_)) => {
                 self.join(vec![axis]);

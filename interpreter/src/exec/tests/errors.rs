@@ -143,6 +143,11 @@ fn the_dialect_guard() {
     assert_eq!(run.ids(), ["K-0101"]);
     assert_eq!(run.end[0], -5.0);
     assert!(clean("G71 G21\nM30\n").diagnostics.is_empty());
+    for text in ["M104 S200\nG28", "M190 S60\nX1 F100\nG29", "G92 E0"] {
+        assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), ["K-0120"], "{text}");
+    }
+    // a spindle speed beside an M function of the machine
+    assert!(clean("M104 S200\nG01 X1 F100\nM30\n").diagnostics.is_empty());
     for (text, id) in [("M98 P1=5", "K-0101"), ("G43 Z1 F100", "20131"), ("G28", "20131")] {
         assert_eq!(super::run(&format!("{text}\nM30\n")).ids()[0], id, "{text}");
     }
