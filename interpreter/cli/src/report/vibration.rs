@@ -1,6 +1,6 @@
 //! What a machine that gives way makes of the set positions: spectrum of the commanded acceleration, and the deflection of a mass on a spring.
 
-use super::Drawn;
+use super::drawn::Drawn;
 use super::recording::MOST_SAMPLES;
 use super::shown::{Shown, Source, name, span, style};
 use crate::chart::scale::Scale;
