@@ -1,7 +1,9 @@
 ; run --identity-trafo: exit 0
 ; page - program of a user: welding robot with transformations (ORNL Slicer, Arc Specialties)
-; warning K-0111 at 8:5
-; warning K-0111 at 11:5
+; warning K-0111 at 12:5
+; warning K-0111 at 13:5
+; warning K-0111 at 15:5
+; warning K-0111 at 17:5
 ; passes X8.48528 Y8.48528
 ; end X0 Y12 Z1
 N10 G90

@@ -1,6 +1,6 @@
 ; run: exit 0
 ; page 303637387 variables of a measuring cycle in a message
-; note K-0081 at 8:5
+; note K-0081 at 8:1
 #VAR
 V.CYC.SysRetC = 2
 #ENDVAR

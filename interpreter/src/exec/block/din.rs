@@ -40,6 +40,9 @@ impl Decoder {
     ) -> After<'b> {
         let mut words = Words::default();
         self.collect(written, &mut words);
+        if self.is_of_a_printer(&words) {
+            return After::Next;
+        }
         self.dialect_guard(&words);
         self.planes_and_units(&words);
         let takes_axes = self.axis_functions(&words);
@@ -292,17 +295,22 @@ impl Decoder {
         }
     }
 
+    /// K-0120 for a block that only a 3D printer understands: G92 with the way of an extruder.
+    fn is_of_a_printer(&mut self, words: &Words<'_>) -> bool {
+        self.dialect.temperature |= super::dialect::is_temperature(words);
+        let ([g], [], Some((_, end))) = (&words.g[..], &words.axes[..], words.end_feed) else {
+            return false;
+        };
+        if g.row.number != 92 || self.dialect.own {
+            return false;
+        }
+        let span = Span::new(g.span.start as usize, end.end() as usize);
+        self.note(super::dialect::printer("G92 E", "sets the way of an extruder", span));
+        true
+    }
+
     /// Words that other dialects give another meaning: once per program and word.
     fn dialect_guard(&mut self, words: &Words<'_>) {
-        self.dialect.temperature |= super::dialect::is_temperature(words);
-        if let ([g], [], Some((_, end))) = (&words.g[..], &words.axes[..], words.end_feed)
-            && g.row.number == 92
-            && !self.dialect.own
-        {
-            let span = Span::new(g.span.start as usize, end.end() as usize);
-            self.note(super::dialect::printer("G92 E", "sets the way of an extruder", span));
-            return;
-        }
         for g in &words.g {
             match g.row.number {
                 22 | 23 | 70 | 71 | 351 => self.dialect.unit_or_mirror = true,

@@ -153,6 +153,14 @@ fn the_dialect_guard() {
     }
 }
 
+/// What a macro makes of a block is said of that block, not of the one before it.
+#[test]
+fn a_macro_that_cannot_be_used_names_its_block() {
+    let found = run("N10 \"A\" = \"COS[\"\nN20 X\"A\" F100\nM30\n").diagnostics;
+    assert_eq!(places(&found), ["K-0121 2:6"]);
+    assert_eq!(found[0].source.as_ref().and_then(|at| at.block), Some(20));
+}
+
 #[test]
 fn the_check_stops_after_twenty_errors() {
     let text: Vec<String> = (0..40).map(|i| format!("N{i} #FOO")).collect();
