@@ -33,6 +33,8 @@ use std::path::{Path, PathBuf};
 /// Bytes and lines of a program that a page shows at most.
 const MOST_TEXT_BYTES: u64 = 1 << 19;
 const MOST_TEXT_LINES: usize = 5000;
+/// Runs of a page or a picture: twice as many as there are colours; a long one takes 25 MB.
+const MOST_RUNS: usize = 16;
 
 /// A run that is drawn.
 #[derive(Debug)]
@@ -132,6 +134,13 @@ fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request)>, Error> 
             let values = values.collect::<Vec<_>>().join(", ");
             all.push((program.display().to_string(), values, request));
         }
+    }
+    if all.len() > MOST_RUNS {
+        let text = format!(
+            "{} runs, at most {MOST_RUNS} are drawn; `kontur sweep` compares more",
+            all.len()
+        );
+        return Err(Error::Usage(text));
     }
     Ok(all)
 }

@@ -9,8 +9,9 @@ use kontur_interpreter::record::{CycleRecord, Motion, SpeedLimit};
 /// Buckets of a finished recording are at least half of this many, once a run is longer than that.
 const MOST_BUCKETS: usize = 4000;
 
-/// Cycles of which the acceleration of every axis is kept as it is.
-pub(crate) const MOST_SAMPLES: usize = 300_000;
+/// Cycles of which the acceleration of every axis is kept as it is: two minutes at 1 ms. With 32 axes they are 33 MB, and as much
+/// again as text of a page.
+pub(crate) const MOST_SAMPLES: usize = 1 << 17;
 
 /// More passes than this over one contour are drawn as one.
 pub(crate) const MOST_PASSES: usize = 8;
@@ -21,7 +22,9 @@ const CLOSED_MM: f64 = 1e-6;
 /// Some consecutive cycles.
 #[derive(Clone, Debug)]
 pub(crate) struct Bucket {
+    /// The first cycle.
     pub(crate) k: u64,
+    pub(crate) last: u64,
     pub(crate) file: u32,
     pub(crate) line: u32,
     pub(crate) block: Option<u64>,
@@ -204,6 +207,7 @@ impl Recording {
         let range: Vec<(f64, f64)> = self.curves.iter().map(|c| (value(c), value(c))).collect();
         let bucket = Bucket {
             k: record.k,
+            last: record.k,
             file: record.file,
             line: record.line,
             block: record.block,
@@ -289,6 +293,7 @@ impl Recording {
 
 impl Bucket {
     fn merge(&mut self, other: Self) {
+        self.last = other.last;
         for (a, b) in self.range.iter_mut().zip(other.range) {
             *a = (a.0.min(b.0), a.1.max(b.1));
         }
@@ -346,6 +351,9 @@ mod tests {
             r.add(&record);
         }
         assert!(r.buckets.len() < MOST_BUCKETS && r.buckets.len() > MOST_BUCKETS / 4);
+        // one after the other, up to the last cycle
+        assert!(r.buckets.windows(2).all(|w| w[0].last + 1 == w[1].k));
+        assert_eq!(r.buckets.last().unwrap().last, n - 1);
         let error = r.curves.iter().position(|c| c.kind == Kind::ContourError).unwrap();
         let most = r.buckets.iter().map(|b| b.range[error].1).fold(0.0, f64::max);
         assert_eq!(most.to_bits(), 0.5_f64.to_bits());
