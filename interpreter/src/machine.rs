@@ -19,6 +19,7 @@ mod channel;
 mod hints;
 pub(crate) mod issues;
 pub mod key;
+mod levers;
 mod link;
 pub mod lists;
 mod overrides;
@@ -36,14 +37,13 @@ pub use axis::{Axis, AxisKind};
 pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, OverrideMode, RapidOverride};
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;
+pub use levers::Lever;
 pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
 pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
-
 pub use tools::{Tool, ZeroOffsets};
 
-use crate::diag::Diagnostic;
 use kontur_filters::time::CycleTime;
 use std::collections::BTreeMap;
 
@@ -69,19 +69,6 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Loads a machine from its start-up list and applies overrides. Beside the machine come all warnings.
-    ///
-    /// # Errors
-    /// All diagnostics, if at least one of them is an error: K-0013 a list that cannot be read, K-0031 numbers that do
-    /// not fit together, K-0070 a refused value, K-0073 an override that names nothing, 110472, 110597, 120178.
-    pub fn load(
-        files: &dyn ListFiles,
-        start_up: &str,
-        overrides: &[Override],
-    ) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
-        chain::load(files, start_up, overrides)
-    }
-
     /// Axis, spindle or gantry slave with a name of the channel list, without regard to case.
     pub fn axis(&self, name: &str) -> Option<&Axis> {
         self.all_axes().find(|a| a.name().eq_ignore_ascii_case(name))

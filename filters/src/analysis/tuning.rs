@@ -129,9 +129,9 @@ impl VibrationBand {
     }
 }
 
-/// A frequency in steps of [`RESOLUTION_HZ`], at least 1 Hz (P-AXIS-00589).
+/// A frequency in steps of [`RESOLUTION_HZ`], at least the lowest of the guard.
 fn rounded(freq_hz: f64, how: fn(f64) -> f64) -> f64 {
-    (how(freq_hz / RESOLUTION_HZ + 1e-9) / (1.0 / RESOLUTION_HZ)).max(1.0)
+    (how(freq_hz / RESOLUTION_HZ + 1e-9) / (1.0 / RESOLUTION_HZ)).max(VibGuardSettings::MIN_FREQ_HZ)
 }
 
 /// The choice that leaves less; of equal ones the earlier.

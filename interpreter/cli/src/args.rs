@@ -66,7 +66,7 @@ pub enum Command {
 
 impl Command {
     /// How its messages are printed.
-    pub const fn message_form(&self) -> MessageForm {
+    pub(crate) const fn message_form(&self) -> MessageForm {
         match self {
             Self::Run(a) => a.simulation.diagnostics,
             Self::Check(a) => a.simulation.diagnostics,

@@ -40,7 +40,7 @@ impl std::fmt::Debug for Console {
 
 impl Console {
     /// The process' own stdout and stderr; progress if stderr is a terminal, colours too unless `NO_COLOR` is set.
-    pub fn of_process() -> Self {
+    pub(crate) fn of_process() -> Self {
         let terminal = std::io::stderr().is_terminal();
         let unwanted = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         Self {
@@ -74,7 +74,7 @@ impl Console {
     }
 
     /// Prints a message to stderr.
-    pub fn announce(&mut self, message: &Diagnostic) {
+    pub(crate) fn announce(&mut self, message: &Diagnostic) {
         let text = match self.form {
             MessageForm::Text => render::text(message, self.colours),
             MessageForm::Json => render::json(message),
@@ -107,7 +107,7 @@ impl Console {
     }
 
     /// Writes a message to stderr, with a line end if it has none.
-    pub fn error_text(&mut self, text: &str) {
+    pub(crate) fn error_text(&mut self, text: &str) {
         let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
         // nobody is left to be told when stderr itself fails
         let _ = write!(self.err, "{text}{end}").and_then(|()| self.err.flush());
@@ -183,13 +183,13 @@ impl Progress {
 
     /// Shows how many of all runs are done, and the time that the others will take if they are like those done since the
     /// beginning of this work (`now`).
-    pub fn show_rest(&mut self, done: usize, all: usize, now: usize) {
+    pub(crate) fn show_rest(&mut self, done: usize, all: usize, now: usize) {
         let left = rest(self.bar.elapsed(), now, all.saturating_sub(done));
         self.show(|| format!("{done} of {all} runs, {left} left"));
     }
 
     /// Does something else on the terminal (prints a message) while the display steps aside.
-    pub fn suspend<R>(&self, f: impl FnOnce() -> R) -> R {
+    pub(crate) fn suspend<R>(&self, f: impl FnOnce() -> R) -> R {
         if self.shown { self.bar.suspend(f) } else { f() }
     }
 }

@@ -3,9 +3,11 @@
 //! Both show the same [`views`]. The page holds its own script: a plotting library would weigh more than the data, and
 //! none links a point of the contour to its moment in time. With `--signals` the picture shows columns of the trace over time, and their spectra.
 
+mod drawn;
 mod page;
 mod picture;
 mod recording;
+mod requests;
 mod shown;
 mod signals;
 mod stops;
@@ -14,18 +16,18 @@ mod vibration;
 mod views;
 
 use crate::args::ReportArgs;
-use crate::combinations::{combinations, put, values};
 use crate::console::Console;
 use crate::files::STANDARD;
-use crate::request::{Opened, Request};
+use crate::request::Opened;
 use crate::run::{Shown, announce_lists, drive};
 use crate::target::keep_apart;
 use crate::{Error, Exit, times};
-use kontur_filters::vib_guard::VibGuardSettings;
+use drawn::Drawn;
 use kontur_interpreter::diag::render::printable;
 use kontur_interpreter::summary::{Collector, State, Summary};
 use page::Beside;
 use recording::Recording;
+use requests::requests;
 use std::collections::BTreeSet;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -33,17 +35,6 @@ use std::path::{Path, PathBuf};
 /// Bytes and lines of a program that a page shows at most.
 const MOST_TEXT_BYTES: u64 = 1 << 19;
 const MOST_TEXT_LINES: usize = 5000;
-/// Runs of a page or a picture: twice as many as there are colours; a long one takes 25 MB.
-const MOST_RUNS: usize = 16;
-
-/// A run that is drawn.
-#[derive(Debug)]
-struct Drawn {
-    recording: Recording,
-    summary: Summary,
-    /// Settings that the Vibration Guard of an axis worked with.
-    guards: Vec<(usize, VibGuardSettings)>,
-}
 
 /// Runs every program and writes the page (`.html`) or the picture (`.svg`). An aborted run is drawn up to its stop.
 ///
@@ -119,30 +110,6 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
     }
     let aborted = runs.iter().any(|r| r.summary.state == State::Aborted);
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
-}
-
-/// Every program under every combination of `--vary`: the program, the values, and what is to be run.
-fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request)>, Error> {
-    let combinations = combinations(&args.vary)?;
-    let mut all = Vec::new();
-    for program in &args.programs {
-        for combination in &combinations {
-            let mut request = args.simulation.request(program);
-            put(&args.vary, combination, &mut request);
-            let names = args.vary.iter().zip(values(&args.vary, combination));
-            let values = names.map(|(v, value)| format!("{} = {value}", v.short()));
-            let values = values.collect::<Vec<_>>().join(", ");
-            all.push((program.display().to_string(), values, request));
-        }
-    }
-    if all.len() > MOST_RUNS {
-        let text = format!(
-            "{} runs, at most {MOST_RUNS} are drawn; `kontur sweep` compares more",
-            all.len()
-        );
-        return Err(Error::Usage(text));
-    }
-    Ok(all)
 }
 
 /// What a report is written as.

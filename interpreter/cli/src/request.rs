@@ -92,7 +92,7 @@ pub struct Reads {
 impl Reads {
     /// Every file that was read so far: what only the moving machine decides may call subroutines that the check ahead has not
     /// seen.
-    pub fn so_far(&self) -> Vec<PathBuf> {
+    pub(crate) fn so_far(&self) -> Vec<PathBuf> {
         self.others.iter().cloned().chain(self.programs.opened()).collect()
     }
 }

@@ -23,6 +23,7 @@ mod journal;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod picture;
+mod rows;
 
 use crate::args::{Amplitude, SweepArgs, Vary};
 use crate::combinations::{combinations, put, settings, without_effect};
@@ -30,7 +31,7 @@ use crate::console::Console;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened, Request};
 use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
-use crate::table::{Cell, Table};
+use crate::table::Cell;
 use crate::target::{Target, create_all, keep_apart};
 use crate::{Error, Exit};
 use journal::Journal;
@@ -38,25 +39,14 @@ use kontur_interpreter::diag::Severity;
 use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::record::columns::Column;
-use kontur_interpreter::summary::{Collector, State, Summary};
+use kontur_interpreter::summary::{Collector, State};
 use rayon::prelude::*;
+pub use rows::Row;
+use rows::{Outcome, Rows};
 use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
-
-/// What one run leaves behind.
-#[derive(Clone, Debug)]
-struct Outcome {
-    summary: Summary,
-    /// In the order of `--amplitude`; not a number if the run did not get that far.
-    amplitudes: Vec<f64>,
-    /// Files that it has read.
-    reads: Vec<PathBuf>,
-}
-
-/// The row of one run under its header.
-pub type Row = (Vec<String>, Vec<Cell>);
 
 /// The column that names the parameters without effect, where there are any.
 pub const WITHOUT_EFFECT: &str = "without_effect";
@@ -74,14 +64,6 @@ impl Failure {
     const fn usage(text: String) -> Self {
         Self::Open(OpenError::Usage(text))
     }
-}
-
-/// All rows of a sweep.
-struct Rows {
-    /// Program and machine.
-    title: String,
-    header: Vec<String>,
-    cells: Vec<Vec<Cell>>,
 }
 
 /// Runs every combination and writes the rows: as a table on stdout, or to each `-o` as CSV, Parquet or picture.
@@ -221,25 +203,6 @@ fn write(
     };
     target.file().and_then(|file| file.write_all(text.as_bytes())).map_err(to_error)?;
     target.show().map_err(to_error)
-}
-
-impl Rows {
-    /// With one more column that says the same in every row.
-    fn noting(mut self, name: &str, text: &str) -> Self {
-        self.header.push(name.to_owned());
-        for row in &mut self.cells {
-            row.push(Cell::Word(text.to_owned()));
-        }
-        self
-    }
-
-    fn table(&self) -> Table {
-        let mut table = Table::new(&self.header.iter().map(String::as_str).collect::<Vec<_>>());
-        for row in &self.cells {
-            table.push(row.iter().cloned());
-        }
-        table
-    }
 }
 
 /// Runs what the journal does not have, with a count of what is done on the terminal: all rows, and the files that were

@@ -5,108 +5,21 @@ pub(super) mod bottleneck;
 pub(super) mod compensation;
 pub(super) mod contouring;
 pub(super) mod insertion;
+mod motion;
 
 use self::akima::{Akima, Curve};
 use self::bottleneck::Cut;
 use self::compensation::{Compensator, Item, Rest};
 use self::contouring::{Contouring, Hsc};
 use self::insertion::Insertion;
-use super::block::modal::Selection;
 use super::fault::{Fault, Outcome};
 use super::geometry::arc::Point;
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
-use kontur_motion::axis::AxisVec;
-use kontur_motion::block::Block;
-use kontur_motion::path::{LinePath, Path, Tilt, TiltedArc};
 use std::collections::VecDeque;
 
-/// A programmed motion; the number of its block is given when it becomes a step.
-#[derive(Clone, Debug)]
-pub(super) struct Motion {
-    pub(super) block: Box<Block>,
-    pub(super) source: SourceRef,
-    pub(super) events: Vec<Event>,
-    /// Axes of the plane that was active; with a tilt, axes of its coordinates.
-    pub(super) plane: [usize; 2],
-    /// Coordinate system, if the plane lies askew to the axes.
-    pub(super) tilt: Option<Box<Tilt>>,
-    /// The path is in the coordinates of the tilt.
-    pub(super) local: bool,
-    pub(super) compensation: Option<Compensated>,
-    /// It leads to a point of an Akima spline.
-    pub(super) akima: bool,
-    /// The block, for conditions.
-    pub(super) span: Span,
-}
-
-/// Tool radius compensation of a motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Compensated {
-    /// Distance of the tool's centre to the left of the contour.
-    pub(super) distance_mm: f64,
-    /// Outer corners by lines (G25) instead of arcs (G26).
-    pub(super) straight_corners: bool,
-    /// How it begins and ends.
-    pub(super) selection: Selection,
-    /// G11: least radius in mm of the arcs whose feed is that of the tool's engagement.
-    pub(super) engagement_radius_mm: Option<f64>,
-}
-
-impl Motion {
-    /// Takes the path over into the coordinates of the tilt.
-    fn enter_tilt(&mut self) {
-        let Some(tilt) = &self.tilt else { return };
-        if std::mem::replace(&mut self.local, true) {
-            return;
-        }
-        let path = match &self.block.path {
-            Path::Line(_) => {
-                let (start, end) = local_ends(tilt, self.block.path.start(), self.block.path.end());
-                LinePath::new(start, end, &self.block.dynamics.feed_axes).map(Path::Line)
-            }
-            Path::Tilted(tilted) => Some(Path::Arc(tilted.arc().clone())),
-            Path::Arc(_) | Path::Curve(_) => None,
-        };
-        match path {
-            Some(path) => self.block.path = path,
-            None => self.local = false,
-        }
-    }
-
-    /// Takes the path back into the coordinates of the machine.
-    fn leave_tilt(&mut self) {
-        let Some(tilt) = self.tilt.as_deref() else { return };
-        if !std::mem::take(&mut self.local) {
-            return;
-        }
-        let (start, end) = (self.block.path.start(), self.block.path.end());
-        let (start, end) = (tilt.position(start), tilt.position(end));
-        let path = match &self.block.path {
-            Path::Arc(arc) => {
-                Some(Path::Tilted(Box::new(TiltedArc::new(arc.clone(), *tilt, start, end))))
-            }
-            _ => LinePath::new(start, end, &self.block.dynamics.feed_axes).map(Path::Line),
-        };
-        if let Some(path) = path {
-            self.block.path = path;
-        }
-    }
-}
-
-/// Ends of a path in the coordinates of a tilt. What differs by rounding alone is made equal, so that an axis of the
-/// system that stands still does so exactly.
-pub(super) fn local_ends(tilt: &Tilt, start: &[f64], end: &[f64]) -> (AxisVec, AxisVec) {
-    const ROUNDING_MM: f64 = 1e-9;
-    let (start, mut end) = (tilt.local(start), tilt.local(end));
-    for axis in tilt.axes {
-        if (end[axis] - start[axis]).abs() < ROUNDING_MM {
-            end[axis] = start[axis];
-        }
-    }
-    (start, end)
-}
+pub(super) use motion::{Compensated, Driven, Motion, local_ends};
 
 /// K-0119.
 fn bottleneck(cut: &Cut) -> Box<Fault> {
@@ -116,15 +29,6 @@ fn bottleneck(cut: &Cut) -> Box<Fault> {
     );
     let hint = "the control drives such bottlenecks unnoticed; a smaller tool fits";
     Fault::new(Condition::Bottleneck, text, Span::default()).hint(hint).in_block(cut.tool)
-}
-
-/// A path whose ends the program does not know.
-#[derive(Debug)]
-pub(super) struct Driven {
-    /// Lowest and highest position of every axis.
-    pub(super) extents_mm: Vec<(f64, f64)>,
-    pub(super) source: SourceRef,
-    pub(super) span: Span,
 }
 
 /// Motions and events on their way to the simulation.

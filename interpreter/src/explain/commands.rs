@@ -1,6 +1,6 @@
 //! G functions and words in brackets, one row each; what `#` commands say of themselves stands in their own rows.
 
-use super::{Explanation, Kind};
+use super::explanation::{Explanation, Kind};
 use crate::exec::commands;
 
 /// One command.

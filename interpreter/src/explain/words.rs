@@ -1,6 +1,6 @@
 //! Objects of the control and words of the documents.
 
-use super::{Explanation, Kind};
+use super::explanation::{Explanation, Kind};
 
 pub(super) struct Word {
     name: &'static str,

@@ -17,20 +17,26 @@ pub(super) const SEPARATORS: [char; 2] = ['/', '\\'];
 /// Name of kontur's own list, beside the start-up list.
 pub(super) const OWN_LIST: &str = "kontur.lis";
 
-/// Loads a machine, see [`Machine::load`].
-pub(super) fn load(
-    files: &dyn ListFiles,
-    start_up: &str,
-    overrides: &[Override],
-) -> Result<(Machine, Vec<Diagnostic>), Vec<Diagnostic>> {
-    let mut chain = Chain { files, start_up, diagnostics: Vec::new() };
-    let machine = chain.run(overrides);
-    let diagnostics = chain.diagnostics;
-    match machine {
-        Some(machine) if !diagnostics.iter().any(Diagnostic::is_error) => {
-            Ok((machine, diagnostics))
+impl Machine {
+    /// Loads a machine from its start-up list and applies overrides. Beside the machine come all warnings.
+    ///
+    /// # Errors
+    /// All diagnostics, if at least one of them is an error: K-0013 a list that cannot be read, K-0031 numbers that do
+    /// not fit together, K-0070 a refused value, K-0073 an override that names nothing, 110472, 110597, 120178.
+    pub fn load(
+        files: &dyn ListFiles,
+        start_up: &str,
+        overrides: &[Override],
+    ) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let mut chain = Chain { files, start_up, diagnostics: Vec::new() };
+        let machine = chain.run(overrides);
+        let diagnostics = chain.diagnostics;
+        match machine {
+            Some(machine) if !diagnostics.iter().any(Diagnostic::is_error) => {
+                Ok((machine, diagnostics))
+            }
+            _ => Err(diagnostics),
         }
-        _ => Err(diagnostics),
     }
 }
 

@@ -39,18 +39,10 @@ use super::lists::{self, ListFiles};
 use super::parameters::Parameters;
 use super::table::{ListKind, channel as of};
 use crate::diag::{Condition, Diagnostic, Severity};
+pub use content::Part;
 use content::{Content, ListText};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write as _};
-
-/// One file of a project.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
-    /// Path as the user gave it, in the folder of the project.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-}
 
 /// The lists of a project as files: those that the XML holds, and real ones for the rest.
 pub struct Project<'a> {

@@ -105,7 +105,12 @@ impl Simulation {
                 (0..self.chains.len()).filter(|i| together(*i)).collect()
             }
             Reaction::AllStop => (0..self.chains.len()).collect(),
-            _ => return,
+            // the path brakes, nothing of the axis besides
+            Reaction::None
+            | Reaction::ProgramAbort
+            | Reaction::JobAbort
+            | Reaction::FeedHold
+            | Reaction::ControlledStop => return,
         };
         let bridge = reaction != Reaction::AllStop && concerned.len() > 1;
         if bridge && self.record.path.v_mm_s > 0.0 {

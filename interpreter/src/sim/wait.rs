@@ -148,7 +148,7 @@ impl Wait {
             Action::Shaping(setup) => {
                 setup.axes.get(i).is_none_or(|a| chain.ready_for(a.kernel.as_deref()))
             }
-            _ => true,
+            Action::None | Action::MachineData { .. } | Action::ThreadEnd | Action::End(_) => true,
         };
         !matches!(self.until, Until::Cycles(1.., _))
             && !self.under_way(parts)

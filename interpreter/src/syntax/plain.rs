@@ -4,6 +4,7 @@
 //! brackets, and comments, and yields numbers: [`Plain::tree`] makes the tree of them that the grammar gives. Everything
 //! else it hands over, so it never reports an error. The tests compare both over random and damaged lines.
 
+mod scan;
 mod sum;
 
 use super::ast::{
@@ -11,7 +12,7 @@ use super::ast::{
     WordKind,
 };
 use super::number::short_decimal;
-use crate::source::regions::comment_length;
+use scan::{blanks, integer};
 use smallvec::SmallVec;
 
 /// A plain block.
@@ -159,29 +160,4 @@ fn followed_by_word(bytes: &[u8], at: usize) -> Option<()> {
         }
         Some(_) => None,
     }
-}
-
-/// After blanks and comments in brackets, which are blanks for the grammar.
-fn blanks(bytes: &[u8], mut at: usize) -> usize {
-    loop {
-        match bytes.get(at) {
-            Some(b' ' | b'\t') => at += 1,
-            Some(b'(') => at += comment_length(&bytes[at..]),
-            _ => return at,
-        }
-    }
-}
-
-/// Digits from `at` on: value and end; short enough not to overflow.
-fn integer(bytes: &[u8], at: usize) -> Option<(u64, usize)> {
-    let mut value = 0_u64;
-    let mut end = at;
-    while let Some(byte) = bytes.get(end).filter(|b| b.is_ascii_digit()) {
-        value = value * 10 + u64::from(byte - b'0');
-        end += 1;
-        if end > at + 18 {
-            return None;
-        }
-    }
-    (end > at).then_some((value, end))
 }

@@ -1,6 +1,6 @@
 //! The interactive page: one file, no network; data as JSON beside its own script.
 
-use super::Drawn;
+use super::drawn::Drawn;
 use super::recording::{Bucket, Curve, Recording, programmed};
 use super::stops::Stop;
 use super::track::Point;

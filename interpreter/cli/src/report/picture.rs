@@ -1,7 +1,7 @@
 //! The still picture: contour, a close look at its worst corner or at the largest difference of its passes, path
 //! speed and deviations over time.
 
-use super::Drawn;
+use super::drawn::Drawn;
 use super::recording::Recording;
 use super::shown::{Shown, Source};
 use super::track::Point;

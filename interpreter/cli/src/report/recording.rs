@@ -9,9 +9,10 @@ use kontur_interpreter::record::{CycleRecord, Motion, SpeedLimit};
 /// Buckets of a finished recording are at least half of this many, once a run is longer than that.
 const MOST_BUCKETS: usize = 4000;
 
-/// Cycles of which the acceleration of every axis is kept as it is: two minutes at 1 ms. With 32 axes they are 33 MB, and as much
-/// again as text of a page.
-pub(crate) const MOST_SAMPLES: usize = 1 << 17;
+/// Cycles of which the acceleration of every axis is kept as it is, at most: two minutes at 1 ms.
+const MOST_SAMPLES: usize = 1 << 17;
+/// The same for all axes together: 17 MB, and as text of a page twice as much.
+const MOST_ACCELERATIONS: usize = 1 << 21;
 
 /// More passes than this over one contour are drawn as one.
 pub(crate) const MOST_PASSES: usize = 8;
@@ -101,6 +102,8 @@ pub(crate) struct Recording {
     track: Track,
     /// The point with the largest contour error.
     pub(crate) worst: Option<Point>,
+    /// Cycles of which [`Self::accelerations`] are kept.
+    pub(crate) most_samples: usize,
     /// Commanded acceleration of each axis of [`Facts::axes`], cycle by cycle from the first one on; empty for spindles.
     pub(crate) accelerations: Vec<Vec<f64>>,
 }
@@ -150,6 +153,7 @@ impl Recording {
             moved: false,
             track: Track::default(),
             worst: None,
+            most_samples: MOST_SAMPLES.min(MOST_ACCELERATIONS / facts.axes.len().max(1)),
             accelerations: vec![Vec::new(); facts.axes.len()],
         }
     }
@@ -168,6 +172,12 @@ impl Recording {
                 }
             }
         }
+    }
+
+    /// Number of cycles that were added.
+    pub(crate) fn cycles(&self) -> u64 {
+        let ends = self.buckets.first().zip(self.buckets.last());
+        ends.map_or(0, |(first, last)| last.last - first.k + 1)
     }
 
     /// Seconds of a cycle count.
@@ -194,7 +204,7 @@ impl Recording {
         }
         self.stops.add(record, &self.facts.axes);
         for (i, (samples, a)) in self.accelerations.iter_mut().zip(&record.axes).enumerate() {
-            if samples.len() < MOST_SAMPLES && !self.facts.axes[i].spindle {
+            if samples.len() < self.most_samples && !self.facts.axes[i].spindle {
                 samples.push(a.acc);
             }
         }

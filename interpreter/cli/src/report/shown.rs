@@ -1,6 +1,6 @@
 //! What a view of the report is made of, and how its lines are named and coloured.
 
-use super::Drawn;
+use super::drawn::Drawn;
 use crate::chart::style::{DASHES, Style};
 use crate::chart::view::{Points, View};
 use serde::Serialize;

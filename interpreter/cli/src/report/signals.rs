@@ -1,6 +1,6 @@
 //! Columns of the trace over time, and their spectra: one panel each, one curve per run.
 
-use super::requests;
+use super::requests::requests;
 use crate::args::ReportArgs;
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around, of_column};

@@ -1,6 +1,6 @@
 //! What a report shows of its runs: the same views in the picture and in the page.
 
-use super::Drawn;
+use super::drawn::Drawn;
 use super::recording::{Kind, Recording, programmed};
 use super::shown::{Contour, Shown, Source, name, short, span, style};
 use super::track::Point;

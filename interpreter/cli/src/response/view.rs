@@ -1,5 +1,6 @@
 //! The four views of curves: each gives a table and a picture.
 
+mod answer;
 mod corner;
 mod frequency;
 mod residual;
@@ -8,16 +9,9 @@ mod step;
 use super::curve::Curve;
 use crate::Error;
 use crate::args::ResponseArgs;
-use crate::chart::plot::Plot;
-use crate::table::Table;
 use kontur_filters::time::CycleTime;
 
-/// A view: numbers and their picture.
-#[derive(Debug)]
-pub(super) struct Answer {
-    pub(super) table: Table,
-    pub(super) plot: Plot,
-}
+pub(super) use answer::Answer;
 
 /// The view that the arguments ask for.
 ///
@@ -37,19 +31,4 @@ pub(super) fn view(
     } else {
         frequency::view(args, curves, cycle)
     }
-}
-
-/// Cycle time in words.
-fn cycle_text(cycle: CycleTime) -> String {
-    format!("cycle {} ms", f64::from(cycle.us()) / 1000.0)
-}
-
-fn labels(curves: &[Curve]) -> Vec<String> {
-    curves.iter().map(|curve| curve.label.clone()).collect()
-}
-
-/// Frequencies from `low` to `high`, evenly spread on a logarithmic scale, both ends included.
-fn spread((low, high): (f64, f64), count: u32) -> impl Iterator<Item = f64> {
-    let ratio = libm::log(high / low) / f64::from(count);
-    (0..=count).map(move |i| if i == count { high } else { low * libm::exp(ratio * f64::from(i)) })
 }

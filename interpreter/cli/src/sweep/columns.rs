@@ -1,6 +1,6 @@
 //! The rows of a sweep: parameters, how the run ended, results.
 
-use super::Outcome;
+use super::rows::Outcome;
 use crate::args::SweepArgs;
 use crate::combinations::values;
 use crate::table::Cell;

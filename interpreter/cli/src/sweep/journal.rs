@@ -3,7 +3,7 @@
 //! A file of JSON lines, `NAME.rows` beside the output NAME: the first line says what is swept, every other line is a row,
 //! written when its run has ended. A journal of another sweep, or of files that were changed since, is begun anew.
 
-use super::Row;
+use super::rows::Row;
 use crate::Error;
 use crate::args::SweepArgs;
 use serde::{Deserialize, Serialize};

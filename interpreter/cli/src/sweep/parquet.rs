@@ -1,6 +1,6 @@
 //! The rows of a sweep as a Parquet file: numbers as numbers, words as strings, nothing where there is no number.
 
-use super::Rows;
+use super::rows::Rows;
 use crate::table::Cell;
 use ::parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use ::parquet::data_type::{ByteArray, ByteArrayType, DoubleType};

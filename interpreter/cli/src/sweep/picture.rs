@@ -1,6 +1,6 @@
 //! The picture of a sweep: results over the first parameter, one curve for each combination of the others.
 
-use super::Rows;
+use super::rows::Rows;
 use crate::Error;
 use crate::args::SweepArgs;
 use crate::chart::plot::Plot;

@@ -5,7 +5,7 @@ use crate::files::{self, Lists};
 use crate::interrupt::Running;
 use crate::request::Request;
 use kontur_interpreter::job::{Run, Sink};
-use kontur_interpreter::machine::Axis;
+use kontur_interpreter::machine::{Axis, Lever};
 use kontur_interpreter::record::CycleRecord;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -13,55 +13,15 @@ use serde::Serialize;
 /// A reason that takes less than this share of the duration is not worth a run.
 const WORTHWHILE: f64 = 0.01;
 
-/// Parameters of one kind; those that a list leaves at 0 follow others.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Group {
-    what: &'static str,
-    /// P-AXIS numbers, as shown.
-    ids: &'static str,
-    keys: &'static [&'static str],
-    factor: f64,
+/// What a tenth of a group of parameters is called, and the factor.
+const fn tenth(lever: Lever) -> (&'static str, f64) {
+    match lever {
+        Lever::Speed => ("velocity +10 %", 1.1),
+        Lever::Acceleration => ("accelerations +10 %", 1.1),
+        Lever::Ramps => ("ramp times -10 %", 0.9),
+        Lever::GeometricRamp => ("geometric ramp times -10 %", 0.9),
+    }
 }
-
-const SPEED: Group = Group {
-    what: "velocity +10 %",
-    ids: "P-AXIS-00212, 00209",
-    keys: &["getriebe[0].dynamik.vb_max", "getriebe[0].vb_eilgang"],
-    factor: 1.1,
-};
-const ACCELERATION: Group = Group {
-    what: "accelerations +10 %",
-    ids: "P-AXIS-00001, 00002, 00004 to 00006, 00008, 00011, 00012",
-    keys: &[
-        "getriebe[0].slope_profil.a_beschl",
-        "getriebe[0].slope_profil.a_brems",
-        "getriebe[0].slope_profil.a_grenz",
-        "getriebe[0].lslope_profil.a_grenz_stufe_1",
-        "getriebe[0].lslope_profil.a_grenz_stufe_2",
-        "getriebe[0].lslope_profil.a_stufe_1",
-        "getriebe[0].lslope_profil.a_stufe_2",
-        "getriebe[0].dynamik.a_max",
-    ],
-    factor: 1.1,
-};
-const RAMPS: Group = Group {
-    what: "ramp times -10 %",
-    ids: "P-AXIS-00195 to 00198, 00200",
-    keys: &[
-        "getriebe[0].slope_profil.tr_beschl_zu",
-        "getriebe[0].slope_profil.tr_beschl_ab",
-        "getriebe[0].slope_profil.tr_brems_zu",
-        "getriebe[0].slope_profil.tr_brems_ab",
-        "getriebe[0].slope_profil.tr_grenz",
-    ],
-    factor: 0.9,
-};
-const GEOMETRY: Group = Group {
-    what: "geometric ramp times -10 %",
-    ids: "P-AXIS-00199",
-    keys: &["getriebe[0].dynamik.tr_geom"],
-    factor: 0.9,
-};
 
 /// A change of the lists and what it saves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -69,7 +29,7 @@ pub(crate) struct Proposal {
     /// `accelerations +10 % of Y`.
     pub what: String,
     /// The parameters.
-    pub parameters: &'static str,
+    pub parameters: String,
     /// The settings as for `--set`.
     pub settings: Vec<String>,
     /// Seconds that the run becomes shorter; below 0: longer.
@@ -110,36 +70,28 @@ fn wanted(times: &Times, axes: &[Axis]) -> Vec<Proposal> {
         of.filter(|r| axis.is_none() || r.axis.as_deref() == axis).map(|r| r.share).sum()
     };
     let mut found = Vec::new();
-    for (reason, group) in [(Reason::AxisV, SPEED), (Reason::AxisA, ACCELERATION)] {
+    for (reason, lever) in [(Reason::AxisV, Lever::Speed), (Reason::AxisA, Lever::Acceleration)] {
         for axis in axes.iter().filter(|a| share(reason, Some(a.name())) >= WORTHWHILE) {
-            found.extend(proposal(&group, std::slice::from_ref(axis), axis.name()));
+            found.extend(proposal(lever, std::slice::from_ref(axis), axis.name()));
         }
     }
     let contour = [Reason::Corner, Reason::Curve, Reason::AxDev];
     if share(Reason::Slope, None) >= WORTHWHILE {
-        found.extend(proposal(&RAMPS, axes, "all axes"));
+        found.extend(proposal(Lever::Ramps, axes, "all axes"));
     }
     if contour.iter().any(|reason| share(*reason, None) >= WORTHWHILE) {
-        found.extend(proposal(&ACCELERATION, axes, "all axes"));
-        found.extend(proposal(&GEOMETRY, axes, "all axes"));
+        found.extend(proposal(Lever::Acceleration, axes, "all axes"));
+        found.extend(proposal(Lever::GeometricRamp, axes, "all axes"));
     }
     found
 }
 
-fn proposal(group: &Group, axes: &[Axis], whose: &str) -> Option<Proposal> {
-    let mut settings = Vec::new();
-    for axis in axes {
-        for key in group.keys {
-            if let Some(value) = axis.raw(key).filter(|value| *value > 0.0) {
-                let value = (value * group.factor).round().max(1.0);
-                settings.push(format!("{}.{key}={value}", axis.name()));
-            }
-        }
-    }
-    let what = format!("{} of {whose}", group.what);
-    (!settings.is_empty()).then_some(Proposal {
-        what,
-        parameters: group.ids,
+fn proposal(lever: Lever, axes: &[Axis], whose: &str) -> Option<Proposal> {
+    let (what, factor) = tenth(lever);
+    let settings: Vec<_> = axes.iter().flat_map(|axis| lever.settings(axis, factor)).collect();
+    (!settings.is_empty()).then(|| Proposal {
+        what: format!("{what} of {whose}"),
+        parameters: lever.ids(),
         settings,
         saves_s: 0.0,
     })

@@ -5,7 +5,7 @@
 //! vibration is the product of what each of them leaves: the residual of the guard's impulses and the magnitude of the
 //! filter's response at that frequency.
 
-use super::{Task, command};
+use super::task::{Task, command};
 use crate::table::number;
 use kontur_filters::analysis::tuning::{Choice, VibrationBand};
 use kontur_filters::iir::prototype::Prototype;

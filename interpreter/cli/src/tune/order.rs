@@ -1,6 +1,6 @@
 //! The largest order of a filter for a tolerance.
 
-use super::Answer;
+use super::task::Answer;
 use crate::console::Console;
 use crate::table::{Cell, Table, number};
 use crate::{Error, Exit};

@@ -7,7 +7,7 @@
 //! A program without `AX_DEV` is run once more with each choice that leaves the bound: with the bound as its tolerance.
 //! A choice that keeps the bound anyway is not slowed down by the key.
 
-use super::{Answer, Choice, Row, Task, command};
+use super::task::{Answer, Row, Task, command};
 use crate::args::TuneArgs;
 use crate::console::Console;
 use crate::request::{OpenError, Opened, Request};
@@ -15,6 +15,7 @@ use crate::run::{Shown, announce_lists, drive};
 use crate::table::{Cell, Table, number};
 use crate::target::keep_apart;
 use crate::{Error, Exit};
+use kontur_filters::analysis::tuning::Choice;
 use kontur_interpreter::diag::Location;
 use kontur_interpreter::job::{ForcedGuard, GuardCommands};
 use kontur_interpreter::machine::Machine;

@@ -1,10 +1,10 @@
 //! IDs that the documents print and nothing here raises: data for `explain`.
 
-use super::{
+use super::row::{
     Reaction::{self, AbruptStop, AllStop, ControlledStop, FeedHold, JobAbort, None, ProgramAbort},
     Row,
 };
-use crate::diag::{
+use crate::diag::id::{
     Id::{self, Kontur, Vendor},
     Severity::{self, Error, Note, Warning},
 };

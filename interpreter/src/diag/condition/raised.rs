@@ -1,7 +1,7 @@
 //! Conditions that kontur raises, one row each.
 
-use super::{Reaction, Row};
-use crate::diag::{
+use super::row::{Reaction, Row};
+use crate::diag::id::{
     Id::{Kontur, Vendor},
     Severity::{Error, Note, Warning},
 };

@@ -5,7 +5,7 @@
 //!
 //! Source: TF5200 programming manual, axis exchange; TF5250 Vibration Guard.
 
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

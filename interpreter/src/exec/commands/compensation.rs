@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, programmable additional options of TRC.
 
 use super::keys::{arguments, at_least, between};
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

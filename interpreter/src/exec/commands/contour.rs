@@ -4,7 +4,7 @@
 //! Source: TF5200 programming manual.
 
 use super::keys::{above_zero, arguments, at_least, between};
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::contour::contouring::{Contouring, Mode};
 use crate::exec::decoder::Decoder;

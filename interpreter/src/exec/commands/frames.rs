@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, coordinate systems; P-CHAN-00394 (rotations ZYX).
 
 use super::keys::arguments;
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;

@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, switching of the measuring type (207084683), extended programming (207092107).
 
 use super::keys::{arguments, between};
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual; 21232 for an unknown format.
 
 use super::keys::{arguments, between};
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -6,7 +6,7 @@
 //!
 //! Source: TF5200 programming manual, request command and actual positions; 20186, 20500.
 
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

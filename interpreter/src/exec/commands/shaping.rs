@@ -3,7 +3,7 @@
 //! Source: TF5250 Vibration Guard; TF5200 FIR filter and axis filters (HSC).
 
 use super::keys::{above_zero_to, arguments, at_least, between};
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -5,7 +5,7 @@
 //!
 //! Source: TF5200 programming manual, sending signals, waiting for signals; 21344.
 
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::{Decoder, Signal};
 use crate::exec::fault::{Fault, Outcome};

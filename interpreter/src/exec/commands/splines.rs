@@ -3,7 +3,7 @@
 //! Source: TF5200 programming manual, Akima splines.
 
 use super::keys::arguments;
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::block::words::Words;
 use crate::exec::contour::akima::Transition;

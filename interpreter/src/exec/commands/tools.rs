@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 programming manual, using tool ID, refreshing tool data.
 
-use super::{Call, Row};
+use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

@@ -9,7 +9,7 @@
 //!
 //! Source: TF5200 programming manual, Akima splines (`#AKIMA TRANS`, `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`).
 
-use super::{Driven, Motion};
+use super::motion::{Driven, Motion};
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;

@@ -12,56 +12,28 @@
 //! Assumption: the approach for every angle between approach and first element, with G139 as with G138; the figures of the
 //! manual show more lines for G139 at outer corners.
 
+mod active;
 mod corner;
 mod element;
 mod inside;
+mod item;
 
 use super::bottleneck::{Cut, Watch};
 use crate::diag::Condition;
 use crate::exec::block::modal::Selection;
-use crate::exec::contour::{Compensated, Motion};
+use crate::exec::contour::motion::{Compensated, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Side, cross, dot};
-use crate::exec::step::{Event, SourceRef, Sync};
+use crate::exec::geometry::planar::Side;
+use crate::exec::step::{SourceRef, Sync};
 use crate::syntax::ast::Span;
-use corner::{above, corner_arc, inner_corner, straight, straight_corner};
-use element::{Element, emit_between, line, moving_side};
+use active::Active;
+use corner::{above, straight};
+use element::{Element, line, moving_side};
 use inside::Closed;
-use kontur_motion::path::Tilt;
-use smallvec::SmallVec;
+use item::Fallible;
 
-/// Steps between two motions that a corner may wait for.
-const BETWEEN_MAX: usize = 1000;
-
-/// What runs through the stages of the contour.
-#[derive(Debug)]
-pub(in crate::exec) enum Item {
-    Motion(Box<Motion>),
-    Rest(Box<Rest>),
-}
-
-/// A step at rest.
-#[derive(Debug)]
-pub(in crate::exec) struct Rest {
-    pub(in crate::exec) what: Sync,
-    pub(in crate::exec) source: SourceRef,
-    pub(in crate::exec) events: Vec<Event>,
-}
-
-/// Compensation in force.
-#[derive(Debug)]
-struct Active {
-    /// Distance to the left of the contour, negative to the right.
-    distance: f64,
-    /// G237.
-    perpendicular: bool,
-    plane: [usize; 2],
-    tilt: Option<Box<Tilt>>,
-    last: Element,
-    between: Vec<Item>,
-    watch: Watch,
-}
+pub(in crate::exec) use item::{Item, Rest};
 
 /// The stage.
 #[derive(Debug, Default)]
@@ -75,8 +47,6 @@ pub(in crate::exec) struct Compensator {
     cut: Option<Cut>,
     told: bool,
 }
-
-type Fallible<T> = Result<T, Box<Fault>>;
 
 impl Compensator {
     /// A motion with its compensation; what is complete goes to `out`.
@@ -272,125 +242,8 @@ impl Compensator {
     }
 }
 
-impl Active {
-    fn hold(&mut self, item: Item, span: Span) -> Fallible<()> {
-        if self.between.len() >= BETWEEN_MAX {
-            let text = format!("more than {BETWEEN_MAX} blocks without motion in the plane");
-            return Err(Fault::new(Condition::Compensation, text, span));
-        }
-        self.between.push(item);
-        Ok(())
-    }
-
-    /// Completes the last element at the corner to the next one; a bottleneck on the way is left in `cut`.
-    fn join(
-        mut self,
-        motion: Box<Motion>,
-        side: Side,
-        out: &mut Vec<Item>,
-        cut: &mut Option<Cut>,
-    ) -> Fallible<Self> {
-        let (radius, plane, approach) = (self.distance.abs(), self.plane, self.last.approach);
-        let mut watch = std::mem::take(&mut self.watch);
-        *cut = watch.contour(side, motion.source, radius);
-        let done = out.len();
-        let mut next = self.corner(motion, side, out)?;
-        // the line that leads to the contour is free
-        for item in out[done..].iter().filter(|_| !approach) {
-            if let Item::Motion(motion) = item
-                && let Some(side) = Side::of(&motion.block.path, plane)
-            {
-                *cut = cut.or(watch.way(side, motion.source, radius));
-            }
-        }
-        next.watch = watch;
-        Ok(next)
-    }
-
-    fn corner(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
-        let Self { distance, perpendicular, plane, tilt, last, between, watch } = self;
-        let active = |start: Point, motion: Box<Motion>| {
-            let last = Element { motion, side, start, approach: false };
-            Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
-        };
-        let corner = side.start_point();
-        let after = above(corner, side.tangent(false), distance);
-        if last.approach {
-            last.emit(after, plane, distance, out)?;
-            emit_between(between, after, plane, out);
-            return Ok(active(after, motion));
-        }
-        let (u, w) = (last.side.tangent(true), side.tangent(false));
-        let before = above(corner, u, distance);
-        let turn = cross(u, w);
-        let smooth = turn.abs() < 1e-9 && dot(u, w) > 0.0;
-        let outside = !smooth && (turn * distance < 0.0 || (turn.abs() < 1e-9 && dot(u, w) < 0.0));
-        if !smooth && !outside {
-            let at = inner_corner(&last.side, &side, corner, distance)
-                .ok_or_else(|| too_tight(&motion))?;
-            last.emit(at, plane, distance, out)?;
-            emit_between(between, at, plane, out);
-            return Ok(active(at, motion));
-        }
-        let by_lines = outside && motion.compensation.is_some_and(|c| c.straight_corners);
-        let mut points = if by_lines {
-            straight_corner(u, w, before, after, distance.abs())
-        } else {
-            SmallVec::from_slice(&[before])
-        };
-        // a line is prolonged, after an arc its tangent is inserted
-        let first = points[0];
-        let end = if matches!(last.side, Side::Line { .. }) { first } else { before };
-        let template = outside.then(|| last.motion.clone());
-        last.emit(end, plane, distance, out)?;
-        emit_between(between, end, plane, out);
-        let Some(template) = template else { return Ok(active(end, motion)) };
-        let start = if by_lines {
-            if !matches!(side, Side::Line { .. }) {
-                points.push(after);
-            }
-            let mut from = end;
-            for to in points {
-                let line = straight(&template, motion.block.path.start(), plane, from, to);
-                out.extend(line.map(Item::Motion));
-                from = to;
-            }
-            from
-        } else {
-            out.extend(corner_arc(&template, &motion, plane, corner, before, after, distance));
-            after
-        };
-        Ok(active(start, motion))
-    }
-
-    /// Completes the last element perpendicular above its end and tells where that is.
-    fn finish(self, out: &mut Vec<Item>) -> Fallible<Point> {
-        let Self { distance, plane, last, between, .. } = self;
-        let at = above(last.side.end_point(), last.side.tangent(true), distance);
-        last.emit(at, plane, distance, out)?;
-        emit_between(between, at, plane, out);
-        Ok(at)
-    }
-
-    /// As [`finish`](Self::finish), and perpendicular back to the contour (G237).
-    fn return_to_contour(self, out: &mut Vec<Item>) -> Fallible<()> {
-        let (plane, template) = (self.plane, self.last.motion.clone());
-        let end = self.last.motion.block.path.end();
-        let to = [end[plane[0]], end[plane[1]]];
-        let at = self.finish(out)?;
-        let line = straight(&template, template.block.path.end(), plane, at, to);
-        out.extend(line.map(Item::Motion));
-        Ok(())
-    }
-}
-
 fn circular(motion: &Motion) -> Box<Fault> {
     let text =
         "tool radius compensation is selected, changed and cancelled in straight motions only";
     Fault::new(Condition::CompensationInArc, text, motion.span).in_block(motion.source)
-}
-
-fn too_tight(motion: &Motion) -> Box<Fault> {
-    let text = "the contour is too tight for the radius of the tool";
-    Fault::new(Condition::Compensation, text, motion.span).in_block(motion.source)
 }

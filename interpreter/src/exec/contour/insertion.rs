@@ -5,7 +5,7 @@
 //! transition.
 
 use crate::diag::Condition;
-use crate::exec::contour::Motion;
+use crate::exec::contour::motion::Motion;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::planar::{Side, cross, cut, dot, intersections, norm, sub, swept};
 use crate::exec::step::SourceRef;

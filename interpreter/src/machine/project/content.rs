@@ -1,6 +1,5 @@
 //! What the XML of a project holds: texts of lists with their places, and the fields beside them.
 
-use super::Part;
 use crate::diag::{Condition, Diagnostic, Location};
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -13,6 +12,15 @@ const AXES_MAX: usize = 32;
 
 /// Most channels of a control (P-STUP-00001).
 const CHANNELS_MAX: usize = 12;
+
+/// One file of a project.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Path as the user gave it, in the folder of the project.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
 
 /// The text of a list and where it stands.
 #[derive(Clone, Debug, Default)]

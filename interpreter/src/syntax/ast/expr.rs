@@ -124,7 +124,7 @@ macro_rules! functions {
             }
 
             /// The function of a name in either case.
-            pub fn from_name(name: &str) -> Option<Self> {
+            pub(crate) fn from_name(name: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|f| f.name().eq_ignore_ascii_case(name))
             }
         }

@@ -1,6 +1,6 @@
 //! Sums in brackets: numbers, P parameters, `+ - * /`, brackets inside.
 
-use super::{blanks, integer};
+use super::scan::{blanks, integer};
 use crate::syntax::ast::{
     Binary, BinaryOp, Expr, ExprKind, ParameterIndex, Place, PlaceKind, Span,
 };

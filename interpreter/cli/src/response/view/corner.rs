@@ -1,6 +1,8 @@
 //! The contour at a 90 degree corner passed without slowing down.
 
-use super::{Answer, Curve, Error, cycle_text, labels};
+use super::super::curve::Curve;
+use super::answer::{Answer, cycle_text, labels};
+use crate::Error;
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around};
 use crate::chart::view::{Line, Points, View};

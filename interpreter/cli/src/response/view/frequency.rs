@@ -1,6 +1,9 @@
 //! Magnitude, phase and group delay over frequency.
 
-use super::{Answer, Curve, Error, ResponseArgs, cycle_text, labels, spread};
+use super::super::curve::Curve;
+use super::answer::{Answer, cycle_text, labels, spread};
+use crate::Error;
+use crate::args::ResponseArgs;
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around};
 use crate::chart::view::{Line, Points, View};

@@ -3,7 +3,10 @@
 //! The vendor's table normalises the set frequency by the real one, its worked example the real one by the set one:
 //! table and picture show both.
 
-use super::{Answer, Curve, Error, ResponseArgs, cycle_text, spread};
+use super::super::curve::Curve;
+use super::answer::{Answer, cycle_text, spread};
+use crate::Error;
+use crate::args::ResponseArgs;
 use crate::chart::plot::Plot;
 use crate::chart::scale::Scale;
 use crate::chart::view::{Line, Points, View};

@@ -1,6 +1,7 @@
 //! The answer to a step from 0 to 1.
 
-use super::{Answer, Curve, cycle_text, labels};
+use super::super::curve::Curve;
+use super::answer::{Answer, cycle_text, labels};
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around};
 use crate::chart::view::{Line, View};

@@ -1,7 +1,7 @@
 //! Geometry of the corners of a compensated contour.
 
-use super::Item;
-use crate::exec::contour::Motion;
+use super::item::Item;
+use crate::exec::contour::motion::Motion;
 use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Curve, Side, cross, dot, intersections, norm, sub};
 use kontur_motion::axis::AxisVec;

@@ -1,9 +1,9 @@
 //! An element of the compensated contour and the motion it becomes.
 
 use super::corner::{side_sweep, trimmed};
-use super::{Fallible, Item, too_tight};
+use super::item::{Fallible, Item, too_tight};
 use crate::diag::Condition;
-use crate::exec::contour::{Compensated, Motion};
+use crate::exec::contour::motion::{Compensated, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, dot, sub};

@@ -4,11 +4,13 @@
 //!
 //! Source: TF5200 programming manual, selecting inside corner of TRC, restrictions of inside corner selection; 90127.
 
+use super::active::Active;
 use super::corner::{above, inner_corner};
 use super::element::{Element, emit_between, line, moving_side};
-use super::{Active, Cut, Fallible, Item, Watch, too_tight};
+use super::item::{Fallible, Item, too_tight};
 use crate::diag::Condition;
-use crate::exec::contour::Motion;
+use crate::exec::contour::bottleneck::{Cut, Watch};
+use crate::exec::contour::motion::Motion;
 use crate::exec::fault::Fault;
 use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, cross, dot, norm, sub};

@@ -1,0 +1,45 @@
+//! What the runs of a sweep leave behind.
+
+use crate::table::{Cell, Table};
+use kontur_interpreter::summary::Summary;
+use std::path::PathBuf;
+
+/// What one run leaves behind.
+#[derive(Clone, Debug)]
+pub(super) struct Outcome {
+    pub(super) summary: Summary,
+    /// In the order of `--amplitude`; not a number if the run did not get that far.
+    pub(super) amplitudes: Vec<f64>,
+    /// Files that it has read.
+    pub(super) reads: Vec<PathBuf>,
+}
+
+/// The row of one run under its header.
+pub type Row = (Vec<String>, Vec<Cell>);
+
+/// All rows of a sweep.
+pub(super) struct Rows {
+    /// Program and machine.
+    pub(super) title: String,
+    pub(super) header: Vec<String>,
+    pub(super) cells: Vec<Vec<Cell>>,
+}
+
+impl Rows {
+    /// With one more column that says the same in every row.
+    pub(super) fn noting(mut self, name: &str, text: &str) -> Self {
+        self.header.push(name.to_owned());
+        for row in &mut self.cells {
+            row.push(Cell::Word(text.to_owned()));
+        }
+        self
+    }
+
+    pub(super) fn table(&self) -> Table {
+        let mut table = Table::new(&self.header.iter().map(String::as_str).collect::<Vec<_>>());
+        for row in &self.cells {
+            table.push(row.iter().cloned());
+        }
+        table
+    }
+}

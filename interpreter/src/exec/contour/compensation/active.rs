@@ -1,0 +1,143 @@
+//! Compensation in force: one element after the other, with the corner between them.
+
+use super::corner::{above, corner_arc, inner_corner, straight, straight_corner};
+use super::element::{Element, emit_between};
+use super::item::{Fallible, Item, too_tight};
+use crate::diag::Condition;
+use crate::exec::contour::bottleneck::{Cut, Watch};
+use crate::exec::contour::motion::Motion;
+use crate::exec::fault::Fault;
+use crate::exec::geometry::arc::Point;
+use crate::exec::geometry::planar::{Side, cross, dot};
+use crate::syntax::ast::Span;
+use kontur_motion::path::Tilt;
+use smallvec::SmallVec;
+
+/// Steps between two motions that a corner may wait for.
+const BETWEEN_MAX: usize = 1000;
+
+/// Compensation in force.
+#[derive(Debug)]
+pub(super) struct Active {
+    /// Distance to the left of the contour, negative to the right.
+    pub(super) distance: f64,
+    /// G237.
+    pub(super) perpendicular: bool,
+    pub(super) plane: [usize; 2],
+    pub(super) tilt: Option<Box<Tilt>>,
+    pub(super) last: Element,
+    pub(super) between: Vec<Item>,
+    pub(super) watch: Watch,
+}
+
+impl Active {
+    pub(super) fn hold(&mut self, item: Item, span: Span) -> Fallible<()> {
+        if self.between.len() >= BETWEEN_MAX {
+            let text = format!("more than {BETWEEN_MAX} blocks without motion in the plane");
+            return Err(Fault::new(Condition::Compensation, text, span));
+        }
+        self.between.push(item);
+        Ok(())
+    }
+
+    /// Completes the last element at the corner to the next one; a bottleneck on the way is left in `cut`.
+    pub(super) fn join(
+        mut self,
+        motion: Box<Motion>,
+        side: Side,
+        out: &mut Vec<Item>,
+        cut: &mut Option<Cut>,
+    ) -> Fallible<Self> {
+        let (radius, plane, approach) = (self.distance.abs(), self.plane, self.last.approach);
+        let mut watch = std::mem::take(&mut self.watch);
+        *cut = watch.contour(side, motion.source, radius);
+        let done = out.len();
+        let mut next = self.corner(motion, side, out)?;
+        // the line that leads to the contour is free
+        for item in out[done..].iter().filter(|_| !approach) {
+            if let Item::Motion(motion) = item
+                && let Some(side) = Side::of(&motion.block.path, plane)
+            {
+                *cut = cut.or(watch.way(side, motion.source, radius));
+            }
+        }
+        next.watch = watch;
+        Ok(next)
+    }
+
+    fn corner(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
+        let Self { distance, perpendicular, plane, tilt, last, between, watch } = self;
+        let active = |start: Point, motion: Box<Motion>| {
+            let last = Element { motion, side, start, approach: false };
+            Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
+        };
+        let corner = side.start_point();
+        let after = above(corner, side.tangent(false), distance);
+        if last.approach {
+            last.emit(after, plane, distance, out)?;
+            emit_between(between, after, plane, out);
+            return Ok(active(after, motion));
+        }
+        let (u, w) = (last.side.tangent(true), side.tangent(false));
+        let before = above(corner, u, distance);
+        let turn = cross(u, w);
+        let smooth = turn.abs() < 1e-9 && dot(u, w) > 0.0;
+        let outside = !smooth && (turn * distance < 0.0 || (turn.abs() < 1e-9 && dot(u, w) < 0.0));
+        if !smooth && !outside {
+            let at = inner_corner(&last.side, &side, corner, distance)
+                .ok_or_else(|| too_tight(&motion))?;
+            last.emit(at, plane, distance, out)?;
+            emit_between(between, at, plane, out);
+            return Ok(active(at, motion));
+        }
+        let by_lines = outside && motion.compensation.is_some_and(|c| c.straight_corners);
+        let mut points = if by_lines {
+            straight_corner(u, w, before, after, distance.abs())
+        } else {
+            SmallVec::from_slice(&[before])
+        };
+        // a line is prolonged, after an arc its tangent is inserted
+        let first = points[0];
+        let end = if matches!(last.side, Side::Line { .. }) { first } else { before };
+        let template = outside.then(|| last.motion.clone());
+        last.emit(end, plane, distance, out)?;
+        emit_between(between, end, plane, out);
+        let Some(template) = template else { return Ok(active(end, motion)) };
+        let start = if by_lines {
+            if !matches!(side, Side::Line { .. }) {
+                points.push(after);
+            }
+            let mut from = end;
+            for to in points {
+                let line = straight(&template, motion.block.path.start(), plane, from, to);
+                out.extend(line.map(Item::Motion));
+                from = to;
+            }
+            from
+        } else {
+            out.extend(corner_arc(&template, &motion, plane, corner, before, after, distance));
+            after
+        };
+        Ok(active(start, motion))
+    }
+
+    /// Completes the last element perpendicular above its end and tells where that is.
+    pub(super) fn finish(self, out: &mut Vec<Item>) -> Fallible<Point> {
+        let Self { distance, plane, last, between, .. } = self;
+        let at = above(last.side.end_point(), last.side.tangent(true), distance);
+        last.emit(at, plane, distance, out)?;
+        emit_between(between, at, plane, out);
+        Ok(at)
+    }
+
+    /// As [`finish`](Self::finish), and perpendicular back to the contour (G237).
+    pub(super) fn return_to_contour(self, out: &mut Vec<Item>) -> Fallible<()> {
+        let (plane, template) = (self.plane, self.last.motion.clone());
+        let end = self.last.motion.block.path.end();
+        let to = [end[plane[0]], end[plane[1]]];
+        let at = self.finish(out)?;
+        let line = straight(&template, template.block.path.end(), plane, at, to);
+        out.extend(line.map(Item::Motion));
+        Ok(())
+    }
+}

@@ -1,0 +1,28 @@
+//! What goes in and out of the compensation, and how it fails.
+
+use crate::diag::Condition;
+use crate::exec::contour::motion::Motion;
+use crate::exec::fault::Fault;
+use crate::exec::step::{Event, SourceRef, Sync};
+
+/// What runs through the stages of the contour.
+#[derive(Debug)]
+pub(in crate::exec) enum Item {
+    Motion(Box<Motion>),
+    Rest(Box<Rest>),
+}
+
+/// A step at rest.
+#[derive(Debug)]
+pub(in crate::exec) struct Rest {
+    pub(in crate::exec) what: Sync,
+    pub(in crate::exec) source: SourceRef,
+    pub(in crate::exec) events: Vec<Event>,
+}
+
+pub(super) type Fallible<T> = Result<T, Box<Fault>>;
+
+pub(super) fn too_tight(motion: &Motion) -> Box<Fault> {
+    let text = "the contour is too tight for the radius of the tool";
+    Fault::new(Condition::Compensation, text, motion.span).in_block(motion.source)
+}

@@ -1,0 +1,105 @@
+//! A programmed motion on its way through the stages of the contour.
+
+use crate::exec::block::modal::Selection;
+use crate::exec::step::{Event, SourceRef};
+use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::block::Block;
+use kontur_motion::path::{LinePath, Path, Tilt, TiltedArc};
+
+/// A programmed motion; the number of its block is given when it becomes a step.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct Motion {
+    pub(in crate::exec) block: Box<Block>,
+    pub(in crate::exec) source: SourceRef,
+    pub(in crate::exec) events: Vec<Event>,
+    /// Axes of the plane that was active; with a tilt, axes of its coordinates.
+    pub(in crate::exec) plane: [usize; 2],
+    /// Coordinate system, if the plane lies askew to the axes.
+    pub(in crate::exec) tilt: Option<Box<Tilt>>,
+    /// The path is in the coordinates of the tilt.
+    pub(in crate::exec) local: bool,
+    pub(in crate::exec) compensation: Option<Compensated>,
+    /// It leads to a point of an Akima spline.
+    pub(in crate::exec) akima: bool,
+    /// The block, for conditions.
+    pub(in crate::exec) span: Span,
+}
+
+/// Tool radius compensation of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct Compensated {
+    /// Distance of the tool's centre to the left of the contour.
+    pub(in crate::exec) distance_mm: f64,
+    /// Outer corners by lines (G25) instead of arcs (G26).
+    pub(in crate::exec) straight_corners: bool,
+    /// How it begins and ends.
+    pub(in crate::exec) selection: Selection,
+    /// G11: least radius in mm of the arcs whose feed is that of the tool's engagement.
+    pub(in crate::exec) engagement_radius_mm: Option<f64>,
+}
+
+impl Motion {
+    /// Takes the path over into the coordinates of the tilt.
+    pub(super) fn enter_tilt(&mut self) {
+        let Some(tilt) = &self.tilt else { return };
+        if std::mem::replace(&mut self.local, true) {
+            return;
+        }
+        let path = match &self.block.path {
+            Path::Line(_) => {
+                let (start, end) = local_ends(tilt, self.block.path.start(), self.block.path.end());
+                LinePath::new(start, end, &self.block.dynamics.feed_axes).map(Path::Line)
+            }
+            Path::Tilted(tilted) => Some(Path::Arc(tilted.arc().clone())),
+            Path::Arc(_) | Path::Curve(_) => None,
+        };
+        match path {
+            Some(path) => self.block.path = path,
+            None => self.local = false,
+        }
+    }
+
+    /// Takes the path back into the coordinates of the machine.
+    pub(super) fn leave_tilt(&mut self) {
+        let Some(tilt) = self.tilt.as_deref() else { return };
+        if !std::mem::take(&mut self.local) {
+            return;
+        }
+        let (start, end) = (self.block.path.start(), self.block.path.end());
+        let (start, end) = (tilt.position(start), tilt.position(end));
+        let path = match &self.block.path {
+            Path::Arc(arc) => {
+                Some(Path::Tilted(Box::new(TiltedArc::new(arc.clone(), *tilt, start, end))))
+            }
+            Path::Line(_) | Path::Tilted(_) | Path::Curve(_) => {
+                LinePath::new(start, end, &self.block.dynamics.feed_axes).map(Path::Line)
+            }
+        };
+        if let Some(path) = path {
+            self.block.path = path;
+        }
+    }
+}
+
+/// Ends of a path in the coordinates of a tilt. What differs by rounding alone is made equal, so that an axis of the
+/// system that stands still does so exactly.
+pub(in crate::exec) fn local_ends(tilt: &Tilt, start: &[f64], end: &[f64]) -> (AxisVec, AxisVec) {
+    const ROUNDING_MM: f64 = 1e-9;
+    let (start, mut end) = (tilt.local(start), tilt.local(end));
+    for axis in tilt.axes {
+        if (end[axis] - start[axis]).abs() < ROUNDING_MM {
+            end[axis] = start[axis];
+        }
+    }
+    (start, end)
+}
+
+/// A path whose ends the program does not know.
+#[derive(Debug)]
+pub(in crate::exec) struct Driven {
+    /// Lowest and highest position of every axis.
+    pub(in crate::exec) extents_mm: Vec<(f64, f64)>,
+    pub(in crate::exec) source: SourceRef,
+    pub(in crate::exec) span: Span,
+}
