@@ -99,7 +99,7 @@ frames.forEach(showAll);
 drawAll();
 window.addEventListener("resize", () => { fit(); draw(); });
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-// paper is white, and everything is drawn for its size there: as large as fits on one sheet, as long as it can be read
+// paper is white, and everything is laid out and drawn for its size there: as large as fits on one sheet, as long as it can be read
 const SHEET_PX = 188 / 25.4 * 96, FITS = Array.from({ length: 25 }, (_, i) => 1 - 0.025 * i);
 window.addEventListener("beforeprint", () => {
   const root = document.documentElement;
