@@ -20,12 +20,12 @@
 //! a place no longer than the kernel is; then it is taken, and what it exceeds is reported as not kept.
 
 use super::Planner;
+use super::feedhold::feedhold_slope;
 use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::plan;
 use crate::plan::{Plan, Segment, Start};
 use crate::profile::{Profile, SlopeLimits};
 use crate::queue::Queued;
-use crate::realtime::feedhold_slope;
 use crate::timeline::{Entry, Moment, SAME_LENGTH};
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
