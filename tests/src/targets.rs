@@ -278,7 +278,7 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let programs = || {
         let mut found = Vec::new();
-        for folder in ["programs", "programs/fail", "tests/suite/faults"] {
+        for folder in ["programs", "programs/lessons", "programs/fail", "tests/suite/faults"] {
             found.extend(files(&root.join(folder), "nc").into_iter().filter(|f| f.len() < 20_000));
         }
         found
