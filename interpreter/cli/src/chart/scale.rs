@@ -1,4 +1,11 @@
-//! Scales of a view, and the round numbers along them.
+//! Scales of a view, and the round numbers along them: first the range of what is drawn, then its [`ticks`].
+//!
+//! ```
+//! use kontur::chart::scale::ticks;
+//!
+//! let beside: Vec<String> = ticks((0.0, 0.5), 2.0).into_iter().map(|(_, text)| text).collect();
+//! assert_eq!(beside, ["0", "0.5"]);
+//! ```
 
 use serde::Serialize;
 use std::borrow::Cow;
