@@ -8,11 +8,14 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::{AxisVec, FeedSlope};
-use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
-use kontur_motion::contouring::{ContourMode, ContourSettings, Contouring};
+use kontur_motion::block::{
+    Block, ChannelDynamics, ContourMode, ContourSettings, Feed, Slope, SlopeKind, SplineSettings,
+    Tolerance,
+};
+use kontur_motion::contouring::Contouring;
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
-use kontur_motion::spline::{SplineSettings, Splining};
+use kontur_motion::spline::Splining;
 use kontur_motion::tolerance::Kernels;
 use std::hint::black_box;
 use std::sync::Arc;

@@ -14,10 +14,14 @@
 //! assert_eq!(block.path.length(), 50.0);
 //! ```
 
+mod contour;
+mod spline;
+
 use crate::axis::AxisDynamics;
-use crate::contouring::ContourSettings;
-use crate::spline::SplineSettings;
 use std::sync::Arc;
+
+pub use contour::{ContourMode, ContourSettings};
+pub use spline::SplineSettings;
 
 /// Shape of the acceleration over time (P-CHAN-00071, `#SLOPE`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

@@ -4,7 +4,7 @@ mod ball;
 
 use crate::axis::AxisVec;
 use crate::junction::TANGENT;
-use crate::path::Path;
+use crate::path::{LinePath, Path};
 use crate::queue::Queued;
 use ball::Ball;
 use smallvec::SmallVec;
@@ -16,13 +16,16 @@ use std::sync::Arc;
 pub(crate) const SAME_START_MM: f64 = 1e-9;
 
 /// Share by which a vector may be longer than the shortest one and still be taken for it.
-const WARY: f64 = 0.05;
+pub(crate) const WARY: f64 = 0.05;
 
 /// What rounding may make of a distance in mm.
 pub(crate) const ROUNDING_MM: f64 = 1e-9;
 
-/// How fast the say of a block falls that is further away than the nearest one: its power of the ratio of both.
-const FADING: f64 = 8.0;
+/// How much say a block has that is further away than the nearest one: the eighth power of the ratio of both distances.
+fn fading(least: f64, distance: f64) -> f64 {
+    let square = |x: f64| x * x;
+    if distance > least { square(square(square(least / distance))) } else { 1.0 }
+}
 
 /// Blocks as the interpolator entered them. One that a change of speed divides is entered once more for its rest.
 #[derive(Clone, Debug, Default)]
@@ -205,8 +208,7 @@ impl Contour {
             vectors.push((distance, component));
         }
         let least = vectors.iter().map(|v| v.0).fold(f64::INFINITY, f64::min);
-        let share = |d: f64| if d > least { libm::pow(least / d, FADING) } else { 1.0 };
-        vectors.iter().map(|(d, c)| c * share(*d)).fold(0.0, f64::max)
+        vectors.iter().map(|(d, c)| c * fading(least, *d)).fold(0.0, f64::max)
     }
 
     /// Moments in cycles and places of the kinks that were passed behind `from`, up to `to`.
@@ -240,9 +242,50 @@ pub(crate) struct Walk<'a> {
     at: Option<usize>,
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
     /// Point of the contour at a path length of the program; the ends of what is known beyond them.
     pub(crate) fn position(&mut self, s_mm: f64, out: &mut [f64]) {
+        if let Some((passed, s)) = self.seek(s_mm) {
+            passed.queued.block.path.position(s, out);
+        }
+    }
+
+    /// Weighted sum of the points at some path lengths.
+    pub(crate) fn sum(&mut self, places: impl Iterator<Item = (f64, f64)>, out: &mut [f64]) {
+        out.fill(0.0);
+        let mut point = AxisVec::zeros(out.len());
+        // on one straight line the sum of the path lengths is enough
+        let mut on_line: Option<(&LinePath, f64, f64)> = None;
+        let add = |on_line: Option<(&LinePath, f64, f64)>, out: &mut [f64]| {
+            let Some((line, weights, ways)) = on_line else { return };
+            let ends = line.start().iter().zip(line.direction().iter());
+            for (sum, (start, direction)) in out.iter_mut().zip(ends) {
+                *sum += weights * start + ways * direction;
+            }
+        };
+        for (weight, s_mm) in places {
+            let Some((passed, s)) = self.seek(s_mm) else { return };
+            match (&passed.queued.block.path, &mut on_line) {
+                (Path::Line(line), Some((last, weights, ways))) if std::ptr::eq(*last, line) => {
+                    *weights += weight;
+                    *ways += weight * s;
+                }
+                (Path::Line(line), last) => {
+                    add(last.replace((line, weight, weight * s)), out);
+                }
+                (path, _) => {
+                    path.position(s, &mut point);
+                    for (sum, p) in out.iter_mut().zip(point.iter()) {
+                        *sum += weight * p;
+                    }
+                }
+            }
+        }
+        add(on_line, out);
+    }
+
+    /// The block at a path length of the program, and how far along its path that is.
+    fn seek(&mut self, s_mm: f64) -> Option<(&'a Passed, f64)> {
         let blocks = &self.contour.blocks;
         let mut i =
             self.at.unwrap_or_else(|| blocks.partition_point(|b| b.s_mm <= s_mm).saturating_sub(1));
@@ -253,11 +296,9 @@ impl Walk<'_> {
             i += 1;
         }
         self.at = Some(i);
-        if let Some(passed) = blocks.get(i) {
-            let queued = &passed.queued;
-            let s = (s_mm - passed.s_mm).clamp(0.0, queued.length);
-            queued.block.path.position(queued.offset + s, out);
-        }
+        let passed = blocks.get(i)?;
+        let queued = &passed.queued;
+        Some((passed, queued.offset + (s_mm - passed.s_mm).clamp(0.0, queued.length)))
     }
 }
 

@@ -10,7 +10,8 @@
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
-//! use kontur_motion::contouring::{ContourMode, ContourSettings, Contouring};
+//! use kontur_motion::block::{ContourMode, ContourSettings};
+//! use kontur_motion::contouring::Contouring;
 //!
 //! let mut stage = Contouring::new();
 //! let mut first = block(1, [0.0, 0.0], [10.0, 0.0], 100.0);
@@ -24,17 +25,17 @@
 //! ```
 
 mod blend;
+mod notice;
 mod rounding;
-mod settings;
 
-use crate::block::{Block, ChannelDynamics, CurveJerk, Feed};
+use crate::block::{Block, ChannelDynamics, ContourMode, ContourSettings, CurveJerk, Feed};
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::path::{Path, PolyPath, PolyPiece};
 pub(crate) use rounding::NEEDLE_RAD;
 use rounding::{Curve, curve};
 use std::sync::Arc;
 
-pub use settings::{ContourMode, ContourSettings, NoContour, Notice};
+pub use notice::{NoContour, Notice};
 
 /// Blocks in a row that may be too short to be relevant before one of them counts all the same.
 const SKIPPED: usize = 100;

@@ -27,7 +27,7 @@ mod between;
 mod gauge;
 
 use crate::axis::AxisVec;
-use crate::contour::Contour;
+use crate::contour::{Contour, ROUNDING_MM};
 pub(crate) use gauge::Gauge;
 use smallvec::SmallVec;
 use std::ops::Range;
@@ -46,6 +46,8 @@ pub(crate) struct SetPath {
     first: u64,
     /// Axis by axis, cycle by cycle.
     values: Vec<f64>,
+    /// Length of the set path in mm up to each set point, from some point before the first.
+    ways: Vec<f64>,
 }
 
 /// Largest components found, with the vector that one of them belongs to.
@@ -87,25 +89,31 @@ impl Excursion {
 impl SetPath {
     /// No set points yet; the next one is that of cycle `first`.
     pub(crate) fn starting(first: u64, axes: usize) -> Self {
-        Self { axes, first, values: Vec::new() }
+        Self { axes, first, values: Vec::new(), ways: Vec::new() }
     }
 
     /// Adds the set point of the next cycle.
     pub(crate) fn push(&mut self, point: &[f64]) {
+        let way = self.ways.last().map_or(0.0, |way| {
+            let before = &self.values[self.values.len() - point.len()..];
+            way + before.iter().zip(point).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt()
+        });
+        self.ways.push(way);
         self.values.extend_from_slice(point);
     }
 
     /// The cycle behind the last one.
     pub(crate) fn end(&self) -> u64 {
-        self.first + (self.values.len() / self.axes.max(1)) as u64
+        self.first + self.ways.len() as u64
     }
 
     /// Forgets what lies before cycle `k`, now and then.
     pub(crate) fn forget_before(&mut self, k: u64) {
-        let old = (k.saturating_sub(self.first) as usize * self.axes).min(self.values.len());
-        if 2 * old > self.values.len() {
-            self.values.drain(..old);
-            self.first += (old / self.axes.max(1)) as u64;
+        let old = (k.saturating_sub(self.first) as usize).min(self.ways.len());
+        if 2 * old > self.ways.len() {
+            self.values.drain(..old * self.axes);
+            self.ways.drain(..old);
+            self.first += old as u64;
         }
     }
 
@@ -171,26 +179,33 @@ impl SetPath {
         out: &mut Excursion,
     ) -> Option<(u64, AxisVec)> {
         let (first, last) = (first.max(self.first), last.min(self.end().checked_sub(1)?));
-        let mut best = (f64::INFINITY, first);
-        let mut distances: SmallVec<[f64; 64]> = SmallVec::new();
-        for k in first..last {
-            let d2 = self.to_line(k, point).0;
-            distances.push(d2);
-            if d2 < best.0 {
-                best = (d2, k);
-            }
-        }
-        let (d2, k) = best;
-        if d2.is_infinite() {
+        if first >= last {
             return None;
         }
+        // a first guess excuses most of the others: from one line to the next a distance falls by their length at most
+        let guess = first.midpoint(last);
+        let mut best = (self.to_line(guess, point).0, guess);
+        let mut near: SmallVec<[(u64, f64); 16]> = SmallVec::new();
+        let mut k = first;
+        while k < last {
+            let d2 = self.to_line(k, point).0;
+            if d2 < best.0 || d2 <= best.0 && k < best.1 {
+                best = (d2, k);
+            }
+            near.push((k, d2));
+            let ways = &self.ways[(k - self.first) as usize..];
+            let certain = ways[0] + d2.sqrt() - (1.0 + ALIKE) * best.0.sqrt() - ROUNDING_MM;
+            k += 1;
+            k += ways[2..].iter().take_while(|way| **way < certain).count() as u64;
+        }
+        let (d2, k) = best;
         let mut vector = AxisVec::zeros(self.axes);
         self.aside(k, point, &mut vector);
         out.take(&vector);
         let nearest = vector.clone();
         if d2 > wary_mm * wary_mm {
             let within = (1.0 + ALIKE) * (1.0 + ALIKE) * d2;
-            for (k, d2) in (first..last).zip(distances) {
+            for (k, d2) in near {
                 if d2 <= within {
                     self.aside(k, point, &mut vector);
                     out.take(&vector);

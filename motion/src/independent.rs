@@ -22,7 +22,7 @@ use crate::axis::{AxisDynamics, AxisVec, StepSlope};
 use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};
 use crate::limits::PathSpeeds;
 use crate::path::{LinePath, Path};
-use crate::profile::{Infeasible, SlopeLimits, SpanProfile, State};
+use crate::profile::{Infeasible, Profile, SlopeLimits, State};
 use crate::queue::Queued;
 use crate::timeline::Moment;
 use kontur_filters::time::CycleTime;
@@ -64,7 +64,7 @@ pub struct IndependentMove {
     /// `None` if there is nothing to do.
     slope: Option<SlopeLimits>,
     /// Profiles in order with the time in s at their start and the distance there.
-    parts: SmallVec<[(f64, f64, SpanProfile); 1]>,
+    parts: SmallVec<[(f64, f64, Profile); 1]>,
     stopped: bool,
 }
 
@@ -160,7 +160,7 @@ impl IndependentMove {
         let settled = slope.settled(v, state.a_mm_s2);
         if settled > v {
             if settled > span.peak() * (1.0 + 1e-9) {
-                let up = span.segments()[..3].iter().sum();
+                let up = span.phases().take(3).map(|p| p.0).sum();
                 (at, v) = ((up, span.at(up).s_mm), span.peak());
             } else if let Some(change) = slope.change(v, state.a_mm_s2, settled) {
                 let next = (at.0 + change.duration(), at.1 + change.length());

@@ -48,7 +48,6 @@ pub mod profile;
 pub mod queue;
 pub mod realtime;
 mod ride;
-mod short;
 pub mod spline;
 mod timeline;
 pub mod tolerance;

@@ -43,7 +43,7 @@ mod late;
 mod stretch;
 
 use crate::cap::{Cap, SpeedLimit};
-use crate::profile::{Infeasible, SpanProfile};
+use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
 use crate::ride::ride;
 use std::sync::Arc;
@@ -63,7 +63,7 @@ pub struct Span {
     /// Index behind the last block.
     pub end: usize,
     /// The profile.
-    pub profile: SpanProfile,
+    pub profile: Profile,
     /// What held the speed down while accelerating.
     pub why_up: SpeedLimit,
     /// What held the speed down while braking.
@@ -157,7 +157,7 @@ impl Window<'_> {
                 if a0.abs() > FLAT_MM_S2 {
                     let going_on = cells(blocks, feeds, caps, s.first, s.end)
                         .and_then(|cells| ride(&cells, (from.v_mm_s, a0), to.v_mm_s));
-                    let Some(chain) = going_on else {
+                    let Some(profile) = going_on else {
                         if s.end < blocks.len() && soft[s.end] && !knot[s.end] {
                             soft[s.end] = false;
                             again = true;
@@ -167,7 +167,6 @@ impl Window<'_> {
                     };
                     let (first, end) = (s.first, s.end);
                     let (why_up, why_down) = (from.why, to.why);
-                    let profile = SpanProfile::from_chain(chain);
                     spans.push(Span { first, end, profile, why_up, why_down });
                     continue;
                 }
@@ -175,11 +174,11 @@ impl Window<'_> {
                 if s.end - s.first > 1 && blocks[s.first].plans_across() && !s.is_above(from.v_mm_s)
                 {
                     let worst = most_exceeded(blocks, feeds, caps, s, &profile);
-                    let chain = (worst.is_some() || s.is_uneven(blocks, profile.peak()))
+                    let ridden = (worst.is_some() || s.is_uneven(blocks, profile.peak()))
                         .then(|| cells(blocks, feeds, caps, s.first, s.end))
                         .flatten()
                         .and_then(|cells| ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s));
-                    match (chain.map(SpanProfile::from_chain), worst) {
+                    match (ridden, worst) {
                         (Some(ride), None) if ride.duration() >= profile.duration() => {}
                         (Some(ride), _) => profile = ride,
                         (None, Some(worst)) => {

@@ -7,14 +7,16 @@
 //!
 //! It knows segments, speeds and moments; it does not touch setpoints, filters or what is final.
 
+mod short;
+
 use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::plan;
 use crate::profile::Infeasible;
 use crate::queue::Queued;
-use crate::short::lower_caps;
 use crate::timeline::{Entry, Moment};
 use crate::tolerance::Demands;
 use kontur_filters::time::CycleTime;
+use short::lower_caps;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;

@@ -30,6 +30,7 @@
 //! ```
 
 mod extend;
+mod feedhold;
 mod replan;
 
 use crate::axis::AxisVec;

@@ -1,13 +1,13 @@
 //! Motion along one scalar coordinate: how speed changes over time.
 //!
-//! Two families with different tasks:
-//! - slope profiles ([`SlopeLimits`], [`SpanProfile`]): the vendor's STEP, TRAPEZ and SIN2 slopes of a
-//!   path length between two velocities, acceleration zero at both ends. The look-ahead asks
-//!   [`SlopeLimits::reach_up`] and [`SlopeLimits::reach_down`], the interpolator evaluates the plan.
+//! Every speed is a [`Profile`]: a row of phases of constant jerk, or of one sine-square ramp each. Those who plan differ:
+//! - slopes ([`SlopeLimits`]): the vendor's STEP, TRAPEZ and SIN2 over a path length between two velocities,
+//!   acceleration zero at both ends. The look-ahead asks [`SlopeLimits::reach_up`] and
+//!   [`SlopeLimits::reach_down`], the interpolator evaluates the plan.
 //! - the change of speed (`SlopeLimits::change`) from a moving state with any acceleration, with the ramps of a slope:
 //!   feedhold and override.
-//! - the general third-order profile ([`ThirdOrderProfile`]): one coordinate from any position, velocity and
-//!   acceleration to any other with one jerk limit, for replanning from a moving state and for positioning.
+//! - the general third-order motion ([`ThirdOrderLimits::fastest`]): one coordinate from any position, velocity and
+//!   acceleration to any other with one jerk limit; it connects what SIN2 has planned from either end.
 //!
 //! Nothing here knows axes or geometry: limits arrive already referred to the path.
 //!
@@ -25,23 +25,24 @@
 //! assert!((profile.at(0.25).v_mm_s - 200.0).abs() < 1e-9);
 //! ```
 
-mod chain;
 mod leg;
+mod legs;
+mod phase;
 mod ramp;
 mod ramped;
 pub(crate) mod roots;
+mod row;
 mod slope;
-mod span;
 mod speed_change;
 mod step;
 mod third_order;
 mod weaker;
 
-pub(crate) use chain::{Chain, Phase};
+pub(crate) use phase::Phase;
 pub use ramp::RampShape;
 pub use ramped::RampedLimits;
 pub(crate) use ramped::Rates;
+pub use row::{Profile, State};
 pub use slope::{Infeasible, SlopeLimits};
-pub use span::{SpanProfile, State};
 pub use step::{StepAxis, StepLimits};
-pub use third_order::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderProfile};
+pub use third_order::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderPhases};

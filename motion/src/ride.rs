@@ -18,7 +18,7 @@ mod climb;
 mod meet;
 mod sine;
 
-use crate::profile::{Chain, Phase, RampShape, Rates};
+use crate::profile::{Phase, Profile, RampShape, Rates};
 use climb::climb;
 use meet::Meet;
 
@@ -95,18 +95,18 @@ fn joined(blocks: Vec<Block>) -> Vec<Block> {
 
 /// The fastest speed found from `v0` with acceleration `a0` (constant jerk only) to `v1` with acceleration zero; `None` if
 /// the limits leave no way.
-pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Chain> {
+pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Profile> {
     let last = cells.last()?;
     let length = last.end;
     if last.rates.shape == RampShape::Sin2 {
         let speed = if a0.abs() > 0.0 { None } else { sine::speed(cells, v0, v1) };
-        return speed.map(|speed| Chain::new(speed, length));
+        return speed.map(|speed| Profile::over(speed, length));
     }
     let cells = &joined(own(cells))[..];
     let rise = climb(cells, v0, a0)?;
     let fall = turned(&climb(&mirror(cells), v1, 0.0)?, length);
     let speed = Meet { cells, rise: &rise, fall: &fall, v1 }.speed()?;
-    Some(Chain::new(speed, length))
+    Some(Profile::over(speed, length))
 }
 
 /// Phases run backwards from the other end.
@@ -176,7 +176,6 @@ pub(crate) fn has_hill(length: f64, v: f64, rates: &Rates) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::profile::SpanProfile;
     use std::f64::consts::FRAC_PI_2;
 
     fn random(seed: &mut u64) -> f64 {
@@ -214,10 +213,9 @@ mod tests {
                 (0.02, RampShape::Sin2, FRAC_PI_2),
             ] {
                 let cells = cells(seed, ramp, shape);
-                let Some(chain) = ride(&cells, (0.0, 0.0), 0.0) else { continue };
+                let Some(profile) = ride(&cells, (0.0, 0.0), 0.0) else { continue };
                 found += 1;
                 let length = cells[cells.len() - 1].end;
-                let profile = SpanProfile::from_chain(chain);
                 let n = 10_000;
                 let dt = profile.duration() / f64::from(n);
                 let mut before = profile.at(0.0);

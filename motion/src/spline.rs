@@ -30,7 +30,8 @@
 //! ```
 //! # mod doc { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
 //! # use doc::*;
-//! use kontur_motion::spline::{SplineSettings, Splining};
+//! use kontur_motion::block::SplineSettings;
+//! use kontur_motion::spline::Splining;
 //!
 //! // a circle of 10 mm in chords of 10 degrees
 //! let point = |i: u64| { let (sin, cos) = libm::sincos(i as f64 * 0.1745); [10.0 * cos, 10.0 * sin] };
@@ -50,7 +51,7 @@ mod pace;
 mod polygon;
 
 use crate::axis::AxisVec;
-use crate::block::{Block, Feed};
+use crate::block::{Block, Feed, SplineSettings};
 use crate::contouring::NEEDLE_RAD;
 use crate::path::{Path, PolyPath, piece};
 use fairing::Fairing;
@@ -68,40 +69,6 @@ const SHARE: f64 = 0.245;
 /// Edges around a corner whose lengths differ by no more than this ratio can be halved: each halving takes at least a
 /// third of the deviation. Otherwise the control points would crowd at the ends of short edges.
 const EVEN: f64 = 2.0;
-
-/// Parameters of `#HSC [BSPLINE]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SplineSettings {
-    /// `PATH_DEV` in mm, default 0.2: largest deviation from the polygon; 0 = not monitored. Below `c^2 / (6 r)` on chords
-    /// `c` of an arc it costs speed.
-    pub path_dev_mm: f64,
-    /// `TRACK_DEV` in deg, default 5: largest deviation of the axes outside the feed group; 0 = not monitored.
-    pub track_dev_deg: f64,
-    /// `AUTO_OFF_PATH`, default off: the spline ends where `PATH_DEV` would be exceeded.
-    pub off_at_path_dev: bool,
-    /// `AUTO_OFF_TRACK`, default off: the spline ends where `TRACK_DEV` would be exceeded.
-    pub off_at_track_dev: bool,
-    /// `AUTO_OFF_G00`, default on: rapid blocks are not part of the spline (Assumption: default).
-    pub off_at_rapid: bool,
-    /// `MAX_PATH_LENGTH` in mm, default 0 = any: longer blocks are not part of the spline.
-    pub max_length_mm: f64,
-    /// `MAX_ANGLE` in deg, default 180: the spline ends at corners that turn by more.
-    pub max_angle_deg: f64,
-}
-
-impl Default for SplineSettings {
-    fn default() -> Self {
-        Self {
-            path_dev_mm: 0.2,
-            track_dev_deg: 5.0,
-            off_at_path_dev: false,
-            off_at_track_dev: false,
-            off_at_rapid: true,
-            max_length_mm: 0.0,
-            max_angle_deg: 180.0,
-        }
-    }
-}
 
 /// A linear block of a run.
 #[derive(Debug)]

@@ -7,12 +7,15 @@
 use crate::axis::AxisVec;
 use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::Span;
-use crate::profile::{SpanProfile, State};
+use crate::profile::{Profile, State};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
+
+/// Relative difference of lengths that is rounding.
+pub(crate) const SAME_LENGTH: f64 = 1e-12;
 
 /// A moment: seconds after a cycle tick, the seconds kept as a sum with its rounding error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,7 +61,7 @@ pub(crate) struct Entry {
     pub(crate) end: Moment,
     /// Path length of the program at the start of the span.
     pub(crate) s0: f64,
-    pub(crate) profile: SpanProfile,
+    pub(crate) profile: Profile,
     pub(crate) why_up: SpeedLimit,
     pub(crate) why_down: SpeedLimit,
     /// Blocks with the path length inside the span at their end; the last one may reach beyond the span.
@@ -118,7 +121,7 @@ impl Entry {
     pub(crate) fn along(
         start: Moment,
         s0: f64,
-        profile: SpanProfile,
+        profile: Profile,
         why: (SpeedLimit, SpeedLimit),
         blocks: &[Arc<Queued>],
         stops: bool,
@@ -223,7 +226,7 @@ impl Entry {
         let (queued, s_end) = &self.blocks[i];
         let path = &queued.block.path;
         if over {
-            if queued.goes_on || *s_end > self.profile.length() {
+            if queued.goes_on || *s_end > self.profile.length() * (1.0 + SAME_LENGTH) {
                 path.position(
                     queued.offset + state.s_mm - (s_end - queued.length),
                     &mut out.position,

@@ -41,8 +41,8 @@
 //! component counts. Between the kinks points of the contour are looked at up to four times in a cycle, and set points
 //! half way on bent blocks.
 //!
-//! Bounded instead of measured: stretches whose bends cannot add up to the tolerance, by the sum above with the moments of
-//! the kernel for `E`; stretches of constant speed on one line, where one set point stands for all.
+//! Bounded instead of measured: where the set point is certainly closer than the tolerance to the point of the contour that
+//! goes with it ([`bound`]); stretches of constant speed on one line, where one set point stands for all.
 //!
 //! Neither: the choice of who slows down. It keeps the tolerance, but is no optimum; `motion/tests/promise.rs` compares it
 //! with the best even speed (`EVEN=1`).
@@ -81,6 +81,7 @@
 //! ```
 
 mod blame;
+mod bound;
 mod even;
 mod measure;
 mod search;

@@ -12,8 +12,8 @@ use common::random::Random;
 use common::{Job, axis, channel, second_order_time};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
-use kontur_motion::block::{Block, SlopeKind};
-use kontur_motion::contouring::{ContourMode, ContourSettings, Contouring};
+use kontur_motion::block::{Block, ContourMode, ContourSettings, SlopeKind};
+use kontur_motion::contouring::Contouring;
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 

@@ -3,9 +3,7 @@
 mod common;
 
 use common::random::Random;
-use kontur_motion::profile::{
-    RampShape, RampedLimits, SlopeLimits, SpanProfile, StepAxis, StepLimits,
-};
+use kontur_motion::profile::{Profile, RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
 
 const CASES: u32 = 20_000;
 
@@ -53,12 +51,12 @@ fn velocity(random: &mut Random) -> f64 {
     if random.chance(0.2) { 0.0 } else { random.log(1e-3, 1e4) }
 }
 
-fn check(case: &Case, profile: &SpanProfile, [v0, ve, vf, length]: [f64; 4]) {
+fn check(case: &Case, profile: &Profile, [v0, ve, vf, length]: [f64; 4]) {
     let what = || format!("{:?} v0 {v0} ve {ve} vf {vf} length {length}: {profile:?}", case.limits);
     let duration = profile.duration();
     assert!(duration.is_finite() && duration >= 0.0, "{}", what());
-    assert!(profile.segments().iter().all(|t| *t >= 0.0), "{}", what());
-    let total: f64 = profile.segments().iter().sum();
+    assert!(profile.phases().all(|p| p.0 >= 0.0), "{}", what());
+    let total: f64 = profile.phases().map(|p| p.0).sum();
     assert!((total - duration).abs() <= 1e-14 * duration, "{}", what());
 
     let top = vf.max(v0).max(ve);
@@ -67,7 +65,8 @@ fn check(case: &Case, profile: &SpanProfile, [v0, ve, vf, length]: [f64; 4]) {
     assert!((end.s_mm - length).abs() <= 1e-12 * length, "{}", what());
     assert!((start.v_mm_s - v0).abs() <= 1e-13 * top, "{}", what());
     assert!((end.v_mm_s - ve).abs() <= 1e-13 * top, "{}", what());
-    assert!(profile.peak() <= top && profile.peak() >= v0.max(ve), "{}", what());
+    assert!(profile.peak() <= top * (1.0 + 1e-15), "{}", what());
+    assert!(profile.peak() >= v0.max(ve), "{}", what());
 
     let mut before = start;
     let samples = 40;
@@ -218,7 +217,7 @@ fn states_agree_with_numerical_integration() {
         // too short to get from one speed to the other
         let Ok(profile) = limits.plan(v0, ve, 120.0, length) else { continue };
         integrated += 1;
-        let segments = profile.segments();
+        let segments: Vec<f64> = profile.phases().map(|p| p.0).collect();
         // the plateau follows from the gain of velocity and the segment times
         let plateau = |gain: f64, t: &[f64]| {
             let time = 0.5 * (t[0] + t[2]) + t[1];
@@ -266,8 +265,8 @@ fn equal_ramps_give_sin2_the_times_of_trapez() {
         compared += 1;
         assert!((a.peak() - b.peak()).abs() <= 1e-12 * a.peak());
         assert!((a.duration() - b.duration()).abs() <= 1e-12 * a.duration());
-        for (x, y) in a.segments().iter().zip(b.segments()) {
-            assert!((x - y).abs() <= 1e-11 * a.duration(), "{a:?} {b:?}");
+        for (x, y) in a.phases().zip(b.phases()) {
+            assert!((x.0 - y.0).abs() <= 1e-11 * a.duration(), "{a:?} {b:?}");
         }
     }
     assert!(compared > 200, "{compared} of 2000");

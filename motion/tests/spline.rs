@@ -8,10 +8,10 @@ use common::random::Random;
 use common::{Job, axis, channel, deviation};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Trapez};
-use kontur_motion::block::{Block, ChannelDynamics};
+use kontur_motion::block::{Block, ChannelDynamics, SplineSettings};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::Setpoint;
-use kontur_motion::spline::{SplineSettings, Splining};
+use kontur_motion::spline::Splining;
 use std::sync::Arc;
 
 fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) -> Vec<Block> {

@@ -5,11 +5,11 @@ mod common;
 use common::random::Random;
 use common::{Job, channel};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
-use kontur_motion::block::Block;
 use kontur_motion::block::SlopeKind::Hsc;
+use kontur_motion::block::{Block, SplineSettings};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::Setpoint;
-use kontur_motion::spline::{SplineSettings, Splining};
+use kontur_motion::spline::Splining;
 
 fn machine(axes: usize) -> Job {
     let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };

@@ -6,12 +6,12 @@
 use crate::exec::{Approach, CuttingSpeed, SpindleMotion};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisDynamics;
-use kontur_motion::profile::{SlopeLimits, SpanProfile, StepAxis, StepLimits};
+use kontur_motion::profile::{Profile, SlopeLimits, StepAxis, StepLimits};
 
 /// Positioning after M19: the profile, where it began, cycles since.
 #[derive(Clone, Debug)]
 struct Positioning {
-    profile: SpanProfile,
+    profile: Profile,
     from_deg: f64,
     /// 1, or -1 for a motion counter-clockwise.
     sense: f64,

@@ -1,9 +1,9 @@
 //! One corner: how large the curve may be.
 
 use super::blend::{Blend, End};
-use super::{ContourMode, ContourSettings, Held, NoContour, is_feed};
+use super::{Held, NoContour, is_feed};
 use crate::axis::AxisVec;
-use crate::block::Block;
+use crate::block::{Block, ContourMode, ContourSettings};
 use crate::path::{Path, piece};
 use std::f64::consts::{FRAC_PI_2, PI};
 

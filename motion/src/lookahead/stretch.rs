@@ -4,7 +4,7 @@
 
 use super::is_above;
 use crate::cap::Cap;
-use crate::profile::{Infeasible, Rates, SlopeLimits, SpanProfile};
+use crate::profile::{Infeasible, Profile, Rates, SlopeLimits};
 use crate::queue::Queued;
 use crate::ride::{Cell, has_hill};
 use std::sync::Arc;
@@ -56,7 +56,7 @@ impl Stretch {
         is_above(v0, self.feed)
     }
 
-    pub(super) fn profile(&self, v0: f64, v1: f64) -> Result<SpanProfile, Infeasible> {
+    pub(super) fn profile(&self, v0: f64, v1: f64) -> Result<Profile, Infeasible> {
         if self.is_above(v0) {
             self.slope.plan_from_above(v0, v1, self.feed, self.length)
         } else {
@@ -98,7 +98,7 @@ pub(super) fn most_exceeded(
     feeds: &[Cap],
     caps: &[Cap],
     s: &Stretch,
-    profile: &SpanProfile,
+    profile: &Profile,
 ) -> Option<usize> {
     let mut worst = (1.0 + 1e-9, None);
     let mut at = 0.0;
@@ -118,7 +118,7 @@ pub(super) fn most_exceeded(
             }
         }
         // a peak inside the block: both ends are within the block's velocity, the middle is not
-        let peak = profile.highest_between(at - blocks[i].length, at).max(before).max(behind);
+        let peak = profile.highest_inside(at - blocks[i].length, at).max(before).max(behind);
         if peak / feeds[i].v_mm_s > worst.0 {
             let inner = if i > s.first { i } else { i + 1 };
             if inner > s.first && inner < s.end {

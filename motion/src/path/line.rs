@@ -50,7 +50,7 @@ impl LinePath {
         self.length
     }
 
-    pub(super) fn start(&self) -> &AxisVec {
+    pub(crate) fn start(&self) -> &AxisVec {
         &self.start
     }
 

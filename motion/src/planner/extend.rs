@@ -3,7 +3,7 @@
 use super::Planner;
 use crate::cap::{Cap, SpeedLimit};
 use crate::plan::{Start, last_blocks};
-use crate::profile::Infeasible;
+use crate::profile::{Infeasible, SlopeLimits};
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
 use crate::tolerance::{Demands, Trial, Unkept, Verdict};
@@ -160,13 +160,16 @@ impl Planner {
         out
     }
 
-    /// True if a plan may start inside an entry: braking under G901 and what keeps a tolerance are planned as a whole.
+    /// True if a plan may start inside an entry: braking under G901 and what keeps a tolerance are planned as a whole, and
+    /// with STEP there is no ramp that would go on.
     fn may_part(&self, entry: &Entry) -> bool {
         let whole = |q: &Queued| {
             q.block.late_braking || self.kernels.any() && q.block.tolerance.ax_dev_mm.is_some()
         };
         let ahead = self.plan.segments.iter().map(|s| &s.queued);
-        !entry.blocks.iter().map(|b| &b.0).chain(ahead).any(|q| whole(q))
+        let jumps = |q: &Queued| matches!(q.slope, SlopeLimits::Step(_));
+        !entry.blocks.iter().any(|b| jumps(&b.0))
+            && !entry.blocks.iter().map(|b| &b.0).chain(ahead).any(|q| whole(q))
     }
 
     /// Makes the next span of the last plan, or the first blocks of it, final, because there is no new plan from where it
@@ -219,7 +222,7 @@ impl Planner {
             moment: entry.end,
             s_mm: entry.s0 + entry.profile.length(),
             speed: Cap::new(entry.profile.end().v_mm_s, entry.why_down),
-            a_mm_s2: entry.profile.left_with(),
+            a_mm_s2: entry.profile.end().a_mm_s2,
         };
         if entry.stops {
             start.moment = Moment::tick(entry.end.next_tick(self.cycle) + u64::from(dwell));

@@ -20,13 +20,13 @@
 //! a place no longer than the kernel is; then it is taken, and what it exceeds is reported as not kept.
 
 use super::Planner;
+use super::feedhold::feedhold_slope;
 use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::plan;
 use crate::plan::{Plan, Segment, Start};
-use crate::profile::{SlopeLimits, SpanProfile};
+use crate::profile::{Profile, SlopeLimits};
 use crate::queue::Queued;
-use crate::realtime::feedhold_slope;
-use crate::timeline::{Entry, Moment};
+use crate::timeline::{Entry, Moment, SAME_LENGTH};
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
 
@@ -37,7 +37,7 @@ const SLACK: f64 = 1e-9;
 const SAME_END_MM: f64 = 1e-9;
 
 /// One or two profiles in a row.
-type Leg = SmallVec<[SpanProfile; 2]>;
+type Leg = SmallVec<[Profile; 2]>;
 
 /// Where a leg may begin.
 #[derive(Clone, Copy, Debug)]
@@ -219,8 +219,9 @@ impl Planner {
         let mut reach = rest.first()?.queued.length;
         let leg = loop {
             let leg = profiles(aim, spot, &slope)?;
-            let length: f64 = leg.iter().map(SpanProfile::length).sum();
-            if length <= reach {
+            let length: f64 = leg.iter().map(Profile::length).sum();
+            // a ramp that was planned to end with the block ends there
+            if length <= reach * (1.0 + SAME_LENGTH) {
                 break leg;
             }
             let queued = &rest.get(crossed.len() + 1)?.queued;
@@ -258,7 +259,7 @@ impl Planner {
                     && v.max(v_end) <= queued.velocity.v_mm_s * (1.0 + SLACK)
             })
         };
-        let length = leg.iter().map(SpanProfile::length).sum();
+        let length = leg.iter().map(Profile::length).sum();
         (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
@@ -323,11 +324,11 @@ fn behind(ahead: &[(f64, Segment)], s: f64) -> Vec<Segment> {
     cut(rest.collect(), into)
 }
 
-/// What lies behind `s` mm.
+/// What lies behind `s` mm; a rest of a block that is rounding is none.
 fn cut(mut blocks: Vec<Segment>, mut s: f64) -> Vec<Segment> {
     let mut gone = 0;
-    while gone < blocks.len() && s >= blocks[gone].queued.length {
-        s -= blocks[gone].queued.length;
+    while gone < blocks.len() && s >= blocks[gone].queued.length * (1.0 - SAME_LENGTH) {
+        s = (s - blocks[gone].queued.length).max(0.0);
         gone += 1;
     }
     blocks.drain(..gone);
@@ -358,7 +359,7 @@ fn profiles(aim: Aim, spot: &Spot, slope: &SlopeLimits) -> Option<Leg> {
 }
 
 /// Velocity of a leg after `s` mm.
-fn speed_in(leg: &[SpanProfile], mut s: f64) -> f64 {
+fn speed_in(leg: &[Profile], mut s: f64) -> f64 {
     let mut v = 0.0;
     for profile in leg {
         v = profile.at(profile.time_at(s)).v_mm_s;

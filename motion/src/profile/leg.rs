@@ -3,10 +3,9 @@
 //! A leg always runs from the lower to the higher velocity. A braking leg is its mirror in time, so the
 //! same formulas serve both; only ramp times and plateau differ.
 
-use super::chain::Phase;
-use super::ramp::{RampShape, RampState};
+use super::phase::Phase;
+use super::ramp::RampShape;
 use super::roots::{increasing_root, monotone_cubic};
-use super::span::State;
 
 /// Ramp times below this count as a step of acceleration; the parameter lists have whole microseconds.
 const SHORTEST_RAMP_S: f64 = 1e-9;
@@ -179,6 +178,33 @@ impl LegLimits {
         let c1 = self.shoulder / self.gain_full;
         Quadratic { c2: 0.0, c1, c0: v * self.ramps + c1 * gain }
     }
+
+    /// Rise, plateau and fall of the leg from `v` to `v + gain` over `distance` (that of the limits), its time scaled by
+    /// `stretch` (close to 1): velocities stay, distance scales with time.
+    ///
+    /// Rise and plateau are seen from the start, the fall from the end, so that either is met exactly.
+    pub(super) fn phases(&self, v: f64, gain: f64, distance: f64, stretch: f64) -> [Phase; 3] {
+        let (plateau, ramp, tc) = if gain >= self.gain_full {
+            (self.a, 1.0, gain / self.a - 0.5 * self.ramps)
+        } else if gain <= 0.0 {
+            (0.0, 0.0, 0.0)
+        } else if self.constant_ramp_time {
+            (self.a * gain / self.gain_full, 1.0, 0.0)
+        } else {
+            let ratio = (gain / self.gain_full).sqrt();
+            (self.a * ratio, ratio, 0.0)
+        };
+        let a = plateau / stretch;
+        let [t1, tc, t2] = [self.t1 * ramp, tc.max(0.0), self.t2 * ramp].map(|t| t * stretch);
+        let jerk = |t: f64| if t > 0.0 { a / t } else { 0.0 };
+        let rise = Phase::state(0.0, v, 0.0).ramp(self.shape, jerk(t1), t1);
+        // a ramp that takes no time is a jump
+        let shoulder = rise.end();
+        let hold = Phase::state(shoulder.s, shoulder.v, a).ramp(self.shape, 0.0, tc);
+        let way = t2 * (v + gain - self.shape.rise_factor() * a * t2);
+        let fall = Phase::state(distance * stretch - way, v + gain - 0.5 * a * t2, a);
+        [rise, hold, fall.ramp(self.shape, -jerk(t2), t2)]
+    }
 }
 
 /// `c2 x² + c1 x + c0` with `c2, c1 >= 0`.
@@ -298,131 +324,4 @@ fn short_gain(
         (value, linear + 3.0 * cubic * x * x + 2.0 * full * x * slope)
     });
     full * root * root
-}
-
-/// A leg with its times fixed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RampLeg {
-    shape: RampShape,
-    v_low: f64,
-    v_high: f64,
-    a: f64,
-    t1: f64,
-    tc: f64,
-    t2: f64,
-    distance: f64,
-}
-
-impl RampLeg {
-    /// The leg from `v` to `v + gain` over `distance` (that of the limits), its time scaled by `stretch` (close
-    /// to 1): velocities stay, distance scales with time.
-    pub(super) fn new(limits: &LegLimits, v: f64, gain: f64, distance: f64, stretch: f64) -> Self {
-        let (plateau, ramp, tc) = if gain >= limits.gain_full {
-            (limits.a, 1.0, gain / limits.a - 0.5 * limits.ramps)
-        } else if gain <= 0.0 {
-            (0.0, 0.0, 0.0)
-        } else if limits.constant_ramp_time {
-            (limits.a * gain / limits.gain_full, 1.0, 0.0)
-        } else {
-            let ratio = (gain / limits.gain_full).sqrt();
-            (limits.a * ratio, ratio, 0.0)
-        };
-        Self {
-            shape: limits.shape,
-            v_low: v,
-            v_high: v + gain,
-            a: plateau / stretch,
-            t1: limits.t1 * ramp * stretch,
-            tc: tc.max(0.0) * stretch,
-            t2: limits.t2 * ramp * stretch,
-            distance: distance * stretch,
-        }
-    }
-
-    pub(super) fn times(&self) -> [f64; 3] {
-        [self.t1, self.tc, self.t2]
-    }
-
-    /// The leg as phases from a place, with constant jerk; `None` for SIN2.
-    pub(super) fn phases(&self, s: f64) -> Option<[Phase; 3]> {
-        if self.shape != RampShape::Trapez {
-            return None;
-        }
-        let jerk = |t: f64| if t > 0.0 { self.a / t } else { 0.0 };
-        let rise = Phase::state(s, self.v_low, 0.0).ramp(self.shape, jerk(self.t1), self.t1);
-        // a ramp that takes no time is a jump
-        let end = rise.end();
-        let hold = Phase::state(end.s, end.v, self.a).ramp(self.shape, 0.0, self.tc);
-        let fall = hold.end().ramp(self.shape, -jerk(self.t2), self.t2);
-        Some([rise, hold, fall])
-    }
-
-    pub(super) fn duration(&self) -> f64 {
-        self.t1 + self.tc + self.t2
-    }
-
-    pub(super) fn distance(&self) -> f64 {
-        self.distance
-    }
-
-    /// Distance and velocity at the end of the rising ramp.
-    fn shoulder(&self) -> (f64, f64) {
-        let k1 = self.shape.rise_factor();
-        (self.t1 * (self.v_low + k1 * self.a * self.t1), self.v_low + 0.5 * self.a * self.t1)
-    }
-
-    /// State at `x` in `0..=duration`. The falling ramp is seen from its end, where it is a rising one.
-    pub(super) fn at(&self, x: f64) -> State {
-        // the end itself, without the rounding of the differences below
-        let whole = x >= self.duration();
-        if x < self.t1 {
-            let RampState { s, v, a, j } = self.shape.rise(self.a, self.t1, x);
-            return State {
-                s_mm: self.v_low * x + s,
-                v_mm_s: self.v_low + v,
-                a_mm_s2: a,
-                j_mm_s3: j,
-            };
-        }
-        let x = x - self.t1;
-        if x < self.tc {
-            let (s, v) = self.shoulder();
-            return State {
-                s_mm: s + x * (v + 0.5 * self.a * x),
-                v_mm_s: v + self.a * x,
-                a_mm_s2: self.a,
-                j_mm_s3: 0.0,
-            };
-        }
-        let left = if whole { 0.0 } else { (self.t2 - (x - self.tc)).max(0.0) };
-        let RampState { s, v, a, j } = self.shape.rise(self.a, self.t2, left);
-        State {
-            s_mm: self.distance - (self.v_high * left - s),
-            v_mm_s: (self.v_high - v).max(self.v_low),
-            a_mm_s2: if self.t2 > 0.0 { a } else { 0.0 },
-            j_mm_s3: -j,
-        }
-    }
-
-    /// Time at which `s` in `0..=distance` is passed.
-    pub(super) fn time_at(&self, s: f64) -> f64 {
-        let (s1, v1) = self.shoulder();
-        if s <= s1 {
-            return increasing_root(0.0, self.t1, self.t1, 1e-15, |x| {
-                let r = self.shape.rise(self.a, self.t1, x);
-                (self.v_low * x + r.s - s, self.v_low + r.v)
-            });
-        }
-        let s2 = s1 + self.tc * (v1 + 0.5 * self.a * self.tc);
-        if s <= s2 {
-            let d = s - s1;
-            return self.t1 + (2.0 * d / (v1 + (v1 * v1 + 2.0 * self.a * d).sqrt())).min(self.tc);
-        }
-        let to_go = (self.distance - s).max(0.0);
-        let left = increasing_root(0.0, self.t2, to_go / self.v_high, 1e-15, |x| {
-            let r = self.shape.rise(self.a, self.t2, x);
-            (self.v_high * x - r.s - to_go, self.v_high - r.v)
-        });
-        self.duration() - left
-    }
 }

@@ -1,9 +1,10 @@
 //! TRAPEZ and SIN2: acceleration that builds up and falls in ramps.
 
-use super::leg::{LegLimits, LegPair, RampLeg};
+use super::leg::{LegLimits, LegPair};
+use super::legs::Legs;
 use super::ramp::RampShape;
+use super::row::Profile;
 use super::slope::Infeasible;
-use super::span::{Leg, Span, SpanProfile};
 
 /// Path limits of a non-linear slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +87,7 @@ impl RampedLimits {
         ve: f64,
         vf: f64,
         length: f64,
-    ) -> Result<SpanProfile, Infeasible> {
+    ) -> Result<Profile, Infeasible> {
         let top = v0.max(ve);
         let distances = |up_gain: f64, down_gain: f64| {
             (self.up.distance(v0, up_gain), self.down.distance(ve, down_gain))
@@ -104,12 +105,10 @@ impl RampedLimits {
             parts = distances(gains.0, gains.1);
             peak = (v0 + gains.0).clamp(top, vf);
         }
-        let span = Span { length, v0, ve, peak, at_feed };
-        Ok(SpanProfile::assemble(span, parts.0 + parts.1, |stretch| {
-            (
-                Leg::Ramp(RampLeg::new(&self.up, v0, gains.0, parts.0, stretch)),
-                Leg::Ramp(RampLeg::new(&self.down, ve, gains.1, parts.1, stretch)),
-            )
+        let legs = Legs { length, ve, peak, at_feed };
+        Ok(legs.profile([parts.0, parts.1], |stretch| {
+            let up = self.up.phases(v0, gains.0, parts.0, stretch);
+            (up, self.down.phases(ve, gains.1, parts.1, stretch))
         }))
     }
 }

@@ -1,7 +1,7 @@
 //! Limits of the path speed over one span and the questions of the look-ahead.
 
 use super::ramped::RampedLimits;
-use super::span::SpanProfile;
+use super::row::Profile;
 use super::step::StepLimits;
 
 /// The boundary velocities of a span do not fit its length; the look-ahead has to lower one of them.
@@ -106,7 +106,7 @@ impl SlopeLimits {
     ///
     /// # Errors
     /// [`Infeasible`] if the change from `v0` to `ve` alone needs more than `length`, or no speed is allowed.
-    pub fn plan(&self, v0: f64, ve: f64, vf: f64, length: f64) -> Result<SpanProfile, Infeasible> {
+    pub fn plan(&self, v0: f64, ve: f64, vf: f64, length: f64) -> Result<Profile, Infeasible> {
         match self {
             Self::Step(l) => l.plan(v0, ve, vf, length),
             Self::Ramped(l) => l.plan(v0, ve, vf, length),
@@ -126,7 +126,7 @@ impl SlopeLimits {
         ve: f64,
         vf: f64,
         length: f64,
-    ) -> Result<SpanProfile, Infeasible> {
+    ) -> Result<Profile, Infeasible> {
         let distance = |hold: f64| self.down_distance(v0, hold) + self.down_distance(hold, ve);
         let mut hold = vf.min(v0);
         if distance(hold) > length {
@@ -141,7 +141,7 @@ impl SlopeLimits {
         let parts = || {
             let first = self.plan(v0, hold, v0, braking).ok()?;
             let second = self.plan(hold, ve, hold, length - braking).ok()?;
-            SpanProfile::brake_first(first, second)
+            Some(first.followed_by(&second))
         };
         // one leg, but for rounding, has no room for the other one
         if (hold > ve || hold > 0.0 && braking < length)

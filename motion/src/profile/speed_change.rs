@@ -6,10 +6,10 @@
 //! the middle has no shape of its own (Assumption: the documents describe ramps from zero only). So the jerk of a SIN2
 //! slope, `π/2` times as large in the middle of its ramps, is never exceeded.
 
-use super::chain::{Chain, Phase};
+use super::phase::Phase;
 use super::ramp::RampShape;
+use super::row::{Profile, State};
 use super::slope::SlopeLimits;
-use super::span::SpanProfile;
 use super::step::StepLimits;
 
 /// How far (relative) a change of speed may be too small for its acceleration before it is refused.
@@ -19,7 +19,7 @@ const SLACK: f64 = 1e-9;
 /// the limits of a leg; `sign` is -1 for braking.
 ///
 /// `None` if the acceleration is outside the limits, or too large to reach zero within the change.
-fn change(v: f64, a: f64, target: f64, sign: f64, limits: Ramps) -> Option<SpanProfile> {
+fn change(v: f64, a: f64, target: f64, sign: f64, limits: Ramps) -> Option<Profile> {
     let Ramps { plateau, build, reduce } = limits;
     let (gain, a0) = (sign * (target - v), sign * a);
     let settling = 0.5 * a0 * a0 * reduce;
@@ -38,7 +38,7 @@ fn change(v: f64, a: f64, target: f64, sign: f64, limits: Ramps) -> Option<SpanP
     let times = [(peak - a0) * build, (gain - ramps).max(0.0) / peak, peak * reduce];
     let jerks = [1.0 / build, 0.0, -1.0 / reduce];
     let mut at = Phase::state(0.0, v, a);
-    let mut phases = [at; 4];
+    let mut phases = [at; 3];
     for (i, (t, j)) in times.into_iter().zip(jerks).enumerate() {
         // where a ramp takes no time the acceleration jumps
         let a = if i == 0 { a } else { sign * peak };
@@ -47,8 +47,8 @@ fn change(v: f64, a: f64, target: f64, sign: f64, limits: Ramps) -> Option<SpanP
         at = phases[i].end();
     }
     // the end without the rounding of the phases
-    phases[3] = Phase::state(at.s, target, 0.0);
-    Some(SpanProfile::from_chain(Chain::new(phases, at.s)))
+    let end = State { s_mm: at.s, v_mm_s: target, ..State::default() };
+    Some(Profile::new(phases, end))
 }
 
 /// Plateau and, per unit of acceleration, the times in which it builds up and falls.
@@ -77,7 +77,7 @@ impl SlopeLimits {
     /// Change from velocity `v` and acceleration `a` to the velocity `target` with zero acceleration.
     ///
     /// `None` for STEP, whose acceleration jumps, and where acceleration has to cross zero on the way.
-    pub(crate) fn change(&self, v: f64, a: f64, target: f64) -> Option<SpanProfile> {
+    pub(crate) fn change(&self, v: f64, a: f64, target: f64) -> Option<Profile> {
         let braking = target < v;
         let sign = if braking { -1.0 } else { 1.0 };
         change(v, a, target, sign, self.ramps(braking)?)
@@ -100,7 +100,7 @@ impl SlopeLimits {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{MotionState, RampShape, RampedLimits, ThirdOrderLimits, ThirdOrderProfile};
+    use super::super::{MotionState, RampShape, RampedLimits, ThirdOrderLimits};
     use super::*;
 
     fn limits(ramps: [f64; 4]) -> SlopeLimits {
@@ -127,15 +127,27 @@ mod tests {
             (20.0, 0.0, 0.0),
         ] {
             let change = slope.change(v, a, target).unwrap();
+            // no motion over the length of the fastest change of speed is faster
             let from = MotionState { p_mm: 0.0, v_mm_s: v, a_mm_s2: a };
-            let want = ThirdOrderProfile::to_velocity(&from, target, &third).unwrap();
-            assert!((change.duration() - want.duration()).abs() < 1e-12);
+            let to = MotionState { p_mm: change.length(), v_mm_s: target, a_mm_s2: 0.0 };
+            let mut row = vec![from];
+            let mut duration = 0.0;
+            for (t, j) in third.fastest(&from, &to).unwrap() {
+                let MotionState { p_mm: p, v_mm_s: v, a_mm_s2: a } = row[row.len() - 1];
+                row.push(MotionState {
+                    p_mm: p + t * (v + t * (0.5 * a + t * j / 6.0)),
+                    v_mm_s: v + t * (a + 0.5 * t * j),
+                    a_mm_s2: a + t * j,
+                });
+                duration += t;
+                let (x, y) = (change.at(duration), row[row.len() - 1]);
+                assert!((x.s_mm - y.p_mm).abs() < 1e-8, "{v} {a} {target}: {x:?} {y:?}");
+                assert!((x.v_mm_s - y.v_mm_s).abs() < 1e-6, "{v} {a} {target}: {x:?} {y:?}");
+                assert!((x.a_mm_s2 - y.a_mm_s2).abs() < 0.1, "{v} {a} {target}: {x:?} {y:?}");
+            }
+            assert!((change.duration() - duration).abs() < 1e-9, "{v} {a} {target}: {duration}");
             for i in 0..=50 {
-                let t = want.duration() * f64::from(i) / 50.0;
-                let (x, y) = (change.at(t), want.at(t));
-                assert!((x.s_mm - y.p_mm).abs() < 1e-11, "{v} {a} {target} {i}");
-                assert!((x.v_mm_s - y.v_mm_s).abs() < 1e-9);
-                assert!((x.a_mm_s2 - y.a_mm_s2).abs() < 1e-6);
+                let x = change.at(change.duration() * f64::from(i) / 50.0);
                 assert!((change.at(change.time_at(x.s_mm)).s_mm - x.s_mm).abs() < 1e-12);
             }
         }

@@ -1,7 +1,10 @@
 //! STEP: acceleration jumps between levels that depend on the velocity.
 
+use super::legs::Legs;
+use super::phase::Phase;
+use super::ramp::RampShape;
+use super::row::Profile;
 use super::slope::{Infeasible, add_rounding_down};
-use super::span::{Leg, Span, SpanProfile, State};
 use smallvec::SmallVec;
 
 /// Two-stage limits of one axis, referred to the path (divided by its component of the tangent).
@@ -66,7 +69,7 @@ impl StepLimits {
         ve: f64,
         vf: f64,
         length: f64,
-    ) -> Result<SpanProfile, Infeasible> {
+    ) -> Result<Profile, Infeasible> {
         let top = v0.max(ve);
         let vf = vf.max(top);
         let total = |peak: f64| self.up.distance(v0, peak) + self.down.distance(ve, peak);
@@ -74,12 +77,9 @@ impl StepLimits {
         Infeasible::check(needed, length, vf)?;
         let peak = self.peak(top, vf, length - needed);
         let at_feed = peak >= vf;
-        let span = Span { length, v0, ve, peak, at_feed };
-        Ok(SpanProfile::assemble(span, total(peak), |stretch| {
-            (
-                Leg::Step(StepLeg::new(&self.up, v0, peak, stretch)),
-                Leg::Step(StepLeg::new(&self.down, ve, peak, stretch)),
-            )
+        let legs = Legs { length, ve, peak, at_feed };
+        Ok(legs.profile([self.up.distance(v0, peak), self.down.distance(ve, peak)], |stretch| {
+            (self.up.phases(v0, peak, stretch), self.down.phases(ve, peak, stretch))
         }))
     }
 
@@ -164,6 +164,19 @@ impl Levels {
         self.pieces(v0, v1).map(|p| p.duration()).sum()
     }
 
+    /// The speed-up from `v0` to `v1` as one phase per level, its time scaled by `stretch`.
+    fn phases(&self, v0: f64, v1: f64, stretch: f64) -> SmallVec<[Phase; 4]> {
+        let mut s = 0.0;
+        let pieces = self.pieces(v0, v1).map(|p| Piece { a: p.a / stretch, ..p });
+        pieces
+            .map(|p| {
+                let phase = Phase::state(s, p.from, p.a).ramp(RampShape::Trapez, 0.0, p.duration());
+                s += p.distance();
+                phase
+            })
+            .collect()
+    }
+
     pub(super) fn reach(&self, mut v: f64, mut length: f64) -> f64 {
         if length <= 0.0 {
             return v;
@@ -205,66 +218,5 @@ impl Piece {
 
     fn duration(&self) -> f64 {
         (self.to - self.from) / self.a
-    }
-}
-
-/// A change of speed from low to high in pieces of constant acceleration.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct StepLeg {
-    v_high: f64,
-    pieces: SmallVec<[Piece; 4]>,
-}
-
-impl StepLeg {
-    fn new(levels: &Levels, v_low: f64, v_high: f64, stretch: f64) -> Self {
-        let stretched = |p: Piece| Piece { a: p.a / stretch, ..p };
-        Self { v_high, pieces: levels.pieces(v_low, v_high).map(stretched).collect() }
-    }
-
-    pub(super) fn times(&self) -> SmallVec<[f64; 4]> {
-        self.pieces.iter().map(Piece::duration).collect()
-    }
-
-    pub(super) fn duration(&self) -> f64 {
-        self.pieces.iter().map(Piece::duration).sum()
-    }
-
-    pub(super) fn distance(&self) -> f64 {
-        self.pieces.iter().map(Piece::distance).sum()
-    }
-
-    pub(super) fn at(&self, mut x: f64) -> State {
-        // the end itself, without the rounding of the differences below
-        if x >= self.duration() {
-            return State { s_mm: self.distance(), v_mm_s: self.v_high, ..State::default() };
-        }
-        let mut s = 0.0;
-        for p in &self.pieces {
-            let duration = p.duration();
-            if x < duration {
-                return State {
-                    s_mm: s + x * (p.from + 0.5 * p.a * x),
-                    v_mm_s: p.from + p.a * x,
-                    a_mm_s2: p.a,
-                    j_mm_s3: 0.0,
-                };
-            }
-            x -= duration;
-            s += p.distance();
-        }
-        State { s_mm: s, v_mm_s: self.v_high, ..State::default() }
-    }
-
-    pub(super) fn time_at(&self, mut s: f64) -> f64 {
-        let mut t = 0.0;
-        for p in &self.pieces {
-            let distance = p.distance();
-            if s < distance {
-                return t + (step_gain(p.from, s, p.a) / p.a).min(p.duration());
-            }
-            s -= distance;
-            t += p.duration();
-        }
-        t
     }
 }

@@ -18,9 +18,10 @@ mod fit;
 #[cfg(test)]
 mod tests;
 
-use super::{Edge, SplineSettings, corner, is_feed, turn};
+use super::{Edge, corner, is_feed, turn};
 use crate::axis::AxisVec;
 use crate::block::Block;
+use crate::block::SplineSettings;
 use crate::path::{LinePath, Path};
 use std::collections::VecDeque;
 use std::ops::Range;

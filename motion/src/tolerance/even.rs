@@ -67,25 +67,18 @@ impl Evenly<'_> {
         let Self { contour, kernels, cycle } = self;
         let step = speed * cycle.seconds();
         let mut walk = contour.walk();
-        let mut position = out.clone();
-        out.fill(0.0);
+        let place = |(weight, delay): &(f64, f64)| (*weight, s + step * (kernels.delay - delay));
         // equal kernels share their taps
         if !kernels.unequal
             && let Some(coarse) = kernels.coarse.first()
         {
-            for (weight, delay) in coarse {
-                walk.position(s + step * (kernels.delay - delay), &mut position);
-                for (o, p) in out.iter_mut().zip(position.iter()) {
-                    *o += weight * p;
-                }
-            }
+            walk.sum(coarse.iter().map(place), out);
             return;
         }
-        for i in 0..out.len() {
-            for (weight, delay) in &kernels.coarse[i] {
-                walk.position(s + step * (kernels.delay - delay), &mut position);
-                out[i] += weight * position[i];
-            }
+        let mut sum = out.clone();
+        for (i, coarse) in kernels.coarse.iter().enumerate() {
+            walk.sum(coarse.iter().map(place), &mut sum);
+            out[i] = sum[i];
         }
     }
 }

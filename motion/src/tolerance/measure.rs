@@ -1,5 +1,6 @@
 //! Measures the set points of some cycles: how far they leave the contour, and what of it they miss.
 
+use super::search::Suspects;
 use super::view::{Buffer, View};
 use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
 use crate::axis::AxisVec;
@@ -134,12 +135,13 @@ impl Foot {
 }
 
 impl View<'_> {
-    /// Hands the worst violations of the cycles `from..=to`, at most one for half a kernel, to `found`, and keeps the
-    /// worst of all.
+    /// Hands the worst violations of the cycles `from..=to` among some suspects, at most one for half a kernel, to `found`,
+    /// and keeps the worst of all.
     pub(super) fn measure(
         &self,
         from: u64,
         to: u64,
+        suspects: &Suspects,
         found: &mut impl FnMut(&Violation, &Record),
         worst: &mut Option<Unkept>,
     ) {
@@ -147,8 +149,7 @@ impl View<'_> {
         let length = u64::from(trial.kernels.length());
         let reach = length as f64;
         let mut buffer = Buffer::new(self);
-        let n = buffer.set.len();
-        let delay = trial.kernels.delay.round() as u64;
+        let n = buffer.set().len();
         let first = from.saturating_sub(2 * length + 4);
         let mut record = Record { first, s_mm: Vec::with_capacity((to - first) as usize + 1) };
         let mut set = SetPath::starting(first, n);
@@ -157,8 +158,7 @@ impl View<'_> {
         let mut bucket: Option<Violation> = None;
         let mut between = AxisVec::zeros(n);
         let mut walk = contour.walk();
-        let newest_passed = from.saturating_sub(length + 1);
-        let mut hint = newest_passed + delay;
+        let mut hint = from;
         let (mut looked, mut last): (Option<f64>, Option<Foot>) = (None, None);
         let half = (length / 2).max(1);
         let mut note = |v: Violation, record: &Record| {
@@ -186,13 +186,13 @@ impl View<'_> {
         for k in first..=to {
             buffer.step(k);
             record.s_mm.push(buffer.s());
-            set.push(&buffer.set);
+            set.push(buffer.set());
             if k < from {
                 continue;
             }
             let moment = k as f64;
             let tolerance = self.tolerance(moment - reach, moment);
-            if tolerance.is_finite() {
+            if tolerance.is_finite() && suspects.leaves(k) {
                 let mut out = Excursion::none(n);
                 set.leaves(contour, k, (moment - reach, moment), &mut out);
                 let mut deviation_mm = out.largest();
@@ -249,7 +249,7 @@ impl View<'_> {
             };
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
-                if at > 0 && mark.is_kink() {
+                if at > 0 && mark.is_kink() && suspects.way_at(mark.s_mm).is_some() {
                     missed(&mark.point, all(mark.cycles), mark.cycles, mark.s_mm);
                 }
                 at += 1;
@@ -267,6 +267,10 @@ impl View<'_> {
                 continue;
             }
             looked = Some(to);
+            if !suspects.misses(from, to) {
+                last = None;
+                continue;
+            }
             let parts =
                 ((to - from) / (10.0 * SPACING * tolerance)).ceil().clamp(1.0, PARTS) as u32;
             let even = (1..=parts).map(|i| from + f64::from(i) / f64::from(parts) * (to - from));
@@ -277,10 +281,14 @@ impl View<'_> {
             let mut places: SmallVec<[f64; 8]> = even.chain(kinks).collect();
             places.sort_by(f64::total_cmp);
             for s in places {
+                let Some(way) = suspects.way_at(s) else {
+                    last = None;
+                    continue;
+                };
                 walk.position(s, &mut between);
                 let held = record.leaves(s).min(passed);
                 // the nearest set point is found close to the last one
-                hint = hint.max(held);
+                hint = if last.is_some() { hint } else { way.cycle }.max(held);
                 let near = (hint.saturating_sub(HINT).max(held), hint + HINT);
                 let foot = missed(&between, near, held as f64, s);
                 hint = foot.as_ref().map_or(near.0, |foot| foot.cycle);
@@ -319,7 +327,7 @@ impl View<'_> {
     }
 
     /// Least tolerance of the blocks interpolated between two moments.
-    fn tolerance(&self, from: f64, to: f64) -> f64 {
+    pub(super) fn tolerance(&self, from: f64, to: f64) -> f64 {
         if let Some(tolerance) = self.tolerance_mm {
             return tolerance;
         }

@@ -137,7 +137,7 @@ impl View<'_> {
         let (from, to) = (rest as f64 - f64::from(full), start as f64 + f64::from(full));
         let before = rest.saturating_sub(u64::from(full));
         let mut buffer = Buffer::new(self);
-        let n = buffer.set.len();
+        let n = buffer.set().len();
         let mut set = SetPath::starting(before, n);
         let mut out = Excursion::none(n);
         buffer.seek(before);
@@ -145,7 +145,7 @@ impl View<'_> {
             // before the rest as planned, behind it as planned after the present dwell
             let behind = k.saturating_sub(rest + u64::from(cycles));
             buffer.step(if behind > 0 { start + behind } else { k.min(rest) });
-            set.push(&buffer.set);
+            set.push(buffer.set());
             if k >= rest {
                 set.leaves(&self.contour, k, (from, to), &mut out);
             }

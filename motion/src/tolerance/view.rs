@@ -11,6 +11,9 @@ use std::sync::Arc;
 /// Change of direction that is none.
 pub(super) const STRAIGHT: f64 = 1e-9;
 
+/// Rows of a buffer, in reaches of the kernels, from which on the old ones are given up.
+const ROOM: usize = 4;
+
 /// A block entered in a plan.
 pub(super) struct Mark {
     pub(super) cycles: f64,
@@ -159,11 +162,15 @@ fn widest(kernels: &Kernels) -> usize {
 pub(super) struct Buffer<'a> {
     view: &'a View<'a>,
     reader: Reader<'a>,
-    ring: Vec<AxisVec>,
-    s_mm: Vec<f64>,
-    head: usize,
+    /// Cycle by cycle, the oldest first: the position of every axis, then the path length.
+    rows: Vec<f64>,
+    /// Values of a row.
+    width: usize,
+    /// Rows that the kernels reach back to, with the newest.
+    reach: usize,
     state: PathState,
-    pub(super) set: AxisVec,
+    /// Filtered as the rows are: the set point, then the mean path length.
+    filtered: AxisVec,
     /// The cycle behind the last one taken.
     next: Option<u64>,
 }
@@ -172,16 +179,15 @@ impl<'a> Buffer<'a> {
     pub(super) fn new(view: &'a View<'a>) -> Self {
         let trial = view.trial;
         let n = view.marks.first().map_or(0, |m| m.queued.block.path.start().len());
-        let zero = AxisVec::zeros(n);
-        let size = trial.kernels.length() as usize + 1;
+        let reach = trial.kernels.length() as usize + 1;
         Self {
             view,
             reader: Reader::new(trial.timeline, trial.plan),
-            ring: vec![zero.clone(); size],
-            s_mm: vec![0.0; size],
-            head: 0,
-            state: PathState::at_rest(&zero),
-            set: zero,
+            rows: vec![0.0; reach * (n + 1)],
+            width: n + 1,
+            reach,
+            state: PathState::at_rest(&AxisVec::zeros(n)),
+            filtered: AxisVec::zeros(n + 1),
             next: None,
         }
     }
@@ -189,7 +195,7 @@ impl<'a> Buffer<'a> {
     /// Makes `first` the next cycle to take.
     pub(super) fn seek(&mut self, first: u64) {
         if self.next != Some(first) {
-            for back in (1..self.ring.len() as u64).rev() {
+            for back in (1..self.reach as u64).rev() {
                 self.take(first.saturating_sub(back));
             }
         }
@@ -197,34 +203,62 @@ impl<'a> Buffer<'a> {
 
     fn take(&mut self, k: u64) {
         self.view.state(k, &mut self.reader, &mut self.state);
-        self.head = (self.head + 1) % self.ring.len();
-        self.ring[self.head].copy_from_slice(&self.state.position);
-        self.s_mm[self.head] = self.state.s;
+        let kept = (self.reach - 1) * self.width;
+        if self.rows.len() >= ROOM * self.reach * self.width {
+            let old = self.rows.len() - kept;
+            self.rows.copy_within(old.., 0);
+            self.rows.truncate(kept);
+        }
+        self.rows.extend_from_slice(&self.state.position);
+        self.rows.push(self.state.s);
         self.next = Some(k + 1);
     }
 
     /// Takes cycle `k` and filters.
     pub(super) fn step(&mut self, k: u64) {
         self.take(k);
-        let size = self.ring.len();
-        for i in 0..self.set.len() {
-            let x = self.ring[self.head][i];
-            self.set[i] = match self.view.trial.kernels.get(i) {
-                None => x,
-                Some(kernel) => {
-                    let mut y = 0.0;
-                    for tap in kernel.taps() {
-                        let at = (self.head + size - tap.delay as usize) % size;
-                        y += tap.weight * (self.ring[at][i] - x);
-                    }
-                    x + y
+        let kernels = self.view.trial.kernels;
+        let (width, newest) = (self.width, self.rows.len() - self.width);
+        let row = |delay: u32| {
+            let at = newest - delay as usize * width;
+            &self.rows[at..at + width]
+        };
+        let now = row(0);
+        self.filtered.fill(0.0);
+        if let (false, Some(kernel)) = (kernels.unequal, kernels.longest()) {
+            for tap in kernel.taps() {
+                for ((y, x), now) in self.filtered.iter_mut().zip(row(tap.delay)).zip(now) {
+                    *y += tap.weight * (x - now);
                 }
-            };
+            }
+        } else {
+            let path = width - 1;
+            for (i, y) in self.filtered.iter_mut().enumerate() {
+                let kernel = if i < path { kernels.get(i) } else { kernels.longest() };
+                for tap in kernel.map_or(&[][..], Kernel::taps) {
+                    *y += tap.weight * (row(tap.delay)[i] - now[i]);
+                }
+            }
         }
+        for (y, now) in self.filtered.iter_mut().zip(now) {
+            *y += now;
+        }
+    }
+
+    /// Set point of the cycle taken last.
+    pub(super) fn set(&self) -> &[f64] {
+        &self.filtered[..self.width - 1]
     }
 
     /// Path length of the cycle taken last.
     pub(super) fn s(&self) -> f64 {
-        self.s_mm[self.head]
+        self.rows[self.rows.len() - 1]
+    }
+
+    /// Mean of the path lengths that the longest kernel holds, as the set point is that of the positions; not outside of
+    /// them.
+    pub(super) fn middle(&self) -> f64 {
+        let oldest = self.rows.len() - (self.reach - 1) * self.width - 1;
+        self.filtered[self.width - 1].clamp(self.rows[oldest], self.s())
     }
 }

@@ -3,8 +3,7 @@
 //! Source: TF5200 programming manual, #CONTOUR MODE, #HSC. Assumption: `AUTO_OFF_G60` is what happens anyway, a stop ends
 //! the spline.
 
-use kontur_motion::contouring::{ContourMode, ContourSettings};
-use kontur_motion::spline::SplineSettings;
+use kontur_motion::block::{ContourMode, ContourSettings, SplineSettings};
 
 /// Mode of `#CONTOUR MODE`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -11,9 +11,9 @@ use crate::exec::step::{CuttingSpeed, SourceRef};
 use crate::machine::Channel;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::{ChannelDynamics, Feed, Slope, Tolerance, VectorLimits};
-use kontur_motion::contouring::ContourSettings;
-use kontur_motion::spline::SplineSettings;
+use kontur_motion::block::{
+    ChannelDynamics, ContourSettings, Feed, Slope, SplineSettings, Tolerance, VectorLimits,
+};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -332,7 +332,7 @@ fn chamfers_and_roundings() {
 
 #[test]
 fn contouring_settings_reach_the_blocks() {
-    use kontur_motion::contouring::ContourMode;
+    use kontur_motion::block::ContourMode;
     let modes = |text: &str| -> Vec<_> {
         let run = clean(&format!("G137 F100\n{text}\n#CONTOUR MODE OFF\nM30\n"));
         run.blocks().iter().map(|b| b.contour.map(|c| c.mode)).collect()

@@ -3,8 +3,7 @@
 //! The cases are those of Ruckig (Copyright (c) 2021 Lars Berscheid, MIT License, see the notice in
 //! `RUCKIG-LICENSE`), in units with jerk 1.
 
-use super::leg::settled_velocity;
-use super::scaled::Problem;
+use super::scaled::{Problem, settled_velocity};
 
 /// Up to two phases: a ramp of acceleration, then constant acceleration.
 #[derive(Clone, Copy, Debug)]

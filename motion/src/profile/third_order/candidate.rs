@@ -3,7 +3,7 @@
 use super::scaled::Problem;
 
 /// Jerk of the seven phases of a profile towards higher positions.
-pub(super) const UP_DOWN_DOWN_UP: [f64; 7] = [1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0];
+const UP_DOWN_DOWN_UP: [f64; 7] = [1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0];
 
 /// Error of the final velocity and excess over limits that is rounding, in the problem's units.
 const ROUNDING: f64 = 1e-12;
@@ -27,7 +27,7 @@ pub(super) struct Candidate {
 }
 
 /// Acceleration after a phase; what is left of a ramp to zero is rounding, and would add up over a long cruise.
-pub(super) fn ramped(a: f64, change: f64) -> f64 {
+fn ramped(a: f64, change: f64) -> f64 {
     let next = a + change;
     if next.abs() <= 1e-14 * change.abs() { 0.0 } else { next }
 }

@@ -5,8 +5,7 @@
 //! the wanted one only once), so comparing it at the velocities where a limit comes into play tells which limits
 //! are reached; only the equation of that case is solved.
 
-use super::leg::settled_velocity;
-use super::scaled::Problem;
+use super::scaled::{Problem, settled_velocity};
 use crate::profile::roots::increasing_root;
 
 /// Change of speed from a boundary state to a peak velocity `v` with zero acceleration.

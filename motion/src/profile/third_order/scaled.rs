@@ -1,6 +1,6 @@
 //! The problem in units in which the jerk is 1 and the states are of order 1.
 
-use super::profile::{MotionState, ThirdOrderLimits};
+use super::task::{MotionState, ThirdOrderLimits};
 
 /// Units of time and length: `jerk · time³ = length`.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +30,11 @@ fn rough_cbrt(x: f64) -> f64 {
     // two thirds of the bits of 1.0, less what evens out the error within an octave
     const OFFSET: u64 = 0x2a9f_7893_782d_a1ce;
     if x > 0.0 { f64::from_bits(x.to_bits() / 3 + OFFSET) } else { 0.0 }
+}
+
+/// Velocity that remains when acceleration `a` is reduced to zero at once, with jerk 1.
+pub(super) fn settled_velocity(v: f64, a: f64) -> f64 {
+    v + 0.5 * a * a.abs()
 }
 
 /// Displacement, boundary states and limits with jerk 1.

@@ -3,7 +3,7 @@
 use super::super::{Block, SLACK};
 use super::STEPS_PER_RAMP;
 use super::hill::Hill;
-use crate::profile::{MotionState, Phase, RampShape, ThirdOrderLimits, ThirdOrderProfile};
+use crate::profile::{MotionState, Phase, RampShape, ThirdOrderLimits};
 
 /// Relative excess of the rise over the fall from which on they cross: both may miss a limit they run along by less.
 const CROSSING: f64 = 1e-3;
@@ -252,10 +252,9 @@ impl Join<'_> {
         let state = |p: &Phase| MotionState { p_mm: p.s, v_mm_s: p.v, a_mm_s2: p.a };
         let mut target = state(to);
         for _ in 0..ROUNDS {
-            let profile = ThirdOrderProfile::fastest(&state(from), &target, limits).ok()?;
             let mut at = *from;
             let mut phases = Vec::with_capacity(7);
-            for (t, j) in profile.phases() {
+            for (t, j) in limits.fastest(&state(from), &target).ok()? {
                 let phase = at.ramp(RampShape::Sin2, j, t);
                 phases.push(phase);
                 at = phase.end();

@@ -4,9 +4,9 @@
 //! the path needs more than a cycle for it (`v <= d / T`) every kink counts for itself, else `v U_i` is bounded like a
 //! single jump. On a fine chord polygon that is the limit of the circle, `v^2 / r <= w a` (derived).
 
+use super::Segment;
 use crate::cap::{Cap, SpeedLimit};
 use crate::junction::{TANGENT, admissible_jump};
-use crate::plan::Segment;
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
@@ -17,7 +17,7 @@ const KINKS: usize = 64;
 const BLOCKS: usize = 1024;
 
 /// Lowers the caps in front of the newest segment and of those before it.
-pub(crate) fn lower_caps(segments: &mut VecDeque<Segment>, cycle: CycleTime, kernel_active: bool) {
+pub(super) fn lower_caps(segments: &mut VecDeque<Segment>, cycle: CycleTime, kernel_active: bool) {
     let newest = segments.len() - 1;
     if newest == 0 || !is_kink(&segments[newest - 1].queued, &segments[newest].queued) {
         return;

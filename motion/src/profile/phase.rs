@@ -1,9 +1,7 @@
-//! A speed over path length as a chain of phases, each with one ramp of the acceleration.
+//! A phase: a part of a motion in which the acceleration runs along one ramp, or stays.
 
 use super::ramp::{RampShape, RampState};
 use super::roots::increasing_root;
-use super::span::State;
-use smallvec::SmallVec;
 use std::f64::consts::FRAC_1_PI;
 
 /// Last step to a root, relative to it: the error is its square.
@@ -75,6 +73,11 @@ impl Phase {
         self.after(self.t)
     }
 
+    /// The same phase from another place on.
+    pub(super) fn placed_at(self, s: f64) -> Self {
+        Self { s, ..self }
+    }
+
     /// The first `t` s of the phase.
     pub(crate) fn until(self, t: f64) -> Self {
         Self { t, ..self }
@@ -93,8 +96,13 @@ impl Phase {
         Self { s: length - end.s, v: end.v, a: -end.a, sine, ..*self }
     }
 
+    /// True if the acceleration runs along a sine-square ramp.
+    pub(super) fn is_curved(&self) -> bool {
+        self.sine.is_some()
+    }
+
     /// Jerk in mm/s3 `t` s after the start.
-    fn jerk_after(&self, t: f64) -> f64 {
+    pub(super) fn jerk_after(&self, t: f64) -> f64 {
         self.sine.map_or(self.j, |sine| self.on_ramp(sine, t).j)
     }
 
@@ -108,6 +116,10 @@ impl Phase {
         if want >= whole {
             return self.t;
         }
+        if self.j == 0.0 {
+            let Self { v, a, .. } = *self;
+            return (2.0 * want / (v + (v * v + 2.0 * a * want).max(0.0).sqrt())).min(self.t);
+        }
         increasing_root(0.0, self.t, self.t * want / whole, ROOT, |t| {
             #[cfg(test)]
             crate::closed_forms::add();
@@ -116,8 +128,8 @@ impl Phase {
         })
     }
 
-    /// Velocity where the acceleration passes through zero inside the phase.
-    fn at_turn(&self) -> Option<f64> {
+    /// The place inside the phase at which the acceleration passes through zero.
+    pub(super) fn turn(&self) -> Option<Self> {
         let turn = match self.sine {
             None => -self.a / self.j,
             Some(sine) => {
@@ -126,89 +138,18 @@ impl Phase {
                 2.0 * sine.whole * FRAC_1_PI * libm::asin(ratio.max(0.0).sqrt()) - sine.skip
             }
         };
-        (turn > 0.0 && turn < self.t).then(|| self.after(turn).v)
+        (turn > 0.0 && turn < self.t).then(|| self.after(turn))
     }
 
     /// Highest velocity of the phase.
     pub(crate) fn peak(&self) -> f64 {
         let ends = self.v.max(self.end().v);
-        self.at_turn().map_or(ends, |v| ends.max(v))
+        self.turn().map_or(ends, |turn| ends.max(turn.v))
     }
 
     /// Lowest velocity of the phase.
     pub(crate) fn lowest(&self) -> f64 {
         let ends = self.v.min(self.end().v);
-        self.at_turn().map_or(ends, |v| ends.min(v))
-    }
-}
-
-/// Phases in order with the times at which they start.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Chain {
-    phases: Vec<(f64, Phase)>,
-    duration: f64,
-    length: f64,
-}
-
-impl Chain {
-    pub(crate) fn new(phases: impl IntoIterator<Item = Phase>, length: f64) -> Self {
-        let mut duration = 0.0;
-        let mut timed = Vec::new();
-        for phase in phases {
-            timed.push((duration, phase));
-            duration += phase.t;
-        }
-        Self { phases: timed, duration, length }
-    }
-
-    /// The parts before and behind path length `s`; `None` if that cuts a sine-square ramp.
-    pub(super) fn split(&self, s: f64) -> Option<(Self, Self)> {
-        let i = self.phases.partition_point(|p| p.1.s <= s).checked_sub(1)?;
-        let phase = self.phases[i].1;
-        let t = phase.time_at(s);
-        if phase.sine.is_some() {
-            return None;
-        }
-        let before = self.phases[..i].iter().map(|p| p.1).chain([phase.until(t)]);
-        let behind = [phase.rest(t)].into_iter().chain(self.phases[i + 1..].iter().map(|p| p.1));
-        let moved = behind.map(|p| Phase { s: (p.s - s).max(0.0), ..p });
-        Some((Self::new(before, s), Self::new(moved, self.length - s)))
-    }
-
-    pub(super) fn duration(&self) -> f64 {
-        self.duration
-    }
-
-    pub(super) fn length(&self) -> f64 {
-        self.length
-    }
-
-    pub(super) fn at(&self, t: f64) -> State {
-        let i = self.phases.partition_point(|p| p.0 <= t).saturating_sub(1);
-        let Some((start, phase)) = self.phases.get(i) else { return State::default() };
-        let t = (t - start).clamp(0.0, phase.t);
-        let now = phase.after(t);
-        // rounding at a stop
-        let v_mm_s = now.v.max(0.0);
-        State { s_mm: now.s, v_mm_s, a_mm_s2: now.a, j_mm_s3: phase.jerk_after(t) }
-    }
-
-    pub(super) fn time_at(&self, s: f64) -> f64 {
-        let i = self.phases.partition_point(|p| p.1.s <= s).saturating_sub(1);
-        self.phases.get(i).map_or(0.0, |(start, phase)| start + phase.time_at(s))
-    }
-
-    pub(super) fn times(&self) -> SmallVec<[f64; 8]> {
-        self.phases.iter().map(|p| p.1.t).collect()
-    }
-
-    pub(super) fn peak(&self) -> f64 {
-        self.phases.iter().map(|p| p.1.peak()).fold(0.0, f64::max)
-    }
-
-    pub(super) fn highest_between(&self, from: f64, to: f64) -> f64 {
-        let first = self.phases.partition_point(|p| p.1.s <= from).saturating_sub(1);
-        let last = self.phases.partition_point(|p| p.1.s < to);
-        self.phases[first..last].iter().map(|p| p.1.peak()).fold(0.0, f64::max)
+        self.turn().map_or(ends, |turn| ends.min(turn.v))
     }
 }

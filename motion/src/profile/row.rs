@@ -1,0 +1,147 @@
+//! The speed over a path length: a row of phases, whoever has planned it.
+
+use super::phase::Phase;
+
+/// State of the path coordinate at one time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct State {
+    /// Path length since the start of the profile in mm.
+    pub s_mm: f64,
+    /// Path velocity in mm/s.
+    pub v_mm_s: f64,
+    /// Path acceleration in mm/s2.
+    pub a_mm_s2: f64,
+    /// Path jerk in mm/s3; 0 where acceleration jumps.
+    pub j_mm_s3: f64,
+}
+
+/// A speed that never goes backwards, in phases of constant jerk or of one sine-square ramp.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// Phases in order with the times at which they start; there may be empty ones.
+    phases: Vec<(f64, Phase)>,
+    duration: f64,
+    end: State,
+}
+
+impl Profile {
+    /// Phases that follow each other, and the state at their end.
+    pub(super) fn new(phases: impl IntoIterator<Item = Phase>, end: State) -> Self {
+        let phases = phases.into_iter();
+        let mut timed = Vec::with_capacity(phases.size_hint().0);
+        let mut duration = 0.0;
+        for phase in phases {
+            timed.push((duration, phase));
+            duration += phase.t;
+        }
+        Self { phases: timed, duration, end }
+    }
+
+    /// Phases that follow each other over a length.
+    pub(crate) fn over(phases: Vec<Phase>, length: f64) -> Self {
+        let last = phases.last().map(Phase::end);
+        let end = last.map_or_else(State::default, |Phase { v, a, .. }| State {
+            s_mm: length,
+            // rounding at a stop
+            v_mm_s: v.max(0.0),
+            a_mm_s2: a,
+            j_mm_s3: 0.0,
+        });
+        Self::new(phases, end)
+    }
+
+    /// The same with what follows behind its end.
+    pub(super) fn followed_by(self, next: &Self) -> Self {
+        let length = self.end.s_mm;
+        let moved = next.phases.iter().map(|(_, p)| p.placed_at(length + p.s));
+        let end = State { s_mm: length + next.end.s_mm, ..next.end };
+        Self::new(self.phases.into_iter().map(|(_, p)| p).chain(moved), end)
+    }
+
+    /// The parts before and behind a path length, the acceleration there as it is; `None` if that cuts a sine-square ramp, or
+    /// leaves one that starts with an acceleration.
+    pub(crate) fn split(&self, s_mm: f64) -> Option<(Self, Self)> {
+        let i = self.phases.partition_point(|p| p.1.s <= s_mm).checked_sub(1)?;
+        let phase = self.phases[i].1;
+        let t = phase.time_at(s_mm);
+        let cut = phase.after(t);
+        let curved = self.phases.iter().any(|(_, p)| p.is_curved());
+        if phase.is_curved() || curved && cut.a != 0.0 {
+            return None;
+        }
+        let before = self.phases[..i].iter().map(|p| p.1).chain([phase.until(t)]);
+        let behind = [phase.rest(t)].into_iter().chain(self.phases[i + 1..].iter().map(|p| p.1));
+        let moved = behind.map(|p| p.placed_at((p.s - s_mm).max(0.0)));
+        let end = State { s_mm: self.end.s_mm - s_mm, ..self.end };
+        Some((Self::over(before.collect(), s_mm), Self::new(moved, end)))
+    }
+
+    /// Duration in s.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// Length in mm.
+    pub fn length(&self) -> f64 {
+        self.end.s_mm
+    }
+
+    /// State at the end.
+    pub fn end(&self) -> State {
+        self.end
+    }
+
+    /// Duration in s and mean jerk in mm/s3 of every phase.
+    ///
+    /// TRAPEZ and SIN2: the seven segments I..VII. STEP: one per acceleration level from the lowest, cruise, one
+    /// per deceleration level from the highest. Braking to the feed first: those of both parts. A speed that follows
+    /// varying limits: as many as it takes.
+    pub fn phases(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
+        self.phases.iter().map(|(_, p)| (p.t, p.j))
+    }
+
+    /// Highest velocity in mm/s.
+    pub fn peak(&self) -> f64 {
+        self.highest_inside(0.0, self.length()).max(self.end.v_mm_s)
+    }
+
+    /// Highest velocity in mm/s at which phases start, or pass from acceleration to braking, between two path lengths; 0 if
+    /// none does. No other velocity in there is higher than it and those at the two places.
+    pub fn highest_inside(&self, from_mm: f64, to_mm: f64) -> f64 {
+        let first = self.phases.partition_point(|p| p.1.s < from_mm);
+        let last = self.phases.partition_point(|p| p.1.s <= to_mm);
+        let starts = self.phases[first..last].iter().map(|p| p.1.v);
+        let around = &self.phases[first.saturating_sub(1)..last];
+        let turns = around.iter().filter_map(|p| p.1.turn());
+        let inside = turns.filter(|turn| turn.s >= from_mm && turn.s <= to_mm).map(|turn| turn.v);
+        starts.chain(inside).fold(0.0, f64::max)
+    }
+
+    /// State at time `t` in s since the start; before the start and after the end the state of that end.
+    pub fn at(&self, t: f64) -> State {
+        if t >= self.duration {
+            return self.end;
+        }
+        let next = self.phases.partition_point(|p| p.0 <= t).max(1);
+        let Some((start, phase)) = self.phases.get(next - 1) else { return self.end };
+        let t = (t - start).clamp(0.0, phase.t);
+        let now = phase.after(t);
+        let ahead = self.phases.get(next).map_or(self.end.s_mm, |p| p.1.s);
+        State {
+            // never beyond what follows, nor backwards at a stop: rounding
+            s_mm: now.s.min(ahead),
+            v_mm_s: now.v.max(0.0),
+            a_mm_s2: now.a,
+            j_mm_s3: phase.jerk_after(t),
+        }
+    }
+
+    /// Time in s at which path length `s_mm` is reached; the inverse of [`Self::at`], not decreasing.
+    pub fn time_at(&self, s_mm: f64) -> f64 {
+        if s_mm >= self.end.s_mm {
+            return self.duration;
+        }
+        let i = self.phases.partition_point(|p| p.1.s <= s_mm).saturating_sub(1);
+        self.phases.get(i).map_or(0.0, |(start, phase)| start + phase.time_at(s_mm))
+    }
+}
