@@ -103,9 +103,6 @@ fn percent_lines() {
 
 #[test]
 fn open_control_blocks() {
-    assert_eq!(run("$IF 0\nX1\nM30\n").ids(), ["21501"]);
-    assert_eq!(run("%L A\n$IF 0\nX1\n%MAIN\nLL A\nM30\n").ids(), ["21500"]);
-    assert_eq!(run("$IF 1\nM30\n").ids(), ["20375"]);
     assert_eq!(run("$FOR P1=1,2,1\nM30\n").ids(), ["21501"]);
     assert_eq!(with("L s.nc\nM30\n", "s.nc", "$WHILE 0\n").ids(), ["21502"]);
 }
