@@ -98,7 +98,7 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     let results: Vec<&[Cell]> = rows.cells.iter().map(|row| &row[args.vary.len()..]).collect();
     let finished = Cell::Word(State::Finished.name().to_owned());
     let any_finished = rows.cells.iter().any(|row| row[args.vary.len()] == finished);
-    // of a shard nobody knows the other rows, and runs that an error has ended are alike because of it
+    // a shard does not know the rows of the others, and runs that ended in an error are alike for that reason
     let is_comparable = args.shard.is_none() && any_finished;
     let compared = if is_comparable { &args.vary[..] } else { &[] };
     let without: Vec<&str> =
@@ -202,7 +202,7 @@ fn run_all(
     let before = done.len() - open.len();
     if before > 0 {
         let text =
-            format!("goes on where it was stopped: {before} of {} runs are done", done.len());
+            format!("continues where it was stopped: {before} of {} runs are done", done.len());
         console.say(Severity::Note, &text);
     }
     let mut progress = console.progress();

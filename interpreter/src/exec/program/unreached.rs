@@ -2,7 +2,7 @@
 //!
 //! Source: TF5200 programming manual, control blocks: of a branch that is not taken the control looks at block numbers
 //! and nested control statements only. Mistakes in those are errors here too. Whatever else is wrong there would stop no
-//! run of this program, so it is told as a warning, K-0118. Text after the end of the main program, in `#COMMENT`
+//! run of this program, so it is reported as a warning, K-0118. Text after the end of the main program, in `#COMMENT`
 //! blocks and in inactive `#IF` branches is not looked at.
 
 use super::executor::Executor;

@@ -315,7 +315,7 @@ fn repeated_block_sequences() {
     assert_eq!(run.end, [4.0, 4.0, 0.0]);
     let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 REPEAT3 ENDTAG]\nZ5\nM30\n");
     assert_eq!(run.end, [4.0, 4.0, 5.0]);
-    // N40 stands behind the call: the call is the end; N10 in front of it: N10 is
+    // N40 comes after the call: the call is the end; N10 in front of it: N10 is
     let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N40 ENDTAG]\nN40 Z5\nM30\n");
     assert_eq!(run.end, [2.0, 2.0, 5.0]);
     let run = clean("G91 F1000\nN10 G01 X1\nN20 Y1\nL SEQUENCE [N10 N10 ENDTAG]\nM30\n");

@@ -9,7 +9,7 @@ fn words_that_are_only_ignored_warn_once() {
     assert_eq!(run.end[0], 2.0);
 }
 
-/// A number with a fraction where whole numbers stand is nothing that is rounded silently; calculated ones serve.
+/// A fraction where a whole number is expected is refused, not rounded silently; calculated numbers may be off by rounding.
 #[test]
 fn fractions_of_whole_numbers_are_refused() {
     for (text, id) in [

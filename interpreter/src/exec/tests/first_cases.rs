@@ -45,7 +45,7 @@ fn line_ends_and_bytes_of_every_kind() {
 
 #[test]
 fn order_of_execution() {
-    // plane, unit and dimension first, then offsets, feed and weights, then the motion, wherever they stand
+    // plane, unit and dimension first, then offsets, feed and weights, then the motion, wherever they are written
     assert_end("X1 F100 G91\nX1 G91", [2.0, 0.0, 0.0]);
     assert_end("V.G.NP[1].V.X=5\nX1 F100 G54", [6.0, 0.0, 0.0]);
     assert_end("X1 G70 F100", [25.4, 0.0, 0.0]);

@@ -150,7 +150,7 @@ fn jumps() {
 #[test]
 fn block_numbers_and_labels() {
     // TF5200 programming manual, block numbers and contouring examples: `N[P1*100]`, `NP123 XP1`; diagnosis 21187: the
-    // name may stand before the number or after it
+    // name may come before the number or after it
     says("P123=7.5\nNP123 X P123 F100\n#MSG [\"%d\", V.G.BLOCK_NR]", "8");
     assert_end("F100\n$GOTO [A]\nX9\n[A] N10 Y1", [0.0, 1.0, 0.0]);
     assert_end("F100\n$GOTO [A]\nX9\nN10 [A] Y1", [0.0, 1.0, 0.0]);
