@@ -100,7 +100,7 @@ const probe = document.createElement("pre");
 probe.id = "probe";
 probe.textContent = JSON.stringify({
   errors, colours, tip: tipText, swatches, zoomed: wide.scale > before, label, stepped, hiddenByKey, dark, lit, unlit, chosen, chosenLine,
-  ranges, springs, keyless, follows, inSpace, limits, turns, shares, span: [begin, end], buckets: runs.map(r => r.k.length),
+  ranges, springs, keyless, follows, inSpace, limits, turns, shares, span: [begin, end], cycles: runs.map(r => r.summary.cycles), buckets: runs.map(r => r.k.length),
   requests: performance.getEntriesByType("resource").length, points: runs.map(r => r.pk.length), within: runs.map(r => r.within),
 });
 document.body.append(probe);
@@ -121,7 +121,7 @@ fn write_page(folder: &Path, programs: &[&str], options: &[&str]) -> String {
     let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
     let mut words = vec!["report".to_owned()];
     for (i, text) in programs.iter().enumerate() {
-        let name = path(&format!("{}.nc", ["a", "b", "c"][i]));
+        let name = path(&format!("{}.nc", ["a", "b", "c", "d"][i]));
         std::fs::write(&name, text).unwrap();
         words.push(name);
     }
@@ -279,14 +279,17 @@ fn parts_and_several_runs() {
     assert!(of("Position", " X set")[0].2 > 1.5 * of("Position", " X actual")[0].2);
 }
 
-/// A run is one sheet of paper; what several runs need for their tables and legends is not bounded.
+/// One run or four are one sheet of paper.
 #[test]
 fn a_page_prints_on_one_sheet() {
     let Some(browser) = browser() else {
         println!("no browser found: nothing tested");
         return;
     };
+    let other = |hz: u32| SQUARE.replace("FREQ=20", &format!("FREQ={hz}"));
     assert_eq!(printed(&browser, &[SQUARE]), 1);
+    assert_eq!(printed(&browser, &[SQUARE, &other(40)]), 1);
+    assert_eq!(printed(&browser, &[SQUARE, &other(40), &other(30), &other(25)]), 1);
 }
 
 /// A million cycles are a page that opens: what it holds of them has a bound, and it draws as any other.
@@ -298,7 +301,9 @@ fn a_long_run_is_a_page_that_opens() {
     };
     let long = look(&browser, &[&SQUARE.replace("F6000", "F2.4")], &[]);
     assert_eq!(long["errors"], serde_json::json!([]), "{long}");
-    assert!(long["span"][1].as_f64().unwrap() > 999.0, "{long}");
+    // to the last of its cycles of 1 ms
+    let [end, cycles] = [&long["span"][1], &long["cycles"][0]].map(|v| v.as_f64().unwrap());
+    assert!(cycles > 999_000.0 && (end - (cycles - 1.0) * 1e-3).abs() < 1e-9, "{long}");
     let buckets = long["buckets"][0].as_u64().unwrap();
     assert!(buckets > 1000 && buckets < 20_000, "{buckets}");
     let colours = long["colours"].as_array().unwrap();

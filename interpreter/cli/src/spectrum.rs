@@ -2,8 +2,8 @@
 
 use realfft::RealFftPlanner;
 
-/// Longest record, in samples: a quarter of an hour at 1 ms.
-pub(crate) const MOST_SAMPLES: usize = 1_000_000;
+/// Longest record, in samples: four minutes at 1 ms, and 60 MB while it is transformed.
+pub(crate) const MOST_SAMPLES: usize = 1 << 18;
 /// Lines per resolution of the record, so that a peak between two lines keeps its height.
 const PADDING: usize = 8;
 

@@ -25,12 +25,12 @@ mod parquet;
 mod picture;
 mod rows;
 
-use crate::args::{Amplitude, SweepArgs};
+use crate::args::{Amplitude, SweepArgs, Vary};
 use crate::combinations::{combinations, put, settings, without_effect};
 use crate::console::Console;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened, Request};
-use crate::spectrum::AmplitudeSpectrum;
+use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
 use crate::table::Cell;
 use crate::target::{Target, create_all, keep_apart};
 use crate::{Error, Exit};
@@ -48,8 +48,11 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 
-/// Cycles that a spectrum is made of at most: four minutes at 1 ms, and 60 MB for each run under way.
-const MOST_SAMPLES: usize = 1 << 18;
+/// The column that names the parameters without effect, where there are any.
+pub const WITHOUT_EFFECT: &str = "without_effect";
+/// What is said of such a parameter.
+pub const NO_DIFFERENCE: &str =
+    "every value gives the same results; the program sets its own, or nothing uses it";
 
 /// Why there is no row.
 enum Failure {
@@ -95,21 +98,17 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     // one of the runs may have come to another subroutine
     keep_apart(&reads.into_iter().collect::<Vec<_>>(), &args.output)?;
     let rows = Rows { title, ..rows };
-    let results: Vec<&[Cell]> = rows.cells.iter().map(|row| &row[args.vary.len()..]).collect();
-    let finished = Cell::Word(State::Finished.name().to_owned());
-    let any_finished = rows.cells.iter().any(|row| row[args.vary.len()] == finished);
-    // a shard does not know the rows of the others, and runs that ended in an error are alike for that reason
-    let is_comparable = args.shard.is_none() && any_finished;
-    let compared = if is_comparable { &args.vary[..] } else { &[] };
-    let without: Vec<&str> =
-        without_effect(compared, &combinations, &results).iter().map(|v| v.key.as_str()).collect();
+    // a shard does not know the rows of the others
+    let without = if args.shard.is_some() {
+        Vec::new()
+    } else {
+        idle(&args.vary, &combinations, &rows.cells)
+    };
     for key in &without {
-        console.say(Severity::Note, &format!(
-            "{key}: every value gives the same results; the program sets its own, or nothing uses it"
-        ));
+        console.say(Severity::Note, &format!("{key}: {NO_DIFFERENCE}"));
     }
     let rows =
-        if without.is_empty() { rows } else { rows.noting("without_effect", &without.join(" ")) };
+        if without.is_empty() { rows } else { rows.noting(WITHOUT_EFFECT, &without.join(" ")) };
     if args.output.is_empty() || !standard.is_empty() {
         console.print(&rows.table().csv())?;
     }
@@ -122,7 +121,29 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     if args.shard.is_some() {
         return Ok(Exit::Finished);
     }
+    let any_finished = rows.cells.iter().any(|row| is_finished(&args.vary, row));
     Ok(if any_finished { Exit::Finished } else { Exit::Aborted })
+}
+
+/// The run of a row came to its end.
+fn is_finished(vary: &[Vary], row: &[Cell]) -> bool {
+    matches!(&row[vary.len()], Cell::Word(state) if state == State::Finished.name())
+}
+
+/// Keys of parameters that make no difference to any row. None where every run has ended with an error: those are alike
+/// because of it.
+fn idle<'v>(vary: &'v [Vary], combinations: &[Vec<usize>], rows: &[Vec<Cell>]) -> Vec<&'v str> {
+    if !rows.iter().any(|row| is_finished(vary, row)) {
+        return Vec::new();
+    }
+    // results that are missing are the same, too
+    let result = |cell: &Cell| match cell.number() {
+        Some(x) => (Some(x).filter(|x| x.is_finite()), String::new()),
+        None => (None, cell.text()),
+    };
+    let results: Vec<Vec<_>> =
+        rows.iter().map(|row| row[vary.len()..].iter().map(result).collect()).collect();
+    without_effect(vary, combinations, &results).iter().map(|v| v.key.as_str()).collect()
 }
 
 /// The file has this ending.
@@ -349,6 +370,15 @@ impl Plan {
             Failure::Interrupted => usage("interrupted"),
         });
         Ok(done?.0)
+    }
+
+    /// Keys of the parameters that make no difference to any row; `rows` are all of them, in their order.
+    pub fn without_effect(&self, rows: &[Vec<Cell>]) -> Vec<&str> {
+        if rows.len() == self.len() {
+            idle(&self.args.vary, &self.combinations, rows)
+        } else {
+            Vec::new()
+        }
     }
 }
 

@@ -322,8 +322,40 @@ fn report_draws_signals_and_variants() {
     ] {
         assert_eq!(f.call(wrong).0, Exit::Usage, "{wrong:?}");
     }
+    // neither do more runs than can be told apart
+    for form in [&["-o", "@m.html"][..], &["--signals", "X_set_mm", "-o", "@m.svg"]] {
+        let words = ["report", "@corner.nc", "--vary", "X.vib_guard.freq=20..36"];
+        let (exit, _, err) = f.call(&[&words[..], form].concat());
+        assert_eq!((exit, err.contains("17 runs, at most 16")), (Exit::Usage, true), "{err}");
+    }
     // without --signals the contours overlay
     let contours = ["report", "@corner.nc", "--vary", "X.vib_guard.mode=1,4", "-o", "@c.svg"];
     assert_eq!(f.call(&contours).0, Exit::Finished);
     assert!(f.read("c.svg").contains("mode = 4"));
+}
+
+/// What is kept of a long run has a bound: of one column with its spectrum 262,144 cycles, of ten columns less. What is beyond is
+/// refused, whatever the picture is to be.
+#[test]
+fn signals_of_long_runs_have_a_bound() {
+    let f = Folder::new();
+    std::fs::write(f.path("long.nc"), "G01 X40 F7\nM30\n").unwrap();
+    let words = |names: &'static str, more: &[&'static str]| {
+        let words = ["report", "@long.nc", "--signals", names, "-o", "@a.csv", "--window"];
+        let all = [&words[..], more].concat();
+        let (exit, _, err) = f.call(&all);
+        assert!(exit == Exit::Finished || err.contains("--window shows a part"), "{err}");
+        exit == Exit::Finished
+    };
+    assert!(words("X_set_mm", &["0..300"]));
+    assert!(words("X_set_mm", &["0..262", "--spectrum", "1..2"]));
+    assert!(!words("X_set_mm", &["0..263", "--spectrum", "1..2"]));
+    let ten = "ipo,set,X_err_mm,Y_err_mm,Z_err_mm,contour_err_mm";
+    assert!(words(ten, &["0..209", "--spectrum", "1..2"]));
+    assert!(!words(ten, &["0..210", "--spectrum", "1..2"]));
+    // every line of ten spectra up to half of the sampling rate stands in its row
+    assert!(words(ten, &["0..0.512", "--spectrum", "0..500"]));
+    let rows: Vec<String> = f.read("a.csv").lines().map(str::to_owned).collect();
+    assert_eq!(rows.len(), 1 + 2048 + 1, "8 * 512 points make a line for every second of them");
+    assert!(rows.iter().all(|row| row.split(',').count() == 12), "{}", rows[0]);
 }

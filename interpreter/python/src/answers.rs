@@ -111,7 +111,7 @@ pub(crate) fn tune(
 }
 
 /// A number or a word.
-#[derive(IntoPyObject)]
+#[derive(FromPyObject, IntoPyObject)]
 pub(crate) enum Value {
     Number(f64),
     Word(String),
@@ -153,6 +153,17 @@ impl SweepPlan {
             None => Value::Word(cell.text()),
         };
         Ok((header, cells.iter().map(value).collect()))
+    }
+
+    /// Keys of the parameters that make no difference to any row; `rows` are all of them, in their order.
+    fn without_effect(&self, rows: Vec<Vec<Value>>) -> Vec<String> {
+        let cell = |value| match value {
+            Value::Number(x) => Cell::Given(x),
+            Value::Word(word) => Cell::Word(word),
+        };
+        let rows: Vec<Vec<Cell>> =
+            rows.into_iter().map(|row| row.into_iter().map(cell).collect()).collect();
+        self.plan.without_effect(&rows).into_iter().map(str::to_owned).collect()
     }
 
     /// Ends the runs that are under way in other threads.

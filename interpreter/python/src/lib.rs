@@ -60,6 +60,10 @@ fn interruptible<T: Send>(
 #[pymodule]
 mod _kontur {
     #[pymodule_export]
+    const NO_DIFFERENCE: &str = kontur::sweep::NO_DIFFERENCE;
+    #[pymodule_export]
+    const WITHOUT_EFFECT: &str = kontur::sweep::WITHOUT_EFFECT;
+    #[pymodule_export]
     use super::answers::{SweepPlan, check, explain, response, tune};
     #[pymodule_export]
     use super::simulation::Simulation;

@@ -55,6 +55,20 @@ def test_the_table_is_that_of_the_command_line(command, small_chunks):
     equals(kontur.sweep(SQUARE, GRID), said.stdout)
 
 
+def test_what_makes_no_difference_is_named(command, small_chunks):
+    """The program sets its own frequency: the one of the list is not used."""
+    keys = ["X.vib_guard.freq", "X,Y.getriebe[0].kv"]
+    words = [f"--vary={key}={values}" for key, values in zip(keys, ["20,30", "2000,3000"])]
+    said = command("sweep", SQUARE, *words)
+    with pytest.warns(UserWarning, match="every value gives the same results") as warned:
+        table = kontur.sweep(SQUARE, dict(zip(keys, [[20, 30], [2000, 3000]])))
+    assert [str(w.message) for w in warned] == [
+        line.removeprefix("note: ") for line in said.stderr.splitlines() if "every value" in line
+    ]
+    assert list(table["without_effect"]) == ["X.vib_guard.freq"] * 4
+    equals(table, said.stdout)
+
+
 def test_columns_amplitudes_and_external_variables(command, program, small_chunks):
     part = program("N10 G01 X[V.E.Way] F3000\nN20 M30\n")
     wanted = ["--columns", "duration_s", "--amplitude", "X_acc_mm_s2@5..50"]

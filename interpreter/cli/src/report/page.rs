@@ -77,6 +77,7 @@ fn run(runs: &[Drawn], drawn: &Drawn, beside: &Beside) -> String {
     out.text("within", &format!("{:e}", r.within_mm()));
     let buckets = |value: fn(&Bucket) -> String| join(r.buckets.iter().map(value));
     out.text("k", &buckets(|b| b.k.to_string()));
+    out.text("last", &r.buckets.last().map_or(0, |b| b.last).to_string());
     out.text("line", &buckets(|b| b.line.to_string()));
     out.text("file", &buckets(|b| b.file.to_string()));
     out.text("block", &buckets(|b| b.block.map_or_else(|| "null".to_owned(), |n| n.to_string())));
@@ -152,8 +153,15 @@ fn safe(json: &str) -> String {
 }
 
 fn join(items: impl Iterator<Item = String>) -> String {
-    let items: Vec<String> = items.collect();
-    format!("[{}]", items.join(","))
+    let mut list = String::from("[");
+    for (i, item) in items.enumerate() {
+        if i > 0 {
+            list.push(',');
+        }
+        list += &item;
+    }
+    list.push(']');
+    list
 }
 
 /// Seven decimals without the zeros at the end.

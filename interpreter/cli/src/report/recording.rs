@@ -9,8 +9,10 @@ use kontur_interpreter::record::{CycleRecord, Motion, SpeedLimit};
 /// Buckets of a finished recording are at least half of this many, once a run is longer than that.
 const MOST_BUCKETS: usize = 4000;
 
-/// Number of cycles for which every acceleration of every axis is kept.
-pub(crate) const MOST_SAMPLES: usize = 300_000;
+/// Most cycles for which every acceleration of an axis is kept: two minutes at 1 ms.
+const MOST_SAMPLES: usize = 1 << 17;
+/// The same for all axes together: 17 MB, and as text of a page twice as much.
+const MOST_ACCELERATIONS: usize = 1 << 21;
 
 /// More passes than this over one contour are drawn as one.
 pub(crate) const MOST_PASSES: usize = 8;
@@ -21,7 +23,9 @@ const CLOSED_MM: f64 = 1e-6;
 /// Some consecutive cycles.
 #[derive(Clone, Debug)]
 pub(crate) struct Bucket {
+    /// The first cycle.
     pub(crate) k: u64,
+    pub(crate) last: u64,
     pub(crate) file: u32,
     pub(crate) line: u32,
     pub(crate) block: Option<u64>,
@@ -98,6 +102,8 @@ pub(crate) struct Recording {
     track: Track,
     /// The point with the largest contour error.
     pub(crate) worst: Option<Point>,
+    /// Cycles of which [`Self::accelerations`] are kept.
+    pub(crate) most_samples: usize,
     /// Commanded acceleration of each axis of [`Facts::axes`], cycle by cycle from the first one on; empty for spindles.
     pub(crate) accelerations: Vec<Vec<f64>>,
 }
@@ -147,6 +153,7 @@ impl Recording {
             moved: false,
             track: Track::default(),
             worst: None,
+            most_samples: MOST_SAMPLES.min(MOST_ACCELERATIONS / facts.axes.len().max(1)),
             accelerations: vec![Vec::new(); facts.axes.len()],
         }
     }
@@ -165,6 +172,12 @@ impl Recording {
                 }
             }
         }
+    }
+
+    /// Number of cycles that were added.
+    pub(crate) fn cycles(&self) -> u64 {
+        let ends = self.buckets.first().zip(self.buckets.last());
+        ends.map_or(0, |(first, last)| last.last - first.k + 1)
     }
 
     /// Seconds of a cycle count.
@@ -191,7 +204,7 @@ impl Recording {
         }
         self.stops.add(record, &self.facts.axes);
         for (i, (samples, a)) in self.accelerations.iter_mut().zip(&record.axes).enumerate() {
-            if samples.len() < MOST_SAMPLES && !self.facts.axes[i].spindle {
+            if samples.len() < self.most_samples && !self.facts.axes[i].spindle {
                 samples.push(a.acc);
             }
         }
@@ -204,6 +217,7 @@ impl Recording {
         let range: Vec<(f64, f64)> = self.curves.iter().map(|c| (value(c), value(c))).collect();
         let bucket = Bucket {
             k: record.k,
+            last: record.k,
             file: record.file,
             line: record.line,
             block: record.block,
@@ -289,6 +303,7 @@ impl Recording {
 
 impl Bucket {
     fn merge(&mut self, other: Self) {
+        self.last = other.last;
         for (a, b) in self.range.iter_mut().zip(other.range) {
             *a = (a.0.min(b.0), a.1.max(b.1));
         }
@@ -346,6 +361,9 @@ mod tests {
             r.add(&record);
         }
         assert!(r.buckets.len() < MOST_BUCKETS && r.buckets.len() > MOST_BUCKETS / 4);
+        // one after the other, up to the last cycle
+        assert!(r.buckets.windows(2).all(|w| w[0].last + 1 == w[1].k));
+        assert_eq!(r.buckets.last().unwrap().last, n - 1);
         let error = r.curves.iter().position(|c| c.kind == Kind::ContourError).unwrap();
         let most = r.buckets.iter().map(|b| b.range[error].1).fold(0.0, f64::max);
         assert_eq!(most.to_bits(), 0.5_f64.to_bits());

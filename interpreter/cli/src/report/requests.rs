@@ -5,6 +5,9 @@ use crate::args::ReportArgs;
 use crate::combinations::{combinations, put, values};
 use crate::request::Request;
 
+/// Runs of a page or a picture: twice as many as there are colours; a long one takes 25 MB.
+const MOST_RUNS: usize = 16;
+
 /// Every program under every combination of `--vary`: the program, the values, and what is to be run.
 pub(super) fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request)>, Error> {
     let combinations = combinations(&args.vary)?;
@@ -18,6 +21,13 @@ pub(super) fn requests(args: &ReportArgs) -> Result<Vec<(String, String, Request
             let values = values.collect::<Vec<_>>().join(", ");
             all.push((program.display().to_string(), values, request));
         }
+    }
+    if all.len() > MOST_RUNS {
+        let text = format!(
+            "{} runs, at most {MOST_RUNS} are drawn; `kontur sweep` compares more",
+            all.len()
+        );
+        return Err(Error::Usage(text));
     }
     Ok(all)
 }

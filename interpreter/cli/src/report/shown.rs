@@ -43,7 +43,7 @@ pub(super) fn span(runs: &[Drawn]) -> (f64, f64) {
     let times = runs
         .iter()
         .map(|r| &r.recording)
-        .filter_map(|r| Some((r.seconds(r.buckets.first()?.k), r.seconds(r.buckets.last()?.k))));
+        .filter_map(|r| Some((r.seconds(r.buckets.first()?.k), r.seconds(r.buckets.last()?.last))));
     let (from, to) =
         times.fold((f64::INFINITY, 0.0), |m: (f64, f64), t| (m.0.min(t.0), m.1.max(t.1)));
     if from < to { (from, to) } else { (0.0, 1e-6) }

@@ -4,22 +4,29 @@ use super::requests::requests;
 use crate::args::ReportArgs;
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around, of_column};
-use crate::chart::view::{Line, Points, View};
+use crate::chart::view::{Line, Points, View, thinned};
 use crate::console::Console;
 use crate::request::Opened;
 use crate::run::{Shown, announce_lists, drive};
 use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
-use crate::table::{Table, number};
-use crate::target::{keep_apart, write};
+use crate::table::number;
+use crate::target::{create_all, keep_apart};
 use crate::trace::select;
 use crate::{Error, Exit};
 use kontur_interpreter::job::Facts;
 use kontur_interpreter::record::columns::Column;
 use kontur_interpreter::summary::Collector;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// Panels beyond these make no picture.
 const MOST_SIGNALS: usize = 12;
+/// Values of all runs and columns: 34 MB.
+const MOST_VALUES: usize = 1 << 22;
+/// The same where spectra are made of them, which hold several lines for a value.
+const MOST_TRANSFORMED: usize = 1 << 21;
+/// Points of a line beyond these are drawn as the extremes of stretches.
+const MOST_POINTS: usize = 20_000;
 
 /// The wanted columns of one run.
 struct Recorded {
@@ -48,7 +55,12 @@ pub(super) fn report(
         let text = format!("{name}: --signals give a picture (.svg) or a table (.csv)");
         return Err(Error::Usage(text));
     }
-    let (mut runs, mut aborted) = (Vec::new(), false);
+    let (mut runs, mut aborted) = (Vec::<Recorded>::new(), false);
+    let (most_values, most_samples) = if args.spectrum.is_some() {
+        (MOST_TRANSFORMED, MOST_SAMPLES)
+    } else {
+        (MOST_VALUES, MOST_VALUES)
+    };
     for (program, values, request) in requests(args)? {
         // the headline names a single program
         let label = match (args.programs.len(), values.is_empty()) {
@@ -61,14 +73,18 @@ pub(super) fn report(
         keep_apart(&reads.so_far(), &[output.to_owned()])?;
         let mut summary = Collector::new(run.facts());
         let mut recorded = Recorded::new(label, names, run.facts())?;
+        let values: usize = runs.iter().map(Recorded::values).sum();
+        let most =
+            most_samples.min((most_values - values.min(most_values)) / recorded.columns.len());
         drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
             let t_s = record.k as f64 * recorded.cycle_s;
             if args.window.is_some_and(|(from, to)| !(from..to).contains(&t_s)) {
                 return Ok(());
             }
-            if recorded.times.len() >= MOST_SAMPLES {
-                let text =
-                    format!("--signals: more than {MOST_SAMPLES} cycles; --window shows a part");
+            if recorded.times.len() >= most {
+                let text = format!(
+                    "--signals: more than {most_samples} cycles, or {most_values} values in all; --window shows a part"
+                );
                 return Err(Error::Usage(text));
             }
             recorded.times.push(t_s);
@@ -97,8 +113,16 @@ pub(super) fn report(
     }
     // of refused programs there is nothing to show
     if runs.iter().any(|run| !run.times.is_empty()) {
-        let text = if is("csv") { table(args, &runs).csv() } else { plot(args, &runs).draw() };
-        write(&[(output, text.as_bytes())])?;
+        let to_error = |e| Error::io(output.display().to_string(), e);
+        for mut target in create_all([output])? {
+            let file = target.file().map_err(to_error)?;
+            if is("csv") {
+                write_numbers(args, &runs, file).map_err(to_error)?;
+            } else {
+                file.write_all(plot(args, &runs).draw().as_bytes()).map_err(to_error)?;
+            }
+            target.show().map_err(to_error)?;
+        }
     }
     Ok(if aborted { Exit::Aborted } else { Exit::Finished })
 }
@@ -125,6 +149,10 @@ impl Recorded {
         })
     }
 
+    fn values(&self) -> usize {
+        self.times.len() * self.columns.len()
+    }
+
     fn spectrum(&self, column: usize) -> AmplitudeSpectrum {
         AmplitudeSpectrum::of(&self.samples[column], self.cycle_s)
     }
@@ -136,7 +164,9 @@ fn plot(args: &ReportArgs, runs: &[Recorded]) -> Plot {
     let mut panels = Vec::new();
     for (i, column) in columns.iter().enumerate() {
         let over_time = |r: &Recorded| {
-            r.samples.get(i).map(|s| r.times.iter().zip(s).map(|(t, y)| [*t, *y]).collect())
+            let points =
+                |s: &Vec<f64>| thinned(r.times.iter().zip(s).map(|(t, y)| [*t, *y]), MOST_POINTS);
+            r.samples.get(i).map(points)
         };
         let time = (
             times().copied().fold(f64::INFINITY, f64::min),
@@ -144,8 +174,10 @@ fn plot(args: &ReportArgs, runs: &[Recorded]) -> Plot {
         );
         panels.push(panel(column, &column.name, "time in s", time, runs, over_time));
         if let Some(band) = args.spectrum {
-            let over_frequency =
-                |r: &Recorded| (i < r.samples.len()).then(|| r.spectrum(i).lines(band).collect());
+            let over_frequency = |r: &Recorded| {
+                let lines = || r.spectrum(i).lines(band).collect::<Points>();
+                (i < r.samples.len()).then(|| thinned(lines().into_iter(), MOST_POINTS))
+            };
             let title = format!("Amplitude of {}", column.name);
             panels.push(panel(column, &title, "frequency in Hz", band, runs, over_frequency));
         }
@@ -193,29 +225,30 @@ fn panel(
     }
 }
 
-/// The numbers of the picture: the spectra if there are any, else the curves over time.
-fn table(args: &ReportArgs, runs: &[Recorded]) -> Table {
+/// The numbers of the picture as CSV: the spectra if there are any, else the curves over time. Row by row: as a table they would
+/// take several times the memory of the samples.
+fn write_numbers(args: &ReportArgs, runs: &[Recorded], to: impl Write) -> io::Result<()> {
     let columns = runs.first().map(|r| r.columns.as_slice()).unwrap_or_default();
     let first = if args.spectrum.is_some() { "f_hz" } else { "t_s" };
-    let header: Vec<&str> =
-        ["curve", first].into_iter().chain(columns.iter().map(|c| c.name.as_str())).collect();
-    let mut table = Table::new(&header);
+    let mut file = csv::Writer::from_writer(BufWriter::new(to));
+    file.write_record(["curve", first].into_iter().chain(columns.iter().map(|c| &*c.name)))?;
     for r in runs {
-        let mut row = |x: f64, values: Vec<String>| {
-            table.push([r.label.clone(), number(x, 6)].into_iter().chain(values));
+        let mut row = |x: f64, values: &mut dyn Iterator<Item = String>| {
+            file.write_record([r.label.clone(), number(x, 6)].into_iter().chain(values))
         };
         let Some(band) = args.spectrum else {
             for (k, t) in r.times.iter().enumerate() {
                 let value = |(s, c): (&Vec<f64>, &Column)| number(s[k], usize::from(c.decimals));
-                row(*t, r.samples.iter().zip(columns).map(value).collect());
+                row(*t, &mut r.samples.iter().zip(columns).map(value))?;
             }
             continue;
         };
-        let spectra: Vec<Vec<[f64; 2]>> =
-            (0..r.samples.len()).map(|i| r.spectrum(i).lines(band).collect()).collect();
-        for (line, [f_hz, _]) in spectra.first().into_iter().flatten().enumerate() {
-            row(*f_hz, spectra.iter().map(|s| number(s[line][1], 9)).collect());
+        let amplitudes: Vec<Vec<f64>> = (0..r.samples.len())
+            .map(|i| r.spectrum(i).lines(band).map(|[_, a]| a).collect())
+            .collect();
+        for (line, [f_hz, _]) in r.spectrum(0).lines(band).enumerate() {
+            row(f_hz, &mut amplitudes.iter().map(|a| number(a[line], 9)))?;
         }
     }
-    table
+    file.flush()
 }

@@ -1,7 +1,6 @@
 //! What a machine that gives way makes of the set positions: spectrum of the commanded acceleration, and the deflection of a mass on a spring.
 
 use super::drawn::Drawn;
-use super::recording::MOST_SAMPLES;
 use super::shown::{Shown, Source, name, span, style};
 use crate::chart::scale::Scale;
 use crate::chart::view::{Line, Mark, Points, View, thinned};
@@ -182,11 +181,9 @@ fn spring(runs: &[Drawn], run: usize, axis: usize) -> Option<SpringMass> {
 
 /// What of the runs is looked at, if that is not all.
 fn part(runs: &[Drawn]) -> String {
-    let longest = runs.iter().map(|r| r.summary.cycles).max().unwrap_or(0);
-    let kept =
-        runs.iter().flat_map(|r| &r.recording.accelerations).map(Vec::len).max().unwrap_or(0);
-    if kept < MOST_SAMPLES || longest <= kept as u64 {
-        return String::new();
-    }
-    format!("The first {MOST_SAMPLES} cycles; --window takes another part of the run.")
+    let kept = runs.iter().map(|r| (r.recording.most_samples, r.recording.cycles()));
+    let cut = kept.filter(|(most, cycles)| *cycles > *most as u64).map(|(most, _)| most);
+    cut.min().map_or_else(String::new, |most| {
+        format!("The first {most} cycles; --window takes another part of the run.")
+    })
 }

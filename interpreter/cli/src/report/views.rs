@@ -215,7 +215,7 @@ pub(super) fn points<'a>(
 fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) -> Points {
     let per_px = (run.buckets.len() as f64 / pixels).max(1.0);
     let mut points: Points = Vec::new();
-    let mut pixel = None;
+    let (mut pixel, mut end) = (None, None);
     for (i, bucket) in run.buckets.iter().enumerate() {
         if pass.is_some_and(|p| p != bucket.pass) {
             continue;
@@ -232,6 +232,12 @@ fn over_pixels(run: &Recording, curve: usize, pass: Option<usize>, pixels: f64) 
             pixel = this;
             points.extend([[t, low], [t, high]]);
         }
+        end = Some((bucket, low, high));
+    }
+    // to its last cycle
+    if let Some((bucket, low, high)) = end.filter(|(bucket, ..)| bucket.last > bucket.k) {
+        let t = run.seconds(bucket.last);
+        points.extend([[t, low], [t, high]]);
     }
     points
 }

@@ -64,7 +64,6 @@ fn over_time(recording: &Recording) -> View<Points> {
 fn spectrum(recording: &Recording) -> View<Points> {
     let Recording { samples, rate_hz, found, .. } = recording;
     let range = found.decays.first().map_or(0..samples.len(), |d| d.samples.clone());
-    let range = range.start..range.end.min(range.start + crate::spectrum::MOST_SAMPLES);
     let highest = found.modes.iter().map(|m| m.freq.value).fold(0.0, f64::max);
     let lasting = found.lasting.iter().map(|l| l.freq_hz).fold(0.0, f64::max);
     let top = (4.0 * highest).max(1.2 * lasting).max(10.0).min(0.5 * rate_hz);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from functools import lru_cache
@@ -50,7 +51,8 @@ def sweep(
     ``columns``, ``amplitude``: as of ``kontur sweep``.
     ``retries``: how often a failed task is tried again; that a worker is lost is the engine's business.
 
-    A run that ends with an error has a row with its ID. Raises what :func:`run` raises if one cannot be started.
+    A run that ends with an error has a row with its ID. A key whose values make no difference is named in a warning and
+    in the column ``without_effect``. Raises what :func:`run` raises if one cannot be started.
     """
     if not grid:
         raise UsageError("grid: at least one key with its values is expected")
@@ -112,6 +114,11 @@ def _run(words: tuple[str, ...], plan: _kontur.SweepPlan, client: Any, retries: 
     chunks = [range(at, min(at + size, len(plan))) for at in range(1, len(plan), size)]
     for chunk, (_, done) in _engine(client)(words, chunks, client, retries):
         rows[chunk.start : chunk.stop] = done
+    if without := plan.without_effect(rows):
+        header.append(_kontur.WITHOUT_EFFECT)
+        rows = [[*row, " ".join(without)] for row in rows]
+        for key in without:
+            warnings.warn(f"{key}: {_kontur.NO_DIFFERENCE}", stacklevel=3)
     return Table({name: _column([row[i] for row in rows]) for i, name in enumerate(header)})
 
 

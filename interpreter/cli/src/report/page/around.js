@@ -99,6 +99,21 @@ frames.forEach(showAll);
 drawAll();
 window.addEventListener("resize", () => { fit(); draw(); });
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-// paper is white
-window.addEventListener("beforeprint", () => { document.documentElement.dataset.theme = "light"; view.at = null; redraw(); });
-window.addEventListener("afterprint", () => { delete document.documentElement.dataset.theme; redraw(); });
+// paper is white, and everything is laid out and drawn for its size there: as large as fits on one sheet, as long as it can be read
+const SHEET_PX = 188 / 25.4 * 96, FITS = Array.from({ length: 25 }, (_, i) => 1 - 0.025 * i);
+window.addEventListener("beforeprint", () => {
+  const root = document.documentElement;
+  root.dataset.theme = "light";
+  root.dataset.paper = one ? "one" : "several";
+  FITS.find(fit => {
+    root.style.setProperty("--fit", fit);
+    return root.offsetHeight <= SHEET_PX;
+  });
+  view.at = null;
+  redraw();
+});
+window.addEventListener("afterprint", () => {
+  delete document.documentElement.dataset.theme;
+  delete document.documentElement.dataset.paper;
+  redraw();
+});

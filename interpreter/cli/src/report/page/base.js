@@ -12,7 +12,7 @@ const make = (tag, text, cls) => {
   return e;
 };
 const seconds = (r, k) => k * r.summary.cycle_us / 1e6;
-const end = Math.max(1e-6, ...runs.map(r => seconds(r, r.k[r.k.length - 1] || 0)));
+const end = Math.max(1e-6, ...runs.map(r => seconds(r, r.last)));
 const begin = Math.min(...runs.map(r => seconds(r, r.k[0] || 0)));
 
 // what is looked at: plane, turn of the view in space, stretch of time, the moment under the pointer, the line chosen
@@ -58,7 +58,8 @@ for (const r of runs) {
 const isChosen = (r, file, line) => view.line !== null && line === view.line.line && r.files[file] === view.line.file;
 
 function fitted(canvas) {
-  const ratio = window.devicePixelRatio || 1, w = canvas.clientWidth, h = canvas.clientHeight;
+  // three points on paper for one of the page
+  const ratio = document.documentElement.dataset.paper ? 3 : window.devicePixelRatio || 1, w = canvas.clientWidth, h = canvas.clientHeight;
   if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) {
     canvas.width = Math.round(w * ratio);
     canvas.height = Math.round(h * ratio);

@@ -94,8 +94,10 @@ function* pointsOf(line, [from, to]) {
     return;
   }
   const { r, c, pass } = line, last = Math.min(r.k.length - 1, bucketAt(r, to) + 1);
-  for (let i = Math.max(0, bucketAt(r, from)); i <= last; i++)
-    yield pass !== null && r.passed[i] !== pass ? null : [seconds(r, r.k[i]), c.low[i], (c.high || c.low)[i]];
+  const at = (i, k) => pass !== null && r.passed[i] !== pass ? null : [seconds(r, k), c.low[i], (c.high || c.low)[i]];
+  for (let i = Math.max(0, bucketAt(r, from)); i <= last; i++) yield at(i, r.k[i]);
+  // to the last cycle of the run
+  if (last === r.k.length - 1 && r.last > r.k[last]) yield at(last, r.last);
 }
 const inside = (points, [from, to]) => points && points.filter(([x], i) => (i + 1 >= points.length || points[i + 1][0] >= from) && (i === 0 || points[i - 1][0] <= to));
 // the axis at the right end of its curve: a second cue beside the colour
