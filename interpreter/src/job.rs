@@ -120,13 +120,14 @@ impl Job {
     pub fn start(&self) -> Result<Run, Vec<Diagnostic>> {
         let checked = self.decode();
         let refused = checked.refuses();
-        let several_files = checked.files.len() > 1;
+        let several_files = checked.files.len() > 1 || checked.calls_more;
         let mut messages = self.warnings.clone();
         if refused {
             messages.extend(self.machine.chains().1);
         }
         // the run itself says the rest, but of parts that it does not reach
-        let unreached = |d: &Diagnostic| d.id == Condition::Unreached;
+        let unreached =
+            |d: &Diagnostic| d.id == Condition::Unreached || d.id == Condition::TextBehindEnd;
         messages.extend(checked.diagnostics.into_iter().filter(|d| refused || unreached(d)));
         let simulation = Simulation::new(
             Arc::clone(&self.machine),
@@ -140,7 +141,8 @@ impl Job {
     }
 }
 
-/// What stays the same during a run; `several_files`: the check ahead has opened more than the program.
+/// What stays the same during a run; `several_files`: the check ahead has opened more than the program, or has seen
+/// calls that a run may come to.
 fn facts(program: &str, machine: &Machine, simulation: &Simulation, several_files: bool) -> Facts {
     let (chains, _) = machine.chains();
     let stop = |i: usize| chains.get(i).map(|chain| chain.control.exact_stop).unwrap_or_default();

@@ -2,6 +2,7 @@
 
 pub mod command;
 pub mod geometry;
+pub mod suite;
 pub mod targets;
 
 use kontur_interpreter::diag::{Diagnostic, Id};

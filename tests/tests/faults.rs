@@ -15,10 +15,9 @@
 
 use kontur_interpreter::diag::condition::{self, Row};
 use kontur_interpreter::diag::{Id, Severity};
-use kontur_tests::command::command;
+use kontur_tests::suite::{self, call, compare, files, head, ledger, machines, name};
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::collections::{BTreeMap, BTreeSet};
-use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -32,147 +31,18 @@ fn rows() -> Vec<&'static Row> {
 /// A program for lists that only need an axis to be loaded.
 const PROGRAM: &str = "N10 G01 X1 F1000\nN20 M30\n";
 
-/// ID of the recommendations for lists.
-const ADVICE: &str = "K-0078";
-
-/// One message as a file states it or as the command line says it: severity, ID, place.
-type Said = (String, String, String);
-
-/// What the first lines of a file say.
-struct Head {
-    /// `run` or `check`, or the name of a list.
-    what: String,
-    options: Vec<String>,
-    exit: u8,
-    messages: Vec<Said>,
-}
-
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("suite/faults")
-}
-
-fn machines() -> PathBuf {
-    kontur_tests::programs().join("machines")
-}
-
-fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|e| e == extension))
-        .collect();
-    files.sort();
-    files
-}
-
-fn name(path: &Path) -> String {
-    path.file_name().unwrap().to_string_lossy().into_owned()
-}
-
-/// The head of a file; programs open comments with `;`, lists with `#`.
-fn head(text: &str) -> Result<Head, Failed> {
-    let mut lines = text.lines().map_while(|line| {
-        line.strip_prefix("; ").or_else(|| line.strip_prefix("# ")).map(str::trim_end)
-    });
-    let first = lines.next().ok_or("no head")?;
-    let (call, exit) = first.rsplit_once(": exit ").ok_or("`: exit` is missing")?;
-    let mut words = call.split_whitespace().map(str::to_owned);
-    let what = words.next().ok_or("run, check or the name of a list is missing")?;
-    let messages = lines.filter_map(|line| {
-        let (severity, rest) = line.split_once(' ')?;
-        let (id, place) = rest.split_once(' ')?;
-        let place = place.strip_prefix("at ").unwrap_or(place);
-        ["error", "warning", "note"]
-            .contains(&severity)
-            .then(|| (severity.to_owned(), id.to_owned(), place.to_owned()))
-    });
-    Ok(Head { what, options: words.collect(), exit: exit.parse()?, messages: messages.collect() })
-}
-
-/// Calls the command line and reads its messages.
-fn call(
-    verb: &str,
-    program: &Path,
-    options: &[String],
-    home: &Path,
-) -> Result<(u8, Vec<Said>), Failed> {
-    let mut args: Vec<OsString> = vec![verb.into(), program.into()];
-    for option in options {
-        // the machines of the repository by their names
-        let machine = machines().join(option);
-        args.push(if machine.is_dir() { machine.into() } else { option.into() });
-    }
-    args.extend(["--diagnostics", "json"].map(OsString::from));
-    if verb == "run" {
-        args.extend(["--summary", "none"].map(OsString::from));
-    }
-    let output = command(args);
-    let mut said = Vec::new();
-    // the sentence at the end of a refusal has no ID of its own
-    let sentence = "{\"id\":null,\"severity\"";
-    let is_message = |line: &&str| line.starts_with('{') && !line.starts_with(sentence);
-    for line in output.err.lines().filter(is_message) {
-        said.push(message(line, home)?);
-    }
-    Ok((output.exit as u8, said))
-}
-
-fn message(line: &str, home: &Path) -> Result<Said, Failed> {
-    let json: serde_json::Value = serde_json::from_str(line)?;
-    let severity = json["severity"].as_str().ok_or("severity")?.to_owned();
-    let id = match (json["id"].as_u64(), json["kontur_id"].as_str()) {
-        (Some(id), None) => id.to_string(),
-        (None, Some(id)) => id.to_owned(),
-        _ => return Err(format!("no ID: {line}").into()),
-    };
-    if severity != "note" && json["hint"].as_str().is_none_or(str::is_empty) {
-        return Err(format!("{severity} {id} has no hint: {}", json["text"]).into());
-    }
-    let source = &json["source"];
-    let place = match source["file"].as_str() {
-        None => "-".to_owned(),
-        Some(file) => {
-            let (line, column) = (&source["line"], &source["column"]);
-            let path = Path::new(file);
-            let file = path.strip_prefix(home).unwrap_or(path).display().to_string();
-            format!("{file} {line}:{column}")
-        }
-    };
-    Ok((severity, id, place))
-}
-
-/// Compares what was said with the head of the file called `own`.
-fn compare(own: &str, head: &Head, exit: u8, said: &[Said]) -> Result<(), Failed> {
-    let shown = |said: &[Said]| -> String {
-        let mut text = String::new();
-        for (severity, id, place) in said {
-            let place = place.strip_prefix(own).unwrap_or(place).trim_start();
-            let _ = writeln!(text, "  {severity} {id} at {place}");
-        }
-        text
-    };
-    // recommendations for lists are noise beside everything but themselves
-    let expects_advice = head.messages.iter().any(|m| m.1 == ADVICE);
-    let said: Vec<Said> =
-        said.iter().filter(|m| expects_advice || m.1 != ADVICE).cloned().collect();
-    let (wanted, found) = (shown(&head.messages), shown(&said));
-    if wanted != found {
-        return Err(format!("expected\n{wanted}said\n{found}").into());
-    }
-    if exit != head.exit {
-        return Err(format!("exit {exit}, {} expected", head.exit).into());
-    }
-    Ok(())
+    suite::folder("faults")
 }
 
 fn program(path: &Path) -> Result<(), Failed> {
     // damaged encodings are part of the tests
     let head = head(&String::from_utf8_lossy(&std::fs::read(path)?))?;
     let own = name(path);
-    let (exit, said) = call("run", path, &head.options, &folder())?;
+    let (exit, said) = call("run", path, &head.options, &[], &folder())?;
     compare(&own, &head, exit, &said)?;
     if head.what == "check" {
-        let (exit, said) = call("check", path, &head.options, &folder())?;
+        let (exit, said) = call("check", path, &head.options, &[], &folder())?;
         compare(&own, &head, exit, &said)?;
     }
     Ok(())
@@ -190,8 +60,8 @@ fn list(path: &Path) -> Result<(), Failed> {
     std::fs::write(&program, PROGRAM)?;
     let mut options = head.options.clone();
     options.extend(["-m".to_owned(), home.path().display().to_string()]);
-    let (exit, said) = call("run", &program, &options, home.path())?;
-    compare(&head.what, &head, exit, &said)
+    let (exit, said) = call("run", &program, &options, &[], home.path())?;
+    Ok(compare(&head.what, &head, exit, &said)?)
 }
 
 /// Files by the IDs that their heads name.
@@ -200,7 +70,7 @@ fn named() -> Result<BTreeMap<String, BTreeSet<String>>, Failed> {
     let folder = folder();
     for path in files(&folder, "nc").into_iter().chain(files(&folder.join("lists"), "lis")) {
         let head = head(&String::from_utf8_lossy(&std::fs::read(&path)?))
-            .map_err(|e| format!("{}: {e:?}", path.display()))?;
+            .map_err(|e| format!("{}: {e}", path.display()))?;
         let file = path.strip_prefix(&folder)?.display().to_string();
         for (_, id, _) in head.messages {
             named.entry(id).or_default().insert(file.clone());
@@ -237,17 +107,7 @@ fn complete() -> Result<(), Failed> {
     if !wrong.is_empty() {
         return Err(wrong.join("\n").into());
     }
-    let path = folder().join("README.md");
-    let old = std::fs::read_to_string(&path)?;
-    let marker = "<!-- written by the test -->\n";
-    let (above, _) = old.split_once(marker).ok_or("README.md has no marker")?;
-    let new = format!("{above}{marker}{}", table(&named, &open));
-    if std::env::var_os("KONTUR_WRITE_LEDGER").is_some() {
-        std::fs::write(&path, new)?;
-    } else if new != old {
-        return Err("README.md is out of date: run with KONTUR_WRITE_LEDGER=1".into());
-    }
-    Ok(())
+    Ok(ledger(&folder(), &table(&named, &open))?)
 }
 
 fn table(named: &BTreeMap<String, BTreeSet<String>>, open: &BTreeMap<String, String>) -> String {

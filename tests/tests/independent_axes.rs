@@ -287,3 +287,23 @@ fn a_frequency_of_oscillation() {
     let (times, end) = of("FREQ=1 NBR_OSC=3");
     assert_eq!((times.len(), end.to_bits()), (3, 20.0_f64.to_bits()));
 }
+
+/// ZERO_POS and EXCUR name the same positions as 1ST_POS and 2ND_POS; INCL_OFFSETS reads them in the coordinates of the
+/// program.
+#[test]
+fn middle_and_offsets_of_an_oscillation() {
+    let of = |before: &str, keys: &str| {
+        let program = format!(
+            "%P\n#SLOPE [TYPE=STEP]\n{before}\nN20 Y[OSC ON {keys} FEED=6000 NBR_OSC=2]\nG04 2\nM30\n"
+        );
+        let run = kontur_tests::run(&program, &[]);
+        assert!(run.diagnostics.iter().all(|d| !d.is_error()), "{:?}", run.diagnostics);
+        run.axis(1, |a| a.ipo)
+    };
+    let wanted = of("", "1ST_POS=2 2ND_POS=12");
+    assert_eq!(of("", "ZERO_POS=7 EXCUR=5"), wanted);
+    assert_eq!(of("G92 Y-3", "ZERO_POS=7 EXCUR=5"), wanted);
+    let offset = of("", "1ST_POS=-1 2ND_POS=9");
+    assert_eq!(of("G92 Y-3", "ZERO_POS=7 EXCUR=5 INCL_OFFSETS"), offset.clone());
+    assert_eq!(of("G92 Y-3", "1ST_POS=2 2ND_POS=12 INCL_OFFSETS"), offset);
+}

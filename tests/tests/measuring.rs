@@ -193,3 +193,23 @@ fn a_check_refuses_no_measured_value() {
     let run = run_with_inputs(linear(&[]), &program, &[(0.0, "X_probe_mm", 8.0)]);
     assert!(errors(&run).is_empty() && !run.records.is_empty());
 }
+
+/// The check takes the target for the surface and never comes to the subroutine; the run does, and its rows say so.
+#[test]
+fn a_subroutine_that_only_the_run_reaches_is_named_in_the_trace() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    file("near.nc", "N10 G01 X1 F3000\nN20 M17\n");
+    let program = "N10 G100 X10 F500\nN20 $IF V.A.MESS.X < 9\nN30 L near.nc\nN40 $ENDIF\nN50 M30\n";
+    let (program, inputs) = (file("part.nc", program), file("probe.csv", "t_s,X_probe_mm\n0,5\n"));
+    let words = ["run", &program, "--input", &inputs, "-o", "-", "--signals", "time"];
+    let output = kontur_tests::command::command(words);
+    let mut lines = output.out.lines();
+    assert_eq!(lines.next(), Some("t_s,line,block,file"), "{}", output.err);
+    assert!(lines.next().unwrap().ends_with("part.nc"));
+    assert!(output.out.lines().any(|line| line.contains(",1,10,") && line.ends_with("near.nc")));
+}

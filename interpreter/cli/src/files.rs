@@ -343,7 +343,8 @@ fn in_other_case(place: &Path) -> Option<PathBuf> {
     /// Files of a folder that are looked at.
     const LOOKED_AT: usize = 100_000;
     let wanted = place.file_name()?.to_str()?;
-    let entries = std::fs::read_dir(place.parent()?).ok()?.take(LOOKED_AT);
+    let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?.take(LOOKED_AT);
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     let found = names.filter(|name| name.eq_ignore_ascii_case(wanted)).min()?;
     Some(place.with_file_name(found))
@@ -395,5 +396,21 @@ impl ListFiles for Lists {
             return Err("more than 16 MiB, too long for a list".to_owned());
         }
         Ok(Some(bytes))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_other_case;
+    use std::path::{Path, PathBuf};
+
+    /// Tests run in the folder of the crate.
+    #[test]
+    fn names_in_other_capital_letters_are_found_in_the_current_folder_too() {
+        let found = |place: &str| in_other_case(Path::new(place));
+        assert_eq!(found("cargo.TOML"), Some(PathBuf::from("Cargo.toml")));
+        assert_eq!(found("./SRC/../cargo.toml"), None);
+        assert_eq!(found("src/FILES.rs"), Some(PathBuf::from("src/files.rs")));
+        assert_eq!(found("no such file"), None);
     }
 }

@@ -84,6 +84,10 @@ impl Decoder {
         let is_arc = matches!(self.modal.path, PathMode::Clockwise | PathMode::CounterClockwise);
         let contour_line = self.contour_line(words);
         let Some(contour_line) = self.keep(contour_line) else { return };
+        let angle = self.arc_angle(words, is_arc);
+        if self.keep(angle).is_none() {
+            return;
+        }
         let centre = words.centre.iter().flatten().next();
         // a full circle needs no end point
         let full_circle = is_arc && centre.is_some() && words.group(Group::Insertion).is_none();
@@ -216,7 +220,7 @@ impl Decoder {
                 Target { axis: *axis, value, absolute }
             })
             .collect();
-        targets.extend(self.motion.contour_line.target.take());
+        targets.extend(self.motion.contour_line.targets.drain(..));
         let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
         for target in targets.iter_mut().filter(|t| t.absolute) {
             if self.machine.axes[target.axis].is_modulo() {

@@ -18,7 +18,6 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// `several_files`: the check ahead has opened more than the program.
     /// Cycle time in s.
     pub fn cycle_s(&self) -> f64 {
         f64::from(self.cycle_us) / 1e6

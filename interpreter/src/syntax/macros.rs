@@ -60,6 +60,9 @@ pub(crate) fn expand<'m>(
         copy(raw, &line, at..range.start, &mut out);
         at = range.end;
         let start = out.text.len();
+        // a call without its blank stays one, so that the block says so
+        let quote = if is_call(&raw.text[..range.start]) { "\"" } else { "" };
+        out.text.push_str(quote);
         if let Err(wrong) = insert(text, 1, lookup, &mut out.text) {
             let location = raw.locate(file, Span::new(range.start, range.end));
             let diagnostic = match wrong {
@@ -76,6 +79,7 @@ pub(crate) fn expand<'m>(
             };
             return Err(Box::new(diagnostic.at(location)));
         }
+        out.text.push_str(quote);
         let place = Span::new(start, out.text.len());
         let home = home(raw, &line, range.start);
         let replaces = Some(Span::new(range.start, range.end).len);
@@ -139,6 +143,13 @@ fn uses<'m>(text: &str, lookup: &impl Fn(&str) -> Option<&'m str>) -> Vec<(Range
         }
     }
     found
+}
+
+/// True for `LL` with nothing between it and the name: `LL"NAME"` (source: TF5200 programming manual 206841355, the blank
+/// is mandatory).
+fn is_call(before: &str) -> bool {
+    let word = before.trim_end_matches(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.');
+    before[word.len()..].eq_ignore_ascii_case("LL")
 }
 
 /// The piece in which a place of the unexpanded text lies, moved so that it begins there.
@@ -209,6 +220,9 @@ mod tests {
         let text = |line: &str| run(line).unwrap().map(|e| e.raw().text.to_owned());
         assert_eq!(text("G1 \"A\" F5").as_deref(), Some("G1 X10 Z1 Y5 F5"));
         assert_eq!(text("\"A\" = \"B\""), None);
+        assert_eq!(text("N10 LL\"B\"").as_deref(), Some("N10 LL\"Z1\""));
+        assert_eq!(text("LL \"B\"").as_deref(), Some("LL Z1"));
+        assert_eq!(text("L\"B\"").as_deref(), Some("LZ1"));
         assert_eq!(text("V.P.S = \"other\" ; \"A\""), None);
         assert_eq!(text("P1==\"B\"").as_deref(), Some("P1==Z1"));
     }

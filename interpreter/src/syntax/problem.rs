@@ -274,6 +274,9 @@ fn refine(
         Context::Words if depth == 0 && is_label(rest) && !before.trim_ascii().is_empty() => {
             raised(problem, Condition::LabelBehindWords)
         }
+        Context::Words if depth == 1 && rest.starts_with(',') && in_values(before) => {
+            raised(problem, Condition::ArrayOutsideDeclaration)
+        }
         Context::Words if depth > 0 && in_cycle_list(before) => {
             raised(problem, Condition::CallCharacter)
         }
@@ -351,6 +354,11 @@ fn in_cycle_list(before: &str) -> bool {
     let digits = head.trim_end_matches(|c: char| c.is_ascii_digit());
     let number = head[digits.len()..].trim_start_matches('0');
     digits.ends_with(['G', 'g']) && number.starts_with('8') && matches!(number.len(), 2 | 3)
+}
+
+/// True if the outermost open bracket holds the values of a variable: `V.P.A[3]=[`.
+fn in_values(before: &str) -> bool {
+    before_bracket(before).trim_ascii_end().strip_suffix('=').is_some_and(ends_in_place)
 }
 
 /// True if the outermost open bracket belongs to `L CYCLE` or `L SEQUENCE`.

@@ -6,7 +6,7 @@ use super::row::{
 };
 use crate::diag::id::{
     Id::{self, Kontur, Vendor},
-    Severity::{self, Error, Note, Warning},
+    Severity::{self, Error, Warning},
 };
 
 #[expect(clippy::too_many_arguments, reason = "one table row, read as a line")]
@@ -47,7 +47,6 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(21777), "", Error, ProgramAbort, 3, 1, "keyword index outside the data format", ""),
     documented(Vendor(21909), "", Error, ProgramAbort, 3, 1, "flush inside a two-block contour", ""),
     documented(Vendor(22145), "", Error, JobAbort, 3, 1, "key twice (#DIAGNOSIS)", ""),
-    documented(Vendor(22253), "", Error, ProgramAbort, 3, 1, "#CANG together with an end point", ""),
     documented(Vendor(50499), "", Error, AllStop, 6, 0, "spindle speed 0 with G95/G33", ""),
     documented(Vendor(50544), "", Error, FeedHold, 1, 0, "vendor-internal slope diagnosis", ""),
     documented(Vendor(50605), "", Warning, None, 1, 0, "order of the position filter is odd", "P-AXIS-00622"),
@@ -81,6 +80,5 @@ pub(super) const ROWS: &[Row] = &[
     documented(Vendor(120630), "", Warning, None, 1, 0, "rapid ramp time too large", "G233"),
     documented(Vendor(120652), "", Error, ProgramAbort, 3, 0, "contouring not possible (measurement, feed group, corner)", ""),
     documented(Vendor(1000044), "", Error, JobAbort, 6, 2, "job to interpret a list failed in the decoder", ""),
-    documented(Kontur(4), "K-TRAILING", Note, None, 1, 0, "text after the program end", ""),
     documented(Kontur(5), "K-PERCENT", Error, ProgramAbort, 3, 0, "`%` head malformed", "20193 and 21313 are raised in its place"),
 ];

@@ -163,6 +163,7 @@ conditions! {
     CommentBeginNotAlone = Vendor 20566: Error ProgramAbort 3 1, "#COMMENT BEGIN is not alone in its block", hint "move the words to the next block";
     CommentEndNotAlone = Vendor 20569: Error ProgramAbort 3 1, "#COMMENT END is not alone in its block", hint "move the words to the next block";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
+    PresetWhileMirrored = Vendor 20612: Error ProgramAbort 3 1, "#PSET or #PRESET with active mirroring", cause "G21, then #PSET X200", hint "write G20 before";
     CuttingSpeedLimited = Vendor 20633: Warning None 1 1, "too near to the turning centre for G96: spindle speed limited", cause "G96 at X0", hint "select G96 further out, or raise G196";
     TappingPerRevolution = Vendor 20635: Error ProgramAbort 3 1, "tapping with feed per revolution", cause "G63 under G95", hint "write G94 before it";
     TappingCuttingSpeed = Vendor 20636: Error ProgramAbort 3 1, "tapping with constant cutting speed", cause "G63 under G96", hint "write G97 before it";
@@ -199,6 +200,7 @@ conditions! {
     MeasuringArc = Vendor 20954: Error ProgramAbort 3 1, "arc as a measuring run", cause "G02 or G03 beside G100 or G310", hint "measuring runs are straight";
     MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not go with the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
     DimensionTooSmall = Vendor 20966: Error ProgramAbort 3 1, "size of an array below 1", hint "write 1 or more";
+    ArrayOutsideDeclaration = Vendor 20972: Error ProgramAbort 3 1, "values of an array outside #VAR and #ENDVAR", cause "V.P.A[3]=[1,2,3]", hint "declare the array between #VAR and #ENDVAR";
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "arrays have up to 4 dimensions";
     SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before";
     SpindleSpeedNegative = Vendor 20991: Error ProgramAbort 3 1, "negative spindle speed in a spindle bracket", hint "M3 and M4 set the direction, REV and SPEED are positive";
@@ -258,6 +260,7 @@ conditions! {
     RotationAxis = Vendor 22156: Error ProgramAbort 3 1, "axis outside the plane of a contour rotation", cause "G68 with the third main axis", hint "the centre of the rotation is given by the two axes of the plane";
     MessageSuppressed = Vendor 22194: Warning None 1 1, "#MSG to the diagnosis receiver is suppressed, warning", cause "P-CHAN-00518", parameter "P-CHAN-00518";
     MessageForbidden = Vendor 22195: Error ProgramAbort 3 1, "#MSG to the diagnosis receiver is suppressed, error", cause "P-CHAN-00518", parameter "P-CHAN-00518";
+    CircleAngleAndEnd = Vendor 22253: Error ProgramAbort 3 1, "#CANG together with an end point", cause "G02 X10 I5 #CANG=90", hint "an arc ends at its angle or at its end point: delete one of them";
     ProbeActuated = Vendor 50052: Error FeedHold 6 1, "the probe is actuated before the measuring run", hint "clear the probe first: the input `probe` is 1 where the run begins";
     NoMeasuringAxis = Vendor 50059: Error FeedHold 6 1, "axis that does not take part in measuring runs", cause "kenngr.messachse 0", hint "set kenngr.messachse to 1", parameter "P-AXIS-00118";
     MeasuringAxes = Vendor 50061: Error FeedHold 6 1, "more axes in a measuring run than its type allows", cause "type 2 has one axis, type 4 the three main axes", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
@@ -330,6 +333,7 @@ conditions! {
     InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are allowed only in comments and strings";
     Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "block does not parse", hint "kontur explain shows how words and commands are written";
     NoEnd = Kontur 3 "K-NOEND": Warning None 1 0, "no M02/M30/M29 before the end of the file", hint "write M30";
+    TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text behind the end of the program", cause "M30, then more blocks", hint "move M30 to the end, or delete what is behind it";
     Nesting = Kontur 6 "K-NESTING": Error ProgramAbort 3 0, "call or control nesting beyond the limit", hint "does a subroutine call itself? A parameter can hold a part of a long expression";
     DuplicateKey = Kontur 7 "K-DUPKEY": Error ProgramAbort 3 0, "key twice in one command (no vendor ID known)", hint "leave one of the two out";
     DuplicateGroup = Kontur 8 "K-DUPGROUP": Error ProgramAbort 3 0, "two functions of one group (no vendor ID known)", hint "write the second one in a block of its own";

@@ -111,11 +111,15 @@ impl Decoder {
                 }
                 self.independent_axis(axis, word.is("INDP_SYN"), rest, group.span)
             }
-            Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OSC") => {
+            // OSC_ON: as the diagnosis manual writes it, 120470
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest))
+                if word.is("OSC") || word.is("OSC_ON") =>
+            {
                 if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
                     return Err(self.axis_twice(axis, group.span));
                 }
-                self.oscillating_axis(axis, rest, group.span)
+                let items = if word.is("OSC") { rest } else { &group.items[..] };
+                self.oscillating_axis(axis, items, group.span)
             }
             Some((
                 Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },

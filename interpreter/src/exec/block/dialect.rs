@@ -1,6 +1,9 @@
 //! Words that other controls give another meaning: what this dialect means by them.
 
+use super::words::{Code, Words};
 use crate::diag::{Condition, Id};
+use crate::exec::fault::Fault;
+use crate::syntax::ast::Span;
 
 /// True for errors that a file of another control repeats in every line: unassigned G functions (20131) and parameters
 /// without a value (20194), each for itself, and O words (20191).
@@ -36,6 +39,23 @@ pub(in crate::exec) struct Seen {
     pub(in crate::exec) unit_or_mirror: bool,
     /// `#` commands, `$` statements or G numbers from 127 on.
     pub(in crate::exec) own: bool,
+    /// An M function with which programs of 3D printers set a temperature.
+    pub(in crate::exec) temperature: bool,
+}
+
+/// True for a block that sets a temperature of a 3D printer: `M104 S200`, `M109`, `M140`, `M190`. It is one of this dialect
+/// as well, so that it alone says nothing.
+pub(in crate::exec) fn is_temperature(words: &Words<'_>) -> bool {
+    let code = matches!(words.m[..], [Code { number: 104 | 109 | 140 | 190, .. }]);
+    code && words.speeds.len() == 1 && words.axes.is_empty() && words.g.is_empty()
+}
+
+/// K-0120 for a word of 3D printers.
+pub(in crate::exec) fn printer(word: &str, meaning: &str, span: Span) -> Box<Fault> {
+    let text = format!(
+        "`{word}` {meaning}: this is a program for a 3D printer (Marlin, Klipper), not for ISG and TwinCAT"
+    );
+    Fault::new(Condition::ForeignProgram, text, span)
 }
 
 /// Meaning here of a G function that other dialects know with another one.

@@ -40,6 +40,9 @@ impl Decoder {
     ) -> After<'b> {
         let mut words = Words::default();
         self.collect(written, &mut words);
+        if self.is_of_a_printer(&words) {
+            return After::Next;
+        }
         self.dialect_guard(&words);
         self.planes_and_units(&words);
         let takes_axes = self.axis_functions(&words);
@@ -258,8 +261,15 @@ impl Decoder {
                     feed = value.map(|v| (v, *span));
                     continue;
                 }
-                "PSET" | "PRESET" | "SUPPRESS OFFSETS" | "ANG" | "AKIMA STARTVECTOR"
-                | "AKIMA ENDVECTOR" => continue,
+                "PSET"
+                | "PRESET"
+                | "SUPPRESS OFFSETS"
+                | "ANG"
+                | "CANG"
+                | "AKIMA STARTVECTOR"
+                | "AKIMA ENDVECTOR"
+                | "SET ASPLINE STARTTANG"
+                | "SET ASPLINE ZIELTANG" => continue,
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,
@@ -283,6 +293,20 @@ impl Decoder {
             let text = "#FRC without chamfer or rounding has no effect";
             self.note(Fault::new(Condition::Odd, text, at).warning());
         }
+    }
+
+    /// K-0120 for a block that only a 3D printer understands: G92 with the way of an extruder.
+    fn is_of_a_printer(&mut self, words: &Words<'_>) -> bool {
+        self.dialect.temperature |= super::dialect::is_temperature(words);
+        let ([g], [], Some((_, end))) = (&words.g[..], &words.axes[..], words.end_feed) else {
+            return false;
+        };
+        if g.row.number != 92 || self.dialect.own {
+            return false;
+        }
+        let span = Span::new(g.span.start as usize, end.end() as usize);
+        self.note(super::dialect::printer("G92 E", "sets the way of an extruder", span));
+        true
     }
 
     /// Words that other dialects give another meaning: once per program and word.

@@ -236,6 +236,10 @@ impl Decoder {
             }));
         }
         let Some(row) = groups::row(number) else {
+            if matches!(number, 28 | 29) && self.dialect.temperature && !self.dialect.own {
+                let meaning = "homes or levels behind a temperature";
+                return Err(super::dialect::printer(&format!("G{number}"), meaning, span));
+            }
             let fault =
                 Fault::new(Condition::GUnknown, format!("unknown G function G{number:02}"), span)
                     .with(|d| d.value(ValueKind::Current, number, "-"));

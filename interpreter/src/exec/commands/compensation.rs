@@ -1,4 +1,4 @@
-//! `#TRC`: options of tool radius compensation.
+//! `#TRC`, `#TANGFEED`: options of tool radius compensation.
 //!
 //! Source: TF5200 programming manual, programmable additional options of TRC.
 
@@ -7,7 +7,7 @@ use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::syntax::ast::Span;
+use crate::syntax::ast::{Item, ItemKind, ItemValue, Span};
 
 /// Value of `TANGENTIAL_LIMIT` without a word, in degrees.
 const TANGENTIAL_LIMIT_DEG: f64 = 3.0;
@@ -23,6 +23,8 @@ arguments! {
         ext_angle: Number "EXT_ANGLE_BLOCK_INTERSECTION", "", "0; others are not supported";
         g236_lin: Number "G236_LIN" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         tangential_limit: Number "TANGENTIAL_LIMIT" in between(0.1, 3.0), "deg", "3; others are not supported";
+        perpendicular: Number "PERPENDICULAR_RADIUS_CHANGE" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
+        suppress: Number "SUPPRESS_TRC" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         online: Number "ONLINE", "", "0; others are not supported";
         inverse: Number "INVERSE", "", "0; 1 is not supported";
         split: Flag "SPLIT", "", "not supported";
@@ -52,6 +54,8 @@ impl TrcArguments {
             ("EXT_ANGLE_BLOCK_INTERSECTION", self.ext_angle, 0.0),
             ("G236_LIN", self.g236_lin, 0.0),
             ("TANGENTIAL_LIMIT", self.tangential_limit, TANGENTIAL_LIMIT_DEG),
+            ("PERPENDICULAR_RADIUS_CHANGE", self.perpendicular, 0.0),
+            ("SUPPRESS_TRC", self.suppress, 0.0),
             ("ONLINE", self.online, 0.0),
             ("INVERSE", self.inverse, 0.0),
         ];
@@ -116,5 +120,31 @@ fn tangential_feed(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some((radius, _)) = keys.rmin {
         decoder.modal.engagement_radius_mm = radius * decoder.unit_mm();
     }
+    Ok(())
+}
+
+/// Row of `#SET TANGFEED RMIN`.
+pub(super) const SET_TANGFEED: Row = Row::run("SET TANGFEED RMIN", set_tangential_feed)
+    .form("#SET TANGFEED RMIN [radius]")
+    .meaning("older form of #TANGFEED")
+    .example("#SET TANGFEED RMIN [3]")
+    .related(&["#TANGFEED"]);
+
+fn set_tangential_feed(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let items = call.command.groups.first().map_or(&[][..], |group| &group.items);
+    let value = match items {
+        [] => 0.0,
+        [Item { kind: ItemKind::Value(ItemValue::Expr(expr)), .. }] => decoder.number(expr)?,
+        _ => {
+            let text = "#SET TANGFEED RMIN: one radius is expected";
+            return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+        }
+    };
+    if value < 0.0 {
+        let text = format!("#SET TANGFEED RMIN: {value} is negative");
+        return Err(Fault::new(Condition::Range, text, call.span()));
+    }
+    decoder.modal.engagement_radius_mm = value * decoder.unit_mm();
     Ok(())
 }

@@ -9,7 +9,8 @@ use crate::exec::block::words::Words;
 use crate::exec::contour::akima::Transition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::syntax::ast::Span;
+use crate::exec::values::number::whole;
+use crate::syntax::ast::{ItemKind, ItemValue, Span};
 
 /// Row of `#SPLINE`.
 pub(super) const SPLINE: Row = Row::run("SPLINE", spline)
@@ -18,6 +19,13 @@ pub(super) const SPLINE: Row = Row::run("SPLINE", spline)
     .note("it begins at the last point before it; arcs interrupt it tangentially; no rest, G00 or tool radius compensation in it")
     .example("#SPLINE ON")
     .related(&["#AKIMA TRANS", "#SPLINE TYPE"]);
+
+/// Row of `#SET SPLINE`.
+pub(super) const SET_SPLINE: Row = Row::run("SET SPLINE", spline)
+    .form("#SET SPLINE ON|OFF")
+    .meaning("older form of #SPLINE")
+    .example("#SET SPLINE ON")
+    .related(&["#SPLINE"]);
 
 fn spline(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
@@ -36,15 +44,22 @@ pub(super) const SPLINE_TYPE: Row = Row::run("SPLINE TYPE", spline_type)
     .example("#SPLINE TYPE AKIMA")
     .related(&["#SPLINE", "#HSC"]);
 
+/// Row of `#SET SPLINETYPE`.
+pub(super) const SET_SPLINETYPE: Row = Row::run("SET SPLINETYPE", spline_type)
+    .form("#SET SPLINETYPE AKIMA")
+    .meaning("older form of #SPLINE TYPE")
+    .example("#SET SPLINETYPE AKIMA")
+    .related(&["#SPLINE TYPE"]);
+
 fn spline_type(_: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [word] if word.is("AKIMA") => Ok(()),
         [word] if word.is("BSPLINE") => {
-            Err(Fault::unsupported("#SPLINE TYPE BSPLINE", call.span()))
+            Err(Fault::unsupported(format!("{} BSPLINE", call.title()), call.span()))
         }
         [word, ..] => Err(call.unexpected(word)),
         [] => {
-            let text = "#SPLINE TYPE needs AKIMA or BSPLINE";
+            let text = format!("{} needs AKIMA or BSPLINE", call.title());
             Err(Fault::new(Condition::TokenUnknown, text, call.span()))
         }
     }
@@ -77,6 +92,46 @@ fn transitions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     Ok(())
 }
 
+/// Row of `#SET ASPLINE MODE`.
+pub(super) const SET_ASPLINE_MODE: Row = Row::run("SET ASPLINE MODE", transitions_by_number)
+    .form("#SET ASPLINE MODE [start, end]")
+    .meaning("older form of #AKIMA TRANS: 1 AUTO, 2 TANGENTIAL, 3 USER")
+    .example("#SET ASPLINE MODE [2, 2]")
+    .related(&["#AKIMA TRANS"]);
+
+fn transitions_by_number(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let items = call.command.groups.first().map_or(&[][..], |group| &group.items);
+    let mut found = [Transition::Auto; 2];
+    if items.len() > found.len() {
+        let text = "#SET ASPLINE MODE has two numbers: start and end";
+        return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
+    }
+    for (transition, item) in found.iter_mut().zip(items) {
+        let value = match &item.kind {
+            ItemKind::Missing => continue,
+            ItemKind::Value(ItemValue::Expr(expr)) => decoder.number(expr)?,
+            _ => {
+                let text = "#SET ASPLINE MODE: a number is expected";
+                return Err(Fault::new(Condition::TokenUnknown, text, item.span));
+            }
+        };
+        *transition = match whole(value, 1, 3) {
+            Some(1) => Transition::Auto,
+            Some(2) => Transition::Tangential,
+            Some(3) => Transition::User,
+            _ => {
+                let text = format!("#SET ASPLINE MODE: transition {value} does not exist");
+                return Err(Fault::new(Condition::Range, text, item.span)
+                    .hint("transitions are 1 (automatic), 2 (tangential) and 3 (by #AKIMA STARTVECTOR or ENDVECTOR)"));
+            }
+        };
+    }
+    let akima = &mut decoder.contour.akima;
+    [akima.start.transition, akima.end.transition] = found;
+    Ok(())
+}
+
 /// A transition that is not written is AUTO.
 fn transition(written: Option<(Box<str>, Span)>) -> Outcome<Transition> {
     let Some((name, span)) = written else { return Ok(Transition::Auto) };
@@ -94,10 +149,12 @@ fn transition(written: Option<(Box<str>, Span)>) -> Outcome<Transition> {
 }
 
 impl Decoder {
-    /// `#AKIMA STARTVECTOR X1 Y1`, `#AKIMA ENDVECTOR`: true if the axis words of the block belong to one of them.
+    /// `#AKIMA STARTVECTOR X1 Y1`, `#AKIMA ENDVECTOR` and their older names: true if the axis words of the block belong to one of them.
     pub(in crate::exec) fn spline_vectors(&mut self, words: &Words<'_>) -> bool {
-        let named = |name: &str| words.hashes.iter().any(|(hash, _, _)| &*hash.name == name);
-        let (start, end) = (named("AKIMA STARTVECTOR"), named("AKIMA ENDVECTOR"));
+        let named =
+            |names: [&str; 2]| words.hashes.iter().any(|(hash, _, _)| names.contains(&&*hash.name));
+        let start = named(["AKIMA STARTVECTOR", "SET ASPLINE STARTTANG"]);
+        let end = named(["AKIMA ENDVECTOR", "SET ASPLINE ZIELTANG"]);
         let vector: Vec<(usize, f64)> =
             words.axes.iter().map(|(axis, value, _)| (*axis, *value)).collect();
         if start {

@@ -101,8 +101,8 @@ impl Decoder {
                     return Err(Fault::new(Condition::ContourLineMissed, text, span));
                 }
                 let other = here[1 - known] + way / direction[known] * direction[1 - known];
-                self.motion.contour_line.target =
-                    Some(Target { axis, value: other, absolute: true });
+                self.motion.contour_line.targets =
+                    vec![Target { axis, value: other, absolute: true }];
                 Ok(ContourLine::Single)
             }
             (Some((before, _, source)), [Some((x, x_absolute)), Some((y, y_absolute))]) => {

@@ -8,7 +8,9 @@ use crate::exec::block::words::{Placed, Words};
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::angle::{cos_deg, sin_deg};
 use crate::exec::geometry::arc::{self, ArcError};
+use crate::exec::geometry::coordinates::Target;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
@@ -87,6 +89,59 @@ impl Decoder {
             Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
             None => Path::Arc(arc),
         })
+    }
+
+    /// `#CANG`: the end of an arc by its centre and the angle that it spans, instead of an end point.
+    ///
+    /// Source: TF5200 diagnosis, 22253; no page prints more. Assumption: the angle is in degrees and positive, its direction
+    /// is that of G02 or G03.
+    pub(super) fn arc_angle(&mut self, words: &Words<'_>, is_arc: bool) -> Outcome<()> {
+        let Some((_, angle, at)) = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "CANG")
+        else {
+            return Ok(());
+        };
+        let at = *at;
+        if !is_arc {
+            let text = "#CANG needs G02 or G03";
+            return Err(Fault::new(Condition::Syntax, text, at));
+        }
+        let Some(angle) = angle.filter(|angle| *angle > 0.0 && *angle <= 360.0) else {
+            let text = "#CANG needs an angle above 0 and up to 360 deg";
+            return Err(Fault::new(Condition::Range, text, at));
+        };
+        let [first, second, _] = self.modal.plane.main_axes();
+        let plane = [first, second].map(|m| self.geometry.coordinates.main_axis(m));
+        let [Some(x), Some(y)] = plane else {
+            let text = "the plane of the arc has no axis in the channel";
+            return Err(Fault::new(Condition::AxisOrCommandExpected, text, at));
+        };
+        if let Some((_, _, end)) = words.axes.iter().find(|(axis, _, _)| *axis == x || *axis == y) {
+            let text = "#CANG together with an end point in the plane of the arc";
+            return Err(Fault::new(Condition::CircleAngleAndEnd, text, *end));
+        }
+        let centre = [words.centre[first], words.centre[second]];
+        if centre.iter().all(Option::is_none) {
+            let text = "#CANG without a centre";
+            return Err(Fault::new(Condition::ArcRadiusZero, text, at).hint("write I, J or K"));
+        }
+        let here = [x, y].map(|axis| self.geometry.coordinates.programmed(axis));
+        let given = centre.map(|word| word.map_or(0.0, |(value, _)| value * self.unit_mm()));
+        let to_centre = if self.modal.centre_absolute {
+            [given[0] - here[0], given[1] - here[1]]
+        } else {
+            given
+        };
+        let counter = self.modal.path == PathMode::CounterClockwise;
+        let (sin, cos) = (sin_deg(angle), cos_deg(angle));
+        let sin = if counter { sin } else { -sin };
+        // from the centre to the start, turned
+        let [a, b] = to_centre;
+        let end = [here[0] + a - (a * cos - b * sin), here[1] + b - (a * sin + b * cos)];
+        self.motion.contour_line.targets = vec![
+            Target { axis: x, value: end[0], absolute: true },
+            Target { axis: y, value: end[1], absolute: true },
+        ];
+        Ok(())
     }
 
     /// Centre in the coordinates of the axes, or of the program if the plane lies askew to them.

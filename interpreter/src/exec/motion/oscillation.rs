@@ -4,7 +4,8 @@
 //! by OSC OFF, and by whatever waits for the axis - a path that moves it, `#WAIT INDP`, actual positions, the end.
 //!
 //! Source: TF5200 programming manual, oscillating axes (208621195); functional description (222108427); 50593, 120470.
-//! Assumptions: the axis goes to its first position first; offsets do not act; FREQ and TIME are those of an oscillation
+//! Assumptions: the axis goes to its first position first; offsets act with INCL_OFFSETS only, then those that are in force
+//! in the block; the first position lies EXCUR below ZERO_POS, the second one above; FREQ and TIME are those of an oscillation
 //! without its rests; the block after OSC OFF begins when the axis has stopped.
 
 use crate::diag::Condition;
@@ -20,6 +21,7 @@ arguments! {
     /// Keys of `X[OSC ..]`.
     struct OscArguments {
         on: Flag "ON", "", "begins";
+        osc_on: Flag "OSC_ON", "", "as OSC ON";
         off: Flag "OFF", "", "ends at the second position";
         first: Number "1ST_POS", "mm", "first reversal position";
         second: Number "2ND_POS", "mm", "second reversal position";
@@ -29,9 +31,9 @@ arguments! {
         frequency: Number "FREQ" in above_zero(), "1/s", "in place of FEED";
         time: Number "TIME" in above_zero(), "s", "of an oscillation, in place of FEED";
         count: Number "NBR_OSC" in above_zero().whole(), "", "so many oscillations";
-        zero: Number "ZERO_POS", "mm", "not supported";
-        excursion: Number "EXCUR", "mm", "not supported";
-        offsets: Flag "INCL_OFFSETS", "", "not supported";
+        zero: Number "ZERO_POS", "mm", "middle of both positions, in their place with EXCUR";
+        excursion: Number "EXCUR", "mm", "from the middle: the first position is ZERO_POS - EXCUR";
+        offsets: Flag "INCL_OFFSETS", "", "the positions are those of the program, with its offsets";
         short: Flag "SHORT", "", "not supported";
         instant: Flag "INSTANT", "", "not supported";
     }
@@ -42,9 +44,6 @@ impl OscArguments {
     fn unsupported(&self) -> Option<(&'static str, Span)> {
         let number = |key: Option<(f64, Span)>| key.map(|(_, span)| span);
         [
-            ("ZERO_POS", number(self.zero)),
-            ("EXCUR", number(self.excursion)),
-            ("INCL_OFFSETS", self.offsets),
             ("SHORT", self.short),
             ("OFF INSTANT", self.instant),
             ("OFF FEED", self.off.and(number(self.feed))),
@@ -71,7 +70,7 @@ impl Decoder {
         if self.machine.axes[axis].is_modulo() {
             return Err(Fault::unsupported(format!("{title} of a modulo axis"), span));
         }
-        match (keys.on, keys.off) {
+        match (keys.on.or(keys.osc_on), keys.off) {
             (Some(_), None) => self.oscillation(axis, &keys, span),
             (None, Some(_)) => {
                 self.join(vec![axis]);
@@ -90,16 +89,32 @@ impl Decoder {
         let of_axis = |condition, text: String, at| {
             Fault::new(condition, text, at).with(|d| d.axis(number, name.clone()))
         };
-        let (Some((first, at)), Some((second, second_at))) = (keys.first, keys.second) else {
-            let text = format!("axis {name}: 1ST_POS and 2ND_POS are needed");
-            return Err(of_axis(Condition::NoOscillation, text, span));
+        let positions = match (keys.first, keys.second, keys.zero, keys.excursion) {
+            (Some(first), Some(second), None, None) => [first, second],
+            (None, None, Some((zero, at)), Some((excursion, second_at))) => {
+                [(zero - excursion, at), (zero + excursion, second_at)]
+            }
+            _ => {
+                let text =
+                    format!("axis {name}: 1ST_POS and 2ND_POS, or ZERO_POS and EXCUR, are needed");
+                return Err(of_axis(Condition::NoOscillation, text, span));
+            }
         };
-        let unit = self.axis_unit(axis);
-        let reversal_mm = [first * unit, second * unit];
+        let [(first, at), (second, second_at)] = positions;
         if (second - first).abs() <= 0.0 {
             let text = format!("axis {name}: both reversal positions are {first}");
             return Err(of_axis(Condition::NoOscillation, text, second_at));
         }
+        let unit = self.axis_unit(axis);
+        let offset_mm = match keys.offsets {
+            Some(at) if !self.geometry.coordinates.frame().is_identity() => {
+                let what = format!("{name}[OSC] with INCL_OFFSETS in a turned or mirrored system");
+                return Err(Fault::unsupported(what, at));
+            }
+            Some(_) => self.geometry.coordinates.active_offset(axis),
+            None => 0.0,
+        };
+        let reversal_mm = [first, second].map(|position| position * unit + offset_mm);
         let feed = self.machine.channel.feed_unit_mm_min / 60.0 * unit;
         let speed = match (keys.feed, keys.frequency, keys.time) {
             (Some((f, _)), None, None) if f > 0.0 => IndependentSpeed::Feed(f * feed),

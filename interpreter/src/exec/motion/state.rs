@@ -56,8 +56,8 @@ pub(in crate::exec) struct MotionState {
 pub(in crate::exec) struct ContourLines {
     /// First line of two: its angle in deg and its block.
     pub(super) open: Option<(f64, Span, SourceRef)>,
-    /// The coordinate that the angle gives to the block in work.
-    pub(super) target: Option<Target>,
+    /// The coordinates that an angle (`#ANG`, `#CANG`) gives to the block in work.
+    pub(super) targets: Vec<Target>,
 }
 
 impl ContourLines {

@@ -16,6 +16,8 @@ pub struct Checked {
     pub diagnostics: Vec<Diagnostic>,
     /// Names of its files, the main program first; none if it cannot be opened.
     pub files: Vec<Arc<str>>,
+    /// A run may come to more files: a part of the program that the check did not reach calls them.
+    pub calls_more: bool,
     /// What its commands say about the Vibration Guard.
     pub guard: GuardCommands,
 }
@@ -48,6 +50,7 @@ pub(crate) fn check(
                 return Checked {
                     diagnostics: executor.take_diagnostics(),
                     files: executor.files().to_vec(),
+                    calls_more: executor.calls_more,
                     guard: executor.guard_commands().clone(),
                 };
             }

@@ -43,7 +43,7 @@ pub(crate) struct Executor {
     start: AxisVec,
     diagnostics: Vec<Diagnostic>,
     reported: BTreeSet<(Id, Arc<str>, u32, u64)>,
-    errors: usize,
+    pub(super) errors: usize,
     /// Blocks executed up to the first error.
     first_error: Option<u64>,
     blocks: u64,
@@ -57,6 +57,8 @@ pub(crate) struct Executor {
     pub(in crate::exec) position: Position,
     /// What was executed, while checking.
     pub(in crate::exec) reached: Reached,
+    /// What a check did not execute calls further files.
+    pub(in crate::exec) calls_more: bool,
     /// The program of P-CHAN-00252 has been called.
     pub(in crate::exec) end_program_called: bool,
     reason: EndReason,
@@ -121,6 +123,7 @@ impl Executor {
             limited: false,
             position: Position::START,
             reached: Reached::default(),
+            calls_more: false,
             end_program_called: false,
             reason: EndReason::Finished,
         };

@@ -397,7 +397,10 @@ fn parse(
     match macros::expand(raw, file, &lookup) {
         Ok(Some(expanded)) => read(&expanded.raw(), diagnostics),
         Ok(None) => read(raw, diagnostics),
-        Err(diagnostic) => {
+        Err(mut diagnostic) => {
+            if let Some(location) = &mut diagnostic.source {
+                location.block = super::index::number_of(raw.text);
+            }
             diagnostics.push(*diagnostic);
             Block::default()
         }

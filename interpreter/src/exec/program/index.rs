@@ -85,6 +85,11 @@ impl Index {
         self.labels.get(&(section, label.clone()))
     }
 
+    /// True if a jump can lead between two places.
+    pub(super) fn has_label(&self, from: u64, to: u64) -> bool {
+        self.labels.values().any(|label| (from..to).contains(&label.position.offset))
+    }
+
     /// The local subroutine of a name: as written, or else without regard to case.
     pub(super) fn local(&self, name: &str) -> Option<usize> {
         let exact = self.locals.get(name);

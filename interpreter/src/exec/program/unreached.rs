@@ -2,15 +2,16 @@
 //!
 //! Source: TF5200 programming manual, control blocks: of a branch that is not taken the control looks at block numbers
 //! and nested control statements only. Mistakes in those are errors here too. Whatever else is wrong there would stop no
-//! run of this program, so it is reported as a warning, K-0118. Text after the end of the main program, in `#COMMENT`
-//! blocks and in inactive `#IF` branches is not looked at.
+//! run of this program, so it is reported as a warning, K-0118. Text in `#COMMENT` blocks and in inactive `#IF` branches is not
+//! looked at; text after the end of the main program is only mentioned, K-0004.
 
 use super::executor::Executor;
 use super::files::Look;
-use super::index::{Index, Keyword};
+use super::index::{Index, Keyword, Section};
 use crate::diag::{Condition, Diagnostic, Severity};
+use crate::exec::block::groups::is_cycle_call;
 use crate::source::Position;
-use crate::syntax::ast::Body;
+use crate::syntax::ast::{Block, Body, CallKind, CodeNumber, WordKind};
 
 /// Mistakes reported for parts that were not reached.
 const REPORTS_MAX: usize = 20;
@@ -35,6 +36,9 @@ impl Executor {
                     let last = self.reached.last(file, section.start.offset, section.end);
                     last.unwrap_or(section.start.offset)
                 };
+                if !section.local && file == 0 {
+                    self.text_behind_end(&index, section, end);
+                }
                 for (from, to) in self.reached.gaps(file, section.start, end) {
                     self.check_gap(file, (&index, &silence), from, to, &mut left);
                     if left == 0 {
@@ -82,6 +86,7 @@ impl Executor {
             );
             // the file was read before: what cannot be read now has been reported
             let Ok(Some((block, next))) = parsed else { return };
+            self.calls_more |= self.may_open(&block);
             if let Body::Command(command) = &block.body {
                 declarations = (declarations || command.is("VAR")) && !command.is("ENDVAR");
             }
@@ -93,6 +98,61 @@ impl Executor {
             }
             at = next;
         }
+    }
+
+    /// K-0004: blocks behind the M02 or M30 with which the main program has ended. An end inside a control block, or with
+    /// a label behind it, does not have to be the end of the program.
+    fn text_behind_end(&mut self, index: &Index, section: &Section, end: u64) {
+        let main = matches!(&self.levels[..], [main] if main.frames.is_empty());
+        let last = self.position.offset >= section.start.offset && self.position.offset < end;
+        if self.errors > 0
+            || !main
+            || !last
+            || self.end_program_called
+            || index.has_label(end, section.end)
+        {
+            return;
+        }
+        let gaps = self.reached.gaps(0, section.start, section.end);
+        let Some((mut at, _)) = gaps.last().copied().filter(|(at, _)| at.offset == end) else {
+            return;
+        };
+        while at.offset < section.end {
+            let mut found = Vec::new();
+            let macros = &self.decoder.calls.macros;
+            let parsed = self.files.look(0, at, Look::Block, &self.parser, macros, &mut found);
+            let Ok(Some((block, next))) = parsed else { return };
+            let remark = index.at(at).is_some_and(|id| {
+                matches!(index.entry(id).keyword, Keyword::CommentBegin | Keyword::Remark)
+            });
+            if remark {
+                return;
+            }
+            if block.body != Body::Empty || !found.is_empty() {
+                let text = "text behind the end of the program: it never runs";
+                let location = self.files.locate_block(0, at);
+                let diagnostic = Diagnostic::new(Condition::TextBehindEnd, text);
+                self.report(match location {
+                    Some(location) => diagnostic.at(location),
+                    None => diagnostic,
+                });
+                return;
+            }
+            at = next;
+        }
+    }
+
+    /// A block that was not executed would open a file that the check may not know.
+    fn may_open(&self, block: &Block) -> bool {
+        let Body::Words(words) = &block.body else { return false };
+        words.iter().any(|word| match &word.kind {
+            WordKind::Call(call) => !call.local && !matches!(call.kind, CallKind::Sequence(_)),
+            WordKind::G { number, .. } => is_cycle_call(*number),
+            WordKind::M(CodeNumber::Literal(6) | CodeNumber::Computed(_), _) => {
+                self.decoder.calls.tool_change_file.is_some()
+            }
+            _ => false,
+        })
     }
 }
 

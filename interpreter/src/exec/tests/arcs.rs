@@ -159,3 +159,28 @@ fn software_limits_hold_along_arcs() {
     let outside = inside.replace("G41", "G42");
     assert_eq!(super::places(&ids(&high, &outside).diagnostics), ["21897 3:1"]);
 }
+
+/// The end of an arc by its angle is where the compass puts it; an arc with that end point is the same path.
+#[test]
+fn arcs_by_centre_and_angle() {
+    assert_arc("G02 I10 #CANG=90 F100", [10.0, 0.0], -PI / 2.0);
+    let end = |text: &str| Path::Arc(arc(text)).end().clone();
+    assert_eq!(end("G02 I10 #CANG=90 F100")[..2], [10.0, 10.0]);
+    assert_eq!(end("G03 I10 #CANG=90 F100")[..2], [10.0, -10.0]);
+    assert_arc("G01 X5 F100\nG161 G03 I0 J0 #CANG=270", [0.0, 0.0], 1.5 * PI);
+    assert_arc("G03 I-4 J3 #CANG=360 F100", [-4.0, 3.0], TAU);
+    // in the plane ZX, with a way along Y
+    let helix = end("G18 G02 K10 Y3 #CANG=60 F100");
+    for (found, wanted) in helix.iter().zip([75.0_f64.sqrt(), 3.0, 5.0]) {
+        assert!((found - wanted).abs() < 1e-9, "{helix:?}");
+    }
+    for (text, id) in [
+        ("G02 X1 I10 #CANG=90 F100", "22253"),
+        ("G02 I10 #CANG=0 F100", "K-0009"),
+        ("G02 I10 #CANG=400 F100", "K-0009"),
+        ("G02 #CANG=90 R5 F100", "20036"),
+        ("G01 X1 #CANG=90 F100", "K-0002"),
+    ] {
+        assert_eq!(run(&format!("{text}\nM30\n")).ids(), [id], "{text}");
+    }
+}

@@ -94,10 +94,10 @@ fn what_the_manual_knows_is_never_unknown() {
         "#MEAS PREPARE",
         "#MEAS [AX=X EDGE=POS]",
         "#SPLINE TYPE BSPLINE",
-        "#SET SPLINE ON",
+        "#SET SPLINETYPE BSPLINE",
         "#TOOL LIFE READ",
         "#VOLCOMP ON",
-        "Z[OSC ON ZERO_POS=1 EXCUR=2 FEED=100]",
+        "Z[OSC ON ZERO_POS=1 EXCUR=2 FEED=100 SHORT]",
         "X[SET_POSITION 5]",
         "X[LIFT 1]",
         "X[MC_MoveAbsolute Position=5]",
@@ -143,6 +143,19 @@ fn the_dialect_guard() {
     assert_eq!(run.ids(), ["K-0101"]);
     assert_eq!(run.end[0], -5.0);
     assert!(clean("G71 G21\nM30\n").diagnostics.is_empty());
+    for text in ["M104 S200\nG28", "M190 S60\nX1 F100\nG29", "G92 E0"] {
+        assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), ["K-0120"], "{text}");
+    }
+    // a spindle speed beside an M function of the machine
+    assert!(clean("M104 S200\nG01 X1 F100\nM30\n").diagnostics.is_empty());
+}
+
+/// What a macro makes of a block is said of that block, not of the one before it.
+#[test]
+fn a_macro_that_cannot_be_used_names_its_block() {
+    let found = run("N10 \"A\" = \"COS[\"\nN20 X\"A\" F100\nM30\n").diagnostics;
+    assert_eq!(places(&found), ["K-0121 2:6"]);
+    assert_eq!(found[0].source.as_ref().and_then(|at| at.block), Some(20));
 }
 
 #[test]

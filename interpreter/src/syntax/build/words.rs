@@ -1,6 +1,7 @@
 //! Words of a block: addresses with values, code numbers, calls and file names.
 
 use super::Builder;
+use crate::syntax::Problem;
 use crate::syntax::Rule;
 use crate::syntax::ast::{
     Assign, Bracket, Call, CallKind, CodeNumber, Expr, GValue, Group, HashWord, Ident, Label,
@@ -56,6 +57,7 @@ impl Builder<'_> {
                 | Rule::position_name
                 | Rule::letter
                 | Rule::name_letters
+                | Rule::axes_hash
                 | Rule::hash_name => name = Some(self.written(span)),
                 Rule::place => place = Some(self.place(part)),
                 rule @ (Rule::expression | Rule::signed_number) => {
@@ -123,9 +125,19 @@ impl Builder<'_> {
     fn call(&mut self, pair: Pair<'_, Rule>) -> Call {
         let mut local = false;
         let mut kind = None;
+        let text = pair.as_str();
         for part in pair.into_inner() {
             match part.as_rule() {
-                Rule::call_mark | Rule::joined_mark => local = part.as_str().len() > 1,
+                Rule::call_mark | Rule::joined_mark => {
+                    local = part.as_str().len() > 1;
+                    if local && text[part.as_str().len()..].starts_with('"') {
+                        let problem =
+                            Problem::syntax(self.span(&part), "LL without a blank behind it");
+                        self.report(problem.hint(
+                            "between LL and the name of a subroutine or macro stands a blank",
+                        ));
+                    }
+                }
                 Rule::variable_call => kind = self.variable_call(part),
                 Rule::joined_variable => {
                     let call = part.into_inner().find(|p| p.as_rule() == Rule::variable_call);

@@ -85,10 +85,15 @@ impl Decoder {
             (None, Some((_, _, at))) => (false, *at),
             (None, None) => return false,
         };
+        if (0..self.machine.axes.len()).any(|axis| self.geometry.coordinates.mirrored(axis)) {
+            let text = "#PSET and #PRESET do not go with mirroring";
+            self.note(Fault::new(Condition::PresetWhileMirrored, text, at));
+            return true;
+        }
         let conflicts = !self.geometry.coordinates.frame().is_identity()
             || self.modal.compensation != Compensation::Off;
         if conflicts {
-            let text = "#PSET and #PRESET do not go with mirroring, rotation, #CS or tool radius compensation";
+            let text = "#PSET and #PRESET do not go with rotation, #CS or tool radius compensation";
             self.note(Fault::new(Condition::Syntax, text, at));
             return true;
         }

@@ -1,0 +1,7 @@
+; check: exit 1
+; error 20612 at 5:5
+N10 G00 X0 Y0 Z0
+N20 G22
+N30 #PSET X200
+N40 G20
+N50 M30

@@ -1,0 +1,5 @@
+; check: exit 1
+; error 22253 at 4:9
+N10 G00 X2 Y20 F500
+N20 G02 X10 I0 J-20 #CANG=90
+N30 M30

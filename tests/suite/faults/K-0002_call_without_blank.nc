@@ -1,0 +1,9 @@
+; check: exit 1
+; error K-0002 at 8:5
+%L SUB1
+N10 G01 X7 F1000
+N20 M17
+%MAIN
+N30 "NAME" = "SUB1"
+N40 LL"NAME"
+N50 M30

@@ -1,0 +1,9 @@
+; run: exit 0
+; page 206537483 centre of arcs (G161, G162)
+; passes X7.07107 Y7.07107
+; passes X-7.07107 Y7.07107
+; end X-10 Y0
+N10 G01 X10 F1000
+N20 G161 G03 X0 Y10 I0 J0
+N30 G162 G03 X-10 Y0 I0 J-10
+N40 M30

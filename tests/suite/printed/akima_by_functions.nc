@@ -1,0 +1,20 @@
+; run: exit 0
+; page 1255466635 Akima splines, first example
+; passes X40 Y20
+; passes X60 Y20
+; passes X60 Y0
+; passes X80 Y0
+; passes X80 Y10
+; end X70 Y10
+N10 G01 X20 Y0 F1000
+N20 #AKIMA TRANS [START=USER END=AUTO]
+N30 #AKIMA STARTVECTOR X1 Y1 Z0
+N40 G151
+N50 G01 X40 Y20
+N60 X60
+N70 Y0
+N80 X80
+N90 Y10
+N100 G150
+N110 X70
+N120 M30

@@ -1,0 +1,12 @@
+; check: exit 1
+; page 206449675 corner deceleration (G13)
+; error K-0019 at 6:5
+; error K-0019 at 7:5
+N10 G01 G90 X10 Y10 F1000
+N20 #CORNER PARAM [DIST=10 UNIT=PERCENT FEED=50]
+N30 G13
+N40 X50
+N50 Y50
+N60 G12
+N70 X30 Y30
+N80 M30

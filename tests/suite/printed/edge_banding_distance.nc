@@ -1,0 +1,9 @@
+; check: exit 1
+; page 206230027 distance to go of edge banding (V.G.RW)
+; error K-0019 at 6:5
+N10 G91 G00 X0 Y0 Z10
+N20 V.G.RW = 5
+N30 G108
+N40 G01 X10 Y10 F300
+N50 M97 G01 X30 Y10 F200
+N60 M30

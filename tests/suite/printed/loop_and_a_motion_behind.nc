@@ -1,0 +1,9 @@
+; run: exit 0
+; page 251207051 diagnosis 20233, right
+; end X100 Y9
+N10 G00 X0 Y0 Z0
+N20 $FOR P1=1, 10, 2
+N30 G01 YP1 F9000
+N40 $ENDFOR
+N50 G01 X100 F10000
+N60 M30

@@ -1,0 +1,8 @@
+; run: exit 0
+; page 251202699 diagnosis 20232, right
+; end X100
+N10 G00 X0 Y0 Z0 P1=1
+N20 $FOR P1=100, 200, 300
+N30 G01 XP1 F9000
+N40 $ENDFOR
+N50 M30

@@ -1,0 +1,20 @@
+; run: exit 0
+; page 15556682379 mirroring (G21)
+; warning K-0101 at 15:5
+; warning K-0101 at 18:5
+; passes X-40 Y20
+; passes X-25 Y50
+; end X0 Y0
+%L TRIANGLE
+N10 G90 X10 Y20
+N20 G01 X40 Y20 F2000
+N30 X25 Y50
+N40 X10 Y20
+N50 M17
+%MAIN
+N60 G21
+N70 G00 X0 Y0
+N80 LL TRIANGLE
+N90 G20
+N100 G00 X0 Y0
+N110 M30

@@ -1,0 +1,20 @@
+; run: exit 0
+; page 15557092491 perpendicular selection (G237)
+; passes X10 Y5
+; passes X65 Y60
+; passes X65 Y95.2277
+; passes X60 Y205
+; passes X5 Y150
+; passes X10 Y150
+; end X0 Y0
+N10 G00 X0 Y0 Z0 G17
+N20 X10 Y10
+N30 V.G.WZ_AKT.R = 5
+N40 G237
+N50 G42
+N60 G03 X60 Y60 J50 F1000
+N70 G01 Y100
+N80 G03 X10 Y150 J50
+N90 G40
+N100 G00 X0 Y0
+N110 M30

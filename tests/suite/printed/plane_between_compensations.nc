@@ -1,0 +1,10 @@
+; run: exit 0
+; page 250893707 diagnosis 20133, right
+N10 G00 X0 Y0 Z0
+N20 V.G.WZ_AKT.R=1
+N30 G41
+N40 G40
+N50 G19
+N60 G41
+N70 G40
+N80 M30

@@ -1,0 +1,11 @@
+; run: exit 0
+; page 207107723 position preset (#PSET, #PRESET)
+; passes X40 Y10
+; end X30 Y10
+N10 G01 X50 Y10 Z0 F2000
+N20 #PSET X20 Y20
+N30 X10
+N40 #PRESET X10
+N50 X30
+N60 #PRESET
+N70 M30

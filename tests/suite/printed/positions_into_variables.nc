@@ -1,0 +1,12 @@
+; run: exit 0
+; page 15556816523 positions into variables (#SET IPO SOLLPOS)
+; end X4 Y3 Z10
+#VAR
+V.P.POS1
+V.P.POS2
+#ENDVAR
+N10 G01 X3 Y4 Z5 F1000
+N20 #SET IPO SOLLPOS [P1 = X, P2 = Y, V.P.POS1 = Z]
+N30 G01 XP2 YP1
+N40 ZV.P.POS1*2
+N50 M30

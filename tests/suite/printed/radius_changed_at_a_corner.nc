@@ -1,0 +1,13 @@
+; check: exit 1
+; page 483740299 change of the tool radius across the contour (#TRC)
+; error K-0019 at 5:11
+N10 G00 X0 Y0 F1000
+N20 #TRC [PERPENDICULAR_RADIUS_CHANGE=1]
+N30 V.G.WZ_AKT.R = 5
+N40 G42
+N50 G01 X20 Y0
+N60 G01 X50 Y50
+N70 V.G.WZ_AKT.R = 6
+N80 G01 X100
+N90 G40 X120 Y0
+N100 M30

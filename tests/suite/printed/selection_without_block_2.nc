@@ -1,0 +1,16 @@
+; run: exit 0
+; page 207810059 selection without a block (G239), example 2
+; passes X30 Y30
+; passes X150 Y30
+; end X200 Y30
+N10 G00 X0 Y0 Z0 F1000
+N20 G239
+N30 V.G.WZ_AKT.R = 10
+N40 G41 G01 X30 Y20
+N50 X60
+N60 X90
+N70 X120
+N80 G40
+N90 G00 X150
+N100 G00 X200
+N110 M30

@@ -1,0 +1,11 @@
+; run: exit 0
+; page 206841355 call by a macro
+; end X12
+%L POCKET
+N10 G01 X12 F2000
+N20 M17
+%MAIN
+N30 "WHICH" = "POCKET"
+N40 LL "WHICH"
+N50 LL "POCKET"
+N60 M30

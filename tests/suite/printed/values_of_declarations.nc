@@ -1,0 +1,12 @@
+; run: exit 0
+; page 207966475 variables of the main program (V.P)
+; end X20 Y11.34 Z0
+#VAR
+  V.P.FIRST
+  V.P.SECOND : UNS32 = 200
+  V.P.THIRD : REAL64 = 11.34
+  V.P.WORD : STRING[20] = "END_OK"
+  V.P.LAST = 20
+#ENDVAR
+N10 G01 XV.P.LAST YV.P.THIRD ZV.P.FIRST F2000
+N20 M30
