@@ -164,6 +164,16 @@ impl Executor {
         self.decoder.report.source.file = file_number(file);
         if let Some(name) = self.decoder.machine.channel.start_program.clone() {
             self.call_of_list(&name, "P-CHAN-00119", Span::default());
+            // a list of the machine may name a program that lies on its control only
+            self.decoder.amend(|d| {
+                if d.id != Condition::NoFile {
+                    return d;
+                }
+                let searched = d.hint.clone().unwrap_or_default();
+                d.severity(Severity::Warning).hint(format!(
+                    "the program runs without it, --path names its folder; {searched}"
+                ))
+            });
             self.settle(false);
         }
         if self.errors > 0 && !self.decoder.checking {

@@ -126,9 +126,14 @@ fn a_program_of_the_list_runs_before_every_program() {
     assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
     // its modal state continues: G91 holds in the main program
     assert_eq!(run.ends(), [[0.0, 0.0, 1.0], [7.0, 0.0, 1.0]]);
-    let run = listed(&start, &[main]);
-    assert_eq!((run.ids(), run.blocks().len()), (vec!["K-0013".to_owned()], 0));
+    // a list may name a program that lies on the control alone
+    let run = listed(&start, &[("main.nc", "X2 F100\nM30\n")]);
+    assert_eq!((run.ids(), run.ends()), (vec!["K-0013".to_owned()], vec![vec![2.0, 0.0, 0.0]]));
     assert_eq!(run.diagnostics[0].parameter, Some("P-CHAN-00119"));
+    assert!(!run.diagnostics[0].is_error() && run.diagnostics[0].hint.is_some());
+    // one that is there and is no program stays an error
+    let run = listed(&start, &[main, ("init.nc", "%L ONLY\nM17\n")]);
+    assert_eq!((run.ids(), run.blocks().len()), (vec!["K-0014".to_owned()], 0));
 }
 
 #[test]
