@@ -1,6 +1,6 @@
 //! Arcs and helices as paths of the axes.
 
-use super::{assert_end, assert_near, clean};
+use super::{assert_end, assert_near, clean, run};
 use kontur_motion::path::{ArcPath, Path};
 use std::f64::consts::{PI, TAU};
 
