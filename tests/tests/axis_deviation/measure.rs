@@ -1,0 +1,116 @@
+//! What a run has left of the contour, by the geometry of this package.
+
+use kontur_interpreter::record::AxisRecord;
+use kontur_tests::geometry::{Piece, deviation};
+use kontur_tests::{Run, from_polyline};
+
+/// Parts of a piece of the contour whose ends are looked for on the set path.
+const POINTS: u32 = 12;
+
+/// A program and what the test knows about it.
+pub(crate) struct Case {
+    pub(crate) text: String,
+    pub(crate) settings: Vec<String>,
+    pub(crate) tolerance_mm: f64,
+    /// Largest distance of the contour from the pieces: 0, or `PATH_DEV` of a spline whose polygon the pieces are.
+    pub(crate) off_mm: f64,
+    /// Cycles that the filter reaches back.
+    pub(crate) reach: usize,
+    /// Line number and pieces of every block with motion.
+    pub(crate) blocks: Vec<(u32, Vec<Piece>)>,
+}
+
+impl Case {
+    /// Largest component of the shortest vector from the pieces to a set point.
+    pub(crate) fn within_mm(&self) -> f64 {
+        if self.off_mm > 0.0 {
+            // a vector of three components within the tolerance, and one of length `off_mm`
+            3.0_f64.sqrt() * self.tolerance_mm + self.off_mm
+        } else {
+            self.tolerance_mm
+        }
+    }
+}
+
+/// Largest value of the axes over a run.
+pub(crate) fn largest(run: &Run, of: fn(&AxisRecord) -> f64) -> f64 {
+    run.records.iter().flat_map(|r| &r.axes[..3]).map(of).fold(0.0, f64::max)
+}
+
+/// Largest axis component of the shortest vector from the contour within reach of the filter, over all cycles. A sample
+/// on the border of two blocks belongs to both, so the reach may end one block earlier or later.
+pub(crate) fn recomputed(run: &Run, case: &Case) -> (f64, u64) {
+    let block: Vec<usize> = run
+        .records
+        .iter()
+        .map(|r| case.blocks.partition_point(|b| b.0 <= r.line).saturating_sub(1))
+        .collect();
+    let mut worst = (0.0, 0);
+    for (k, record) in run.records.iter().enumerate() {
+        let p = [0, 1, 2].map(|i| record.axes[i].set);
+        let (oldest, newest) = (block[k.saturating_sub(case.reach)], block[k]);
+        let mut least = f64::MAX;
+        for (early, late) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let last = (newest + late).min(case.blocks.len() - 1);
+            let reached = &case.blocks[oldest.saturating_sub(early)..=last];
+            least = least.min(deviation(reached.iter().flat_map(|b| &b.1), p));
+            if least <= case.within_mm() {
+                break;
+            }
+        }
+        if least > worst.0 {
+            worst = (least, record.k);
+        }
+    }
+    worst
+}
+
+/// True if the filter is on in a line: without one a corner lies between two set points wherever it pleases.
+pub(crate) fn is_filtered(case: &Case, line: u32) -> bool {
+    let before = case.text.lines().take(line as usize);
+    let switch = before.filter(|l| l.starts_with("#VIB GUARD") || l.starts_with("#FILTER")).last();
+    switch.is_some_and(|l| l.contains(" ON"))
+}
+
+/// Largest axis component of the shortest vector from the lines between the set points to a point of the contour, over all
+/// filtered blocks, with the line of the program: of a block those count between its first cycle and the reach after its last one.
+pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
+    let records = &run.records;
+    let mut worst = (0.0, 0);
+    let blocks = case.blocks.iter().enumerate();
+    for (i, (line, pieces)) in blocks.filter(|(_, (line, _))| is_filtered(case, *line)) {
+        let first = records.partition_point(|r| r.line < *line);
+        let behind = case.blocks.get(i + 1).map_or(u32::MAX, |block| block.0);
+        let last = records.partition_point(|r| r.line < behind) + case.reach;
+        let set = |until: usize| -> Vec<Vec<f64>> {
+            let around = first.saturating_sub(2)..until.min(records.len());
+            records[around].iter().map(|r| r.axes[..3].iter().map(|a| a.set).collect()).collect()
+        };
+        // a line of the set path more or less at the border can be the nearest one, with another component
+        let windows = [2, 0, 1, 3].map(|border| set(last + border));
+        for piece in pieces {
+            for part in 0..=POINTS {
+                let point = piece.point(f64::from(part) / f64::from(POINTS));
+                let aside = |set: &Vec<Vec<f64>>| {
+                    from_polyline(&point, set).into_iter().fold(0.0, |m: f64, c| m.max(c.abs()))
+                };
+                let mut most = aside(&windows[0]);
+                if most > f64::max(worst.0, case.tolerance_mm) {
+                    most = windows[1..].iter().map(aside).fold(most, f64::min);
+                }
+                if most > worst.0 {
+                    worst = (most, *line);
+                }
+            }
+        }
+    }
+    worst
+}
+
+/// No filter can be told from the unfiltered setpoints: they lie on the geometry that the test has drawn itself.
+pub(crate) fn off_contour(run: &Run, case: &Case) -> f64 {
+    let pieces: Vec<&Piece> = case.blocks.iter().flat_map(|b| &b.1).collect();
+    let every = 1 + run.records.len() / 200;
+    let ipo = run.records.iter().step_by(every).map(|r| [0, 1, 2].map(|i| r.axes[i].ipo));
+    ipo.map(|p| deviation(pieces.iter().copied(), p)).fold(0.0, f64::max)
+}
