@@ -1,7 +1,7 @@
 //! Diagnostics: what a user is told, with ID, place, values and a hint.
 //!
 //! Vendor conditions carry the vendor's number, kontur's own carry `K-nnnn`; numbers are never invented inside the
-//! vendor's space. Everything that is always true of a condition stands in one table, [`condition`].
+//! vendor's space. Everything that is always true of a condition is in one table, [`condition`].
 //!
 //! ```
 //! use kontur_interpreter::diag::{Condition, Diagnostic, ValueKind, render};
@@ -179,7 +179,7 @@ pub struct Diagnostic {
 /// Characters of a word that a message quotes.
 pub(crate) const QUOTED_MAX: usize = 80;
 
-/// A message in which what stands between backticks has at most [`QUOTED_MAX`] characters.
+/// A message whose text between backticks has at most [`QUOTED_MAX`] characters.
 pub fn shortened(text: String) -> String {
     if text.len() <= QUOTED_MAX {
         return text;

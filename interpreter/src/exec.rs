@@ -1,7 +1,7 @@
 //! From syntax trees to steps for the simulation: what the words mean.
 //!
 //! An executor runs a program block by block and hands out [`Step`]s. It holds modal state, coordinates, variables,
-//! program levels and the words in between; it knows neither time nor speed. Meaning stands in tables, one row per G
+//! program levels and the words in between; it knows neither time nor speed. Meaning is in tables, one row per G
 //! function, `#` command and key.
 
 mod block;

@@ -1,4 +1,4 @@
-//! What `kontur explain THING` tells, from the tables of conditions, parameters and commands: about an ID, a parameter, a command, an object or word of the documents.
+//! What `kontur explain THING` prints, from the tables of conditions, parameters and commands: about an ID, a parameter, a command, an object or word of the documents.
 //!
 //! ```
 //! use kontur_interpreter::explain::explain;

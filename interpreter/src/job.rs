@@ -2,7 +2,7 @@
 //! a [`Sink`].
 //!
 //! The order of calls: lists become a machine ([`MachineLists`]), machine and sources a job, the job a run, and the run
-//! goes through its cycles in one loop ([`Run::to_end`]), whoever looks at them.
+//! goes through its cycles in one loop ([`Run::to_end`]), whatever is done with them.
 //!
 //! ```
 //! use kontur_interpreter::diag::render;

@@ -1,4 +1,4 @@
-//! What the simulation tells about one cycle; traces, summaries and reports are made from these records only.
+//! What the simulation records of one cycle; traces, summaries and reports are made from these records only.
 //!
 //! ```
 //! use kontur_interpreter::record::{CycleRecord, SpeedLimit};

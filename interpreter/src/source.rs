@@ -47,7 +47,7 @@ pub trait Sources: Send + Sync {
     /// If no program of that name can be opened; the error lists every place that was tried.
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError>;
 
-    /// A program that is no longer what it was when it was opened first, and what tells so; asked at the end of a run.
+    /// A program that has changed since it was first opened, and how that shows; asked at the end of a run.
     fn changed(&self) -> Option<(String, io::Error)> {
         None
     }
@@ -97,7 +97,7 @@ impl Default for Position {
     }
 }
 
-/// A stretch of a block's text that stands unbroken in one line of the program.
+/// A stretch of a block's text that is in one line of the program without a break.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
     /// Where it begins in the block's text, in bytes.

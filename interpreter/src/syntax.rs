@@ -5,7 +5,7 @@
 //! diagnostics with the place of the offending text (`problem`), and what can be used of the block is still built.
 //!
 //! Which G functions, commands, keys and axes exist is the business of the decoder. The one thing the parser has to be
-//! told are the names of axes and spindles that have more than one character: without them `AP10` is A with the value
+//! only the names of axes and spindles with more than one character are passed in: without them `AP10` is A with the value
 //! of P10.
 //!
 //! ```
@@ -57,7 +57,7 @@ mod tests;
 
 use grammar::{Grammar, Rule};
 
-/// `#` words that may stand among DIN words, without `#SUPPRESS OFFSETS`.
+/// `#` words that may appear among DIN words, without `#SUPPRESS OFFSETS`.
 ///
 /// Source: TF5200 programming manual (chamfers, #ANG, #CANG, #PSET, #ACHSE) and diagnosis, 20207.
 const HASH_WORDS: &[&str] =
@@ -85,7 +85,7 @@ enum Mode {
 }
 
 impl Parser {
-    /// A parser that knows the names of the channel's axes and spindles; names of one letter need not be told.
+    /// A parser that knows the names of the channel's axes and spindles; names of one letter need not be passed.
     pub fn new<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
         let mut names: Vec<Box<str>> = names
             .into_iter()

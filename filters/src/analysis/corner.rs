@@ -29,7 +29,7 @@ pub fn settling_cycles<S: Stage + Clone>(stage: &S, window: f64) -> Option<u32> 
     stage.settle(0.0);
     let mut settled = 0;
     let mut n = 0;
-    // As much rest again as the transient took tells a transient that is over from a zero crossing.
+    // Only a rest as long as the transient itself distinguishes its end from a zero crossing.
     loop {
         for _ in 0..=n.max(64) {
             n += 1;

@@ -35,7 +35,7 @@ pub struct Choice {
     pub corner_error_s: f64,
 }
 
-/// Set frequencies are resolved to this in Hz: nobody measures better, and a program line stays short.
+/// Resolution of set frequencies in Hz: no measurement is finer, and a program line stays short.
 pub(crate) const RESOLUTION_HZ: f64 = 0.01;
 
 /// Real frequencies at which a band is looked at, its ends included.

@@ -375,7 +375,7 @@ impl AxisControl {
         self.faults.push(speed_fault);
         self.faults.push(self.lag.step(reference_mm, actual_mm, kv));
         let late = self.exact_stop.step(set_mm, actual_mm - self.inputs.additional_mm);
-        // an axis that a reaction holds where it is does not arrive, and that is told already
+        // an axis that a reaction holds does not arrive; the reaction has been reported already
         self.faults.push(late.filter(|_| self.held_mm.is_none()));
         let unstable = self.advance(
             PlantInput {

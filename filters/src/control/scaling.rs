@@ -250,6 +250,18 @@ mod tests {
         assert!((linear.torque(1000.0) - 200.0).abs() < 1e-12, "F = m a");
     }
 
+    /// 10 increments per 0.1 um: 10 nm; four bits less: 160 nm.
+    #[test]
+    fn increments() {
+        for (resolution, bits, want_mm) in [(10.0, 0, 1e-5), (10.0, 4, 1.6e-4), (0.5, 0, 2e-4)] {
+            assert!(
+                (increment_mm(resolution, bits) - want_mm).abs() < 1e-18,
+                "{resolution} {bits}"
+            );
+        }
+        assert_eq!(increment_mm(0.0, 0).to_bits(), 0);
+    }
+
     /// 201.06 counts are sent as 201; the axis gets the acceleration of that torque on its real inertia.
     #[test]
     fn the_drive_gives_what_it_was_sent() {

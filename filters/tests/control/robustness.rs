@@ -6,7 +6,7 @@ use kontur_filters::control::ipc::{
 use kontur_filters::control::plant::{ModalConfig, PlantModel, SpeedLoop, TwoMassConfig};
 use kontur_filters::control::{
     AxisControl, AxisControlConfig, AxisInputs, ControlOutput, Encoder, Fault, FeedforwardConfig,
-    FeedforwardMode,
+    FeedforwardMode, Issue, PositionLoop,
 };
 use kontur_filters::time::CycleTime;
 use proptest::prelude::*;
@@ -50,6 +50,20 @@ fn models() -> impl Strategy<Value = PlantModel> {
     ]
 }
 
+/// One stage on the motor speed, its band about 53 Hz.
+fn indirect(order: u32, weight: f64) -> IpcConfig {
+    let filter =
+        IpcFilterConfig { kind: IpcFilterType::BandPass, order, frequency_hz: 53.0, quality: 2.0 };
+    let stage = IpcStageConfig {
+        mode: IpcMode::Indirect,
+        weight_num: weight,
+        weight_denom: 1.0,
+        filters: vec![filter],
+        oscillator_damping: 0.05,
+    };
+    IpcConfig { enable: true, limit_ratio: 2.0, stages: vec![stage], ..IpcConfig::default() }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
@@ -72,24 +86,7 @@ proptest! {
         config.feedforward.mode = FeedforwardMode::from_bits_truncate(bits);
         config.additive_inputs.velocity = true;
         config.additive_inputs.torque = true;
-        let filter = IpcFilterConfig {
-            kind: IpcFilterType::BandPass,
-            order: 3,
-            frequency_hz: 53.0,
-            quality: 2.0,
-        };
-        config.ipc = IpcConfig {
-            enable: true,
-            limit_ratio: 2.0,
-            stages: vec![IpcStageConfig {
-                mode: IpcMode::Indirect,
-                weight_num: weight,
-                weight_denom: 1.0,
-                filters: vec![filter],
-                oscillator_damping: 0.05,
-            }],
-            ..IpcConfig::default()
-        };
+        config.ipc = indirect(3, weight);
         let (config, _) = config.checked(CycleTime::DEFAULT);
         let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
         for set in sets {
@@ -131,6 +128,44 @@ fn not_a_number_stands_still() {
     }
 }
 
+/// Reaction class 5: the axis keeps the place where it is, though the set position and its feedforward go on at 100 mm/s.
+#[test]
+fn halt_keeps_the_axis_where_it_is() {
+    let mut config = AxisControlConfig::new(500.0, 1e4, 1e6);
+    config.position.kv_per_s = 20.0;
+    config.plant.model = PlantModel::FirstOrder { time_constant_s: 0.005 };
+    config.feedforward.mode = FeedforwardMode::VEL;
+    let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+    axis.start(0.0);
+    let drive = |axis: &mut AxisControl, from: u32, to: u32| {
+        let steps = (from..to).map(|k| axis.step(0.1 * f64::from(k), 1.0, true));
+        steps.last().unwrap()
+    };
+    let before = drive(&mut axis, 1, 500);
+    axis.halt();
+    let after = drive(&mut axis, 500, 1500);
+    assert!((after.reference_mm - before.act_mm).abs() < 0.15, "not farther than a cycle's way");
+    assert!((after.act_mm - after.reference_mm).abs() < 1e-6, "the loop stays closed");
+    assert_eq!(after.feedforward.speed_mm_s, 0.0);
+}
+
+/// In the drive's loop the speed of the IPC needs an additive interface.
+#[test]
+fn ipc_in_the_drive_needs_an_interface() {
+    for (closed_in, velocity, runs) in [
+        (PositionLoop::Drive, false, false),
+        (PositionLoop::Drive, true, true),
+        (PositionLoop::Cnc, false, true),
+    ] {
+        let mut config = AxisControlConfig::new(500.0, 1e4, 1e6);
+        config.position.closed_in = closed_in;
+        config.additive_inputs.velocity = velocity;
+        config.ipc = indirect(1, 0.5);
+        let (config, issues) = config.checked(CycleTime::DEFAULT);
+        assert_eq!((config.ipc.enable, issues.contains(&Issue::IpcNoInput)), (runs, !runs));
+    }
+}
+
 /// Started again, an axis repeats itself bit by bit.
 #[test]
 fn start_forgets_everything() {
@@ -140,6 +175,8 @@ fn start_forgets_everything() {
         mode: FeedforwardMode::VEL | FeedforwardMode::ACC,
         ..FeedforwardConfig::default()
     };
+    config.additive_inputs.velocity = true;
+    config.ipc = indirect(1, 0.5);
     let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
     let mut run = || {
         axis.start(7.0);

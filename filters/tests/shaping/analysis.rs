@@ -189,3 +189,21 @@ fn the_fastest_frequency_is_the_highest_within_the_limit() {
     assert_eq!(VibrationBand::of(&[], 0.1), None);
     assert_eq!(VibrationBand::of(&[6.0, 0.0], 0.1), None);
 }
+
+/// Every frequency of the list's resolution is tried; 30 to 33 Hz.
+#[test]
+fn the_best_settings_are_those_of_a_full_search() {
+    let band = VibrationBand::of(&[30.0, 33.0], 0.08).unwrap();
+    for mode in 1..=4 {
+        let judge = |i: u32| {
+            let freq_hz = f64::from(i) / 100.0;
+            band.judge(VibGuardSettings { mode, freq_hz, damping: 0.08 }, MS).unwrap().worst_ratio
+        };
+        let least = (3000..=3300).map(judge).fold(f64::MAX, f64::min);
+        let best = band.best(mode, MS).unwrap();
+        assert!(best.worst_ratio <= least, "mode {mode}: {} {least}", best.worst_ratio);
+        // whoever allows everything gets the end of the search, not its endless run
+        let fastest = band.fastest(mode, 1e9, MS).unwrap();
+        assert!(fastest.settings.freq_hz < 10.1 * 33.0, "mode {mode}: {fastest:?}");
+    }
+}

@@ -382,3 +382,53 @@ proptest! {
         prop_assert!((response.group_delay_cycles() - kernel.delay_cycles()).abs() < 1e-9);
     }
 }
+
+/// Tap by tap: `sum w exp(-i w d)`.
+#[test]
+fn the_response_of_a_kernel_is_its_fourier_sum() {
+    for kernel in kernels() {
+        for f_hz in [0.0, 3.0, 41.0, 333.0] {
+            let sum = kernel.taps().iter().fold((0.0, 0.0), |(re, im), tap| {
+                let angle = -2.0 * std::f64::consts::PI * f_hz * 0.001 * f64::from(tap.delay);
+                (re + tap.weight * libm::cos(angle), im + tap.weight * libm::sin(angle))
+            });
+            let got = kernel.response(Angle::of(f_hz, MS));
+            assert_close(got.magnitude(), libm::hypot(sum.0, sum.1), 1e-9, &f_hz);
+            if got.magnitude() > 1e-3 {
+                let turned = got.phase_deg() - libm::atan2(sum.1, sum.0).to_degrees();
+                assert!((libm::cos(turned.to_radians()) - 1.0).abs() < 1e-9, "{f_hz} Hz: {turned}");
+            }
+        }
+    }
+}
+
+proptest! {
+    /// Where the chain rests, a cycle repeats the output and may be left out.
+    #[test]
+    fn a_cycle_left_out_is_the_one_before(
+        mode in 1_u8..=4,
+        filtered: bool,
+        sets in prop::collection::vec((-1_i32..=1, 1_u32..150), 1..8),
+    ) {
+        let filters = if filtered {
+            vec![design(&standard(FilterKind::LowPass, Prototype::Bessel, 2, 0.0))]
+        } else {
+            Vec::new()
+        };
+        let mut every = Shaping::new(filters, 0.0);
+        every.set_kernel(Some(guard(mode))).unwrap();
+        let mut seldom = every.clone();
+        let mut before: f64 = 0.0;
+        for (set, cycles) in sets {
+            for _ in 0..cycles {
+                let set = f64::from(set);
+                if seldom.rests_under(set) {
+                    seldom.rest();
+                } else {
+                    before = seldom.step(set);
+                }
+                prop_assert_eq!(every.step(set).to_bits(), before.to_bits());
+            }
+        }
+    }
+}

@@ -436,7 +436,9 @@ fn ranges() {
         let (runs, issues) = issues(FilterConfig { f_hz, ..on });
         assert!(!runs && matches!(issues[..], [FilterIssue::Frequency { .. }]), "{f_hz}");
     }
-    assert_eq!(issues(FilterConfig { f_hz: 499.9, ..on }), (true, vec![]));
+    for f_hz in [499.9, 0.01] {
+        assert_eq!(issues(FilterConfig { f_hz, ..on }), (true, vec![]), "{f_hz}");
+    }
     for f_hz in [0.0, 0.0099] {
         assert_eq!(
             issues(FilterConfig { f_hz, ..on }),

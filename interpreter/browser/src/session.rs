@@ -183,7 +183,7 @@ impl Session {
         }
     }
 
-    /// What `kontur explain` tells, of a thing or of the longest front part of it that is known.
+    /// What `kontur explain` says about a thing, or about its longest known prefix.
     pub fn explain(&self, thing: &str) -> String {
         let explained = match explain(thing) {
             Ok(e) => Explained {

@@ -2,6 +2,8 @@
 //!
 //! A [`view::View`] describes: axes with name, unit and range, lines with their styles, levels, marks. Pictures draw it as SVG. The page of `report`
 //! gets the same description as JSON, with the steps of the ticks and the colours, and draws it anew when it is zoomed.
+//!
+//! Other crates use the scales only: [`scale`] has the order of calls.
 
 pub(crate) mod plot;
 pub mod scale;

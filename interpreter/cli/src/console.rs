@@ -108,7 +108,7 @@ impl Console {
     /// Writes a message to stderr, with a line end if it has none.
     pub(crate) fn error_text(&mut self, text: &str) {
         let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
-        // nobody is left to be told when stderr itself fails
+        // if stderr itself fails, there is nowhere left to report it
         let _ = write!(self.err, "{text}{end}").and_then(|()| self.err.flush());
     }
 

@@ -14,7 +14,7 @@ use crate::{Error, Exit};
 /// Explains the thing that the words name together (`#VIB GUARD` is two words to a shell).
 ///
 /// # Errors
-/// [`Error::Usage`] if nobody knows it, with words that resemble it.
+/// [`Error::Usage`] if it is unknown, with similar words.
 pub fn explain(args: &ExplainArgs, console: &mut Console) -> Result<Exit, Error> {
     console.print(&text(&args.thing.join(" "))?)?;
     Ok(Exit::Finished)

@@ -43,7 +43,7 @@ pub(crate) struct ProgramFiles {
     opened: Arc<Mutex<BTreeMap<PathBuf, State>>>,
 }
 
-/// What tells that a file is another one than before.
+/// What shows that a file is not the one it was before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct State {
     length: u64,
@@ -260,7 +260,7 @@ impl ProgramFiles {
     }
 
     /// True if a subroutine may lie there: in or below the folder of the main program, or one of `--path`. What does not
-    /// exist is judged by its name alone, so that nothing is told about other folders.
+    /// exist is judged by its name alone, so that nothing about other folders is revealed.
     fn is_inside(&self, place: &Path) -> bool {
         if self.anywhere {
             return true;

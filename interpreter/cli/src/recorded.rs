@@ -4,7 +4,7 @@
 //! numbers stand any number of header lines. In an export of TwinCAT Scope every line of the header repeats its
 //! key in front of each group of channels (`Name`, `SymbolName`, `SampleTime[ms]`, ..): where the key stands, the group
 //! has its column of times, so that channels with different sampling times keep their own. Times are counted in
-//! milliseconds or in ticks of 100 ns there, which `SampleTime[ms]` tells apart.
+//! milliseconds or in ticks of 100 ns there; `SampleTime[ms]` shows which.
 //!
 //! Source: TE13xx TC3 Scope View, export in csv.
 

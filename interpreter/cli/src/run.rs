@@ -37,7 +37,7 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
             times.add(record);
         }
         traces.iter_mut().try_for_each(|t| match t.write(record) {
-            // nobody reads stdout any more: the files continue
+            // stdout is no longer read: the files continue
             Err(Error::ClosedPipe) if !alone => {
                 t.close();
                 Ok(())
@@ -101,7 +101,7 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
 /// How a run is shown on the terminal while it continues.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
-    /// What tells it from others, in front of its progress.
+    /// What distinguishes it from others, before its progress.
     pub label: &'a str,
     /// Other messages are not printed.
     pub errors_only: bool,

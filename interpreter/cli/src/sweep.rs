@@ -98,7 +98,7 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     // one of the runs may have come to another subroutine
     keep_apart(&reads.into_iter().collect::<Vec<_>>(), &args.output)?;
     let rows = Rows { title, ..rows };
-    // of a shard nobody knows the other rows
+    // a shard does not know the rows of the others
     let without = if args.shard.is_some() {
         Vec::new()
     } else {
@@ -223,7 +223,7 @@ fn run_all(
     let before = done.len() - open.len();
     if before > 0 {
         let text =
-            format!("goes on where it was stopped: {before} of {} runs are done", done.len());
+            format!("continues where it was stopped: {before} of {} runs are done", done.len());
         console.say(Severity::Note, &text);
     }
     let mut progress = console.progress();

@@ -70,7 +70,7 @@ impl Target {
     }
 
     /// Gives the file its name while it still grows, if nothing is lost by that: there is none of that name, or one that
-    /// begins alike. Of any other nobody knows yet that it is not to be read.
+    /// begins alike. Any other one might still be read.
     ///
     /// # Errors
     /// As [`Target::show`].
@@ -118,7 +118,7 @@ fn hidden(path: &Path, permissions: Option<Permissions>) -> io::Result<NamedTemp
         builder.permissions(permissions);
     }
     builder.tempfile_in(folder_of(path)).map_err(|e| {
-        // the temporary name is nothing to tell; `tempfile` keeps the cause itself for its message
+        // the temporary name means nothing to a user; `tempfile` keeps the cause for its message
         let text = e.to_string();
         let cause = text.split(" at path ").next().unwrap_or_default();
         io::Error::new(e.kind(), cause)

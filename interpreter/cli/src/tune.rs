@@ -1,8 +1,8 @@
 //! `kontur tune`: from what was measured at a machine to the settings that leave its vibration alone.
 //!
 //! Residual vibration is computed for the kernels of the cycle time, never looked up: the vendor's table of permitted
-//! deviations normalises the set frequency by the real one, its worked example the other way round. Both stand in every
-//! answer.
+//! deviations normalises the set frequency by the real one, its worked example the other way round. Every
+//! answer gives both.
 //!
 //! ```
 //! use clap::Parser as _;
@@ -116,7 +116,7 @@ fn cycle(args: &TuneArgs, lists: &Lists, console: &mut Console) -> Result<CycleT
     Ok(machine.cycle)
 }
 
-/// A damping ratio as it is written: nobody measures more digits.
+/// A damping ratio as it is written: no measurement gives more digits.
 fn rounded(damping: f64) -> f64 {
     (damping * 1e4).round() / 1e4
 }

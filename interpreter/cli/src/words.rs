@@ -1,6 +1,19 @@
 //! Numbers that stand in a program, and other numbers in their place: what a program sets itself can vary without another program.
 //!
 //! A word is a name, `=` and a number: `P1=10`, `V.P.R=2.5`, `FREQ=40` of a guard command. Remarks and texts have none.
+//!
+//! A word is put into a [`Request`](crate::request::Request), which is opened and run afterwards.
+//!
+//! ```
+//! use kontur::request::Request;
+//! use kontur::words::Word;
+//!
+//! let mut request = Request { program: "../../programs/square_corner.nc".into(), ..Request::default() };
+//! request.words.push(Word { line: Some(7), name: "FREQ".into(), value: "30".into() });
+//! assert!(request.open().is_ok());
+//! request.words[0].line = Some(8);
+//! assert!(request.open().is_err(), "there is no such word in line 8");
+//! ```
 
 /// A number of the program in place of the one that stands there.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -262,7 +262,10 @@ fn a_sweep_that_was_killed_goes_on_where_it_stopped() {
     let done = run(f, &sweep("a.csv"));
     assert!(done.status.success());
     let said = String::from_utf8(done.stderr).unwrap();
-    assert!(said.contains("goes on where it was stopped") && said.contains("of 30 runs"), "{said}");
+    assert!(
+        said.contains("continues where it was stopped") && said.contains("of 30 runs"),
+        "{said}"
+    );
     assert_eq!(fs::read(f.join("a.csv")).unwrap(), fs::read(f.join("whole.csv")).unwrap());
     assert!(!f.join("a.csv.rows").exists());
 }

@@ -42,7 +42,7 @@ pub(super) struct AxisNames {
     pub(super) changed: bool,
 }
 
-/// What the program is told, and about which block.
+/// Messages about the program, each with its block.
 #[derive(Debug, Default)]
 pub(super) struct Report {
     /// Place of the block in work.
@@ -84,7 +84,7 @@ pub(super) struct Decoder {
     pub(super) motion: MotionState,
     pub(super) shaping: ShapingState,
     pub(super) calls: Calls,
-    /// Signals that nobody has used up.
+    /// Signals that have not been used up.
     pub(super) signals: Vec<Signal>,
     /// Syntax check: blocks with errors are carried out as far as possible.
     pub(super) checking: bool,
@@ -176,7 +176,7 @@ impl Decoder {
         decoder.presets();
         let Worked { setup, diagnostics } = decoder.shaping.work_out(&decoder.machine);
         decoder.shaping.setup = setup;
-        // what the lists say about single filters is told, with its place, when the chains are set up
+        // what is wrong with single filters of the lists is reported, with its place, when the chains are set up
         let of_several = [Condition::ListFirAndGuard, Condition::UnequalKernels];
         let of_forced =
             [Condition::GuardMode, Condition::GuardRange, Condition::GuardNotRealisable];
@@ -394,7 +394,7 @@ impl Decoder {
         })
     }
 
-    /// The axes whose names stand in groups of a command.
+    /// The axes named in groups of a command.
     pub(super) fn axes_in_command(&self, groups: &[Group]) -> Result<Vec<usize>, Box<Fault>> {
         let mut axes = Vec::new();
         for item in groups.iter().flat_map(|group| &group.items) {

@@ -35,7 +35,7 @@ pub(crate) enum Step {
         /// They act in the first cycle of the motion, without a stop.
         events: Vec<Event>,
     },
-    /// The path comes to rest after everything before; then the simulation acts or waits as told and asks for the
+    /// The path comes to rest after everything before; then the simulation acts or waits as required and asks for the
     /// next step.
     Sync {
         /// What happens at rest.
@@ -115,7 +115,7 @@ pub(crate) enum Sync {
 pub(crate) enum EndReason {
     /// M02, M30 or the end of the text.
     Finished,
-    /// An error; [`Executor::take_diagnostics`](super::Executor::take_diagnostics) tells which.
+    /// An error; [`Executor::take_diagnostics`](super::Executor::take_diagnostics) returns it.
     Aborted,
 }
 

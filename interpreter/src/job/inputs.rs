@@ -28,7 +28,7 @@ use std::sync::Arc;
 /// as asked: it is read twice.
 ///
 /// # Errors
-/// [`Problem`] if a file cannot be read or says something wrong, or if a signal stands in two columns.
+/// [`Problem`] if a file cannot be read or says something wrong, or if two columns carry the same signal.
 pub fn open<R, F>(files: &[(&str, F)], machine: &Machine) -> Result<Changes, Problem>
 where
     R: Read + Send + 'static,

@@ -80,7 +80,7 @@ impl Run {
     }
 
     /// Connects the real-time inputs, before the first cycle. Changes come in the order of time; an error among them ends
-    /// the run, [`Totals::input_failed`] tells so.
+    /// the run, [`Totals::input_failed`] says so.
     #[must_use]
     pub fn with_inputs(mut self, changes: Changes) -> Self {
         self.simulation.connect(changes);

@@ -109,7 +109,7 @@ fn check_value(
     }
     let severity = match reaction.correction {
         Correction::Refuse => Severity::Error,
-        // nobody wrote the value: a limit that was set elsewhere rules it
+        // the value was not written: a limit set elsewhere governs it
         _ if at.is_none() => Severity::Note,
         _ => Severity::Warning,
     };

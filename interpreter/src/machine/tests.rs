@@ -189,7 +189,7 @@ fn an_override_gives_the_bits_of_a_list_value() {
     files.add("m/lists/channel.lis", "prog_start.feedrate 1e3\n");
     files.add("m/lists/s.lis", "getriebe[0].dynamik.vb_max 0x1000\n");
     files.put("m/kontur.lis", "kontur.cycle_time_us 2000\nkontur.axis[1].plant.ta_us 3000\n");
-    // the listed twin warns about the key that stands twice, nothing else differs but the places
+    // the listed twin warns about the key that is given twice, nothing else differs but the places
     let (listed, _) = files.load(&[]).unwrap();
     assert_eq!(set.cycle, listed.cycle);
     assert_eq!(set.channel.feed_mm_s, listed.channel.feed_mm_s);

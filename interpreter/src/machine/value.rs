@@ -29,7 +29,7 @@ impl Value {
     }
 }
 
-/// A value that could not be read as it stands.
+/// A value that could not be read as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BadValue {
     /// What is taken instead: 0 if it is no number, the nearest limit of the data type, the default (`None`) for a
@@ -127,7 +127,7 @@ fn integer(raw: Raw, text: &str, names: Option<&[(&str, u32)]>) -> Result<Value,
     Ok(Value::Number(whole + 0.0))
 }
 
-/// A value as it stands in a list; reading it again gives the same value.
+/// A value as written in a list; reading it again gives the same value.
 pub fn write(raw: Raw, value: &Value) -> String {
     match (value, raw) {
         (Value::Number(x), Raw::Names(names) | Raw::Flags(names)) => {

@@ -223,7 +223,7 @@ impl AxisChain {
         }
     }
 
-    /// One cycle: fills the record and tells what the monitors have raised, if anything.
+    /// One cycle: fills the record and returns what the monitors have raised, if anything.
     pub(crate) fn step(
         &mut self,
         ipo: f64,

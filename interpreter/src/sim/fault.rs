@@ -28,7 +28,7 @@ const LONGEST_COASTING_S: f64 = 2.0;
 pub(super) struct Stopping {
     settled_cycles: u32,
     coasting_cycles: u32,
-    /// What was told already: an axis that swings meets its limits again and again.
+    /// What has been reported already: an axis that oscillates meets its limits again and again.
     told: Vec<(usize, Condition)>,
 }
 

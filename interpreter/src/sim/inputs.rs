@@ -19,7 +19,7 @@ pub enum Signal {
     Override,
     /// `rapid_override_percent`: real-time override of rapid blocks (P-CHAN-00181), 0 to 200 %, default 100.
     RapidOverride,
-    /// `feedhold`: 1 holds the path, 0 lets it go on; default 0. How it brakes is P-CHAN-00097.
+    /// `feedhold`: 1 holds the path, 0 releases it; default 0. How it brakes is P-CHAN-00097.
     ///
     /// Assumption: dwells, waits and independent axes continue under feedhold; it holds the path.
     Feedhold,

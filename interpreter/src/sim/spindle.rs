@@ -145,7 +145,7 @@ impl Spindle {
         SlopeLimits::Step(StepLimits::from_axes(&[axis]))
     }
 
-    /// It is told to stand at an angle.
+    /// It has been ordered to an angle.
     pub(super) fn positions(&self) -> bool {
         matches!(self.wanted, SpindleMotion::Position { .. })
     }

@@ -26,7 +26,7 @@ impl MemorySources {
 }
 
 impl Sources for MemorySources {
-    /// A name is tried in the caller's folder first, then as it stands.
+    /// A name is tried in the caller's folder first, then as written.
     fn open(&self, name: &str, caller: Option<&str>) -> Result<Box<dyn Source>, OpenError> {
         let plain = normalize(name);
         let mut searched = Vec::new();
@@ -45,7 +45,7 @@ impl Sources for MemorySources {
     }
 }
 
-/// `/` as the only separator, `.` and `..` resolved as far as the name itself tells.
+/// `/` as the only separator, `.` and `..` resolved as far as the name alone allows.
 fn normalize(name: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();
     for part in name.split(['/', '\\']) {

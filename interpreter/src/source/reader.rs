@@ -21,7 +21,7 @@ const BOM: &[u8] = b"\xEF\xBB\xBF";
 ///
 /// A block ends with CRLF, LF, CR, NUL, ETX or the end of the program. A line whose last character outside comments
 /// is `\` is continued by the next one, whose own block number is dropped; while a bracket is open, empty lines and
-/// lines that begin with `;` may stand between.
+/// lines that begin with `;` may come between.
 pub struct BlockReader {
     source: Box<dyn Source>,
     /// Bytes of the program from `base` on.
@@ -83,7 +83,7 @@ impl BlockReader {
         Position { offset: self.base + self.at as u64, line: self.line }
     }
 
-    /// Goes to a place that [`position`](Self::position) or a block told.
+    /// Goes to a place that [`position`](Self::position) or a block gave.
     pub fn seek(&mut self, position: Position) {
         self.line = position.line;
         let inside = position.offset.checked_sub(self.base);

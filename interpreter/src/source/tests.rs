@@ -86,7 +86,7 @@ fn what_looks_like_a_continuation_and_is_none() {
     assert_eq!(texts(b"X1 (a\\\nY2"), ["X1 (a\\", "Y2"]);
     assert_eq!(texts(b"X1 (a) \\\nY2"), ["X1 (a)  Y2"]);
     assert_eq!(texts(b"X1 \\"), ["X1  "]);
-    // Empty lines and remarks may stand between only while a bracket is open.
+    // Empty lines and remarks may come between only while a bracket is open.
     assert_eq!(texts(b"L CYCLE [A=1 \\\n\n; x\n @P1=2]\nX1"), ["L CYCLE [A=1   @P1=2]", "X1"]);
     assert_eq!(texts(b"X1 \\\n\nY2"), ["X1  ", "Y2"]);
 }

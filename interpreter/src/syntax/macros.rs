@@ -1,6 +1,6 @@
 //! Macros: their text is put in place of `"NAME"` before a block is parsed.
 //!
-//! A string that is the name of a macro is a use of it wherever it stands, but for the two strings of a definition
+//! A string that is the name of a macro is a use of it wherever it appears, but for the two strings of a definition
 //! `"NAME" = "text"`. Places in the expanded text map to the use in the program.
 
 use super::ast::Span;

@@ -26,7 +26,7 @@ pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
     Some((mantissa as f64 / POWERS[decimals], length))
 }
 
-/// Appends the digits at the beginning of `bytes` to a number and tells how many they are; from 20 digits on the number is
+/// Appends the digits at the beginning of `bytes` to a number and returns how many they are; from 20 digits on the number is
 /// not theirs.
 fn digits(bytes: &[u8], number: &mut u64) -> usize {
     let mut count = 0;

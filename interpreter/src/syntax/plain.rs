@@ -149,7 +149,7 @@ fn word(bytes: &[u8], start: usize, letter: u8) -> Option<PlainWord> {
     Some(PlainWord { letter, value, span: Span::new(start, end) })
 }
 
-/// True at the end, or before a letter of which this file knows that it begins a word of its own: whether it is one, the
+/// True at the end, or before a letter that this file knows to begin a word of its own: whether it is one, the
 /// next step finds out.
 fn followed_by_word(bytes: &[u8], at: usize) -> Option<()> {
     match bytes.get(at) {

@@ -33,7 +33,13 @@ fn errors_switch_the_axis_off_and_warnings_do_not() {
         change(&mut s);
         config(vec![s])
     };
-    let cases: [(&str, IpcConfig, Issue, bool); 12] = [
+    let cases: [(&str, IpcConfig, Issue, bool); 13] = [
+        (
+            "frequency 0",
+            with(|s| s.filters[0].frequency_hz = 0.0),
+            range(IpcParameter::Frequency, 0.0),
+            false,
+        ),
         (
             "numerator",
             with(|s| s.weight_num = 0.0),

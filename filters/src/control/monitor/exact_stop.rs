@@ -97,7 +97,7 @@ impl ExactStopMonitor {
         (self.state, self.moved, self.cycles) = (State::Idle, false, 0);
     }
 
-    /// The path comes to a stop, for this axis at `target_mm`; told at the latest right after the cycle in which the
+    /// The path comes to a stop, for this axis at `target_mm`; to be called no later than right after the cycle in which the
     /// set position got there. An axis that has not moved since its last stop, and need not, has no new one.
     pub fn expect(&mut self, target_mm: f64) {
         if (target_mm - self.last_mm).abs() > Self::REACHED_MM {

@@ -162,8 +162,14 @@ mod tests {
                 faults
                     .iter()
                     .map(|fault| match *fault {
-                        Fault::SetpointWarning { what, .. } => (what, false),
-                        Fault::SetpointError { what, .. } => (what, true),
+                        Fault::SetpointWarning { what, value, limit } => {
+                            assert!(value > limit, "{fault:?}");
+                            (what, false)
+                        }
+                        Fault::SetpointError { what, value, limit } => {
+                            assert!(value > limit, "{fault:?}");
+                            (what, true)
+                        }
                         _ => panic!("{fault:?}"),
                     })
                     .collect()
@@ -184,6 +190,24 @@ mod tests {
             [&none, &none, &warning, &none, &error, &none, &none, &warning].map(Clone::clone)
         );
         assert_eq!(faults(config, &[-0.25]), [error], "either direction");
+    }
+
+    /// 5 and 9 % above 200 mm/s.
+    #[test]
+    fn the_limit_of_a_fault_is_its_threshold() {
+        let mut m =
+            SetpointMonitor::new(SetpointMonitorConfig::new(200.0, 1e12, 1e18), CycleTime::DEFAULT);
+        for (step_mm, want) in [(0.2105, 210.0), (0.2185, 218.0)] {
+            m.start(0.0);
+            let mut faults = Faults::default();
+            m.step(step_mm, &mut faults);
+            let limits = faults.iter().map(|fault| match *fault {
+                Fault::SetpointWarning { limit, .. } | Fault::SetpointError { limit, .. } => limit,
+                _ => panic!("{fault:?}"),
+            });
+            let limits: Vec<_> = limits.collect();
+            assert!(matches!(limits[..], [limit] if (limit - want).abs() < 1e-9), "{limits:?}");
+        }
     }
 
     #[test]

@@ -108,7 +108,7 @@ impl<S: States> LinearPlant<S> {
         self.has_tool_point
     }
 
-    /// Advances by one cycle. `rests` tells whether that has changed nothing, bit for bit: with the same input no further
+    /// Advances by one cycle. `rests` says whether that changed nothing, bit for bit: with the same input no further
     /// cycle will. A disturbance that changes with time never rests.
     pub(super) fn advance(&mut self, input: &PlantInput, rests: &mut bool) -> Measured {
         *rests = self.disturbance.is_none();

@@ -1,4 +1,11 @@
-//! Scales of a view, and the round numbers along them.
+//! Scales of a view, and the round numbers along them: first the range of what is drawn, then its [`ticks`].
+//!
+//! ```
+//! use kontur::chart::scale::ticks;
+//!
+//! let beside: Vec<String> = ticks((0.0, 0.5), 2.0).into_iter().map(|(_, text)| text).collect();
+//! assert_eq!(beside, ["0", "0.5"]);
+//! ```
 
 use serde::Serialize;
 use std::borrow::Cow;
@@ -35,7 +42,7 @@ pub fn steps() -> Vec<Step> {
     POWERS.flat_map(of).collect()
 }
 
-/// Round numbers inside a range as they are written beside a scale, about `wanted` of them: at least two, or nobody can read a scale from them.
+/// Round numbers inside a range as they are written beside a scale, about `wanted` of them: at least two, since fewer make no scale.
 pub fn ticks((low, high): (f64, f64), wanted: f64) -> Vec<(f64, String)> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {

@@ -35,7 +35,7 @@ fn is_whole(metadata: &ParquetMetaData, length: u64) -> bool {
 }
 
 thread_local! {
-    /// A panic of this thread is caught and told as what it means.
+    /// A panic of this thread is caught and reported as what it means.
     static TAKING_FOR_GRANTED: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -130,7 +130,7 @@ mod tests {
     use std::path::Path;
     use std::sync::Arc;
 
-    /// A trace with a column of which every third number is missing, as other programs write it.
+    /// A trace in which every third number of a column is missing, as other programs write it.
     fn foreign(encoding: Encoding, version: WriterVersion) -> Vec<u8> {
         let field = |name, repetition| {
             let field = Type::primitive_type_builder(name, Physical::DOUBLE);

@@ -9,7 +9,7 @@ use kontur_interpreter::record::{CycleRecord, Motion, SpeedLimit};
 /// Buckets of a finished recording are at least half of this many, once a run is longer than that.
 const MOST_BUCKETS: usize = 4000;
 
-/// Cycles of which the acceleration of every axis is kept as it is, at most: two minutes at 1 ms.
+/// Most cycles for which every acceleration of an axis is kept: two minutes at 1 ms.
 const MOST_SAMPLES: usize = 1 << 17;
 /// The same for all axes together: 17 MB, and as text of a page twice as much.
 const MOST_ACCELERATIONS: usize = 1 << 21;
@@ -158,7 +158,7 @@ impl Recording {
         }
     }
 
-    /// The last cycle has been added: what tells nothing goes. (The load of a stiff axis is where its motor is.)
+    /// The last cycle has been added: what shows nothing is dropped. (The load of a stiff axis is where its motor is.)
     pub(crate) fn finish(&mut self) {
         for i in (0..self.curves.len()).rev() {
             let actual = |c: &Curve| c.kind == Kind::Actual && c.axis == self.curves[i].axis;

@@ -62,7 +62,7 @@ pub(super) fn name(runs: &[Drawn], run: usize, name: &str) -> String {
     if runs.len() > 1 { format!("{} {name}", short(runs, run)) } else { name.to_owned() }
 }
 
-/// What tells a run from the others: its name without the folders, the program or the parameters that all of them begin with.
+/// What distinguishes a run from the others: its name without the folders, the program or the parameters that all of them begin with.
 pub(super) fn short(runs: &[Drawn], run: usize) -> &str {
     let names: Vec<&str> = runs.iter().map(|r| r.summary.program.as_str()).collect();
     names.get(run).map_or("", |name| &name[common(&names)..])

@@ -19,7 +19,7 @@ pub(crate) struct Point {
 const CHUNK: usize = 2048;
 /// Points of a finished track at most.
 const MOST: usize = 40_000;
-/// Distance in mm of which nothing is to be seen: the last digit of a trace.
+/// Distance in mm too small to be seen: the last digit of a trace.
 const FINEST_MM: f64 = 1e-7;
 
 /// Interpolated, set and actual contour.

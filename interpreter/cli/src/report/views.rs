@@ -35,7 +35,7 @@ impl Group {
 pub(super) fn groups(runs: &[Drawn]) -> Vec<Group> {
     let of_run = |s: &Summary| s.max_contour_error.as_ref().map_or(0.0, |e| e.mm);
     let errors = runs.iter().any(|r| of_run(&r.summary) > VISIBLE_MM);
-    // nobody needs to read that there are none
+    // an empty list is not worth a line
     let error = |before: &str, mm: f64| {
         if errors { format!("{before}contour error at most {mm:.4} mm") } else { String::new() }
     };

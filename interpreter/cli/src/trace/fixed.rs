@@ -2,7 +2,7 @@
 //!
 //! The standard library's `{:.7}` is exact for every f64 and needs 80 ns per number; a trace of a machine needs 13
 //! numbers per cycle. Here `value * 10^d` is rounded half away from zero to an integer, exactly: the product's own
-//! rounding error matters only when the product lands on a tie, and then a fused multiply-add tells its sign.
+//! rounding error matters only when the product lands on a tie, and then a fused multiply-add gives its sign.
 
 /// Two decimal digits of 0..=99.
 const PAIRS: [[u8; 2]; 100] = {

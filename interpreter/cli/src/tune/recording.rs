@@ -1,4 +1,4 @@
-//! Natural frequencies and damping from recordings: which column and times of which file, and what they tell together.
+//! Natural frequencies and damping from recordings: which columns and times of which files, and what they show together.
 
 use super::vibration::{Analysis, Estimate, Focus, Mode, analyse};
 use crate::Error;
@@ -17,7 +17,7 @@ const RATE_RATIO: f64 = 0.01;
 /// Steps may differ from a multiple of the sampling time by this share of it.
 const JITTER_RATIO: f64 = 0.25;
 
-/// One recording with what it tells.
+/// One recording with what it shows.
 #[derive(Clone, Debug)]
 pub(super) struct Recording {
     /// File.
@@ -30,7 +30,7 @@ pub(super) struct Recording {
     pub(super) found: Analysis,
 }
 
-/// What recordings tell together.
+/// What the recordings show together.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Measured {
     /// The strongest vibration of each recording in Hz.
@@ -153,7 +153,7 @@ fn together(found: &[Estimate], what: &str, unit: &str, decimals: usize) -> Stri
     }
 }
 
-/// A file, the part of it that was asked for, and what it tells.
+/// A file, the part of it that was asked for, and what it shows.
 fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Vec<DropOut>), Error> {
     let name = path.display().to_string();
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));

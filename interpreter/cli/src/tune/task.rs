@@ -178,7 +178,7 @@ impl Task {
         Some(band.judge(choice.settings, self.cycle)?.worst_ratio)
     }
 
-    /// Weaker vibrations of which a choice leaves more than the limit of the strongest one.
+    /// Weaker vibrations that a choice leaves above the limit of the strongest one.
     pub(super) fn beside(&self, choice: &Choice) -> String {
         let loud = |m: &&Mode| {
             self.left_of(choice, Self::vibration(m))

@@ -18,7 +18,7 @@ const MOST_MODES: usize = 10;
 const MOST_DECAYS: usize = 4;
 /// Samples that are fitted; longer pieces are averaged.
 const MOST_SAMPLES: usize = 16_384;
-/// Weaker vibrations than this share of the strongest one are not told.
+/// Vibrations weaker than this share of the strongest one are not reported.
 const LEAST_PEAK_RATIO: f64 = 0.15;
 /// A vibration that loses less over the whole piece lasts.
 const LASTING: f64 = 0.3;
@@ -79,7 +79,7 @@ pub struct Decay {
     pub stride: usize,
 }
 
-/// What a record tells.
+/// What a record shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Analysis {
     /// Decaying vibrations, strongest first; empty: there is none.
@@ -280,7 +280,7 @@ fn joined(a: Estimate, b: Estimate) -> Estimate {
 }
 
 impl Analysis {
-    /// Takes over what another decay of the same record tells about the same vibrations.
+    /// Merges in what another decay of the same record shows of the same vibrations.
     fn merge(&mut self, other: Self) {
         for mode in &mut self.modes {
             let same = other.modes.iter().find(|m| {

@@ -219,7 +219,7 @@ impl Decoder {
         let motion = |i: &SpindleItem| matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_));
         let moves = items.iter().any(|(i, _)| motion(i));
         let turns = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(_)));
-        // one event for the whole bracket, in whatever order its words stand: M3 is the direction of M19
+        // one event for the whole bracket, in whatever order its words come: M3 is the direction of M19
         items.sort_by_key(|(i, _)| match i {
             SpindleItem::Turn(19) => 0,
             SpindleItem::Turn(_) => 1,
@@ -286,7 +286,7 @@ impl Decoder {
         })
     }
 
-    /// `positions`: M19 stands in the bracket.
+    /// `positions`: the bracket contains M19.
     fn spindle_action(
         &mut self,
         spindle: usize,
@@ -367,7 +367,7 @@ fn function(item: &Item) -> Option<(Function, Span)> {
     Some((function, item.span))
 }
 
-/// 20765, 20766: a function stands once for each axis and spindle of a block.
+/// 20765, 20766: a function may appear once for each axis and spindle of a block.
 fn once(functions: &[(Function, Span)], bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
     let before = words.brackets.iter().take_while(|other| !std::ptr::eq(**other, bracket));
     let same = |name: &str| name.eq_ignore_ascii_case(bracket.name.as_str());

@@ -32,7 +32,7 @@ pub(in crate::exec) fn unknown_g(number: u32) -> Option<&'static str> {
     })
 }
 
-/// What tells that a program is written for this dialect.
+/// Signs that a program is written for this dialect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::exec) struct Seen {
     /// G22, G23, G351, G70 or G71: G20 and G21 are meant as they are.

@@ -334,7 +334,7 @@ impl Decoder {
     }
 }
 
-/// A function stands once in a block.
+/// A function may appear once in a block.
 fn once(written: &[Code], code: &Code, letter: &str, condition: Condition) -> Outcome<()> {
     if !written.iter().any(|other| other.number == code.number) {
         return Ok(());

@@ -280,7 +280,7 @@ impl Found {
     }
 }
 
-/// Condition of a key that stands twice in a command; K-DUPKEY where no document read names a number.
+/// Condition of a key given twice in a command; K-DUPKEY where no document read names a number.
 ///
 /// Source: TF5200 diagnosis manual.
 fn key_twice(title: &str) -> Condition {

@@ -95,7 +95,7 @@ fn formatted(decoder: &Decoder, format: &str, at: Span, values: &[&Expr]) -> Out
             text.push(c);
             continue;
         }
-        // width and precision may stand between
+        // width and precision may come between
         let mut precision = String::new();
         let letter = loop {
             match chars.next() {

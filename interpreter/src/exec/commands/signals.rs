@@ -32,7 +32,7 @@ pub(super) const SIGNAL: Row = Row::run("SIGNAL", signal)
     .example("#SIGNAL [ID=4711 P[0]=10.5]")
     .related(&["#WAIT", "K-0018"]);
 
-/// What stands in the bracket of `#SIGNAL` and `#WAIT`.
+/// Contents of the bracket of `#SIGNAL` and `#WAIT`.
 #[derive(Default)]
 struct Words<'c> {
     id: Option<u32>,

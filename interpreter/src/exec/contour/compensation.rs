@@ -43,7 +43,7 @@ pub(in crate::exec) struct Compensator {
     closed: Option<Box<Closed>>,
     /// The last motion.
     source: SourceRef,
-    /// The first bottleneck, until it is told.
+    /// The first bottleneck, until it has been reported.
     cut: Option<Cut>,
     told: bool,
 }

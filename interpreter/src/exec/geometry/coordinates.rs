@@ -322,7 +322,7 @@ impl Coordinates {
         }
     }
 
-    /// Takes over the words of a block; the new targets stand in [`target`](Self::target).
+    /// Takes over the words of a block; the new targets are in [`target`](Self::target).
     pub(in crate::exec) fn program(&mut self, words: &[Target]) {
         let mut framed = [None; 3];
         for &Target { axis, value, absolute } in words {

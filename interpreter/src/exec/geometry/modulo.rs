@@ -15,7 +15,7 @@ const TURN_DEG: f64 = 360.0;
 /// Closer than this the axis is where it shall go, and does not turn.
 const SAME_DEG: f64 = 1e-7;
 
-/// The position in deg that the word `value` (first sign included) asks for, seen from where the axis stands.
+/// The position in deg that the word `value` (first sign included) asks for, from the present position of the axis.
 pub(in crate::exec) fn unwrapped(value: f64, turn: Option<Sign>, from: f64) -> f64 {
     let angle = if turn == Some(Sign::Minus) { -value } else { value };
     let turns = (from - angle) / TURN_DEG;

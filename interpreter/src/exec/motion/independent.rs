@@ -17,7 +17,7 @@ use kontur_motion::block::SlopeKind;
 use kontur_motion::independent::IndependentSpeed;
 use kontur_motion::path::Path;
 
-/// What stands in the bracket.
+/// Contents of the bracket.
 #[derive(Debug, Default)]
 struct Words {
     position: Option<(f64, Span)>,

@@ -9,7 +9,7 @@ use kontur_motion::path::Path;
 
 impl Decoder {
     /// A path against the software limits (P-AXIS-00177, P-AXIS-00178), with the points where an arc turns round; `place`
-    /// tells where the word of an axis stands.
+    /// says where the word of an axis is.
     pub(super) fn check_limits(
         &mut self,
         path: &Path,

@@ -6,7 +6,7 @@
 //! Source: TF5200 programming manual, oscillating axes (208621195); functional description (222108427); 50593, 120470.
 //! Assumptions: the axis goes to its first position first; offsets act with INCL_OFFSETS only, then those that are in force
 //! in the block; the first position lies EXCUR below ZERO_POS, the second one above; FREQ and TIME are those of an oscillation
-//! without its rests; the block behind OSC OFF begins when the axis stands.
+//! without its rests; the block after OSC OFF begins when the axis has stopped.
 
 use crate::diag::Condition;
 use crate::exec::commands::keys::{above_zero, arguments, at_least};
@@ -54,7 +54,7 @@ impl OscArguments {
 }
 
 impl Decoder {
-    /// `X[OSC ..]`; `rest`: what stands behind the first word.
+    /// `X[OSC ..]`; `rest`: what follows the first word.
     pub(in crate::exec) fn oscillating_axis(
         &mut self,
         axis: usize,

@@ -8,7 +8,7 @@
 //!
 //! Assumptions: the pitch of a thread at 45 deg or more is that of its other axis only if it is written so; between blocks
 //! of tapping the path rests; the path rests after the last block of G33; what suppresses the override suppresses that of
-//! the program too. The manual says that the sign of S (G63) and of the pitch (G331) tells right-hand from left-hand
+//! the program too. The manual says that the sign of S (G63) and of the pitch (G331) distinguishes right-hand from left-hand
 //! threads; that the positive sign is the right-hand one is inferred.
 //!
 //! Source: TF5200 programming manual, tapping (G63), thread cutting with endlessly rotating spindle (G33), settings for
@@ -48,7 +48,7 @@ fn direction_of(path: &Path) -> AxisVec {
 
 /// How the spindle goes with a straight path.
 struct Coupling {
-    /// Main axis that tells the way: the longest.
+    /// Main axis, along which the way is measured: the longest.
     axis: usize,
     /// Degrees for a mm of its way, with the sense of rotation.
     deg_per_mm: f64,

@@ -20,7 +20,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
-/// Where the execution stands.
+/// Where the execution is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     Running,
@@ -76,7 +76,7 @@ impl fmt::Debug for Executor {
 
 impl Executor {
     /// A program before its first block. If it cannot be opened, the first step is [`Step::End`] and the diagnostics
-    /// tell why.
+    /// say why.
     pub(crate) fn new(
         sources: Arc<dyn Sources>,
         program: &str,

@@ -104,7 +104,7 @@ pub(in crate::exec) struct Files {
 pub(in crate::exec) enum FileError {
     Open(OpenError),
     Read(io::Error),
-    /// Most of its text is none of the language; the name of the file.
+    /// Most of its text is not of the language; the name of the file.
     Foreign(Arc<str>),
 }
 
@@ -181,7 +181,7 @@ impl Files {
         }
     }
 
-    /// The block for which [`Fetched::Plain`] stands.
+    /// The block that [`Fetched::Plain`] means.
     pub(in crate::exec) fn plain(&self) -> &Plain {
         &self.plain
     }

@@ -20,7 +20,7 @@ use std::sync::Arc;
 const SWITCH_TOLERANCE: f64 = crate::exec::values::number::NEARLY;
 
 impl Executor {
-    /// Carries out a control statement that stands in the index as `id`.
+    /// Carries out a control statement that the index lists as `id`.
     pub(in crate::exec) fn control(&mut self, control: &Control, id: EntryId) {
         let span = control.span;
         let outcome = match &control.kind {

@@ -1,4 +1,4 @@
-//! What system variables tell about the running program.
+//! What system variables say about the running program.
 
 use std::sync::Arc;
 

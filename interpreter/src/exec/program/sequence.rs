@@ -1,6 +1,6 @@
 //! Block sequences: `L SEQUENCE [NAME=.. N10 N50]` runs the blocks from one number to another as a subroutine.
 //!
-//! `REPEAT=n` runs them n times; with `ENDTAG` the call itself ends the sequence, where it stands behind its first block.
+//! `REPEAT=n` runs them n times; with `ENDTAG` the call itself ends the sequence, if it comes after its first block.
 //!
 //! Assumptions: of several blocks with a number the first one in the program counts, numbers that are computed do not; one
 //! number alone, without ENDTAG, is a sequence of one block; REPEAT counts all passes, since the manual asks for more than 1.
@@ -15,7 +15,7 @@ use crate::exec::options::Value;
 use crate::exec::values::number::whole;
 use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, Span};
 
-/// What stands in the bracket.
+/// Contents of the bracket.
 #[derive(Default)]
 struct Words {
     name: Option<Ident>,

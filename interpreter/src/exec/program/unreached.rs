@@ -2,8 +2,8 @@
 //!
 //! Source: TF5200 programming manual, control blocks: of a branch that is not taken the control looks at block numbers
 //! and nested control statements only. Mistakes in those are errors here too. Whatever else is wrong there would stop no
-//! run of this program, so it is told as a warning, K-0118. Text in `#COMMENT` blocks and in inactive `#IF` branches is not
-//! looked at; of text behind the end of the main program its presence is said, K-0004.
+//! run of this program, so it is reported as a warning, K-0118. Text in `#COMMENT` blocks and in inactive `#IF` branches is not
+//! looked at; text after the end of the main program is only mentioned, K-0004.
 
 use super::executor::Executor;
 use super::files::Look;

@@ -94,17 +94,6 @@ fn mirroring_and_rotation_carry_arcs_along() {
 }
 
 #[test]
-fn arcs_that_do_not_exist() {
-    let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("G02 X0 Y0 R10 F100"), ["20034"]);
-    assert_eq!(id("G02 X10 R4 F100"), ["K-0010"]);
-    assert_eq!(id("G164 G02 X10 F100"), ["20036"]);
-    assert_eq!(id("G164 G02 X10 I5.1 F100"), ["21758"]);
-    assert_eq!(id("G02 X10 I9 F100"), ["K-0117"]);
-    assert_eq!(id("G02 X9 I5 R5 F100"), ["21024"]);
-}
-
-#[test]
 fn arcs_in_a_tilted_coordinate_system() {
     // turned by 30 degrees about Y: X = x cos + z sin, Z = z cos - x sin
     let (s, c) = (0.5, 0.75_f64.sqrt());

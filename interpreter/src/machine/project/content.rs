@@ -22,7 +22,7 @@ pub struct Part {
     pub text: String,
 }
 
-/// The text of a list and where it stands.
+/// The text of a list and its place.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ListText {
     /// File that holds it.

@@ -2,7 +2,7 @@
 
 use crate::diag::Condition;
 
-/// Which list a parameter stands in.
+/// The list that a parameter belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ListKind {
     /// The list that names the others (P-STUP).
@@ -166,7 +166,7 @@ pub struct Row {
     pub id: &'static str,
     /// Key with `[i]`, `[j]`, `[k]` for indices; empty if no document prints it (row for `explain` only).
     pub key: &'static str,
-    /// List it stands in.
+    /// Its list.
     pub list: ListKind,
     /// Data type.
     pub raw: Raw,

@@ -227,7 +227,7 @@ impl Fit {
         (self.error(piece) / free as f64).sqrt()
     }
 
-    /// The vibrations with their intervals. `density` tells how much denser than on average the residual is at a
+    /// The vibrations with their intervals. `density` is how much denser than on average the residual is at a
     /// frequency: where the model is not the whole truth the intervals grow with it.
     pub(super) fn vibrations(&self, piece: &Piece, density: impl Fn(f64) -> f64) -> Vec<Vibration> {
         let all: Vec<usize> = (0..self.p.len()).collect();

@@ -121,7 +121,7 @@ impl Active {
         Ok(active(start, motion))
     }
 
-    /// Completes the last element perpendicular above its end and tells where that is.
+    /// Completes the last element perpendicular above its end and returns that point.
     pub(super) fn finish(self, out: &mut Vec<Item>) -> Fallible<Point> {
         let Self { distance, plane, last, between, .. } = self;
         let at = above(last.side.end_point(), last.side.tangent(true), distance);

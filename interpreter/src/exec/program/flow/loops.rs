@@ -39,7 +39,7 @@ impl Executor {
             }
         };
         if matches!(&counter.kind, PlaceKind::Variable(name) if name.is_empty()) {
-            // told while the block was read
+            // reported while the block was read
             self.leave_structure(id);
             return Ok(());
         }

@@ -223,7 +223,7 @@ impl Builder<'_> {
                     self.conditional_open.pop();
                     self.conditional.pop();
                 } else if let Some(stack) = self.conditional.last() {
-                    // the branches stand beside each other
+                    // the branches are siblings
                     self.stack.clone_from(stack);
                 }
             }
@@ -231,7 +231,7 @@ impl Builder<'_> {
         }
     }
 
-    /// `#COMMENT BEGIN` and `#COMMENT END` stand alone in their blocks.
+    /// `#COMMENT BEGIN` and `#COMMENT END` are alone in their blocks.
     fn alone(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, condition: Condition) {
         let word = |text: &str| {
             text.trim_start_matches(|c: char| c.is_ascii_alphanumeric()).trim_start().len()

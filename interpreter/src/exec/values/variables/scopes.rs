@@ -95,7 +95,7 @@ impl Variables {
         }
     }
 
-    /// The table in which a declaration stands now.
+    /// The table that declarations go to at present.
     pub(super) fn table(&mut self, class: Class) -> Option<&mut Table> {
         match class {
             Class::Program => Some(&mut self.program),
