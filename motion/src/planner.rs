@@ -124,7 +124,7 @@ enum OutputExcess {
     None,
     /// One did, and nobody has asked yet.
     Found(Unkept),
-    /// It was told; later ones are not looked for.
+    /// It was told, or that a plan does not keep the tolerance was; later ones are not looked for.
     Told,
 }
 

@@ -1,6 +1,6 @@
 //! From the queue to the timeline: plans, their examination, and what of them becomes final.
 
-use super::Planner;
+use super::{OutputExcess, Planner};
 use crate::cap::{Cap, SpeedLimit};
 use crate::plan::{Start, last_blocks};
 use crate::profile::{Infeasible, SlopeLimits};
@@ -57,7 +57,7 @@ impl Planner {
                 // the plan before this one keeps the tolerance
                 Verdict::GivenUp(_) if self.fall_back().is_some() => return Ok(()),
                 Verdict::GivenUp(unkept) => {
-                    self.unkept.push(unkept);
+                    self.give_up(unkept);
                     given_up = true;
                 }
             }
@@ -78,6 +78,12 @@ impl Planner {
             }
             return Ok(());
         }
+    }
+
+    /// A tolerance is not kept, and that is told; what is output will show it, too.
+    pub(super) fn give_up(&mut self, unkept: Unkept) {
+        self.unkept.push(unkept);
+        self.output_excess = OutputExcess::Told;
     }
 
     /// Examines a plan of the window behind everything that is final, see [`Monitor::examine`].

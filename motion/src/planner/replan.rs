@@ -310,7 +310,7 @@ impl Planner {
             if waited < f64::from(self.kernels.length()) {
                 return false;
             }
-            self.unkept.push(unkept);
+            self.give_up(unkept);
         }
         true
     }

@@ -14,7 +14,7 @@
 use super::Demands;
 use super::even::{ALIKE, Evenly, aim, fastest};
 use super::measure::{Record, Violation};
-use super::view::View;
+use super::view::{Mark, View};
 use crate::axis::AxisVec;
 
 /// Points at which a bend is looked at.
@@ -99,7 +99,15 @@ impl View<'_> {
         let first = marks.partition_point(|m| m.cycles <= oldest as f64).saturating_sub(1);
         // the set path turns off behind the point of it that comes nearest to what is missed
         let newest = v.cycle + u64::from(v.missed.is_some());
-        let last = marks.partition_point(|m| m.cycles <= newest as f64);
+        let until = |k: u64| marks.partition_point(|m| m.cycles <= k as f64);
+        let mut last = until(newest);
+        // what comes nearest may be final, but as long as the filters hold the point the set path can come nearer still
+        let is_final = |m: &Mark| m.boundary.is_none() && m.block.is_none();
+        if let Some((_, s)) = &v.missed
+            && marks[..last].iter().all(is_final)
+        {
+            last = until(record.leaves(*s) + length + 1);
+        }
         if first >= last {
             return;
         }

@@ -70,7 +70,7 @@ impl Record {
     }
 
     /// Last cycle of the record in which the path has not got beyond a path length: a rest there is over then.
-    fn leaves(&self, s: f64) -> u64 {
+    pub(super) fn leaves(&self, s: f64) -> u64 {
         self.first + self.s_mm.partition_point(|passed| *passed <= s).saturating_sub(1) as u64
     }
 }
