@@ -192,7 +192,7 @@ impl View<'_> {
             // a cause in front of a stop is final already, but what follows the stop can wait for the filters
             let fixed = |p: &&Part| marks[p.mark].block.is_none();
             let before = parts.iter().filter(fixed).map(|p| p.size).fold(0.0, f64::max);
-            let waits = before > 0.0
+            let waits = (all || before > 0.0)
                 && marks[first..last].iter().any(|m| m.boundary == Some(0))
                 && demands.stop[0].is_none_or(|dwell| u64::from(dwell) < length);
             if waits {
