@@ -659,7 +659,7 @@ fn emergency_stop_during_a_feedhold() {
 
 /// X is filtered by two taps 20 cycles apart, Y later by 8 cycles: on a straight line the set point is beside it by the speed
 /// times the difference of both delays (2 cycles), but by three times as much 8 cycles after a sudden stop, when Y has
-/// arrived and half of X is still 12 to 20 cycles behind. So the feedhold has to brake gently, and no tolerance is given up.
+/// arrived and half of X is still 12 to 20 cycles behind. So the feedhold, twice as hard as the planned braking, has to brake gently, and no tolerance is given up.
 #[test]
 fn a_feedhold_brakes_gently_where_filters_pull_the_axes_apart() {
     let job = Job::new(0.0, Step);
@@ -680,8 +680,8 @@ fn a_feedhold_brakes_gently_where_filters_pull_the_axes_apart() {
         while planner.advance().unwrap() == Next::Setpoint {
             out.push(planner.setpoint().clone());
             match planner.setpoint().k {
-                k if k == hold => planner.feedhold(true, Active),
-                k if k == hold + 700 => planner.feedhold(false, Active),
+                k if k == hold => planner.feedhold(true, Own),
+                k if k == hold + 700 => planner.feedhold(false, Own),
                 _ => {}
             }
         }
