@@ -81,11 +81,12 @@ pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
     let blocks = case.blocks.iter().enumerate();
     for (i, (line_number, pieces)) in blocks.filter(|(_, (line, _))| is_filtered(case, *line)) {
         // a wait at the end of a block can follow a dwell of a later line
-        let behind = case.blocks.get(i + 1).map_or(u32::MAX, |block| block.0);
+        // and a rounded corner in front of the next block can be part of that
+        let behind = case.blocks.get(i + 2).map_or(u32::MAX, |block| block.0);
         let Some(first) = records.iter().position(|r| r.line >= *line_number) else { continue };
         let last = records.iter().rposition(|r| r.line < behind).map_or(first, |k| k.max(first));
         let left = (last + 2).min(records.len() - 1);
-        let mut comes = first.saturating_sub(2);
+        let entered = first.saturating_sub(2);
         for piece in pieces {
             for part in 0..=POINTS {
                 let point = piece.point(f64::from(part) / f64::from(POINTS));
@@ -94,8 +95,10 @@ pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
                     let ends = [k, k + 1].map(|k| interpolated(&records[k]).to_vec());
                     from_polyline(&point, &ends).iter().map(|c| c * c).sum::<f64>()
                 };
-                let nearest = (comes..left).min_by(|a, b| line(*a).total_cmp(&line(*b)));
-                comes = nearest.unwrap_or(comes);
+                let least = (entered..left).map(line).fold(f64::INFINITY, f64::min).sqrt();
+                // a way back over the same points comes later
+                let passes = |k: &usize| line(*k).sqrt() <= least + 1e-6;
+                let comes = (entered..left).find(passes).unwrap_or(entered);
                 // as long as the path rests there
                 let rests = |k: &usize| apart(*k) < 1e-9;
                 let goes = comes + 1 + (comes + 1..records.len()).take_while(rests).count();
