@@ -51,7 +51,7 @@ impl Decoder {
                     self.motion.spindles[0].rpm = self.spindle_rpm();
                     self.motion.cutting_speed = None;
                     if let Some(spindle) = self.motion.spindles[0].index {
-                        self.event(Event::CuttingSpeed { spindle, cutting: None });
+                        self.contour.event(Event::CuttingSpeed { spindle, cutting: None });
                     }
                 }
                 self.motion.cutting_waits = false;
@@ -98,7 +98,7 @@ impl Decoder {
                 rounded(radius.abs()),
                 rounded(cutting.max_rpm)
             );
-            self.note(
+            self.report.note(
                 Fault::new(Condition::CuttingSpeedLimited, text, at)
                     .with(|d| d.value(ValueKind::Wrong, radius.abs() * 1e4, "0.1um")),
             );
@@ -140,11 +140,11 @@ impl Decoder {
         }
         let listed = &self.machine.axes[axis];
         if !listed.takes_diameters(true) && !listed.takes_diameters(false) {
-            let name = self.axis_name(axis).to_owned();
+            let name = self.names.name(axis).to_owned();
             let text = format!("G51 without effect: axis {name} takes no diameters");
             let hint = "kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059) make them diameters";
             let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
-            self.note_once("G51", fault.with(|d| d.parameter("P-AXIS-00058")));
+            self.report.note_once("G51", fault.with(|d| d.parameter("P-AXIS-00058")));
         }
         self.modal.diameter = Some(axis);
         Ok(())
@@ -183,7 +183,7 @@ impl Decoder {
         cutting.centre_mm = self.turning_centre(cutting.axis);
         self.motion.cutting_speed = Some(cutting);
         if let Some(spindle) = self.motion.spindles[0].index {
-            self.event(Event::CuttingSpeed { spindle, cutting: Some(cutting) });
+            self.contour.event(Event::CuttingSpeed { spindle, cutting: Some(cutting) });
         }
     }
 

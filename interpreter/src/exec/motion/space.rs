@@ -87,8 +87,8 @@ impl Decoder {
         }
         let axes = [x, y, z];
         let via = std::array::from_fn(|m| match words.centre[m] {
-            Some((value, _)) if self.modal.absolute => value * self.unit_mm(),
-            Some((value, _)) => before[m] + value * self.unit_mm(),
+            Some((value, _)) if self.modal.absolute => value * self.modal.unit_mm(),
+            Some((value, _)) => before[m] + value * self.modal.unit_mm(),
             None => before[m],
         });
         let via = coordinates.to_machine(via);

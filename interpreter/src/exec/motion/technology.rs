@@ -34,7 +34,7 @@ impl Decoder {
             Some((seconds, parameter)) => format!("{name} ({seconds} s each by {parameter})"),
             None => name,
         };
-        self.event(Event::Uncounted { function });
+        self.contour.event(Event::Uncounted { function });
     }
 
     /// The path waits for the functions called since the last wait.

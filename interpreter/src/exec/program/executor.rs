@@ -165,7 +165,7 @@ impl Executor {
         if let Some(name) = self.decoder.machine.channel.start_program.clone() {
             self.call_of_list(&name, "P-CHAN-00119", Span::default());
             // a list of the machine may name a program that lies on its control only
-            self.decoder.amend(|d| {
+            self.decoder.report.amend(|d| {
                 if d.id != Condition::NoFile {
                     return d;
                 }

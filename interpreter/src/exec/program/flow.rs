@@ -63,13 +63,13 @@ impl Executor {
             ControlKind::Break => self.break_out(span),
             ControlKind::Continue => self.go_on(span),
         };
-        self.decoder.keep(outcome);
+        self.decoder.report.keep(outcome);
     }
 
     /// A condition; a fault in it is reported and counts as false.
     fn test(&mut self, condition: &Expr) -> bool {
         let outcome = self.decoder.condition(condition);
-        self.decoder.keep(outcome).unwrap_or(false)
+        self.decoder.report.keep(outcome).unwrap_or(false)
     }
 
     /// Execution continues at a place.
@@ -274,7 +274,7 @@ impl Executor {
         let Some(place) = level.index.label(level.section, &label.kind).copied() else {
             let text = format!("label {shown} does not exist in this program");
             let hint = "a label comes first in its block: N20: or [NAME]";
-            self.decoder.note(Fault::new(Condition::Label, text, label.span).hint(hint));
+            self.decoder.report.note(Fault::new(Condition::Label, text, label.span).hint(hint));
             return;
         };
         // structures around the label that are not open, the innermost first
@@ -315,7 +315,7 @@ impl Executor {
                 Some(keyword) if keyword.is_loop() => Condition::JumpIntoLoop,
                 _ => Condition::LabelInto,
             };
-            self.decoder.note(Fault::new(condition, text, label.span));
+            self.decoder.report.note(Fault::new(condition, text, label.span));
         }
     }
 }

@@ -273,7 +273,7 @@ impl Decoder {
             }
             None => {
                 let text = format!("V.E.{name} is not configured, the program created it");
-                self.note(Fault::new(Condition::ExternalCreated, text, span));
+                self.report.note(Fault::new(Condition::ExternalCreated, text, span));
                 let access = Access::ReadWrite;
                 self.values.variables.external.insert(name, External { value, access });
                 Ok(())

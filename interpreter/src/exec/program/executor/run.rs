@@ -190,7 +190,7 @@ impl Executor {
         let faults = self.decoder.contour.sync(Sync::ReadActual, source);
         self.position = at;
         for fault in faults {
-            self.decoder.note(Box::new(fault));
+            self.decoder.report.note(Box::new(fault));
         }
         self.settle(false);
     }
@@ -251,7 +251,7 @@ impl Executor {
                         Fault::new(Condition::Range, text, expr.span)
                     })
                 });
-                self.decoder.keep(outcome).map(u64::from)
+                self.decoder.report.keep(outcome).map(u64::from)
             }
         }
     }
@@ -276,7 +276,7 @@ impl Executor {
             Body::Declarations(list) => {
                 for declaration in list {
                     let outcome = self.decoder.declare(declaration);
-                    self.decoder.keep(outcome);
+                    self.decoder.report.keep(outcome);
                 }
             }
             Body::Command(command) => self.command(command, entry),
@@ -288,7 +288,7 @@ impl Executor {
             }
             Body::Words(words) => {
                 let after = self.decoder.execute_words(words, block.span);
-                if self.decoder.failed() && !self.decoder.checking {
+                if self.decoder.report.failed() && !self.decoder.checking {
                     return;
                 }
                 self.after(after);
@@ -303,7 +303,7 @@ impl Executor {
             let begins = command.is("VAR");
             if begins == declarations {
                 let text = if begins { "#VAR inside #VAR" } else { "#ENDVAR without #VAR" };
-                self.decoder.note(Fault::new(Condition::Syntax, text, command.span));
+                self.decoder.report.note(Fault::new(Condition::Syntax, text, command.span));
             }
             if let Some(level) = self.levels.last_mut() {
                 level.declarations = begins;
@@ -319,21 +319,21 @@ impl Executor {
         }
         self.decoder.report.location = self.here(command.span);
         let outcome = self.decoder.execute_command(command);
-        self.decoder.keep(outcome);
+        self.decoder.report.keep(outcome);
     }
 
     /// `#IF`: the branch that is not taken is not looked at.
     fn conditional(&mut self, command: &Command, id: EntryId) {
         if self.levels.last().is_some_and(|level| level.index.entry(id).end.is_none()) {
             let text = "#IF without #ENDIF";
-            self.decoder.note(Fault::new(Condition::ConditionalOpen, text, command.span));
+            self.decoder.report.note(Fault::new(Condition::ConditionalOpen, text, command.span));
         }
         let condition = if let [condition] = &command.arguments[..] {
             let outcome = self.decoder.condition(condition);
-            self.decoder.keep(outcome).unwrap_or(false)
+            self.decoder.report.keep(outcome).unwrap_or(false)
         } else {
             let text = "#IF needs one condition";
-            self.decoder.note(Fault::new(Condition::Syntax, text, command.span));
+            self.decoder.report.note(Fault::new(Condition::Syntax, text, command.span));
             false
         };
         if condition {
@@ -361,7 +361,7 @@ impl Executor {
 
     /// Reports the conditions of the block; an error ends the program.
     pub(in crate::exec) fn settle(&mut self, faulty: bool) {
-        let faults = self.decoder.take_faults();
+        let faults = self.decoder.report.take_faults();
         let mut failed = faulty;
         for fault in faults {
             failed |= fault.is_error();

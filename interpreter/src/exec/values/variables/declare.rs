@@ -176,7 +176,7 @@ impl Decoder {
         let text = format!("{name} holds whole numbers: {x} is rounded to {}", x.round());
         let fault = Fault::new(Condition::Odd, text, span).warning();
         let hint = "ROUND, INT, FLOOR or CEIL say which whole number is meant";
-        self.note_once(&format!("rounded {name}"), fault.hint(hint));
+        self.report.note_once(&format!("rounded {name}"), fault.hint(hint));
     }
 
     fn start_values(
