@@ -72,9 +72,10 @@ pub(crate) fn is_filtered(case: &Case, line: u32) -> bool {
     switch.is_some_and(|l| l.contains(" ON"))
 }
 
-/// Largest axis component of the shortest vector from the lines between the set points to a point of the contour, over all
-/// filtered blocks, with the line of the program. The filters hold a point from the cycle in which the path comes to it until
-/// their length after it has gone on.
+/// Largest distance of a point of the contour from the lines between the set points, over all filtered blocks, with the line of
+/// the program. The distance is that of the axis that is furthest away: what is promised is that the set path comes to every
+/// point within `AX_DEV` in every axis, while the filters hold it: from the cycle in which the path comes to it until their
+/// length after it has gone on.
 pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
     let records = &run.records;
     let mut worst = (0.0, 0);
@@ -102,18 +103,12 @@ pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
                 // as long as the path rests there
                 let rests = |k: &usize| apart(*k) < 1e-9;
                 let goes = comes + 1 + (comes + 1..records.len()).take_while(rests).count();
+                // a line of the set path more or less at the border does not matter
                 let from = comes.saturating_sub(2);
-                // a line of the set path more or less at the border can be the nearest one, with another component
-                let aside = |border: usize| {
-                    let until = (goes + case.reach + border).min(records.len());
-                    let set = records[from..until].iter().map(|r| set_point(r).to_vec());
-                    let set: Vec<Vec<f64>> = set.collect();
-                    from_polyline(&point, &set).into_iter().fold(0.0, |m: f64, c| m.max(c.abs()))
-                };
-                let mut most = aside(2);
-                if most > f64::max(worst.0, case.tolerance_mm) {
-                    most = [0, 1, 3].map(aside).into_iter().fold(most, f64::min);
-                }
+                let until = (goes + case.reach + 3).min(records.len());
+                let set: Vec<Point> = records[from..until].iter().map(set_point).collect();
+                let lines = set.windows(2).map(|line| least_component(point, line));
+                let most = lines.fold(f64::INFINITY, f64::min);
                 if most > worst.0 {
                     worst = (most, *line_number);
                 }
@@ -121,6 +116,25 @@ pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
         }
     }
     worst
+}
+
+/// Least value along a line of the largest component of the vector to it: it is reached at an end, or where two components
+/// change places, or at a zero of one of them.
+fn least_component(point: Point, line: &[Point]) -> f64 {
+    let (start, way) = (minus(line[0], point), minus(line[1], line[0]));
+    let at = |u: f64| (0..3).fold(0.0, |m: f64, i| m.max((start[i] + u * way[i]).abs()));
+    let mut least = at(0.0).min(at(1.0));
+    for i in 0..3 {
+        for (j, sign) in (0..3).flat_map(|j| [(j, 1.0), (j, -1.0)]) {
+            // with itself: where it is zero
+            let (a, b) = (start[i] - sign * start[j], way[i] - sign * way[j]);
+            let u = -a / b;
+            if u > 0.0 && u < 1.0 {
+                least = least.min(at(u));
+            }
+        }
+    }
+    least
 }
 
 fn set_point(record: &CycleRecord) -> Point {
