@@ -172,6 +172,8 @@ impl Planner {
         self.monitor.rest(&self.setpoint.position, self.setpoint.s_mm, kernels.length());
         self.kernels = kernels;
         self.gauge = Gauge::new(self.reach_cycles, self.kernels.differ());
+        // the line to the next set point starts here
+        self.gauge.unfiltered(&self.contour, self.setpoint.k, &self.setpoint.position);
     }
 
     /// Sets what the override is a percentage of (P-CHAN-00066), from the next cycle on.

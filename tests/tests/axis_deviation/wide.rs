@@ -238,9 +238,10 @@ fn programs_of_every_kind() {
 /// - An override in front of a rest that the old plan kept short: longer rests exceed the tolerance there.
 /// - A windowed sinc whose first taps move nothing for a while: it is not stuck.
 /// - Filters that arrive for one cycle, and owe a corner: what they did before counts.
+/// - Corners in the first cycle of a run, which the line from the start passes.
 #[test]
 fn wide_programs_that_were_wrong() {
-    for n in [42_000_090, 42_000_099, 42_000_252, 51_000_538, 52_000_174, 52_000_577] {
+    for n in [42_000_090, 42_000_099, 42_000_252, 51_000_538, 52_000_174, 52_000_577, 55_000_077] {
         let wrong = found(n).wrong;
         assert!(wrong.is_empty(), "{n}: {wrong:?}");
     }
