@@ -105,7 +105,7 @@ impl Queued {
     }
 
     /// True if braking to the feed of the next block may begin in that block (G901).
-    pub fn brakes_late_into(&self, next: &Self) -> bool {
+    pub(crate) fn brakes_late_into(&self, next: &Self) -> bool {
         let hsc = [self, next].iter().any(|q| q.block.slope.kind == SlopeKind::Hsc);
         self.block.late_braking && self.block.feed != Feed::Rapid && !hsc
     }
@@ -181,7 +181,7 @@ impl Queued {
     }
 
     /// True if the profile of this block may run on across its ends with a non-zero acceleration.
-    pub fn plans_across(&self) -> bool {
+    pub(crate) fn plans_across(&self) -> bool {
         let s = self.block.slope;
         let scales = s.optimised || !s.constant_ramp_time;
         s.kind == SlopeKind::Hsc || s.kind != SlopeKind::Step && scales

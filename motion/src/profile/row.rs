@@ -107,7 +107,7 @@ impl Profile {
 
     /// Highest velocity in mm/s at which phases start, or pass from acceleration to braking, between two path lengths; 0 if
     /// none does. No other velocity in there is higher than it and those at the two places.
-    pub fn highest_inside(&self, from_mm: f64, to_mm: f64) -> f64 {
+    pub(crate) fn highest_inside(&self, from_mm: f64, to_mm: f64) -> f64 {
         let first = self.phases.partition_point(|p| p.1.s < from_mm);
         let last = self.phases.partition_point(|p| p.1.s <= to_mm);
         let starts = self.phases[first..last].iter().map(|p| p.1.v);

@@ -120,7 +120,7 @@ impl SlopeLimits {
     ///
     /// # Errors
     /// [`Infeasible`] if the change from `v0` to `ve` alone needs more than `length`, or no speed is allowed.
-    pub fn plan_from_above(
+    pub(crate) fn plan_from_above(
         &self,
         v0: f64,
         ve: f64,
