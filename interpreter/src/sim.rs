@@ -43,7 +43,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use wait::{Parts, Wait};
 
-/// Where a run stands.
+/// Where a run is.
 #[derive(Debug)]
 enum Phase {
     /// The row of time zero is still to come.
@@ -138,7 +138,7 @@ pub(crate) struct Simulation {
 impl Simulation {
     /// Connects the real-time inputs, before the first cycle.
     ///
-    /// Changes come in the order of time. An error among them ends the run, [`Totals::input_failed`] tells so.
+    /// Changes come in the order of time. An error among them ends the run, as [`Totals::input_failed`] shows.
     pub(crate) fn connect(&mut self, changes: Changes) {
         if let Err(failure) = self.inputs.connect(changes) {
             self.input_fails(*failure);

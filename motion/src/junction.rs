@@ -125,7 +125,7 @@ pub(crate) fn admissible_jump(
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Velocity at a kink with the tangents `out` of the block before and `into` of the block behind it.
+/// Velocity at a kink with the tangents `out` of the block before and `into` of the block after it.
 pub(crate) fn kink_velocity(
     from: &Block,
     to: &Block,

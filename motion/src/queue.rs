@@ -49,7 +49,7 @@ pub struct Queued {
     pub slope: SlopeLimits,
     /// Largest `|q''|` over the axes in 1/mm; 0 for a line.
     pub bend: f64,
-    /// The block goes on behind the end of this part of it.
+    /// The block continues after the end of this part of it.
     pub(crate) goes_on: bool,
 }
 
@@ -90,7 +90,7 @@ impl Queued {
         }
     }
 
-    /// What is left of the block `s` mm behind its present start.
+    /// What is left of the block `s` mm after its present start.
     pub(crate) fn remainder(self: &Arc<Self>, s: f64) -> Arc<Self> {
         if s <= 0.0 {
             return Arc::clone(self);
@@ -110,7 +110,7 @@ impl Queued {
         self.block.late_braking && self.block.feed != Feed::Rapid && !hsc
     }
 
-    /// Velocity in mm/s that the path has nowhere in this block behind `before`, whatever the override.
+    /// Velocity in mm/s that the path has nowhere in this block after `before`, whatever the override.
     pub(crate) fn fastest_behind(&self, before: &Self) -> f64 {
         if before.brakes_late_into(self) { self.speeds.highest() } else { self.speeds.fastest() }
     }

@@ -1,6 +1,6 @@
 //! `kontur sweep`: one program under every combination of parameters, one row per run.
 //!
-//! The runs share nothing and go over all cores; rows stand in the order of the combinations whatever finishes first. A
+//! The runs share nothing and go over all cores; rows are in the order of the combinations whatever finishes first. A
 //! run that an error ends has its row, with the ID of the error.
 //!
 //! On the command line [`sweep()`]; where somebody else distributes the runs, a [`Plan`] and its rows in any order.

@@ -1,6 +1,6 @@
 //! The one table of conditions: what can be said to a user, and what the control does about it.
 //!
-//! A row of [`raised`] makes a [`Condition`]: its ID, severity, reaction, meaning, cause, hint and parameter stand there and
+//! A row of [`raised`] makes a [`Condition`]: its ID, severity, reaction, meaning, cause, hint and parameter are there and
 //! nowhere else, and a condition without a row cannot be raised. IDs that the documents print and nothing here raises
 //! are data only ([`documented`]), for `explain` and for who reads a real control's messages.
 //!

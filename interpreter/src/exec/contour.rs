@@ -179,7 +179,7 @@ impl Contour {
         faults
     }
 
-    /// G40 with G239: axes of the plane, and where the tool's centre stands, if compensation was active.
+    /// G40 with G239: axes of the plane, and where the centre of the tool is, if compensation was active.
     pub(super) fn deselect_in_place(&mut self) -> (Option<([usize; 2], Point)>, Vec<Fault>) {
         let mut faults = self.flush();
         let left = self.compensator.leave(&mut self.done);

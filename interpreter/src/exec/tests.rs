@@ -5,6 +5,7 @@ mod arcs;
 mod calls;
 mod compensation;
 mod coordinates;
+mod edges;
 mod errors;
 mod first_cases;
 mod flow;

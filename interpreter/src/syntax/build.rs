@@ -125,7 +125,7 @@ impl<'a> Builder<'a> {
         let at = span.start as usize;
         let bytes = self.masked.as_bytes();
         let blank_before = at > 0 && matches!(bytes[at - 1], b' ' | b'\t');
-        // The error already names a longer word that stands where it was met.
+        // The error already names a longer word at the place where it was met.
         bytes[at].is_ascii_alphabetic()
             && blank_before
             && (span.start > self.reported || span.len == 1)
@@ -179,7 +179,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// `label_name`, or what stands in `target`.
+    /// `label_name`, or what is in `target`.
     fn label(&mut self, pair: Pair<'_, Rule>) -> Label {
         let span = self.span(&pair);
         let kind = if pair.as_rule() == Rule::label_name {

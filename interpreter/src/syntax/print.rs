@@ -79,7 +79,7 @@ impl Display for Quoted<'_> {
     }
 }
 
-/// A file name or identifier, with quotes if it cannot stand without.
+/// A file name or identifier, with quotes if it needs them.
 struct FileName<'a>(&'a str);
 
 impl Display for FileName<'_> {

@@ -113,7 +113,7 @@ impl SlopeLimits {
         }
     }
 
-    /// As [`Self::plan`] for a `v0` above the feed `vf >= ve`: brakes to the feed at once, holds it and goes on to `ve`
+    /// As [`Self::plan`] for a `v0` above the feed `vf >= ve`: brakes to the feed at once, holds it and continues to `ve`
     /// (G901).
     ///
     /// Where the acceleration has to stop at the feed and that does not fit, it stops at a lower speed.

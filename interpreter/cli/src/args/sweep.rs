@@ -33,7 +33,7 @@ pub struct SweepArgs {
     pub program: PathBuf,
 
     /// What varies, and its values: `KEY=A..B:STEP`, `KEY=A,B,C`. A list parameter `AXIS.key=..`, of several axes `X,Y.key=..`, of
-    /// all path axes `*.key=..`; a number that stands in the program behind a word (P1=, V.P.R=, FREQ=) `program.P1=..`, in
+    /// all path axes `*.key=..`; a number in the program after a word (P1=, V.P.R=, FREQ=) `program.P1=..`, in
     /// line 12 `program[12].FREQ=..`; an external variable that the program reads `V.E.NAME=..`; a name `NAME=..` whose
     /// values others take with `KEY={NAME}`. May be given several times
     #[arg(long, value_name = "KEY=VALUES", required = true)]

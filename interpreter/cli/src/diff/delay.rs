@@ -78,7 +78,7 @@ impl Delays {
             let first = candidate.compared == 0;
             candidate.changes += usize::from(!first && !later.repeats);
             candidate.compared += 1;
-            // where both stand still the answer of the rows before holds: a long standstill costs little
+            // where both are constant the answer of the rows before holds: a long standstill costs little
             let stands = !first && earlier.repeats && later.repeats;
             stands || earlier.cells.as_ref().is_some_and(|earlier| equal(earlier, cells))
         });

@@ -53,7 +53,7 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
     Ok(())
 }
 
-/// A cell as it may stand in a line of text.
+/// A cell as a line of text may show it.
 pub(super) fn brief(cell: &str) -> String {
     beginning(&printable(cell).replace('\n', "\u{FFFD}"))
 }

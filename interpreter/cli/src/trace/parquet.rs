@@ -4,7 +4,7 @@
 //! compress; a dictionary of 64 K different values would cost time and save nothing. Snappy is the codec because it
 //! is plain Rust and every reader knows it.
 //!
-//! A Parquet file is readable only once its footer stands. So each group of rows goes to a file of its own in the folder
+//! A Parquet file is readable only once its footer is written. So each group of rows goes to a file of its own in the folder
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
 //! leaves is a folder of whole Parquet files, which readers take as one table.
 

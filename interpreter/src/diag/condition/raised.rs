@@ -112,7 +112,7 @@ conditions! {
     AxisTwice = Vendor 20203: Error ProgramAbort 3 1, "axis twice in one block", cause "X10 Y20 X10", hint "write the second target in a block of its own";
     CentreTwice = Vendor 20205: Error ProgramAbort 3 1, "I, J or K twice", hint "leave one of the two out";
     ControlNotAlone = Vendor 20206: Error ProgramAbort 3 1, "control statement is not alone in its block", cause "$FOR P10=0,20,1 G01 X10", hint "move the words to another block";
-    CommandNotAlone = Vendor 20207: Error ProgramAbort 3 1, "# command must stand alone in its block", cause "exceptions #ADD, #SUPPRESS OFFSETS", hint "a # command must be alone in its block";
+    CommandNotAlone = Vendor 20207: Error ProgramAbort 3 1, "# command must be alone in its block", cause "exceptions #ADD, #SUPPRESS OFFSETS", hint "move it into a block of its own";
     ControlNesting = Vendor 20211: Error ProgramAbort 3 1, "control statements nested too deeply", hint "move an inner part into a subroutine";
     IfTrailing = Vendor 20212: Error ProgramAbort 3 1, "trailing words after $IF", cause "$IF P1==1 X100", hint "only the condition may follow $IF, and $GOTO after it; move the words to the next block";
     ElseWithoutIf = Vendor 20214: Error ProgramAbort 3 1, "$ELSE without $IF", hint "write $IF before it, or is there one $ENDIF too many?";
@@ -154,7 +154,7 @@ conditions! {
     ParameterNumber = Vendor 20400: Error ProgramAbort 3 1, "number of a P parameter is 0, negative or too large", cause "P0=10", hint "P parameters have numbers from 1 on";
     RadiusName = Vendor 20402: Error ProgramAbort 3 1, "unknown radius name", hint "write R=..";
     VariableNumber = Vendor 20403: Error ProgramAbort 3 1, "number of a variable is negative or too large", cause "V.G.NP[-1].V[0]", hint "write an index of the variable's range";
-    WordsBehindCommand = Vendor 20450: Error ProgramAbort 3 1, "words after a # command", cause "exceptions #ACHSE, #PSET, #PRESET", hint "a # command must be alone in its block";
+    WordsBehindCommand = Vendor 20450: Error ProgramAbort 3 1, "words after a # command", cause "exceptions #ACHSE, #PSET, #PRESET", hint "move it into a block of its own";
     PositionRequests = Vendor 20500: Error ProgramAbort 3 1, "too many values in #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", hint "write the rest into a second command";
     CommandUnknown = Vendor 20509: Error ProgramAbort 3 1, "unknown # command", hint "kontur explain '#NAME' describes the commands that exist";
     ExchangeMode = Vendor 20521: Error ProgramAbort 3 1, "axis exchange: offset mode unknown", hint "offset modes are CMDPOS, ACTPOS, OFFSETS, NO_OFFSETS, ALL";
@@ -333,7 +333,7 @@ conditions! {
     InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are allowed only in comments and strings";
     Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "block does not parse", hint "kontur explain shows how words and commands are written";
     NoEnd = Kontur 3 "K-NOEND": Warning None 1 0, "no M02/M30/M29 before the end of the file", hint "write M30";
-    TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text behind the end of the program", cause "M30, then more blocks", hint "move M30 to the end, or delete what is behind it";
+    TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text after the end of the program", cause "M30, then more blocks", hint "move M30 to the end, or delete what comes after it";
     Nesting = Kontur 6 "K-NESTING": Error ProgramAbort 3 0, "call or control nesting beyond the limit", hint "does a subroutine call itself? A parameter can hold a part of a long expression";
     DuplicateKey = Kontur 7 "K-DUPKEY": Error ProgramAbort 3 0, "key twice in one command (no vendor ID known)", hint "leave one of the two out";
     DuplicateGroup = Kontur 8 "K-DUPGROUP": Error ProgramAbort 3 0, "two functions of one group (no vendor ID known)", hint "write the second one in a block of its own";

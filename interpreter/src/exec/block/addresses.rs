@@ -166,7 +166,7 @@ impl Decoder {
     /// names in the channel are.
     ///
     /// Source: TF5200 programming manual, cycles (a cycle does not depend on the plane and the names of axes); diagnosis
-    /// 21383 to 21385. Assumption: so `@X` and `@Y` are the first and second axis of the active plane, `@Z` stands on it.
+    /// 21383 to 21385. Assumption: so `@X` and `@Y` are the first and second axis of the active plane, `@Z` is perpendicular to it.
     pub(super) fn cycle_address(
         &mut self,
         name: &str,

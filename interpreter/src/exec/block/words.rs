@@ -237,7 +237,7 @@ impl Decoder {
         }
         let Some(row) = groups::row(number) else {
             if matches!(number, 28 | 29) && self.dialect.temperature && !self.dialect.own {
-                let meaning = "homes or levels behind a temperature";
+                let meaning = "homes or levels after a temperature";
                 return Err(super::dialect::printer(&format!("G{number}"), meaning, span));
             }
             let fault =

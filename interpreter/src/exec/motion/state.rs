@@ -43,7 +43,7 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) threads: Threads,
     pub(in crate::exec) measuring: Measuring,
     pub(in crate::exec) contour_line: ContourLines,
-    /// G40 with G239: the tool stands beside the contour, not where the program was.
+    /// G40 with G239: the tool is beside the contour, not where the program was.
     pub(in crate::exec) left_contour: bool,
     pub(in crate::exec) cutting: Cutting,
 }

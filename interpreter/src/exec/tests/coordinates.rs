@@ -212,7 +212,7 @@ fn modulo_axes_turn_in_the_direction_of_the_first_sign() {
     ] {
         assert_near(&[end(&format!("G01 F100 {word}"))], &[deg]);
     }
-    // never more than one revolution, and none to where the axis stands
+    // never more than one revolution, and none to where the axis is
     assert_near(&[end("G01 F100 G91 Z3600\nG90 Z+0")], &[3600.0]);
     assert_near(&[end("G01 F100 Z350\nZ10")], &[10.0]);
     assert_near(&[end("V.G.NP[1].V.Z=20\nG54 G01 F100 Z-350")], &[-350.0]);

@@ -42,7 +42,7 @@ pub enum WordKind {
     MacroDefinition(Box<MacroDefinition>),
     /// `"NAME"` standing for words; still here only if the macro was not expanded before parsing.
     MacroUse(Box<str>),
-    /// A `#` word that stands among DIN words: `#FRC=50`, `#CHR`, `#ANG=30`, `#PSET`, ...
+    /// A `#` word among DIN words: `#FRC=50`, `#CHR`, `#ANG=30`, `#PSET`, ...
     Hash(Box<HashWord>),
     /// Subroutine call.
     Call(Box<Call>),

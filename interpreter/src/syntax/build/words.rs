@@ -132,9 +132,9 @@ impl Builder<'_> {
                     local = part.as_str().len() > 1;
                     if local && text[part.as_str().len()..].starts_with('"') {
                         let problem =
-                            Problem::syntax(self.span(&part), "LL without a blank behind it");
+                            Problem::syntax(self.span(&part), "LL without a blank after it");
                         self.report(problem.hint(
-                            "between LL and the name of a subroutine or macro stands a blank",
+                            "write a blank between LL and the name of a subroutine or macro",
                         ));
                     }
                 }
