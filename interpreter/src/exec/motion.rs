@@ -255,7 +255,7 @@ impl Decoder {
             let text = "an arc after G40 with G239: its start is not where it was programmed";
             return Err(Fault::new(Condition::CompensationInArc, text, span));
         }
-        let before = self.programmed_point();
+        let before = self.geometry.coordinates.programmed_point();
         let start = self.program_targets(words)?;
         let path = if self.modal.path == PathMode::ArcInSpace {
             Some(self.arc_in_space(start, before, words, span)?)
@@ -277,7 +277,8 @@ impl Decoder {
                     self.report.note(Fault::new(Condition::Odd, text, at).warning());
                 }
             }
-            let (start, end) = (self.on_path(start), self.on_path(end));
+            let (start, end) =
+                (self.motion.independent.on_path(start), self.motion.independent.on_path(end));
             LinePath::new(start, end, &self.motion.feed_axes).map(Path::Line)
         };
         // a block without way needs no feed
@@ -333,7 +334,7 @@ impl Decoder {
         });
         self.check_time(&block, at);
         let per_revolution = self.modal.feed_type == FeedType::PerRevolution && !rapid;
-        if per_revolution && self.motion.cutting_speed.is_some() {
+        if per_revolution && self.motion.cutting.speed.is_some() {
             return self.send_pieces(&block, &in_plane, span);
         }
         self.send(block, in_plane, span);
@@ -349,7 +350,7 @@ impl Decoder {
         } else if !self.geometry.coordinates.frame().is_identity() {
             "a spline in a turned or mirrored system"
         } else if self.modal.feed_type == FeedType::PerRevolution
-            && self.motion.cutting_speed.is_some()
+            && self.motion.cutting.speed.is_some()
         {
             "a spline with G95 under G96"
         } else {
@@ -364,7 +365,8 @@ impl Decoder {
             let what = "G95 under G96 with tool radius compensation";
             return Err(Fault::unsupported(what, span));
         }
-        for (path, rpm) in self.cutting_pieces(&block.path, span)? {
+        let Some(cutting) = self.motion.cutting.speed else { return Ok(()) };
+        for (path, rpm) in cutting::pieces(cutting, &block.path, &self.motion.feed_axes, span)? {
             let feed = self.feed_per_revolution(&path, rpm);
             let block = Box::new(Block { path, feed, ..block.clone() });
             let InPlane { plane, tilt, .. } = in_plane;
@@ -440,14 +442,6 @@ impl Decoder {
         let t_mm = std::array::from_fn(|i| origin[i] - self.motion.independent.way[axes[i]]);
         let tilt = Some(Box::new(Tilt { axes, m: frame.m, t_mm }));
         Ok(PlaneImage { main: [a, b], keeps_sense: true, tilt })
-    }
-
-    /// Position of the axes without the ways that they have gone as independent axes.
-    fn on_path(&self, mut position: AxisVec) -> AxisVec {
-        for (x, way) in position.iter_mut().zip(self.motion.independent.way.iter()) {
-            *x -= way;
-        }
-        position
     }
 
     /// Chamfer or rounding in front of the next motion.

@@ -79,7 +79,7 @@ impl Decoder {
         };
         let outcome = self.cutting_words(words);
         self.report.keep(outcome);
-        let cuts = self.cuts(words);
+        let cuts = self.motion.cutting.takes_s_words(words);
         for (i, speed, span) in &words.speeds {
             // of the main spindle, tapping and cutting take care
             if *i == 0 {

@@ -6,7 +6,6 @@ use super::words::{GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::geometry::coordinates::Rotation;
 use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::state::Function;
 use crate::exec::step::Event;
@@ -164,30 +163,6 @@ impl Decoder {
             offsets[*axis] += value;
         }
         self.geometry.coordinates.set_tool(offsets);
-    }
-
-    /// Contour rotation about a centre; coordinates that are not given are the present ones.
-    pub(in crate::exec) fn set_rotation(
-        &mut self,
-        plane: [usize; 2],
-        deg: f64,
-        centre: [Option<f64>; 2],
-        span: Span,
-    ) -> Outcome<()> {
-        if !deg.is_finite() {
-            return Err(Fault::new(Condition::Range, "the angle is no number", span));
-        }
-        // the centre is given in the system without rotation
-        self.geometry.coordinates.set_rotation(None);
-        let here = |m: usize| {
-            self.geometry
-                .coordinates
-                .main_axis(m)
-                .map_or(0.0, |axis| self.geometry.coordinates.programmed(axis))
-        };
-        let centre = [centre[0].unwrap_or(here(plane[0])), centre[1].unwrap_or(here(plane[1]))];
-        self.geometry.coordinates.set_rotation(Some(Rotation { plane, deg, centre }));
-        Ok(())
     }
 
     /// G138, G139, G237 to G239; 21317, 21318 where G238 and an active compensation meet.

@@ -33,7 +33,7 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             let centre = [keys.centre_1, keys.centre_2].map(|key| Some(value(key) * unit));
             let main = decoder.modal.plane.main_axes();
             let deg = value(keys.angle);
-            decoder.set_rotation([main[0], main[1]], deg, centre, call.span())
+            decoder.geometry.coordinates.rotate_about([main[0], main[1]], deg, centre, call.span())
         }
         Some(false) => {
             decoder.geometry.coordinates.set_rotation(None);

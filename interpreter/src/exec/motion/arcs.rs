@@ -17,8 +17,8 @@ use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
 
 impl Decoder {
     pub(super) fn arc(&mut self, from: AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
-        let from = &self.on_path(from);
-        let target = self.on_path(self.geometry.coordinates.target().clone());
+        let from = &self.motion.independent.on_path(from);
+        let target = self.motion.independent.on_path(self.geometry.coordinates.target().clone());
         let main = self.modal.plane.main_axes();
         // askew to the axes the arc is one of the coordinate system
         let PlaneImage { main: image, keeps_sense, tilt } = self.image_of_plane(span)?;

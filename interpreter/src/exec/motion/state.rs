@@ -3,12 +3,13 @@
 pub(in crate::exec) mod measuring;
 
 use self::measuring::Measuring;
+use super::cutting::Cutting;
 use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
 use crate::exec::block::modal::Modal;
 use crate::exec::geometry::coordinates::Target;
-use crate::exec::step::{CuttingSpeed, SourceRef};
+use crate::exec::step::SourceRef;
 use crate::machine::{Channel, Machine};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -44,12 +45,7 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) contour_line: ContourLines,
     /// G40 with G239: the tool stands beside the contour, not where the program was.
     pub(in crate::exec) left_contour: bool,
-    /// G96 with its S word.
-    pub(in crate::exec) cutting_speed: Option<CuttingSpeed>,
-    /// G96 is in force, whether or not an S word has come.
-    pub(in crate::exec) cutting_waits: bool,
-    /// S of G196.
-    pub(in crate::exec) cutting_rpm_max: Option<f64>,
+    pub(in crate::exec) cutting: Cutting,
 }
 
 impl MotionState {
@@ -72,9 +68,7 @@ impl MotionState {
             measuring: Measuring::new(&machine.channel, n),
             contour_line: ContourLines::default(),
             left_contour: false,
-            cutting_speed: None,
-            cutting_waits: false,
-            cutting_rpm_max: None,
+            cutting: Cutting::default(),
         }
     }
 
@@ -137,6 +131,14 @@ pub(in crate::exec) struct Independent {
 impl Independent {
     pub(in crate::exec) fn new(axes: usize) -> Self {
         Self { way: AxisVec::zeros(axes), open: Vec::new(), synchronous: Vec::new() }
+    }
+
+    /// Position of the axes without the ways that they have gone alone.
+    pub(super) fn on_path(&self, mut position: AxisVec) -> AxisVec {
+        for (x, way) in position.iter_mut().zip(self.way.iter()) {
+            *x -= way;
+        }
+        position
     }
 
     /// No axis has ever moved alone.

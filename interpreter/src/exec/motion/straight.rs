@@ -75,7 +75,7 @@ impl Decoder {
             && !self.motion.left_contour
             && !self.contour.akima.selected
             && !self.motion.contour_line.is_open()
-            && self.motion.cutting_speed.is_none()
+            && self.motion.cutting.speed.is_none()
             && !modal.late_braking
             && modal.compensation == Compensation::Off
             && modal.diameter.is_none()

@@ -70,7 +70,8 @@ impl Decoder {
         self.thread_fits(words, span)?;
         let start = self.program_targets(words)?;
         let end = self.geometry.coordinates.target().clone();
-        let (start, end) = (self.on_path(start), self.on_path(end));
+        let (start, end) =
+            (self.motion.independent.on_path(start), self.motion.independent.on_path(end));
         for (main, word) in words.centre.iter().enumerate() {
             let Some((pitch, at)) = word else { continue };
             let pitch_mm = pitch * self.modal.unit_mm();
@@ -116,7 +117,7 @@ impl Decoder {
             let text = "tapping with the feed per revolution (G95)";
             return Err(Fault::new(Condition::TappingPerRevolution, text, span));
         }
-        if self.motion.cutting_speed.is_some() {
+        if self.motion.cutting.speed.is_some() {
             let text = "tapping with constant cutting speed (G96)";
             return Err(Fault::new(Condition::TappingCuttingSpeed, text, span));
         }

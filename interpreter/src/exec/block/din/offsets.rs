@@ -220,6 +220,6 @@ impl Decoder {
         }
         let deg = words.radius.map_or(0.0, |(deg, _)| deg);
         let plane = [main[0], main[1]];
-        self.set_rotation(plane, deg, centre, g.span)
+        self.geometry.coordinates.rotate_about(plane, deg, centre, g.span)
     }
 }

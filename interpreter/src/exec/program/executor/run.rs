@@ -1,6 +1,6 @@
 //! One block after the other: fetching, conditions, loops and what a block leads to.
 
-use super::report::{BLOCKS_BEHIND_ERROR, ERRORS_MAX};
+use super::budget::Verdict;
 use super::{Executor, State, file_number};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::block::din::After;
@@ -197,21 +197,13 @@ impl Executor {
 
     /// False if a limit was reached.
     fn count_block(&mut self) -> bool {
-        self.blocks += 1;
-        self.blocks_at_rest += 1;
-        if self.stop.is_set() {
-            self.limited = true;
-            self.end(EndReason::Aborted);
-            return false;
+        match self.budget.count() {
+            Verdict::Continue => return true,
+            Verdict::Stopped => self.end(EndReason::Aborted),
+            Verdict::Endless(text) => {
+                self.end_by_limit(Diagnostic::new(Condition::Endless, text));
+            }
         }
-        let text = if self.blocks > self.max_blocks {
-            format!("more than {} blocks (--max-blocks)", self.max_blocks)
-        } else if self.blocks_at_rest > self.max_blocks_at_rest {
-            format!("{} blocks without motion: the program does not end", self.max_blocks_at_rest)
-        } else {
-            return true;
-        };
-        self.end_by_limit(Diagnostic::new(Condition::Endless, text));
         false
     }
 
@@ -224,7 +216,7 @@ impl Executor {
 
     /// Ends the program at the block that comes next.
     fn end_by_limit(&mut self, diagnostic: Diagnostic) {
-        self.limited = true;
+        self.budget.use_up();
         let location =
             self.levels.last().map(|l| l.at).and_then(|at| self.place(at, Span::default()));
         self.report(match location {
@@ -236,7 +228,7 @@ impl Executor {
 
     /// True if a limit ended the program before its own end.
     pub(in crate::exec) fn is_limited(&self) -> bool {
-        self.limited
+        self.budget.is_used_up()
     }
 
     fn block_number(&mut self, block: &Block) -> Option<u64> {
@@ -369,14 +361,8 @@ impl Executor {
             self.report(diagnostic);
         }
         if self.decoder.checking {
-            let behind = self.blocks - self.first_error.unwrap_or(self.blocks);
-            let stops = self.errors >= ERRORS_MAX || behind > BLOCKS_BEHIND_ERROR;
-            if stops && self.state != State::Ended {
-                let text = if self.errors >= ERRORS_MAX {
-                    format!("{} errors: the check stops here", self.errors)
-                } else {
-                    format!("{behind} blocks after the first error: the check stops here")
-                };
+            let enough = self.found.is_enough(self.budget.blocks());
+            if let (Some(text), true) = (enough, self.state != State::Ended) {
                 let d = Diagnostic::new(Condition::TooMany, text).severity(Severity::Note);
                 self.report(d);
                 self.end(EndReason::Aborted);
