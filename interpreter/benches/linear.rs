@@ -8,6 +8,9 @@ use kontur_interpreter::source::MemorySources;
 use std::fmt::Write;
 use std::hint::black_box;
 
+/// The text of a program of so many pieces.
+type Program = fn(u32) -> String;
+
 /// A jump back from `$IF`: its target is looked up and its blocks are parsed once, whatever the number of passes.
 fn goto(passes: u32) -> String {
     format!("P1=0\nN10: P1=P1+1\n$IF P1 < {passes}\n$GOTO N10\n$ENDIF\nM30\n")
@@ -61,7 +64,7 @@ fn run(text: &str) -> u64 {
 fn linear(c: &mut Criterion) {
     let mut group = c.benchmark_group("linear");
     group.sample_size(10);
-    let programs: [(&str, fn(u32) -> String, u32); 4] = [
+    let programs: [(&str, Program, u32); 4] = [
         ("passes of $GOTO", goto, 1_000_000),
         ("subroutines %L", subroutines, 100_000),
         ("stairs of 0.1 um with HSC", stairs, 4_000),
