@@ -8,6 +8,7 @@
 mod axes;
 mod compensation;
 mod contour;
+mod corner;
 mod frames;
 pub(in crate::exec) mod keys;
 mod measuring;
@@ -141,8 +142,8 @@ const ROWS: &[Row] = &[
     off_only("COLL"),
     unsupported("CONTOUR BEGIN"),
     unsupported("CONTOUR END"),
-    unsupported("CORNER PARAM"),
-    unsupported("SET CORNER PARAM"),
+    corner::CORNER_PARAM,
+    corner::SET_CORNER_PARAM,
     unsupported("CS ADD"),
     unsupported("CS DEF ACT"),
     unsupported("CS DEL"),

@@ -146,6 +146,8 @@ impl Decoder {
                 threads: Threads::new(&machine.channel),
                 measuring: Measuring::new(&machine.channel, n),
                 contour_line: ContourLines::default(),
+                corner: None,
+                feed_before: None,
                 left_contour: false,
                 cutting_speed: None,
                 cutting_waits: false,

@@ -6,6 +6,7 @@ mod calls;
 mod compensation;
 mod coordinates;
 mod errors;
+mod feed_course;
 mod first_cases;
 mod flow;
 mod frames;

@@ -6,6 +6,8 @@ use self::measuring::Measuring;
 use super::dynamics::Weights;
 use super::overrides::Overrides;
 use super::spindles::Spindle;
+use crate::exec::block::modal::FeedWord;
+use crate::exec::contour::feed_course::Corner;
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::{CuttingSpeed, SourceRef};
 use crate::machine::Channel;
@@ -41,6 +43,10 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) threads: Threads,
     pub(in crate::exec) measuring: Measuring,
     pub(in crate::exec) contour_line: ContourLines,
+    /// `#CORNER PARAM`.
+    pub(in crate::exec) corner: Option<Corner>,
+    /// F word in force before the block in work.
+    pub(in crate::exec) feed_before: Option<FeedWord>,
     /// G40 with G239: the tool stands beside the contour, not where the program was.
     pub(in crate::exec) left_contour: bool,
     /// G96 with its S word.

@@ -222,7 +222,7 @@ impl Decoder {
             self.sync(Sync::Spindle { spindle: index, state });
             self.motion.threads.cutting = true;
         }
-        self.send(block, plane, span);
+        self.send(block, plane, None, span);
         Ok(())
     }
 
@@ -263,7 +263,7 @@ impl Decoder {
         self.sync(Sync::Spindle { spindle, state: SpindleState::Rest });
         let Coupling { axis, deg_per_mm, .. } = coupling;
         self.event(Event::SpindleFollows { spindle, way: Some((axis, deg_per_mm)) });
-        self.send(block, plane, span);
+        self.send(block, plane, None, span);
         self.event(Event::SpindleFollows { spindle, way: None });
         self.motion.spindles[0].turning = Turning::Stopped;
         self.sync(Sync::Stop);

@@ -1,0 +1,8 @@
+; run: exit 0
+; page 15556679307 feed interpolation over the path (G193)
+; end X1000
+#SLOPE [TYPE=STEP]
+N10 G01 X500 F10000
+N20 G193 X900 F4000
+N30 X1000 F4000
+N40 M30

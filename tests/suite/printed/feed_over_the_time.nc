@@ -1,0 +1,8 @@
+; run: exit 0
+; page 15556679307 feed interpolation over the time (G293)
+; end X1000
+#SLOPE [TYPE=STEP]
+N10 G01 X500 F10000
+N20 G293 X900 F4000
+N30 X1000 F4000
+N40 M30
