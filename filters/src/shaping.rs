@@ -76,7 +76,12 @@ impl Shaping {
     pub fn settled(&self, window_mm: f64) -> bool {
         let (x, y) = self.newest;
         let target = self.filters.iter().fold(x, |x, filter| filter.final_value(x));
-        self.kernel.settled() && (y - target).abs() < window_mm
+        self.flushed() && (y - target).abs() < window_mm
+    }
+
+    /// Whether the kernel holds nothing but the last input.
+    pub fn flushed(&self) -> bool {
+        self.kernel.settled()
     }
 
     /// Whether another cycle with the input `x` would give the output of the last one and change nothing but its number.

@@ -21,10 +21,12 @@ pub struct AxisVec(SmallVec<[f64; 8]>);
 
 impl Clone for AxisVec {
     /// By bytes; the derived one goes value by value.
+    #[inline]
     fn clone(&self) -> Self {
         Self(SmallVec::from_slice(&self.0))
     }
 
+    #[inline]
     fn clone_from(&mut self, other: &Self) {
         self.0.clear();
         self.0.extend_from_slice(&other.0);
@@ -33,11 +35,13 @@ impl Clone for AxisVec {
 
 impl AxisVec {
     /// `n` zeros.
+    #[inline]
     pub fn zeros(n: usize) -> Self {
         Self(SmallVec::from_elem(0.0, n))
     }
 
     /// One value per axis, in channel order.
+    #[inline]
     pub fn from_slice(values: &[f64]) -> Self {
         Self(SmallVec::from_slice(values))
     }
@@ -45,12 +49,14 @@ impl AxisVec {
 
 impl Deref for AxisVec {
     type Target = [f64];
+    #[inline]
     fn deref(&self) -> &[f64] {
         &self.0
     }
 }
 
 impl DerefMut for AxisVec {
+    #[inline]
     fn deref_mut(&mut self) -> &mut [f64] {
         &mut self.0
     }

@@ -166,7 +166,6 @@ impl Contour {
             half += 0.25 * (b - a) * (b - a);
         }
         let half: f64 = f64::sqrt(half);
-        let near = |i: usize| self.blocks[i].ball.least_distance(&middle) - ROUNDING_MM;
         let mut vector = AxisVec::zeros(middle.len());
         let mut far = |i: usize| self.blocks[i].vector_to(&middle, &mut vector).sqrt();
         // a filter takes the set point half of its length back as a rule: that block leaves few of the others
@@ -177,7 +176,7 @@ impl Contour {
         let within = |least: f64| (1.0 + WARY) * (least + half) + half;
         let mut blocks: SmallVec<[Candidate<'_>; 16]> = SmallVec::new();
         for i in all {
-            if near(i) <= within(least) {
+            if self.blocks[i].ball.may_be_within(&middle, within(least) + ROUNDING_MM) {
                 let distance = far(i);
                 if counts(i) {
                     least = least.min(distance);
@@ -367,17 +366,12 @@ impl Nearest<'_> {
         self.passed.queued.block.seq
     }
 
-    /// It is a straight line.
-    pub(crate) fn is_straight(&self) -> bool {
-        self.passed.queued.block.path.is_straight()
-    }
-
-    /// Where along a line (as a share of it) the nearest point of this block comes to an end of it, if it is straight: no
-    /// order, and shares outside the line, too.
-    pub(crate) fn ends_along(&self, line: (&[f64], &[f64])) -> SmallVec<[f64; 2]> {
-        let Path::Line(straight) = &self.passed.queued.block.path else { return SmallVec::new() };
-        let [from, to] = [line.0, line.1].map(|p| straight.share(p));
-        [0.0, 1.0].into_iter().map(|end| (end - from) / (to - from)).collect()
+    /// Its path if it is a straight line.
+    pub(crate) fn line(&self) -> Option<&LinePath> {
+        match &self.passed.queued.block.path {
+            Path::Line(line) => Some(line),
+            _ => None,
+        }
     }
 
     /// Shortest vector from the path of this block to a point, and its length in mm.

@@ -64,6 +64,11 @@ impl Excursion {
         Self { vector: AxisVec::zeros(axes), length: 0.0 }
     }
 
+    fn clear(&mut self) {
+        self.vector.fill(0.0);
+        self.length = 0.0;
+    }
+
     fn take(&mut self, vector: &[f64]) {
         for (kept, new) in self.vector.iter_mut().zip(vector) {
             if new.abs() > kept.abs() {
@@ -90,6 +95,18 @@ impl SetPath {
     /// No set points yet; the next one is that of cycle `first`.
     pub(crate) fn starting(first: u64, axes: usize) -> Self {
         Self { axes, first, values: Vec::new(), ways: Vec::new() }
+    }
+
+    /// The set point of cycle `k` alone.
+    fn restart(&mut self, k: u64, point: &[f64]) {
+        (self.axes, self.first) = (point.len(), k);
+        self.values.clear();
+        self.ways.clear();
+        self.push(point);
+    }
+
+    fn axes(&self) -> usize {
+        self.axes
     }
 
     /// Adds the set point of the next cycle.

@@ -370,7 +370,9 @@ impl Planner {
 
     /// In place of [`Self::deviation`] in a cycle whose set point is the interpolated one.
     pub fn undeviated(&mut self) {
-        self.gauge.unfiltered(self.setpoint.k, &self.setpoint.position);
+        let k = self.setpoint.k;
+        self.gauge.unfiltered(&self.contour, k, &self.setpoint.position);
+        self.judge(k);
     }
 
     /// Largest components in mm of what the set path leaves the contour by in this cycle, and of what it has missed of the

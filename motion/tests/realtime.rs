@@ -10,6 +10,7 @@ mod common;
 
 use common::random::Random;
 use common::{Job, axis, channel, deviation, filtered};
+use kontur_filters::kernel::{Kernel, Tap};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisVec;
@@ -654,4 +655,47 @@ fn emergency_stop_during_a_feedhold() {
     }
     assert!(planner.brake_is_over());
     assert!((planner.setpoint().position[0] - planner.setpoint().s_mm).abs() < 1e-9);
+}
+
+/// X is filtered by two taps 20 cycles apart, Y later by 8 cycles: on a straight line the set point is beside it by the speed
+/// times the difference of both delays (2 cycles), but by three times as much 8 cycles after a sudden stop, when Y has
+/// arrived and half of X is still 12 to 20 cycles behind. So the feedhold, twice as hard as the planned braking, has to brake gently, and no tolerance is given up.
+#[test]
+fn a_feedhold_brakes_gently_where_filters_pull_the_axes_apart() {
+    let job = Job::new(0.0, Step);
+    let tap = |delay: u32, weight: f64| Tap { delay, weight };
+    let kernels = [Kernel::from_taps([tap(0, 0.5), tap(20, 0.5)]).unwrap(), Kernel::delay(8)];
+    let tolerance_mm = 0.05;
+    for hold in (400_u64..420).step_by(3) {
+        let mut planner = Planner::new(CycleTime::from_us(1000).unwrap(), job.window, &[0.0, 0.0]);
+        planner.set_kernels(
+            Kernels::new(kernels.iter().map(|k| Some(Arc::new(k.clone()))).collect()),
+            20,
+        );
+        let mut block = line(&job, 0, &[0.0, 0.0], &[60.0, 80.0], 100.0);
+        block.tolerance = Tolerance { ax_dev_mm: Some(tolerance_mm), ..Tolerance::default() };
+        planner.push(block);
+        planner.finish();
+        let mut out = vec![planner.setpoint().clone()];
+        while planner.advance().unwrap() == Next::Setpoint {
+            out.push(planner.setpoint().clone());
+            match planner.setpoint().k {
+                k if k == hold => planner.feedhold(true, Own),
+                k if k == hold + 700 => planner.feedhold(false, Own),
+                _ => {}
+            }
+        }
+        assert_eq!(planner.take_unkept(), []);
+        let rests = out.windows(2).filter(|w| w[0].s_mm > 1.0 && w[1].s_mm < 99.0);
+        assert!(rests.filter(|w| w[1].s_mm - w[0].s_mm <= 0.0).count() > 500, "{hold}");
+        let set: Vec<[f64; 2]> = {
+            let [x, y] = [0, 1].map(|i| filtered(&out, &kernels[i]).into_iter().map(move |p| p[i]));
+            x.zip(y).map(|(x, y)| [x, y]).collect()
+        };
+        for [x, y] in set {
+            // 3-4-5: the distance from the line, and the longer of its components
+            let aside = (0.8 * x - 0.6 * y).abs() * 0.8;
+            assert!(aside <= tolerance_mm + 1e-9, "{hold}: {aside}");
+        }
+    }
 }

@@ -1,6 +1,7 @@
-//! Writes the first corpus of every fuzz target to `tests/fuzz/corpus/TARGET`.
+//! Writes what a fuzzer starts with: the first corpus of every target to `tests/fuzz/corpus/TARGET`, and the words that the
+//! readers know to `tests/fuzz/words.dict`.
 
-use kontur_tests::targets::{TARGETS, corpus};
+use kontur_tests::targets::{TARGETS, corpus, dictionary};
 use std::fs;
 use std::path::Path;
 
@@ -12,5 +13,6 @@ fn main() -> std::io::Result<()> {
             fs::write(folder.join(format!("{i:04}")), input)?;
         }
     }
-    Ok(())
+    let words: String = dictionary().iter().map(|word| format!("\"{word}\"\n")).collect();
+    fs::write(Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/words.dict"), words)
 }

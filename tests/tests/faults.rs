@@ -10,23 +10,13 @@
 //!
 //! A file of `lists` takes the place of a list of the machine `xyz`: `# x.lis: exit 0`.
 //!
-//! `open.csv` tells for every ID of the catalogue that has no file why it has none.
-//! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test faults` writes the table of the folder's README anew.
+//! `open.csv` gives the reason for every ID of the catalogue that has no file.
 
-use kontur_interpreter::diag::condition::{self, Row};
-use kontur_interpreter::diag::{Id, Severity};
-use kontur_tests::suite::{self, call, compare, files, head, ledger, machines, name};
+use kontur_interpreter::diag::condition;
+use kontur_tests::suite::{self, call, compare, files, head, machines, name};
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-
-/// Every condition, ordered by ID.
-fn rows() -> Vec<&'static Row> {
-    let mut rows: Vec<&Row> = condition::rows().collect();
-    rows.sort_by_key(|row| row.id);
-    rows
-}
 
 /// A program for lists that only need an axis to be loaded.
 const PROGRAM: &str = "N10 G01 X1 F1000\nN20 M30\n";
@@ -86,10 +76,10 @@ fn open() -> Result<BTreeMap<String, String>, Failed> {
     Ok(records.collect::<Result<_, _>>()?)
 }
 
-/// Every ID of the catalogue has a file or a reason, and the README tells which.
+/// Every ID of the catalogue has either a file or a reason to have none.
 fn complete() -> Result<(), Failed> {
     let (named, open) = (named()?, open()?);
-    let known: BTreeSet<String> = rows().iter().map(|e| e.id.to_string()).collect();
+    let known: BTreeSet<String> = condition::rows().map(|row| row.id.to_string()).collect();
     for id in named.keys().chain(open.keys()) {
         let of_the_program = id.parse().is_ok_and(|n: u32| (1..=1000).contains(&n));
         if !known.contains(id) && !of_the_program {
@@ -107,41 +97,7 @@ fn complete() -> Result<(), Failed> {
     if !wrong.is_empty() {
         return Err(wrong.join("\n").into());
     }
-    Ok(ledger(&folder(), &table(&named, &open))?)
-}
-
-fn table(named: &BTreeMap<String, BTreeSet<String>>, open: &BTreeMap<String, String>) -> String {
-    let of = |e: &&&Row| named.contains_key(&e.id.to_string());
-    let covered = rows().iter().filter(of).count();
-    let mut text = format!(
-        "\n{} IDs, {covered} with a file.\n\n| ID | severity | meaning | files, or why there is none |\n|---|---|---|---|\n",
-        rows().len()
-    );
-    for entry in rows() {
-        let id = entry.id.to_string();
-        let severity = match entry.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
-        };
-        let shown = match entry.id {
-            Id::Vendor(_) => id.clone(),
-            Id::Kontur(_) => format!("{id} {}", entry.name),
-        };
-        let last = match (named.get(&id), open.get(&id)) {
-            (Some(files), _) => {
-                let first = files.iter().take(3).map(|f| format!("`{f}`")).collect::<Vec<_>>();
-                let more = files.len().saturating_sub(3);
-                let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-                format!("{}{more}", first.join(" "))
-            }
-            (None, Some(reason)) => format!("none: {reason}"),
-            (None, None) => String::new(),
-        };
-        let meaning = entry.meaning.replace('|', "\\|");
-        let _ = writeln!(text, "| {shown} | {severity} | {meaning} | {last} |");
-    }
-    text
+    Ok(())
 }
 
 fn main() {

@@ -61,15 +61,3 @@ fn command_lines() {
 fn pictures_and_pages() {
     feed("report", 40);
 }
-
-/// The dictionary of the fuzzer is that of the tables.
-#[test]
-fn the_dictionary_is_up_to_date() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fuzz/words.dict");
-    let expected: String = dictionary().iter().map(|word| format!("\"{word}\"\n")).collect();
-    if std::env::var_os("UPDATE").is_some() {
-        std::fs::write(path, &expected).unwrap();
-    }
-    let found = std::fs::read_to_string(path).unwrap_or_default();
-    assert!(found == expected, "run this test once with UPDATE=1 and commit {path}");
-}

@@ -330,3 +330,26 @@ fn switched_on_before_a_step_motion() {
     }
     assert!(always.iter().all(|lag| lag.abs() < 1e-3), "less than 1 um");
 }
+
+/// Switching feedforward off does not empty its delay: five cycles later the last values still come out, also with the
+/// longest delay of the channel, where the whole buffer has no gain before they do.
+#[test]
+fn a_delay_outlasts_the_gain() {
+    let outputs = |velocity_delay_s: f64| {
+        let feedforward =
+            FeedforwardConfig { mode: Mode::ADD_VEL, velocity_delay_s, ..Default::default() };
+        let mut config = AxisControlConfig::new(500.0, 1e6, 1e9);
+        config.delay_cycles = 13;
+        config.feedforward = feedforward;
+        config.additive_inputs.velocity = true;
+        let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+        let gain = |k: usize| if k < 60 { 1.0 } else { 0.0 };
+        let step = |k: usize| axis.step(0.1 * k as f64, gain(k), true);
+        (0..120).map(step).map(|o| o.feedforward.additive_speed_mm_s).collect::<Vec<_>>()
+    };
+    let (plain, delayed) = (outputs(0.0), outputs(5e-3));
+    assert!(plain.iter().any(|v| (v - 100.0).abs() < 1e-9) && plain[119].abs() < 1e-9);
+    for k in 5..120 {
+        assert!((delayed[k] - plain[k - 5]).abs() < 1e-9, "{k}: {} {}", delayed[k], plain[k - 5]);
+    }
+}

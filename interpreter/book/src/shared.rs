@@ -9,6 +9,8 @@ const DOCUMENTS: &[(&str, &str)] = &[
     ("ARCHITECTURE.md", "architecture.md"),
     ("CONTRIBUTING.md", "contributing.md"),
     ("interpreter/docs/language.md", "language.md"),
+    ("interpreter/docs/running.md", "running.md"),
+    ("interpreter/docs/trace.md", "trace.md"),
     ("interpreter/cli/docs/figures.md", "figures.md"),
     ("interpreter/docs/ci.md", "ci.md"),
     ("interpreter/python/README.md", "python.md"),

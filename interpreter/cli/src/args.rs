@@ -146,7 +146,7 @@ pub struct RunArgs {
 /// `kontur check`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckArgs {
-    /// The NC programs; a folder stands for every `.nc` file below it, `-` reads one from standard input
+    /// The NC programs; a folder stands for every `.nc` file below it that no other one calls, `-` reads one from standard input
     #[arg(required = true)]
     pub programs: Vec<PathBuf>,
 

@@ -65,13 +65,23 @@ impl Findings {
 /// [`Error`] if options, lists or files are wrong.
 pub(crate) fn check(args: &CheckArgs, console: &mut Console) -> Result<Exit, Error> {
     let programs = programs::find(&args.programs)?;
-    let mut findings = Findings::default();
+    let mut all = Vec::with_capacity(programs.len());
     for program in &programs {
-        let checked = match args.simulation.request(program).check() {
-            Ok(checked) => checked,
+        all.push(match args.simulation.request(&program.path).check() {
+            Ok(checked) => Ok(checked),
             // one file that cannot be read says nothing about the others
-            Err(e @ OpenError::Io(..)) => {
-                let reason = Error::from(e).to_string();
+            Err(e @ OpenError::Io(..)) => Err(Error::from(e).to_string()),
+            Err(e) => return Err(announce_lists(e, console)),
+        });
+    }
+    let files = all.iter().map(|checked| checked.as_ref().map_or(&[][..], |c| &c.files));
+    let subroutines = programs::subroutines(&programs, files);
+    let mut findings = Findings::default();
+    for (checked, is_subroutine) in all.into_iter().zip(subroutines) {
+        let checked = match checked {
+            Ok(_) if is_subroutine => continue,
+            Ok(checked) => checked,
+            Err(reason) => {
                 match args.format {
                     CheckForm::Github => {
                         let title = "unreadable";
@@ -83,7 +93,6 @@ pub(crate) fn check(args: &CheckArgs, console: &mut Console) -> Result<Exit, Err
                 findings.unreadable.push(reason);
                 continue;
             }
-            Err(e) => return Err(announce_lists(e, console)),
         };
         findings.programs += 1;
         for diagnostic in checked.diagnostics {

@@ -68,6 +68,39 @@ fn what_two_programs_share_is_reported_once() {
     assert_eq!(found["errors"], 1, "{out}");
 }
 
+/// A subroutine relies on what its caller sets: in a folder it is checked with that alone. Named, it is checked on its own.
+#[test]
+fn subroutines_of_a_folder_are_no_programs() {
+    let f = Folder::new();
+    std::fs::create_dir_all(f.path("parts/cycles")).unwrap();
+    for (name, text) in [
+        ("parts/main.nc", "F1000\nL cycles/pocket.nc\nL ./cycles/../hole.nc\nM30\n"),
+        ("parts/cycles/pocket.nc", "G01 X1\nM17\n"),
+        ("parts/hole.nc", "G01 Y1\nM17\n"),
+        // two that call each other are programs as well
+        ("parts/one.nc", "P1=0 G01 X1 F1000\n$IF P1 > 0\nL two.nc\n$ENDIF\nM30\n"),
+        ("parts/two.nc", "P1=0 G01 X1 F1000\n$IF P1 > 0\nL one.nc\n$ENDIF\nM30\n"),
+    ] {
+        std::fs::write(f.path(name), text).unwrap();
+    }
+    let checked = |words: &[&str]| -> Value {
+        serde_json::from_str(&f.call(&[words, &["--format", "json"]].concat()).1).unwrap()
+    };
+    let of_folder = checked(&["check", "@parts"]);
+    let lacking = |found: &Value| {
+        found["diagnostics"].as_array().unwrap().iter().filter(|d| d["id"] == 20008).count()
+    };
+    assert_eq!((&of_folder["programs"], lacking(&of_folder)), (&3.into(), 0), "{of_folder}");
+    let named = checked(&["check", "@parts/main.nc", "@parts/hole.nc"]);
+    assert_eq!((&named["programs"], lacking(&named)), (&2.into(), 1), "{named}");
+    // an error in it is there once, with its own file
+    std::fs::write(f.path("parts/hole.nc"), "G01 Y1 G777\nM17\n").unwrap();
+    let of_folder = checked(&["check", "@parts"]);
+    assert_eq!(of_folder["errors"], 1, "{of_folder}");
+    let file = of_folder["diagnostics"][0]["source"]["file"].as_str().unwrap();
+    assert!(file.ends_with("hole.nc"), "{of_folder}");
+}
+
 #[test]
 fn warnings_can_be_denied() {
     let f = Folder::new();

@@ -260,7 +260,7 @@ impl Decoder {
             Act::OffOnly | Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
             Act::Ignored(text) => {
                 let text = format!("{}: {text}", call.title());
-                self.note_once(row.name, Fault::new(Condition::Ignored, text, call.span()));
+                self.report.note_once(row.name, Fault::new(Condition::Ignored, text, call.span()));
                 Ok(())
             }
         }

@@ -6,55 +6,20 @@ use super::block::dialect::Seen;
 use super::block::modal::{Corners, FeedType, FeedWord, Modal, PathMode, Plane, Selection};
 use super::contour::Contour;
 use super::fault::Fault;
-use super::geometry::coordinates::Coordinates;
-use super::geometry::tools::Tools;
-use super::geometry::{Geometry, LastArc};
-use super::motion::dynamics::{Weights, channel_dynamics};
-use super::motion::overrides::Overrides;
-use super::motion::spindles::Spindle;
-use super::motion::state::measuring::Measuring;
-use super::motion::state::{
-    ContourLines, Feedforward, Independent, MotionState, Straight, Technology, Threads,
-};
+use super::geometry::Geometry;
+use super::motion::state::{MotionState, Straight, Technology};
+use super::names::AxisNames;
 use super::options::Options;
 use super::program::state::Calls;
+use super::report::Report;
 use super::shaping::{ShapingState, Worked};
-use super::step::{Event, Feedback, SourceRef, Sync};
+use super::step::{Feedback, Sync};
 use super::values::Values;
-use super::values::timers::Timers;
-use super::values::variables::Variables;
-use crate::diag::{Condition, Diagnostic, Location};
-use crate::machine::{Axis, AxisKind, Machine};
-use crate::syntax::ast::{Group, Ident, ItemKind, Span};
+use crate::diag::{Condition, Diagnostic};
+use crate::machine::{AxisKind, Machine};
+use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::{ChannelDynamics, VectorLimits};
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-
-/// Names of the axes in the program.
-#[derive(Debug)]
-pub(super) struct AxisNames {
-    /// `None` for an axis that was given away.
-    pub(super) axes: Vec<Option<String>>,
-    /// Letters of one-letter axes.
-    letters: [Option<u8>; 26],
-    /// Parsed blocks are out of date.
-    pub(super) changed: bool,
-}
-
-/// Messages about the program, each with its block.
-#[derive(Debug, Default)]
-pub(super) struct Report {
-    /// Place of the block in work.
-    pub(super) source: SourceRef,
-    /// Its first line, for conditions that name an earlier place.
-    pub(super) location: Option<Location>,
-    /// Conditions of the block in work.
-    faults: Vec<Fault>,
-    /// Conditions without a place in a block.
-    pub(super) unplaced: Vec<Diagnostic>,
-    said: BTreeSet<String>,
-}
 
 /// A signal that has been sent.
 #[derive(Debug)]
@@ -97,84 +62,28 @@ pub(super) struct Decoder {
 impl Decoder {
     /// The state at the start of a program.
     pub(super) fn new(machine: Arc<Machine>, options: Options, start: &AxisVec) -> Self {
-        let n = machine.axes.len();
-        let mut spindles: Vec<Spindle> = machine
-            .spindles
-            .iter()
-            .enumerate()
-            .map(|(i, s)| Spindle::new(s.name(), Some(i)))
-            .collect();
-        if spindles.is_empty() {
-            spindles.push(Spindle::new("S", None));
-        }
         let axis_names: Vec<_> = machine.axes.iter().map(|a| Some(a.name().to_owned())).collect();
         let forced = options.guard.is_some();
         let mut decoder = Self {
             identity_trafo: options.identity_trafo,
             technology: Technology::new(options.techno_times),
             feedback: Feedback::default(),
-            names: AxisNames { axes: axis_names, letters: [None; 26], changed: false },
+            names: AxisNames::new(axis_names),
             report: Report::default(),
             modal: Modal::start(machine.channel.slope, machine.channel.constant_ramp_time),
             dialect: Seen::default(),
-            values: Values {
-                variables: Variables::new(options.external),
-                kinematics: BTreeMap::new(),
-                timers: Timers::default(),
-            },
-            geometry: Geometry {
-                coordinates: Coordinates::new(start),
-                limits_mm: machine.axes.iter().map(Axis::software_limits_mm).collect(),
-                last_arc: LastArc::default(),
-                last_system: 1,
-                transformation_on: false,
-                tools: Tools { table: machine.tools.clone(), ..Tools::default() },
-            },
+            values: Values::new(options.external),
+            geometry: Geometry::new(&machine, start),
             contour: Contour::default(),
-            motion: MotionState {
-                weights: Weights::new(n),
-                feed_axes: machine.channel.feed_axes.clone(),
-                vector: [VectorLimits::default(); 2],
-                dynamics: [None, None],
-                overrides: Overrides::new(n),
-                independent: Independent::new(n),
-                feedforward: Feedforward {
-                    on: false,
-                    weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
-                },
-                spindles,
-                threads: Threads::new(&machine.channel),
-                measuring: Measuring::new(&machine.channel, n),
-                contour_line: ContourLines::default(),
-                corner: None,
-                feed_before: None,
-                left_contour: false,
-                cutting_speed: None,
-                cutting_waits: false,
-                cutting_rpm_max: None,
-            },
+            motion: MotionState::new(&machine),
             shaping: ShapingState::new(options.guard),
-            calls: Calls {
-                cycle_files: machine.channel.g8x_programs.clone(),
-                tool_change_file: machine.channel.tool_change_program.clone(),
-                ..Calls::default()
-            },
+            calls: Calls::new(&machine.channel),
             signals: Vec::new(),
             checking: false,
             moved: false,
             straight: None,
             machine,
         };
-        let offsets = &decoder.machine.zero_offsets;
-        for ((group, axis), value) in &offsets.entries {
-            if *axis < n {
-                decoder.geometry.coordinates.set_zero_entry(*group, *axis, *value);
-            }
-        }
-        decoder.geometry.coordinates.select_zero_group(offsets.start_group);
-        let main = decoder.listed_main_spindle();
-        decoder.motion.spindles.swap(0, main);
-        decoder.axis_names_changed();
         decoder.presets();
         let Worked { setup, diagnostics } = decoder.shaping.work_out(&decoder.machine);
         decoder.shaping.setup = setup;
@@ -237,59 +146,9 @@ impl Decoder {
         }
     }
 
-    /// Adds a condition of the block in work.
-    pub(super) fn note(&mut self, fault: Box<Fault>) {
-        self.report.faults.push(*fault);
-    }
-
-    /// Adds a condition unless one with this key was added before in this program.
-    pub(super) fn note_once(&mut self, key: &str, fault: Box<Fault>) {
-        if self.report.said.insert(key.to_owned()) {
-            self.report.faults.push(*fault);
-        }
-    }
-
-    /// Forgets that something was said.
-    pub(super) fn unsay(&mut self, key: &str) {
-        self.report.said.remove(key);
-    }
-
-    pub(super) fn take_faults(&mut self) -> Vec<Fault> {
-        std::mem::take(&mut self.report.faults)
-    }
-
-    /// Adds to the condition noted last.
-    pub(super) fn amend(&mut self, f: impl FnOnce(Diagnostic) -> Diagnostic) {
-        if let Some(fault) = self.report.faults.pop() {
-            let diagnostic = f(fault.diagnostic);
-            self.report.faults.push(Fault { diagnostic, ..fault });
-        }
-    }
-
-    /// True if the block in work has an error.
-    pub(super) fn failed(&self) -> bool {
-        self.report.faults.iter().any(Fault::is_error)
-    }
-
-    /// Takes over an outcome: a fault becomes a condition of the block.
-    pub(super) fn keep<T>(&mut self, outcome: Result<T, Box<Fault>>) -> Option<T> {
-        match outcome {
-            Ok(value) => Some(value),
-            Err(fault) => {
-                self.report.faults.push(*fault);
-                None
-            }
-        }
-    }
-
-    /// An event that acts with the next step.
-    pub(super) fn event(&mut self, event: Event) {
-        self.contour.event(event);
-    }
-
     /// A step at rest; left out if the block has an error, unless only the syntax is checked.
     pub(super) fn sync(&mut self, what: Sync) {
-        if self.failed() && !self.checking {
+        if self.report.failed() && !self.checking {
             return;
         }
         if what != Sync::ThreadEnd {
@@ -299,15 +158,9 @@ impl Decoder {
             self.motion.independent.all_arrived();
         }
         let faults = self.contour.sync(what, self.report.source);
-        self.report.faults.extend(faults);
+        self.report.extend(faults);
         let outside = self.limits_of_compensated();
-        self.report.faults.extend(outside);
-    }
-
-    /// Names of axes have changed.
-    pub(super) fn names_changed(&mut self) {
-        self.axis_names_changed();
-        self.names.changed = true;
+        self.report.extend(outside);
     }
 
     /// Axes take over where they really are; all of them if none is named.
@@ -335,100 +188,14 @@ impl Decoder {
             return Err(Fault::new(Condition::TokenUnknown, text, span));
         }
         let number = machine.axes[axis].number();
-        self.dynamics_changed();
+        self.motion.dynamics_changed();
         self.sync(Sync::MachineData { axis: number });
         self.update_shaping(span);
         Ok(())
     }
 
-    /// Dynamics in force in feed or rapid blocks; rebuilt when something changed.
-    pub(super) fn dynamics(&mut self, rapid: bool) -> Arc<ChannelDynamics> {
-        let mode = usize::from(rapid && self.motion.vector[0] != self.motion.vector[1]);
-        if let Some(dynamics) = &self.motion.dynamics[mode] {
-            return Arc::clone(dynamics);
-        }
-        let (mut dynamics, _) = channel_dynamics(
-            &self.machine,
-            &self.motion.weights,
-            &self.modal,
-            self.motion.vector[mode],
-        );
-        dynamics.feed_axes.clone_from(&self.motion.feed_axes);
-        let dynamics = Arc::new(dynamics);
-        self.motion.dynamics[mode] = Some(Arc::clone(&dynamics));
-        dynamics
-    }
-
-    /// Something the dynamics are made from has changed.
-    pub(super) fn dynamics_changed(&mut self) {
-        self.motion.dynamics = [None, None];
-    }
-
-    /// Names have changed.
-    pub(super) fn axis_names_changed(&mut self) {
-        self.names.letters = [None; 26];
-        for (i, name) in self.names.axes.iter().enumerate() {
-            if let Some([letter @ b'A'..=b'Z']) = name.as_deref().map(str::as_bytes) {
-                self.names.letters[usize::from(letter - b'A')] = u8::try_from(i).ok();
-            }
-        }
-    }
-
-    /// Axis of a letter.
-    pub(super) fn axis_of_letter(&self, letter: u8) -> Option<usize> {
-        let i = usize::from(letter.wrapping_sub(b'A'));
-        self.names.letters.get(i).copied().flatten().map(usize::from)
-    }
-
-    /// Axis of a name in either case.
-    pub(super) fn axis_of_name(&self, name: &str) -> Option<usize> {
-        self.names
-            .axes
-            .iter()
-            .position(|n| n.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name)))
-    }
-
-    /// Axis of a name in a `#` command; 20797 if there is none.
-    pub(super) fn axis_in_command(&self, name: &Ident) -> Result<usize, Box<Fault>> {
-        self.axis_of_name(&name.text).ok_or_else(|| {
-            let text = format!("unknown axis `{}`", name.text);
-            Fault::new(Condition::AxisNameUnknown, text, name.span).hint(self.axis_hint())
-        })
-    }
-
-    /// The axes named in groups of a command.
-    pub(super) fn axes_in_command(&self, groups: &[Group]) -> Result<Vec<usize>, Box<Fault>> {
-        let mut axes = Vec::new();
-        for item in groups.iter().flat_map(|group| &group.items) {
-            match &item.kind {
-                ItemKind::Flag(name) => axes.push(self.axis_in_command(name)?),
-                ItemKind::Missing => {}
-                _ => {
-                    let text = "an axis name is expected";
-                    return Err(Fault::new(Condition::AxisNameUnknown, text, item.span));
-                }
-            }
-        }
-        Ok(axes)
-    }
-
-    /// Which axes there are.
-    pub(super) fn axis_hint(&self) -> String {
-        let names: Vec<&str> = self.names.axes.iter().filter_map(|n| n.as_deref()).collect();
-        format!("axes of the channel: {}", names.join(", "))
-    }
-
-    pub(super) fn axis_name(&self, axis: usize) -> &str {
-        self.names.axes[axis].as_deref().unwrap_or("?")
-    }
-
     pub(super) fn is_linear(&self, axis: usize) -> bool {
         self.machine.axes[axis].kind() == AxisKind::Linear
-    }
-
-    /// Millimetres per unit of length in the program.
-    pub(super) fn unit_mm(&self) -> f64 {
-        if self.modal.inch { 25.4 } else { 1.0 }
     }
 
     /// Factor from programmed values of an axis to mm (deg).
@@ -438,18 +205,7 @@ impl Decoder {
 
     /// Unit of tolerance words in mm (P-CHAN-00439).
     pub(super) fn tolerance_unit_mm(&self) -> f64 {
-        if self.machine.channel.contouring_consider_inch { self.unit_mm() } else { 1.0 }
-    }
-
-    /// Where the spindle of P-CHAN-00051 stands among the spindles, or else the first one of the lists.
-    pub(super) fn listed_main_spindle(&self) -> usize {
-        let listed = self
-            .machine
-            .channel
-            .main_spindle
-            .and_then(|main| self.machine.spindles.iter().position(|s| s.number() == main));
-        let is = |spindle: &Spindle| spindle.index == Some(listed.unwrap_or(0));
-        self.motion.spindles.iter().position(is).unwrap_or(0)
+        if self.machine.channel.contouring_consider_inch { self.modal.unit_mm() } else { 1.0 }
     }
 
     /// Spindle of a name in either case: that of its list, and for the main spindle P-CHAN-00053.
@@ -473,7 +229,7 @@ impl Decoder {
     pub(super) fn update_shaping(&mut self, span: Span) {
         let Worked { setup, diagnostics } = self.shaping.work_out(&self.machine);
         for diagnostic in diagnostics {
-            self.note(Fault::of(diagnostic, span));
+            self.report.note(Fault::of(diagnostic, span));
         }
         if setup != self.shaping.setup {
             self.shaping.setup = setup.clone();

@@ -10,7 +10,9 @@ pub(super) mod modulo;
 pub(super) mod planar;
 pub(super) mod tools;
 
+use crate::machine::{Axis, Machine};
 use coordinates::Coordinates;
+use kontur_motion::axis::AxisVec;
 use tools::Tools;
 
 /// The last arc, for system variables.
@@ -37,4 +39,26 @@ pub(super) struct Geometry {
     /// `#TRAFO` or `#RTCP` is on.
     pub(super) transformation_on: bool,
     pub(super) tools: Tools,
+}
+
+impl Geometry {
+    /// At program start, with the zero offsets and the tools of the lists.
+    pub(super) fn new(machine: &Machine, start: &AxisVec) -> Self {
+        let mut coordinates = Coordinates::new(start);
+        let offsets = &machine.zero_offsets;
+        for ((group, axis), value) in &offsets.entries {
+            if *axis < machine.axes.len() {
+                coordinates.set_zero_entry(*group, *axis, *value);
+            }
+        }
+        coordinates.select_zero_group(offsets.start_group);
+        Self {
+            coordinates,
+            limits_mm: machine.axes.iter().map(Axis::software_limits_mm).collect(),
+            last_arc: LastArc::default(),
+            last_system: 1,
+            transformation_on: false,
+            tools: Tools { table: machine.tools.clone(), ..Tools::default() },
+        }
+    }
 }

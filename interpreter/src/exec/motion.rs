@@ -74,20 +74,20 @@ impl Decoder {
         }
         if let Some(g) = path_word.filter(|g| g.row.act == Act::Dwell) {
             let outcome = self.dwell(g, words);
-            self.keep(outcome);
+            self.report.keep(outcome);
             return;
         }
         if let Some(g) = words.group(Group::Measuring).filter(|g| g.row.act == Act::Measure) {
             let outcome = self.measuring_run(g, words, span);
-            self.keep(outcome);
+            self.report.keep(outcome);
             self.motion.measuring.jump(words.goto.cloned());
             return;
         }
         let is_arc = matches!(self.modal.path, PathMode::Clockwise | PathMode::CounterClockwise);
         let contour_line = self.contour_line(words);
-        let Some(contour_line) = self.keep(contour_line) else { return };
+        let Some(contour_line) = self.report.keep(contour_line) else { return };
         let angle = self.arc_angle(words, is_arc);
-        if self.keep(angle).is_none() {
+        if self.report.keep(angle).is_none() {
             return;
         }
         let centre = words.centre.iter().flatten().next();
@@ -107,7 +107,7 @@ impl Decoder {
             self.contour_lines(&contour_line, words, span)
                 .and_then(|()| self.motion(words, is_arc, span))
         };
-        self.keep(outcome);
+        self.report.keep(outcome);
         let once = words.g.iter().any(|g| g.row.act == Act::ExactStopOnce);
         let after_rapid =
             self.modal.path == PathMode::Rapid && self.machine.channel.exact_stop_after_g00;
@@ -124,20 +124,20 @@ impl Decoder {
         }
         if let Some((_, span)) = words.centre.iter().flatten().next() {
             let text = "I, J and K have no meaning without an arc";
-            self.note(Fault::new(Condition::Odd, text, *span).warning());
+            self.report.note(Fault::new(Condition::Odd, text, *span).warning());
         }
         let rotates = takes_axes.is_some_and(|g| g.row.act == Act::Rotate);
         if let (Some((radius, span)), false) = (words.radius, rotates) {
             // R alone is for the arcs that follow; beside G02 or G03 it looks like one
-            self.modal.radius_mm = Some(radius * self.unit_mm());
+            self.modal.radius_mm = Some(radius * self.modal.unit_mm());
             if words.group(Group::Path).is_some() {
                 let text = "R without an end point moves nothing: it is kept for the next arc";
-                self.note(Fault::new(Condition::Odd, text, span).warning());
+                self.report.note(Fault::new(Condition::Odd, text, span).warning());
             }
         }
         if let Some((_, span)) = words.end_feed {
             let text = "E has no meaning without motion";
-            self.note(Fault::new(Condition::Odd, text, span).warning());
+            self.report.note(Fault::new(Condition::Odd, text, span).warning());
         }
     }
 
@@ -175,9 +175,9 @@ impl Decoder {
             .collect();
         for (axis, span) in others {
             let number = self.machine.axes[axis].number();
-            let name = self.axis_name(axis).to_owned();
+            let name = self.names.name(axis).to_owned();
             let text = format!("G04 with the further axis {name}, which does not move");
-            self.note(
+            self.report.note(
                 Fault::new(Condition::DwellOtherAxes, text, span).with(|d| d.axis(number, name)),
             );
         }
@@ -190,7 +190,7 @@ impl Decoder {
         let late = self.modal.late_braking && !early_once;
         if late && self.modal.slope.kind == SlopeKind::Hsc {
             let text = "G901 has no effect with the slope HSC";
-            self.note_once("G901 HSC", Fault::new(Condition::Ignored, text, span));
+            self.report.note_once("G901 HSC", Fault::new(Condition::Ignored, text, span));
         }
         late
     }
@@ -257,7 +257,7 @@ impl Decoder {
             let text = "an arc after G40 with G239: its start is not where it was programmed";
             return Err(Fault::new(Condition::CompensationInArc, text, span));
         }
-        let before = self.programmed_point();
+        let before = self.geometry.coordinates.programmed_point();
         let start = self.program_targets(words)?;
         let path = if self.modal.path == PathMode::ArcInSpace {
             Some(self.arc_in_space(start, before, words, span)?)
@@ -269,17 +269,18 @@ impl Decoder {
                 && words.group(Group::Insertion).is_none()
             {
                 let text = "I, J and K have no meaning in a straight motion";
-                self.note(Fault::new(Condition::Odd, text, *at).warning());
+                self.report.note(Fault::new(Condition::Odd, text, *at).warning());
             }
             if let Some((radius, at)) = words.radius {
-                self.modal.radius_mm = Some(radius * self.unit_mm());
+                self.modal.radius_mm = Some(radius * self.modal.unit_mm());
                 // of a block with an error, such as a cycle of another control, R is the least
-                if !self.failed() {
+                if !self.report.failed() {
                     let text = "R has no meaning in a straight motion: it is kept for the next arc";
-                    self.note(Fault::new(Condition::Odd, text, at).warning());
+                    self.report.note(Fault::new(Condition::Odd, text, at).warning());
                 }
             }
-            let (start, end) = (self.on_path(start), self.on_path(end));
+            let (start, end) =
+                (self.motion.independent.on_path(start), self.motion.independent.on_path(end));
             LinePath::new(start, end, &self.motion.feed_axes).map(Path::Line)
         };
         // a block without way needs no feed
@@ -313,7 +314,7 @@ impl Decoder {
             self.spline_fits(rapid, span)?;
         }
         // of a block with an error nothing moves; what was said before it is still said
-        if self.failed() && !self.checking {
+        if self.report.failed() && !self.checking {
             return Ok(());
         }
         let block = Box::new(Block {
@@ -325,7 +326,7 @@ impl Decoder {
             end_velocity_mm_s,
             late_braking,
             slope: self.modal.slope,
-            dynamics: self.dynamics(rapid),
+            dynamics: self.motion.dynamics(&self.machine, &self.modal, rapid),
             tolerance: self.shaping.tolerance(),
             contour: if rounds {
                 Some(self.contour.contouring.settings())
@@ -336,7 +337,7 @@ impl Decoder {
         });
         self.check_time(&block, at);
         let per_revolution = self.modal.feed_type == FeedType::PerRevolution && !rapid;
-        if per_revolution && self.motion.cutting_speed.is_some() {
+        if per_revolution && self.motion.cutting.speed.is_some() {
             return self.send_pieces(&block, &in_plane, span);
         }
         self.send(block, in_plane, course, span);
@@ -352,7 +353,7 @@ impl Decoder {
         } else if !self.geometry.coordinates.frame().is_identity() {
             "a spline in a turned or mirrored system"
         } else if self.modal.feed_type == FeedType::PerRevolution
-            && self.motion.cutting_speed.is_some()
+            && self.motion.cutting.speed.is_some()
         {
             "a spline with G95 under G96"
         } else {
@@ -367,7 +368,8 @@ impl Decoder {
             let what = "G95 under G96 with tool radius compensation";
             return Err(Fault::unsupported(what, span));
         }
-        for (path, rpm) in self.cutting_pieces(&block.path, span)? {
+        let Some(cutting) = self.motion.cutting.speed else { return Ok(()) };
+        for (path, rpm) in cutting::pieces(cutting, &block.path, &self.motion.feed_axes, span)? {
             let feed = self.feed_per_revolution(&path, rpm);
             let block = Box::new(Block { path, feed, ..block.clone() });
             let InPlane { plane, tilt, .. } = in_plane;
@@ -401,10 +403,10 @@ impl Decoder {
         });
         self.moved = true;
         for fault in self.contour.motion(motion) {
-            self.note(Box::new(fault));
+            self.report.note(Box::new(fault));
         }
         for fault in self.limits_of_compensated() {
-            self.note(Box::new(fault));
+            self.report.note(Box::new(fault));
         }
     }
 
@@ -452,19 +454,11 @@ impl Decoder {
         Ok(PlaneImage { main: [a, b], keeps_sense: true, tilt })
     }
 
-    /// Position of the axes without the ways that they have gone as independent axes.
-    fn on_path(&self, mut position: AxisVec) -> AxisVec {
-        for (x, way) in position.iter_mut().zip(self.motion.independent.way.iter()) {
-            *x -= way;
-        }
-        position
-    }
-
     /// Chamfer or rounding in front of the next motion.
     pub(super) fn insert(&mut self, kind: Kind, size_mm: f64, feed_mm_s: Option<f64>, span: Span) {
         let insertion = Insertion { kind, size_mm, feed_mm_s, span, source: self.report.source };
         if let Some(fault) = self.contour.insert(insertion) {
-            self.note(fault);
+            self.report.note(fault);
         }
     }
 }

@@ -10,6 +10,7 @@ pub(super) mod system;
 pub(super) mod timers;
 pub(super) mod variables;
 
+use super::options::External;
 use std::collections::BTreeMap;
 use timers::Timers;
 use variables::Variables;
@@ -21,4 +22,12 @@ pub(super) struct Values {
     /// `V.G.KIN..` under `--identity-trafo`, by their names with indices: known, and without effect.
     pub(super) kinematics: BTreeMap<String, f64>,
     pub(super) timers: Timers,
+}
+
+impl Values {
+    /// At program start.
+    pub(super) fn new(external: BTreeMap<String, External>) -> Self {
+        let variables = Variables::new(external);
+        Self { variables, kinematics: BTreeMap::new(), timers: Timers::default() }
+    }
 }

@@ -44,12 +44,35 @@ impl Machine {
 pub(super) fn beside(start_up: &str, named: &str) -> String {
     let named = named.replace('\\', "/");
     let absolute = named.starts_with('/') || named.as_bytes().get(1) == Some(&b':');
+    if let (Some((folder, _)), false, true) =
+        (start_up.rsplit_once('\\'), absolute, start_up.starts_with(VERBATIM))
+    {
+        return verbatim(folder, &named);
+    }
     match start_up.rsplit_once(SEPARATORS) {
         Some((folder, _)) if !absolute => {
             format!("{folder}/{}", named.strip_prefix("./").unwrap_or(&named))
         }
         _ => named,
     }
+}
+
+/// What begins a path that Windows takes as it is: with backslashes alone, and without `.` and `..`. Programs that resolve a
+/// path hand over such ones.
+const VERBATIM: &str = r"\\?\";
+
+fn verbatim(folder: &str, named: &str) -> String {
+    let mut parts: Vec<&str> = folder.split('\\').collect();
+    for part in named.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                parts.pop();
+            }
+            part => parts.push(part),
+        }
+    }
+    parts.join("\\")
 }
 
 struct Chain<'a> {

@@ -68,10 +68,13 @@ fn close(a: f64, b: f64) -> bool {
 /// The system's separator joins folder and list, and `.` and `..` are folders, too.
 #[test]
 fn the_folder_is_found_with_either_separator() {
-    for folder in ["m/", "m\\", "./m\\", "C:\\nc\\m\\", "..\\m/"] {
+    for folder in ["m/", "m\\", "./m\\", "C:\\nc\\m\\", "..\\m/", "\\\\?\\C:\\m\\"] {
         let there = |(path, text): (&String, &String)| {
             let name = path.strip_prefix("m/").unwrap();
-            let joined = if name == "hochlauf.lis" { String::new() } else { "/".to_owned() };
+            // a path that is taken as it is has backslashes alone
+            let join = if folder.starts_with(r"\\?\") { "\\" } else { "/" };
+            let joined = if name == "hochlauf.lis" { "" } else { join };
+            let name = name.replace('/', join);
             let folder =
                 if joined.is_empty() { folder } else { folder.trim_end_matches(['/', '\\']) };
             (format!("{folder}{joined}{name}"), text.clone())

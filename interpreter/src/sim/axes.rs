@@ -130,7 +130,7 @@ impl Simulation {
             self.vector.fill(0.0);
             0.0
         };
-        let both_ways = if shaped { self.planner.excursion() } else { &[] };
+        let both_ways = self.planner.excursion();
         for (i, (axis, dev)) in self.record.axes.iter_mut().zip(self.vector.iter()).enumerate() {
             axis.dev = *dev;
             axis.dev_both_ways = both_ways.get(i).map_or(dev.abs(), |d| d.abs().max(dev.abs()));

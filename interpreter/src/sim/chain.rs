@@ -118,6 +118,11 @@ impl AxisChain {
         self.shaping.settled(self.filter_window_mm)
     }
 
+    /// The kernel holds nothing any more that it still lets go.
+    pub(crate) fn flushed(&self) -> bool {
+        self.shaping.flushed()
+    }
+
     /// What the filters lack to have arrived.
     pub(crate) fn unsettled(&self) -> Option<Remaining> {
         let distance_mm = self.ipo.back().copied().unwrap_or(self.set) - self.set;

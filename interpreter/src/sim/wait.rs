@@ -164,7 +164,8 @@ impl Wait {
         parts: Parts<'_>,
         cycle: CycleTime,
     ) -> Option<(usize, Remaining)> {
-        if self.under_way(parts) {
+        // the first taps of a long kernel can be so small that nothing seems to move
+        if self.under_way(parts) || !self.awaited(parts).all(|(_, chain)| chain.flushed()) {
             self.patience = Patience::default();
             return None;
         }

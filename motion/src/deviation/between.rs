@@ -10,6 +10,7 @@
 use super::Excursion;
 use crate::axis::AxisVec;
 use crate::contour::{Around, Nearest, ROUNDING_MM};
+use crate::path::LinePath;
 use crate::profile::roots::enclosed_root;
 use smallvec::{SmallVec, smallvec};
 
@@ -32,7 +33,7 @@ pub(super) fn largest<'a>(
 ) {
     let mut vector = AxisVec::zeros(line.0.len());
     let Some(mut now) = now else { return };
-    let alone = now.is_straight() && !around.may_be_nearer_than(&now);
+    let alone = now.line().is_some() && !around.may_be_nearer_than(&now);
     let then = if alone { Some(now) } else { around.nearest_of_all(line.0, &mut vector) };
     let Some(then) = then else { return };
     if then.block() != now.block()
@@ -48,10 +49,12 @@ pub(super) fn largest<'a>(
         let same = low.1.block() == high.1.block();
         let mut places: SmallVec<[f64; 3]> = SmallVec::new();
         if same {
-            if !low.1.is_straight() || around.may_be_nearer_than(&low.1) {
+            let straight = low.1.line();
+            if straight.is_none() || around.may_be_nearer_than(&low.1) {
                 places.push(0.5 * (low.0 + high.0));
             }
-            places.extend(low.1.ends_along(line).into_iter().filter(|u| *u > low.0 && *u < high.0));
+            let ends = straight.into_iter().flat_map(|straight| straight.ends_along(line));
+            places.extend(ends.filter(|u| *u > low.0 && *u < high.0));
         } else {
             places.push(change(line, low, high));
         }
@@ -82,6 +85,9 @@ pub(super) fn largest<'a>(
 
 /// Where between two points of the line their nearest blocks are equally near.
 fn change(line: (&[f64], &[f64]), low: Foot<'_>, high: Foot<'_>) -> f64 {
+    if let (Some(a), Some(b)) = (low.1.line(), high.1.line()) {
+        return change_of_lines(line, (low.0, a), (high.0, b));
+    }
     let mut point = AxisVec::zeros(line.0.len());
     let mut vector = point.clone();
     let mut nearer = |u: f64| {
@@ -98,9 +104,39 @@ fn change(line: (&[f64], &[f64]), low: Foot<'_>, high: Foot<'_>) -> f64 {
     }
 }
 
+/// The same between straight blocks: between the places where a nearest point comes to an end of its block, the squares of
+/// both distances are parabolas.
+fn change_of_lines(line: (&[f64], &[f64]), low: (f64, &LinePath), high: (f64, &LinePath)) -> f64 {
+    let ends = [low.1, high.1].map(|block| block.ends_along(line));
+    let inside = |u: &f64| *u > low.0 && *u < high.0;
+    let mut borders: SmallVec<[f64; 6]> = ends.into_iter().flatten().filter(inside).collect();
+    borders.sort_unstable_by(f64::total_cmp);
+    borders.push(high.0);
+    let mut from = low.0;
+    for to in borders {
+        let at = 0.5 * (from + to);
+        let (a, b) = (low.1.square_along(line, at), high.1.square_along(line, at));
+        let [c0, c1, c2] = [0, 1, 2].map(|i| a[i] - b[i]);
+        let further = |u: f64| c0 + u * (c1 + u * c2);
+        if further(from) >= 0.0 {
+            return from;
+        } else if further(to) > 0.0 {
+            // where the difference rises through zero
+            let slope = (c1 * c1 - 4.0 * c2 * c0).max(0.0).sqrt();
+            let root = if c1 > 0.0 { -2.0 * c0 / (c1 + slope) } else { (slope - c1) / (2.0 * c2) };
+            return root.clamp(from, to);
+        }
+        from = to;
+    }
+    high.0
+}
+
+#[inline]
 fn on_the_line((from, to): (&[f64], &[f64]), u: f64, point: &mut [f64]) {
-    for ((p, a), b) in point.iter_mut().zip(from).zip(to) {
-        *p = a + u * (b - a);
+    let n = point.len();
+    let (from, to) = (&from[..n], &to[..n]);
+    for i in 0..n {
+        point[i] = from[i] + u * (to[i] - from[i]);
     }
 }
 

@@ -13,8 +13,8 @@ pub(crate) struct Gauge {
     set: SetPath,
     path: SetPath,
     found: Excursion,
-    /// Cycle and set point of the last cycle in which nothing was filtered.
-    unfiltered: Option<(u64, AxisVec)>,
+    /// Last cycle whose set point was not the interpolated one.
+    filtered: Option<u64>,
     /// Shortest vector to the last set point with its length in mm.
     shortest: Option<(f64, AxisVec)>,
 }
@@ -35,16 +35,18 @@ impl Gauge {
         self.shortest.as_ref().map(|(length, vector)| (*length, &**vector))
     }
 
-    /// Takes the set point of a cycle that filters left as it was interpolated: the line to the next one starts there.
-    pub(crate) fn unfiltered(&mut self, k: u64, point: &[f64]) {
-        match &mut self.unfiltered {
-            Some((at, kept)) if kept.len() == point.len() => {
-                *at = k;
-                for (kept, new) in kept.iter_mut().zip(point) {
-                    *kept = *new;
-                }
-            }
-            unfiltered => *unfiltered = Some((k, AxisVec::from_slice(point))),
+    /// Takes the set point of a cycle that filters left as it was interpolated. Finds what of the contour they have let go
+    /// was missed: axes that have all arrived may still owe a corner that they held until now.
+    pub(crate) fn unfiltered(&mut self, contour: &Contour, k: u64, point: &[f64]) {
+        self.shortest = None;
+        if self.filtered.is_some_and(|last| k <= last + self.reach + 2) {
+            self.enter(k, point, point);
+            self.found = Excursion::none(point.len());
+            self.let_go(contour, k);
+        } else {
+            self.found.clear();
+            self.set.restart(k, point);
+            self.path.restart(k, point);
         }
     }
 
@@ -52,37 +54,39 @@ impl Gauge {
     /// set point leaves the contour by, and of what the points of the contour that the filters have just let go were
     /// missed by.
     pub(crate) fn step(&mut self, contour: &Contour, k: u64, set: &[f64], path: &[f64]) {
-        let axes = set.len();
-        if self.set.end() != k {
-            // nothing was filtered in between: the set point was the path
-            let before =
-                self.unfiltered.as_ref().filter(|(at, point)| at + 1 == k && point.len() == axes);
-            let mut path = SetPath::starting(before.map_or(k, |(at, _)| *at), axes);
-            if let Some((_, point)) = before {
-                path.push(point);
-            }
-            (self.set, self.path) = (path.clone(), path);
-        }
-        self.set.push(set);
-        self.path.push(path);
+        self.enter(k, set, path);
+        self.filtered = Some(k);
+        self.found = Excursion::none(set.len());
         let (reach, moment) = (self.reach as f64, k as f64);
-        let mut found = Excursion::none(axes);
-        self.shortest = self.set.leaves(contour, k, (moment - reach, moment), &mut found);
-        let passed = moment - reach - 1.0;
+        self.shortest = self.set.leaves(contour, k, (moment - reach, moment), &mut self.found);
+        self.let_go(contour, k);
+    }
+
+    fn enter(&mut self, k: u64, set: &[f64], path: &[f64]) {
+        if self.set.end() != k || self.set.axes() != set.len() {
+            self.set = SetPath::starting(k, set.len());
+            self.path = self.set.clone();
+        }
+        let old = k.saturating_sub(2 * self.reach + 4);
+        for (kept, point) in [(&mut self.set, set), (&mut self.path, path)] {
+            kept.push(point);
+            kept.forget_before(old);
+        }
+    }
+
+    /// What of the contour was missed that the filters have let go in cycle `k`.
+    fn let_go(&mut self, contour: &Contour, k: u64) {
+        let passed = k as f64 - self.reach as f64 - 1.0;
         for (moment, point) in contour.kinks(passed - 1.0, passed) {
             let first = moment.floor().max(0.0) as u64;
             let among = (first, first + self.reach + 2);
-            self.set.misses(&point, among, f64::INFINITY, &mut found);
+            self.set.misses(&point, among, f64::INFINITY, &mut self.found);
         }
         if let Some(first) = k.checked_sub(self.reach + 1)
             && let Some(point) = self.path.get(first)
             && (self.every || contour.is_bent(passed))
         {
-            self.set.misses(point, (first, k), f64::INFINITY, &mut found);
+            self.set.misses(point, (first, k), f64::INFINITY, &mut self.found);
         }
-        self.found = found;
-        let old = k.saturating_sub(2 * self.reach + 4);
-        self.set.forget_before(old);
-        self.path.forget_before(old);
     }
 }

@@ -108,12 +108,40 @@ impl LinePath {
         self.foot(point).clamp(0.0, self.length)
     }
 
-    /// Where the perpendicular from a point meets the line through start and end, as a share of the way between them.
-    pub(crate) fn share(&self, point: &[f64]) -> f64 {
-        self.foot(point) / self.length
+    /// Where along a line (as a share of it) the nearest point of this path comes to its start and to its end: no order, and
+    /// shares outside the line, too.
+    pub(crate) fn ends_along(&self, (from, to): (&[f64], &[f64])) -> [f64; 2] {
+        let [from, to] = [from, to].map(|p| self.foot(p));
+        [0.0, self.length].map(|end| (end - from) / (to - from))
     }
 
-    /// The same in mm of path length.
+    /// Coefficients of the square of the distance of `from + u * (to - from)` from this path: `c[0] + c[1] u + c[2] u^2` on
+    /// that stretch of u around `at` where the nearest point is inside of the path, or stays at one end of it.
+    pub(crate) fn square_along(&self, (from, to): (&[f64], &[f64]), at: f64) -> [f64; 3] {
+        let n = from.len();
+        let [foot_from, foot_to] = [from, to].map(|p| self.foot(p));
+        let foot = foot_from + at * (foot_to - foot_from);
+        let (end, along) = if foot <= 0.0 {
+            (&self.start, 0.0)
+        } else if foot >= self.length {
+            (&self.end, 0.0)
+        } else {
+            (&self.start, 1.0)
+        };
+        let (end, direction) = (&end[..n], &self.direction[..n]);
+        let (foot, way) = (along * foot_from, along * (foot_to - foot_from));
+        let mut c = [0.0; 3];
+        for i in 0..n {
+            let aside = (from[i] - end[i]) - foot * direction[i];
+            let change = (to[i] - from[i]) - way * direction[i];
+            c[0] += aside * aside;
+            c[1] += 2.0 * aside * change;
+            c[2] += change * change;
+        }
+        c
+    }
+
+    /// Where the perpendicular from a point meets the line through start and end, in mm of path length.
     fn foot(&self, point: &[f64]) -> f64 {
         let n = point.len();
         let (start, direction) = (&self.start[..n], &self.direction[..n]);

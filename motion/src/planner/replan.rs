@@ -17,7 +17,8 @@
 //!
 //! Tolerance monitoring (`AX_DEV`) examines a leg with what is planned behind it before it is taken; where the tolerance
 //! cannot be kept that way the old plan, which keeps it, goes on to the next place. A leg that ends at rest waits for such
-//! a place no longer than the kernel is; then it is taken, and what it exceeds is reported as not kept.
+//! a place no longer than the kernel is; then it brakes more gently ([`GENTLER`]), because where filters of different
+//! delays pull the axes apart even an acceleration leaves a straight line. What the gentlest exceeds is reported as not kept.
 
 use super::Planner;
 use super::feedhold::feedhold_slope;
@@ -35,6 +36,19 @@ const SLACK: f64 = 1e-9;
 
 /// Parts of a block that end closer together than this, in mm, end at the same place.
 const SAME_END_MM: f64 = 1e-9;
+
+/// Parts of the acceleration with which the speed changes, one after the other, where the tolerance leaves no more.
+const GENTLER: [f64; 5] = [1.0, 0.5, 0.25, 0.1, 0.03];
+
+/// What has become of a leg.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    Taken,
+    /// It ends at rest and does not keep the tolerance.
+    Exceeds,
+    /// No plan behind it keeps the tolerance.
+    NoWay,
+}
 
 /// One or two profiles in a row.
 type Leg = SmallVec<[Profile; 2]>;
@@ -72,29 +86,55 @@ impl Planner {
         let old: Vec<Entry> = self.timeline.take().into();
         let over = old.iter().take_while(|e| e.is_over(k, cycle)).count();
         let ahead = self.ahead(&old[over..]);
-        for i in over..=old.len() {
-            let spot = self.spot(&old, over, i);
-            if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..])
-                && self.install(&spot, old[..i].to_vec(), leg, rest)
-            {
+        for gentle in GENTLER {
+            if self.change_speed(&old, over, &ahead, gentle) {
                 return;
-            }
-            // inside the entry of the present cycle: ever later
-            let mut later = 1;
-            while i == over && spot.v > 0.0 && !old[i].is_over(k + later, cycle) {
-                let spot = self.inside(&old[i], k + later);
-                if let Some((leg, rest)) = self.leg_from(&spot, &ahead, &old[over..]) {
-                    let mut kept = old[..=i].to_vec();
-                    kept[i].cut(k + later, cycle);
-                    if self.install(&spot, kept, leg, rest) {
-                        return;
-                    }
-                }
-                later *= 2;
             }
         }
         // not reached: the old plan ends at rest, where every leg fits
         self.timeline.put(old);
+    }
+
+    /// Changes the speed at the first place where a leg with a part of the acceleration fits; false if that is not to be waited
+    /// for any longer.
+    fn change_speed(
+        &mut self,
+        old: &[Entry],
+        over: usize,
+        ahead: &[(f64, Segment)],
+        gentle: f64,
+    ) -> bool {
+        let (k, cycle) = (self.setpoint.k, self.cycle);
+        let gentlest = GENTLER.last() == Some(&gentle);
+        let moves = self.spot(old, over, over).v > 0.0;
+        // inside the entry of the present cycle: ever later
+        let later = std::iter::successors(Some(1), |later| Some(2 * later));
+        let inside = later.take_while(|later| {
+            moves && old.get(over).is_some_and(|e| !e.is_over(k + later, cycle))
+        });
+        let inside: SmallVec<[(usize, u64); 32]> = inside.map(|later| (over, later)).collect();
+        let ends = (over + 1..=old.len()).map(|i| (i, 0));
+        let mut exceeds = false;
+        for (i, later) in std::iter::once((over, 0)).chain(inside).chain(ends) {
+            let (spot, kept) = if later > 0 {
+                let mut kept = old[..=i].to_vec();
+                kept[i].cut(k + later, cycle);
+                (self.inside(&old[i], k + later), kept)
+            } else {
+                (self.spot(old, over, i), old[..i].to_vec())
+            };
+            let waited = spot.moment.cycles(cycle) - k as f64;
+            if exceeds && !gentlest && waited >= f64::from(self.kernels.length()) {
+                break;
+            }
+            if let Some((leg, rest)) = self.leg_from(&spot, ahead, &old[over..], gentle) {
+                match self.install(&spot, kept, leg, rest, gentlest) {
+                    Outcome::Taken => return true,
+                    outcome => exceeds |= outcome == Outcome::Exceeds,
+                }
+            }
+        }
+        false
     }
 
     /// Everything known from the entry of the present cycle on, with the path length at which it starts.
@@ -159,25 +199,27 @@ impl Planner {
         spot: &Spot,
         ahead: &[(f64, Segment)],
         old: &[Entry],
+        gentle: f64,
     ) -> Option<(Leg, Vec<Segment>)> {
         let rest = behind(ahead, spot.s);
-        let leg = if spot.v > 0.0 { self.leg(spot, &rest, old)? } else { Leg::new() };
+        let leg = if spot.v > 0.0 { self.leg(spot, &rest, old, gentle)? } else { Leg::new() };
         Some((leg, rest))
     }
 
-    /// Slope of a block while the speed changes.
-    fn slope_of(&self, queued: &Queued) -> SlopeLimits {
-        match self.active.hold {
+    /// Slope of a block while the speed changes, with a part of the acceleration.
+    fn slope_of(&self, queued: &Queued, gentle: f64) -> SlopeLimits {
+        let slope = match self.active.hold {
             Some(braking) => feedhold_slope(queued, braking, self.cycle),
             None => queued.slope.clone(),
-        }
+        };
+        if gentle < 1.0 { slope.scaled(gentle) } else { slope }
     }
 
     /// The leg from a spot that moves; `None` if the old plan has to go on.
-    fn leg(&self, spot: &Spot, rest: &[Segment], old: &[Entry]) -> Option<Leg> {
+    fn leg(&self, spot: &Spot, rest: &[Segment], old: &[Entry], gentle: f64) -> Option<Leg> {
         let first = &rest.first()?.queued;
         let target = if self.active.hold.is_some() { 0.0 } else { first.velocity.v_mm_s };
-        let slope = self.slope_of(first);
+        let slope = self.slope_of(first, gentle);
         let settled = slope.settled(spot.v, spot.a);
         let steady = (settled - spot.v).abs() <= 1e-12 * spot.v;
         let spot = Spot { a: if steady { 0.0 } else { spot.a }, ..*spot };
@@ -201,7 +243,7 @@ impl Planner {
         } else {
             &[Aim::Settle]
         };
-        aims.iter().find_map(|aim| self.fit(*aim, &spot, &slope, rest, old))
+        aims.iter().find_map(|aim| self.fit(*aim, &spot, (&slope, gentle), rest, old))
     }
 
     /// The leg for one aim, with the weakest limits of the blocks it crosses.
@@ -209,7 +251,7 @@ impl Planner {
         &self,
         aim: Aim,
         spot: &Spot,
-        first: &SlopeLimits,
+        (first, gentle): (&SlopeLimits, f64),
         rest: &[Segment],
         old: &[Entry],
     ) -> Option<Leg> {
@@ -225,7 +267,7 @@ impl Planner {
                 break leg;
             }
             let queued = &rest.get(crossed.len() + 1)?.queued;
-            let own = self.slope_of(queued);
+            let own = self.slope_of(queued, gentle);
             if !slope.is_like(&own) {
                 return None;
             }
@@ -240,7 +282,7 @@ impl Planner {
             let crossed = rest[1..=crossed.len()].iter().map(|s| s.queued.velocity.v_mm_s);
             let slowest = crossed.fold(f64::INFINITY, f64::min);
             if slowest < v_end * (1.0 - SLACK) {
-                return self.fit(Aim::Brake(slowest), spot, first, rest, old);
+                return self.fit(Aim::Brake(slowest), spot, (first, gentle), rest, old);
             }
         }
         let kept = if falls {
@@ -263,25 +305,41 @@ impl Planner {
         (kept && (v_end <= 0.0 || goes_on(&cut(rest.to_vec(), length), v_end))).then_some(leg)
     }
 
-    /// Puts what is kept and a leg on the timeline and what lies behind it into the plan; false, and nothing is changed but
-    /// the timeline, if the path would be too fast there for the tolerance.
-    fn install(&mut self, spot: &Spot, kept: Vec<Entry>, leg: Leg, rest: Vec<Segment>) -> bool {
+    /// Puts what is kept and a leg on the timeline and what lies behind it into the plan. If the path would be too fast there
+    /// for the tolerance, nothing is changed but the timeline; the `gentlest` leg to rest is taken in the end.
+    fn install(
+        &mut self,
+        spot: &Spot,
+        kept: Vec<Entry>,
+        leg: Leg,
+        rest: Vec<Segment>,
+        gentlest: bool,
+    ) -> Outcome {
         let speed = Cap::new(spot.v, spot.why);
         let start = Start { moment: spot.moment, s_mm: spot.s, speed, a_mm_s2: 0.0 };
         let before = std::mem::replace(&mut self.plan, Plan::from_state(start));
         self.timeline.put(kept);
         let left = self.contour.part_at(spot.moment.cycles(self.cycle) - SLACK);
         let stays = self.contour.len();
-        let keeps = self.follow(spot, leg, rest);
-        if !keeps {
+        let mut outcome = self.follow(leg, rest);
+        if outcome == Outcome::Exceeds && gentlest {
+            let waited = spot.moment.cycles(self.cycle) - self.setpoint.k as f64;
+            if waited >= f64::from(self.kernels.length())
+                && let Some(unkept) = self.excess()
+            {
+                self.give_up(unkept);
+                outcome = Outcome::Taken;
+            }
+        }
+        if outcome != Outcome::Taken {
             self.plan = before;
             self.contour.restore(stays, left);
         }
-        keeps
+        outcome
     }
 
-    /// Appends a leg and finds the way to rest behind it; false if it does not keep the tolerance.
-    fn follow(&mut self, spot: &Spot, leg: Leg, mut rest: Vec<Segment>) -> bool {
+    /// Appends a leg and finds the way to rest behind it.
+    fn follow(&mut self, leg: Leg, mut rest: Vec<Segment>) -> Outcome {
         let moves = !leg.is_empty();
         let why = if self.active.hold.is_some() { SpeedLimit::Stop } else { SpeedLimit::Feed };
         for profile in leg {
@@ -302,17 +360,22 @@ impl Planner {
             rest = cut(rest, length);
         }
         self.plan.replace(rest);
-        if !self.plan.is_at_rest() {
-            let Some(way_out) = self.way_out() else { return false };
-            self.plan.reserve = way_out.into();
-        } else if let Some(unkept) = moves.then(|| self.excess()).flatten() {
-            let waited = spot.moment.cycles(self.cycle) - self.setpoint.k as f64;
-            if waited < f64::from(self.kernels.length()) {
-                return false;
-            }
-            self.give_up(unkept);
+        let at_rest = self.plan.is_at_rest();
+        if at_rest && self.excess().is_none() {
+            return Outcome::Taken;
         }
-        true
+        // a rest that the old plan kept shorter: what the filters still hold leaves no time to wait
+        let must_rest = at_rest && (moves || self.active.hold.is_some());
+        if must_rest {
+            return Outcome::Exceeds;
+        }
+        let Some(way_out) = self.way_out() else { return Outcome::NoWay };
+        self.plan.reserve = way_out.into();
+        if at_rest {
+            // it is not known later
+            self.fall_back();
+        }
+        Outcome::Taken
     }
 }
 

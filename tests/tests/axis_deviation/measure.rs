@@ -1,7 +1,7 @@
 //! What a run has left of the contour, by the geometry of this package.
 
-use kontur_interpreter::record::AxisRecord;
-use kontur_tests::geometry::{Piece, deviation};
+use kontur_interpreter::record::{AxisRecord, CycleRecord};
+use kontur_tests::geometry::{Piece, Point, deviation, minus, norm};
 use kontur_tests::{Run, from_polyline};
 
 /// Parts of a piece of the contour whose ends are looked for on the set path.
@@ -47,7 +47,7 @@ pub(crate) fn recomputed(run: &Run, case: &Case) -> (f64, u64) {
         .collect();
     let mut worst = (0.0, 0);
     for (k, record) in run.records.iter().enumerate() {
-        let p = [0, 1, 2].map(|i| record.axes[i].set);
+        let p = set_point(record);
         let (oldest, newest) = (block[k.saturating_sub(case.reach)], block[k]);
         let mut least = f64::MAX;
         for (early, late) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
@@ -73,33 +73,49 @@ pub(crate) fn is_filtered(case: &Case, line: u32) -> bool {
 }
 
 /// Largest axis component of the shortest vector from the lines between the set points to a point of the contour, over all
-/// filtered blocks, with the line of the program: of a block those count between its first cycle and the reach after its last one.
+/// filtered blocks, with the line of the program. The filters hold a point from the cycle in which the path comes to it until
+/// their length after it has gone on.
 pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
     let records = &run.records;
     let mut worst = (0.0, 0);
     let blocks = case.blocks.iter().enumerate();
-    for (i, (line, pieces)) in blocks.filter(|(_, (line, _))| is_filtered(case, *line)) {
-        let first = records.partition_point(|r| r.line < *line);
-        let behind = case.blocks.get(i + 1).map_or(u32::MAX, |block| block.0);
-        let last = records.partition_point(|r| r.line < behind) + case.reach;
-        let set = |until: usize| -> Vec<Vec<f64>> {
-            let around = first.saturating_sub(2)..until.min(records.len());
-            records[around].iter().map(|r| r.axes[..3].iter().map(|a| a.set).collect()).collect()
-        };
-        // a line of the set path more or less at the border can be the nearest one, with another component
-        let windows = [2, 0, 1, 3].map(|border| set(last + border));
+    for (i, (line_number, pieces)) in blocks.filter(|(_, (line, _))| is_filtered(case, *line)) {
+        // a wait at the end of a block can follow a dwell of a later line
+        // and a rounded corner in front of the next block can be part of that
+        let behind = case.blocks.get(i + 2).map_or(u32::MAX, |block| block.0);
+        let Some(first) = records.iter().position(|r| r.line >= *line_number) else { continue };
+        let last = records.iter().rposition(|r| r.line < behind).map_or(first, |k| k.max(first));
+        let left = (last + 2).min(records.len() - 1);
+        let entered = first.saturating_sub(2);
         for piece in pieces {
             for part in 0..=POINTS {
                 let point = piece.point(f64::from(part) / f64::from(POINTS));
-                let aside = |set: &Vec<Vec<f64>>| {
-                    from_polyline(&point, set).into_iter().fold(0.0, |m: f64, c| m.max(c.abs()))
+                let apart = |k: usize| norm(minus(point, interpolated(&records[k])));
+                let line = |k: usize| {
+                    let ends = [k, k + 1].map(|k| interpolated(&records[k]).to_vec());
+                    from_polyline(&point, &ends).iter().map(|c| c * c).sum::<f64>()
                 };
-                let mut most = aside(&windows[0]);
+                let least = (entered..left).map(line).fold(f64::INFINITY, f64::min).sqrt();
+                // a way back over the same points comes later
+                let passes = |k: &usize| line(*k).sqrt() <= least + 1e-6;
+                let comes = (entered..left).find(passes).unwrap_or(entered);
+                // as long as the path rests there
+                let rests = |k: &usize| apart(*k) < 1e-9;
+                let goes = comes + 1 + (comes + 1..records.len()).take_while(rests).count();
+                let from = comes.saturating_sub(2);
+                // a line of the set path more or less at the border can be the nearest one, with another component
+                let aside = |border: usize| {
+                    let until = (goes + case.reach + border).min(records.len());
+                    let set = records[from..until].iter().map(|r| set_point(r).to_vec());
+                    let set: Vec<Vec<f64>> = set.collect();
+                    from_polyline(&point, &set).into_iter().fold(0.0, |m: f64, c| m.max(c.abs()))
+                };
+                let mut most = aside(2);
                 if most > f64::max(worst.0, case.tolerance_mm) {
-                    most = windows[1..].iter().map(aside).fold(most, f64::min);
+                    most = [0, 1, 3].map(aside).into_iter().fold(most, f64::min);
                 }
                 if most > worst.0 {
-                    worst = (most, *line);
+                    worst = (most, *line_number);
                 }
             }
         }
@@ -107,10 +123,18 @@ pub(crate) fn missed(run: &Run, case: &Case) -> (f64, u32) {
     worst
 }
 
+fn set_point(record: &CycleRecord) -> Point {
+    [0, 1, 2].map(|i| record.axes[i].set)
+}
+
+fn interpolated(record: &CycleRecord) -> Point {
+    [0, 1, 2].map(|i| record.axes[i].ipo)
+}
+
 /// No filter can be told from the unfiltered setpoints: they lie on the geometry that the test has drawn itself.
 pub(crate) fn off_contour(run: &Run, case: &Case) -> f64 {
     let pieces: Vec<&Piece> = case.blocks.iter().flat_map(|b| &b.1).collect();
     let every = 1 + run.records.len() / 200;
-    let ipo = run.records.iter().step_by(every).map(|r| [0, 1, 2].map(|i| r.axes[i].ipo));
+    let ipo = run.records.iter().step_by(every).map(interpolated);
     ipo.map(|p| deviation(pieces.iter().copied(), p)).fold(0.0, f64::max)
 }

@@ -1,23 +1,31 @@
 //! Which programs are checked: files as they are named, and what folders hold.
 
 use crate::Error;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use walkdir::WalkDir;
 
-/// Extension of the programs that a folder is searched for. Subroutines of other extensions are checked with the programs
-/// that call them.
+/// Extension of the programs that a folder is searched for.
 const EXTENSION: &str = "nc";
+
+/// A program that may have to be checked.
+pub(super) struct Program {
+    pub(super) path: PathBuf,
+    /// Nobody has named it: it lies in a folder.
+    pub(super) of_folder: bool,
+}
 
 /// The programs of the command line in its order; a folder gives every `.nc` file below it, by name. Links to folders are
 /// not followed, and hidden folders are left out.
 ///
 /// # Errors
 /// [`Error::Usage`] for a folder without a program, [`Error::Io`] for one that cannot be read.
-pub(super) fn find(named: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
+pub(super) fn find(named: &[PathBuf]) -> Result<Vec<Program>, Error> {
     let mut programs = Vec::new();
     for path in named {
         if !path.is_dir() {
-            programs.push(path.clone());
+            programs.push(Program { path: path.clone(), of_folder: false });
             continue;
         }
         let before = programs.len();
@@ -28,7 +36,7 @@ pub(super) fn find(named: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
             let is_program =
                 entry.path().extension().is_some_and(|e| e.eq_ignore_ascii_case(EXTENSION));
             if is_program && entry.path().is_file() {
-                programs.push(entry.into_path());
+                programs.push(Program { path: entry.into_path(), of_folder: true });
             }
         }
         if programs.len() == before {
@@ -37,6 +45,26 @@ pub(super) fn find(named: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
         }
     }
     Ok(programs)
+}
+
+/// Which of the programs are only subroutines: they lie in a folder, and another one calls them. They have been checked with
+/// it; alone they lack what it sets, an F word or parameters. `files` are the files of each check, its own first. Two that call each
+/// other are programs.
+pub(super) fn subroutines<'a>(
+    programs: &[Program],
+    files: impl Iterator<Item = &'a [Arc<str>]>,
+) -> Vec<bool> {
+    let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let own: Vec<PathBuf> = programs.iter().map(|p| real(&p.path)).collect();
+    let reads: Vec<HashSet<PathBuf>> = files
+        .map(|files| files.iter().skip(1).map(|file| real(Path::new(&**file))).collect())
+        .collect();
+    let is_called = |i: usize| {
+        reads.iter().zip(&own).any(|(of_caller, caller)| {
+            *caller != own[i] && of_caller.contains(&own[i]) && !reads[i].contains(caller)
+        })
+    };
+    programs.iter().enumerate().map(|(i, program)| program.of_folder && is_called(i)).collect()
 }
 
 fn unreadable(folder: &Path, e: walkdir::Error) -> Error {

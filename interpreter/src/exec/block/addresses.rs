@@ -21,8 +21,8 @@ impl Decoder {
         block: &mut Words<'_>,
     ) -> Outcome<()> {
         let axis = match name {
-            Name::Letter(letter) => self.axis_of_letter(*letter),
-            Name::Long(name) => self.axis_of_name(name),
+            Name::Letter(letter) => self.names.of_letter(*letter),
+            Name::Long(name) => self.names.of_name(name),
         };
         if let Some(axis) = axis {
             return self.axis_word(axis, sign, value, span, block);
@@ -117,7 +117,7 @@ impl Decoder {
     /// An axis that one block moves twice.
     pub(in crate::exec) fn axis_twice(&self, axis: usize, span: Span) -> Box<Fault> {
         let number = self.machine.axes[axis].number();
-        let name = self.axis_name(axis).to_owned();
+        let name = self.names.name(axis).to_owned();
         let text = format!("axis {name} twice in one block");
         Fault::new(Condition::AxisTwice, text, span)
             .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-"))
@@ -164,7 +164,7 @@ impl Decoder {
 
     pub(in crate::exec) fn unknown_axis(&self, name: &str, span: Span) -> Box<Fault> {
         let text = format!("the channel has no axis {name}");
-        Fault::new(Condition::AxisOrCommandExpected, text, span).hint(self.axis_hint())
+        Fault::new(Condition::AxisOrCommandExpected, text, span).hint(self.names.hint())
     }
 
     /// `@X=..`, `@I=..`, `@S=..`: words of cycles for the main axes, the centre and the main spindle, whatever their
@@ -204,7 +204,7 @@ impl Decoder {
                 let Some(axis) = self.geometry.coordinates.main_axis(main) else {
                     let text = format!("@{name}: the channel has no main axis of that place");
                     return Err(Fault::new(Condition::AxisOrCommandExpected, text, span)
-                        .hint(self.axis_hint()));
+                        .hint(self.names.hint()));
                 };
                 self.axis_word(axis, None, &assign.value, span, block)
             }

@@ -3,6 +3,7 @@
 //!
 //! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); TF5200 feedforward control (spindles); 21738, 21867.
 
+use super::modes::weight_ratio;
 use super::words::Words;
 use crate::diag::Condition;
 use crate::exec::commands::keys::{arguments, between};
@@ -69,7 +70,7 @@ arguments! {
 impl Decoder {
     pub(in crate::exec) fn bracket(&mut self, bracket: &Bracket, words: &Words<'_>) -> Outcome<()> {
         let name = bracket.name.as_str();
-        if let Some(axis) = self.axis_of_name(name) {
+        if let Some(axis) = self.names.of_name(name) {
             return self.axis_bracket(axis, bracket, words);
         }
         if let Some(spindle) = self.spindle_of_name(name) {
@@ -100,7 +101,7 @@ impl Decoder {
         match group.items.split_first() {
             Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("OVERRIDE") => {
                 let rest = Group { items: rest.to_vec(), span: group.span };
-                let title = format!("{}[OVERRIDE]", self.axis_name(axis));
+                let title = format!("{}[OVERRIDE]", self.names.name(axis));
                 self.set_overrides(Some(axis), Some(&rest), &title, group.span)
             }
             Some((Item { kind: ItemKind::Flag(word), .. }, rest))
@@ -125,7 +126,7 @@ impl Decoder {
                 Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
                 _,
             )) => {
-                let name = self.axis_name(axis);
+                let name = self.names.name(axis);
                 Err(Fault::unsupported(format!("{name}[{}]", word.text), *span))
             }
             _ => {
@@ -158,8 +159,8 @@ impl Decoder {
     fn call_function(&mut self, function: Function) {
         self.takes_time(function);
         match function {
-            Function::M(number) => self.event(Event::MFunction { number, value: None }),
-            Function::H(number) => self.event(Event::HFunction { number, value: None }),
+            Function::M(number) => self.contour.event(Event::MFunction { number, value: None }),
+            Function::H(number) => self.contour.event(Event::HFunction { number, value: None }),
             Function::Tool | Function::Spindle { .. } | Function::Speed { .. } => {}
         }
     }
@@ -241,7 +242,7 @@ impl Decoder {
             && (turns || state.turning != Turning::Stopped)
             && let Some(event) = state.motion_event()
         {
-            self.event(event);
+            self.contour.event(event);
         }
         self.spindle_warning(spindle, group.span);
         Ok(())
@@ -333,16 +334,16 @@ impl Decoder {
                 self.motion.spindles[spindle].angle_deg = deg;
             }
             SpindleItem::Acceleration(percent) => {
-                let ratio = Self::weight_ratio(Weight::Acceleration, (percent, span))?;
+                let ratio = weight_ratio(Weight::Acceleration, (percent, span))?;
                 self.motion.spindles[spindle].acceleration_ratio = ratio;
                 if let Some(event) = self.motion.spindles[spindle].acceleration_event() {
-                    self.event(event);
+                    self.contour.event(event);
                 }
             }
             SpindleItem::Feedforward(on) => {
                 self.motion.spindles[spindle].feedforward = on;
                 if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
-                    self.event(event);
+                    self.contour.event(event);
                 }
             }
             SpindleItem::Weight(percent) if percent < 0.0 => {
@@ -353,7 +354,7 @@ impl Decoder {
                 let percent = self.limited_weight(percent, span);
                 self.motion.spindles[spindle].weight_ratio = percent / 100.0;
                 if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
-                    self.event(event);
+                    self.contour.event(event);
                 }
             }
         }

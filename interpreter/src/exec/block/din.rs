@@ -8,6 +8,7 @@ mod offsets;
 
 use super::groups::{Act, Group};
 use super::modal::{Compensation, FeedType, FeedWord, LookAhead, Plane};
+use super::modes::weight_ratio;
 use super::words::{CycleCall, GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::contour::insertion::Kind;
@@ -58,7 +59,7 @@ impl Decoder {
         self.functions_before(&words);
         for bracket in &words.brackets {
             let outcome = self.bracket(bracket, &words);
-            self.keep(outcome);
+            self.report.keep(outcome);
         }
         self.technology_wait();
         if !preset {
@@ -78,8 +79,8 @@ impl Decoder {
             _ => self.modal.path.is_tapping(),
         };
         let outcome = self.cutting_words(words);
-        self.keep(outcome);
-        let cuts = self.cuts(words);
+        self.report.keep(outcome);
+        let cuts = self.motion.cutting.takes_s_words(words);
         for (i, speed, span) in &words.speeds {
             // of the main spindle, tapping and cutting take care
             if *i == 0 {
@@ -107,12 +108,12 @@ impl Decoder {
     fn set_plane(&mut self, plane: Plane, span: Span) {
         if plane != self.modal.plane && self.modal.compensation != Compensation::Off {
             let text = "the plane cannot be changed while tool radius compensation is active";
-            self.note(Fault::new(Condition::PlaneWithCompensation, text, span));
+            self.report.note(Fault::new(Condition::PlaneWithCompensation, text, span));
             return;
         }
         if plane != self.modal.plane && self.geometry.coordinates.rotation().is_some() {
             let text = "the change of plane switches the contour rotation off";
-            self.note(Fault::new(Condition::Odd, text, span).warning());
+            self.report.note(Fault::new(Condition::Odd, text, span).warning());
             self.geometry.coordinates.set_rotation(None);
         }
         self.modal.plane = plane;
@@ -130,11 +131,11 @@ impl Decoder {
         }
         if let Some(feed) = words.feed {
             let outcome = self.feed(feed);
-            self.keep(outcome);
+            self.report.keep(outcome);
         }
         for g in &words.g {
             let outcome = self.mode(g, words);
-            self.keep(outcome);
+            self.report.keep(outcome);
         }
         if let Some(g) = takes_axes {
             let outcome = match g.row.act {
@@ -142,7 +143,7 @@ impl Decoder {
                 Act::FeedforwardWeights => self.feedforward_weights(&g, words),
                 _ => Ok(()),
             };
-            self.keep(outcome);
+            self.report.keep(outcome);
         }
         self.insertions(words);
     }
@@ -153,7 +154,7 @@ impl Decoder {
             let text = format!("F{value} is outside 0 to {most}");
             return Err(Fault::new(Condition::Range, text, span));
         }
-        self.unsay("20008");
+        self.report.unsay("20008");
         let word = FeedWord { value, inch: self.modal.inch };
         self.modal.feeds[self.modal.feed_type as usize] = Some(word);
         Ok(())
@@ -190,20 +191,21 @@ impl Decoder {
                 self.modal.engagement_feed = on;
                 if on {
                     let text = "G11: arcs that the compensation inserts at corners keep the programmed feed";
-                    self.note_once("G11", Fault::new(Condition::Fallback, text, g.span));
+                    self.report.note_once("G11", Fault::new(Condition::Fallback, text, g.span));
                 }
             }
             Act::LateBraking(late) => self.modal.late_braking = late,
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
             Act::CentreCorrection(on) => self.modal.centre_correction = on,
             Act::WeightOfAll(weight) => {
-                let ratio = Self::weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
+                let ratio = weight_ratio(weight, (g.value.unwrap_or_default(), g.span))?;
                 self.set_weight(weight, None, ratio, g.span);
             }
             Act::Feedforward(on) if self.motion.feedforward.on != on => {
                 if on && !self.machine.axes.iter().any(Axis::has_feedforward) {
                     let text = "G135 without effect: no axis of the channel has feedforward (P-AXIS-00223)";
-                    self.note_once("G135", Fault::new(Condition::ListNoEffect, text, g.span));
+                    self.report
+                        .note_once("G135", Fault::new(Condition::ListNoEffect, text, g.span));
                 }
                 self.motion.feedforward.on = on;
                 self.feedforward_event();
@@ -212,7 +214,7 @@ impl Decoder {
                 let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
                 if self.modal.look_ahead != mode {
                     self.modal.look_ahead = mode;
-                    self.dynamics_changed();
+                    self.motion.dynamics_changed();
                 }
             }
             Act::LookAheadFunctions => {
@@ -223,25 +225,25 @@ impl Decoder {
                         .with(|d| d.value(ValueKind::Wrong, value, "-")));
                 }
                 let text = "G115: single functions of the look-ahead are not switched off";
-                self.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
+                self.report.note_once("G115", Fault::new(Condition::Fallback, text, g.span));
             }
             Act::Compensation(side) => self.compensation(side, g.span),
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
             Act::Spline(on) => self.contour.akima.select(on),
             Act::Selection(selection) => self.select_compensation_by(selection, g, words)?,
             Act::Radius => {
-                let radius = g.value.unwrap_or_default() * self.unit_mm();
+                let radius = g.value.unwrap_or_default() * self.modal.unit_mm();
                 self.modal.radius_mm = Some(radius);
             }
             Act::Ignored(why) => {
                 let text = format!("G{:02} has no effect: {why}", g.row.number);
                 let key = format!("G{}", g.row.number);
-                self.note_once(&key, Fault::new(Condition::Ignored, text, g.span));
+                self.report.note_once(&key, Fault::new(Condition::Ignored, text, g.span));
             }
             Act::Simplified(how) => {
                 let text = format!("G{}: {how}", g.row.number);
                 let key = format!("G{}", g.row.number);
-                self.note_once(&key, Fault::new(Condition::Fallback, text, g.span));
+                self.report.note_once(&key, Fault::new(Condition::Fallback, text, g.span));
             }
             Act::ExactStopOnce if words.axes.is_empty() => {
                 return Err(Fault::new(Condition::AxisMissing, "G60 without motion", g.span));
@@ -259,7 +261,7 @@ impl Decoder {
                 Act::Rounding => Kind::Rounding,
                 _ => continue,
             };
-            let written = words.centre[0].map(|(i, span)| (i * self.unit_mm(), span));
+            let written = words.centre[0].map(|(i, span)| (i * self.modal.unit_mm(), span));
             if let Some((size, _)) = written {
                 self.modal.insertion_mm = Some(size);
             }
@@ -267,7 +269,7 @@ impl Decoder {
                 Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
                 _ => {
                     let text = format!("G{} without a size (I)", g.row.number);
-                    self.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
+                    self.report.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
                 }
             }
         }
@@ -291,22 +293,22 @@ impl Decoder {
                 "ACHSE" if words.group(Group::Manual).is_some() => continue,
                 "ACHSE" => {
                     let text = "#ACHSE without G200, G201 or G202";
-                    self.note(Fault::new(Condition::AxesWithoutManual, text, *span));
+                    self.report.note(Fault::new(Condition::AxesWithoutManual, text, *span));
                     continue;
                 }
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,
                 other => {
-                    self.note(Fault::unsupported(format!("#{other}"), *span));
+                    self.report.note(Fault::unsupported(format!("#{other}"), *span));
                     continue;
                 }
             };
-            match value.map(|v| v * self.unit_mm()) {
+            match value.map(|v| v * self.modal.unit_mm()) {
                 Some(size) if size > 0.0 => request = Some((kind, size, *span)),
                 _ => {
                     let text = format!("#{} without a size", hash.name);
-                    self.note(Fault::new(Condition::Range, text, *span));
+                    self.report.note(Fault::new(Condition::Range, text, *span));
                 }
             }
         }
@@ -315,7 +317,7 @@ impl Decoder {
             self.insert(kind, size, feed_mm_s, at);
         } else if let Some((_, at)) = feed {
             let text = "#FRC without chamfer or rounding has no effect";
-            self.note(Fault::new(Condition::Odd, text, at).warning());
+            self.report.note(Fault::new(Condition::Odd, text, at).warning());
         }
     }
 
@@ -329,7 +331,7 @@ impl Decoder {
             return false;
         }
         let span = Span::new(g.span.start as usize, end.end() as usize);
-        self.note(super::dialect::printer("G92 E", "sets the way of an extruder", span));
+        self.report.note(super::dialect::printer("G92 E", "sets the way of an extruder", span));
         true
     }
 
@@ -348,13 +350,13 @@ impl Decoder {
             };
             if let (false, Some(text)) = (known, super::dialect::g_function(g.row.number)) {
                 let key = format!("dialect G{}", g.row.number);
-                self.note_once(&key, Fault::new(Condition::Dialect, text, g.span));
+                self.report.note_once(&key, Fault::new(Condition::Dialect, text, g.span));
             }
         }
         if let (false, Some((_, span))) = (self.dialect.own, words.end_feed) {
             let text =
                 "E is the feed at the end of the block in this dialect, not an extruder axis";
-            self.note_once("dialect E", Fault::new(Condition::Dialect, text, span));
+            self.report.note_once("dialect E", Fault::new(Condition::Dialect, text, span));
         }
     }
 }

@@ -166,6 +166,11 @@ pub(in crate::exec) struct Modal {
 }
 
 impl Modal {
+    /// Millimetres per unit of length in the program.
+    pub(in crate::exec) fn unit_mm(&self) -> f64 {
+        if self.inch { 25.4 } else { 1.0 }
+    }
+
     pub(in crate::exec) fn feed(&self) -> Option<FeedWord> {
         self.feeds[self.feed_type as usize]
     }

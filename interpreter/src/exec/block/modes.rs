@@ -6,28 +6,27 @@ use super::words::{GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::geometry::coordinates::Rotation;
-use crate::exec::motion::dynamics::{Weight, channel_dynamics};
+use crate::exec::motion::dynamics::Weight;
 use crate::exec::motion::state::Function;
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 
-impl Decoder {
-    /// A weight in percent as a ratio.
-    pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> Outcome<f64> {
-        let may_be_zero = matches!(
-            weight,
-            Weight::RapidVelocity | Weight::Ramp | Weight::RapidRamp | Weight::GeometricRamp
-        );
-        let ok = percent.is_finite() && (percent > 0.0 || (may_be_zero && percent == 0.0));
-        if ok && percent <= 1e6 {
-            return Ok(percent / 100.0);
-        }
-        let text = format!("a weight of {percent} % is not possible");
-        Err(Fault::new(Condition::Range, text, span))
+/// A weight in percent as a ratio.
+pub(in crate::exec) fn weight_ratio(weight: Weight, (percent, span): Placed) -> Outcome<f64> {
+    let may_be_zero = matches!(
+        weight,
+        Weight::RapidVelocity | Weight::Ramp | Weight::RapidRamp | Weight::GeometricRamp
+    );
+    let ok = percent.is_finite() && (percent > 0.0 || (may_be_zero && percent == 0.0));
+    if ok && percent <= 1e6 {
+        return Ok(percent / 100.0);
     }
+    let text = format!("a weight of {percent} % is not possible");
+    Err(Fault::new(Condition::Range, text, span))
+}
 
+impl Decoder {
     /// Sets a weight; 50130 if it exceeds what the lists allow.
     pub(in crate::exec) fn set_weight(
         &mut self,
@@ -36,28 +35,24 @@ impl Decoder {
         ratio: f64,
         span: Span,
     ) {
-        let before = self.capped_axes();
+        let before = self.motion.capped_axes(&self.machine, &self.modal);
         self.motion.weights.set(weight, axis, ratio);
-        self.dynamics_changed();
-        for axis in self.capped_axes() {
+        self.motion.dynamics_changed();
+        for axis in self.motion.capped_axes(&self.machine, &self.modal) {
             if before.contains(&axis) && (ratio - 1.0).abs() < 1e-12 {
                 continue;
             }
-            let name = self.axis_name(axis).to_owned();
+            let name = self.names.name(axis).to_owned();
             let number = self.machine.axes[axis].number();
             let text = format!(
                 "axis {name}: the weight of {} % exceeds what the axis list allows, it is limited",
                 ratio * 100.0
             );
-            self.note(
+            self.report.note(
                 Fault::new(Condition::DynamicsLimited, text, span)
                     .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")),
             );
         }
-    }
-
-    fn capped_axes(&self) -> Vec<usize> {
-        channel_dynamics(&self.machine, &self.motion.weights, &self.modal, self.motion.vector[0]).1
     }
 
     /// G127, G130, G132, G230.
@@ -72,7 +67,7 @@ impl Decoder {
             return Err(Fault::new(Condition::AxisMissing, text, g.span));
         }
         for (axis, value, span) in &words.axes {
-            let ratio = Self::weight_ratio(weight, (*value, *span))?;
+            let ratio = weight_ratio(weight, (*value, *span))?;
             self.set_weight(weight, Some(*axis), ratio, *span);
         }
         Ok(())
@@ -103,7 +98,7 @@ impl Decoder {
     pub(in crate::exec) fn limited_weight(&mut self, percent: f64, span: Span) -> f64 {
         if percent > 100.0 {
             let text = format!("feedforward weight {percent} % is above 100 %, limited");
-            self.note(
+            self.report.note(
                 Fault::new(Condition::FeedforwardLimit, text, span).with(|d| d.corrected(100.0)),
             );
         }
@@ -115,18 +110,18 @@ impl Decoder {
             on: self.motion.feedforward.on,
             weight_ratios: self.motion.feedforward.weight_ratios.clone(),
         };
-        self.event(event);
+        self.contour.event(event);
     }
 
     /// T.
     pub(in crate::exec) fn select_tool(&mut self, number: f64, span: Span) {
         if let Some(number) = crate::exec::values::number::whole(number, 0, u32::MAX) {
             self.geometry.tools.tool = number;
-            self.event(Event::Tool { number });
+            self.contour.event(Event::Tool { number });
             self.takes_time(Function::Tool);
         } else {
             let text = format!("T{number} is no tool number");
-            self.note(Fault::new(Condition::Range, text, span));
+            self.report.note(Fault::new(Condition::Range, text, span));
         }
     }
 
@@ -134,7 +129,7 @@ impl Decoder {
     pub(in crate::exec) fn select_tool_data(&mut self, number: f64, span: Span) {
         let Some(number) = crate::exec::values::number::whole(number, 0, u32::MAX) else {
             let text = format!("D{number} is no number of tool data");
-            self.note(Fault::new(Condition::Range, text, span));
+            self.report.note(Fault::new(Condition::Range, text, span));
             return;
         };
         self.geometry.tools.data = number;
@@ -147,7 +142,7 @@ impl Decoder {
                     if listed.is_some() { "are not valid (P-TOOL-00005)" } else { "do not exist" };
                 let text = format!("tool data D{number} {what}: length and radius are 0");
                 let hint = "a tool list (werkz_data[0] of the start-up list) or V.G.WZ[n].L and V.G.WZ[n].R set length and radius";
-                self.note_once("D", Fault::new(Condition::NoTool, text, span).hint(hint));
+                self.report.note_once("D", Fault::new(Condition::NoTool, text, span).hint(hint));
             }
             crate::exec::geometry::tools::Tool::default()
         };
@@ -168,30 +163,6 @@ impl Decoder {
             offsets[*axis] += value;
         }
         self.geometry.coordinates.set_tool(offsets);
-    }
-
-    /// Contour rotation about a centre; coordinates that are not given are the present ones.
-    pub(in crate::exec) fn set_rotation(
-        &mut self,
-        plane: [usize; 2],
-        deg: f64,
-        centre: [Option<f64>; 2],
-        span: Span,
-    ) -> Outcome<()> {
-        if !deg.is_finite() {
-            return Err(Fault::new(Condition::Range, "the angle is no number", span));
-        }
-        // the centre is given in the system without rotation
-        self.geometry.coordinates.set_rotation(None);
-        let here = |m: usize| {
-            self.geometry
-                .coordinates
-                .main_axis(m)
-                .map_or(0.0, |axis| self.geometry.coordinates.programmed(axis))
-        };
-        let centre = [centre[0].unwrap_or(here(plane[0])), centre[1].unwrap_or(here(plane[1]))];
-        self.geometry.coordinates.set_rotation(Some(Rotation { plane, deg, centre }));
-        Ok(())
     }
 
     /// G138, G139, G237 to G239; 21317, 21318 where G238 and an active compensation meet.
@@ -221,7 +192,7 @@ impl Decoder {
     fn deselect_in_place(&mut self) {
         let (left, faults) = self.contour.deselect_in_place();
         for fault in faults {
-            self.note(Box::new(fault));
+            self.report.note(Box::new(fault));
         }
         let Some((plane, at)) = left else { return };
         let mut target = self.geometry.coordinates.target().clone();
@@ -237,7 +208,7 @@ impl Decoder {
         if side != Compensation::Off && self.geometry.tools.active.radius_mm == 0.0 {
             let text = "the tool has the radius 0: the path is the programmed contour";
             let hint = "D selects tool data, V.G.WZ[n].R or V.G.WZ_AKT.R sets the radius";
-            self.note_once("G41", Fault::new(Condition::NoTool, text, span).hint(hint));
+            self.report.note_once("G41", Fault::new(Condition::NoTool, text, span).hint(hint));
         }
         let leaves = side == Compensation::Off && self.modal.compensation != Compensation::Off;
         if leaves && self.modal.selection == Selection::WithoutBlock {

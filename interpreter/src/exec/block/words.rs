@@ -98,7 +98,7 @@ impl Decoder {
     pub(in crate::exec) fn collect<'b>(&mut self, words: &'b [Word], block: &mut Words<'b>) {
         for word in words {
             if let Err(fault) = self.collect_word(word, block) {
-                self.note(fault);
+                self.report.note(fault);
                 if block.call.is_some() {
                     break;
                 }
@@ -106,7 +106,7 @@ impl Decoder {
         }
         if let (Some(_), Some(span)) = (block.tool_data, block.tool_written) {
             let text = "D and a write to V.G.WZ_AKT in one block: both set the tool data in use";
-            self.note(Fault::new(Condition::ToolTwice, text, span));
+            self.report.note(Fault::new(Condition::ToolTwice, text, span));
         }
     }
 
@@ -262,7 +262,7 @@ impl Decoder {
         }
         if number == 5 && self.modal.selection == Selection::InsideCorner {
             let text = "G05 does not go with the inside corner selection G238: it is ignored";
-            self.note(Fault::new(Condition::TangentialInsideCorner, text, span));
+            self.report.note(Fault::new(Condition::TangentialInsideCorner, text, span));
             return Ok(());
         }
         if let Act::Unsupported(what) = row.act {

@@ -33,7 +33,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     exchange(decoder, call.span());
     let all = call.rest.iter().chain(&call.command.tail).any(|w| w.is("ALL"));
     let released = |item: &crate::syntax::ast::Item| match &item.kind {
-        ItemKind::Flag(name) => decoder.axis_of_name(&name.text),
+        ItemKind::Flag(name) => decoder.names.of_name(&name.text),
         _ => None,
     };
     let mut named = call.command.groups.iter().flat_map(|g| &g.items).filter_map(released);
@@ -57,11 +57,11 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 item.span,
             ));
         };
-        if let Some(axis) = decoder.axis_of_name(&name.text) {
+        if let Some(axis) = decoder.names.of_name(&name.text) {
             release(decoder, axis);
         }
     }
-    decoder.names_changed();
+    decoder.names.change();
     Ok(())
 }
 
@@ -119,7 +119,7 @@ pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 let axis = (main < decoder.machine.axes.len()).then_some(main);
                 decoder.geometry.coordinates.set_main_axis(main, axis);
             }
-            decoder.names_changed();
+            decoder.names.change();
             Ok(())
         }
         _ => take_all(decoder, call),
@@ -135,14 +135,14 @@ pub(super) fn feed_group(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> 
     let mut members = vec![false; decoder.machine.axes.len()];
     let Some(group) = call.command.groups.first() else {
         decoder.motion.feed_axes = decoder.machine.channel.feed_axes.clone();
-        decoder.dynamics_changed();
+        decoder.motion.dynamics_changed();
         return Ok(());
     };
-    for axis in decoder.axes_in_command(std::slice::from_ref(group))? {
+    for axis in decoder.names.all_in_command(std::slice::from_ref(group))? {
         members[axis] = true;
     }
     decoder.motion.feed_axes = members;
-    decoder.dynamics_changed();
+    decoder.motion.dynamics_changed();
     Ok(())
 }
 
@@ -152,7 +152,7 @@ fn exchange(decoder: &mut Decoder, span: Span) {
     if decoder.shaping.guard_on == Some(true) {
         let text = "the axis exchange switches the Vibration Guard of the program off";
         let hint = "program #VIB GUARD ON again after it";
-        decoder.note(Fault::new(Condition::GuardExchanged, text, span).hint(hint));
+        decoder.report.note(Fault::new(Condition::GuardExchanged, text, span).hint(hint));
     }
     if decoder.shaping.guard_on.take().is_some() {
         decoder.shaping.ax_dev_mm = None;
@@ -191,7 +191,7 @@ fn take_all(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             take(decoder, inner)?;
         }
     }
-    decoder.names_changed();
+    decoder.names.change();
     Ok(())
 }
 
@@ -269,7 +269,7 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         let text = format!("no axis has the logical number {logical}");
         return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)));
     };
-    if let Some(other) = decoder.axis_of_name(&letters).filter(|other| *other != axis) {
+    if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
         release(decoder, other);
     }
     decoder.names.axes[axis] = Some(letters);

@@ -118,7 +118,7 @@ fn tangential_feed(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let keys = TangfeedArguments::read(decoder, &call.title(), call.command.groups.first())?;
     if let Some((radius, _)) = keys.rmin {
-        decoder.modal.engagement_radius_mm = radius * decoder.unit_mm();
+        decoder.modal.engagement_radius_mm = radius * decoder.modal.unit_mm();
     }
     Ok(())
 }
@@ -145,6 +145,6 @@ fn set_tangential_feed(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = format!("#SET TANGFEED RMIN: {value} is negative");
         return Err(Fault::new(Condition::Range, text, call.span()));
     }
-    decoder.modal.engagement_radius_mm = value * decoder.unit_mm();
+    decoder.modal.engagement_radius_mm = value * decoder.modal.unit_mm();
     Ok(())
 }

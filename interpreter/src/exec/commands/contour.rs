@@ -169,16 +169,16 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     for (action, at) in [("PRE_ACTION", keys.pre_action), ("POST_ACTION", keys.post_action)] {
         if let Some(span) = at {
             let text = format!("{action}: functions act at the corner here");
-            decoder.note_once(action, Fault::new(Condition::Fallback, text, span));
+            decoder.report.note_once(action, Fault::new(Condition::Fallback, text, span));
         }
     }
     for (key, span) in keys.without_effect() {
         let text = format!("#CONTOUR MODE: {key} has no effect");
-        decoder.note_once(key, Fault::new(Condition::Fallback, text, span));
+        decoder.report.note_once(key, Fault::new(Condition::Fallback, text, span));
     }
     if matches!(settings.mode, Mode::DistSoft | Mode::DistMaster) {
         let text = "#CONTOUR MODE: the curve of this mode is not published, corners are rounded as with PTP";
-        decoder.note_once("DIST_SOFT", Fault::new(Condition::Fallback, text, call.span()));
+        decoder.report.note_once("DIST_SOFT", Fault::new(Condition::Fallback, text, call.span()));
     }
     if let Some(on) = call.command.on {
         decoder.modal.contouring = on;
@@ -210,7 +210,7 @@ fn points(
     let Some(group) = group else { return Ok(None) };
     let mut rest = Group { items: Vec::new(), span: group.span };
     for item in &group.items {
-        let main_axis = |name: &str| decoder.axis_of_name(name).filter(|axis| *axis < 3);
+        let main_axis = |name: &str| decoder.names.of_name(name).filter(|axis| *axis < 3);
         let point = match &item.kind {
             ItemKind::Pair { key, value: ItemValue::Expr(expr) } => match main_axis(&key.text) {
                 Some(axis) => Some((axis, decoder.number(expr)?)),
@@ -292,7 +292,7 @@ fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     switch(&mut hsc.spline.off_at_rapid, keys.auto_off_g00);
     if let Some((_, span)) = keys.merge {
         let text = "#HSC: MERGE has no effect";
-        decoder.note_once("HSC MERGE", Fault::new(Condition::Fallback, text, span));
+        decoder.report.note_once("HSC MERGE", Fault::new(Condition::Fallback, text, span));
     }
     hsc.on = call.command.on.unwrap_or(hsc.on);
     decoder.contour.hsc = hsc;
@@ -336,7 +336,7 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         [] => {}
         [word] if word.is("ALL") => {
             decoder.motion.vector = [if on { listed } else { VectorLimits::default() }; 2];
-            decoder.dynamics_changed();
+            decoder.motion.dynamics_changed();
             return Ok(());
         }
         [word, ..] => return Err(call.unexpected(word)),
@@ -357,10 +357,10 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         for (vector, _) in decoder.motion.vector.iter_mut().zip(meant).filter(|(_, meant)| *meant) {
             *vector = VectorLimits::default();
         }
-        decoder.dynamics_changed();
+        decoder.motion.dynamics_changed();
         return Ok(());
     }
-    let unit = decoder.unit_mm();
+    let unit = decoder.modal.unit_mm();
     // VEL in mm/min, the others in mm/s2 and mm/s3
     let value = |key: Option<(Option<f64>, Span)>, scale: f64, listed: Option<f64>| {
         let (x, _) = key?;
@@ -382,7 +382,7 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         v.radial_jerk_mm_s3 = radial_jerk.unwrap_or(v.radial_jerk_mm_s3);
         v.trans_acc_mm_s2 = trans_acc.unwrap_or(v.trans_acc_mm_s2);
     }
-    decoder.dynamics_changed();
+    decoder.motion.dynamics_changed();
     Ok(())
 }
 
@@ -431,8 +431,8 @@ fn transition_velocity(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = format!("#TRANSVELMIN: {value} is no velocity");
         return Err(Fault::new(Condition::Range, text, call.span()));
     }
-    decoder.modal.transition_min_mm_s = value * decoder.unit_mm() / 60.0;
-    decoder.dynamics_changed();
+    decoder.modal.transition_min_mm_s = value * decoder.modal.unit_mm() / 60.0;
+    decoder.motion.dynamics_changed();
     Ok(())
 }
 

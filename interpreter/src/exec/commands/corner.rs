@@ -86,6 +86,6 @@ fn set(decoder: &mut Decoder, dist: f64, percent: bool, feed: f64) {
     } else {
         CornerFeed::MmS(feed * decoder.feed_unit_mm_s())
     };
-    let dist_mm = dist * decoder.unit_mm();
+    let dist_mm = dist * decoder.modal.unit_mm();
     decoder.motion.corner = Some(Corner { dist_mm, feed });
 }

@@ -28,13 +28,13 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let keys = RotationArguments::read(decoder, &call.title(), call.command.groups.first())?;
     match call.command.on {
         Some(true) => {
-            let unit = decoder.unit_mm();
+            let unit = decoder.modal.unit_mm();
             let value = |key: Option<(f64, Span)>| key.map_or(0.0, |(x, _)| x);
             // offsets of the centre from the origin of the program; 0 if not written
             let centre = [keys.centre_1, keys.centre_2].map(|key| Some(value(key) * unit));
             let main = decoder.modal.plane.main_axes();
             let deg = value(keys.angle);
-            decoder.set_rotation([main[0], main[1]], deg, centre, call.span())
+            decoder.geometry.coordinates.rotate_about([main[0], main[1]], deg, centre, call.span())
         }
         Some(false) => {
             decoder.geometry.coordinates.set_rotation(None);
@@ -67,7 +67,7 @@ fn system(decoder: &Decoder, group: &Group) -> Outcome<Frame> {
             }
         }
     }
-    let unit = decoder.unit_mm();
+    let unit = decoder.modal.unit_mm();
     let [x, y, z, a, b, c] = values;
     Ok(Frame::coordinate_system([x * unit, y * unit, z * unit], [a, b, c]))
 }
@@ -260,7 +260,7 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
     }
     if decoder.identity_trafo {
         let text = format!("{} is taken as identity: the axes move as programmed", call.title());
-        decoder.note_once(call.name, Fault::new(Condition::Fallback, text, call.span()));
+        decoder.report.note_once(call.name, Fault::new(Condition::Fallback, text, call.span()));
         return Ok(());
     }
     let hint = "--identity-trafo takes transformations as identity";

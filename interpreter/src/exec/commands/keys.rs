@@ -310,10 +310,10 @@ pub(in crate::exec) fn read_all(
             Ok(None) => {}
             Ok(Some((name, _))) if found.get(name).is_some() => {
                 let text = format!("{title}: {name} twice, the second one is left out");
-                decoder.note(Fault::new(key_twice(title), text, item.span));
+                decoder.report.note(Fault::new(key_twice(title), text, item.span));
             }
             Ok(Some((name, written))) => found.found.push((name, written, item.span)),
-            Err(fault) => decoder.note(fault),
+            Err(fault) => decoder.report.note(fault),
         }
     }
     for Key { name, range, .. } in keys {

@@ -72,7 +72,7 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             DiagnosisMessages::Disabled => return Ok(()),
             DiagnosisMessages::Warning => {
                 let fault = discarded(Condition::MessageSuppressed).warning();
-                decoder.note(fault);
+                decoder.report.note(fault);
                 return Ok(());
             }
             DiagnosisMessages::Error => {
@@ -81,7 +81,7 @@ fn message(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
     }
     let source = decoder.report.source;
-    decoder.event(Event::Message { receiver, text, save, source });
+    decoder.contour.event(Event::Message { receiver, text, save, source });
     Ok(())
 }
 
@@ -205,7 +205,7 @@ fn error(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if severity == Severity::Error {
         Err(fault)
     } else {
-        decoder.note(fault);
+        decoder.report.note(fault);
         Ok(())
     }
 }

@@ -48,9 +48,9 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         match &item.kind {
             ItemKind::Flag(word) if word.is("CMDPOS") => actual = Some(false),
             ItemKind::Flag(word) if word.is("ACTPOS") => actual = Some(true),
-            ItemKind::Flag(word) => axes.push(decoder.axis_in_command(word)?),
+            ItemKind::Flag(word) => axes.push(decoder.names.in_command(word)?),
             ItemKind::Pair { key, value: ItemValue::Name(name) } if key.is("AX") => {
-                axes.push(decoder.axis_in_command(name)?);
+                axes.push(decoder.names.in_command(name)?);
             }
             ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("AXNR") => {
                 let number = decoder.whole(expr, "AXNR", 1, u32::MAX)?;
@@ -58,7 +58,7 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 axes.push(axis.ok_or_else(|| {
                     let text = format!("no axis of the channel has the logical number {number}");
                     Fault::new(Condition::AxisNameUnknown, text, expr.span)
-                        .hint(decoder.axis_hint())
+                        .hint(decoder.names.hint())
                 })?);
             }
             ItemKind::Missing => {}
@@ -154,7 +154,7 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
         _ => {
             let text = format!("{} does not wait: there is nothing to wait for", call.title());
-            decoder.note_once("#WAIT", Fault::new(Condition::Wait, text, call.span()));
+            decoder.report.note_once("#WAIT", Fault::new(Condition::Wait, text, call.span()));
             Ok(())
         }
     }
@@ -202,7 +202,7 @@ fn timer(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         decoder.values.timers.act(id, act, decoder.feedback.time_s);
         return Ok(());
     }
-    decoder.event(Event::Timer { id, act });
+    decoder.contour.event(Event::Timer { id, act });
     if act == TimerAct::Read {
         decoder.sync(Sync::Stop);
     }
@@ -223,7 +223,7 @@ pub(super) fn delete(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             ));
         };
         let outcome = decoder.delete(place);
-        decoder.keep(outcome);
+        decoder.report.keep(outcome);
     }
     Ok(())
 }
@@ -313,7 +313,7 @@ fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     };
     let axis = crate::syntax::ast::Ident { text, span: at };
-    let axis = decoder.axis_in_command(&axis)?;
+    let axis = decoder.names.in_command(&axis)?;
     let (key, value) = parameter.trim().split_once(char::is_whitespace).ok_or_else(|| {
         Fault::new(Condition::TokenUnknown, "AXPARAM: `key value` is expected", span)
     })?;

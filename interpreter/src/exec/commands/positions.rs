@@ -78,7 +78,7 @@ fn assign(
         let ItemKind::Target { place, value: ItemValue::Name(axis) } = &item.kind else {
             return Err(wrong(call, item.span));
         };
-        let axis = decoder.axis_in_command(axis)?;
+        let axis = decoder.names.in_command(axis)?;
         let value = position(decoder, axis) / decoder.axis_unit(axis);
         decoder.write(place, Value::Number(value), item.span)?;
     }

@@ -102,7 +102,7 @@ impl Decoder {
                     without.join(", ")
                 );
                 let fault = Fault::new(Condition::AccFactIgnored, text, span);
-                self.note(fault);
+                self.report.note(fault);
             }
         }
     }
@@ -157,7 +157,7 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             realisable(decoder, programmed, call.span())?;
             let text =
                 "the Vibration Guard is off: the values are stored for the next #VIB GUARD ON";
-            decoder.note(Fault::new(Condition::GuardStored, text, call.span()));
+            decoder.report.note(Fault::new(Condition::GuardStored, text, call.span()));
         }
     }
     decoder.update_shaping(call.span());
@@ -263,7 +263,7 @@ fn filter(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             if hsc { ("an HSC filter", "P-AXIS-00153") } else { ("a filter type", "P-AXIS-00586") };
         let text = format!("{}: no axis list configures {what}: no effect", call.title());
         let fault = Fault::new(Condition::Odd, text, call.span()).warning();
-        decoder.note_once(parameter, fault.with(|d| d.parameter(parameter)));
+        decoder.report.note_once(parameter, fault.with(|d| d.parameter(parameter)));
     }
     if hsc {
         decoder.shaping.hsc = stored;

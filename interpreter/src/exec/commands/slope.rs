@@ -36,7 +36,7 @@ fn default(decoder: &mut Decoder) {
 fn set_old(decoder: &mut Decoder, old: bool) {
     if decoder.modal.old_slope != old {
         decoder.modal.old_slope = old;
-        decoder.dynamics_changed();
+        decoder.motion.dynamics_changed();
     }
 }
 

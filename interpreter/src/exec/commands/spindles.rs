@@ -6,6 +6,7 @@ use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::spindles::listed_main;
 use crate::exec::values::number::whole;
 use crate::machine::Axis;
 use crate::syntax::ast::{ItemKind, ItemValue, Span};
@@ -23,7 +24,7 @@ fn main_spindle(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let wrong = |text: &str, span: Span| Fault::new(Condition::TokenUnknown, text, span);
     match (&call.command.groups[..], &call.command.arguments[..]) {
         ([], []) => {
-            let index = decoder.listed_main_spindle();
+            let index = listed_main(&decoder.motion.spindles, &decoder.machine);
             decoder.motion.spindles.swap(0, index);
             Ok(())
         }

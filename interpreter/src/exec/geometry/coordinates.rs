@@ -10,6 +10,9 @@
 mod machine;
 
 use super::frame::Frame;
+use crate::diag::Condition;
+use crate::exec::fault::{Fault, Outcome};
+use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use machine::Suspended;
 use std::collections::{BTreeMap, BTreeSet};
@@ -216,6 +219,21 @@ impl Coordinates {
         self.preset[axis]
     }
 
+    /// Programmed distance of an axis from the turning centre in mm.
+    pub(in crate::exec) fn turning_distance(&self, axis: usize) -> f64 {
+        self.programmed(axis) + self.preset(axis)
+    }
+
+    /// Machine position of the turning centre in mm.
+    pub(in crate::exec) fn turning_centre(&self, axis: usize) -> f64 {
+        self.target[axis] - self.turning_distance(axis)
+    }
+
+    /// Programmed position of the main axes, 0 for one that is missing.
+    pub(in crate::exec) fn programmed_point(&self) -> [f64; 3] {
+        std::array::from_fn(|m| self.main_axis(m).map_or(0.0, |axis| self.programmed(axis)))
+    }
+
     pub(in crate::exec) fn set_preset(&mut self, axis: usize, value_mm: f64) {
         self.preset[axis] = value_mm;
     }
@@ -244,6 +262,25 @@ impl Coordinates {
     }
 
     /// Active coordinate systems.
+    /// Contour rotation about a centre; coordinates that are not given are the present ones.
+    pub(in crate::exec) fn rotate_about(
+        &mut self,
+        plane: [usize; 2],
+        deg: f64,
+        centre: [Option<f64>; 2],
+        span: Span,
+    ) -> Outcome<()> {
+        if !deg.is_finite() {
+            return Err(Fault::new(Condition::Range, "the angle is no number", span));
+        }
+        // the centre is given in the system without rotation
+        self.set_rotation(None);
+        let here = |m: usize| self.main_axis(m).map_or(0.0, |axis| self.programmed(axis));
+        let centre = [centre[0].unwrap_or(here(plane[0])), centre[1].unwrap_or(here(plane[1]))];
+        self.set_rotation(Some(Rotation { plane, deg, centre }));
+        Ok(())
+    }
+
     pub(in crate::exec) fn systems(&self) -> usize {
         self.systems.len()
     }

@@ -17,8 +17,8 @@ use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
 
 impl Decoder {
     pub(super) fn arc(&mut self, from: AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
-        let from = &self.on_path(from);
-        let target = self.on_path(self.geometry.coordinates.target().clone());
+        let from = &self.motion.independent.on_path(from);
+        let target = self.motion.independent.on_path(self.geometry.coordinates.target().clone());
         let main = self.modal.plane.main_axes();
         // askew to the axes the arc is one of the coordinate system
         let PlaneImage { main: image, keeps_sense, tilt } = self.image_of_plane(span)?;
@@ -43,7 +43,7 @@ impl Decoder {
                 let text = "centre and radius in one block";
                 return Err(Fault::new(Condition::CentreAndRadius, text, at));
             }
-            self.modal.radius_mm = Some(radius * self.unit_mm());
+            self.modal.radius_mm = Some(radius * self.modal.unit_mm());
         }
         let found = if has_centre {
             let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
@@ -71,10 +71,11 @@ impl Decoder {
             if pitch == 0.0 || height == 0.0 {
                 if pitch != 0.0 {
                     let text = "a pitch has no meaning without a way along the third axis";
-                    self.note(Fault::new(Condition::Odd, text, at).warning());
+                    self.report.note(Fault::new(Condition::Odd, text, at).warning());
                 }
             } else {
-                arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch * self.unit_mm());
+                arc.sweep_rad =
+                    arc::with_turns(arc.sweep_rad, height, pitch * self.modal.unit_mm());
             }
         }
         self.geometry.last_arc.centre_mm = [arc.centre[0] - s[0], arc.centre[1] - s[1]];
@@ -125,7 +126,7 @@ impl Decoder {
             return Err(Fault::new(Condition::ArcRadiusZero, text, at).hint("write I, J or K"));
         }
         let here = [x, y].map(|axis| self.geometry.coordinates.programmed(axis));
-        let given = centre.map(|word| word.map_or(0.0, |(value, _)| value * self.unit_mm()));
+        let given = centre.map(|word| word.map_or(0.0, |(value, _)| value * self.modal.unit_mm()));
         let to_centre = if self.modal.centre_absolute {
             [given[0] - here[0], given[1] - here[1]]
         } else {
@@ -153,7 +154,7 @@ impl Decoder {
         tilted: bool,
         words: [Option<Placed>; 2],
     ) -> [f64; 2] {
-        let value = |w: Option<Placed>| w.map_or(0.0, |(v, _)| v * self.unit_mm());
+        let value = |w: Option<Placed>| w.map_or(0.0, |(v, _)| v * self.modal.unit_mm());
         let from =
             |m: usize| self.geometry.coordinates.main_axis(m).map_or(0.0, |axis| start[axis]);
         if tilted {

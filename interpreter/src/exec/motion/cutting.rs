@@ -29,6 +29,25 @@ const PIECES_MAX: usize = 1000;
 /// Bit of the mode of an axis: face turning axis. Source: P-AXIS-00015.
 const FACE_TURNING: u32 = 0x40;
 
+/// G96, G97 and G196 in force.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Cutting {
+    /// G96 with its S word.
+    pub(super) speed: Option<CuttingSpeed>,
+    /// G96 is in force, whether or not an S word has come.
+    waits: bool,
+    /// S of G196 in rev/min.
+    rpm_max: Option<f64>,
+}
+
+impl Cutting {
+    /// The S words of the main spindle of this block are not speeds in rev/min.
+    pub(in crate::exec) fn takes_s_words(&self, words: &Words<'_>) -> bool {
+        self.waits
+            || words.group(Group::SpindleMode).is_some_and(|g| g.row.act == Act::CuttingSpeedMax)
+    }
+}
+
 impl Decoder {
     /// G96, G97 and G196 with the S word of their block.
     pub(in crate::exec) fn cutting_words(&mut self, words: &Words<'_>) -> Outcome<()> {
@@ -37,7 +56,7 @@ impl Decoder {
         match g.map(|g| (g.row.act, g.span)) {
             Some((Act::CuttingSpeedMax, span)) => match speed {
                 Some((_, rpm, _)) if rpm > 0.0 && rpm <= 1e6 => {
-                    self.motion.cutting_rpm_max = Some(rpm);
+                    self.motion.cutting.rpm_max = Some(rpm);
                     Ok(())
                 }
                 _ => {
@@ -46,33 +65,27 @@ impl Decoder {
                 }
             },
             Some((Act::CuttingSpeed(false), _)) => {
-                if self.motion.cutting_speed.is_some() {
+                if self.motion.cutting.speed.is_some() {
                     // the speed of the moment stays
                     self.motion.spindles[0].rpm = self.spindle_rpm();
-                    self.motion.cutting_speed = None;
+                    self.motion.cutting.speed = None;
                     if let Some(spindle) = self.motion.spindles[0].index {
-                        self.event(Event::CuttingSpeed { spindle, cutting: None });
+                        self.contour.event(Event::CuttingSpeed { spindle, cutting: None });
                     }
                 }
-                self.motion.cutting_waits = false;
+                self.motion.cutting.waits = false;
                 Ok(())
             }
             Some((Act::CuttingSpeed(true), _)) => {
-                self.motion.cutting_waits = true;
+                self.motion.cutting.waits = true;
                 self.cut_with(speed.map(|(_, v, at)| (v, at)))
             }
             _ => self.cut_with(speed.map(|(_, v, at)| (v, at))),
         }
     }
 
-    /// The S words of the main spindle of this block are no speeds in rev/min.
-    pub(in crate::exec) fn cuts(&self, words: &Words<'_>) -> bool {
-        self.motion.cutting_waits
-            || words.group(Group::SpindleMode).is_some_and(|g| g.row.act == Act::CuttingSpeedMax)
-    }
-
     fn cut_with(&mut self, speed: Option<(f64, Span)>) -> Outcome<()> {
-        let (true, Some((m_min, at))) = (self.motion.cutting_waits, speed) else { return Ok(()) };
+        let (true, Some((m_min, at))) = (self.motion.cutting.waits, speed) else { return Ok(()) };
         if m_min <= 0.0 || m_min > 1e6 {
             let text = format!("cutting speed S{m_min} m/min");
             return Err(Fault::new(Condition::CuttingSpeedZero, text, at));
@@ -86,10 +99,10 @@ impl Decoder {
             axis,
             centre_mm: 0.0,
             speed_mm_min: m_min * 1000.0,
-            max_rpm: self.motion.cutting_rpm_max.map_or(most, |rpm| rpm.min(most)),
+            max_rpm: self.motion.cutting.rpm_max.map_or(most, |rpm| rpm.min(most)),
             held_mm: None,
         };
-        let radius = self.cutting_position(axis);
+        let radius = self.geometry.coordinates.turning_distance(axis);
         if cutting.speed_mm_min / (std::f64::consts::TAU * radius.abs())
             > cutting.max_rpm * (1.0 + 1e-9)
         {
@@ -98,13 +111,13 @@ impl Decoder {
                 rounded(radius.abs()),
                 rounded(cutting.max_rpm)
             );
-            self.note(
+            self.report.note(
                 Fault::new(Condition::CuttingSpeedLimited, text, at)
                     .with(|d| d.value(ValueKind::Wrong, radius.abs() * 1e4, "0.1um")),
             );
         }
         self.motion.spindles[0].rpm = cutting.rpm(radius);
-        self.motion.cutting_speed = Some(cutting);
+        self.motion.cutting.speed = Some(cutting);
         self.tell_cutting_speed();
         Ok(())
     }
@@ -140,11 +153,11 @@ impl Decoder {
         }
         let listed = &self.machine.axes[axis];
         if !listed.takes_diameters(true) && !listed.takes_diameters(false) {
-            let name = self.axis_name(axis).to_owned();
+            let name = self.names.name(axis).to_owned();
             let text = format!("G51 without effect: axis {name} takes no diameters");
             let hint = "kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059) make them diameters";
             let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
-            self.note_once("G51", fault.with(|d| d.parameter("P-AXIS-00058")));
+            self.report.note_once("G51", fault.with(|d| d.parameter("P-AXIS-00058")));
         }
         self.modal.diameter = Some(axis);
         Ok(())
@@ -166,24 +179,13 @@ impl Decoder {
         Err(Fault::new(Condition::FaceTurningAxis, text, span).hint(hint))
     }
 
-    /// Distance of the tool to the turning centre.
-    fn cutting_position(&self, axis: usize) -> f64 {
-        let coordinates = &self.geometry.coordinates;
-        coordinates.programmed(axis) + coordinates.preset(axis)
-    }
-
-    /// Where the turning centre lies in the coordinates of the axis.
-    fn turning_centre(&self, axis: usize) -> f64 {
-        self.geometry.coordinates.target()[axis] - self.cutting_position(axis)
-    }
-
     /// Tells the simulation.
     fn tell_cutting_speed(&mut self) {
-        let Some(mut cutting) = self.motion.cutting_speed else { return };
-        cutting.centre_mm = self.turning_centre(cutting.axis);
-        self.motion.cutting_speed = Some(cutting);
+        let Some(mut cutting) = self.motion.cutting.speed else { return };
+        cutting.centre_mm = self.geometry.coordinates.turning_centre(cutting.axis);
+        self.motion.cutting.speed = Some(cutting);
         if let Some(spindle) = self.motion.spindles[0].index {
-            self.event(Event::CuttingSpeed { spindle, cutting: Some(cutting) });
+            self.contour.event(Event::CuttingSpeed { spindle, cutting: Some(cutting) });
         }
     }
 
@@ -191,81 +193,85 @@ impl Decoder {
     /// of the position where they begin.
     pub(in crate::exec) fn follow_turning_centre(&mut self, start: &AxisVec) {
         let rapid = self.modal.path == PathMode::Rapid;
-        let Some(cutting) = &mut self.motion.cutting_speed else { return };
+        let Some(cutting) = &mut self.motion.cutting.speed else { return };
         let (axis, known) = (cutting.axis, cutting.centre_mm);
         let changes = rapid != cutting.held_mm.is_some();
         if changes {
             cutting.held_mm = rapid.then(|| start[axis]);
         }
-        if changes || (self.turning_centre(axis) - known).abs() > 1e-9 {
+        if changes || (self.geometry.coordinates.turning_centre(axis) - known).abs() > 1e-9 {
             self.tell_cutting_speed();
         }
     }
 
     /// Speed of the main spindle in rev/min after the present position.
     pub(in crate::exec) fn spindle_rpm(&self) -> f64 {
-        match self.motion.cutting_speed {
+        match self.motion.cutting.speed {
             Some(cutting) => {
                 let held = cutting.held_mm.map(|x| x - cutting.centre_mm);
-                cutting.rpm(held.unwrap_or_else(|| self.cutting_position(cutting.axis)))
+                cutting.rpm(
+                    held.unwrap_or_else(|| {
+                        self.geometry.coordinates.turning_distance(cutting.axis)
+                    }),
+                )
             }
             None => self.motion.spindles[0].rpm.abs(),
         }
     }
+}
 
-    /// The pieces of a straight motion in which G95 under G96 has the same feed, with the speed of each; one if the
-    /// speed does not change.
-    pub(in crate::exec) fn cutting_pieces(
-        &self,
-        path: &Path,
-        span: Span,
-    ) -> Outcome<Vec<(Path, f64)>> {
-        let Some(cutting) = self.motion.cutting_speed else { return Ok(Vec::new()) };
-        let Path::Line(_) = path else {
-            return Err(Fault::unsupported("an arc with G95 under G96", span));
+/// The pieces of a straight motion in which G95 under G96 has the same feed, with the speed of each; one if the
+/// speed does not change.
+pub(super) fn pieces(
+    cutting: CuttingSpeed,
+    path: &Path,
+    feed_axes: &[bool],
+    span: Span,
+) -> Outcome<Vec<(Path, f64)>> {
+    let Path::Line(_) = path else {
+        return Err(Fault::unsupported("an arc with G95 under G96", span));
+    };
+    let at = |share: f64| {
+        let (a, b) = (path.start(), path.end());
+        let point = a.iter().zip(b.iter()).map(|(a, b)| a + (b - a) * share);
+        point.collect::<AxisVec>()
+    };
+    let radius = |share: f64| {
+        let (a, b) = (path.start()[cutting.axis], path.end()[cutting.axis]);
+        a + (b - a) * share - cutting.centre_mm
+    };
+    let mut pieces = Vec::new();
+    let (mut from, mut start) = (0.0, path.start().clone());
+    for _ in 0..PIECES_MAX {
+        // the furthest share at which the speed is still within one step
+        let rpm = cutting.rpm(radius(from));
+        let same = |share: f64| {
+            let other = cutting.rpm(radius(share));
+            other <= rpm * STEP && other * STEP >= rpm
         };
-        let at = |share: f64| {
-            let (a, b) = (path.start(), path.end());
-            let point = a.iter().zip(b.iter()).map(|(a, b)| a + (b - a) * share);
-            point.collect::<AxisVec>()
-        };
-        let radius = |share: f64| {
-            let (a, b) = (path.start()[cutting.axis], path.end()[cutting.axis]);
-            a + (b - a) * share - cutting.centre_mm
-        };
-        let mut pieces = Vec::new();
-        let (mut from, mut start) = (0.0, path.start().clone());
-        for _ in 0..PIECES_MAX {
-            // the furthest share at which the speed is still within one step
-            let rpm = cutting.rpm(radius(from));
-            let same = |share: f64| {
-                let other = cutting.rpm(radius(share));
-                other <= rpm * STEP && other * STEP >= rpm
-            };
-            let (mut low, mut high) = (from, 1.0);
-            // beyond the turning centre the speed falls again: both halves of the way for themselves
-            let centre = -radius(0.0) / (radius(1.0) - radius(0.0));
-            if centre > from && centre < 1.0 {
-                high = centre;
-            }
-            if same(high) {
-                low = high;
-            }
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if same(middle) { low = middle } else { high = middle }
-            }
-            let to = if low > from { low } else { 1.0 };
-            let end = if to < 1.0 { at(to) } else { path.end().clone() };
-            let mean = (cutting.rpm(radius(from)) * cutting.rpm(radius(to))).sqrt();
-            if let Some(line) = LinePath::new(start, end.clone(), &self.motion.feed_axes) {
-                pieces.push((Path::Line(line), mean));
-            }
-            (from, start) = (to, end);
-            if from >= 1.0 {
-                return Ok(pieces);
-            }
+        let (mut low, mut high) = (from, 1.0);
+        // beyond the turning centre the speed falls again: both halves of the way for themselves
+        let centre = -radius(0.0) / (radius(1.0) - radius(0.0));
+        if centre > from && centre < 1.0 {
+            high = centre;
         }
-        Err(Fault::unsupported("such a range of speeds with G95 under G96", span))
+        if same(high) {
+            low = high;
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if same(middle) { low = middle } else { high = middle }
+        }
+        let to = if low > from { low } else { 1.0 };
+        let end = if to < 1.0 { at(to) } else { path.end().clone() };
+        let mean = (cutting.rpm(radius(from)) * cutting.rpm(radius(to))).sqrt();
+        if let Some(line) = LinePath::new(start, end.clone(), feed_axes) {
+            pieces.push((Path::Line(line), mean));
+        }
+        (from, start) = (to, end);
+        if from >= 1.0 {
+            return Ok(pieces);
+        }
     }
+    Err(Fault::unsupported("such a range of speeds with G95 under G96", span))
 }

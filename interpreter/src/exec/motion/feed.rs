@@ -22,7 +22,7 @@ impl Decoder {
         let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
             let key = "20008".to_owned();
             let text = "the feed is 0: no F word has been programmed";
-            self.note_once(&key, Fault::new(Condition::FeedZero, text, span));
+            self.report.note_once(&key, Fault::new(Condition::FeedZero, text, span));
             // the block is left out, the positions continue
             return Ok(Feed::PathVelocity(1.0));
         };
@@ -61,7 +61,7 @@ impl Decoder {
             let text = format!(
                 "the block cannot be done in F{time_s} s (G93): its velocity limits need {least_s:.6} s"
             );
-            self.note(Fault::new(Condition::Odd, text, span).warning());
+            self.report.note(Fault::new(Condition::Odd, text, span).warning());
         }
     }
 
@@ -74,7 +74,7 @@ impl Decoder {
 
     /// Unit of an F word with G94 in mm/s.
     pub(in crate::exec) fn feed_unit_mm_s(&self) -> f64 {
-        self.unit_mm() * self.machine.channel.feed_unit_mm_min / 60.0
+        self.modal.unit_mm() * self.machine.channel.feed_unit_mm_min / 60.0
     }
 
     pub(super) fn end_velocity(&self, (value, span): Placed, feed: Feed) -> Outcome<Option<f64>> {

@@ -43,7 +43,7 @@ impl Decoder {
             }
             SlopeKind::Trapez | SlopeKind::Sin2 | SlopeKind::Hsc => {
                 let text = format!("{name} has an effect with the slope STEP alone");
-                self.note_once(&name, Fault::new(Condition::Ignored, text, span));
+                self.report.note_once(&name, Fault::new(Condition::Ignored, text, span));
                 return Ok(None);
             }
         }

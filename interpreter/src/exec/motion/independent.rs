@@ -52,7 +52,7 @@ impl Decoder {
                 Event::HFunction { number, .. } => self.takes_time(Function::H(number)),
                 _ => {}
             }
-            self.event(function);
+            self.contour.event(function);
         }
         let Some((position, at)) = words.position else {
             if rest.is_empty() || words.speed.is_some() || words.rapid {
@@ -84,18 +84,19 @@ impl Decoder {
         }]);
         self.check_limit(axis, target, at);
         if let IndependentSpeed::Time(time_s) = speed {
-            let least_s = (target - start[axis]).abs() / self.dynamics(false).axes[axis].v_max_mm_s;
+            let least_s = (target - start[axis]).abs()
+                / self.motion.dynamics(&self.machine, &self.modal, false).axes[axis].v_max_mm_s;
             if time_s < least_s * (1.0 - 1e-9) {
                 let text = format!(
                     "the independent axis cannot move in TIME={time_s} s: its velocity limit needs {least_s:.6} s"
                 );
-                self.note(Fault::new(Condition::Odd, text, span).warning());
+                self.report.note(Fault::new(Condition::Odd, text, span).warning());
             }
         }
         self.motion.independent.way[axis] += target - start[axis];
         let slope = words.slope.unwrap_or(self.machine.channel.slope);
         let motion = IndependentMotion { from_mm: start[axis], to_mm: target, speed, slope };
-        self.event(Event::Independent { axis, motion });
+        self.contour.event(Event::Independent { axis, motion });
         let list = if synchronous {
             &mut self.motion.independent.synchronous
         } else {
@@ -243,7 +244,7 @@ impl Decoder {
         groups: &[Group],
         span: Span,
     ) -> Outcome<()> {
-        let mut axes = self.axes_in_command(groups)?;
+        let mut axes = self.names.all_in_command(groups)?;
         if all {
             axes = (0..self.machine.axes.len()).collect();
         } else if axes.is_empty() {

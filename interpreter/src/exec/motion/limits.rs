@@ -25,7 +25,7 @@ impl Decoder {
             let end = path.end()[axis];
             let at = || place(axis).unwrap_or(span);
             if let Some(fault) = self.outside_limits(axis, low, high, Some(end), at) {
-                self.note(fault);
+                self.report.note(fault);
             }
         }
     }
@@ -74,7 +74,7 @@ impl Decoder {
         let Some(limits @ (low, high)) = self.geometry.limits_mm[axis] else { return };
         if !(low..=high).contains(&target) {
             let fault = self.limit_fault(axis, "target", target, limits, at);
-            self.note(fault);
+            self.report.note(fault);
         }
     }
 
@@ -86,7 +86,7 @@ impl Decoder {
         (least, most): (f64, f64),
         span: Span,
     ) -> Box<Fault> {
-        let name = self.axis_name(axis).to_owned();
+        let name = self.names.name(axis).to_owned();
         let number = self.machine.axes[axis].number();
         let text = format!("axis {name}: {what} {x} is outside its limits {least} to {most}");
         let fault = Fault::new(Condition::OutsideMotionRange, text, span).with(|d| {

@@ -47,7 +47,7 @@ impl Decoder {
         self.modal.path = modal;
         self.motion.measuring.feed = None;
         outcome?;
-        if self.failed() && !self.checking {
+        if self.report.failed() && !self.checking {
             return Ok(());
         }
         if !self.moved {
@@ -130,7 +130,10 @@ impl Decoder {
             let count = words.axes.len();
             let text = match other {
                 Some((axis, _, _)) if count <= most => {
-                    format!("axis {} with measuring type 4: main axes alone", self.axis_name(*axis))
+                    format!(
+                        "axis {} with measuring type 4: main axes alone",
+                        self.names.name(*axis)
+                    )
                 }
                 _ => format!("{count} axes with measuring type {kind}, which allows {most}"),
             };
@@ -144,7 +147,7 @@ impl Decoder {
         }
         for (axis, _, at) in &words.axes {
             if !self.machine.axes[*axis].measures() {
-                let name = self.axis_name(*axis).to_owned();
+                let name = self.names.name(*axis).to_owned();
                 let number = self.machine.axes[*axis].number();
                 let text = format!("axis {name} does not take part in measuring runs");
                 return Err(Fault::new(Condition::NoMeasuringAxis, text, *at)
@@ -189,7 +192,7 @@ impl Decoder {
             if needs_signal {
                 let text = "the probe has not signalled on the way to the target";
                 let fault = Fault::new(Condition::NoProbeSignal, text, span);
-                self.note(fault.in_block(source));
+                self.report.note(fault.in_block(source));
             }
         }
         if let Some(rest) = rest {
@@ -221,7 +224,7 @@ impl Decoder {
         }
         for (axis, factor, at) in &words.axes {
             let Some(offset) = self.motion.measuring.results[*axis].offset else {
-                let text = format!("axis {} has not been measured", self.axis_name(*axis));
+                let text = format!("axis {} has not been measured", self.names.name(*axis));
                 return Err(Fault::new(Condition::NotMeasured, text, *at));
             };
             self.geometry.coordinates.set_measuring_offset(*axis, factor * offset);

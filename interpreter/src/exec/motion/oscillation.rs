@@ -61,7 +61,7 @@ impl Decoder {
         rest: &[Item],
         span: Span,
     ) -> Outcome<()> {
-        let title = format!("{}[OSC]", self.axis_name(axis));
+        let title = format!("{}[OSC]", self.names.name(axis));
         let group = Group { items: rest.to_vec(), span };
         let keys = OscArguments::read(self, &title, Some(&group))?;
         if let Some((name, at)) = keys.unsupported() {
@@ -85,7 +85,7 @@ impl Decoder {
 
     fn oscillation(&mut self, axis: usize, keys: &OscArguments, span: Span) -> Outcome<()> {
         let number = self.machine.axes[axis].number();
-        let name = self.axis_name(axis).to_owned();
+        let name = self.names.name(axis).to_owned();
         let of_axis = |condition, text: String, at| {
             Fault::new(condition, text, at).with(|d| d.axis(number, name.clone()))
         };
@@ -149,7 +149,7 @@ impl Decoder {
             slope: self.machine.channel.slope,
             count: keys.count.map(|(n, _)| n as u32),
         };
-        self.event(Event::Oscillation { axis, motion });
+        self.contour.event(Event::Oscillation { axis, motion });
         self.motion.independent.open.push(axis);
         Ok(())
     }

@@ -57,14 +57,6 @@ fn through(a: Vector, m: Vector, e: Vector) -> Option<(Vector, [Vector; 3], f64)
 }
 
 impl Decoder {
-    /// Programmed coordinates of the main axes.
-    pub(super) fn programmed_point(&self) -> Vector {
-        let coordinates = &self.geometry.coordinates;
-        std::array::from_fn(|m| {
-            coordinates.main_axis(m).map_or(0.0, |axis| coordinates.programmed(axis))
-        })
-    }
-
     /// G303: from `from` (programmed: `before`) over I J K to the target.
     pub(super) fn arc_in_space(
         &mut self,
@@ -87,14 +79,14 @@ impl Decoder {
         }
         let axes = [x, y, z];
         let via = std::array::from_fn(|m| match words.centre[m] {
-            Some((value, _)) if self.modal.absolute => value * self.unit_mm(),
-            Some((value, _)) => before[m] + value * self.unit_mm(),
+            Some((value, _)) if self.modal.absolute => value * self.modal.unit_mm(),
+            Some((value, _)) => before[m] + value * self.modal.unit_mm(),
             None => before[m],
         });
         let via = coordinates.to_machine(via);
         let via = std::array::from_fn(|m| via[m] - self.motion.independent.way[axes[m]]);
-        let from = self.on_path(from);
-        let target = self.on_path(self.geometry.coordinates.target().clone());
+        let from = self.motion.independent.on_path(from);
+        let target = self.motion.independent.on_path(self.geometry.coordinates.target().clone());
         let point = |p: &AxisVec| axes.map(|axis| p[axis]);
         let Some((centre, plane, sweep_rad)) = through(point(&from), via, point(&target)) else {
             let text =

@@ -1,6 +1,7 @@
 //! What the program last told the spindles.
 
 use crate::exec::step::{Approach, Event, SpindleMotion};
+use crate::machine::Machine;
 
 /// State of one spindle.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,4 +95,23 @@ impl Spindle {
     pub(in crate::exec) fn is_turning(&self) -> bool {
         matches!(self.turning, Turning::Clockwise | Turning::CounterClockwise)
     }
+}
+
+/// The spindles of the lists at program start, the main spindle first; one without a list if there are none.
+pub(super) fn of_lists(machine: &Machine) -> Vec<Spindle> {
+    let named = machine.spindles.iter().enumerate();
+    let mut spindles: Vec<Spindle> = named.map(|(i, s)| Spindle::new(s.name(), Some(i))).collect();
+    if spindles.is_empty() {
+        spindles.push(Spindle::new("S", None));
+    }
+    let main = listed_main(&spindles, machine);
+    spindles.swap(0, main);
+    spindles
+}
+
+/// Index of the spindle of P-CHAN-00051, or else of the first one of the lists.
+pub(in crate::exec) fn listed_main(spindles: &[Spindle], machine: &Machine) -> usize {
+    let number = machine.channel.main_spindle;
+    let listed = number.and_then(|main| machine.spindles.iter().position(|s| s.number() == main));
+    spindles.iter().position(|s| s.index == Some(listed.unwrap_or(0))).unwrap_or(0)
 }

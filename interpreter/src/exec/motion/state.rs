@@ -3,14 +3,15 @@
 pub(in crate::exec) mod measuring;
 
 use self::measuring::Measuring;
-use super::dynamics::Weights;
+use super::cutting::Cutting;
+use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
-use super::spindles::Spindle;
-use crate::exec::block::modal::FeedWord;
+use super::spindles::{self, Spindle};
+use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::feed_course::Corner;
 use crate::exec::geometry::coordinates::Target;
-use crate::exec::step::{CuttingSpeed, SourceRef};
-use crate::machine::Channel;
+use crate::exec::step::SourceRef;
+use crate::machine::{Channel, Machine};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{
@@ -49,12 +50,62 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) feed_before: Option<FeedWord>,
     /// G40 with G239: the tool stands beside the contour, not where the program was.
     pub(in crate::exec) left_contour: bool,
-    /// G96 with its S word.
-    pub(in crate::exec) cutting_speed: Option<CuttingSpeed>,
-    /// G96 is in force, whether or not an S word has come.
-    pub(in crate::exec) cutting_waits: bool,
-    /// S of G196.
-    pub(in crate::exec) cutting_rpm_max: Option<f64>,
+    pub(in crate::exec) cutting: Cutting,
+}
+
+impl MotionState {
+    /// At program start.
+    pub(in crate::exec) fn new(machine: &Machine) -> Self {
+        let n = machine.axes.len();
+        Self {
+            weights: Weights::new(n),
+            feed_axes: machine.channel.feed_axes.clone(),
+            vector: [VectorLimits::default(); 2],
+            dynamics: [None, None],
+            overrides: Overrides::new(n),
+            independent: Independent::new(n),
+            feedforward: Feedforward {
+                on: false,
+                weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
+            },
+            spindles: spindles::of_lists(machine),
+            threads: Threads::new(&machine.channel),
+            measuring: Measuring::new(&machine.channel, n),
+            contour_line: ContourLines::default(),
+            corner: None,
+            feed_before: None,
+            left_contour: false,
+            cutting: Cutting::default(),
+        }
+    }
+
+    /// Dynamics in force in feed or rapid blocks; rebuilt when something changed.
+    pub(super) fn dynamics(
+        &mut self,
+        machine: &Machine,
+        modal: &Modal,
+        rapid: bool,
+    ) -> Arc<ChannelDynamics> {
+        let mode = usize::from(rapid && self.vector[0] != self.vector[1]);
+        if let Some(dynamics) = &self.dynamics[mode] {
+            return Arc::clone(dynamics);
+        }
+        let (mut dynamics, _) = channel_dynamics(machine, &self.weights, modal, self.vector[mode]);
+        dynamics.feed_axes.clone_from(&self.feed_axes);
+        let dynamics = Arc::new(dynamics);
+        self.dynamics[mode] = Some(Arc::clone(&dynamics));
+        dynamics
+    }
+
+    /// Something the dynamics are made from has changed.
+    pub(in crate::exec) fn dynamics_changed(&mut self) {
+        self.dynamics = [None, None];
+    }
+
+    /// Axes whose weights exceed what the lists allow.
+    pub(in crate::exec) fn capped_axes(&self, machine: &Machine, modal: &Modal) -> Vec<usize> {
+        channel_dynamics(machine, &self.weights, modal, self.vector[0]).1
+    }
 }
 
 /// What contour lines keep.
@@ -87,6 +138,14 @@ pub(in crate::exec) struct Independent {
 impl Independent {
     pub(in crate::exec) fn new(axes: usize) -> Self {
         Self { way: AxisVec::zeros(axes), open: Vec::new(), synchronous: Vec::new() }
+    }
+
+    /// Position of the axes without the ways that they have gone alone.
+    pub(super) fn on_path(&self, mut position: AxisVec) -> AxisVec {
+        for (x, way) in position.iter_mut().zip(self.way.iter()) {
+            *x -= way;
+        }
+        position
     }
 
     /// No axis has ever moved alone.

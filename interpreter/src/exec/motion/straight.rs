@@ -56,7 +56,7 @@ impl Decoder {
         self.modal.path = path_mode;
         if let Some(feed) = words.feed {
             let outcome = self.feed(feed);
-            self.keep(outcome);
+            self.report.keep(outcome);
         }
         if before != (self.modal.path, self.modal.feed()) {
             shared = None;
@@ -75,7 +75,7 @@ impl Decoder {
             && !self.motion.left_contour
             && !self.contour.akima.selected
             && !self.motion.contour_line.is_open()
-            && self.motion.cutting_speed.is_none()
+            && self.motion.cutting.speed.is_none()
             && !modal.late_braking
             && !modal.corner_deceleration
             && modal.compensation == Compensation::Off
@@ -106,7 +106,7 @@ impl Decoder {
                 PlainValue::Number(value) => *value,
                 PlainValue::Sum(sum) => self.number(sum).ok()?,
             };
-            match self.axis_of_letter(word.letter) {
+            match self.names.of_letter(word.letter) {
                 Some(axis) if !self.machine.axes[axis].is_modulo() => {
                     if words.targets.iter().any(|t| t.axis == axis) {
                         return None;
@@ -145,10 +145,10 @@ impl Decoder {
             shared
         } else {
             let outcome = self.share(&path, words.places.first().copied().unwrap_or(span));
-            self.keep(outcome)?
+            self.report.keep(outcome)?
         };
         // of a block with an error nothing moves
-        if self.failed() && !self.checking {
+        if self.report.failed() && !self.checking {
             return Some(shared);
         }
         let block = Box::new(Block {
@@ -179,7 +179,7 @@ impl Decoder {
             feed,
             feed_ratio: self.motion.overrides.ratio(rapid, 0..1),
             slope: self.modal.slope,
-            dynamics: self.dynamics(rapid),
+            dynamics: self.motion.dynamics(&self.machine, &self.modal, rapid),
             tolerance: self.shaping.tolerance(),
             contour: self.contour.hsc.contour(),
             spline: self.contour.hsc.spline(),

@@ -6,11 +6,12 @@
 use super::state::Function;
 use crate::exec::decoder::Decoder;
 use crate::exec::step::{Event, Sync};
+use crate::machine::Channel;
 
 impl Decoder {
     /// A function goes to the machine: its duration is waited for ([`Self::technology_wait`]) or named once.
     pub(in crate::exec) fn takes_time(&mut self, function: Function) {
-        let declared = self.declared(function);
+        let declared = declared(&self.machine.channel, function);
         if self.technology.counted
             && let Some((seconds, _)) = declared
         {
@@ -34,7 +35,7 @@ impl Decoder {
             Some((seconds, parameter)) => format!("{name} ({seconds} s each by {parameter})"),
             None => name,
         };
-        self.event(Event::Uncounted { function });
+        self.contour.event(Event::Uncounted { function });
     }
 
     /// The path waits for the functions called since the last wait.
@@ -44,22 +45,21 @@ impl Decoder {
             self.sync(Sync::Technology { seconds });
         }
     }
+}
 
-    /// Duration in s above 0 and where it is declared.
-    fn declared(&self, function: Function) -> Option<(f64, &'static str)> {
-        let channel = &self.machine.channel;
-        let listed =
-            |spindle: usize| channel.spindle_durations_s.get(spindle).copied().unwrap_or_default();
-        let (seconds, parameter) = match function {
-            Function::M(number) => (channel.m_durations_s.get(&number).copied(), "P-CHAN-00040"),
-            Function::H(number) => (channel.h_durations_s.get(&number).copied(), "P-CHAN-00026"),
-            Function::Tool => (None, ""),
-            Function::Spindle { spindle, m: 3 } => (listed(spindle).m3, "P-CHAN-00044"),
-            Function::Spindle { spindle, m: 4 } => (listed(spindle).m4, "P-CHAN-00046"),
-            Function::Spindle { spindle, m: 5 } => (listed(spindle).m5, "P-CHAN-00048"),
-            Function::Spindle { spindle, .. } => (listed(spindle).m19, "P-CHAN-00042"),
-            Function::Speed { spindle } => (listed(spindle).speed, "P-CHAN-00080"),
-        };
-        seconds.filter(|s| *s > 0.0).map(|s| (s, parameter))
-    }
+/// Duration in s above 0 and where it is declared.
+fn declared(channel: &Channel, function: Function) -> Option<(f64, &'static str)> {
+    let listed =
+        |spindle: usize| channel.spindle_durations_s.get(spindle).copied().unwrap_or_default();
+    let (seconds, parameter) = match function {
+        Function::M(number) => (channel.m_durations_s.get(&number).copied(), "P-CHAN-00040"),
+        Function::H(number) => (channel.h_durations_s.get(&number).copied(), "P-CHAN-00026"),
+        Function::Tool => (None, ""),
+        Function::Spindle { spindle, m: 3 } => (listed(spindle).m3, "P-CHAN-00044"),
+        Function::Spindle { spindle, m: 4 } => (listed(spindle).m4, "P-CHAN-00046"),
+        Function::Spindle { spindle, m: 5 } => (listed(spindle).m5, "P-CHAN-00048"),
+        Function::Spindle { spindle, .. } => (listed(spindle).m19, "P-CHAN-00042"),
+        Function::Speed { spindle } => (listed(spindle).speed, "P-CHAN-00080"),
+    };
+    seconds.filter(|s| *s > 0.0).map(|s| (s, parameter))
 }

@@ -70,10 +70,11 @@ impl Decoder {
         self.thread_fits(words, span)?;
         let start = self.program_targets(words)?;
         let end = self.geometry.coordinates.target().clone();
-        let (start, end) = (self.on_path(start), self.on_path(end));
+        let (start, end) =
+            (self.motion.independent.on_path(start), self.motion.independent.on_path(end));
         for (main, word) in words.centre.iter().enumerate() {
             let Some((pitch, at)) = word else { continue };
-            let pitch_mm = pitch * self.unit_mm();
+            let pitch_mm = pitch * self.modal.unit_mm();
             if !(PITCH_MM.0..=PITCH_MM.1).contains(&pitch_mm.abs()) {
                 let text = format!(
                     "the pitch {pitch} of a thread is outside {} to {} mm",
@@ -116,7 +117,7 @@ impl Decoder {
             let text = "tapping with the feed per revolution (G95)";
             return Err(Fault::new(Condition::TappingPerRevolution, text, span));
         }
-        if self.motion.cutting_speed.is_some() {
+        if self.motion.cutting.speed.is_some() {
             let text = "tapping with constant cutting speed (G96)";
             return Err(Fault::new(Condition::TappingCuttingSpeed, text, span));
         }
@@ -168,7 +169,7 @@ impl Decoder {
         let rev_s = (spindle.rpm.abs() * 6.0).min(most_deg_s) / 360.0;
         let way = (path.end()[axis] - path.start()[axis]).abs();
         let feed_mm_s = pitch_mm * rev_s * path.length() / way;
-        let dynamics = self.dynamics(false);
+        let dynamics = self.motion.dynamics(&self.machine, &self.modal, false);
         let mut block = self.thread_block(path, feed_mm_s, dynamics);
         block.full_override =
             modes.full_override() || words.g.iter().any(|g| g.row.act == Act::FullOverride);
@@ -181,7 +182,7 @@ impl Decoder {
                     "the programmed override acts on G33: the thread gets {} % of its pitch",
                     rounded(block.feed_ratio * 100.0)
                 );
-                self.note_once("G33", Fault::new(Condition::ThreadBroken, text, span));
+                self.report.note_once("G33", Fault::new(Condition::ThreadBroken, text, span));
             }
         }
         let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
@@ -193,7 +194,7 @@ impl Decoder {
             return Err(Fault::new(Condition::ThreadSpeed, text, span));
         }
         let plane = self.in_plane(span)?;
-        if self.failed() && !self.checking {
+        if self.report.failed() && !self.checking {
             return Ok(());
         }
         let direction = direction_of(&block.path);
@@ -240,7 +241,7 @@ impl Decoder {
         let Some(spindle) = self.motion.spindles[0].index else { return Ok(()) };
         // the spindle limits the path: it has to follow
         let limits = self.machine.spindles[spindle].dynamics();
-        let mut dynamics = (*self.dynamics(false)).clone();
+        let mut dynamics = (*self.motion.dynamics(&self.machine, &self.modal, false)).clone();
         let ratio = self.motion.spindles[0].acceleration_ratio / coupling.deg_per_path_mm;
         let least = |a: Option<f64>, b: f64| Some(a.map_or(b, |a| a.min(b)));
         let slope = &limits.step_feed;
@@ -252,19 +253,19 @@ impl Decoder {
             least(vector.dec_mm_s2, slope.dec_mm_s2[0].min(slope.dec_mm_s2[1]) * ratio);
         let block = self.thread_block(path, feed_mm_s, Arc::new(dynamics));
         let plane = self.in_plane(span)?;
-        if self.failed() && !self.checking {
+        if self.report.failed() && !self.checking {
             return Ok(());
         }
         if self.shaping.setup.axes.iter().any(|axis| axis.kernel.is_some()) {
             let text =
                 "tapping while the axes are shaped and the spindle is not: it runs ahead of them";
-            self.note_once("tapping", Fault::new(Condition::UnequalKernels, text, span));
+            self.report.note_once("tapping", Fault::new(Condition::UnequalKernels, text, span));
         }
         self.sync(Sync::Spindle { spindle, state: SpindleState::Rest });
         let Coupling { axis, deg_per_mm, .. } = coupling;
-        self.event(Event::SpindleFollows { spindle, way: Some((axis, deg_per_mm)) });
+        self.contour.event(Event::SpindleFollows { spindle, way: Some((axis, deg_per_mm)) });
         self.send(block, plane, None, span);
-        self.event(Event::SpindleFollows { spindle, way: None });
+        self.contour.event(Event::SpindleFollows { spindle, way: None });
         self.motion.spindles[0].turning = Turning::Stopped;
         self.sync(Sync::Stop);
         Ok(())

@@ -75,7 +75,7 @@ impl Executor {
                 && self.decoder.modal != *modal
             {
                 self.decoder.modal = *modal;
-                self.decoder.dynamics_changed();
+                self.decoder.motion.dynamics_changed();
             }
         }
         if let Some(level) = self.levels.last() {
@@ -173,7 +173,7 @@ impl Executor {
         if self.levels.len() > 1 {
             let text = "M02 or M30 inside a subroutine ends the whole program";
             let fault = Fault::new(Condition::Odd, text, Span::default()).warning();
-            self.decoder.note(fault);
+            self.decoder.report.note(fault);
         }
         self.finish();
     }
@@ -199,9 +199,9 @@ impl Executor {
                 }
                 Ok(Value::Number(_)) => {
                     let text = "the variable holds a number, not the name of a program";
-                    self.decoder.note(Fault::new(Condition::Syntax, text, place.span));
+                    self.decoder.report.note(Fault::new(Condition::Syntax, text, place.span));
                 }
-                Err(fault) => self.decoder.note(fault),
+                Err(fault) => self.decoder.report.note(fault),
             },
             CallKind::Cycle(group) => self.call_cycle(group, call.local, span),
             CallKind::Sequence(group) => self.call_sequence(group),
@@ -213,7 +213,9 @@ impl Executor {
             let text = format!("subroutines nested more than {LEVELS_MAX} deep");
             let condition = if local { Condition::Nesting } else { Condition::SubroutineNesting };
             let fault = Fault::new(condition, text, name.span);
-            self.decoder.note(fault.with(|d| d.value(ValueKind::Limit, LEVELS_MAX as f64, "-")));
+            self.decoder
+                .report
+                .note(fault.with(|d| d.value(ValueKind::Limit, LEVELS_MAX as f64, "-")));
             return;
         }
         let target = if local { self.local(name) } else { self.global(name) };
@@ -239,7 +241,7 @@ impl Executor {
             }
             None => format!("local subroutines: {}", known.join(", ")),
         };
-        self.decoder.note(fault.hint(hint));
+        self.decoder.report.note(fault.hint(hint));
         None
     }
 
@@ -250,7 +252,7 @@ impl Executor {
         let index = Arc::clone(&self.files.file(file).index);
         let Some(section) = index.main() else {
             let text = format!("{} holds no program to call", name.text);
-            self.decoder.note(Fault::new(Condition::NoSubroutine, text, name.span));
+            self.decoder.report.note(Fault::new(Condition::NoSubroutine, text, name.span));
             return None;
         };
         Some(Target { file, section })
@@ -268,7 +270,7 @@ impl Executor {
             Err(error) => {
                 let (text, hint) = error.text(path);
                 let fault = Fault::new(Condition::NoFile, format!("subroutine {text}"), span);
-                self.decoder.note(match hint {
+                self.decoder.report.note(match hint {
                     Some(hint) => fault.hint(hint),
                     None => fault,
                 });
@@ -284,7 +286,7 @@ impl Executor {
         if wanted != found && wanted.eq_ignore_ascii_case(&found) {
             let text = format!("{wanted} is {found}: other capital letters than the file's");
             let note = Fault::new(Condition::Odd, text, span);
-            self.decoder.note(note.hint("not every file system finds it under this name"));
+            self.decoder.report.note(note.hint("not every file system finds it under this name"));
         }
     }
 
@@ -330,15 +332,19 @@ impl Executor {
                     Err(Fault::new(Condition::TokenUnknown, text, item.span))
                 }
             };
-            self.decoder.keep(outcome);
+            self.decoder.report.keep(outcome);
         }
         let Some(name) = name else {
-            self.decoder.note(Fault::new(Condition::TokenUnknown, "L CYCLE needs NAME", span));
+            self.decoder.report.note(Fault::new(
+                Condition::TokenUnknown,
+                "L CYCLE needs NAME",
+                span,
+            ));
             return;
         };
         if self.decoder.calls.modal_cycle.is_some() {
             let text = "a modal cycle is active: no other cycle may be called";
-            self.decoder.note(Fault::new(Condition::CycleWhileModal, text, span));
+            self.decoder.report.note(Fault::new(Condition::CycleWhileModal, text, span));
             return;
         }
         if let Some(every_block) = modal {
@@ -396,7 +402,7 @@ impl Executor {
         let levels = self.levels.len();
         self.call_named(&Ident { text: file.into(), span }, false, None);
         if self.levels.len() == levels {
-            self.decoder.amend(|d| d.parameter(parameter));
+            self.decoder.report.amend(|d| d.parameter(parameter));
         }
     }
 

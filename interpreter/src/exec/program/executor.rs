@@ -1,14 +1,18 @@
 //! Runs a program: blocks one after the other, through levels, loops and branches.
 
+mod budget;
+mod found;
 mod report;
 mod run;
 
+use self::budget::Budget;
+use self::found::Found;
 use super::files::Files;
 use super::reached::Reached;
 use super::state::{Level, Sequences};
-use crate::diag::{Condition, Diagnostic, Id, Location, Severity};
+use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::decoder::Decoder;
-use crate::exec::options::{GuardCommands, Options, SkipLevels, Stop};
+use crate::exec::options::{GuardCommands, Options, SkipLevels};
 use crate::exec::step::{EndReason, Feedback, ShapingSetup, SourceRef, Step, Sync};
 use crate::exec::values::timers::TimerAct;
 use crate::machine::Machine;
@@ -16,7 +20,6 @@ use crate::source::{Position, Sources};
 use crate::syntax::Parser;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
@@ -41,18 +44,8 @@ pub(crate) struct Executor {
     pub(in crate::exec) skip: SkipLevels,
     state: State,
     start: AxisVec,
-    diagnostics: Vec<Diagnostic>,
-    reported: BTreeSet<(Id, Arc<str>, u32, u64)>,
-    pub(super) errors: usize,
-    /// Blocks executed up to the first error.
-    first_error: Option<u64>,
-    blocks: u64,
-    blocks_at_rest: u64,
-    max_blocks: u64,
-    max_blocks_at_rest: u64,
-    stop: Stop,
-    /// A limit ended the program before its own end.
-    limited: bool,
+    pub(super) found: Found,
+    budget: Budget,
     /// Place of the block in work.
     pub(in crate::exec) position: Position,
     /// What was executed, while checking.
@@ -69,7 +62,7 @@ impl fmt::Debug for Executor {
         f.debug_struct("Executor")
             .field("state", &self.state)
             .field("levels", &self.levels)
-            .field("blocks", &self.blocks)
+            .field("budget", &self.budget)
             .finish_non_exhaustive()
     }
 }
@@ -95,9 +88,7 @@ impl Executor {
     ) -> Self {
         let mut diagnostics = Vec::new();
         let start = start_position(&machine, &options.start, &mut diagnostics);
-        let (skip, max_blocks) = (options.skip, options.max_blocks);
-        let max_blocks_at_rest = options.max_blocks_at_rest;
-        let stop = options.stop.clone();
+        let (skip, budget) = (options.skip, Budget::new(&options));
         let mut decoder = Decoder::new(machine, options, &start);
         decoder.checking = checking;
         let names = decoder.long_names();
@@ -111,16 +102,8 @@ impl Executor {
             skip,
             state: State::Running,
             start,
-            diagnostics: Vec::new(),
-            reported: BTreeSet::new(),
-            errors: 0,
-            first_error: None,
-            blocks: 0,
-            blocks_at_rest: 0,
-            max_blocks,
-            max_blocks_at_rest,
-            stop,
-            limited: false,
+            found: Found::default(),
+            budget,
             position: Position::START,
             reached: Reached::default(),
             calls_more: false,
@@ -165,7 +148,7 @@ impl Executor {
         if let Some(name) = self.decoder.machine.channel.start_program.clone() {
             self.call_of_list(&name, "P-CHAN-00119", Span::default());
             // a list of the machine may name a program that lies on its control only
-            self.decoder.amend(|d| {
+            self.decoder.report.amend(|d| {
                 if d.id != Condition::NoFile {
                     return d;
                 }
@@ -176,7 +159,7 @@ impl Executor {
             });
             self.settle(false);
         }
-        if self.errors > 0 && !self.decoder.checking {
+        if self.found.errors() > 0 && !self.decoder.checking {
             self.end(EndReason::Aborted);
         }
     }
@@ -211,7 +194,7 @@ impl Executor {
             if let Some(step) = self.decoder.contour.pop() {
                 // a stop takes no time
                 if !matches!(step, Step::Sync { what: Sync::Stop, .. }) {
-                    self.blocks_at_rest = 0;
+                    self.budget.moved();
                 }
                 return step;
             }
@@ -238,7 +221,7 @@ impl Executor {
 
     /// Diagnostics since the last call.
     pub(crate) fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.diagnostics)
+        self.found.take()
     }
 
     /// Names of the files that took part so far; [`SourceRef::file`] is an index.
@@ -279,7 +262,7 @@ impl Executor {
 
     /// Blocks executed so far.
     pub(crate) fn blocks(&self) -> u64 {
-        self.blocks
+        self.budget.blocks()
     }
 
     /// Where the axes stand at program start.

@@ -65,13 +65,13 @@ impl Executor {
             ControlKind::Break => self.break_out(span),
             ControlKind::Continue => self.go_on(span),
         };
-        self.decoder.keep(outcome);
+        self.decoder.report.keep(outcome);
     }
 
     /// A condition; a fault in it is reported and counts as false.
     fn test(&mut self, condition: &Expr) -> bool {
         let outcome = self.decoder.condition(condition);
-        self.decoder.keep(outcome).unwrap_or(false)
+        self.decoder.report.keep(outcome).unwrap_or(false)
     }
 
     /// Execution continues at a place.
@@ -297,7 +297,7 @@ impl Executor {
     pub(in crate::exec) fn goto(&mut self, jump: &Jump) {
         let label = match self.label_of(jump) {
             Ok(label) => label,
-            Err(fault) => return self.decoder.note(fault),
+            Err(fault) => return self.decoder.report.note(fault),
         };
         let Some(level) = self.levels.last_mut() else { return };
         let shown = match &label {
@@ -307,7 +307,7 @@ impl Executor {
         let Some(place) = level.index.label(level.section, &label).copied() else {
             let text = format!("label {shown} does not exist in this program");
             let hint = "a label comes first in its block: N20: or [NAME]";
-            self.decoder.note(Fault::new(Condition::Label, text, jump.span).hint(hint));
+            self.decoder.report.note(Fault::new(Condition::Label, text, jump.span).hint(hint));
             return;
         };
         // structures around the label that are not open, the innermost first
@@ -348,7 +348,7 @@ impl Executor {
                 Some(keyword) if keyword.is_loop() => Condition::JumpIntoLoop,
                 _ => Condition::LabelInto,
             };
-            self.decoder.note(Fault::new(condition, text, jump.span));
+            self.decoder.report.note(Fault::new(condition, text, jump.span));
         }
     }
 }

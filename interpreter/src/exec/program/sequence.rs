@@ -30,7 +30,7 @@ impl Executor {
     /// `L SEQUENCE [..]`.
     pub(super) fn call_sequence(&mut self, group: &Group) {
         let outcome = self.sequence(group);
-        self.decoder.keep(outcome);
+        self.decoder.report.keep(outcome);
     }
 
     fn sequence(&mut self, group: &Group) -> Outcome<()> {

@@ -4,6 +4,7 @@ use super::index::{EntryId, Index, Keyword};
 use super::info::ProgramInfo;
 use crate::exec::block::modal::Modal;
 use crate::exec::options::Value;
+use crate::machine::Channel;
 use crate::source::Position;
 use crate::syntax::ast::{Ident, Place};
 use std::collections::BTreeMap;
@@ -64,6 +65,17 @@ pub(in crate::exec) struct Calls {
     pub(in crate::exec) modal_cycle: Option<ModalCycle>,
     /// `#RETAIN CYCLE CHANGES`: the cycle in work leaves its modal state.
     pub(in crate::exec) retain_cycle_changes: bool,
+}
+
+impl Calls {
+    /// At program start, with the subroutines of the channel list.
+    pub(in crate::exec) fn new(channel: &Channel) -> Self {
+        Self {
+            cycle_files: channel.g8x_programs.clone(),
+            tool_change_file: channel.tool_change_program.clone(),
+            ..Self::default()
+        }
+    }
 }
 
 /// Values of a cycle by the name after `@`.

@@ -105,7 +105,7 @@ impl Executor {
     fn text_behind_end(&mut self, index: &Index, section: &Section, end: u64) {
         let main = matches!(&self.levels[..], [main] if main.frames.is_empty());
         let last = self.position.offset >= section.start.offset && self.position.offset < end;
-        if self.errors > 0
+        if self.found.errors() > 0
             || !main
             || !last
             || self.end_program_called

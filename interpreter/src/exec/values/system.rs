@@ -60,7 +60,7 @@ const ROWS: &[Row] = &[
     Row { name: &["A", "MEAS", "ACS", "VALUE", "*"], read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].axis) },
     Row { name: &["A", "MEAS", "PCS", "VALUE", "*"], read: |d, p| p.position(d, 4, |d, a| d.motion.measuring.results[a].program) },
     Row { name: &["G", "MEAS_TYPE"], read: |d, _| number(f64::from(d.motion.measuring.kind)) },
-    Row { name: &["G", "RW"], read: |d, _| number(d.motion.measuring.residual_path_mm / d.unit_mm()) },
+    Row { name: &["G", "RW"], read: |d, _| number(d.motion.measuring.residual_path_mm / d.modal.unit_mm()) },
     Row { name: &["A", "-SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).0) },
     Row { name: &["A", "+SWE", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.geometry.limits_mm[a]).1) },
     Row { name: &["A", "-SWE_MDS", "*"], read: |d, p| p.position(d, 2, |d, a| limit(d.machine.axes[a].software_limits_mm()).0) },
@@ -78,11 +78,11 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "I"], read: |d, _| centre(d, 0) },
     Row { name: &["G", "J"], read: |d, _| centre(d, 1) },
     Row { name: &["G", "K"], read: |d, _| centre(d, 2) },
-    Row { name: &["G", "R"], read: |d, _| number(d.geometry.last_arc.radius_mm / d.unit_mm()) },
+    Row { name: &["G", "R"], read: |d, _| number(d.geometry.last_arc.radius_mm / d.modal.unit_mm()) },
     Row { name: &["G", "MERR"], read: |d, p| {
         let i = p.index(d, 1, 2)?;
         let place = d.geometry.last_arc.plane.iter().position(|m| *m == i as usize);
-        number(place.map_or(0.0, |k| d.geometry.last_arc.shift_mm[k]) / d.unit_mm())
+        number(place.map_or(0.0, |k| d.geometry.last_arc.shift_mm[k]) / d.modal.unit_mm())
     } },
     Row { name: &["G", "NP", "V", "*"], read: |d, p| { let g = p.index(d, 1, 999)?; p.position(d, 3, |d, a| d.geometry.coordinates.zero_entry(g, a)) } },
     Row { name: &["G", "NP_AKT", "V", "*"], read: |d, p| p.position(d, 3, |d, a| d.geometry.coordinates.zero_offset(a)) },
@@ -116,8 +116,8 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "CNC_VERSION", "PATCH"], read: |_, _| number(0.0) },
     Row { name: &["G", "ROT_ACTIVE"], read: |d, _| truth(d.geometry.coordinates.rotation().is_some()) },
     Row { name: &["G", "ROT_ANGLE"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.deg)) },
-    Row { name: &["G", "ROT_CENTER1"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[0]) / d.unit_mm()) },
-    Row { name: &["G", "ROT_CENTER2"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[1]) / d.unit_mm()) },
+    Row { name: &["G", "ROT_CENTER1"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[0]) / d.modal.unit_mm()) },
+    Row { name: &["G", "ROT_CENTER2"], read: |d, _| number(d.geometry.coordinates.rotation().map_or(0.0, |r| r.centre[1]) / d.modal.unit_mm()) },
     Row { name: &["G", "CS_ACTIVE"], read: |d, _| truth(d.geometry.coordinates.systems() > 0) },
     Row { name: &["G", "CS_COUNT"], read: |d, _| number(d.geometry.coordinates.systems() as f64) },
     Row { name: &["SPDL_PROG", "SPEED", "s"], read: |d, p| { let i = p.spindle(d, 2)?; number(d.motion.spindles[i].rpm) } },
@@ -142,7 +142,7 @@ fn parameter(tool: &Tool, index: u32) -> f64 {
 /// Centre of the last arc relative to its start, along a main axis.
 fn centre(d: &Decoder, main: usize) -> Outcome<Value> {
     let place = d.geometry.last_arc.plane.iter().position(|m| *m == main);
-    number(place.map_or(0.0, |k| d.geometry.last_arc.centre_mm[k]) / d.unit_mm())
+    number(place.map_or(0.0, |k| d.geometry.last_arc.centre_mm[k]) / d.modal.unit_mm())
 }
 
 impl Path<'_> {
@@ -160,9 +160,9 @@ impl Path<'_> {
     /// Axis by name in the segment `at`, or by the index after the segment before.
     fn axis(&self, d: &Decoder, at: usize) -> Outcome<usize> {
         if let Some(segment) = self.segments.get(at) {
-            return d.axis_of_name(&segment.name).ok_or_else(|| {
+            return d.names.of_name(&segment.name).ok_or_else(|| {
                 let text = format!("unknown axis `{}`", segment.name);
-                Fault::new(Condition::AxisIdentifier, text, self.span).hint(d.axis_hint())
+                Fault::new(Condition::AxisIdentifier, text, self.span).hint(d.names.hint())
             });
         }
         let high = u32::try_from(d.machine.axes.len().saturating_sub(1)).unwrap_or(0);
@@ -320,7 +320,7 @@ pub(in crate::exec) fn write(
         d.values.kinematics.insert(name, value);
         let text =
             "V.G.KIN: transformations are taken as identity, their parameters have no effect";
-        d.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
+        d.report.note_once("V.G.KIN", Fault::new(Condition::Fallback, text, span));
         return Ok(());
     }
     let path = Path { segments, span };
@@ -334,7 +334,7 @@ pub(in crate::exec) fn write(
             d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
         }
         ["G", "RW"] => {
-            d.motion.measuring.residual_path_mm = x()? * d.unit_mm();
+            d.motion.measuring.residual_path_mm = x()? * d.modal.unit_mm();
         }
         ["G", "WZR"] => {
             d.geometry.tools.active.radius_mm = x()?;

@@ -53,6 +53,31 @@ fn undefined_parameter(index: u32, span: Span) -> Box<Fault> {
     ))
 }
 
+impl Variables {
+    fn cycle_parameter(&self, name: &str, span: Span) -> Outcome<Value> {
+        let Some(scope) = self.cycles.last() else {
+            return Err(outside_cycle(name, span));
+        };
+        scope.passed.get(name).cloned().ok_or_else(|| {
+            undefined(&format!("@{name}"), span).hint(format!("test V.G.@{name}.VALID first"))
+        })
+    }
+
+    fn unknown(&self, class: Class, name: &str, span: Span) -> Box<Fault> {
+        let letter = match class {
+            Class::Program => "P",
+            Class::Local => "L",
+            Class::Shared => "S",
+            Class::Cycle => "CYC",
+        };
+        let fault = undefined(&format!("V.{letter}.{name}"), span);
+        match suggest::nearest(name, self.names(class)) {
+            Some(near) => fault.hint(format!("did you mean `V.{letter}.{near}`?")),
+            None => fault,
+        }
+    }
+}
+
 impl Decoder {
     fn subscripts(&self, exprs: &[Expr]) -> Outcome<Subscripts> {
         exprs.iter().map(|e| self.number(e)).collect()
@@ -160,7 +185,7 @@ impl Decoder {
             Target::Own(class, name, subscripts) => {
                 match self.values.variables.find(class, &name) {
                     Some(variable) => variable.get(&subscripts, Owner::Variable, span),
-                    None => Err(self.unknown(class, &name, span)),
+                    None => Err(self.values.variables.unknown(class, &name, span)),
                 }
             }
             Target::External(name) => match self.values.variables.external.get(&name) {
@@ -180,31 +205,8 @@ impl Decoder {
                     })
                 }
             },
-            Target::Cycle(name) => self.cycle_parameter(name, span),
+            Target::Cycle(name) => self.values.variables.cycle_parameter(name, span),
             Target::System(segments) => system::read(self, segments, span),
-        }
-    }
-
-    fn cycle_parameter(&self, name: &str, span: Span) -> Outcome<Value> {
-        let Some(scope) = self.values.variables.cycles.last() else {
-            return Err(outside_cycle(name, span));
-        };
-        scope.passed.get(name).cloned().ok_or_else(|| {
-            undefined(&format!("@{name}"), span).hint(format!("test V.G.@{name}.VALID first"))
-        })
-    }
-
-    fn unknown(&self, class: Class, name: &str, span: Span) -> Box<Fault> {
-        let letter = match class {
-            Class::Program => "P",
-            Class::Local => "L",
-            Class::Shared => "S",
-            Class::Cycle => "CYC",
-        };
-        let fault = undefined(&format!("V.{letter}.{name}"), span);
-        match suggest::nearest(name, self.values.variables.names(class)) {
-            Some(near) => fault.hint(format!("did you mean `V.{letter}.{near}`?")),
-            None => fault,
         }
     }
 
@@ -240,7 +242,7 @@ impl Decoder {
                 }
                 let by_write = matches!(class, Class::Program | Class::Shared);
                 if !by_write || !subscripts.is_empty() {
-                    let fault = self.unknown(class, &name, span);
+                    let fault = self.values.variables.unknown(class, &name, span);
                     return Err(fault.hint("declare it between #VAR and #ENDVAR"));
                 }
                 if let Some(table) = self.values.variables.table(class) {
@@ -273,7 +275,7 @@ impl Decoder {
             }
             None => {
                 let text = format!("V.E.{name} is not configured, the program created it");
-                self.note(Fault::new(Condition::ExternalCreated, text, span));
+                self.report.note(Fault::new(Condition::ExternalCreated, text, span));
                 let access = Access::ReadWrite;
                 self.values.variables.external.insert(name, External { value, access });
                 Ok(())
@@ -311,7 +313,7 @@ impl Decoder {
                 let gone =
                     self.values.variables.table(class).and_then(|table| table.remove(&*name));
                 if gone.is_none() {
-                    let unknown = self.unknown(class, &name, span);
+                    let unknown = self.values.variables.unknown(class, &name, span);
                     return Err(
                         unknown.with(|d| Diagnostic { id: Condition::DeletedUnknown.id(), ..d })
                     );

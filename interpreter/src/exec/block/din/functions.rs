@@ -39,7 +39,7 @@ impl Decoder {
     pub(super) fn speed(&mut self, index: usize, value: f64, span: Span) {
         if !(0.0..=1e6).contains(&value) {
             let text = format!("spindle speed {value} is outside 0 to 1000000 rev/min");
-            self.note(Fault::new(Condition::Range, text, span));
+            self.report.note(Fault::new(Condition::Range, text, span));
             return;
         }
         self.set_spindle_speed(index, value, span);
@@ -49,7 +49,7 @@ impl Decoder {
         if self.motion.spindles[index].is_turning()
             && let Some(event) = self.motion.spindles[index].motion_event()
         {
-            self.event(event);
+            self.contour.event(event);
         }
         self.spindle_warning(index, span);
     }
@@ -66,18 +66,18 @@ impl Decoder {
                 rounded(rpm),
                 rounded(most)
             );
-            self.note(Fault::new(Condition::SpindleLimit, text, span));
+            self.report.note(Fault::new(Condition::SpindleLimit, text, span));
         }
     }
 
     pub(in crate::exec) fn spindle_warning(&mut self, index: usize, span: Span) {
         if self.motion.spindles[index].index.is_none() {
             let text = "the machine has no spindle: speeds are remembered, nothing turns";
-            self.note_once("spindle", Fault::new(Condition::Ignored, text, span));
+            self.report.note_once("spindle", Fault::new(Condition::Ignored, text, span));
         } else if self.motion.spindles[index].is_turning() && self.motion.spindles[index].rpm == 0.0
         {
             let text = "M03 and M04 with the speed 0 turn nothing before an S word";
-            self.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
+            self.report.note_once("spindle speed", Fault::new(Condition::Odd, text, span));
         }
     }
 
@@ -96,7 +96,7 @@ impl Decoder {
         if let (Some(first), Some(second)) = (spindle.next(), spindle.next()) {
             let (m, n) = (first.number, second.number);
             let text = format!("M{m:02} and M{n:02} in one block: both set the spindle");
-            self.note(Fault::new(Condition::DuplicateGroup, text, second.span));
+            self.report.note(Fault::new(Condition::DuplicateGroup, text, second.span));
         }
         let direction = words.m.iter().find(|m| positions && matches!(m.number, 3 | 4));
         for m in &words.m {
@@ -112,7 +112,7 @@ impl Decoder {
             }
         }
         for h in &words.h {
-            self.event(Event::HFunction { number: h.number, value: h.value });
+            self.contour.event(Event::HFunction { number: h.number, value: h.value });
             self.takes_time(Function::H(h.number));
         }
     }
@@ -120,9 +120,9 @@ impl Decoder {
     fn m_function(&mut self, m: &Code) {
         if let Some(text) = crate::exec::block::dialect::m_function(m.number) {
             let key = format!("M{}", m.number);
-            self.note_once(&key, Fault::new(Condition::Dialect, text, m.span));
+            self.report.note_once(&key, Fault::new(Condition::Dialect, text, m.span));
         }
-        self.event(Event::MFunction { number: m.number, value: m.value });
+        self.contour.event(Event::MFunction { number: m.number, value: m.value });
         self.takes_time(Function::M(m.number));
     }
 
@@ -136,14 +136,14 @@ impl Decoder {
             None => turning,
         };
         if let Some(event) = self.motion.spindles[0].motion_event() {
-            self.event(event);
+            self.contour.event(event);
         }
         self.takes_time(match self.motion.spindles[0].index {
             Some(spindle) => Function::Spindle { spindle, m: m.number },
             None => Function::M(m.number),
         });
         if self.motion.spindles[0].index.is_none() {
-            self.event(Event::MFunction { number: m.number, value: m.value });
+            self.contour.event(Event::MFunction { number: m.number, value: m.value });
         }
     }
 
@@ -166,7 +166,7 @@ impl Decoder {
         });
         if let (Some(m), true) = (tool_change, words.call.is_some() || words.cycle.is_some()) {
             let text = "M06 calls a subroutine: a second call in its block";
-            self.note(Fault::new(Condition::SeveralCalls, text, m.span));
+            self.report.note(Fault::new(Condition::SeveralCalls, text, m.span));
         }
         if let Some((call, span)) = words.call {
             return After::Call(call, span);

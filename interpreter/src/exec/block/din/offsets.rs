@@ -7,6 +7,22 @@ use crate::exec::block::words::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 
+fn zero_group(g: &GWord) -> Outcome<u32> {
+    let value = g.value.unwrap_or_default();
+    crate::exec::values::number::whole(value, 0, 999).ok_or_else(|| {
+        let text = format!("zero-offset group {value} does not exist");
+        Fault::new(Condition::Range, text, g.span)
+    })
+}
+
+fn needs_axes(g: &GWord, words: &Words<'_>) -> Outcome<()> {
+    if words.axes.is_empty() {
+        let text = format!("G{} without axis words", g.row.number);
+        return Err(Fault::new(Condition::AxisMissing, text, g.span));
+    }
+    Ok(())
+}
+
 impl Decoder {
     /// The G function that takes the axis words of the block as its arguments.
     pub(super) fn axis_functions(&mut self, words: &Words<'_>) -> Option<GWord> {
@@ -17,7 +33,7 @@ impl Decoder {
                     "G{} and G{} in one block: both need the axis words",
                     first.row.number, g.row.number
                 );
-                self.note(Fault::new(Condition::Syntax, text, g.span));
+                self.report.note(Fault::new(Condition::Syntax, text, g.span));
             } else {
                 found = Some(*g);
             }
@@ -28,7 +44,7 @@ impl Decoder {
                 "G{:02} beside G{}: the axis words are arguments of G{}, not targets",
                 motion.row.number, g.row.number, g.row.number
             );
-            self.note(Fault::new(Condition::Syntax, text, motion.span));
+            self.report.note(Fault::new(Condition::Syntax, text, motion.span));
         }
         found
     }
@@ -49,7 +65,7 @@ impl Decoder {
                     self.geometry.coordinates.select_zero_group(group);
                     Ok(())
                 }
-                Act::ZeroGroupValue => Self::zero_group(g).map(|group| {
+                Act::ZeroGroupValue => zero_group(g).map(|group| {
                     self.geometry.coordinates.select_zero_group(group);
                 }),
                 Act::Mirror(first, second) => {
@@ -62,7 +78,7 @@ impl Decoder {
                 }
                 _ => Ok(()),
             };
-            self.keep(outcome);
+            self.report.keep(outcome);
         }
         let Some(g) = takes_axes else { return };
         let outcome = match g.row.act {
@@ -74,7 +90,7 @@ impl Decoder {
             Act::MeasuringOffsets(takes_in) => self.measuring_offsets(takes_in, &g, words),
             _ => Ok(()),
         };
-        self.keep(outcome);
+        self.report.keep(outcome);
     }
 
     /// `#PSET X10`, `#PRESET X0`, `#PRESET`: true if the axis words of the block belong to one of them.
@@ -87,18 +103,19 @@ impl Decoder {
         };
         if (0..self.machine.axes.len()).any(|axis| self.geometry.coordinates.mirrored(axis)) {
             let text = "#PSET and #PRESET do not go with mirroring";
-            self.note(Fault::new(Condition::PresetWhileMirrored, text, at));
+            self.report.note(Fault::new(Condition::PresetWhileMirrored, text, at));
             return true;
         }
         let conflicts = !self.geometry.coordinates.frame().is_identity()
             || self.modal.compensation != Compensation::Off;
         if conflicts {
             let text = "#PSET and #PRESET do not go with rotation, #CS or tool radius compensation";
-            self.note(Fault::new(Condition::Syntax, text, at));
+            self.report.note(Fault::new(Condition::Syntax, text, at));
             return true;
         }
         if words.axes.iter().any(|(axis, _, _)| self.modal.diameter == Some(*axis)) {
-            self.note(Fault::unsupported("#PSET and #PRESET of an axis with diameters (G51)", at));
+            self.report
+                .note(Fault::unsupported("#PSET and #PRESET of an axis with diameters (G51)", at));
             return true;
         }
         for (axis, value, _) in &words.axes {
@@ -110,47 +127,31 @@ impl Decoder {
                 self.geometry.coordinates.preset_position(axis, None);
             }
         } else if words.axes.is_empty() {
-            self.note(Fault::new(Condition::Syntax, "#PSET without axis words", at));
+            self.report.note(Fault::new(Condition::Syntax, "#PSET without axis words", at));
         }
         true
     }
 
     /// G98, G99: until the end of the program.
     fn software_limits(&mut self, g: &GWord, words: &Words<'_>, positive: bool) -> Outcome<()> {
-        Self::needs_axes(g, words)?;
+        needs_axes(g, words)?;
         for (axis, value, span) in &words.axes {
             let value_mm = value * self.axis_unit(*axis);
             match &mut self.geometry.limits_mm[*axis] {
                 Some((_, high)) if positive => *high = value_mm,
                 Some((low, _)) => *low = value_mm,
                 None => {
-                    let text = format!("axis {} has no software limits", self.axis_name(*axis));
-                    self.note(Fault::new(Condition::Ignored, text, *span));
+                    let text = format!("axis {} has no software limits", self.names.name(*axis));
+                    self.report.note(Fault::new(Condition::Ignored, text, *span));
                 }
             }
         }
         Ok(())
     }
 
-    fn zero_group(g: &GWord) -> Outcome<u32> {
-        let value = g.value.unwrap_or_default();
-        crate::exec::values::number::whole(value, 0, 999).ok_or_else(|| {
-            let text = format!("zero-offset group {value} does not exist");
-            Fault::new(Condition::Range, text, g.span)
-        })
-    }
-
-    fn needs_axes(g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        if words.axes.is_empty() {
-            let text = format!("G{} without axis words", g.row.number);
-            return Err(Fault::new(Condition::AxisMissing, text, g.span));
-        }
-        Ok(())
-    }
-
     fn zero_group_of_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        Self::needs_axes(g, words)?;
-        let group = Self::zero_group(g)?;
+        needs_axes(g, words)?;
+        let group = zero_group(g)?;
         // 0 takes the offset of the axis in, 1 leaves it out
         for (axis, value, _) in &words.axes {
             let masked = crate::exec::values::number::is_true(*value);
@@ -161,7 +162,7 @@ impl Decoder {
 
     /// G92: absolute with G90, added with G91.
     fn preset(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        Self::needs_axes(g, words)?;
+        needs_axes(g, words)?;
         for (axis, value, _) in &words.axes {
             let value_mm = value * self.axis_unit(*axis);
             let before =
@@ -185,7 +186,7 @@ impl Decoder {
     }
 
     fn mirror_axes(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        Self::needs_axes(g, words)?;
+        needs_axes(g, words)?;
         for (axis, value, span) in &words.axes {
             let mirrored = match value {
                 v if v.total_cmp(&1.0).is_eq() => false,
@@ -209,7 +210,7 @@ impl Decoder {
                 Some(m) if m == main[0] => centre[0] = Some(value * self.axis_unit(*axis)),
                 Some(m) if m == main[1] => centre[1] = Some(value * self.axis_unit(*axis)),
                 _ => {
-                    let name = self.axis_name(*axis).to_owned();
+                    let name = self.names.name(*axis).to_owned();
                     let text = format!("axis {name} is not in the plane of the rotation");
                     let number = self.machine.axes[*axis].number();
                     return Err(Fault::new(Condition::RotationAxis, text, *span)
@@ -219,6 +220,6 @@ impl Decoder {
         }
         let deg = words.radius.map_or(0.0, |(deg, _)| deg);
         let plane = [main[0], main[1]];
-        self.set_rotation(plane, deg, centre, g.span)
+        self.geometry.coordinates.rotate_about(plane, deg, centre, g.span)
     }
 }

@@ -2,21 +2,11 @@
 
 use super::{Executor, State};
 use crate::diag::{Condition, Diagnostic, Location};
-use crate::exec::block::dialect;
 use crate::exec::contour::Contour;
 use crate::exec::fault::Fault;
 use crate::exec::step::{EndReason, SourceRef};
 use crate::source::Position;
 use crate::syntax::ast::Span;
-use std::sync::Arc;
-
-/// Errors after which a check stops. Source: P-CHAN-00019 is the vendor's counterpart.
-pub(super) const ERRORS_MAX: usize = 20;
-/// Blocks that a check executes after the first error: a wrong program may also be an endless one.
-pub(super) const BLOCKS_BEHIND_ERROR: u64 = 1_000_000;
-
-/// Diagnostics of one run; further ones are reported only if they are errors.
-const DIAGNOSTICS_MAX: usize = 1000;
 
 impl Executor {
     /// The diagnostic of a fault with its place.
@@ -56,27 +46,14 @@ impl Executor {
 
     /// Adds a diagnostic, once per place; words of other dialects once per program.
     pub(in crate::exec) fn report(&mut self, mut diagnostic: Diagnostic) {
-        let key = match &diagnostic.source {
-            Some(l) if !dialect::is_foreign_word(diagnostic.id) => {
-                (diagnostic.id, Arc::clone(&l.file), l.column, l.offset)
-            }
-            _ => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
-        };
-        // a program with a remark in every line must not fill the memory
-        let full = self.reported.len() >= DIAGNOSTICS_MAX;
-        let known = if full { self.reported.contains(&key) } else { !self.reported.insert(key) };
-        if known || (full && !diagnostic.is_error()) {
+        if !self.found.is_new(&diagnostic) {
             return;
         }
         if let Some(location) = &mut diagnostic.source {
             location.block = location.block.or(self.decoder.report.source.block);
         }
         let foreign = diagnostic.id == Condition::ForeignProgram.id();
-        if diagnostic.is_error() {
-            self.errors += 1;
-            self.first_error.get_or_insert(self.blocks);
-        }
-        self.diagnostics.push(diagnostic);
+        self.found.add(diagnostic, self.budget.blocks());
         if foreign {
             // the rest of such a program would say the same in other words
             self.end(EndReason::Aborted);
@@ -89,7 +66,8 @@ impl Executor {
             return;
         }
         self.state = State::Ended;
-        let aborted = reason == EndReason::Aborted || (self.errors > 0 && !self.decoder.checking);
+        let aborted =
+            reason == EndReason::Aborted || (self.found.errors() > 0 && !self.decoder.checking);
         self.reason = if aborted { EndReason::Aborted } else { EndReason::Finished };
         let source = self.decoder.report.source;
         let contour: &mut Contour = &mut self.decoder.contour;

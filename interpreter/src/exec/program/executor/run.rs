@@ -1,6 +1,6 @@
 //! One block after the other: fetching, conditions, loops and what a block leads to.
 
-use super::report::{BLOCKS_BEHIND_ERROR, ERRORS_MAX};
+use super::budget::Verdict;
 use super::{Executor, State, file_number};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::block::din::After;
@@ -190,28 +190,20 @@ impl Executor {
         let faults = self.decoder.contour.sync(Sync::ReadActual, source);
         self.position = at;
         for fault in faults {
-            self.decoder.note(Box::new(fault));
+            self.decoder.report.note(Box::new(fault));
         }
         self.settle(false);
     }
 
     /// False if a limit was reached.
     fn count_block(&mut self) -> bool {
-        self.blocks += 1;
-        self.blocks_at_rest += 1;
-        if self.stop.is_set() {
-            self.limited = true;
-            self.end(EndReason::Aborted);
-            return false;
+        match self.budget.count() {
+            Verdict::Continue => return true,
+            Verdict::Stopped => self.end(EndReason::Aborted),
+            Verdict::Endless(text) => {
+                self.end_by_limit(Diagnostic::new(Condition::Endless, text));
+            }
         }
-        let text = if self.blocks > self.max_blocks {
-            format!("more than {} blocks (--max-blocks)", self.max_blocks)
-        } else if self.blocks_at_rest > self.max_blocks_at_rest {
-            format!("{} blocks without motion: the program does not end", self.max_blocks_at_rest)
-        } else {
-            return true;
-        };
-        self.end_by_limit(Diagnostic::new(Condition::Endless, text));
         false
     }
 
@@ -224,7 +216,7 @@ impl Executor {
 
     /// Ends the program at the block that comes next.
     fn end_by_limit(&mut self, diagnostic: Diagnostic) {
-        self.limited = true;
+        self.budget.use_up();
         let location =
             self.levels.last().map(|l| l.at).and_then(|at| self.place(at, Span::default()));
         self.report(match location {
@@ -236,7 +228,7 @@ impl Executor {
 
     /// True if a limit ended the program before its own end.
     pub(in crate::exec) fn is_limited(&self) -> bool {
-        self.limited
+        self.budget.is_used_up()
     }
 
     fn block_number(&mut self, block: &Block) -> Option<u64> {
@@ -251,7 +243,7 @@ impl Executor {
                         Fault::new(Condition::Range, text, expr.span)
                     })
                 });
-                self.decoder.keep(outcome).map(u64::from)
+                self.decoder.report.keep(outcome).map(u64::from)
             }
         }
     }
@@ -276,7 +268,7 @@ impl Executor {
             Body::Declarations(list) => {
                 for declaration in list {
                     let outcome = self.decoder.declare(declaration);
-                    self.decoder.keep(outcome);
+                    self.decoder.report.keep(outcome);
                 }
             }
             Body::Command(command) => self.command(command, entry),
@@ -288,7 +280,7 @@ impl Executor {
             }
             Body::Words(words) => {
                 let after = self.decoder.execute_words(words, block.span);
-                if self.decoder.failed() && !self.decoder.checking {
+                if self.decoder.report.failed() && !self.decoder.checking {
                     return;
                 }
                 self.after(after);
@@ -303,7 +295,7 @@ impl Executor {
             let begins = command.is("VAR");
             if begins == declarations {
                 let text = if begins { "#VAR inside #VAR" } else { "#ENDVAR without #VAR" };
-                self.decoder.note(Fault::new(Condition::Syntax, text, command.span));
+                self.decoder.report.note(Fault::new(Condition::Syntax, text, command.span));
             }
             if let Some(level) = self.levels.last_mut() {
                 level.declarations = begins;
@@ -319,21 +311,21 @@ impl Executor {
         }
         self.decoder.report.location = self.here(command.span);
         let outcome = self.decoder.execute_command(command);
-        self.decoder.keep(outcome);
+        self.decoder.report.keep(outcome);
     }
 
     /// `#IF`: the branch that is not taken is not looked at.
     fn conditional(&mut self, command: &Command, id: EntryId) {
         if self.levels.last().is_some_and(|level| level.index.entry(id).end.is_none()) {
             let text = "#IF without #ENDIF";
-            self.decoder.note(Fault::new(Condition::ConditionalOpen, text, command.span));
+            self.decoder.report.note(Fault::new(Condition::ConditionalOpen, text, command.span));
         }
         let condition = if let [condition] = &command.arguments[..] {
             let outcome = self.decoder.condition(condition);
-            self.decoder.keep(outcome).unwrap_or(false)
+            self.decoder.report.keep(outcome).unwrap_or(false)
         } else {
             let text = "#IF needs one condition";
-            self.decoder.note(Fault::new(Condition::Syntax, text, command.span));
+            self.decoder.report.note(Fault::new(Condition::Syntax, text, command.span));
             false
         };
         if condition {
@@ -361,7 +353,7 @@ impl Executor {
 
     /// Reports the conditions of the block; an error ends the program.
     pub(in crate::exec) fn settle(&mut self, faulty: bool) {
-        let faults = self.decoder.take_faults();
+        let faults = self.decoder.report.take_faults();
         let mut failed = faulty;
         for fault in faults {
             failed |= fault.is_error();
@@ -369,14 +361,8 @@ impl Executor {
             self.report(diagnostic);
         }
         if self.decoder.checking {
-            let behind = self.blocks - self.first_error.unwrap_or(self.blocks);
-            let stops = self.errors >= ERRORS_MAX || behind > BLOCKS_BEHIND_ERROR;
-            if stops && self.state != State::Ended {
-                let text = if self.errors >= ERRORS_MAX {
-                    format!("{} errors: the check stops here", self.errors)
-                } else {
-                    format!("{behind} blocks after the first error: the check stops here")
-                };
+            let enough = self.found.is_enough(self.budget.blocks());
+            if let (Some(text), true) = (enough, self.state != State::Ended) {
                 let d = Diagnostic::new(Condition::TooMany, text).severity(Severity::Note);
                 self.report(d);
                 self.end(EndReason::Aborted);

@@ -53,7 +53,7 @@ impl Executor {
         if by == 0.0 {
             let at = step.map_or(span, |s| s.span);
             let text = "$FOR with step 0 does not end";
-            self.decoder.note(Fault::new(Condition::Odd, text, at).warning());
+            self.decoder.report.note(Fault::new(Condition::Odd, text, at).warning());
         }
         if let Err(fault) = self.decoder.write(counter, Value::Number(first), start.span) {
             self.leave_structure(id);

@@ -1,6 +1,6 @@
 //! Declarations: `#VAR`, types, sizes and start values of variables and arrays.
 
-use super::scopes::{Class, class};
+use super::scopes::class;
 use super::storage::{DIMENSIONS_MAX, ELEMENTS_MAX, Type, Values, Variable};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
@@ -54,11 +54,11 @@ impl Decoder {
                 // a parameter created by a write may become an array
                 let known = table.get(&index).is_some_and(|v| v.sizes == variable.sizes);
                 if !known {
-                    self.insert_parameter(index, variable);
+                    self.values.variables.insert_parameter(index, variable);
                 }
                 known
             }
-            Some(class) => self.insert_variable(class, &target, variable, span)?,
+            Some(class) => self.values.variables.insert(class, &target, variable, span)?,
         };
         if exists {
             let text = format!("{} exists already", declaration.place);
@@ -69,34 +69,6 @@ impl Decoder {
             return Err(Fault::new(condition, text, span));
         }
         Ok(())
-    }
-
-    fn insert_parameter(&mut self, index: u32, variable: Variable) {
-        self.values.variables.elements += variable.elements();
-        if let Some(old) = self.values.variables.parameters_mut().insert(index, variable) {
-            self.values.variables.elements -= old.elements();
-        }
-    }
-
-    /// True if the variable existed before.
-    fn insert_variable(
-        &mut self,
-        class: Class,
-        name: &str,
-        variable: Variable,
-        span: Span,
-    ) -> Outcome<bool> {
-        let elements = variable.elements();
-        let Some(table) = self.values.variables.table(class) else {
-            let text = "V.CYC variables exist only inside a cycle";
-            return Err(Fault::new(Condition::VariableClass, text, span));
-        };
-        if table.contains_key(name) {
-            return Ok(true);
-        }
-        table.insert(name.into(), variable);
-        self.values.variables.elements += elements;
-        Ok(false)
     }
 
     fn declared_type(&self, declaration: &Declaration) -> Outcome<Type> {
@@ -176,7 +148,7 @@ impl Decoder {
         let text = format!("{name} holds whole numbers: {x} is rounded to {}", x.round());
         let fault = Fault::new(Condition::Odd, text, span).warning();
         let hint = "ROUND, INT, FLOOR or CEIL say which whole number is meant";
-        self.note_once(&format!("rounded {name}"), fault.hint(hint));
+        self.report.note_once(&format!("rounded {name}"), fault.hint(hint));
     }
 
     fn start_values(

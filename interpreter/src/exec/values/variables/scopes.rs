@@ -1,7 +1,10 @@
 //! Which variables exist at a place of the program: per class, level and cycle.
 
 use super::storage::Variable;
+use crate::diag::Condition;
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::{External, Value};
+use crate::syntax::ast::Span;
 use std::collections::BTreeMap;
 
 type Table = BTreeMap<Box<str>, Variable>;
@@ -103,6 +106,35 @@ impl Variables {
             Class::Cycle => self.cycle.last_mut(),
             Class::Local => self.locals.last_mut(),
         }
+    }
+
+    /// Declares or replaces a P parameter.
+    pub(super) fn insert_parameter(&mut self, index: u32, variable: Variable) {
+        self.elements += variable.elements();
+        if let Some(old) = self.parameters_mut().insert(index, variable) {
+            self.elements -= old.elements();
+        }
+    }
+
+    /// Declares a variable; true if it existed before.
+    pub(super) fn insert(
+        &mut self,
+        class: Class,
+        name: &str,
+        variable: Variable,
+        span: Span,
+    ) -> Outcome<bool> {
+        let elements = variable.elements();
+        let Some(table) = self.table(class) else {
+            let text = "V.CYC variables exist only inside a cycle";
+            return Err(Fault::new(Condition::VariableClass, text, span));
+        };
+        if table.contains_key(name) {
+            return Ok(true);
+        }
+        table.insert(name.into(), variable);
+        self.elements += elements;
+        Ok(false)
     }
 
     pub(super) fn names(&self, class: Class) -> Vec<&str> {

@@ -1,0 +1,86 @@
+//! Names of the axes in the program, which `#CALL AX`, `#PUT AX` and `#SET AX` change.
+
+use super::fault::{Fault, Outcome};
+use crate::diag::Condition;
+use crate::syntax::ast::{Group, Ident, ItemKind};
+
+/// Names of the axes in the program.
+#[derive(Debug)]
+pub(super) struct AxisNames {
+    /// `None` for an axis that was given away.
+    pub(super) axes: Vec<Option<String>>,
+    /// Letters of one-letter axes.
+    letters: [Option<u8>; 26],
+    /// Parsed blocks are out of date.
+    pub(super) changed: bool,
+}
+
+impl AxisNames {
+    /// The names of the lists.
+    pub(super) fn new(axes: Vec<Option<String>>) -> Self {
+        let mut names = Self { axes, letters: [None; 26], changed: false };
+        names.find_letters();
+        names
+    }
+
+    /// To be called when `axes` has changed.
+    pub(super) fn change(&mut self) {
+        self.find_letters();
+        self.changed = true;
+    }
+
+    fn find_letters(&mut self) {
+        self.letters = [None; 26];
+        for (i, name) in self.axes.iter().enumerate() {
+            if let Some([letter @ b'A'..=b'Z']) = name.as_deref().map(str::as_bytes) {
+                self.letters[usize::from(letter - b'A')] = u8::try_from(i).ok();
+            }
+        }
+    }
+
+    /// Axis of a letter.
+    pub(super) fn of_letter(&self, letter: u8) -> Option<usize> {
+        let i = usize::from(letter.wrapping_sub(b'A'));
+        self.letters.get(i).copied().flatten().map(usize::from)
+    }
+
+    /// Axis of a name in either case.
+    pub(super) fn of_name(&self, name: &str) -> Option<usize> {
+        self.axes.iter().position(|n| n.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name)))
+    }
+
+    /// Axis of a name in a `#` command; 20797 if there is none.
+    pub(super) fn in_command(&self, name: &Ident) -> Outcome<usize> {
+        self.of_name(&name.text).ok_or_else(|| {
+            let text = format!("unknown axis `{}`", name.text);
+            Fault::new(Condition::AxisNameUnknown, text, name.span).hint(self.hint())
+        })
+    }
+
+    /// The axes named in groups of a command.
+    pub(super) fn all_in_command(&self, groups: &[Group]) -> Outcome<Vec<usize>> {
+        let mut axes = Vec::new();
+        for item in groups.iter().flat_map(|group| &group.items) {
+            match &item.kind {
+                ItemKind::Flag(name) => axes.push(self.in_command(name)?),
+                ItemKind::Missing => {}
+                _ => {
+                    let text = "an axis name is expected";
+                    return Err(Fault::new(Condition::AxisNameUnknown, text, item.span));
+                }
+            }
+        }
+        Ok(axes)
+    }
+
+    /// Which axes there are.
+    pub(super) fn hint(&self) -> String {
+        let names: Vec<&str> = self.axes.iter().filter_map(|n| n.as_deref()).collect();
+        format!("axes of the channel: {}", names.join(", "))
+    }
+
+    /// Name of an axis, `?` for one that was given away.
+    pub(super) fn name(&self, axis: usize) -> &str {
+        self.axes[axis].as_deref().unwrap_or("?")
+    }
+}
