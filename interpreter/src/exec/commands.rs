@@ -9,6 +9,7 @@ mod axes;
 mod compensation;
 mod contour;
 mod corner;
+mod couplings;
 mod frames;
 pub(in crate::exec) mod keys;
 mod measuring;
@@ -94,8 +95,8 @@ const ROWS: &[Row] = &[
     run("AX REQUEST", axes::call),
     run("AX RELEASE", axes::put),
     run("AX DEF", axes::define),
-    unsupported("AX LINK"),
-    unsupported("SET AX LINK"),
+    couplings::AX_LINK,
+    couplings::SET_AX_LINK,
     unsupported("ENABLE AX LINK"),
     unsupported("GANTRY"),
     unsupported("GEAR LINK"),
@@ -150,7 +151,7 @@ const ROWS: &[Row] = &[
     off_only("CS MODE"),
     unsupported("CS SELECT"),
     unsupported("DEL DIST2GO"),
-    unsupported("DISABLE AX LINK"),
+    couplings::DISABLE_AX_LINK,
     off_only("EDGE MACHINING"),
     off_only("EDM"),
     unsupported("ESCAPE PATH"),

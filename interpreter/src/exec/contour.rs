@@ -260,10 +260,10 @@ impl Contour {
         }
         for item in self.done.drain(..) {
             match item {
-                Item::Motion(motion) => {
-                    self.queue.extend(feed_course::pieces(motion).into_iter().map(Item::Motion));
+                Item::Motion(motion) if motion.course.is_some() => {
+                    self.queue.extend(feed_course::pieces(motion));
                 }
-                Item::Rest(_) => self.queue.push_back(item),
+                Item::Motion(_) | Item::Rest(_) => self.queue.push_back(item),
             }
         }
     }

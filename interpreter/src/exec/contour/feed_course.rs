@@ -8,6 +8,7 @@
 //! Assumptions on G13, since the pages say nothing of it: every end of a motion in feed is a corner, whatever its angle;
 //! behind it the path is as fast as it may; elements that the compensation inserts end as the motion before them.
 
+use super::compensation::Item;
 use super::motion::Motion;
 use kontur_motion::block::{Block, Feed};
 
@@ -83,38 +84,40 @@ impl Change {
     /// Ends and feeds of the pieces.
     fn pieces(&self) -> Vec<(f64, f64)> {
         let ratio = self.feed[1] / self.feed[0];
-        let count = (ratio.ln().abs() / STEP.ln()).ceil().min(PIECES_MAX) as u32;
-        let v = |k: u32| self.feed[0] * ratio.powf(f64::from(k) / f64::from(count));
+        let count = (libm::log(ratio).abs() / libm::log(STEP)).ceil().min(PIECES_MAX) as u32;
+        let v = |k: u32| self.feed[0] * libm::pow(ratio, f64::from(k) / f64::from(count));
         let end = |k: u32| if k == count { self.at[1] } else { self.place(v(k)) };
         (1..=count).map(|k| (end(k), v(k - 1).min(v(k)))).collect()
     }
 }
 
 /// The pieces of a motion; it stays whole if its feed does not change.
-pub(super) fn pieces(motion: Box<Motion>) -> Vec<Box<Motion>> {
+pub(super) fn pieces(motion: Box<Motion>) -> Vec<Item> {
     let (Some(course), Feed::PathVelocity(feed)) = (motion.course, motion.block.feed) else {
-        return vec![motion];
+        return vec![Item::Motion(motion)];
     };
     let Some(change) = Change::of(course, feed, motion.block.path.length()) else {
-        return vec![motion];
+        return vec![Item::Motion(motion)];
     };
     let mut ends = vec![(change.at[0], feed)];
     ends.extend(change.pieces());
-    let mut pieces: Vec<Box<Motion>> = Vec::with_capacity(ends.len());
+    let mut pieces = Vec::with_capacity(ends.len());
     let mut from = 0.0;
     for (to, feed) in ends {
         if to <= from {
             continue;
         }
-        let Some(path) = motion.block.path.section(from, to) else { return vec![motion] };
+        let Some(path) = motion.block.path.section(from, to) else {
+            return vec![Item::Motion(motion)];
+        };
         let is_last = to >= change.at[1];
         let block = &motion.block;
         let end_velocity_mm_s = block.end_velocity_mm_s.filter(|_| is_last);
         let feed = Feed::PathVelocity(feed);
         let block = Box::new(Block { path, feed, end_velocity_mm_s, ..(**block).clone() });
         let events = if pieces.is_empty() { motion.events.clone() } else { Vec::new() };
-        pieces.push(Box::new(Motion { block, events, ..(*motion).clone() }));
+        pieces.push(Item::Motion(Box::new(Motion { block, events, ..(*motion).clone() })));
         from = to;
     }
-    if pieces.is_empty() { vec![motion] } else { pieces }
+    if pieces.is_empty() { vec![Item::Motion(motion)] } else { pieces }
 }

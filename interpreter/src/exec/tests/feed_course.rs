@@ -86,7 +86,7 @@ fn the_feed_is_interpolated_over_path_and_time() {
     let text = "#SLOPE [TYPE=STEP]\nN10 G01 X50 F1000\nN20 G193 X90 F400\nN30 X100 F400\nM30\n";
     let (v, w): (f64, f64) = (1000.0 / 60.0, 400.0 / 60.0);
     for (text, exact) in [
-        (text.to_owned(), 40.0 / (v - w) * (v / w).ln()),
+        (text.to_owned(), 40.0 / (v - w) * libm::log(v / w)),
         (text.replace("G193", "G293"), 80.0 / (v + w)),
     ] {
         let all = pieces(&text, 50.0, 90.0);
