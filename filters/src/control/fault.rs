@@ -2,6 +2,24 @@
 //!
 //! How a control numbers a condition and how it reacts is not known here; the numbers in the texts below are those of
 //! the vendor's documents.
+//!
+//! Issues come from checking a configuration, faults from each step:
+//!
+//! ```
+//! use kontur_filters::control::fault::{Fault, Issue};
+//! use kontur_filters::control::monitor::{ExactStopConfig, ExactStopMonitor};
+//! use kontur_filters::control::plant::PlantConfig;
+//! use kontur_filters::time::CycleTime;
+//!
+//! let (_, issues) = PlantConfig { dead_time_cycles: 9, ..PlantConfig::default() }.checked();
+//! assert_eq!(issues, [Issue::DeadTime { cycles: 9 }]);
+//! // an axis that stays 1 mm away from its stop: once, not in every cycle
+//! let mut monitor = ExactStopMonitor::new(ExactStopConfig::default(), CycleTime::DEFAULT);
+//! monitor.start(0.0);
+//! monitor.expect(5.0);
+//! let faults: Vec<Fault> = (0..5000).filter_map(|_| monitor.step(5.0, 4.0)).collect();
+//! assert!(matches!(faults[..], [Fault::SettlingTimeout { .. }]));
+//! ```
 
 /// Which derivative of the setpoint a monitor watched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

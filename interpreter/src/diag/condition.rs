@@ -6,6 +6,15 @@
 //!
 //! Source: TF5200 diagnosis manual and the function manuals; the texts are kontur's own. Rows are ordered by number;
 //! K numbers are appended and never reused.
+//!
+//! ```
+//! use kontur_interpreter::diag::condition::{Condition, row, rows};
+//!
+//! // what is raised has its row, and so has what is only documented
+//! let feed = row(Condition::FeedZero.id());
+//! assert!(feed.hint.is_some_and(|hint| hint.contains('F')));
+//! assert!(rows().any(|row| row.id == feed.id));
+//! ```
 
 mod documented;
 mod raised;

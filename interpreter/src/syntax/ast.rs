@@ -6,6 +6,19 @@
 //! Case: letters of addresses, command words, keys and functions are stored in upper case. Names that the dialect
 //! compares exactly (variables, macros, files, strings) and identifier values (`TYPE=HSC`, `NAME=a.nc`) are stored as
 //! written; [`Ident::is`] compares them without case.
+//!
+//! ```
+//! use kontur_interpreter::source::RawBlock;
+//! use kontur_interpreter::syntax::Parser;
+//! use kontur_interpreter::syntax::ast::{BlockNumber, Body, WordKind};
+//!
+//! let (file, mut said) = ("part.nc".into(), Vec::new());
+//! let block = Parser::new([]).block(&RawBlock::from_line("N10 G01 X5"), &file, &mut said);
+//! assert_eq!(block.number, Some(BlockNumber::Literal(10)));
+//! let Body::Words(words) = &block.body else { panic!("a block of words") };
+//! assert!(matches!(words[0].kind, WordKind::G { number: 1, .. }));
+//! assert!(matches!(words[1].kind, WordKind::Address { .. }));
+//! ```
 
 mod command;
 mod control;

@@ -54,7 +54,8 @@ pub struct SweepArgs {
     pub amplitude: Vec<Amplitude>,
 
     /// Run the I-th of N equal parts of all combinations only, e.g. `3/20`: a job of a batch system. The parts in their order,
-    /// one after the other, are the whole table, but for `without_effect`; the exit code is 0 also if every run has ended with an error
+    /// one after the other, are the whole table, with `without_effect` of each part; the exit code is 0 also if every run has ended with
+    /// an error
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
 
