@@ -4,6 +4,7 @@ pub(super) mod akima;
 pub(super) mod bottleneck;
 pub(super) mod compensation;
 pub(super) mod contouring;
+pub(super) mod feed_course;
 pub(super) mod insertion;
 mod motion;
 
@@ -257,6 +258,13 @@ impl Contour {
                 }
             }
         }
-        self.queue.extend(self.done.drain(..));
+        for item in self.done.drain(..) {
+            match item {
+                Item::Motion(motion) if motion.course.is_some() => {
+                    self.queue.extend(feed_course::pieces(motion));
+                }
+                Item::Motion(_) | Item::Rest(_) => self.queue.push_back(item),
+            }
+        }
     }
 }

@@ -7,6 +7,7 @@ mod compensation;
 mod coordinates;
 mod edges;
 mod errors;
+mod feed_course;
 mod first_cases;
 mod flow;
 mod frames;

@@ -61,7 +61,27 @@ pub enum BlockNumber {
     Computed(Box<Expr>),
 }
 
-/// Jump label, or the target of a jump.
+/// Where `$GOTO` leads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jump {
+    /// Label, or what tells it.
+    pub kind: JumpKind,
+    /// Place.
+    pub span: Span,
+}
+
+/// How the target of a jump is written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JumpKind {
+    /// `N20`, `[NAME]`.
+    Label(LabelKind),
+    /// `NV.E.NUMBER`, `NP1`, `N[P1+10]`: the number of a label.
+    Number(Box<Expr>),
+    /// `V.E.NAME`: the text is the name of a label.
+    Name(Box<Place>),
+}
+
+/// Jump label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     /// Which.
@@ -73,7 +93,7 @@ pub struct Label {
 /// Kind of a jump label.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LabelKind {
-    /// `N10:`; as a target also `N10`.
+    /// `N10:`.
     Number(u64),
     /// `[NAME]`, in upper case: labels have no case.
     Name(Box<str>),

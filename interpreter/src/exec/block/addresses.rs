@@ -153,6 +153,11 @@ impl Decoder {
                 Fault::new(Condition::RadiusName, format!("unknown radius name {name}"), span)
                     .hint("write R=..")
             }
+            // names of spindles begin with S, those of axes never do (20524)
+            Some(b'S' | b's') => {
+                let text = format!("the channel has no spindle {name}");
+                Fault::new(Condition::SpindleUnknown, text, span)
+            }
             _ => self.unknown_axis(name, span),
         }
     }

@@ -16,7 +16,7 @@ use crate::exec::block::words::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
-use crate::syntax::ast::{Label, Span};
+use crate::syntax::ast::{Jump, Span};
 use kontur_motion::block::Feed;
 
 impl Decoder {
@@ -165,7 +165,7 @@ impl Decoder {
 
     /// The run has come to its end: takes over what was measured and where the axes are. The label of G310 comes back
     /// if the probe has signalled.
-    pub(in crate::exec) fn end_of_measuring(&mut self) -> Option<Label> {
+    pub(in crate::exec) fn end_of_measuring(&mut self) -> Option<Jump> {
         let pending = self.motion.measuring.pending.take()?;
         let Pending { axes, target, needs_signal, jump, source, span } = *pending;
         // a check has no probe: it takes the target for the surface

@@ -111,7 +111,11 @@ fn coordinate_systems() {
     assert_end("#CS OFF ALL\n#MCS ON\n#TRAFO OFF\nX1 F100", [1.0, 0.0, 0.0]);
     // the offset lies outside the system
     assert_end("V.G.NP[1].V.X=100\nG54\n#CS ON [0,0,0,0,0,90]\nX1 Y0 F100", [100.0, 1.0, 0.0]);
-    assert_eq!(run("#CS ON [3]\nM30\n").ids(), ["K-0012"]);
+    // selection of a system that was never defined (20821), numbers outside the range (20820)
+    assert_eq!(run("#CS ON [3]\nM30\n").ids(), ["20821"]);
+    assert_eq!(run("#CS ON\nM30\n").ids(), ["20821"]);
+    assert_eq!(run("#CS DEF [0][1,2,3]\nM30\n").ids(), ["20820"]);
+    assert_eq!(run("#CS DEF [6][1,2,3]\nM30\n").ids(), ["20820"]);
     assert_eq!(run("#TRAFO ON\nM30\n").ids(), ["K-0019"]);
 }
 

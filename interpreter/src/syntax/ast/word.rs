@@ -1,6 +1,6 @@
 //! Words of a block: addresses, names, assignments and calls.
 
-use super::{Expr, Group, Ident, Label, Place, Sign, Span};
+use super::{Expr, Group, Ident, Jump, Place, Sign, Span};
 
 /// One word of a block.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +47,7 @@ pub enum WordKind {
     /// Subroutine call.
     Call(Box<Call>),
     /// `$GOTO target`.
-    Goto(Box<Label>),
+    Goto(Box<Jump>),
 }
 
 /// Value of a G function.
