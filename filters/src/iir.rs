@@ -20,7 +20,7 @@
 
 pub mod prototype;
 pub mod section;
-pub mod thiran;
+mod thiran;
 pub mod transform;
 
 use crate::issue::{Effect, FilterIssue};

@@ -192,7 +192,7 @@ pub struct KernelFilter {
 }
 
 impl KernelFilter {
-    /// Runs `kernel`, at rest at `x` since ever.
+    /// Runs `kernel`, at rest at `x` from the start.
     pub fn new(kernel: Arc<Kernel>, x: f64) -> Self {
         let history = Ring::new(kernel.length(), x);
         Self { kernel, history, rest_cycles: u32::MAX }

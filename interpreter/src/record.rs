@@ -85,7 +85,7 @@ pub enum Rest {
     ExactStop,
     /// The set positions of the axes have not arrived yet: `#FLUSH WAIT`, independent axes, a change of filters.
     Flush,
-    /// A thread waits until its spindle stands, or passes its mark.
+    /// A thread waits until its spindle is at rest, or passes its mark.
     Spindle,
     /// End of the program: the axes are not in position yet.
     Arrival,

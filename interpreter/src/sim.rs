@@ -15,6 +15,7 @@ mod patience;
 mod probe;
 mod smoothing;
 mod spindle;
+mod start;
 mod totals;
 mod wait;
 
@@ -22,21 +23,19 @@ pub use inputs::{Change, Changes, Signal};
 pub use totals::{SettledStop, Stops, Totals};
 
 use crate::diag::{Condition, Diagnostic, Severity};
-use crate::exec::{EndReason, Event, Executor, Feedback, Options, SourceRef, Step, Sync};
-use crate::machine::{self, Machine};
+use crate::exec::{EndReason, Event, Executor, Feedback, SourceRef, Step, Sync};
+use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
-use crate::source::Sources;
-use axes::{Driver, drivers};
+use axes::Driver;
 use chain::AxisChain;
 use independent::IndependentAxes;
 use inputs::Inputs;
-use kontur_filters::control::axis_control::AxisInputs;
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, SlopeKind};
 use kontur_motion::cap::SpeedLimit;
 use kontur_motion::planner::{Next, Planner};
-use kontur_motion::realtime::{FeedholdBraking, OverrideMode};
+use kontur_motion::realtime::FeedholdBraking;
 use probe::Probing;
 use smoothing::Smoothing;
 use spindle::Spindle;
@@ -44,7 +43,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use wait::{Parts, Wait};
 
-/// Where a run stands.
+/// Where a run is.
 #[derive(Debug)]
 enum Phase {
     /// The row of time zero is still to come.
@@ -137,89 +136,9 @@ pub(crate) struct Simulation {
 }
 
 impl Simulation {
-    /// A program on a machine, before its first cycle.
-    ///
-    /// # Errors
-    /// The diagnostics, if the plant of an axis is not physical or a program cannot be opened.
-    pub(crate) fn new(
-        machine: Arc<Machine>,
-        sources: Arc<dyn Sources>,
-        program: &str,
-        options: Options,
-    ) -> Result<Self, Vec<Diagnostic>> {
-        let cycle = machine.cycle;
-        let (setups, diagnostics) = machine.chains();
-        let max_cycles = (options.max_time_s / cycle.seconds()) as u64;
-        let executor = Executor::new(sources, program, Arc::clone(&machine), options);
-        let n = machine.axes.len();
-        let start = executor.start_position();
-        let drivers = drivers(&machine);
-        let mut chains = Vec::with_capacity(setups.len());
-        for (i, setup) in setups.into_iter().enumerate() {
-            let x = match drivers.get(i) {
-                Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
-                _ => 0.0,
-            };
-            match AxisChain::new(setup, x, AxisInputs::default(), cycle) {
-                Ok(chain) => chains.push(chain),
-                Err(e) => return Err(vec![fault::plant(&e, &machine, i)]),
-            }
-        }
-        let window = machine.channel.look_ahead.blocks as usize;
-        let spindles = machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
-        let records = chains.iter().map(AxisChain::at_start).collect();
-        let mut simulation = Self {
-            smoothing: Smoothing::default(),
-            planner: Planner::new(cycle, window, &start[..n]),
-            gains: vec![0.0; chains.len()],
-            totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
-            frozen: vec![None; chains.len()],
-            motion: Motion::None,
-            is_held: false,
-            stops_at: vec![SourceRef::default(); chains.len()],
-            inputs: Inputs::none(chains.len()),
-            independent: IndependentAxes::new(n),
-            chains,
-            drivers,
-            spindles,
-            underway: VecDeque::new(),
-            current: SourceRef::default(),
-            waits_at: SourceRef::default(),
-            jerk_limited: false,
-            pending: None,
-            phase: Phase::Start,
-            record: CycleRecord { axes: records, ..CycleRecord::default() },
-            set: start.clone(),
-            path_position: start[..n].iter().copied().collect(),
-            thread_delay: 0.0,
-            thread: None,
-            probing: None,
-            planned: start[..n].iter().copied().collect(),
-            vector: AxisVec::zeros(n),
-            max_cycles,
-            diagnostics,
-            unshown: 0,
-            machine,
-            cycle,
-            executor,
-        };
-        simulation.planner.set_override_mode(match simulation.machine.channel.override_mode {
-            machine::OverrideMode::Result => OverrideMode::OfReached,
-            machine::OverrideMode::Programmed => OverrideMode::OfProgrammed,
-            machine::OverrideMode::ProgrammedWhileReduced => OverrideMode::OfProgrammedWhileReduced,
-        });
-        simulation.feedforward(false, &vec![1.0; n]);
-        for spindle in 0..simulation.spindles.len() {
-            simulation.spindle_feedforward(spindle, false, 1.0);
-        }
-        let setup = simulation.executor.shaping().clone();
-        simulation.swap_kernels(&setup);
-        Ok(simulation)
-    }
-
     /// Connects the real-time inputs, before the first cycle.
     ///
-    /// Changes come in the order of time. An error among them ends the run, [`Totals::input_failed`] tells so.
+    /// Changes come in the order of time. An error among them ends the run, as [`Totals::input_failed`] shows.
     pub(crate) fn connect(&mut self, changes: Changes) {
         if let Err(failure) = self.inputs.connect(changes) {
             self.input_fails(*failure);

@@ -23,7 +23,7 @@ pub mod ast;
 mod build;
 mod expr;
 mod foreign;
-pub mod macros;
+pub(crate) mod macros;
 mod number;
 mod plain;
 mod print;

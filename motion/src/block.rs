@@ -178,7 +178,7 @@ pub struct Block {
     pub full_override: bool,
     /// Path velocity wanted at the end of the block in mm/s (E word).
     pub end_velocity_mm_s: Option<f64>,
-    /// G901: braking to a lower feed of the next block may begin behind the end of this block. The next block is entered
+    /// G901: braking to a lower feed of the next block may begin after the end of this block. The next block is entered
     /// with at most what its limits allow, whatever its feed; G00 and HSC do not know it.
     pub late_braking: bool,
     /// Slope.

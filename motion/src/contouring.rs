@@ -1,9 +1,9 @@
 //! Polynomial contouring (G61, G261, `#CONTOUR MODE`): a stage between program and planner.
 //!
 //! At the end of every block with [`Block::contour`] the corner is replaced by a curve ([`blend`]): the block and the
-//! relevant one behind it are shortened by the corner distances, the curve takes the number of the block before it.
+//! relevant one after it are shortened by the corner distances, the curve takes the number of the block before it.
 //! Where that is not possible the corner stays as programmed and a [`Notice`] says why. The stage holds one block, and
-//! those too short to be relevant behind it, at most [`SKIPPED`] of them.
+//! those too short to be relevant after it, at most [`SKIPPED`] of them.
 //!
 //! In front of the planner: blocks go in, blocks and curves come out; [`Contouring::flush`] where the path stops.
 //!
@@ -75,7 +75,7 @@ impl Contouring {
         self.ready.drain(..)
     }
 
-    /// The path stops behind the last block: everything comes back.
+    /// The path stops after the last block: everything comes back.
     pub fn flush(&mut self) -> impl Iterator<Item = Block> + '_ {
         if let Some(held) = self.held.take() {
             if held.block.contour.is_some() {
@@ -246,7 +246,7 @@ fn is_feed(block: &Block, i: usize) -> bool {
     block.dynamics.feed_axes.get(i).copied().unwrap_or(true)
 }
 
-/// True if a block is long enough to be the block behind a corner.
+/// True if a block is long enough to be the block after a corner.
 fn relevant(block: &Block, settings: &ContourSettings) -> bool {
     let (start, end) = (block.path.start(), block.path.end());
     let track = (0..start.len())

@@ -100,7 +100,7 @@ fn kink_weight(
 }
 
 /// Velocity jump in mm/s that a kink between two blocks may put on one axis.
-pub fn admissible_jump(
+pub(crate) fn admissible_jump(
     from: &Block,
     to: &Block,
     i: usize,
@@ -125,8 +125,8 @@ pub fn admissible_jump(
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Velocity at a kink with the tangents `out` of the block before and `into` of the block behind it.
-pub fn kink_velocity(
+/// Velocity at a kink with the tangents `out` of the block before and `into` of the block after it.
+pub(crate) fn kink_velocity(
     from: &Block,
     to: &Block,
     out: &[f64],
@@ -167,7 +167,7 @@ pub fn kink_velocity(
 
 /// Velocity at a transition whose curvature jumps (P-CHAN-00009 = 1, non-linear slopes): the axis acceleration jumps by
 /// `v^2 |dq''|`, P-AXIS-00154 or P-AXIS-00340 bounds it.
-pub fn curvature_step_velocity(
+pub(crate) fn curvature_step_velocity(
     from: &Block,
     to: &Block,
     a: &Ends,
@@ -209,7 +209,7 @@ pub fn curvature_step_velocity(
 /// `kappa = 2 sin(alpha) / |P2 - P0|`; mode 1 bounds `v^2 kappa` by the acceleration of the axes in the direction of the
 /// curvature, mode 2 bounds `v^3 kappa^2` by their geometric jerk, mode 3 bounds `v^2 kappa` by the weakest axis that moves,
 /// in whatever direction, so that a circle has one speed (source: TF5200, P-CHAN-00245; Assumption: the estimator).
-pub fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b: &Ends) -> f64 {
+pub(crate) fn estimated_curvature_velocity(from: &Block, to: &Block, a: &Ends, b: &Ends) -> f64 {
     let mode = to.dynamics.curvature_estimate;
     if mode == 0 || !from.path.is_straight() || !to.path.is_straight() {
         return f64::INFINITY;

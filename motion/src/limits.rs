@@ -139,7 +139,7 @@ pub(crate) fn weakest(
 
 /// Acceleration that an axis may use for curvature and kinks: the smaller of its acceleration and deceleration in the
 /// active mode (Assumption: the documents tie it to G00 or feed, not to one of the two directions).
-pub fn contour_acceleration(axis: &AxisDynamics, slope: Slope, rapid: bool) -> f64 {
+pub(crate) fn contour_acceleration(axis: &AxisDynamics, slope: Slope, rapid: bool) -> f64 {
     match (slope.kind, rapid) {
         (SlopeKind::Step, false) => axis.step_feed.acc_mm_s2[0].min(axis.step_feed.dec_mm_s2[0]),
         (SlopeKind::Step, true) => axis.step_rapid.acc_mm_s2[0].min(axis.step_rapid.dec_mm_s2[0]),
@@ -149,12 +149,12 @@ pub fn contour_acceleration(axis: &AxisDynamics, slope: Slope, rapid: bool) -> f
 }
 
 /// Longest ramp time of an axis in the active mode, in s.
-pub fn longest_ramp(axis: &AxisDynamics, rapid: bool) -> f64 {
+pub(crate) fn longest_ramp(axis: &AxisDynamics, rapid: bool) -> f64 {
     if rapid { axis.rapid.ramp_s } else { axis.feed.ramps_s.into_iter().fold(0.0, f64::max) }
 }
 
 /// Velocity limit of the axes on a path (P-AXIS-00212; P-AXIS-00209 in rapid).
-pub fn axis_velocity(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> f64 {
+pub(crate) fn axis_velocity(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> f64 {
     weakest(
         &d.axes,
         &x.first,
@@ -163,7 +163,12 @@ pub fn axis_velocity(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> f64 
 }
 
 /// Velocity limit from centripetal acceleration: `v^2 max|q_i''| <= a_i`.
-pub fn curve_acceleration(d: &ChannelDynamics, x: &PathExtremes, slope: Slope, rapid: bool) -> f64 {
+pub(crate) fn curve_acceleration(
+    d: &ChannelDynamics,
+    x: &PathExtremes,
+    slope: Slope,
+    rapid: bool,
+) -> f64 {
     weakest(&d.axes, &x.second, |a| contour_acceleration(a, slope, rapid)).sqrt()
 }
 
@@ -270,7 +275,7 @@ impl PathSpeeds {
 ///
 /// The weakest axis rules acceleration; ramps combine through the axis jerk `a_i / t_i` (Assumption: then no axis
 /// exceeds its own jerk and none is slower than needed). A ramp below the cycle time is no ramp.
-pub fn path_slope(block: &Block, x: &PathExtremes, cycle: CycleTime) -> SlopeLimits {
+pub(crate) fn path_slope(block: &Block, x: &PathExtremes, cycle: CycleTime) -> SlopeLimits {
     let rapid = block.feed == Feed::Rapid;
     let d = &block.dynamics;
     if block.slope.kind == SlopeKind::Step {

@@ -60,7 +60,7 @@ const FLAT_MM_S2: f64 = 1e-6;
 pub struct Span {
     /// Index of the first block in the window.
     pub first: usize,
-    /// Index behind the last block.
+    /// Index after the last block.
     pub end: usize,
     /// The profile.
     pub profile: Profile,
@@ -83,7 +83,7 @@ struct Window<'a> {
     end: SpeedLimit,
     /// Speed at which a block may be entered: its feed, or more under G901.
     entries: Vec<Cap>,
-    /// Braking under G901 goes on across the boundary.
+    /// Braking under G901 continues across the boundary.
     carried: Vec<bool>,
 }
 
@@ -140,7 +140,7 @@ impl Window<'_> {
             }
             let mut spans: Vec<Span> = Vec::with_capacity(stretches.len());
             let mut again = false;
-            // a speed that is final already; the plan that it comes from goes on
+            // a speed that is final already; the plan that it comes from continues
             if !self.keeps(&stretches[0], speeds[0].v_mm_s, speeds[1].v_mm_s) {
                 let (length_mm, needed_mm) = (stretches[0].length, f64::INFINITY);
                 return Err(Infeasible { length_mm, needed_mm });

@@ -16,7 +16,7 @@ const LEAST: f64 = 1e-7;
 /// brakes from it with `a` mm/s2.
 pub(crate) fn beyond_the_end(kernel: &Kernel, cycle_s: f64, v: f64, a: f64) -> f64 {
     let braking_s = v / a;
-    // path behind the rest `t` seconds before it
+    // path after the rest `t` seconds before it
     let back = |t: f64| {
         let ramp = t.clamp(0.0, braking_s);
         0.5 * a * ramp * ramp + v * (t - braking_s).max(0.0)
@@ -66,7 +66,7 @@ mod tests {
     }
 
     /// Weights -1/4, 3/2, -1/4: one cycle after an abrupt stop the oldest one alone still sees the path, a cycle of it
-    /// behind the end, so the set point is `v T / 4` beyond it; with a braking over more than a cycle `a T^2 / 8`.
+    /// after the end, so the set point is `v T / 4` beyond it; with a braking over more than a cycle `a T^2 / 8`.
     #[test]
     fn closed_forms_of_three_weights() {
         let k = kernel(&[-0.25, 1.5, -0.25]);

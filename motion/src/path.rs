@@ -116,7 +116,7 @@ impl Path {
 
     /// The part of a line or an arc between two path lengths, with exactly the same direction and curvature; `None` for
     /// other paths.
-    pub(crate) fn section(&self, from: f64, to: f64) -> Option<Self> {
+    pub fn section(&self, from: f64, to: f64) -> Option<Self> {
         match self {
             Self::Line(p) => Some(Self::Line(p.section(from, to))),
             Self::Arc(p) => Some(Self::Arc(p.section(from, to))),

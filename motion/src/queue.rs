@@ -49,7 +49,7 @@ pub struct Queued {
     pub slope: SlopeLimits,
     /// Largest `|q''|` over the axes in 1/mm; 0 for a line.
     pub bend: f64,
-    /// The block goes on behind the end of this part of it.
+    /// The block continues after the end of this part of it.
     pub(crate) goes_on: bool,
 }
 
@@ -90,7 +90,7 @@ impl Queued {
         }
     }
 
-    /// What is left of the block `s` mm behind its present start.
+    /// What is left of the block `s` mm after its present start.
     pub(crate) fn remainder(self: &Arc<Self>, s: f64) -> Arc<Self> {
         if s <= 0.0 {
             return Arc::clone(self);
@@ -105,12 +105,12 @@ impl Queued {
     }
 
     /// True if braking to the feed of the next block may begin in that block (G901).
-    pub fn brakes_late_into(&self, next: &Self) -> bool {
+    pub(crate) fn brakes_late_into(&self, next: &Self) -> bool {
         let hsc = [self, next].iter().any(|q| q.block.slope.kind == SlopeKind::Hsc);
         self.block.late_braking && self.block.feed != Feed::Rapid && !hsc
     }
 
-    /// Velocity in mm/s that the path has nowhere in this block behind `before`, whatever the override.
+    /// Velocity in mm/s that the path has nowhere in this block after `before`, whatever the override.
     pub(crate) fn fastest_behind(&self, before: &Self) -> f64 {
         if before.brakes_late_into(self) { self.speeds.highest() } else { self.speeds.fastest() }
     }
@@ -181,7 +181,7 @@ impl Queued {
     }
 
     /// True if the profile of this block may run on across its ends with a non-zero acceleration.
-    pub fn plans_across(&self) -> bool {
+    pub(crate) fn plans_across(&self) -> bool {
         let s = self.block.slope;
         let scales = s.optimised || !s.constant_ramp_time;
         s.kind == SlopeKind::Hsc || s.kind != SlopeKind::Step && scales

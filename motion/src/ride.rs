@@ -55,7 +55,7 @@ struct Block {
 }
 
 impl Block {
-    /// True if its end and the block behind change nothing.
+    /// True if its end and the block after change nothing.
     fn goes_on_as(&self, next: &Self) -> bool {
         let same = |a: f64, b: f64| (a - b).abs() <= SLACK * a;
         self.cap >= self.v * (1.0 - SLACK)

@@ -9,10 +9,10 @@
 //! At even edges the deviation is a sixth of an edge times the change of direction: `h^2 / (6 r)` where the polygon runs
 //! along a radius. A corner that would deviate more is drawn back. With a little too small a tolerance, knots in the
 //! middles of its edges leave only the corner itself to move back to the programmed point, by as much as is needed; the
-//! full way halves the deviation, and the next knots go on from there. So the tolerance is used, and a larger one makes
+//! full way halves the deviation, and the next knots continue from there. So the tolerance is used, and a larger one makes
 //! the spline neither sharper nor different at once. A corner whose tolerance is small beside its edges, or whose edges
 //! are uneven and whose deviation could exceed the tolerance for any other edges, gets two more control points on either side, at distances `e` and `2 e`; its deviation is then `e/3 sin(theta/2)` and the spline
-//! touches the polygon before and behind it (P-CHAN-00129 = 0). Or the spline ends there (`AUTO_OFF_PATH`; this goes by the
+//! touches the polygon before and after it (P-CHAN-00129 = 0). Or the spline ends there (`AUTO_OFF_PATH`; this goes by the
 //! bound for any other edges, at even ones a quarter of an edge). At its ends the spline meets the polygon with its
 //! direction and without curvature. Position, tangent and curvature are continuous everywhere else.
 //!
@@ -59,7 +59,7 @@ use polygon::ControlPolygon;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
-/// Edges behind the present one that decide its piece.
+/// Edges after the present one that decide its piece.
 const AHEAD: usize = 5;
 /// Edges before the present one that decide its piece.
 const BEHIND: usize = 3;
@@ -93,7 +93,7 @@ impl Corner {
     const FREE: Self = Self { reach: f64::INFINITY, e: None };
 }
 
-/// The stage. It holds at most [`AHEAD`] blocks behind those of [`fairing`], and what it needs of the [`BEHIND`] before them.
+/// The stage. It holds at most [`AHEAD`] blocks after those of [`fairing`], and what it needs of the [`BEHIND`] before them.
 #[derive(Debug, Default)]
 pub struct Splining {
     fairing: Fairing,
@@ -121,7 +121,7 @@ impl Splining {
         self.ready.drain(..)
     }
 
-    /// The path stops behind the last block: everything comes back.
+    /// The path stops after the last block: everything comes back.
     pub fn flush(&mut self) -> impl Iterator<Item = Block> + '_ {
         let mut fairing = std::mem::take(&mut self.fairing);
         for block in fairing.flush() {

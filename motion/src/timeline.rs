@@ -155,7 +155,7 @@ impl Entry {
         self.cut_s.map_or_else(|| self.profile.end(), |t| self.profile.at(t))
     }
 
-    /// The parts before and behind block `n`, the acceleration between them as it is; `None` where the profile cannot be
+    /// The parts before and after block `n`, the acceleration between them as it is; `None` where the profile cannot be
     /// parted.
     pub(crate) fn split(&self, n: usize) -> Option<[Self; 2]> {
         let s = self.blocks[n - 1].1;
@@ -292,7 +292,7 @@ impl Timeline {
         std::mem::take(&mut self.entries)
     }
 
-    /// Drops what lies before cycle `k` and fills `out`; false if `k` lies behind the last span.
+    /// Drops what lies before cycle `k` and fills `out`; false if `k` lies after the last span.
     pub(crate) fn advance(&mut self, k: u64, cycle: CycleTime, out: &mut PathState) -> bool {
         while let Some(front) = self.entries.front() {
             let resting = front.stops && self.entries.get(1).is_some_and(|e| k <= e.start.origin);
@@ -319,7 +319,7 @@ impl Entry {
     }
 }
 
-/// Path states of rising cycles along what is final and a plan behind it; a cycle behind the end of a motion rests at its
+/// Path states of rising cycles along what is final and a plan after it; a cycle after the end of a motion rests at its
 /// end until the next one starts.
 #[derive(Debug)]
 pub(crate) struct Reader<'a> {
@@ -337,7 +337,7 @@ impl<'a> Reader<'a> {
         self.placed.get(i).or_else(|| self.plan.get(i - self.placed.len()))
     }
 
-    /// State in cycle `k`; cycles before the first or behind the last span rest at its end.
+    /// State in cycle `k`; cycles before the first or after the last span rest at its end.
     pub(crate) fn state(&mut self, k: u64, cycle: CycleTime, out: &mut PathState) {
         let started = |e: &Entry| {
             k >= e.start.origin && cycle.time_of(k - e.start.origin) >= e.start.seconds()

@@ -95,12 +95,43 @@ for (const values of [[], ["37", "0.05"], ["", "", "61", "0.3"]]) {
 // what can be clicked can be reached by keys
 const keyless = [...document.querySelectorAll("canvas, .key, #program, tr[data-line]")].filter(e => e.tabIndex < 0 && !e.closest("#legend .note")).length;
 const shares = [...document.querySelectorAll("#times table")].map(t => [...t.rows].slice(1).map(row => Number(row.cells[2].textContent)).reduce((a, b) => a + b, 0));
+// two fingers that part on the contour and over time: to three times their distance
+const touch = (target, name, pointerId, x, y) => {
+  const at = target.getBoundingClientRect();
+  target.dispatchEvent(new PointerEvent(name, { pointerId, pointerType: "touch", clientX: at.left + x, clientY: at.top + y, bubbles: true }));
+};
+// fingers that are none cannot be captured
+Element.prototype.setPointerCapture = () => {};
+const pinch = target => {
+  touch(target, "pointerdown", 11, 170, 100);
+  touch(target, "pointerdown", 12, 230, 100);
+  for (let i = 1; i <= 6; i++) {
+    touch(target, "pointermove", 11, 170 - 10 * i, 100);
+    touch(target, "pointermove", 12, 230 + 10 * i, 100);
+  }
+};
+const lift = target => [11, 12].forEach(id => touch(target, "pointerup", id, 0, 0));
+const scaleBefore = wide.scale, fixed = toData(wide, 200, 100), timeBefore = [...view.time];
+pinch(contour);
+const pinched = [wide.scale / scaleBefore, ...toScreen(wide, ...fixed)];
+touch(contour, "pointerup", 12, 290, 100);
+// one finger moves
+touch(contour, "pointermove", 11, 150, 130);
+const panned = toScreen(wide, ...fixed);
+lift(contour);
+touch(contour, "pointermove", 11, 300, 300);
+const lifted = toScreen(wide, ...fixed);
+showAll(wide);
+pinch(plots[0].canvas);
+const pinchedTime = (timeBefore[1] - timeBefore[0]) / (view.time[1] - view.time[0]);
+lift(plots[0].canvas);
+wholePlot(plots[0]);
 contour.dispatchEvent(new WheelEvent("wheel", { deltaY: -500, clientX: box.left + x, clientY: box.top + y, cancelable: true }));
 const probe = document.createElement("pre");
 probe.id = "probe";
 probe.textContent = JSON.stringify({
   errors, colours, tip: tipText, swatches, zoomed: wide.scale > before, label, stepped, hiddenByKey, dark, lit, unlit, chosen, chosenLine,
-  ranges, springs, keyless, follows, inSpace, limits, turns, shares, span: [begin, end], cycles: runs.map(r => r.summary.cycles), buckets: runs.map(r => r.k.length),
+  ranges, springs, keyless, pinched, panned, lifted, pinchedTime, follows, inSpace, limits, turns, shares, span: [begin, end], cycles: runs.map(r => r.summary.cycles), buckets: runs.map(r => r.k.length),
   requests: performance.getEntriesByType("resource").length, points: runs.map(r => r.pk.length), within: runs.map(r => r.within),
 });
 document.body.append(probe);
@@ -237,6 +268,15 @@ fn the_page_draws_and_answers() {
         }
     }
     assert_eq!(one["keyless"], 0);
+    // fingers that part to three times their distance: the scale too, about the point between them; one finger moves, none does not
+    let near = |value: &Value, to: f64| (value.as_f64().unwrap() - to).abs() < 1e-6;
+    for (i, to) in [3.0, 200.0, 100.0].into_iter().enumerate() {
+        assert!(near(&one["pinched"][i], to), "{one}");
+    }
+    for moved in ["panned", "lifted"] {
+        assert!(near(&one[moved][0], 240.0) && near(&one[moved][1], 130.0), "{one}");
+    }
+    assert!(near(&one["pinchedTime"], 3.0), "{one}");
     // all reasons make up the time
     assert!((one["shares"][0].as_f64().unwrap() - 100.0).abs() < 0.5, "{one}");
 }

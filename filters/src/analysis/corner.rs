@@ -2,6 +2,23 @@
 //!
 //! The tool comes along x, passes the corner (0, 0) and leaves along y without slowing down. Speed reduction at the
 //! corner only makes the error smaller, so this is the worst that a filter does to a corner at a feed.
+//!
+//! Any stage is driven as it is; of a kernel alone the error comes at once:
+//!
+//! ```
+//! use kontur_filters::analysis::corner::{CornerPath, kernel_error_mm};
+//! use kontur_filters::kernel::KernelFilter;
+//! use kontur_filters::time::CycleTime;
+//! use kontur_filters::vib_guard::VibGuardSettings;
+//! use std::sync::Arc;
+//!
+//! let cycle = CycleTime::DEFAULT;
+//! let kernel = VibGuardSettings { mode: 1, freq_hz: 20.0, damping: 0.1 }.kernel(cycle).unwrap();
+//! let error_mm = kernel_error_mm(&kernel, 50.0, cycle);
+//! let path = CornerPath::drive(&KernelFilter::new(Arc::new(kernel), 0.0), 50.0, cycle).unwrap();
+//! // two impulses cut the corner off by a straight line between points half a period apart
+//! assert!(path.contour_error_mm > 0.0 && path.contour_error_mm <= error_mm + 1e-9);
+//! ```
 
 use crate::kernel::Kernel;
 use crate::stage::Stage;

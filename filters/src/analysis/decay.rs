@@ -2,6 +2,19 @@
 //!
 //! Source: TF5250 Vibration Guard, P-AXIS-00568: `delta = ln(A1 / A2)` of successive maxima,
 //! `damping = 1 / sqrt(1 + (2 pi / delta)^2)`.
+//!
+//! ```
+//! use kontur_filters::analysis::decay::{Decay, damping_of_decrement};
+//! use std::f64::consts::TAU;
+//!
+//! // 10 Hz with damping 0.05, recorded at 1 kHz
+//! let w = TAU * 10.0;
+//! let swing = |k: i32| (-0.05 * w * f64::from(k) / 1e3).exp() * (w * f64::from(k) / 1e3).cos();
+//! let decay = Decay::of(&(0..1000).map(swing).collect::<Vec<_>>(), 1000.0).unwrap();
+//! assert!((decay.damping - 0.05).abs() < 1e-3 && (decay.freq_hz - 10.0).abs() < 0.05);
+//! // by hand: a maximum that falls to a half from one to the next
+//! assert!((damping_of_decrement(2_f64.ln()) - 0.1097).abs() < 1e-4);
+//! ```
 
 use std::f64::consts::PI;
 

@@ -1,6 +1,16 @@
 //! The largest order of a FIR or HSC filter that keeps a tolerance at a corner.
 //!
 //! Source: TF5200 axis filters (contour error over filter order at a 90 degree corner), FCT-C37.
+//!
+//! ```
+//! use kontur_filters::analysis::order::largest_order;
+//! use kontur_filters::fir::{FirConfig, FirKind};
+//! use kontur_filters::time::CycleTime;
+//!
+//! let choice =
+//!     largest_order(&FirConfig::new(FirKind::MovingAverage), 0.1, 2000.0 / 60.0, CycleTime::DEFAULT);
+//! assert!(choice.contour_error_mm <= 0.1 && (22..=24).contains(&choice.order));
+//! ```
 
 use super::corner::kernel_error_mm;
 use crate::fir::{FirConfig, MAX_ORDER};

@@ -1,4 +1,19 @@
 //! A mass on a spring and a damper whose foot follows a set position: what a machine that gives way makes of it.
+//!
+//! First the spring, then one step per cycle of a motion, then what is left of it:
+//!
+//! ```
+//! use kontur_filters::analysis::spring::SpringMass;
+//! use kontur_filters::time::CycleTime;
+//!
+//! let mut spring = SpringMass::new(20.0, 0.0, CycleTime::DEFAULT).unwrap();
+//! // accelerating for one period leaves nothing, for half a period all of it
+//! let deflections: Vec<f64> = (0..50).map(|_| spring.step(1000.0)).collect();
+//! assert!(spring.amplitude() < 1e-9);
+//! assert!(deflections.iter().all(|q| *q < 1e-9));
+//! (0..25).for_each(|_| drop(spring.step(1000.0)));
+//! assert!(spring.amplitude() > 0.1);
+//! ```
 
 use crate::time::CycleTime;
 use std::f64::consts::TAU;

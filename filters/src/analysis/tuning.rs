@@ -4,6 +4,21 @@
 //! frequency by the real one, its worked example the real one by the set one.
 //!
 //! Source: TF5250 Vibration Guard (choice of the mode from frequencies at several positions).
+//!
+//! First the band, then the choices of each mode:
+//!
+//! ```
+//! use kontur_filters::analysis::tuning::VibrationBand;
+//! use kontur_filters::time::CycleTime;
+//!
+//! let band = VibrationBand::of(&[6.9, 6.0, 5.4], 0.1).unwrap();
+//! let [one, two] = [1, 2].map(|mode| band.best(mode, CycleTime::DEFAULT).unwrap());
+//! // a longer kernel bears more deviation
+//! assert!(two.worst_ratio < one.worst_ratio && two.delay_cycles > one.delay_cycles);
+//! // the least contour error that still leaves at most a fifth
+//! let fast = band.fastest(2, 0.2, CycleTime::DEFAULT).unwrap();
+//! assert!(fast.worst_ratio <= 0.2 && fast.corner_error_s <= two.corner_error_s);
+//! ```
 
 use super::corner::kernel_error_mm;
 use crate::kernel::Kernel;

@@ -8,6 +8,25 @@
 //! 6. Speed limit.
 //! 7. Monitors.
 //! 8. The plant advances by one cycle.
+//!
+//! Configured once, started at a position, then one [`AxisControl::step`] per cycle:
+//!
+//! ```
+//! use kontur_filters::control::axis_control::{AxisControl, AxisControlConfig, AxisInputs};
+//! use kontur_filters::time::CycleTime;
+//!
+//! let (config, _) = AxisControlConfig::new(1000.0, 5000.0, 1e6).checked(CycleTime::DEFAULT);
+//! let mut axis = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+//! axis.start(0.0);
+//! // 10 mm/s, until the lag of a proportional controller has settled
+//! let seen = (1..3000).map(|k| axis.step(0.01 * f64::from(k), 0.0, true)).last().unwrap();
+//! let kv_per_s = axis.config().position.kv_per_s;
+//! assert!((seen.lag_mm - 10.0 / kv_per_s).abs() < 1e-3);
+//! // a force from outside acts from the next step on
+//! axis.set_inputs(AxisInputs { force_mm_s2: 500.0, ..AxisInputs::default() });
+//! let pushed = (3000..6000).map(|k| axis.step(0.01 * f64::from(k), 0.0, true)).last().unwrap();
+//! assert!(axis.faults().is_empty() && pushed.lag_mm.is_finite());
+//! ```
 
 mod config;
 

@@ -5,6 +5,24 @@
 //! channel get the same delay, whether or not G135 is active: they stay in step, and switching never jumps.
 //!
 //! Source: TF5200 axis parameters, P-AXIS-00566 (five cycles); TF5200 feedforward control (at least one cycle).
+//!
+//! Each cycle pushes first, then reads:
+//!
+//! ```
+//! use kontur_filters::control::buffer::{Setpoint, SetpointBuffer};
+//!
+//! let mut buffer = SetpointBuffer::new(5, 0);
+//! buffer.start(0.0);
+//! let seen: Vec<f64> = (1..=7)
+//!     .map(|k| {
+//!         buffer.push(Setpoint { position_mm: f64::from(k), gain: 1.0, jerk_limited: true });
+//!         buffer.reference_mm()
+//!     })
+//!     .collect();
+//! assert_eq!(seen, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 2.0]);
+//! // two before the reference, itself, and three that feedforward sees in advance
+//! assert_eq!(buffer.window().positions_mm, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+//! ```
 
 /// One cycle of one axis as it enters the buffer: flags travel with their position, so that a switch acts on the
 /// motion it was programmed for.

@@ -2,6 +2,24 @@
 //!
 //! How a control numbers a condition and how it reacts is not known here; the numbers in the texts below are those of
 //! the vendor's documents.
+//!
+//! Issues come from checking a configuration, faults from each step:
+//!
+//! ```
+//! use kontur_filters::control::fault::{Fault, Issue};
+//! use kontur_filters::control::monitor::{ExactStopConfig, ExactStopMonitor};
+//! use kontur_filters::control::plant::PlantConfig;
+//! use kontur_filters::time::CycleTime;
+//!
+//! let (_, issues) = PlantConfig { dead_time_cycles: 9, ..PlantConfig::default() }.checked();
+//! assert_eq!(issues, [Issue::DeadTime { cycles: 9 }]);
+//! // an axis that stays 1 mm away from its stop: once, not in every cycle
+//! let mut monitor = ExactStopMonitor::new(ExactStopConfig::default(), CycleTime::DEFAULT);
+//! monitor.start(0.0);
+//! monitor.expect(5.0);
+//! let faults: Vec<Fault> = (0..5000).filter_map(|_| monitor.step(5.0, 4.0)).collect();
+//! assert!(matches!(faults[..], [Fault::SettlingTimeout { .. }]));
+//! ```
 
 /// Which derivative of the setpoint a monitor watched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,7 +108,7 @@ impl Faults {
     /// One slot per source: three setpoint derivatives, controller speed, lag, exact stop, divergence.
     const CAPACITY: usize = 7;
 
-    /// Adds a fault; a full list keeps what it has, since every source raises at most one per cycle.
+    /// Adds a fault; a full list keeps what it has, from the starty source raises at most one per cycle.
     pub(crate) fn push(&mut self, fault: Option<Fault>) {
         if fault.is_some()
             && let Some(free) = self.items.iter_mut().find(|i| i.is_none())

@@ -18,6 +18,29 @@
 //! `j Ta / Kv2`.
 //!
 //! Source: TF5200 feedforward control 2, figures 1 and 2.
+//!
+//! The configuration is checked, then stepped with the windows of the [buffer](super::buffer):
+//!
+//! ```
+//! use kontur_filters::control::buffer::{Setpoint, SetpointBuffer};
+//! use kontur_filters::control::feedforward::{
+//!     AdditiveInputs, Feedforward, FeedforwardConfig, FeedforwardMode,
+//! };
+//! use kontur_filters::time::CycleTime;
+//!
+//! let config = FeedforwardConfig { mode: FeedforwardMode::VEL, ..FeedforwardConfig::default() };
+//! let inputs = AdditiveInputs { velocity: false, torque: false };
+//! let (config, issues) = config.checked(CycleTime::DEFAULT, inputs);
+//! let mut feedforward = Feedforward::new(config, CycleTime::DEFAULT);
+//! let mut buffer = SetpointBuffer::new(config.delay_cycles(), 0);
+//! let gain = config.gain(true, 1.0);
+//! // 0.1 mm in each cycle are 100 mm/s
+//! for k in 0..20 {
+//!     buffer.push(Setpoint { position_mm: 0.1 * f64::from(k), gain, jerk_limited: true });
+//! }
+//! let speed = feedforward.step(&buffer.window(), 50.0).speed_mm_s;
+//! assert!(issues.is_empty() && (speed - 100.0).abs() < 1e-6);
+//! ```
 
 use super::{buffer::Window, fault::Issue};
 use crate::time::CycleTime;

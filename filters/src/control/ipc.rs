@@ -14,6 +14,39 @@
 //! with the encoder that is fed back, plus removes it.
 //!
 //! Source: ISG Improved Position Control (available from V3.1.3077.08).
+//!
+//! Checked first; then one step per cycle, with the speeds that were measured:
+//!
+//! ```
+//! use kontur_filters::control::ipc::{
+//!     Ipc, IpcConfig, IpcFilterConfig, IpcFilterType, IpcInput, IpcMode, IpcStageConfig,
+//! };
+//! use kontur_filters::time::CycleTime;
+//!
+//! let cycle = CycleTime::DEFAULT;
+//! let band = IpcFilterConfig {
+//!     kind: IpcFilterType::BandPass,
+//!     order: 2,
+//!     frequency_hz: 20.0,
+//!     quality: 2.0,
+//! };
+//! let stage =
+//!     IpcStageConfig { mode: IpcMode::Direct, filters: vec![band], ..IpcStageConfig::default() };
+//! let config =
+//!     IpcConfig { enable: true, limit_ratio: 0.1, stages: vec![stage], ..IpcConfig::default() };
+//! assert!(config.check(cycle).is_empty() && config.active(cycle));
+//! let mut ipc = Ipc::new(&config, 1000.0, cycle);
+//! ipc.start();
+//! // it moves against a vibration of its frequency
+//! let swing = |k: i32| (std::f64::consts::TAU * 20e-3 * f64::from(k)).sin();
+//! let against: f64 = (0..1000)
+//!     .map(|k| {
+//!         let input = IpcInput { direct_mm_s: Some(swing(k)), ..IpcInput::default() };
+//!         swing(k) * ipc.step(&input).speed_mm_s
+//!     })
+//!     .sum();
+//! assert!(against < 0.0);
+//! ```
 
 mod filter;
 

@@ -2,6 +2,25 @@
 //!
 //! A monitor raises a [`Fault`](super::fault::Fault) when its condition begins; what the machine does about it is the
 //! cycle loop's business.
+//!
+//! Each is started at a position and stepped once per cycle:
+//!
+//! ```
+//! use kontur_filters::control::monitor::{LagMonitor, LagMonitorConfig, LagMonitorType};
+//! use kontur_filters::time::CycleTime;
+//!
+//! let config = LagMonitorConfig {
+//!     kind: LagMonitorType::VelocityIndependent,
+//!     lag_max_mm: 1.0,
+//!     ..LagMonitorConfig::default()
+//! };
+//! let mut monitor = LagMonitor::new(config, CycleTime::DEFAULT);
+//! monitor.start(0.0);
+//! // the axis stays behind by 10 % of the way: said once, when 1 mm is exceeded
+//! let path = (0..200).map(|k| 0.1 * f64::from(k));
+//! let faults = path.filter_map(|x| monitor.step(x, 0.9 * x, 50.0));
+//! assert_eq!(faults.count(), 1);
+//! ```
 
 mod exact_stop;
 mod lag;

@@ -5,6 +5,21 @@
 //!
 //! Input is the speed command in mm/s, an additive torque as the acceleration it gives the axis, and a disturbance
 //! force as the acceleration it gives the whole mass.
+//!
+//! ```
+//! use kontur_filters::control::plant::{Plant, PlantConfig, PlantInput, PlantModel};
+//! use kontur_filters::time::CycleTime;
+//!
+//! let model = PlantModel::FirstOrder { time_constant_s: 0.01 };
+//! let config = PlantConfig { model, ..PlantConfig::default() };
+//! let mut plant = Plant::new(&config, CycleTime::DEFAULT).unwrap();
+//! plant.start(0.0);
+//! for _ in 0..1000 {
+//!     plant.advance(PlantInput { speed_mm_s: 100.0, ..PlantInput::default() });
+//! }
+//! // 1 s at 100 mm/s, less the time constant
+//! assert!((plant.measured().motor_mm - 99.0).abs() < 1e-9);
+//! ```
 
 mod linear;
 mod models;

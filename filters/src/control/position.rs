@@ -1,6 +1,19 @@
 //! The position controller: proportional, with a gain that may depend on speed, a dead band and a speed limit.
 //!
 //! Source: TF5200 axis parameters, P-AXIS-00099, 00245 to 00248, 00320, 00395, 00407.
+//!
+//! ```
+//! use kontur_filters::control::position::{DynamicKv, PositionConfig, SpeedLimiter};
+//!
+//! let dynamic_kv = Some(DynamicKv { v1_mm_s: 10.0, kv1_per_s: 20.0, v2_mm_s: 30.0, kv2_per_s: 40.0 });
+//! let config = PositionConfig { dynamic_kv, v_max_mm_s: 100.0, ..PositionConfig::default() };
+//! // gain, then the command of the following error, then its limit: v_max and its excess
+//! let kv_per_s = config.gain_at(20.0);
+//! let command_mm_s = kv_per_s * config.error_mm(10.0, false);
+//! let (limited_mm_s, fault) = SpeedLimiter::new(&config).step(command_mm_s);
+//! assert_eq!((kv_per_s, command_mm_s, limited_mm_s), (30.0, 300.0, 200.0));
+//! assert!(fault.is_some());
+//! ```
 
 use super::fault::Fault;
 

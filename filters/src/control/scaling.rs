@@ -1,6 +1,20 @@
 //! Values in the drive's own format: speed counts, torque counts, encoder resolution.
 //!
 //! Source: TF5200 feedforward control 4 and 5; Improved Position Control 4.2.
+//!
+//! ```
+//! use kontur_filters::control::scaling::{Motor, SpeedFormat, TorqueFormat, encoder_resolution};
+//!
+//! // 2000 counts for 1 m/min: 6 m/min are 12000
+//! let counts = SpeedFormat::default().counts_per_mm_s(1e-3) * 100.0;
+//! assert!((counts - 12000.0).abs() < 1e-9);
+//! // 0.01 kg m2 at 10 mm per revolution: 1 m/s2 are 200 pi rad/s2
+//! let motor = Motor::Rotary { feed_mm: 10.0, gear_ratio: 1.0 };
+//! let torque = TorqueFormat { motor, load: 0.01, ..TorqueFormat::default() }.torque(1000.0);
+//! assert!((torque - 2.0 * std::f64::consts::PI).abs() < 1e-9);
+//! // 100,000 increments for 10 mm: one for each 0.1 um
+//! assert_eq!(encoder_resolution(100_000.0, 10.0, 1.0), 1.0);
+//! ```
 
 use super::fault::Issue;
 use std::f64::consts::TAU;

@@ -5,6 +5,17 @@
 //! normalisation.
 //!
 //! Source: TF5200 axis filters, P-AXIS-00153. Assumption: the -3 dB normalisation of critical damping and Bessel.
+//!
+//! ```
+//! use kontur_filters::iir::prototype::Prototype;
+//!
+//! // at `P = j` every one of them lets half of the power through
+//! for prototype in Prototype::ALL {
+//!     let power: f64 =
+//!         prototype.terms(4).iter().map(|t| (1.0 - t.b).powi(2) + t.a * t.a).product();
+//!     assert!((power - 2.0).abs() < 1e-3);
+//! }
+//! ```
 
 use std::f64::consts::{PI, SQRT_2};
 

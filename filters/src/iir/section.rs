@@ -3,6 +3,19 @@
 //! Direct forms lose digits as the square of sampling over corner frequency and drift on a large constant position.
 //! These sections keep the low-passed position itself as state: at rest all their differences are exactly zero, so
 //! output = input bit for bit, and the gain for constants is 1 by construction, not by the digits of coefficients.
+//!
+//! A section is coefficients only; each axis has a state of its own:
+//!
+//! ```
+//! use kontur_filters::iir::section::{FirstOutput, Section, SectionState};
+//!
+//! let section = Section::first(0.1, FirstOutput::Low);
+//! let mut state = SectionState::at_rest(123456.789);
+//! // at rest bit for bit, then towards the new input
+//! assert_eq!(section.step(&mut state, 123456.789), 123456.789);
+//! let reached = (0..500).map(|_| section.step(&mut state, 123457.789)).last().unwrap();
+//! assert!((reached - 123457.789).abs() < 1e-6);
+//! ```
 
 use crate::response::{Angle, Response};
 

@@ -5,6 +5,15 @@
 //! number of cycles is a plain shift, bit for bit.
 //!
 //! Source: TF5200 axis filters, type `TIME_DELAY`, P-AXIS-00357. Assumption: Thiran's design.
+//!
+//! ```
+//! use kontur_filters::iir::thiran::{Thiran, ThiranState};
+//!
+//! let (delay, mut state) = (Thiran::new(2.5), ThiranState::at_rest(0.0));
+//! // a ramp comes out two and a half cycles later
+//! let last = (1..=200).map(|k| delay.step(&mut state, f64::from(k))).last().unwrap();
+//! assert!((last - 197.5).abs() < 1e-6);
+//! ```
 
 use crate::response::{Angle, Response};
 
@@ -13,7 +22,7 @@ const MAX_ORDER: usize = 6;
 
 /// Coefficients of `H(z) = (a_N + ... + z^-N) / (1 + ... + a_N z^-N)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Thiran {
+pub(super) struct Thiran {
     order: usize,
     /// `a[k - 1]` is the coefficient of `z^-k`.
     a: [f64; MAX_ORDER],
@@ -21,14 +30,14 @@ pub struct Thiran {
 
 /// The last inputs and outputs, newest first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ThiranState {
+pub(super) struct ThiranState {
     inputs: [f64; MAX_ORDER],
     outputs: [f64; MAX_ORDER],
 }
 
 impl ThiranState {
     /// At rest on the constant input `x`.
-    pub const fn at_rest(x: f64) -> Self {
+    pub(super) const fn at_rest(x: f64) -> Self {
         Self { inputs: [x; MAX_ORDER], outputs: [x; MAX_ORDER] }
     }
 }
@@ -37,7 +46,7 @@ impl Thiran {
     /// The delay by `cycles`, 0 to below 6.
     ///
     /// The order is the delay rounded, at least 1; delays outside the range give the nearest one inside.
-    pub fn new(cycles: f64) -> Self {
+    pub(super) fn new(cycles: f64) -> Self {
         let mut a = [0.0; MAX_ORDER];
         if cycles <= 0.0 {
             return Self { order: 0, a };
@@ -56,7 +65,7 @@ impl Thiran {
     }
 
     /// Next output for the next input.
-    pub fn step(&self, state: &mut ThiranState, x: f64) -> f64 {
+    pub(super) fn step(&self, state: &mut ThiranState, x: f64) -> f64 {
         let Some(oldest) = self.order.checked_sub(1) else { return x };
         let ThiranState { inputs, outputs } = state;
         // y[n] = x[n - N] + sum a_k (x[n - N + k] - y[n - k]): at rest every difference is zero.
@@ -71,7 +80,7 @@ impl Thiran {
     }
 
     /// Frequency response at one frequency.
-    pub fn response(&self, at: Angle) -> Response {
+    pub(super) fn response(&self, at: Angle) -> Response {
         let order = self.order as f64;
         let (mut numerator, mut denominator) = (Response::delay(order, at), Response::ONE);
         for (a, k) in self.a[..self.order].iter().zip(1_u32..) {

@@ -3,6 +3,25 @@
 //! `g = tan(pi f T)` is the prewarped characteristic frequency: there the discrete response is exactly the analog one.
 //! For band filters the centre is prewarped, so the notch lies exactly where the user measured, and the quality is
 //! corrected ([`warped_quality`]), so that the distance of the edges is exactly `f0 / Q` at any `f0 T`.
+//!
+//! First the factors of a [prototype](super::prototype), then the sections:
+//!
+//! ```
+//! use kontur_filters::iir::prototype::Prototype;
+//! use kontur_filters::iir::transform::{band_edges_hz, low_pass};
+//! use kontur_filters::response::Angle;
+//! use kontur_filters::time::CycleTime;
+//!
+//! let cycle = CycleTime::DEFAULT;
+//! let g = (std::f64::consts::PI * 15.0 * cycle.seconds()).tan();
+//! let sections = low_pass(&Prototype::Butterworth.terms(4), g);
+//! let at = Angle::of(15.0, cycle);
+//! let db: f64 = sections.iter().map(|section| section.response(at).magnitude_db()).sum();
+//! assert!((db + 3.0103).abs() < 1e-4);
+//! // a band of quality 2 around 20 Hz is 10 Hz wide
+//! let (low, high) = band_edges_hz(20.0, 2.0, cycle.seconds());
+//! assert!((high - low - 10.0).abs() < 1e-9);
+//! ```
 
 use super::prototype::Term;
 use super::section::{FirstOutput, SecondOutput, Section};

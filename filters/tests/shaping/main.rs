@@ -15,4 +15,6 @@ mod iir;
 #[cfg(test)]
 mod reference;
 #[cfg(test)]
+mod resonance;
+#[cfg(test)]
 mod vib_guard;

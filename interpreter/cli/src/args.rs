@@ -133,8 +133,8 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t = SummaryForm::Text)]
     pub summary: SummaryForm,
 
-    /// Account for the time by line and by what held the speed down: in the summary, or every line in a table. What would help is tried
-    /// out, with a run for each proposal
+    /// Account for the time by line and by what held the speed down: in the summary, or every line in a table. Also
+    /// tries out what would help, with one run for each proposal
     #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, value_parser = table)]
     pub times: Option<Option<PathBuf>>,
 
@@ -146,7 +146,7 @@ pub struct RunArgs {
 /// `kontur check`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckArgs {
-    /// The NC programs; a folder stands for every `.nc` file below it that no other one calls, `-` reads one from standard input
+    /// The NC programs; a folder means every `.nc` file below it that no other one calls; `-` reads one from standard input
     #[arg(required = true)]
     pub programs: Vec<PathBuf>,
 
@@ -188,7 +188,7 @@ pub struct ReportArgs {
     #[arg(long, value_name = "HZ..HZ", requires = "signals", value_parser = span)]
     pub spectrum: Option<(f64, f64)>,
 
-    /// Part of the run in s that is drawn, e.g. `0.7..1.9`: of a long run every cycle of it
+    /// Part of the run in s that is drawn, e.g. `0.7..1.9`; every cycle of it is drawn, even in a long run
     #[arg(long, value_name = "S..S", value_parser = span)]
     pub window: Option<(f64, f64)>,
 

@@ -4,6 +4,14 @@
 //! gets the same description as JSON, with the steps of the ticks and the colours, and draws it anew when it is zoomed.
 //!
 //! Other crates use the scales only: [`scale`] has the order of calls.
+//!
+//! ```
+//! use kontur::chart::scale::{steps, ticks};
+//!
+//! // a page draws with these steps, a picture with these numbers
+//! assert!(steps().iter().any(|step| step.size == 0.5 && step.decimals == 1));
+//! assert_eq!(ticks((0.0, 1.0), 2.0).len(), 3);
+//! ```
 
 pub(crate) mod plot;
 pub mod scale;

@@ -5,6 +5,8 @@ use crate::args::Vary;
 use crate::args::vary::used_name;
 use crate::request::Request;
 use crate::words::Word;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// More combinations than this are a slip of the hand.
 const MOST_COMBINATIONS: usize = 100_000;
@@ -89,20 +91,32 @@ pub(crate) fn put(vary: &[Vary], combination: &[usize], request: &mut Request) {
     }
 }
 
-/// Parameters whose values make no difference to any result: `rows` holds the results in the order of [`combinations`].
+/// Parameters whose values make no difference to any result: `rows` holds those of the combinations, which may be a part of all. A
+/// parameter of which no two rows tell anything is none of them.
 pub(crate) fn without_effect<'v, R: PartialEq>(
     vary: &'v [Vary],
     combinations: &[Vec<usize>],
     rows: &[R],
 ) -> Vec<&'v Vary> {
-    // each row against that of the parameter's first value, all others being equal
+    // each row against the first one with the same values of all others
     let same = |which: usize| {
-        let stride: usize = vary[which + 1..].iter().map(|v| v.values.len()).product();
-        let mut all = combinations.iter().zip(rows).enumerate();
-        all.all(|(i, (combination, row))| rows[i - combination[which] * stride] == *row)
+        let mut first: HashMap<[&[usize]; 2], &R> = HashMap::new();
+        let mut tells = false;
+        let mut all = combinations.iter().zip(rows);
+        all.all(|(combination, row)| {
+            match first.entry([&combination[..which], &combination[which + 1..]]) {
+                Entry::Vacant(place) => {
+                    place.insert(row);
+                    true
+                }
+                Entry::Occupied(other) => {
+                    tells = true;
+                    *other.get() == row
+                }
+            }
+        }) && tells
     };
-    let several = vary.iter().enumerate().filter(|(_, v)| v.values.len() > 1);
-    several.filter(|(i, _)| same(*i)).map(|(_, v)| v).collect()
+    vary.iter().enumerate().filter(|(i, _)| same(*i)).map(|(_, v)| v).collect()
 }
 
 /// The settings of one combination, as `--set` takes them.
@@ -135,6 +149,13 @@ mod tests {
         assert_eq!(keys(&[7, 7, 7, 8, 8, 8]), ["Y.b"]);
         assert_eq!(keys(&[7, 8, 9, 7, 8, 0]), [""; 0]);
         assert_eq!(keys(&[7; 6]), ["X.a", "Y.b"]);
+        // rows 2 to 4 of them: two of X.a=2 beside each other, none of both values of X.a; rows 1 to 4 have such ones
+        let of_part = |range: std::ops::Range<usize>, rows: &[u32]| -> Vec<String> {
+            without_effect(&vary, &all[range], rows).iter().map(|v| v.key.clone()).collect()
+        };
+        assert_eq!(of_part(2..5, &[7, 8, 8]), ["Y.b"]);
+        assert_eq!(of_part(1..5, &[7, 8, 9, 7]), ["X.a"]);
+        assert_eq!(of_part(1..5, &[7, 8, 9, 9]), [""; 0]);
         let mut request = Request::default();
         let external: Vec<Vary> = vec!["v.e.Speed=100,200".parse().unwrap(), vary[0].clone()];
         put(&external, &[1, 0], &mut request);

@@ -173,7 +173,7 @@ impl Progress {
     /// Work that is shorter than this needs no display.
     const QUIET: Duration = Duration::from_secs(1);
 
-    /// Shows where the work stands; the text is made only if it will be seen.
+    /// Shows how far the work is; the text is made only if it will be seen.
     pub fn show(&mut self, text: impl FnOnce() -> String) {
         if !self.wanted || (!self.shown && self.bar.elapsed() < Self::QUIET) {
             return;

@@ -358,7 +358,7 @@ pub struct Lists {
 
 impl Lists {
     /// The lists that were read.
-    pub fn read_so_far(self) -> Vec<PathBuf> {
+    pub(crate) fn read_so_far(self) -> Vec<PathBuf> {
         self.read.into_inner()
     }
 }

@@ -9,7 +9,7 @@ use walkdir::WalkDir;
 
 /// Name of the start-up list of a folder of lists.
 const START_UP: &str = "hochlauf.lis";
-/// Folder beside a project with the parts that stand in files of their own.
+/// Folder beside a project with the parts that are in files of their own.
 const CONFIGURATION: &str = "_Config";
 
 /// Where the lists of a machine are.

@@ -65,7 +65,7 @@ pub struct Request {
     pub techno_times: bool,
     /// External variables by their name after `V.E.`: a number, or else a text.
     pub external: Vec<(String, String)>,
-    /// Numbers of the program in place of those that stand there.
+    /// Numbers of the program in place of those that are there.
     pub words: Vec<Word>,
     /// Vibration Guard in place of that of lists and program.
     pub guard: Option<ForcedGuard>,

@@ -19,7 +19,7 @@
 #![doc = include_str!("../docs/figures.md")]
 
 mod axis;
-pub mod curve;
+mod curve;
 mod describe;
 mod select;
 mod view;

@@ -1,6 +1,6 @@
 //! `kontur sweep`: one program under every combination of parameters, one row per run.
 //!
-//! The runs share nothing and go over all cores; rows stand in the order of the combinations whatever finishes first. A
+//! The runs share nothing and go over all cores; rows are in the order of the combinations whatever finishes first. A
 //! run that an error ends has its row, with the ID of the error.
 //!
 //! On the command line [`sweep()`]; where somebody else distributes the runs, a [`Plan`] and its rows in any order.
@@ -48,7 +48,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 
-/// The column that names the parameters without effect, where there are any.
+/// The column that names the parameters without effect, where there are any; a shard always has it.
 pub const WITHOUT_EFFECT: &str = "without_effect";
 /// What is said of such a parameter.
 pub const NO_DIFFERENCE: &str =
@@ -98,17 +98,18 @@ pub fn sweep(args: &SweepArgs, console: &mut Console) -> Result<Exit, Error> {
     // one of the runs may have come to another subroutine
     keep_apart(&reads.into_iter().collect::<Vec<_>>(), &args.output)?;
     let rows = Rows { title, ..rows };
+    let without = idle(&args.vary, &combinations, &rows.cells);
     // a shard does not know the rows of the others
-    let without = if args.shard.is_some() {
-        Vec::new()
-    } else {
-        idle(&args.vary, &combinations, &rows.cells)
-    };
+    let part = if args.shard.is_some() { "in this part " } else { "" };
     for key in &without {
-        console.say(Severity::Note, &format!("{key}: {NO_DIFFERENCE}"));
+        console.say(Severity::Note, &format!("{key}: {part}{NO_DIFFERENCE}"));
     }
-    let rows =
-        if without.is_empty() { rows } else { rows.noting(WITHOUT_EFFECT, &without.join(" ")) };
+    // shards have the column even if it is empty: all of them have one header
+    let rows = if without.is_empty() && args.shard.is_none() {
+        rows
+    } else {
+        rows.noting(WITHOUT_EFFECT, &without.join(" "))
+    };
     if args.output.is_empty() || !standard.is_empty() {
         console.print(&rows.table().csv())?;
     }

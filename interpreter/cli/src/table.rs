@@ -33,7 +33,7 @@ impl Cell {
     /// No number.
     pub(crate) const NOTHING: Self = Self::Number(f64::NAN, 0);
 
-    /// As it stands in a text table.
+    /// As it appears in a text table.
     pub fn text(&self) -> String {
         match self {
             Self::Number(value, decimals) => number(*value, *decimals),

@@ -69,7 +69,7 @@ pub fn answer(args: &TuneArgs, console: &mut Console) -> Result<Answer, Error> {
         } else {
             recording::measured(args, console)?
         };
-    // what is judged is what stands in the command to paste
+    // what is judged is what is in the command to paste
     let damping = args.damping.or(measured_damping.map(rounded));
     let damping = damping.unwrap_or(VibGuardSettings::default().damping);
     let bands_hz: Vec<(f64, f64)> =

@@ -1,4 +1,4 @@
-//! Numbers that stand in a program, and other numbers in their place: what a program sets itself can vary without another program.
+//! Numbers in a program, and other numbers in their place: what a program sets itself can vary without another program.
 //!
 //! A word is a name, `=` and a number: `P1=10`, `V.P.R=2.5`, `FREQ=40` of a guard command. Remarks and texts have none.
 //!
@@ -15,12 +15,12 @@
 //! assert!(request.open().is_err(), "there is no such word in line 8");
 //! ```
 
-/// A number of the program in place of the one that stands there.
+/// A number of the program in place of the one that is there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word {
     /// The line that it stands in; without one the word must stand in a single place.
     pub line: Option<u32>,
-    /// What stands in front of `=`, in capital letters or not.
+    /// What is in front of `=`, in capital letters or not.
     pub name: String,
     /// The number in its place.
     pub value: String,
@@ -64,7 +64,7 @@ pub(crate) fn put(text: &[u8], words: &[Word]) -> Result<Vec<u8>, String> {
     Ok(text)
 }
 
-/// Where a word stands.
+/// Where a word is.
 struct Place {
     line: u32,
     /// Its number, as bytes of the text.

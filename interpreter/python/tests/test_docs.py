@@ -1,5 +1,7 @@
 """Every script of the documents runs."""
 
+import itertools
+import json
 import os
 import re
 import subprocess
@@ -11,6 +13,7 @@ from conftest import ROOT
 
 README = ROOT / "interpreter" / "python" / "README.md"
 BATCH = ROOT / "interpreter" / "cli" / "docs" / "batch.md"
+EDITOR = ROOT / "interpreter" / "book" / "pages" / "editor.md"
 
 
 def blocks(path: Path, language: str) -> list[str]:
@@ -49,4 +52,40 @@ def test_the_job_array_gives_the_whole_table(binary, command, tmp_path):
     varied = re.findall(r"--vary '([^']*)'", job)
     words = [word for key in varied for word in ("--vary", key)]
     whole = command("sweep", ROOT / "programs" / "square_corner.nc", *words)
-    assert (tmp_path / "table.csv").read_text() == whole.stdout
+    header, *rows = (tmp_path / "table.csv").read_text().splitlines()
+    # the column that each part fills for itself
+    assert header.endswith(",without_effect")
+    assert [row.rpartition(",")[0] for row in [header, *rows]] == whole.stdout.splitlines()
+
+
+def test_the_problem_matcher_of_the_book_finds_every_place(command, program):
+    """The patterns that an editor is given match the messages of the command line, place by place."""
+    (task,) = blocks(EDITOR, "json")
+    first, second = json.loads(task)["tasks"][0]["problemMatcher"]["pattern"]
+    text = "".join(f"N{n} G01 X1 F1000\n" for n in range(1, 120))
+    path = program(f"G777\n#CONTOUR [\n#SLOPE (TYPE=HSC)\n{text}G01 X[\nFOO=1\n", "my part.nc")
+    found = json.loads(command("check", path, "--format", "json").stdout)["diagnostics"]
+    lines = command("check", path).stderr.splitlines()
+    matched = []
+    for line, place in itertools.pairwise(lines):
+        if message := re.match(first["regexp"], line):
+            at = re.match(second["regexp"], place)
+            assert at, place
+            severity, code = message[first["severity"]], message[first["code"]]
+            where = (at[second["file"]], int(at[second["line"]]), int(at[second["column"]]))
+            matched.append((severity, code, message[first["message"]], *where))
+    expected = [
+        (
+            d["severity"],
+            str(d["id"] or d["kontur_id"]),
+            d["text"],
+            d["source"]["file"],
+            d["source"]["line"],
+            d["source"]["column"],
+        )
+        for d in found
+    ]
+    assert matched == expected
+    assert len(matched) > 4
+    assert {"error", "warning"} <= {d[0] for d in matched}
+    assert max(d[4] for d in matched) > 99

@@ -1,11 +1,20 @@
 //! The one table of conditions: what can be said to a user, and what the control does about it.
 //!
-//! A row of [`raised`] makes a [`Condition`]: its ID, severity, reaction, meaning, cause, hint and parameter stand there and
+//! A row of [`raised`] makes a [`Condition`]: its ID, severity, reaction, meaning, cause, hint and parameter are there and
 //! nowhere else, and a condition without a row cannot be raised. IDs that the documents print and nothing here raises
 //! are data only ([`documented`]), for `explain` and for who reads a real control's messages.
 //!
 //! Source: TF5200 diagnosis manual and the function manuals; the texts are kontur's own. Rows are ordered by number;
 //! K numbers are appended and never reused.
+//!
+//! ```
+//! use kontur_interpreter::diag::condition::{Condition, row, rows};
+//!
+//! // what is raised has its row, and so has what is only documented
+//! let feed = row(Condition::FeedZero.id());
+//! assert!(feed.hint.is_some_and(|hint| hint.contains('F')));
+//! assert!(rows().any(|row| row.id == feed.id));
+//! ```
 
 mod documented;
 mod raised;

@@ -2,6 +2,16 @@
 //!
 //! The text form is a compiler's: severity, ID and message, the source line with carets, then values, reaction and
 //! hint. A diagnostic of the running machine has a time in place of a source line.
+//!
+//! ```
+//! use kontur_interpreter::diag::{Condition, Diagnostic, render};
+//!
+//! let said = Diagnostic::new(Condition::FeedZero, "feed is 0");
+//! assert!(render::all(&[said.clone()]).starts_with("error[20008]: feed is 0"));
+//! assert!(render::json(&said).starts_with('{'));
+//! // what is quoted moves no cursor
+//! assert_eq!(render::printable("a\u{1b}[2J"), "a\u{fffd}[2J");
+//! ```
 
 use crate::diag::{Datum, Diagnostic, Location, Severity, ValueKind, condition, rounded};
 use annotate_snippets::{AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet};

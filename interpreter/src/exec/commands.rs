@@ -8,6 +8,8 @@
 mod axes;
 mod compensation;
 mod contour;
+mod corner;
+mod couplings;
 mod frames;
 pub(in crate::exec) mod keys;
 mod measuring;
@@ -93,8 +95,8 @@ const ROWS: &[Row] = &[
     run("AX REQUEST", axes::call),
     run("AX RELEASE", axes::put),
     run("AX DEF", axes::define),
-    unsupported("AX LINK"),
-    unsupported("SET AX LINK"),
+    couplings::AX_LINK,
+    couplings::SET_AX_LINK,
     unsupported("ENABLE AX LINK"),
     unsupported("GANTRY"),
     unsupported("GEAR LINK"),
@@ -141,15 +143,15 @@ const ROWS: &[Row] = &[
     off_only("COLL"),
     unsupported("CONTOUR BEGIN"),
     unsupported("CONTOUR END"),
-    unsupported("CORNER PARAM"),
-    unsupported("SET CORNER PARAM"),
+    corner::CORNER_PARAM,
+    corner::SET_CORNER_PARAM,
     unsupported("CS ADD"),
     unsupported("CS DEF ACT"),
     unsupported("CS DEL"),
     off_only("CS MODE"),
     unsupported("CS SELECT"),
     unsupported("DEL DIST2GO"),
-    unsupported("DISABLE AX LINK"),
+    couplings::DISABLE_AX_LINK,
     off_only("EDGE MACHINING"),
     off_only("EDM"),
     unsupported("ESCAPE PATH"),

@@ -4,6 +4,7 @@ pub(super) mod akima;
 pub(super) mod bottleneck;
 pub(super) mod compensation;
 pub(super) mod contouring;
+pub(super) mod feed_course;
 pub(super) mod insertion;
 mod motion;
 
@@ -179,7 +180,7 @@ impl Contour {
         faults
     }
 
-    /// G40 with G239: axes of the plane, and where the tool's centre stands, if compensation was active.
+    /// G40 with G239: axes of the plane, and where the centre of the tool is, if compensation was active.
     pub(super) fn deselect_in_place(&mut self) -> (Option<([usize; 2], Point)>, Vec<Fault>) {
         let mut faults = self.flush();
         let left = self.compensator.leave(&mut self.done);
@@ -257,6 +258,13 @@ impl Contour {
                 }
             }
         }
-        self.queue.extend(self.done.drain(..));
+        for item in self.done.drain(..) {
+            match item {
+                Item::Motion(motion) if motion.course.is_some() => {
+                    self.queue.extend(feed_course::pieces(motion));
+                }
+                Item::Motion(_) | Item::Rest(_) => self.queue.push_back(item),
+            }
+        }
     }
 }

@@ -5,6 +5,7 @@ mod arcs;
 mod cutting;
 pub(super) mod dynamics;
 mod feed;
+mod feed_course;
 mod independent;
 mod limits;
 mod measuring;
@@ -21,6 +22,7 @@ use self::angles::ContourLine;
 use super::block::groups::{Act, Group};
 use super::block::modal::{Compensation, Corners, FeedType, PathMode};
 use super::block::words::{GWord, Words};
+use super::contour::feed_course::FeedCourse;
 use super::contour::insertion::{Insertion, Kind};
 use super::contour::{Compensated, Motion};
 use super::decoder::Decoder;
@@ -306,6 +308,7 @@ impl Decoder {
         let stops = self.modal.exact_stop || once(Act::ExactStopOnce);
         let rounds = !stops && (self.modal.contouring || once(Act::ContourOnce));
         let late_braking = self.late_braking(once(Act::EarlyBrakingOnce), span);
+        let course = self.feed_course(words, feed, rounds, span)?;
         let in_plane = self.in_plane(span)?;
         if self.contour.akima.selected {
             self.spline_fits(rapid, span)?;
@@ -337,7 +340,7 @@ impl Decoder {
         if per_revolution && self.motion.cutting.speed.is_some() {
             return self.send_pieces(&block, &in_plane, span);
         }
-        self.send(block, in_plane, span);
+        self.send(block, in_plane, course, span);
         Ok(())
     }
 
@@ -371,17 +374,24 @@ impl Decoder {
             let block = Box::new(Block { path, feed, ..block.clone() });
             let InPlane { plane, tilt, .. } = in_plane;
             let in_plane = InPlane { plane: *plane, tilt: tilt.clone(), compensation: None };
-            self.send(block, in_plane, span);
+            self.send(block, in_plane, None, span);
         }
         Ok(())
     }
 
     /// A motion continues its way.
-    fn send(&mut self, block: Box<Block>, in_plane: InPlane, span: Span) {
+    fn send(
+        &mut self,
+        block: Box<Block>,
+        in_plane: InPlane,
+        course: Option<FeedCourse>,
+        span: Span,
+    ) {
         let InPlane { plane, tilt, compensation } = in_plane;
         let akima = self.contour.akima.selected && block.path.is_straight();
         let motion = Box::new(Motion {
             block,
+            course,
             source: self.report.source,
             events: self.contour.take_events(),
             plane,

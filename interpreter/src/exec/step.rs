@@ -80,7 +80,7 @@ pub(crate) enum Sync {
         /// Path axes, in channel order.
         axes: Vec<usize>,
     },
-    /// Threads: waiting until a spindle stands, or passes its mark; in the latter case the path then goes with it.
+    /// Threads: waiting until a spindle is at rest, or passes its mark; in the latter case the path then goes with it.
     Spindle {
         /// Index into `Machine::spindles`.
         spindle: usize,
@@ -175,11 +175,11 @@ pub(crate) enum Event {
         /// Weight, above 0; 1 is the acceleration of the list.
         ratio: f64,
     },
-    /// Tapping: a spindle that stands turns with the way of a path axis, from the next cycle on.
+    /// Tapping: a spindle at rest turns with the way of a path axis, from the next cycle on.
     SpindleFollows {
         /// Index into `Machine::spindles`.
         spindle: usize,
-        /// The axis, and degrees for a mm of its way; `None`: the spindle stands again.
+        /// The axis, and degrees for a mm of its way; `None`: the spindle is at rest again.
         way: Option<(usize, f64)>,
     },
     /// G96, G97: the speed of a spindle keeps a cutting speed from now on, or stays as it is.
@@ -259,7 +259,7 @@ pub(crate) enum Event {
 pub(crate) struct CuttingSpeed {
     /// Face turning axis.
     pub axis: usize,
-    /// Position of the axis in mm where its tool stands at the turning centre.
+    /// Position of the axis in mm where its tool is at the turning centre.
     pub centre_mm: f64,
     /// Cutting speed in mm/min, above 0.
     pub speed_mm_min: f64,
@@ -279,7 +279,7 @@ impl CuttingSpeed {
 /// What a wait for a spindle waits for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SpindleState {
-    /// It stands.
+    /// It is at rest.
     Rest,
     /// It turns with its speed, and in this cycle through this angle in deg.
     Mark {

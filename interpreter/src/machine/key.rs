@@ -1,4 +1,12 @@
 //! Keys of list entries: dotted names with indices, `getriebe[0].dynamik.vb_max`.
+//!
+//! ```
+//! use kontur_interpreter::machine::key::Key;
+//!
+//! let key = Key::parse("Getriebe[0].dynamik.vb_max").unwrap();
+//! assert_eq!((key.shape.as_str(), &key.indices[..]), ("getriebe[].dynamik.vb_max", &[0][..]));
+//! assert!(Key::parse("getriebe[0.kv").is_none());
+//! ```
 
 use super::table::{self, Indices, ListKind, Row};
 

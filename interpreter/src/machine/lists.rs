@@ -3,6 +3,17 @@
 //! One entry per line, key and value separated by blanks; `#` at the start of a line and any text after a value are
 //! comments. Nothing in a list stops the reading: what cannot be used is reported and left out.
 //! Source: examples of the TF5200 manuals, rules of the start-up and parameter manuals.
+//!
+//! ```
+//! use kontur_interpreter::machine::lists::{read, write};
+//! use kontur_interpreter::machine::table::ListKind;
+//!
+//! let text = b"# an axis\ngetriebe[0].kv 5000   gain\nno_such.key 1\n";
+//! let mut said = Vec::new();
+//! let list = read(ListKind::Axis, "x.lis", text, &mut said);
+//! assert_eq!((list.entries[0].key().as_str(), said.len()), ("getriebe[0].kv", 1));
+//! assert_eq!(write(&list), "getriebe[0].kv  5000\n");
+//! ```
 
 mod line;
 

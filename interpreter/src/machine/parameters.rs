@@ -38,7 +38,7 @@ impl Parameters {
     }
 
     /// Takes over what a list names; the rest keeps its earlier value.
-    pub fn apply(&mut self, list: &List) {
+    pub(crate) fn apply(&mut self, list: &List) {
         for entry in &list.entries {
             let setting =
                 Setting { row: entry.row, value: entry.value.clone(), at: Some(entry.at.clone()) };

@@ -2,6 +2,13 @@
 //!
 //! A row states what the vendor's manuals state about one parameter, in the units of the lists (0.1 um, us, 0.1 %);
 //! conversion to mm and s happens once, in [`Axis`](super::Axis) and [`Channel`](super::Channel).
+//!
+//! ```
+//! use kontur_interpreter::machine::table::{ListKind, rows};
+//!
+//! let kv = rows().find(|row| row.id == "P-AXIS-00099").unwrap();
+//! assert_eq!((kv.key, kv.list), ("getriebe[i].kv", ListKind::Axis));
+//! ```
 
 pub(super) mod axis_control;
 pub(super) mod axis_drive;

@@ -1,4 +1,14 @@
 //! Values of list entries: numbers, words and flags, read by the data type of their row.
+//!
+//! ```
+//! use kontur_interpreter::machine::table::Raw;
+//! use kontur_interpreter::machine::value::{Value, read, write};
+//!
+//! assert_eq!(read(Raw::Uns32, "5000"), Ok(Value::Number(5000.0)));
+//! assert_eq!(write(Raw::Uns32, &Value::Number(5000.0)), "5000");
+//! // what is no number says what is taken in its place
+//! assert_eq!(read(Raw::Uns32, "fast").unwrap_err().instead, Some(Value::Number(0.0)));
+//! ```
 
 use super::table::Raw;
 

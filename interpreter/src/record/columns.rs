@@ -1,4 +1,4 @@
-//! Which columns a trace has: groups, names, units, and where the value of each stands in a record.
+//! Which columns a trace has: groups, names, units, and where the value of each is in a record.
 //!
 //! ```
 //! use kontur_interpreter::job::{Job, MachineLists};
@@ -29,7 +29,7 @@ pub const DEFAULT_SIGNALS: &str = "time,path,ipo,set,err,axis";
 /// Decimals of positions: 0.1 nm, a thousandth of the vendor's increment of 0.1 um.
 const POSITION_DECIMALS: u8 = 7;
 
-/// What stands in a column.
+/// What is in a column.
 #[derive(Clone, Copy, Debug)]
 pub enum Content {
     /// `k T` in seconds.

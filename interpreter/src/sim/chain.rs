@@ -12,7 +12,7 @@ use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Speed of the motor in mm/s (deg/s) below which an axis stands.
+/// Speed of the motor in mm/s (deg/s) below which an axis counts as at rest.
 const STANDSTILL_MM_S: f64 = 0.1;
 
 /// What an axis lacks to be where a wait wants it.
@@ -163,7 +163,7 @@ impl AxisChain {
         self.control.open_loop();
     }
 
-    /// The axis itself stands, not only its set position.
+    /// The axis itself is at rest, not only its set position.
     pub(crate) fn stands(&self) -> bool {
         self.control.stands(STANDSTILL_MM_S)
     }

@@ -2,7 +2,7 @@
 //!
 //! Reaction classes (TF5200 diagnosis manual): 1 a message; 4, 6, 7, 8 and 5 end the program - the axis concerned stops
 //! where it is (5, 6, 8; 8 with its position loop open) or with the others (4, 7), the others brake along the path with
-//! P-AXIS-00003. The run continues until the axes themselves stand.
+//! P-AXIS-00003. The run continues until the axes themselves are at rest.
 
 use super::axes::Driver;
 use super::chain::Remaining;
@@ -42,7 +42,7 @@ impl Stopping {
         new
     }
 
-    /// One cycle: the set positions rest, the axes stand. True at the end of the run.
+    /// One cycle: the set positions rest, the axes are at rest. True at the end of the run.
     pub(super) fn is_over(&mut self, set_rests: bool, axes_stand: bool, cycle: CycleTime) -> bool {
         self.coasting_cycles = if set_rests { self.coasting_cycles + 1 } else { 0 };
         let longest = LONGEST_COASTING_S / cycle.seconds();
@@ -94,7 +94,7 @@ impl Simulation {
 
     /// What the axis concerned does at once.
     ///
-    /// Both sides of a gantry bridge stop alike: kept where they are once their set position stands, with the limits of the
+    /// Both sides of a gantry bridge stop alike: kept where they are once their set position is at rest, with the limits of the
     /// path while it moves. Stopping one of them alone would rack the bridge.
     fn react(&mut self, chain: usize, reaction: Reaction) {
         let driver = self.drivers[chain];

@@ -141,7 +141,7 @@ impl IndependentAxes {
         way_mm
     }
 
-    /// Way of an axis that stands, or its last one.
+    /// Way of an axis at rest, or its last one.
     pub(super) fn done_mm(&self, axis: usize) -> f64 {
         self.lanes.get(axis).map_or(0.0, |lane| lane.done_mm)
     }

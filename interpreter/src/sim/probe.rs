@@ -84,7 +84,7 @@ impl Simulation {
         }
     }
 
-    /// The path stands where the signal has stopped it: what is left of the run is dropped.
+    /// The path is where the signal has stopped it: what is left of the run is dropped.
     pub(super) fn drop_rest_of_run(&mut self) -> bool {
         let stopped = self.probing.as_ref().is_some_and(Probing::holds);
         if stopped {

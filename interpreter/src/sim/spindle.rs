@@ -69,7 +69,7 @@ impl Spindle {
         }
     }
 
-    /// Goes with the way of a path axis from its present position on, or stands again.
+    /// Goes with the way of a path axis from its present position on, or comes to rest again.
     pub(super) fn follow(&mut self, way: Option<(usize, f64)>, position: &[f64]) {
         self.following = way.map(|(axis, deg_per_mm)| Following {
             axis,
@@ -155,7 +155,7 @@ impl Spindle {
         self.positions() && self.positioning.as_ref().is_none_or(|p| !p.arrived)
     }
 
-    /// The set position stands.
+    /// The set position is at rest.
     pub(super) fn rests(&self) -> bool {
         self.speed_deg_s.abs() <= 0.0 && !self.approaches()
     }

@@ -32,7 +32,7 @@ enum Until {
     Flushed,
     /// These independent axes at their targets, flushed.
     Arrived(Vec<usize>),
-    /// A spindle stands, or passes its mark.
+    /// A spindle is at rest, or passes its mark.
     Spindle(usize, SpindleState),
     /// Flushed, and the actual positions in their windows (P-AXIS-00236).
     InPosition,

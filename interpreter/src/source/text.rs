@@ -2,6 +2,20 @@
 //!
 //! One reader with one limit for all of them. What is no text, or has a line without end, is refused in plain words
 //! before it fills the memory.
+//!
+//! ```
+//! use kontur_interpreter::source::text::{Text, beginning};
+//! use std::io::Read as _;
+//!
+//! let mut read = String::new();
+//! Text::new(&b"t_s,X_set_mm\n0,1\n"[..])?.read_to_string(&mut read)?;
+//! assert_eq!(read.lines().count(), 2);
+//! // a file that is no text ends with a sentence
+//! let mut zeros = Text::new(std::io::repeat(0))?;
+//! assert!(zeros.read_to_string(&mut read).unwrap_err().to_string().contains("no text"));
+//! assert_eq!(beginning(&"1".repeat(1000)).len(), 83);
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 use crate::diag::QUOTED_MAX;
 use std::io::{self, BufRead, BufReader, Read};

@@ -6,6 +6,19 @@
 //! Case: letters of addresses, command words, keys and functions are stored in upper case. Names that the dialect
 //! compares exactly (variables, macros, files, strings) and identifier values (`TYPE=HSC`, `NAME=a.nc`) are stored as
 //! written; [`Ident::is`] compares them without case.
+//!
+//! ```
+//! use kontur_interpreter::source::RawBlock;
+//! use kontur_interpreter::syntax::Parser;
+//! use kontur_interpreter::syntax::ast::{BlockNumber, Body, WordKind};
+//!
+//! let (file, mut said) = ("part.nc".into(), Vec::new());
+//! let block = Parser::new([]).block(&RawBlock::from_line("N10 G01 X5"), &file, &mut said);
+//! assert_eq!(block.number, Some(BlockNumber::Literal(10)));
+//! let Body::Words(words) = &block.body else { panic!("a block of words") };
+//! assert!(matches!(words[0].kind, WordKind::G { number: 1, .. }));
+//! assert!(matches!(words[1].kind, WordKind::Address { .. }));
+//! ```
 
 mod command;
 mod control;
@@ -48,7 +61,27 @@ pub enum BlockNumber {
     Computed(Box<Expr>),
 }
 
-/// Jump label, or the target of a jump.
+/// Where `$GOTO` leads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jump {
+    /// Label, or what tells it.
+    pub kind: JumpKind,
+    /// Place.
+    pub span: Span,
+}
+
+/// How the target of a jump is written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JumpKind {
+    /// `N20`, `[NAME]`.
+    Label(LabelKind),
+    /// `NV.E.NUMBER`, `NP1`, `N[P1+10]`: the number of a label.
+    Number(Box<Expr>),
+    /// `V.E.NAME`: the text is the name of a label.
+    Name(Box<Place>),
+}
+
+/// Jump label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     /// Which.
@@ -60,7 +93,7 @@ pub struct Label {
 /// Kind of a jump label.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LabelKind {
-    /// `N10:`; as a target also `N10`.
+    /// `N10:`.
     Number(u64),
     /// `[NAME]`, in upper case: labels have no case.
     Name(Box<str>),

@@ -4,7 +4,8 @@ mod commands;
 mod words;
 
 use super::ast::{
-    Block, BlockNumber, Body, Expr, Ident, Label, LabelKind, Place, ProgramHead, Span, Word,
+    Block, BlockNumber, Body, Expr, Ident, Jump, JumpKind, Label, LabelKind, Place, ProgramHead,
+    Span, Word,
 };
 use super::grammar::Grammar;
 use super::problem::{self, Context, Problem};
@@ -125,7 +126,7 @@ impl<'a> Builder<'a> {
         let at = span.start as usize;
         let bytes = self.masked.as_bytes();
         let blank_before = at > 0 && matches!(bytes[at - 1], b' ' | b'\t');
-        // The error already names a longer word that stands where it was met.
+        // The error already names a longer word at the place where it was met.
         bytes[at].is_ascii_alphabetic()
             && blank_before
             && (span.start > self.reported || span.len == 1)
@@ -179,7 +180,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// `label_name`, or what stands in `target`.
+    /// `label_name`, or what is in `target`.
     fn label(&mut self, pair: Pair<'_, Rule>) -> Label {
         let span = self.span(&pair);
         let kind = if pair.as_rule() == Rule::label_name {
@@ -192,12 +193,26 @@ impl<'a> Builder<'a> {
         Label { kind, span }
     }
 
-    fn target(&mut self, pair: Pair<'_, Rule>) -> Label {
+    fn target(&mut self, pair: Pair<'_, Rule>) -> Jump {
         let span = self.span(&pair);
-        match pair.into_inner().next() {
-            Some(inner) => Label { span, ..self.label(inner) },
-            None => Label { kind: LabelKind::Number(0), span },
-        }
+        let by_number = pair.as_str().starts_with(['N', 'n']);
+        let kind = match pair.into_inner().next() {
+            Some(inner) => match inner.as_rule() {
+                Rule::index => JumpKind::Number(Box::new(self.index(inner))),
+                Rule::place => {
+                    let place = self.place(inner);
+                    if by_number {
+                        let span = place.span;
+                        JumpKind::Number(Box::new(Expr { kind: place.into(), span }))
+                    } else {
+                        JumpKind::Name(Box::new(place))
+                    }
+                }
+                _ => JumpKind::Label(self.label(inner).kind),
+            },
+            None => JumpKind::Label(LabelKind::Number(0)),
+        };
+        Jump { kind, span }
     }
 
     fn program_head(pair: Pair<'_, Rule>) -> Body {

@@ -15,7 +15,7 @@ impl BinaryOp {
     ///
     /// Assumption: the order of the operators follows C where the programming manual's table could not be read, with
     /// `XOR` between `||` and `&&`.
-    pub fn precedence(self) -> u8 {
+    pub(crate) fn precedence(self) -> u8 {
         match self {
             Self::Or => 1,
             Self::Xor => 2,

@@ -14,7 +14,7 @@ pub(crate) const MACRO_DEPTH_MAX: usize = 20;
 
 /// A block with its macros replaced.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Expanded {
+pub(crate) struct Expanded {
     text: String,
     position: Position,
     characters: u32,
@@ -23,7 +23,7 @@ pub struct Expanded {
 
 impl Expanded {
     /// The block as the parser takes it.
-    pub fn raw(&self) -> RawBlock<'_> {
+    pub(crate) fn raw(&self) -> RawBlock<'_> {
         RawBlock {
             text: &self.text,
             position: self.position,

@@ -2,8 +2,8 @@
 
 use super::ast::{
     Binary, Block, BlockNumber, Body, Call, CallKind, CodeNumber, Command, Control, ControlKind,
-    Declaration, Expr, ExprKind, GValue, Group, Item, ItemKind, ItemValue, Label, LabelKind, Name,
-    ParameterIndex, Place, PlaceKind, Sign, Word, WordKind,
+    Declaration, Expr, ExprKind, GValue, Group, Item, ItemKind, ItemValue, Jump, JumpKind,
+    LabelKind, Name, ParameterIndex, Place, PlaceKind, Sign, Word, WordKind,
 };
 use std::fmt::{Display, Formatter, Result};
 
@@ -79,7 +79,7 @@ impl Display for Quoted<'_> {
     }
 }
 
-/// A file name or identifier, with quotes if it cannot stand without.
+/// A file name or identifier, with quotes if it needs them.
 struct FileName<'a>(&'a str);
 
 impl Display for FileName<'_> {
@@ -99,11 +99,16 @@ impl Display for Name {
     }
 }
 
-impl Display for Label {
+impl Display for Jump {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match &self.kind {
-            LabelKind::Number(n) => write!(f, "N{n}"),
-            LabelKind::Name(name) => write!(f, "[{name}]"),
+            JumpKind::Label(LabelKind::Number(n)) => write!(f, "N{n}"),
+            JumpKind::Label(LabelKind::Name(name)) => write!(f, "[{name}]"),
+            JumpKind::Number(expr) => match &expr.kind {
+                ExprKind::Place(place) => write!(f, "N{place}"),
+                _ => write!(f, "N[{expr}]"),
+            },
+            JumpKind::Name(place) => write!(f, "{place}"),
         }
     }
 }

@@ -298,7 +298,7 @@ fn asks_for_positions(content: &str) -> bool {
         .contains(&&words[..])
 }
 
-/// The vendor's number for what stands wrongly after a control statement.
+/// The vendor's number for what is wrong after a control statement.
 fn behind_control(content: &str, before: &str, rest: &str, expected: &[&str]) -> Option<Condition> {
     if starts_with(content, "$FOR") {
         return match before.contains('=') {
@@ -367,7 +367,7 @@ fn in_cycle_call(before: &str) -> bool {
     word.eq_ignore_ascii_case("CYCLE") || word.eq_ignore_ascii_case("SEQUENCE")
 }
 
-/// What stands before the outermost open bracket.
+/// What comes before the outermost open bracket.
 fn before_bracket(before: &str) -> &str {
     let mut open = Vec::new();
     for (i, byte) in before.bytes().enumerate() {

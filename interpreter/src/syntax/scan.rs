@@ -86,7 +86,7 @@ fn mark_names(bytes: &mut [u8], names: &[Box<str>]) {
         let rest = &bytes[i..];
         let letter_before = i > 0 && (bytes[i - 1].is_ascii_alphabetic() || bytes[i - 1] == b'_');
         match rest[0] {
-            // Commands and control statements have no DIN words, but for the `#` words that stand among them.
+            // Commands and control statements have no DIN words, but for the `#` words among them.
             b'$' => return,
             b'#' if hash_word(rest).is_none() => return,
             b'#' => i += hash_word(rest).unwrap_or(1),
@@ -116,7 +116,7 @@ fn mark_names(bytes: &mut [u8], names: &[Box<str>]) {
     }
 }
 
-/// Length of a `#` word that may stand among DIN words.
+/// Length of a `#` word that may occur among DIN words.
 fn hash_word(bytes: &[u8]) -> Option<usize> {
     let length = 1 + run(&bytes[1..], |b| b.is_ascii_alphanumeric() || b == b'_');
     let name = std::str::from_utf8(&bytes[1..length]).ok()?;

@@ -1,11 +1,11 @@
-//! G901: braking to a lower feed begins behind the end of the faster block.
+//! G901: braking to a lower feed begins after the end of the faster block.
 //!
 //! The slower block may be entered above its feed, with what its own limits and the boundary allow; there the path brakes
-//! at once to the feed, holds it and goes on as usual. The boundary is a knot, and braking ends in the run of blocks of
+//! at once to the feed, holds it and continues as usual. The boundary is a knot, and braking ends in the run of blocks of
 //! this feed, so at its end the speed is what it would be without G901.
 //!
 //! A run shorter than the braking is *carried*: if its end is under G901 too, the next run is slower still, and that makes
-//! the path faster, the next run is joined to it, and braking goes on across the boundary to the feed of the next run.
+//! the path faster, the next run is joined to it, and braking continues across the boundary to the feed of the next run.
 //!
 //! Source: TF5200 programming manual, G08/G09/G900/G901. Assumption: its exception, that the path is at its velocity limit
 //! already, means the limits of the slower block, with which it is entered at most.
@@ -100,7 +100,7 @@ impl Window<'_> {
         })
     }
 
-    /// True if braking may go on across the boundary before block `b`: to a feed that is not higher and that the boundary
+    /// True if braking may continue across the boundary before block `b`: to a feed that is not higher and that the boundary
     /// allows.
     fn joins(&self, b: usize) -> bool {
         let (from, to) = (&self.blocks[b - 1], &self.blocks[b]);
@@ -123,7 +123,7 @@ impl Window<'_> {
         }
     }
 
-    /// A plan in which braking goes on across the ends of runs, as far as that makes it faster; `None` if nowhere.
+    /// A plan in which braking continues across the ends of runs, as far as that makes it faster; `None` if nowhere.
     fn carried(&self, base: &[Span]) -> Option<Vec<Span>> {
         let mut window = self.clone();
         let mut plan: Option<Vec<Span>> = None;
@@ -144,7 +144,7 @@ impl Window<'_> {
         plan
     }
 
-    /// Ends of runs across which braking should go on: with the speeds around as they are, the two runs and what lies
+    /// Ends of runs across which braking should continue: with the speeds around as they are, the two runs and what lies
     /// in front of them take less time.
     fn joints(&self, plan: &[Span]) -> Vec<usize> {
         let mut out = Vec::new();

@@ -24,7 +24,7 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// Both in one, with the feed of the second one: braking goes on from the first to the second.
+    /// Both in one, with the feed of the second one: braking continues from the first to the second.
     pub(super) fn carried_into(self, second: &Self) -> Self {
         Self {
             first: self.first,

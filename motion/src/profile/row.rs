@@ -50,7 +50,7 @@ impl Profile {
         Self::new(phases, end)
     }
 
-    /// The same with what follows behind its end.
+    /// The same with what follows after its end.
     pub(super) fn followed_by(self, next: &Self) -> Self {
         let length = self.end.s_mm;
         let moved = next.phases.iter().map(|(_, p)| p.placed_at(length + p.s));
@@ -58,7 +58,7 @@ impl Profile {
         Self::new(self.phases.into_iter().map(|(_, p)| p).chain(moved), end)
     }
 
-    /// The parts before and behind a path length, the acceleration there as it is; `None` if that cuts a sine-square ramp, or
+    /// The parts before and after a path length, the acceleration there as it is; `None` if that cuts a sine-square ramp, or
     /// leaves one that starts with an acceleration.
     pub(crate) fn split(&self, s_mm: f64) -> Option<(Self, Self)> {
         let i = self.phases.partition_point(|p| p.1.s <= s_mm).checked_sub(1)?;
@@ -107,7 +107,7 @@ impl Profile {
 
     /// Highest velocity in mm/s at which phases start, or pass from acceleration to braking, between two path lengths; 0 if
     /// none does. No other velocity in there is higher than it and those at the two places.
-    pub fn highest_inside(&self, from_mm: f64, to_mm: f64) -> f64 {
+    pub(crate) fn highest_inside(&self, from_mm: f64, to_mm: f64) -> f64 {
         let first = self.phases.partition_point(|p| p.1.s < from_mm);
         let last = self.phases.partition_point(|p| p.1.s <= to_mm);
         let starts = self.phases[first..last].iter().map(|p| p.1.v);

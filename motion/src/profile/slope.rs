@@ -113,14 +113,14 @@ impl SlopeLimits {
         }
     }
 
-    /// As [`Self::plan`] for a `v0` above the feed `vf >= ve`: brakes to the feed at once, holds it and goes on to `ve`
+    /// As [`Self::plan`] for a `v0` above the feed `vf >= ve`: brakes to the feed at once, holds it and continues to `ve`
     /// (G901).
     ///
     /// Where the acceleration has to stop at the feed and that does not fit, it stops at a lower speed.
     ///
     /// # Errors
     /// [`Infeasible`] if the change from `v0` to `ve` alone needs more than `length`, or no speed is allowed.
-    pub fn plan_from_above(
+    pub(crate) fn plan_from_above(
         &self,
         v0: f64,
         ve: f64,

@@ -17,7 +17,7 @@ impl SlopeLimits {
     }
 
     /// True if acceleration and ramp times differ by at most the given ratio.
-    pub fn nearly_equals(&self, other: &Self, ratio: f64) -> bool {
+    pub(crate) fn nearly_equals(&self, other: &Self, ratio: f64) -> bool {
         match (self, other) {
             (Self::Ramped(a), Self::Ramped(b)) => a.all(b, |x, y| x.nearly_equals(y, ratio)),
             (a, b) => a == b,

@@ -1,6 +1,6 @@
 //! The rise with constant jerk: ramps that begin and end exactly where the limits ask for it, each block with its own.
 //!
-//! From a state the acceleration grows, or stays at its limit, as long as the ramp down to zero behind it stays below
+//! From a state the acceleration grows, or stays at its limit, as long as the ramp down to zero after it stays below
 //! every limit ahead. The last such moment is found by bisection; from there the ramp down is followed to the limit that
 //! it touches, and the next rise starts at that place.
 
@@ -202,7 +202,7 @@ impl Climb<'_> {
         (ramp, flat)
     }
 
-    /// The part of a phase that leaves a way, and the ramp down behind it to the limit that it touches.
+    /// The part of a phase that leaves a way, and the ramp down after it to the limit that it touches.
     fn bend(&mut self, phase: &Phase, mut touch: Touch, v_ref: f64) -> Option<()> {
         let (mut low, mut high) = (0.0, phase.t);
         for _ in 0..ROUNDS {
@@ -268,7 +268,7 @@ impl Climb<'_> {
         }
     }
 
-    /// What a ramp touches that has the state `end` at the end of block `c`; true if it goes on in the next one.
+    /// What a ramp touches that has the state `end` at the end of block `c`; true if it continues in the next one.
     fn crosses(&self, c: usize, end: &Phase, v_ref: f64) -> Result<bool, Touch> {
         let cell = &self.cells[c];
         if end.v > cell.v * (1.0 + SLACK) {

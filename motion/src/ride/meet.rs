@@ -113,7 +113,7 @@ impl Meet<'_> {
         1e-13 * self.cells.last().map_or(0.0, |c| c.end)
     }
 
-    /// Replaces the end of what has been put out, behind `base`, by a connection to the fall.
+    /// Replaces the end of what has been put out, after `base`, by a connection to the fall.
     fn connect(&self, out: &mut Vec<Phase>, base: usize) -> Option<Joint> {
         // the last phase from whose start a connection stays below the fall
         let (mut k, mut stride) = (out.len() - 1, 1);

@@ -3,7 +3,7 @@
 //! A ramp has the shape of a sine square, over the time that a constant jerk would take, and is never cut; so the jerk is
 //! zero between any two of them and its peak is that of SIN2 (`pi/2 a/t`). The rise goes in steps of one ramp each, with
 //! the largest acceleration from which the ramp down to zero still stays below every limit ahead. Rise and fall are
-//! connected by the fastest third-order profile between a state before and one behind, as close to each other as the
+//! connected by the fastest third-order profile between a state before and one after, as close to each other as the
 //! limits allow; where none fits, or it would crawl, both are planned anew below a lower *hill*.
 //!
 //! Every connection is checked against every limit it passes.
@@ -19,10 +19,10 @@ use rise::Rise;
 
 /// Steps per longest ramp.
 const STEPS_PER_RAMP: f64 = 8.0;
-/// Blocks ahead and behind that a step is thought to run through at most.
+/// Blocks ahead and after that a step is thought to run through at most.
 const REACH: usize = 64;
 
-/// A ramp may run through several blocks: its jerk is the least one of those within `reach_s` behind a block.
+/// A ramp may run through several blocks: its jerk is the least one of those within `reach_s` after a block.
 fn blocks(cells: &[Cell], reach_s: f64) -> Vec<Block> {
     let each = joined(own(cells));
     let mut out = each.clone();

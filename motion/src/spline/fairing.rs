@@ -12,7 +12,7 @@
 //! conditions than their neighbour (a new feed is none), and corners: points where the path turns by more than noise
 //! could make it. Between two such points a row of points is smoothed for itself. The axes of the feed group move
 //! together, the others in a second pass of the same kind. A long row is smoothed in parts of [`CHUNK`] points, each with
-//! [`MARGIN`] points on either side, behind which the spline has forgotten what they are (`e^(-MARGIN / 40)` of the room).
+//! [`MARGIN`] points on either side, after which the spline has forgotten what they are (`e^(-MARGIN / 40)` of the room).
 
 mod fit;
 #[cfg(test)]
@@ -101,7 +101,7 @@ impl Fairing {
         self.ready.drain(..)
     }
 
-    /// The path stops behind the last block: everything comes back.
+    /// The path stops after the last block: everything comes back.
     pub(super) fn flush(&mut self) -> std::vec::Drain<'_, Block> {
         self.end_run();
         self.ready.drain(..)
@@ -201,7 +201,7 @@ impl Fairing {
         points: &Range<usize>,
         ways: &[Vec<f64>],
     ) {
-        // the first points have a way of the part before, too, as those behind the last one get one of this part
+        // the first points have a way of the part before, too, as those after the last one get one of this part
         let seam = if points.start > 0 { SEAM } else { 0 };
         let until = (points.end + SEAM).min(self.row.len());
         for i in points.start + 1..until {

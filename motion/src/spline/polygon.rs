@@ -39,7 +39,7 @@ impl ControlPolygon {
     ) -> Self {
         let mut out = Self { nodes: SmallVec::new(), first: 0, last: 0 };
         let begin = edge.saturating_sub(BEHIND);
-        // the corner behind these edges is settled
+        // the corner after these edges is settled
         let end = (edge + AHEAD - 1).min(run.len());
         let mut at = 0.0;
         for i in begin..end {
@@ -111,13 +111,13 @@ impl ControlPolygon {
         self.nodes[j].knot
     }
 
-    /// Ratio at which the third knot `t` divides the leg behind control point `j`, beside the knots at its ends.
+    /// Ratio at which the third knot `t` divides the leg after control point `j`, beside the knots at its ends.
     fn ratio(&self, j: usize, t: f64) -> f64 {
         let (before, behind) = (self.knot(j - 1), self.knot(j + 2));
         (t - before) / (behind - before)
     }
 
-    /// Point on the leg behind control point `j` with the knots at its ends and the third knot `t`.
+    /// Point on the leg after control point `j` with the knots at its ends and the third knot `t`.
     fn on_leg(&self, j: usize, t: f64) -> AxisVec {
         between(&self.nodes[j].point, &self.nodes[j + 1].point, self.ratio(j, t))
     }
@@ -164,7 +164,7 @@ impl ControlPolygon {
         reach([j - 2, j - 1, j, j + 1, j + 2].map(node))
     }
 
-    /// The reach behind the subdivision of both legs.
+    /// The reach after the subdivision of both legs.
     fn reach_subdivided(&self, j: usize) -> f64 {
         let node = |k: usize| (self.nodes[k].at, self.nodes[k].knot);
         let middle = |k: usize| {
@@ -235,7 +235,7 @@ fn between(p: &AxisVec, q: &AxisVec, ratio: f64) -> AxisVec {
 
 /// Reach at the middle one of five control points given by place and knot.
 ///
-/// With `g h k l` between the knots, the Bezier points before and behind the corner have the distances
+/// With `g h k l` between the knots, the Bezier points before and after the corner have the distances
 /// `h k / (g + h + k)` and `h k / (h + k + l)` from it (on legs as long as `h` and `k`), and the spline divides their
 /// connection as `h : k`. So it has the distances `beta sin(theta)` from the first edge and `alpha sin(theta)` from the
 /// second one, where `alpha = h k^2 / ((h + k) (g + h + k))` and `beta = h^2 k / ((h + k) (h + k + l))`, and passes the

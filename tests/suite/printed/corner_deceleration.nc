@@ -1,7 +1,9 @@
-; check: exit 1
+; run: exit 0
 ; page 206449675 corner deceleration (G13)
-; error K-0019 at 6:5
-; error K-0019 at 7:5
+; passes X50 Y10
+; passes X50 Y50
+; end X30 Y30
+#SLOPE [TYPE=STEP]
 N10 G01 G90 X10 Y10 F1000
 N20 #CORNER PARAM [DIST=10 UNIT=PERCENT FEED=50]
 N30 G13

@@ -126,7 +126,7 @@ pub struct ResponseArgs {
     #[arg(short, long, value_name = "DIR")]
     pub machine: Option<PathBuf>,
 
-    /// A list parameter in place of the machine's, e.g. `X.vib_guard.active=1`
+    /// Override a list parameter of the machine, e.g. `X.vib_guard.active=1`
     #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = setting, requires = "axis")]
     pub set: Vec<String>,
 

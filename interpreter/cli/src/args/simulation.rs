@@ -23,7 +23,7 @@ pub struct SimulationArgs {
     #[arg(short, long, value_name = "DIR")]
     pub machine: Option<PathBuf>,
 
-    /// A list parameter in place of the machine's, e.g. `X.getriebe[0].kv=5000`, `X,Y.key=value`, `*.key=value` for every path axis
+    /// Override a list parameter of the machine, e.g. `X.getriebe[0].kv=5000`, `X,Y.key=value`, `*.key=value` for every path axis
     /// or `channel.key=value`
     #[arg(long, value_name = "AXIS.KEY=VALUE", value_parser = setting)]
     pub set: Vec<String>,
@@ -37,12 +37,12 @@ pub struct SimulationArgs {
     pub allow_outside: bool,
 
     /// Real-time inputs: CSV with the columns `t_s` and signals (`override_percent`, `rapid_override_percent`,
-    /// `feedhold`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value holds until the next time stamp. May be
-    /// given several times
+    /// `feedhold`, `probe`, `X_probe_mm`, `X_add_mm`, `X_force_mm_s2`, `X_encoder_offset_mm`); a value holds until the next
+    /// time stamp. May be given several times
     #[arg(long, value_name = "FILE")]
     pub input: Vec<PathBuf>,
 
-    /// Cycle time in microseconds in place of the machine's
+    /// Cycle time in microseconds instead of the machine's
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub cycle_us: Option<u32>,
 

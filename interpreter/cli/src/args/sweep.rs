@@ -33,7 +33,7 @@ pub struct SweepArgs {
     pub program: PathBuf,
 
     /// What varies, and its values: `KEY=A..B:STEP`, `KEY=A,B,C`. A list parameter `AXIS.key=..`, of several axes `X,Y.key=..`, of
-    /// all path axes `*.key=..`; a number that stands in the program behind a word (P1=, V.P.R=, FREQ=) `program.P1=..`, in
+    /// all path axes `*.key=..`; a number in the program after a word (P1=, V.P.R=, FREQ=) `program.P1=..`, in
     /// line 12 `program[12].FREQ=..`; an external variable that the program reads `V.E.NAME=..`; a name `NAME=..` whose
     /// values others take with `KEY={NAME}`. May be given several times
     #[arg(long, value_name = "KEY=VALUES", required = true)]
@@ -54,7 +54,8 @@ pub struct SweepArgs {
     pub amplitude: Vec<Amplitude>,
 
     /// Run the I-th of N equal parts of all combinations only, e.g. `3/20`: a job of a batch system. The parts in their order,
-    /// one after the other, are the whole table, but for `without_effect`; the exit code is 0 also if every run has ended with an error
+    /// one after the other, are the whole table, with `without_effect` of each part; the exit code is 0 also if every run has ended with
+    /// an error
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
 

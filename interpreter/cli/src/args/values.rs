@@ -15,6 +15,7 @@ impl FromStr for Numbers {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || format!("`{text}`: 4 or 1,2,5 or 1..6 or 2..200:2 expected");
+        let too_many = || format!("`{text}`: more than {MOST_NUMBERS} values");
         let number = |text: &str| match text.trim().parse::<f64>() {
             Ok(v) if v.is_finite() => Ok(v),
             _ => Err(wrong()),
@@ -27,15 +28,18 @@ impl FromStr for Numbers {
             };
             let (last, step) = rest.split_once(':').unwrap_or((rest, "1"));
             let (first, last, step) = (number(first)?, number(last)?, number(step)?);
-            if !(step > 0.0 && last >= first && (last - first) / step < MOST_NUMBERS as f64) {
+            if !(step > 0.0 && last >= first) {
                 return Err(wrong());
+            }
+            if (last - first) / step >= MOST_NUMBERS as f64 {
+                return Err(too_many());
             }
             let steps = (last - first) / step + 1e-9;
             let indices = (0..=MOST_NUMBERS).map(|i| i as f64).take_while(|i| *i <= steps);
             numbers.extend(indices.map(|i| first + i * step));
         }
         if numbers.len() > MOST_NUMBERS {
-            return Err(format!("more than {MOST_NUMBERS} values"));
+            return Err(too_many());
         }
         Ok(Self(numbers))
     }

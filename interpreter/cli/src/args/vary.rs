@@ -8,7 +8,7 @@ use std::str::FromStr;
 /// A whole parameter with fewer values than this chooses one of several ways.
 const MOST_CHOICES: f64 = 8.0;
 
-/// Front of the key of a word that stands in the program.
+/// Front of the key of a word in the program.
 const PROGRAM: &str = "program";
 
 /// One list parameter and its values: `X.getriebe[0].kv=2000..60000:1000`, `X.vorsteuer.vorsteuerung=NONE,VEL,VEL|ACC`; a word of the
@@ -17,7 +17,7 @@ const PROGRAM: &str = "program";
 pub struct Vary {
     /// What `--set` calls it.
     pub key: String,
-    /// Its values as they stand in a list.
+    /// Its values as a list writes them.
     pub values: Vec<String>,
 }
 

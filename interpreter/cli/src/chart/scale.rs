@@ -138,7 +138,7 @@ fn decades(low: f64, high: f64) -> Vec<(f64, String)> {
     let mut found = Vec::new();
     for step in steps() {
         let leading = step.size / libm::pow(10.0, libm::floor(libm::log10(step.size) + 1e-9));
-        // between 1, 2 and 5 stand the lines without a number
+        // between 1, 2 and 5 are the lines without a number
         let until = if leading < 1.5 {
             2
         } else if leading < 3.0 {

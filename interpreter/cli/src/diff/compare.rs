@@ -56,8 +56,10 @@ pub(super) struct Outcome {
     pub(super) first: Option<Difference>,
     /// Cell that exceeds its tolerance most.
     pub(super) worst: Option<Difference>,
-    /// Rows by which B comes later than A (negative: earlier), if that alone makes the difference.
+    /// Rows by which B comes later than A (negative: earlier), if that alone makes the difference of the numbers.
     pub(super) shift_cycles: Option<i64>,
+    /// With such a shift lines, blocks, files or reasons of the speed still differ.
+    pub(super) shift_leaves_texts: bool,
     /// Every column that differs.
     pub(super) columns: Vec<ColumnOutcome>,
     /// Columns of both that agree.
@@ -116,6 +118,7 @@ impl Comparison {
             first: None,
             worst: None,
             shift_cycles: None,
+            shift_leaves_texts: false,
             columns: Vec::new(),
             equal_columns: Vec::new(),
             only_a: only(a, b),
@@ -188,7 +191,7 @@ impl Comparison {
     }
 
     fn delay(&mut self, a: Option<&ByteRecord>, b: Option<&ByteRecord>) {
-        if self.outcome.first.is_none() {
+        if !self.pairs.iter().any(|p| p.tolerance.is_some() && p.first.is_some()) {
             return;
         }
         let timeless = || self.pairs.iter().filter(|p| p.name != "t_s");
@@ -197,8 +200,15 @@ impl Comparison {
         };
         let (a, b) = (a.map(|row| cells(row, |p| p.a)), b.map(|row| cells(row, |p| p.b)));
         let equal = |a: &ByteRecord, b: &ByteRecord| {
-            let mut cells = timeless().zip(a.iter().zip(b));
-            cells.all(|(p, (a, b))| excess(a, b, p.tolerance).is_none())
+            let mut texts = true;
+            for (p, (a, b)) in timeless().zip(a.iter().zip(b)) {
+                match (excess(a, b, p.tolerance), p.tolerance) {
+                    (None, _) => {}
+                    (Some(_), None) => texts = false,
+                    (Some(_), Some(_)) => return None,
+                }
+            }
+            Some(texts)
         };
         self.delays.take(a, b, equal);
     }
@@ -208,8 +218,9 @@ impl Comparison {
         let o = &mut self.outcome;
         let same_columns = o.only_a.is_empty() && o.only_b.is_empty();
         o.equal = o.first.is_none() && o.rows_a == o.rows_b && same_columns;
-        if !o.equal {
-            o.shift_cycles = self.delays.found();
+        if let Some(delay) = self.delays.found().filter(|_| !o.equal) {
+            o.shift_cycles = Some(delay.rows);
+            o.shift_leaves_texts = !delay.texts;
         }
         let ratio = |d: &Difference| match (d.size, d.tolerance) {
             (Some(d), Some(t)) if t > 0.0 => d / t,
@@ -379,6 +390,31 @@ mod tests {
         let late: Vec<String> = (0..50).map(|k| row(k, 3 + u32::from(k == 49), 0.0, 0.0)).collect();
         let o = outcome(HEADER, &rows(0.0), HEADER, &late);
         assert_eq!(o.shift_cycles, None);
+    }
+
+    /// A line put into a program that only waits moves all lines behind it, and what the speed was held by before it.
+    #[test]
+    fn a_new_line_is_a_delay_of_the_numbers() {
+        let trace = |pause: usize, line: u32, reason: &str| -> Vec<String> {
+            let xs = (0..50).chain(std::iter::repeat_n(49, pause)).chain(50..110).enumerate();
+            let cells = |(k, x): (usize, i32)| {
+                let line = if x < 50 { 3 } else { line };
+                let reason = if (30..50).contains(&x) { reason } else { "feed" };
+                format!("{:.3},{line},{x},{reason}", k as f64 * 1e-3)
+            };
+            xs.map(cells).collect()
+        };
+        let header = "t_s,line,X_set_mm,v_limit";
+        let (a, b) = (trace(10, 4, "corner"), trace(35, 5, "stop"));
+        let o = outcome(header, &a, header, &b);
+        assert_eq!((o.shift_cycles, o.shift_leaves_texts), (Some(25), true));
+        assert_eq!(o.first.unwrap().column, "v_limit");
+        // without another line nothing is left
+        let o = outcome(header, &a, header, &trace(35, 4, "corner"));
+        assert_eq!((o.shift_cycles, o.shift_leaves_texts), (Some(25), false));
+        // a line alone is no delay
+        let o = outcome(header, &a, header, &trace(10, 5, "corner"));
+        assert_eq!((o.shift_cycles, o.columns.len()), (None, 1));
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Is one trace only later than the other?
 //!
-//! Up to the first difference both traces are the same. If from there on every row of one equals the row of the other that
-//! lies a fixed number of rows back, one only does later what the other does: it stood still for longer, at the start or
-//! between two motions.
+//! Up to the first difference of a number both traces are the same. If from there on every row of one equals the row of the other
+//! that lies a fixed number of rows back, one only does later what the other does: it stood still for longer, at the start or
+//! between two motions. Numbers decide: a line put into a program moves the numbers of all lines behind it.
 
 use csv::ByteRecord;
 use std::collections::VecDeque;
@@ -13,11 +13,19 @@ pub(super) const MOST_ROWS: usize = 1000;
 /// Rows of a motion that have to agree before it is taken for the same one, later.
 const LEAST_CHANGES: usize = 3;
 
+/// A delay after which all numbers of both traces are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Delay {
+    /// Rows by which B is later; negative: A is.
+    pub(super) rows: i64,
+    /// Texts are the same as well: line, block, file, reason of the speed.
+    pub(super) texts: bool,
+}
+
 /// A delay that may still explain everything.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
-    /// Rows by which B is later; negative: A is.
-    rows: i64,
+    delay: Delay,
     compared: usize,
     /// Rows among them that were not the same as the one before: the traces move.
     changes: usize,
@@ -43,7 +51,10 @@ pub(super) struct Delays {
 impl Delays {
     pub(super) fn new() -> Self {
         let sizes = (1..).take(MOST_ROWS).flat_map(|n: i64| [n, -n]);
-        let candidate = |rows| Candidate { rows, compared: 0, changes: 0 };
+        let candidate = |rows| {
+            let delay = Delay { rows, texts: true };
+            Candidate { delay, compared: 0, changes: 0 }
+        };
         Self {
             candidates: sizes.map(candidate).collect(),
             before: [VecDeque::new(), VecDeque::new()],
@@ -51,12 +62,12 @@ impl Delays {
     }
 
     /// Takes the cells of the next row of both traces in one order and without the time; nothing of a trace that has ended.
-    /// `equal` compares a row of A with one of B.
+    /// `equal` compares a row of A with one of B: whether the numbers are equal and, then, the texts.
     pub(super) fn take(
         &mut self,
         a: Option<ByteRecord>,
         b: Option<ByteRecord>,
-        equal: impl Fn(&ByteRecord, &ByteRecord) -> bool,
+        equal: impl Fn(&ByteRecord, &ByteRecord) -> Option<bool>,
     ) {
         if self.candidates.is_empty() {
             return;
@@ -68,8 +79,9 @@ impl Delays {
         };
         let (a, b) = (row(a, before_a), row(b, before_b));
         self.candidates.retain_mut(|candidate| {
-            let back = usize::try_from(candidate.rows.unsigned_abs()).unwrap_or(usize::MAX) - 1;
-            let (earlier, later) = if candidate.rows > 0 {
+            let back =
+                usize::try_from(candidate.delay.rows.unsigned_abs()).unwrap_or(usize::MAX) - 1;
+            let (earlier, later) = if candidate.delay.rows > 0 {
                 (before_a.get(back), &b)
             } else {
                 (before_b.get(back), &a)
@@ -78,9 +90,17 @@ impl Delays {
             let first = candidate.compared == 0;
             candidate.changes += usize::from(!first && !later.repeats);
             candidate.compared += 1;
-            // where both stand still the answer of the rows before holds: a long standstill costs little
+            // where both are constant the answer of the rows before holds: a long standstill costs little
             let stands = !first && earlier.repeats && later.repeats;
-            stands || earlier.cells.as_ref().is_some_and(|earlier| equal(earlier, cells))
+            if stands {
+                return true;
+            }
+            let Some(texts) = earlier.cells.as_ref().and_then(|earlier| equal(earlier, cells))
+            else {
+                return false;
+            };
+            candidate.delay.texts &= texts;
+            true
         });
         for (before, row) in self.before.iter_mut().zip([a, b]) {
             before.truncate(MOST_ROWS - 1);
@@ -88,9 +108,9 @@ impl Delays {
         }
     }
 
-    /// Rows by which B is later (negative: earlier), if a delay explains the rest: the smallest one over which both traces move.
-    pub(super) fn found(&self) -> Option<i64> {
-        self.candidates.iter().find(|c| c.changes >= LEAST_CHANGES).map(|c| c.rows)
+    /// The delay that explains the rest, if there is one: the smallest one over which both traces move.
+    pub(super) fn found(&self) -> Option<Delay> {
+        self.candidates.iter().find(|c| c.changes >= LEAST_CHANGES).map(|c| c.delay)
     }
 }
 
@@ -139,9 +159,12 @@ mod tests {
             let mut delays = Delays::new();
             let record = |x: &u8| ByteRecord::from(vec![vec![*x]]);
             for k in 0..a.len().max(b.len()) {
-                delays.take(a.get(k).map(record), b.get(k).map(record), |x, y| x == y);
+                delays.take(a.get(k).map(record), b.get(k).map(record), |x, y| {
+                    (x == y).then_some(true)
+                });
             }
-            assert_eq!(delays.found(), brute_force(a, b), "{a:?} {b:?}");
+            let rows = delays.found().map(|d| d.rows);
+            assert_eq!(rows, brute_force(a, b), "{a:?} {b:?}");
             found += usize::from(delays.found().is_some());
         }
         assert!(found > 100, "{found} delays");

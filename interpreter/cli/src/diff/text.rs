@@ -33,7 +33,7 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
         }
     }
     if let Some(words) = shift(o) {
-        writeln!(out, "  shift  from the first difference on {words}")?;
+        writeln!(out, "  shift  {words}")?;
     }
     if !o.columns.is_empty() {
         writeln!(out, "  column               rows    largest difference, and the first")?;
@@ -53,7 +53,7 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
     Ok(())
 }
 
-/// A cell as it may stand in a line of text.
+/// A cell as a line of text may show it.
 pub(super) fn brief(cell: &str) -> String {
     beginning(&printable(cell).replace('\n', "\u{FFFD}"))
 }
@@ -93,5 +93,9 @@ pub(super) fn shift(o: &Outcome) -> Option<String> {
     let n = o.shift_cycles?;
     let side = if n > 0 { "earlier" } else { "later" };
     let rows = if n.abs() == 1 { "row" } else { "rows" };
-    Some(format!("equal if B is taken {} {rows} {side}", n.abs()))
+    let but = if o.shift_leaves_texts { ", but for line, block, file or v_limit" } else { "" };
+    let n = n.abs();
+    Some(format!(
+        "from the first difference of a number on equal if B is taken {n} {rows} {side}{but}"
+    ))
 }

@@ -36,7 +36,7 @@ pub(super) struct Failure {
 /// The verdict on two traces; `program` is the program that ran for one of them.
 pub(super) fn of(outcome: &Outcome, program: Option<&Path>) -> Verdict {
     let mut signals = Vec::new();
-    let rest = shift(outcome).map(|words| format!("from the first difference on {words}"));
+    let rest = shift(outcome);
     for column in &outcome.columns {
         let mut failure = differs(column, program);
         failure.details.extend(rest.clone());

@@ -2,6 +2,7 @@
 
 use super::drawn::Drawn;
 use super::recording::{Bucket, Curve, Recording, programmed};
+use super::shown::short;
 use super::stops::Stop;
 use super::track::Point;
 use super::vibration;
@@ -70,6 +71,8 @@ fn run(runs: &[Drawn], drawn: &Drawn, beside: &Beside) -> String {
     let names: Vec<&str> = r.plane.iter().map(|&i| r.facts.axes[i].name.as_str()).collect();
     let mut out = Json::new();
     out.text("summary", &safe(&s.json()));
+    let index = runs.iter().position(|r| std::ptr::eq(r, drawn)).unwrap_or_default();
+    out.text("name", &safe(&json!(short(runs, index)).to_string()));
     out.text("files", &safe(&json!(r.facts.files.all()).to_string()));
     out.text("plane", &safe(&json!(names).to_string()));
     out.text("width", &r.width.to_string());

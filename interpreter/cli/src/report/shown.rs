@@ -33,7 +33,7 @@ pub(super) enum Source {
 pub(super) struct Shown {
     pub(super) kind: &'static str,
     pub(super) open: bool,
-    /// What stands below it.
+    /// What is below it.
     pub(super) note: String,
     pub(super) view: View<Source>,
 }

@@ -18,7 +18,7 @@ const REST_MM_S: f64 = 1e-9;
 pub(crate) struct Stop {
     /// Index into [`Facts::axes`].
     pub(crate) axis: usize,
-    /// Where the axis is to stand in mm (deg).
+    /// Where the axis is to be in mm (deg).
     pub(crate) target: f64,
     /// The set position has reached the target.
     pub(crate) t1: u64,

@@ -126,7 +126,7 @@ fn guard_marks(runs: &[Drawn]) -> Vec<Mark> {
         .collect()
 }
 
-/// What the model of a picture is, and what is left of its swinging when the axes stand.
+/// What the model of a picture is, and what is left of its swinging when the axes are at rest.
 fn residual_title(runs: &[Drawn], moving: impl Iterator<Item = (usize, usize)>) -> String {
     let mut said: Vec<String> = Vec::new();
     let mut model_said: Vec<String> = Vec::new();

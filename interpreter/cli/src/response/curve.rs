@@ -5,15 +5,15 @@ use kontur_filters::vib_guard::VibGuardSettings;
 
 /// A filter, a shaper or the chain of an axis.
 #[derive(Clone, Debug)]
-pub struct Curve {
+pub(super) struct Curve {
     /// Name in table and picture.
-    pub label: String,
+    pub(super) label: String,
     /// The chain, at rest at 0.
-    pub shaping: Shaping,
+    pub(super) shaping: Shaping,
     /// Settings of the Vibration Guard, if the kernel is one.
-    pub guard: Option<VibGuardSettings>,
+    pub(super) guard: Option<VibGuardSettings>,
     /// The chain holds standard filters beside the kernel.
-    pub has_filters: bool,
+    pub(super) has_filters: bool,
     /// Order of a mean or FIR filter: many of them draw the contour error over it.
-    pub order: Option<f64>,
+    pub(super) order: Option<f64>,
 }

@@ -87,7 +87,7 @@ impl Journal {
         written.map_err(|e| Error::io(self.path.display().to_string(), e))
     }
 
-    /// The rows stand in the outputs.
+    /// The rows are in the outputs.
     pub(super) fn remove(self) {
         drop(self.file);
         // what stays does no harm: it says which sweep it belongs to

@@ -27,7 +27,7 @@ fn now() -> Instant {
     Instant::now()
 }
 
-/// Records in the order of the run; those behind the first `filled` are left over from before.
+/// Records in the order of the run; those after the first `filled` are left over from before.
 #[derive(Default)]
 struct Batch {
     records: Vec<CycleRecord>,

@@ -158,7 +158,7 @@ impl CsvWriter {
     /// Adds a record.
     ///
     /// # Errors
-    /// The system's, e.g. a full disk; what stands in the file then ends with a whole line.
+    /// The system's, e.g. a full disk; what is in the file then ends with a whole line.
     pub(crate) fn write(&mut self, record: &CycleRecord) -> io::Result<()> {
         self.rows.push_row(&mut self.buffer, record);
         self.waiting += 1;

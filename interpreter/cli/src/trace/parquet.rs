@@ -4,7 +4,7 @@
 //! compress; a dictionary of 64 K different values would cost time and save nothing. Snappy is the codec because it
 //! is plain Rust and every reader knows it.
 //!
-//! A Parquet file is readable only once its footer stands. So each group of rows goes to a file of its own in the folder
+//! A Parquet file is readable only once its footer is written. So each group of rows goes to a file of its own in the folder
 //! `.NAME.*.parts` beside the target, and the end puts them together without decoding them: what a kill or a full disk
 //! leaves is a folder of whole Parquet files, which readers take as one table.
 
@@ -164,8 +164,8 @@ impl ParquetWriter {
         };
         let path = folder.path().join(format!("{:06}.parquet", self.parts.len() + 1));
         self.folder = Some(folder);
-        // until it is whole it has another name
-        let unfinished = path.with_extension("part");
+        // until it is whole it has a name that readers of folders pass over
+        let unfinished = folder_of(&path).join(format!(".{:06}.part", self.parts.len() + 1));
         let file = File::create(&unfinished)?;
         let (schema, properties) = (Arc::clone(&self.schema), Arc::clone(&self.properties));
         let mut writer = SerializedFileWriter::new(file, schema, properties).map_err(to_io)?;
@@ -196,19 +196,14 @@ impl ParquetWriter {
     pub(crate) fn finish(mut self, facts: &Facts, totals: &Totals) -> io::Result<()> {
         let written = if self.rows > 0 { self.write_group() } else { Ok(()) };
         let done = written.and_then(|()| self.join(facts, totals));
-        done.map_err(|e| {
-            let e = self.kept(e);
-            if let (Some(folder), false) = (&mut self.folder, self.parts.is_empty()) {
-                folder.disable_cleanup(true);
-            }
-            e
-        })
+        done.map_err(|e| self.kept(e))
     }
 
-    /// An error that says where the parts are.
-    fn kept(&self, e: io::Error) -> io::Error {
-        match &self.folder {
+    /// An error that says where the parts are, which stay there.
+    fn kept(&mut self, e: io::Error) -> io::Error {
+        match &mut self.folder {
             Some(folder) if !self.parts.is_empty() => {
+                folder.disable_cleanup(true);
                 let folder = folder.path().display();
                 io::Error::new(e.kind(), format!("{e}; the rows up to there are in {folder}"))
             }
@@ -293,6 +288,31 @@ mod tests {
     use kontur_interpreter::job::AxisFacts;
     use kontur_interpreter::record::columns;
     use kontur_interpreter::record::{AxisRecord, PathRecord};
+
+    /// What was written before an error stays where the error says, whenever it comes.
+    #[test]
+    fn parts_outlive_an_error() {
+        let facts = Facts { cycle_us: 1000, ..Facts::default() };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.parquet");
+        let columns = columns::select("time", &facts).unwrap();
+        let target = Target::create(&path).unwrap();
+        let mut writer = ParquetWriter::new(&path, target, columns, &facts).unwrap();
+        let record = CycleRecord::default();
+        for _ in 0..ROWS_PER_GROUP {
+            writer.write(&record).unwrap();
+        }
+        let part = writer.parts[0].clone();
+        // no file can be created where a folder is
+        std::fs::create_dir(part.with_file_name(".000002.part")).unwrap();
+        let error = (0..ROWS_PER_GROUP).find_map(|_| writer.write(&record).err()).unwrap();
+        drop(writer);
+        let said = error.to_string();
+        assert!(said.contains(&part.parent().unwrap().display().to_string()), "{said}");
+        let reader = SerializedFileReader::new(File::open(&part).unwrap()).unwrap();
+        let rows = reader.metadata().file_metadata().num_rows();
+        assert_eq!(usize::try_from(rows), Ok(ROWS_PER_GROUP));
+    }
 
     #[test]
     fn reads_back_bit_by_bit() {

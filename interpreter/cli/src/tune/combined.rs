@@ -1,7 +1,7 @@
 //! Two vibrations too far apart for one Vibration Guard: the guard on one of them, a band-stop filter of the axis list on
 //! the other.
 //!
-//! A FIR filter cannot stand beside the guard in one axis, a standard filter of the list can. What both leave of a
+//! A FIR filter cannot be combined with the guard in one axis, a standard filter of the list can. What both leave of a
 //! vibration is the product of what each of them leaves: the residual of the guard's impulses and the magnitude of the
 //! filter's response at that frequency.
 

@@ -3,6 +3,17 @@
 //! A record is cut into its free decays. In each of them vibrations are found one by one ([`detect`]) and fitted
 //! together with offset and drift ([`fit`]) until nothing but noise is left. What does not decay is no vibration of the
 //! machine's structure: mains hum and motors are named and left out.
+//!
+//! ```
+//! use kontur::tune::vibration::{Focus, analyse};
+//! use std::f64::consts::TAU;
+//!
+//! // 12 Hz with damping 0.03, recorded at 500 Hz
+//! let (w, rate_hz) = (TAU * 12.0, 500.0);
+//! let swing = |k: i32| (-0.03 * w * f64::from(k) / rate_hz).exp() * (w * f64::from(k) / rate_hz).cos();
+//! let found = analyse(&(0..1500).map(swing).collect::<Vec<_>>(), rate_hz, &Focus::default());
+//! assert!((found.modes[0].freq.value - 12.0).abs() < 0.05);
+//! ```
 
 mod detect;
 mod fit;
@@ -99,7 +110,7 @@ pub struct Analysis {
 }
 
 /// Looks for vibrations in a record.
-pub fn analyse(samples: &[f64], rate_hz: f64, focus: &Focus) -> Analysis {
+pub(crate) fn analyse(samples: &[f64], rate_hz: f64, focus: &Focus) -> Analysis {
     let place = |s: f64| ((s * rate_hz).round().max(0.0) as usize).min(samples.len());
     let (first, last) = (place(focus.window_s.0), place(focus.window_s.1));
     let samples = &samples[first..last.max(first)];

@@ -72,6 +72,8 @@ conditions! {
     DwellWrongAxis = Vendor 20014: Error ProgramAbort 3 1, "G04 names a wrong axis", cause "only the first main axis", hint "write G04 2.5, or the time after the first main axis";
     FullCircleWithRadius = Vendor 20034: Error ProgramAbort 3 1, "full circle with R", cause "end = start with radius", hint "write the centre with I, J, K, without R";
     ArcRadiusZero = Vendor 20036: Error ProgramAbort 3 1, "circle radius 0", cause "G164, centre missing or end = start", hint "is I, J or K missing?";
+    AxesWithoutManual = Vendor 20037: Error ProgramAbort 3 1, "#ACHSE without G200, G201 or G202", hint "write G201 #ACHSE[X]";
+    ManualWithoutAxis = Vendor 20038: Error ProgramAbort 3 1, "G201 without an axis", hint "write G201 X1 or G201 #ACHSE[X]";
     NoFaceTurningAxis = Vendor 20042: Error ProgramAbort 3 1, "no face turning axis in the plane of G51", hint "set the bit 0x40 of P-AXIS-00015 for exactly one axis of the plane", parameter "P-AXIS-00015";
     VariableNotReadable = Vendor 20097: Error ProgramAbort 3 1, "variable may not be read", hint "its access rights allow writing only";
     VariableNotWritable = Vendor 20100: Error ProgramAbort 3 1, "variable may not be written", hint "assign to a P parameter or to a variable of the classes V.P, V.L, V.S";
@@ -80,6 +82,7 @@ conditions! {
     TwoFeedInterpolations = Vendor 20109: Error ProgramAbort 3 1, "two of G08/G193/G293", hint "one of G08, G193, G293 per block";
     TwoCompensationFeeds = Vendor 20110: Error ProgramAbort 3 1, "two of G10/G11", hint "one of G10, G11 per block";
     TwoMirrors = Vendor 20112: Error ProgramAbort 3 1, "two mirror functions", hint "one of G20 to G23, G351 per block";
+    TwoCorners = Vendor 20113: Error ProgramAbort 3 1, "two of G25, G26", hint "leave one of the two out";
     TwoCompensations = Vendor 20114: Error ProgramAbort 3 1, "two of G40/G41/G42", hint "one of G40, G41, G42 per block";
     TwoDiameters = Vendor 20115: Error ProgramAbort 3 1, "two of G51/G52", hint "one of G51, G52 per block";
     TwoZeroOffsets = Vendor 20116: Error ProgramAbort 3 1, "two zero offsets G53-G59, G159", hint "one of G53 to G59, G159 per block";
@@ -101,6 +104,7 @@ conditions! {
     SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
     ToolDataTwice = Vendor 20170: Error ProgramAbort 3 1, "D twice in one block", hint "leave one of the two out";
     FeedTwice = Vendor 20175: Error ProgramAbort 3 1, "F twice in one block", hint "the feed holds for the whole block: leave one F out";
+    SpindleUnknown = Vendor 20180: Error ProgramAbort 3 1, "unknown name of a spindle", cause "SPDL=1000", hint "names of spindles stand in the channel list; those of several characters need =", parameter "P-CHAN-00007";
     SpindleTwice = Vendor 20181: Error ProgramAbort 3 1, "spindle twice in one block", cause "S1000 X100 S1500", hint "leave one of the two speeds out";
     PositionRequest = Vendor 20186: Error ProgramAbort 3 1, "syntax after #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", cause "[P1=X P2=Y], [P1 X]", hint "write [variable=axis, variable=axis]: #GET CMDPOS [P1=X, V.P.POS=Y]";
     RadiusIndex = Vendor 20188: Error ProgramAbort 3 1, "index of the radius is not 1", cause "R2=10", hint "write R=.. or R1=..";
@@ -112,7 +116,7 @@ conditions! {
     AxisTwice = Vendor 20203: Error ProgramAbort 3 1, "axis twice in one block", cause "X10 Y20 X10", hint "write the second target in a block of its own";
     CentreTwice = Vendor 20205: Error ProgramAbort 3 1, "I, J or K twice", hint "leave one of the two out";
     ControlNotAlone = Vendor 20206: Error ProgramAbort 3 1, "control statement is not alone in its block", cause "$FOR P10=0,20,1 G01 X10", hint "move the words to another block";
-    CommandNotAlone = Vendor 20207: Error ProgramAbort 3 1, "# command must stand alone in its block", cause "exceptions #ADD, #SUPPRESS OFFSETS", hint "a # command must be alone in its block";
+    CommandNotAlone = Vendor 20207: Error ProgramAbort 3 1, "# command must be alone in its block", cause "exceptions #ADD, #SUPPRESS OFFSETS", hint "move it into a block of its own";
     ControlNesting = Vendor 20211: Error ProgramAbort 3 1, "control statements nested too deeply", hint "move an inner part into a subroutine";
     IfTrailing = Vendor 20212: Error ProgramAbort 3 1, "trailing words after $IF", cause "$IF P1==1 X100", hint "only the condition may follow $IF, and $GOTO after it; move the words to the next block";
     ElseWithoutIf = Vendor 20214: Error ProgramAbort 3 1, "$ELSE without $IF", hint "write $IF before it, or is there one $ENDIF too many?";
@@ -154,7 +158,10 @@ conditions! {
     ParameterNumber = Vendor 20400: Error ProgramAbort 3 1, "number of a P parameter is 0, negative or too large", cause "P0=10", hint "P parameters have numbers from 1 on";
     RadiusName = Vendor 20402: Error ProgramAbort 3 1, "unknown radius name", hint "write R=..";
     VariableNumber = Vendor 20403: Error ProgramAbort 3 1, "number of a variable is negative or too large", cause "V.G.NP[-1].V[0]", hint "write an index of the variable's range";
-    WordsBehindCommand = Vendor 20450: Error ProgramAbort 3 1, "words after a # command", cause "exceptions #ACHSE, #PSET, #PRESET", hint "a # command must be alone in its block";
+    WordsBehindCommand = Vendor 20450: Error ProgramAbort 3 1, "words after a # command", cause "exceptions #ACHSE, #PSET, #PRESET", hint "move it into a block of its own";
+    MasterIsSlave = Vendor 20475: Error ProgramAbort 3 1, "axis coupled with itself", cause "#SET AX LINK [1, X=X]", hint "write another axis behind the =";
+    SlaveTwice = Vendor 20476: Error ProgramAbort 3 1, "axis is a slave twice", cause "#SET AX LINK [1, C=X, C=Y]", hint "leave one of the two couplings out";
+    CouplingChain = Vendor 20477: Error ProgramAbort 3 1, "axis is master and slave", cause "#SET AX LINK [1, B=X, C=B]", hint "couple both slaves with the first master";
     PositionRequests = Vendor 20500: Error ProgramAbort 3 1, "too many values in #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", hint "write the rest into a second command";
     CommandUnknown = Vendor 20509: Error ProgramAbort 3 1, "unknown # command", hint "kontur explain '#NAME' describes the commands that exist";
     ExchangeMode = Vendor 20521: Error ProgramAbort 3 1, "axis exchange: offset mode unknown", hint "offset modes are CMDPOS, ACTPOS, OFFSETS, NO_OFFSETS, ALL";
@@ -179,11 +186,15 @@ conditions! {
     HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "leave one of the two out";
     MeasuringFunction = Vendor 20772: Error ProgramAbort 3 1, "G function does not go with the measuring type", cause "G106 without type 3", hint "select the type of the function by #MEAS MODE [3]", parameter "P-CHAN-00057";
     TwoCornerDecelerations = Vendor 20794: Error ProgramAbort 3 1, "two of G12, G13", hint "leave one of the two out";
+    NoCornerParameters = Vendor 20795: Error ProgramAbort 3 1, "corner deceleration without parameters", cause "G13 before #CORNER PARAM", hint "write #CORNER PARAM [DIST=.. UNIT=PERCENT FEED=..] before it";
     AxisNameUnknown = Vendor 20797: Error ProgramAbort 3 1, "unknown axis designation in a command", hint "write the name of an axis of the channel";
     SystemWithCompensation = Vendor 20802: Error ProgramAbort 3 1, "change of the coordinate system while tool radius compensation is active", cause "#MCS ON between G41 and G40", hint "write G40 first";
+    CoordinateSystemNumber = Vendor 20820: Error ProgramAbort 3 1, "number of a coordinate system not allowed", cause "#CS ON [0][..]; a sixth system", hint "five systems are stored at most, with the numbers 1 to 5";
+    NoCoordinateSystem = Vendor 20821: Error ProgramAbort 3 1, "coordinate system not defined", cause "#CS ON without values", hint "write #CS DEF [number][x,y,z,a,b,c] before it";
     LabelTwice = Vendor 20836: Error ProgramAbort 3 1, "label defined twice", hint "give one of the two another name";
     GotoTarget = Vendor 20839: Error ProgramAbort 3 1, "$GOTO is not followed by a label", hint "write $GOTO N20 or $GOTO [NAME]";
     BlockNumberTwice = Vendor 20841: Error ProgramAbort 3 1, "block number twice in one block", cause "N100 N100: X1", hint "leave one of the two out; N100: is number and label";
+    DwellTwice = Vendor 20844: Error ProgramAbort 3 1, "dwell time twice in one block", cause "G04 2 G04 3", hint "leave one of the two out";
     OverrideSwitchTwice = Vendor 20846: Error ProgramAbort 3 1, "G166 twice in one block", hint "leave one of the two out";
     MirrorSwitch = Vendor 20860: Error ProgramAbort 3 1, "mirroring is switched by 1 and -1 only", cause "G351 X2", hint "-1 mirrors the axis, 1 does not";
     ExistArgument = Vendor 20868: Error ProgramAbort 3 1, "EXIST without the name of a parameter or variable", hint "write EXIST[P1] or EXIST[V.P.NAME]";
@@ -333,7 +344,7 @@ conditions! {
     InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are allowed only in comments and strings";
     Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "block does not parse", hint "kontur explain shows how words and commands are written";
     NoEnd = Kontur 3 "K-NOEND": Warning None 1 0, "no M02/M30/M29 before the end of the file", hint "write M30";
-    TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text behind the end of the program", cause "M30, then more blocks", hint "move M30 to the end, or delete what is behind it";
+    TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text after the end of the program", cause "M30, then more blocks", hint "move M30 to the end, or delete what comes after it";
     Nesting = Kontur 6 "K-NESTING": Error ProgramAbort 3 0, "call or control nesting beyond the limit", hint "does a subroutine call itself? A parameter can hold a part of a long expression";
     DuplicateKey = Kontur 7 "K-DUPKEY": Error ProgramAbort 3 0, "key twice in one command (no vendor ID known)", hint "leave one of the two out";
     DuplicateGroup = Kontur 8 "K-DUPGROUP": Error ProgramAbort 3 0, "two functions of one group (no vendor ID known)", hint "write the second one in a block of its own";

@@ -153,6 +153,11 @@ impl Decoder {
                 Fault::new(Condition::RadiusName, format!("unknown radius name {name}"), span)
                     .hint("write R=..")
             }
+            // names of spindles begin with S, those of axes never do (20524)
+            Some(b'S' | b's') => {
+                let text = format!("the channel has no spindle {name}");
+                Fault::new(Condition::SpindleUnknown, text, span)
+            }
             _ => self.unknown_axis(name, span),
         }
     }
@@ -166,7 +171,7 @@ impl Decoder {
     /// names in the channel are.
     ///
     /// Source: TF5200 programming manual, cycles (a cycle does not depend on the plane and the names of axes); diagnosis
-    /// 21383 to 21385. Assumption: so `@X` and `@Y` are the first and second axis of the active plane, `@Z` stands on it.
+    /// 21383 to 21385. Assumption: so `@X` and `@Y` are the first and second axis of the active plane, `@Z` is perpendicular to it.
     pub(super) fn cycle_address(
         &mut self,
         name: &str,

@@ -175,9 +175,12 @@ impl Decoder {
         let functions: Vec<_> = group.items.iter().filter_map(function).collect();
         once(&functions, bracket, words)?;
         let mut items = Vec::new();
+        let mut unknown = None;
         for item in &group.items {
-            if !matches!(item.kind, ItemKind::Missing) {
-                items.push((self.spindle_item(item)?, item.span));
+            match self.spindle_item(item) {
+                _ if matches!(item.kind, ItemKind::Missing) => {}
+                Ok(known) => items.push((known, item.span)),
+                Err(fault) => unknown = unknown.or(Some(fault)),
             }
         }
         let feedforward =
@@ -216,6 +219,10 @@ impl Decoder {
                 };
                 return Err(Fault::new(condition, text, *span));
             }
+        }
+        // M3 beside M4 is wrong whatever else there is (20155 prints an unknown word beside them)
+        if let Some(unknown) = unknown {
+            return Err(unknown);
         }
         let motion = |i: &SpindleItem| matches!(i, SpindleItem::Turn(_) | SpindleItem::Speed(_));
         let moves = items.iter().any(|(i, _)| motion(i));

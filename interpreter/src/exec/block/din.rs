@@ -15,7 +15,7 @@ use crate::exec::contour::insertion::Kind;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::machine::Axis;
-use crate::syntax::ast::{Call, Label, Span, Word};
+use crate::syntax::ast::{Call, Jump, Span, Word};
 
 /// What follows a block.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ pub(in crate::exec) enum After<'b> {
     Cycle(CycleCall),
     /// M06 with a program of its own.
     ToolChange(Span),
-    Goto(&'b Label),
+    Goto(&'b Jump),
     /// M17, M29.
     Return,
     /// M02, M30.
@@ -49,6 +49,7 @@ impl Decoder {
         let takes_axes = self.axis_functions(&words);
         self.tools_and_offsets(&words, takes_axes);
         let preset = self.position_presets(&words) || self.spline_vectors(&words);
+        self.motion.feed_before = self.modal.feed();
         self.feeds_and_modes(&words, takes_axes);
         // after G04 the S word is a number of revolutions, after G74 an order
         let arguments = |g: &GWord| g.row.act == Act::Dwell || g.row.number == 74;
@@ -170,6 +171,22 @@ impl Decoder {
                 self.modal.contouring = on;
                 self.modal.exact_stop &= !on;
             }
+            Act::Manual => {
+                let names = words.hashes.iter().any(|(hash, _, _)| &*hash.name == "ACHSE");
+                if g.row.number == 201 && words.axes.is_empty() && !names {
+                    let text = "G201 without an axis";
+                    return Err(Fault::new(Condition::ManualWithoutAxis, text, g.span));
+                }
+                return Err(Fault::unsupported(format!("G{} (manual mode)", g.row.number), g.span));
+            }
+            Act::CornerDeceleration(on) => {
+                if on && self.motion.corner.is_none() {
+                    let text = "G13 without the values of #CORNER PARAM";
+                    return Err(Fault::new(Condition::NoCornerParameters, text, g.span)
+                        .with(|d| d.value(ValueKind::Current, 13, "-")));
+                }
+                self.modal.corner_deceleration = on;
+            }
             Act::EngagementFeed(on) => {
                 self.modal.engagement_feed = on;
                 if on {
@@ -272,6 +289,13 @@ impl Decoder {
                 | "AKIMA ENDVECTOR"
                 | "SET ASPLINE STARTTANG"
                 | "SET ASPLINE ZIELTANG" => continue,
+                // G200 to G202 are refused
+                "ACHSE" if words.group(Group::Manual).is_some() => continue,
+                "ACHSE" => {
+                    let text = "#ACHSE without G200, G201 or G202";
+                    self.report.note(Fault::new(Condition::AxesWithoutManual, text, *span));
+                    continue;
+                }
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,

@@ -65,9 +65,9 @@ impl Group {
             Self::SpindleMode => Condition::TwoSpeedModes,
             Self::FullOverride => Condition::OverrideSwitchTwice,
             Self::CornerDeceleration => Condition::TwoCornerDecelerations,
+            Self::CompensationTransition => Condition::TwoCorners,
             Self::Deceleration
             | Self::Plane
-            | Self::CompensationTransition
             | Self::Rotation
             | Self::Dimension
             | Self::Masking
@@ -144,6 +144,14 @@ pub(in crate::exec) enum Act {
     /// G901 (true), G900.
     LateBraking(bool),
     Compensation(Compensation),
+    /// G200 to G202: refused.
+    Manual,
+    /// G193.
+    FeedOverPath,
+    /// G293.
+    FeedOverTime,
+    /// G13 (true), G12.
+    CornerDeceleration(bool),
     /// G11 (true), G10.
     EngagementFeed(bool),
     /// G25, G26.
@@ -227,7 +235,6 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
 const FEED_CHANGE: &str = "a higher feed is reached after the start of its block, as at start";
 const FEED_HOLD: &str = "feedhold brakes without the weights of its own";
 const EDGE_BANDING: &str = "edge banding";
-const MANUAL: &str = "manual mode";
 
 /// Every row, ordered by number. G80 to G89 and G800 to G899 are subroutine calls and not in it.
 #[rustfmt::skip]
@@ -242,8 +249,8 @@ const ROWS: &[Row] = &[
     g(9, Group::None, Act::EarlyBrakingOnce),
     g(10, Group::CompensationFeed, Act::EngagementFeed(false)),
     g(11, Group::CompensationFeed, Act::EngagementFeed(true)),
-    g(12, Group::CornerDeceleration, Act::Nothing),
-    g(13, Group::CornerDeceleration, Act::Unsupported("corner deceleration")),
+    g(12, Group::CornerDeceleration, Act::CornerDeceleration(false)),
+    g(13, Group::CornerDeceleration, Act::CornerDeceleration(true)),
     g(17, Group::Plane, Act::Plane(Plane::Xy)),
     g(18, Group::Plane, Act::Plane(Plane::Zx)),
     g(19, Group::Plane, Act::Plane(Plane::Yz)),
@@ -320,12 +327,12 @@ const ROWS: &[Row] = &[
     g(164, Group::CentreCorrection, Act::CentreCorrection(false)),
     g(165, Group::CentreCorrection, Act::CentreCorrection(true)),
     g(166, Group::FullOverride, Act::FullOverride),
-    g(193, Group::FeedInterpolation, Act::Unsupported("feed interpolation over the path")),
+    g(193, Group::FeedInterpolation, Act::FeedOverPath),
     g(194, Group::FeedType, Act::FeedType(FeedType::ShareOfMaximum)),
     g(196, Group::SpindleMode, Act::CuttingSpeedMax),
-    g(200, Group::Manual, Act::Unsupported(MANUAL)),
-    g(201, Group::Manual, Act::Unsupported(MANUAL)),
-    g(202, Group::Manual, Act::Unsupported(MANUAL)),
+    g(200, Group::Manual, Act::Manual),
+    g(201, Group::Manual, Act::Manual),
+    g(202, Group::Manual, Act::Manual),
     g(230, Group::None, Act::WeightOfAxes(Weight::RapidAcceleration)),
     v(231, Group::None, Act::WeightOfAll(Weight::RapidAcceleration)),
     v(233, Group::None, Act::WeightOfAll(Weight::RapidRamp)),
@@ -335,7 +342,7 @@ const ROWS: &[Row] = &[
     g(239, Group::CompensationSelection, Act::Selection(Selection::WithoutBlock)),
     g(260, Group::Transition, Act::Contour(false)),
     g(261, Group::Transition, Act::Contour(true)),
-    g(293, Group::FeedInterpolation, Act::Unsupported("feed interpolation over the time")),
+    g(293, Group::FeedInterpolation, Act::FeedOverTime),
     g(301, Group::Insertion, Act::Chamfer),
     g(302, Group::Insertion, Act::Rounding),
     g(303, Group::Path, Act::Path(PathMode::ArcInSpace)),

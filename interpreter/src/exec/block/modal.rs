@@ -136,6 +136,8 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) contouring: bool,
     /// G901: a lower feed of the next block may be reached after the end of the block.
     pub(in crate::exec) late_braking: bool,
+    /// G13.
+    pub(in crate::exec) corner_deceleration: bool,
     /// G11: F acts where the tool touches compensated arcs.
     pub(in crate::exec) engagement_feed: bool,
     /// `#TANGFEED`: least radius of such arcs in mm.
@@ -185,6 +187,7 @@ impl Modal {
             exact_stop: false,
             contouring: false,
             late_braking: false,
+            corner_deceleration: false,
             engagement_feed: false,
             engagement_radius_mm: 0.0,
             centre_absolute: false,

@@ -12,7 +12,7 @@ use crate::exec::options::Value;
 use crate::exec::suggest;
 use crate::exec::values::system;
 use crate::syntax::ast::{
-    Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Label, PlaceKind, Sign, Span, Word,
+    Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Jump, PlaceKind, Sign, Span, Word,
     WordKind,
 };
 use smallvec::SmallVec;
@@ -77,7 +77,7 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) brackets: SmallVec<[&'b Bracket; 1]>,
     pub(in crate::exec) hashes: SmallVec<[(&'b HashWord, Option<f64>, Span); 1]>,
     pub(in crate::exec) call: Option<(&'b Call, Span)>,
-    pub(in crate::exec) goto: Option<&'b Label>,
+    pub(in crate::exec) goto: Option<&'b Jump>,
 }
 
 impl Words<'_> {
@@ -237,7 +237,7 @@ impl Decoder {
         }
         let Some(row) = groups::row(number) else {
             if matches!(number, 28 | 29) && self.dialect.temperature && !self.dialect.own {
-                let meaning = "homes or levels behind a temperature";
+                let meaning = "homes or levels after a temperature";
                 return Err(super::dialect::printer(&format!("G{number}"), meaning, span));
             }
             let fault =
@@ -351,6 +351,7 @@ fn duplicate(first: &Row, second: &Row, span: Span) -> Box<Fault> {
         second.number,
         second.group.name()
     );
-    Fault::new(second.group.duplicate(), text, span)
-        .with(|d| d.value(ValueKind::Wrong, second.number, "-"))
+    let dwells = first.act == Act::Dwell && second.act == Act::Dwell;
+    let condition = if dwells { Condition::DwellTwice } else { second.group.duplicate() };
+    Fault::new(condition, text, span).with(|d| d.value(ValueKind::Wrong, second.number, "-"))
 }

@@ -4,12 +4,13 @@
 
 use super::keys::arguments;
 use super::row::{Call, Row};
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::SYSTEMS_MAX;
 use crate::exec::geometry::frame::Frame;
+use crate::exec::values::number::whole;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
 
 arguments! {
@@ -77,7 +78,15 @@ fn id_of(decoder: &Decoder, group: &Group) -> Outcome<u32> {
         [item] => match &item.kind {
             ItemKind::Value(ItemValue::Expr(expr)) => {
                 let most = u32::try_from(SYSTEMS_MAX).unwrap_or(u32::MAX);
-                decoder.whole(expr, "the number of a coordinate system", 1, most)
+                let number = decoder.number(expr)?;
+                whole(number, 1, most).ok_or_else(|| {
+                    let text = format!("the number {number} of a coordinate system");
+                    Fault::new(Condition::CoordinateSystemNumber, text, expr.span).with(|d| {
+                        d.value(ValueKind::Wrong, number, "-")
+                            .value(ValueKind::LowerLimit, 1.0, "-")
+                            .value(ValueKind::UpperLimit, f64::from(most), "-")
+                    })
+                })
             }
             _ => Err(Fault::new(
                 Condition::CoordinateSystemSyntax,
@@ -92,7 +101,9 @@ fn id_of(decoder: &Decoder, group: &Group) -> Outcome<u32> {
 }
 
 fn undefined(id: u32, span: Span) -> Box<Fault> {
-    Fault::new(Condition::Undefined, format!("coordinate system {id} is not defined"), span)
+    let text = format!("coordinate system {id} is not defined");
+    Fault::new(Condition::NoCoordinateSystem, text, span)
+        .with(|d| d.value(ValueKind::Wrong, f64::from(id), "-"))
 }
 
 /// `#CS ON [..]`, `#CS ON [id]`, `#CS OFF`, `#CS OFF ALL`.
@@ -167,7 +178,7 @@ fn store(decoder: &mut Decoder, id: u32, frame: Frame, span: Span) -> Outcome<()
     let known = decoder.geometry.coordinates.stored_system(id).is_some();
     if !known && decoder.geometry.coordinates.stored_systems() >= SYSTEMS_MAX {
         let text = format!("more than {SYSTEMS_MAX} coordinate systems are stored");
-        return Err(Fault::new(Condition::Range, text, span));
+        return Err(Fault::new(Condition::CoordinateSystemNumber, text, span));
     }
     decoder.geometry.coordinates.store_system(id, frame);
     decoder.geometry.last_system = id;

@@ -64,7 +64,7 @@ impl Compensator {
         self.active.is_some() || self.closed.is_some()
     }
 
-    /// G40 with G239: axes of the plane, and where the tool's centre stands then.
+    /// G40 with G239: axes of the plane, and where the centre of the tool is then.
     pub(in crate::exec) fn leave(
         &mut self,
         out: &mut Vec<Item>,

@@ -108,6 +108,7 @@ pub(in crate::exec) fn between(
     after.block.path = cut_after;
     let mut inserted = after.clone();
     inserted.block.path = element;
+    inserted.course = None;
     inserted.events = std::mem::take(&mut after.events);
     if let (Some(v), Feed::PathVelocity(_)) = (insertion.feed_mm_s, inserted.block.feed) {
         inserted.block.feed = Feed::PathVelocity(v);

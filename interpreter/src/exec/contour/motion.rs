@@ -1,5 +1,6 @@
 //! A programmed motion on its way through the stages of the contour.
 
+use super::feed_course::FeedCourse;
 use crate::exec::block::modal::Selection;
 use crate::exec::step::{Event, SourceRef};
 use crate::syntax::ast::Span;
@@ -20,6 +21,8 @@ pub(in crate::exec) struct Motion {
     /// The path is in the coordinates of the tilt.
     pub(in crate::exec) local: bool,
     pub(in crate::exec) compensation: Option<Compensated>,
+    /// How its feed changes along it.
+    pub(in crate::exec) course: Option<FeedCourse>,
     /// It leads to a point of an Akima spline.
     pub(in crate::exec) akima: bool,
     /// The block, for conditions.

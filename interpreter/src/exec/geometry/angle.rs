@@ -50,20 +50,15 @@ fn first_quadrant(x: f64) -> f64 {
     if x > 45.0 { libm::cos((90.0 - x) * (PI / 180.0)) } else { libm::sin(x * (PI / 180.0)) }
 }
 
-/// Angle in degrees of a value in radian; exact at the quarter turns.
+/// Angle in degrees of a value in radian; exact at 45, 90 and 180 degrees, where the product rounds to them.
 pub(in crate::exec) fn to_deg(rad: f64) -> f64 {
-    const EXACT: [(f64, f64); 4] = [(PI / 2.0, 90.0), (PI / 4.0, 45.0), (PI, 180.0), (0.0, 0.0)];
-    let found = EXACT.iter().find(|(r, _)| r.to_bits() == rad.abs().to_bits());
-    match found {
-        Some((_, deg)) => deg.copysign(rad),
-        None => rad * (180.0 / PI),
-    }
+    rad * (180.0 / PI)
 }
 
 #[cfg(test)]
 #[expect(clippy::float_cmp, reason = "exact values are the point")]
 mod tests {
-    use super::{cos_deg, sin_deg, tan_deg};
+    use super::{PI, cos_deg, sin_deg, tan_deg, to_deg};
 
     #[test]
     fn quarter_turns_and_half_values_are_exact() {
@@ -91,5 +86,11 @@ mod tests {
             assert!((sin_deg(deg) - libm::sin(rad)).abs() < 1e-14);
             assert!((cos_deg(deg) - libm::cos(rad)).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn parts_of_a_turn_come_back_exactly() {
+        assert_eq!([PI, PI / 2.0, PI / 4.0, -PI / 4.0].map(to_deg), [180.0, 90.0, 45.0, -45.0]);
+        assert!(to_deg(-0.0).is_sign_negative());
     }
 }

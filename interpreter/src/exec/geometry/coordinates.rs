@@ -191,7 +191,7 @@ impl Coordinates {
         }
     }
 
-    /// `#PSET`: where the axis stands has this coordinate from now on; `None` (`#PRESET`) takes that back. The axis does
+    /// `#PSET`: where the axis is has this coordinate from now on; `None` (`#PRESET`) takes that back. The axis does
     /// not move.
     pub(in crate::exec) fn preset_position(&mut self, axis: usize, value_mm: Option<f64>) {
         let before = self.position_preset[axis];

@@ -63,5 +63,11 @@ mod tests {
         ] {
             assert_eq!(unwrapped(value, turn, from), to, "{value} {turn:?} from {from}");
         }
+        // rounding does not make a revolution: an angle that the axis has already keeps it where it is
+        for (angle, turn) in [(350.0 + 1e-9, Sign::Plus), (-350.0 - 1e-9, Sign::Minus)] {
+            for beside in [-2e-9, 2e-9] {
+                assert!((unwrapped(angle, Some(turn), 710.0 + beside) - 710.0).abs() < 1e-8);
+            }
+        }
     }
 }

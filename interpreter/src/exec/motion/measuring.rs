@@ -16,7 +16,7 @@ use crate::exec::block::words::{GWord, Words};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::Sync;
-use crate::syntax::ast::{Label, Span};
+use crate::syntax::ast::{Jump, Span};
 use kontur_motion::block::Feed;
 
 impl Decoder {
@@ -51,7 +51,7 @@ impl Decoder {
             return Ok(());
         }
         if !self.moved {
-            let text = format!("G{}: the axes stand at the target already", g.row.number);
+            let text = format!("G{}: the axes are already at the target", g.row.number);
             return Err(Fault::new(Condition::MeasuringWay, text, g.span));
         }
         self.sync(Sync::Measured { through });
@@ -111,7 +111,7 @@ impl Decoder {
         }
         let modal_arc = !matches!(self.modal.path, PathMode::Linear | PathMode::Rapid);
         if g.row.number == 310 && modal_arc {
-            let text = "G310 without G00 or G01 behind arcs";
+            let text = "G310 after arcs without G00 or G01";
             return Err(Fault::new(Condition::MeasuringArc, text, g.span));
         }
         if words.axes.is_empty() {
@@ -163,9 +163,9 @@ impl Decoder {
         Ok(())
     }
 
-    /// The run has come to its end: takes over what was measured and where the axes stand. The label of G310 comes back
+    /// The run has come to its end: takes over what was measured and where the axes are. The label of G310 comes back
     /// if the probe has signalled.
-    pub(in crate::exec) fn end_of_measuring(&mut self) -> Option<Label> {
+    pub(in crate::exec) fn end_of_measuring(&mut self) -> Option<Jump> {
         let pending = self.motion.measuring.pending.take()?;
         let Pending { axes, target, needs_signal, jump, source, span } = *pending;
         // a check has no probe: it takes the target for the surface

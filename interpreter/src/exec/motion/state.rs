@@ -7,7 +7,8 @@ use super::cutting::Cutting;
 use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
-use crate::exec::block::modal::Modal;
+use crate::exec::block::modal::{FeedWord, Modal};
+use crate::exec::contour::feed_course::Corner;
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::SourceRef;
 use crate::machine::{Channel, Machine};
@@ -43,7 +44,11 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) threads: Threads,
     pub(in crate::exec) measuring: Measuring,
     pub(in crate::exec) contour_line: ContourLines,
-    /// G40 with G239: the tool stands beside the contour, not where the program was.
+    /// `#CORNER PARAM`.
+    pub(in crate::exec) corner: Option<Corner>,
+    /// F word in force before the block in work.
+    pub(in crate::exec) feed_before: Option<FeedWord>,
+    /// G40 with G239: the tool is beside the contour, not where the program was.
     pub(in crate::exec) left_contour: bool,
     pub(in crate::exec) cutting: Cutting,
 }
@@ -67,6 +72,8 @@ impl MotionState {
             threads: Threads::new(&machine.channel),
             measuring: Measuring::new(&machine.channel, n),
             contour_line: ContourLines::default(),
+            corner: None,
+            feed_before: None,
             left_contour: false,
             cutting: Cutting::default(),
         }

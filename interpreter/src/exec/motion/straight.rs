@@ -77,6 +77,7 @@ impl Decoder {
             && !self.motion.contour_line.is_open()
             && self.motion.cutting.speed.is_none()
             && !modal.late_braking
+            && !modal.corner_deceleration
             && modal.compensation == Compensation::Off
             && modal.diameter.is_none()
             && modal.feed_type == FeedType::PerMinute
@@ -164,7 +165,8 @@ impl Decoder {
             contour: shared.contour,
             spline: shared.spline,
         });
-        self.send(block, InPlane { plane: shared.plane, tilt: None, compensation: None }, span);
+        let in_plane = InPlane { plane: shared.plane, tilt: None, compensation: None };
+        self.send(block, in_plane, None, span);
         Some(shared)
     }
 

@@ -223,7 +223,7 @@ impl Decoder {
             self.sync(Sync::Spindle { spindle: index, state });
             self.motion.threads.cutting = true;
         }
-        self.send(block, plane, span);
+        self.send(block, plane, None, span);
         Ok(())
     }
 
@@ -264,7 +264,7 @@ impl Decoder {
         self.sync(Sync::Spindle { spindle, state: SpindleState::Rest });
         let Coupling { axis, deg_per_mm, .. } = coupling;
         self.contour.event(Event::SpindleFollows { spindle, way: Some((axis, deg_per_mm)) });
-        self.send(block, plane, span);
+        self.send(block, plane, None, span);
         self.contour.event(Event::SpindleFollows { spindle, way: None });
         self.motion.spindles[0].turning = Turning::Stopped;
         self.sync(Sync::Stop);

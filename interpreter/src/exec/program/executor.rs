@@ -265,7 +265,7 @@ impl Executor {
         self.budget.blocks()
     }
 
-    /// Where the axes stand at program start.
+    /// Where the axes are at rest at program start.
     pub(crate) fn start_position(&self) -> &AxisVec {
         &self.start
     }

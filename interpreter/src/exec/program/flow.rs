@@ -13,7 +13,9 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::source::Position;
-use crate::syntax::ast::{Body, Control, ControlKind, Expr, Label, LabelKind, Place, Span};
+use crate::syntax::ast::{
+    Body, Control, ControlKind, Expr, Jump, JumpKind, LabelKind, Place, Span,
+};
 use std::sync::Arc;
 
 /// Values closer than this are equal in `$SWITCH`. Source: TF5200 programming manual.
@@ -264,17 +266,48 @@ impl Executor {
         Ok(())
     }
 
+    /// The label of a jump; a calculated number is rounded as that of a block is (206817035).
+    fn label_of(&mut self, jump: &Jump) -> Outcome<LabelKind> {
+        match &jump.kind {
+            JumpKind::Label(label) => Ok(label.clone()),
+            JumpKind::Number(expr) => {
+                let number = self.decoder.number(expr)?;
+                match number.round() {
+                    n if (0.0..=f64::from(u32::MAX)).contains(&n) => {
+                        Ok(LabelKind::Number(n as u64))
+                    }
+                    _ => {
+                        let text = format!("label N{number}: does not exist in this program");
+                        Err(Fault::new(Condition::Label, text, expr.span))
+                    }
+                }
+            }
+            JumpKind::Name(place) => match self.decoder.read(place)? {
+                Value::Text(name) => Ok(LabelKind::Name(name.trim().to_uppercase().into())),
+                Value::Number(_) => {
+                    let text = "the variable holds a number, not the name of a label";
+                    let hint = "$GOTO NV.E.NAME jumps to the block with this number";
+                    Err(Fault::new(Condition::Syntax, text, place.span).hint(hint))
+                }
+            },
+        }
+    }
+
     /// `$GOTO`.
-    pub(in crate::exec) fn goto(&mut self, label: &Label) {
+    pub(in crate::exec) fn goto(&mut self, jump: &Jump) {
+        let label = match self.label_of(jump) {
+            Ok(label) => label,
+            Err(fault) => return self.decoder.report.note(fault),
+        };
         let Some(level) = self.levels.last_mut() else { return };
-        let shown = match &label.kind {
+        let shown = match &label {
             LabelKind::Number(n) => format!("N{n}:"),
             LabelKind::Name(name) => format!("[{name}]"),
         };
-        let Some(place) = level.index.label(level.section, &label.kind).copied() else {
+        let Some(place) = level.index.label(level.section, &label).copied() else {
             let text = format!("label {shown} does not exist in this program");
             let hint = "a label comes first in its block: N20: or [NAME]";
-            self.decoder.report.note(Fault::new(Condition::Label, text, label.span).hint(hint));
+            self.decoder.report.note(Fault::new(Condition::Label, text, jump.span).hint(hint));
             return;
         };
         // structures around the label that are not open, the innermost first
@@ -315,7 +348,7 @@ impl Executor {
                 Some(keyword) if keyword.is_loop() => Condition::JumpIntoLoop,
                 _ => Condition::LabelInto,
             };
-            self.decoder.report.note(Fault::new(condition, text, label.span));
+            self.decoder.report.note(Fault::new(condition, text, jump.span));
         }
     }
 }

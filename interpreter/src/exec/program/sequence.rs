@@ -70,7 +70,7 @@ impl Executor {
         let end = match words.end_tag {
             Some(_) if here && start.offset < call && (one_number || call < behind.offset) => call,
             Some(tag) if one_number => {
-                let text = "ENDTAG: the call does not stand behind the first block of the sequence";
+                let text = "ENDTAG: the call does not come after the first block of the sequence";
                 return Err(Fault::new(Condition::Label, text, tag));
             }
             _ => behind.offset,

@@ -100,8 +100,8 @@ impl Executor {
         }
     }
 
-    /// K-0004: blocks behind the M02 or M30 with which the main program has ended. An end inside a control block, or with
-    /// a label behind it, does not have to be the end of the program.
+    /// K-0004: blocks after the M02 or M30 with which the main program has ended. An end inside a control block, or with
+    /// a label after it, does not have to be the end of the program.
     fn text_behind_end(&mut self, index: &Index, section: &Section, end: u64) {
         let main = matches!(&self.levels[..], [main] if main.frames.is_empty());
         let last = self.position.offset >= section.start.offset && self.position.offset < end;
@@ -129,7 +129,7 @@ impl Executor {
                 return;
             }
             if block.body != Body::Empty || !found.is_empty() {
-                let text = "text behind the end of the program: it never runs";
+                let text = "text after the end of the program never runs";
                 let location = self.files.locate_block(0, at);
                 let diagnostic = Diagnostic::new(Condition::TextBehindEnd, text);
                 self.report(match location {

@@ -334,3 +334,11 @@ fn repeated_block_sequences() {
     assert_eq!(missing.ids()[0], "K-0015");
     assert_eq!(super::run("N10 P1=1\nL SEQUENCE [N10 REPEAT=0]\nM30\n").ids()[0], "K-0009");
 }
+
+/// A call without a blank (`LLCYCLE[..]`) is one, as `LCYCLE[..]` is.
+#[test]
+fn local_cycles_need_no_blank() {
+    let run =
+        super::clean("%L CYC\nG91 G01 X@P1 F1000\nM17\n%MAIN\nLLCYCLE[NAME=CYC @P1=4]\nM30\n");
+    assert_eq!(run.end[0], 4.0);
+}

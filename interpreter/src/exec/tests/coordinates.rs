@@ -111,7 +111,11 @@ fn coordinate_systems() {
     assert_end("#CS OFF ALL\n#MCS ON\n#TRAFO OFF\nX1 F100", [1.0, 0.0, 0.0]);
     // the offset lies outside the system
     assert_end("V.G.NP[1].V.X=100\nG54\n#CS ON [0,0,0,0,0,90]\nX1 Y0 F100", [100.0, 1.0, 0.0]);
-    assert_eq!(run("#CS ON [3]\nM30\n").ids(), ["K-0012"]);
+    // selection of a system that was never defined (20821), numbers outside the range (20820)
+    assert_eq!(run("#CS ON [3]\nM30\n").ids(), ["20821"]);
+    assert_eq!(run("#CS ON\nM30\n").ids(), ["20821"]);
+    assert_eq!(run("#CS DEF [0][1,2,3]\nM30\n").ids(), ["20820"]);
+    assert_eq!(run("#CS DEF [6][1,2,3]\nM30\n").ids(), ["20820"]);
     assert_eq!(run("#TRAFO ON\nM30\n").ids(), ["K-0019"]);
 }
 
@@ -212,7 +216,7 @@ fn modulo_axes_turn_in_the_direction_of_the_first_sign() {
     ] {
         assert_near(&[end(&format!("G01 F100 {word}"))], &[deg]);
     }
-    // never more than one revolution, and none to where the axis stands
+    // never more than one revolution, and none to where the axis is
     assert_near(&[end("G01 F100 G91 Z3600\nG90 Z+0")], &[3600.0]);
     assert_near(&[end("G01 F100 Z350\nZ10")], &[10.0]);
     assert_near(&[end("V.G.NP[1].V.Z=20\nG54 G01 F100 Z-350")], &[-350.0]);

@@ -23,7 +23,7 @@ fn fractions_of_whole_numbers_are_refused() {
         ("H[3.5]", "K-0009"),
         ("G159=1.5", "K-0009"),
         ("G160=1.5 X1", "K-0009"),
-        ("#CS DEF[1.5][0,0,0,0,0,0]", "K-0009"),
+        ("#CS DEF[1.5][0,0,0,0,0,0]", "20820"),
         ("#TIMER START [ID=1.5]", "K-0009"),
         ("#ERROR [ID=1.5 RC=0]", "K-0009"),
         ("#ERROR [ID=5 RC=1.5]", "K-0009"),
@@ -89,7 +89,8 @@ fn what_the_manual_knows_is_never_unknown() {
         "#INFO",
         "#GANTRY ON ALL",
         "#AX LINK ON [1]",
-        "#SET AX LINK [1, X=Y]",
+        "#ENABLE AX LINK [1]",
+        "#AX LINK NBR [1, X=Y]",
         "#RT CYCLE [ID=1]",
         "#MEAS PREPARE",
         "#MEAS [AX=X EDGE=POS]",
@@ -279,4 +280,33 @@ fn a_radius_without_an_end_point_is_told() {
     assert_eq!(places(&kept.diagnostics), ["K-0109 1:10"]);
     assert_near(&kept.end, &[10.0, 0.0, 0.0]);
     assert!(matches!(kept.blocks()[0].path, kontur_motion::path::Path::Arc(_)));
+}
+
+/// Definitions of axis couplings move nothing and are checked as 20475, 20476 and 20477 print it.
+#[test]
+fn definitions_of_couplings_are_checked() {
+    for text in [
+        "#SET AX LINK [1, Y=X, Z=X]",
+        "#SET AX LINK [1, [Y = X, G, 0.01, 0.25]]",
+        "#AX LINK [2, [Y = X, -1, 2], Z=X]",
+        "#AX LINK OFF",
+        "#AX LINK OFF ALL",
+        "#DISABLE AX LINK [1]",
+    ] {
+        super::clean(&format!("{text}\nM30\n"));
+    }
+    for (text, id) in [
+        ("[1, X=X]", "20475"),
+        ("[1, Z=X, Z=Y, Y=X]", "20476"),
+        ("[1, Y=X, Z=Y]", "20477"),
+        ("[1, Z=Y, Y=X]", "20477"),
+        ("[1, Y=Q]", "20797"),
+        ("[0, Y=X]", "K-0009"),
+        ("[1]", "21220"),
+        ("[1, 5]", "21220"),
+        ("", "21220"),
+    ] {
+        let run = super::run(&format!("#SET AX LINK {text}\nM30\n"));
+        assert_eq!(run.ids(), [id], "{text}");
+    }
 }

@@ -283,3 +283,24 @@ fn parameters_of_earlier_programs_do_not_exist() {
     assert_eq!(run.ids(), ["20925"]);
     assert!(run.diagnostics[0].hint.as_deref().is_some_and(|h| h.contains("P-CHAN-00067")));
 }
+
+/// `$GOTO NV.E.NUMBER`, `$GOTO V.E.NAME` (parametric jump call, 206921739) and `N[..]`, `NP1`.
+#[test]
+fn jumps_are_told_by_values() {
+    for jump in ["NV.P.NUM", "NP1", "N[P1-5+5]"] {
+        let run = super::clean(&format!(
+            "#VAR\nV.P.NUM = 60\n#ENDVAR\nP1=60\nG01 F1000\n$GOTO {jump}\nX5\nN60: Y7\nM30\n"
+        ));
+        assert_eq!(run.end[..2], [0.0, 7.0], "{jump}");
+    }
+    // in a condition, and rounded as the number of a block is
+    let run = super::clean("P1=60.3\nG01 F1000\n$IF P1 > 0 $GOTO NP1\nX5\nN60: Y7\nM30\n");
+    assert_eq!(run.end[..2], [0.0, 7.0]);
+    let by_name = "V.E.NAME = \" ende \"\nG01 F1000\n$GOTO V.E.NAME\nX5\n[ENDE] Y7\nM30\n";
+    let run = super::run(by_name);
+    assert_eq!((run.ids(), &run.end[..2]), (vec!["K-0110".to_owned()], &[0.0, 7.0][..]));
+    assert_eq!(super::run("P1=7\n$GOTO NP1\nM30\n").ids(), ["K-0015"]);
+    assert_eq!(super::run("P1=-7\n$GOTO NP1\nM30\n").ids(), ["K-0015"]);
+    assert_eq!(super::run("V.E.NAME = 7\n$GOTO V.E.NAME\nM30\n").ids(), ["K-0110", "K-0002"]);
+    assert_eq!(super::run("$GOTO V.P.NAME\nM30\n").ids(), ["20839"]);
+}

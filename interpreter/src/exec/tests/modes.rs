@@ -36,7 +36,7 @@ fn end_feeds() {
     assert_eq!(ends, [Some(5.0), Some(10.0), None]);
 }
 
-/// The words act on the end of the block they stand in; G09 in its block only (TF5200 programming manual, last example of
+/// The words act on the end of the block they are in; G09 in its block only (TF5200 programming manual, last example of
 /// G08/G09/G900/G901).
 #[test]
 fn late_braking() {

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 pub(crate) enum TimerAct {
     /// It counts on.
     Start,
-    /// It stands.
+    /// It is at rest.
     Stop,
     /// `V.G.TIMER` takes its count.
     Read,

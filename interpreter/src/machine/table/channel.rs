@@ -33,7 +33,7 @@ parameters! {
         .range(Bound::At(1.0), Bound::At(65535.0)), as SPINDLE_NUMBER: Whole;
     chan("P-CHAN-00054", "mass_einh", Raw::Uns08, "0 mm, 1 inch for all linear axes")
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
-    chan("P-CHAN-00030", "kasto_residual_path", Raw::Sgn32, "edge banding: way behind the signal of the probe")
+    chan("P-CHAN-00030", "kasto_residual_path", Raw::Sgn32, "edge banding: way after the signal of the probe")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters"), as RESIDUAL_PATH: Number;
     chan("P-CHAN-00057", "messtyp", Raw::Uns16, "measuring type at program start, see #MEAS; no document prints a default, here 1")
         .range(Bound::At(1.0), Bound::At(7.0)).default(1.0).source("TF5200 channel parameters"), as MEASURING_TYPE: Whole;

@@ -1,6 +1,6 @@
 //! Control statements, program heads and declarations.
 
-use super::{Expr, Ident, ItemValue, Label, Place, Span};
+use super::{Expr, Ident, ItemValue, Jump, Place, Span};
 
 /// Control statement.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub enum ControlKind {
         /// Condition.
         condition: Expr,
         /// Target of `$IF condition $GOTO target`.
-        goto: Option<Label>,
+        goto: Option<Jump>,
     },
     /// `$ELSEIF condition`.
     ElseIf(Expr),

@@ -141,7 +141,7 @@ functions! {
     StrToReal "STR_TO_REAL",
 }
 
-/// Something that holds a value and may stand left of `=`.
+/// Something that holds a value and may be on the left of `=`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// Which.

@@ -1,6 +1,6 @@
 //! Words of a block: addresses, names, assignments and calls.
 
-use super::{Expr, Group, Ident, Label, Place, Sign, Span};
+use super::{Expr, Group, Ident, Jump, Place, Sign, Span};
 
 /// One word of a block.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,12 +42,12 @@ pub enum WordKind {
     MacroDefinition(Box<MacroDefinition>),
     /// `"NAME"` standing for words; still here only if the macro was not expanded before parsing.
     MacroUse(Box<str>),
-    /// A `#` word that stands among DIN words: `#FRC=50`, `#CHR`, `#ANG=30`, `#PSET`, ...
+    /// A `#` word among DIN words: `#FRC=50`, `#CHR`, `#ANG=30`, `#PSET`, ...
     Hash(Box<HashWord>),
     /// Subroutine call.
     Call(Box<Call>),
     /// `$GOTO target`.
-    Goto(Box<Label>),
+    Goto(Box<Jump>),
 }
 
 /// Value of a G function.

@@ -56,7 +56,7 @@ impl Builder<'_> {
         group
     }
 
-    /// What stands in a bracket, and whether commas or bars do.
+    /// What is in a bracket, and whether commas or bars do.
     fn contents(&mut self, pair: Pair<'_, Rule>) -> (Group, bool) {
         let span = self.span(&pair);
         let mut separated = false;
@@ -189,7 +189,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A warning for `#VIB GUARD ON (MODE=2 FREQ=40)`: the keys stand in a remark.
+    /// A warning for `#VIB GUARD ON (MODE=2 FREQ=40)`: the keys are in a remark.
     fn check_remark(&mut self, command: &Command) {
         let end = command.span.end() as usize;
         let Some(behind) = self.text.get(end..) else { return };

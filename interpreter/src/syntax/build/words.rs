@@ -4,8 +4,8 @@ use super::Builder;
 use crate::syntax::Problem;
 use crate::syntax::Rule;
 use crate::syntax::ast::{
-    Assign, Bracket, Call, CallKind, CodeNumber, Expr, GValue, Group, HashWord, Ident, Label,
-    LabelKind, MacroDefinition, Name, Place, Sign, Span, Word, WordKind,
+    Assign, Bracket, Call, CallKind, CodeNumber, Expr, GValue, Group, HashWord, Ident, Jump,
+    JumpKind, LabelKind, MacroDefinition, Name, Place, Sign, Span, Word, WordKind,
 };
 use pest::iterators::Pair;
 
@@ -15,7 +15,7 @@ impl Builder<'_> {
         let kind = match rule {
             Rule::goto => {
                 let target = pair.into_inner().next();
-                let empty = Label { kind: LabelKind::Number(0), span };
+                let empty = Jump { kind: JumpKind::Label(LabelKind::Number(0)), span };
                 WordKind::Goto(Box::new(target.map_or(empty, |p| self.target(p))))
             }
             Rule::call => WordKind::Call(Box::new(self.call(pair))),
@@ -132,9 +132,9 @@ impl Builder<'_> {
                     local = part.as_str().len() > 1;
                     if local && text[part.as_str().len()..].starts_with('"') {
                         let problem =
-                            Problem::syntax(self.span(&part), "LL without a blank behind it");
+                            Problem::syntax(self.span(&part), "LL without a blank after it");
                         self.report(problem.hint(
-                            "between LL and the name of a subroutine or macro stands a blank",
+                            "write a blank between LL and the name of a subroutine or macro",
                         ));
                     }
                 }

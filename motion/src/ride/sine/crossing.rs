@@ -101,7 +101,7 @@ impl Join<'_> {
         None
     }
 
-    /// Replaces the end of what has been put out by a connection to the fall; returns the phases of the fall behind it
+    /// Replaces the end of what has been put out by a connection to the fall; returns the phases of the fall after it
     /// up to where it is cut.
     fn connect(&mut self, here: Phase, v0: f64) -> Option<(usize, usize)> {
         let slack = 1e-12 * self.cells.last()?.end;

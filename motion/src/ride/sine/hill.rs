@@ -88,7 +88,7 @@ impl Hill<'_> {
 }
 
 /// The phases of a rise from speed `v` up to where it stays at the height, and its state there; `None` if it does not get
-/// there, or only behind a limit that cuts it.
+/// there, or only after a limit that cuts it.
 fn climb(mut rise: Vec<Phase>, mut v: f64, height: f64) -> Option<(Vec<Phase>, Phase)> {
     let stays = |p: &Phase| p.a.abs() <= 1e-9 && p.j.abs() <= 1e-9;
     let level = rise.iter().position(|p| stays(p) && p.v >= height * (1.0 - LEVEL))?;

@@ -104,7 +104,7 @@ impl Rise<'_> {
         }
     }
 
-    /// True if a step, and the ramp to zero behind it, stay below the limits ahead of speed `v`. A limit below `v` cuts
+    /// True if a step, and the ramp to zero after it, stay below the limits ahead of speed `v`. A limit below `v` cuts
     /// the rise and is none of its business.
     fn is_safe(&self, mut c: usize, step: &Phase, v: f64) -> bool {
         #[cfg(test)]
@@ -171,7 +171,7 @@ impl Rise<'_> {
 }
 
 impl Block {
-    /// True if a phase of a rise that goes on behind the block is too fast at its end.
+    /// True if a phase of a rise that continues after the block is too fast at its end.
     fn is_exceeded(&self, phase: &Phase) -> bool {
         let most = self.v * (1.0 + SLACK);
         phase.end().v > most && phase.after(phase.time_at(self.end)).v > most

@@ -24,7 +24,7 @@ pub(super) fn cycle_of(times_s: &[f64]) -> Option<f64> {
     Some(*median).filter(|s| *s > 0.0)
 }
 
-/// Differences of a signal in equal steps; what is no number stands still.
+/// Differences of a signal in equal steps; what is not a number counts as constant.
 fn speeds(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let values: Vec<f64> = values.collect();
     let step = |w: &[f64]| if (w[1] - w[0]).is_finite() { w[1] - w[0] } else { 0.0 };
@@ -70,7 +70,7 @@ fn coarse_shift(trace: &Trace, recorded: &[Recorded], cycle_s: f64) -> f64 {
     }
     let done = back.process(&mut product, &mut correlation);
     debug_assert!(done.is_ok());
-    // the first of equal ones: signals that stand still are not shifted
+    // the first of equal ones: signals that are constant are not shifted
     let best = correlation.iter().enumerate().reduce(|a, b| if b.1 > a.1 { b } else { a });
     let place = best.map_or(0, |(i, _)| i);
     if place > longest { place as f64 - length as f64 } else { place as f64 }

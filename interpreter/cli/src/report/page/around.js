@@ -51,18 +51,18 @@ choice(byId("paints"), [["run", groups.length > 1 && one ? "by pass" : "by run"]
     });
   }
 });
-byId("facts").textContent = runs.map(({ summary: s, window: w }) => {
+byId("facts").textContent = runs.map(({ name, summary: s, window: w }) => {
   const e = s.max_contour_error;
-  return `${one ? "" : s.program + ": "}machine ${s.machine} · cycle ${s.cycle_us / 1000} ms · ${s.duration_s.toFixed(3)} s (path / feed ${s.ideal_duration_s.toFixed(3)} s) · ${s.state}`
+  return `${one ? "" : name + ": "}machine ${s.machine} · cycle ${s.cycle_us / 1000} ms · ${s.duration_s.toFixed(3)} s (path / feed ${s.ideal_duration_s.toFixed(3)} s) · ${s.state}`
     + (e && e.mm > VISIBLE ? ` · contour error at most ${e.mm.toFixed(5)} mm at ${e.time_s.toFixed(4)} s, line ${e.line}` : "")
     + (w ? ` · drawn: ${w[0]} to ${w[1]} s` : "");
 }).join("\n");
 const head = make("tr");
 ["axis", "|vel| /s", "|acc| /s²", "|jerk| /s³", "|err|", "|dev|", "|lag|", "delay", "position", "torque Nm"].forEach(t => head.append(make("th", t)));
 byId("axes").append(head);
-for (const { summary: s, times } of runs) for (const a of s.axes) {
+for (const { name, summary: s, times } of runs) for (const a of s.axes) {
   const row = make("tr"), range = times.axes.find(r => r.name === a.name), span = (list, digits) => list.map(v => v.toFixed(digits)).join(" .. ");
-  [`${one ? "" : s.program + " "}${a.name} ${a.unit}`, a.max_vel.toFixed(3), a.max_acc.toFixed(1), a.max_jerk.toFixed(0), a.max_err.toFixed(6),
+  [`${one ? "" : name + " "}${a.name} ${a.unit}`, a.max_vel.toFixed(3), a.max_acc.toFixed(1), a.max_jerk.toFixed(0), a.max_err.toFixed(6),
     a.max_dev.toFixed(6), a.max_lag.toFixed(6), (a.filter_delay_cycles * s.cycle_us / 1000).toFixed(2) + " ms",
     range ? span(range.position, 3) : "", range && range.torque_n_m.some(v => v !== 0) ? span(range.torque_n_m, 2) : "-"].forEach(t => row.append(make("td", t)));
   byId("axes").append(row);
@@ -80,7 +80,7 @@ if (widest > 1) byId("legend").append(make("div",
 // what a canvas shows, for those who do not see it
 function describe() {
   byId("close").setAttribute("aria-label", worst ? `The contour within ${(3 * worst[0]).toPrecision(2)} mm of its largest error of ${worst[0].toFixed(5)} mm` : "");
-  contour.setAttribute("aria-label", `Contour of ${runs.map(r => r.summary.program).join(", ")}. ` + runs.map(({ summary: s }) =>
+  contour.setAttribute("aria-label", `Contour of ${runs.map(r => r.name).join(", ")}. ` + runs.map(({ summary: s }) =>
     `${s.duration_s.toFixed(3)} s, ${s.path_length_mm.toFixed(3)} mm` + (s.max_contour_error ? `, contour error at most ${s.max_contour_error.mm.toFixed(5)} mm` : "")).join("; "));
   for (const { canvas, title, lines, shown } of plots) canvas.setAttribute("aria-label", `${title}: ${shown.y.label} over ${shown.x.label}. ` + lines.filter(l => l.c || l.points).map(({ name, c, points }) => {
     const low = (c ? c.low : points.map(p => p[1])).reduce((m, v) => Math.min(m, v), Infinity);

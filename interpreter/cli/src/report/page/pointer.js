@@ -30,7 +30,8 @@ function pointer(canvas, { at, zoom, move, all }) {
       const before = spread();
       down.set(e.pointerId, here);
       const after = spread();
-      if (before.width > 0) zoom(after.width / before.width, after.x, after.y);
+      // what lay between the fingers stays there
+      if (before.width > 0) zoom(after.width / before.width, before.x, before.y);
       move(after.x - before.x, after.y - before.y, true);
     } else if (last) {
       down.set(e.pointerId, here);
@@ -90,7 +91,7 @@ function tip(x, y) {
     const i = bucketAt(r, view.at);
     if (i < 0) continue;
     const file = r.files.length > 1 ? r.files[r.file[i]] + " " : "";
-    if (!one) text.push(r.summary.program);
+    if (!one) text.push(r.name);
     text.push(`t = ${seconds(r, r.k[i]).toFixed(6)} s   ${file}line ${r.line[i]}${r.block[i] === null ? "" : "   N" + r.block[i]}   held by ${r.limit[i]}`);
     r.plane.forEach((name, a) => {
       const [set, act] = [r.setCurves[a], r.actCurves[a]].map(c => c ? valueOf(c, i).toFixed(5) : "-");

@@ -74,7 +74,7 @@ for (const r of runs) {
   const table = (title, names, fill) => {
     const box = make("div", undefined, "wide"), t = make("table"), head = make("tr");
     names.forEach(name => head.append(make("th", name, name === "mostly" ? "text" : "")));
-    t.append(make("caption", (one ? "" : r.summary.program + ": ") + title), head);
+    t.append(make("caption", (one ? "" : r.name + ": ") + title), head);
     fill(t);
     box.append(t);
     byId("times").append(box);

@@ -10,7 +10,7 @@ use realfft::RealFftPlanner;
 const FALSE_ALARM: f64 = 1e-3;
 /// Decays tried: from lasting to gone after some samples, each this many times the one before.
 const DECAY_FACTOR: f64 = 2.0;
-/// Zeros behind the record, as multiples of it.
+/// Zeros after the record, as multiples of it.
 const PADDING: usize = 2;
 
 /// The vibration that was found.

@@ -2,7 +2,7 @@
 
 use crate::exec::step::SourceRef;
 use crate::machine::Channel;
-use crate::syntax::ast::{Label, Span};
+use crate::syntax::ast::{Jump, Span};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Feed;
 
@@ -29,7 +29,7 @@ pub(in crate::exec::motion) struct Pending {
     pub(in crate::exec::motion) target: AxisVec,
     /// A missing signal is an error.
     pub(in crate::exec::motion) needs_signal: bool,
-    pub(in crate::exec::motion) jump: Option<Label>,
+    pub(in crate::exec::motion) jump: Option<Jump>,
     pub(in crate::exec::motion) source: SourceRef,
     pub(in crate::exec::motion) span: Span,
 }
@@ -68,7 +68,7 @@ impl Measuring {
     }
 
     /// What follows a signal (`G310 .. $GOTO`).
-    pub(in crate::exec) fn jump(&mut self, label: Option<Label>) {
+    pub(in crate::exec) fn jump(&mut self, label: Option<Jump>) {
         if let Some(pending) = &mut self.pending {
             pending.jump = label;
         }

@@ -1,0 +1,123 @@
+//! Feeds that change along a motion: corner deceleration (G13) and the interpolation of the feed (G193, G293).
+//!
+//! A motion is divided where its feed has changed by a hundredth; each piece has the lower one of the feeds due at its ends,
+//! so that the path is never faster than the printed line. What is divided is the path that is driven, with the tool radius.
+//!
+//! Source: TF5200 programming manual 206444555, 206449675 (G13: linear along the corrected path, slope STEP only, from the
+//! first motion behind G13 on), 15556679307 (G193: linear along the path; G293: linear over the time, slope STEP).
+//! Assumptions on G13, since the pages say nothing of it: every end of a motion in feed is a corner, whatever its angle;
+//! behind it the path is as fast as it may; elements that the compensation inserts end as the motion before them.
+
+use super::compensation::Item;
+use super::motion::Motion;
+use kontur_motion::block::{Block, Feed};
+
+/// Ratio of the feeds of two pieces.
+const STEP: f64 = 1.01;
+
+/// Most pieces of one motion: a range of feeds of 1 to 20,000; beyond it they are coarser.
+const PIECES_MAX: f64 = 1000.0;
+
+/// How the feed of a motion changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) enum FeedCourse {
+    /// G13.
+    Corner(Corner),
+    /// G193: from this feed in mm/s, above 0, linearly along the path.
+    OverPath(f64),
+    /// G293: from this feed in mm/s, above 0, linearly over the time.
+    OverTime(f64),
+}
+
+/// `#CORNER PARAM`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct Corner {
+    /// Way in front of the corner, above 0.
+    pub(in crate::exec) dist_mm: f64,
+    pub(in crate::exec) feed: CornerFeed,
+}
+
+/// Feed at a corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) enum CornerFeed {
+    /// Of the programmed feed, above 0.
+    Ratio(f64),
+    /// In mm/s, above 0.
+    MmS(f64),
+}
+
+/// The part of a motion on which the feed changes.
+struct Change {
+    /// Path lengths in mm.
+    at: [f64; 2],
+    /// Feeds there in mm/s.
+    feed: [f64; 2],
+    over_time: bool,
+}
+
+impl Change {
+    fn of(course: FeedCourse, feed: f64, length: f64) -> Option<Self> {
+        let (from, over_time) = match course {
+            FeedCourse::Corner(Corner { dist_mm, feed: at_corner }) => {
+                let end = match at_corner {
+                    CornerFeed::Ratio(ratio) => feed * ratio,
+                    CornerFeed::MmS(end) => end,
+                };
+                let falls = dist_mm.min(length);
+                let begin = end + (feed - end) * falls / dist_mm;
+                let at = [length - falls, length];
+                return (end < feed).then_some(Self { at, feed: [begin, end], over_time: false });
+            }
+            FeedCourse::OverPath(from) => (from, false),
+            FeedCourse::OverTime(from) => (from, true),
+        };
+        Some(Self { at: [0.0, length], feed: [from, feed], over_time })
+    }
+
+    /// Where the feed is `v`. At a constant acceleration its square grows with the way.
+    fn place(&self, v: f64) -> f64 {
+        let power = |v: f64| if self.over_time { v * v } else { v };
+        let [a, b] = self.feed.map(power);
+        self.at[0] + (power(v) - a) / (b - a) * (self.at[1] - self.at[0])
+    }
+
+    /// Ends and feeds of the pieces.
+    fn pieces(&self) -> Vec<(f64, f64)> {
+        let ratio = self.feed[1] / self.feed[0];
+        let count = (libm::log(ratio).abs() / libm::log(STEP)).ceil().min(PIECES_MAX) as u32;
+        let v = |k: u32| self.feed[0] * libm::pow(ratio, f64::from(k) / f64::from(count));
+        let end = |k: u32| if k == count { self.at[1] } else { self.place(v(k)) };
+        (1..=count).map(|k| (end(k), v(k - 1).min(v(k)))).collect()
+    }
+}
+
+/// The pieces of a motion; it stays whole if its feed does not change.
+pub(super) fn pieces(motion: Box<Motion>) -> Vec<Item> {
+    let (Some(course), Feed::PathVelocity(feed)) = (motion.course, motion.block.feed) else {
+        return vec![Item::Motion(motion)];
+    };
+    let Some(change) = Change::of(course, feed, motion.block.path.length()) else {
+        return vec![Item::Motion(motion)];
+    };
+    let mut ends = vec![(change.at[0], feed)];
+    ends.extend(change.pieces());
+    let mut pieces = Vec::with_capacity(ends.len());
+    let mut from = 0.0;
+    for (to, feed) in ends {
+        if to <= from {
+            continue;
+        }
+        let Some(path) = motion.block.path.section(from, to) else {
+            return vec![Item::Motion(motion)];
+        };
+        let is_last = to >= change.at[1];
+        let block = &motion.block;
+        let end_velocity_mm_s = block.end_velocity_mm_s.filter(|_| is_last);
+        let feed = Feed::PathVelocity(feed);
+        let block = Box::new(Block { path, feed, end_velocity_mm_s, ..(**block).clone() });
+        let events = if pieces.is_empty() { motion.events.clone() } else { Vec::new() };
+        pieces.push(Item::Motion(Box::new(Motion { block, events, ..(*motion).clone() })));
+        from = to;
+    }
+    if pieces.is_empty() { vec![Item::Motion(motion)] } else { pieces }
+}

@@ -1,0 +1,84 @@
+//! Which feeds change along a motion (G13, G193, G293), and what does not go with it.
+
+use crate::diag::Condition;
+use crate::exec::block::groups::Act;
+use crate::exec::block::modal::{Compensation, FeedType};
+use crate::exec::block::words::Words;
+use crate::exec::contour::feed_course::FeedCourse;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::syntax::ast::Span;
+use kontur_motion::block::{Feed, SlopeKind};
+
+impl Decoder {
+    /// How the feed of a motion changes along it. Assumption: not in rapid traverse, which has no feed.
+    pub(super) fn feed_course(
+        &mut self,
+        words: &Words<'_>,
+        feed: Feed,
+        rounds: bool,
+        span: Span,
+    ) -> Outcome<Option<FeedCourse>> {
+        let interpolated = words
+            .g
+            .iter()
+            .find(|g| matches!(g.row.act, Act::FeedOverPath | Act::FeedOverTime))
+            .map(|g| (g.row, g.span));
+        let corner = self.motion.corner.filter(|_| self.modal.corner_deceleration);
+        let (name, span) = match (interpolated, corner) {
+            _ if feed == Feed::Rapid => return Ok(None),
+            (None, None) => return Ok(None),
+            (Some((_, at)), Some(_)) => {
+                let what = "interpolation of the feed with corner deceleration (G13)";
+                return Err(Fault::unsupported(what, at));
+            }
+            (Some((row, at)), None) => (format!("G{}", row.number), at),
+            (None, Some(_)) => ("G13".to_owned(), span),
+        };
+        let over_path = interpolated.is_some_and(|(row, _)| row.act == Act::FeedOverPath);
+        match self.modal.slope.kind {
+            SlopeKind::Step => {}
+            SlopeKind::Hsc if over_path => {
+                return Err(Fault::unsupported("G193 with the slope HSC", span));
+            }
+            SlopeKind::Trapez | SlopeKind::Sin2 | SlopeKind::Hsc => {
+                let text = format!("{name} has an effect with the slope STEP alone");
+                self.report.note_once(&name, Fault::new(Condition::Ignored, text, span));
+                return Ok(None);
+            }
+        }
+        let beside = if self.modal.feed_type != FeedType::PerMinute {
+            "G93, G95 or G194"
+        } else if rounds || self.contour.hsc.contour().is_some() {
+            "contouring"
+        } else if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
+            "splines"
+        } else if interpolated.is_some() && self.modal.compensation != Compensation::Off {
+            "tool radius compensation"
+        } else {
+            return if interpolated.is_some() {
+                self.interpolated_feed(&name, over_path, span)
+            } else {
+                Ok(corner.map(FeedCourse::Corner))
+            };
+        };
+        Err(Fault::unsupported(format!("{name} with {beside}"), span))
+    }
+
+    /// Interpolation from the F word before to that of the block.
+    fn interpolated_feed(
+        &self,
+        name: &str,
+        over_path: bool,
+        span: Span,
+    ) -> Outcome<Option<FeedCourse>> {
+        let Some(from) = self.motion.feed_before.filter(|word| word.value > 0.0) else {
+            let text = format!("{name}: no F word stands before, from which the feed could change");
+            return Err(Fault::new(Condition::FeedZero, text, span));
+        };
+        let unit_mm = if from.inch { 25.4 } else { 1.0 };
+        let mm_s = from.value * unit_mm * self.machine.channel.feed_unit_mm_min / 60.0;
+        let course = if over_path { FeedCourse::OverPath } else { FeedCourse::OverTime };
+        Ok(Some(course(mm_s)))
+    }
+}

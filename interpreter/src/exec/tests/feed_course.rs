@@ -1,0 +1,131 @@
+//! Feeds that change along a motion, against the formulas of the manual: G13 and G193 linear along the path, G293 linear over the
+//! time.
+
+use super::{clean, run};
+use kontur_motion::block::Feed;
+
+/// Length, feed and end of each piece whose way in X lies between two places.
+fn pieces(text: &str, from: f64, to: f64) -> Vec<(f64, f64, f64)> {
+    let run = clean(text);
+    let piece = |b: &&kontur_motion::block::Block| {
+        let (a, z) = (b.path.start()[0], b.path.end()[0]);
+        let Feed::PathVelocity(v) = b.feed else { panic!("{:?}", b.feed) };
+        (a > from - 1e-9 && z < to + 1e-9 && z > a).then_some((z - a, v, z))
+    };
+    run.blocks().iter().filter_map(piece).collect()
+}
+
+/// The pieces follow `v` of the way from `from`, never faster and never slower by more than 1 %, and end at `to`.
+fn follow(pieces: &[(f64, f64, f64)], from: f64, to: f64, v: impl Fn(f64) -> f64) {
+    assert!(pieces.len() > 10);
+    assert!((pieces.last().unwrap().2 - to).abs() < 1e-9);
+    let mut begin = from;
+    for (length, feed, end) in pieces {
+        for x in [begin, end - 1e-9] {
+            let exact = v(x - from);
+            assert!(*feed <= exact + 1e-6, "{feed} above {exact} at {x}");
+            assert!(*feed >= exact / 1.0101, "{feed} below {exact} at {x}");
+        }
+        assert!((end - length - begin).abs() < 1e-9, "a gap at {begin}");
+        begin = *end;
+    }
+}
+
+fn time(pieces: &[(f64, f64, f64)]) -> f64 {
+    pieces.iter().map(|(length, v, _)| length / v).sum()
+}
+
+const CORNER: &str = "#SLOPE [TYPE=STEP]\nN10 G01 X10 F1000\nN20 #CORNER PARAM [DIST=10 UNIT=PERCENT FEED=50]\nN30 G13\nN40 X50\nN50 G12 Y10\nM30\n";
+
+#[test]
+fn the_feed_falls_in_front_of_a_corner() {
+    let v = 1000.0 / 60.0;
+    let all = pieces(CORNER, 10.0, 50.0);
+    assert_eq!(all[0], (30.0, v, 40.0));
+    follow(&all[1..], 40.0, 50.0, |s| v * (1.0 - 0.05 * s));
+    assert!((all.last().unwrap().1 - 0.5 * v).abs() < 1e-9);
+    // the integral of ds / v over the fall from v to v/2 on 10 mm
+    let exact = 10.0 / (0.5 * v) * std::f64::consts::LN_2;
+    let whole = time(&all[1..]);
+    assert!(whole >= exact && whole < 1.01 * exact, "{whole} {exact}");
+    // the motions before G13 and behind G12 are whole
+    let run = clean(CORNER);
+    assert_eq!(run.blocks().len(), all.len() + 2);
+    assert_eq!(run.end[..2], [50.0, 10.0]);
+    // the older form and FWORD say the same
+    for form in ["#SET CORNER PARAM [10, 1, 50]", "#CORNER PARAM [DIST=10 UNIT=FWORD FEED=500]"] {
+        let same = CORNER.replace("#CORNER PARAM [DIST=10 UNIT=PERCENT FEED=50]", form);
+        let same = pieces(&same, 10.0, 50.0);
+        assert_eq!(same.len(), all.len(), "{form}");
+        for (a, b) in same.iter().zip(&all) {
+            assert!((a.0 - b.0).abs() < 1e-9 && (a.1 - b.1).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_motion_shorter_than_the_distance_begins_where_the_fall_has_come_to() {
+    let v = 1000.0 / 60.0;
+    let all = pieces(&CORNER.replace("X50", "X14"), 10.0, 14.0);
+    // 4 mm in front of the corner 70 % of the feed are due
+    follow(&all, 10.0, 14.0, |s| v * (0.7 - 0.05 * s));
+}
+
+/// With the tool radius it is the driven path that counts: an inside corner is 5 mm nearer.
+#[test]
+fn the_distance_is_that_of_the_corrected_path() {
+    let text = "#SLOPE [TYPE=STEP]\nV.G.WZ_AKT.R=5\nG01 X-10 Y0 F1000\n#CORNER PARAM [DIST=10 UNIT=PERCENT FEED=50]\nG41 X0\nG13\nX50\nG12 Y50\nG40 Y60\nM30\n";
+    let v = 1000.0 / 60.0;
+    let all = pieces(text, 0.0, 45.0);
+    assert!((all[0].2 - 35.0).abs() < 1e-9, "{:?}", all[0]);
+    follow(&all[1..], 35.0, 45.0, |s| v * (1.0 - 0.05 * s));
+}
+
+#[test]
+fn the_feed_is_interpolated_over_path_and_time() {
+    let text = "#SLOPE [TYPE=STEP]\nN10 G01 X50 F1000\nN20 G193 X90 F400\nN30 X100 F400\nM30\n";
+    let (v, w): (f64, f64) = (1000.0 / 60.0, 400.0 / 60.0);
+    for (text, exact) in [
+        (text.to_owned(), 40.0 / (v - w) * libm::log(v / w)),
+        (text.replace("G193", "G293"), 80.0 / (v + w)),
+    ] {
+        let all = pieces(&text, 50.0, 90.0);
+        let over_path = text.contains("G193");
+        follow(&all, 50.0, 90.0, |s| {
+            let share = s / 40.0;
+            if over_path { v + (w - v) * share } else { (v * v + (w * w - v * v) * share).sqrt() }
+        });
+        let whole = time(&all);
+        assert!(whole >= exact && whole < 1.01 * exact, "{text}: {whole} {exact}");
+    }
+    // upwards, too
+    let up = text.replace("F400", "F2000");
+    follow(&pieces(&up, 50.0, 90.0), 50.0, 90.0, |s| v * (1.0 + s / 40.0));
+}
+
+#[test]
+fn what_does_not_go_with_it() {
+    for (text, ids) in [
+        ("G13\n", &["20795"][..]),
+        ("#CORNER PARAM [DIST=0 UNIT=PERCENT FEED=50]\n", &["K-0009"]),
+        ("#CORNER PARAM [DIST=1 UNIT=PART FEED=50]\n", &["21220"]),
+        ("#CORNER PARAM [DIST=1 FEED=50]\n", &["21220"]),
+        ("#SET CORNER PARAM [10, 2, 50]\n", &["K-0009"]),
+        ("#SET CORNER PARAM [10, 1]\n", &["21220"]),
+        // with the slope of the machine, TRAPEZ or STEP, as it is switched
+        ("#SLOPE [TYPE=TRAPEZ]\nG01 X1 F100\nG193 X2 F50\n", &["K-0100"]),
+        ("#SLOPE [TYPE=HSC]\nG01 X1 F100\nG193 X2 F50\n", &["K-0019"]),
+        ("#SLOPE [TYPE=HSC]\nG01 X1 F100\nG293 X2 F50\n", &["K-0100"]),
+        ("#SLOPE [TYPE=STEP]\nG01 G193 X2 F50\n", &["20008"]),
+        ("#SLOPE [TYPE=STEP]\nF100\nG01 G61 G193 X2 F50\n", &["K-0019"]),
+        ("#SLOPE [TYPE=STEP]\nF100\nV.G.WZ_AKT.R=1\nG41 G01 X1\nG193 X2 F50\n", &["K-0019"]),
+        (
+            "#CORNER PARAM [DIST=1 UNIT=PERCENT FEED=50]\n#SLOPE [TYPE=STEP]\nG13 F100\nG01 G193 X2 F50\n",
+            &["K-0019"],
+        ),
+    ] {
+        assert_eq!(run(&format!("{text}M30\n")).ids(), ids, "{text}");
+    }
+    // rapid traverse has no feed that could fall
+    assert_eq!(clean(&CORNER.replace("N40", "N40 G00")).blocks().len(), 3);
+}

@@ -1,0 +1,103 @@
+//! A simulation before its first cycle: every axis at rest where the program starts.
+
+use super::axes::{Driver, drivers};
+use super::chain::AxisChain;
+use super::independent::IndependentAxes;
+use super::inputs::Inputs;
+use super::smoothing::Smoothing;
+use super::spindle::Spindle;
+use super::totals::Totals;
+use super::{Phase, Simulation, fault};
+use crate::diag::Diagnostic;
+use crate::exec::{Executor, Options, SourceRef};
+use crate::machine::{self, Machine};
+use crate::record::{CycleRecord, Motion};
+use crate::source::Sources;
+use kontur_filters::control::axis_control::AxisInputs;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::planner::Planner;
+use kontur_motion::realtime::OverrideMode;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+impl Simulation {
+    /// A program on a machine, before its first cycle.
+    ///
+    /// # Errors
+    /// The diagnostics, if the plant of an axis is not physical or a program cannot be opened.
+    pub(crate) fn new(
+        machine: Arc<Machine>,
+        sources: Arc<dyn Sources>,
+        program: &str,
+        options: Options,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let cycle = machine.cycle;
+        let (setups, diagnostics) = machine.chains();
+        let max_cycles = (options.max_time_s / cycle.seconds()) as u64;
+        let executor = Executor::new(sources, program, Arc::clone(&machine), options);
+        let n = machine.axes.len();
+        let start = executor.start_position();
+        let drivers = drivers(&machine);
+        let mut chains = Vec::with_capacity(setups.len());
+        for (i, setup) in setups.into_iter().enumerate() {
+            let x = match drivers.get(i) {
+                Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
+                _ => 0.0,
+            };
+            match AxisChain::new(setup, x, AxisInputs::default(), cycle) {
+                Ok(chain) => chains.push(chain),
+                Err(e) => return Err(vec![fault::plant(&e, &machine, i)]),
+            }
+        }
+        let window = machine.channel.look_ahead.blocks as usize;
+        let spindles = machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
+        let records = chains.iter().map(AxisChain::at_start).collect();
+        let mut simulation = Self {
+            smoothing: Smoothing::default(),
+            planner: Planner::new(cycle, window, &start[..n]),
+            gains: vec![0.0; chains.len()],
+            totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
+            frozen: vec![None; chains.len()],
+            motion: Motion::None,
+            is_held: false,
+            stops_at: vec![SourceRef::default(); chains.len()],
+            inputs: Inputs::none(chains.len()),
+            independent: IndependentAxes::new(n),
+            chains,
+            drivers,
+            spindles,
+            underway: VecDeque::new(),
+            current: SourceRef::default(),
+            waits_at: SourceRef::default(),
+            jerk_limited: false,
+            pending: None,
+            phase: Phase::Start,
+            record: CycleRecord { axes: records, ..CycleRecord::default() },
+            set: start.clone(),
+            path_position: start[..n].iter().copied().collect(),
+            thread_delay: 0.0,
+            thread: None,
+            probing: None,
+            planned: start[..n].iter().copied().collect(),
+            vector: AxisVec::zeros(n),
+            max_cycles,
+            diagnostics,
+            unshown: 0,
+            machine,
+            cycle,
+            executor,
+        };
+        simulation.planner.set_override_mode(match simulation.machine.channel.override_mode {
+            machine::OverrideMode::Result => OverrideMode::OfReached,
+            machine::OverrideMode::Programmed => OverrideMode::OfProgrammed,
+            machine::OverrideMode::ProgrammedWhileReduced => OverrideMode::OfProgrammedWhileReduced,
+        });
+        simulation.feedforward(false, &vec![1.0; n]);
+        for spindle in 0..simulation.spindles.len() {
+            simulation.spindle_feedforward(spindle, false, 1.0);
+        }
+        let setup = simulation.executor.shaping().clone();
+        simulation.swap_kernels(&setup);
+        Ok(simulation)
+    }
+}

@@ -1,0 +1,126 @@
+//! What a larger tolerance of contouring may not do, and the tolerance of the axes on curves.
+
+use super::common::random::Random;
+use super::common::{Job, deviation, filtered};
+use super::{at, contoured, dev, line};
+use kontur_filters::time::CycleTime;
+use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
+use kontur_motion::block::{Block, ContourSettings, Tolerance};
+use kontur_motion::contouring::Contouring;
+
+/// Peaks of the second and third differences of the setpoints.
+fn peaks(
+    job: &Job,
+    settings: Option<ContourSettings>,
+    points: &[&[f64]],
+    feed: f64,
+) -> (usize, f64, f64) {
+    let mut stage = Contouring::new();
+    let mut blocks = Vec::new();
+    for (i, w) in points.windows(2).enumerate() {
+        let block = job.block(i as u64, line(w[0], w[1]), feed);
+        blocks.extend(stage.push(Block { contour: settings, ..block }));
+    }
+    blocks.extend(stage.flush());
+    let out = job.run(points[0], blocks.into_iter());
+    let t = f64::from(job.cycle_us) * 1e-6;
+    let p = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
+    let (mut acc, mut jerk) = (0.0_f64, 0.0_f64);
+    for k in 0..out.len() {
+        for i in 0..2 {
+            let a = |k: usize| (p(k + 2, i) - 2.0 * p(k + 1, i) + p(k, i)) / (t * t);
+            acc = acc.max(a(k).abs());
+            jerk = jerk.max((a(k + 1) - a(k)).abs() / t);
+        }
+    }
+    (out.len() - 1, acc, jerk)
+}
+
+/// A larger tolerance never costs time where the speed is planned across block limits, and no axis is loaded beyond
+/// what the curve (`a`, `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together.
+#[test]
+fn a_larger_tolerance_costs_nothing() {
+    let shapes: [&[&[f64]]; 3] = [
+        &[&[0.0, 0.0], &[30.0, 0.0], &[30.0, 30.0], &[0.0, 30.0], &[0.0, 0.0]],
+        &[&[0.0, 0.0], &[20.0, 0.0], &[3.0, 5.0], &[25.0, 9.0], &[40.0, 3.0]],
+        &[&[0.0, 0.0], &[5.0, 1.0], &[10.0, 0.0], &[15.0, 3.0], &[15.0, 8.0], &[8.0, 12.0]],
+    ];
+    for kind in [Trapez, Sin2, Hsc, Step] {
+        let step = kind == Step;
+        let (acc, jerk) = if step { (2000.0, 2e6) } else { (1500.0, 100_000.0 + 20_000.0 * 1.571) };
+        for points in shapes {
+            let mut job = Job::new(0.0, kind);
+            job.slope.optimised = !step;
+            let mut last = peaks(&job, Some(dev(0.001)), points, 100.0);
+            for eps in [0.01, 0.05, 0.2, 1.0] {
+                let now = peaks(&job, Some(dev(eps)), points, 100.0);
+                assert!(now.0 <= last.0, "{kind:?} {eps}: {now:?} after {last:?}");
+                assert!(now.1 <= last.1.max(acc), "{kind:?} {eps}: {now:?} after {last:?}");
+                assert!(now.2 <= last.2.max(jerk), "{kind:?} {eps}: {now:?} after {last:?}");
+                last = now;
+            }
+        }
+    }
+}
+
+/// The same over random zigzags: edges of 0.05 to 20 mm, any corner but a reversal, tolerances over four decades.
+#[test]
+fn a_larger_tolerance_costs_nothing_on_random_polygons() {
+    let mut random = Random(9);
+    let mut random = || random.next();
+    for program in 0..10 {
+        let (mut heading, mut at) = (0.0, [0.0, 0.0]);
+        let mut points = vec![at];
+        for _ in 0..25 {
+            let l = 0.05 * libm::pow(400.0, random());
+            let (sin, cos) = libm::sincos(heading);
+            at = [at[0] + l * cos, at[1] + l * sin];
+            points.push(at);
+            heading += 5.6 * (random() - 0.5);
+        }
+        let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        for kind in [Trapez, Hsc] {
+            let mut job = Job::new(1.0, kind);
+            job.slope.optimised = true;
+            let mut last = usize::MAX;
+            for eps in [1e-4, 1e-3, 0.01, 0.1, 1.0] {
+                let now = peaks(&job, Some(dev(eps)), &views, 200.0);
+                println!("{program} {kind:?} {eps}: {now:?} after {last}");
+                assert!(now.0 <= last, "{program} {kind:?} {eps}: {now:?} after {last}");
+                assert!(now.1 <= 2000.0 * (1.0 + 1e-6), "{program} {kind:?} {eps}: {now:?}");
+                last = now.0;
+            }
+        }
+    }
+}
+
+/// `AX_DEV` holds on curves as it does on arcs: the filtered setpoints stay within it of the contoured path.
+#[test]
+fn tolerance_monitoring_on_curves() {
+    let points: [&[f64]; 5] =
+        [&[0.0, 0.0], &[10.0, 0.0], &[10.0, 10.0], &[0.0, 10.0], &[0.0, 20.0]];
+    for kind in [Trapez, Hsc] {
+        let guard = VibGuardSettings { mode: 2, freq_hz: 20.0, damping: 0.05 };
+        let mut job = Job::new(1.0, kind);
+        job.kernel = Some(guard.kernel(CycleTime::DEFAULT).unwrap());
+        let mut worst = [0.0; 2];
+        for (tolerance, worst) in [None, Some(0.01)].into_iter().zip(&mut worst) {
+            job.tolerance = Tolerance { ax_dev_mm: tolerance, acc_fact: 1.0 };
+            let paths = points.windows(2).map(|w| line(w[0], w[1]));
+            let (blocks, _) = contoured(&job, dev(1.0), paths);
+            let mut polygon = Vec::new();
+            for b in &blocks {
+                let l = b.path.length();
+                polygon.extend((0..400).map(|k| at(&b.path, l * f64::from(k) / 400.0)));
+            }
+            polygon.push(blocks[blocks.len() - 1].path.end().clone());
+            let views: Vec<&[f64]> = polygon.iter().map(|p| &p[..]).collect();
+            let out = job.run(points[0], blocks.into_iter());
+            let set = filtered(&out, job.kernel.as_ref().unwrap());
+            *worst = set.iter().step_by(5).map(|p| deviation(p, &views)).fold(0.0, f64::max);
+        }
+        assert!(worst[0] > 0.02, "{kind:?}: the filter cuts the curves: {worst:?}");
+        assert!(worst[1] <= 0.01 + 1e-4, "{kind:?}: {worst:?}");
+    }
+}

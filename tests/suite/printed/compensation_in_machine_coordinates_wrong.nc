@@ -1,0 +1,12 @@
+; check: exit 1
+; page 252599691 diagnosis 20802, wrong
+; error 20802 at 8:5
+N10 V.G.WZ_AKT.R=5 F1000
+N15 G01
+N20 G237
+N30 G41
+N40 #MCS ON
+N50 X100 Y100
+N60 G40 X120
+N70 #MCS OFF
+N80 M30

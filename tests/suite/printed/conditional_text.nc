@@ -1,0 +1,10 @@
+; run: exit 0
+; page 251929483 diagnosis 20593, syntax of #IF
+; end X100 Y0 Z0
+P1=1
+#IF P1 == TRUE
+N10 X100 F9000
+#ELSE
+N20 X200 Y200 Z100 F20000
+#ENDIF
+N1000 M30

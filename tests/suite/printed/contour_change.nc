@@ -1,0 +1,9 @@
+; run: exit 0
+; page 207823755 change of side (G41, G42)
+; end X0 Y0
+N05 G01 Y10 F1000 G41 V.G.WZR=2
+N10 X20 Y25
+N20 X40 G42
+N30 X60 Y10
+N40 X0 Y0 G40
+N50 M30

@@ -1,0 +1,11 @@
+; run: exit 0
+; page 251163531 diagnosis 20223, right
+; end X2
+N10 G00 X0 Y0 Z0 P1=0
+N15 $SWITCH P1
+N20 $CASE 1
+N25 X1
+N30 $DEFAULT
+N35 X2
+N40 $ENDSWITCH
+N50 M30

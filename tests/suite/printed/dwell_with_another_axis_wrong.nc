@@ -1,0 +1,6 @@
+; run: exit 0
+; page 252216715 diagnosis 20685, wrong
+; warning 20685 at 5:14
+N10 G00 X0 Y0 Z0
+N20 G04 X0.2 Y3
+N30 M30

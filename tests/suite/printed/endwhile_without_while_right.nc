@@ -1,0 +1,8 @@
+; run: exit 0
+; page 251224459 diagnosis 20237, right
+; end X3
+N10 G00 X0 Y0 Z0 P1=2
+N15 $WHILE P1>0
+N17 G91 X[P1] P1=P1-1
+N20 $ENDWHILE
+N30 M30

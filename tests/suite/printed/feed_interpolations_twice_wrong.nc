@@ -1,0 +1,8 @@
+; check: exit 1
+; page 250793611 diagnosis 20109, wrong
+; error 20109 at 6:19
+#SLOPE [TYPE=STEP]
+N10 G01 X50 F1000
+N20 G193 X90 F400 G293
+N30 X100
+N40 M30

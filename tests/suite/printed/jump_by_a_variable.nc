@@ -1,0 +1,15 @@
+; run: exit 0
+; page 206921739 parametric jumps ($GOTO NV.E., V.E.)
+; warning K-0110 at 6:5
+; warning K-0110 at 7:5
+; end X0 Y2 Z3
+N10 V.E.JUMP_EXPR = 200
+N20 V.E.JUMP_STR = "CONTINUE"
+N30 G01 F1000
+N50 $GOTO NV.E.JUMP_EXPR
+N60 X1
+N200: Y2
+N210 $GOTO V.E.JUMP_STR
+N220 X1
+[CONTINUE] Z3
+N500 M30

@@ -1,0 +1,6 @@
+; run: exit 0
+; page 250506379 diagnosis 20003, right
+N10 G00 X0 Y0 Z0
+N20 G160=2 X1 Z1
+N30 G00 X10 Z10
+N40 M30

@@ -1,0 +1,13 @@
+; run: exit 0
+; page 251459467 diagnosis 20375, right
+; end X100 Y100 Z0
+N10 G00 X0 Y0 Z0
+N20 P1=1 P2=2
+N30 $IF P1 == 1
+N40 Y100
+N50 $IF P2==4
+N60 Z200
+N70 $ENDIF
+N80 $ENDIF
+N90 X100
+N100 M30

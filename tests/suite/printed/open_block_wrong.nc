@@ -1,0 +1,12 @@
+; run: exit 0
+; page 251459467 diagnosis 20375, wrong
+; warning 20375 at 6:5
+N10 G00 X0 Y0 Z0
+N20 P1=1 P2=2
+N30 $IF P1 == 1
+N40 Y100
+N50 $IF P2==4
+N60 Z200
+N70 $ENDIF
+N80 X100
+N90 M30

@@ -1,0 +1,15 @@
+; run: exit 0
+; page 254941067 diagnosis 21500, right
+; end X0 Y0
+%L sub1
+N10 G00 X0 Y0 Z0
+N20 P1=0
+N30 $IF P1 == 1
+N40 Y100
+N100 X100
+N105 $ENDIF
+N110 M29
+% main
+N10 G00 X10 Y0 Z0
+N20 LL sub1
+N30 M30

@@ -1,0 +1,8 @@
+; run: exit 0
+; page 15556776075 weights of the acceleration (G130)
+; end X100 Y100
+N10 G130 X70
+N20 G01 F10000 X100
+N30 G130 Y60
+N40 G01 Y100
+N50 M30

@@ -1,0 +1,8 @@
+; run: exit 0
+; page 255123851 diagnosis 21542, right
+; end X10 Z30
+%L LOCALUP
+M17
+%MAIN
+N20 G90 G01 F1000 X10 Z30 LL LOCALUP
+N30 M30

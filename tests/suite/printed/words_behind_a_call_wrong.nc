@@ -1,0 +1,8 @@
+; check: exit 1
+; page 255123851 diagnosis 21542, wrong
+; error 21542 at 7:34
+%L LOCALUP
+M17
+%MAIN
+N20 G90 G01 F1000 X10 LL LOCALUP Z30
+N30 M30

@@ -1,0 +1,8 @@
+; run: exit 0
+; page 251146123 diagnosis 20219, right
+; end X100
+N10 G00 X0 Y0 Z0 P1=0
+N20 $IF P1
+N30 $ENDIF
+N40 G01 X100 F10000
+N50 M30

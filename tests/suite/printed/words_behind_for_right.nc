@@ -1,0 +1,9 @@
+; run: exit 0
+; page 251093899 diagnosis 20206, right
+; end X115 Y0
+N10 G00 X0 Y0 Z0
+N20 G01 X10 F6000
+N30 $FOR P10=0, 20, 1
+N40 G91 X5
+N50 $ENDFOR
+N60 M30

@@ -1,0 +1,8 @@
+; check: exit 1
+; page 251093899 diagnosis 20206, wrong
+; error 20206 at 5:23
+N10 G00 X0 Y0 Z0
+N20 $FOR P10=0, 20, 1 G01 X10 F100
+N30 G91 X5
+N40 $ENDFOR
+N50 M30

@@ -1,0 +1,9 @@
+; run: exit 0
+; page 251115659 diagnosis 20212, right
+; end X100 Y200
+N10 G00 X0 Y0 Z0 P1=1
+N20 $IF P1==1
+N25 X100 G01 F10000
+N30 Y200
+N40 $ENDIF
+N50 M30

@@ -1,0 +1,8 @@
+; check: exit 1
+; page 251115659 diagnosis 20212, wrong
+; error 20212 at 5:15
+N10 G00 X0 Y0 Z0 P1=0
+N20 $IF P1==1 X100 G01 F1000
+N30 Y200
+N40 $ENDIF
+N50 M30

@@ -1,0 +1,10 @@
+; run: exit 0
+; page 251215755 diagnosis 20235, right
+; end X100
+N10 G00 X0 Y0 Z0
+N20 P1=1
+N30 $WHILE P1>0
+N35 G01 X100 F10000
+N38 P1=P1-1
+N40 $ENDWHILE
+N50 M30

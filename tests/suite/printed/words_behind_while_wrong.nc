@@ -1,0 +1,8 @@
+; check: exit 1
+; page 251215755 diagnosis 20235, wrong
+; error 20235 at 6:17
+N10 G00 X0 Y0 Z0
+N20 P1=1
+N30 $WHILE P1>0 G01 X100 F1000
+N40 $ENDWHILE
+N50 M30
