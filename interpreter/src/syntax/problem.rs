@@ -363,8 +363,9 @@ fn in_values(before: &str) -> bool {
 
 /// True if the outermost open bracket belongs to `L CYCLE` or `L SEQUENCE`.
 fn in_cycle_call(before: &str) -> bool {
-    let word = before_bracket(before).rsplit([' ', '\t']).next().unwrap_or_default();
-    word.eq_ignore_ascii_case("CYCLE") || word.eq_ignore_ascii_case("SEQUENCE")
+    let before = before_bracket(before).trim_ascii_end();
+    let word = before.rsplit([' ', '\t']).next().unwrap_or_default();
+    ["CYCLE", "LCYCLE", "LLCYCLE", "SEQUENCE"].iter().any(|name| word.eq_ignore_ascii_case(name))
 }
 
 /// What comes before the outermost open bracket.

@@ -1,4 +1,5 @@
 use super::{accepted, by_grammar, parse, parse_as, shape};
+use crate::diag::Condition;
 use crate::syntax::ast::{Body, Span};
 use crate::syntax::{Mode, Plain};
 use proptest::prelude::*;
@@ -159,6 +160,19 @@ proptest! {
         check_print(&line, Mode::Block)?;
         check_print(&line, Mode::Inactive)?;
         check_print(&line, Mode::Declaration)?;
+    }
+}
+
+/// A cycle call with a mistake in its brackets is no word of an axis `LCYCLE`, with or without a blank, and says the same.
+#[test]
+fn a_damaged_cycle_call_stays_a_call() {
+    for call in ["L CYCLE [", "L CYCLE[", "LCYCLE [", "LCYCLE[", "LLCYCLE [", "CYCLE ["] {
+        let line = format!("{call}NAME=a.nc@P1=5 MODAL_MOVE @P2=\"x\"]");
+        let (_, diagnostics) = parse_as(&line, Mode::Block);
+        assert!(!diagnostics.is_empty(), "{line}");
+        if call != "CYCLE [" {
+            assert_eq!(diagnostics[0].id, Condition::TokenUnknown, "{line}");
+        }
     }
 }
 
