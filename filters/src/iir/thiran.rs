@@ -5,15 +5,6 @@
 //! number of cycles is a plain shift, bit for bit.
 //!
 //! Source: TF5200 axis filters, type `TIME_DELAY`, P-AXIS-00357. Assumption: Thiran's design.
-//!
-//! ```
-//! use kontur_filters::iir::thiran::{Thiran, ThiranState};
-//!
-//! let (delay, mut state) = (Thiran::new(2.5), ThiranState::at_rest(0.0));
-//! // a ramp comes out two and a half cycles later
-//! let last = (1..=200).map(|k| delay.step(&mut state, f64::from(k))).last().unwrap();
-//! assert!((last - 197.5).abs() < 1e-6);
-//! ```
 
 use crate::response::{Angle, Response};
 

@@ -102,7 +102,7 @@ impl BlockReader {
     ///
     /// # Errors
     /// What the source met with.
-    pub(crate) fn next_block(&mut self) -> io::Result<Option<RawBlock<'_>>> {
+    pub fn next_block(&mut self) -> io::Result<Option<RawBlock<'_>>> {
         if self.base + self.at as u64 == 0 {
             self.skip_bom()?;
         }

@@ -110,7 +110,7 @@ pub struct Analysis {
 }
 
 /// Looks for vibrations in a record.
-pub(crate) fn analyse(samples: &[f64], rate_hz: f64, focus: &Focus) -> Analysis {
+pub fn analyse(samples: &[f64], rate_hz: f64, focus: &Focus) -> Analysis {
     let place = |s: f64| ((s * rate_hz).round().max(0.0) as usize).min(samples.len());
     let (first, last) = (place(focus.window_s.0), place(focus.window_s.1));
     let samples = &samples[first..last.max(first)];
