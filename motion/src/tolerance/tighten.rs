@@ -54,7 +54,10 @@ impl View<'_> {
                     note(&mut soften[b - 1], excess, tolerance);
                 }
                 note(&mut soften[b], excess, tolerance);
-                continue;
+                // what is left after many rounds may be the swing of what is final: that runs out
+                if !all {
+                    continue;
+                }
             }
             if all {
                 (demands.cap[b], demands.stop[b]) = (0.0, Some(full));
