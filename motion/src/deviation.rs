@@ -16,7 +16,9 @@
 //! the tips of reversals, acute corners and whole detours count that a set path passes by without ever being far from
 //! some other part of the contour.
 //!
-//! Both are shortest vectors over all axes; what is bounded by `AX_DEV` is each of their components.
+//! Both are shortest vectors over all axes; what is bounded by `AX_DEV` is each of their components. A plan is held to that.
+//! In what is output, a point of (b) whose shortest vector exceeds the tolerance is within it if another vector is: the set
+//! path comes to it. A way back that is a little nearer, but by another axis, can end with the last cycle that counts.
 //!
 //! Between two samples (a) is taken where it can be larger than at both of them: where the nearest point passes from one
 //! block to another, and half way on a bent block. (b) is taken at the borders of blocks with a kink between them and, on
@@ -24,6 +26,7 @@
 //! have the same filter; otherwise the interpolated points count there, too.
 
 mod between;
+mod component;
 mod gauge;
 
 use crate::axis::AxisVec;
@@ -230,6 +233,20 @@ impl SetPath {
             }
         }
         Some((k + 1, nearest))
+    }
+
+    /// The vector from a point of the contour to the set path between two cycles whose largest component is the least.
+    fn reaches(&self, point: &[f64], (first, last): (u64, u64)) -> Option<AxisVec> {
+        let mut vector = AxisVec::zeros(self.axes);
+        let mut best: Option<(f64, AxisVec)> = None;
+        for k in first.max(self.first)..last.min(self.end().saturating_sub(1)) {
+            let (Some(from), Some(to)) = (self.get(k), self.get(k + 1)) else { continue };
+            let largest = component::least(point, (from, to), &mut vector);
+            if best.as_ref().is_none_or(|(least, _)| largest < *least) {
+                best = Some((largest, vector.clone()));
+            }
+        }
+        best.map(|(_, vector)| vector)
     }
 
     /// Distance in mm of a point from the line to the set point of cycle `k` from the one before.

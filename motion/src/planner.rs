@@ -173,7 +173,8 @@ impl Planner {
         self.kernels = kernels;
         self.gauge = Gauge::new(self.reach_cycles, self.kernels.differ());
         // the line to the next set point starts here
-        self.gauge.unfiltered(&self.contour, self.setpoint.k, &self.setpoint.position);
+        let Setpoint { k, position, .. } = &self.setpoint;
+        self.gauge.unfiltered(&self.contour, *k, position, self.least_tolerance_mm);
     }
 
     /// Sets what the override is a percentage of (P-CHAN-00066), from the next cycle on.
@@ -321,7 +322,8 @@ impl Planner {
     /// cycle; returns its length in mm. Called once in a cycle, it keeps [`Self::excursion`] up to date.
     pub fn deviation(&mut self, point: &[f64], out: &mut [f64]) -> f64 {
         let k = self.setpoint.k;
-        self.gauge.step(&self.contour, k, point, &self.setpoint.position);
+        let points = (point, &self.setpoint.position[..]);
+        self.gauge.step(&self.contour, k, points, self.least_tolerance_mm);
         debug_assert_eq!(
             self.gauge.shortest().map(|(length_mm, _)| length_mm),
             self.contour
@@ -373,7 +375,8 @@ impl Planner {
     /// In place of [`Self::deviation`] in a cycle whose set point is the interpolated one.
     pub fn undeviated(&mut self) {
         let k = self.setpoint.k;
-        self.gauge.unfiltered(&self.contour, k, &self.setpoint.position);
+        let position = &self.setpoint.position;
+        self.gauge.unfiltered(&self.contour, k, position, self.least_tolerance_mm);
         self.judge(k);
     }
 

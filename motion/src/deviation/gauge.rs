@@ -37,12 +37,18 @@ impl Gauge {
 
     /// Takes the set point of a cycle that filters left as it was interpolated. Finds what of the contour they have let go
     /// was missed: axes that have all arrived may still owe a corner that they held until now.
-    pub(crate) fn unfiltered(&mut self, contour: &Contour, k: u64, point: &[f64]) {
+    pub(crate) fn unfiltered(
+        &mut self,
+        contour: &Contour,
+        k: u64,
+        point: &[f64],
+        tolerance_mm: f64,
+    ) {
         self.shortest = None;
         if self.filtered.is_some_and(|last| k <= last + self.reach + 2) {
             self.enter(k, point, point);
             self.found = Excursion::none(point.len());
-            self.let_go(contour, k);
+            self.let_go(contour, k, tolerance_mm);
         } else {
             self.found.clear();
             self.set.restart(k, point);
@@ -52,14 +58,20 @@ impl Gauge {
 
     /// Takes the set point and the interpolated point of cycle `k`. Finds the largest components of what the line to the
     /// set point leaves the contour by, and of what the points of the contour that the filters have just let go were
-    /// missed by.
-    pub(crate) fn step(&mut self, contour: &Contour, k: u64, set: &[f64], path: &[f64]) {
+    /// missed by; see [`Self::miss`] for the tolerance.
+    pub(crate) fn step(
+        &mut self,
+        contour: &Contour,
+        k: u64,
+        (set, path): (&[f64], &[f64]),
+        tolerance_mm: f64,
+    ) {
         self.enter(k, set, path);
         self.filtered = Some(k);
         self.found = Excursion::none(set.len());
         let (reach, moment) = (self.reach as f64, k as f64);
         self.shortest = self.set.leaves(contour, k, (moment - reach, moment), &mut self.found);
-        self.let_go(contour, k);
+        self.let_go(contour, k, tolerance_mm);
     }
 
     fn enter(&mut self, k: u64, set: &[f64], path: &[f64]) {
@@ -75,18 +87,27 @@ impl Gauge {
     }
 
     /// What of the contour was missed that the filters have let go in cycle `k`.
-    fn let_go(&mut self, contour: &Contour, k: u64) {
+    fn let_go(&mut self, contour: &Contour, k: u64, tolerance_mm: f64) {
         let passed = k as f64 - self.reach as f64 - 1.0;
         for (moment, point) in contour.kinks(passed - 1.0, passed) {
             let first = moment.floor().max(0.0) as u64;
-            let among = (first, first + self.reach + 2);
-            self.set.misses(&point, among, f64::INFINITY, &mut self.found);
+            self.miss(&point, (first, first + self.reach + 2), tolerance_mm);
         }
         if let Some(first) = k.checked_sub(self.reach + 1)
-            && let Some(point) = self.path.get(first)
             && (self.every || contour.is_bent(passed))
+            && let Some(point) = self.path.get(first).map(AxisVec::from_slice)
         {
-            self.set.misses(point, (first, k), f64::INFINITY, &mut self.found);
+            self.miss(&point, (first, k), tolerance_mm);
         }
+    }
+
+    /// Takes the vector from a point of the contour to the set path between two cycles: the shortest one, or, if that exceeds
+    /// the tolerance of every block in an axis, the one whose largest component is the least.
+    fn miss(&mut self, point: &[f64], among: (u64, u64), tolerance_mm: f64) {
+        let mut shortest = Excursion::none(point.len());
+        self.set.misses(point, among, f64::INFINITY, &mut shortest);
+        let exceeds = shortest.largest() > tolerance_mm;
+        let least = exceeds.then(|| self.set.reaches(point, among)).flatten();
+        self.found.take(&least.unwrap_or(shortest.vector));
     }
 }
