@@ -405,7 +405,7 @@ impl Monitor {
         let start = trial.plan.first().map_or(0.0, |e| e.s0);
         let filters = (trial.kernels, trial.cycle);
         if round > 0 || !foresee(demands, &window, trial.past, start, filters) {
-            view.tighten(&findings, all, demands);
+            view.tighten(&findings, (round, all), demands);
         }
         (Verdict::Tightened, kept)
     }

@@ -37,8 +37,9 @@ const SLACK: f64 = 1e-9;
 /// Parts of a block that end closer together than this, in mm, end at the same place.
 const SAME_END_MM: f64 = 1e-9;
 
-/// Parts of the acceleration with which the speed changes, one after the other, where the tolerance leaves no more.
-const GENTLER: [f64; 5] = [1.0, 0.5, 0.25, 0.1, 0.03];
+/// Parts of the acceleration with which the speed changes, one after the other, where the tolerance leaves no more. What is gentle
+/// is a matter of the speed and the filters: a slow path rests within a cycle even with a small part of it.
+const GENTLER: [f64; 8] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01, 0.003, 0.001];
 
 /// What has become of a leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -16,6 +16,13 @@ const AIM: f64 = 0.003;
 /// Part of the acceleration of a lone start or stop below which no block is slowed down.
 const LEAST_SHARE: f64 = 0.1;
 
+/// Rounds after which the least step of a dwell doubles: neighbours that share an error move it back and forth, and a cycle is a
+/// small part of a long kernel.
+const ROUNDS_OF_A_STEP: usize = 16;
+
+/// Part of the speed that is left when everything in reach counts as a cause: few rounds remain.
+const HASTE: f64 = 0.85;
+
 impl View<'_> {
     /// Blocks that are to blame and bend more in one place than in another, in parts: the speed that the tolerance
     /// leaves to the sharpest bend is not for the whole of them.
@@ -34,7 +41,13 @@ impl View<'_> {
             .collect()
     }
 
-    pub(super) fn tighten(&self, findings: &Findings, all: bool, demands: &mut Demands) {
+    /// Lowers what is to blame, in round `round`; `all`: everything in reach.
+    pub(super) fn tighten(
+        &self,
+        findings: &Findings,
+        (round, all): (usize, bool),
+        demands: &mut Demands,
+    ) {
         let Self { trial, marks, .. } = self;
         let full = trial.kernels.length();
         let mut soften = vec![None; demands.feed.len()];
@@ -68,7 +81,8 @@ impl View<'_> {
                 // in small steps, because neighbouring corners within reach share the error
                 let needed = self.needed_dwell(mark, dwell);
                 let step = (full / 8).max(1);
-                demands.stop[b] = Some(needed.min(dwell + step).max(dwell + 1).min(full));
+                let least = 1 << (round / ROUNDS_OF_A_STEP).min(16);
+                demands.stop[b] = Some(needed.min(dwell + step).max(dwell + least).min(full));
                 continue;
             }
             let m1 =
@@ -103,7 +117,8 @@ impl View<'_> {
                 // on a straight block with equal kernels only starts and stops leave the contour
                 let starts_only = trial.kernels.overshoot && !trial.kernels.unequal;
                 if queued.bend > 0.0 || !starts_only || findings.even[b].is_finite() {
-                    demands.feed[b] = demands.feed[b].min(findings.even[b].max(slow_enough));
+                    let even = if all { HASTE * findings.even[b] } else { findings.even[b] };
+                    demands.feed[b] = demands.feed[b].min(even.max(slow_enough));
                 }
             }
             if let Some((excess, tolerance)) = soften[b] {
