@@ -2,6 +2,9 @@
 //!
 //! Nothing here runs in a cycle; commands, pictures and tests use it.
 //!
+//! Order of calls: the bands in which a machine vibrates, from them the choice of a mode, its kernel, and what that does
+//! to a corner.
+//!
 //! ```
 //! use kontur_filters::analysis::corner::kernel_error_mm;
 //! use kontur_filters::analysis::tuning::VibrationBand;

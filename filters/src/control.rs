@@ -8,6 +8,9 @@
 //! What this room does not do: filter set positions (the shaping room), stop other axes after a fault (the cycle
 //! loop), correct list values that are zero where they may not be (the list reader).
 //!
+//! Order of calls: configurations are checked, the axis is made from them and started at its position, then stepped once
+//! per cycle.
+//!
 //! ```
 //! use kontur_filters::control::{AxisControl, AxisControlConfig};
 //! use kontur_filters::time::CycleTime;

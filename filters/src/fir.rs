@@ -6,6 +6,8 @@
 //!
 //! Source: TF5200 FIR filter (FCT-C37); P-AXIS-00573, 00585 to 00587, 00590, 00591, 00593.
 //!
+//! Order of calls: [`FirConfig::design`] gives the kernel, the [shaping chain](crate::shaping) runs it.
+//!
 //! ```
 //! use kontur_filters::fir::{FirConfig, FirKind};
 //! use kontur_filters::time::CycleTime;

@@ -5,6 +5,8 @@
 //!
 //! Source: TF5200 axis filters; P-AXIS-00067, 00140, 00164, 00204, 00357.
 //!
+//! Order of calls: the configuration gives the kernel, the [shaping chain](crate::shaping) runs it.
+//!
 //! ```
 //! use kontur_filters::hsc::{HscConfig, HscKind};
 //! use kontur_filters::response::Angle;

@@ -5,6 +5,9 @@
 //!
 //! Source: TF5200 axis filters; P-AXIS-00067, 00080, 00140, 00153, 00164, 00204, 00357.
 //!
+//! Order of calls: [`AxisFilter::design`] with its issues, then a state per axis, settled at its position and stepped
+//! once per cycle.
+//!
 //! ```
 //! use kontur_filters::iir::prototype::Prototype;
 //! use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};

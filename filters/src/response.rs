@@ -2,6 +2,9 @@
 //!
 //! Nothing here runs in a cycle; tests, plots and the choice of parameters use it.
 //!
+//! Order of calls: a frequency becomes an [`Angle`] on the unit circle, at which kernels and filters are asked for their
+//! response.
+//!
 //! ```
 //! use kontur_filters::kernel::Kernel;
 //! use kontur_filters::response::Angle;

@@ -5,6 +5,9 @@
 //!
 //! Assumption: the order; the vendor does not state it.
 //!
+//! Order of calls: kernel and filters are designed, the chain is made of them, settled at the position of the axis and
+//! stepped once per cycle.
+//!
 //! ```
 //! use kontur_filters::kernel::Kernel;
 //! use kontur_filters::shaping::Shaping;

@@ -1,5 +1,7 @@
 //! What every causal stage of an axis can do.
 //!
+//! Order of calls: [`Stage::settle`] at the position of the axis, then [`Stage::step`] once per cycle.
+//!
 //! ```
 //! use kontur_filters::kernel::{Kernel, KernelFilter};
 //! use kontur_filters::stage::Stage;

@@ -1,5 +1,7 @@
 //! The cycle of the interpolator: an integer number of microseconds, counted, never accumulated.
 //!
+//! Order of calls: the cycle is made first of all; every design and every planner takes it.
+//!
 //! ```
 //! use kontur_filters::time::CycleTime;
 //!

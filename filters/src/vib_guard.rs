@@ -7,6 +7,8 @@
 //! Source: TF5250 Vibration Guard (modes, ranges, sensitivity table), P-AXIS-00568, 00571, 00589.
 //! Assumption: the impulses, identified from the sensitivity table.
 //!
+//! Order of calls: settings, their kernel, then the [shaping chain](crate::shaping) that runs it.
+//!
 //! ```
 //! use kontur_filters::response::residual_vibration_ratio;
 //! use kontur_filters::time::CycleTime;

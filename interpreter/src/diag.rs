@@ -3,6 +3,8 @@
 //! Vendor conditions carry the vendor's number, kontur's own carry `K-nnnn`; numbers are never invented inside the
 //! vendor's space. Everything that is always true of a condition is in one table, [`condition`].
 //!
+//! Order of calls: a diagnostic is made from its condition, given its place and values, and rendered last.
+//!
 //! ```
 //! use kontur_interpreter::diag::{Condition, Diagnostic, ValueKind, render};
 //!

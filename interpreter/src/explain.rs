@@ -1,5 +1,7 @@
 //! What `kontur explain THING` prints, from the tables of conditions, parameters and commands: about an ID, a parameter, a command, an object or word of the documents.
 //!
+//! Order of calls: none, every question is answered by itself.
+//!
 //! ```
 //! use kontur_interpreter::explain::explain;
 //!

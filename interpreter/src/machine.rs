@@ -2,6 +2,9 @@
 //!
 //! Lists hold integers in 0.1 um, us and 0.1 %; they are converted to mm, s and ratios here, once, and nowhere else.
 //!
+//! Order of calls: lists are read, settings of the caller are put on top, and what [`Machine`] holds then goes into a
+//! [`Job`](crate::job::Job).
+//!
 //! ```
 //! use kontur_interpreter::machine::{Machine, Override};
 //!

@@ -1,5 +1,7 @@
 //! What the simulation records of one cycle; traces, summaries and reports are made from these records only.
 //!
+//! Order of calls: a run fills one record per cycle and hands it to its sink; [`columns`] reads values out of it.
+//!
 //! ```
 //! use kontur_interpreter::record::{CycleRecord, SpeedLimit};
 //!

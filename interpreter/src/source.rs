@@ -4,6 +4,9 @@
 //! ends, continued lines, encoding, length limit) through a window of fixed size, so memory does not depend on the
 //! length of a program or of a line. It does not look at words; that is the business of [`crate::syntax`].
 //!
+//! Order of calls: sources open a program, a reader takes its bytes, [`BlockReader::next_block`] gives one block after
+//! the other.
+//!
 //! ```
 //! use kontur_interpreter::source::{BlockReader, MemorySources, Sources};
 //!

@@ -1,5 +1,8 @@
 //! The summary of a run, accumulated from its records.
 //!
+//! Order of calls: a started run, [`Collector::add`] for each record, [`Collector::message`] for each message,
+//! [`Collector::finish`].
+//!
 //! ```
 //! use kontur_interpreter::job::{Job, MachineLists};
 //! use kontur_interpreter::record::CycleRecord;

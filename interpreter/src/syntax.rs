@@ -4,9 +4,11 @@
 //! (`scan`), parsed by one call of the grammar `nc.pest` and built into the tree of [`ast`] (`build`). Errors become
 //! diagnostics with the place of the offending text (`problem`), and what can be used of the block is still built.
 //!
-//! Which G functions, commands, keys and axes exist is the business of the decoder. The one thing the parser has to be
-//! only the names of axes and spindles with more than one character are passed in: without them `AP10` is A with the value
-//! of P10.
+//! Which G functions, commands, keys and axes exist is the business of the decoder. The parser is given one thing only, the names of
+//! axes and spindles with more than one character: without them `AP10` is A with the value of P10.
+//!
+//! Order of calls: a parser with the names of the axes, then its [`Parser::block`] for each block of a
+//! [`BlockReader`](crate::source::BlockReader).
 //!
 //! ```
 //! use kontur_interpreter::source::RawBlock;

@@ -2,6 +2,8 @@
 //!
 //! The answer that every stage passes on, up to [`crate::planner::Setpoint::limit`].
 //!
+//! Order of calls: caps are made for blocks and junctions, the lowest counts, and the planner reports its reason.
+//!
 //! ```
 //! use kontur_motion::cap::{Cap, SpeedLimit};
 //!

@@ -3,6 +3,8 @@
 //! Source: TF5250 Vibration Guard, P-AXIS-00568: `delta = ln(A1 / A2)` of successive maxima,
 //! `damping = 1 / sqrt(1 + (2 pi / delta)^2)`.
 //!
+//! Order of calls: a record of the decay, then [`Decay::of`]; maxima read by hand go to [`damping_of_decrement`] instead.
+//!
 //! ```
 //! use kontur_filters::analysis::decay::{Decay, damping_of_decrement};
 //! use std::f64::consts::TAU;

@@ -2,6 +2,9 @@
 //!
 //! Source: TF5200 axis filters (contour error over filter order at a 90 degree corner), FCT-C37.
 //!
+//! Order of calls: none, each function answers by itself; the order it returns goes into the configuration of
+//! [`crate::fir`] or [`crate::hsc`].
+//!
 //! ```
 //! use kontur_filters::analysis::order::largest_order;
 //! use kontur_filters::fir::{FirConfig, FirKind};

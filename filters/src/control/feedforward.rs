@@ -2,6 +2,9 @@
 //!
 //! Conventional variant (flags without output bit): the speed to add at the output of the position controller,
 //!
+//! Order of calls: [`FeedforwardConfig::checked`], [`Feedforward::start`] at rest, then one [`Feedforward::step`] per cycle with the
+//! set positions of the buffer.
+//!
 //! ```text
 //! u_ff = g W (wv v + Ta a + wj j)         wj = factor Ta / Kv
 //! ```

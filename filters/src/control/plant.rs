@@ -6,6 +6,8 @@
 //! Input is the speed command in mm/s, an additive torque as the acceleration it gives the axis, and a disturbance
 //! force as the acceleration it gives the whole mass.
 //!
+//! Order of calls: [`PlantConfig::checked`], [`Plant::start`] at the position of the axis, then [`Plant::advance`] once per cycle.
+//!
 //! ```
 //! use kontur_filters::control::plant::{Plant, PlantConfig, PlantInput, PlantModel};
 //! use kontur_filters::time::CycleTime;

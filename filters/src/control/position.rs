@@ -2,6 +2,9 @@
 //!
 //! Source: TF5200 axis parameters, P-AXIS-00099, 00245 to 00248, 00320, 00395, 00407.
 //!
+//! Order of calls: the gain at the present speed, the command from the following error, then the limiter, once each per
+//! cycle.
+//!
 //! ```
 //! use kontur_filters::control::position::{DynamicKv, PositionConfig, SpeedLimiter};
 //!

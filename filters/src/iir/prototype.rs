@@ -6,6 +6,8 @@
 //!
 //! Source: TF5200 axis filters, P-AXIS-00153. Assumption: the -3 dB normalisation of critical damping and Bessel.
 //!
+//! Order of calls: the first step of a design; [`transform`](super::transform) makes sections of the factors.
+//!
 //! ```
 //! use kontur_filters::iir::prototype::Prototype;
 //!

@@ -1,5 +1,7 @@
 //! `kontur explain`: an error ID, a parameter, a command.
 //!
+//! Order of calls: none, every question is answered by itself.
+//!
 //! ```
 //! let text = kontur::explain::text("P-AXIS-00099")?;
 //! assert!(text.contains("getriebe[i].kv"));

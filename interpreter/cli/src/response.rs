@@ -3,6 +3,8 @@
 //! Four views: frequency response (magnitude, phase, group delay), step response, residual vibration of a machine
 //! driven through a shaper, and the contour at a 90 degree corner.
 //!
+//! Order of calls: arguments and a console, the table, then its picture.
+//!
 //! ```
 //! use clap::Parser as _;
 //! use kontur::args::{Args, Command};

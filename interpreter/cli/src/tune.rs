@@ -4,6 +4,8 @@
 //! deviations normalises the set frequency by the real one, its worked example the other way round. Every
 //! answer gives both.
 //!
+//! Order of calls: arguments and a console, then the answer, of which the command line prints every part.
+//!
 //! ```
 //! use clap::Parser as _;
 //! use kontur::args::{Args, Command};

@@ -7,6 +7,8 @@
 //! Source: TF5200 diagnosis manual and the function manuals; the texts are kontur's own. Rows are ordered by number;
 //! K numbers are appended and never reused.
 //!
+//! Order of calls: none; whoever raises a condition names it, and [`row`] gives what the table says of it.
+//!
 //! ```
 //! use kontur_interpreter::diag::condition::{Condition, row, rows};
 //!

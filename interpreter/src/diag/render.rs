@@ -3,6 +3,8 @@
 //! The text form is a compiler's: severity, ID and message, the source line with carets, then values, reaction and
 //! hint. A diagnostic of the running machine has a time in place of a source line.
 //!
+//! Order of calls: the last step of a diagnostic; nothing is kept between two of them.
+//!
 //! ```
 //! use kontur_interpreter::diag::{Condition, Diagnostic, render};
 //!

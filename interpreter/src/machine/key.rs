@@ -1,5 +1,7 @@
 //! Keys of list entries: dotted names with indices, `getriebe[0].dynamik.vb_max`.
 //!
+//! Order of calls: a line's key is parsed, then looked up by its shape in the [table](super::table).
+//!
 //! ```
 //! use kontur_interpreter::machine::key::Key;
 //!

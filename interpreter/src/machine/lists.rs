@@ -4,6 +4,9 @@
 //! comments. Nothing in a list stops the reading: what cannot be used is reported and left out.
 //! Source: examples of the TF5200 manuals, rules of the start-up and parameter manuals.
 //!
+//! Order of calls: text is read into entries, their keys are looked up and their values read, and a list is written from
+//! entries again.
+//!
 //! ```
 //! use kontur_interpreter::machine::lists::{read, write};
 //! use kontur_interpreter::machine::table::ListKind;

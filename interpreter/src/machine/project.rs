@@ -9,6 +9,8 @@
 //! fields of its dialog `DefaultChannel` (from 1), `DefaultIndex` (from 0) and `DefaultProgName`. A text with keys of a
 //! start-up list is one, whatever its element is called; lists of defaults are called `DefaultAchsMds`, `DefaultSdaMds`.
 //!
+//! Order of calls: the files of a project, the lists inside them, then the same readers as for lists in files.
+//!
 //! ```
 //! use kontur_interpreter::machine::Machine;
 //! use kontur_interpreter::machine::lists::ListFiles;

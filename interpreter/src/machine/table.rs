@@ -3,6 +3,8 @@
 //! A row states what the vendor's manuals state about one parameter, in the units of the lists (0.1 um, us, 0.1 %);
 //! conversion to mm and s happens once, in [`Axis`](super::Axis) and [`Channel`](super::Channel).
 //!
+//! Order of calls: a key finds its row, the row reads and checks the value.
+//!
 //! ```
 //! use kontur_interpreter::machine::table::{ListKind, rows};
 //!

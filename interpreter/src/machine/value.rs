@@ -1,5 +1,7 @@
 //! Values of list entries: numbers, words and flags, read by the data type of their row.
 //!
+//! Order of calls: the row of a key gives the data type, with which [`read`] and [`write()`] convert.
+//!
 //! ```
 //! use kontur_interpreter::machine::table::Raw;
 //! use kontur_interpreter::machine::value::{Value, read, write};

@@ -1,5 +1,7 @@
 //! Which columns a trace has: groups, names, units, and where the value of each is in a record.
 //!
+//! Order of calls: a started run, the columns that are asked for, then their values from each record.
+//!
 //! ```
 //! use kontur_interpreter::job::{Job, MachineLists};
 //! use kontur_interpreter::record::{CycleRecord, columns};

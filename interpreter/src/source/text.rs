@@ -3,6 +3,8 @@
 //! One reader with one limit for all of them. What is no text, or has a line without end, is refused in plain words
 //! before it fills the memory.
 //!
+//! Order of calls: a file is opened, then read line by line to its end or first error.
+//!
 //! ```
 //! use kontur_interpreter::source::text::{Text, beginning};
 //! use std::io::Read as _;

@@ -7,6 +7,8 @@
 //! compares exactly (variables, macros, files, strings) and identifier values (`TYPE=HSC`, `NAME=a.nc`) are stored as
 //! written; [`Ident::is`] compares them without case.
 //!
+//! Order of calls: made by [`Parser::block`](super::Parser::block), read by whoever decodes or prints the block.
+//!
 //! ```
 //! use kontur_interpreter::source::RawBlock;
 //! use kontur_interpreter::syntax::Parser;

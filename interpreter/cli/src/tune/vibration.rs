@@ -4,6 +4,8 @@
 //! together with offset and drift ([`fit`]) until nothing but noise is left. What does not decay is no vibration of the
 //! machine's structure: mains hum and motors are named and left out.
 //!
+//! Order of calls: a record with its rate and what to look for, [`analyse`], then the vibrations by their strength.
+//!
 //! ```
 //! use kontur::tune::vibration::{Focus, analyse};
 //! use std::f64::consts::TAU;
