@@ -1,6 +1,6 @@
 //! Keys of list entries: dotted names with indices, `getriebe[0].dynamik.vb_max`.
 //!
-//! Order of calls: a line's key is parsed, then looked up by its shape in the [table](super::table).
+//! Order of calls: a line's key is parsed, then looked up by its shape in the parameter [table].
 //!
 //! ```
 //! use kontur_interpreter::machine::key::Key;
