@@ -157,7 +157,7 @@ fn proposals_save_what_they_say() {
     let want = 55.0 / 10.0 - 55.0 / 11.0;
     assert!((faster["saves_s"].as_f64().unwrap() - want).abs() < 0.01, "{faster}, not {want}");
     let line = &run.summary["times"]["most_expensive_lines"][0];
-    assert!(line["line"] == 2 && line["helps"][0] == "velocity +10 % of Y", "{line}");
+    assert!(line["line"] == 2 && line["helps"]["what"] == "velocity +10 % of Y", "{line}");
 }
 
 /// Time measurement (207464587): START and STOP count, READ puts the count into V.G.TIMER, CLEAR leaves it there. With SYN the

@@ -355,9 +355,18 @@ pub(crate) struct TimeOfLine {
     pub share: f64,
     /// By reason, the longest first.
     pub reasons: Vec<TimeByReason>,
-    /// The proposal that saves most here, and how many seconds.
+    /// The proposal that saves most here.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub helps: Option<(String, f64)>,
+    pub helps: Option<Help>,
+}
+
+/// What a proposal does for one line.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Help {
+    /// The proposal, as in the list of proposals.
+    pub what: String,
+    /// Time in s that the line becomes shorter.
+    pub saves_s: f64,
 }
 
 /// Least and greatest values of one axis in mm (deg) and s.

@@ -1,6 +1,6 @@
 //! What would help: the program runs again with one group of parameters a tenth better, and the times are compared line by line.
 
-use super::{Collector, Reason, Times};
+use super::{Collector, Help, Reason, Times};
 use crate::files::{self, Lists};
 use crate::interrupt::Running;
 use crate::request::Request;
@@ -54,8 +54,8 @@ pub(crate) fn try_out(times: &mut Times, request: &Request) {
         for line in &mut times.lines {
             let there = with.lines.iter().find(|l| (&l.file, l.line) == (&line.file, line.line));
             let saves_s = there.map_or(0.0, |there| line.seconds - there.seconds);
-            if saves_s > line.helps.as_ref().map_or(0.0, |(_, best)| *best) {
-                line.helps = Some((proposal.what.clone(), saves_s));
+            if saves_s > line.helps.as_ref().map_or(0.0, |best| best.saves_s) {
+                line.helps = Some(Help { what: proposal.what.clone(), saves_s });
             }
         }
         times.proposals.push(proposal);

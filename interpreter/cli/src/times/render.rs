@@ -1,6 +1,6 @@
 //! The forms of the times: text, JSON and a table of all lines.
 
-use super::{MOST_EXPENSIVE, Range, Reason, TimeByReason, TimeOfLine, Times};
+use super::{Help, MOST_EXPENSIVE, Range, Reason, TimeByReason, TimeOfLine, Times};
 use kontur_interpreter::source::text::{Text, beginning};
 use kontur_interpreter::summary::Summary;
 use serde::Serialize;
@@ -62,7 +62,7 @@ impl Times {
             if !source.is_empty() {
                 writeln!(out, "      {source}")?;
             }
-            if let Some((what, saves_s)) = &line.helps {
+            if let Some(Help { what, saves_s }) = &line.helps {
                 writeln!(out, "      {what} saves {saves_s:.3} s here")?;
             }
         }
