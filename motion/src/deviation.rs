@@ -31,7 +31,7 @@ mod gauge;
 
 use crate::axis::AxisVec;
 use crate::contour::{Contour, ROUNDING_MM};
-pub(crate) use gauge::Gauge;
+pub(crate) use gauge::{Gauge, loosest};
 use smallvec::SmallVec;
 use std::ops::Range;
 

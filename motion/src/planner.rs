@@ -37,7 +37,7 @@ use crate::axis::AxisVec;
 use crate::block::Block;
 use crate::cap::{Cap, SpeedLimit};
 use crate::contour::Contour;
-use crate::deviation::Gauge;
+use crate::deviation::{Gauge, loosest};
 use crate::emergency::EmergencyBraking;
 use crate::junction::transition;
 use crate::plan::{Plan, Segment, Start};
@@ -348,16 +348,10 @@ impl Planner {
         if !looked_for || most <= self.least_tolerance_mm {
             return;
         }
-        let (reach, moment) = (f64::from(self.reach_cycles), k as f64);
-        let mut loosest = (0.0, 0);
-        for passed in self.contour.between(moment - 2.0 * reach - 3.0, moment) {
-            let block = &passed.queued.block;
-            let tolerance = block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
-            if tolerance >= loosest.0 {
-                loosest = (tolerance, block.seq);
-            }
-        }
-        let (tolerance_mm, seq) = loosest;
+        let Some((tolerance_mm, seq)) = loosest(&self.contour, k, u64::from(self.reach_cycles))
+        else {
+            return;
+        };
         if most > ALLOWANCE * tolerance_mm + ALLOWANCE_MM {
             let unkept = Unkept { seq, deviation_mm: most, tolerance_mm };
             self.output_excess = OutputExcess::Found(unkept);

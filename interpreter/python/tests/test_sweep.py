@@ -37,6 +37,7 @@ def equals(table, text):
 
 
 def same(a, b):
+    assert a == b
     assert list(a.columns) == list(b.columns)
     for name, column in a.columns.items():
         bits = (c.view(np.int64) if c.dtype.kind == "f" else c for c in (column, b[name]))
@@ -53,6 +54,17 @@ def test_the_table_is_that_of_the_command_line(command, small_chunks):
     said = command("sweep", SQUARE, *WORDS)
     assert said.returncode == 0, said.stderr
     equals(kontur.sweep(SQUARE, GRID), said.stdout)
+
+
+def test_tables_are_equal_by_their_values():
+    table = kontur.sweep(SQUARE, {"program[7].FREQ": [20, 30]})
+    again = kontur.sweep(SQUARE, {"program[7].FREQ": [20, 30]})
+    assert table == again
+    assert table != kontur.sweep(SQUARE, {"program[7].FREQ": [20, 31]})
+    assert table != "a table"
+    run = kontur.run(SQUARE)
+    assert run == kontur.run(SQUARE)
+    assert run != table
 
 
 def test_what_makes_no_difference_is_named(command, small_chunks):

@@ -37,18 +37,12 @@ impl Gauge {
 
     /// Takes the set point of a cycle that filters left as it was interpolated. Finds what of the contour they have let go
     /// was missed: axes that have all arrived may still owe a corner that they held until now.
-    pub(crate) fn unfiltered(
-        &mut self,
-        contour: &Contour,
-        k: u64,
-        point: &[f64],
-        tolerance_mm: f64,
-    ) {
+    pub(crate) fn unfiltered(&mut self, contour: &Contour, k: u64, point: &[f64], least_mm: f64) {
         self.shortest = None;
         if self.filtered.is_some_and(|last| k <= last + self.reach + 2) {
             self.enter(k, point, point);
             self.found = Excursion::none(point.len());
-            self.let_go(contour, k, tolerance_mm);
+            self.let_go(contour, k, least_mm);
         } else {
             self.found.clear();
             self.set.restart(k, point);
@@ -58,20 +52,20 @@ impl Gauge {
 
     /// Takes the set point and the interpolated point of cycle `k`. Finds the largest components of what the line to the
     /// set point leaves the contour by, and of what the points of the contour that the filters have just let go were
-    /// missed by; see [`Self::miss`] for the tolerance.
+    /// missed by; see [`Self::miss`] for the least tolerance of the run.
     pub(crate) fn step(
         &mut self,
         contour: &Contour,
         k: u64,
         (set, path): (&[f64], &[f64]),
-        tolerance_mm: f64,
+        least_mm: f64,
     ) {
         self.enter(k, set, path);
         self.filtered = Some(k);
         self.found = Excursion::none(set.len());
         let (reach, moment) = (self.reach as f64, k as f64);
         self.shortest = self.set.leaves(contour, k, (moment - reach, moment), &mut self.found);
-        self.let_go(contour, k, tolerance_mm);
+        self.let_go(contour, k, least_mm);
     }
 
     fn enter(&mut self, k: u64, set: &[f64], path: &[f64]) {
@@ -87,27 +81,41 @@ impl Gauge {
     }
 
     /// What of the contour was missed that the filters have let go in cycle `k`.
-    fn let_go(&mut self, contour: &Contour, k: u64, tolerance_mm: f64) {
+    fn let_go(&mut self, contour: &Contour, k: u64, least_mm: f64) {
         let passed = k as f64 - self.reach as f64 - 1.0;
         for (moment, point) in contour.kinks(passed - 1.0, passed) {
             let first = moment.floor().max(0.0) as u64;
-            self.miss(&point, (first, first + self.reach + 2), tolerance_mm);
+            self.miss(contour, k, &point, (first, first + self.reach + 2), least_mm);
         }
         if let Some(first) = k.checked_sub(self.reach + 1)
             && (self.every || contour.is_bent(passed))
             && let Some(point) = self.path.get(first).map(AxisVec::from_slice)
         {
-            self.miss(&point, (first, k), tolerance_mm);
+            self.miss(contour, k, &point, (first, k), least_mm);
         }
     }
 
     /// Takes the vector from a point of the contour to the set path between two cycles: the shortest one, or, if that exceeds
-    /// the tolerance of every block in an axis, the one whose largest component is the least.
-    fn miss(&mut self, point: &[f64], among: (u64, u64), tolerance_mm: f64) {
+    /// the tolerance of the blocks that the filters held, the one whose largest component is the least. Up to `least_mm`, the
+    /// least tolerance of the run, none is exceeded.
+    fn miss(&mut self, contour: &Contour, k: u64, point: &[f64], among: (u64, u64), least_mm: f64) {
         let mut shortest = Excursion::none(point.len());
         self.set.misses(point, among, f64::INFINITY, &mut shortest);
-        let exceeds = shortest.largest() > tolerance_mm;
+        let exceeds = shortest.largest() > least_mm
+            && loosest(contour, k, self.reach).is_some_and(|(mm, _)| shortest.largest() > mm);
         let least = exceeds.then(|| self.set.reaches(point, among)).flatten();
         self.found.take(&least.unwrap_or(shortest.vector));
     }
+}
+
+/// Loosest tolerance in mm of the blocks that filters with this reach held until cycle `k`, with the number of its block; infinite
+/// where one of them has none.
+pub(crate) fn loosest(contour: &Contour, k: u64, reach: u64) -> Option<(f64, u64)> {
+    let (reach, moment) = (reach as f64, k as f64);
+    let held = contour.between(moment - 2.0 * reach - 3.0, moment);
+    let tolerances = held.map(|passed| {
+        let block = &passed.queued.block;
+        (block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY), block.seq)
+    });
+    tolerances.max_by(|a, b| a.0.total_cmp(&b.0))
 }

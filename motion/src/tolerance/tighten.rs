@@ -16,8 +16,8 @@ const AIM: f64 = 0.003;
 /// Part of the acceleration of a lone start or stop below which no block is slowed down.
 const LEAST_SHARE: f64 = 0.1;
 
-/// Rounds after which the least step of a dwell doubles: neighbours that share an error move it back and forth, and a cycle is a
-/// small part of a long kernel.
+/// Rounds after which the least step of a dwell doubles, from the second time on: neighbours that share an error move it back and
+/// forth, and a cycle is a small part of a long kernel.
 const ROUNDS_OF_A_STEP: usize = 16;
 
 /// Part of the speed that is left when everything in reach counts as a cause: few rounds remain.
@@ -81,7 +81,7 @@ impl View<'_> {
                 // in small steps, because neighbouring corners within reach share the error
                 let needed = self.needed_dwell(mark, dwell);
                 let step = (full / 8).max(1);
-                let least = 1 << (round / ROUNDS_OF_A_STEP).min(16);
+                let least = 1 << (round / ROUNDS_OF_A_STEP).saturating_sub(1).min(16);
                 demands.stop[b] = Some(needed.min(dwell + step).max(dwell + least).min(full));
                 continue;
             }

@@ -23,6 +23,15 @@ class Words:
         return words if dtype is None else words.astype(dtype)
 
 
+def _same(a: np.ndarray[Any, Any], b: np.ndarray[Any, Any]) -> bool:
+    masks = np.ma.getmaskarray(a), np.ma.getmaskarray(b)
+    if not np.array_equal(*masks):
+        return False
+    a, b = (np.ma.getdata(column)[~mask] for column, mask in zip((a, b), masks))
+    numbers = a.dtype.kind == "f" and b.dtype.kind == "f"
+    return np.array_equal(a, b, equal_nan=numbers)
+
+
 class Table:
     """Columns by name. ``table["duration_s"]`` is a numpy array, ``len(table)`` the number of rows."""
 
@@ -50,6 +59,15 @@ class Table:
         for column in self._columns.values():
             return len(column.numbers if isinstance(column, Words) else column)
         return 0
+
+    def __eq__(self, other: object) -> bool:
+        """The same columns in the same order with the same values, missing ones included."""
+        if not isinstance(other, Table):
+            return NotImplemented
+        names = list(self._columns)
+        return names == list(other._columns) and all(
+            _same(self[name], other[name]) for name in names
+        )
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {len(self)} rows, {', '.join(self._columns)}>"
