@@ -5,6 +5,7 @@
     reason = "a helper of tests, every file uses its own part"
 )]
 
+pub(crate) mod events;
 pub(crate) mod random;
 
 use kontur_filters::kernel::Kernel;
