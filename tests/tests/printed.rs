@@ -10,6 +10,8 @@
 //! ; warning K-0100 at 7:1         what is said, in this order and nothing else
 //! ```
 //!
+//! A program that runs is checked, too: `check` says nothing that the run does not.
+//!
 //! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test printed` writes the table of the folder's README anew.
 
 use kontur_tests::from_polyline;
@@ -66,6 +68,16 @@ fn along(path: &Path_, axes: &[(String, f64)]) -> Result<Vec<Vec<f64>>, Failed> 
     Ok((0..cycles).map(|k| columns.iter().map(|column| column[k]).collect()).collect())
 }
 
+/// What `check` says of a program that runs: that it may, and nothing that the run does not say as well.
+fn agrees((exit, ahead): (u8, Vec<Said>), said: &[Said]) -> Result<(), Failed> {
+    let mut said = said.iter();
+    match ahead.iter().find(|message| !said.any(|other| other == *message)) {
+        Some(message) => Err(format!("only `check` says {message:?}").into()),
+        None if exit > 0 => Err(format!("`check` ends with exit code {exit}").into()),
+        None => Ok(()),
+    }
+}
+
 fn program(path: &Path) -> Result<(), Failed> {
     let head = head(&std::fs::read_to_string(path)?)?;
     let (own, home) = (name(path), folder("printed"));
@@ -79,6 +91,8 @@ fn program(path: &Path) -> Result<(), Failed> {
         let (exit, said) = call("check", path, &head.options, &[], &home)?;
         return Ok(compare(&own, &head, exit, &said)?);
     }
+    let ahead = call("check", path, &head.options, &[], &home)?;
+    agrees(ahead, &said)?;
     let set = set_positions(&trace)?;
     for line in &head.other {
         match line.split_once(' ') {
