@@ -197,6 +197,9 @@ fn a_chain_of_threads() {
         let ids: Vec<String> = errors.map(|d| d.id.to_string()).collect();
         assert_eq!(ids, [id], "{text}");
     }
+    // another G function gives the spindle back
+    let run = run("%P\nG63 Z-10 F100 S100\nG01 Z0\nM19 S100 S.POS90\nM5\nM30\n", &[]);
+    assert!(run.diagnostics.iter().all(|d| !d.is_error()), "{:?}", run.diagnostics);
 }
 
 fn apart(a: f64, b: f64, pitch: f64) -> f64 {
@@ -311,7 +314,10 @@ fn threads_that_cannot_be_kept() {
         ("G33 Z-10 K1", "20007"),
         ("G331 Z-10 K1", "20007"),
         ("G331 Z-10 K1 S2000000", "K-0009"),
-        ("G63 Z-10 F100 S100 M3", "K-0123"),
+        ("G63 Z-10 F100 S100 M3", "21000"),
+        ("G63 Z-10 F100 S100\nM19", "21000"),
+        ("G63 Z-10 F100 S100\nS[M5]", "21000"),
+        ("G331 Z-10 K1 S100 M3", "K-0123"),
         ("G41 G33 Z-10 K1 S100", "K-0019"),
         ("G68 R30\nG63 Z-10 F100 S100", "K-0019"),
     ] {

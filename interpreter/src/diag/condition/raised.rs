@@ -215,6 +215,7 @@ conditions! {
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "arrays have up to 4 dimensions";
     SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before";
     SpindleSpeedNegative = Vendor 20991: Error ProgramAbort 3 1, "negative spindle speed in a spindle bracket", hint "M3 and M4 set the direction, REV and SPEED are positive";
+    TappingSpindleFunction = Vendor 21000: Error ProgramAbort 3 1, "spindle function while G63 is active", cause "M3, M4, M5 or M19 beside or behind G63", hint "write G00 or G01 before it: G63 is modal";
     CentreAndRadius = Vendor 21024: Error ProgramAbort 3 1, "centre and radius both given", hint "leave R out, or I, J and K";
     SpindleSpeedTwice = Vendor 21036: Error ProgramAbort 3 1, "spindle speed twice in one block", cause "S[M3 REV100 REV200]", hint "leave one of the two out";
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax of an independent axis";
@@ -424,7 +425,7 @@ conditions! {
     ForeignProgram = Kontur 120 "K-FOREIGN": Error ProgramAbort 3 0, "word of another control's language", cause "#<name>, #100, o100 sub, G5.2, BEGIN PGM", hint "write the program out again with a post-processor for ISG or TwinCAT; parameters are P1 and V.P.NAME here";
     MacroBracket = Kontur 121 "K-MACRO-BRACKET": Error ProgramAbort 3 1, "half a pair of brackets in a macro (no vendor ID known)", cause "\"A\" = \"COS[\"", hint "the text of a macro holds whole levels of brackets: \"A\" = \"COS[90]\"";
     ThreadSpeed = Kontur 122 "K-THREAD-SPEED": Error ProgramAbort 3 1, "thread faster than the axes (no vendor ID known)", cause "pitch times spindle speed above P-AXIS-00212", hint "lower the spindle speed";
-    SpindleTurns = Kontur 123 "K-SPINDLE-TURNS": Error ProgramAbort 3 1, "tapping with a turning spindle (no vendor ID known)", cause "M03 before or beside G63, G331", hint "stop the spindle by M05, or position it by M19, in a block before";
+    SpindleTurns = Kontur 123 "K-SPINDLE-TURNS": Error ProgramAbort 3 1, "tapping with a turning spindle (no vendor ID known)", cause "M03 before G63, or before or beside G331", hint "stop the spindle by M05, or position it by M19, in a block before";
     ThreadPitch = Kontur 124 "K-THREAD-PITCH": Error ProgramAbort 3 1, "thread without a pitch (no vendor ID known)", cause "G33 Z-50 without K", hint "I, J, K are the pitches of X, Y, Z in mm/rev; G33 has no sign";
     FaceTurningAxis = Kontur 125 "K-FACE-TURNING": Error ProgramAbort 3 1, "G96 without exactly one face turning axis in the plane (no vendor ID known)", hint "set the bit 0x40 of P-AXIS-00015 for it", parameter "P-AXIS-00015";
     ArcPoints = Kontur 126 "K-ARC-POINTS": Error ProgramAbort 3 1, "three points of G303 that define no arc (no vendor ID known)", cause "points on a line, or the same point twice", hint "I, J, K lie between start and target, off the line between them";

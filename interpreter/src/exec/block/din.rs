@@ -7,7 +7,7 @@ mod functions;
 mod offsets;
 
 use super::groups::{Act, Group};
-use super::modal::{Compensation, FeedType, FeedWord, LookAhead, Plane};
+use super::modal::{Compensation, FeedType, FeedWord, LookAhead, PathMode, Plane};
 use super::modes::weight_ratio;
 use super::words::{CycleCall, GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
@@ -56,6 +56,10 @@ impl Decoder {
         if !words.group(Group::Path).is_some_and(arguments) {
             self.spindle_speeds(&words);
         }
+        if let Err(fault) = self.leaves_the_spindle(&words) {
+            self.report.note(fault);
+            return After::Next;
+        }
         self.functions_before(&words);
         for bracket in &words.brackets {
             let outcome = self.bracket(bracket, &words);
@@ -71,13 +75,17 @@ impl Decoder {
         after
     }
 
+    /// How axes move in a block: as it says, else as before.
+    pub(in crate::exec) fn path_mode(&self, words: &Words<'_>) -> PathMode {
+        match words.group(Group::Path).map(|g| g.row.act) {
+            Some(Act::Path(mode)) => mode,
+            _ => self.modal.path,
+        }
+    }
+
     /// S words: speeds, cutting speeds, or speeds of tapping with a sign.
     fn spindle_speeds(&mut self, words: &Words<'_>) {
-        let path = words.group(Group::Path).map(|g| g.row.act);
-        let taps = match path {
-            Some(Act::Path(mode)) => mode.is_tapping(),
-            _ => self.modal.path.is_tapping(),
-        };
+        let taps = self.path_mode(words).is_tapping();
         let outcome = self.cutting_words(words);
         self.report.keep(outcome);
         let cuts = self.motion.cutting.takes_s_words(words);

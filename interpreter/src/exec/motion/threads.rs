@@ -13,7 +13,7 @@
 //!
 //! Source: TF5200 programming manual, tapping (G63), thread cutting with endlessly rotating spindle (G33), settings for
 //! turning functions (`#TURN`); TF5200 turning functions, tapping (G331/G332), thread chain; P-CHAN-00836, P-CHAN-00837;
-//! 20007, 20635, 20636, 21540.
+//! 20007, 20635, 20636, 21000, 21540.
 
 use crate::diag::{Condition, rounded};
 use crate::exec::block::groups::Act;
@@ -23,7 +23,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
 use crate::exec::step::{Event, SpindleState, Sync};
-use crate::syntax::ast::Span;
+use crate::syntax::ast::{ItemKind, Span};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
@@ -93,6 +93,31 @@ impl Decoder {
             self.cut_thread(path, words, span)
         } else {
             self.tap(path, span)
+        }
+    }
+
+    /// G63 turns the spindle in every block until the next G function of its group.
+    ///
+    /// # Errors
+    /// 21000: M3, M4, M5 or M19 of the main spindle meanwhile.
+    pub(in crate::exec) fn leaves_the_spindle(&self, words: &Words<'_>) -> Outcome<()> {
+        if self.path_mode(words) != PathMode::Tapping {
+            return Ok(());
+        }
+        let brackets = words.brackets.iter();
+        let main = brackets.filter(|b| self.spindle_of_name(b.name.as_str()) == Some(0));
+        let bracketed = main.flat_map(|b| &b.group.items).filter_map(|item| {
+            let ItemKind::Flag(word) = &item.kind else { return None };
+            let digits = word.text.strip_prefix(['M', 'm'])?;
+            Some((digits.parse().ok()?, item.span))
+        });
+        let mut functions = words.m.iter().map(|m| (m.number, m.span)).chain(bracketed);
+        match functions.find(|(number, _)| matches!(number, 3..=5 | 19)) {
+            Some((number, span)) => {
+                let text = format!("M{number:02} while G63 turns the spindle");
+                Err(Fault::new(Condition::TappingSpindleFunction, text, span))
+            }
+            None => Ok(()),
         }
     }
 
