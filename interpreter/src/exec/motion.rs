@@ -30,6 +30,7 @@ use super::fault::{Fault, Outcome};
 use super::geometry::coordinates::Target;
 use super::geometry::modulo;
 use super::step::Sync;
+use super::values::number::LARGEST_MM;
 use crate::diag::{Condition, ValueKind};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -91,6 +92,13 @@ impl Decoder {
             return;
         }
         let centre = words.centre.iter().flatten().next();
+        let unit = self.modal.unit_mm();
+        let too_large = |(x, _): &&(f64, Span)| (x * unit).abs() > LARGEST_MM;
+        if is_arc && let Some((x, span)) = words.centre.iter().flatten().find(too_large) {
+            let text = format!("the centre {x} is outside the data format");
+            self.report.note(Fault::new(Condition::CentreTooLarge, text, *span));
+            return;
+        }
         // a full circle needs no end point
         let full_circle = is_arc && centre.is_some() && words.group(Group::Insertion).is_none();
         if contour_line == ContourLine::Waits {

@@ -70,6 +70,7 @@ conditions! {
     InsertionWithoutSize = Vendor 20012: Error ProgramAbort 3 1, "chamfer or rounding without size", cause "I missing or 0 at G301/G302", hint "write the size: G301 I2; it holds for the following ones too";
     DwellTwoTimes = Vendor 20013: Error ProgramAbort 3 1, "G04 in both forms at once", cause "G04 2 X3", hint "leave one of the two times out";
     DwellWrongAxis = Vendor 20014: Error ProgramAbort 3 1, "G04 names a wrong axis", cause "only the first main axis", hint "write G04 2.5, or the time after the first main axis";
+    CentreTooLarge = Vendor 20020: Error ProgramAbort 3 1, "I, J, K outside the data format", cause "G02 I94967596", hint "centres reach up to 214748.3647 mm";
     FullCircleWithRadius = Vendor 20034: Error ProgramAbort 3 1, "full circle with R", cause "end = start with radius", hint "write the centre with I, J, K, without R";
     ArcRadiusZero = Vendor 20036: Error ProgramAbort 3 1, "circle radius 0", cause "G164, centre missing or end = start", hint "is I, J or K missing?";
     AxesWithoutManual = Vendor 20037: Error ProgramAbort 3 1, "#ACHSE without G200, G201 or G202", hint "write G201 #ACHSE[X]";
@@ -159,6 +160,7 @@ conditions! {
     RadiusName = Vendor 20402: Error ProgramAbort 3 1, "unknown radius name", hint "write R=..";
     VariableNumber = Vendor 20403: Error ProgramAbort 3 1, "number of a variable is negative or too large", cause "V.G.NP[-1].V[0]", hint "write an index of the variable's range";
     WordsBehindCommand = Vendor 20450: Error ProgramAbort 3 1, "words after a # command", cause "exceptions #ACHSE, #PSET, #PRESET", hint "move it into a block of its own";
+    CouplingGroupNumber = Vendor 20461: Error ProgramAbort 3 1, "number of a coupling group out of range", cause "#SET AX LINK [100000, Y=X]", hint "groups have the numbers 1 to 65535; 0 is that of the channel list";
     MasterIsSlave = Vendor 20475: Error ProgramAbort 3 1, "axis coupled with itself", cause "#SET AX LINK [1, X=X]", hint "write another axis behind the =";
     SlaveTwice = Vendor 20476: Error ProgramAbort 3 1, "axis is a slave twice", cause "#SET AX LINK [1, C=X, C=Y]", hint "leave one of the two couplings out";
     CouplingChain = Vendor 20477: Error ProgramAbort 3 1, "axis is master and slave", cause "#SET AX LINK [1, B=X, C=B]", hint "couple both slaves with the first master";
@@ -219,6 +221,7 @@ conditions! {
     CentreAndRadius = Vendor 21024: Error ProgramAbort 3 1, "centre and radius both given", hint "leave R out, or I, J and K";
     SpindleSpeedTwice = Vendor 21036: Error ProgramAbort 3 1, "spindle speed twice in one block", cause "S[M3 REV100 REV200]", hint "leave one of the two out";
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax of an independent axis";
+    RotationCentreTooLarge = Vendor 21147: Error ProgramAbort 3 1, "centre of a contour rotation outside the data format", cause "#ROTATION ON [ANGLE=30 CENTER1=99999999]", hint "centres reach up to 214748.3647 mm";
     LabelBehindWords = Vendor 21187: Error ProgramAbort 3 1, "label after words of its block", cause "N10 X100 [NAME] Y200", hint "a label comes first in its block: N10 [NAME] X100 Y200";
     VariableClass = Vendor 21218: Error ProgramAbort 3 1, "variable type not available", cause "V.L.", hint "V.P, V.L, V.S and V.CYC can be declared";
     TokenUnknown = Vendor 21220: Error ProgramAbort 3 1, "unknown or incomplete token in a # command", cause "misspelt or misplaced keyword", hint "kontur explain '#NAME' shows how the command is written";

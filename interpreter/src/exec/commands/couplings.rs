@@ -8,6 +8,7 @@ use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::values::number::whole;
 use crate::syntax::ast::{Ident, Item, ItemKind, ItemValue, Span};
 
 /// Row of `#SET AX LINK`.
@@ -56,7 +57,11 @@ fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(wrong(call.span()));
     };
     // group 0 is that of the channel list
-    let number = decoder.whole(number, "the number of a coupling group", 1, u32::from(u16::MAX))?;
+    let written = decoder.number(number)?;
+    let number = whole(written, 1, u32::from(u16::MAX)).ok_or_else(|| {
+        let text = format!("there is no coupling group {written}");
+        Fault::new(Condition::CouplingGroupNumber, text, number.span)
+    })?;
     if pairs.is_empty() {
         return Err(wrong(call.span()));
     }

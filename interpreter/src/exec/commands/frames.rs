@@ -10,7 +10,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::SYSTEMS_MAX;
 use crate::exec::geometry::frame::Frame;
-use crate::exec::values::number::whole;
+use crate::exec::values::number::{LARGEST_MM, whole};
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
 
 arguments! {
@@ -30,6 +30,11 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         Some(true) => {
             let unit = decoder.modal.unit_mm();
             let value = |key: Option<(f64, Span)>| key.map_or(0.0, |(x, _)| x);
+            let centres = [keys.centre_1, keys.centre_2].into_iter().flatten();
+            if let Some((x, span)) = centres.into_iter().find(|c| (c.0 * unit).abs() > LARGEST_MM) {
+                let text = format!("the centre {x} of the rotation is outside the data format");
+                return Err(Fault::new(Condition::RotationCentreTooLarge, text, span));
+            }
             // offsets of the centre from the origin of the program; 0 if not written
             let centre = [keys.centre_1, keys.centre_2].map(|key| Some(value(key) * unit));
             let main = decoder.modal.plane.main_axes();

@@ -31,6 +31,11 @@ pub(in crate::exec) fn is_whole(x: f64) -> bool {
     (x - x.round()).abs() < NEARLY
 }
 
+/// Largest coordinate of a centre in mm: 2^31 - 1 tenths of a micrometre.
+///
+/// Assumption: 20020 and 21147 speak of the data format and print no limit; this is the range of positions in the lists (SGN32).
+pub(in crate::exec) const LARGEST_MM: f64 = 214_748.364_7;
+
 /// The whole number that `x` is, if it is within the range; no number with a fraction is rounded silently.
 pub(in crate::exec) fn whole(x: f64, low: u32, high: u32) -> Option<u32> {
     let rounded = x.round();

@@ -1,0 +1,4 @@
+; check: exit 1
+; error 21147 at 3:24
+#ROTATION ON [ANGLE=30 CENTER1=99999999]
+M30
