@@ -291,7 +291,7 @@ export class Contour {
       c.moveTo(px, 0);
       c.lineTo(px, height);
       c.stroke();
-      if (px > 34 && px < width - 60) {
+      if (px > 34 && px < width - 96) {
         c.fillText((i * step).toFixed(digits), px + 4, height - 6);
       }
     }
@@ -304,10 +304,14 @@ export class Contour {
       c.moveTo(0, py);
       c.lineTo(width, py);
       c.stroke();
-      if (py < height - 20) {
+      if (py > 30 && py < height - 20) {
         c.fillText((i * step).toFixed(digits), 4, py - 4);
       }
     }
-    c.fillText("mm", width - 24, height - 6);
+    c.fillStyle = colour("--text");
+    c.fillText("Y in mm", 4, 14);
+    c.textAlign = "right";
+    c.fillText("X in mm", width - 6, height - 6);
+    c.textAlign = "left";
   }
 }

@@ -117,10 +117,11 @@ export class TimePlot {
     }
     const style = getComputedStyle(this.parent);
     const colour = (name: string) => style.getPropertyValue(name).trim();
-    const { lines, unit } = QUANTITIES[this.quantity];
+    const { title, lines, unit } = QUANTITIES[this.quantity];
+    const font = `11px ${style.fontFamily}`;
     const axis: uPlot.Axis = {
       stroke: colour("--muted"),
-      font: `11px ${style.fontFamily}`,
+      font,
       grid: { stroke: colour("--grid"), width: 1 },
       ticks: { stroke: colour("--grid"), width: 1, size: 4 },
     };
@@ -139,7 +140,7 @@ export class TimePlot {
       {
         ...this.size(),
         scales: { x: { time: false } },
-        axes: [{ ...axis, values: (_, ticks) => ticks.map((t) => `${t} s`), size: 30 }, { ...axis, size: 62 }],
+        axes: [{ ...axis, values: (_, ticks) => ticks.map((t) => `${t} s`), size: 30 }, { ...axis, size: 62, label: `${title} in ${unit}`, labelSize: 18, labelGap: 0, labelFont: font }],
         series: [{ label: "t", value: (_, value) => (value === null || value === undefined ? "–" : `${value.toFixed(3)} s`) }, ...series],
         cursor: { sync: { key: GROUP, scales: ["x", null] }, y: false, points: { size: 7 } },
         legend: { live: true },
@@ -156,6 +157,6 @@ export class TimePlot {
       this.parent,
     );
     this.plot.ctx.canvas.setAttribute("role", "img");
-    this.plot.ctx.canvas.setAttribute("aria-label", `${QUANTITIES[this.quantity].title} over time`);
+    this.plot.ctx.canvas.setAttribute("aria-label", `${title} in ${unit} over time`);
   }
 }

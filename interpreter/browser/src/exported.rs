@@ -1,4 +1,36 @@
 //! The names that a page calls. Texts are UTF-8; addresses hold until the next call.
+//!
+//! Order of calls: first [`request`] makes room, the page writes its text there; then [`check`], [`explain`] or [`start`] reads it.
+//! Every one of them, and [`finish`], leaves an answer: [`answer_length`] bytes at [`answer`]. A started run is continued by [`advance`]
+//! until that returns 0; then come [`finish`] and the columns, [`rows`] values at each [`column`]. A page calls these names on the
+//! module of wasm32 and writes into its memory; the same calls from Rust:
+//!
+//! ```
+//! use kontur_browser::exported::{advance, answer, answer_length, column, finish, request, rows, start};
+//!
+//! fn send(text: &str) {
+//!     let room = request(text.len());
+//!     assert!(!room.is_null(), "a request has at most 4 MiB");
+//!     // SAFETY: `request` has just made this room for as many bytes, and nothing was called since.
+//!     unsafe { room.copy_from_nonoverlapping(text.as_ptr(), text.len()) };
+//! }
+//!
+//! fn answered() -> String {
+//!     // SAFETY: an answer lies where `answer` says until the next call.
+//!     let bytes = unsafe { std::slice::from_raw_parts(answer(), answer_length()) };
+//!     String::from_utf8_lossy(bytes).into_owned()
+//! }
+//!
+//! send(r#"{ "program": "N10 G01 X10 F6000\nN20 M30\n", "signals": "X_set_mm" }"#);
+//! start();
+//! assert!(answered().contains(r#""refused":false"#));
+//! while advance(1000) == 1 {}
+//! finish();
+//! assert!(answered().contains(r#""state":"finished""#));
+//! // SAFETY: a column has `rows` values and holds until the next call.
+//! let x = unsafe { std::slice::from_raw_parts(column(0), rows()) };
+//! assert_eq!(x.last(), Some(&10.0));
+//! ```
 
 #![expect(unsafe_code, reason = "a name for another language is an unsafe attribute")]
 

@@ -415,7 +415,7 @@ conditions! {
     GuardWithListFilter = Kontur 106 "K-GUARD-LIST-FILTER": Error ProgramAbort 3 1, "#VIB GUARD while a list configures a filter type", cause "P-AXIS-00586, P-AXIS-00153", hint "leave the filter type out of the list, or use #FILTER";
     AccFactIgnored = Kontur 107 "K-ACC-FACT": Warning None 1 1, "ACC_FACT without effect", cause "it needs a valid P-AXIS-00013", hint "write getriebe[i].dynamik.a_trans_weight (P-AXIS-00013)", parameter "P-AXIS-00013";
     SpindleFeedforward = Kontur 108 "K-SPINDLE-FF": Error ProgramAbort 3 1, "feedforward beside other commands of a spindle", cause "S[G135 M3 REV1000]", hint "write S[G135] in a bracket of its own";
-    Odd = Kontur 109 "K-ODD": Note None 1 1, "legal but unusual, worth a look", hint "is this what was meant?";
+    Odd = Kontur 109 "K-ODD": Note None 1 1, "legal but unusual, worth a look", hint "check whether this is intended";
     ExternalCreated = Kontur 110 "K-EXTERNAL": Warning None 1 1, "external variable created by its first write", cause "V.E. variables are configured with --external", hint "is the name right?";
     Fallback = Kontur 111 "K-FALLBACK": Warning None 1 1, "function replaced by a simpler one", cause "the message says which", hint "the message states what the path does instead";
     UnequalKernels = Kontur 112 "K-ASYNCHRONOUS": Warning None 1 1, "axes of one group are shaped with different delays", cause "settings of filters or Vibration Guard differ", hint "give all axes of the path the same settings";

@@ -23,7 +23,7 @@ function choice(parent, names, chosen, pick) {
   });
 }
 const most = Math.max(...runs.map(r => r.plane.length));
-const HOW = "wheel or two fingers zoom, drag moves, double click shows all; arrows, + and - do so, too";
+const HOW = "wheel or pinch zooms, drag pans, double-click shows all; arrow keys, + and - work as well";
 byId("how").textContent = HOW;
 if (most === 3) {
   const plane = (p, i) => [i, p.map(a => runs.find(r => r.plane.length > a).plane[a]).join("")];

@@ -61,7 +61,7 @@ if (springPlot) {
   const say = () => {
     left.textContent = springPlot.lines.map(l => {
       const { most, left } = responseOf(l), { hz, damping, unit } = modelOf(l);
-      return `${l.name} (${hz} Hz, ${damping}): at most ${most.toFixed(5)}, left when it stands ${left.toFixed(5)} ${unit}`;
+      return `${l.name} (${hz} Hz, ${damping}): at most ${most.toFixed(5)}, residual at standstill ${left.toFixed(5)} ${unit}`;
     }).join("; ");
   };
   // several runs are runs of one machine: an axis has one spring

@@ -363,7 +363,8 @@ impl Executor {
         if self.decoder.checking {
             let enough = self.found.is_enough(self.budget.blocks());
             if let (Some(text), true) = (enough, self.state != State::Ended) {
-                let d = Diagnostic::new(Condition::TooMany, text).severity(Severity::Note);
+                let mut d = Diagnostic::new(Condition::TooMany, text).severity(Severity::Note);
+                d.source = self.here(Span::default());
                 self.report(d);
                 self.end(EndReason::Aborted);
             }
