@@ -319,6 +319,28 @@ fn parts_and_several_runs() {
     assert!(of("Position", " X set")[0].2 > 1.5 * of("Position", " X actual")[0].2);
 }
 
+/// Where a plot has a bucket of several cycles, its values are not those of the first of them: the tip names both ends.
+#[test]
+fn the_tip_names_the_span_of_a_bucket() {
+    let Some(browser) = browser() else {
+        println!("no browser found: nothing tested");
+        return;
+    };
+    // 1 mm/s through the point that is looked at
+    let page = look(&browser, &["N10 G00 Y10\nN20 G01 X10 F60\nN30 G00 Y0\nN40 M30\n"], &[]);
+    let tip = page["tip"].as_str().unwrap();
+    let numbers: Vec<f64> = tip.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    assert!(tip.starts_with("t = ") && tip.contains("positions in their middle"), "{tip}");
+    let [from, to] = [numbers[0], numbers[1]];
+    let cycles = page["cycles"][0].as_f64().unwrap() / page["buckets"][0].as_f64().unwrap();
+    assert!(
+        cycles > 2.0 && ((to - from) * 1000.0 - (cycles - 1.0).round()).abs() < 1.5,
+        "{tip} {cycles}"
+    );
+    let set = tip.split("X  set ").nth(1).unwrap().split_whitespace().next().unwrap();
+    assert!((set.parse::<f64>().unwrap() - 5.0).abs() < 0.05, "{tip}");
+}
+
 /// One run or four are one sheet of paper.
 #[test]
 fn a_page_prints_on_one_sheet() {

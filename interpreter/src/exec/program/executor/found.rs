@@ -64,7 +64,9 @@ impl Found {
         if self.errors >= ERRORS_MAX {
             Some(format!("{} errors: the check stops here", self.errors))
         } else if behind > BLOCKS_BEHIND_ERROR {
-            Some(format!("more than {BLOCKS_BEHIND_ERROR} blocks after the first error: the check stops here"))
+            Some(format!(
+                "more than {BLOCKS_BEHIND_ERROR} blocks after the first error: the check stops here"
+            ))
         } else {
             None
         }
