@@ -200,7 +200,7 @@ fn even(
     };
     if let Some(given) = rate_hz.filter(|given| (given * step - 1.0).abs() > RATE_RATIO) {
         return Err(format!(
-            "--rate {given} Hz disagrees with its time column, which has {} samples per second; leave one of the two out",
+            "--rate {given} Hz disagrees with its time column, which says {} Hz; leave one of the two out",
             number(1.0 / step, 3)
         ));
     }
