@@ -2,7 +2,7 @@
 //!
 //! Order of calls: first [`request`] makes room, the page writes its text there; then [`check`], [`explain`] or [`start`] reads it.
 //! Every one of them, and [`finish`], leaves an answer: [`answer_length`] bytes at [`answer`]. A started run is continued by [`advance`]
-//! until that returns 0; then come [`finish`] and the columns, [`rows`] values at each [`column`]. A page calls these names on the
+//! until that returns 0; then come [`finish`] and the columns, [`rows`] values at each [`column()`]. A page calls these names on the
 //! module of wasm32 and writes into its memory; the same calls from Rust:
 //!
 //! ```
