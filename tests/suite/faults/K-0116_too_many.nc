@@ -19,7 +19,7 @@
 ; error 20509 at 40:5
 ; error 20509 at 41:5
 ; error 20509 at 42:5
-; note K-0116 at -
+; note K-0116 at 42:1
 N1 #FOO
 N2 #FOO
 N3 #FOO
