@@ -56,9 +56,11 @@ struct Extreme {
 pub(super) struct Collector {
     /// Linear axes of the path.
     axes: Vec<usize>,
-    /// Position and direction of the last step.
+    /// Position of these axes in the last cycle, none before the first one.
     position: Vec<f64>,
-    direction: Option<Vec<f64>>,
+    /// The last step, and the direction of the last one that has a direction; none before it.
+    step: Vec<f64>,
+    direction: Vec<f64>,
     turned: f64,
     /// Extremes since the last rest that belong to no complete dip yet, minima and maxima in turn.
     open: Vec<Extreme>,
@@ -75,7 +77,8 @@ impl Collector {
         Self {
             axes: (0..facts.axes.len()).filter(linear).collect(),
             position: Vec::new(),
-            direction: None,
+            step: Vec::new(),
+            direction: Vec::new(),
             turned: 0.0,
             open: vec![Extreme::default()],
             at: Extreme::default(),
@@ -117,20 +120,33 @@ impl Collector {
 
     /// Adds up by how much the path turns.
     fn turn(&mut self, record: &CycleRecord) {
-        let here: Vec<f64> =
-            self.axes.iter().filter_map(|i| record.axes.get(*i)).map(|axis| axis.ipo).collect();
-        let step: Vec<f64> = here.iter().zip(&self.position).map(|(a, b)| a - b).collect();
-        self.position = here;
-        let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let here = self.axes.iter().filter_map(|i| record.axes.get(*i)).map(|axis| axis.ipo);
+        if self.position.is_empty() {
+            self.position.extend(here);
+            return;
+        }
+        self.step.clear();
+        let mut square = 0.0;
+        for (here, before) in here.zip(&mut self.position) {
+            let step = here - std::mem::replace(before, here);
+            square += step * step;
+            self.step.push(step);
+        }
+        let length = f64::sqrt(square);
         if length < NO_STEP_MM {
             return;
         }
-        let direction: Vec<f64> = step.iter().map(|x| x / length).collect();
-        if let Some(last) = &self.direction {
-            let chord = direction.iter().zip(last).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-            self.turned += 2.0 * libm::asin((0.5 * chord.sqrt()).min(1.0));
+        if self.direction.is_empty() {
+            self.direction.extend(self.step.iter().map(|x| x / length));
+            return;
         }
-        self.direction = Some(direction);
+        let mut chord = 0.0;
+        for (step, last) in self.step.iter().zip(&mut self.direction) {
+            let along = step / length;
+            chord += (along - *last) * (along - *last);
+            *last = along;
+        }
+        self.turned += 2.0 * libm::asin((0.5 * f64::sqrt(chord)).min(1.0));
     }
 
     /// Takes out every dip that lies between two extremes at least as far apart as its own: a larger dip around it stays.

@@ -46,22 +46,33 @@ impl Phase {
     }
 
     /// The state `t` s after the start, as the start of a phase without duration.
+    #[inline]
     pub(crate) fn after(&self, t: f64) -> Self {
         let (way, v, a) = self.way_after(t);
         Self::state(self.s + way, v, a)
     }
 
     /// Path length run through in the first `t` s, velocity and acceleration then.
+    #[inline]
     fn way_after(&self, t: f64) -> (f64, f64, f64) {
+        match self.sine {
+            None => self.way_at_constant_jerk(t),
+            Some(sine) => self.way_on_ramp(sine, t),
+        }
+    }
+
+    #[inline]
+    fn way_at_constant_jerk(&self, t: f64) -> (f64, f64, f64) {
         let Self { v, a, j, .. } = *self;
-        let Some(sine) = self.sine else {
-            let way = t * (v + t * (0.5 * a + t * j / 6.0));
-            return (way, v + t * (a + 0.5 * t * j), a + t * j);
-        };
+        let way = t * (v + t * (0.5 * a + t * j / 6.0));
+        (way, v + t * (a + 0.5 * t * j), a + t * j)
+    }
+
+    fn way_on_ramp(&self, sine: Sine, t: f64) -> (f64, f64, f64) {
         let (from, to) = (self.on_ramp(sine, 0.0), self.on_ramp(sine, t));
-        let base = a - from.a;
-        let way = t * (v - from.v + 0.5 * t * base) + (to.s - from.s);
-        (way, v + t * base + (to.v - from.v), base + to.a)
+        let base = self.a - from.a;
+        let way = t * (self.v - from.v + 0.5 * t * base) + (to.s - from.s);
+        (way, self.v + t * base + (to.v - from.v), base + to.a)
     }
 
     fn on_ramp(&self, sine: Sine, t: f64) -> RampState {
@@ -120,12 +131,21 @@ impl Phase {
             let Self { v, a, .. } = *self;
             return (2.0 * want / (v + (v * v + 2.0 * a * want).max(0.0).sqrt())).min(self.t);
         }
-        increasing_root(0.0, self.t, self.t * want / whole, ROOT, |t| {
+        let (most, guess) = (self.t, self.t * want / whole);
+        let short = |(way, v, _): (f64, f64, f64)| {
             #[cfg(test)]
             crate::closed_forms::add();
-            let (way, v, _) = self.way_after(t);
             (way - want, v)
-        })
+        };
+        // the kind of ramp is asked for once, not in every step
+        match self.sine {
+            None => {
+                increasing_root(0.0, most, guess, ROOT, |t| short(self.way_at_constant_jerk(t)))
+            }
+            Some(sine) => {
+                increasing_root(0.0, most, guess, ROOT, |t| short(self.way_on_ramp(sine, t)))
+            }
+        }
     }
 
     /// The place inside the phase at which the acceleration passes through zero.

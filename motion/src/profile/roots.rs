@@ -19,6 +19,7 @@ pub(super) fn monotone_cubic(c3: f64, c1: f64, d: f64) -> f64 {
 ///
 /// Newton from `guess`, bisection whenever a step leaves the bracket; stops after 64 steps or after a step of less
 /// than `precision`, relative to the root: where Newton converges quadratically, the error is then its square.
+#[inline] // the function is evaluated in place
 pub(super) fn increasing_root(
     mut lo: f64,
     mut hi: f64,

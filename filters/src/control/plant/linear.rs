@@ -140,23 +140,26 @@ impl<S: States> LinearPlant<S> {
         let inputs: [f64; INPUTS] = [input.speed_mm_s, input.acc_mm_s2, force_mm_s2];
         // plain loops: matrices this small are faster than the library's dispatch. A sum begins with -0, so that the
         // first product is kept with its sign
-        let next = self.next.as_mut();
+        let (state, next) = (self.state.as_ref(), self.next.as_mut());
+        let n = next.len();
         next.fill(-0.0);
-        let values = self.state.as_ref().iter().chain(&inputs);
-        for (x, column) in values.zip(&self.columns) {
-            for (sum, c) in next.iter_mut().zip(column.as_ref()) {
-                *sum += c * x;
+        for (i, column) in self.columns.iter().enumerate() {
+            let x = if i < n { state[i] } else { inputs[i - n] };
+            let column = &column.as_ref()[..n];
+            for row in 0..n {
+                next[row] += column[row] * x;
             }
         }
         let before_mm = self.base_mm;
         self.base_mm += next[0];
         next[0] = 0.0;
-        for s in next.iter_mut().filter(|s| s.abs() < Self::NEGLIGIBLE) {
-            *s = 0.0;
+        let mut rests = self.base_mm.to_bits() == before_mm.to_bits();
+        for (next, before) in next.iter_mut().zip(state) {
+            if next.abs() < Self::NEGLIGIBLE {
+                *next = 0.0;
+            }
+            rests &= next.to_bits() == before.to_bits();
         }
-        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
-        let rests = self.state.as_ref().iter().zip(next.iter()).all(same)
-            && self.base_mm.to_bits() == before_mm.to_bits();
         std::mem::swap(&mut self.state, &mut self.next);
         rests
     }
