@@ -252,8 +252,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Weighted sum of the points at some path lengths.
-    pub(crate) fn sum(&mut self, places: impl Iterator<Item = (f64, f64)>, out: &mut [f64]) {
+    /// Weighted sum of the points near some path lengths, see [`Path::near`]: for what is measured later anyway.
+    pub(crate) fn sum_near(&mut self, places: impl Iterator<Item = (f64, f64)>, out: &mut [f64]) {
         out.fill(0.0);
         let mut point = AxisVec::zeros(out.len());
         // on one straight line the sum of the path lengths is enough
@@ -276,7 +276,7 @@ impl<'a> Walk<'a> {
                     add(last.replace((line, weight, weight * s)), out);
                 }
                 (path, _) => {
-                    path.position(s, &mut point);
+                    path.near(s, &mut point);
                     for (sum, p) in out.iter_mut().zip(point.iter()) {
                         *sum += weight * p;
                     }

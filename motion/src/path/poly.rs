@@ -15,6 +15,8 @@ use std::sync::Arc;
 const SPLIT: f64 = 1e-13;
 /// Depth of halving at which the speed of the parameter has to be smooth enough.
 const DEPTH: u32 = 12;
+/// Share of a sub-interval that the cubic of [`PolyPath::near`] may miss by: the step of Newton squares it.
+const GUESS: f64 = 1e-4;
 /// Samples per sub-interval in the search for the nearest point.
 const SAMPLES: usize = 8;
 
@@ -40,6 +42,8 @@ struct Cell {
     bend: f64,
     /// No point of it is further than this, in mm over all axes, from that at the middle of the parameter.
     radius: f64,
+    /// Path length by the parameter in mm at both ends.
+    rates: [f64; 2],
 }
 
 impl Cell {
@@ -182,14 +186,16 @@ impl PolyPath {
 
     /// Speed of the parameter over the measured axes.
     fn rate(&self, piece: usize, x: f64) -> f64 {
-        let axes = self.pieces[piece].iter().zip(&self.measured);
-        axes.filter(|(_, m)| **m)
-            .map(|(c, _)| {
-                let d = slope(c, x);
-                d * d
-            })
-            .sum::<f64>()
-            .sqrt()
+        let axes = &self.pieces[piece][..];
+        let measured = &self.measured[..axes.len()];
+        let mut sum = 0.0;
+        for i in 0..axes.len() {
+            if measured[i] {
+                let d = slope(&axes[i], x);
+                sum += d * d;
+            }
+        }
+        f64::sqrt(sum)
     }
 
     fn gauss(&self, piece: usize, from: f64, to: f64) -> f64 {
@@ -213,7 +219,8 @@ impl PolyPath {
             self.subdivide(piece, (mid, to), scale, depth + 1, cells);
         } else {
             let radius = radius(&self.pieces[piece], from, to);
-            cells.push(Cell { piece, from, to, s: self.length, bend: 0.0, radius });
+            let rates = [from, to].map(|x| self.rate(piece, x));
+            cells.push(Cell { piece, from, to, s: self.length, bend: 0.0, radius, rates });
             self.length += whole;
         }
     }
@@ -230,19 +237,22 @@ impl PolyPath {
         &self.end
     }
 
-    /// Piece and parameter at `s`.
-    fn locate(&self, s: f64) -> (usize, f64) {
+    /// Cell at `s`, the path length into it, and its own.
+    fn cell_at(&self, s: f64) -> (&Cell, f64, f64) {
         let s = s.clamp(0.0, self.length);
         let i = self.cells.partition_point(|c| c.s <= s).saturating_sub(1);
-        let cell = self.cells[i];
+        let cell = &self.cells[i];
         let until = self.cells.get(i + 1).map_or(self.length, |c| c.s);
-        let piece = cell.piece;
-        let want = s - cell.s;
-        let whole = until - cell.s;
+        (cell, s - cell.s, until - cell.s)
+    }
+
+    /// Piece and parameter at `s`.
+    fn locate(&self, s: f64) -> (usize, f64) {
+        let (cell, want, whole) = self.cell_at(s);
         let (mut low, mut high) = (cell.from, cell.to);
         let mut x = low + (high - low) * if whole > 0.0 { want / whole } else { 0.0 };
         for _ in 0..50 {
-            let miss = self.gauss(piece, cell.from, x) - want;
+            let miss = self.gauss(cell.piece, cell.from, x) - want;
             if miss.abs() <= 1e-15 * self.length {
                 break;
             }
@@ -251,14 +261,34 @@ impl PolyPath {
             } else {
                 low = x;
             }
-            let newton = x - miss / self.rate(piece, x);
+            let newton = x - miss / self.rate(cell.piece, x);
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             if (next - x).abs() <= 1e-16 {
                 break;
             }
             x = next;
         }
-        (piece, x.clamp(cell.from, cell.to))
+        (cell.piece, x.clamp(cell.from, cell.to))
+    }
+
+    /// As [`Self::position`] to 1e-7 of the length, at a fifth of the cost.
+    ///
+    /// The parameter is a cubic of the path length that has the right values and slopes at both ends of a cell, then one step of
+    /// Newton: that squares what the cubic misses by, so where it misses more the position is searched for.
+    pub(super) fn near(&self, s: f64, out: &mut [f64]) {
+        let (cell, want, whole) = self.cell_at(s);
+        let width = cell.to - cell.from;
+        let u = (want / whole).clamp(0.0, 1.0);
+        // slopes of up to three times the mean one make no cubic turn back (Fritsch and Carlson, 1980)
+        let [start, end] = cell.rates.map(|rate| (whole / rate).min(3.0 * width));
+        let v = 1.0 - u;
+        let x = cell.from + width * u * u * (3.0 - 2.0 * u) + u * v * (v * start - u * end);
+        let miss = self.gauss(cell.piece, cell.from, x) - want;
+        let step = miss / self.rate(cell.piece, x);
+        if miss.abs() > GUESS * whole || !step.is_finite() {
+            return self.position(s, out);
+        }
+        self.point(cell.piece, (x - step).clamp(cell.from, cell.to), out);
     }
 
     pub(super) fn position(&self, s: f64, out: &mut [f64]) {

@@ -72,12 +72,12 @@ impl Evenly<'_> {
         if !kernels.unequal
             && let Some(coarse) = kernels.coarse.first()
         {
-            walk.sum(coarse.iter().map(place), out);
+            walk.sum_near(coarse.iter().map(place), out);
             return;
         }
         let mut sum = out.clone();
         for (i, coarse) in kernels.coarse.iter().enumerate() {
-            walk.sum(coarse.iter().map(place), &mut sum);
+            walk.sum_near(coarse.iter().map(place), &mut sum);
             out[i] = sum[i];
         }
     }

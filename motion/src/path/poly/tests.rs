@@ -87,8 +87,8 @@ fn ends_are_exact_and_the_nearest_point_is_found() {
     }
 }
 
-/// Random curves of several pieces: no point of 20,000 is nearer than the one that is found, wherever one looks from, and
-/// every point of a sub-interval lies within its radius.
+/// Random curves of several pieces: no point of 20,000 is nearer than the one that is found, wherever one looks from, every
+/// point of a sub-interval lies within its radius, and what is near a path length is near its point.
 #[test]
 fn nothing_is_nearer_than_the_nearest_point() {
     let mut state = 7_u64;
@@ -118,6 +118,11 @@ fn nothing_is_nearer_than_the_nearest_point() {
                 [q[0], q[1]]
             })
             .collect();
+        for (point, k) in points.iter().zip(0..) {
+            path.near(path.length() * f64::from(k) / 19_999.0, &mut q);
+            let apart = libm::hypot(q[0] - point[0], q[1] - point[1]);
+            assert!(apart <= 1e-7 * path.length(), "{apart} of {}", path.length());
+        }
         for cell in path.cells.iter() {
             path.point(cell.piece, cell.sample(SAMPLES / 2), &mut q);
             let middle = q.clone();
