@@ -167,21 +167,20 @@ impl Contour {
         }
         let half: f64 = f64::sqrt(half);
         let mut vector = AxisVec::zeros(middle.len());
-        let mut far = |i: usize| self.blocks[i].vector_to(&middle, &mut vector).sqrt();
+        let mut far = |passed: &Passed| passed.vector_to(&middle, &mut vector).sqrt();
         // a filter takes the set point half of its length back as a rule: that block leaves few of the others
-        let counts = |i: usize| among.contains(&i);
         let guess = all.start.midpoint(all.end);
-        let mut least =
-            if all.contains(&guess) && counts(guess) { far(guess) } else { f64::INFINITY };
+        let known = all.contains(&guess) && among.contains(&guess);
+        let mut least = if known { far(&self.blocks[guess]) } else { f64::INFINITY };
         let within = |least: f64| (1.0 + WARY) * (least + half) + half;
         let mut blocks: SmallVec<[Candidate<'_>; 16]> = SmallVec::new();
-        for i in all {
-            if self.blocks[i].ball.may_be_within(&middle, within(least) + ROUNDING_MM) {
-                let distance = far(i);
-                if counts(i) {
+        for (i, passed) in all.clone().zip(self.blocks.range(all)) {
+            if passed.ball.may_be_within(&middle, within(least) + ROUNDING_MM) {
+                let (distance, counts) = (far(passed), among.contains(&i));
+                if counts {
                     least = least.min(distance);
                 }
-                blocks.push(Candidate { passed: &self.blocks[i], distance, counts: counts(i) });
+                blocks.push(Candidate { passed, distance, counts });
             }
         }
         blocks.retain(|b| b.distance <= within(least));
@@ -212,8 +211,12 @@ impl Contour {
 
     /// Moments in cycles and places of the kinks that were passed behind `from`, up to `to`.
     pub(crate) fn kinks(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, AxisVec)> + '_ {
-        let count = |t: f64| self.blocks.partition_point(|b| b.cycles <= t);
-        let pairs = (count(from).max(1)..count(to)).map(|i| (&self.blocks[i - 1], &self.blocks[i]));
+        let end = self.blocks.partition_point(|b| b.cycles <= to);
+        let mut first = end;
+        while first > 1 && self.blocks[first - 1].cycles > from {
+            first -= 1;
+        }
+        let pairs = (first.max(1)..end).map(|i| (&self.blocks[i - 1], &self.blocks[i]));
         pairs.filter(|(a, b)| !a.is_part_of_the_same(b) && a.turns_into(b)).map(|(_, passed)| {
             let queued = &passed.queued;
             let mut point = queued.block.path.start().clone();

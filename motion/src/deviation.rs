@@ -73,13 +73,14 @@ impl Excursion {
     }
 
     fn take(&mut self, vector: &[f64]) {
+        let mut square = 0.0;
         for (kept, new) in self.vector.iter_mut().zip(vector) {
             if new.abs() > kept.abs() {
                 *kept = *new;
             }
+            square += new * new;
         }
-        let length = vector.iter().map(|c| c * c).sum::<f64>().sqrt();
-        self.length = self.length.max(length);
+        self.length = self.length.max(f64::sqrt(square));
     }
 
     /// Largest absolute component.
@@ -116,7 +117,11 @@ impl SetPath {
     pub(crate) fn push(&mut self, point: &[f64]) {
         let way = self.ways.last().map_or(0.0, |way| {
             let before = &self.values[self.values.len() - point.len()..];
-            way + before.iter().zip(point).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt()
+            let mut square = 0.0;
+            for (a, b) in before.iter().zip(point) {
+                square += (b - a) * (b - a);
+            }
+            way + f64::sqrt(square)
         });
         self.ways.push(way);
         self.values.extend_from_slice(point);

@@ -163,12 +163,19 @@ impl Path {
     }
 
     /// Vector to `point` from the point of the path nearest to it, and the square of its length.
+    #[inline] // straight blocks, most of all, where they are looked at
     pub(crate) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         match self {
-            Self::Line(p) => return p.vector_to(point, out),
+            Self::Line(p) => p.vector_to(point, out),
+            _ => self.vector_from_bend(point, out),
+        }
+    }
+
+    fn vector_from_bend(&self, point: &[f64], out: &mut [f64]) -> f64 {
+        match self {
             // without the way by the path length
             Self::Curve(p) => p.nearest_point(point, out),
-            Self::Arc(_) | Self::Tilted(_) => self.position(self.nearest(point), out),
+            _ => self.position(self.nearest(point), out),
         }
         let mut square = 0.0;
         for (out, p) in out.iter_mut().zip(point) {

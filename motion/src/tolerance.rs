@@ -93,7 +93,7 @@ use crate::contour::Contour;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment, Timeline};
 use blame::Findings;
-use even::foresee;
+use even::{foresee, foresees};
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use measure::{Record, Violation};
@@ -363,33 +363,22 @@ impl Monitor {
     ) -> (Verdict, Vec<Option<Moment>>) {
         let view = View::new(trial, self);
         let blocks = demands.feed.len();
+        // even speeds and parts of blocks are asked for first; where there are no bends to divide, nobody is to blame for that
+        if round == 0 && !trial.bends() && foresees(trial.kernels) {
+            let found = view.examine(|_, _| ());
+            if found.worst.is_none() {
+                return (Verdict::Kept, found.kept(trial));
+            }
+            if trial.foresee(demands) {
+                return (Verdict::Tightened, found.kept(trial));
+            }
+        }
         let mut findings = Findings::none(blocks);
         // after many rounds everything in reach counts as a cause
         let all = round >= ROUNDS_OF_SPEED + ROUNDS_PER_BLOCK * blocks;
-        let mut exceeded: Vec<u64> = Vec::new();
-        let mut found = |v: &Violation, record: &Record| {
-            exceeded.push(v.cycle);
-            view.blame(v, record, all, demands, &mut findings);
-        };
-        let is_new = |e: &Entry| e.kept.is_none();
-        let is_moved = |e: &Entry| e.kept.is_some_and(|at| at != e.start);
-        let worst = view.search(&trial.reached_by(is_new), &mut found);
-        let calm = worst.is_none();
-        let worst = worst.or_else(|| view.search(&trial.reached_by(is_moved), &mut found));
-        let reach = 2.0 * f64::from(trial.kernels.length()) + 4.0;
-        let kept = trial.plan.iter().map(|e| {
-            let [from, to] = [e.start, e.end].map(|m| m.cycles(trial.cycle));
-            let near = |k: &u64| (from - reach..=to + reach).contains(&(*k as f64));
-            if exceeded.iter().any(near) {
-                None
-            } else if calm || is_new(e) {
-                Some(e.start)
-            } else {
-                e.kept
-            }
-        });
-        let kept = kept.collect();
-        let Some(worst) = worst else {
+        let found = view.examine(|v, record| view.blame(v, record, all, demands, &mut findings));
+        let kept = found.kept(trial);
+        let Some(worst) = found.worst else {
             return (Verdict::Kept, kept);
         };
         let parts = view.parts(&findings);
@@ -400,18 +389,74 @@ impl Monitor {
         if round >= ROUNDS + ROUNDS_PER_BLOCK * blocks {
             return (Verdict::GivenUp(worst), kept);
         }
-        let blocks = trial.plan.iter().flat_map(|e| &e.blocks);
-        let window: Vec<Arc<Queued>> = blocks.map(|(queued, _)| Arc::clone(queued)).collect();
-        let start = trial.plan.first().map_or(0.0, |e| e.s0);
-        let filters = (trial.kernels, trial.cycle);
-        if round > 0 || !foresee(demands, &window, trial.past, start, filters) {
+        if round > 0 || !trial.foresee(demands) {
             view.tighten(&findings, (round, all), demands);
         }
         (Verdict::Tightened, kept)
     }
 }
 
+/// What of a plan exceeds the tolerance.
+struct Found {
+    worst: Option<Unkept>,
+    /// Cycles of the violations.
+    exceeded: Vec<u64>,
+    /// What has changed keeps the tolerance, and what has moved was measured, too.
+    calm: bool,
+}
+
+impl Found {
+    /// For every entry of the plan where it has been found to keep the tolerance, see [`Entry::kept`].
+    fn kept(&self, trial: &Trial<'_>) -> Vec<Option<Moment>> {
+        let reach = 2.0 * f64::from(trial.kernels.length()) + 4.0;
+        let kept = trial.plan.iter().map(|e| {
+            let [from, to] = [e.start, e.end].map(|m| m.cycles(trial.cycle));
+            let near = |k: &u64| (from - reach..=to + reach).contains(&(*k as f64));
+            if self.exceeded.iter().any(near) {
+                None
+            } else if self.calm || e.kept.is_none() {
+                Some(e.start)
+            } else {
+                e.kept
+            }
+        });
+        kept.collect()
+    }
+}
+
+impl View<'_> {
+    /// Measures what has changed since the last examination, then, if that keeps the tolerance, what has moved in time.
+    fn examine(&self, mut found: impl FnMut(&Violation, &Record)) -> Found {
+        let mut exceeded: Vec<u64> = Vec::new();
+        let mut found = |v: &Violation, record: &Record| {
+            exceeded.push(v.cycle);
+            found(v, record);
+        };
+        let changed = self.trial.reached_by(|e| e.kept.is_none());
+        let worst = self.search(&changed, &mut found);
+        let calm = worst.is_none();
+        let worst = worst.or_else(|| {
+            let moved = self.trial.reached_by(|e| e.kept.is_some_and(|at| at != e.start));
+            self.search(&moved, &mut found)
+        });
+        Found { worst, exceeded, calm }
+    }
+}
+
 impl Trial<'_> {
+    /// True if a block of the plan is bent.
+    fn bends(&self) -> bool {
+        self.plan.iter().flat_map(|e| &e.blocks).any(|(queued, _)| queued.bend > 0.0)
+    }
+
+    /// See [`foresee`].
+    fn foresee(&self, demands: &mut Demands) -> bool {
+        let blocks = self.plan.iter().flat_map(|e| &e.blocks);
+        let window: Vec<Arc<Queued>> = blocks.map(|(queued, _)| Arc::clone(queued)).collect();
+        let start = self.plan.first().map_or(0.0, |e| e.s0);
+        foresee(demands, &window, self.past, start, (self.kernels, self.cycle))
+    }
+
     /// Cycles still to come whose set points, or what they miss, depend on some entries.
     fn reached_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
         let reach = 2.0 * f64::from(self.kernels.length()) + 5.0;

@@ -3,7 +3,6 @@
 use super::{Phase, SettledStop, Simulation};
 use crate::machine::{Axis, Machine};
 use crate::record::{PathRecord, Rest};
-use kontur_motion::axis::AxisVec;
 use smallvec::SmallVec;
 
 /// Where the setpoint of a chain comes from.
@@ -54,8 +53,10 @@ impl Simulation {
         let setpoint = self.planner.setpoint();
         let n = self.vector.len();
         let mut faults = Vec::new();
-        let mut positions: AxisVec =
-            (0..n).map(|p| setpoint.position[p] + self.independent.way_mm(p, k)).collect();
+        let mut positions = setpoint.position.clone();
+        for (p, position) in positions.iter_mut().enumerate() {
+            *position += self.independent.way_mm(p, k);
+        }
         if self.thread_delay > 0.0 {
             for (p, position) in positions.iter_mut().enumerate() {
                 let before = std::mem::replace(&mut self.planned[p], *position);

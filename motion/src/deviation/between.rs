@@ -12,7 +12,7 @@ use crate::axis::AxisVec;
 use crate::contour::{Around, Nearest, ROUNDING_MM};
 use crate::path::LinePath;
 use crate::profile::roots::enclosed_root;
-use smallvec::{SmallVec, smallvec};
+use smallvec::{Array, SmallVec, smallvec};
 
 /// Points of one line that are looked at, at most: beyond that, blocks are so short that no distance is missed between them.
 const LOOKS: usize = 64;
@@ -53,8 +53,9 @@ pub(super) fn largest<'a>(
             if straight.is_none() || around.may_be_nearer_than(&low.1) {
                 places.push(0.5 * (low.0 + high.0));
             }
-            let ends = straight.into_iter().flat_map(|straight| straight.ends_along(line));
-            places.extend(ends.filter(|u| *u > low.0 && *u < high.0));
+            if let Some(straight) = straight {
+                push_between((low.0, high.0), straight.ends_along(line), &mut places);
+            }
         } else {
             places.push(change(line, low, high));
         }
@@ -107,16 +108,17 @@ fn change(line: (&[f64], &[f64]), low: Foot<'_>, high: Foot<'_>) -> f64 {
 /// The same between straight blocks: between the places where a nearest point comes to an end of its block, the squares of
 /// both distances are parabolas.
 fn change_of_lines(line: (&[f64], &[f64]), low: (f64, &LinePath), high: (f64, &LinePath)) -> f64 {
-    let ends = [low.1, high.1].map(|block| block.ends_along(line));
-    let inside = |u: &f64| *u > low.0 && *u < high.0;
-    let mut borders: SmallVec<[f64; 6]> = ends.into_iter().flatten().filter(inside).collect();
+    let mut borders: SmallVec<[f64; 6]> = SmallVec::new();
+    for block in [low.1, high.1] {
+        push_between((low.0, high.0), block.ends_along(line), &mut borders);
+    }
     borders.sort_unstable_by(f64::total_cmp);
     borders.push(high.0);
     let mut from = low.0;
     for to in borders {
         let at = 0.5 * (from + to);
         let (a, b) = (low.1.square_along(line, at), high.1.square_along(line, at));
-        let [c0, c1, c2] = [0, 1, 2].map(|i| a[i] - b[i]);
+        let (c0, c1, c2) = (a[0] - b[0], a[1] - b[1], a[2] - b[2]);
         let further = |u: f64| c0 + u * (c1 + u * c2);
         if further(from) >= 0.0 {
             return from;
@@ -129,6 +131,19 @@ fn change_of_lines(line: (&[f64], &[f64]), low: (f64, &LinePath), high: (f64, &L
         from = to;
     }
     high.0
+}
+
+/// Takes those of two places that lie inside a stretch of the line.
+fn push_between<A: Array<Item = f64>>(
+    (low, high): (f64, f64),
+    ends: [f64; 2],
+    places: &mut SmallVec<A>,
+) {
+    for u in ends {
+        if u > low && u < high {
+            places.push(u);
+        }
+    }
 }
 
 #[inline]

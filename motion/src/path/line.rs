@@ -90,6 +90,7 @@ impl LinePath {
     }
 
     /// Vector to `point` from the point nearest to it, and the square of its length.
+    #[inline]
     pub(super) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         let n = point.len();
         let s = self.foot(point);
@@ -111,15 +112,15 @@ impl LinePath {
     /// Where along a line (as a share of it) the nearest point of this path comes to its start and to its end: no order, and
     /// shares outside the line, too.
     pub(crate) fn ends_along(&self, (from, to): (&[f64], &[f64])) -> [f64; 2] {
-        let [from, to] = [from, to].map(|p| self.foot(p));
-        [0.0, self.length].map(|end| (end - from) / (to - from))
+        let (from, to) = (self.foot(from), self.foot(to));
+        [(0.0 - from) / (to - from), (self.length - from) / (to - from)]
     }
 
     /// Coefficients of the square of the distance of `from + u * (to - from)` from this path: `c[0] + c[1] u + c[2] u^2` on
     /// that stretch of u around `at` where the nearest point is inside of the path, or stays at one end of it.
     pub(crate) fn square_along(&self, (from, to): (&[f64], &[f64]), at: f64) -> [f64; 3] {
         let n = from.len();
-        let [foot_from, foot_to] = [from, to].map(|p| self.foot(p));
+        let (foot_from, foot_to) = (self.foot(from), self.foot(to));
         let foot = foot_from + at * (foot_to - foot_from);
         let (end, along) = if foot <= 0.0 {
             (&self.start, 0.0)
@@ -142,6 +143,7 @@ impl LinePath {
     }
 
     /// Where the perpendicular from a point meets the line through start and end, in mm of path length.
+    #[inline]
     fn foot(&self, point: &[f64]) -> f64 {
         let n = point.len();
         let (start, direction) = (&self.start[..n], &self.direction[..n]);

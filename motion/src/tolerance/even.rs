@@ -140,6 +140,11 @@ struct Kink {
     feed: f64,
 }
 
+/// True if some filters are all alike and pull nothing beyond an end: the speeds at kinks are known before anything is tried.
+pub(super) fn foresees(kernels: &Kernels) -> bool {
+    kernels.any() && !kernels.unequal && !kernels.overshoot
+}
+
 /// Asks for even speeds at the kinks of a window that begins at path length `start`, and between those that lie within
 /// reach of each other; false if that changes nothing. Kinks too close to the end of what is known are looked at again when
 /// more is known.
@@ -150,9 +155,7 @@ pub(super) fn foresee(
     start: f64,
     (kernels, cycle): (&Kernels, CycleTime),
 ) -> bool {
-    let Some(kernel) = kernels.longest().filter(|_| !kernels.unequal && !kernels.overshoot) else {
-        return false;
-    };
+    let Some(kernel) = kernels.longest().filter(|_| foresees(kernels)) else { return false };
     let mut contour = past.clone();
     let mut end = start;
     for queued in window {
