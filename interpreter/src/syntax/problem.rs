@@ -283,6 +283,9 @@ fn refine(
         Context::Words if depth > 0 && in_cycle_call(before) => {
             raised(problem, Condition::TokenUnknown)
         }
+        Context::Words if rest.starts_with('=') && ends_in_negative_radius(before) => {
+            negative_radius(&problem, before)
+        }
         Context::Words if expected.contains(&EQUALS) && ends_in_place(before) => {
             without_value(&problem, before)
         }
@@ -385,18 +388,37 @@ fn before_bracket(before: &str) -> &str {
 
 /// True if `before` ends in a parameter or variable that begins a word.
 fn ends_in_place(before: &str) -> bool {
-    let word = before.trim_ascii_end().rsplit([' ', '\t']).next().unwrap_or_default().as_bytes();
-    match word {
+    match last_word(before).as_bytes() {
         [b'V' | b'v', b'.', ..] | [b'@', ..] => true,
         [b'P' | b'p', next, ..] => next.is_ascii_digit() || matches!(next, b'[' | b'P' | b'p'),
         _ => false,
     }
 }
 
+/// The word in which `before` ends.
+fn last_word(before: &str) -> &str {
+    before.trim_ascii_end().rsplit([' ', '\t']).next().unwrap_or_default()
+}
+
+/// True if `before` ends in a radius with a negative index, `R-1`.
+fn ends_in_negative_radius(before: &str) -> bool {
+    let index = last_word(before).strip_prefix(['R', 'r']).and_then(|rest| rest.strip_prefix('-'));
+    index.is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()))
+}
+
+/// 20187 for the radius in which `before` ends.
+fn negative_radius(problem: &Problem, before: &str) -> Problem {
+    let word = last_word(before);
+    let start =
+        problem.span.start as usize - (before.len() - before.trim_ascii_end().len()) - word.len();
+    let text = format!("the radius has the index 1 only, not {}", &word[1..]);
+    Problem::new(Condition::RadiusIndexFormat, Span::new(start, start + word.len()), text)
+}
+
 /// 20194 for the parameter or variable in which `before` ends.
 fn without_value(problem: &Problem, before: &str) -> Problem {
     let trimmed = before.trim_ascii_end();
-    let word = trimmed.rsplit([' ', '\t']).next().unwrap_or_default();
+    let word = last_word(before);
     let start = problem.span.start as usize - (before.len() - trimmed.len()) - word.len();
     let text = format!("`{word}` without `=` and a value");
     Problem::new(Condition::AssignmentExpected, Span::new(start, start + word.len()), text)

@@ -108,6 +108,7 @@ conditions! {
     SpindleUnknown = Vendor 20180: Error ProgramAbort 3 1, "unknown name of a spindle", cause "SPDL=1000", hint "names of spindles stand in the channel list; those of several characters need =", parameter "P-CHAN-00007";
     SpindleTwice = Vendor 20181: Error ProgramAbort 3 1, "spindle twice in one block", cause "S1000 X100 S1500", hint "leave one of the two speeds out";
     PositionRequest = Vendor 20186: Error ProgramAbort 3 1, "syntax after #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", cause "[P1=X P2=Y], [P1 X]", hint "write [variable=axis, variable=axis]: #GET CMDPOS [P1=X, V.P.POS=Y]";
+    RadiusIndexFormat = Vendor 20187: Error ProgramAbort 3 1, "index of the radius outside the data format", cause "R-1=10", hint "write R=.. or R1=..";
     RadiusIndex = Vendor 20188: Error ProgramAbort 3 1, "index of the radius is not 1", cause "R2=10", hint "write R=.. or R1=..";
     ONotImplemented = Vendor 20191: Error ProgramAbort 3 1, "O word not implemented";
     PercentInProgram = Vendor 20193: Error ProgramAbort 3 1, "% inside a main program", cause "% text as a remark, %L after the main program", hint "remarks begin with ; or (; local subroutines come before the main program";
@@ -221,6 +222,8 @@ conditions! {
     CentreAndRadius = Vendor 21024: Error ProgramAbort 3 1, "centre and radius both given", hint "leave R out, or I, J and K";
     SpindleSpeedTwice = Vendor 21036: Error ProgramAbort 3 1, "spindle speed twice in one block", cause "S[M3 REV100 REV200]", hint "leave one of the two out";
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax of an independent axis";
+    CouplingNumeratorZero = Vendor 21077: Error ProgramAbort 3 1, "numerator of a coupling factor is 0", cause "#SET AX LINK [1, [Y=X, 0, 1]]", hint "write the factor as two numbers that are not 0: [Y=X, -1, 1] mirrors";
+    CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of a coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
     RotationCentreTooLarge = Vendor 21147: Error ProgramAbort 3 1, "centre of a contour rotation outside the data format", cause "#ROTATION ON [ANGLE=30 CENTER1=99999999]", hint "centres reach up to 214748.3647 mm";
     LabelBehindWords = Vendor 21187: Error ProgramAbort 3 1, "label after words of its block", cause "N10 X100 [NAME] Y200", hint "a label comes first in its block: N10 [NAME] X100 Y200";
     VariableClass = Vendor 21218: Error ProgramAbort 3 1, "variable type not available", cause "V.L.", hint "V.P, V.L, V.S and V.CYC can be declared";

@@ -2,7 +2,8 @@
 //!
 //! A definition moves nothing and is checked; a group that is switched on would move its slaves and is refused.
 //!
-//! Source: TF5200 programming manual, axis couplings (207120267, 207133579), gantry operation (285670667); 20475 to 20477.
+//! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579), gantry operation (285670667);
+//! 20475 to 20477, 21077 and 21110.
 
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
@@ -17,7 +18,7 @@ pub(super) const SET_AX_LINK: Row = Row::run("SET AX LINK", define)
     .meaning("defines a group of axis couplings")
     .note("the definition is checked; switching a group on is not supported")
     .example("#SET AX LINK [1, Y=X]")
-    .related(&["20475", "20476", "20477"]);
+    .related(&["20475", "20476", "20477", "21077", "21110"]);
 
 /// Row of `#AX LINK`.
 pub(super) const AX_LINK: Row = Row::run("AX LINK", link)
@@ -71,6 +72,9 @@ fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let pair = (axis(decoder, slave)?, axis(decoder, master)?);
         fits(decoder, number, &known, pair, item.span)?;
         known.push(pair);
+        if let ItemKind::Value(ItemValue::List(group)) = &item.kind {
+            factor(decoder, &group.items[1..])?;
+        }
     }
     Ok(())
 }
@@ -82,6 +86,32 @@ fn coupling(item: &Item) -> Option<(&Ident, &Ident)> {
         ItemKind::Value(ItemValue::List(group)) => coupling(group.items.first()?),
         _ => None,
     }
+}
+
+/// `-1, 2` behind a pair: numerator and denominator of its factor. Behind G stand monitoring limits instead.
+///
+/// Assumption: a denominator of 0 has no number of its own on the pages of programs and is out of range.
+fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<()> {
+    let [Item { kind: ItemKind::Value(ItemValue::Expr(numerator)), .. }, rest @ ..] = items else {
+        return Ok(());
+    };
+    let above = decoder.number(numerator)?;
+    if above == 0.0 {
+        let text = "the numerator of the coupling factor is 0";
+        return Err(Fault::new(Condition::CouplingNumeratorZero, text, numerator.span)
+            .with(|d| d.value(ValueKind::Current, above, "-")));
+    }
+    let Some(Item { kind: ItemKind::Value(ItemValue::Expr(denominator)), .. }) = rest.first()
+    else {
+        let text = format!("the coupling factor has the numerator {above} and no denominator");
+        return Err(Fault::new(Condition::CouplingDenominatorMissing, text, numerator.span)
+            .with(|d| d.value(ValueKind::Current, above, "-")));
+    };
+    if decoder.number(denominator)? == 0.0 {
+        let text = "the denominator of the coupling factor is 0";
+        return Err(Fault::new(Condition::Range, text, denominator.span));
+    }
+    Ok(())
 }
 
 fn axis(decoder: &Decoder, name: &Ident) -> Outcome<usize> {

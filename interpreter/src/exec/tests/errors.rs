@@ -282,7 +282,7 @@ fn a_radius_without_an_end_point_is_told() {
     assert!(matches!(kept.blocks()[0].path, kontur_motion::path::Path::Arc(_)));
 }
 
-/// Definitions of axis couplings move nothing and are checked as 20461, 20475, 20476 and 20477 print it.
+/// Definitions of axis couplings move nothing and are checked as 20461, 20475 to 20477, 21077 and 21110 print it.
 #[test]
 fn definitions_of_couplings_are_checked() {
     for text in [
@@ -301,6 +301,9 @@ fn definitions_of_couplings_are_checked() {
         ("[1, Y=X, Z=Y]", "20477"),
         ("[1, Z=Y, Y=X]", "20477"),
         ("[1, Y=Q]", "20797"),
+        ("[1, [Y=X, 0, 1]]", "21077"),
+        ("[1, [Y=X, 1]]", "21110"),
+        ("[1, [Y=X, 1, 0]]", "K-0009"),
         ("[0, Y=X]", "20461"),
         ("[65536, Y=X]", "20461"),
         ("[1]", "21220"),
