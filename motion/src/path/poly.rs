@@ -15,8 +15,10 @@ use std::sync::Arc;
 const SPLIT: f64 = 1e-13;
 /// Depth of halving at which the speed of the parameter has to be smooth enough.
 const DEPTH: u32 = 12;
-/// Share of a sub-interval that the cubic of [`PolyPath::near`] may miss by: the step of Newton squares it.
+/// Share of a sub-interval from which on [`PolyPath::near`] takes its last step of Newton, which squares it.
 const GUESS: f64 = 1e-4;
+/// Steps of Newton after which it searches instead.
+const STEPS: usize = 4;
 /// Samples per sub-interval in the search for the nearest point.
 const SAMPLES: usize = 8;
 
@@ -273,8 +275,8 @@ impl PolyPath {
 
     /// As [`Self::position`] to 1e-7 of the length, at a fifth of the cost.
     ///
-    /// The parameter is a cubic of the path length that has the right values and slopes at both ends of a cell, then one step of
-    /// Newton: that squares what the cubic misses by, so where it misses more the position is searched for.
+    /// The parameter begins as a cubic of the path length that has the right values and slopes at both ends of a cell; the last of
+    /// few steps of Newton is not checked, since it squares what the one before missed by.
     pub(super) fn near(&self, s: f64, out: &mut [f64]) {
         let (cell, want, whole) = self.cell_at(s);
         let width = cell.to - cell.from;
@@ -282,13 +284,19 @@ impl PolyPath {
         // slopes of up to three times the mean one make no cubic turn back (Fritsch and Carlson, 1980)
         let [start, end] = cell.rates.map(|rate| (whole / rate).min(3.0 * width));
         let v = 1.0 - u;
-        let x = cell.from + width * u * u * (3.0 - 2.0 * u) + u * v * (v * start - u * end);
-        let miss = self.gauss(cell.piece, cell.from, x) - want;
-        let step = miss / self.rate(cell.piece, x);
-        if miss.abs() > GUESS * whole || !step.is_finite() {
-            return self.position(s, out);
+        let mut x = cell.from + width * u * u * (3.0 - 2.0 * u) + u * v * (v * start - u * end);
+        for _ in 0..STEPS {
+            let miss = self.gauss(cell.piece, cell.from, x) - want;
+            let next = x - miss / self.rate(cell.piece, x);
+            if !next.is_finite() {
+                break;
+            }
+            x = next.clamp(cell.from, cell.to);
+            if miss.abs() <= GUESS * whole {
+                return self.point(cell.piece, x, out);
+            }
         }
-        self.point(cell.piece, (x - step).clamp(cell.from, cell.to), out);
+        self.position(s, out);
     }
 
     pub(super) fn position(&self, s: f64, out: &mut [f64]) {
