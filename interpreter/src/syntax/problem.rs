@@ -271,6 +271,11 @@ fn refine(
         Context::Words if rest.starts_with('\\') => {
             problem.hint("`\\` continues a block only as the last character of its line")
         }
+        Context::Words if rest.starts_with('[') && ends_in_return(before) => {
+            let text = "a return to another level or to a label is not supported";
+            Problem::new(Condition::Unsupported, problem.span, text)
+                .hint("without brackets it returns to the block after the call, and the caller can jump from there")
+        }
         Context::Words if depth == 0 && is_label(rest) && !before.trim_ascii().is_empty() => {
             raised(problem, Condition::LabelBehindWords)
         }
@@ -398,6 +403,12 @@ fn ends_in_place(before: &str) -> bool {
 /// The word in which `before` ends.
 fn last_word(before: &str) -> &str {
     before.trim_ascii_end().rsplit([' ', '\t']).next().unwrap_or_default()
+}
+
+/// True if `before` ends in the end of a subroutine, `M17` or `M29`.
+fn ends_in_return(before: &str) -> bool {
+    let word = last_word(before);
+    ["M17", "M29"].iter().any(|end| word.eq_ignore_ascii_case(end))
 }
 
 /// True if `before` ends in a radius with a negative index, `R-1`.
