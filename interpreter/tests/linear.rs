@@ -180,6 +180,9 @@ fn brackets_cost_work_in_proportion_to_their_length() {
         ("#A ", "[V.P.A"),
         ("#A ", "V.P.A.5["),
         ("#A ", "[A=-"),
+        ("#MSG ", "[P1A="),
+        ("#A ", "[X P1A="),
+        ("#A ", "[B=P1A="),
         ("#A ", "[[1,2],"),
     ];
     for (head, level) in nested {
@@ -190,6 +193,7 @@ fn brackets_cost_work_in_proportion_to_their_length() {
             format!("{head}{open}"),
             format!("{head}{open}{close}"),
             format!("{head}{open}1{close}"),
+            format!("{head}{open}.5|A "),
         ] {
             is_linear(&text).unwrap();
         }
