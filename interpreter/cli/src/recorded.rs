@@ -10,8 +10,10 @@
 
 use crate::Error;
 use kontur_interpreter::source::text::Text;
+use serde::Serialize;
 use std::fs::File;
 use std::io::Read as _;
+use std::ops::Range;
 use std::path::Path;
 
 /// Largest file that is read, in bytes: two minutes of many channels at 4 kHz.
@@ -41,8 +43,32 @@ pub(crate) struct Channel {
     pub(crate) step_s: Option<f64>,
 }
 
-/// A stretch without samples: when it begins in s, and how many samples are missing.
-pub(crate) type DropOut = (f64, usize);
+/// A stretch without samples. In JSON: after how many seconds, and how many are missing.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(into = "(f64, usize)")]
+pub(crate) struct DropOut {
+    /// Time of the last sample before it in s.
+    pub(crate) after_s: f64,
+    /// Where the missing samples are among those in equal steps.
+    pub(crate) samples: Range<usize>,
+}
+
+impl From<DropOut> for (f64, usize) {
+    fn from(d: DropOut) -> Self {
+        (d.after_s, d.samples.len())
+    }
+}
+
+/// A signal in equal steps.
+#[derive(Clone, Debug)]
+pub(crate) struct Even {
+    /// The values, missing ones on a straight line between their neighbours.
+    pub(crate) values: Vec<f64>,
+    /// Sampling time in s.
+    pub(crate) step_s: f64,
+    /// Where samples are missing.
+    pub(crate) drop_outs: Vec<DropOut>,
+}
 
 impl Channel {
     /// The sampling time in s: that of the header, else the median step.
@@ -56,23 +82,26 @@ impl Channel {
         Some(*median).filter(|s| *s > 0.0)
     }
 
-    /// The values in equal steps, missing samples between their neighbours, and where they are missing; `None` if the times
-    /// do not rise, there are none, or the gaps hold more than [`MOST_SAMPLES`].
-    pub(crate) fn even(&self) -> Option<(Vec<f64>, f64, Vec<DropOut>)> {
-        let step = self.step_s()?;
+    /// The values in equal steps; `None` if the times do not rise, there are none, or the gaps hold more than
+    /// [`MOST_SAMPLES`].
+    pub(crate) fn even(&self) -> Option<Even> {
+        let step_s = self.step_s()?;
         if self.times_s.is_empty() {
-            return Some((self.values.clone(), step, Vec::new()));
+            return Some(Even { values: self.values.clone(), step_s, drop_outs: Vec::new() });
         }
-        let (mut even, mut missing) = (Vec::new(), Vec::new());
+        let (mut even, mut drop_outs) = (Vec::new(), Vec::new());
         for (i, value) in self.values.iter().enumerate() {
             if let (Some(before), true) = (even.last().copied(), i > 0) {
                 let dt = self.times_s[i] - self.times_s[i - 1];
-                let count = (dt / step).round();
+                let count = (dt / step_s).round();
                 if dt <= 0.0 || even.len() as f64 + count > MOST_SAMPLES {
                     return None;
                 }
-                if dt > GAP * step {
-                    missing.push((self.times_s[i - 1], count as usize - 1));
+                if dt > GAP * step_s {
+                    drop_outs.push(DropOut {
+                        after_s: self.times_s[i - 1],
+                        samples: even.len()..even.len() + count as usize - 1,
+                    });
                 }
                 for k in 1..count as usize {
                     even.push(before + (value - before) * k as f64 / count);
@@ -80,7 +109,7 @@ impl Channel {
             }
             even.push(*value);
         }
-        Some((even, step, missing))
+        Some(Even { values: even, step_s, drop_outs })
     }
 }
 
@@ -361,10 +390,10 @@ mod tests {
     #[test]
     fn drop_outs_are_named_and_bridged() {
         let channel = &parse("t_s,a\n0,0\n0.001,1\n0.004,4\n0.005,5\n").unwrap()[0];
-        let (even, step, missing) = channel.even().unwrap();
-        assert!((step - 0.001).abs() < 1e-12);
-        assert_eq!(missing, [(0.001, 2)]);
-        for (i, x) in even.iter().enumerate() {
+        let even = channel.even().unwrap();
+        assert!((even.step_s - 0.001).abs() < 1e-12);
+        assert_eq!(even.drop_outs, [DropOut { after_s: 0.001, samples: 2..4 }]);
+        for (i, x) in even.values.iter().enumerate() {
             assert!((x - i as f64).abs() < 1e-9);
         }
     }

@@ -11,7 +11,7 @@ use super::table::Table;
 use super::verdict::{Failure, Signal, Verdict};
 use crate::Error;
 use crate::args::{Pairing, Tolerance};
-use crate::recorded;
+use crate::recorded::{self, DropOut};
 use serde::Serialize;
 use signals::{MOST_CYCLES, Recorded, Trace, rows, statistics};
 use std::path::Path;
@@ -44,8 +44,8 @@ pub(super) struct PairOutcome {
     pub(super) first: Option<At>,
     /// Row with the largest difference.
     pub(super) worst: Option<At>,
-    /// Stretches without samples: begin in s from the first sample, samples missing.
-    pub(super) drop_outs: Vec<(f64, usize)>,
+    /// Stretches without samples.
+    pub(super) drop_outs: Vec<DropOut>,
     /// The trace moves where the recording has nothing.
     pub(super) trace_goes_on: bool,
     /// The recording moves where the trace has nothing.
@@ -264,11 +264,13 @@ fn write_text(
                 writeln!(out, "    {name}  {}", at.sentence())?;
             }
         }
-        for (begin_s, count) in p.drop_outs.iter().take(MOST_NAMED) {
-            let samples = if *count == 1 { "sample" } else { "samples" };
+        for drop_out in p.drop_outs.iter().take(MOST_NAMED) {
+            let count = drop_out.samples.len();
+            let samples = if count == 1 { "sample" } else { "samples" };
             writeln!(
                 out,
-                "    drop-out  {count} {samples} missing after {begin_s:.6} s of B: not compared"
+                "    drop-out  {count} {samples} missing after {:.6} s of B: not compared",
+                drop_out.after_s
             )?;
         }
         if let Some(more) = p.drop_outs.len().checked_sub(MOST_NAMED + 1) {

@@ -4,7 +4,7 @@ use super::vibration::{Analysis, Estimate, Focus, Mode, analyse};
 use crate::Error;
 use crate::args::TuneArgs;
 use crate::console::Console;
-use crate::recorded::{self, Channel, DropOut};
+use crate::recorded::{self, Channel, DropOut, Even};
 use crate::table::{Table, number};
 use std::path::Path;
 
@@ -105,11 +105,12 @@ fn interval(e: Estimate, decimals: usize) -> String {
 fn remarks(recording: &Recording, gaps: &[DropOut]) -> String {
     let Recording { name, found, rate_hz, .. } = recording;
     let mut notes = Vec::new();
-    let missing: usize = gaps.iter().map(|g| g.1).sum();
-    if let Some((first_s, _)) = gaps.first() {
+    let missing: usize = gaps.iter().map(|g| g.samples.len()).sum();
+    if let Some(first) = gaps.first() {
         notes.push(format!(
-            "{missing} samples missing in {} places, the first after {first_s:.3} s; bridged by straight lines",
-            gaps.len()
+            "{missing} samples missing in {} places, the first after {:.3} s; left out",
+            gaps.len(),
+            first.after_s
         ));
     }
     if found.clipped > 0 {
@@ -167,11 +168,14 @@ fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Vec<DropOut>), Error
             .ok_or_else(|| wrong(format!("no column `{wanted}`; {}", known())))?,
         None => channels.last().ok_or_else(|| wrong("no columns".to_owned()))?,
     };
-    let (samples, rate_hz, gaps) = even(channel, args.rate, &known).map_err(wrong)?;
+    let Even { values: samples, step_s, drop_outs } =
+        even(channel, args.rate, &known).map_err(wrong)?;
+    let rate_hz = 1.0 / step_s;
+    let missing: Vec<_> = drop_outs.iter().map(|d| d.samples.clone()).collect();
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));
-    if samples.len() < LEAST_SAMPLES || samples.len() > MOST_SAMPLES {
-        let text =
-            format!("{} samples, {LEAST_SAMPLES} to {MOST_SAMPLES} are expected", samples.len());
+    let count = samples.len() - missing.iter().map(ExactSizeIterator::len).sum::<usize>();
+    if count < LEAST_SAMPLES || samples.len() > MOST_SAMPLES {
+        let text = format!("{count} samples, {LEAST_SAMPLES} to {MOST_SAMPLES} are expected");
         return Err(wrong(text));
     }
     let whole = Focus::default();
@@ -179,19 +183,23 @@ fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Vec<DropOut>), Error
         range_hz: args.range.unwrap_or(whole.range_hz),
         window_s: args.window.unwrap_or(whole.window_s),
     };
-    let found = analyse(&samples, rate_hz, &focus);
-    Ok((Recording { name, samples, rate_hz, found }, gaps))
+    let found = analyse(&samples, &missing, rate_hz, &focus);
+    Ok((Recording { name, samples, rate_hz, found }, drop_outs))
 }
 
-/// Samples in equal steps and their rate, by the times of the file or the rate that was given.
+/// Samples in equal steps, by the times of the file or the rate that was given.
 fn even(
     channel: &Channel,
     rate_hz: Option<f64>,
     known: &dyn Fn() -> String,
-) -> Result<(Vec<f64>, f64, Vec<DropOut>), String> {
+) -> Result<Even, String> {
     let Some(step) = channel.step_s() else {
         return match rate_hz {
-            Some(rate_hz) => Ok((channel.values.clone(), rate_hz, Vec::new())),
+            Some(rate_hz) => Ok(Even {
+                values: channel.values.clone(),
+                step_s: 1.0 / rate_hz,
+                drop_outs: Vec::new(),
+            }),
             None => Err(format!(
                 "no column t_s, time or t; --rate names the samples per second; {}",
                 known()
@@ -211,12 +219,11 @@ fn even(
     if channel.times_s.windows(2).any(off) {
         return Err("its times do not rise in equal steps".to_owned());
     }
-    let (samples, step, gaps) =
-        channel.even().ok_or_else(|| "its times do not rise in equal steps".to_owned())?;
+    let even = channel.even().ok_or_else(|| "its times do not rise in equal steps".to_owned())?;
     // the mean step is more accurate than a printed one
     let last = channel.times_s.last().copied().unwrap_or(0.0);
-    let mean = if last > 0.0 { last / (samples.len() - 1) as f64 } else { step };
-    Ok((samples, 1.0 / mean, gaps))
+    let mean = if last > 0.0 { last / (even.values.len() - 1) as f64 } else { even.step_s };
+    Ok(Even { step_s: mean, ..even })
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@
 //! // 12 Hz with damping 0.03, recorded at 500 Hz
 //! let (w, rate_hz) = (TAU * 12.0, 500.0);
 //! let swing = |k: i32| (-0.03 * w * f64::from(k) / rate_hz).exp() * (w * f64::from(k) / rate_hz).cos();
-//! let found = analyse(&(0..1500).map(swing).collect::<Vec<_>>(), rate_hz, &Focus::default());
+//! let found = analyse(&(0..1500).map(swing).collect::<Vec<_>>(), &[], rate_hz, &Focus::default());
 //! assert!((found.modes[0].freq.value - 12.0).abs() < 0.05);
 //! ```
 
@@ -111,16 +111,28 @@ pub struct Analysis {
     pub disagree: Option<(f64, f64)>,
 }
 
-/// Looks for vibrations in a record.
-pub fn analyse(samples: &[f64], rate_hz: f64, focus: &Focus) -> Analysis {
+/// Looks for vibrations in a record. Samples in `missing` were not recorded: what stands there (values between their
+/// neighbours) tells where decays begin and end, and is not fitted.
+pub fn analyse(
+    samples: &[f64],
+    missing: &[Range<usize>],
+    rate_hz: f64,
+    focus: &Focus,
+) -> Analysis {
     let place = |s: f64| ((s * rate_hz).round().max(0.0) as usize).min(samples.len());
     let (first, last) = (place(focus.window_s.0), place(focus.window_s.1));
     let samples = &samples[first..last.max(first)];
     if samples.len() < 64 || !(samples.iter().any(|x| (x - samples[0]).abs() > 0.0)) {
         return Analysis::default();
     }
-    let valid = unclipped(samples);
-    let clipped = valid.iter().filter(|v| !**v).count();
+    let mut valid = unclipped(samples);
+    let mut clipped = valid.iter().filter(|v| !**v).count();
+    for gap in missing {
+        let inside = |i: usize| i.clamp(first, last) - first;
+        let part = &mut valid[inside(gap.start)..inside(gap.end)];
+        clipped -= part.iter().filter(|v| !**v).count();
+        part.fill(false);
+    }
     let mut all: Vec<(Analysis, f64)> = Vec::new();
     for decay in hits::decays(samples, rate_hz, focus.range_hz).into_iter().take(MOST_DECAYS) {
         let mut found = of_decay(samples, &valid, rate_hz, focus.range_hz, decay);
@@ -183,7 +195,10 @@ fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64)) -> Fit {
     let largest = piece.samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     while fit.modes() < MOST_MODES {
         let residual = fit.residual(piece);
-        let Some(next) = detect::strongest(&residual, piece.rate_hz, range_hz) else { break };
+        let Some(next) = detect::strongest(&residual, &piece.valid, piece.rate_hz, range_hz)
+        else {
+            break;
+        };
         let wider = fit.with(piece, next.freq_hz, next.decay);
         let sound = wider.vibrations(piece, |_| 1.0).iter().all(|v| {
             v.amplitude < 20.0 * largest
@@ -212,14 +227,14 @@ fn of_decay(
     let mut fit = complete(Fit::new(&used), &used, range_hz);
     // a blow that was not seen spoils the fit of the whole piece, not that of its first part
     for halvings in 1..=HALVINGS {
-        let whole = fit.noise(&used) < MISFIT * detect::white(&fit.residual(&used), used.rate_hz);
+        let whole = fit.noise(&used) < MISFIT * fit.white(&used);
         let shorter = range.start..range.start + (range.len() >> halvings);
         if whole || shorter.len() < 256 {
             break;
         }
         let (part, part_stride) = cut(&shorter);
         let part_fit = complete(Fit::new(&part), &part, range_hz);
-        if part_fit.noise(&part) < MISFIT * detect::white(&part_fit.residual(&part), part.rate_hz) {
+        if part_fit.noise(&part) < MISFIT * part_fit.white(&part) {
             (range, used, stride, fit) = (shorter, part, part_stride, part_fit);
         }
     }

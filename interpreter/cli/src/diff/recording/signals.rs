@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::args::Pairing;
 use crate::diff::table::Table;
-use crate::recorded::{self, Channel};
+use crate::recorded::{self, Channel, DropOut, Even};
 
 /// Longest signals that are compared, in cycles: more than an hour at 1 ms.
 pub(super) const MOST_CYCLES: usize = 1 << 22;
@@ -27,7 +27,7 @@ impl Trace {
 pub(super) struct Recorded {
     pub(super) values: Vec<f64>,
     pub(super) step_s: f64,
-    pub(super) drop_outs: Vec<(f64, usize)>,
+    pub(super) drop_outs: Vec<DropOut>,
 }
 
 impl Recorded {
@@ -40,10 +40,10 @@ impl Recorded {
     fn at(&self, time_s: f64) -> Option<f64> {
         let near_s = 1e-3 * self.step_s;
         // in the order of time: only the last one that has begun can hold the moment
-        let begun = self.drop_outs.partition_point(|(begin_s, _)| begin_s + near_s < time_s);
-        let last = begun.checked_sub(1).map(|i| self.drop_outs[i]);
-        let missing = |(begin_s, count): (f64, usize)| {
-            time_s < begin_s + self.step_s * (count as f64 + 1.0) - near_s
+        let begun = self.drop_outs.partition_point(|d| d.after_s + near_s < time_s);
+        let last = begun.checked_sub(1).map(|i| &self.drop_outs[i]);
+        let missing = |d: &DropOut| {
+            time_s < d.after_s + self.step_s * (d.samples.len() as f64 + 1.0) - near_s
         };
         if last.is_some_and(missing) { None } else { self.between(time_s) }
     }
@@ -72,7 +72,7 @@ pub(super) fn channels(
             let names: Vec<&str> = found.iter().map(|c| c.name.as_str()).collect();
             format!("{file}: no channel `{}`; it has {}", p.channel, names.join(", "))
         })?;
-        let (values, step_s, drop_outs) = channel.even().ok_or_else(|| {
+        let Even { values, step_s, drop_outs } = channel.even().ok_or_else(|| {
             format!(
                 "{file}: the times of `{}` do not rise, leave gaps of hours, or there are none",
                 channel.name

@@ -34,7 +34,7 @@ fn white_variance(power: &[f64]) -> f64 {
     *median / std::f64::consts::LN_2
 }
 
-/// Powers of the lines of a record, its length for scale: white noise of variance 1 gives 1 on average.
+/// Powers of the lines of a record, its energy for scale: white noise of variance 1 gives 1 on average.
 struct Lines {
     power: Vec<f64>,
     step_hz: f64,
@@ -53,8 +53,14 @@ fn lines(samples: impl Iterator<Item = f64>, count: usize, energy: f64, rate_hz:
     Lines { power, step_hz: rate_hz / length as f64 }
 }
 
-/// The strongest vibration of a residual in a range of frequencies in Hz; none if it may be noise.
-pub(super) fn strongest(residual: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Option<Candidate> {
+/// The strongest vibration of a residual in a range of frequencies in Hz; none if it may be noise. The residual is 0
+/// where samples are not `valid`.
+pub(super) fn strongest(
+    residual: &[f64],
+    valid: &[bool],
+    rate_hz: f64,
+    range_hz: (f64, f64),
+) -> Option<Candidate> {
     let n = residual.len();
     let seconds = n as f64 / rate_hz;
     let low_hz = range_hz.0.max(2.0 / seconds);
@@ -65,7 +71,10 @@ pub(super) fn strongest(residual: &[f64], rate_hz: f64, range_hz: (f64, f64)) ->
     let first = std::iter::successors(Some(1.0 / seconds), |s| Some(DECAY_FACTOR * s));
     for decay in std::iter::once(0.0).chain(first.take_while(|s| *s < 0.25 * rate_hz)) {
         let e = |i: usize| libm::exp(-decay * i as f64 / rate_hz);
-        let energy: f64 = (0..n).map(|i| e(i) * e(i)).sum();
+        let energy: f64 = (0..n).filter(|i| valid[*i]).map(|i| e(i) * e(i)).sum();
+        if energy <= 0.0 {
+            continue;
+        }
         let of = lines(residual.iter().enumerate().map(|(i, x)| x * e(i)), n, energy, rate_hz);
         if decay <= 0.0 {
             noise = white_variance(&of.power[1..]).max(f64::MIN_POSITIVE);
@@ -86,9 +95,9 @@ pub(super) fn strongest(residual: &[f64], rate_hz: f64, range_hz: (f64, f64)) ->
     (power / noise > libm::log(tried / FALSE_ALARM)).then_some(candidate)
 }
 
-/// Root mean square of the white part of a residual.
-pub(super) fn white(residual: &[f64], rate_hz: f64) -> f64 {
-    let of = lines(residual.iter().copied(), residual.len(), residual.len() as f64, rate_hz);
+/// Root mean square of the white part of a residual of which `count` samples are valid and the others are 0.
+pub(super) fn white(residual: &[f64], count: usize, rate_hz: f64) -> f64 {
+    let of = lines(residual.iter().copied(), residual.len(), count.max(1) as f64, rate_hz);
     white_variance(&of.power[1..]).sqrt()
 }
 

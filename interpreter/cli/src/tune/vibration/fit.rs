@@ -5,6 +5,7 @@
 //! coefficients together, so that neither drift nor neighbouring vibrations bend a damping. The inverse of the normal
 //! equations at the end is the Cramer-Rao bound of the coefficients.
 
+use super::detect;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -14,6 +15,8 @@ const DRIFT: usize = 3;
 const PER_MODE: usize = 4;
 /// Steps tried.
 const STEPS: usize = 40;
+/// Samples from one exact value of a vibration to the next.
+const TURNS: usize = 64;
 /// Relative gain of a step at which the fit has ended.
 const CONVERGED_RATIO: f64 = 1e-9;
 
@@ -107,40 +110,57 @@ impl Fit {
         next
     }
 
-    /// Value at a time, and its derivatives by the coefficients.
-    fn at(&self, t: f64, row: &mut [f64]) -> f64 {
-        let u = t / self.seconds;
-        row[..DRIFT].copy_from_slice(&[1.0, u, u * u]);
-        let mut value = self.p[0] + u * (self.p[1] + u * self.p[2]);
-        for (i, part) in row[DRIFT..].chunks_exact_mut(PER_MODE).enumerate() {
-            let [a, b, s, w] = self.mode(i);
+    /// Goes over the samples of a piece: index, value of the fit, and its derivatives by the coefficients.
+    fn over(&self, piece: &Piece, mut visit: impl FnMut(usize, f64, &[f64])) {
+        let e_cos_sin = |s: f64, w: f64, t: f64| {
             let e = libm::exp(-s * t);
             let (sin, cos) = libm::sincos(w * t);
-            let (sin, cos) = (e * sin, e * cos);
-            let y = a * cos + b * sin;
-            part.copy_from_slice(&[cos, sin, -t * y, t * (b * cos - a * sin)]);
-            value += y;
+            [e * cos, e * sin]
+        };
+        let modes: Vec<[f64; PER_MODE]> = (0..self.modes()).map(|i| self.mode(i)).collect();
+        let turns: Vec<[f64; 2]> =
+            modes.iter().map(|[_, _, s, w]| e_cos_sin(*s, *w, 1.0 / piece.rate_hz)).collect();
+        let mut waves = vec![[0.0; 2]; modes.len()];
+        let mut row = vec![0.0; self.p.len()];
+        for i in 0..piece.samples.len() {
+            let t = i as f64 / piece.rate_hz;
+            let u = t / self.seconds;
+            row[..DRIFT].copy_from_slice(&[1.0, u, u * u]);
+            let mut value = self.p[0] + u * (self.p[1] + u * self.p[2]);
+            for (k, [a, b, s, w]) in modes.iter().enumerate() {
+                let [cos, sin] = waves[k];
+                let [turn_cos, turn_sin] = turns[k];
+                // a turn by one sample costs a tenth of the functions; these keep its rounding from adding up
+                let [cos, sin] = if i % TURNS == 0 {
+                    e_cos_sin(*s, *w, t)
+                } else {
+                    [cos * turn_cos - sin * turn_sin, cos * turn_sin + sin * turn_cos]
+                };
+                waves[k] = [cos, sin];
+                let y = a * cos + b * sin;
+                let at = DRIFT + PER_MODE * k;
+                row[at..at + PER_MODE]
+                    .copy_from_slice(&[cos, sin, -t * y, t * (b * cos - a * sin)]);
+                value += y;
+            }
+            visit(i, value, &row);
         }
-        value
     }
 
     /// What the fit leaves of the piece; 0 where samples do not count.
     pub(super) fn residual(&self, piece: &Piece) -> Vec<f64> {
-        let mut row = vec![0.0; self.p.len()];
-        let samples = piece.samples.iter().zip(&piece.valid).enumerate();
-        samples
-            .map(
-                |(i, (x, valid))| {
-                    if *valid { x - self.at(i as f64 / piece.rate_hz, &mut row) } else { 0.0 }
-                },
-            )
-            .collect()
+        let mut residual = Vec::with_capacity(piece.samples.len());
+        self.over(piece, |i, value, _| {
+            residual.push(if piece.valid[i] { piece.samples[i] - value } else { 0.0 });
+        });
+        residual
     }
 
     /// The fitted curve.
     pub(super) fn curve(&self, piece: &Piece) -> Vec<f64> {
-        let mut row = vec![0.0; self.p.len()];
-        (0..piece.samples.len()).map(|i| self.at(i as f64 / piece.rate_hz, &mut row)).collect()
+        let mut curve = Vec::with_capacity(piece.samples.len());
+        self.over(piece, |_, value, _| curve.push(value));
+        curve
     }
 
     fn error(&self, piece: &Piece) -> f64 {
@@ -153,10 +173,12 @@ impl Fit {
         let mut right = DVector::zeros(n);
         // lower triangle, row by row: this is where the time goes
         let mut sums = vec![0.0; n * (n + 1) / 2];
-        let mut row = vec![0.0; self.p.len()];
         let mut picked = vec![0.0; n];
-        for (i, x) in piece.samples.iter().enumerate().filter(|(i, _)| piece.valid[*i]) {
-            let e = x - self.at(i as f64 / piece.rate_hz, &mut row);
+        self.over(piece, |i, value, row| {
+            if !piece.valid[i] {
+                return;
+            }
+            let e = piece.samples[i] - value;
             for (p, u) in picked.iter_mut().zip(used) {
                 *p = row[*u];
             }
@@ -169,7 +191,7 @@ impl Fit {
                 }
                 rest = behind;
             }
-        }
+        });
         let at = |i: usize, j: usize| sums[i * (i + 1) / 2 + j];
         (DMatrix::from_fn(n, n, |i, j| at(i.max(j), i.min(j))), right)
     }
@@ -219,6 +241,11 @@ impl Fit {
                 }
             }
         }
+    }
+
+    /// Root mean square of the white part of what is left.
+    pub(super) fn white(&self, piece: &Piece) -> f64 {
+        detect::white(&self.residual(piece), piece.count(), piece.rate_hz)
     }
 
     /// Root mean square of what is left.
