@@ -14,6 +14,7 @@ mod frames;
 mod modes;
 mod positions;
 mod random;
+mod returns;
 mod shaping;
 mod straight;
 

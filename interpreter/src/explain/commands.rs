@@ -88,7 +88,7 @@ const COMMANDS: &[Command] = &[
     row(&["M00", "M01", "M0", "M1"], "M00", "programmed stop, optional stop: the path stops; here the program continues at once", "", "", "M00", &[]),
     row(&["M03", "M04", "M05", "M3", "M4", "M5"], "M03 S..   S[M3 REV..]", "spindle clockwise, counter-clockwise, stop", "S, REV in rev/min, limited to P-AXIS-00212 (K-0131)", "the main spindle is that of P-CHAN-00051, addressed by P-CHAN-00053", "S1000 M3", &["M19", "K-0131", "P-CHAN-00051", "P-CHAN-00053"]),
     row(&["M19"], "M19 S.POS=..   S[M19 POS=.. REV=..]", "spindle to an angle: in the direction of M3 or M4 beside it, of a spindle that turns in its direction, from rest the shorter way", "POS in deg, holds, default 0; REV in rev/min, default the S word, without one the limit of the spindle", "monitored like an exact stop, in degrees", "S[M19 POS=90 REV=100]", &["M03", "70082", "P-AXIS-00236", "P-AXIS-00532"]),
-    row(&["M17", "M29"], "M17", "end of a subroutine", "", "", "M17", &["K-0003"]),
+    row(&["M17", "M29"], "M17   M17 [MAIN|JUMPS=.. [LABEL]|N..]", "end of a subroutine; in brackets the level to return to and the label or block there", "JUMPS: whole levels from 1 to that of the main program, beyond it K-0109", "JUMPS=1, behind the call", "M17 [MAIN [END]]", &["K-0003", "K-0015"]),
 ];
 
 /// Names of all commands.

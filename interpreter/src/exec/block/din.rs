@@ -15,7 +15,7 @@ use crate::exec::contour::insertion::Kind;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::machine::Axis;
-use crate::syntax::ast::{Call, Jump, Span, Word};
+use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 
 /// What follows a block.
 #[derive(Debug)]
@@ -26,8 +26,8 @@ pub(in crate::exec) enum After<'b> {
     /// M06 with a program of its own.
     ToolChange(Span),
     Goto(&'b Jump),
-    /// M17, M29.
-    Return,
+    /// M17, M29, with the place they name.
+    Return(Option<(&'b Return, Span)>),
     /// M02, M30.
     End,
 }
