@@ -406,6 +406,7 @@ impl Decoder {
             tilt,
             local: false,
             compensation,
+            tangential: std::mem::take(&mut self.contour.tangential),
             akima,
             span,
         });

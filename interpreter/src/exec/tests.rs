@@ -17,6 +17,7 @@ mod random;
 mod returns;
 mod shaping;
 mod straight;
+mod tangential;
 
 use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};
 use crate::diag::Diagnostic;

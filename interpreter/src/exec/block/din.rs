@@ -238,6 +238,7 @@ impl Decoder {
             Act::Compensation(side) => self.compensation(side, g.span),
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
             Act::Spline(on) => self.contour.akima.select(on),
+            Act::Tangential => self.select_tangentially(g, words)?,
             Act::Selection(selection) => self.select_compensation_by(selection, g, words)?,
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.modal.unit_mm();

@@ -21,6 +21,8 @@ pub(in crate::exec) struct Motion {
     /// The path is in the coordinates of the tilt.
     pub(in crate::exec) local: bool,
     pub(in crate::exec) compensation: Option<Compensated>,
+    /// G05: it begins or ends the compensation in an arc.
+    pub(in crate::exec) tangential: bool,
     /// How its feed changes along it.
     pub(in crate::exec) course: Option<FeedCourse>,
     /// It leads to a point of an Akima spline.

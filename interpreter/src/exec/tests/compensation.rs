@@ -360,7 +360,7 @@ fn options_of_compensation() {
         ("#TRC [REVRSE=1]", Some("21220")),
         ("#TRC", Some("21220")),
         ("G236", Some("K-0019")),
-        ("G05", Some("K-0019")),
+        ("G05", Some("K-0115")),
     ] {
         assert_eq!(
             run(&format!("{text}\nM30\n")).ids(),

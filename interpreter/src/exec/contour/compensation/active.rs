@@ -68,13 +68,17 @@ impl Active {
     fn corner(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
         let Self { distance, perpendicular, plane, tilt, last, between, watch } = self;
         let active = |start: Point, motion: Box<Motion>| {
-            let last = Element { motion, side, start, approach: false };
+            let last = Element { motion, side, start, approach: false, tangential: false };
             Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
         };
         let corner = side.start_point();
         let after = above(corner, side.tangent(false), distance);
         if last.approach {
-            last.emit(after, plane, distance, out)?;
+            if last.tangential {
+                last.emit_arc(after, side.tangent(false), plane, out)?;
+            } else {
+                last.emit(after, plane, distance, out)?;
+            }
             emit_between(between, after, plane, out);
             return Ok(active(after, motion));
         }
@@ -124,6 +128,12 @@ impl Active {
     /// Completes the last element perpendicular above its end and returns that point.
     pub(super) fn finish(self, out: &mut Vec<Item>) -> Fallible<Point> {
         let Self { distance, plane, last, between, .. } = self;
+        if last.tangential {
+            let text = "G05: no contour follows the approach";
+            return Err(Fault::new(Condition::Compensation, text, last.motion.span)
+                .hint("its arc touches the motion that comes next")
+                .in_block(last.motion.source));
+        }
         let at = above(last.side.end_point(), last.side.tangent(true), distance);
         last.emit(at, plane, distance, out)?;
         emit_between(between, at, plane, out);

@@ -2,6 +2,7 @@
 
 use super::corner::{side_sweep, trimmed};
 use super::item::{Fallible, Item, too_tight};
+use super::tangential::{self, Touch};
 use crate::diag::Condition;
 use crate::exec::contour::motion::{Compensated, Motion};
 use crate::exec::fault::Fault;
@@ -20,9 +21,27 @@ pub(super) struct Element {
     pub(super) start: Point,
     /// The line that leads to the parallel: its direction is not that of the contour.
     pub(super) approach: bool,
+    /// The approach is an arc that touches the parallel (G05).
+    pub(super) tangential: bool,
 }
 
 impl Element {
+    /// The approach in an arc to the beginning of the parallel, whose direction is `tangent`.
+    pub(super) fn emit_arc(
+        self,
+        end: Point,
+        tangent: Point,
+        plane: [usize; 2],
+        out: &mut Vec<Item>,
+    ) -> Fallible<()> {
+        let Self { mut motion, start, .. } = self;
+        if let Some(path) = tangential::way(&motion, plane, (start, end), tangent, Touch::End)? {
+            motion.block.path = path;
+            out.push(Item::Motion(motion));
+        }
+        Ok(())
+    }
+
     /// The element from its start to `end`, both on the parallel.
     pub(super) fn emit(
         self,
@@ -31,7 +50,7 @@ impl Element {
         distance: f64,
         out: &mut Vec<Item>,
     ) -> Fallible<()> {
-        let Self { mut motion, side, start, approach } = self;
+        let Self { mut motion, side, start, approach, .. } = self;
         let source = motion.source;
         let path = match &side {
             Side::Line { .. } => {
@@ -79,7 +98,12 @@ impl Element {
 }
 
 /// Start and end of a motion with other places in the plane.
-fn ends(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> (AxisVec, AxisVec) {
+pub(super) fn ends(
+    motion: &Motion,
+    plane: [usize; 2],
+    start: Point,
+    end: Point,
+) -> (AxisVec, AxisVec) {
     let place = |v: &AxisVec, p: Point| {
         let mut v = v.clone();
         (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
