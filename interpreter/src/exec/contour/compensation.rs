@@ -31,7 +31,7 @@ use crate::exec::step::{SourceRef, Sync};
 use crate::syntax::ast::Span;
 use active::Active;
 use corner::{above, straight};
-use element::{Element, line, moving_side};
+use element::{Element, line, moving_side, runs_back};
 use inside::Closed;
 use item::Fallible;
 
@@ -133,6 +133,15 @@ impl Compensator {
             if !self.told {
                 self.cut = found;
             }
+            return Ok(());
+        }
+        if motion
+            .compensation
+            .is_some_and(|c| c.reverse && c.distance_mm.to_bits() == (-active.distance).to_bits())
+            && !active.last.approach
+            && runs_back(&active.last.side, &side)
+        {
+            self.active = Some(Box::new(active.turn_back(motion, side, out)?));
             return Ok(());
         }
         // another side or radius, or none: a line leads there

@@ -282,13 +282,14 @@ fn a_radius_without_an_end_point_is_told() {
     assert!(matches!(kept.blocks()[0].path, kontur_motion::path::Path::Arc(_)));
 }
 
-/// Definitions of axis couplings move nothing and are checked as 20461, 20475 to 20477, 21077 and 21110 print it.
+/// Definitions of axis couplings move nothing and are checked as 20461, 20475 to 20477, 21077, 21110 and 21111 print it.
 #[test]
 fn definitions_of_couplings_are_checked() {
     for text in [
         "#SET AX LINK [1, Y=X, Z=X]",
         "#SET AX LINK [1, [Y = X, G, 0.01, 0.25]]",
-        "#AX LINK [2, [Y = X, -1, 2], Z=X]",
+        "#AX LINK [2, [Y = X, -1, 1], Z=X]",
+        "#AX LINK [3, [Y = X, 2, -2], [Z=X, 5, 5]]",
         "#AX LINK OFF",
         "#AX LINK OFF ALL",
         "#DISABLE AX LINK [1]",
@@ -303,7 +304,9 @@ fn definitions_of_couplings_are_checked() {
         ("[1, Y=Q]", "20797"),
         ("[1, [Y=X, 0, 1]]", "21077"),
         ("[1, [Y=X, 1]]", "21110"),
-        ("[1, [Y=X, 1, 0]]", "K-0009"),
+        ("[1, [Y=X, 1, 0]]", "21111"),
+        ("[1, [Y=X, -1, 2]]", "21111"),
+        ("[1, [Y=X, 3, 2]]", "21111"),
         ("[0, Y=X]", "20461"),
         ("[65536, Y=X]", "20461"),
         ("[1]", "21220"),

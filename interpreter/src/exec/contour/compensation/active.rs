@@ -94,11 +94,14 @@ impl Active {
             emit_between(between, at, plane, out);
             return Ok(active(at, motion));
         }
-        let by_lines = outside && motion.compensation.is_some_and(|c| c.straight_corners);
-        let mut points = if by_lines {
-            straight_corner(u, w, before, after, distance.abs())
-        } else {
-            SmallVec::from_slice(&[before])
+        let stretch = motion.compensation.and_then(|c| c.straight_corners).filter(|_| outside);
+        let by_lines = stretch.is_some();
+        let mut points = match stretch {
+            Some(factor) => {
+                let radius = distance.abs();
+                straight_corner(u, w, before, after, radius, factor * radius)
+            }
+            None => SmallVec::from_slice(&[before]),
         };
         // a line is prolonged, after an arc its tangent is inserted
         let first = points[0];
@@ -123,6 +126,22 @@ impl Active {
             after
         };
         Ok(active(start, motion))
+    }
+
+    /// The contour runs back the way it came and changes its side: the tool turns round where it is.
+    pub(super) fn turn_back(
+        self,
+        motion: Box<Motion>,
+        side: Side,
+        out: &mut Vec<Item>,
+    ) -> Fallible<Self> {
+        let Self { distance, perpendicular, plane, tilt, .. } = self;
+        let (tilt, mut watch) = (tilt.clone(), Watch::default());
+        watch.contour(side, motion.source, distance.abs());
+        let start = Self { tilt: None, ..self }.finish(out)?;
+        let last = Element { motion, side, start, approach: false, tangential: false };
+        let between = Vec::new();
+        Ok(Self { distance: -distance, perpendicular, plane, tilt, last, between, watch })
     }
 
     /// Completes the last element perpendicular above its end and returns that point.

@@ -7,7 +7,7 @@ use crate::diag::Condition;
 use crate::exec::contour::motion::{Compensated, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Side, dot, sub};
+use crate::exec::geometry::planar::{Side, cross, dot, sub};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
@@ -130,6 +130,18 @@ pub(super) fn moving_side(motion: &Motion, plane: [usize; 2]) -> Fallible<Option
         let what = "an arc outside the plane with tool radius compensation";
         Err(Fault::unsupported(what, motion.span))
     }
+}
+
+/// True if a contour runs back along the element that it has come by: a line, or an arc that turns the other way.
+pub(super) fn runs_back(last: &Side, next: &Side) -> bool {
+    let (u, w) = (last.tangent(true), next.tangent(false));
+    let against = cross(u, w).abs() < 1e-9 && dot(u, w) < 0.0;
+    against
+        && match (last, next) {
+            (Side::Line { .. }, Side::Line { .. }) => true,
+            (Side::Arc { sweep_rad: a, .. }, Side::Arc { sweep_rad: b, .. }) => a * b < 0.0,
+            _ => false,
+        }
 }
 
 /// Steps between two motions, at the place of the tool.
