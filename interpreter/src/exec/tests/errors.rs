@@ -317,3 +317,40 @@ fn definitions_of_couplings_are_checked() {
         assert_eq!(run.ids(), [id], "{text}");
     }
 }
+
+/// What a command would not look at is no part of it: a second bracket was dropped with everything in it.
+#[test]
+fn brackets_and_values_that_a_command_does_not_take() {
+    for text in [
+        "#VIB GUARD ON [MODE=2] [FREQ=30]",
+        "#VIB GUARD ON 2",
+        "#ROTATION ON [ANGLE=30] [CENTER1=5]",
+        "#ROTATION ON 30",
+        "#HSC ON [BSPLINE] [PATH_DEV=0.1]",
+        "#CONTOUR MODE [DEV] [PATH_DEV=0.1]",
+        "#SLOPE [TYPE=TRAPEZ] [TYPE=STEP]",
+        "#OVERRIDE [FEED_FACT=50] [RAPID_FACT=3]",
+        "#VECTOR LIMIT ON [VEL=100] [ACC=3]",
+        "#FILTER ON [HSC] [ORDER=2]",
+        "#FGROUP [X] [Y]",
+        "#MEAS [TYPE=1] [ERR_NO_SIGNAL=0]",
+        "#MCS ON [EX TOOL]",
+        "#FLUSH WAIT [1]",
+        "#SPLINE ON [1]",
+        "#TANGFEED 3",
+    ] {
+        let run = super::run(&format!("{text}\nM30\n"));
+        assert_eq!(run.ids().first().map(String::as_str), Some("21220"), "{text}");
+    }
+    for text in [
+        "#CALL AX FAST [X,1,0][Y,2,1]",
+        "#CS ON [1][1,2,3,0,0,0]\n#CS OFF",
+        "#TIME 0.1",
+        "#TIME [0.1]",
+        "#WAIT FOR 1",
+        "#DELETE P1",
+    ] {
+        let run = super::run(&format!("P1=1\n{text}\nM30\n"));
+        assert!(!run.ids().contains(&"21220".to_owned()), "{text}: {:?}", run.ids());
+    }
+}
