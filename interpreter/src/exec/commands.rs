@@ -80,10 +80,10 @@ const ROWS: &[Row] = &[
     messages::MSG,
     messages::ERROR,
     // variables, files, macros
-    run("DELETE", misc::delete),
-    run("INIT MACRO TAB", misc::init_macros),
-    run("FILE NAME", misc::file_name),
-    run("FILENAME", misc::file_name),
+    run("DELETE", misc::delete).values(),
+    run("INIT MACRO TAB", misc::init_macros).bare(),
+    run("FILE NAME", misc::file_name).several(),
+    run("FILENAME", misc::file_name).several(),
     unsupported("FILE EXIST"),
     unsupported("FILE RENAME"),
     unsupported("FILE DELETE"),
@@ -92,9 +92,9 @@ const ROWS: &[Row] = &[
     axes::PUT_AX,
     axes::CALL_AX,
     axes::SET_AX,
-    run("AX REQUEST", axes::call),
-    run("AX RELEASE", axes::put),
-    run("AX DEF", axes::define),
+    run("AX REQUEST", axes::call).several(),
+    run("AX RELEASE", axes::put).several(),
+    run("AX DEF", axes::define).several(),
     couplings::AX_LINK,
     couplings::SET_AX_LINK,
     unsupported("ENABLE AX LINK"),
@@ -102,8 +102,8 @@ const ROWS: &[Row] = &[
     unsupported("GEAR LINK"),
     // frames
     run("ROTATION", frames::rotation),
-    run("CS", frames::coordinate_system),
-    run("CS DEF", frames::define_system),
+    run("CS", frames::coordinate_system).several(),
+    run("CS DEF", frames::define_system).several(),
     frames::MCS,
     run("FGROUP", axes::feed_group),
     off_only("SCALE"),
@@ -112,11 +112,11 @@ const ROWS: &[Row] = &[
     off_only("ECS"),
     off_only("TRACK CS"),
     // kinematics
-    run("TRAFO", frames::transformation),
-    run("RTCP", frames::transformation),
-    run("KIN ID", frames::transformation),
-    run("ORI MODE", frames::transformation),
-    run("PTP", frames::transformation),
+    run("TRAFO", frames::transformation).several().values(),
+    run("RTCP", frames::transformation).several().values(),
+    run("KIN ID", frames::transformation).several().values(),
+    run("ORI MODE", frames::transformation).several().values(),
+    run("PTP", frames::transformation).several().values(),
     off_only("CYL"),
     off_only("TLC"),
     off_only("FACE"),
@@ -195,8 +195,8 @@ const ROWS: &[Row] = &[
     // spindles
     spindles::MAIN_SPINDLE,
     // cycles
-    run("DISABLE MODAL CYCLE", misc::disable_modal_cycle),
-    run("RETAIN CYCLE CHANGES", misc::retain_cycle_changes),
+    run("DISABLE MODAL CYCLE", misc::disable_modal_cycle).bare(),
+    run("RETAIN CYCLE CHANGES", misc::retain_cycle_changes).bare(),
     // no influence on set positions
     ignored("SINGLE STEP"),
     ignored("BLOCKSEARCH"),
@@ -256,7 +256,7 @@ impl Decoder {
         let Some((row, count)) = find(command) else { return Err(unknown(command)) };
         let call = Call { command, name: row.name, rest: &command.words[count..] };
         match row.act {
-            Act::Run(f) => f(self, &call),
+            Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)),
             Act::OffOnly if command.on == Some(false) => Ok(()),
             Act::OffOnly | Act::Unsupported => Err(Fault::unsupported(call.title(), call.span())),
             Act::Ignored(text) => {

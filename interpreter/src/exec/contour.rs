@@ -49,6 +49,8 @@ pub(super) struct Contour {
     held: Option<Box<Motion>>,
     insertion: Option<Box<Insertion>>,
     compensator: Compensator,
+    /// The next motion begins or ends compensation in an arc (G05).
+    pub(super) tangential: bool,
     /// G151.
     pub(super) akima: Akima,
     driven: Vec<Driven>,

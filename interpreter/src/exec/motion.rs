@@ -406,6 +406,7 @@ impl Decoder {
             tilt,
             local: false,
             compensation,
+            tangential: std::mem::take(&mut self.contour.tangential),
             akima,
             span,
         });
@@ -434,7 +435,9 @@ impl Decoder {
         let radius = self.geometry.tools.active.radius_mm;
         let compensation = compensated.then_some(Compensated {
             distance_mm: if left { radius } else { -radius },
-            straight_corners: self.modal.corners == Corners::Straight,
+            straight_corners: (self.modal.corners == Corners::Straight)
+                .then_some(self.modal.corner_stretch),
+            reverse: self.modal.turns_back,
             selection: self.modal.selection,
             engagement_radius_mm: self
                 .modal

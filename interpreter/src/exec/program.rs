@@ -11,6 +11,7 @@ pub(super) mod files;
 pub(super) mod flow;
 pub(super) mod index;
 pub(super) mod info;
+mod jumps;
 mod reached;
 pub(super) mod sequence;
 pub(super) mod state;

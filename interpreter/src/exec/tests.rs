@@ -14,8 +14,10 @@ mod frames;
 mod modes;
 mod positions;
 mod random;
+mod returns;
 mod shaping;
 mod straight;
+mod tangential;
 
 use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};
 use crate::diag::Diagnostic;

@@ -35,8 +35,8 @@ pub use expr::{
     Segment, Sign,
 };
 pub use word::{
-    Assign, Bracket, Call, CallKind, CodeNumber, GValue, HashWord, MacroDefinition, Name, Word,
-    WordKind,
+    Assign, Bracket, Call, CallKind, CodeNumber, GValue, HashWord, MacroDefinition, Name, Return,
+    ReturnLevel, Word, WordKind,
 };
 
 /// One block of an NC program.

@@ -3,7 +3,7 @@
 use super::ast::{
     Binary, Block, BlockNumber, Body, Call, CallKind, CodeNumber, Command, Control, ControlKind,
     Declaration, Expr, ExprKind, GValue, Group, Item, ItemKind, ItemValue, Jump, JumpKind,
-    LabelKind, Name, ParameterIndex, Place, PlaceKind, Sign, Word, WordKind,
+    LabelKind, Name, ParameterIndex, Place, PlaceKind, Return, ReturnLevel, Sign, Word, WordKind,
 };
 use std::fmt::{Display, Formatter, Result};
 
@@ -133,6 +133,7 @@ impl Display for Word {
                 }
             }
             WordKind::M(number, value) => code(f, 'M', number, value.as_deref()),
+            WordKind::Return(back) => write!(f, "{back}"),
             WordKind::H(number, value) => code(f, 'H', number, value.as_deref()),
             WordKind::Address { name, sign, value } => {
                 // two signs cancel out, and only the first one is the direction
@@ -167,6 +168,19 @@ fn code(f: &mut Formatter<'_>, letter: char, number: &CodeNumber, value: Option<
         CodeNumber::Computed(e) => write!(f, "{letter}[{e}]")?,
     }
     value.map_or(Ok(()), |value| write!(f, "={value}"))
+}
+
+impl Display for Return {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        write!(f, "M{} [", self.number)?;
+        match &self.level {
+            ReturnLevel::Caller => {}
+            ReturnLevel::Main => f.write_str("MAIN ")?,
+            ReturnLevel::Jumps(levels) => write!(f, "JUMPS={levels} ")?,
+        }
+        self.target.as_ref().map_or(Ok(()), |target| write!(f, "{target}"))?;
+        f.write_str("]")
+    }
 }
 
 impl Display for Call {

@@ -271,10 +271,8 @@ fn refine(
         Context::Words if rest.starts_with('\\') => {
             problem.hint("`\\` continues a block only as the last character of its line")
         }
-        Context::Words if rest.starts_with('[') && ends_in_return(before) => {
-            let text = "a return to another level or to a label is not supported";
-            Problem::new(Condition::Unsupported, problem.span, text)
-                .hint("without brackets it returns to the block after the call, and the caller can jump from there")
+        Context::Words if expected.contains(&LEVEL) => {
+            problem.hint("M17 [MAIN [LABEL]], M17 [JUMPS=2 N100]: a label has brackets of its own")
         }
         Context::Words if depth == 0 && is_label(rest) && !before.trim_ascii().is_empty() => {
             raised(problem, Condition::LabelBehindWords)
@@ -405,12 +403,6 @@ fn last_word(before: &str) -> &str {
     before.trim_ascii_end().rsplit([' ', '\t']).next().unwrap_or_default()
 }
 
-/// True if `before` ends in the end of a subroutine, `M17` or `M29`.
-fn ends_in_return(before: &str) -> bool {
-    let word = last_word(before);
-    ["M17", "M29"].iter().any(|end| word.eq_ignore_ascii_case(end))
-}
-
 /// True if `before` ends in a radius with a negative index, `R-1`.
 fn ends_in_negative_radius(before: &str) -> bool {
     let index = last_word(before).strip_prefix(['R', 'r']).and_then(|rest| rest.strip_prefix('-'));
@@ -445,6 +437,7 @@ fn token(rest: &str) -> usize {
 const VALUE: &str = "a value";
 const EQUALS: &str = "`=`";
 const BRACKET: &str = "`[`";
+const LEVEL: &str = "MAIN or JUMPS";
 const WORD: &str = "a word";
 const COMMA: &str = "`,`";
 const OPERATOR: &str = "an operator";
@@ -494,6 +487,7 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::bare_pair
         | Rule::item_value => (6, "a key"),
         Rule::operator => (7, OPERATOR),
+        Rule::return_main | Rule::return_jumps | Rule::return_key => (5, LEVEL),
         Rule::target | Rule::label_name => (8, "a label"),
         Rule::file_name | Rule::program_call => (8, "a program name"),
         Rule::type_name => (8, "a type"),

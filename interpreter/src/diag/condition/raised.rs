@@ -224,6 +224,7 @@ conditions! {
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax of an independent axis";
     CouplingNumeratorZero = Vendor 21077: Error ProgramAbort 3 1, "numerator of a coupling factor is 0", cause "#SET AX LINK [1, [Y=X, 0, 1]]", hint "write the factor as two numbers that are not 0: [Y=X, -1, 1] mirrors";
     CouplingDenominatorMissing = Vendor 21110: Error ProgramAbort 3 1, "denominator of a coupling factor missing", cause "#SET AX LINK [1, [Y=X, -1]]", hint "write numerator and denominator: [Y=X, -1, 1]";
+    CouplingFactorInvalid = Vendor 21111: Warning None 1 1, "coupling factor is neither 1 nor -1", cause "#SET AX LINK [1, [Y=X, 1, 2]]", hint "the control couples with the factor 1: write [Y=X, 1, 1] or, mirrored, [Y=X, -1, 1]";
     RotationCentreTooLarge = Vendor 21147: Error ProgramAbort 3 1, "centre of a contour rotation outside the data format", cause "#ROTATION ON [ANGLE=30 CENTER1=99999999]", hint "centres reach up to 214748.3647 mm";
     LabelBehindWords = Vendor 21187: Error ProgramAbort 3 1, "label after words of its block", cause "N10 X100 [NAME] Y200", hint "a label comes first in its block: N10 [NAME] X100 Y200";
     VariableClass = Vendor 21218: Error ProgramAbort 3 1, "variable type not available", cause "V.L.", hint "V.P, V.L, V.S and V.CYC can be declared";
@@ -270,6 +271,7 @@ conditions! {
     ContourLineOpen = Vendor 21904: Error ProgramAbort 3 1, "contour line not completely defined", cause "#ANG=30 without a coordinate, and no #ANG in the next block", hint "write one coordinate, or #ANG and both coordinates into the next block";
     ContourLineRelative = Vendor 21910: Error ProgramAbort 3 1, "second of two contour lines in relative coordinates", hint "write G90 into its block";
     AxisIdentifier = Vendor 21947: Error ProgramAbort 3 1, "unknown axis identifier", hint "write the name of an axis or spindle of the channel";
+    StretchFactor = Vendor 22007: Warning None 1 1, "STRETCH_FACTOR outside its range", cause "#TRC [STRETCH_FACTOR=10]", hint "1 to 9 tool radii are possible";
     SeveralCalls = Vendor 22008: Error ProgramAbort 3 1, "several implicit calls at one block end", hint "write the second call in a block of its own";
     FilterAndGuard = Vendor 22060: Error ProgramAbort 3 1, "#FILTER and #VIB GUARD in one program", cause "the two may not be mixed", hint "use one of the two in a program; the OFF forms count too";
     GuardMode = Vendor 22062: Error ProgramAbort 3 1, "Vibration Guard mode not allowed", cause "MODE outside 1…4", hint "modes are 1 to 4";

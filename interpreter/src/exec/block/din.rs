@@ -15,7 +15,7 @@ use crate::exec::contour::insertion::Kind;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::machine::Axis;
-use crate::syntax::ast::{Call, Jump, Span, Word};
+use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 
 /// What follows a block.
 #[derive(Debug)]
@@ -26,8 +26,8 @@ pub(in crate::exec) enum After<'b> {
     /// M06 with a program of its own.
     ToolChange(Span),
     Goto(&'b Jump),
-    /// M17, M29.
-    Return,
+    /// M17, M29, with the place they name.
+    Return(Option<(&'b Return, Span)>),
     /// M02, M30.
     End,
 }
@@ -238,6 +238,7 @@ impl Decoder {
             Act::Compensation(side) => self.compensation(side, g.span),
             Act::Diameter(on) => self.diameter_programming(on, g.span)?,
             Act::Spline(on) => self.contour.akima.select(on),
+            Act::Tangential => self.select_tangentially(g, words)?,
             Act::Selection(selection) => self.select_compensation_by(selection, g, words)?,
             Act::Radius => {
                 let radius = g.value.unwrap_or_default() * self.modal.unit_mm();

@@ -156,6 +156,8 @@ pub(in crate::exec) enum Act {
     EngagementFeed(bool),
     /// G25, G26.
     Corners(Corners),
+    /// G05.
+    Tangential,
     /// G138, G139, G237 to G239.
     Selection(Selection),
     CentreAbsolute(bool),
@@ -244,7 +246,7 @@ const ROWS: &[Row] = &[
     g(2, Group::Path, Act::Path(PathMode::Clockwise)),
     g(3, Group::Path, Act::Path(PathMode::CounterClockwise)),
     Row { number: 4, group: Group::Path, act: Act::Dwell, value: ValueRule::Optional },
-    g(5, Group::None, Act::Unsupported("tangential selection of tool radius compensation")),
+    g(5, Group::None, Act::Tangential),
     g(8, Group::FeedInterpolation, Act::Ignored(FEED_CHANGE)),
     g(9, Group::None, Act::EarlyBrakingOnce),
     g(10, Group::CompensationFeed, Act::EngagementFeed(false)),

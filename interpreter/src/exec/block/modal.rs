@@ -142,6 +142,10 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) engagement_feed: bool,
     /// `#TANGFEED`: least radius of such arcs in mm.
     pub(in crate::exec) engagement_radius_mm: f64,
+    /// `#TRC [STRETCH_FACTOR]`: reach of the lines at acute outer corners in tool radii.
+    pub(in crate::exec) corner_stretch: f64,
+    /// `#TRC [REVERSE]`.
+    pub(in crate::exec) turns_back: bool,
     /// G161: centres in coordinates of the program.
     pub(in crate::exec) centre_absolute: bool,
     /// G165.
@@ -190,6 +194,8 @@ impl Modal {
             corner_deceleration: false,
             engagement_feed: false,
             engagement_radius_mm: 0.0,
+            corner_stretch: 1.0,
+            turns_back: false,
             centre_absolute: false,
             centre_correction: true,
             radius_mm: None,

@@ -1,6 +1,6 @@
 //! Weights, feedforward, tools, rotation and tool radius compensation: words that change how later blocks move.
 
-use super::groups::Group;
+use super::groups::{Act, Group};
 use super::modal::{Compensation, Selection};
 use super::words::{GWord, Placed, Words};
 use crate::diag::{Condition, ValueKind};
@@ -185,6 +185,29 @@ impl Decoder {
                 .with(|d| d.value(ValueKind::Wrong, g.row.number, "-")));
         }
         self.modal.selection = selection;
+        Ok(())
+    }
+
+    /// G05: the motion that begins or ends compensation becomes an arc.
+    pub(in crate::exec) fn select_tangentially(
+        &mut self,
+        g: &GWord,
+        words: &Words<'_>,
+    ) -> Outcome<()> {
+        let Some(side) = words.group(Group::Compensation) else {
+            let text = "G05 without G40, G41 or G42 in its block";
+            return Err(Fault::new(Condition::Compensation, text, g.span)
+                .hint("write G05 beside the word that it belongs to"));
+        };
+        let selection = match words.group(Group::CompensationSelection).map(|g| g.row.act) {
+            Some(Act::Selection(selection)) => selection,
+            _ => self.modal.selection,
+        };
+        if side.row.number == 40 && selection == Selection::WithoutBlock {
+            let what = "G05 with G40 of G239, which leaves the tool where it is";
+            return Err(Fault::unsupported(what, g.span));
+        }
+        self.contour.tangential = true;
         Ok(())
     }
 

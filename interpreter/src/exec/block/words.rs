@@ -12,8 +12,8 @@ use crate::exec::options::Value;
 use crate::exec::suggest;
 use crate::exec::values::system;
 use crate::syntax::ast::{
-    Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Jump, PlaceKind, Sign, Span, Word,
-    WordKind,
+    Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Jump, PlaceKind, Return, Sign, Span,
+    Word, WordKind,
 };
 use smallvec::SmallVec;
 
@@ -78,6 +78,8 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) hashes: SmallVec<[(&'b HashWord, Option<f64>, Span); 1]>,
     pub(in crate::exec) call: Option<(&'b Call, Span)>,
     pub(in crate::exec) goto: Option<&'b Jump>,
+    /// Where M17 or M29 leads, if they say so.
+    pub(in crate::exec) back: Option<(&'b Return, Span)>,
 }
 
 impl Words<'_> {
@@ -125,6 +127,13 @@ impl Decoder {
                 let code = self.code(number, value.as_deref(), "M", span)?;
                 once(&block.m, &code, "M", Condition::MTwice)?;
                 block.m.push(code);
+                Ok(())
+            }
+            WordKind::Return(back) => {
+                let code = Code { number: back.number, value: None, span };
+                once(&block.m, &code, "M", Condition::MTwice)?;
+                block.m.push(code);
+                block.back = Some((back, span));
                 Ok(())
             }
             WordKind::H(number, value) => {

@@ -19,7 +19,7 @@ const OPTIONS: &[&str] = &["CMDPOS", "ACTPOS", "OFFSETS", "NO_OFFSETS", "ALL"];
 const PLACES: u32 = 32;
 
 /// Row of `#PUT AX`.
-pub(super) const PUT_AX: Row = Row::run("PUT AX", put)
+pub(super) const PUT_AX: Row = Row::run("PUT AX", put).several()
     .form("#PUT AX [name]")
     .example("#PUT AX [X]")
     .meaning("axis exchange: takes axes into the channel or gives them back")
@@ -66,7 +66,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 }
 
 /// Row of `#CALL AX`.
-pub(super) const CALL_AX: Row = Row::run("CALL AX", call)
+pub(super) const CALL_AX: Row = Row::run("CALL AX", call).several()
     .form("#CALL AX [name,number,index]")
     .example("#CALL AX [X,1,0]")
     .meaning("axis exchange: takes axes into the channel or gives them back")
@@ -85,7 +85,7 @@ pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 }
 
 /// Row of `#SET AX`.
-pub(super) const SET_AX: Row = Row::run("SET AX", set)
+pub(super) const SET_AX: Row = Row::run("SET AX", set).several()
     .form("#SET AX [name,number,index]")
     .example("#SET AX [X,1,0]")
     .meaning("axis exchange: takes axes into the channel or gives them back")

@@ -4,7 +4,7 @@
 
 use super::keys::{arguments, at_least, between};
 use super::row::{Call, Row};
-use crate::diag::Condition;
+use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::{Item, ItemKind, ItemValue, Span};
@@ -12,12 +12,15 @@ use crate::syntax::ast::{Item, ItemKind, ItemValue, Span};
 /// Value of `TANGENTIAL_LIMIT` without a word, in degrees.
 const TANGENTIAL_LIMIT_DEG: f64 = 3.0;
 
+/// Largest `STRETCH_FACTOR` (480140427 of the manual of the kernel).
+const STRETCH_MAX: f64 = 9.0;
+
 arguments! {
     /// Keys of `#TRC`.
     struct TrcArguments {
         conv_cir_to_lin: Number "CONV_CIR_TO_LIN" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         kerf_masking: Number "KERF_MASKING" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
-        reverse: Number "REVERSE" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
+        reverse: Number "REVERSE" in between(0.0, 1.0).whole(), "", "1: where a contour runs back, G41 and G42 change without a way across; default 0";
         ignore_cont_damage: Number "IGNORE_CONT_DAMAGE" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         remove_masked_blocks: Number "REMOVE_MASKED_BLOCKS", "", "0; others are not supported";
         ext_angle: Number "EXT_ANGLE_BLOCK_INTERSECTION", "", "0; others are not supported";
@@ -29,6 +32,8 @@ arguments! {
         inverse: Number "INVERSE", "", "0; 1 is not supported";
         split: Flag "SPLIT", "", "not supported";
         split_path: Flag "SPLIT_PATH", "", "not supported";
+        gen_circle: Number "GEN_CIR_BLOCK_IN_CORNER" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
+        stretch: Number "STRETCH_FACTOR", "tool radii", "1 to 9, default 1: how far the lines of G25 reach at acute outer corners";
         _split_off: Flag "SPLIT_OFF", "", "as without it";
         ax: Word "AX", "", "of SPLIT";
         axnr: Number "AXNR", "", "of SPLIT";
@@ -48,7 +53,6 @@ impl TrcArguments {
         let numbers = [
             ("CONV_CIR_TO_LIN", self.conv_cir_to_lin, 0.0),
             ("KERF_MASKING", self.kerf_masking, 0.0),
-            ("REVERSE", self.reverse, 0.0),
             ("IGNORE_CONT_DAMAGE", self.ignore_cont_damage, 0.0),
             ("REMOVE_MASKED_BLOCKS", self.remove_masked_blocks, 0.0),
             ("EXT_ANGLE_BLOCK_INTERSECTION", self.ext_angle, 0.0),
@@ -56,6 +60,7 @@ impl TrcArguments {
             ("TANGENTIAL_LIMIT", self.tangential_limit, TANGENTIAL_LIMIT_DEG),
             ("PERPENDICULAR_RADIUS_CHANGE", self.perpendicular, 0.0),
             ("SUPPRESS_TRC", self.suppress, 0.0),
+            ("GEN_CIR_BLOCK_IN_CORNER", self.gen_circle, 0.0),
             ("ONLINE", self.online, 0.0),
             ("INVERSE", self.inverse, 0.0),
         ];
@@ -79,7 +84,7 @@ impl TrcArguments {
 pub(super) const TRC: Row = Row::run("TRC", options)
     .form("#TRC [key=value ..]")
     .meaning(
-        "options of tool radius compensation; only their values at program start are supported",
+        "options of tool radius compensation; of most only the values at program start are supported",
     )
     .keys(TrcArguments::KEYS)
     .example("#TRC [KERF_MASKING=0]")
@@ -93,10 +98,22 @@ fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     }
     let keys = TrcArguments::read(decoder, &call.title(), group)?;
-    match keys.unsupported() {
-        Some((name, span)) => Err(Fault::unsupported(format!("#TRC [{name}]"), span)),
-        None => Ok(()),
+    if let Some((name, span)) = keys.unsupported() {
+        return Err(Fault::unsupported(format!("#TRC [{name}]"), span));
     }
+    if let Some((reverse, _)) = keys.reverse {
+        decoder.modal.turns_back = reverse > 0.0;
+    }
+    if let Some((factor, span)) = keys.stretch {
+        decoder.modal.corner_stretch = factor;
+        if !(1.0..=STRETCH_MAX).contains(&factor) {
+            let text = format!("#TRC [STRETCH_FACTOR={factor}], allowed are 1 to 9: 1 holds");
+            let fault = Fault::new(Condition::StretchFactor, text, span);
+            decoder.report.note(fault.with(|d| d.value(ValueKind::Wrong, factor, "-")));
+            decoder.modal.corner_stretch = 1.0;
+        }
+    }
+    Ok(())
 }
 
 arguments! {

@@ -388,6 +388,7 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// Row of `#TRANSVELMIN`.
 pub(super) const TRANSVELMIN: Row = Row::run("TRANSVELMIN", transition_velocity)
+    .values()
     .form("#TRANSVELMIN ON|OFF")
     .meaning("least speed at block transitions")
     .example("#TRANSVELMIN ON")

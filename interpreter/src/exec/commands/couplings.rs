@@ -3,7 +3,7 @@
 //! A definition moves nothing and is checked; a group that is switched on would move its slaves and is refused.
 //!
 //! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579), gantry operation (285670667);
-//! 20475 to 20477, 21077 and 21110.
+//! 20475 to 20477, 21077, 21110 and 21111.
 
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
@@ -18,7 +18,7 @@ pub(super) const SET_AX_LINK: Row = Row::run("SET AX LINK", define)
     .meaning("defines a group of axis couplings")
     .note("the definition is checked; switching a group on is not supported")
     .example("#SET AX LINK [1, Y=X]")
-    .related(&["20475", "20476", "20477", "21077", "21110"]);
+    .related(&["20475", "20476", "20477", "21077", "21110", "21111"]);
 
 /// Row of `#AX LINK`.
 pub(super) const AX_LINK: Row = Row::run("AX LINK", link)
@@ -90,7 +90,8 @@ fn coupling(item: &Item) -> Option<(&Ident, &Ident)> {
 
 /// `-1, 2` behind a pair: numerator and denominator of its factor. Behind G stand monitoring limits instead.
 ///
-/// Assumption: a denominator of 0 has no number of its own on the pages of programs and is out of range.
+/// Assumption: of two pages that disagree, 21111 (253496203: factors other than 1 and -1 become 1) holds and not the
+/// description of scaled couplings (285670667), since it says what the control does. A denominator of 0 is such a factor.
 fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<()> {
     let [Item { kind: ItemKind::Value(ItemValue::Expr(numerator)), .. }, rest @ ..] = items else {
         return Ok(());
@@ -107,9 +108,16 @@ fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<()> {
         return Err(Fault::new(Condition::CouplingDenominatorMissing, text, numerator.span)
             .with(|d| d.value(ValueKind::Current, above, "-")));
     };
-    if decoder.number(denominator)? == 0.0 {
-        let text = "the denominator of the coupling factor is 0";
-        return Err(Fault::new(Condition::Range, text, denominator.span));
+    let below = decoder.number(denominator)?;
+    if above.abs().to_bits() != below.abs().to_bits() {
+        let text = format!("the coupling factor is {above}/{below}, allowed are 1 and -1");
+        let fault = Fault::new(Condition::CouplingFactorInvalid, text, numerator.span);
+        decoder.report.note(fault.with(|d| {
+            let d = d.value(ValueKind::Current, above, "-").value(ValueKind::Current, below, "-");
+            // of the denominator 0 there is no factor
+            let factor = above / below;
+            if factor.is_finite() { d.value(ValueKind::Wrong, factor, "-") } else { d }
+        }));
     }
     Ok(())
 }

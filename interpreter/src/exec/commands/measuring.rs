@@ -92,6 +92,7 @@ fn mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// Row of `#MEAS DEFAULT`.
 pub(super) const MEAS_DEFAULT: Row = Row::run("MEAS DEFAULT", defaults)
+    .bare()
     .form("#MEAS DEFAULT")
     .meaning("measuring as the lists say")
     .example("#MEAS DEFAULT")

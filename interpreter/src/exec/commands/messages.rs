@@ -20,6 +20,7 @@ const MODES: &[&str] = &["SYN", "SYN_ACK", "ACK", "SAVE", "EXCLUSIVE", "INFO"];
 
 /// Row of `#MSG`.
 pub(super) const MSG: Row = Row::run("MSG", message)
+    .several()
     .form("#MSG [\"text\", values]")
     .meaning("message of the program")
     .note("formats %s %S %d %D %f %F")

@@ -13,6 +13,7 @@ use crate::syntax::ast::{ExprKind, ItemKind, ItemValue};
 
 /// Row of `#FLUSH`.
 pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
+    .bare()
     .form("#FLUSH [CONTINUE|WAIT]")
     .meaning("stops at the end of the block before it; CONTINUE only if no more blocks are known")
     .example("#FLUSH WAIT");
@@ -90,6 +91,7 @@ fn channel_init(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// Row of `#TIME`.
 pub(super) const TIME: Row = Row::run("TIME", time)
+    .values()
     .form("#TIME t")
     .meaning("dwell of t seconds, as G04")
     .example("#TIME 2.5")
@@ -118,7 +120,7 @@ fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 }
 
 /// Row of `#WAIT`.
-pub(super) const WAIT: Row = Row::run("WAIT", wait)
+pub(super) const WAIT: Row = Row::run("WAIT", wait).several().values()
     .form("#WAIT INDP [X, Y]   #WAIT INDP ALL   #WAIT FOR condition   #WAIT [SYN] [ID=.. P[i]=variable CH=..]")
     .meaning("the path stops until these independent axes have arrived; of conditions: tested once; uses up a signal")
     .example("#WAIT INDP [X]")

@@ -18,7 +18,7 @@ use crate::syntax::ast::{ItemKind, ItemValue, Span};
 const MOST: usize = 32;
 
 /// Row of `#GET CMDPOS`.
-pub(super) const GET_CMDPOS: Row = Row::run("GET CMDPOS", command_positions)
+pub(super) const GET_CMDPOS: Row = Row::run("GET CMDPOS", command_positions).several().values()
     .form("#GET CMDPOS [variable=axis, ..]")
     .meaning("the path stops; P parameters and V.P, V.L, V.S variables get the command positions of axes")
     .note("positions of the axes, without offsets; #SET IPO SOLLPOS is the older name")
@@ -26,10 +26,13 @@ pub(super) const GET_CMDPOS: Row = Row::run("GET CMDPOS", command_positions)
     .related(&["#GET ACTPOS", "#CHANNEL INIT", "20186"]);
 
 /// Row of `#SET IPO SOLLPOS`.
-pub(super) const SET_IPO_SOLLPOS: Row = Row::run("SET IPO SOLLPOS", command_positions);
+pub(super) const SET_IPO_SOLLPOS: Row =
+    Row::run("SET IPO SOLLPOS", command_positions).several().values();
 
 /// Row of `#GET ACTPOS`.
 pub(super) const GET_ACTPOS: Row = Row::run("GET ACTPOS", actual_positions)
+    .several()
+    .values()
     .form("#GET ACTPOS [variable=axis, ..]")
     .meaning(
         "the path stops; P parameters and V.P, V.L, V.S variables get the actual positions of axes",

@@ -35,11 +35,26 @@ pub(crate) struct Row {
     pub(crate) example: &'static str,
     /// Things to look up next.
     pub(crate) related: &'static [&'static str],
+    /// Most brackets behind the name; what its function does not look at must not be written.
+    brackets: usize,
+    /// Values may stand there without a bracket.
+    values: bool,
 }
 
 impl Row {
     pub(super) const fn of(name: &'static str, act: Act) -> Self {
-        Self { name, act, form: "", meaning: "", keys: &[], note: "", example: "", related: &[] }
+        Self {
+            name,
+            act,
+            form: "",
+            meaning: "",
+            keys: &[],
+            note: "",
+            example: "",
+            related: &[],
+            brackets: 1,
+            values: false,
+        }
     }
 
     /// A command that does something.
@@ -48,6 +63,39 @@ impl Row {
         f: fn(&mut Decoder, &Call<'_>) -> Outcome<()>,
     ) -> Self {
         Self::of(name, Act::Run(f))
+    }
+
+    /// It takes no bracket.
+    pub(super) const fn bare(self) -> Self {
+        Self { brackets: 0, ..self }
+    }
+
+    /// It takes several brackets, or looks at their number itself.
+    pub(super) const fn several(self) -> Self {
+        Self { brackets: usize::MAX, ..self }
+    }
+
+    /// It takes values without a bracket, or looks at them itself.
+    pub(super) const fn values(self) -> Self {
+        Self { values: true, ..self }
+    }
+
+    /// 21220 for a bracket or a value that the command would not look at.
+    pub(super) fn takes(&self, command: &Command) -> Outcome<()> {
+        let name = self.name;
+        let (text, span) = if let Some(group) = command.groups.get(self.brackets) {
+            let text = match self.brackets {
+                0 => format!("#{name} takes no bracket"),
+                _ => format!("#{name}: all that belongs to it stands in one bracket"),
+            };
+            (text, group.span)
+        } else if let (Some(value), false) = (command.arguments.first(), self.values) {
+            (format!("#{name}: a value without a bracket"), value.span)
+        } else {
+            return Ok(());
+        };
+        let fault = Fault::new(Condition::TokenUnknown, text, span);
+        Err(if self.form.is_empty() { fault } else { fault.hint(format!("write {}", self.form)) })
     }
 
     pub(super) const fn form(self, form: &'static str) -> Self {

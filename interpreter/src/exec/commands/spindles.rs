@@ -12,7 +12,7 @@ use crate::machine::Axis;
 use crate::syntax::ast::{ItemKind, ItemValue, Span};
 
 /// Row of `#MAIN SPINDLE`.
-pub(super) const MAIN_SPINDLE: Row = Row::run("MAIN SPINDLE", main_spindle)
+pub(super) const MAIN_SPINDLE: Row = Row::run("MAIN SPINDLE", main_spindle).several().values()
     .form("#MAIN SPINDLE [name|logical number]   #MAIN SPINDLE")
     .meaning("another spindle of the channel gets the name of the main spindle, S and M3 to M19 are for it")
     .note("without a bracket: the spindle of P-CHAN-00051; speeds and rotation of every spindle stay as they are")

@@ -13,7 +13,7 @@ use crate::exec::values::number::whole;
 use crate::syntax::ast::{ItemKind, ItemValue, Span};
 
 /// Row of `#SPLINE`.
-pub(super) const SPLINE: Row = Row::run("SPLINE", spline)
+pub(super) const SPLINE: Row = Row::run("SPLINE", spline).bare()
     .form("#SPLINE ON|OFF")
     .meaning("a curve through the points of the following lines, as G151 and G150")
     .note("it begins at the last point before it; arcs interrupt it tangentially; no rest, G00 or tool radius compensation in it")
@@ -22,6 +22,7 @@ pub(super) const SPLINE: Row = Row::run("SPLINE", spline)
 
 /// Row of `#SET SPLINE`.
 pub(super) const SET_SPLINE: Row = Row::run("SET SPLINE", spline)
+    .bare()
     .form("#SET SPLINE ON|OFF")
     .meaning("older form of #SPLINE")
     .example("#SET SPLINE ON")

@@ -27,6 +27,7 @@ pub(super) const TOOL_PREP: Row = Row::run("TOOL PREP", tool_prep)
 
 /// Row of `#TOOL REFRESH`.
 pub(super) const TOOL_REFRESH: Row = Row::run("TOOL REFRESH", refresh)
+    .bare()
     .form("#TOOL REFRESH")
     .meaning("takes the data of the active tool into account anew, e.g. after an exchange of axes")
     .example("#TOOL REFRESH")

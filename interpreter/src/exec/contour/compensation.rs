@@ -3,7 +3,8 @@
 //! Outer corners are rounded by arcs about the corner (G26) or go round by lines (G25), inner corners are the
 //! intersection of the parallels. The first line after G41 or G42 leads to the point perpendicular above the beginning
 //! of the next element, the first line after G40 leads back to the contour. With G237 a line perpendicular to the
-//! contour does both, and the contour may begin and end with arcs. With G238 the tool enters and leaves a closed contour at
+//! contour does both, and the contour may begin and end with arcs. With G05 the lines that lead to the contour and away from it
+//! become arcs that touch the parallel. With G238 the tool enters and leaves a closed contour at
 //! an inside corner; with G239 it stays after G40 where it is.
 //!
 //! Source: TF5200 programming manual, tool radius compensation (G25, G26, G40 to G42, G138, G139, G237 to G239); generation
@@ -17,6 +18,7 @@ mod corner;
 mod element;
 mod inside;
 mod item;
+mod tangential;
 
 use super::bottleneck::{Cut, Watch};
 use crate::diag::Condition;
@@ -29,9 +31,11 @@ use crate::exec::step::{SourceRef, Sync};
 use crate::syntax::ast::Span;
 use active::Active;
 use corner::{above, straight};
-use element::{Element, line, moving_side};
+use element::{Element, line, moving_side, runs_back};
 use inside::Closed;
 use item::Fallible;
+
+use tangential::Touch;
 
 pub(in crate::exec) use item::{Item, Rest};
 
@@ -46,6 +50,8 @@ pub(in crate::exec) struct Compensator {
     /// The first bottleneck, until it has been reported.
     cut: Option<Cut>,
     told: bool,
+    /// The next motion in the plane begins or ends compensation in an arc (G05).
+    tangential: bool,
 }
 
 impl Compensator {
@@ -87,6 +93,7 @@ impl Compensator {
     }
 
     fn next(&mut self, motion: Box<Motion>, out: &mut Vec<Item>) -> Fallible<()> {
+        self.tangential |= motion.tangential;
         if let Some(mut closed) = self.closed.take() {
             let Some(motion) = closed.gather(motion)? else {
                 self.closed = Some(closed);
@@ -99,7 +106,7 @@ impl Compensator {
             if !self.told {
                 self.cut = cut;
             }
-            return self.select(motion, Some(at), out);
+            return self.select(motion, Some((at, None)), out);
         }
         let Some(active) = self.active.take() else {
             return self.select(motion, None, out);
@@ -111,6 +118,11 @@ impl Compensator {
         let Some(side) = moving_side(&motion, active.plane)? else {
             return self.outside_plane(active, motion);
         };
+        let tangential = std::mem::take(&mut self.tangential);
+        if tangential && (motion.compensation.is_some() || active.perpendicular) {
+            let what = "G05 with a change of side or radius, or after G237";
+            return Err(Fault::unsupported(what, motion.span));
+        }
         let same = motion
             .compensation
             .is_some_and(|c| c.distance_mm.to_bits() == active.distance.to_bits());
@@ -123,6 +135,15 @@ impl Compensator {
             }
             return Ok(());
         }
+        if motion
+            .compensation
+            .is_some_and(|c| c.reverse && c.distance_mm.to_bits() == (-active.distance).to_bits())
+            && !active.last.approach
+            && runs_back(&active.last.side, &side)
+        {
+            self.active = Some(Box::new(active.turn_back(motion, side, out)?));
+            return Ok(());
+        }
         // another side or radius, or none: a line leads there
         if active.perpendicular
             || motion.compensation.is_some_and(|c| c.selection == Selection::Perpendicular)
@@ -133,8 +154,9 @@ impl Compensator {
         if !matches!(side, Side::Line { .. }) {
             return Err(circular(&motion));
         }
+        let away = tangential.then(|| active.last.side.tangent(true));
         let at = active.finish(out)?;
-        self.select(motion, Some(at), out)
+        self.select(motion, Some((at, away)), out)
     }
 
     /// A step at rest between motions.
@@ -172,23 +194,29 @@ impl Compensator {
         }
     }
 
-    /// A motion without active compensation, `at` the place that an earlier one has left.
+    /// A motion without active compensation; `at` is the place that an earlier one has left, with its direction there if
+    /// an arc leads away (G05).
     fn select(
         &mut self,
         mut motion: Box<Motion>,
-        at: Option<Point>,
+        at: Option<(Point, Option<Point>)>,
         out: &mut Vec<Item>,
     ) -> Fallible<()> {
         let plane = motion.plane;
-        if let Some(at) = at {
+        if let Some((at, away)) = at {
             let path = &motion.block.path;
             let end = [path.end()[plane[0]], path.end()[plane[1]]];
-            match line(&motion, plane, at, end) {
+            let way = match away {
+                Some(tangent) => tangential::way(&motion, plane, (at, end), tangent, Touch::Start)?,
+                None => line(&motion, plane, at, end),
+            };
+            match way {
                 Some(path) => motion.block.path = path,
                 None => return Ok(()),
             }
         }
         let Some(Compensated { distance_mm: distance, selection, .. }) = motion.compensation else {
+            self.tangential = false;
             out.push(Item::Motion(motion));
             return Ok(());
         };
@@ -198,6 +226,10 @@ impl Compensator {
             return Ok(());
         };
         let perpendicular = selection == Selection::Perpendicular;
+        let tangential = std::mem::take(&mut self.tangential);
+        if tangential && perpendicular {
+            return Err(Fault::unsupported("G05 with G237", motion.span));
+        }
         if selection == Selection::InsideCorner {
             if !matches!(side, Side::Line { .. }) {
                 return Err(circular(&motion));
@@ -225,7 +257,7 @@ impl Compensator {
         if !approach {
             watch.contour(side, motion.source, distance.abs());
         }
-        let last = Element { motion, side, start, approach };
+        let last = Element { motion, side, start, approach, tangential };
         let between = Vec::new();
         let active = Active { distance, perpendicular, plane, tilt, last, between, watch };
         self.active = Some(Box::new(active));

@@ -21,6 +21,8 @@ pub(in crate::exec) struct Motion {
     /// The path is in the coordinates of the tilt.
     pub(in crate::exec) local: bool,
     pub(in crate::exec) compensation: Option<Compensated>,
+    /// G05: it begins or ends the compensation in an arc.
+    pub(in crate::exec) tangential: bool,
     /// How its feed changes along it.
     pub(in crate::exec) course: Option<FeedCourse>,
     /// It leads to a point of an Akima spline.
@@ -34,8 +36,11 @@ pub(in crate::exec) struct Motion {
 pub(in crate::exec) struct Compensated {
     /// Distance of the tool's centre to the left of the contour.
     pub(in crate::exec) distance_mm: f64,
-    /// Outer corners by lines (G25) instead of arcs (G26).
-    pub(in crate::exec) straight_corners: bool,
+    /// Outer corners by lines (G25) that reach this number of tool radii beyond the parallels at most, instead of arcs
+    /// (G26).
+    pub(in crate::exec) straight_corners: Option<f64>,
+    /// The tool turns round where a contour that runs back changes its side.
+    pub(in crate::exec) reverse: bool,
     /// How it begins and ends.
     pub(in crate::exec) selection: Selection,
     /// G11: least radius in mm of the arcs whose feed is that of the tool's engagement.

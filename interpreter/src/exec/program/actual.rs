@@ -3,7 +3,7 @@
 use crate::exec::values::system;
 use crate::syntax::ast::{
     Block, Body, CallKind, ControlKind, Expr, ExprKind, GValue, Group, ItemKind, ItemValue, Place,
-    PlaceKind, WordKind,
+    PlaceKind, ReturnLevel, WordKind,
 };
 use smallvec::{SmallVec, smallvec};
 
@@ -24,6 +24,9 @@ pub(super) fn needs_actual(block: &Block) -> bool {
                 expr_needs_actual(&assign.value) || place_needs_actual(&assign.target)
             }
             WordKind::M(_, Some(value)) | WordKind::H(_, Some(value)) => expr_needs_actual(value),
+            WordKind::Return(back) => {
+                matches!(&back.level, ReturnLevel::Jumps(levels) if expr_needs_actual(levels))
+            }
             WordKind::Bracket(bracket) => group_needs_actual(&bracket.group),
             WordKind::Hash(hash) => hash.value.as_ref().is_some_and(expr_needs_actual),
             WordKind::Call(call) => match &call.kind {

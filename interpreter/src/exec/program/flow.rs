@@ -1,8 +1,7 @@
-//! Control statements and jumps; loops are in `loops`.
+//! Control statements; loops are in `loops`, jumps in [`super::jumps`].
 //!
 //! Source: TF5200 programming manual, control blocks. Assumptions: `$CASE` falls through; bounds of `$FOR` are taken
-//! once; a jump may leave control blocks, which closes them. It may enter branches of `$IF` (chapter `$GOTO`), which are
-//! then as if their condition had been true (assumption), but neither loops (21480) nor `$SWITCH`.
+//! once.
 
 mod loops;
 
@@ -13,9 +12,7 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::source::Position;
-use crate::syntax::ast::{
-    Body, Control, ControlKind, Expr, Jump, JumpKind, LabelKind, Place, Span,
-};
+use crate::syntax::ast::{Body, Control, ControlKind, Expr, Place, Span};
 use std::sync::Arc;
 
 /// Values closer than this are equal in `$SWITCH`. Source: TF5200 programming manual.
@@ -264,92 +261,6 @@ impl Executor {
             None => self.leave_structure(id),
         }
         Ok(())
-    }
-
-    /// The label of a jump; a calculated number is rounded as that of a block is (206817035).
-    fn label_of(&mut self, jump: &Jump) -> Outcome<LabelKind> {
-        match &jump.kind {
-            JumpKind::Label(label) => Ok(label.clone()),
-            JumpKind::Number(expr) => {
-                let number = self.decoder.number(expr)?;
-                match number.round() {
-                    n if (0.0..=f64::from(u32::MAX)).contains(&n) => {
-                        Ok(LabelKind::Number(n as u64))
-                    }
-                    _ => {
-                        let text = format!("label N{number}: does not exist in this program");
-                        Err(Fault::new(Condition::Label, text, expr.span))
-                    }
-                }
-            }
-            JumpKind::Name(place) => match self.decoder.read(place)? {
-                Value::Text(name) => Ok(LabelKind::Name(name.trim().to_uppercase().into())),
-                Value::Number(_) => {
-                    let text = "the variable holds a number, not the name of a label";
-                    let hint = "$GOTO NV.E.NAME jumps to the block with this number";
-                    Err(Fault::new(Condition::Syntax, text, place.span).hint(hint))
-                }
-            },
-        }
-    }
-
-    /// `$GOTO`.
-    pub(in crate::exec) fn goto(&mut self, jump: &Jump) {
-        let label = match self.label_of(jump) {
-            Ok(label) => label,
-            Err(fault) => return self.decoder.report.note(fault),
-        };
-        let Some(level) = self.levels.last_mut() else { return };
-        let shown = match &label {
-            LabelKind::Number(n) => format!("N{n}:"),
-            LabelKind::Name(name) => format!("[{name}]"),
-        };
-        let Some(place) = level.index.label(level.section, &label).copied() else {
-            let text = format!("label {shown} does not exist in this program");
-            let hint = "a label comes first in its block: N20: or [NAME]";
-            self.decoder.report.note(Fault::new(Condition::Label, text, jump.span).hint(hint));
-            return;
-        };
-        // structures around the label that are not open, the innermost first
-        let mut entered = Vec::new();
-        let mut around = place.parent;
-        let depth = loop {
-            let Some(id) = around else { break 0 };
-            if let Some(depth) = level.frames.iter().rposition(|f| f.open == id) {
-                break depth + 1;
-            }
-            entered.push(id);
-            around = level.index.entry(id).parent;
-        };
-        let keyword = |id: &EntryId| level.index.entry(*id).keyword;
-        let closed = entered.iter().map(keyword).find(|k| *k != Keyword::If);
-        if closed.is_none() {
-            level.frames.truncate(depth);
-            // a branch of $IF is entered as if its condition had been true
-            level.frames.extend(entered.iter().rev().map(|id| Frame {
-                open: *id,
-                keyword: Keyword::If,
-                counter: None,
-            }));
-            level.at = place.position;
-            // a jump back is a loop: its blocks are parsed once
-            let (to, from) = (place.position.offset, self.position.offset);
-            if to <= from {
-                let known = level.again.unwrap_or((to, from));
-                let again = (known.0.min(to), known.1.max(from));
-                if level.again.replace(again) != Some(again) {
-                    self.files.make_room();
-                }
-            }
-        } else {
-            let keyword = closed.map_or("", Keyword::text);
-            let text = format!("label {shown} is inside {keyword}");
-            let condition = match closed {
-                Some(keyword) if keyword.is_loop() => Condition::JumpIntoLoop,
-                _ => Condition::LabelInto,
-            };
-            self.decoder.report.note(Fault::new(condition, text, jump.span));
-        }
     }
 }
 

@@ -85,6 +85,33 @@ impl Index {
         self.labels.get(&(section, label.clone()))
     }
 
+    /// Where a block is in the structure of its section; `None` inside `#COMMENT`.
+    pub(super) fn block(&self, position: Position) -> Option<LabelPlace> {
+        // the last statement up to the block says what the block is in
+        let before = self.entries.partition_point(|e| e.position.offset <= position.offset);
+        let Some(entry) = before.checked_sub(1).map(|i| &self.entries[i]) else {
+            return Some(LabelPlace { position, parent: None });
+        };
+        let itself = entry.position.offset == position.offset;
+        let keyword = entry.keyword;
+        let closes = keyword.opener().and_then(Keyword::closer) == Some(keyword);
+        let parent = match (keyword, entry.open) {
+            (Keyword::CommentBegin, _) if !itself => return None,
+            (_, None) => entry.parent,
+            (
+                Keyword::ConditionalIf | Keyword::ConditionalElse | Keyword::ConditionalEnd,
+                Some(open),
+            ) => self.entry(open).parent,
+            // a structure begins here, or has ended
+            (_, Some(_)) if itself && keyword.closer().is_some() => entry.parent,
+            (_, Some(open)) if closes && !itself => self.entry(open).parent,
+            (_, open) => open,
+        };
+        // one without its end does not reach into the next section
+        let parent = parent.filter(|id| self.entry(*id).end.is_some());
+        Some(LabelPlace { position, parent })
+    }
+
     /// True if a jump can lead between two places.
     pub(super) fn has_label(&self, from: u64, to: u64) -> bool {
         self.labels.values().any(|label| (from..to).contains(&label.position.offset))

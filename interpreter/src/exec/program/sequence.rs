@@ -147,8 +147,8 @@ impl Executor {
         Ok(words)
     }
 
-    /// Looks once for the block numbers of a program.
-    fn learn_numbers(&mut self, file: usize, section: usize, span: Span) -> Outcome<()> {
+    /// Looks once for the block numbers of a program, for `sequences`.
+    pub(super) fn learn_numbers(&mut self, file: usize, section: usize, span: Span) -> Outcome<()> {
         if self.sequences.known.contains_key(&(file, section)) {
             return Ok(());
         }

@@ -94,7 +94,7 @@ pub(in crate::exec) struct ModalCycle {
 /// Begin and end of the first block of each number of a program.
 pub(super) type Blocks = BTreeMap<u64, (Position, Position)>;
 
-/// Block numbers of the programs that sequences were called from, by file and section.
+/// Block numbers of the programs that sequences or returns asked for, by file and section.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Sequences {
     pub(super) known: BTreeMap<(usize, usize), Blocks>,

@@ -3,6 +3,7 @@
 use super::{assert_near, clean, run};
 use kontur_motion::block::Feed;
 use kontur_motion::path::Path;
+use std::f64::consts::PI;
 
 const TOOL: &str = "V.G.WZ[1].R=2\nG26 D1 F100\n";
 
@@ -357,10 +358,14 @@ fn options_of_compensation() {
         ("#TRC [KERF_MASKING=1]", Some("K-0019")),
         ("#TRC [SPLIT AX=X PRE DIST_SEG1=5 FEED_SEG1=100]", Some("K-0019")),
         ("#TRC [REVERSE=0.5]", Some("K-0009")),
+        ("#TRC [REVERSE=1 STRETCH_FACTOR=9 GEN_CIR_BLOCK_IN_CORNER=0]", None),
+        ("#TRC [STRETCH_FACTOR=10]", Some("22007")),
+        ("#TRC [STRETCH_FACTOR=0.5]", Some("22007")),
+        ("#TRC [GEN_CIR_BLOCK_IN_CORNER=1]", Some("K-0019")),
         ("#TRC [REVRSE=1]", Some("21220")),
         ("#TRC", Some("21220")),
         ("G236", Some("K-0019")),
-        ("G05", Some("K-0019")),
+        ("G05", Some("K-0115")),
     ] {
         assert_eq!(
             run(&format!("{text}\nM30\n")).ids(),
@@ -403,4 +408,64 @@ fn feed_of_the_engagement() {
     let limited = feeds("#TANGFEED [RMIN=3]\nG25 G11\n");
     near(of(&limited, 5.0), 5.0);
     near(of(&limited, 7.0), 10.0);
+}
+
+/// An acute outer corner of 120 deg: the parallels meet at tan(60 deg) = 1.732 radii, which a factor of 2 reaches.
+#[test]
+fn lines_of_acute_corners_stretch() {
+    let corner = |factor: &str| {
+        let (x, y) = (10.0 + 20.0 * libm::cos(-2.0 * PI / 3.0), 20.0 * libm::sin(-2.0 * PI / 3.0));
+        let text = format!("G25 {factor}\nX-5 Y0\nG41 X0 Y0\nX10\nX{x:.12} Y{y:.12}\nG40 X0 Y-50");
+        let ends = clean(&format!("V.G.WZ[1].R=2\nD1 F100\n{text}\nM30\n")).ends();
+        ends[2..ends.len() - 2].iter().map(|p| [p[0], p[1]]).collect::<Vec<_>>()
+    };
+    let w = [libm::cos(-2.0 * PI / 3.0), libm::sin(-2.0 * PI / 3.0)];
+    // the beginning of the second parallel
+    let after = [10.0 - 2.0 * w[1], 2.0 * w[0]];
+    let stretched =
+        |n: f64| [[10.0 + 2.0 * n, 2.0], [after[0] - 2.0 * n * w[0], after[1] - 2.0 * n * w[1]]];
+    let same = |found: Vec<[f64; 2]>, expected: &[[f64; 2]]| {
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        for (a, b) in found.iter().zip(expected) {
+            assert_near(a, b);
+        }
+    };
+    same(corner(""), &stretched(1.0));
+    same(corner("\n#TRC [STRETCH_FACTOR=1.5]"), &stretched(1.5));
+    let tip = [[10.0 + 2.0 * libm::sqrt(3.0), 2.0]];
+    for factor in ["2", "3", "9"] {
+        same(corner(&format!("\n#TRC [STRETCH_FACTOR={factor}]")), &tip);
+    }
+    same(corner("\n#TRC [STRETCH_FACTOR=9]\n#TRC [STRETCH_FACTOR=1]"), &stretched(1.0));
+}
+
+/// There and back on the same side of a slot: the tool turns round where it is.
+#[test]
+fn a_contour_that_runs_back_changes_its_side_in_place() {
+    let there_and_back = "X-5 Y0\nG41 X0 Y0\nX20\nG42 X0\nG40 X-10 Y5";
+    assert_points(
+        &ends(&format!("#TRC [REVERSE=1]\n{there_and_back}")),
+        &[[-5.0, 0.0], [0.0, 2.0], [20.0, 2.0], [0.0, 2.0], [-10.0, 5.0]],
+    );
+    // as if the side had been left and selected anew: the line back leads across
+    let across = ends(there_and_back);
+    assert_eq!(across, ends(&format!("#TRC [REVERSE=1]\n#TRC [REVERSE=0]\n{there_and_back}")));
+    assert_ne!(across[3][1], 2.0);
+    // arcs: the same circle in the other direction
+    let run = clean(&format!(
+        "{TOOL}#TRC [REVERSE=1]\nG41 X10 Y0\nG03 X0 Y10 I-10 J0\nG42 G02 X10 Y0 I0 J-10\nG40 G01 X30 Y0\nM30\n"
+    ));
+    let radii: Vec<f64> = run
+        .blocks()
+        .iter()
+        .filter_map(|b| match &b.path {
+            Path::Arc(arc) => Some(arc.radius()),
+            _ => None,
+        })
+        .collect();
+    assert_near(&radii, &[8.0, 8.0]);
+    assert_points(&run.ends(), &[[8.0, 0.0], [0.0, 8.0], [8.0, 0.0], [30.0, 0.0]]);
+    // a corner is no reversal: the usual change of side
+    let corner = "X-5 Y0\nG41 X0 Y0\nX20\nG42 X5 Y10\nX-20\nG40 Y30";
+    assert_eq!(ends(corner), ends(&format!("#TRC [REVERSE=1]\n{corner}")));
 }

@@ -282,13 +282,14 @@ fn a_radius_without_an_end_point_is_told() {
     assert!(matches!(kept.blocks()[0].path, kontur_motion::path::Path::Arc(_)));
 }
 
-/// Definitions of axis couplings move nothing and are checked as 20461, 20475 to 20477, 21077 and 21110 print it.
+/// Definitions of axis couplings move nothing and are checked as 20461, 20475 to 20477, 21077, 21110 and 21111 print it.
 #[test]
 fn definitions_of_couplings_are_checked() {
     for text in [
         "#SET AX LINK [1, Y=X, Z=X]",
         "#SET AX LINK [1, [Y = X, G, 0.01, 0.25]]",
-        "#AX LINK [2, [Y = X, -1, 2], Z=X]",
+        "#AX LINK [2, [Y = X, -1, 1], Z=X]",
+        "#AX LINK [3, [Y = X, 2, -2], [Z=X, 5, 5]]",
         "#AX LINK OFF",
         "#AX LINK OFF ALL",
         "#DISABLE AX LINK [1]",
@@ -303,7 +304,9 @@ fn definitions_of_couplings_are_checked() {
         ("[1, Y=Q]", "20797"),
         ("[1, [Y=X, 0, 1]]", "21077"),
         ("[1, [Y=X, 1]]", "21110"),
-        ("[1, [Y=X, 1, 0]]", "K-0009"),
+        ("[1, [Y=X, 1, 0]]", "21111"),
+        ("[1, [Y=X, -1, 2]]", "21111"),
+        ("[1, [Y=X, 3, 2]]", "21111"),
         ("[0, Y=X]", "20461"),
         ("[65536, Y=X]", "20461"),
         ("[1]", "21220"),
@@ -312,5 +315,42 @@ fn definitions_of_couplings_are_checked() {
     ] {
         let run = super::run(&format!("#SET AX LINK {text}\nM30\n"));
         assert_eq!(run.ids(), [id], "{text}");
+    }
+}
+
+/// What a command would not look at is no part of it: a second bracket was dropped with everything in it.
+#[test]
+fn brackets_and_values_that_a_command_does_not_take() {
+    for text in [
+        "#VIB GUARD ON [MODE=2] [FREQ=30]",
+        "#VIB GUARD ON 2",
+        "#ROTATION ON [ANGLE=30] [CENTER1=5]",
+        "#ROTATION ON 30",
+        "#HSC ON [BSPLINE] [PATH_DEV=0.1]",
+        "#CONTOUR MODE [DEV] [PATH_DEV=0.1]",
+        "#SLOPE [TYPE=TRAPEZ] [TYPE=STEP]",
+        "#OVERRIDE [FEED_FACT=50] [RAPID_FACT=3]",
+        "#VECTOR LIMIT ON [VEL=100] [ACC=3]",
+        "#FILTER ON [HSC] [ORDER=2]",
+        "#FGROUP [X] [Y]",
+        "#MEAS [TYPE=1] [ERR_NO_SIGNAL=0]",
+        "#MCS ON [EX TOOL]",
+        "#FLUSH WAIT [1]",
+        "#SPLINE ON [1]",
+        "#TANGFEED 3",
+    ] {
+        let run = super::run(&format!("{text}\nM30\n"));
+        assert_eq!(run.ids().first().map(String::as_str), Some("21220"), "{text}");
+    }
+    for text in [
+        "#CALL AX FAST [X,1,0][Y,2,1]",
+        "#CS ON [1][1,2,3,0,0,0]\n#CS OFF",
+        "#TIME 0.1",
+        "#TIME [0.1]",
+        "#WAIT FOR 1",
+        "#DELETE P1",
+    ] {
+        let run = super::run(&format!("P1=1\n{text}\nM30\n"));
+        assert!(!run.ids().contains(&"21220".to_owned()), "{text}: {:?}", run.ids());
     }
 }

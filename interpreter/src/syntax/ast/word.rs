@@ -23,6 +23,8 @@ pub enum WordKind {
     },
     /// `M30`, `M200=800`, `M@P6`.
     M(CodeNumber, Option<Box<Expr>>),
+    /// `M17 [MAIN [END]]`, `M29 [JUMPS=2 N100]`.
+    Return(Box<Return>),
     /// `H5`, `H5=2`.
     H(CodeNumber, Option<Box<Expr>>),
     /// Letter or name with a value: axes, `F`, `S`, `I J K`, `R`, `T`, `D`, `E`, `O`, ...
@@ -66,6 +68,28 @@ pub enum CodeNumber {
     Literal(u32),
     /// `M@P6`, `MP1`, `M[P1+1]`.
     Computed(Box<Expr>),
+}
+
+/// End of a subroutine that says where the program goes on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Return {
+    /// 17 or 29.
+    pub number: u32,
+    /// Level it returns to.
+    pub level: ReturnLevel,
+    /// Place there; without one behind the call.
+    pub target: Option<Jump>,
+}
+
+/// Level to return to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ReturnLevel {
+    /// That of the call.
+    Caller,
+    /// `MAIN`: the main program.
+    Main,
+    /// `JUMPS=2`: so many levels up.
+    Jumps(Expr),
 }
 
 /// Address of a word, in upper case.

@@ -5,7 +5,8 @@ use crate::syntax::Problem;
 use crate::syntax::Rule;
 use crate::syntax::ast::{
     Assign, Bracket, Call, CallKind, CodeNumber, Expr, GValue, Group, HashWord, Ident, Jump,
-    JumpKind, LabelKind, MacroDefinition, Name, Place, Sign, Span, Word, WordKind,
+    JumpKind, LabelKind, MacroDefinition, Name, Place, Return, ReturnLevel, Sign, Span, Word,
+    WordKind,
 };
 use pest::iterators::Pair;
 
@@ -18,6 +19,7 @@ impl Builder<'_> {
                 let empty = Jump { kind: JumpKind::Label(LabelKind::Number(0)), span };
                 WordKind::Goto(Box::new(target.map_or(empty, |p| self.target(p))))
             }
+            Rule::return_word => WordKind::Return(Box::new(self.return_word(pair))),
             Rule::call => WordKind::Call(Box::new(self.call(pair))),
             Rule::macro_definition => {
                 let mut texts = pair.into_inner().filter(|p| p.as_rule() == Rule::string);
@@ -120,6 +122,24 @@ impl Builder<'_> {
                 CodeNumber::Computed(Box::new(Expr { kind: place.into(), span }))
             }
         }
+    }
+
+    fn return_word(&mut self, pair: Pair<'_, Rule>) -> Return {
+        let mut word = Return { number: 17, level: ReturnLevel::Caller, target: None };
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::return_mark if part.as_str().ends_with("29") => word.number = 29,
+                Rule::return_main => word.level = ReturnLevel::Main,
+                Rule::return_jumps => {
+                    let levels = part.into_inner().find(|p| p.as_rule() == Rule::expression);
+                    word.level =
+                        levels.map_or(word.level, |p| ReturnLevel::Jumps(self.expression(p)));
+                }
+                Rule::target => word.target = Some(self.target(part)),
+                _ => {}
+            }
+        }
+        word
     }
 
     fn call(&mut self, pair: Pair<'_, Rule>) -> Call {

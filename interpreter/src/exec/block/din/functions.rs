@@ -154,7 +154,9 @@ impl Decoder {
                 MKind::After => self.turn_main_spindle(m, None),
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),
                 MKind::End => after = After::End,
-                MKind::Return if !matches!(after, After::End) => after = After::Return,
+                MKind::Return if !matches!(after, After::End) => {
+                    after = After::Return(words.back);
+                }
                 _ => {}
             }
         }

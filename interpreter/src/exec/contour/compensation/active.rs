@@ -68,13 +68,17 @@ impl Active {
     fn corner(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
         let Self { distance, perpendicular, plane, tilt, last, between, watch } = self;
         let active = |start: Point, motion: Box<Motion>| {
-            let last = Element { motion, side, start, approach: false };
+            let last = Element { motion, side, start, approach: false, tangential: false };
             Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
         };
         let corner = side.start_point();
         let after = above(corner, side.tangent(false), distance);
         if last.approach {
-            last.emit(after, plane, distance, out)?;
+            if last.tangential {
+                last.emit_arc(after, side.tangent(false), plane, out)?;
+            } else {
+                last.emit(after, plane, distance, out)?;
+            }
             emit_between(between, after, plane, out);
             return Ok(active(after, motion));
         }
@@ -90,11 +94,14 @@ impl Active {
             emit_between(between, at, plane, out);
             return Ok(active(at, motion));
         }
-        let by_lines = outside && motion.compensation.is_some_and(|c| c.straight_corners);
-        let mut points = if by_lines {
-            straight_corner(u, w, before, after, distance.abs())
-        } else {
-            SmallVec::from_slice(&[before])
+        let stretch = motion.compensation.and_then(|c| c.straight_corners).filter(|_| outside);
+        let by_lines = stretch.is_some();
+        let mut points = match stretch {
+            Some(factor) => {
+                let radius = distance.abs();
+                straight_corner(u, w, before, after, radius, factor * radius)
+            }
+            None => SmallVec::from_slice(&[before]),
         };
         // a line is prolonged, after an arc its tangent is inserted
         let first = points[0];
@@ -121,9 +128,31 @@ impl Active {
         Ok(active(start, motion))
     }
 
+    /// The contour runs back the way it came and changes its side: the tool turns round where it is.
+    pub(super) fn turn_back(
+        self,
+        motion: Box<Motion>,
+        side: Side,
+        out: &mut Vec<Item>,
+    ) -> Fallible<Self> {
+        let Self { distance, perpendicular, plane, tilt, .. } = self;
+        let (tilt, mut watch) = (tilt.clone(), Watch::default());
+        watch.contour(side, motion.source, distance.abs());
+        let start = Self { tilt: None, ..self }.finish(out)?;
+        let last = Element { motion, side, start, approach: false, tangential: false };
+        let between = Vec::new();
+        Ok(Self { distance: -distance, perpendicular, plane, tilt, last, between, watch })
+    }
+
     /// Completes the last element perpendicular above its end and returns that point.
     pub(super) fn finish(self, out: &mut Vec<Item>) -> Fallible<Point> {
         let Self { distance, plane, last, between, .. } = self;
+        if last.tangential {
+            let text = "G05: no contour follows the approach";
+            return Err(Fault::new(Condition::Compensation, text, last.motion.span)
+                .hint("its arc touches the motion that comes next")
+                .in_block(last.motion.source));
+        }
         let at = above(last.side.end_point(), last.side.tangent(true), distance);
         last.emit(at, plane, distance, out)?;
         emit_between(between, at, plane, out);

@@ -9,24 +9,25 @@ use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use smallvec::SmallVec;
 use std::f64::consts::{PI, TAU};
 
-/// Points of an outer corner between prolonged tangents: their intersection up to a quarter turn, beyond it two points
-/// at the radius from the ends of the parallels.
+/// Points of an outer corner between prolonged tangents: their intersection, or where that is further than `reach`
+/// from the ends of the parallels, two points at this distance from them.
 pub(super) fn straight_corner(
     u: Point,
     w: Point,
     before: Point,
     after: Point,
     radius: f64,
+    reach: f64,
 ) -> SmallVec<[Point; 3]> {
     let cos = dot(u, w);
-    if cos > -1e-12 {
-        // radius * tan(half of the angle)
-        let d = radius * cross(u, w).abs() / (1.0 + cos);
+    // radius * tan(half of the angle); infinite or no number where the contour turns back
+    let d = radius * cross(u, w).abs() / (1.0 + cos);
+    if d <= reach * (1.0 + 1e-12) {
         return SmallVec::from_slice(&[[before[0] + d * u[0], before[1] + d * u[1]]]);
     }
     SmallVec::from_slice(&[
-        [before[0] + radius * u[0], before[1] + radius * u[1]],
-        [after[0] - radius * w[0], after[1] - radius * w[1]],
+        [before[0] + reach * u[0], before[1] + reach * u[1]],
+        [after[0] - reach * w[0], after[1] - reach * w[1]],
     ])
 }
 

@@ -2,11 +2,12 @@
 
 use super::corner::{side_sweep, trimmed};
 use super::item::{Fallible, Item, too_tight};
+use super::tangential::{self, Touch};
 use crate::diag::Condition;
 use crate::exec::contour::motion::{Compensated, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::geometry::arc::Point;
-use crate::exec::geometry::planar::{Side, dot, sub};
+use crate::exec::geometry::planar::{Side, cross, dot, sub};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
@@ -20,9 +21,27 @@ pub(super) struct Element {
     pub(super) start: Point,
     /// The line that leads to the parallel: its direction is not that of the contour.
     pub(super) approach: bool,
+    /// The approach is an arc that touches the parallel (G05).
+    pub(super) tangential: bool,
 }
 
 impl Element {
+    /// The approach in an arc to the beginning of the parallel, whose direction is `tangent`.
+    pub(super) fn emit_arc(
+        self,
+        end: Point,
+        tangent: Point,
+        plane: [usize; 2],
+        out: &mut Vec<Item>,
+    ) -> Fallible<()> {
+        let Self { mut motion, start, .. } = self;
+        if let Some(path) = tangential::way(&motion, plane, (start, end), tangent, Touch::End)? {
+            motion.block.path = path;
+            out.push(Item::Motion(motion));
+        }
+        Ok(())
+    }
+
     /// The element from its start to `end`, both on the parallel.
     pub(super) fn emit(
         self,
@@ -31,7 +50,7 @@ impl Element {
         distance: f64,
         out: &mut Vec<Item>,
     ) -> Fallible<()> {
-        let Self { mut motion, side, start, approach } = self;
+        let Self { mut motion, side, start, approach, .. } = self;
         let source = motion.source;
         let path = match &side {
             Side::Line { .. } => {
@@ -79,7 +98,12 @@ impl Element {
 }
 
 /// Start and end of a motion with other places in the plane.
-fn ends(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> (AxisVec, AxisVec) {
+pub(super) fn ends(
+    motion: &Motion,
+    plane: [usize; 2],
+    start: Point,
+    end: Point,
+) -> (AxisVec, AxisVec) {
     let place = |v: &AxisVec, p: Point| {
         let mut v = v.clone();
         (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
@@ -106,6 +130,18 @@ pub(super) fn moving_side(motion: &Motion, plane: [usize; 2]) -> Fallible<Option
         let what = "an arc outside the plane with tool radius compensation";
         Err(Fault::unsupported(what, motion.span))
     }
+}
+
+/// True if a contour runs back along the element that it has come by: a line, or an arc that turns the other way.
+pub(super) fn runs_back(last: &Side, next: &Side) -> bool {
+    let (u, w) = (last.tangent(true), next.tangent(false));
+    let against = cross(u, w).abs() < 1e-9 && dot(u, w) < 0.0;
+    against
+        && match (last, next) {
+            (Side::Line { .. }, Side::Line { .. }) => true,
+            (Side::Arc { sweep_rad: a, .. }, Side::Arc { sweep_rad: b, .. }) => a * b < 0.0,
+            _ => false,
+        }
 }
 
 /// Steps between two motions, at the place of the tool.

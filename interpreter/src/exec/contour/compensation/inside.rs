@@ -117,7 +117,13 @@ impl Closed {
                         perpendicular: false,
                         plane,
                         tilt: tilt.clone(),
-                        last: Element { motion, side, start: at, approach: false },
+                        last: Element {
+                            motion,
+                            side,
+                            start: at,
+                            approach: false,
+                            tangential: false,
+                        },
                         between: Vec::new(),
                         watch,
                     });

@@ -346,7 +346,8 @@ impl Executor {
             After::Cycle(call) => self.implicit_call(&call),
             After::ToolChange(span) => self.tool_change(span),
             After::Goto(label) => self.goto(label),
-            After::Return => self.return_from_level(),
+            After::Return(None) => self.return_from_level(),
+            After::Return(Some((back, span))) => self.return_to(back, span),
             After::End => self.program_end(),
         }
     }

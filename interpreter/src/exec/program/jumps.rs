@@ -1,0 +1,206 @@
+//! Jumps within a level, and returns to a place of a higher one.
+//!
+//! A jump may leave control blocks, which closes them. It may enter branches of `$IF`, which are then as if their
+//! condition had been true (assumption), but neither loops (21480) nor `$SWITCH`.
+//!
+//! Assumptions for `M17 [..]`: `JUMPS=1` is the return without brackets; JUMPS beyond the main program is said by K-0109,
+//! since no number of the warning is printed; of several blocks with a number the first one counts.
+//!
+//! Source: TF5200 programming manual, `$GOTO` (206915851) and ends of subroutines (206781707).
+
+use super::executor::Executor;
+use super::index::{EntryId, Keyword, LabelPlace};
+use super::state::Frame;
+use crate::diag::Condition;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::Value;
+use crate::syntax::ast::{Jump, JumpKind, LabelKind, Return, ReturnLevel, Span};
+
+/// Where a jump leads, checked.
+struct Landing {
+    place: LabelPlace,
+    /// Open control blocks that stay open.
+    depth: usize,
+    /// Branches that are entered, the innermost first.
+    entered: Vec<EntryId>,
+}
+
+impl Executor {
+    /// The label of a jump; a calculated number is rounded as that of a block is (206817035).
+    fn label_of(&mut self, jump: &Jump) -> Outcome<LabelKind> {
+        match &jump.kind {
+            JumpKind::Label(label) => Ok(label.clone()),
+            JumpKind::Number(expr) => {
+                let number = self.decoder.number(expr)?;
+                match number.round() {
+                    n if (0.0..=f64::from(u32::MAX)).contains(&n) => {
+                        Ok(LabelKind::Number(n as u64))
+                    }
+                    _ => {
+                        let text = format!("label N{number}: does not exist in this program");
+                        Err(Fault::new(Condition::Label, text, expr.span))
+                    }
+                }
+            }
+            JumpKind::Name(place) => match self.decoder.read(place)? {
+                Value::Text(name) => Ok(LabelKind::Name(name.trim().to_uppercase().into())),
+                Value::Number(_) => {
+                    let text = "the variable holds a number, not the name of a label";
+                    let hint = "$GOTO NV.E.NAME jumps to the block with this number";
+                    Err(Fault::new(Condition::Syntax, text, place.span).hint(hint))
+                }
+            },
+        }
+    }
+
+    /// `$GOTO`.
+    pub(in crate::exec) fn goto(&mut self, jump: &Jump) {
+        let Some(level) = self.levels.len().checked_sub(1) else { return };
+        let outcome = self.label_of(jump).and_then(|label| {
+            let part = &self.levels[level];
+            let Some(place) = part.index.label(part.section, &label).copied() else {
+                let text = format!("label {} does not exist in this program", shown(&label));
+                let hint = "a label comes first in its block: N20: or [NAME]";
+                return Err(Fault::new(Condition::Label, text, jump.span).hint(hint));
+            };
+            self.landing(level, place, &format!("label {}", shown(&label)), jump.span)
+        });
+        if let Some(landing) = self.decoder.report.keep(outcome) {
+            self.land(landing, self.position.offset);
+        }
+    }
+
+    /// A place of a level as the target of a jump.
+    fn landing(&self, level: usize, place: LabelPlace, name: &str, span: Span) -> Outcome<Landing> {
+        let level = &self.levels[level];
+        // structures around the place that are not open, the innermost first
+        let mut entered = Vec::new();
+        let mut around = place.parent;
+        let depth = loop {
+            let Some(id) = around else { break 0 };
+            if let Some(depth) = level.frames.iter().rposition(|f| f.open == id) {
+                break depth + 1;
+            }
+            entered.push(id);
+            around = level.index.entry(id).parent;
+        };
+        let keyword = |id: &EntryId| level.index.entry(*id).keyword;
+        let Some(closed) = entered.iter().map(keyword).find(|k| *k != Keyword::If) else {
+            return Ok(Landing { place, depth, entered });
+        };
+        let text = format!("{name} is inside {}", closed.text());
+        let condition =
+            if closed.is_loop() { Condition::JumpIntoLoop } else { Condition::LabelInto };
+        Err(Fault::new(condition, text, span))
+    }
+
+    /// The present level goes on at a place; `from` is the offset of the block that leads there.
+    fn land(&mut self, landing: Landing, from: u64) {
+        let Some(level) = self.levels.last_mut() else { return };
+        let Landing { place, depth, entered } = landing;
+        level.frames.truncate(depth);
+        // a branch of $IF is entered as if its condition had been true
+        level.frames.extend(entered.iter().rev().map(|id| Frame {
+            open: *id,
+            keyword: Keyword::If,
+            counter: None,
+        }));
+        level.at = place.position;
+        // a jump back is a loop: its blocks are parsed once
+        let to = place.position.offset;
+        if to <= from {
+            let known = level.again.unwrap_or((to, from));
+            let again = (known.0.min(to), known.1.max(from));
+            if level.again.replace(again) != Some(again) {
+                self.files.make_room();
+            }
+        }
+    }
+
+    /// `M17 [..]`, `M29 [..]`; without a valid place the program goes on behind the call.
+    pub(in crate::exec) fn return_to(&mut self, back: &Return, span: Span) {
+        let outcome = self.way_back(back, span);
+        let (levels, landing) = self.decoder.report.keep(outcome).unwrap_or((1, None));
+        for _ in 0..levels.max(1) {
+            self.return_from_level();
+        }
+        if let (Some(landing), Some(level)) = (landing, self.levels.last()) {
+            let from = level.at.offset;
+            self.land(landing, from);
+        }
+    }
+
+    /// How many levels a return leaves, and where it leads.
+    fn way_back(&mut self, back: &Return, span: Span) -> Outcome<(usize, Option<Landing>)> {
+        let above = self.levels.len().saturating_sub(1);
+        if above == 0 {
+            let text = format!("M{} returns to another level or to a label", back.number);
+            let text = format!("{text}: the main program has no level above it");
+            return Err(Fault::new(Condition::Syntax, text, span)
+                .hint("M30 ends the main program, $GOTO jumps inside it"));
+        }
+        let levels = match &back.level {
+            ReturnLevel::Caller => 1,
+            ReturnLevel::Main => above,
+            ReturnLevel::Jumps(expr) => {
+                let levels = self.decoder.whole(expr, "JUMPS", 1, u32::MAX)? as usize;
+                if levels > above {
+                    let text = format!(
+                        "JUMPS={levels}, the main program is {above} up: the program goes on there"
+                    );
+                    let fault = Fault::new(Condition::Odd, text, expr.span).warning();
+                    self.decoder.report.note(fault.hint("MAIN returns to the main program"));
+                }
+                levels.min(above)
+            }
+        };
+        let Some(jump) = &back.target else { return Ok((levels, None)) };
+        let label = self.label_of(jump)?;
+        let level = above - levels;
+        let place = self.place_of(level, &label, jump.span)?;
+        let name = match label {
+            LabelKind::Number(n) => format!("block N{n}"),
+            LabelKind::Name(_) => format!("label {}", shown(&label)),
+        };
+        Ok((levels, Some(self.landing(level, place, &name, jump.span)?)))
+    }
+
+    /// A label of a level, or else the block of this number.
+    fn place_of(&mut self, level: usize, label: &LabelKind, span: Span) -> Outcome<LabelPlace> {
+        let (file, section) = (self.levels[level].file, self.levels[level].section);
+        if let Some(place) = self.levels[level].index.label(section, label) {
+            return Ok(*place);
+        }
+        let program = self.program_of(level);
+        if let LabelKind::Number(number) = label {
+            self.learn_numbers(file, section, span)?;
+            let blocks = self.sequences.known.get(&(file, section));
+            let block = blocks.and_then(|blocks| blocks.get(number));
+            if let Some(place) = block.and_then(|(at, _)| self.levels[level].index.block(*at)) {
+                return Ok(place);
+            }
+            let text = format!("{program} has neither a label nor a block N{number}");
+            return Err(Fault::new(Condition::Label, text, span));
+        }
+        let text = format!("label {} does not exist in {program}", shown(label));
+        let hint = "a label comes first in its block: N20: or [NAME]";
+        Err(Fault::new(Condition::Label, text, span).hint(hint))
+    }
+
+    /// Name of the program of a level.
+    fn program_of(&self, level: usize) -> String {
+        let level = &self.levels[level];
+        match &level.index.sections[level.section].name {
+            Some(name) => name.to_string(),
+            None => self.files.file(level.file).name.to_string(),
+        }
+    }
+}
+
+/// A label as it is written.
+fn shown(label: &LabelKind) -> String {
+    match label {
+        LabelKind::Number(n) => format!("N{n}:"),
+        LabelKind::Name(name) => format!("[{name}]"),
+    }
+}

@@ -1,0 +1,13 @@
+; run: exit 0
+; page 480140427 lines of acute outer corners (#TRC [STRETCH_FACTOR=..])
+; passes X0 Y2
+; passes X13.4641 Y2
+; end X0 Y-50
+N10 V.G.WZ_AKT.R=2
+N20 #TRC [STRETCH_FACTOR=3]
+N30 G25 G01 F1000 X-5 Y0
+N40 G41 X0 Y0
+N50 X10
+N60 X0 Y-17.3205081
+N70 G40 Y-50
+N80 M30
