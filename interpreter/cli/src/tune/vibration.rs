@@ -113,12 +113,7 @@ pub struct Analysis {
 
 /// Looks for vibrations in a record. Samples in `missing` were not recorded: what stands there (values between their
 /// neighbours) tells where decays begin and end, and is not fitted.
-pub fn analyse(
-    samples: &[f64],
-    missing: &[Range<usize>],
-    rate_hz: f64,
-    focus: &Focus,
-) -> Analysis {
+pub fn analyse(samples: &[f64], missing: &[Range<usize>], rate_hz: f64, focus: &Focus) -> Analysis {
     let place = |s: f64| ((s * rate_hz).round().max(0.0) as usize).min(samples.len());
     let (first, last) = (place(focus.window_s.0), place(focus.window_s.1));
     let samples = &samples[first..last.max(first)];
@@ -195,8 +190,7 @@ fn complete(mut fit: Fit, piece: &Piece, range_hz: (f64, f64)) -> Fit {
     let largest = piece.samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     while fit.modes() < MOST_MODES {
         let residual = fit.residual(piece);
-        let Some(next) = detect::strongest(&residual, &piece.valid, piece.rate_hz, range_hz)
-        else {
+        let Some(next) = detect::strongest(&residual, &piece.valid, piece.rate_hz, range_hz) else {
             break;
         };
         let wider = fit.with(piece, next.freq_hz, next.decay);

@@ -139,8 +139,12 @@ impl Fit {
                 waves[k] = [cos, sin];
                 let y = a * cos + b * sin;
                 let at = DRIFT + PER_MODE * k;
-                row[at..at + PER_MODE]
-                    .copy_from_slice(&[cos, sin, -t * y, t * (b * cos - a * sin)]);
+                row[at..at + PER_MODE].copy_from_slice(&[
+                    cos,
+                    sin,
+                    -t * y,
+                    t * (b * cos - a * sin),
+                ]);
                 value += y;
             }
             visit(i, value, &row);

@@ -115,9 +115,8 @@ pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec
     // a short vibration drowns in the noise of a long record: then piece by piece
     let part = ((PART_S * rate_hz) as usize).clamp(LEAST_SAMPLES, n);
     let parts = || (0..=n - part).step_by((part / 2).max(1)).map(|i| &clean[i..i + part]);
-    let loudest = |samples: &[f64]| {
-        detect::strongest(samples, &vec![true; samples.len()], rate_hz, range_hz)
-    };
+    let loudest =
+        |samples: &[f64]| detect::strongest(samples, &vec![true; samples.len()], rate_hz, range_hz);
     let loudest = loudest(&clean).or_else(|| parts().find_map(loudest));
     let Some(loudest) = loudest else { return std::iter::once(0..n).collect() };
     let period = (rate_hz / loudest.freq_hz).max(1.0);
