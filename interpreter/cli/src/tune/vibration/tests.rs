@@ -160,7 +160,7 @@ fn missing_samples_are_left_out() {
     let x = |t: f64| swing(t, (8.0, 0.02), 0.3) + 0.8 * swing(t, (21.0, 0.03), 1.0);
     let real = samples(x, 0.002);
     let scattered: Vec<_> = (0..30).map(|i| 100 * i + 40..100 * i + 50).collect();
-    for missing in [scattered, vec![500..1000]] {
+    for missing in [scattered, std::iter::once(500..1000).collect()] {
         let mut bridged = real.clone();
         for gap in &missing {
             let (from, to) = (real[gap.start - 1], real[gap.end]);
