@@ -75,7 +75,7 @@ impl Shaping {
     /// Whether the axis has arrived: the kernel is flushed and the output is closer than `window_mm` (P-AXIS-00351) to
     /// the value it tends to, the input.
     ///
-    /// A high-pass or band-pass never reaches its input; what it tends to instead counts, so that nobody waits forever.
+    /// A high-pass or band-pass never reaches its input; the value it tends to counts instead; otherwise a wait for it would never end.
     pub fn settled(&self, window_mm: f64) -> bool {
         let (x, y) = self.newest;
         let target = self.filters.iter().fold(x, |x, filter| filter.final_value(x));

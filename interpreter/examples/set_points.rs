@@ -12,7 +12,7 @@ use std::io::{self, BufWriter, Write};
 
 const PROGRAM: &str = "N10 G01 X10 Y5 F6000\nN20 G02 X20 I5\nN30 M30\n";
 
-/// Writes a row per cycle; stops the run if nobody reads any more.
+/// Writes a row per cycle; stops the run when its output is closed.
 struct Table<W>(W);
 
 impl<W: Write> Sink for Table<W> {

@@ -170,7 +170,7 @@ pub struct Diagnostic {
     pub axis: Option<AxisRef>,
     /// Values, in the vendor's order where documented.
     pub values: Vec<Value>,
-    /// Value that was put in place of a wrong one.
+    /// Value that replaced a wrong one.
     pub correction: Option<Datum>,
     /// Parameter concerned (`P-AXIS-00236`).
     pub parameter: Option<&'static str>,

@@ -16,7 +16,7 @@ const MAX_BLOCKS: u64 = 200_000;
 /// Program time in s up to which a check looks ahead; a run is stopped by its rows long before.
 const MAX_TIME_S: f64 = 3600.0;
 
-/// A program with what stands beside it on the page.
+/// A program with the settings shown next to it on the page.
 #[derive(Deserialize)]
 struct Request {
     program: String,

@@ -50,7 +50,7 @@ use std::sync::mpsc;
 
 /// The column that names the parameters without effect, where there are any; a shard always has it.
 pub const WITHOUT_EFFECT: &str = "without_effect";
-/// What is said of such a parameter.
+/// The message about such a parameter.
 pub const NO_DIFFERENCE: &str =
     "every value gives the same results; the program sets its own, or nothing uses it";
 

@@ -18,7 +18,7 @@
 /// A number of the program in place of the one that is there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word {
-    /// The line that it stands in; without one the word must stand in a single place.
+    /// The line that contains it; without one the word must occur exactly once.
     pub line: Option<u32>,
     /// What is in front of `=`, in capital letters or not.
     pub name: String,

@@ -1,4 +1,4 @@
-//! What the executor tells the simulation: motions, rests and events, in the order of the program.
+//! What the executor passes to the simulation: motions, rests and events, in the order of the program.
 
 use crate::exec::values::timers::TimerAct;
 use kontur_filters::fir::FirConfig;

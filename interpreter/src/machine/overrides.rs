@@ -7,7 +7,7 @@ use super::table::{self, Indices, ListKind, Row};
 use super::value;
 use crate::diag::{Condition, Diagnostic, Location};
 
-/// What messages name in place of a file.
+/// What messages name instead of a file.
 pub(super) const OVERRIDE: &str = "--set";
 
 /// One override: target, key and value. Targets are an axis or spindle name, several with commas (`X,Y`), every path axis

@@ -25,7 +25,7 @@ use crate::record::{AxisRecord, CycleRecord};
 pub const GROUPS: [&str; 10] =
     ["time", "path", "ipo", "set", "kin", "err", "ctrl", "drive", "axis", "spindle"];
 
-/// Groups of a trace if nothing is said.
+/// Groups of a trace by default.
 pub const DEFAULT_SIGNALS: &str = "time,path,ipo,set,err,axis";
 
 /// Decimals of positions: 0.1 nm, a thousandth of the vendor's increment of 0.1 um.

@@ -1,6 +1,6 @@
 //! When a wait for axes to arrive has become hopeless: the loop is at rest, or swings on undiminished.
 //!
-//! The loop is linear and nobody moves its input. What still settles comes closer by at least the share `P / tau` of its
+//! The loop is linear and its input is constant. What still settles comes closer by at least the share `P / tau` of its
 //! distance in a period `P`; the slowest loop that a list can state (kv = 0.01/s) has `tau` = 100 s, so that a change
 //! of less than a thousandth means standing still. A vibration that settles loses more than a thousandth of its
 //! amplitude in one of ten periods.

@@ -194,7 +194,7 @@ fn drive_rows(
     if let Some(tn) = config.integral_time_s {
         a[(tau, z)] += rate * kp / tn;
     } else {
-        // an integrator nobody reads would only grow
+        // an integrator that is never read would only grow
         a.row_mut(z).fill(0.0);
         b.row_mut(z).fill(0.0);
     }

@@ -159,12 +159,12 @@ fn decades(low: f64, high: f64) -> Vec<(f64, String)> {
     found
 }
 
-/// A quantity with its unit, as it stands beside a scale.
+/// A quantity with its unit: the label of a scale.
 pub(crate) fn label(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name} in {unit}") }
 }
 
-/// What stands beside the scale of a column of a trace or a table: its name and the unit that the name ends with.
+/// The label of the scale of a column of a trace or a table: its name and the unit that the name ends with.
 pub(crate) fn of_column(column: &str) -> String {
     const UNITS: [(&str, &str); 11] = [
         ("_mm_s3", "mm/s\u{b3}"),

@@ -1,4 +1,4 @@
-//! Colours and dashes. Every series has both: who cannot tell two colours apart tells two dashes apart.
+//! Colours and dashes. Every series has both: readers who cannot distinguish two colours can distinguish two dashes.
 
 use serde::Serialize;
 use serde::ser::Serializer;

@@ -168,7 +168,7 @@ impl Svg {
         self.body.push_str("</g>\n");
     }
 
-    /// Grid, frame and what stands beside a panel.
+    /// Grid, frame and labels of a panel.
     pub(crate) fn axes(&mut self, p: &Panel, title: &str, x: &Scale, y: &Scale) {
         let grid = Style::thin(&GRID);
         let (bottom, right) = (p.top + p.height, p.left + p.width);

@@ -392,7 +392,7 @@ mod tests {
         assert_eq!(o.shift_cycles, None);
     }
 
-    /// A line put into a program that only waits moves all lines behind it, and what the speed was held by before it.
+    /// A line added to a program that only waits shifts all lines after it, and what the speed was held by before it.
     #[test]
     fn a_new_line_is_a_delay_of_the_numbers() {
         let trace = |pause: usize, line: u32, reason: &str| -> Vec<String> {

@@ -2,7 +2,7 @@
 //!
 //! Up to the first difference of a number both traces are the same. If from there on every row of one equals the row of the other
 //! that lies a fixed number of rows back, one only does later what the other does: it stood still for longer, at the start or
-//! between two motions. Numbers decide: a line put into a program moves the numbers of all lines behind it.
+//! between two motions. Numbers decide: a line added to a program shifts the numbers of all lines after it.
 
 use csv::ByteRecord;
 use std::collections::VecDeque;

@@ -189,7 +189,7 @@ mod tests {
         assert_eq!(std::fs::read(folder.path().join("a.csv")).unwrap(), b"old");
     }
 
-    /// The disk is full: the run is told, and the error is the system's.
+    /// The disk is full: the run learns of it, and the error is the system's.
     #[test]
     #[cfg(target_os = "linux")]
     fn an_error_comes_back() {

@@ -4,7 +4,7 @@
 //! spindle turns with its speed and passes its mark, and then continues with pitch times speed; the ramp at its begin and
 //! end cuts another pitch, as on the machine. Each block of G33 is a thread of its own, unless P-CHAN-00837 or `#TURN` makes
 //! a chain of them. The override acts on G33 and so changes the pitch, unless P-CHAN-00836, `#TURN` or a chain forbids it;
-//! that and a feedhold are said when they happen (K-0132).
+//! that and a feedhold are reported when they happen (K-0132).
 //!
 //! Assumptions: the pitch of a thread at 45 deg or more is that of its other axis only if it is written so; between blocks
 //! of tapping the path rests; the path rests after the last block of G33; what suppresses the override suppresses that of

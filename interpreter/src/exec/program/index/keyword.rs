@@ -117,7 +117,7 @@ impl Keyword {
         })
     }
 
-    /// What is said where a clause or a closing statement does not fit the innermost open statement. Source: TF5200
+    /// The message where a clause or a closing statement does not fit the innermost open statement. Source: TF5200
     /// diagnosis manual, 20214 to 20244; those of `$ENDDO` and `$UNTIL` were not found.
     pub(super) fn unexpected(self) -> Condition {
         match self {
