@@ -41,9 +41,14 @@ pub(super) fn draw(recordings: &[Recording]) -> String {
 }
 
 fn over_time(recording: &Recording) -> View<Points> {
-    let Recording { name, samples, rate_hz, found } = recording;
-    let at = |(i, x): (usize, &f64)| [i as f64 / rate_hz, *x];
-    let mut lines = vec![Line::series(0, thinned(samples.iter().enumerate().map(at), MOST_POINTS))];
+    let Recording { name, samples, missing, rate_hz, found } = recording;
+    let at = |i: usize| [i as f64 / rate_hz, samples[i]];
+    let starts = std::iter::once(0).chain(missing.iter().map(|m| m.end));
+    let ends = missing.iter().map(|m| m.start).chain(std::iter::once(samples.len()));
+    let mut lines: Vec<_> = starts
+        .zip(ends)
+        .map(|(start, end)| Line::series(0, thinned((start..end).map(at), MOST_POINTS)))
+        .collect();
     for decay in &found.decays {
         let at = |(i, x): (usize, &f64)| {
             let middle = 0.5 * (decay.stride as f64 - 1.0);
@@ -62,7 +67,7 @@ fn over_time(recording: &Recording) -> View<Points> {
 }
 
 fn spectrum(recording: &Recording) -> View<Points> {
-    let Recording { samples, rate_hz, found, .. } = recording;
+    let Recording { samples, missing, rate_hz, found, .. } = recording;
     let range = found.decays.first().map_or(0..samples.len(), |d| d.samples.clone());
     let highest = found.modes.iter().map(|m| m.freq.value).fold(0.0, f64::max);
     let lasting = found.lasting.iter().map(|l| l.freq_hz).fold(0.0, f64::max);
@@ -70,6 +75,8 @@ fn spectrum(recording: &Recording) -> View<Points> {
     let of = |x: &[f64], step_s: f64| -> Vec<[f64; 2]> {
         AmplitudeSpectrum::of(x, step_s).lines((0.0, top)).collect()
     };
+    let is_bridged = missing.iter().any(|m| m.start < range.end && m.end > range.start);
+    let bridged = if is_bridged { ", missing samples on straight lines" } else { "" };
     let mut lines = vec![Line::series(0, of(&samples[range], 1.0 / rate_hz))];
     if let Some(decay) = found.decays.first() {
         let points = of(&decay.curve, decay.stride as f64 / rate_hz);
@@ -77,7 +84,7 @@ fn spectrum(recording: &Recording) -> View<Points> {
     }
     let heights = lines.iter().flat_map(|l| &l.points).map(|p| p[1]);
     View {
-        title: "spectrum of the strongest decay".to_owned(),
+        title: format!("spectrum of the strongest decay{bridged}"),
         x: Scale::linear("frequency in Hz", (0.0, top)),
         y: Scale::linear(
             "amplitude of the recorded value",

@@ -4,8 +4,9 @@ use super::vibration::{Analysis, Estimate, Focus, Mode, analyse};
 use crate::Error;
 use crate::args::TuneArgs;
 use crate::console::Console;
-use crate::recorded::{self, Channel, DropOut, Even};
+use crate::recorded::{self, Channel, Even};
 use crate::table::{Table, number};
+use std::ops::Range;
 use std::path::Path;
 
 /// Shorter recordings hold no decay.
@@ -22,8 +23,10 @@ const JITTER_RATIO: f64 = 0.25;
 pub(super) struct Recording {
     /// File.
     pub(super) name: String,
-    /// Samples in equal steps.
+    /// Samples in equal steps; missing ones on straight lines.
     pub(super) samples: Vec<f64>,
+    /// Where samples are missing.
+    pub(super) missing: Vec<Range<usize>>,
     /// Samples per second.
     pub(super) rate_hz: f64,
     /// Result.
@@ -52,8 +55,8 @@ pub(super) fn measured(args: &TuneArgs, console: &mut Console) -> Result<Measure
     let (mut all, mut notes, mut dampings) = (Measured::default(), String::new(), Vec::new());
     let mut silent = Vec::new();
     for path in &args.recording {
-        let (recording, gaps) = read(path, args)?;
-        notes.push_str(&remarks(&recording, &gaps));
+        let (recording, lost_s) = read(path, args)?;
+        notes.push_str(&remarks(&recording, lost_s));
         let found = &recording.found;
         if let Some(strongest) = found.modes.first() {
             all.freqs.push(strongest.freq);
@@ -102,15 +105,14 @@ fn interval(e: Estimate, decimals: usize) -> String {
 }
 
 /// What is to be said about one recording beside its vibrations.
-fn remarks(recording: &Recording, gaps: &[DropOut]) -> String {
-    let Recording { name, found, rate_hz, .. } = recording;
+fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
+    let Recording { name, missing, found, rate_hz, .. } = recording;
     let mut notes = Vec::new();
-    let missing: usize = gaps.iter().map(|g| g.samples.len()).sum();
-    if let Some(first) = gaps.first() {
+    if let Some(lost_s) = lost_s {
         notes.push(format!(
-            "{missing} samples missing in {} places, the first after {:.3} s; left out",
-            gaps.len(),
-            first.after_s
+            "{} samples missing in {} places, the first after {lost_s:.3} s; left out",
+            missing.iter().map(ExactSizeIterator::len).sum::<usize>(),
+            missing.len()
         ));
     }
     if found.clipped > 0 {
@@ -154,8 +156,8 @@ fn together(found: &[Estimate], what: &str, unit: &str, decimals: usize) -> Stri
     }
 }
 
-/// A file, the part of it that was asked for, and what it shows.
-fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Vec<DropOut>), Error> {
+/// A file, the part of it that was asked for, what it shows, and the time in s after which it first lost samples.
+fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Option<f64>), Error> {
     let name = path.display().to_string();
     let wrong = |text: String| Error::Usage(format!("{name}: {text}"));
     let channels = recorded::read(path)?;
@@ -184,7 +186,8 @@ fn read(path: &Path, args: &TuneArgs) -> Result<(Recording, Vec<DropOut>), Error
         window_s: args.window.unwrap_or(whole.window_s),
     };
     let found = analyse(&samples, &missing, rate_hz, &focus);
-    Ok((Recording { name, samples, rate_hz, found }, drop_outs))
+    let lost_s = drop_outs.first().map(|d| d.after_s);
+    Ok((Recording { name, samples, missing, rate_hz, found }, lost_s))
 }
 
 /// Samples in equal steps, by the times of the file or the rate that was given.
