@@ -35,7 +35,7 @@ pub(crate) struct Channel {
     pub(crate) name: String,
     /// Times in s from the first sample; empty without a column of times.
     pub(crate) times_s: Vec<f64>,
-    /// Values as they stand in the file.
+    /// Values as written in the file.
     pub(crate) values: Vec<f64>,
     /// Sampling time in s that the header states.
     pub(crate) step_s: Option<f64>,
@@ -43,6 +43,17 @@ pub(crate) struct Channel {
 
 /// A stretch without samples: when it begins in s, and how many samples are missing.
 pub(crate) type DropOut = (f64, usize);
+
+/// A signal in equal steps.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct EvenSamples {
+    /// Values; missing ones lie on a line between their neighbours.
+    pub(crate) values: Vec<f64>,
+    /// Sampling time in s.
+    pub(crate) step_s: f64,
+    /// Where samples are missing.
+    pub(crate) drop_outs: Vec<DropOut>,
+}
 
 impl Channel {
     /// The sampling time in s: that of the header, else the median step.
@@ -58,10 +69,11 @@ impl Channel {
 
     /// The values in equal steps, missing samples between their neighbours, and where they are missing; `None` if the times
     /// do not rise, there are none, or the gaps hold more than [`MOST_SAMPLES`].
-    pub(crate) fn even(&self) -> Option<(Vec<f64>, f64, Vec<DropOut>)> {
+    pub(crate) fn even(&self) -> Option<EvenSamples> {
         let step = self.step_s()?;
         if self.times_s.is_empty() {
-            return Some((self.values.clone(), step, Vec::new()));
+            let values = self.values.clone();
+            return Some(EvenSamples { values, step_s: step, drop_outs: Vec::new() });
         }
         let (mut even, mut missing) = (Vec::new(), Vec::new());
         for (i, value) in self.values.iter().enumerate() {
@@ -80,7 +92,7 @@ impl Channel {
             }
             even.push(*value);
         }
-        Some((even, step, missing))
+        Some(EvenSamples { values: even, step_s: step, drop_outs: missing })
     }
 }
 
@@ -361,10 +373,10 @@ mod tests {
     #[test]
     fn drop_outs_are_named_and_bridged() {
         let channel = &parse("t_s,a\n0,0\n0.001,1\n0.004,4\n0.005,5\n").unwrap()[0];
-        let (even, step, missing) = channel.even().unwrap();
-        assert!((step - 0.001).abs() < 1e-12);
-        assert_eq!(missing, [(0.001, 2)]);
-        for (i, x) in even.iter().enumerate() {
+        let even = channel.even().unwrap();
+        assert!((even.step_s - 0.001).abs() < 1e-12);
+        assert_eq!(even.drop_outs, [(0.001, 2)]);
+        for (i, x) in even.values.iter().enumerate() {
             assert!((x - i as f64).abs() < 1e-9);
         }
     }

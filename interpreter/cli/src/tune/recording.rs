@@ -4,7 +4,7 @@ use super::vibration::{Analysis, Estimate, Focus, Mode, analyse};
 use crate::Error;
 use crate::args::TuneArgs;
 use crate::console::Console;
-use crate::recorded::{self, Channel, DropOut};
+use crate::recorded::{self, Channel, DropOut, EvenSamples};
 use crate::table::{Table, number};
 use std::path::Path;
 
@@ -211,12 +211,12 @@ fn even(
     if channel.times_s.windows(2).any(off) {
         return Err("its times do not rise in equal steps".to_owned());
     }
-    let (samples, step, gaps) =
+    let EvenSamples { values, step_s, drop_outs } =
         channel.even().ok_or_else(|| "its times do not rise in equal steps".to_owned())?;
     // the mean step is more accurate than a printed one
     let last = channel.times_s.last().copied().unwrap_or(0.0);
-    let mean = if last > 0.0 { last / (samples.len() - 1) as f64 } else { step };
-    Ok((samples, 1.0 / mean, gaps))
+    let mean = if last > 0.0 { last / (values.len() - 1) as f64 } else { step_s };
+    Ok((values, 1.0 / mean, drop_outs))
 }
 
 #[cfg(test)]

@@ -72,14 +72,14 @@ pub(super) fn channels(
             let names: Vec<&str> = found.iter().map(|c| c.name.as_str()).collect();
             format!("{file}: no channel `{}`; it has {}", p.channel, names.join(", "))
         })?;
-        let (values, step_s, drop_outs) = channel.even().ok_or_else(|| {
+        let even = channel.even().ok_or_else(|| {
             format!(
                 "{file}: the times of `{}` do not rise, leave gaps of hours, or there are none",
                 channel.name
             )
         })?;
-        let values = values.iter().map(|v| p.factor * v).collect();
-        Ok(Recorded { values, step_s, drop_outs })
+        let values = even.values.iter().map(|v| p.factor * v).collect();
+        Ok(Recorded { values, step_s: even.step_s, drop_outs: even.drop_outs })
     };
     pairings.iter().map(|p| one(p).map_err(Error::Usage)).collect()
 }
