@@ -37,7 +37,7 @@ mod transmission;
 pub mod value;
 
 pub use axis::{Axis, AxisKind};
-pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, OverrideMode, RapidOverride};
+pub use channel::{ArcCentre, Channel, DiagnosisMessages, LookAhead, RapidOverride};
 pub use issues::filter_condition;
 pub(crate) use issues::leaves_out;
 pub use levers::Lever;

@@ -41,7 +41,7 @@ use smoothing::Smoothing;
 use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use wait::{Parts, Wait};
+use wait::{AwaitedMark, Parts, Wait};
 
 /// Where a run is.
 #[derive(Debug)]
@@ -209,7 +209,7 @@ impl Simulation {
                         cycle: self.cycle,
                     };
                     // a held path does not begin a thread: it would miss the mark
-                    let bars = wait.mark().is_some_and(|(_, _, full)| self.inputs.bar(full));
+                    let bars = wait.mark().is_some_and(|m| self.inputs.bar(m.full_override));
                     if !bars && wait.is_over(parts) {
                         self.go_on();
                         continue;
@@ -396,7 +396,7 @@ impl Simulation {
         let Phase::Waiting(wait) = std::mem::replace(&mut self.phase, Phase::Running) else {
             return;
         };
-        if let Some((spindle, deg, full_override)) = wait.mark() {
+        if let Some(AwaitedMark { spindle, deg, full_override }) = wait.mark() {
             self.thread = Some(Thread { full_override, broken: false });
             let share = self.spindles.get(spindle).and_then(|s| s.mark_ahead(deg, self.cycle));
             self.thread_delay = share.unwrap_or(0.0);

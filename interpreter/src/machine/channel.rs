@@ -5,6 +5,7 @@ use super::table::channel as of;
 use super::table::param::{Number, Optional, Param, Text, Whole, whole};
 use super::table::start_up as from;
 use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
+use kontur_motion::realtime::OverrideMode;
 use std::collections::BTreeMap;
 
 /// How many blocks the planner looks ahead (P-STUP-00070, P-STUP-00071).
@@ -12,18 +13,6 @@ use std::collections::BTreeMap;
 pub struct LookAhead {
     /// Blocks, 10 to 10 000; default 120.
     pub blocks: u32,
-}
-
-/// What the override multiplies (P-CHAN-00066).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum OverrideMode {
-    /// 0: the smaller of programmed and possible speed.
-    #[default]
-    Result,
-    /// 1: the programmed speed.
-    Programmed,
-    /// 2: as 0, but as 1 while a function reduces the speed.
-    ProgrammedWhileReduced,
 }
 
 /// Override of G00 (P-CHAN-00181).
@@ -249,9 +238,9 @@ impl Channel {
             several_dimensions: p.get(of::SEVERAL_DIMENSIONS),
             keep_p_parameters: p.get(of::KEEP_P_PARAMETERS),
             override_mode: match choice(of::OVERRIDE_MODE) {
-                0 => OverrideMode::Result,
-                1 => OverrideMode::Programmed,
-                _ => OverrideMode::ProgrammedWhileReduced,
+                0 => OverrideMode::OfReached,
+                1 => OverrideMode::OfProgrammed,
+                _ => OverrideMode::OfProgrammedWhileReduced,
             },
             rapid_override: match p.get(of::RAPID_OVERRIDE).as_deref() {
                 Some("MINIMUM_OF_G0_G1") => RapidOverride::Minimum,

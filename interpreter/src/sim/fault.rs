@@ -122,7 +122,12 @@ impl Simulation {
             match reaction {
                 Reaction::OpenLoopStop => self.chains[i].open_loop(),
                 Reaction::AbruptStop => self.chains[i].halt(),
-                _ => {}
+                Reaction::None
+                | Reaction::ProgramAbort
+                | Reaction::JobAbort
+                | Reaction::FeedHold
+                | Reaction::ControlledStop
+                | Reaction::AllStop => {}
             }
         }
     }
@@ -427,7 +432,7 @@ impl Simulation {
                 NoContour::FeedGroup => {
                     (Condition::ContouringFeedGroup, "the feed group changes after this block")
                 }
-                // at a stop there is no corner to round; MAX_ANGLE asks for it; the executor tells about the mode
+                // at a stop there is no corner to round; MAX_ANGLE asks for it; the executor reports the mode
                 NoContour::NothingFollows
                 | NoContour::AngleAboveMaximum { .. }
                 | NoContour::ModeReplaced => continue,

@@ -10,13 +10,12 @@ use super::totals::Totals;
 use super::{Phase, Simulation, fault};
 use crate::diag::Diagnostic;
 use crate::exec::{Executor, Options, SourceRef};
-use crate::machine::{self, Machine};
+use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use kontur_filters::control::axis_control::AxisInputs;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::planner::Planner;
-use kontur_motion::realtime::OverrideMode;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -87,11 +86,8 @@ impl Simulation {
             cycle,
             executor,
         };
-        simulation.planner.set_override_mode(match simulation.machine.channel.override_mode {
-            machine::OverrideMode::Result => OverrideMode::OfReached,
-            machine::OverrideMode::Programmed => OverrideMode::OfProgrammed,
-            machine::OverrideMode::ProgrammedWhileReduced => OverrideMode::OfProgrammedWhileReduced,
-        });
+        let mode = simulation.machine.channel.override_mode;
+        simulation.planner.set_override_mode(mode);
         simulation.feedforward(false, &vec![1.0; n]);
         for spindle in 0..simulation.spindles.len() {
             simulation.spindle_feedforward(spindle, false, 1.0);

@@ -64,6 +64,17 @@ pub(super) struct Wait {
     patience: Patience,
 }
 
+/// The mark of a spindle at which a thread begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AwaitedMark {
+    /// Index of the spindle.
+    pub(super) spindle: usize,
+    /// Angle of the mark in deg.
+    pub(super) deg: f64,
+    /// The override does not act on the thread.
+    pub(super) full_override: bool,
+}
+
 impl Wait {
     pub(super) fn for_sync(sync: Sync, cycle: CycleTime) -> Self {
         let cycles =
@@ -180,11 +191,11 @@ impl Wait {
         matches!(self.until, Until::Cycles(..) | Until::Spindle(..))
     }
 
-    /// The spindle and the mark that the wait is for, and whether the override does not act on the thread after it.
-    pub(super) fn mark(&self) -> Option<(usize, f64, bool)> {
+    /// The mark that the wait is for.
+    pub(super) fn mark(&self) -> Option<AwaitedMark> {
         match self.until {
             Until::Spindle(spindle, SpindleState::Mark { deg, full_override }) => {
-                Some((spindle, deg, full_override))
+                Some(AwaitedMark { spindle, deg, full_override })
             }
             _ => None,
         }

@@ -100,12 +100,12 @@ conditions! {
     TwoInsertions = Vendor 20130: Error ProgramAbort 3 1, "two of G301/G302", hint "one of G301, G302 per block";
     GUnknown = Vendor 20131: Error ProgramAbort 3 1, "unknown G function", hint "the number is not assigned in this dialect: kontur explain G<number> describes those that are";
     PlaneWithCompensation = Vendor 20133: Error ProgramAbort 3 1, "plane selection with active tool radius compensation", hint "switch the compensation off with G40 before G17, G18, G19";
-    MeasuringTypeOfG100 = Vendor 20138: Error ProgramAbort 3 1, "G100 does not go with the measuring type", cause "types 5 and 6 measure by G310", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
+    MeasuringTypeOfG100 = Vendor 20138: Error ProgramAbort 3 1, "G100 does not fit the measuring type", cause "types 5 and 6 measure by G310", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
     LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
     SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
     ToolDataTwice = Vendor 20170: Error ProgramAbort 3 1, "D twice in one block", hint "leave one of the two out";
     FeedTwice = Vendor 20175: Error ProgramAbort 3 1, "F twice in one block", hint "the feed holds for the whole block: leave one F out";
-    SpindleUnknown = Vendor 20180: Error ProgramAbort 3 1, "unknown name of a spindle", cause "SPDL=1000", hint "names of spindles stand in the channel list; those of several characters need =", parameter "P-CHAN-00007";
+    SpindleUnknown = Vendor 20180: Error ProgramAbort 3 1, "unknown name of a spindle", cause "SPDL=1000", hint "spindle names are in the channel list; those of several characters need =", parameter "P-CHAN-00007";
     SpindleTwice = Vendor 20181: Error ProgramAbort 3 1, "spindle twice in one block", cause "S1000 X100 S1500", hint "leave one of the two speeds out";
     PositionRequest = Vendor 20186: Error ProgramAbort 3 1, "syntax after #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", cause "[P1=X P2=Y], [P1 X]", hint "write [variable=axis, variable=axis]: #GET CMDPOS [P1=X, V.P.POS=Y]";
     RadiusIndexFormat = Vendor 20187: Error ProgramAbort 3 1, "index of the radius outside the data format", cause "R-1=10", hint "write R=.. or R1=..";
@@ -187,7 +187,7 @@ conditions! {
     DwellRange = Vendor 20752: Error ProgramAbort 3 1, "dwell time out of range", hint "the time is in seconds";
     MTwice = Vendor 20765: Error ProgramAbort 3 1, "M function twice in one block", cause "M10 M10", hint "leave one of the two out";
     HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "leave one of the two out";
-    MeasuringFunction = Vendor 20772: Error ProgramAbort 3 1, "G function does not go with the measuring type", cause "G106 without type 3", hint "select the type of the function by #MEAS MODE [3]", parameter "P-CHAN-00057";
+    MeasuringFunction = Vendor 20772: Error ProgramAbort 3 1, "G function does not fit the measuring type", cause "G106 without type 3", hint "select the type of the function by #MEAS MODE [3]", parameter "P-CHAN-00057";
     TwoCornerDecelerations = Vendor 20794: Error ProgramAbort 3 1, "two of G12, G13", hint "leave one of the two out";
     NoCornerParameters = Vendor 20795: Error ProgramAbort 3 1, "corner deceleration without parameters", cause "G13 before #CORNER PARAM", hint "write #CORNER PARAM [DIST=.. UNIT=PERCENT FEED=..] before it";
     AxisNameUnknown = Vendor 20797: Error ProgramAbort 3 1, "unknown axis designation in a command", hint "write the name of an axis of the channel";
@@ -212,7 +212,7 @@ conditions! {
     ParameterUnknown = Vendor 20925: Error ProgramAbort 3 1, "unknown parameter", cause "read before it was written, or with other dimensions than declared", hint "assign a value before it is read: P1=5";
     DeletedUnknown = Vendor 20932: Error ProgramAbort 3 1, "variable to be deleted does not exist", cause "#DELETE V.P.NAME", hint "EXIST[V.P.NAME] checks whether it exists";
     MeasuringArc = Vendor 20954: Error ProgramAbort 3 1, "arc as a measuring run", cause "G02 or G03 beside G100 or G310", hint "measuring runs are straight";
-    MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not go with the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
+    MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not fit the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
     DimensionTooSmall = Vendor 20966: Error ProgramAbort 3 1, "size of an array below 1", hint "write 1 or more";
     ArrayOutsideDeclaration = Vendor 20972: Error ProgramAbort 3 1, "values of an array outside #VAR and #ENDVAR", cause "V.P.A[3]=[1,2,3]", hint "declare the array between #VAR and #ENDVAR";
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "arrays have up to 4 dimensions";
@@ -290,7 +290,7 @@ conditions! {
     CuttingSpeedZero = Vendor 50182: Error ProgramAbort 6 1, "cutting speed 0", cause "G96 S0", hint "S is the cutting speed in m/min under G96";
     OscillationFeed = Vendor 50593: Error AbruptStop 6 1, "oscillation without a feed", cause "X[OSC ON ..] with FEED=0, or without FEED, FREQ and TIME", hint "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]";
     FilterTime = Vendor 50663: Error JobAbort 7 0, "filter time constant not allowed", cause "P-AXIS-00357: PT1 and PT2 at least one cycle, delay below 6 cycles", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
-    GuardNotRealisable = Vendor 50820: Error FeedHold 6 0, "frequency and damping do not fit Vibration Guard", cause "frequency too high or damping too large for T", hint "a smaller cycle, less damping or a higher frequency, (the manual's advice); kontur tune proposes both";
+    GuardNotRealisable = Vendor 50820: Error FeedHold 6 0, "frequency and damping do not fit Vibration Guard", cause "frequency too high or damping too large for T", hint "use a smaller cycle, less damping or a higher frequency (the manual's advice); kontur tune proposes both";
     FilterTimeBelowCycle = Vendor 50910: Warning None 1 0, "order_time/time_constant below the cycle time", hint "the filter gets at least one cycle: raise the time, or give ORDER";
     FilterOrderTooHigh = Vendor 50911: Warning None 1 0, "filter order too high", hint "lower the order";
     FilterWithoutOrder = Vendor 50989: Warning ProgramAbort 3 0, "FIR filter without order", cause "#FILTER ON, P-AXIS-00587 = 0", hint "give ORDER or ORDER_TIME, or P-AXIS-00587 in the axis list";
@@ -345,7 +345,7 @@ conditions! {
     ContouringAtEnd = Vendor 120206: Warning None 1 0, "program ends with contouring on", hint "write G260 or #CONTOUR MODE OFF before the end";
     ContouringNotPossible = Vendor 120207: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "exclude the corner with G260";
     BlockTooShort = Vendor 120216: Warning None 1 0, "block too short for contouring", hint "lower PATH_DEV or the corner distances, or join the short blocks";
-    NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without a way", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "the reversal positions 1ST_POS and 2ND_POS differ";
+    NoOscillation = Vendor 120470: Error ProgramAbort 6 1, "oscillation without a distance", cause "X[OSC ON 1ST_POS=50 2ND_POS=50 ..]", hint "the reversal positions 1ST_POS and 2ND_POS differ";
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "switch contouring off before the feed group changes";
     SoftContouringActive = Vendor 120698: Error ProgramAbort 6 1, "contouring mode changed to or from DIST_SOFT while contouring is active", cause "#CONTOUR MODE [DIST_SOFT] under G261 of another mode", hint "write G260 before #CONTOUR MODE and G261 after it";
     ListKeyUnknown = Vendor 1001119: Warning None 1 2, "unknown element in a parameter list", cause "element ignored", hint "kontur explain KEY describes a key; --strict refuses unknown ones";

@@ -1,6 +1,6 @@
 //! Signals between channels: `#SIGNAL`, and the `#WAIT [ID=..]` that uses them up.
 //!
-//! There is one channel: what it tells itself or everybody can be waited for, what it tells others goes away, and a wait
+//! There is one channel: signals to itself or to all can be waited for, signals to others are dropped, and a wait
 //! for another channel does not wait (K-0018).
 //!
 //! Source: TF5200 programming manual, sending signals, waiting for signals; 21344.
@@ -136,7 +136,8 @@ fn signal(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         decoder.signals.retain(|s| s.id != id || !s.broadcast || s.count.is_some());
     }
     if decoder.signals.len() >= MOST {
-        let text = format!("{}: {MOST} signals are open that nobody has waited for", call.title());
+        let text =
+            format!("{}: {MOST} signals are open that no block has waited for", call.title());
         return Err(Fault::new(Condition::Range, text, call.span()));
     }
     let count = words.count.or((!broadcast).then_some(1));

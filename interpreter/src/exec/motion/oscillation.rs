@@ -28,8 +28,8 @@ arguments! {
         first_rest: Number "1ST_DELT" in at_least(0.0), "s", "rest at the first position";
         second_rest: Number "2ND_DELT" in at_least(0.0), "s", "rest at the second position";
         feed: Number "FEED" in at_least(0.0), "mm/min", "";
-        frequency: Number "FREQ" in above_zero(), "1/s", "in place of FEED";
-        time: Number "TIME" in above_zero(), "s", "of an oscillation, in place of FEED";
+        frequency: Number "FREQ" in above_zero(), "1/s", "instead of FEED";
+        time: Number "TIME" in above_zero(), "s", "of an oscillation, instead of FEED";
         count: Number "NBR_OSC" in above_zero().whole(), "", "so many oscillations";
         zero: Number "ZERO_POS", "mm", "middle of both positions, in their place with EXCUR";
         excursion: Number "EXCUR", "mm", "from the middle: the first position is ZERO_POS - EXCUR";

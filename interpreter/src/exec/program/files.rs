@@ -116,7 +116,7 @@ impl FileError {
                 let searched = format!("searched: {}", e.searched.join(", "));
                 let hint = if is_vendor_cycle(&e.name) {
                     format!(
-                        "a cycle of the vendor's library, which is no part of kontur: copy it from the control; {searched}"
+                        "a cycle of the vendor's library, which is not part of kontur: copy it from the control; {searched}"
                     )
                 } else {
                     searched

@@ -94,7 +94,7 @@ impl Executor {
         Err(Fault::new(condition, text, span))
     }
 
-    /// The present level goes on at a place; `from` is the offset of the block that leads there.
+    /// The current level continues at a place; `from` is the offset of the block that leads there.
     fn land(&mut self, landing: Landing, from: u64) {
         let Some(level) = self.levels.last_mut() else { return };
         let Landing { place, depth, entered } = landing;
@@ -117,7 +117,7 @@ impl Executor {
         }
     }
 
-    /// `M17 [..]`, `M29 [..]`; without a valid place the program goes on behind the call.
+    /// `M17 [..]`, `M29 [..]`; without a valid place the program continues after the call.
     pub(in crate::exec) fn return_to(&mut self, back: &Return, span: Span) {
         let outcome = self.way_back(back, span);
         let (levels, landing) = self.decoder.report.keep(outcome).unwrap_or((1, None));
@@ -146,7 +146,7 @@ impl Executor {
                 let levels = self.decoder.whole(expr, "JUMPS", 1, u32::MAX)? as usize;
                 if levels > above {
                     let text = format!(
-                        "JUMPS={levels}, the main program is {above} up: the program goes on there"
+                        "JUMPS={levels}, the main program is {above} up: the program continues there"
                     );
                     let fault = Fault::new(Condition::Odd, text, expr.span).warning();
                     self.decoder.report.note(fault.hint("MAIN returns to the main program"));
