@@ -201,6 +201,16 @@ pub struct CycleRecord {
     pub axes: Vec<AxisRecord>,
 }
 
+impl CycleRecord {
+    /// Not a number in place of a deviation from the contour that is not measured, for the path axes.
+    pub(crate) fn omit_deviation(&mut self, path_axes: usize) {
+        self.contour_err_mm = f64::NAN;
+        for axis in self.axes.iter_mut().take(path_axes) {
+            (axis.dev, axis.dev_both_ways) = (f64::NAN, f64::NAN);
+        }
+    }
+}
+
 impl Clone for CycleRecord {
     fn clone(&self) -> Self {
         Self { axes: self.axes.clone(), ..*self }

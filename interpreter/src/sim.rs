@@ -126,6 +126,8 @@ pub(crate) struct Simulation {
     /// Set positions of the path axes in the cycle before as the planner has them, in a thread.
     planned: AxisVec,
     vector: AxisVec,
+    /// Somebody reads the deviation from the contour in the records.
+    measures_deviation: bool,
     max_cycles: u64,
     /// Axes that a fault has stopped, and where.
     frozen: Vec<Option<f64>>,
@@ -143,6 +145,12 @@ impl Simulation {
         if let Err(failure) = self.inputs.connect(changes) {
             self.input_fails(*failure);
         }
+    }
+
+    /// The records need no deviation from the contour: not a number stands for it, until a block demands a tolerance.
+    pub(crate) fn leave_out_deviation(&mut self) {
+        self.measures_deviation = false;
+        self.record.omit_deviation(self.vector.len());
     }
 
     /// Names of the source files, in the order of [`CycleRecord::file`].

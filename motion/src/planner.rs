@@ -341,6 +341,11 @@ impl Planner {
         }
     }
 
+    /// Some block so far has a tolerance: what is output is to be measured, whoever else wants to see it or not.
+    pub fn has_tolerance(&self) -> bool {
+        self.least_tolerance_mm.is_finite()
+    }
+
     /// Compares what is output with the loosest tolerance of the blocks that the filters hold.
     fn judge(&mut self, k: u64) {
         let most = self.gauge.found().iter().fold(0.0, |m: f64, c| m.max(c.abs()));

@@ -111,6 +111,11 @@ impl Splining {
         Self::default()
     }
 
+    /// The block is none of a spline, and none waits: pushed, it would come back at once and alone.
+    pub fn passes(&self, block: &Block) -> bool {
+        block.spline.is_none() && self.run.is_empty() && self.fairing.is_empty()
+    }
+
     /// Takes a block; what is final comes back.
     pub fn push(&mut self, block: Block) -> impl Iterator<Item = Block> + '_ {
         let mut fairing = std::mem::take(&mut self.fairing);

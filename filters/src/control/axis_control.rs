@@ -473,13 +473,16 @@ impl AxisControl {
 
     fn drive_values(&self, command: f64, ff: &FeedforwardOutput, additive: f64) -> DriveValues {
         let (command_scale, ff_scale) = self.counts_per_mm_s;
-        let torque_n_m = self.config.torque.torque(ff.additive_acc_mm_s2);
-        DriveValues {
+        let mut values = DriveValues {
             command: command * command_scale,
             feedforward: (ff.speed_mm_s + ff.additive_speed_mm_s) * ff_scale,
             additive_speed: additive * command_scale,
-            torque: self.config.torque.counts(torque_n_m),
-            torque_n_m,
+            ..DriveValues::default()
+        };
+        if ff.additive_acc_mm_s2.abs() > 0.0 {
+            values.torque_n_m = self.config.torque.torque(ff.additive_acc_mm_s2);
+            values.torque = self.config.torque.counts(values.torque_n_m);
         }
+        values
     }
 }

@@ -29,6 +29,9 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     let mut traces: Vec<Trace> =
         args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
     let mut table = create_all(table)?.pop();
+    if args.summary == SummaryForm::None && !traces.iter().any(Trace::shows_deviation) {
+        run = run.without_deviation();
+    }
     let mut summary = Collector::new(run.facts());
     let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;

@@ -23,6 +23,7 @@ pub(crate) struct Trace {
     path: PathBuf,
     way: Way,
     decimate: u64,
+    shows_deviation: bool,
 }
 
 /// How the records get to their file.
@@ -87,6 +88,7 @@ impl Trace {
         console: &Console,
     ) -> Result<Self, Error> {
         let columns = select(signals, facts)?;
+        let shows_deviation = columns.iter().any(Column::shows_deviation);
         let is = |end: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
         if is("html") || is("svg") {
             let message = format!(
@@ -119,7 +121,12 @@ impl Trace {
             }
         };
         let way = Way::Thread(Background::start(writer).map_err(to_error)?);
-        Ok(Self { path: name, way, decimate: decimate.max(1) })
+        Ok(Self { path: name, way, decimate: decimate.max(1), shows_deviation })
+    }
+
+    /// A column of it needs the deviation from the contour.
+    pub(crate) const fn shows_deviation(&self) -> bool {
+        self.shows_deviation
     }
 
     /// Adds a record, if it is one of every `decimate`.

@@ -87,6 +87,18 @@ impl Run {
         self
     }
 
+    /// For records of which nobody reads the deviation from the contour ([`AxisRecord::dev`], [`AxisRecord::dev_both_ways`],
+    /// [`CycleRecord::contour_err_mm`]): they hold not a number (NaN) in its place, until a block demands `AX_DEV`. Measuring
+    /// it is a third of the work of a run.
+    ///
+    /// [`AxisRecord::dev`]: crate::record::AxisRecord::dev
+    /// [`AxisRecord::dev_both_ways`]: crate::record::AxisRecord::dev_both_ways
+    #[must_use]
+    pub fn without_deviation(mut self) -> Self {
+        self.simulation.leave_out_deviation();
+        self
+    }
+
     /// What stays the same during the run.
     pub const fn facts(&self) -> &Facts {
         &self.facts

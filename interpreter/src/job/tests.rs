@@ -68,6 +68,38 @@ fn one_loop_however_it_is_cut() {
     });
 }
 
+/// What is left out is no number, everything else stays; where a block demands a tolerance nothing is left out.
+#[test]
+fn the_deviation_is_left_out_until_a_block_demands_a_tolerance() {
+    let text = "#VIB GUARD ON [MODE=2 FREQ=20]\nG01 X5 F3000\nY5\nX0 Y0\n#VIB GUARD OFF\n\
+                #VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.05]\nX5\nY5\nX0 Y0\nM30\n";
+    let start = || job(text, &[], Options::default()).start().unwrap();
+    let whole = records(&mut start());
+    let short = records(&mut start().without_deviation());
+    assert_eq!(short.len(), whole.len());
+    let measured = |r: &CycleRecord| {
+        let of_axes = r.axes[..3].iter().flat_map(|a| [a.dev, a.dev_both_ways]);
+        of_axes.chain([r.contour_err_mm]).collect::<Vec<f64>>()
+    };
+    let (mut left_out, mut largest) = (0, 0.0_f64);
+    for (mut short, whole) in short.into_iter().zip(whole) {
+        let found = measured(&short);
+        if found.iter().all(|x| x.is_nan()) {
+            assert!(whole.line < 7, "line {}", whole.line);
+            left_out += 1;
+        } else {
+            assert_eq!(found, measured(&whole), "cycle {}", whole.k);
+            largest = largest.max(whole.contour_err_mm);
+        }
+        for (short, whole) in short.axes.iter_mut().zip(&whole.axes) {
+            (short.dev, short.dev_both_ways) = (whole.dev, whole.dev_both_ways);
+        }
+        short.contour_err_mm = whole.contour_err_mm;
+        assert_eq!(short, whole);
+    }
+    assert!(left_out > 100 && largest > 0.01, "{left_out} {largest}");
+}
+
 /// Stopped from elsewhere a check comes back at once where the program has no end, and a run has no more cycles.
 #[test]
 fn a_stop_ends_check_and_run() {

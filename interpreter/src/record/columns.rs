@@ -66,6 +66,11 @@ pub struct Column {
 }
 
 impl Column {
+    /// It shows what a run without its measurement ([`Run::without_deviation`](crate::job::Run::without_deviation)) leaves out.
+    pub fn shows_deviation(&self) -> bool {
+        self.group == "err"
+    }
+
     /// The value of a numeric column; zero where an axis is missing in the record.
     pub fn number(&self, record: &CycleRecord) -> Option<f64> {
         match self.content {

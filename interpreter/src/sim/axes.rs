@@ -123,6 +123,24 @@ impl Simulation {
             motion: self.motion,
             rest,
         };
+        if self.measures_deviation || self.planner.has_tolerance() {
+            self.measure_deviation(shaped);
+        } else {
+            self.record.omit_deviation(n);
+        }
+        if let Some(exceeded) = self.planner.take_exceeded() {
+            self.exceeded(&exceeded);
+        }
+        for unkept in self.planner.take_unkept() {
+            self.unkept(&unkept);
+        }
+        for (i, f) in faults {
+            self.fault(i, &f);
+        }
+    }
+
+    /// Measures what is output against the contour; `shaped`: filters have moved it away from the interpolated position.
+    fn measure_deviation(&mut self, shaped: bool) {
         // on the contour bit for bit: nothing to search
         self.record.contour_err_mm = if shaped {
             self.planner.deviation(&self.set, &mut self.vector)
@@ -135,15 +153,6 @@ impl Simulation {
         for (i, (axis, dev)) in self.record.axes.iter_mut().zip(self.vector.iter()).enumerate() {
             axis.dev = *dev;
             axis.dev_both_ways = both_ways.get(i).map_or(dev.abs(), |d| d.abs().max(dev.abs()));
-        }
-        if let Some(exceeded) = self.planner.take_exceeded() {
-            self.exceeded(&exceeded);
-        }
-        for unkept in self.planner.take_unkept() {
-            self.unkept(&unkept);
-        }
-        for (i, f) in faults {
-            self.fault(i, &f);
         }
     }
 }

@@ -79,6 +79,7 @@ impl Simulation {
             probing: None,
             planned: start[..n].iter().copied().collect(),
             vector: AxisVec::zeros(n),
+            measures_deviation: true,
             max_cycles,
             diagnostics,
             unshown: 0,

@@ -89,6 +89,11 @@ pub(super) struct Fairing {
 }
 
 impl Fairing {
+    /// No block waits.
+    pub(super) fn is_empty(&self) -> bool {
+        self.edges.is_empty()
+    }
+
     /// Takes a block; what is final comes back.
     pub(super) fn push(&mut self, block: Block) -> std::vec::Drain<'_, Block> {
         match Edge::new(&block) {

@@ -141,7 +141,9 @@ impl LagMonitor {
     /// One cycle: reference and actual position, gain of the position controller.
     pub fn step(&mut self, reference_mm: f64, actual_mm: f64, kv_per_s: f64) -> Option<Fault> {
         let delay = self.config.delay_cycles;
-        self.past_mm.copy_within(..=delay, 1);
+        for i in (0..=delay).rev() {
+            self.past_mm[i + 1] = self.past_mm[i];
+        }
         self.past_mm[0] = reference_mm;
         let commanded = self.past_mm[delay];
         self.lag_mm = commanded - actual_mm;

@@ -154,11 +154,11 @@ impl<S: States> LinearPlant<S> {
         self.base_mm += next[0];
         next[0] = 0.0;
         let mut rests = self.base_mm.to_bits() == before_mm.to_bits();
-        for (next, before) in next.iter_mut().zip(state) {
-            if next.abs() < Self::NEGLIGIBLE {
-                *next = 0.0;
+        for row in 0..n {
+            if next[row].abs() < Self::NEGLIGIBLE {
+                next[row] = 0.0;
             }
-            rests &= next.to_bits() == before.to_bits();
+            rests &= next[row].to_bits() == state[row].to_bits();
         }
         std::mem::swap(&mut self.state, &mut self.next);
         rests
@@ -166,7 +166,12 @@ impl<S: States> LinearPlant<S> {
 
     /// A function of the state; no allocation.
     fn value(&self, row: &S) -> f64 {
-        row.as_ref().iter().zip(self.state.as_ref()).map(|(c, s)| c * s).sum()
+        let (row, state) = (row.as_ref(), self.state.as_ref());
+        let mut sum = -0.0;
+        for i in 0..row.len() {
+            sum += row[i] * state[i];
+        }
+        sum
     }
 
     fn measured(&self) -> Measured {
