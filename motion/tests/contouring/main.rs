@@ -373,8 +373,8 @@ fn words_of_the_neighbours() {
     assert_eq!(feeds, [Feed::PathVelocity(5.0)]);
     out.extend(stage.flush());
     // a block without the word keeps its corner
-    out.extend(stage.push(job.block(0, a, 60.0)));
-    let plain: Vec<Block> = stage.push(job.block(1, b, 60.0)).collect();
+    let plain: Vec<Block> = stage.push(job.block(0, a, 60.0)).collect();
+    assert_eq!(stage.push(job.block(1, b, 60.0)).count(), 1, "it is final at once");
     assert!(!is_curve(&plain[0]) && apart(plain[0].path.end(), &[0.0, 0.0]) < 1e-15);
 }
 
