@@ -68,7 +68,7 @@ pub(crate) fn report(args: &ReportArgs, console: &mut Console) -> Result<Exit, E
         let mut times = times::Collector::new(run.facts());
         let cycle_s = run.facts().cycle_s();
         let is_drawn = |t: f64| args.window.is_none_or(|(from, to)| t >= from && t <= to);
-        drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
+        drive(&mut run, Shown::ALONE, console, Some(&mut summary), |record| {
             times.add(record);
             if is_drawn(record.k as f64 * cycle_s) {
                 recording.add(record);

@@ -29,13 +29,13 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     let mut traces: Vec<Trace> =
         args.output.iter().map(|path| create(path)).collect::<Result<_, _>>()?;
     let mut table = create_all(table)?.pop();
-    if args.summary == SummaryForm::None && !traces.iter().any(Trace::shows_deviation) {
+    let mut summary = (args.summary != SummaryForm::None).then(|| Collector::new(run.facts()));
+    if summary.is_none() && !traces.iter().any(Trace::shows_deviation) {
         run = run.without_deviation();
     }
-    let mut summary = Collector::new(run.facts());
     let mut times = args.times.as_ref().map(|_| times::Collector::new(run.facts()));
     let alone = traces.len() == 1;
-    let written = drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
+    let written = drive(&mut run, Shown::ALONE, console, summary.as_mut(), |record| {
         if let Some(times) = &mut times {
             times.add(record);
         }
@@ -62,7 +62,7 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     finished.into_iter().collect::<Result<(), _>>()?;
     let mut totals = run.totals();
     totals.aborted |= interrupted.is_some();
-    let summary = summary.finish(&totals);
+    let summary = summary.map(|summary| summary.finish(&totals));
     let mut times = times.map(times::Collector::finish);
     if let (Some(times), Some(table)) = (&times, &mut table) {
         let text = times.csv().map_err(io::Error::from);
@@ -70,21 +70,16 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
         let name = || outputs.last().map(|path| path.display().to_string()).unwrap_or_default();
         written.and_then(|()| table.show()).map_err(|e| Error::io(name(), e))?;
     }
-    let shown = args.summary != SummaryForm::None && !totals.aborted;
-    if let Some(times) = times.as_mut().filter(|_| shown) {
+    if let Some(times) = times.as_mut().filter(|_| summary.is_some() && !totals.aborted) {
         times::try_out(times, &args.simulation.request(&args.program));
     }
-    let text = match args.summary {
-        SummaryForm::Text => {
-            let times = times.map(|t| t.text()).unwrap_or_default();
-            Some(summary.text() + &times)
+    let text = summary.map(|summary| match (args.summary, &times) {
+        (SummaryForm::Json, Some(times)) => times.json_of(&summary),
+        (SummaryForm::Json, None) => summary.json(),
+        (SummaryForm::Text | SummaryForm::None, times) => {
+            summary.text() + &times.as_ref().map(times::Times::text).unwrap_or_default()
         }
-        SummaryForm::Json => Some(match &times {
-            Some(times) => times.json_of(&summary),
-            None => summary.json(),
-        }),
-        SummaryForm::None => None,
-    };
+    });
     match text {
         // stdout belongs to the trace
         Some(text) if args.output.iter().any(|o| is_standard(o)) => console.error_text(&text),
@@ -115,7 +110,7 @@ impl Shown<'_> {
     pub(crate) const ALONE: Self = Self { label: "", errors_only: false };
 }
 
-/// Drives a run to its end: every record to `take` and to the summary, every message to the console.
+/// Drives a run to its end: every record to `take` and to the summary, if there is one, every message to the console.
 ///
 /// # Errors
 /// The first error of `take`, or [`Error::Interrupted`]; messages raised up to then have been printed.
@@ -123,7 +118,7 @@ pub(crate) fn drive(
     run: &mut Run,
     shown: Shown<'_>,
     console: &mut Console,
-    summary: &mut Collector,
+    summary: Option<&mut Collector>,
     take: impl FnMut(&CycleRecord) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let progress = console.progress();
@@ -136,7 +131,7 @@ struct Watch<'a, F> {
     shown: Shown<'a>,
     console: &'a mut Console,
     progress: Progress,
-    summary: &'a mut Collector,
+    summary: Option<&'a mut Collector>,
     take: F,
 }
 
@@ -144,13 +139,17 @@ impl<F: FnMut(&CycleRecord) -> Result<(), Error>> Sink for Watch<'_, F> {
     type Stop = Error;
 
     fn cycle(&mut self, record: &CycleRecord) -> Result<(), Error> {
-        self.summary.add(record);
+        if let Some(summary) = &mut self.summary {
+            summary.add(record);
+        }
         (self.take)(record)
     }
 
     fn pause(&mut self, run: &mut Run) -> Result<(), Error> {
         for message in run.take_diagnostics() {
-            self.summary.message(&message);
+            if let Some(summary) = &mut self.summary {
+                summary.message(&message);
+            }
             if !self.shown.errors_only || message.is_error() {
                 self.progress.suspend(|| self.console.announce(&message));
             }

@@ -76,7 +76,7 @@ pub(super) fn report(
         let values: usize = runs.iter().map(Recorded::values).sum();
         let most =
             most_samples.min((most_values - values.min(most_values)) / recorded.columns.len());
-        drive(&mut run, Shown::ALONE, console, &mut summary, |record| {
+        drive(&mut run, Shown::ALONE, console, Some(&mut summary), |record| {
             let t_s = record.k as f64 * recorded.cycle_s;
             if args.window.is_some_and(|(from, to)| !(from..to).contains(&t_s)) {
                 return Ok(());

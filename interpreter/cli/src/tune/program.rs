@@ -61,7 +61,7 @@ pub(super) fn answer(
         let Opened { mut run, reads } = opened.map_err(|e| refused(e, console))?;
         keep_apart(&reads.so_far(), args.output.as_slice())?;
         let mut summary = Collector::new(run.facts());
-        drive(&mut run, shown, console, &mut summary, |_| Ok(()))?;
+        drive(&mut run, shown, console, Some(&mut summary), |_| Ok(()))?;
         // with what the run came to on its way
         keep_apart(&reads.so_far(), args.output.as_slice())?;
         let summary = summary.finish(&run.totals());
