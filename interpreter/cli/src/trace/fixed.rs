@@ -18,6 +18,9 @@ const PAIRS: [[u8; 2]; 100] = {
 /// `10^d` for the number of decimals in use.
 const POWERS: [u64; 8] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000];
 
+/// Zero with the largest number of decimals.
+const ZERO: &[u8] = b"0.0000000";
+
 /// Products below this have room for a tie bit: `2^52`.
 const EXACT_BELOW: f64 = 4_503_599_627_370_496.0;
 
@@ -43,7 +46,10 @@ pub(crate) fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u8) {
 fn push<const DECIMALS: usize>(out: &mut Vec<u8>, value: f64) {
     let scale = POWERS[DECIMALS] as f64;
     let product = value * scale;
-    if product.abs() < EXACT_BELOW {
+    if product == 0.0 {
+        // what stands, and what is not in use
+        out.extend_from_slice(if DECIMALS > 0 { &ZERO[..DECIMALS + 2] } else { &ZERO[..1] });
+    } else if product.abs() < EXACT_BELOW {
         push_scaled::<DECIMALS>(out, round_product(value, scale, product));
     } else if value.is_finite() {
         push_slow(out, value, DECIMALS as u8);
