@@ -168,6 +168,18 @@ fn the_check_stops_after_twenty_errors() {
     assert_eq!(found.last().map(|d| d.id.to_string()).as_deref(), Some("K-0116"));
 }
 
+/// Looking for the command that was meant took 20 us in each of half a million passes.
+#[test]
+fn the_check_stops_where_a_loop_repeats_an_error() {
+    let found = checked("$WHILE 1\n#FOO\n$ENDWHILE\nM30\n");
+    assert_eq!(places(&found)[0].split(' ').next_back(), Some("2:1"));
+    assert_eq!(found.len(), 2);
+    assert!(found[1].text.contains("10000 times"), "{}", found[1].text);
+    // a warning may come as often as the program wants it
+    let warned = "P1=0\n$WHILE P1<20000\nP1=P1+1\nG301 I1\n$ENDWHILE\n#FOO\nM30\n";
+    assert_eq!(checked(warned).len(), 2);
+}
+
 #[test]
 fn the_check_moves_nothing_and_ends() {
     assert!(checked("P1=0\n$WHILE P1<3\nP1=P1+1\nX P1 F100\n$ENDWHILE\n#TIME 5\nM30\n").is_empty());

@@ -10,6 +10,10 @@ pub(super) const ERRORS_MAX: usize = 20;
 /// Blocks that a check executes after the first error: a wrong program may also be an endless one.
 pub(super) const BLOCKS_BEHIND_ERROR: u64 = 1_000_000;
 
+/// Errors in places that have had one after which a check stops: one that a loop repeats without end says nothing new, and
+/// looking for what may have been meant takes as long each time.
+const REPEATED_MAX: u64 = 10_000;
+
 /// Diagnostics of one run; further ones are reported only if they are errors.
 const DIAGNOSTICS_MAX: usize = 1000;
 
@@ -19,6 +23,8 @@ pub(in crate::exec::program) struct Found {
     diagnostics: Vec<Diagnostic>,
     known: BTreeSet<(Id, Arc<str>, u32, u64)>,
     errors: usize,
+    /// Errors that were not new.
+    repeated: u64,
     /// Blocks executed up to the first error.
     first_error: Option<u64>,
 }
@@ -33,10 +39,13 @@ impl Found {
             _ => (diagnostic.id, Arc::from(diagnostic.text.as_str()), 0, 0),
         };
         // a program with a remark in every line must not fill the memory
-        if self.known.len() >= DIAGNOSTICS_MAX {
-            return !self.known.contains(&key) && diagnostic.is_error();
-        }
-        self.known.insert(key)
+        let is_new = if self.known.len() >= DIAGNOSTICS_MAX {
+            !self.known.contains(&key) && diagnostic.is_error()
+        } else {
+            self.known.insert(key)
+        };
+        self.repeated += u64::from(!is_new && diagnostic.is_error());
+        is_new
     }
 
     /// Adds a diagnostic, met after so many blocks.
@@ -63,6 +72,8 @@ impl Found {
         let behind = blocks - self.first_error.unwrap_or(blocks);
         if self.errors >= ERRORS_MAX {
             Some(format!("{} errors: the check stops here", self.errors))
+        } else if self.repeated >= REPEATED_MAX {
+            Some(format!("errors repeated {REPEATED_MAX} times: the check stops here"))
         } else if behind > BLOCKS_BEHIND_ERROR {
             Some(format!(
                 "more than {BLOCKS_BEHIND_ERROR} blocks after the first error: the check stops here"
