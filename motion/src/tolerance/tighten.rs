@@ -79,10 +79,10 @@ impl View<'_> {
             let resting = demands.stop[b].or((b == 0).then_some(0));
             if let Some(dwell) = resting {
                 // in small steps, because neighbouring corners within reach share the error
-                let needed = self.needed_dwell(mark, dwell);
-                let step = (full / 8).max(1);
+                let most = (dwell + (full / 8).max(1)).min(full);
                 let least = 1 << (round / ROUNDS_OF_A_STEP).saturating_sub(1).min(16);
-                demands.stop[b] = Some(needed.min(dwell + step).max(dwell + least).min(full));
+                let needed = self.needed_dwell(mark, dwell, most);
+                demands.stop[b] = Some(needed.max(dwell + least).min(full));
                 continue;
             }
             let m1 =
@@ -136,9 +136,10 @@ impl View<'_> {
         }
     }
 
-    /// Least dwell at a stop that keeps the tolerance as far as this corner is concerned, by bisection.
-    fn needed_dwell(&self, mark: &Mark, dwell: u32) -> u32 {
-        let (mut low, mut high) = (dwell, self.trial.kernels.length());
+    /// Least dwell at a stop, up to `most` cycles, that keeps the tolerance as far as this corner is concerned, by
+    /// bisection; `most` if none does.
+    fn needed_dwell(&self, mark: &Mark, dwell: u32, most: u32) -> u32 {
+        let (mut low, mut high) = (dwell, most);
         while high - low > 1 {
             let mid = low + (high - low) / 2;
             if self.keeps(mark, dwell, mid) { high = mid } else { low = mid }
@@ -166,6 +167,9 @@ impl View<'_> {
             set.push(buffer.set());
             if k >= rest {
                 set.leaves(&self.contour, k, (from, to), &mut out);
+                if out.largest() > within(tolerance) {
+                    return false;
+                }
             }
         }
         let among = (rest, rest + u64::from(cycles + full) + 1);
