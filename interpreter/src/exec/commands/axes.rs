@@ -24,7 +24,7 @@ pub(super) const PUT_AX: Row = Row::run("PUT AX", put).several()
     .example("#PUT AX [X]")
     .meaning("axis exchange: takes axes into the channel or gives them back")
     .note(
-        "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %",
+        "switches off a Vibration Guard that the program has switched on, and resets the G136 weights of these axes to 100 %",
     )
     .related(&["20312", "21251", "21372", "#VIB GUARD"]);
 
@@ -71,7 +71,7 @@ pub(super) const CALL_AX: Row = Row::run("CALL AX", call).several()
     .example("#CALL AX [X,1,0]")
     .meaning("axis exchange: takes axes into the channel or gives them back")
     .note(
-        "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %",
+        "switches off a Vibration Guard that the program has switched on, and resets the G136 weights of these axes to 100 %",
     )
     .related(&["20312", "21251", "21372", "#VIB GUARD"]);
 
@@ -90,7 +90,7 @@ pub(super) const SET_AX: Row = Row::run("SET AX", set).several()
     .example("#SET AX [X,1,0]")
     .meaning("axis exchange: takes axes into the channel or gives them back")
     .note(
-        "switches a Vibration Guard that the program has switched on off, and sets the weights of G136 of these axes to 100 %",
+        "switches off a Vibration Guard that the program has switched on, and resets the G136 weights of these axes to 100 %",
     )
     .related(&["20312", "21251", "21372", "#VIB GUARD"]);
 

@@ -84,7 +84,7 @@ impl TrcArguments {
 pub(super) const TRC: Row = Row::run("TRC", options)
     .form("#TRC [key=value ..]")
     .meaning(
-        "options of tool radius compensation; of most only the values at program start are supported",
+        "options of tool radius compensation; for most of them only the value at program start is supported",
     )
     .keys(TrcArguments::KEYS)
     .example("#TRC [KERF_MASKING=0]")

@@ -257,9 +257,9 @@ arguments! {
 /// Row of `#HSC`.
 pub(super) const HSC: Row = Row::run("HSC", hsc)
     .form("#HSC [ON|OFF] [BSPLINE keys]   #HSC [ON|OFF] [OPMODE=1 CONTERROR=..]")
-    .meaning("puts a B-spline through short blocks; OPMODE=1 rounds corners within CONTERROR")
+    .meaning("fits a B-spline through short blocks; OPMODE=1 rounds corners within CONTERROR")
     .keys(HscArguments::KEYS)
-    .note("BSPLINE takes the noise of rounded coordinates out first, a tenth of the tolerances and 3 um at most")
+    .note("BSPLINE first removes the rounding noise of the coordinates, by a tenth of the tolerances and 3 um at most")
     .example("#HSC ON [BSPLINE PATH_DEV=0.05]")
     .related(&["120393", "120396"]);
 

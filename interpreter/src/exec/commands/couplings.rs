@@ -16,7 +16,7 @@ use crate::syntax::ast::{Ident, Item, ItemKind, ItemValue, Span};
 pub(super) const SET_AX_LINK: Row = Row::run("SET AX LINK", define)
     .form("#SET AX LINK [group, slave=master ..]")
     .meaning("defines a group of axis couplings")
-    .note("the definition is checked; switching a group on is not supported")
+    .note("the definition is checked; switching on a group is not supported")
     .example("#SET AX LINK [1, Y=X]")
     .related(&["20475", "20476", "20477", "21077", "21110", "21111"]);
 

@@ -223,7 +223,7 @@ fn no_compensation(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
 /// Row of `#MCS`.
 pub(super) const MCS: Row = Row::run("MCS", machine_coordinates).bare()
     .form("#MCS ON   #MCS ON EX TOOL   #MCS OFF")
-    .meaning("puts coordinate systems, rotation, mirroring and all offsets aside: words are positions of the axes; OFF restores them")
+    .meaning("suspends coordinate systems, rotation, mirroring and all offsets: axis words are axis positions; OFF restores them")
     .note("EX TOOL: a tool change in between does not act before OFF")
     .example("#MCS ON")
     .related(&["20802"]);

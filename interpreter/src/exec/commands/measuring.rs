@@ -94,7 +94,7 @@ fn mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 pub(super) const MEAS_DEFAULT: Row = Row::run("MEAS DEFAULT", defaults)
     .bare()
     .form("#MEAS DEFAULT")
-    .meaning("measuring as the lists say")
+    .meaning("measuring as configured in the lists")
     .example("#MEAS DEFAULT")
     .related(&["#MEAS"]);
 

@@ -168,7 +168,7 @@ arguments! {
 /// Row of `#ERROR`.
 pub(super) const ERROR: Row = Row::run("ERROR", error)
     .form("#ERROR [ID=.. RC=..]")
-    .meaning("message of the user with an ID of 1 to 1000")
+    .meaning("user message with an ID from 1 to 1000")
     .keys(ErrorArguments::KEYS)
     .example("#ERROR [ID=455 RC=2]");
 

@@ -122,7 +122,7 @@ fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 /// Row of `#WAIT`.
 pub(super) const WAIT: Row = Row::run("WAIT", wait).several().values()
     .form("#WAIT INDP [X, Y]   #WAIT INDP ALL   #WAIT FOR condition   #WAIT [SYN] [ID=.. P[i]=variable CH=..]")
-    .meaning("the path stops until these independent axes have arrived; of conditions: tested once; uses up a signal")
+    .meaning("the path stops until these independent axes have arrived; a condition is tested once; a signal is consumed")
     .example("#WAIT INDP [X]")
     .related(&["INDP_ASYN", "#SIGNAL", "K-0018"]);
 
@@ -172,9 +172,9 @@ arguments! {
 /// Row of `#TIMER`.
 pub(super) const TIMER: Row = Row::run("TIMER", timer)
     .form("#TIMER START|STOP|READ|CLEAR [SYN] [ID=i]")
-    .meaning("starts or stops a timer, puts its count in ms into V.G.TIMER[i], or sets it to 0")
+    .meaning("starts or stops a timer, copies its count in ms to V.G.TIMER[i], or clears it")
     .keys(TimerArguments::KEYS)
-    .note("without SYN the time is that of the decoder, which is ahead of the motion; READ SYN lets the path come to rest")
+    .note("without SYN the timer runs with the decoder, which is ahead of the motion; READ SYN brings the path to rest")
     .example("#TIMER START SYN [ID=3]");
 
 /// `#TIMER START|STOP|READ|CLEAR [SYN] [ID=i]`.

@@ -27,8 +27,8 @@ const PARAMETER_MAX: u32 = 11;
 /// Row of `#SIGNAL`.
 pub(super) const SIGNAL: Row = Row::run("SIGNAL", signal)
     .form("#SIGNAL [SYN] [ID=.. COUNT=.. P[i]=.. CH=..]   #SIGNAL REMOVE [ID=..]")
-    .meaning("sends a signal to a channel, or without CH to all of them; #WAIT uses it up")
-    .note("ID number; COUNT waits it serves; P[0] to P[11] values for the one who waits; CH receivers")
+    .meaning("sends a signal to a channel, or to all of them without CH; #WAIT consumes it")
+    .note("ID number; COUNT how many waits it ends; P[0] to P[11] values passed to the waiting channel; CH receiving channels")
     .example("#SIGNAL [ID=4711 P[0]=10.5]")
     .related(&["#WAIT", "K-0018"]);
 

@@ -16,7 +16,7 @@ use crate::syntax::ast::{ItemKind, ItemValue, Span};
 pub(super) const SPLINE: Row = Row::run("SPLINE", spline).bare()
     .form("#SPLINE ON|OFF")
     .meaning("a curve through the points of the following lines, as G151 and G150")
-    .note("it begins at the last point before it; arcs interrupt it tangentially; no rest, G00 or tool radius compensation in it")
+    .note("the curve begins at the last point before the command; arcs interrupt it tangentially; it allows no stop, no G00 and no tool radius compensation")
     .example("#SPLINE ON")
     .related(&["#AKIMA TRANS", "#SPLINE TYPE"]);
 
@@ -77,7 +77,7 @@ arguments! {
 /// Row of `#AKIMA TRANS`.
 pub(super) const AKIMA_TRANS: Row = Row::run("AKIMA TRANS", transitions)
     .form("#AKIMA TRANS [START=AUTO|TANGENTIAL|USER END=..]")
-    .meaning("tangents of splines at their ends: from their points, of the motions before and after, or of #AKIMA STARTVECTOR and ENDVECTOR")
+    .meaning("end tangents of splines: computed from their points, taken from the motions before and after, or given by #AKIMA STARTVECTOR and ENDVECTOR")
     .keys(TransitionArguments::KEYS)
     .example("#AKIMA TRANS [START=TANGENTIAL END=AUTO]")
     .related(&["#SPLINE"]);

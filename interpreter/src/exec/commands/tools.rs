@@ -29,7 +29,7 @@ pub(super) const TOOL_PREP: Row = Row::run("TOOL PREP", tool_prep)
 pub(super) const TOOL_REFRESH: Row = Row::run("TOOL REFRESH", refresh)
     .bare()
     .form("#TOOL REFRESH")
-    .meaning("takes the data of the active tool into account anew, e.g. after an exchange of axes")
+    .meaning("applies the data of the active tool again, e.g. after an axis exchange")
     .example("#TOOL REFRESH")
     .related(&["#TOOL DATA"]);
 

@@ -26,7 +26,7 @@ arguments! {
 /// Row of `#TURN`.
 pub(super) const TURN: Row = Row::run("TURN", turn)
     .form("#TURN [THREAD_CUT_IGNORE_OV=0|1 THREAD_CHAIN=0|1]")
-    .meaning("how threads of G33 go with the override and with each other")
+    .meaning("how G33 threads respond to the override, and whether consecutive ones are joined")
     .keys(TurnArguments::KEYS)
     .example("#TURN [THREAD_CHAIN=1]")
     .related(&["G33", "K-0132", "P-CHAN-00836", "P-CHAN-00837"]);
