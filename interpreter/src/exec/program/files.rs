@@ -319,7 +319,7 @@ impl Files {
         Ok(Some((block, reader.position())))
     }
 
-    /// Begin and end of the first block of each number between two places.
+    /// Begin and end of the first block of each number between two places, outside of `#COMMENT`.
     ///
     /// # Errors
     /// The file cannot be read.
@@ -329,13 +329,15 @@ impl Files {
         from: Position,
         end: u64,
     ) -> io::Result<BTreeMap<u64, (Position, Position)>> {
-        let reader = &mut self.open[file].reader;
+        let ProgramFile { reader, index, .. } = &mut self.open[file];
         reader.seek(from);
         let mut numbers = BTreeMap::new();
         while reader.position().offset < end && numbers.len() < NUMBERS_MAX {
             let Some(raw) = reader.next_block()? else { break };
             let (position, number) = (raw.position, super::index::number_of(raw.text));
-            if let Some(number) = number {
+            if let Some(number) = number
+                && index.block(position).is_some()
+            {
                 numbers.entry(number).or_insert((position, reader.position()));
             }
         }

@@ -311,6 +311,13 @@ fn block_sequences() {
     assert_eq!(run.end, [2.0, 2.0, 0.0]);
     let run = super::run("N10 L SEQUENCE [N10]\nM30\n");
     assert_eq!(run.ids(), ["20360"]);
+    // a number inside a comment is text
+    let run = clean(
+        "G91 G01 F1000\n#COMMENT BEGIN\nN10 X100\n#COMMENT END\nN10 X1\nL SEQUENCE [N10]\nM30\n",
+    );
+    assert_eq!(run.end[0], 2.0);
+    let hidden = "#COMMENT BEGIN\nN10 X100\n#COMMENT END\nL SEQUENCE [N10]\nM30\n";
+    assert_eq!(super::run(hidden).ids(), ["K-0015"]);
 }
 
 /// REPEAT: so many passes in all; ENDTAG: the call ends the sequence too, whichever end comes first.
