@@ -146,21 +146,38 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     programmed.damping = keys.damping.map(|(x, _)| x).or(programmed.damping);
     decoder.tolerances(Family::VibGuard, keys.ax_dev, keys.acc_fact);
     decoder.shaping.guard = programmed;
-    if let Some(on) = call.command.on {
-        decoder.shaping.guard_on = Some(on);
-    } else {
-        let cycle = decoder.machine.cycle;
-        let on = |a: &crate::machine::Axis| {
-            decoder.shaping.guard_on.unwrap_or(decoder.shaping.listed(a, cycle).vib_guard.active)
-        };
-        if !decoder.machine.axes.iter().any(on) {
-            realisable(decoder, programmed, call.span())?;
-            let text =
-                "the Vibration Guard is off: the values are stored for the next #VIB GUARD ON";
-            decoder.report.note(Fault::new(Condition::GuardStored, text, call.span()));
-        }
+    decoder.shaping.guard_on = call.command.on.or(decoder.shaping.guard_on);
+    // a plain OFF has nothing to store
+    let given = call.command.groups.first().is_some_and(|group| !group.items.is_empty());
+    let stores = given || call.command.on.is_none();
+    if stores && !guard_is_on(decoder) {
+        stored_for_later(decoder, programmed, keys.ax_dev.is_some(), call.span())?;
     }
     decoder.update_shaping(call.span());
+    Ok(())
+}
+
+/// Whether the guard of any axis is on, by the program or by its list.
+fn guard_is_on(decoder: &Decoder) -> bool {
+    let cycle = decoder.machine.cycle;
+    let listed = |axis| decoder.shaping.listed(axis, cycle).vib_guard.active;
+    decoder.shaping.guard_on.unwrap_or_else(|| decoder.machine.axes.iter().any(listed))
+}
+
+/// Settings given while the guard is off: they must be realisable (50820), and the user learns what becomes of them.
+fn stored_for_later(
+    decoder: &mut Decoder,
+    programmed: GuardKeys,
+    tolerance: bool,
+    span: Span,
+) -> Outcome<()> {
+    realisable(decoder, programmed, span)?;
+    let mut text =
+        "the Vibration Guard is off: the values are stored for the next #VIB GUARD ON".to_owned();
+    if tolerance {
+        text.push_str(", but AX_DEV counts only in the command that switches it on");
+    }
+    decoder.report.note(Fault::new(Condition::GuardStored, text, span));
     Ok(())
 }
 

@@ -58,6 +58,18 @@ fn keys_without_on_are_stored() {
 }
 
 #[test]
+fn keys_beside_off_are_stored_and_checked() {
+    let run = run("#VIB GUARD OFF [FREQ=6 MODE=2 AX_DEV=0.01]\n#VIB GUARD OFF\n#VIB GUARD ON\nM30\n");
+    // once for the keys, and not for the plain OFF
+    assert_eq!(run.ids(), ["K-0103"]);
+    assert!(run.diagnostics[0].text.contains("AX_DEV"), "{}", run.diagnostics[0].text);
+    assert_eq!(guard(setups(&run)[0]), (2, 6.0, 0.1));
+    // 2,000 Hz has less than one cycle: said where it is written
+    let run = super::run("#VIB GUARD OFF [FREQ=2000]\nM30\n");
+    assert_eq!(places(&run.diagnostics), ["50820 1:1"]);
+}
+
+#[test]
 fn values_out_of_range() {
     let id = |text: &str| run(&format!("#VIB GUARD ON [{text}]\nM30\n"));
     let mode = id("MODE=5");
