@@ -418,6 +418,10 @@ impl Simulation {
             }
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
             wait::Action::MachineData { axis } => self.machine_data(axis),
+            wait::Action::SetPosition { axis, offset_mm } => {
+                self.set_position(axis, offset_mm);
+                self.phase = Phase::Waiting(Wait::for_a_cycle());
+            }
             wait::Action::End(reason) => {
                 self.totals.aborted |= reason == EndReason::Aborted;
                 self.phase = Phase::Done;

@@ -143,3 +143,46 @@ pub struct AxisDynamics {
     /// Direct jerk limit at tangential transitions in mm/s3 (P-AXIS-00340), used with P-CHAN-00117 = 2.
     pub j_trans_tangential_mm_s3: f64,
 }
+
+impl AxisDynamics {
+    /// The limits that this axis and another one keep together, when one goes as far as the other: of each value the one
+    /// that allows less.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        let step = |a: &StepSlope, b: &StepSlope| StepSlope {
+            acc_mm_s2: std::array::from_fn(|i| a.acc_mm_s2[i].min(b.acc_mm_s2[i])),
+            dec_mm_s2: std::array::from_fn(|i| a.dec_mm_s2[i].min(b.dec_mm_s2[i])),
+            change_mm_s: a.change_mm_s.min(b.change_mm_s),
+        };
+        let (feed, rapid, hold) = (&other.feed, &other.rapid, &other.feedhold);
+        Self {
+            v_max_mm_s: self.v_max_mm_s.min(other.v_max_mm_s),
+            v_rapid_mm_s: self.v_rapid_mm_s.min(other.v_rapid_mm_s),
+            a_max_mm_s2: self.a_max_mm_s2.min(other.a_max_mm_s2),
+            a_emergency_mm_s2: self.a_emergency_mm_s2.min(other.a_emergency_mm_s2),
+            tr_geom_s: self.tr_geom_s.max(other.tr_geom_s),
+            feed: FeedSlope {
+                acc_mm_s2: self.feed.acc_mm_s2.min(feed.acc_mm_s2),
+                dec_mm_s2: self.feed.dec_mm_s2.min(feed.dec_mm_s2),
+                ramps_s: std::array::from_fn(|i| self.feed.ramps_s[i].max(feed.ramps_s[i])),
+            },
+            rapid: RapidSlope {
+                acc_mm_s2: self.rapid.acc_mm_s2.min(rapid.acc_mm_s2),
+                ramp_s: self.rapid.ramp_s.max(rapid.ramp_s),
+            },
+            step_feed: step(&self.step_feed, &other.step_feed),
+            step_rapid: step(&self.step_rapid, &other.step_rapid),
+            feedhold: FeedholdSlope {
+                step_dec_mm_s2: self.feedhold.step_dec_mm_s2.min(hold.step_dec_mm_s2),
+                dec_mm_s2: self.feedhold.dec_mm_s2.min(hold.dec_mm_s2),
+                ramp_s: self.feedhold.ramp_s.max(hold.ramp_s),
+            },
+            a_trans_ratio: self.a_trans_ratio.min(other.a_trans_ratio),
+            r_trans_ratio: self.r_trans_ratio.min(other.r_trans_ratio),
+            j_trans_kink_mm_s3: self.j_trans_kink_mm_s3.min(other.j_trans_kink_mm_s3),
+            j_trans_tangential_mm_s3: self
+                .j_trans_tangential_mm_s3
+                .min(other.j_trans_tangential_mm_s3),
+        }
+    }
+}

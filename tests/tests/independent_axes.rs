@@ -307,3 +307,19 @@ fn middle_and_offsets_of_an_oscillation() {
     assert_eq!(of("G92 Y-3", "ZERO_POS=7 EXCUR=5 INCL_OFFSETS"), offset.clone());
     assert_eq!(of("G92 Y-3", "1ST_POS=2 2ND_POS=12 INCL_OFFSETS"), offset);
 }
+
+/// An axis that was independent once counts on the path again: under the Vibration Guard it deviates from its corners as
+/// far as the same axis in a program without that motion.
+#[test]
+fn afterwards_the_deviation_counts_again() {
+    let guard = "#VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.05]\nG01 F8000\n";
+    let path = "Y10\nX20\nY20\nX0\n";
+    let largest = |program: &str| {
+        let run = run(&format!("%P\n{guard}{program}{path}M30\n"), &[]);
+        run.records.iter().map(|r| r.axes[0].dev.abs()).fold(0.0, f64::max)
+    };
+    let with =
+        largest("X[INDP_SYN G01 FEED=3000 POS=0.0]\nX[INDP_SYN G91 G01 FEED=3000 POS=5]\nG90 X0\n");
+    let without = largest("X5\nX0\n");
+    assert!(without > 0.03 && (with - without).abs() < 1e-6, "{with} instead of {without}");
+}

@@ -97,7 +97,7 @@ const ROWS: &[Row] = &[
     run("AX DEF", axes::define).several(),
     couplings::AX_LINK,
     couplings::SET_AX_LINK,
-    unsupported("ENABLE AX LINK"),
+    couplings::ENABLE_AX_LINK,
     unsupported("GANTRY"),
     unsupported("GEAR LINK"),
     // frames

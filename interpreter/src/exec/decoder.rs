@@ -172,6 +172,7 @@ impl Decoder {
             }
         }
         self.geometry.coordinates.set_target(&target);
+        self.follow_masters();
     }
 
     /// `#MACHINE DATA`: one value of an axis list.

@@ -2,6 +2,7 @@
 
 mod angles;
 mod arcs;
+pub(super) mod coupling;
 mod cutting;
 pub(super) mod dynamics;
 mod feed;
@@ -11,6 +12,7 @@ mod limits;
 mod measuring;
 mod oscillation;
 pub(super) mod overrides;
+mod set_position;
 mod space;
 pub(super) mod spindles;
 pub(super) mod state;
@@ -219,7 +221,10 @@ impl Decoder {
 
     /// Takes the coordinate words over into the target; where the axes stood comes back.
     fn program_targets(&mut self, words: &Words<'_>) -> Outcome<AxisVec> {
-        let start = self.geometry.coordinates.target().clone();
+        for (axis, _, at) in &words.axes {
+            self.moves_no_slave(*axis, *at)?;
+        }
+        let mut start = self.geometry.coordinates.target().clone();
         let mut targets: smallvec::SmallVec<[Target; 8]> = words
             .axes
             .iter()
@@ -254,6 +259,11 @@ impl Decoder {
             }
             Some(_) => self.geometry.coordinates.program_without_offsets(&targets),
             None => self.geometry.coordinates.program(&targets),
+        }
+        self.follow_masters();
+        // a slave stands on the path, also where the path begins
+        for slave in self.motion.couplings.slaves() {
+            start[slave] = self.geometry.coordinates.target()[slave];
         }
         self.follow_turning_centre(&start);
         Ok(start)

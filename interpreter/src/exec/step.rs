@@ -103,6 +103,13 @@ pub(crate) enum Sync {
     Shaping(Box<ShapingSetup>),
     /// The next call of [`Executor::next`](super::Executor::next) needs actual positions of the machine at rest.
     ReadActual,
+    /// `X[SET_POSITION ..]`: an axis in its window gets another position and does not move.
+    SetPosition {
+        /// Path axis.
+        axis: usize,
+        /// New position less the present one in mm (deg).
+        offset_mm: f64,
+    },
     /// `#MACHINE DATA`: a parameter of an axis list has changed in [`Executor::machine`](super::Executor::machine).
     MachineData {
         /// Logical axis number.
@@ -209,6 +216,22 @@ pub(crate) enum Event {
         axis: usize,
         /// What it does.
         motion: OscillatingMotion,
+    },
+    /// `#ENABLE AX LINK`: an axis follows another one from here on; both are at rest.
+    Couple {
+        /// Path axis that follows.
+        slave: usize,
+        /// Path axis that is followed.
+        master: usize,
+        /// Way of the slave for a way of the master.
+        ratio: f64,
+        /// Where the master stands, in mm (deg).
+        master_mm: f64,
+    },
+    /// `#DISABLE AX LINK`: the axis stays where it is.
+    Uncouple {
+        /// Path axis.
+        slave: usize,
     },
     /// An M function without meaning of its own here.
     MFunction {

@@ -28,6 +28,10 @@ impl Simulation {
                     self.diagnostics.push(super::fault::internal(&e));
                 }
             }
+            Event::Couple { slave, master, ratio, master_mm } => {
+                self.independent.couple(slave, master, ratio, master_mm);
+            }
+            Event::Uncouple { slave } => self.independent.uncouple(slave),
             Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
             Event::SpindleFeedforward { spindle, on, weight_ratio } => {
                 self.spindle_feedforward(spindle, on, weight_ratio);
@@ -118,13 +122,34 @@ impl Simulation {
     pub(super) fn machine_data(&mut self, axis: u32) {
         self.machine = Arc::clone(self.executor.machine());
         let Some(i) = self.machine.axes.iter().position(|a| a.number() == axis) else { return };
+        self.renew(i, self.chains[i].set_mm());
+        let setup = self.executor.shaping().clone();
+        self.swap_kernels(&setup);
+    }
+
+    /// `X[SET_POSITION ..]`: the chains of the axis and of its gantry slaves begin anew, at rest where they stand under
+    /// their new positions. Those of the path do not change.
+    pub(super) fn set_position(&mut self, axis: usize, offset_mm: f64) {
+        for i in 0..self.chains.len() {
+            if self.drivers[i] == Driver::Path(axis) {
+                self.renew(i, self.chains[i].set_mm() + offset_mm);
+            }
+        }
+        self.independent.shift(axis, offset_mm);
+        self.path_position[axis] += offset_mm;
+    }
+
+    /// A chain at rest at a position, with the lists and the kernel in force.
+    fn renew(&mut self, i: usize, at_mm: f64) {
         let (mut setups, _) = self.machine.chains();
-        let x = self.chains[i].set_mm();
-        match AxisChain::new(setups.swap_remove(i), x, self.inputs.axes[i], self.cycle) {
-            Ok(chain) => {
+        match AxisChain::new(setups.swap_remove(i), at_mm, self.inputs.axes[i], self.cycle) {
+            Ok(mut chain) => {
+                let kernel = self.executor.shaping().axes.get(i).and_then(|a| a.kernel.clone());
+                // it has just begun, at rest
+                if chain.set_kernel(kernel).is_err() {
+                    self.diagnostics.push(super::fault::switch_while_moving());
+                }
                 self.chains[i] = chain;
-                let setup = self.executor.shaping().clone();
-                self.swap_kernels(&setup);
             }
             Err(e) => self.diagnostics.push(super::fault::plant(&e, &self.machine, i)),
         }

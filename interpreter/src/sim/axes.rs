@@ -38,7 +38,7 @@ impl Simulation {
                 self.motion = block.motion;
                 for (record, driver) in self.record.axes.iter_mut().zip(&self.drivers) {
                     if let Driver::Path(p) = driver {
-                        record.target = block.target[*p];
+                        record.target = block.target[*p] + self.independent.done_mm(*p);
                     }
                 }
                 self.jerk_limited = block.jerk_limited;
@@ -63,6 +63,7 @@ impl Simulation {
                 *position += (before - *position) * self.thread_delay;
             }
         }
+        self.independent.follow(&mut positions);
         self.spindles.iter_mut().for_each(|s| s.cut(&positions));
         let spindles: SmallVec<[f64; 4]> =
             self.spindles.iter_mut().map(|s| s.step(&positions, self.cycle)).collect();
@@ -93,12 +94,11 @@ impl Simulation {
         // what is measured against the contour: the set position without the ways of independent axes; while one of them
         // moves, it does not count
         for (p, set) in self.set.iter_mut().enumerate() {
-            let way_mm = self.independent.done_mm(p);
-            let settles = || way_mm.abs() > 0.0 && !self.chains[p].settled();
-            *set = if self.independent.is_moving(p) || settles() {
+            let on_its_way = self.independent.is_on_its_way(p, self.chains[p].settled());
+            *set = if on_its_way {
                 setpoint.position[p]
             } else {
-                self.record.axes[p].set - way_mm
+                self.record.axes[p].set - self.independent.done_mm(p)
             };
         }
         self.record.k = k;

@@ -49,11 +49,26 @@ impl Oscillation {
     }
 }
 
+/// An axis follows another one.
+#[derive(Clone, Copy, Debug)]
+struct Coupling {
+    master: usize,
+    ratio: f64,
+    /// Where the master stood at the beginning.
+    master_mm: f64,
+    /// What the axis has gone with it.
+    way_mm: f64,
+}
+
 /// One path axis.
 #[derive(Clone, Debug, Default)]
 struct Lane {
     /// Way of all motions that are over.
     done_mm: f64,
+    /// The axis that it follows.
+    coupling: Option<Coupling>,
+    /// Its way is not at rest yet behind its filters.
+    settles: bool,
     underway: Option<Underway>,
     oscillation: Option<Box<Oscillation>>,
 }
@@ -141,9 +156,52 @@ impl IndependentAxes {
         way_mm
     }
 
+    /// The position of an axis at rest changes without a motion.
+    pub(super) fn shift(&mut self, axis: usize, offset_mm: f64) {
+        if let Some(lane) = self.lanes.get_mut(axis) {
+            lane.done_mm += offset_mm;
+        }
+    }
+
+    /// An axis follows another one from now on.
+    pub(super) fn couple(&mut self, slave: usize, master: usize, ratio: f64, master_mm: f64) {
+        if let Some(lane) = self.lanes.get_mut(slave) {
+            lane.coupling = Some(Coupling { master, ratio, master_mm, way_mm: 0.0 });
+        }
+    }
+
+    /// An axis stays where it has come to.
+    pub(super) fn uncouple(&mut self, slave: usize) {
+        if let Some(lane) = self.lanes.get_mut(slave)
+            && let Some(coupling) = lane.coupling.take()
+        {
+            lane.done_mm += coupling.way_mm;
+        }
+    }
+
+    /// Adds to the positions of slaves what they go with their masters; everything else is in them.
+    pub(super) fn follow(&mut self, positions: &mut [f64]) {
+        for (axis, lane) in self.lanes.iter_mut().enumerate() {
+            let Some(coupling) = &mut lane.coupling else { continue };
+            let way_mm = coupling.ratio * (positions[coupling.master] - coupling.master_mm);
+            lane.settles |= way_mm.to_bits() != coupling.way_mm.to_bits();
+            coupling.way_mm = way_mm;
+            positions[axis] += way_mm;
+        }
+    }
+
+    /// The set position of an axis contains a way that is still changing, behind its filters too; `settled`: its set
+    /// position has arrived.
+    pub(super) fn is_on_its_way(&mut self, axis: usize, settled: bool) -> bool {
+        let Some(lane) = self.lanes.get_mut(axis) else { return false };
+        lane.settles = lane.underway.is_some() || lane.settles && !settled;
+        lane.settles
+    }
+
     /// Way of an axis at rest, or its last one.
     pub(super) fn done_mm(&self, axis: usize) -> f64 {
-        self.lanes.get(axis).map_or(0.0, |lane| lane.done_mm)
+        let way_mm = |lane: &Lane| lane.done_mm + lane.coupling.map_or(0.0, |c| c.way_mm);
+        self.lanes.get(axis).map_or(0.0, way_mm)
     }
 
     pub(super) fn is_moving(&self, axis: usize) -> bool {

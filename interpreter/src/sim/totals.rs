@@ -120,6 +120,8 @@ impl Totals {
             | Event::Timer { .. }
             | Event::Independent { .. }
             | Event::Oscillation { .. }
+            | Event::Couple { .. }
+            | Event::Uncouple { .. }
             | Event::Spindle { .. } => None,
         }
     }

@@ -17,6 +17,11 @@ pub(super) enum Action {
     MachineData {
         axis: u32,
     },
+    /// A path axis has another position.
+    SetPosition {
+        axis: usize,
+        offset_mm: f64,
+    },
     /// The axes do not go with a spindle any more.
     ThreadEnd,
     End(EndReason),
@@ -92,9 +97,18 @@ impl Wait {
                 (Until::Flushed, Action::None)
             }
             Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
+            Sync::SetPosition { axis, offset_mm } => {
+                (Until::InPosition, Action::SetPosition { axis, offset_mm })
+            }
             Sync::MachineData { axis } => (Until::Flushed, Action::MachineData { axis }),
         };
         Self { until, action, patience: Patience::default() }
+    }
+
+    /// One cycle of rest, so that the trace shows what has changed, also where the program ends.
+    pub(super) fn for_a_cycle() -> Self {
+        let until = Until::Cycles(1, Rest::Flush);
+        Self { until, action: Action::None, patience: Patience::default() }
     }
 
     /// The end of the program: every axis has arrived.
@@ -159,7 +173,11 @@ impl Wait {
             Action::Shaping(setup) => {
                 setup.axes.get(i).is_none_or(|a| chain.ready_for(a.kernel.as_deref()))
             }
-            Action::None | Action::MachineData { .. } | Action::ThreadEnd | Action::End(_) => true,
+            Action::None
+            | Action::MachineData { .. }
+            | Action::SetPosition { .. }
+            | Action::ThreadEnd
+            | Action::End(_) => true,
         };
         !matches!(self.until, Until::Cycles(1.., _))
             && !self.under_way(parts)

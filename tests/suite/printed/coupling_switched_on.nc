@@ -1,11 +1,14 @@
-; check: exit 1
-; page 207133579 axis couplings switched on (#ENABLE AX LINK)
-; error K-0019 at 6:5
-; error K-0019 at 9:5
-N10 #SET AX LINK [1, Y = X]
-N20 #ENABLE AX LINK [1]
-N30 G00 X10
-N40 #DISABLE AX LINK [1]
-N50 #AX LINK ON [1]
-N60 #AX LINK OFF ALL
-N70 M30
+; run: exit 0
+; page 207133579 axis couplings switched on and off (#ENABLE AX LINK, #AX LINK)
+; end X20 Y0 Z10
+N10 #SET AX [X,1,0][Y,2,1][C,3,3]
+N20 #SET AX LINK [1, C = X]
+N30 #ENABLE AX LINK [1]
+N40 G00 X10
+N50 #DISABLE AX LINK [1]
+N60 X15
+N70 #AX LINK ON [1]
+N80 X20
+N90 #AX LINK OFF ALL
+N100 C10
+N110 M30

@@ -103,6 +103,7 @@ conditions! {
     MeasuringTypeOfG100 = Vendor 20138: Error ProgramAbort 3 1, "G100 does not fit the measuring type", cause "types 5 and 6 measure by G310", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
     LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
     SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
+    ToolWhileCoupled = Vendor 20169: Error ProgramAbort 3 1, "tool data changed while axes are coupled", cause "D2 after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before the D word";
     ToolDataTwice = Vendor 20170: Error ProgramAbort 3 1, "D twice in one block", hint "leave one of the two out";
     FeedTwice = Vendor 20175: Error ProgramAbort 3 1, "F twice in one block", hint "the feed holds for the whole block: leave one F out";
     SpindleUnknown = Vendor 20180: Error ProgramAbort 3 1, "unknown name of a spindle", cause "SPDL=1000", hint "spindle names are in the channel list; those of several characters need =", parameter "P-CHAN-00007";
@@ -161,7 +162,12 @@ conditions! {
     RadiusName = Vendor 20402: Error ProgramAbort 3 1, "unknown radius name", hint "write R=..";
     VariableNumber = Vendor 20403: Error ProgramAbort 3 1, "number of a variable is negative or too large", cause "V.G.NP[-1].V[0]", hint "write an index of the variable's range";
     WordsBehindCommand = Vendor 20450: Error ProgramAbort 3 1, "words after a # command", cause "exceptions #ACHSE, #PSET, #PRESET", hint "move it into a block of its own";
+    CouplingWithCompensation = Vendor 20457: Error ProgramAbort 3 1, "coupling switched while tool radius compensation is active", cause "#ENABLE AX LINK [1] after G41", hint "switch couplings before G41 or after G40";
     CouplingGroupNumber = Vendor 20461: Error ProgramAbort 3 1, "number of a coupling group out of range", cause "#SET AX LINK [100000, Y=X]", hint "groups have the numbers 1 to 65535; 0 is that of the channel list";
+    SlaveIsMainAxis = Vendor 20467: Error ProgramAbort 3 1, "slave of a coupling is a main axis", cause "#ENABLE AX LINK [1] after #SET AX LINK [1, Y=X]", hint "slaves are axes with the index 3 or above: #CALL AX [C,3,3] gives an axis such a place";
+    CoupledTypes = Vendor 20468: Error ProgramAbort 3 1, "coupled axes of different types", cause "a linear axis and a rotary one", hint "couple axes of the same type (P-AXIS-00018)";
+    CoupledModes = Vendor 20469: Error ProgramAbort 3 1, "coupled axes of different modes", cause "a modulo axis and one that is none", hint "couple axes of the same mode (P-AXIS-00015)";
+    CouplingGroupActive = Vendor 20472: Error ProgramAbort 3 1, "coupling group changed while it is switched on", cause "#SET AX LINK [1, ..] after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before it";
     MasterIsSlave = Vendor 20475: Error ProgramAbort 3 1, "axis coupled with itself", cause "#SET AX LINK [1, X=X]", hint "write another axis behind the =";
     SlaveTwice = Vendor 20476: Error ProgramAbort 3 1, "axis is a slave twice", cause "#SET AX LINK [1, C=X, C=Y]", hint "leave one of the two couplings out";
     CouplingChain = Vendor 20477: Error ProgramAbort 3 1, "axis is master and slave", cause "#SET AX LINK [1, B=X, C=B]", hint "couple both slaves with the first master";
@@ -169,6 +175,7 @@ conditions! {
     CommandUnknown = Vendor 20509: Error ProgramAbort 3 1, "unknown # command", hint "kontur explain '#NAME' describes the commands that exist";
     ExchangeMode = Vendor 20521: Error ProgramAbort 3 1, "axis exchange: offset mode unknown", hint "offset modes are CMDPOS, ACTPOS, OFFSETS, NO_OFFSETS, ALL";
     ExchangeName = Vendor 20524: Error ProgramAbort 3 1, "axis exchange: axis name wrong", hint "axis names begin with X, Y, Z, A, B, C, U, V, W or Q and have up to 16 characters";
+    CoupledAxisReleased = Vendor 20545: Error ProgramAbort 3 1, "coupled axis released", cause "#PUT AX [X] after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before it";
     FaceAxisReleased = Vendor 20546: Error ProgramAbort 1 1, "face turning axis released while diameters are programmed", cause "#PUT AX [X] under G51", hint "write G52 first";
     CommentBeginNotAlone = Vendor 20566: Error ProgramAbort 3 1, "#COMMENT BEGIN is not alone in its block", hint "move the words to the next block";
     CommentEndNotAlone = Vendor 20569: Error ProgramAbort 3 1, "#COMMENT END is not alone in its block", hint "move the words to the next block";
@@ -233,6 +240,10 @@ conditions! {
     ExchangeComma = Vendor 21251: Error ProgramAbort 3 1, "axis exchange: comma missing", hint "write [name, number, index]";
     ExchangeNumber = Vendor 21252: Error ProgramAbort 3 1, "axis exchange: axis number wrong", hint "write [name, number, index]";
     ExchangeNumberRange = Vendor 21253: Error ProgramAbort 3 1, "axis exchange: axis number outside the data format", hint "the logical axis numbers are in the axis lists (kopf.achs_nr)";
+    CouplingPairs = Vendor 21281: Error ProgramAbort 3 1, "too many pairs in a coupling group", cause "#SET AX LINK with 16 pairs", hint "divide them into several groups: a group has at most 15 pairs";
+    SlaveIsActiveSlave = Vendor 21283: Error ProgramAbort 3 1, "slave is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
+    SlaveIsActiveMaster = Vendor 21284: Error ProgramAbort 3 1, "slave is a master in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
+    MasterIsActiveSlave = Vendor 21285: Error ProgramAbort 3 1, "master is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "remarks begin with ; or (; no block may precede %NAME";
     TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "leave G05 out";
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
@@ -253,6 +264,7 @@ conditions! {
     TooFewArguments = Vendor 21471: Error ProgramAbort 3 1, "too few arguments of a function", cause "LEFT[\"Hello\"]", hint "kontur explain NAME shows the arguments";
     TextCount = Vendor 21472: Error ProgramAbort 3 1, "count of characters out of range", cause "LEFT[\"Hello\", 100000]", hint "write a count from 0 to the length of a text";
     JumpIntoLoop = Vendor 21480: Error ProgramAbort 3 1, "jump into a loop", hint "jumps lead out of loops and within them; put the label before the loop";
+    CoupledAxisAlone = Vendor 21481: Error ProgramAbort 3 1, "coupled axis as an independent axis", cause "X[INDP_ASYN ..] after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before it";
     OpenIfLocal = Vendor 21500: Error ProgramAbort 3 1, "open $IF in a local subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
     OpenIfMain = Vendor 21501: Error ProgramAbort 3 1, "open $IF in the main program", cause "the branch is not taken", hint "write $ENDIF before the end of the program";
     OpenIfGlobal = Vendor 21502: Error ProgramAbort 3 1, "open $IF in a global subroutine", cause "the branch is not taken", hint "write $ENDIF before the end of the subroutine";
@@ -444,6 +456,8 @@ conditions! {
     NoProbeSignal = Kontur 133 "K-NO-SIGNAL": Error ProgramAbort 3 1, "measuring run without a signal of the probe (no vendor ID known)", cause "type 2, or P-CHAN-00176 or ERR_NO_SIGNAL=1 with the others", hint "--input gives the signal: `probe` at a time, `X_probe_mm` at a position of an axis", parameter "P-CHAN-00176";
     NotMeasured = Kontur 134 "K-NOT-MEASURED": Error ProgramAbort 3 1, "measuring offset of an axis that has not been measured (no vendor ID known)", cause "G101 without a signal in a G100 before it", hint "V.A.MERF.X shows whether the probe signalled";
     MeasuringWay = Kontur 135 "K-MEASURING-WAY": Error ProgramAbort 3 1, "measuring run without travel (no vendor ID known)", cause "G100 X10 where the axis is at 10", hint "the target must lie beyond the surface to be measured";
+    SlaveProgrammed = Kontur 136 "K-SLAVE": Error ProgramAbort 3 1, "motion of an axis that follows a master (no vendor ID known)", cause "C10 after #ENABLE AX LINK [1] with C=X", hint "move the master, or write #DISABLE AX LINK before it";
+    CouplingGroupUndefined = Kontur 137 "K-NO-GROUP": Error ProgramAbort 3 1, "coupling group that is not defined (no vendor ID known)", cause "#ENABLE AX LINK [2] without #SET AX LINK [2, ..]", hint "write #SET AX LINK [group, slave=master] before it; group 0, that of the channel list, is not read";
     ProjectRead = Kontur 140 "K-PROJECT": Note None 1 2, "lists taken out of a TwinCAT project", cause "-m names a .tsproj, an .xti, or a folder with them";
     ProjectWrong = Kontur 141 "K-PROJECT-WRONG": Error JobAbort 3 0, "TwinCAT project that is not XML or contains no CNC", cause "-m names a .tsproj, an .xti, or a folder with them", hint "name the project that has the axes and the channel of the CNC, or a folder with its exported .xti files";
 }

@@ -122,6 +122,12 @@ impl Decoder {
                 let items = if word.is("OSC") { rest } else { &group.items[..] };
                 self.oscillating_axis(axis, items, group.span)
             }
+            Some((Item { kind: ItemKind::Flag(word), .. }, rest)) if word.is("SET_POSITION") => {
+                if words.axes.iter().any(|(moved, _, _)| *moved == axis) {
+                    return Err(self.axis_twice(axis, group.span));
+                }
+                self.set_position(axis, rest, group.span)
+            }
             Some((
                 Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
                 _,

@@ -127,6 +127,9 @@ impl Decoder {
 
     /// D: tool data; the length acts on the third main axis of the plane.
     pub(in crate::exec) fn select_tool_data(&mut self, number: f64, span: Span) {
+        if self.report.keep(self.keeps_tool_while_coupled(span)).is_none() {
+            return;
+        }
         let Some(number) = crate::exec::values::number::whole(number, 0, u32::MAX) else {
             let text = format!("D{number} is no number of tool data");
             self.report.note(Fault::new(Condition::Range, text, span));
@@ -223,6 +226,7 @@ impl Decoder {
             target[axis] = x + self.motion.independent.way[axis];
         }
         self.geometry.coordinates.set_target(&target);
+        self.follow_masters();
         self.motion.left_contour = true;
     }
 

@@ -30,14 +30,19 @@ pub(super) const PUT_AX: Row = Row::run("PUT AX", put).several()
 
 /// `#PUT AX [X, ..]`, `#PUT AX ALL`: an axis that is not there is legal.
 pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    exchange(decoder, call.span());
     let all = call.rest.iter().chain(&call.command.tail).any(|w| w.is("ALL"));
     let released = |item: &crate::syntax::ast::Item| match &item.kind {
         ItemKind::Flag(name) => decoder.names.of_name(&name.text),
         _ => None,
     };
-    let mut named = call.command.groups.iter().flat_map(|g| &g.items).filter_map(released);
-    if decoder.modal.diameter.is_some_and(|axis| all || named.any(|a| a == axis)) {
+    let named: Vec<usize> = if all {
+        (0..decoder.machine.axes.len()).collect()
+    } else {
+        call.command.groups.iter().flat_map(|g| &g.items).filter_map(released).collect()
+    };
+    decoder.releases_no_coupled(named.iter().copied(), call.span())?;
+    exchange(decoder, call.span());
+    if decoder.modal.diameter.is_some_and(|axis| named.contains(&axis)) {
         let text = "the face turning axis cannot be released under G51";
         return Err(Fault::new(Condition::FaceAxisReleased, text, call.span()));
     }
@@ -96,6 +101,7 @@ pub(super) const SET_AX: Row = Row::run("SET AX", set).several()
 
 /// `#SET AX [name, number, index, options]..`: a new set of axes.
 pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    decoder.releases_no_coupled(0..decoder.machine.axes.len(), call.span())?;
     exchange(decoder, call.span());
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
@@ -109,6 +115,7 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 /// `#AX DEF DEFAULT`: the set of the channel list.
 pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    decoder.releases_no_coupled(0..decoder.machine.axes.len(), call.span())?;
     exchange(decoder, call.span());
     match call.rest {
         [word] if word.is("DEFAULT") => {
@@ -269,6 +276,7 @@ fn take(decoder: &mut Decoder, group: &Group) -> Outcome<()> {
         let text = format!("no axis has the logical number {logical}");
         return Err(Fault::new(Condition::AxisNumberUnknown, text, at(1)));
     };
+    decoder.releases_no_coupled(std::iter::once(axis), at(0))?;
     if let Some(other) = decoder.names.of_name(&letters).filter(|other| *other != axis) {
         release(decoder, other);
     }

@@ -1,46 +1,100 @@
-//! `#SET AX LINK`, `#AX LINK`: groups of axis couplings.
+//! `#SET AX LINK`, `#AX LINK`, `#ENABLE AX LINK`, `#DISABLE AX LINK`: groups of axis couplings.
 //!
-//! A definition moves nothing and is checked; a group that is switched on would move its slaves and is refused.
+//! The commands read and check groups; what couplings do is in [`crate::exec::motion::coupling`].
 //!
 //! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579), gantry operation (285670667);
-//! 20475 to 20477, 21077, 21110 and 21111.
+//! 20461, 20475 to 20477, 21077, 21110, 21111 and 21281.
 
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::coupling::Pair;
 use crate::exec::values::number::whole;
-use crate::syntax::ast::{Ident, Item, ItemKind, ItemValue, Span};
+use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
+
+/// Pairs of a group. Source: TF5200 channel parameters, synchro_data (149192587).
+const PAIRS_MAX: usize = 15;
 
 /// Row of `#SET AX LINK`.
 pub(super) const SET_AX_LINK: Row = Row::run("SET AX LINK", define)
     .form("#SET AX LINK [group, slave=master ..]")
     .meaning("defines a group of axis couplings")
-    .note("the definition is checked; switching on a group is not supported")
-    .example("#SET AX LINK [1, Y=X]")
-    .related(&["20475", "20476", "20477", "21077", "21110", "21111"]);
+    .note("[slave=master, -1, 1] mirrors; G with monitoring limits couples a gantry, whose actual positions are not monitored")
+    .example("#SET AX LINK [1, C=X]")
+    .related(&["#ENABLE AX LINK", "20475", "20476", "20477", "21077", "21110", "21111"]);
+
+/// Row of `#ENABLE AX LINK`.
+pub(super) const ENABLE_AX_LINK: Row = Row::run("ENABLE AX LINK", enable)
+    .form("#ENABLE AX LINK [group]")
+    .meaning("the slaves of a group follow their masters from where they are; the path stops")
+    .note("slaves are no main axes (20467) and are not programmed meanwhile; the path keeps their limits")
+    .example("#ENABLE AX LINK [1]")
+    .related(&["#SET AX LINK", "#DISABLE AX LINK", "20457", "20467", "20468", "20169", "20545", "21481"]);
+
+/// Row of `#DISABLE AX LINK`.
+pub(super) const DISABLE_AX_LINK: Row = Row::run("DISABLE AX LINK", disable)
+    .form("#DISABLE AX LINK [group]")
+    .meaning("ends the couplings of a group, without a bracket those of the group switched on last; the path stops")
+    .example("#DISABLE AX LINK [1]")
+    .related(&["#ENABLE AX LINK"]);
 
 /// Row of `#AX LINK`.
 pub(super) const AX_LINK: Row = Row::run("AX LINK", link)
-    .form("#AX LINK [group, slave=master ..]|OFF")
-    .meaning("as #SET AX LINK; OFF: no group is switched on")
-    .example("#AX LINK [1, Y=X]")
-    .related(&["#SET AX LINK"]);
-
-/// Row of `#DISABLE AX LINK`.
-pub(super) const DISABLE_AX_LINK: Row = Row::run("DISABLE AX LINK", |_, _| Ok(()))
-    .form("#DISABLE AX LINK [group]")
-    .meaning("older form of #AX LINK OFF")
-    .example("#DISABLE AX LINK [1]")
-    .related(&["#AX LINK"]);
+    .form("#AX LINK [group, slave=master ..]   #AX LINK ON [group]   #AX LINK OFF [group]   #AX LINK OFF ALL")
+    .meaning("#SET AX LINK, #ENABLE AX LINK and #DISABLE AX LINK in one command")
+    .example("#AX LINK ON [1]")
+    .related(&["#SET AX LINK", "#ENABLE AX LINK"]);
 
 fn link(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.command.on {
-        Some(true) => Err(Fault::unsupported("#AX LINK ON", call.span())),
-        // none can be on
-        Some(false) => Ok(()),
+        Some(true) => enable(decoder, call),
+        Some(false) => match &call.command.tail[..] {
+            [all] if all.is("ALL") && call.command.groups.is_empty() => {
+                decoder.switch_all_couplings_off(call.span())
+            }
+            _ => disable(decoder, call),
+        },
         None => define(decoder, call),
     }
+}
+
+fn enable(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let group = named_group(decoder, call)?;
+    decoder.switch_couplings_on(group.unwrap_or(0), call.span())
+}
+
+fn disable(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    call.no_more_words()?;
+    let group = named_group(decoder, call)?;
+    decoder.switch_couplings_off(group, call.span())
+}
+
+/// `[group]`, if there is one.
+fn named_group(decoder: &Decoder, call: &Call<'_>) -> Outcome<Option<u32>> {
+    let Some(Group { items, span }) = call.command.groups.first() else { return Ok(None) };
+    let [Item { kind: ItemKind::Value(ItemValue::Expr(number)), .. }] = &items[..] else {
+        let text = format!("{} needs the number of a group", call.title());
+        return Err(Fault::new(Condition::TokenUnknown, text, *span));
+    };
+    group_number(decoder, number, 0).map(Some)
+}
+
+/// 20461 outside the range.
+fn group_number(decoder: &Decoder, number: &Expr, least: u32) -> Outcome<u32> {
+    let written = decoder.number(number)?;
+    let most = u32::from(u16::MAX);
+    whole(written, least, most).ok_or_else(|| {
+        let text = format!("there is no coupling group {written}");
+        Fault::new(Condition::CouplingGroupNumber, text, number.span).with(|d| {
+            d.value(ValueKind::Wrong, written, "-").value(ValueKind::LowerLimit, least, "-").value(
+                ValueKind::UpperLimit,
+                most,
+                "-",
+            )
+        })
+    })
 }
 
 /// `[1, Y=X, [Z=X, G, 0.01, 0.25], [A=X, -1, 2]]`: the number of the group, then its pairs.
@@ -51,32 +105,43 @@ fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let wrong = |span| {
         let text = format!("{} needs the number of a group and couplings", call.title());
-        Fault::new(Condition::TokenUnknown, text, span).hint("write #SET AX LINK [1, Y=X]")
+        Fault::new(Condition::TokenUnknown, text, span).hint("write #SET AX LINK [1, C=X]")
     };
     let items = call.command.groups.first().map_or(&[][..], |group| &group.items);
     let [Item { kind: ItemKind::Value(ItemValue::Expr(number)), .. }, pairs @ ..] = items else {
         return Err(wrong(call.span()));
     };
     // group 0 is that of the channel list
-    let written = decoder.number(number)?;
-    let number = whole(written, 1, u32::from(u16::MAX)).ok_or_else(|| {
-        let text = format!("there is no coupling group {written}");
-        Fault::new(Condition::CouplingGroupNumber, text, number.span)
-    })?;
+    let group = group_number(decoder, number, 1)?;
     if pairs.is_empty() {
         return Err(wrong(call.span()));
     }
-    let mut known: Vec<(usize, usize)> = Vec::new();
+    if let Some(more) = pairs.get(PAIRS_MAX) {
+        let text = format!("coupling group {group} has more than {PAIRS_MAX} pairs");
+        return Err(Fault::new(Condition::CouplingPairs, text, more.span).with(|d| {
+            let d = d.value(ValueKind::Wrong, pairs.len() as f64, "-");
+            d.value(ValueKind::UpperLimit, PAIRS_MAX as f64, "-")
+        }));
+    }
+    let mut known: Vec<Pair> = Vec::new();
     for item in pairs {
         let (slave, master) = coupling(item).ok_or_else(|| wrong(item.span))?;
-        let pair = (axis(decoder, slave)?, axis(decoder, master)?);
-        fits(decoder, number, &known, pair, item.span)?;
-        known.push(pair);
-        if let ItemKind::Value(ItemValue::List(group)) = &item.kind {
-            factor(decoder, &group.items[1..])?;
+        let mut pair = Pair {
+            slave: axis(decoder, slave)?,
+            master: axis(decoder, master)?,
+            ratio: 1.0,
+            is_gantry: false,
+        };
+        fits(decoder, group, &known, (pair.slave, pair.master), item.span)?;
+        if let ItemKind::Value(ItemValue::List(inner)) = &item.kind {
+            match inner.items.get(1).map(|item| &item.kind) {
+                Some(ItemKind::Flag(word)) if word.is("G") => pair.is_gantry = true,
+                _ => pair.ratio = factor(decoder, &inner.items[1..])?,
+            }
         }
+        known.push(pair);
     }
-    Ok(())
+    decoder.define_couplings(group, known, call.span())
 }
 
 /// `Y=X`, or `[Y=X, ..]` with monitoring limits (G) or a ratio.
@@ -88,13 +153,20 @@ fn coupling(item: &Item) -> Option<(&Ident, &Ident)> {
     }
 }
 
-/// `-1, 2` behind a pair: numerator and denominator of its factor. Behind G stand monitoring limits instead.
+/// `-1, 1` behind a pair: its factor from numerator and denominator, 1 or -1.
 ///
 /// Assumption: of two pages that disagree, 21111 (253496203: factors other than 1 and -1 become 1) holds and not the
 /// description of scaled couplings (285670667), since it says what the control does. A denominator of 0 is such a factor.
-fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<()> {
-    let [Item { kind: ItemKind::Value(ItemValue::Expr(numerator)), .. }, rest @ ..] = items else {
-        return Ok(());
+fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<f64> {
+    let (numerator, rest) = match items {
+        [] => return Ok(1.0),
+        [Item { kind: ItemKind::Value(ItemValue::Expr(numerator)), .. }, rest @ ..] => {
+            (numerator, rest)
+        }
+        [other, ..] => {
+            let text = "behind a coupling stand numerator and denominator, or G";
+            return Err(Fault::new(Condition::TokenUnknown, text, other.span));
+        }
     };
     let above = decoder.number(numerator)?;
     if above == 0.0 {
@@ -109,20 +181,24 @@ fn factor(decoder: &mut Decoder, items: &[Item]) -> Outcome<()> {
             .with(|d| d.value(ValueKind::Current, above, "-")));
     };
     let below = decoder.number(denominator)?;
-    if above.abs().to_bits() != below.abs().to_bits() {
-        let text = format!("the coupling factor is {above}/{below}, allowed are 1 and -1");
-        let fault = Fault::new(Condition::CouplingFactorInvalid, text, numerator.span);
-        decoder.report.note(fault.with(|d| {
-            let d = d.value(ValueKind::Current, above, "-").value(ValueKind::Current, below, "-");
-            // of the denominator 0 there is no factor
-            let factor = above / below;
-            if factor.is_finite() { d.value(ValueKind::Wrong, factor, "-") } else { d }
-        }));
+    if above.abs().to_bits() == below.abs().to_bits() {
+        return Ok(above / below);
     }
-    Ok(())
+    let text = format!("the coupling factor is {above}/{below}, allowed are 1 and -1");
+    let fault = Fault::new(Condition::CouplingFactorInvalid, text, numerator.span);
+    decoder.report.note(fault.with(|d| {
+        let d = d.value(ValueKind::Current, above, "-").value(ValueKind::Current, below, "-");
+        // of the denominator 0 there is no factor
+        let factor = above / below;
+        if factor.is_finite() { d.value(ValueKind::Wrong, factor, "-") } else { d }
+    }));
+    Ok(1.0)
 }
 
 fn axis(decoder: &Decoder, name: &Ident) -> Outcome<usize> {
+    if decoder.spindle_of_name(&name.text).is_some() {
+        return Err(Fault::unsupported("couplings of spindles", name.span));
+    }
     decoder.names.of_name(&name.text).ok_or_else(|| {
         let text = format!("the channel has no axis {}", name.text);
         Fault::new(Condition::AxisNameUnknown, text, name.span)
@@ -133,17 +209,17 @@ fn axis(decoder: &Decoder, name: &Ident) -> Outcome<usize> {
 fn fits(
     decoder: &Decoder,
     group: u32,
-    known: &[(usize, usize)],
+    known: &[Pair],
     (slave, master): (usize, usize),
     span: Span,
 ) -> Outcome<()> {
     let (condition, axis, text) = if slave == master {
         (Condition::MasterIsSlave, slave, "an axis cannot be coupled with itself")
-    } else if known.iter().any(|(other, _)| *other == slave) {
+    } else if known.iter().any(|pair| pair.slave == slave) {
         (Condition::SlaveTwice, slave, "an axis follows one master only")
-    } else if known.iter().any(|(_, other)| *other == slave) {
+    } else if known.iter().any(|pair| pair.master == slave) {
         (Condition::CouplingChain, slave, "a master cannot follow another axis")
-    } else if known.iter().any(|(other, _)| *other == master) {
+    } else if known.iter().any(|pair| pair.slave == master) {
         (Condition::CouplingChain, master, "a slave cannot be the master of another axis")
     } else {
         return Ok(());

@@ -165,7 +165,11 @@ impl Compensator {
             out.push(Item::Rest(Box::new(rest)));
             return Ok(());
         }
-        if matches!(rest.what, Sync::Stop | Sync::FlushWait | Sync::ReadActual) {
+        let flushes = matches!(
+            rest.what,
+            Sync::Stop | Sync::FlushWait | Sync::ReadActual | Sync::SetPosition { .. }
+        );
+        if flushes {
             let text = "the channel cannot be flushed while tool radius compensation is active";
             return Err(Fault::new(Condition::FlushWithCompensation, text, Span::default())
                 .in_block(rest.source));

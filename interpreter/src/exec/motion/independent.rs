@@ -45,6 +45,7 @@ impl Decoder {
         rest: &[Item],
         span: Span,
     ) -> Outcome<()> {
+        self.moves_not_coupled(axis, span)?;
         let words = self.independent_words(axis, rest)?;
         for function in words.functions {
             match function {

@@ -27,16 +27,35 @@ impl Decoder {
             if let Some(fault) = self.outside_limits(axis, low, high, Some(end), at) {
                 self.report.note(fault);
             }
+            for fault in self.slaves_outside(axis, low, high, at()) {
+                self.report.note(Box::new(fault));
+            }
         }
+    }
+
+    /// 21897 for the slaves of an axis whose path goes from `low` to `high`.
+    fn slaves_outside(&self, master: usize, low: f64, high: f64, at: Span) -> Vec<Fault> {
+        let way = &self.motion.independent.way;
+        let range = (low + way[master], high + way[master]);
+        let slaves = self.motion.couplings.slaves_of(master, range);
+        // what a slave has gone is not part of its path
+        slaves
+            .filter_map(|(slave, low, high)| {
+                self.outside_limits(slave, low - way[slave], high - way[slave], None, || at)
+                    .map(|f| *f)
+            })
+            .collect()
     }
 
     /// Compensated motions against the software limits.
     pub(in crate::exec) fn limits_of_compensated(&mut self) -> Vec<Fault> {
         let driven = self.contour.take_driven();
         let faults = driven.iter().flat_map(|Driven { extents_mm, source, span }| {
-            extents_mm.iter().enumerate().filter_map(|(axis, (low, high))| {
-                let fault = self.outside_limits(axis, *low, *high, None, || *span)?;
-                Some(*fault.in_block(*source))
+            extents_mm.iter().enumerate().flat_map(|(axis, (low, high))| {
+                let slaves = self.slaves_outside(axis, *low, *high, *span);
+                let own = self.outside_limits(axis, *low, *high, None, || *span);
+                let all = own.map(|fault| *fault).into_iter().chain(slaves);
+                all.map(|fault| *Box::new(fault).in_block(*source))
             })
         });
         faults.collect()

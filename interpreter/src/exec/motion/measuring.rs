@@ -198,6 +198,7 @@ impl Decoder {
         if let Some(rest) = rest {
             self.geometry.coordinates.set_target(&rest);
         }
+        self.follow_masters();
         jump.filter(|_| signal.is_some())
     }
 

@@ -70,6 +70,7 @@ impl Decoder {
         if self.machine.axes[axis].is_modulo() {
             return Err(Fault::unsupported(format!("{title} of a modulo axis"), span));
         }
+        self.moves_not_coupled(axis, span)?;
         match (keys.on.or(keys.osc_on), keys.off) {
             (Some(_), None) => self.oscillation(axis, &keys, span),
             (None, Some(_)) => {

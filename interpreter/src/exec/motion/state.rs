@@ -3,6 +3,7 @@
 pub(in crate::exec) mod measuring;
 
 use self::measuring::Measuring;
+use super::coupling::Couplings;
 use super::cutting::Cutting;
 use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
@@ -39,6 +40,7 @@ pub(in crate::exec) struct MotionState {
     pub(in crate::exec) dynamics: [Option<Arc<ChannelDynamics>>; 2],
     pub(in crate::exec) overrides: Overrides,
     pub(in crate::exec) independent: Independent,
+    pub(in crate::exec) couplings: Couplings,
     pub(in crate::exec) feedforward: Feedforward,
     pub(in crate::exec) spindles: Vec<Spindle>,
     pub(in crate::exec) threads: Threads,
@@ -64,6 +66,7 @@ impl MotionState {
             dynamics: [None, None],
             overrides: Overrides::new(n),
             independent: Independent::new(n),
+            couplings: Couplings::default(),
             feedforward: Feedforward {
                 on: false,
                 weight_ratios: AxisVec::from_slice(&vec![1.0; n]),
@@ -92,6 +95,7 @@ impl MotionState {
         }
         let (mut dynamics, _) = channel_dynamics(machine, &self.weights, modal, self.vector[mode]);
         dynamics.feed_axes.clone_from(&self.feed_axes);
+        self.couplings.limit(&mut dynamics.axes);
         let dynamics = Arc::new(dynamics);
         self.dynamics[mode] = Some(Arc::clone(&dynamics));
         dynamics

@@ -84,6 +84,7 @@ impl Decoder {
             && modal.feed().is_none_or(|word| !word.inch)
             && self.calls.modal_cycle.is_none()
             && self.motion.independent.is_unused()
+            && self.motion.couplings.are_off()
             && self.motion.overrides.are_alike()
             && self.geometry.coordinates.frame().is_identity()
     }

@@ -59,7 +59,8 @@ fn keys_without_on_are_stored() {
 
 #[test]
 fn keys_beside_off_are_stored_and_checked() {
-    let run = run("#VIB GUARD OFF [FREQ=6 MODE=2 AX_DEV=0.01]\n#VIB GUARD OFF\n#VIB GUARD ON\nM30\n");
+    let run =
+        run("#VIB GUARD OFF [FREQ=6 MODE=2 AX_DEV=0.01]\n#VIB GUARD OFF\n#VIB GUARD ON\nM30\n");
     // once for the keys, and not for the plain OFF
     assert_eq!(run.ids(), ["K-0103"]);
     assert!(run.diagnostics[0].text.contains("AX_DEV"), "{}", run.diagnostics[0].text);

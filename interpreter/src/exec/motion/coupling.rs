@@ -1,0 +1,297 @@
+//! Axis couplings in force: slaves that follow their masters.
+//!
+//! A slave has no part in the path, as an independent axis has none: what it goes is its way ([`Independent::way`]), by
+//! which the coordinates of the path are shifted, and the simulation lets it follow the set positions of its master. So
+//! it follows arcs, compensated contours and masters that are independent for a while as it follows lines.
+//!
+//! Assumptions: the path comes to rest where a group is switched on or off, for otherwise the slave would jump to the
+//! speed of its master; the path keeps the limits of the slave as well as those of the master. The pages are silent.
+//!
+//! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579); 20169, 20457, 20467 to 20469,
+//! 20472, 20545, 21283 to 21285, 21481.
+//!
+//! [`Independent::way`]: super::state::Independent::way
+
+use crate::diag::{Condition, ValueKind};
+use crate::exec::block::modal::Compensation;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::step::{Event, Sync};
+use crate::syntax::ast::Span;
+use kontur_motion::axis::{AxisDynamics, AxisVec};
+use std::collections::BTreeMap;
+
+/// A slave and its master.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct Pair {
+    pub(in crate::exec) slave: usize,
+    pub(in crate::exec) master: usize,
+    /// 1, or -1 for a slave that mirrors its master.
+    pub(in crate::exec) ratio: f64,
+    /// Gantry coupling, with monitoring of the actual positions.
+    pub(in crate::exec) is_gantry: bool,
+}
+
+/// A pair in force.
+#[derive(Clone, Copy, Debug)]
+struct Follower {
+    pair: Pair,
+    /// Where both stood when the group was switched on.
+    master_mm: f64,
+    slave_mm: f64,
+    /// Way of the slave at that time.
+    way_mm: f64,
+}
+
+/// The groups of a program.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Couplings {
+    groups: BTreeMap<u32, Vec<Pair>>,
+    /// In the order in which they were switched on.
+    active: Vec<(u32, Vec<Follower>)>,
+}
+
+impl Couplings {
+    /// No group is switched on.
+    pub(in crate::exec) fn are_off(&self) -> bool {
+        self.active.is_empty()
+    }
+
+    fn is_on(&self, group: u32) -> bool {
+        self.active.iter().any(|(active, _)| *active == group)
+    }
+
+    fn followers(&self) -> impl Iterator<Item = (u32, &Follower)> {
+        self.active.iter().flat_map(|(group, all)| all.iter().map(|f| (*group, f)))
+    }
+
+    pub(super) fn slaves(&self) -> impl Iterator<Item = usize> {
+        self.followers().map(|(_, follower)| follower.pair.slave)
+    }
+
+    /// The group that an axis takes part in, as slave or as master.
+    fn group_of(&self, axis: usize) -> Option<u32> {
+        let mut of_axis =
+            self.followers().filter(|(_, f)| f.pair.slave == axis || f.pair.master == axis);
+        of_axis.next().map(|(group, _)| group)
+    }
+
+    /// Limits of the masters with those of their slaves.
+    pub(super) fn limit(&self, axes: &mut [AxisDynamics]) {
+        for (_, Follower { pair, .. }) in self.followers() {
+            axes[pair.master] = axes[pair.master].with(&axes[pair.slave]);
+        }
+    }
+
+    /// Where the slave of a follower is when its master has come to `master_mm`.
+    fn slave_at(follower: &Follower, master_mm: f64) -> f64 {
+        follower.slave_mm + follower.pair.ratio * (master_mm - follower.master_mm)
+    }
+
+    /// The slaves of a master with the range that they go through while it goes from `low` to `high`.
+    pub(super) fn slaves_of(
+        &self,
+        master: usize,
+        (low, high): (f64, f64),
+    ) -> impl Iterator<Item = (usize, f64, f64)> {
+        self.followers().filter(move |(_, f)| f.pair.master == master).map(move |(_, f)| {
+            let (a, b) = (Self::slave_at(f, low), Self::slave_at(f, high));
+            (f.pair.slave, a.min(b), a.max(b))
+        })
+    }
+}
+
+impl Decoder {
+    /// `#SET AX LINK`: a group, which must not be switched on.
+    pub(in crate::exec) fn define_couplings(
+        &mut self,
+        group: u32,
+        pairs: Vec<Pair>,
+        span: Span,
+    ) -> Outcome<()> {
+        if self.motion.couplings.is_on(group) {
+            let text = format!("coupling group {group} is switched on: it cannot be changed");
+            return Err(Fault::new(Condition::CouplingGroupActive, text, span)
+                .with(|d| d.value(ValueKind::Wrong, group, "-")));
+        }
+        self.motion.couplings.groups.insert(group, pairs);
+        Ok(())
+    }
+
+    /// `#ENABLE AX LINK`.
+    pub(in crate::exec) fn switch_couplings_on(&mut self, group: u32, span: Span) -> Outcome<()> {
+        self.couplings_may_change(span)?;
+        let Some(pairs) = self.motion.couplings.groups.get(&group).cloned() else {
+            let text = format!("coupling group {group} is not defined");
+            return Err(Fault::new(Condition::CouplingGroupUndefined, text, span));
+        };
+        if self.motion.couplings.is_on(group) {
+            return Ok(());
+        }
+        for pair in &pairs {
+            self.pair_fits(group, pair, span)?;
+        }
+        self.sync(Sync::FlushWait);
+        let target = self.geometry.coordinates.target();
+        let way = &self.motion.independent.way;
+        let follower = |pair: &Pair| Follower {
+            pair: *pair,
+            master_mm: target[pair.master],
+            slave_mm: target[pair.slave],
+            way_mm: way[pair.slave],
+        };
+        let followers: Vec<Follower> = pairs.iter().map(follower).collect();
+        for Follower { pair, master_mm, .. } in &followers {
+            let Pair { slave, master, ratio, .. } = *pair;
+            self.contour.event(Event::Couple { slave, master, ratio, master_mm: *master_mm });
+        }
+        if pairs.iter().any(|pair| pair.is_gantry) {
+            let text = "the actual positions of gantry couplings are not monitored";
+            self.report.note_once("gantry", Fault::new(Condition::Ignored, text, span));
+        }
+        self.motion.couplings.active.push((group, followers));
+        self.motion.dynamics_changed();
+        Ok(())
+    }
+
+    /// `#DISABLE AX LINK`: one group, or the one that was switched on last.
+    pub(in crate::exec) fn switch_couplings_off(
+        &mut self,
+        group: Option<u32>,
+        span: Span,
+    ) -> Outcome<()> {
+        self.couplings_may_change(span)?;
+        let active = &self.motion.couplings.active;
+        let place = match group {
+            Some(group) => active.iter().position(|(active, _)| *active == group),
+            None => active.len().checked_sub(1),
+        };
+        if let Some(place) = place {
+            self.sync(Sync::FlushWait);
+            let (_, followers) = self.motion.couplings.active.remove(place);
+            for follower in followers {
+                self.contour.event(Event::Uncouple { slave: follower.pair.slave });
+            }
+            self.motion.dynamics_changed();
+        }
+        Ok(())
+    }
+
+    /// `#AX LINK OFF ALL`.
+    pub(in crate::exec) fn switch_all_couplings_off(&mut self, span: Span) -> Outcome<()> {
+        self.couplings_may_change(span)?;
+        while !self.motion.couplings.are_off() {
+            self.switch_couplings_off(None, span)?;
+        }
+        Ok(())
+    }
+
+    /// 20457.
+    fn couplings_may_change(&self, span: Span) -> Outcome<()> {
+        if self.modal.compensation == Compensation::Off {
+            return Ok(());
+        }
+        let text = "couplings cannot be switched while tool radius compensation is active";
+        Err(Fault::new(Condition::CouplingWithCompensation, text, span))
+    }
+
+    /// A pair that is to be switched on.
+    fn pair_fits(&self, group: u32, pair: &Pair, span: Span) -> Outcome<()> {
+        let axes = &self.machine.axes;
+        let (slave, master) = (&axes[pair.slave], &axes[pair.master]);
+        let of = |condition, axis: usize, text: String, value: Option<u32>| {
+            let (number, name) = (axes[axis].number(), axes[axis].name().to_owned());
+            Err(Fault::new(condition, text, span).with(|d| {
+                let d = d.axis(number, name);
+                match value {
+                    Some(value) => d.value(ValueKind::Current, value, "-"),
+                    None => d,
+                }
+            }))
+        };
+        if self.geometry.coordinates.main_index(pair.slave).is_some() {
+            let text = format!("axis {} is a main axis: it cannot be a slave", slave.name());
+            return of(Condition::SlaveIsMainAxis, pair.slave, text, None);
+        }
+        if slave.kind() != master.kind() {
+            let text = format!("{} and {} are of different types", slave.name(), master.name());
+            return of(Condition::CoupledTypes, pair.slave, text, Some(group));
+        }
+        if slave.is_modulo() != master.is_modulo() {
+            let text = format!("{} and {} have different modes", slave.name(), master.name());
+            return of(Condition::CoupledModes, pair.slave, text, Some(group));
+        }
+        for (active, follower) in self.motion.couplings.followers() {
+            let (condition, axis, what) = if follower.pair.slave == pair.slave {
+                (Condition::SlaveIsActiveSlave, pair.slave, "is a slave")
+            } else if follower.pair.master == pair.slave {
+                (Condition::SlaveIsActiveMaster, pair.slave, "is a master")
+            } else if follower.pair.slave == pair.master {
+                (Condition::MasterIsActiveSlave, pair.master, "is a slave")
+            } else {
+                continue;
+            };
+            let text = format!("axis {} {what} in coupling group {active}", axes[axis].name());
+            return of(condition, axis, text, Some(active));
+        }
+        Ok(())
+    }
+
+    /// A program must not move a slave.
+    pub(super) fn moves_no_slave(&self, axis: usize, at: Span) -> Outcome<()> {
+        let mut followers = self.motion.couplings.followers();
+        let Some((group, f)) = followers.find(|(_, f)| f.pair.slave == axis) else { return Ok(()) };
+        let (name, master) = (self.names.name(axis), self.names.name(f.pair.master));
+        let text = format!("axis {name} follows {master} in coupling group {group}");
+        let (number, name) = (self.machine.axes[axis].number(), name.to_owned());
+        Err(Fault::new(Condition::SlaveProgrammed, text, at).with(|d| d.axis(number, name)))
+    }
+
+    /// 21481 for a coupled axis that is to move alone.
+    pub(in crate::exec) fn moves_not_coupled(&self, axis: usize, span: Span) -> Outcome<()> {
+        let Some(group) = self.motion.couplings.group_of(axis) else { return Ok(()) };
+        let name = self.machine.axes[axis].name().to_owned();
+        let text = format!("axis {name} is coupled in group {group}: it cannot move alone");
+        let number = self.machine.axes[axis].number();
+        Err(Fault::new(Condition::CoupledAxisAlone, text, span)
+            .with(|d| d.axis(number, name).value(ValueKind::Current, group, "-")))
+    }
+
+    /// 20545 for a coupled axis that is to be released; the first of them.
+    pub(in crate::exec) fn releases_no_coupled(
+        &self,
+        mut released: impl Iterator<Item = usize>,
+        span: Span,
+    ) -> Outcome<()> {
+        let coupled = released.find_map(|axis| Some((axis, self.motion.couplings.group_of(axis)?)));
+        let Some((axis, group)) = coupled else { return Ok(()) };
+        let name = self.machine.axes[axis].name().to_owned();
+        let text = format!("axis {name} is coupled in group {group}: it cannot be released");
+        let number = self.machine.axes[axis].number();
+        Err(Fault::new(Condition::CoupledAxisReleased, text, span).with(|d| d.axis(number, name)))
+    }
+
+    /// 20169.
+    pub(in crate::exec) fn keeps_tool_while_coupled(&self, span: Span) -> Outcome<()> {
+        if self.motion.couplings.are_off() {
+            return Ok(());
+        }
+        let text = "the tool data cannot change while axes are coupled";
+        Err(Fault::new(Condition::ToolWhileCoupled, text, span))
+    }
+
+    /// The slaves have gone with their masters.
+    pub(in crate::exec) fn follow_masters(&mut self) {
+        if self.motion.couplings.are_off() {
+            return;
+        }
+        let mut target: AxisVec = self.geometry.coordinates.target().clone();
+        for (_, follower) in self.motion.couplings.followers() {
+            let slave = follower.pair.slave;
+            target[slave] = Couplings::slave_at(follower, target[follower.pair.master]);
+            let way_mm = follower.way_mm + (target[slave] - follower.slave_mm);
+            self.motion.independent.way[slave] = way_mm;
+        }
+        self.geometry.coordinates.set_target(&target);
+    }
+}

@@ -1,0 +1,61 @@
+//! `X[SET_POSITION POS=100]`, `X[SET_POSITION OFFSET=-5]`: an axis at rest gets another position and does not move.
+//!
+//! As for independent axes, the coordinates of the path do not contain the jump ([`Independent::way`]), so that they stay
+//! continuous; the simulation adds it to the path. Zero offsets and coordinate systems stay as they are: the program counts
+//! on from the new position.
+//!
+//! Assumption: the path comes to rest and every axis into its window first, so that no lag is lost with the old position.
+//!
+//! Source: TF5200 programming manual, setting an axis position in the channel (482566155).
+//!
+//! [`Independent::way`]: super::state::Independent::way
+
+use crate::diag::Condition;
+use crate::exec::commands::keys::arguments;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::step::Sync;
+use crate::syntax::ast::{Group, Item, Span};
+
+arguments! {
+    /// Keys of `X[SET_POSITION]`.
+    struct SetPositionArguments {
+        position: Number "POS", "mm", "the new position of the axis, without offsets";
+        offset: Number "OFFSET", "mm", "in its place: by how much the position changes";
+    }
+}
+
+impl Decoder {
+    /// `X[SET_POSITION ..]`; `rest`: what follows the first word.
+    pub(in crate::exec) fn set_position(
+        &mut self,
+        axis: usize,
+        rest: &[Item],
+        span: Span,
+    ) -> Outcome<()> {
+        self.moves_not_coupled(axis, span)?;
+        let title = format!("{}[SET_POSITION]", self.names.name(axis));
+        let group = Group { items: rest.to_vec(), span };
+        let keys = SetPositionArguments::read(self, &title, Some(&group))?;
+        if self.motion.independent.open.contains(&axis) {
+            self.join(vec![axis]);
+        }
+        let unit = self.axis_unit(axis);
+        let mut target = self.geometry.coordinates.target().clone();
+        let offset_mm = match (keys.position, keys.offset) {
+            (Some((position, _)), None) => position * unit - target[axis],
+            (None, Some((offset, _))) => offset * unit,
+            (position, _) => {
+                let number = if position.is_none() { "needs" } else { "takes only one of" };
+                let text = format!("{title} {number} POS or OFFSET");
+                let hint = format!("write {}[SET_POSITION POS=100]", self.names.name(axis));
+                return Err(Fault::new(Condition::TokenUnknown, text, span).hint(hint));
+            }
+        };
+        self.sync(Sync::SetPosition { axis, offset_mm });
+        target[axis] += offset_mm;
+        self.motion.independent.way[axis] += offset_mm;
+        self.geometry.coordinates.set_target(&target);
+        Ok(())
+    }
+}

@@ -1,0 +1,7 @@
+; check: exit 1
+; error 21481 at 6:2
+#SET AX [X,1,0][Y,2,1][C,3,3]
+#SET AX LINK [1, C=X]
+#ENABLE AX LINK [1]
+X[INDP_ASYN G01 FEED=1000 POS=10]
+M30

@@ -1,0 +1,7 @@
+; check: exit 1
+; error K-0136 at 6:1
+#SET AX [X,1,0][Y,2,1][C,3,3]
+#SET AX LINK [1, C=X]
+#ENABLE AX LINK [1]
+C10 F1000
+M30

@@ -1,0 +1,140 @@
+//! Axis couplings and set positions of axes in runs of programs: what slaves do where their masters go.
+
+use kontur_kit::{Random, count, seed};
+use kontur_tests::{Run, machine, run_on};
+
+/// Z has no place among the main axes, so that it can follow; it begins at 5.
+const SETUP: &str = "#SET AX [X,1,0][Y,2,1][C,3,3]\n";
+
+fn go(settings: &[&str], program: &str) -> Run {
+    let run = run_on(machine(settings), &format!("{SETUP}{program}\nM30\n"));
+    assert_eq!(run.diagnostics, [], "{program}");
+    run
+}
+
+fn set(run: &Run, axis: usize) -> Vec<f64> {
+    run.axis(axis, |a| a.set)
+}
+
+/// Lines, arcs and helices of any size, by feed and rapid, from X0 Y0.
+fn contour(random: &mut Random) -> String {
+    let mut text = String::new();
+    for _ in 0..8 {
+        let mut within = |size: f64| random.between(-size, size);
+        let (x, y, i, j) = (within(40.0), within(40.0), within(10.0), within(10.0));
+        text += &match random.below(4) {
+            0 => format!("G00 X{x:.3} Y{y:.3}\n"),
+            // full circles: X returns to where it was
+            1 => format!("G02 I{i:.3} J{j:.3} F3000\n"),
+            _ => format!("G01 X{x:.3} Y{y:.3} F{:.0}\n", random.log(500.0, 20_000.0)),
+        };
+    }
+    text
+}
+
+/// In every cycle the slave has gone as far as its master, or as far the other way; the path is what it is without it.
+#[test]
+fn slaves_follow() {
+    for k in 0..count(30) as u64 {
+        let mut random = Random::new(seed() + k);
+        let ratio = random.pick(&[1.0, -1.0]);
+        let factor = if ratio > 0.0 { "C=X" } else { "[C=X, -1, 1]" };
+        let contour = contour(&mut random);
+        let run =
+            go(&[], &format!("#SET AX LINK [1, {factor}]\nG00 C5\n#ENABLE AX LINK [1]\n{contour}"));
+        let (x, z) = (set(&run, 0), set(&run, 2));
+        let from = z.iter().position(|z| (z - 5.0).abs() < 1e-12).unwrap();
+        for (x, z) in x.iter().zip(&z).skip(from) {
+            assert!((z - (5.0 + ratio * x)).abs() < 1e-9, "seed {}: X{x} Z{z}", seed() + k);
+        }
+        let alone = go(&[], &format!("G00 C5\n{contour}"));
+        let end = |run: &Run| [0, 1].map(|axis| *set(run, axis).last().unwrap());
+        assert_eq!(end(&run), end(&alone));
+    }
+}
+
+/// A machine whose X has the limits of Z takes as long as one that couples a slow Z with X.
+#[test]
+fn the_path_keeps_the_limits_of_slaves() {
+    let slow = |axis: &str| {
+        ["slope_profil.a_beschl=700", "slope_profil.a_brems=600", "slope_profil.a_grenz=500"]
+            .map(|value| format!("{axis}.getriebe[0].{value}"))
+    };
+    let of = |axis: &str, program: &str| {
+        let settings = slow(axis);
+        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        go(&settings, program).records.len()
+    };
+    let contour = "G01 X50 F20000\nX20 Y10\nG02 I5 J0\nG00 X0 Y0";
+    let with = "#SET AX LINK [1, C=X]\n#ENABLE AX LINK [1]\n";
+    let coupled = of("Z", &format!("{with}{contour}"));
+    assert_eq!(coupled, of("X", &format!("{with}{contour}")));
+    assert!(coupled > of("Z", contour) + 100);
+}
+
+/// What slaves have gone counts when they are free again, and in the next group.
+#[test]
+fn slaves_stay_where_they_are() {
+    let run = go(
+        &[],
+        "#AX LINK [1, [C=X, -1, 1]]\n#AX LINK [2, C=Y]\nG00 X1 Y2 C3\n#AX LINK ON [1]\nX11\n#AX LINK OFF\nX20\nY30
+#AX LINK ON [2]\nY35\n#AX LINK OFF ALL\nG91 C4\nG90",
+    );
+    let last = [0, 1, 2].map(|axis| *set(&run, axis).last().unwrap());
+    // 3 - 10, then + 5, then + 4
+    for (is, want) in last.into_iter().zip([20.0, 35.0, 2.0]) {
+        assert!((is - want).abs() < 1e-9, "{is} instead of {want}");
+    }
+}
+
+/// The limits of the slave count: 100 less than its master.
+#[test]
+fn software_limits_of_slaves() {
+    let settings = ["Z.kenngr.swe_pos=1000000", "Z.kenngr.swe_neg=-1000000"];
+    let program = |x: f64| {
+        format!(
+            "{SETUP}#SET AX LINK [1, C=X]\nG00 X0 C50\n#ENABLE AX LINK [1]\nG01 X{x} F5000\nM30\n"
+        )
+    };
+    assert_eq!(run_on(machine(&settings), &program(49.9)).diagnostics, []);
+    let run = run_on(machine(&settings), &program(50.1));
+    let ids: Vec<String> = run.diagnostics.iter().map(|d| d.id.to_string()).collect();
+    assert_eq!(ids, ["21897"]);
+    assert!(run.diagnostics[0].text.contains("150.1") || run.diagnostics[0].text.contains("100.1"));
+}
+
+/// `SET_POSITION` moves nothing: speeds and lag are those of the same motions without it, and so is the deviation under a
+/// Vibration Guard.
+#[test]
+fn a_position_that_is_set_moves_nothing() {
+    let run = |set: &str, by: f64| {
+        let program = format!(
+            "#VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.05]\nG01 X20 Y5 F8000\n#FLUSH WAIT\nG04 0.5\n{set}\nX{} Y10\nY20\nX{} Y0\n",
+            40.0 + by,
+            10.0 + by
+        );
+        go(&[], &program)
+    };
+    let (with, without) = (run("X[SET_POSITION POS=-300]", -320.0), run("#FLUSH WAIT", 0.0));
+    let from = |run: &Run| set(run, 1).iter().position(|y| (y - 5.0).abs() < 1e-12).unwrap();
+    let rows = |run: &Run, f: fn(&Run, usize) -> f64| {
+        let first = (from(run)..).find(|k| set(run, 1)[*k] > 5.0).unwrap();
+        (first..first + 2000).map(|k| f(run, k.min(run.records.len() - 1))).collect::<Vec<_>>()
+    };
+    let end = |run: &Run| run.records.last().unwrap().axes[0].set;
+    let (end_with, end_without) = (end(&with), end(&without));
+    let same = |a: Vec<f64>, b: Vec<f64>, shift: f64| {
+        for (a, b) in a.into_iter().zip(b) {
+            assert!((a - b - shift).abs() < 1e-6, "{a} and {b}");
+        }
+    };
+    let of_set: fn(&Run, usize) -> f64 = |run, k| run.records[k].axes[0].set;
+    same(rows(&with, of_set), rows(&without, of_set), end_with - end_without);
+    for of in
+        [|run: &Run, k: usize| run.records[k].axes[0].lag, |run, k| run.records[k].axes[0].dev]
+    {
+        same(rows(&with, of), rows(&without, of), 0.0);
+    }
+    let deviation = |run: &Run| run.records.iter().map(|r| r.axes[0].dev.abs()).fold(0.0, f64::max);
+    assert!(deviation(&with) > 0.02 && deviation(&with) <= 0.05, "{}", deviation(&with));
+}
