@@ -130,9 +130,10 @@ fn a_position_that_is_set_moves_nothing() {
     };
     let of_set: fn(&Run, usize) -> f64 = |run, k| run.records[k].axes[0].set;
     same(rows(&with, of_set), rows(&without, of_set), end_with - end_without);
-    for of in
-        [|run: &Run, k: usize| run.records[k].axes[0].lag, |run, k| run.records[k].axes[0].dev]
-    {
+    for of in [
+        |run: &Run, k: usize| run.records[k].axes[0].lag,
+        |run: &Run, k: usize| run.records[k].axes[0].dev,
+    ] {
         same(rows(&with, of), rows(&without, of), 0.0);
     }
     let deviation = |run: &Run| run.records.iter().map(|r| r.axes[0].dev.abs()).fold(0.0, f64::max);
