@@ -27,6 +27,7 @@
 //! assert!(fastest <= 100.0);
 //! ```
 
+mod asked;
 pub mod axis;
 pub mod block;
 pub mod cap;

@@ -9,6 +9,7 @@
 
 mod short;
 
+use crate::asked::Asked;
 use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::plan;
 use crate::profile::Infeasible;
@@ -27,6 +28,8 @@ pub(crate) struct Segment {
     pub(crate) queued: Arc<Queued>,
     /// What the boundary allows.
     pub(crate) cap: Cap,
+    /// What the tolerance has asked of both in the first plan of them.
+    pub(crate) asked: Option<Asked>,
 }
 
 /// State in which a path gets to its first segment.
@@ -83,8 +86,9 @@ impl Plan {
         lower_caps(&mut self.segments, cycle, kernel_active);
     }
 
-    /// Puts segments in the place of all of them.
+    /// Puts segments in the place of all of them, with what the tolerance has asked of them.
     pub(crate) fn replace(&mut self, segments: Vec<Segment>) {
+        self.demands = Demands::again(segments.iter().map(|s| s.asked.unwrap_or_default()));
         self.segments = segments.into();
         self.programmed = programmed(&self.segments);
     }
@@ -159,12 +163,20 @@ impl Plan {
         Ok(entries)
     }
 
-    /// Takes the first segments out, which become final; returns the caps at their starts.
-    pub(crate) fn pass(&mut self, count: usize) -> Vec<Cap> {
-        let caps = self.segments.drain(..count).map(|s| s.cap).collect();
+    /// The segments with what the tolerance asks of them now.
+    pub(crate) fn asked(&self) -> impl Iterator<Item = Segment> {
+        let segments = self.segments.iter().enumerate();
+        segments
+            .map(|(i, s)| Segment { asked: s.asked.or_else(|| self.demands.of(i)), ..s.clone() })
+    }
+
+    /// Takes the first segments out, which become final.
+    pub(crate) fn pass(&mut self, count: usize) -> Vec<Segment> {
+        let final_ones = self.asked().take(count).collect();
+        self.segments.drain(..count);
         self.demands.pass(count);
         self.programmed = programmed(&self.segments);
-        caps
+        final_ones
     }
 
     /// Puts parts in the place of segments, by their index.
@@ -180,7 +192,7 @@ impl Plan {
             }
             for part in parts[1..].iter().rev() {
                 let cap = Cap::new(f64::INFINITY, SpeedLimit::Curve);
-                self.segments.insert(b + 1, Segment { queued: Arc::clone(part), cap });
+                self.segments.insert(b + 1, Segment { queued: Arc::clone(part), cap, asked: None });
             }
             self.segments[b].queued = Arc::clone(&parts[0]);
             self.demands.insert(b + 1, parts.len() - 1, self.demands.feed[b]);

@@ -232,7 +232,7 @@ impl Planner {
         if let Some(tolerance) = queued.block.tolerance.ax_dev_mm {
             self.least_tolerance_mm = self.least_tolerance_mm.min(tolerance);
         }
-        let segment = Segment { queued: Arc::clone(&queued), cap };
+        let segment = Segment { queued: Arc::clone(&queued), cap, asked: None };
         self.plan.push(segment, self.cycle, self.kernels.any());
         self.last = Some(queued);
     }

@@ -4,6 +4,7 @@
 //! an integer. Span and block borders fall inside cycles; the rest of the cycle is spent in the next span. The last
 //! cycle of a motion is its exact end.
 
+use crate::asked::Asked;
 use crate::axis::AxisVec;
 use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::Span;
@@ -68,8 +69,8 @@ pub(crate) struct Entry {
     pub(crate) blocks: SmallVec<[(Arc<Queued>, f64); 1]>,
     /// Speeds that the plan left to the blocks; empty: their own.
     pub(crate) feeds: SmallVec<[Cap; 1]>,
-    /// Caps at the starts of the blocks, once the entry is final.
-    pub(crate) caps: SmallVec<[Cap; 1]>,
+    /// Caps at the starts of the blocks, and what the tolerance has asked of them, once the entry is final.
+    pub(crate) caps: SmallVec<[(Cap, Option<Asked>); 1]>,
     /// The motion ends here, at its next tick.
     pub(crate) stops: bool,
     /// Where the entry began when it was measured last, if it kept the tolerance then.

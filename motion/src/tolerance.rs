@@ -88,6 +88,7 @@ mod search;
 mod tighten;
 mod view;
 
+use crate::asked::Asked;
 use crate::axis::AxisVec;
 use crate::contour::Contour;
 use crate::queue::Queued;
@@ -234,6 +235,36 @@ impl Default for Demands {
 }
 
 impl Demands {
+    /// What was asked of blocks before, when they are planned once more: it depends on the contour and the filters more than
+    /// on the rest of the plan, and the search for it takes many rounds. The path gets to the first block in another state.
+    pub(crate) fn again(blocks: impl Iterator<Item = Asked>) -> Self {
+        let mut demands = Self::default();
+        for Asked { cap, stop, feed, acceleration } in blocks {
+            // the boundary in front of the block; a new one behind it
+            if let (Some(last), Some(rest), false) =
+                (demands.cap.last_mut(), demands.stop.last_mut(), demands.feed.is_empty())
+            {
+                (*last, *rest) = (cap, stop);
+            }
+            demands.cap.push(f64::INFINITY);
+            demands.stop.push(None);
+            demands.tried.push(None);
+            demands.feed.push(feed);
+            demands.acceleration.push(acceleration);
+        }
+        demands
+    }
+
+    /// What is asked of a block and of the boundary in front of it; `None` if it has not been planned yet.
+    pub(crate) fn of(&self, block: usize) -> Option<Asked> {
+        Some(Asked {
+            feed: *self.feed.get(block)?,
+            cap: self.cap[block],
+            stop: self.stop[block],
+            acceleration: self.acceleration[block],
+        })
+    }
+
     /// Adds what is known of blocks before they are planned: axes whose filters have different delays leave a straight line
     /// by the speed times the difference, so a line long enough to be run through evenly has a speed of its own.
     pub(crate) fn reach_over(

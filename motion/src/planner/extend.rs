@@ -1,13 +1,15 @@
 //! From the queue to the timeline: plans, their examination, and what of them becomes final.
 
 use super::{OutputExcess, Planner};
+use crate::asked::Asked;
 use crate::cap::{Cap, SpeedLimit};
-use crate::plan::{Start, last_blocks};
+use crate::plan::{Segment, Start, last_blocks};
 use crate::profile::{Infeasible, SlopeLimits};
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
 use crate::tolerance::{Demands, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
+use smallvec::SmallVec;
 use std::sync::Arc;
 
 /// Parts in which a span of the last plan becomes final where there is no new one.
@@ -194,7 +196,7 @@ impl Planner {
             entry = now;
         }
         entry.stops |= self.plan.reserve.is_empty();
-        entry.caps = self.plan.pass(entry.blocks.len()).into();
+        entry.caps = held_to(self.plan.pass(entry.blocks.len()));
         self.append(entry, 0);
         if let Some(next) = self.plan.reserve.front() {
             // a dwell in between
@@ -212,9 +214,9 @@ impl Planner {
             demands.stop[blocks].unwrap_or(0)
         });
         let dwells: Vec<u32> = dwells.collect();
-        let mut caps = self.plan.pass(blocks).into_iter();
+        let mut segments = self.plan.pass(blocks).into_iter();
         for (mut entry, dwell) in entries.into_iter().zip(dwells) {
-            entry.caps = caps.by_ref().take(entry.blocks.len()).collect();
+            entry.caps = held_to(segments.by_ref().take(entry.blocks.len()));
             self.append(entry, dwell);
         }
     }
@@ -237,6 +239,13 @@ impl Planner {
         self.plan.start = start;
         self.timeline.push(entry);
     }
+}
+
+/// What final segments were held to.
+pub(super) fn held_to(
+    segments: impl IntoIterator<Item = Segment>,
+) -> SmallVec<[(Cap, Option<Asked>); 1]> {
+    segments.into_iter().map(|s| (s.cap, s.asked)).collect()
 }
 
 /// How many entries end in front of block `limit` of the window or there; `None` if the first one goes on.

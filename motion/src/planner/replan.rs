@@ -19,9 +19,14 @@
 //! cannot be kept that way the old plan, which keeps it, goes on to the next place. A leg that ends at rest waits for such
 //! a place no longer than the kernel is; then it brakes more gently ([`GENTLER`]), because where filters of different
 //! delays pull the axes apart even an acceleration leaves a straight line. What the gentlest exceeds is reported as not kept.
+//! The search behind a leg begins with what the tolerance has asked of the blocks in their first plan ([`Asked`]): a search
+//! from nothing takes as many rounds as the first one, and may end in less, so that a feedhold made a run faster. What a leg
+//! adds to that is not kept beyond the next change.
 
 use super::Planner;
+use super::extend::held_to;
 use super::feedhold::feedhold_slope;
+use crate::asked::Asked;
 use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::plan;
 use crate::plan::{Plan, Segment, Start};
@@ -141,24 +146,25 @@ impl Planner {
     /// Everything known from the entry of the present cycle on, with the path length at which it starts.
     fn ahead(&self, old: &[Entry]) -> Vec<(f64, Segment)> {
         let mut out: Vec<(f64, Segment)> = Vec::new();
-        let mut add = |s: f64, queued: &Arc<Queued>, cap: Cap| {
+        let mut add = |s: f64, queued: &Arc<Queued>, cap: Cap, asked: Option<Asked>| {
             // not the rest of a block that is listed already
             let listed = out.last().is_some_and(|(_, Segment { queued: listed, .. })| {
                 let [own, other] = [queued, listed].map(|q| q.offset + q.length);
                 queued.offset > listed.offset && (own - other).abs() <= SAME_END_MM
             });
             if !listed {
-                out.push((s, Segment { queued: queued.rated(&self.active.ratios), cap }));
+                let queued = queued.rated(&self.active.ratios);
+                out.push((s, Segment { queued, cap, asked }));
             }
         };
         for entry in old {
-            for ((queued, s_end), cap) in entry.blocks.iter().zip(&entry.caps) {
-                add(entry.s0 + (s_end - queued.length), queued, *cap);
+            for ((queued, s_end), (cap, asked)) in entry.blocks.iter().zip(&entry.caps) {
+                add(entry.s0 + (s_end - queued.length), queued, *cap, *asked);
             }
         }
         let mut s = self.plan.start.s_mm;
-        for Segment { queued, cap } in &self.plan.segments {
-            add(s, queued, *cap);
+        for Segment { queued, cap, asked } in self.plan.asked() {
+            add(s, &queued, cap, asked);
             s += queued.length;
         }
         out
@@ -296,7 +302,7 @@ impl Planner {
                     not_faster(s, c.end().v_mm_s)
                 })
         } else {
-            crossed.iter().zip(&rest[1..]).all(|(s, Segment { queued, cap })| {
+            crossed.iter().zip(&rest[1..]).all(|(s, Segment { queued, cap, .. })| {
                 let v = speed_in(&leg, *s);
                 v <= cap.v_mm_s * (1.0 + SLACK)
                     && v.max(v_end) <= queued.velocity.v_mm_s * (1.0 + SLACK)
@@ -351,12 +357,12 @@ impl Planner {
                 from += segment.queued.length;
                 inside
             });
-            let (blocks, caps): (Vec<_>, Vec<_>) =
-                along.map(|s| (Arc::clone(&s.queued), s.cap)).unzip();
+            let along: Vec<Segment> = along.cloned().collect();
+            let blocks: Vec<_> = along.iter().map(|s| Arc::clone(&s.queued)).collect();
             let stops = profile.end().v_mm_s <= 0.0;
             let Start { moment, s_mm, .. } = self.plan.start;
             let mut entry = Entry::along(moment, s_mm, profile, (why, why), &blocks, stops);
-            entry.caps = caps.into();
+            entry.caps = held_to(along);
             self.append(entry, 0);
             rest = cut(rest, length);
         }
@@ -444,7 +450,7 @@ fn speed_at(old: &[Entry], s: f64) -> f64 {
 /// The look-ahead finds a plan that starts with `v`.
 fn goes_on(rest: &[Segment], v: f64) -> bool {
     let (mut blocks, mut caps, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
-    for Segment { queued, cap } in rest.iter().take_while(|s| s.queued.velocity.v_mm_s > 0.0) {
+    for Segment { queued, cap, .. } in rest.iter().take_while(|s| s.queued.velocity.v_mm_s > 0.0) {
         feeds.push(queued.velocity);
         blocks.push(Arc::clone(queued));
         caps.push(*cap);

@@ -1,0 +1,21 @@
+//! What the tolerance (`AX_DEV`) asks of a block, as it stays with the block when it is planned once more.
+
+/// What is asked of one block and of the boundary in front of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    /// Velocity cap at the boundary in mm/s.
+    pub(crate) cap: f64,
+    /// Full stop at the boundary with this many cycles of dwell.
+    pub(crate) stop: Option<u32>,
+    /// Velocity cap of the block in mm/s.
+    pub(crate) feed: f64,
+    /// Part of its acceleration that the block may use.
+    pub(crate) acceleration: f64,
+}
+
+impl Default for Asked {
+    /// Nothing.
+    fn default() -> Self {
+        Self { cap: f64::INFINITY, stop: None, feed: f64::INFINITY, acceleration: 1.0 }
+    }
+}
