@@ -139,3 +139,31 @@ fn a_position_that_is_set_moves_nothing() {
     let deviation = |run: &Run| run.records.iter().map(|r| r.axes[0].dev.abs()).fold(0.0, f64::max);
     assert!(deviation(&with) > 0.02 && deviation(&with) <= 0.05, "{}", deviation(&with));
 }
+
+/// `#CHANNEL INIT [ACTPOS]` directly behind a motion waits until the axes are in their windows and moves nothing: between
+/// two cycles the actual positions do not jump, the set positions by a window at most, and incremental motions count on
+/// from where the axes are.
+#[test]
+fn actual_positions_are_taken_over_at_rest() {
+    let window = machine(&[]).0.axes[0].window_mm();
+    for k in 0..count(30) as u64 {
+        let mut random = Random::new(seed() + k);
+        let mut text = String::from("G91\n");
+        let mut ways = [0.0; 2];
+        for _ in 0..6 {
+            let [x, y] = [(); 2].map(|()| (random.between(-40.0, 40.0) * 1e3_f64).round() / 1e3);
+            ways = [ways[0] + x, ways[1] + y];
+            let init =
+                random.pick(&["", "#CHANNEL INIT [ACTPOS]\n", "#CHANNEL INIT [ACTPOS AX=X]\n"]);
+            text += &format!("G01 X{x:.3} Y{y:.3} F{:.0}\n{init}", random.log(500.0, 20_000.0));
+        }
+        let run = go(&[], &text);
+        for (axis, way) in ways.iter().enumerate() {
+            let end = *set(&run, axis).last().unwrap();
+            assert!((end - way).abs() <= 6.0 * window, "seed {}: {end}, {way}", seed() + k);
+            let actual = run.axis(axis, |a| a.act);
+            // 20 m/min at 1 ms, and the overshoot of the axis
+            assert!(actual.windows(2).all(|w| (w[1] - w[0]).abs() < 0.4), "seed {}", seed() + k);
+        }
+    }
+}

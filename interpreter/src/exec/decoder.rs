@@ -163,16 +163,20 @@ impl Decoder {
         self.report.extend(outside);
     }
 
-    /// Axes take over where they really are; all of them if none is named.
+    /// Axes take over where they really are; all of them if none is named. Nothing moves: what the actual position lacks
+    /// inside its window becomes the set position, as by `X[SET_POSITION ..]`.
+    ///
+    /// Assumption: coupled axes keep their set positions, so that slaves stay where their masters put them.
     pub(super) fn take_actual_positions(&mut self, axes: &[usize]) {
-        let mut target = self.geometry.coordinates.target().clone();
-        for (axis, position) in target.iter_mut().enumerate() {
-            if axes.is_empty() || axes.contains(&axis) {
-                *position = self.feedback.actual_mm.get(axis).copied().unwrap_or(*position);
+        self.motion.independent.all_arrived();
+        for axis in 0..self.geometry.coordinates.target().len() {
+            let set = self.geometry.coordinates.target()[axis];
+            let actual = self.feedback.actual_mm.get(axis).copied().unwrap_or(set);
+            let named = axes.is_empty() || axes.contains(&axis);
+            if named && actual != set && self.motion.couplings.group_of(axis).is_none() {
+                self.shift_position(axis, actual - set);
             }
         }
-        self.geometry.coordinates.set_target(&target);
-        self.follow_masters();
     }
 
     /// `#MACHINE DATA`: one value of an axis list.

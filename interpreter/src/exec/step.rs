@@ -73,7 +73,7 @@ pub(crate) enum Sync {
         /// Time in s, above 0.
         seconds: f64,
     },
-    /// `#FLUSH WAIT`, `#CHANNEL INIT`: waiting until the axes have arrived.
+    /// `#FLUSH WAIT`, `#CHANNEL INIT [CMDPOS]`: waiting until the axes have arrived.
     FlushWait,
     /// `INDP_SYN`, `#WAIT INDP`: waiting until the set positions of these independent axes have arrived.
     Independent {
@@ -103,6 +103,8 @@ pub(crate) enum Sync {
     Shaping(Box<ShapingSetup>),
     /// The next call of [`Executor::next`](super::Executor::next) needs actual positions of the machine at rest.
     ReadActual,
+    /// The same with every axis in its window first (P-AXIS-00236): `#CHANNEL INIT [ACTPOS]`.
+    TakeActual,
     /// `X[SET_POSITION ..]`: an axis in its window gets another position and does not move.
     SetPosition {
         /// Path axis.
@@ -386,7 +388,8 @@ pub(crate) enum Approach {
 /// What the simulation knows when it asks for the next step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Feedback {
-    /// Actual position of each path axis in mm (deg), in channel order; used after [`Sync::ReadActual`].
+    /// Actual position of each path axis in mm (deg), in channel order; used after [`Sync::ReadActual`] and
+    /// [`Sync::TakeActual`].
     pub actual_mm: AxisVec,
     /// Program time in s.
     pub time_s: f64,

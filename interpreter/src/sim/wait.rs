@@ -96,6 +96,7 @@ impl Wait {
             Sync::FlushWait | Sync::ReadActual | Sync::Measured { .. } => {
                 (Until::Flushed, Action::None)
             }
+            Sync::TakeActual => (Until::AllInPosition, Action::None),
             Sync::Shaping(setup) => (Until::Flushed, Action::Shaping(setup)),
             Sync::SetPosition { axis, offset_mm } => {
                 (Until::InPosition, Action::SetPosition { axis, offset_mm })
@@ -225,8 +226,8 @@ impl Wait {
             Until::Cycles(_, rest) => rest,
             Until::Spindle(..) => Rest::Spindle,
             Until::Now | Until::Flushed | Until::Arrived(_) => Rest::Flush,
-            Until::InPosition => Rest::ExactStop,
-            Until::AllInPosition => Rest::Arrival,
+            Until::AllInPosition if matches!(self.action, Action::End(_)) => Rest::Arrival,
+            Until::InPosition | Until::AllInPosition => Rest::ExactStop,
         }
     }
 

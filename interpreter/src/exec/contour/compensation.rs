@@ -167,7 +167,11 @@ impl Compensator {
         }
         let flushes = matches!(
             rest.what,
-            Sync::Stop | Sync::FlushWait | Sync::ReadActual | Sync::SetPosition { .. }
+            Sync::Stop
+                | Sync::FlushWait
+                | Sync::ReadActual
+                | Sync::TakeActual
+                | Sync::SetPosition { .. }
         );
         if flushes {
             let text = "the channel cannot be flushed while tool radius compensation is active";

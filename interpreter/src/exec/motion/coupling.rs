@@ -70,7 +70,7 @@ impl Couplings {
     }
 
     /// The group that an axis takes part in, as slave or as master.
-    fn group_of(&self, axis: usize) -> Option<u32> {
+    pub(in crate::exec) fn group_of(&self, axis: usize) -> Option<u32> {
         let mut of_axis =
             self.followers().filter(|(_, f)| f.pair.slave == axis || f.pair.master == axis);
         of_axis.next().map(|(group, _)| group)

@@ -41,9 +41,9 @@ impl Decoder {
             self.join(vec![axis]);
         }
         let unit = self.axis_unit(axis);
-        let mut target = self.geometry.coordinates.target().clone();
+        let target = self.geometry.coordinates.target()[axis];
         let offset_mm = match (keys.position, keys.offset) {
-            (Some((position, _)), None) => position * unit - target[axis],
+            (Some((position, _)), None) => position * unit - target,
             (None, Some((offset, _))) => offset * unit,
             (position, _) => {
                 let number = if position.is_none() { "needs" } else { "takes only one of" };
@@ -52,10 +52,16 @@ impl Decoder {
                 return Err(Fault::new(Condition::TokenUnknown, text, span).hint(hint));
             }
         };
+        self.shift_position(axis, offset_mm);
+        Ok(())
+    }
+
+    /// An axis at rest gets another position without a motion.
+    pub(in crate::exec) fn shift_position(&mut self, axis: usize, offset_mm: f64) {
         self.sync(Sync::SetPosition { axis, offset_mm });
+        let mut target = self.geometry.coordinates.target().clone();
         target[axis] += offset_mm;
         self.motion.independent.way[axis] += offset_mm;
         self.geometry.coordinates.set_target(&target);
-        Ok(())
     }
 }

@@ -1,5 +1,6 @@
 //! Which blocks read actual positions of the machine: motion has to come to rest before them.
 
+use crate::exec::step::Sync;
 use crate::exec::values::system;
 use crate::syntax::ast::{
     Block, Body, CallKind, ControlKind, Expr, ExprKind, GValue, Group, ItemKind, ItemValue, Place,
@@ -7,8 +8,18 @@ use crate::syntax::ast::{
 };
 use smallvec::{SmallVec, smallvec};
 
-/// True if the block reads actual positions of the machine.
-pub(super) fn needs_actual(block: &Block) -> bool {
+/// What the block waits for to read actual positions of the machine; `None` if it reads none.
+pub(super) fn needs_actual(block: &Block) -> Option<Sync> {
+    if let Body::Command(command) = &block.body
+        && command.is("CHANNEL INIT")
+        && command.groups.iter().any(|g| g.has("ACTPOS"))
+    {
+        return Some(Sync::TakeActual);
+    }
+    reads_actual(block).then_some(Sync::ReadActual)
+}
+
+fn reads_actual(block: &Block) -> bool {
     match &block.body {
         Body::Empty | Body::ProgramHead(_) => false,
         Body::Declarations(list) => {
@@ -37,7 +48,6 @@ pub(super) fn needs_actual(block: &Block) -> bool {
         }),
         Body::Command(command) => {
             command.is("GET ACTPOS")
-                || command.is("CHANNEL INIT") && command.groups.iter().any(|g| g.has("ACTPOS"))
                 || command.arguments.iter().any(expr_needs_actual)
                 || command.groups.iter().any(group_needs_actual)
         }

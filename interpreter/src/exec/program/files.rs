@@ -4,6 +4,7 @@ use super::actual::needs_actual;
 use super::index::{Index, build};
 use crate::diag::{Diagnostic, Location};
 use crate::exec::options::SkipLevels;
+use crate::exec::step::Sync;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position, RawBlock, Sources};
 use crate::syntax::ast::{Block, Body, Span};
 use crate::syntax::macros;
@@ -23,8 +24,8 @@ const NUMBERS_MAX: usize = 500_000;
 #[derive(Debug)]
 pub(in crate::exec) struct Parsed {
     pub(in crate::exec) block: Block,
-    /// The block reads actual positions.
-    pub(in crate::exec) needs_actual: bool,
+    /// What the block waits for to read actual positions.
+    pub(in crate::exec) needs_actual: Option<Sync>,
     /// Its text has an error.
     pub(in crate::exec) faulty: bool,
 }

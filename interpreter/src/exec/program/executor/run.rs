@@ -44,11 +44,13 @@ impl Executor {
         }
         let Some((fetched, next)) = self.read(file, at) else { return };
         let (needs_actual, faulty) = match &fetched {
-            Fetched::Plain => (false, false),
-            Fetched::Tree(tree) => (tree.needs_actual, tree.faulty),
+            Fetched::Plain => (None, false),
+            Fetched::Tree(tree) => (tree.needs_actual.clone(), tree.faulty),
         };
-        if needs_actual && !actual_known {
-            self.wait_for_actual(at);
+        if let Some(wait) = needs_actual
+            && !actual_known
+        {
+            self.wait_for_actual(wait, at);
             return;
         }
         if !self.count_block() {
@@ -135,7 +137,7 @@ impl Executor {
             Fetched::Tree(tree) => tree,
             Fetched::Plain => {
                 let block = self.files.plain().tree();
-                Tree::Once(Parsed { block, needs_actual: false, faulty: false })
+                Tree::Once(Parsed { block, needs_actual: None, faulty: false })
             }
         };
         Some((tree, next))
@@ -179,7 +181,7 @@ impl Executor {
         }
     }
 
-    fn wait_for_actual(&mut self, at: Position) {
+    fn wait_for_actual(&mut self, wait: Sync, at: Position) {
         self.state = State::WaitsForActual;
         let file = self
             .levels
@@ -187,7 +189,7 @@ impl Executor {
             .map_or(self.decoder.report.source.file, |level| file_number(level.file));
         let source = SourceRef { file, line: at.line, offset: at.offset, block: None };
         self.decoder.report.source = source;
-        let faults = self.decoder.contour.sync(Sync::ReadActual, source);
+        let faults = self.decoder.contour.sync(wait, source);
         self.position = at;
         for fault in faults {
             self.decoder.report.note(Box::new(fault));
