@@ -32,6 +32,7 @@
 mod extend;
 mod feedhold;
 mod replan;
+mod sharp;
 
 use crate::axis::AxisVec;
 use crate::block::Block;
@@ -216,6 +217,12 @@ impl Planner {
 
     /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.
     pub fn push(&mut self, block: Block) {
+        for part in sharp::parts(block) {
+            self.enqueue(part);
+        }
+    }
+
+    fn enqueue(&mut self, block: Block) {
         self.finishing = false;
         let queued = Arc::new(Queued::new(block, self.cycle)).rated(&self.active.ratios);
         let cap = match &self.last {

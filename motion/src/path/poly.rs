@@ -186,6 +186,31 @@ impl PolyPath {
         Some(path)
     }
 
+    /// Number of sub-intervals.
+    pub(crate) fn cells(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// The curve from one sub-interval until before another one; `None` as in [`Self::new`].
+    pub(crate) fn section(&self, from: usize, to: usize) -> Option<Self> {
+        let mut pieces: Vec<PolyPiece> = Vec::new();
+        let cells = self.cells.get(from..to)?;
+        for run in cells.chunk_by(|a, b| a.piece == b.piece) {
+            let (first, last) = (run.first()?, run.last()?);
+            let cut = |c| piece::section(c, first.from, last.to);
+            pieces.push(self.pieces[first.piece].iter().map(cut).collect());
+        }
+        let end_of = |cell: &Cell, x: f64| {
+            let mut point = AxisVec::zeros(self.start.len());
+            self.point(cell.piece, x, &mut point);
+            point
+        };
+        let (first, last) = (cells.first()?, cells.last()?);
+        let start = if from == 0 { self.start.clone() } else { end_of(first, first.from) };
+        let end = if to == self.cells.len() { self.end.clone() } else { end_of(last, last.to) };
+        Self::new(start, end, pieces, &self.measured)
+    }
+
     /// Speed of the parameter over the measured axes.
     fn rate(&self, piece: usize, x: f64) -> f64 {
         let axes = &self.pieces[piece][..];
