@@ -173,8 +173,9 @@ impl Decoder {
             let set = self.geometry.coordinates.target()[axis];
             let actual = self.feedback.actual_mm.get(axis).copied().unwrap_or(set);
             let named = axes.is_empty() || axes.contains(&axis);
-            if named && actual != set && self.motion.couplings.group_of(axis).is_none() {
-                self.shift_position(axis, actual - set);
+            let offset_mm = actual - set;
+            if named && offset_mm.abs() > 0.0 && self.motion.couplings.group_of(axis).is_none() {
+                self.shift_position(axis, offset_mm);
             }
         }
     }
