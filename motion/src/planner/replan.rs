@@ -18,7 +18,8 @@
 //! Tolerance monitoring (`AX_DEV`) examines a leg with what is planned behind it before it is taken; where the tolerance
 //! cannot be kept that way the old plan, which keeps it, goes on to the next place. A leg that ends at rest waits for such
 //! a place no longer than the kernel is; then it brakes more gently ([`GENTLER`]), because where filters of different
-//! delays pull the axes apart even an acceleration leaves a straight line. What the gentlest exceeds is reported as not kept.
+//! delays pull the axes apart even an acceleration leaves a straight line. Where the gentlest exceeds, too, the change waits for
+//! the first place of the old plan where it does not, at the latest the rest at its end: a late stop is better than a lost contour.
 //! The search behind a leg begins with what the tolerance has asked of the blocks in their first plan ([`Asked`]): a search
 //! from nothing takes as many rounds as the first one, and may end in less, so that a feedhold made a run faster. What a leg
 //! adds to that is not kept beyond the next change.
@@ -134,7 +135,7 @@ impl Planner {
                 break;
             }
             if let Some((leg, rest)) = self.leg_from(&spot, ahead, &old[over..], gentle) {
-                match self.install(&spot, kept, leg, rest, gentlest) {
+                match self.install(&spot, kept, leg, rest) {
                     Outcome::Taken => return true,
                     outcome => exceeds |= outcome == Outcome::Exceeds,
                 }
@@ -313,31 +314,15 @@ impl Planner {
     }
 
     /// Puts what is kept and a leg on the timeline and what lies behind it into the plan. If the path would be too fast there
-    /// for the tolerance, nothing is changed but the timeline; the `gentlest` leg to rest is taken in the end.
-    fn install(
-        &mut self,
-        spot: &Spot,
-        kept: Vec<Entry>,
-        leg: Leg,
-        rest: Vec<Segment>,
-        gentlest: bool,
-    ) -> Outcome {
+    /// for the tolerance, nothing is changed but the timeline.
+    fn install(&mut self, spot: &Spot, kept: Vec<Entry>, leg: Leg, rest: Vec<Segment>) -> Outcome {
         let speed = Cap::new(spot.v, spot.why);
         let start = Start { moment: spot.moment, s_mm: spot.s, speed, a_mm_s2: 0.0 };
         let before = std::mem::replace(&mut self.plan, Plan::from_state(start));
         self.timeline.put(kept);
         let left = self.contour.part_at(spot.moment.cycles(self.cycle) - SLACK);
         let stays = self.contour.len();
-        let mut outcome = self.follow(leg, rest);
-        if outcome == Outcome::Exceeds && gentlest {
-            let waited = spot.moment.cycles(self.cycle) - self.setpoint.k as f64;
-            if waited >= f64::from(self.kernels.length())
-                && let Some(unkept) = self.excess()
-            {
-                self.give_up(unkept);
-                outcome = Outcome::Taken;
-            }
-        }
+        let outcome = self.follow(leg, rest);
         if outcome != Outcome::Taken {
             self.plan = before;
             self.contour.restore(stays, left);
