@@ -7,6 +7,7 @@
 
 mod measure;
 mod program;
+mod splines;
 mod wide;
 
 use kontur_interpreter::diag::Condition;
