@@ -331,6 +331,7 @@ impl Simulation {
     fn pull(&mut self) {
         let feedback = Feedback {
             actual_mm: self.actual_mm(),
+            lag_mm: self.lag_mm(),
             time_s: self.cycle.time_of(self.planner.setpoint().k),
             measured: self.end_probing(),
         };

@@ -10,6 +10,7 @@ use kontur_interpreter::job::{Change, Job, Options, Signal, Totals};
 use kontur_interpreter::machine::{ListFiles, Machine, Override};
 use kontur_interpreter::record::{CycleRecord, Rest};
 use kontur_interpreter::source::MemorySources;
+use kontur_kit::Random;
 use std::path::{Path, PathBuf};
 
 /// Everything that came out of a run.
@@ -109,6 +110,16 @@ pub fn run_with_inputs(
     let mut records = Vec::new();
     let Ok(()) = run.to_end(&mut |record: &CycleRecord| records.push(record.clone()));
     Run { records, diagnostics: run.take_diagnostics(), totals: run.totals(), cycle_s }
+}
+
+/// Points that go there and back along X, up to a small distance across it.
+pub fn there_and_back(random: &mut Random) -> Vec<[f64; 2]> {
+    let many = 2 + random.below(5);
+    let point = |i| {
+        let across = random.log(0.01, 5.0) * random.pick(&[1.0, -1.0]);
+        [if i % 2 == 0 { random.between(5.0, 60.0) } else { random.between(-5.0, 5.0) }, across]
+    };
+    (0..many).map(point).collect()
 }
 
 /// Shortest vector from a polyline to a point.

@@ -2,7 +2,7 @@
 
 use kontur_interpreter::diag::Condition;
 use kontur_kit::{Random, count, seed};
-use kontur_tests::{Run, from_polyline, run};
+use kontur_tests::{Run, from_polyline, run, there_and_back};
 
 const SQUARE: [[f64; 2]; 5] = [[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [0.0, 20.0], [0.0, 0.0]];
 const CORNERS: [[f64; 2]; 3] = [[20.0, 0.0], [20.0, 20.0], [0.0, 20.0]];
@@ -213,17 +213,6 @@ fn a_larger_path_dev_keeps_long_edges_fast() {
     }
 }
 
-/// Points that go there and back along a line, up to a small distance across it.
-fn there_and_back(random: &mut Random) -> Vec<[f64; 2]> {
-    let mut points = vec![[0.0, 0.0]];
-    for i in 0..2 + random.below(5) {
-        let across = random.log(0.01, 5.0) * random.pick(&[1.0, -1.0]);
-        let along = if i % 2 == 0 { random.between(5.0, 60.0) } else { random.between(-5.0, 5.0) };
-        points.push([along, across].map(|x| (x * 1e3).round() / 1e3));
-    }
-    points
-}
-
 /// A spline that turns sharply is slow there and not along the whole of its block: it takes at most twice as long per mm
 /// as the polygon of its points with a stop at each of them.
 #[test]
@@ -235,7 +224,7 @@ fn a_sharp_turn_does_not_slow_down_the_spline() {
         let slope = random.pick(&["STEP", "TRAPEZ", "SIN2", "HSC"]);
         let feed = random.log(2000.0, 20_000.0);
         let blocks = |word: &str| -> String {
-            points[1..].iter().map(|p| format!("{word} X{:.3} Y{:.3}\n", p[0], p[1])).collect()
+            points.iter().map(|p| format!("{word} X{:.3} Y{:.3}\n", p[0], p[1])).collect()
         };
         let head = format!("%P\n#SLOPE [TYPE={slope}]\nG01 F{feed:.0}\n");
         let spline = run(&format!("{head}G151\n{}G150\nM30\n", blocks("")), &[]);

@@ -1,7 +1,8 @@
 //! Axis couplings and set positions of axes in runs of programs: what slaves do where their masters go.
 
+use kontur_interpreter::record::CycleRecord;
 use kontur_kit::{Random, count, seed};
-use kontur_tests::{Run, machine, run_on};
+use kontur_tests::{Run, machine, run_on, run_with_inputs};
 
 /// Z has no place among the main axes, so that it can follow; it begins at 5.
 const SETUP: &str = "#SET AX [X,1,0][Y,2,1][C,3,3]\n";
@@ -164,6 +165,20 @@ fn actual_positions_are_taken_over_at_rest() {
             let actual = run.axis(axis, |a| a.act);
             // 20 m/min at 1 ms, and the overshoot of the axis
             assert!(actual.windows(2).all(|w| (w[1] - w[0]).abs() < 0.4), "seed {}", seed() + k);
+            let rests = run.records.windows(2).filter(|w| w.iter().all(|r| r.path.v_mm_s <= 0.0));
+            let jump = |w: &[CycleRecord]| (w[1].axes[axis].set - w[0].axes[axis].set).abs();
+            assert!(rests.map(jump).fold(0.0, f64::max) <= window, "seed {}", seed() + k);
         }
     }
+}
+
+/// An additional value of the position loop is in the actual position, and does not become part of the set position, too.
+#[test]
+fn additional_values_are_not_taken_over() {
+    let machine = machine(&["X.lr_param.add_interface.enable=1"]);
+    let text = "%P\nG01 X10 F6000\n#CHANNEL INIT [ACTPOS]\nG91 X10\nM30\n";
+    let run = run_with_inputs(machine, text, &[(0.05, "X_add_mm", 0.5)]);
+    assert_eq!(run.diagnostics, []);
+    let last = &run.records.last().unwrap().axes[0];
+    assert!((last.set - 20.0).abs() < 0.02 && (last.act - 20.5).abs() < 0.02, "{last:?}");
 }

@@ -163,19 +163,18 @@ impl Decoder {
         self.report.extend(outside);
     }
 
-    /// Axes take over where they really are; all of them if none is named. Nothing moves: what the actual position lacks
-    /// inside its window becomes the set position, as by `X[SET_POSITION ..]`.
+    /// Axes take over where they really are; all of them if none is named. Nothing moves: the set position goes back by the
+    /// lag, which is inside its window, as by `X[SET_POSITION ..]`. The lag and not the actual position, which has
+    /// additional values of the position loop in it: they would act twice.
     ///
     /// Assumption: coupled axes keep their set positions, so that slaves stay where their masters put them.
     pub(super) fn take_actual_positions(&mut self, axes: &[usize]) {
         self.motion.independent.all_arrived();
         for axis in 0..self.geometry.coordinates.target().len() {
-            let set = self.geometry.coordinates.target()[axis];
-            let actual = self.feedback.actual_mm.get(axis).copied().unwrap_or(set);
+            let lag_mm = self.feedback.lag_mm.get(axis).copied().unwrap_or(0.0);
             let named = axes.is_empty() || axes.contains(&axis);
-            let offset_mm = actual - set;
-            if named && offset_mm.abs() > 0.0 && self.motion.couplings.group_of(axis).is_none() {
-                self.shift_position(axis, offset_mm);
+            if named && lag_mm.abs() > 0.0 && self.motion.couplings.group_of(axis).is_none() {
+                self.shift_position(axis, -lag_mm);
             }
         }
     }

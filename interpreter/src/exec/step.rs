@@ -388,9 +388,10 @@ pub(crate) enum Approach {
 /// What the simulation knows when it asks for the next step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Feedback {
-    /// Actual position of each path axis in mm (deg), in channel order; used after [`Sync::ReadActual`] and
-    /// [`Sync::TakeActual`].
+    /// Actual position of each path axis in mm (deg), in channel order; used after [`Sync::ReadActual`].
     pub actual_mm: AxisVec,
+    /// Lag of each path axis in its position loop in mm (deg); used after [`Sync::TakeActual`].
+    pub lag_mm: AxisVec,
     /// Program time in s.
     pub time_s: f64,
     /// What a measuring run has found, after [`Sync::Measured`].

@@ -68,6 +68,11 @@ impl Simulation {
         self.record.axes.iter().map(|a| a.act).take(self.vector.len()).collect()
     }
 
+    /// Lags of the path axes.
+    pub(super) fn lag_mm(&self) -> AxisVec {
+        self.record.axes.iter().map(|a| a.lag).take(self.vector.len()).collect()
+    }
+
     /// Looks for the signal after a cycle; the path bends from the next one on.
     pub(super) fn watch_probe(&mut self) {
         if self.probing.is_none() || !matches!(self.phase, Phase::Running) {

@@ -29,6 +29,44 @@ pub(super) fn twist(c: &Coefficients, x: f64) -> f64 {
     6.0 * c[3] + x * (24.0 * c[4] + x * 60.0 * c[5])
 }
 
+/// How the parameter runs along the path at one point, by the parameter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pace {
+    rate: f64,
+    rate2: f64,
+    growth: f64,
+    growth2: f64,
+}
+
+impl Pace {
+    /// From the derivatives by the parameter of the measured axes.
+    pub(super) fn at(piece: &PolyPiece, measured: &[bool], x: f64) -> Self {
+        let (mut dot12, mut dot22, mut dot13) = (0.0, 0.0, 0.0);
+        let mut rate2 = 0.0;
+        for (c, _) in piece.iter().zip(measured).filter(|(_, m)| **m) {
+            let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
+            rate2 += d1 * d1;
+            dot12 += d1 * d2;
+            dot22 += d2 * d2;
+            dot13 += d1 * d3;
+        }
+        let rate = rate2.sqrt();
+        let growth = dot12 / rate;
+        let growth2 = (dot22 + dot13 - growth * growth) / rate;
+        Self { rate, rate2, growth, growth2 }
+    }
+
+    /// Derivatives of one axis by path length.
+    pub(super) fn derivatives(self, c: &Coefficients, x: f64) -> [f64; 3] {
+        let Self { rate, rate2, growth, growth2 } = self;
+        let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
+        let first = d1 / rate;
+        let second = (d2 - first * growth) / rate2;
+        let third = ((d3 - first * growth2) / rate2 - 3.0 * second * growth / rate) / rate;
+        [first, second, third]
+    }
+}
+
 /// The polynomial over `from..=to` as one over `0..=1`.
 pub(crate) fn section(c: &Coefficients, from: f64, to: f64) -> Coefficients {
     let mut out = *c;

@@ -5,7 +5,7 @@
 //! Newton on the table of sub-intervals.
 
 use super::extremes;
-use super::piece::{self, PolyPiece, bend, slope, twist, value};
+use super::piece::{self, Pace, PolyPiece, bend, slope, value};
 use crate::axis::AxisVec;
 use smallvec::SmallVec;
 use std::cmp::Ordering;
@@ -79,44 +79,6 @@ struct Derivatives {
     first: AxisVec,
     second: AxisVec,
     third: AxisVec,
-}
-
-/// How the parameter runs along the path at one point, by the parameter.
-#[derive(Clone, Copy, Debug)]
-struct Pace {
-    rate: f64,
-    rate2: f64,
-    growth: f64,
-    growth2: f64,
-}
-
-impl Pace {
-    /// From the derivatives by the parameter of the measured axes.
-    fn at(piece: &PolyPiece, measured: &[bool], x: f64) -> Self {
-        let (mut dot12, mut dot22, mut dot13) = (0.0, 0.0, 0.0);
-        let mut rate2 = 0.0;
-        for (c, _) in piece.iter().zip(measured).filter(|(_, m)| **m) {
-            let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
-            rate2 += d1 * d1;
-            dot12 += d1 * d2;
-            dot22 += d2 * d2;
-            dot13 += d1 * d3;
-        }
-        let rate = rate2.sqrt();
-        let growth = dot12 / rate;
-        let growth2 = (dot22 + dot13 - growth * growth) / rate;
-        Self { rate, rate2, growth, growth2 }
-    }
-
-    /// Derivatives of one axis by path length.
-    fn derivatives(self, c: &[f64; 6], x: f64) -> [f64; 3] {
-        let Self { rate, rate2, growth, growth2 } = self;
-        let (d1, d2, d3) = (slope(c, x), bend(c, x), twist(c, x));
-        let first = d1 / rate;
-        let second = (d2 - first * growth) / rate2;
-        let third = ((d3 - first * growth2) / rate2 - 3.0 * second * growth / rate) / rate;
-        [first, second, third]
-    }
 }
 
 /// A curve of polynomials, `s` measured over the feed axes (over all axes if none of them moves).

@@ -83,7 +83,7 @@ impl Planner {
     }
 
     /// A tolerance is not kept, and that is told; what is output will show it, too.
-    pub(super) fn give_up(&mut self, unkept: Unkept) {
+    fn give_up(&mut self, unkept: Unkept) {
         self.unkept.push(unkept);
         self.output_excess = OutputExcess::Told;
     }

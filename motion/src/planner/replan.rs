@@ -98,7 +98,7 @@ impl Planner {
                 return;
             }
         }
-        // not reached: the old plan ends at rest, where every leg fits
+        // the old plan itself exceeds, and that was told: it goes on to its rest
         self.timeline.put(old);
     }
 
