@@ -14,6 +14,9 @@ const WINDOW: usize = 64 * 1024;
 /// that there was more.
 const LINE_BYTES: usize = (BLOCK_LENGTH_MAX as usize + 1) * 4;
 
+/// Bytes of lines that are looked at together when lines are gone over.
+const STRETCH: usize = 1024;
+
 /// Byte order mark of UTF-8.
 const BOM: &[u8] = b"\xEF\xBB\xBF";
 
@@ -122,24 +125,43 @@ impl BlockReader {
         Ok(Some(RawBlock { text, position, characters, pieces: &[] }))
     }
 
-    /// Goes over lines for as long as `skip` accepts them and the window holds them as a whole. They have to be blocks of
-    /// their own.
-    pub(crate) fn skip_lines(&mut self, skip: impl Fn(&[u8]) -> bool) {
-        loop {
-            let rest = &self.window[self.at..self.filled];
-            let Some(length) = line_end(rest) else { return };
-            let end = match &rest[length..] {
-                [b'\r', b'\n', ..] => 2,
-                // LF may follow
-                [b'\r'] => return,
-                _ => 1,
-            };
-            if !skip(&rest[..length]) {
-                return;
+    /// Goes over lines for as long as `skip` accepts them, the window holds them as a whole, and none of the `rare` bytes is
+    /// in them. They have to be blocks of their own.
+    pub(crate) fn skip_lines(&mut self, rare: [u8; 3], skip: impl Fn(&[u8]) -> bool) {
+        while self.skip_stretch(rare, &skip) {}
+    }
+
+    /// The lines of one stretch; true if all of them were gone over.
+    ///
+    /// What ends the stretch is looked for once and not line by line.
+    fn skip_stretch(&mut self, rare: [u8; 3], skip: &impl Fn(&[u8]) -> bool) -> bool {
+        let rest = &self.window[self.at..self.filled];
+        let stretch = &rest[..rest.len().min(STRETCH)];
+        let found = |end: usize, at: Option<usize>| at.unwrap_or(end);
+        let mut until = found(stretch.len(), memchr::memchr2(0, 3, stretch));
+        until = found(until, memchr::memchr3(rare[0], rare[1], rare[2], &stretch[..until]));
+        let mut next_cr = memchr::memchr(b'\r', &stretch[..until]).unwrap_or(until);
+        let mut at = 0;
+        while let Some(length) = memchr::memchr(b'\n', &stretch[at..until]) {
+            let end = at + length;
+            let mut line = &stretch[at..end];
+            if next_cr < end {
+                // a CR of its own ends a block, too
+                if next_cr + 1 < end {
+                    return false;
+                }
+                line = &stretch[at..next_cr];
+                next_cr = memchr::memchr(b'\r', &stretch[end..until]).map_or(until, |i| end + i);
             }
-            self.at += length + end;
+            if !skip(line) {
+                return false;
+            }
+            at = end + 1;
+            self.at += length + 1;
             self.line = self.line.saturating_add(1);
         }
+        // a line that goes beyond the stretch is looked at again from its beginning
+        until == stretch.len() && at > 0
     }
 
     /// A block in Latin-1, of several lines or too long.

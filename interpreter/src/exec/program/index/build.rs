@@ -1,7 +1,7 @@
 //! Builds the index of a file: its sections, labels and control statements with their partners.
 
 use super::head::{
-    Head, blank, contains_goto, ends_program, head, is_command, name_of, says_nothing, word,
+    Head, SAYING, blank, contains_goto, ends_program, head, is_command, name_of, says_nothing, word,
 };
 use super::keyword::Keyword;
 use super::{Entry, EntryId, Index, LabelPlace, Section};
@@ -339,7 +339,7 @@ pub(in crate::exec) fn build(
     reader.seek(Position::START);
     loop {
         if builder.section.is_some() && builder.comment.is_none() {
-            reader.skip_lines(says_nothing);
+            reader.skip_lines(SAYING, says_nothing);
         }
         let Some(raw) = reader.next_block()? else { break };
         builder.block(&raw, skip);
