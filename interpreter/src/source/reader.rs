@@ -164,6 +164,23 @@ impl BlockReader {
         until == stretch.len() && at > 0
     }
 
+    /// Offers the next line if the window holds it with its LF, and goes behind it if something is made of it. `take` has to
+    /// refuse what is no block of its own: a line with CR, NUL or ETX in it, or one that the next line continues.
+    #[inline]
+    pub(crate) fn take_line<T>(&mut self, take: impl FnOnce(&[u8]) -> Option<T>) -> Option<T> {
+        // a byte order mark is none of the business of `take`
+        if self.base + self.at as u64 == 0 {
+            return None;
+        }
+        let rest = &self.window[self.at..self.filled];
+        let length = memchr::memchr(b'\n', rest)?;
+        let line = &rest[..length];
+        let taken = take(line.strip_suffix(b"\r").unwrap_or(line))?;
+        self.at += length + 1;
+        self.line = self.line.saturating_add(1);
+        Some(taken)
+    }
+
     /// A block in Latin-1, of several lines or too long.
     fn assemble(&mut self, position: Position, first: Line) -> io::Result<RawBlock<'_>> {
         self.text.clear();
