@@ -8,6 +8,9 @@ use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
 use std::sync::Arc;
 
+/// Rows of a table at most: two accelerations and the jerk of four ramps.
+const ROWS: usize = 6;
+
 /// What the slopes of blocks take from the axes: worked out once for the blocks that share a set of dynamics.
 #[derive(Clone, Debug)]
 pub(crate) struct SlopeTable {
@@ -85,8 +88,10 @@ impl SlopeTable {
         if self.slope.kind == SlopeKind::Step {
             return SlopeLimits::Step(step_slope(d, x, self.rapid));
         }
-        let weakest: SmallVec<[f64; 6]> =
-            self.rows.iter().map(|row| least(row.iter().copied(), &x.first)).collect();
+        let mut weakest = [f64::INFINITY; ROWS];
+        for (weakest, row) in weakest.iter_mut().zip(&self.rows) {
+            *weakest = least(row.iter().copied(), &x.first);
+        }
         let vector = &d.vector;
         let [acc, dec] = self.plateaus.map(|row| weakest[row]);
         let acc = acc.min(vector.acc_mm_s2.unwrap_or(f64::INFINITY));

@@ -15,17 +15,15 @@ pub struct LinePath {
 
 /// Length of the difference `end - start` over the feed axes, or over all axes if no feed axis moves.
 pub(super) fn feed_length(start: &[f64], end: &[f64], feed_axes: &[bool]) -> f64 {
-    let sum = |only_feed: bool| -> f64 {
-        start
-            .iter()
-            .zip(end)
-            .enumerate()
-            .filter(|(i, _)| !only_feed || feed_axes.get(*i).copied().unwrap_or(true))
-            .map(|(_, (a, b))| (b - a) * (b - a))
-            .sum()
-    };
-    let feed = sum(true);
-    if feed > 0.0 { feed.sqrt() } else { sum(false).sqrt() }
+    let (mut feed, mut all) = (0.0, 0.0);
+    for (i, (a, b)) in start.iter().zip(end).enumerate() {
+        let square = (b - a) * (b - a);
+        all += square;
+        if feed_axes.get(i).copied().unwrap_or(true) {
+            feed += square;
+        }
+    }
+    if feed > 0.0 { feed.sqrt() } else { f64::sqrt(all) }
 }
 
 /// [`feed_length`] of a line along which some axis moves.

@@ -9,9 +9,8 @@ use crate::exec::motion::state::Straight;
 use crate::exec::motion::straight::StraightWords;
 use crate::source::Position;
 
-/// A plain motion that comes next.
+/// Where a plain motion is that comes next.
 struct Ahead {
-    words: StraightWords,
     number: Option<u64>,
     file: usize,
     at: Position,
@@ -22,10 +21,11 @@ impl Executor {
     /// Executes the next block if it is one more plain motion behind one that has left `shared`; false, and nothing done,
     /// if not.
     pub(super) fn straight_on(&mut self, shared: Box<Straight>) -> bool {
-        let Some(ahead) = self.straight_ahead() else { return false };
+        let mut words = StraightWords::default();
+        let Some(ahead) = self.straight_ahead(&mut words) else { return false };
         if self.begin_straight(&ahead) {
-            self.decoder.straight_motion(&ahead.words, Some(shared), None);
-            self.settle(false);
+            self.decoder.straight_motion(&words, Some(shared), None);
+            self.end_straight();
         }
         true
     }
@@ -38,12 +38,13 @@ impl Executor {
         if !in_row || !self.decoder.contour.lets_by() {
             return None;
         }
-        let ahead = self.straight_ahead()?;
+        let mut words = StraightWords::default();
+        let ahead = self.straight_ahead(&mut words)?;
         let shared = self.decoder.straight.take();
         let mut passed = None;
         if self.begin_straight(&ahead) {
-            self.decoder.straight_motion(&ahead.words, shared, Some(&mut passed));
-            self.settle(false);
+            self.decoder.straight_motion(&words, shared, Some(&mut passed));
+            self.end_straight();
         }
         if passed.is_some() {
             self.budget.moved();
@@ -52,28 +53,35 @@ impl Executor {
     }
 
     /// Reads the next line if it is a plain motion.
-    fn straight_ahead(&mut self) -> Option<Ahead> {
+    fn straight_ahead(&mut self, words: &mut StraightWords) -> Option<Ahead> {
         let [level] = &self.levels[..] else { return None };
         let (file, at) = (level.file, level.at);
         let inside = at.offset < level.end && !level.declarations;
         if !inside || level.index.at(at).is_some() || level.runs_again(at) {
             return None;
         }
-        let (decoder, mut words) = (&self.decoder, StraightWords::default());
-        let take = |word| decoder.straight_word(&word, &mut words);
+        let decoder = &self.decoder;
+        let take = |word| decoder.straight_word(&word, words);
         let (frame, next) = self.files.plain_line(file, at, take)?;
         words.span = frame.span;
         let number = frame.number;
-        decoder.moves_straight(&words).then_some(Ahead { words, number, file, at, next })
+        decoder.moves_straight(words).then_some(Ahead { number, file, at, next })
     }
 
     /// Counts the block and makes it the one in work; false if the program ends in front of it.
-    fn begin_straight(&mut self, &Ahead { number, file, at, next, .. }: &Ahead) -> bool {
+    fn begin_straight(&mut self, &Ahead { number, file, at, next }: &Ahead) -> bool {
         let counted = self.count_block();
         if counted {
             self.enter(file, at, next);
             self.source_of(file, at, number);
         }
         counted
+    }
+
+    /// Most motions have nothing to say, and nothing was wrong before them.
+    fn end_straight(&mut self) {
+        if self.decoder.report.has_faults() || self.found.errors() > 0 {
+            self.settle(false);
+        }
     }
 }
