@@ -181,7 +181,7 @@ impl Builder<'_> {
         let Some(section) = self.section else { return };
         let parent = self.stack.last().copied();
         let place = LabelPlace { position: raw.position, parent };
-        if self.index.labels.contains_key(&(section, label.clone())) {
+        if self.index.labels.get(section, &label).is_some() {
             let shown = match &label {
                 LabelKind::Number(n) => format!("N{n}:"),
                 LabelKind::Name(name) => format!("[{name}]"),
@@ -191,7 +191,7 @@ impl Builder<'_> {
             self.report(raw, at, shown.len(), d);
             return;
         }
-        self.index.labels.insert((section, label), place);
+        self.index.labels.insert(section, label, place);
     }
 
     fn command(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
