@@ -32,7 +32,7 @@ mod print;
 mod problem;
 pub(crate) mod scan;
 
-pub(crate) use plain::{Plain, PlainValue};
+pub(crate) use plain::{Plain, PlainFrame, PlainValue, PlainWord};
 pub(crate) use scan::NESTING_MAX;
 
 use crate::diag::{Condition, Diagnostic, Severity};
@@ -124,7 +124,21 @@ impl Parser {
     /// Reads a plain block as numbers; false if it takes the grammar to read it. Whether it is plain does not depend on
     /// the names, and there is nothing to say about it.
     pub(crate) fn plain(raw: &RawBlock<'_>, plain: &mut Plain) -> bool {
-        raw.characters <= BLOCK_LENGTH && plain.recognize(raw.text).is_some()
+        raw.characters <= BLOCK_LENGTH && plain.recognize(raw.text.as_bytes()).is_some()
+    }
+
+    /// The same for a line that is not known yet to be a block of its own, word by word: one that ends in it, is continued,
+    /// or has other characters than those of ASCII in a remark, is not plain here. `None` also if `take` wants no more of
+    /// it; what was handed out until then is void.
+    #[inline]
+    pub(crate) fn plain_line(
+        line: &[u8],
+        take: impl FnMut(PlainWord) -> bool,
+    ) -> Option<PlainFrame> {
+        let is_text = |b: &u8| matches!(b, b' '..=b'[' | b']'..=b'~' | b'\t');
+        let frame = plain::read(line, take)?;
+        let fits = line.len() <= BLOCK_LENGTH as usize;
+        (fits && (!frame.remarks || line.iter().all(is_text))).then_some(frame)
     }
 
     /// Parses a line between `#VAR` and `#ENDVAR`: declarations, or the command that ends them.

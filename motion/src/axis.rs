@@ -15,9 +15,12 @@
 use smallvec::SmallVec;
 use std::ops::{Deref, DerefMut};
 
+/// Axes whose values need no allocation.
+const INLINE: usize = 8;
+
 /// One value per axis of the channel, in channel order; up to eight without allocation.
 #[derive(Debug, Default, PartialEq)]
-pub struct AxisVec(SmallVec<[f64; 8]>);
+pub struct AxisVec(SmallVec<[f64; INLINE]>);
 
 impl Clone for AxisVec {
     /// By bytes; the derived one goes value by value.
@@ -37,7 +40,11 @@ impl AxisVec {
     /// `n` zeros.
     #[inline]
     pub fn zeros(n: usize) -> Self {
-        Self(SmallVec::from_elem(0.0, n))
+        match [0.0; INLINE].get(..n) {
+            // by bytes
+            Some(zeros) => Self(SmallVec::from_slice(zeros)),
+            None => Self(SmallVec::from_elem(0.0, n)),
+        }
     }
 
     /// One value per axis, in channel order.

@@ -24,6 +24,7 @@ use crate::axis::{AxisDynamics, AxisVec};
 use crate::block::{Block, Feed, SlopeKind, TransitionJerkMode};
 use crate::cap::{Cap, SpeedLimit};
 use crate::limits::{contour_acceleration, longest_ramp};
+use crate::path::Path;
 use kontur_filters::time::CycleTime;
 
 /// Direction changes below this are rounding of the program's numbers, not kinks.
@@ -46,6 +47,15 @@ impl Ends {
     /// The ends of a block's path.
     pub fn of(block: &Block) -> Self {
         let n = block.path.start().len();
+        if let Path::Line(line) = &block.path {
+            let (tangent, none) = (line.direction(), AxisVec::zeros(n));
+            return Self {
+                tangent_in: tangent.clone(),
+                tangent_out: tangent.clone(),
+                curvature_in: none.clone(),
+                curvature_out: none,
+            };
+        }
         let at = |f: &dyn Fn(&mut [f64])| {
             let mut v = AxisVec::zeros(n);
             f(&mut v);

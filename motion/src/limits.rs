@@ -18,13 +18,14 @@
 //! assert_eq!(speeds.programmed_mm_s, 2000.0);
 //! ```
 
+mod slope;
+
 use crate::axis::{AxisDynamics, AxisVec};
 use crate::block::{Block, ChannelDynamics, CurveJerk, Feed, Slope, SlopeKind};
 use crate::cap::{Cap, SpeedLimit};
 use crate::path::{ArcPath, Path, TiltedArc};
-use crate::profile::{RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
-use kontur_filters::time::CycleTime;
-use smallvec::SmallVec;
+
+pub(crate) use slope::SlopeTable;
 
 /// Largest absolute values of the path derivatives of every axis over one block.
 #[derive(Clone, Debug)]
@@ -104,13 +105,12 @@ impl PathExtremes {
     pub fn of(path: &Path) -> Self {
         match path {
             Path::Line(line) => {
-                let n = line.direction().len();
-                Self {
-                    first: line.direction().iter().map(|u| u.abs()).collect(),
-                    second: AxisVec::zeros(n),
-                    third: AxisVec::zeros(n),
-                    lengths: [0.0; 2],
+                let (mut first, none) =
+                    (line.direction().clone(), AxisVec::zeros(line.direction().len()));
+                for share in first.iter_mut() {
+                    *share = share.abs();
                 }
+                Self { first, second: none.clone(), third: none, lengths: [0.0; 2] }
             }
             Path::Arc(arc) => arc_extremes(arc),
             Path::Tilted(tilted) => tilted_extremes(tilted),
@@ -130,10 +130,15 @@ pub(crate) fn weakest(
     share: &[f64],
     limit: impl Fn(&AxisDynamics) -> f64,
 ) -> f64 {
-    axes.iter()
+    least(axes.iter().map(limit), share)
+}
+
+/// The same of limits by axis.
+fn least(limits: impl Iterator<Item = f64>, share: &[f64]) -> f64 {
+    limits
         .zip(share)
         .filter(|(_, u)| **u > 0.0)
-        .map(|(a, u)| limit(a) / u)
+        .map(|(limit, u)| limit / u)
         .fold(f64::INFINITY, f64::min)
 }
 
@@ -239,9 +244,13 @@ impl PathSpeeds {
             Path::Curve(_) => d.curve_jerk,
             _ => CurveJerk::Geometric,
         };
-        let curve = curve_acceleration(d, x, block.slope, rapid)
-            .min(curve_jerk(d, x, block.slope, rapid, check))
-            .min(vector_curve(d, x));
+        let curve = if block.path.is_straight() {
+            f64::INFINITY
+        } else {
+            curve_acceleration(d, x, block.slope, rapid)
+                .min(curve_jerk(d, x, block.slope, rapid, check))
+                .min(vector_curve(d, x))
+        };
         Self {
             programmed_mm_s: programmed,
             axis_mm_s: axis,
@@ -269,75 +278,6 @@ impl PathSpeeds {
         }
         best.lower(Cap::new(self.curve_mm_s, SpeedLimit::Curve))
     }
-}
-
-/// Path slope of a block: accelerations and ramp times that no axis exceeds.
-///
-/// The weakest axis rules acceleration; ramps combine through the axis jerk `a_i / t_i` (Assumption: then no axis
-/// exceeds its own jerk and none is slower than needed). A ramp below the cycle time is no ramp.
-pub(crate) fn path_slope(block: &Block, x: &PathExtremes, cycle: CycleTime) -> SlopeLimits {
-    let rapid = block.feed == Feed::Rapid;
-    let d = &block.dynamics;
-    if block.slope.kind == SlopeKind::Step {
-        return SlopeLimits::Step(step_slope(d, x, rapid));
-    }
-    let vector = &d.vector;
-    let acc_of = |a: &AxisDynamics| if rapid { a.rapid.acc_mm_s2 } else { a.feed.acc_mm_s2 };
-    let dec_of = |a: &AxisDynamics| if rapid { a.rapid.acc_mm_s2 } else { a.feed.dec_mm_s2 };
-    let acc = weakest(&d.axes, &x.first, acc_of).min(vector.acc_mm_s2.unwrap_or(f64::INFINITY));
-    let dec = weakest(&d.axes, &x.first, dec_of).min(vector.dec_mm_s2.unwrap_or(f64::INFINITY));
-    let shape =
-        if block.slope.kind == SlopeKind::Sin2 { RampShape::Sin2 } else { RampShape::Trapez };
-    // the jerk of a limit is the largest one, that of a ramp time the mean one
-    let vector_jerk = vector.jerk_mm_s3.map_or(f64::INFINITY, |jerk| jerk / shape.peak_jerk());
-    let ramp = |k: usize| -> f64 {
-        let path = if k < 2 { acc } else { dec };
-        let jerk = weakest(&d.axes, &x.first, |a| {
-            let t = if rapid {
-                a.rapid.ramp_s
-            } else if block.slope.kind == SlopeKind::Hsc {
-                longest_ramp(a, false)
-            } else {
-                a.feed.ramps_s[k]
-            };
-            if t < cycle.seconds() {
-                f64::INFINITY
-            } else {
-                (if k < 2 { acc_of(a) } else { dec_of(a) }) / t
-            }
-        });
-        path / jerk.min(vector_jerk)
-    };
-    let constant_ramp_time = block.slope.constant_ramp_time && !rapid;
-    let ramps = [ramp(0), ramp(1), ramp(2), ramp(3)];
-    SlopeLimits::Ramped(RampedLimits::new(shape, constant_ramp_time, acc, dec, ramps))
-}
-
-/// Two-stage slope of a path: the path value is the minimum over the axes, so there is one break point per axis.
-fn step_slope(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> StepLimits {
-    let mut axes: SmallVec<[StepAxis; 9]> = d
-        .axes
-        .iter()
-        .zip(x.first.iter())
-        .filter(|(_, u)| **u > 0.0)
-        .map(|(axis, u)| {
-            let s = if rapid { axis.step_rapid } else { axis.step_feed };
-            StepAxis {
-                acc_mm_s2: s.acc_mm_s2.map(|a| a / u),
-                dec_mm_s2: s.dec_mm_s2.map(|a| a / u),
-                change_mm_s: s.change_mm_s / u,
-            }
-        })
-        .collect();
-    let vector = &d.vector;
-    if vector.acc_mm_s2.is_some() || vector.dec_mm_s2.is_some() {
-        axes.push(StepAxis {
-            acc_mm_s2: [vector.acc_mm_s2.unwrap_or(f64::INFINITY); 2],
-            dec_mm_s2: [vector.dec_mm_s2.unwrap_or(f64::INFINITY); 2],
-            change_mm_s: f64::INFINITY,
-        });
-    }
-    StepLimits::from_axes(&axes)
 }
 
 #[cfg(test)]

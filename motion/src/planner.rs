@@ -35,12 +35,13 @@ mod replan;
 mod sharp;
 
 use crate::axis::AxisVec;
-use crate::block::Block;
+use crate::block::{Block, Feed};
 use crate::cap::{Cap, SpeedLimit};
 use crate::contour::Contour;
 use crate::deviation::{Gauge, loosest};
 use crate::emergency::EmergencyBraking;
 use crate::junction::transition;
+use crate::limits::SlopeTable;
 use crate::plan::{Plan, Segment, Start};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
@@ -88,6 +89,8 @@ pub struct Planner {
     cycle: CycleTime,
     window: usize,
     last: Option<Arc<Queued>>,
+    /// Tables of the last feed block and of the last rapid one.
+    slopes: [Option<SlopeTable>; 2],
     finishing: bool,
     /// What is final, and the contour there.
     timeline: Timeline,
@@ -141,6 +144,7 @@ impl Planner {
             cycle,
             window: window.max(1),
             last: None,
+            slopes: [None, None],
             finishing: false,
             timeline: Timeline::default(),
             contour: Contour::default(),
@@ -217,14 +221,18 @@ impl Planner {
 
     /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.
     pub fn push(&mut self, block: Block) {
-        for part in sharp::parts(block) {
-            self.enqueue(part);
+        match sharp::parts(&block) {
+            Some(parts) => parts.into_iter().for_each(|part| self.enqueue(part)),
+            None => self.enqueue(block),
         }
     }
 
     fn enqueue(&mut self, block: Block) {
         self.finishing = false;
-        let queued = Arc::new(Queued::new(block, self.cycle)).rated(&self.active.ratios);
+        let table = &mut self.slopes[usize::from(block.feed == Feed::Rapid)];
+        table.take_if(|table| !table.serves(&block));
+        let table = table.get_or_insert_with(|| SlopeTable::of(&block, self.cycle));
+        let queued = Arc::new(Queued::with(block, table)).rated(&self.active.ratios);
         let cap = match &self.last {
             Some(last) => transition(
                 &last.block,

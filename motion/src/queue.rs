@@ -17,7 +17,7 @@
 use crate::block::{Block, Feed, SlopeKind};
 use crate::cap::Cap;
 use crate::junction::Ends;
-use crate::limits::{PathExtremes, PathSpeeds, path_slope};
+use crate::limits::{PathExtremes, PathSpeeds, SlopeTable};
 use crate::path::Path;
 use crate::profile::SlopeLimits;
 use crate::realtime::Override;
@@ -56,6 +56,12 @@ pub struct Queued {
 impl Queued {
     /// Derives the limits of a block.
     pub fn new(block: Block, cycle: CycleTime) -> Self {
+        let table = SlopeTable::of(&block, cycle);
+        Self::with(block, &table)
+    }
+
+    /// Derives the limits of a block with its table.
+    pub(crate) fn with(block: Block, table: &SlopeTable) -> Self {
         let x = PathExtremes::of(&block.path);
         let speeds = PathSpeeds::of(&block, &x);
         Self {
@@ -65,7 +71,7 @@ impl Queued {
             length: block.path.length(),
             velocity: speeds.limited(speeds.programmed_mm_s),
             ceiling: speeds.limited(f64::INFINITY),
-            slope: path_slope(&block, &x, cycle),
+            slope: table.path_slope(&x),
             bend: x.second.iter().copied().fold(0.0, f64::max),
             goes_on: false,
             block,

@@ -18,9 +18,10 @@ use super::geometry::arc::Point;
 use super::step::{EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
+use kontur_motion::path::Path;
 use std::collections::VecDeque;
 
-pub(super) use motion::{Compensated, Driven, Motion, local_ends};
+pub(super) use motion::{Compensated, Driven, Motion, local_ends, programmed_time_s};
 
 /// K-0119.
 fn bottleneck(cut: &Cut) -> Box<Fault> {
@@ -145,9 +146,50 @@ impl Contour {
         faults
     }
 
+    /// While a program is only looked at: a straight motion with the settings of the held one may take its place, because
+    /// the held one would go out as it is.
+    pub(super) fn lets_by(&self) -> bool {
+        let nothing_waits = self.queue.is_empty() && self.end.is_none() && self.events.is_empty();
+        nothing_waits
+            && self.held.as_ref().is_some_and(|held| self.goes_out_as_it_is(held))
+            && !self.akima.runs()
+            && !self.tangential
+    }
+
+    /// Puts a line in the place of the held motion, and returns the time in s that the latter takes; `None`, and nothing
+    /// done, if no axis moves along the line.
+    pub(super) fn pass_by(
+        &mut self,
+        (start, end): (&[f64], &[f64]),
+        feed_axes: &[bool],
+        source: SourceRef,
+        span: Span,
+    ) -> Option<f64> {
+        let held = self.held.as_mut()?;
+        let time_s = programmed_time_s(&held.block);
+        let Path::Line(line) = &mut held.block.path else { return None };
+        if !line.lead(start, end, feed_axes) {
+            return None;
+        }
+        (held.source, held.span) = (source, span);
+        held.events.clear();
+        self.blocks += 1;
+        Some(time_s)
+    }
+
+    /// Nothing comes between a motion and the next one, and nothing changes it.
+    fn goes_out_as_it_is(&self, motion: &Motion) -> bool {
+        self.insertion.is_none() && self.compensator.is_idle() && motion.is_complete()
+    }
+
     fn joined(&mut self, mut motion: Box<Motion>) -> Vec<Fault> {
         let mut faults = Vec::new();
         if let Some(mut before) = self.held.take() {
+            if self.goes_out_as_it_is(&before) {
+                self.queue.push_back(Item::Motion(before));
+                self.held = Some(motion);
+                return faults;
+            }
             let inserted = match self.insertion.take() {
                 Some(insertion) => {
                     before.enter_tilt();

@@ -16,7 +16,7 @@ mod set_position;
 mod space;
 pub(super) mod spindles;
 pub(super) mod state;
-mod straight;
+pub(super) mod straight;
 mod technology;
 mod threads;
 
@@ -258,7 +258,7 @@ impl Decoder {
                 return Err(Fault::unsupported(what, *at));
             }
             Some(_) => self.geometry.coordinates.program_without_offsets(&targets),
-            None => self.geometry.coordinates.program(&targets),
+            None => self.geometry.coordinates.program(targets.iter().copied()),
         }
         self.follow_masters();
         // a slave stands on the path, also where the path begins

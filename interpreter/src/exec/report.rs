@@ -56,6 +56,11 @@ impl Report {
         }
     }
 
+    /// True if there is anything to say about the block in work.
+    pub(super) fn has_faults(&self) -> bool {
+        !self.faults.is_empty()
+    }
+
     /// True if the block in work has an error.
     pub(super) fn failed(&self) -> bool {
         self.faults.iter().any(Fault::is_error)

@@ -14,6 +14,9 @@ const WINDOW: usize = 64 * 1024;
 /// that there was more.
 const LINE_BYTES: usize = (BLOCK_LENGTH_MAX as usize + 1) * 4;
 
+/// Bytes of lines that are looked at together when lines are gone over.
+const STRETCH: usize = 1024;
+
 /// Byte order mark of UTF-8.
 const BOM: &[u8] = b"\xEF\xBB\xBF";
 
@@ -122,24 +125,60 @@ impl BlockReader {
         Ok(Some(RawBlock { text, position, characters, pieces: &[] }))
     }
 
-    /// Goes over lines for as long as `skip` accepts them and the window holds them as a whole. They have to be blocks of
-    /// their own.
-    pub(crate) fn skip_lines(&mut self, skip: impl Fn(&[u8]) -> bool) {
-        loop {
-            let rest = &self.window[self.at..self.filled];
-            let Some(length) = line_end(rest) else { return };
-            let end = match &rest[length..] {
-                [b'\r', b'\n', ..] => 2,
-                // LF may follow
-                [b'\r'] => return,
-                _ => 1,
-            };
-            if !skip(&rest[..length]) {
-                return;
+    /// Goes over lines for as long as `skip` accepts them, the window holds them as a whole, and none of the `rare` bytes is
+    /// in them. They have to be blocks of their own.
+    pub(crate) fn skip_lines(&mut self, rare: [u8; 3], skip: impl Fn(&[u8]) -> bool) {
+        while self.skip_stretch(rare, &skip) {}
+    }
+
+    /// The lines of one stretch; true if all of them were gone over.
+    ///
+    /// What ends the stretch is looked for once and not line by line.
+    fn skip_stretch(&mut self, rare: [u8; 3], skip: &impl Fn(&[u8]) -> bool) -> bool {
+        let rest = &self.window[self.at..self.filled];
+        let stretch = &rest[..rest.len().min(STRETCH)];
+        let found = |end: usize, at: Option<usize>| at.unwrap_or(end);
+        let mut until = found(stretch.len(), memchr::memchr2(0, 3, stretch));
+        until = found(until, memchr::memchr3(rare[0], rare[1], rare[2], &stretch[..until]));
+        let mut next_cr = memchr::memchr(b'\r', &stretch[..until]).unwrap_or(until);
+        let mut at = 0;
+        while let Some(length) = memchr::memchr(b'\n', &stretch[at..until]) {
+            let end = at + length;
+            let mut line = &stretch[at..end];
+            if next_cr < end {
+                // a CR of its own ends a block, too
+                if next_cr + 1 < end {
+                    return false;
+                }
+                line = &stretch[at..next_cr];
+                next_cr = memchr::memchr(b'\r', &stretch[end..until]).map_or(until, |i| end + i);
             }
-            self.at += length + end;
+            if !skip(line) {
+                return false;
+            }
+            at = end + 1;
+            self.at += length + 1;
             self.line = self.line.saturating_add(1);
         }
+        // a line that goes beyond the stretch is looked at again from its beginning
+        until == stretch.len() && at > 0
+    }
+
+    /// Offers the next line if the window holds it with its LF, and goes behind it if something is made of it. `take` has to
+    /// refuse what is no block of its own: a line with CR, NUL or ETX in it, or one that the next line continues.
+    #[inline]
+    pub(crate) fn take_line<T>(&mut self, take: impl FnOnce(&[u8]) -> Option<T>) -> Option<T> {
+        // a byte order mark is none of the business of `take`
+        if self.base + self.at as u64 == 0 {
+            return None;
+        }
+        let rest = &self.window[self.at..self.filled];
+        let length = memchr::memchr(b'\n', rest)?;
+        let line = &rest[..length];
+        let taken = take(line.strip_suffix(b"\r").unwrap_or(line))?;
+        self.at += length + 1;
+        self.line = self.line.saturating_add(1);
+        Some(taken)
     }
 
     /// A block in Latin-1, of several lines or too long.

@@ -160,3 +160,37 @@ proptest! {
         }
     }
 }
+
+/// Lines that are gone over, or taken as they stand, are the blocks that are read one by one.
+#[test]
+fn lines_gone_over_are_blocks() {
+    const PARTS: &[&str] = &[
+        "X1", "M", " ", "(a)", "\\", "Y-2.5", "\n", "\n", "\n", "\r\n", "\r", "\0", "\x03",
+        "\u{e9}",
+    ];
+    for seed in 0..300 {
+        let mut random = kontur_kit::Random::new(seed);
+        let long = random.below(2) == 0;
+        let mut text = String::from("X1\n");
+        for _ in 0..random.below(3000) {
+            let part = random.below(if long { 9 } else { PARTS.len() });
+            text += PARTS[part];
+        }
+        let whole = blocks(&mut reader(text.as_bytes()));
+        let plain =
+            |line: &[u8]| (!line.iter().any(|b| matches!(b, b'\r' | 0 | 3 | b'\\'))).then_some(());
+        let mut lines = BlockReader::new(Box::new(Slow(text.clone().into_bytes(), 700)));
+        let mut expected = whole.iter();
+        loop {
+            // either way, or none: at the beginning nothing is in the window yet
+            match random.below(3) {
+                0 => lines.skip_lines(*b"M\\\xC3", |line| !line.contains(&b'Y')),
+                1 => while lines.take_line(plain).is_some() {},
+                _ => {}
+            }
+            let Some(block) = lines.next_block().unwrap() else { break };
+            let found = (block.text.to_owned(), block.position.line, block.position.offset);
+            assert!(expected.any(|block| *block == found), "{seed}: {found:?}");
+        }
+    }
+}

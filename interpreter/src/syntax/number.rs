@@ -11,11 +11,10 @@ const EXACT_MAX: u64 = 1 << 53;
 ///
 /// `None` if there is no number, or one of so many digits that the short way is not exact.
 pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
-    let mut mantissa = 0;
-    let whole = digits(bytes, &mut mantissa);
+    let (whole, mut mantissa) = digits(bytes, 0);
     let (mut decimals, mut length) = (0, whole);
     if let Some([b'.', behind @ ..]) = bytes.get(whole..) {
-        decimals = digits(behind, &mut mantissa);
+        (decimals, mantissa) = digits(behind, mantissa);
         length += 1 + decimals;
     }
     let count = whole + decimals;
@@ -26,19 +25,20 @@ pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
     Some((mantissa as f64 / POWERS[decimals], length))
 }
 
-/// Appends the digits at the beginning of `bytes` to a number and returns how many they are; from 20 digits on the number is
-/// not theirs.
-fn digits(bytes: &[u8], number: &mut u64) -> usize {
+/// How many digits there are at the beginning of `bytes`, and the number that they make behind the digits of `number`; from 20
+/// digits on the number is not theirs.
+#[inline]
+fn digits(bytes: &[u8], mut number: u64) -> (usize, u64) {
     let mut count = 0;
     for byte in bytes {
         let digit = byte.wrapping_sub(b'0');
         if digit > 9 {
             break;
         }
-        *number = number.wrapping_mul(10).wrapping_add(u64::from(digit));
+        number = number.wrapping_mul(10).wrapping_add(u64::from(digit));
         count += 1;
     }
-    count
+    (count, number)
 }
 
 /// Value of a text that the grammar knows to be a number; `None` if it is beyond the range of `f64`.

@@ -18,14 +18,23 @@ use smallvec::SmallVec;
 /// A plain block.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Plain {
+    /// What is around the words.
+    pub(crate) frame: PlainFrame,
+    /// Words in written order.
+    pub(crate) words: SmallVec<[PlainWord; 6]>,
+}
+
+/// Everything of a plain block but its words.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct PlainFrame {
     /// Block number, also of a label.
     pub(crate) number: Option<u64>,
     /// Place of the label `N10:`.
     label: Option<Span>,
-    /// Words in written order.
-    pub(crate) words: SmallVec<[PlainWord; 6]>,
     /// The whole block without blanks and comments at its ends.
     pub(crate) span: Span,
+    /// There may be a comment in it: not every character has been looked at.
+    pub(super) remarks: bool,
 }
 
 /// A word of a plain block.
@@ -50,53 +59,74 @@ pub(crate) enum PlainValue {
     Sum(Box<Expr>),
 }
 
-impl Plain {
-    /// Becomes the block that `text` is; `None` if the grammar has to see it.
-    pub(super) fn recognize(&mut self, text: &str) -> Option<()> {
-        let bytes = text.as_bytes();
-        let mut at = blanks(bytes, 0);
-        let begin = at;
-        (self.number, self.label, self.span) = (None, None, Span::default());
-        self.words.clear();
-        if matches!(bytes.get(at), Some(b'N' | b'n')) {
-            let (value, end) = integer(bytes, at + 1)?;
-            self.number = Some(value);
-            at = end;
-            match bytes.get(at) {
-                Some(b':') => {
-                    at += 1;
-                    self.label = Some(Span::new(begin, at));
-                }
-                // a value of the grammar's choice
-                Some(b'.') => return None,
-                _ => {}
+/// Reads a line as a plain block and hands out its words one by one. `None` if the grammar has to see it, or `take` wants no
+/// more of it; what was handed out until then is void.
+#[inline]
+pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Option<PlainFrame> {
+    let mut at = blanks(bytes, 0);
+    let begin = at;
+    let mut frame = PlainFrame { remarks: at > 1, ..PlainFrame::default() };
+    if matches!(bytes.get(at), Some(b'N' | b'n')) {
+        let (value, end) = integer(bytes, at + 1)?;
+        frame.number = Some(value);
+        at = end;
+        match bytes.get(at) {
+            Some(b':') => {
+                at += 1;
+                frame.label = Some(Span::new(begin, at));
             }
+            // a value of the grammar's choice
+            Some(b'.') => return None,
+            _ => {}
         }
-        let mut end = at;
-        at = blanks(bytes, at);
-        while let Some(letter) = bytes.get(at).filter(|b| **b != b';') {
-            let word = word(bytes, at, letter.to_ascii_uppercase())?;
-            end = word.span.end() as usize;
-            at = blanks(bytes, end);
-            self.words.push(word);
+    }
+    let (mut end, mut empty) = (at, true);
+    at = blanks(bytes, at);
+    frame.remarks |= at > end + 1;
+    while let Some(letter) = bytes.get(at).filter(|b| **b != b';') {
+        let (start, letter) = (at, letter.to_ascii_uppercase());
+        let value;
+        (value, end) = word(bytes, start, letter)?;
+        at = blanks(bytes, end);
+        followed_by_word(bytes, at)?;
+        frame.remarks |= at > end + 1 || matches!(value, PlainValue::Sum(_));
+        if !take(PlainWord { letter, value, span: Span::new(start, end) }) {
+            return None;
         }
-        // a remark alone has no place
-        if self.number.is_some() || !self.words.is_empty() {
-            self.span = Span::new(begin, end);
-        }
+        empty = false;
+    }
+    frame.remarks |= at < bytes.len();
+    // a remark alone has no place
+    if frame.number.is_some() || !empty {
+        frame.span = Span::new(begin, end);
+    }
+    Some(frame)
+}
+
+impl Plain {
+    /// Becomes the block that a line is; `None` if the grammar has to see it.
+    pub(super) fn recognize(&mut self, bytes: &[u8]) -> Option<()> {
+        let Self { frame, words } = self;
+        words.clear();
+        let push = |word| {
+            words.push(word);
+            true
+        };
+        *frame = read(bytes, push)?;
         Some(())
     }
 
     /// The tree that the grammar gives.
     pub(crate) fn tree(&self) -> Block {
         let words: Vec<Word> = self.words.iter().map(PlainWord::tree).collect();
-        let kind = self.number.map(LabelKind::Number);
+        let PlainFrame { number, label, span, .. } = self.frame;
+        let kind = number.map(LabelKind::Number);
         Block {
             skip: None,
-            number: self.number.map(BlockNumber::Literal),
-            label: self.label.zip(kind).map(|(span, kind)| Label { kind, span }),
+            number: number.map(BlockNumber::Literal),
+            label: label.zip(kind).map(|(span, kind)| Label { kind, span }),
             body: if words.is_empty() { Body::Empty } else { Body::Words(words) },
-            span: self.span,
+            span,
         }
     }
 }
@@ -122,35 +152,32 @@ impl PlainWord {
     }
 }
 
-fn word(bytes: &[u8], start: usize, letter: u8) -> Option<PlainWord> {
-    let (value, end) = match letter {
+/// Value and end of the word at `start`.
+fn word(bytes: &[u8], start: usize, letter: u8) -> Option<(PlainValue, usize)> {
+    match letter {
         b'G' | b'M' => {
             let (value, end) = integer(bytes, start + 1)?;
-            (PlainValue::Code(u32::try_from(value).unwrap_or(u32::MAX)), end)
+            Some((PlainValue::Code(u32::try_from(value).unwrap_or(u32::MAX)), end))
         }
         b'A'..=b'F' | b'I'..=b'K' | b'Q'..=b'U' | b'W'..=b'Z' => {
             let mut at = start + 1;
             if bytes.get(at) == Some(&b'[') {
                 let sum = sum::bracket(bytes, at)?;
                 let end = sum.span.end() as usize;
-                (PlainValue::Sum(Box::new(sum)), end)
-            } else {
-                let negative = bytes.get(at) == Some(&b'-');
-                at += usize::from(negative);
-                let (value, length) = short_decimal(&bytes[at..])?;
-                (PlainValue::Number(if negative { -value } else { value }), at + length)
+                return Some((PlainValue::Sum(Box::new(sum)), end));
             }
+            let negative = bytes.get(at) == Some(&b'-');
+            at += usize::from(negative);
+            let (value, length) = short_decimal(&bytes[at..])?;
+            Some((PlainValue::Number(if negative { -value } else { value }), at + length))
         }
-        _ => return None,
-    };
-    // A value may follow a G function, an operator a value; a letter begins a new word, unless it begins a parameter,
-    // variable or function.
-    followed_by_word(bytes, blanks(bytes, end))?;
-    Some(PlainWord { letter, value, span: Span::new(start, end) })
+        _ => None,
+    }
 }
 
-/// True at the end, or before a letter that this file knows to begin a word of its own: whether it is one, the
-/// next step finds out.
+/// `Some` at the end, or before a letter that this file knows to begin a word of its own: whether it is one, the
+/// next step finds out. A value may follow a G function, an operator a value; a letter begins a new word, unless it begins
+/// a parameter, variable or function.
 fn followed_by_word(bytes: &[u8], at: usize) -> Option<()> {
     match bytes.get(at) {
         None | Some(b';') => Some(()),

@@ -15,35 +15,52 @@ pub struct LinePath {
 
 /// Length of the difference `end - start` over the feed axes, or over all axes if no feed axis moves.
 pub(super) fn feed_length(start: &[f64], end: &[f64], feed_axes: &[bool]) -> f64 {
-    let sum = |only_feed: bool| -> f64 {
-        start
-            .iter()
-            .zip(end)
-            .enumerate()
-            .filter(|(i, _)| !only_feed || feed_axes.get(*i).copied().unwrap_or(true))
-            .map(|(_, (a, b))| (b - a) * (b - a))
-            .sum()
-    };
-    let feed = sum(true);
-    if feed > 0.0 { feed.sqrt() } else { sum(false).sqrt() }
+    let (mut feed, mut all) = (0.0, 0.0);
+    for (i, (a, b)) in start.iter().zip(end).enumerate() {
+        let square = (b - a) * (b - a);
+        all += square;
+        if feed_axes.get(i).copied().unwrap_or(true) {
+            feed += square;
+        }
+    }
+    if feed > 0.0 { feed.sqrt() } else { f64::sqrt(all) }
+}
+
+/// [`feed_length`] of a line along which some axis moves.
+fn moving_length(start: &[f64], end: &[f64], feed_axes: &[bool]) -> Option<f64> {
+    let length = feed_length(start, end, feed_axes);
+    (length > 0.0).then_some(length)
 }
 
 impl LinePath {
     /// A line; `None` if no axis moves.
     pub fn new(start: AxisVec, end: AxisVec, feed_axes: &[bool]) -> Option<Self> {
-        let length = feed_length(&start, &end, feed_axes);
-        if length.is_nan() || length <= 0.0 {
-            return None;
+        let length = moving_length(&start, &end, feed_axes)?;
+        let mut line = Self { direction: end.clone(), start, end, norm: 0.0, length };
+        line.aim();
+        Some(line)
+    }
+
+    /// Becomes the line between other ends over the same axes; false, and left as it was, if no axis moves along that.
+    pub fn lead(&mut self, start: &[f64], end: &[f64], feed_axes: &[bool]) -> bool {
+        let Some(length) = moving_length(start, end, feed_axes) else { return false };
+        self.start.copy_from_slice(start);
+        self.end.copy_from_slice(end);
+        self.direction.copy_from_slice(end);
+        self.length = length;
+        self.aim();
+        true
+    }
+
+    /// Makes the direction out of the end point in it.
+    fn aim(&mut self) {
+        for (d, a) in self.direction.iter_mut().zip(self.start.iter()) {
+            *d = (*d - a) / self.length;
         }
-        let mut direction = end.clone();
-        for (d, a) in direction.iter_mut().zip(start.iter()) {
-            *d = (*d - a) / length;
+        self.norm = 0.0;
+        for d in self.direction.iter() {
+            self.norm += d * d;
         }
-        let mut norm = 0.0;
-        for d in direction.iter() {
-            norm += d * d;
-        }
-        Some(Self { start, end, direction, norm, length })
     }
 
     pub(super) fn length(&self) -> f64 {

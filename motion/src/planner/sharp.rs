@@ -42,12 +42,8 @@ impl Stretch {
     }
 }
 
-/// The block, or what takes its place.
-pub(super) fn parts(block: Block) -> Vec<Block> {
-    divided(&block).unwrap_or_else(|| vec![block])
-}
-
-fn divided(block: &Block) -> Option<Vec<Block>> {
+/// What takes the place of a block, if anything does.
+pub(super) fn parts(block: &Block) -> Option<Vec<Block>> {
     let Path::Curve(curve) = &block.path else { return None };
     let whole_by_nature = matches!(block.feed, Feed::ShareOfMaximum(_))
         || block.late_braking

@@ -70,6 +70,11 @@ impl Compensator {
         self.active.is_some() || self.closed.is_some()
     }
 
+    /// What is not compensated goes through as it is.
+    pub(in crate::exec) fn is_idle(&self) -> bool {
+        !self.is_active() && !self.tangential && self.cut.is_none()
+    }
+
     /// G40 with G239: axes of the plane, and where the centre of the tool is then.
     pub(in crate::exec) fn leave(
         &mut self,

@@ -5,7 +5,7 @@ use crate::exec::block::modal::Selection;
 use crate::exec::step::{Event, SourceRef};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::Block;
+use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::{LinePath, Path, Tilt, TiltedArc};
 
 /// A programmed motion; the number of its block is given when it becomes a step.
@@ -48,6 +48,14 @@ pub(in crate::exec) struct Compensated {
 }
 
 impl Motion {
+    /// It is a step as it stands.
+    pub(super) fn is_complete(&self) -> bool {
+        self.compensation.is_none()
+            && self.tilt.is_none()
+            && self.course.is_none()
+            && !self.tangential
+    }
+
     /// Takes the path over into the coordinates of the tilt.
     pub(super) fn enter_tilt(&mut self) {
         let Some(tilt) = &self.tilt else { return };
@@ -101,6 +109,20 @@ pub(in crate::exec) fn local_ends(tilt: &Tilt, start: &[f64], end: &[f64]) -> (A
         }
     }
     (start, end)
+}
+
+/// Time in s that a motion takes at its programmed speed, without ramps.
+pub(in crate::exec) fn programmed_time_s(block: &Block) -> f64 {
+    let path = &block.path;
+    let of_axes = path.start().iter().zip(path.end().iter()).zip(&block.dynamics.axes);
+    let of_axes = of_axes.filter(|((from, to), _)| from.to_bits() != to.to_bits());
+    let of_axes = of_axes.map(|((from, to), axis)| (to - from).abs() / axis.v_max_mm_s);
+    let of_axes = of_axes.filter(|t| t.is_finite()).fold(0.0, f64::max);
+    match block.feed {
+        Feed::PathVelocity(v) => of_axes.max(path.length() / (v * block.feed_ratio.max(1.0))),
+        Feed::Duration(t) => of_axes.max(t),
+        Feed::Rapid | Feed::ShareOfMaximum(_) => of_axes,
+    }
 }
 
 /// A path whose ends the program does not know.

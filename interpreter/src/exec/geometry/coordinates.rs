@@ -137,6 +137,7 @@ impl Coordinates {
     }
 
     /// Offset that an absolute word of this axis would take over.
+    #[inline]
     pub(in crate::exec) fn active_offset(&self, axis: usize) -> f64 {
         self.zero_offset(axis)
             + self.preset[axis]
@@ -160,6 +161,7 @@ impl Coordinates {
     }
 
     /// Active zero offset.
+    #[inline]
     pub(in crate::exec) fn zero_offset(&self, axis: usize) -> f64 {
         if self.zero_table.is_empty() || self.zero_masked.contains(&(self.zero_group, axis)) {
             return 0.0;
@@ -360,9 +362,9 @@ impl Coordinates {
     }
 
     /// Takes over the words of a block; the new targets are in [`target`](Self::target).
-    pub(in crate::exec) fn program(&mut self, words: &[Target]) {
+    pub(in crate::exec) fn program(&mut self, words: impl IntoIterator<Item = Target>) {
         let mut framed = [None; 3];
-        for &Target { axis, value, absolute } in words {
+        for Target { axis, value, absolute } in words {
             self.word[axis] = value;
             if absolute {
                 self.program[axis] = value;
@@ -374,11 +376,12 @@ impl Coordinates {
                 None => self.program_plain(axis, value, absolute),
             }
         }
-        if framed.iter().any(Option::is_some) {
+        if !self.plain && framed.iter().any(Option::is_some) {
             self.program_in_frame(framed);
         }
     }
 
+    #[inline]
     fn program_plain(&mut self, axis: usize, value: f64, absolute: bool) {
         let value = if self.mirrored[axis] { -value } else { value };
         if absolute {
@@ -436,11 +439,11 @@ mod tests {
         c.set_zero_entry(1, 0, 10.0);
         c.set_zero_entry(1, 1, 5.0);
         c.select_zero_group(1);
-        c.program(&[word(0, 0.0, false)]);
+        c.program([word(0, 0.0, false)]);
         assert_eq!(c.target()[..], [0.0, 0.0, 0.0]);
-        c.program(&[word(0, 0.0, true)]);
+        c.program([word(0, 0.0, true)]);
         assert_eq!(c.target()[..], [10.0, 0.0, 0.0]);
-        c.program(&[word(1, 1.0, false)]);
+        c.program([word(1, 1.0, false)]);
         assert_eq!(c.target()[..], [10.0, 1.0, 0.0]);
         assert_eq!((c.programmed(0), c.programmed(1)), (0.0, 1.0));
     }
@@ -450,9 +453,9 @@ mod tests {
         let mut c = at(&[5.0, 0.0, 0.0]);
         c.set_mirrored(0, true);
         assert_eq!(c.programmed(0), -5.0);
-        c.program(&[word(0, 10.0, true)]);
+        c.program([word(0, 10.0, true)]);
         assert_eq!(c.target()[0], -10.0);
-        c.program(&[word(0, 1.0, false)]);
+        c.program([word(0, 1.0, false)]);
         assert_eq!(c.target()[0], -11.0);
     }
 
@@ -462,7 +465,7 @@ mod tests {
         c.set_zero_entry(1, 0, 100.0);
         c.select_zero_group(1);
         c.set_rotation(Some(Rotation { plane: [0, 1], deg: 90.0, centre: [0.0, 0.0] }));
-        c.program(&[word(0, 10.0, true)]);
+        c.program([word(0, 10.0, true)]);
         assert_eq!(c.target()[..], [100.0, 10.0, 0.0]);
         c.set_rotation(None);
         assert_eq!((c.programmed(0), c.programmed(1)), (0.0, 10.0));

@@ -62,7 +62,7 @@ impl Decoder {
     }
 
     /// 21897 for an axis that moves between `low` and `high` and leaves its limits.
-    fn outside_limits(
+    pub(super) fn outside_limits(
         &self,
         axis: usize,
         low: f64,

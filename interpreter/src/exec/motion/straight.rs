@@ -10,36 +10,69 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::Target;
 use crate::syntax::ast::Span;
-use crate::syntax::{Plain, PlainValue};
+use crate::syntax::{Plain, PlainValue, PlainWord};
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::{LinePath, Path};
 use smallvec::SmallVec;
 use std::sync::Arc;
 
-/// The words of a block.
+/// The words of a straight motion.
 #[derive(Default)]
-struct Words {
+pub(in crate::exec) struct StraightWords {
     path: Option<PathMode>,
     feed: Option<(f64, Span)>,
-    targets: SmallVec<[Target; 8]>,
-    places: SmallVec<[Span; 8]>,
+    targets: SmallVec<[(Target, Span); 8]>,
+    /// The whole block.
+    pub(in crate::exec) span: Span,
 }
 
 impl Decoder {
-    /// Executes a plain block that is nothing but a straight motion, with what it has in common with the block before if
-    /// that was one, too. False, and nothing done, if it is more than that.
-    pub(in crate::exec) fn straight_motion(
-        &mut self,
-        plain: &Plain,
-        mut shared: Option<Box<Straight>>,
+    /// The words of a plain block if it is a straight motion and nothing else.
+    pub(in crate::exec) fn straight_words(&self, plain: &Plain) -> Option<StraightWords> {
+        if !self.is_straight() {
+            return None;
+        }
+        let mut words = StraightWords { span: plain.frame.span, ..StraightWords::default() };
+        let all = plain.words.iter().all(|word| self.straight_word(word, &mut words));
+        (all && self.moves_straight(&words)).then_some(words)
+    }
+
+    /// One word more of a straight motion: G00 or G01, F or an axis; false if it is anything else, or twice the same.
+    #[inline]
+    pub(in crate::exec) fn straight_word(
+        &self,
+        word: &PlainWord,
+        words: &mut StraightWords,
     ) -> bool {
-        if shared.is_none() && !self.is_straight() {
-            return false;
+        let value = match &word.value {
+            PlainValue::Code(code) => {
+                let mode = match (word.letter, code) {
+                    (b'G', 0) => PathMode::Rapid,
+                    (b'G', 1) => PathMode::Linear,
+                    _ => return false,
+                };
+                return words.path.replace(mode).is_none();
+            }
+            PlainValue::Number(value) => *value,
+            PlainValue::Sum(sum) => match self.number(sum) {
+                Ok(value) => value,
+                Err(_) => return false,
+            },
+        };
+        match self.names.of_letter(word.letter) {
+            Some(axis) if !self.machine.axes[axis].is_modulo() => {
+                let twice = words.targets.iter().any(|(target, _)| target.axis == axis);
+                let target = Target { axis, value, absolute: self.modal.absolute };
+                words.targets.push((target, word.span));
+                !twice
+            }
+            None if word.letter == b'F' => words.feed.replace((value, word.span)).is_none(),
+            _ => false,
         }
-        let mut words = Words::default();
-        if self.straight_words(plain, &mut words).is_none() || words.targets.is_empty() {
-            return false;
-        }
+    }
+
+    /// Whether words of a straight motion make one as they are.
+    pub(in crate::exec) fn moves_straight(&self, words: &StraightWords) -> bool {
         let path_mode = words.path.unwrap_or(self.modal.path);
         let feed = words.feed.map_or(self.modal.feed().map(|word| word.value), |(f, _)| Some(f));
         let stops = path_mode == PathMode::Rapid && self.machine.channel.exact_stop_after_g00;
@@ -49,11 +82,19 @@ impl Decoder {
             _ => false,
         };
         let fits = words.feed.is_none_or(|(f, _)| (0.0..=1e9).contains(&f));
-        if !moves || !fits {
-            return false;
-        }
+        moves && fits && !words.targets.is_empty()
+    }
+
+    /// Executes a block of such words, with what it has in common with the block before, if that was one, too. With `passed`, the program is only looked at: a motion that has everything in common with the
+    /// one before it goes by without becoming a step, and the time in s that the one before takes is what comes back in it.
+    pub(in crate::exec) fn straight_motion(
+        &mut self,
+        words: &StraightWords,
+        mut shared: Option<Box<Straight>>,
+        passed: Option<&mut Option<f64>>,
+    ) {
         let before = (self.modal.path, self.modal.feed());
-        self.modal.path = path_mode;
+        self.modal.path = words.path.unwrap_or(self.modal.path);
         if let Some(feed) = words.feed {
             let outcome = self.feed(feed);
             self.report.keep(outcome);
@@ -61,8 +102,13 @@ impl Decoder {
         if before != (self.modal.path, self.modal.feed()) {
             shared = None;
         }
-        self.straight = self.straight_path(&words, shared, plain.span);
-        true
+        self.straight = match (passed, shared) {
+            (Some(passed), Some(shared)) if self.contour.lets_by() => {
+                *passed = self.pass_by(words);
+                Some(shared)
+            }
+            (_, shared) => self.straight_path(words, shared),
+        };
     }
 
     /// Whether straight motions are nothing but that in the present state.
@@ -89,63 +135,24 @@ impl Decoder {
             && self.geometry.coordinates.frame().is_identity()
     }
 
-    /// G00 or G01, F and axes; `None` if there is anything else, or twice the same.
-    fn straight_words(&self, plain: &Plain, words: &mut Words) -> Option<()> {
-        for word in &plain.words {
-            let value = match &word.value {
-                PlainValue::Code(code) => {
-                    let mode = match (word.letter, code) {
-                        (b'G', 0) => PathMode::Rapid,
-                        (b'G', 1) => PathMode::Linear,
-                        _ => return None,
-                    };
-                    if words.path.replace(mode).is_some() {
-                        return None;
-                    }
-                    continue;
-                }
-                PlainValue::Number(value) => *value,
-                PlainValue::Sum(sum) => self.number(sum).ok()?,
-            };
-            match self.names.of_letter(word.letter) {
-                Some(axis) if !self.machine.axes[axis].is_modulo() => {
-                    if words.targets.iter().any(|t| t.axis == axis) {
-                        return None;
-                    }
-                    words.targets.push(Target { axis, value, absolute: self.modal.absolute });
-                    words.places.push(word.span);
-                }
-                None if word.letter == b'F' && words.feed.is_none() => {
-                    words.feed = Some((value, word.span));
-                }
-                _ => return None,
-            }
-        }
-        Some(())
-    }
-
     /// The motion to the targets of a block; what it shares with the next one comes back.
     fn straight_path(
         &mut self,
-        words: &Words,
+        words: &StraightWords,
         shared: Option<Box<Straight>>,
-        span: Span,
     ) -> Option<Box<Straight>> {
         let coordinates = &mut self.geometry.coordinates;
         let start = coordinates.target().clone();
-        coordinates.program(&words.targets);
+        coordinates.program(words.targets.iter().map(|(target, _)| *target));
         let end = coordinates.target().clone();
         let Some(line) = LinePath::new(start, end, &self.motion.feed_axes) else { return shared };
         let path = Path::Line(line);
-        let place = |axis| {
-            let mut words = words.targets.iter().zip(&words.places);
-            words.find(|(target, _)| target.axis == axis).map(|(_, at)| *at)
-        };
-        self.check_limits(&path, place, span);
+        self.check_line(path.start(), words);
         let shared = if let Some(shared) = shared {
             shared
         } else {
-            let outcome = self.share(&path, words.places.first().copied().unwrap_or(span));
+            let outcome =
+                self.share(&path, words.targets.first().map_or(words.span, |(_, at)| *at));
             self.report.keep(outcome)?
         };
         // of a block with an error nothing moves
@@ -167,8 +174,47 @@ impl Decoder {
             spline: shared.spline,
         });
         let in_plane = InPlane { plane: shared.plane, tilt: None, compensation: None };
-        self.send(block, in_plane, None, span);
+        self.send(block, in_plane, None, words.span);
         Some(shared)
+    }
+
+    /// The motion to the targets of a block takes the place of the one before, whose time comes back if there is a motion.
+    fn pass_by(&mut self, words: &StraightWords) -> Option<f64> {
+        let coordinates = &mut self.geometry.coordinates;
+        let start = coordinates.target().clone();
+        coordinates.program(words.targets.iter().map(|(target, _)| *target));
+        let ends = (&start[..], &coordinates.target()[..]);
+        let time_s =
+            self.contour.pass_by(ends, &self.motion.feed_axes, self.report.source, words.span)?;
+        self.moved = true;
+        self.check_line(&start, words);
+        Some(time_s)
+    }
+
+    /// The line from a place to the targets of a block against the software limits. No other axes move, since the frame is
+    /// identity, and none has moved alone.
+    fn check_line(&mut self, start: &[f64], words: &StraightWords) {
+        let end = self.geometry.coordinates.target();
+        let inside = |axis: usize| {
+            self.geometry.limits_mm[axis].is_none_or(|(least, most)| {
+                (least..=most).contains(&start[axis]) && (least..=most).contains(&end[axis])
+            })
+        };
+        if words.targets.iter().all(|(target, _)| inside(target.axis)) {
+            return;
+        }
+        let end = end.clone();
+        let place = |axis| {
+            let at = words.targets.iter().find(|(target, _)| target.axis == axis);
+            at.map_or(words.span, |(_, at)| *at)
+        };
+        for axis in 0..end.len() {
+            let (from, to) = (start[axis], end[axis]);
+            let (low, high) = (from.min(to), from.max(to));
+            if let Some(fault) = self.outside_limits(axis, low, high, Some(to), || place(axis)) {
+                self.report.note(fault);
+            }
+        }
     }
 
     /// What holds for this motion and those that follow.

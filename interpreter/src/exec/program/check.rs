@@ -2,11 +2,11 @@
 
 use super::executor::Executor;
 use crate::diag::{Condition, Diagnostic};
+use crate::exec::contour::programmed_time_s;
 use crate::exec::options::{GuardCommands, Options};
 use crate::exec::step::{Feedback, Step, Sync};
 use crate::machine::Machine;
 use crate::source::Sources;
-use kontur_motion::block::{Block, Feed};
 use std::sync::Arc;
 
 /// What a check found.
@@ -43,6 +43,13 @@ pub(crate) fn check(
     let mut executor = Executor::with_mode(sources, program, machine, options, true);
     let mut time_s = 0.0;
     loop {
+        if let Some(seconds) = executor.straight_by() {
+            time_s += seconds;
+            if time_s > max_time_s && !executor.has_ended() {
+                executor.end_by_time(max_time_s);
+            }
+            continue;
+        }
         let feedback = Feedback { actual_mm: executor.target().clone(), ..Feedback::default() };
         match executor.next(feedback) {
             Step::End { .. } => {
@@ -54,7 +61,7 @@ pub(crate) fn check(
                     guard: executor.guard_commands().clone(),
                 };
             }
-            Step::Motion { block, .. } => time_s += programmed_time(&block),
+            Step::Motion { block, .. } => time_s += programmed_time_s(&block),
             Step::Sync { what: Sync::Dwell { seconds } | Sync::Technology { seconds }, .. } => {
                 time_s += seconds;
             }
@@ -63,18 +70,5 @@ pub(crate) fn check(
         if time_s > max_time_s && !executor.has_ended() {
             executor.end_by_time(max_time_s);
         }
-    }
-}
-
-/// Time in s that a motion takes at its programmed speed, without ramps.
-fn programmed_time(block: &Block) -> f64 {
-    let path = &block.path;
-    let of_axes = path.start().iter().zip(path.end().iter()).zip(&block.dynamics.axes);
-    let of_axes = of_axes.map(|((from, to), axis)| (to - from).abs() / axis.v_max_mm_s);
-    let of_axes = of_axes.filter(|t| t.is_finite()).fold(0.0, f64::max);
-    match block.feed {
-        Feed::PathVelocity(v) => of_axes.max(path.length() / (v * block.feed_ratio.max(1.0))),
-        Feed::Duration(t) => of_axes.max(t),
-        Feed::Rapid | Feed::ShareOfMaximum(_) => of_axes,
     }
 }

@@ -3,6 +3,7 @@
 mod budget;
 mod found;
 mod report;
+mod row;
 mod run;
 
 use self::budget::Budget;

@@ -8,7 +8,7 @@ use crate::exec::step::Sync;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position, RawBlock, Sources};
 use crate::syntax::ast::{Block, Body, Span};
 use crate::syntax::macros;
-use crate::syntax::{Parser, Plain};
+use crate::syntax::{Parser, Plain, PlainFrame, PlainWord};
 use std::collections::BTreeMap;
 use std::io;
 use std::ops::Deref;
@@ -284,6 +284,21 @@ impl Files {
         cache.insert(position.offset, (Arc::clone(&parsed), next));
         self.cached += 1;
         Ok(Some((Fetched::Tree(Tree::Kept(parsed)), next)))
+    }
+
+    /// Reads the line at a place as a plain block, as [`Parser::plain_line`] does, and returns the place of the next one,
+    /// too; `None` also if it has to be read as a block first, to see what it is.
+    #[inline]
+    pub(in crate::exec) fn plain_line(
+        &mut self,
+        file: usize,
+        at: Position,
+        take: impl FnMut(PlainWord) -> bool,
+    ) -> Option<(PlainFrame, Position)> {
+        let ProgramFile { reader, .. } = &mut self.open[file];
+        reader.seek(at);
+        let frame = reader.take_line(|line| Parser::plain_line(line, take))?;
+        Some((frame, reader.position()))
     }
 
     /// The syntax of a block that is not executed, and the place of the next one. A diagnostic is marked if it concerns

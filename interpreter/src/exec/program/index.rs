@@ -6,6 +6,7 @@
 mod build;
 mod head;
 mod keyword;
+mod labels;
 #[cfg(test)]
 mod tests;
 
@@ -14,6 +15,7 @@ use crate::syntax::ast::{LabelKind, Span};
 pub(in crate::exec) use build::build;
 pub(in crate::exec) use head::number_of;
 pub(in crate::exec) use keyword::Keyword;
+use labels::Labels;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -61,7 +63,7 @@ pub(in crate::exec) struct Section {
 pub(in crate::exec) struct Index {
     pub(in crate::exec) entries: Vec<Entry>,
     pub(in crate::exec) sections: Vec<Section>,
-    labels: BTreeMap<(usize, LabelKind), LabelPlace>,
+    labels: Labels,
     /// First local subroutine of each name.
     locals: BTreeMap<Arc<str>, usize>,
     /// The same without regard to case: names in upper case.
@@ -80,9 +82,8 @@ impl Index {
     }
 
     /// Label of a section.
-    pub(in crate::exec) fn label(&self, section: usize, label: &LabelKind) -> Option<&LabelPlace> {
-        // a range of one key would need an owned label: labels are short
-        self.labels.get(&(section, label.clone()))
+    pub(in crate::exec) fn label(&self, section: usize, label: &LabelKind) -> Option<LabelPlace> {
+        self.labels.get(section, label)
     }
 
     /// Where a block is in the structure of its section; `None` inside `#COMMENT`.
@@ -114,7 +115,7 @@ impl Index {
 
     /// True if a jump can lead between two places.
     pub(super) fn has_label(&self, from: u64, to: u64) -> bool {
-        self.labels.values().any(|label| (from..to).contains(&label.position.offset))
+        self.labels.any_between(from, to)
     }
 
     /// The local subroutine of a name: as written, or else without regard to case.

@@ -58,7 +58,7 @@ impl Executor {
         let Some(level) = self.levels.len().checked_sub(1) else { return };
         let outcome = self.label_of(jump).and_then(|label| {
             let part = &self.levels[level];
-            let Some(place) = part.index.label(part.section, &label).copied() else {
+            let Some(place) = part.index.label(part.section, &label) else {
                 let text = format!("label {} does not exist in this program", shown(&label));
                 let hint = "a label comes first in its block: N20: or [NAME]";
                 return Err(Fault::new(Condition::Label, text, jump.span).hint(hint));
@@ -169,7 +169,7 @@ impl Executor {
     fn place_of(&mut self, level: usize, label: &LabelKind, span: Span) -> Outcome<LabelPlace> {
         let (file, section) = (self.levels[level].file, self.levels[level].section);
         if let Some(place) = self.levels[level].index.label(section, label) {
-            return Ok(*place);
+            return Ok(place);
         }
         let program = self.program_of(level);
         if let LabelKind::Number(number) = label {

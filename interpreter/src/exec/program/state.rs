@@ -33,6 +33,15 @@ pub(in crate::exec) struct Level {
     pub(in crate::exec) again: Option<(u64, u64)>,
 }
 
+impl Level {
+    /// A block at a place of it may run more than once: it is in a loop, also as its head, or jumps lead back.
+    pub(super) fn runs_again(&self, at: Position) -> bool {
+        self.frames.iter().any(|f| f.keyword.is_loop())
+            || self.again.is_some_and(|(first, last)| (first..=last).contains(&at.offset))
+            || self.index.at(at).is_some_and(|id| self.index.entry(id).keyword.is_loop())
+    }
+}
+
 /// An open control block.
 #[derive(Clone, Debug)]
 pub(in crate::exec) struct Frame {

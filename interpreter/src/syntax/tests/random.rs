@@ -133,7 +133,7 @@ proptest! {
     #[test]
     fn the_byte_loop_gives_the_tree_of_the_grammar(line in nearly_plain()) {
         let mut block = Plain::default();
-        if block.recognize(&line).is_some() {
+        if block.recognize(line.as_bytes()).is_some() {
             let (expected, problems) = by_grammar(&line);
             prop_assert_eq!(problems, 0, "{}", line);
             prop_assert_eq!(block.tree(), expected, "{}", line);
@@ -194,7 +194,7 @@ fn usual_lines_of_cam_programs_are_plain() {
         "X[P1 + 2*[3 - P2]] Y[-5.5/2] Z[7]",
     ] {
         let mut block = Plain::default();
-        assert!(block.recognize(line).is_some(), "{line}");
+        assert!(block.recognize(line.as_bytes()).is_some(), "{line}");
         assert_eq!(block.tree(), by_grammar(line).0, "{line}");
     }
     accepted("X1");

@@ -24,6 +24,9 @@ impl Executor {
     pub(super) fn advance(&mut self, actual_known: bool) {
         // whatever comes between two plain motions ends what they share
         let straight = self.decoder.straight.take();
+        if straight.is_some_and(|shared| self.straight_on(shared)) {
+            return;
+        }
         if self.names_or_macros_changed() {
             self.files.forget();
         }
@@ -56,19 +59,15 @@ impl Executor {
         if !self.count_block() {
             return;
         }
-        self.position = at;
-        if self.decoder.checking {
-            self.reached.add(file, at, next);
-        }
-        if let Some(level) = self.levels.last_mut() {
-            level.at = next;
-        }
-        self.decoder.moved = false;
+        self.enter(file, at, next);
         match fetched {
             Fetched::Plain => {
-                self.source_of(file, at, self.files.plain().number);
-                if !self.decoder.straight_motion(self.files.plain(), straight) {
-                    self.execute(&self.files.plain().tree(), entry);
+                let plain = self.files.plain();
+                let (number, words) = (plain.frame.number, self.decoder.straight_words(plain));
+                self.source_of(file, at, number);
+                match words {
+                    Some(words) => self.decoder.straight_motion(&words, None, None),
+                    None => self.execute(&self.files.plain().tree(), entry),
                 }
             }
             Fetched::Tree(tree) => {
@@ -81,6 +80,18 @@ impl Executor {
             self.decoder.sync(Sync::Stop);
         }
         self.settle(faulty);
+    }
+
+    /// The block between `at` and `next` is the one in work.
+    pub(super) fn enter(&mut self, file: usize, at: Position, next: Position) {
+        self.position = at;
+        if self.decoder.checking {
+            self.reached.add(file, at, next);
+        }
+        if let Some(level) = self.levels.last_mut() {
+            level.at = next;
+        }
+        self.decoder.moved = false;
     }
 
     fn names_or_macros_changed(&mut self) -> bool {
@@ -145,12 +156,7 @@ impl Executor {
 
     fn read(&mut self, file: usize, at: Position) -> Option<(Fetched, Position)> {
         let level = self.levels.last()?;
-        // the head of a loop runs again as well
-        let loops = |id: EntryId| level.index.entry(id).keyword.is_loop();
-        let keep = self.levels.len() > 1
-            || level.frames.iter().any(|f| f.keyword.is_loop())
-            || level.again.is_some_and(|(first, last)| (first..=last).contains(&at.offset))
-            || level.index.at(at).is_some_and(loops);
+        let keep = self.levels.len() > 1 || level.runs_again(at);
         let reading =
             Reading { keep: keep && !level.declarations, declaration: level.declarations };
         let mut found = Vec::new();
@@ -198,7 +204,7 @@ impl Executor {
     }
 
     /// False if a limit was reached.
-    fn count_block(&mut self) -> bool {
+    pub(super) fn count_block(&mut self) -> bool {
         match self.budget.count() {
             Verdict::Continue => return true,
             Verdict::Stopped => self.end(EndReason::Aborted),
@@ -250,7 +256,7 @@ impl Executor {
         }
     }
 
-    fn source_of(&mut self, file: usize, at: Position, block: Option<u64>) {
+    pub(super) fn source_of(&mut self, file: usize, at: Position, block: Option<u64>) {
         let file = file_number(file);
         self.decoder.report.source = SourceRef { file, line: at.line, offset: at.offset, block };
         self.decoder.report.location = None;

@@ -1,7 +1,7 @@
 //! Builds the index of a file: its sections, labels and control statements with their partners.
 
 use super::head::{
-    Head, blank, contains_goto, ends_program, head, is_command, name_of, says_nothing, word,
+    Head, SAYING, blank, contains_goto, ends_program, head, is_command, name_of, says_nothing, word,
 };
 use super::keyword::Keyword;
 use super::{Entry, EntryId, Index, LabelPlace, Section};
@@ -181,7 +181,7 @@ impl Builder<'_> {
         let Some(section) = self.section else { return };
         let parent = self.stack.last().copied();
         let place = LabelPlace { position: raw.position, parent };
-        if self.index.labels.contains_key(&(section, label.clone())) {
+        if self.index.labels.get(section, &label).is_some() {
             let shown = match &label {
                 LabelKind::Number(n) => format!("N{n}:"),
                 LabelKind::Name(name) => format!("[{name}]"),
@@ -191,7 +191,7 @@ impl Builder<'_> {
             self.report(raw, at, shown.len(), d);
             return;
         }
-        self.index.labels.insert((section, label), place);
+        self.index.labels.insert(section, label, place);
     }
 
     fn command(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
@@ -339,7 +339,7 @@ pub(in crate::exec) fn build(
     reader.seek(Position::START);
     loop {
         if builder.section.is_some() && builder.comment.is_none() {
-            reader.skip_lines(says_nothing);
+            reader.skip_lines(SAYING, says_nothing);
         }
         let Some(raw) = reader.next_block()? else { break };
         builder.block(&raw, skip);

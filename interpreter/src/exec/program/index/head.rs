@@ -110,8 +110,11 @@ pub(super) fn ends_program(text: &str) -> bool {
     })
 }
 
-/// True for most lines of a long program, inside a section: a block number or none, then a word, no continuation, and
-/// no `M` that could end the program.
+/// Bytes of which none is in a line that [says nothing](says_nothing): `M` could end the program, `\` continues a line.
+pub(super) const SAYING: [u8; 3] = [b'M', b'm', b'\\'];
+
+/// True for most lines of a long program, inside a section, if nothing of [`SAYING`] is in them: a block number or none,
+/// then a word.
 pub(super) fn says_nothing(line: &[u8]) -> bool {
     let mut rest = line;
     if let [b'N' | b'n', behind @ ..] = line {
@@ -120,7 +123,6 @@ pub(super) fn says_nothing(line: &[u8]) -> bool {
         rest = if digits > 0 { &behind[digits + blanks..] } else { &[] };
     }
     rest.first().is_some_and(u8::is_ascii_alphabetic)
-        && memchr::memchr3(b'M', b'm', b'\\', rest).is_none()
 }
 
 /// Name after a program head: the first word.

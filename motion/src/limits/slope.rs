@@ -1,0 +1,138 @@
+//! Path slope of a block: accelerations and ramp times that no axis exceeds.
+
+use super::{PathExtremes, least, longest_ramp};
+use crate::axis::{AxisDynamics, AxisVec};
+use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind};
+use crate::profile::{RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
+use kontur_filters::time::CycleTime;
+use smallvec::SmallVec;
+use std::sync::Arc;
+
+/// Rows of a table at most: two accelerations and the jerk of four ramps.
+const ROWS: usize = 6;
+
+/// What the slopes of blocks take from the axes: worked out once for the blocks that share a set of dynamics.
+#[derive(Clone, Debug)]
+pub(crate) struct SlopeTable {
+    /// The set. It is held, so that no other one can come to its place in memory.
+    dynamics: Arc<ChannelDynamics>,
+    slope: Slope,
+    rapid: bool,
+    /// Limits by axis, each kind of them once.
+    rows: Vec<AxisVec>,
+    /// Rows of acceleration and deceleration in mm/s2.
+    plateaus: [usize; 2],
+    /// Rows of the mean jerk in the four ramps in mm/s3.
+    jerks: [usize; 4],
+}
+
+impl SlopeTable {
+    /// The table of a block.
+    pub(crate) fn of(block: &Block, cycle: CycleTime) -> Self {
+        let rapid = block.feed == Feed::Rapid;
+        let mut table = Self {
+            dynamics: Arc::clone(&block.dynamics),
+            slope: block.slope,
+            rapid,
+            rows: Vec::new(),
+            plateaus: [0; 2],
+            jerks: [0; 4],
+        };
+        if block.slope.kind != SlopeKind::Step {
+            let plateau = |k: usize, axis: &AxisDynamics| match (rapid, k) {
+                (true, _) => axis.rapid.acc_mm_s2,
+                (false, 0) => axis.feed.acc_mm_s2,
+                (false, _) => axis.feed.dec_mm_s2,
+            };
+            let jerk = |k: usize, axis: &AxisDynamics| {
+                let t = if rapid {
+                    axis.rapid.ramp_s
+                } else if block.slope.kind == SlopeKind::Hsc {
+                    longest_ramp(axis, false)
+                } else {
+                    axis.feed.ramps_s[k]
+                };
+                // a ramp below the cycle time is no ramp
+                if t < cycle.seconds() { f64::INFINITY } else { plateau(k / 2, axis) / t }
+            };
+            table.plateaus = [0, 1].map(|k| table.row(|axis| plateau(k, axis)));
+            table.jerks = [0, 1, 2, 3].map(|k| table.row(|axis| jerk(k, axis)));
+        }
+        table
+    }
+
+    /// The place of a row of limits.
+    fn row(&mut self, limit: impl Fn(&AxisDynamics) -> f64) -> usize {
+        let row: AxisVec = self.dynamics.axes.iter().map(limit).collect();
+        let same =
+            |known: &AxisVec| known.iter().zip(row.iter()).all(|(a, b)| a.to_bits() == b.to_bits());
+        self.rows.iter().position(same).unwrap_or_else(|| {
+            self.rows.push(row);
+            self.rows.len() - 1
+        })
+    }
+
+    /// True if it is the table of this block, too.
+    pub(crate) fn serves(&self, block: &Block) -> bool {
+        Arc::ptr_eq(&self.dynamics, &block.dynamics)
+            && self.slope == block.slope
+            && self.rapid == (block.feed == Feed::Rapid)
+    }
+
+    /// Path slope over a path.
+    ///
+    /// The weakest axis rules acceleration; ramps combine through the axis jerk `a_i / t_i` (Assumption: then no axis
+    /// exceeds its own jerk and none is slower than needed).
+    pub(crate) fn path_slope(&self, x: &PathExtremes) -> SlopeLimits {
+        let d = &self.dynamics;
+        if self.slope.kind == SlopeKind::Step {
+            return SlopeLimits::Step(step_slope(d, x, self.rapid));
+        }
+        let mut weakest = [f64::INFINITY; ROWS];
+        for (weakest, row) in weakest.iter_mut().zip(&self.rows) {
+            *weakest = least(row.iter().copied(), &x.first);
+        }
+        let vector = &d.vector;
+        let [acc, dec] = self.plateaus.map(|row| weakest[row]);
+        let acc = acc.min(vector.acc_mm_s2.unwrap_or(f64::INFINITY));
+        let dec = dec.min(vector.dec_mm_s2.unwrap_or(f64::INFINITY));
+        let shape =
+            if self.slope.kind == SlopeKind::Sin2 { RampShape::Sin2 } else { RampShape::Trapez };
+        // the jerk of a limit is the largest one, that of a ramp time the mean one
+        let vector_jerk = vector.jerk_mm_s3.map_or(f64::INFINITY, |jerk| jerk / shape.peak_jerk());
+        let ramp = |k: usize| {
+            let path = if k < 2 { acc } else { dec };
+            path / weakest[self.jerks[k]].min(vector_jerk)
+        };
+        let constant_ramp_time = self.slope.constant_ramp_time && !self.rapid;
+        let ramps = [ramp(0), ramp(1), ramp(2), ramp(3)];
+        SlopeLimits::Ramped(RampedLimits::new(shape, constant_ramp_time, acc, dec, ramps))
+    }
+}
+
+/// Two-stage slope of a path: the path value is the minimum over the axes, so there is one break point per axis.
+fn step_slope(d: &ChannelDynamics, x: &PathExtremes, rapid: bool) -> StepLimits {
+    let mut axes: SmallVec<[StepAxis; 9]> = d
+        .axes
+        .iter()
+        .zip(x.first.iter())
+        .filter(|(_, u)| **u > 0.0)
+        .map(|(axis, u)| {
+            let s = if rapid { axis.step_rapid } else { axis.step_feed };
+            StepAxis {
+                acc_mm_s2: s.acc_mm_s2.map(|a| a / u),
+                dec_mm_s2: s.dec_mm_s2.map(|a| a / u),
+                change_mm_s: s.change_mm_s / u,
+            }
+        })
+        .collect();
+    let vector = &d.vector;
+    if vector.acc_mm_s2.is_some() || vector.dec_mm_s2.is_some() {
+        axes.push(StepAxis {
+            acc_mm_s2: [vector.acc_mm_s2.unwrap_or(f64::INFINITY); 2],
+            dec_mm_s2: [vector.dec_mm_s2.unwrap_or(f64::INFINITY); 2],
+            change_mm_s: f64::INFINITY,
+        });
+    }
+    StepLimits::from_axes(&axes)
+}
