@@ -23,6 +23,7 @@
 //! # Ok::<(), String>(())
 //! ```
 
+mod apart;
 pub mod inputs;
 mod lists;
 mod run;
@@ -34,6 +35,7 @@ pub use crate::exec::{
 };
 pub use crate::record::facts::{AxisFacts, Facts, FileNames};
 pub use crate::sim::{Change, Changes, SettledStop, Signal, Stops, Totals};
+pub use apart::Work;
 pub use lists::MachineLists;
 pub use run::{Run, Sink};
 

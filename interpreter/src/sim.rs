@@ -11,6 +11,7 @@ mod chain;
 mod fault;
 mod independent;
 mod inputs;
+mod out;
 mod patience;
 mod probe;
 mod smoothing;
@@ -20,9 +21,10 @@ mod totals;
 mod wait;
 
 pub use inputs::{Change, Changes, Signal};
+pub(crate) use out::{Measuring, Messages, Samples};
 pub use totals::{SettledStop, Stops, Totals};
 
-use crate::diag::{Condition, Diagnostic, Severity};
+use crate::diag::Diagnostic;
 use crate::exec::{EndReason, Event, Executor, Feedback, SourceRef, Step, Sync};
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
@@ -113,7 +115,9 @@ pub(crate) struct Simulation {
     jerk_limited: bool,
     pending: Option<(After, SourceRef, Vec<Event>)>,
     phase: Phase,
+    /// The cycle computed last; before the first one the state at time zero.
     record: CycleRecord,
+    /// Set positions of the path axes that are measured against the contour.
     set: AxisVec,
     /// Set positions of the path axes in the cycle before, in front of their filters.
     path_position: AxisVec,
@@ -125,15 +129,10 @@ pub(crate) struct Simulation {
     probing: Option<Probing>,
     /// Set positions of the path axes in the cycle before as the planner has them, in a thread.
     planned: AxisVec,
-    vector: AxisVec,
-    /// Somebody reads the deviation from the contour in the records.
-    measures_deviation: bool,
     max_cycles: u64,
     /// Axes that a fault has stopped, and where.
     frozen: Vec<Option<f64>>,
-    diagnostics: Vec<Diagnostic>,
-    /// Messages of the program since the last look that are not among them.
-    unshown: u64,
+    messages: Messages,
     totals: Totals,
 }
 
@@ -149,8 +148,9 @@ impl Simulation {
 
     /// The records need no deviation from the contour: not a number stands for it, until a block demands a tolerance.
     pub(crate) fn leave_out_deviation(&mut self) {
-        self.measures_deviation = false;
-        self.record.omit_deviation(self.vector.len());
+        self.planner.report_changes(false);
+        let path_axes = self.path_axes();
+        self.record.omit_deviation(path_axes);
     }
 
     /// Names of the source files, in the order of [`CycleRecord::file`].
@@ -163,16 +163,15 @@ impl Simulation {
         self.chains.get(chain).is_some_and(AxisChain::has_tool_point)
     }
 
-    /// Diagnostics since the last call, in the order of raising.
-    pub(crate) fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
-        let mut found = std::mem::take(&mut self.diagnostics);
-        let unshown = std::mem::take(&mut self.unshown);
-        if unshown > 0 {
-            let text = format!("{unshown} more messages of the program at once, not shown");
-            found.push(Diagnostic::new(Condition::Message, text).severity(Severity::Note));
-        }
-        found.extend(self.executor.take_diagnostics());
-        found
+    /// Messages since the last call.
+    pub(crate) fn take_messages(&mut self) -> Messages {
+        self.messages.program = self.executor.take_diagnostics();
+        std::mem::take(&mut self.messages)
+    }
+
+    /// Number of path axes.
+    pub(crate) fn path_axes(&self) -> usize {
+        self.path_position.len()
     }
 
     /// What no record holds; complete when there are no more cycles.
@@ -180,20 +179,30 @@ impl Simulation {
         Totals { blocks: self.executor.blocks(), ..self.totals.clone() }
     }
 
-    /// The cycle computed last; before the first one the state at time zero.
+    /// The cycle computed last, or the state at time zero; its deviation is still to be measured.
     pub(crate) fn record(&self) -> &CycleRecord {
         &self.record
     }
 
-    /// Computes the next cycle; `None` when the program has ended or was stopped and the axes are at rest.
-    pub(crate) fn next_cycle(&mut self) -> Option<&CycleRecord> {
+    /// The same, to write what was measured.
+    pub(crate) fn record_mut(&mut self) -> &mut CycleRecord {
+        &mut self.record
+    }
+
+    /// Somebody wants to know the deviation from the contour.
+    pub(crate) fn is_measured(&self) -> bool {
+        self.planner.reports_changes()
+    }
+
+    /// Computes the next cycle; false when the program has ended or was stopped and the axes are at rest.
+    pub(crate) fn next_cycle(&mut self) -> bool {
         loop {
             match &mut self.phase {
-                Phase::Done => return None,
+                Phase::Done => return false,
                 Phase::Start => {
                     self.phase = Phase::Running;
                     self.take_inputs(0);
-                    return Some(&self.record);
+                    return true;
                 }
                 Phase::Running => match self.planner.advance() {
                     Ok(Next::Setpoint) => {
@@ -202,11 +211,7 @@ impl Simulation {
                     }
                     Ok(Next::Input) => self.pull(),
                     Ok(Next::Rest) => self.at_rest(),
-                    Err(e) => {
-                        self.diagnostics.push(fault::internal(&e));
-                        self.totals.aborted = true;
-                        self.phase = Phase::Done;
-                    }
+                    Err(e) => self.fail(&format!("look-ahead: {e}")),
                 },
                 Phase::Waiting(wait) => {
                     let parts = Parts {
@@ -224,13 +229,13 @@ impl Simulation {
                     }
                     if bars && self.inputs.is_over() {
                         self.held_for_ever();
-                        return None;
+                        return false;
                     }
                     if self.inputs.is_over()
                         && let Some((chain, lacks)) = wait.hopeless(parts, self.cycle)
                     {
                         self.never_arrives(chain, lacks);
-                        return None;
+                        return false;
                     }
                     wait.count();
                     self.planner.hold(SpeedLimit::Stop);
@@ -244,7 +249,7 @@ impl Simulation {
                     let axes_stand = self.chains.iter().all(AxisChain::stands);
                     if stopping.is_over(set_rests, axes_stand, self.cycle) {
                         self.phase = Phase::Done;
-                        return None;
+                        return false;
                     }
                     self.planner.advance_braking();
                     break;
@@ -254,13 +259,20 @@ impl Simulation {
         self.through_the_axes();
         self.watch_probe();
         self.check_time();
-        Some(&self.record)
+        true
+    }
+
+    /// Ends the run: a fault in kontur itself.
+    pub(crate) fn fail(&mut self, text: &str) {
+        self.messages.own.push(fault::internal(text));
+        self.totals.aborted = true;
+        self.phase = Phase::Done;
     }
 
     /// Takes over the inputs that are due in cycle `k`: the axes see them at once, the path bends after the cycle.
     fn take_inputs(&mut self, k: u64) {
         let time_s = self.cycle.time_of(k);
-        match self.inputs.take_due(time_s, &self.machine, &mut self.diagnostics) {
+        match self.inputs.take_due(time_s, &self.machine, &mut self.messages.own) {
             Ok(false) => return,
             Ok(true) => {}
             Err(failure) => self.input_fails(*failure),
@@ -292,12 +304,12 @@ impl Simulation {
             let at = self.current;
             let mut d = fault::thread_broken(why, self.planner.setpoint().k, self.cycle);
             d.source = self.executor.locate(at);
-            self.diagnostics.push(d);
+            self.messages.own.push(d);
         }
     }
 
     fn input_fails(&mut self, failure: Diagnostic) {
-        self.diagnostics.push(failure);
+        self.messages.own.push(failure);
         (self.totals.aborted, self.totals.input_failed) = (true, true);
         self.phase = Phase::Done;
     }
@@ -322,7 +334,7 @@ impl Simulation {
     /// K-0083: nothing will release the path any more.
     fn held_for_ever(&mut self) {
         let k = self.planner.setpoint().k;
-        self.diagnostics.push(fault::held(k, self.cycle, self.inputs.feedhold));
+        self.messages.own.push(fault::held(k, self.cycle, self.inputs.feedhold));
         self.totals.aborted = true;
         self.phase = Phase::Done;
     }
@@ -438,7 +450,7 @@ impl Simulation {
             let waits = matches!(self.phase, Phase::Waiting(_));
             let block = if waits { self.waits_at } else { self.current };
             late.source = self.executor.locate(block);
-            self.diagnostics.push(late);
+            self.messages.own.push(late);
             self.totals.aborted = true;
             self.phase = Phase::Done;
         }

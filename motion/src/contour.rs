@@ -84,11 +84,29 @@ impl Contour {
         self.blocks.push_back(Passed { cycles, s_mm, queued, above_feed, ball });
     }
 
-    /// Forgets blocks that were left before `cycles`.
-    pub(crate) fn forget_before(&mut self, cycles: f64) {
+    /// The block added last.
+    pub(crate) fn last(&self) -> Option<&Passed> {
+        self.blocks.back()
+    }
+
+    /// Adds a block that has entered another contour.
+    pub(crate) fn append(&mut self, passed: Passed) {
+        self.blocks.push_back(passed);
+    }
+
+    /// Forgets blocks that were left before `cycles`; returns how many.
+    pub(crate) fn forget_before(&mut self, cycles: f64) -> usize {
+        let mut count = 0;
         while self.blocks.len() > 1 && self.blocks[1].cycles < cycles {
             self.blocks.pop_front();
+            count += 1;
         }
+        count
+    }
+
+    /// Forgets so many blocks.
+    pub(crate) fn forget(&mut self, count: usize) {
+        self.blocks.drain(..count.min(self.blocks.len()));
     }
 
     /// Takes out the blocks that are to be entered at `cycles` or later.

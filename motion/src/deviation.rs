@@ -28,10 +28,12 @@
 mod between;
 mod component;
 mod gauge;
+mod meter;
 
 use crate::axis::AxisVec;
 use crate::contour::{Contour, ROUNDING_MM};
-pub(crate) use gauge::{Gauge, loosest};
+pub(crate) use meter::What;
+pub use meter::{Change, Meter};
 use smallvec::SmallVec;
 use std::ops::Range;
 

@@ -35,7 +35,7 @@ pub mod cap;
 mod closed_forms;
 mod contour;
 pub mod contouring;
-mod deviation;
+pub mod deviation;
 mod emergency;
 pub mod independent;
 pub mod junction;

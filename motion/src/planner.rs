@@ -38,7 +38,7 @@ use crate::axis::AxisVec;
 use crate::block::{Block, Feed};
 use crate::cap::{Cap, SpeedLimit};
 use crate::contour::Contour;
-use crate::deviation::{Gauge, loosest};
+use crate::deviation::{Change, What};
 use crate::emergency::EmergencyBraking;
 use crate::junction::transition;
 use crate::limits::SlopeTable;
@@ -101,12 +101,14 @@ pub struct Planner {
     state: PathState,
     kernels: Kernels,
     monitor: Monitor,
-    gauge: Gauge,
     reach_cycles: u32,
     unkept: Vec<Unkept>,
-    /// Least tolerance of any block so far in mm; what is output is compared with that of its blocks from there on.
+    /// Least tolerance of any block so far in mm.
     least_tolerance_mm: f64,
-    output_excess: OutputExcess,
+    /// What somebody who measures the output has to know and has not taken yet, if there is one.
+    changes: Option<Vec<Change>>,
+    /// Cycle in which the kernels were set.
+    kernels_since: Option<u64>,
     brake: Option<EmergencyBraking>,
     /// Override and feedhold in effect, and those asked for.
     active: Realtime,
@@ -119,22 +121,6 @@ struct Realtime {
     ratios: Override,
     hold: Option<FeedholdBraking>,
 }
-
-/// What is known of an excess in what is output.
-#[derive(Clone, Copy, Debug, Default)]
-enum OutputExcess {
-    /// No cycle exceeded the tolerance of its blocks.
-    #[default]
-    None,
-    /// One did, and nobody has asked yet.
-    Found(Unkept),
-    /// It was told, or that a plan does not keep the tolerance was; later ones are not looked for.
-    Told,
-}
-
-/// Share and mm by which the output may exceed a tolerance before it is told: what a trace rounds away.
-const ALLOWANCE: f64 = 1.001;
-const ALLOWANCE_MM: f64 = 1e-6;
 
 impl Planner {
     /// A planner at rest at `start`, with a look-ahead of `window` blocks (P-STUP-00071, 10..=10000).
@@ -153,11 +139,11 @@ impl Planner {
             setpoint: Setpoint { position, ..Setpoint::default() },
             kernels: Kernels::default(),
             monitor: Monitor::default(),
-            gauge: Gauge::default(),
             reach_cycles: 0,
             unkept: Vec::new(),
             least_tolerance_mm: f64::INFINITY,
-            output_excess: OutputExcess::default(),
+            changes: None,
+            kernels_since: None,
             brake: None,
             active: Realtime::default(),
             wanted: Realtime::default(),
@@ -171,15 +157,17 @@ impl Planner {
 
     /// Sets the kernel of every axis, for corners (`ACC_FACT`) and tolerance monitoring; only at rest.
     ///
-    /// `reach_cycles` is how far back the contour is kept for [`Planner::deviation`].
+    /// `reach_cycles` is how far back the contour is kept for [`Planner::take_changes`].
     pub fn set_kernels(&mut self, kernels: Kernels, reach_cycles: u32) {
         self.reach_cycles = reach_cycles.max(kernels.length());
         self.monitor.rest(&self.setpoint.position, self.setpoint.s_mm, kernels.length());
         self.kernels = kernels;
-        self.gauge = Gauge::new(self.reach_cycles, self.kernels.differ());
-        // the line to the next set point starts here
-        let Setpoint { k, position, .. } = &self.setpoint;
-        self.gauge.unfiltered(&self.contour, *k, position, self.least_tolerance_mm);
+        self.kernels_since = Some(self.setpoint.k);
+        self.report(|planner| {
+            let Setpoint { k, position, .. } = &planner.setpoint;
+            let (reach_cycles, differ) = (planner.reach_cycles, planner.kernels.differ());
+            What::Kernels { reach_cycles, differ, at: Some((*k, position.clone())) }
+        });
     }
 
     /// Sets what the override is a percentage of (P-CHAN-00066), from the next cycle on.
@@ -245,7 +233,11 @@ impl Planner {
             None => Cap::STOP,
         };
         if let Some(tolerance) = queued.block.tolerance.ax_dev_mm {
-            self.least_tolerance_mm = self.least_tolerance_mm.min(tolerance);
+            self.report_changes(true);
+            if tolerance < self.least_tolerance_mm {
+                self.least_tolerance_mm = tolerance;
+                self.report(|_| What::Tolerance(tolerance));
+            }
         }
         let segment = Segment { queued: Arc::clone(&queued), cap, asked: None };
         self.plan.push(segment, self.cycle, self.kernels.any());
@@ -333,71 +325,36 @@ impl Planner {
         self.setpoint.limit = SpeedLimit::Stop;
     }
 
-    /// Components of the shortest vector from the contour within reach of the filters to the set point of the present
-    /// cycle; returns its length in mm. Called once in a cycle, it keeps [`Self::excursion`] up to date.
-    pub fn deviation(&mut self, point: &[f64], out: &mut [f64]) -> f64 {
-        let k = self.setpoint.k;
-        let points = (point, &self.setpoint.position[..]);
-        self.gauge.step(&self.contour, k, points, self.least_tolerance_mm);
-        debug_assert_eq!(
-            self.gauge.shortest().map(|(length_mm, _)| length_mm),
-            self.contour
-                .nearest(point, k as f64 - f64::from(self.reach_cycles), k as f64, out)
-                .map(|nearest| nearest.distance),
-            "blocks left out are not the nearest"
-        );
-        self.judge(k);
-        if let Some((length_mm, vector)) = self.gauge.shortest() {
-            out.copy_from_slice(vector);
-            length_mm
-        } else {
-            out.fill(0.0);
-            0.0
+    /// Reports what a [`Meter`](crate::deviation::Meter) has to know from here on, or does so from the first block with a
+    /// tolerance on: what is output is to be measured then, whoever wants to see it or not.
+    pub fn report_changes(&mut self, always: bool) {
+        if !always && self.least_tolerance_mm.is_infinite() {
+            self.changes = None;
+        } else if self.changes.is_none() {
+            let (reach_cycles, differ) = (self.reach_cycles, self.kernels.differ());
+            let Setpoint { k, position, .. } = &self.setpoint;
+            let at = (self.kernels_since == Some(*k)).then(|| (*k, position.clone()));
+            let kernels = What::Kernels { reach_cycles, differ, at };
+            let so_far = [What::Contour(self.contour.clone()), kernels];
+            self.changes = Some(so_far.map(Change).into());
         }
     }
 
-    /// Some block so far has a tolerance: what is output is to be measured, whoever else wants to see it or not.
-    pub fn has_tolerance(&self) -> bool {
-        self.least_tolerance_mm.is_finite()
+    /// True if [`Self::take_changes`] has something to say, now or later.
+    pub fn reports_changes(&self) -> bool {
+        self.changes.is_some()
     }
 
-    /// Compares what is output with the loosest tolerance of the blocks that the filters hold.
-    fn judge(&mut self, k: u64) {
-        let most = self.gauge.found().iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        let looked_for = matches!(self.output_excess, OutputExcess::None);
-        if !looked_for || most <= self.least_tolerance_mm {
-            return;
+    /// What has changed since the last call.
+    pub fn take_changes(&mut self) -> impl Iterator<Item = Change> + '_ {
+        self.changes.iter_mut().flat_map(|changes| changes.drain(..))
+    }
+
+    fn report(&mut self, what: impl FnOnce(&Self) -> What) {
+        if self.changes.is_some() {
+            let change = Change(what(self));
+            self.changes.get_or_insert_default().push(change);
         }
-        let Some((tolerance_mm, seq)) = loosest(&self.contour, k, u64::from(self.reach_cycles))
-        else {
-            return;
-        };
-        if most > ALLOWANCE * tolerance_mm + ALLOWANCE_MM {
-            let unkept = Unkept { seq, deviation_mm: most, tolerance_mm };
-            self.output_excess = OutputExcess::Found(unkept);
-        }
-    }
-
-    /// The first excess that was measured in what is output although the plan had kept the tolerance; each run has one at
-    /// most.
-    pub fn take_exceeded(&mut self) -> Option<Unkept> {
-        let OutputExcess::Found(unkept) = self.output_excess else { return None };
-        self.output_excess = OutputExcess::Told;
-        Some(unkept)
-    }
-
-    /// In place of [`Self::deviation`] in a cycle whose set point is the interpolated one.
-    pub fn undeviated(&mut self) {
-        let k = self.setpoint.k;
-        let position = &self.setpoint.position;
-        self.gauge.unfiltered(&self.contour, k, position, self.least_tolerance_mm);
-        self.judge(k);
-    }
-
-    /// Largest components in mm of what the set path leaves the contour by in this cycle, and of what it has missed of the
-    /// contour that the filters have just let go: the two directions that `AX_DEV` bounds.
-    pub fn excursion(&self) -> &[f64] {
-        self.gauge.found()
     }
 
     /// Blocks whose tolerance could not be kept since the last call.
@@ -415,6 +372,9 @@ impl Planner {
         self.setpoint.limit = self.state.limit;
         self.setpoint.seq = self.state.seq;
         self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
-        self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
+        let left = self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
+        if left > 0 {
+            self.report(|_| What::Leave(left));
+        }
     }
 }

@@ -14,6 +14,7 @@ use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::Tolerance;
+use kontur_motion::deviation::Meter;
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::tolerance::{Kernels, Unkept};
@@ -338,11 +339,13 @@ fn told_of_output(aside_mm: f64) -> Vec<Unkept> {
     let [from, to] = ends;
     planner.push(job.block(7, Path::Line(LinePath::new(from, to, &[]).unwrap()), 50.0));
     planner.finish();
-    let mut told = Vec::new();
+    let (mut meter, mut told) = (Meter::default(), Vec::new());
     while planner.advance().unwrap() == Next::Setpoint {
-        let set = [planner.setpoint().position[0], aside_mm];
-        planner.deviation(&set, &mut [0.0; 2]);
-        told.extend(planner.take_exceeded());
+        planner.take_changes().for_each(|change| meter.take(change));
+        let at = planner.setpoint();
+        let set = [at.position[0], aside_mm];
+        meter.filtered(at.k, &set, &at.position, &mut [0.0; 2]);
+        told.extend(meter.take_exceeded());
     }
     assert!(planner.take_unkept().is_empty());
     told

@@ -8,11 +8,12 @@ use crate::request::{OpenError, Opened};
 use crate::target::{create_all, keep_apart};
 use crate::trace::Trace;
 use crate::{Error, Exit, times};
-use kontur_interpreter::job::{Run, Sink, Totals};
+use kontur_interpreter::job::{Run, Sink, Totals, Work};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::summary::Collector;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::thread::{Builder, available_parallelism};
 
 /// Runs a program.
 ///
@@ -123,7 +124,17 @@ pub(crate) fn drive(
 ) -> Result<(), Error> {
     let progress = console.progress();
     let _running = Running::start();
-    run.to_end(&mut Watch { shown, console, progress, summary, take })
+    let mut watch = Watch { shown, console, progress, summary, take };
+    if available_parallelism().is_ok_and(|cores| cores.get() > 1) {
+        run.to_end_on_threads(on_thread, &mut watch)
+    } else {
+        run.to_end(&mut watch)
+    }
+}
+
+/// Starts a thread that does some work, if it can.
+fn on_thread(name: &str, work: Work) -> bool {
+    Builder::new().name(name.to_owned()).spawn(work).is_ok()
 }
 
 /// A run with somebody who looks on and may stop it.

@@ -1,9 +1,10 @@
 //! A program under way, and the one loop over its cycles.
 
+use super::apart::{Apart, Work};
 use super::{Changes, Facts, Stop, Totals};
 use crate::diag::{Condition, Diagnostic};
 use crate::record::CycleRecord;
-use crate::sim::Simulation;
+use crate::sim::{Measuring, Messages, Samples, Simulation};
 use crate::source::Sources;
 use std::convert::Infallible;
 use std::fmt;
@@ -44,8 +45,14 @@ impl<F: FnMut(&CycleRecord)> Sink for F {
 pub struct Run {
     facts: Facts,
     simulation: Simulation,
+    measuring: Measuring,
+    samples: Samples,
+    /// While another thread measures.
+    apart: Option<Apart>,
     sources: Arc<dyn Sources>,
+    /// Messages of the lists and of the check; then those of the simulation.
     messages: Vec<Diagnostic>,
+    raised: Messages,
     refused: bool,
     over: bool,
     /// A program is no longer what was run.
@@ -75,8 +82,20 @@ impl Run {
         refused: bool,
         stop: Stop,
     ) -> Self {
-        let over = refused;
-        Self { facts, simulation, sources, messages, refused, over, changed: false, stop }
+        Self {
+            facts,
+            simulation,
+            measuring: Measuring::default(),
+            samples: Samples::default(),
+            apart: None,
+            sources,
+            messages,
+            raised: Messages::default(),
+            refused,
+            over: refused,
+            changed: false,
+            stop,
+        }
     }
 
     /// Connects the real-time inputs, before the first cycle. Changes come in the order of time; an error among them ends
@@ -106,7 +125,7 @@ impl Run {
 
     /// The cycle computed last; before the first one the state at time zero.
     pub fn record(&self) -> &CycleRecord {
-        self.simulation.record()
+        self.apart.as_ref().map_or_else(|| self.simulation.record(), Apart::record)
     }
 
     /// True if there are no more cycles.
@@ -130,6 +149,47 @@ impl Run {
         }
     }
 
+    /// The same on two threads: a second one measures the cycles against the contour. Cycles and messages are the same, bit by
+    /// bit.
+    ///
+    /// `start` starts a thread with a name; where it cannot, the work is done here.
+    ///
+    /// ```
+    /// use kontur_interpreter::job::{Job, MachineLists};
+    /// use kontur_interpreter::record::CycleRecord;
+    /// use kontur_interpreter::source::MemorySources;
+    /// use std::thread::Builder;
+    ///
+    /// let (machine, _) = MachineLists::default().load().unwrap();
+    /// let sources = MemorySources::new().with("part.nc", "G01 X10 F1000\nM30\n");
+    /// let mut run = Job::new(machine, sources, "part.nc").start().unwrap();
+    /// let mut x_mm = Vec::new();
+    /// let Ok(()) = run.to_end_on_threads(
+    ///     |name, work| Builder::new().name(name.to_owned()).spawn(work).is_ok(),
+    ///     &mut |record: &CycleRecord| x_mm.push(record.axes[0].set),
+    /// );
+    /// assert_eq!(x_mm.last(), Some(&10.0));
+    /// ```
+    ///
+    /// # Errors
+    /// What the sink stops with; such a run has no more cycles.
+    pub fn to_end_on_threads<S: Sink>(
+        &mut self,
+        start: impl FnOnce(&'static str, Work) -> bool,
+        sink: &mut S,
+    ) -> Result<(), S::Stop> {
+        if !self.over && self.simulation.is_measured() {
+            let record = self.simulation.record();
+            self.apart = Apart::begin(record, &mut self.measuring, start);
+        }
+        let ended = self.to_end(sink);
+        if let Some(apart) = self.apart.take() {
+            self.over = true;
+            self.simulation.record_mut().clone_from(apart.record());
+        }
+        ended
+    }
+
     /// Computes up to so many cycles, for callers that compare runs row by row or show them while they continue. A run that was
     /// stopped ([`Stop`]) has no more.
     ///
@@ -141,22 +201,42 @@ impl Run {
             if self.over {
                 break;
             }
-            if self.simulation.next_cycle().is_none() {
+            if !self.next_cycle() {
                 self.over = true;
                 self.look_for_changes();
                 break;
             }
-            self.facts.files.update(self.simulation.files());
-            sink.cycle(self.simulation.record())?;
+            sink.cycle(self.record())?;
         }
         Ok(())
+    }
+
+    /// Goes on to the next cycle, with the messages up to it; false if there are no more.
+    fn next_cycle(&mut self) -> bool {
+        let Self { simulation, measuring, samples, raised, .. } = self;
+        let computed = if let Some(apart) = &mut self.apart {
+            apart.next_cycle(simulation, raised)
+        } else {
+            let computed = simulation.next_cycle();
+            raised.absorb(simulation.take_messages());
+            if computed {
+                samples.clear();
+                simulation.sample(samples);
+                measuring.measure(samples);
+                samples.fill(0, simulation.record_mut());
+                raised.absorb(simulation.exceeded(samples, 0));
+            }
+            computed
+        };
+        self.facts.files.update(self.simulation.files());
+        computed
     }
 
     /// A program that was changed while it ran, also after what was read of it, is another one than the cycles show.
     fn look_for_changes(&mut self) {
         if let Some((name, e)) = self.sources.changed() {
             let text = format!("{name}: {e}");
-            self.messages.extend(self.simulation.take_diagnostics());
+            self.messages.extend(self.raised.take());
             // the reader may have met it already
             if self.messages.iter().all(|d| d.text != text) {
                 let hint = "the trace does not belong to the program as it is now: run it again";
@@ -171,7 +251,7 @@ impl Run {
         let mut found = std::mem::take(&mut self.messages);
         // of a refused program the check has said everything
         if !self.refused {
-            found.extend(self.simulation.take_diagnostics());
+            found.extend(self.raised.take());
         }
         found
     }

@@ -68,6 +68,53 @@ fn one_loop_however_it_is_cut() {
     });
 }
 
+/// On two threads a run gives the same bits and messages: with a tolerance from some block on, replanned by an override, with
+/// messages in many blocks, ended by an error or by a standstill without end, and where no thread can be had.
+#[test]
+fn a_second_thread_changes_nothing() {
+    let guard = "#VIB GUARD ON [MODE=2 FREQ=20]\n";
+    let square = "G01 X5 F3000\nY5\nX0 Y0\n";
+    let talk = "$FOR P1 = 1, 400, 1\n#MSG [\"%d\", P1]\nX[P1 * 0.01]\n$ENDFOR\n";
+    let programs = [
+        format!("{guard}{square}M30\n"),
+        format!("{guard}{square}#VIB GUARD ON [AX_DEV=0.05]\n{square}G04 0.3\n{square}M30\n"),
+        format!("{guard}#SLOPE [TYPE=HSC]\nG01 F6000\n{talk}M30\n"),
+        format!("{guard}{square}G00 X1e6\n$IF V.A.ACT_POS.X > 1\nP1=1/0\n$ENDIF\nM30\n"),
+        "G01 F1000\nX0\nM30\n".to_owned(),
+        "G99\nM30\n".to_owned(),
+    ];
+    let feedholds = "t_s,override_percent,feedhold\n0.05,40,\n0.3,90,1\n0.5,,0\n2,100,1\n";
+    for (text, inputs) in programs.iter().zip([None, Some(feedholds), None, None, None, None]) {
+        let start = || {
+            let job = job(text, &[], Options::default());
+            let files: Vec<_> =
+                inputs.iter().map(|text: &&str| ("a.csv", || Ok(text.as_bytes()))).collect();
+            job.start().unwrap().with_inputs(inputs::open(&files, job.machine()).unwrap())
+        };
+        let outcome = |mut run: Run, how: &dyn Fn(&mut Run, &mut Vec<CycleRecord>)| {
+            let mut records = Vec::new();
+            how(&mut run, &mut records);
+            let said = run.take_diagnostics();
+            (records, said, run.totals(), run.record().clone(), run.is_over())
+        };
+        let alone = outcome(start(), &|run, records| {
+            let Ok(()) = run.to_end(&mut |r: &CycleRecord| records.push(r.clone()));
+        });
+        for can_start in [true, false] {
+            let thread = |name: &str, work: Work| {
+                let spawn = || std::thread::Builder::new().name(name.to_owned()).spawn(work);
+                can_start && spawn().is_ok()
+            };
+            let together = outcome(start(), &|run, records| {
+                let mut sink = |r: &CycleRecord| records.push(r.clone());
+                let Ok(()) = run.advance(3, &mut sink);
+                let Ok(()) = run.to_end_on_threads(thread, &mut sink);
+            });
+            assert!(alone == together, "{text}");
+        }
+    }
+}
+
 /// What is left out is no number, everything else stays; where a block demands a tolerance nothing is left out.
 #[test]
 fn the_deviation_is_left_out_until_a_block_demands_a_tolerance() {

@@ -3,12 +3,10 @@
 use super::Simulation;
 use super::axes::Driver;
 use super::chain::AxisChain;
+use super::out::MESSAGES_MAX;
 use crate::exec::Event;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
-
-/// Messages of the program that are kept until somebody asks for them: without motion a loop gives millions at once.
-const MESSAGES_MAX: usize = 10_000;
 
 impl Simulation {
     /// Something happens in cycle `k`.
@@ -18,14 +16,14 @@ impl Simulation {
                 let dynamics = self.machine.axes[axis].dynamics();
                 let started = self.independent.start(axis, k, motion, &dynamics, self.cycle);
                 if let Err(e) = started {
-                    self.diagnostics.push(super::fault::internal(&e));
+                    self.messages.own.push(super::fault::internal(&format!("look-ahead: {e}")));
                 }
             }
             Event::Oscillation { axis, motion } => {
                 let dynamics = self.machine.axes[axis].dynamics();
                 let started = self.independent.oscillate(axis, k, &motion, &dynamics, self.cycle);
                 if let Err(e) = started {
-                    self.diagnostics.push(super::fault::internal(&e));
+                    self.messages.own.push(super::fault::internal(&format!("look-ahead: {e}")));
                 }
             }
             Event::Couple { slave, master, ratio, master_mm } => {
@@ -66,12 +64,12 @@ impl Simulation {
                 };
                 let time_s = self.cycle.time_of(self.planner.setpoint().k);
                 if let Some(mut message) = self.totals.note(other, time_s) {
-                    if self.diagnostics.len() >= MESSAGES_MAX {
-                        self.unshown += 1;
+                    if self.messages.own.len() >= MESSAGES_MAX {
+                        self.messages.unshown += 1;
                         return;
                     }
                     message.source = block.and_then(|block| self.executor.locate(block));
-                    self.diagnostics.push(message);
+                    self.messages.own.push(message);
                 }
             }
         }
@@ -105,11 +103,11 @@ impl Simulation {
     pub(super) fn swap_kernels(&mut self, setup: &crate::exec::ShapingSetup) {
         for (chain, axis) in self.chains.iter_mut().zip(&setup.axes) {
             if chain.set_kernel(axis.kernel.clone()).is_err() {
-                self.diagnostics.push(super::fault::switch_while_moving());
+                self.messages.own.push(super::fault::switch_while_moving());
             }
         }
         let kernels = Kernels::new(setup.axes.iter().map(|a| a.kernel.clone()).collect());
-        let path = &self.chains[..self.vector.len()];
+        let path = &self.chains[..self.path_axes()];
         let reach = path.iter().map(AxisChain::reach_cycles).max().unwrap_or(0);
         self.planner.set_kernels(kernels, reach);
         self.totals.shaped(setup);
@@ -147,11 +145,11 @@ impl Simulation {
                 let kernel = self.executor.shaping().axes.get(i).and_then(|a| a.kernel.clone());
                 // it has just begun, at rest
                 if chain.set_kernel(kernel).is_err() {
-                    self.diagnostics.push(super::fault::switch_while_moving());
+                    self.messages.own.push(super::fault::switch_while_moving());
                 }
                 self.chains[i] = chain;
             }
-            Err(e) => self.diagnostics.push(super::fault::plant(&e, &self.machine, i)),
+            Err(e) => self.messages.own.push(super::fault::plant(&e, &self.machine, i)),
         }
     }
 }

@@ -51,7 +51,6 @@ impl Simulation {
         self.take_inputs(k);
         self.watch_thread();
         let setpoint = self.planner.setpoint();
-        let n = self.vector.len();
         let mut faults = Vec::new();
         let mut positions = setpoint.position.clone();
         for (p, position) in positions.iter_mut().enumerate() {
@@ -90,7 +89,6 @@ impl Simulation {
                 self.totals.stops.add(SettledStop { axis: i, source, k, settling_s });
             }
         }
-        let shaped = self.record.axes[..n].iter().any(|a| a.set.to_bits() != a.ipo.to_bits());
         // what is measured against the contour: the set position without the ways of independent axes; while one of them
         // moves, it does not count
         for (p, set) in self.set.iter_mut().enumerate() {
@@ -123,36 +121,14 @@ impl Simulation {
             motion: self.motion,
             rest,
         };
-        if self.measures_deviation || self.planner.has_tolerance() {
-            self.measure_deviation(shaped);
-        } else {
-            self.record.omit_deviation(n);
-        }
-        if let Some(exceeded) = self.planner.take_exceeded() {
-            self.exceeded(&exceeded);
+        if !self.planner.reports_changes() {
+            self.record.omit_deviation(self.set.len());
         }
         for unkept in self.planner.take_unkept() {
             self.unkept(&unkept);
         }
         for (i, f) in faults {
             self.fault(i, &f);
-        }
-    }
-
-    /// Measures what is output against the contour; `shaped`: filters have moved it away from the interpolated position.
-    fn measure_deviation(&mut self, shaped: bool) {
-        // on the contour bit for bit: nothing to search
-        self.record.contour_err_mm = if shaped {
-            self.planner.deviation(&self.set, &mut self.vector)
-        } else {
-            self.planner.undeviated();
-            self.vector.fill(0.0);
-            0.0
-        };
-        let both_ways = self.planner.excursion();
-        for (i, (axis, dev)) in self.record.axes.iter_mut().zip(self.vector.iter()).enumerate() {
-            axis.dev = *dev;
-            axis.dev_both_ways = both_ways.get(i).map_or(dev.abs(), |d| d.abs().max(dev.abs()));
         }
     }
 }

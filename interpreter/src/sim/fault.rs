@@ -15,7 +15,6 @@ use kontur_filters::control::fault::{Derivative, Fault};
 use kontur_filters::control::plant::PlantError;
 use kontur_filters::time::CycleTime;
 use kontur_motion::contouring::NoContour;
-use kontur_motion::profile::Infeasible;
 use kontur_motion::tolerance::Unkept;
 
 /// Cycles of standstill shown after the stop of a fault.
@@ -68,7 +67,7 @@ impl Simulation {
             return;
         }
         let diagnostic = self.describe(chain, condition, fault);
-        self.diagnostics.push(diagnostic);
+        self.messages.own.push(diagnostic);
         let reaction = condition.row().reaction;
         if reaction == Reaction::None {
             return;
@@ -86,7 +85,7 @@ impl Simulation {
             }
             self.planner.brake();
             if let Err(e) = self.independent.stop(self.record.k) {
-                self.diagnostics.push(internal(&e));
+                self.messages.own.push(internal(&format!("look-ahead: {e}")));
             }
             self.phase = Phase::Stopping(Stopping { told, ..Stopping::default() });
         }
@@ -162,7 +161,7 @@ impl Simulation {
         (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
         let at = self.stops_at[chain];
         d.source = self.executor.locate(if at.line > 0 { at } else { self.waits_at });
-        self.diagnostics.push(d);
+        self.messages.own.push(d);
         self.totals.aborted = true;
         self.phase = Phase::Done;
     }
@@ -304,8 +303,8 @@ pub(super) fn plant(error: &PlantError, machine: &Machine, chain: usize) -> Diag
 }
 
 /// A condition that the look-ahead excludes.
-pub(super) fn internal(error: &Infeasible) -> Diagnostic {
-    Diagnostic::new(Condition::Internal, format!("look-ahead: {error}")).hint(
+pub(super) fn internal(text: &str) -> Diagnostic {
+    Diagnostic::new(Condition::Internal, text).hint(
         "this is a fault in kontur itself: please report it with the program and the machine lists",
     )
 }
@@ -357,6 +356,19 @@ pub(super) fn thread_broken(why: SpeedChange, k: u64, cycle: CycleTime) -> Diagn
     d
 }
 
+/// Tells that the set path, as it is output, leaves the contour by more than the plan had promised.
+pub(super) fn exceeded(exceeded: &Unkept) -> Diagnostic {
+    let Unkept { deviation_mm, tolerance_mm, .. } = *exceeded;
+    let text = format!(
+        "deviation {deviation_mm:.6} mm exceeds AX_DEV {tolerance_mm:.6} mm, which the plan had kept"
+    );
+    Diagnostic::new(Condition::AxDevNotKept, text)
+        .severity(Severity::Warning)
+        .value(ValueKind::Current, deviation_mm, "mm")
+        .value(ValueKind::Limit, tolerance_mm, "mm")
+        .hint("the first place of the run; |dev| of the summary is the largest")
+}
+
 impl Simulation {
     /// K-0022, each place once.
     pub(super) fn switched_while_moving(&mut self) {
@@ -374,7 +386,7 @@ impl Simulation {
             d.cycle = Some(self.record.k + 1);
             d.time_s = Some(self.cycle.time_of(self.record.k + 1));
             d.source = self.executor.locate(at);
-            self.diagnostics.push(d);
+            self.messages.own.push(d);
         }
     }
 
@@ -392,24 +404,8 @@ impl Simulation {
         let source =
             self.underway.iter().find(|u| u.seq == unkept.seq).map_or(self.current, |u| u.source);
         d.source = self.executor.locate(source);
-        self.diagnostics.push(d);
+        self.messages.own.push(d);
         self.stop(Vec::new());
-    }
-
-    /// Tells that the set path, as it is output, leaves the contour by more than the plan had promised.
-    pub(super) fn exceeded(&mut self, exceeded: &Unkept) {
-        let Unkept { seq, deviation_mm, tolerance_mm } = *exceeded;
-        let text = format!(
-            "deviation {deviation_mm:.6} mm exceeds AX_DEV {tolerance_mm:.6} mm, which the plan had kept"
-        );
-        let mut d = Diagnostic::new(Condition::AxDevNotKept, text)
-            .severity(Severity::Warning)
-            .value(ValueKind::Current, deviation_mm, "mm")
-            .value(ValueKind::Limit, tolerance_mm, "mm")
-            .hint("the first place of the run; |dev| of the summary is the largest");
-        let source = self.underway.iter().find(|u| u.seq == seq).map_or(self.current, |u| u.source);
-        d.source = self.executor.locate(source);
-        self.diagnostics.push(d);
     }
 
     /// Reports the corners that were not contoured as asked for, each place once.
@@ -448,7 +444,7 @@ impl Simulation {
                     Diagnostic::new(condition, format!("{text}: the corner stays as programmed"))
                         .severity(crate::diag::Severity::Warning);
                 d.source = self.executor.locate(source);
-                self.diagnostics.push(d);
+                self.messages.own.push(d);
             }
         }
     }

@@ -57,7 +57,7 @@ impl Simulation {
             let mut d = Diagnostic::new(Condition::ProbeActuated, text);
             (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
             d.source = self.pending.as_ref().and_then(|(_, at, _)| self.executor.locate(*at));
-            self.diagnostics.push(d);
+            self.messages.own.push(d);
             self.totals.aborted = true;
             self.phase = Phase::Done;
         }
@@ -65,12 +65,12 @@ impl Simulation {
 
     /// Actual positions of the path axes.
     pub(super) fn actual_mm(&self) -> AxisVec {
-        self.record.axes.iter().map(|a| a.act).take(self.vector.len()).collect()
+        self.record.axes.iter().map(|a| a.act).take(self.path_axes()).collect()
     }
 
     /// Lags of the path axes.
     pub(super) fn lag_mm(&self) -> AxisVec {
-        self.record.axes.iter().map(|a| a.lag).take(self.vector.len()).collect()
+        self.record.axes.iter().map(|a| a.lag).take(self.path_axes()).collect()
     }
 
     /// Looks for the signal after a cycle; the path bends from the next one on.

@@ -7,14 +7,13 @@ use super::inputs::Inputs;
 use super::smoothing::Smoothing;
 use super::spindle::Spindle;
 use super::totals::Totals;
-use super::{Phase, Simulation, fault};
+use super::{Messages, Phase, Simulation, fault};
 use crate::diag::Diagnostic;
 use crate::exec::{Executor, Options, SourceRef};
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use kontur_filters::control::axis_control::AxisInputs;
-use kontur_motion::axis::AxisVec;
 use kontur_motion::planner::Planner;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -72,17 +71,14 @@ impl Simulation {
             pending: None,
             phase: Phase::Start,
             record: CycleRecord { axes: records, ..CycleRecord::default() },
-            set: start.clone(),
+            set: start[..n].iter().copied().collect(),
             path_position: start[..n].iter().copied().collect(),
             thread_delay: 0.0,
             thread: None,
             probing: None,
             planned: start[..n].iter().copied().collect(),
-            vector: AxisVec::zeros(n),
-            measures_deviation: true,
             max_cycles,
-            diagnostics,
-            unshown: 0,
+            messages: Messages { own: diagnostics, ..Messages::default() },
             machine,
             cycle,
             executor,
@@ -95,6 +91,7 @@ impl Simulation {
         }
         let setup = simulation.executor.shaping().clone();
         simulation.swap_kernels(&setup);
+        simulation.planner.report_changes(true);
         Ok(simulation)
     }
 }

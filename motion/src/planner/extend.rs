@@ -1,8 +1,9 @@
 //! From the queue to the timeline: plans, their examination, and what of them becomes final.
 
-use super::{OutputExcess, Planner};
+use super::Planner;
 use crate::asked::Asked;
 use crate::cap::{Cap, SpeedLimit};
+use crate::deviation::{Change, What};
 use crate::plan::{Segment, Start, last_blocks};
 use crate::profile::{Infeasible, SlopeLimits};
 use crate::queue::Queued;
@@ -85,7 +86,7 @@ impl Planner {
     /// A tolerance is not kept, and that is told; what is output will show it, too.
     fn give_up(&mut self, unkept: Unkept) {
         self.unkept.push(unkept);
-        self.output_excess = OutputExcess::Told;
+        self.report(|_| What::Told);
     }
 
     /// Examines a plan of the window behind everything that is final, see [`Monitor::examine`].
@@ -225,6 +226,9 @@ impl Planner {
     pub(super) fn append(&mut self, entry: Entry, dwell: u32) {
         for (cycles, s, queued) in entry.entries(self.cycle) {
             self.contour.enter(cycles, s, Arc::clone(queued));
+            if let (Some(changes), Some(passed)) = (&mut self.changes, self.contour.last()) {
+                changes.push(Change(What::Enters(passed.clone())));
+            }
         }
         let mut start = Start {
             moment: entry.end,

@@ -29,6 +29,7 @@ use super::extend::held_to;
 use super::feedhold::feedhold_slope;
 use crate::asked::Asked;
 use crate::cap::{Cap, SpeedLimit};
+use crate::deviation::What;
 use crate::lookahead::plan;
 use crate::plan::{Plan, Segment, Start};
 use crate::profile::{Profile, SlopeLimits};
@@ -327,6 +328,7 @@ impl Planner {
             self.plan = before;
             self.contour.restore(stays, left);
         }
+        self.report(|planner| What::Contour(planner.contour.clone()));
         outcome
     }
 
