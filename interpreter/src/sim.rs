@@ -163,10 +163,12 @@ impl Simulation {
         self.chains.get(chain).is_some_and(AxisChain::has_tool_point)
     }
 
-    /// Messages since the last call.
-    pub(crate) fn take_messages(&mut self) -> Messages {
-        self.messages.program = self.executor.take_diagnostics();
-        std::mem::take(&mut self.messages)
+    /// Messages since the last call, if there are any.
+    pub(crate) fn take_messages(&mut self) -> Option<Messages> {
+        if self.executor.has_diagnostics() {
+            self.messages.program = self.executor.take_diagnostics();
+        }
+        (!self.messages.is_empty()).then(|| std::mem::take(&mut self.messages))
     }
 
     /// Number of path axes.

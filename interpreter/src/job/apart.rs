@@ -29,7 +29,7 @@ pub(super) struct Apart {
     taken: usize,
     over: bool,
     /// Raised behind the last cycle.
-    closing: Messages,
+    closing: Option<Messages>,
 }
 
 /// Consecutive cycles.
@@ -38,17 +38,17 @@ struct Stretch {
     records: Vec<CycleRecord>,
     count: usize,
     /// Raised in the last one of them.
-    messages: Messages,
+    messages: Option<Messages>,
 }
 
 impl Stretch {
-    /// Computes cycles until one raises a message. If there are no more, what was raised behind the last one comes back.
-    fn compute(&mut self, simulation: &mut Simulation, samples: &mut Samples) -> Option<Messages> {
+    /// Computes cycles until one raises a message; false if there are no more.
+    fn compute(&mut self, simulation: &mut Simulation, samples: &mut Samples) -> bool {
         self.count = 0;
         samples.clear();
-        while self.count < TOGETHER && self.messages.is_empty() {
+        while self.count < TOGETHER && self.messages.is_none() {
             if !simulation.next_cycle() {
-                return Some(simulation.take_messages());
+                return false;
             }
             self.messages = simulation.take_messages();
             simulation.sample(samples);
@@ -58,7 +58,7 @@ impl Stretch {
             }
             self.count += 1;
         }
-        None
+        true
     }
 }
 
@@ -92,7 +92,7 @@ impl Apart {
             samples: Samples::default(),
             taken: 1,
             over: false,
-            closing: Messages::default(),
+            closing: None,
         })
     }
 
@@ -113,9 +113,9 @@ impl Apart {
         let stretch = &mut self.stretches[0];
         self.samples.fill(self.taken, &mut stretch.records[self.taken]);
         if self.taken + 1 == stretch.count {
-            raised.absorb(std::mem::take(&mut stretch.messages));
+            raised.absorb(stretch.messages.take());
         }
-        raised.absorb(simulation.exceeded(&self.samples, self.taken));
+        simulation.exceeded(&self.samples, self.taken).into_iter().for_each(|d| raised.push(d));
         self.taken += 1;
         true
     }
@@ -125,8 +125,8 @@ impl Apart {
         while !self.over && self.stretches.len() <= AHEAD {
             let mut stretch = self.free.take().unwrap_or_default();
             let mut samples = std::mem::take(&mut self.samples);
-            if let Some(closing) = stretch.compute(simulation, &mut samples) {
-                (self.over, self.closing) = (true, closing);
+            if !stretch.compute(simulation, &mut samples) {
+                (self.over, self.closing) = (true, simulation.take_messages());
             }
             if stretch.count > 0 {
                 self.stretches.push_back(stretch);
@@ -135,7 +135,7 @@ impl Apart {
             }
         }
         if self.stretches.len() == 1 {
-            raised.absorb(std::mem::take(&mut self.closing));
+            raised.absorb(self.closing.take());
             return false;
         }
         let Ok(samples) = self.measured.recv() else {

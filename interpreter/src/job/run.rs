@@ -219,12 +219,12 @@ impl Run {
         } else {
             let computed = simulation.next_cycle();
             raised.absorb(simulation.take_messages());
-            if computed {
+            if computed && simulation.is_measured() {
                 samples.clear();
                 simulation.sample(samples);
                 measuring.measure(samples);
                 samples.fill(0, simulation.record_mut());
-                raised.absorb(simulation.exceeded(samples, 0));
+                simulation.exceeded(samples, 0).into_iter().for_each(|d| raised.push(d));
             }
             computed
         };

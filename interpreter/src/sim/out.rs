@@ -94,14 +94,11 @@ impl Simulation {
     }
 
     /// What the deviation of a sample says, if it is the first that exceeds a tolerance.
-    pub(crate) fn exceeded(&mut self, samples: &Samples, i: usize) -> Messages {
-        let mut messages = Messages::default();
-        if let Some((_, exceeded)) = samples.exceeded.filter(|(at, _)| *at == i) {
-            let mut d = fault::exceeded(&exceeded);
-            d.source = self.executor.locate(samples.cycles[i].at);
-            messages.own.push(d);
-        }
-        messages
+    pub(crate) fn exceeded(&mut self, samples: &Samples, i: usize) -> Option<Diagnostic> {
+        let (_, exceeded) = samples.exceeded.filter(|(at, _)| *at == i)?;
+        let mut d = fault::exceeded(&exceeded);
+        d.source = self.executor.locate(samples.cycles[i].at);
+        Some(d)
     }
 }
 
@@ -159,7 +156,7 @@ pub(crate) struct Messages {
 }
 
 impl Messages {
-    pub(crate) const fn is_empty(&self) -> bool {
+    pub(super) const fn is_empty(&self) -> bool {
         self.own.is_empty() && self.program.is_empty() && self.unshown == 0
     }
 
@@ -172,11 +169,14 @@ impl Messages {
         }
     }
 
-    /// Adds later ones.
-    pub(crate) fn absorb(&mut self, later: Self) {
-        later.own.into_iter().for_each(|message| self.push(message));
-        self.unshown += later.unshown;
-        self.program.extend(later.program);
+    /// Adds later ones, if there are any.
+    pub(crate) fn absorb(&mut self, later: Option<Self>) {
+        let Some(Self { own, unshown, program }) = later else { return };
+        for message in own {
+            self.push(message);
+        }
+        self.unshown += unshown;
+        self.program.extend(program);
     }
 
     /// All of them, as a list.

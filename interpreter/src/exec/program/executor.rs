@@ -220,6 +220,11 @@ impl Executor {
         }
     }
 
+    /// [`Self::take_diagnostics`] would return some.
+    pub(crate) fn has_diagnostics(&self) -> bool {
+        self.found.any()
+    }
+
     /// Diagnostics since the last call.
     pub(crate) fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
         self.found.take()

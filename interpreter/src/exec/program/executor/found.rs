@@ -57,6 +57,11 @@ impl Found {
         self.diagnostics.push(diagnostic);
     }
 
+    /// Something has been reported since the last call of [`Self::take`].
+    pub(super) fn any(&self) -> bool {
+        !self.diagnostics.is_empty()
+    }
+
     /// Diagnostics since the last call.
     pub(super) fn take(&mut self) -> Vec<Diagnostic> {
         std::mem::take(&mut self.diagnostics)
