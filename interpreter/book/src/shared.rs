@@ -10,6 +10,7 @@ const DOCUMENTS: &[(&str, &str)] = &[
     ("CONTRIBUTING.md", "contributing.md"),
     ("interpreter/docs/language.md", "language.md"),
     ("interpreter/docs/running.md", "running.md"),
+    ("interpreter/docs/performance.md", "performance.md"),
     ("interpreter/docs/trace.md", "trace.md"),
     ("interpreter/cli/docs/figures.md", "figures.md"),
     ("interpreter/docs/ci.md", "ci.md"),
