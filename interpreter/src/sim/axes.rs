@@ -53,8 +53,9 @@ impl Simulation {
         let setpoint = self.planner.setpoint();
         let mut faults = Vec::new();
         let mut positions = setpoint.position.clone();
+        let alone = !self.independent.is_unused();
         for (p, position) in positions.iter_mut().enumerate() {
-            *position += self.independent.way_mm(p, k);
+            *position += if alone { self.independent.way_mm(p, k) } else { 0.0 };
         }
         if self.thread_delay > 0.0 {
             for (p, position) in positions.iter_mut().enumerate() {
@@ -62,7 +63,9 @@ impl Simulation {
                 *position += (before - *position) * self.thread_delay;
             }
         }
-        self.independent.follow(&mut positions);
+        if alone {
+            self.independent.follow(&mut positions);
+        }
         self.spindles.iter_mut().for_each(|s| s.cut(&positions));
         let spindles: SmallVec<[f64; 4]> =
             self.spindles.iter_mut().map(|s| s.step(&positions, self.cycle)).collect();
@@ -92,8 +95,9 @@ impl Simulation {
         // what is measured against the contour: the set position without the ways of independent axes; while one of them
         // moves, it does not count
         for (p, set) in self.set.iter_mut().enumerate() {
-            let on_its_way = self.independent.is_on_its_way(p, self.chains[p].settled());
-            *set = if on_its_way {
+            *set = if !alone {
+                self.record.axes[p].set
+            } else if self.independent.is_on_its_way(p, self.chains[p].settled()) {
                 setpoint.position[p]
             } else {
                 self.record.axes[p].set - self.independent.done_mm(p)

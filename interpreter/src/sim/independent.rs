@@ -77,11 +77,18 @@ struct Lane {
 #[derive(Clone, Debug)]
 pub(super) struct IndependentAxes {
     lanes: Vec<Lane>,
+    /// One of them has moved or was coupled.
+    used: bool,
 }
 
 impl IndependentAxes {
     pub(super) fn new(axes: usize) -> Self {
-        Self { lanes: vec![Lane::default(); axes] }
+        Self { lanes: vec![Lane::default(); axes], used: false }
+    }
+
+    /// No axis has ever moved beside the path: all ways are 0.
+    pub(super) fn is_unused(&self) -> bool {
+        !self.used
     }
 
     /// Starts a motion in cycle `k`.
@@ -97,6 +104,7 @@ impl IndependentAxes {
         let motion = IndependentMove::new(from_mm, to_mm, speed, slope, dynamics, cycle)?;
         if let Some(lane) = self.lanes.get_mut(axis) {
             lane.underway = Some(Underway { motion, from_mm, k });
+            self.used = true;
         }
         Ok(())
     }
@@ -124,6 +132,7 @@ impl IndependentAxes {
         if let Some(lane) = self.lanes.get_mut(axis) {
             lane.underway = Some(Underway { motion, from_mm, k });
             lane.oscillation = Some(Box::new(oscillation));
+            self.used = true;
         }
         Ok(())
     }
@@ -160,6 +169,7 @@ impl IndependentAxes {
     pub(super) fn shift(&mut self, axis: usize, offset_mm: f64) {
         if let Some(lane) = self.lanes.get_mut(axis) {
             lane.done_mm += offset_mm;
+            self.used = true;
         }
     }
 
@@ -167,6 +177,7 @@ impl IndependentAxes {
     pub(super) fn couple(&mut self, slave: usize, master: usize, ratio: f64, master_mm: f64) {
         if let Some(lane) = self.lanes.get_mut(slave) {
             lane.coupling = Some(Coupling { master, ratio, master_mm, way_mm: 0.0 });
+            self.used = true;
         }
     }
 
