@@ -78,18 +78,6 @@ fn a_change_of_side_crosses_the_contour() {
 }
 
 #[test]
-fn contours_that_are_too_tight() {
-    let id = |text: &str| run(&format!("{TOOL}{text}\nM30\n")).ids();
-    assert_eq!(id("G42 X0 Y-10\nY0\nX1\nY-10\nG40 X5"), ["K-0115"]);
-    assert_eq!(id("G42 Y-10\nY0\nG02 X2 I1\nG40 G01 Y-30"), ["90031"]);
-    assert_eq!(id("G41 G02 X10 I5"), ["90008"]);
-    assert_eq!(id("G41 X10\nG18\nX20"), ["20133"]);
-    assert_eq!(id("G41 X10\nX20\n#FLUSH WAIT\nX30\nG40 Y5"), ["20651"]);
-    assert_eq!(id("G41 X10 G42"), ["20114"]);
-    assert_eq!(run("G26 G41 X10 F100\nX20\nG40 X30\nM30\n").ids(), ["K-0114"]);
-}
-
-#[test]
 fn mirroring_keeps_the_tool_on_its_side_of_the_programmed_contour() {
     let e = ends("G71 G21 G41 X10 Y0\nX20\nG40 X30");
     // the contour runs to -X, the tool stays above it

@@ -231,19 +231,6 @@ fn jumps_back_are_loops() {
     assert!((macros.end[0] - 31.0).abs() < 1e-12);
 }
 
-#[test]
-fn loops_without_end_are_stopped() {
-    use super::{Options, machine, run_with};
-    use crate::source::MemorySources;
-    let options = Options { max_blocks_at_rest: 1000, max_blocks: 5000, ..Options::default() };
-    let text = "$DO\nP1=1\n$ENDDO\nM30\n";
-    let run = run_with(MemorySources::new().with("main.nc", text), machine(&[]), options.clone());
-    assert_eq!(run.ids(), ["K-0017"]);
-    let text = "F100\n$DO\nG91 X1\nX-1\n$ENDDO\nM30\n";
-    let run = run_with(MemorySources::new().with("main.nc", text), machine(&[]), options);
-    assert_eq!(run.ids(), ["K-0017"]);
-}
-
 /// Functions and messages are handed over a thousand at a time, and a loop of them is one without motion.
 #[test]
 fn events_without_motion_are_handed_over_and_the_loop_is_stopped() {
