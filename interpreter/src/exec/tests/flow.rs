@@ -1,6 +1,6 @@
 //! Expressions, parameters, variables and control blocks.
 
-use super::{assert_end, clean, run, skipping};
+use super::{assert_end, clean, run, run_on, said, skipping};
 
 /// Text of the single message.
 #[track_caller]
@@ -27,12 +27,11 @@ fn expressions() {
 
 #[test]
 fn faults_of_expressions() {
-    let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("P2=LN[-1]"), ["20399"]);
-    assert_eq!(id("P2=5 MOD 0"), ["20396"]);
-    assert_eq!(id("P2=10**400"), ["K-0009"]);
-    assert_eq!(id("V.L.A=1"), ["K-0012"]);
-    assert_eq!(id("P1=V.G.FEDRATE"), ["K-0012"]);
+    assert_eq!(said("P2=LN[-1]"), ["20399"]);
+    assert_eq!(said("P2=5 MOD 0"), ["20396"]);
+    assert_eq!(said("P2=10**400"), ["K-0009"]);
+    assert_eq!(said("V.L.A=1"), ["K-0012"]);
+    assert_eq!(said("P1=V.G.FEDRATE"), ["K-0012"]);
 }
 
 #[test]
@@ -264,9 +263,7 @@ fn macros() {
 #[test]
 fn parameters_of_earlier_programs_do_not_exist() {
     // P-CHAN-00067: every run is the first program
-    let sources = crate::source::MemorySources::new().with("main.nc", "X P1 F100\nM30\n");
-    let machine = super::machine(&["channel.p_param_haltend=1"]);
-    let run = super::run_with(sources, machine, super::Options::default());
+    let run = run_on(&["channel.p_param_haltend=1"], "X P1 F100\nM30\n");
     assert_eq!(run.ids(), ["20925"]);
     assert!(run.diagnostics[0].hint.as_deref().is_some_and(|h| h.contains("P-CHAN-00067")));
 }

@@ -1,12 +1,10 @@
 //! `#VIB GUARD` and `#FILTER`: keys, persistence, conflicts.
 
-use super::{Options, Run, Sync, clean, machine, places, run, run_with};
+use super::{Run, Sync, clean, places, run, run_on};
 use crate::exec::step::{AxisShaping, ShapingSettings};
-use crate::source::MemorySources;
 
 fn on(text: &str, settings: &[&str]) -> Run {
-    let sources = MemorySources::new().with("main.nc", format!("{text}\nM30\n"));
-    run_with(sources, machine(settings), Options::default())
+    run_on(settings, &format!("{text}\nM30\n"))
 }
 
 fn setups(run: &Run) -> Vec<&AxisShaping> {
