@@ -8,8 +8,8 @@
 
 mod common;
 
-use common::random::Random;
 use common::{Job, axis, channel, second_order_time};
+use kontur_kit::{Random, count};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
 use kontur_motion::block::{Block, ContourMode, ContourSettings, SlopeKind};
@@ -36,7 +36,7 @@ fn limits(r: &mut Random) -> AxisDynamics {
 /// Lines and arcs; most corners are sharp, some arcs go on tangentially.
 fn contour(r: &mut Random) -> Vec<Path> {
     let (mut at, mut heading) = ([0.0_f64, 0.0], 0.0);
-    let count = 2 + (r.next() * 10.0) as usize;
+    let count = 2 + (r.ratio() * 10.0) as usize;
     let arcs = r.pick(&[0.0, 0.3, 0.6]);
     let smallest = r.pick(&[0.03, 0.3]);
     (0..count)
@@ -136,8 +136,8 @@ fn bound(blocks: &[Block], a: &AxisDynamics) -> (f64, usize) {
 /// the acceleration is just reached: 4 t against `2 sqrt(2) t`), sine-square ramps as much; beyond it 5 %.
 #[test]
 fn a_larger_tolerance_never_lengthens_and_nothing_crawls() {
-    let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(25);
-    let mut r = Random(8);
+    let count = count(25);
+    let mut r = Random::from_state(8);
     let (mut most_longer, mut most_over) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     for program in 0..count {
         let paths = contour(&mut r);

@@ -4,8 +4,8 @@
 
 mod common;
 
-use common::random::Random;
 use common::{Job, axis, channel};
+use kontur_kit::{Random, count};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, Feed, Slope};
@@ -13,7 +13,7 @@ use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use kontur_motion::planner::Setpoint;
 
 fn limits(r: &mut Random) -> AxisDynamics {
-    let mut a = axis(if r.next() < 0.3 { 0.0 } else { r.log(0.05, 1.0) });
+    let mut a = axis(if r.ratio() < 0.3 { 0.0 } else { r.log(0.05, 1.0) });
     let acc = r.log(200.0, 10_000.0);
     let ramp = r.log(0.001, 0.1);
     a.v_max_mm_s = r.log(50.0, 2000.0);
@@ -28,15 +28,15 @@ fn limits(r: &mut Random) -> AxisDynamics {
 fn contour(r: &mut Random, count: usize) -> Vec<Path> {
     let mut at = [0.0_f64, 0.0];
     let mut heading: f64 = 0.0;
-    let smooth = r.next() < 0.5;
-    let long = if r.next() < 0.3 { 1000.0 } else { 5.0 };
+    let smooth = r.ratio() < 0.5;
+    let long = if r.ratio() < 0.3 { 1000.0 } else { 5.0 };
     (0..count)
         .map(|_| {
-            heading += if smooth { 0.2 * (r.next() - 0.5) } else { 6.0 * (r.next() - 0.5) };
+            heading += if smooth { 0.2 * (r.ratio() - 0.5) } else { 6.0 * (r.ratio() - 0.5) };
             let (sin, cos) = libm::sincos(heading);
             let from = AxisVec::from_slice(&at);
-            if r.next() < 0.2 {
-                let (radius, sweep) = (r.log(0.05, 50.0), 4.0 * (r.next() - 0.5));
+            if r.ratio() < 0.2 {
+                let (radius, sweep) = (r.log(0.05, 50.0), 4.0 * (r.ratio() - 0.5));
                 let side = sweep.signum();
                 let centre_mm = [at[0] - side * radius * sin, at[1] + side * radius * cos];
                 heading += sweep;
@@ -99,7 +99,7 @@ fn load(job: &Job, out: &[Setpoint]) -> (f64, f64, f64) {
 /// together: each of them keeps the limit of the axis for itself.
 #[test]
 fn velocity_and_acceleration_of_the_axes() {
-    let mut r = Random(1);
+    let mut r = Random::from_state(1);
     let mut worst = 0.0_f64;
     for program in 0..60 {
         let paths = contour(&mut r, 60);
@@ -123,14 +123,14 @@ fn velocity_and_acceleration_of_the_axes() {
 /// The same with feeds that change from block to block, without and with G901, which never costs time; cut anywhere too.
 #[test]
 fn changes_of_feed_with_and_without_late_braking() {
-    let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(6);
-    let mut r = Random(6);
+    let count = count(6);
+    let mut r = Random::from_state(6);
     for program in 0..count {
         let paths = contour(&mut r, 60);
         let axes = vec![limits(&mut r), limits(&mut r)];
         let feed = r.log(5.0, 1000.0);
         let feeds: Vec<f64> = (0..7).map(|_| feed * r.log(0.05, 1.0)).collect();
-        let cut = 1 + (r.next() * 59.0) as usize;
+        let cut = 1 + (r.ratio() * 59.0) as usize;
         for slope in kinds() {
             let job = job(axes.clone(), slope);
             let mut cycles = usize::MAX;
@@ -155,7 +155,7 @@ fn changes_of_feed_with_and_without_late_braking() {
 /// Along straight lines without kinks there is nothing but the slope: its acceleration and its jerk.
 #[test]
 fn acceleration_and_jerk_without_kinks() {
-    let mut r = Random(2);
+    let mut r = Random::from_state(2);
     for program in 0..40 {
         let (mut x, mut points) = (0.0, vec![[0.0, 0.0]]);
         for _ in 0..80 {
@@ -186,7 +186,7 @@ fn acceleration_and_jerk_without_kinks() {
 /// The path can be left at the end of any block: what comes later is not needed to keep the limits.
 #[test]
 fn a_program_may_be_cut_anywhere() {
-    let mut r = Random(3);
+    let mut r = Random::from_state(3);
     for program in 0..6 {
         let paths = contour(&mut r, 30);
         let axes = vec![limits(&mut r), limits(&mut r)];
@@ -206,12 +206,12 @@ fn a_program_may_be_cut_anywhere() {
 /// With symmetric limits a contour takes the same time in both directions.
 #[test]
 fn a_reversed_contour_takes_the_same_time() {
-    let mut r = Random(4);
+    let mut r = Random::from_state(4);
     for program in 0..20 {
         let mut at = [0.0, 0.0];
         let mut points = vec![at];
         for _ in 0..40 {
-            at = [at[0] + r.log(0.01, 5.0), at[1] + 4.0 * (r.next() - 0.5)];
+            at = [at[0] + r.log(0.01, 5.0), at[1] + 4.0 * (r.ratio() - 0.5)];
             points.push(at);
         }
         let axes = vec![limits(&mut r), limits(&mut r)];
@@ -233,7 +233,7 @@ fn a_reversed_contour_takes_the_same_time() {
 /// More look-ahead never costs time, and a second run changes no bit.
 #[test]
 fn more_lookahead_and_a_second_run() {
-    let mut r = Random(5);
+    let mut r = Random::from_state(5);
     for program in 0..15 {
         let paths = contour(&mut r, 150);
         let axes = vec![limits(&mut r), limits(&mut r)];
@@ -266,7 +266,7 @@ fn more_lookahead_and_a_second_run() {
 /// reach from the speed that is already final, and go on with the one before.
 #[test]
 fn a_final_speed_is_never_too_high() {
-    let mut r = Random(77);
+    let mut r = Random::from_state(77);
     for program in 0..364 {
         let paths = contour(&mut r, 120);
         let axes = vec![limits(&mut r), limits(&mut r)];

@@ -4,8 +4,8 @@
 
 mod common;
 
-use common::random::Random;
 use common::{Job, axis, channel};
+use kontur_kit::{Random, count, seed};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, Feed, Slope, VectorLimits};
@@ -318,22 +318,21 @@ fn slopes() -> Vec<Slope> {
 /// limit of the slope kept, and so at every point at which the program may be cut.
 #[test]
 fn random_straight_programs() {
-    let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(60);
-    let seed: u64 = std::env::var("SEED").ok().and_then(|c| c.parse().ok()).unwrap_or(1);
-    let mut r = Random(seed);
+    let count = count(60);
+    let mut r = Random::from_state(seed());
     let (mut gained, mut runs) = (0_usize, 0_usize);
     for program in 0..count {
         let a = limits(&mut r);
         let longest = r.pick(&[0.5, 5.0, 50.0]);
         let share = r.pick(&[0.5, 0.9, 1.0]);
-        let n = 3 + (r.next() * 40.0) as usize;
+        let n = 3 + (r.ratio() * 40.0) as usize;
         let mut feed = 0.0;
         let pieces: Vec<Piece> = (0..n)
             .map(|_| {
-                if feed <= 0.0 || r.next() < 0.6 {
+                if feed <= 0.0 || r.ratio() < 0.6 {
                     feed = r.log(5.0, 500.0);
                 }
-                (r.log(1e-3, longest), feed, r.next() < share)
+                (r.log(1e-3, longest), feed, r.ratio() < share)
             })
             .collect();
         let early: Vec<Piece> = pieces.iter().map(|p| (p.0, p.1, false)).collect();
@@ -355,7 +354,7 @@ fn random_straight_programs() {
             check(&a, slope, &drive(&job, &early), &early, &format!("early {name}"));
             gained += most.saturating_sub(late.len());
             runs += 1;
-            let cut = 1 + (r.next() * (n - 1) as f64) as usize;
+            let cut = 1 + (r.ratio() * (n - 1) as f64) as usize;
             for out in [&late, &drive(&job, &pieces[..cut])] {
                 check(&a, slope, out, &pieces, &name);
             }

@@ -1,23 +1,21 @@
-//! With `AX_DEV`: more of what helps never costs time, and neither does another form of the same contour.
+//! With `AX_DEV`: more of what helps never costs time.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod common;
 
-use common::random::Random;
-use common::{Job, axis, channel};
+use common::{Job, axis, channel, contour};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_kit::{Random, count, seed};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Trapez};
 use kontur_motion::block::Tolerance;
 
 const CYCLE_US: u32 = 1000;
 
-/// Parts of the time: a higher feed, a larger tolerance, mirrored or permuted or moved by 1e-9 mm, every line in two, half
-/// a percent more frequency or tolerance. For another form of the same contour a thousandth is wanted: one of these contours
-/// needs 0.22 %, because the search for the speeds ends elsewhere.
-const BOUNDS: [f64; 5] = [0.01, 0.01, 2.5e-3, 0.08, 0.04];
+/// Part of the time by which a higher feed or a larger tolerance may lengthen it.
+const BOUND: f64 = 0.01;
 
 type Points = Vec<[f64; 3]>;
 
@@ -36,9 +34,9 @@ struct Case {
 impl Case {
     fn new(r: &mut Random) -> Self {
         let guard = VibGuardSettings {
-            mode: 1 + (4.0 * r.next()) as u8,
+            mode: 1 + (4.0 * r.ratio()) as u8,
             freq_hz: r.log(10.0, 80.0),
-            damping: 0.2 * r.next(),
+            damping: 0.2 * r.ratio(),
         };
         Self {
             kind: r.pick(&[Hsc, Trapez, Sin2]),
@@ -48,7 +46,7 @@ impl Case {
             kink_weight: r.log(1.0, 30.0),
             guard,
             tolerance: Tolerance { ax_dev_mm: Some(r.log(0.002, 0.05)), acc_fact: 1.0 },
-            points: r.contour(100),
+            points: contour(r, 100),
         }
     }
 
@@ -85,59 +83,24 @@ fn rises(case: &Case, harder: impl Fn(f64) -> Case) -> f64 {
     most
 }
 
-/// The bounds are wider than what is wanted (0.1 % for another form, nothing for more feed or tolerance): the search for who
-/// has to slow down is no optimum. With other seeds a higher feed costs up to 1.4 %. `COUNT=200 SEED=7` takes more contours;
-/// what is found is printed.
+/// The bound is wider than what is wanted: the search for who has to slow down is no optimum. With other seeds a higher feed
+/// costs up to 1.4 %, and a larger tolerance 2.1 % (`SEED=5`). `COUNT=200 SEED=7` takes more contours; what is found is
+/// printed.
 #[test]
-fn more_feed_or_tolerance_and_another_form() {
-    let environment = |name: &str, default: u64| {
-        std::env::var(name).ok().and_then(|c| c.parse().ok()).unwrap_or(default)
-    };
-    let mut r = Random(environment("SEED", 5));
-    let mut most = [0.0_f64; 5];
-    for n in 0..environment("COUNT", 40) {
+fn more_feed_or_tolerance() {
+    let mut r = Random::from_state(seed());
+    for n in 0..count(40) {
         let case = Case::new(&mut r);
-        let tolerance_mm = case.tolerance.ax_dev_mm.unwrap();
         let faster =
             |x: f64| Case { feed_mm_s: case.feed_mm_s * libm::pow(1.6, x), ..case.clone() };
         let looser = |x: f64| {
-            let ax_dev_mm = Some(tolerance_mm * libm::pow(1.3, x));
+            let ax_dev_mm = case.tolerance.ax_dev_mm.map(|mm| mm * libm::pow(1.3, x));
             Case { tolerance: Tolerance { ax_dev_mm, ..case.tolerance }, ..case.clone() }
         };
-        let base = case.cycles();
-        let apart = |other: &Case| {
-            let cycles = other.cycles().abs_diff(base).saturating_sub(2);
-            cycles as f64 / base as f64
-        };
-        let form = |points: Points| apart(&Case { points, ..case.clone() });
-        let mut split = vec![case.points[0]];
-        for w in case.points.windows(2) {
-            let u = r.between(0.1, 0.9);
-            split.push([0, 1, 2].map(|i| w[0][i] + u * (w[1][i] - w[0][i])));
-            split.push(w[1]);
-        }
-        let mut moved = |p: &[f64; 3]| p.map(|c| c + 1e-9 * r.between(-1.0, 1.0));
-        let same = [
-            form(case.points.iter().map(|p| [-p[0], p[1], p[2]]).collect()),
-            form(case.points.iter().map(|p| [p[1], p[0], p[2]]).collect()),
-            form(case.points.iter().map(&mut moved).collect()),
-        ];
-        let mut neighbour = case.clone();
-        neighbour.guard.freq_hz *= 1.005;
-        let found = [
-            rises(&case, faster),
-            rises(&case, looser),
-            same.into_iter().fold(0.0, f64::max),
-            form(split),
-            apart(&neighbour).max(apart(&looser(0.02))),
-        ];
-        println!("{n}: {found:.4?} {base} cycles");
-        for ((m, f), bound) in most.iter_mut().zip(found).zip(BOUNDS) {
-            assert!(f <= bound, "{n}: {found:.4?} {case:?}");
-            *m = m.max(f);
-        }
+        let found = [rises(&case, faster), rises(&case, looser)];
+        println!("{n}: {found:.4?}");
+        assert!(found.iter().all(|rise| *rise <= BOUND), "{n}: {found:.4?} {case:?}");
     }
-    println!("feed, tolerance, same form, in two, neighbours: {most:.4?}");
 }
 
 /// Chords of circles, whose kinks lie within reach of each other at one feed and apart at another: a higher feed hardly ends

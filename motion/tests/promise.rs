@@ -11,11 +11,11 @@
 
 mod common;
 
-use common::random::Random;
 use common::{axis, channel};
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_kit::{Random, environment};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
 use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
@@ -280,7 +280,7 @@ fn contour(r: &mut Random, kind: usize) -> (&'static str, Vec<Point>) {
         }),
         2 => ("trochoid", {
             let (radius, feed) = (r.log(0.3, 5.0), r.between(0.02, 0.3));
-            let n = 20 + (r.next() * 40.0) as usize;
+            let n = 20 + (r.ratio() * 40.0) as usize;
             (0..2 * n)
                 .map(|i| {
                     let a = TAU * i as f64 / n as f64;
@@ -291,7 +291,7 @@ fn contour(r: &mut Random, kind: usize) -> (&'static str, Vec<Point>) {
         3 => ("walk", {
             let scale = r.log(0.05, 5.0);
             let mut p = [0.0; 3];
-            (0..3 + (r.next() * 12.0) as usize)
+            (0..3 + (r.ratio() * 12.0) as usize)
                 .map(|_| {
                     let here = p;
                     for c in &mut p {
@@ -303,7 +303,7 @@ fn contour(r: &mut Random, kind: usize) -> (&'static str, Vec<Point>) {
         }),
         4 => ("reversals", {
             let (a, scale) = (r.between(0.0, PI), r.log(0.1, 10.0));
-            (0..3 + (r.next() * 8.0) as usize)
+            (0..3 + (r.ratio() * 8.0) as usize)
                 .map(|i| {
                     let s = scale * r.between(0.2, 1.0) * if i % 2 == 0 { 1.0 } else { -1.0 };
                     [s * libm::cos(a), s * libm::sin(a), 0.0]
@@ -338,19 +338,19 @@ fn contour(r: &mut Random, kind: usize) -> (&'static str, Vec<Point>) {
 
 fn random_case(r: &mut Random, kind: usize) -> (&'static str, Case) {
     let (name, points) = contour(r, kind);
-    let cycle_us = [500, 1000, 2000, 4000][(r.next() * 4.0) as usize];
-    let (mode, freq) = (1 + (r.next() * 4.0) as u8, r.log(8.0, 120.0));
-    let damping = 0.3 * r.next();
+    let cycle_us = [500, 1000, 2000, 4000][(r.ratio() * 4.0) as usize];
+    let (mode, freq) = (1 + (r.ratio() * 4.0) as u8, r.log(8.0, 120.0));
+    let damping = 0.3 * r.ratio();
     let mut kernels = [1, 2, 3].map(|_| kernel(mode, freq, damping, cycle_us));
-    if r.next() < 0.2 {
+    if r.ratio() < 0.2 {
         kernels = [1, 2, 3].map(|_| {
-            let mode = 1 + (r.next() * 4.0) as u8;
+            let mode = 1 + (r.ratio() * 4.0) as u8;
             kernel(mode, freq * r.between(0.7, 1.4), damping, cycle_us)
         });
     }
     let case = Case {
         points,
-        kind: [Trapez, Sin2, Hsc][(r.next() * 3.0) as usize],
+        kind: [Trapez, Sin2, Hsc][(r.ratio() * 3.0) as usize],
         cycle_us,
         feed_mm_s: r.log(8.0, 330.0),
         tolerance_mm: r.log(2e-3, 0.2),
@@ -359,10 +359,6 @@ fn random_case(r: &mut Random, kind: usize) -> (&'static str, Case) {
         ramp_s: r.log(0.005, 0.05),
     };
     (name, case)
-}
-
-fn environment(name: &str, default: u64) -> u64 {
-    std::env::var(name).ok().and_then(|c| c.parse().ok()).unwrap_or(default)
 }
 
 /// Prints what it finds; `VERBOSE=1` every contour, `ONLY=17` that one alone, `EVEN=1` the time of the best even speed.
@@ -377,8 +373,8 @@ fn random_contours_are_kept_both_ways() {
         if environment("ONLY", n) != n {
             continue;
         }
-        let mut r = Random(seed * 1_000_003 + n);
-        r.next();
+        let mut r = Random::from_state(seed * 1_000_003 + n);
+        r.ratio();
         let kind = (n % 8) as usize;
         let (name, case) = random_case(&mut r, kind);
         let start = std::time::Instant::now();
@@ -423,8 +419,8 @@ fn random_contours_are_kept_both_ways() {
 #[test]
 fn dents_between_the_points_of_a_cycle() {
     for (seed, n) in [(5, 74), (5, 290), (5, 345), (9, 156), (9, 201)] {
-        let mut r = Random(seed * 1_000_003 + n);
-        r.next();
+        let mut r = Random::from_state(seed * 1_000_003 + n);
+        r.ratio();
         let (name, case) = random_case(&mut r, (n % 8) as usize);
         let d = drive(&case);
         for (most, at) in both_ways(&case, &d.points, &d.seqs) {

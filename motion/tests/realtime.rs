@@ -9,9 +9,9 @@
 mod common;
 
 use common::events::{Event, drive, line};
-use common::random::Random;
 use common::{Job, axis, channel, deviation};
 use kontur_filters::time::CycleTime;
+use kontur_kit::{Random, environment};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Feed, SlopeKind};
@@ -156,12 +156,12 @@ impl Case {
         let kind = r.pick(&[Step, Trapez, Trapez, Sin2, Hsc]);
         let mut axes = vec![axis(r.pick(&[0.0, 0.3, 1.0])); 2];
         for a in &mut axes {
-            a.v_max_mm_s = 60.0 + 200.0 * r.next();
+            a.v_max_mm_s = 60.0 + 200.0 * r.ratio();
             a.v_rapid_mm_s = a.v_max_mm_s;
-            let acc = 500.0 + 1500.0 * r.next();
+            let acc = 500.0 + 1500.0 * r.ratio();
             a.feed.acc_mm_s2 = acc;
-            a.feed.dec_mm_s2 = acc * (0.5 + r.next());
-            a.feed.ramps_s = [0; 4].map(|_| 0.01 + 0.08 * r.next());
+            a.feed.dec_mm_s2 = acc * (0.5 + r.ratio());
+            a.feed.ramps_s = [0; 4].map(|_| 0.01 + 0.08 * r.ratio());
             a.rapid.acc_mm_s2 = 2000.0;
             a.a_max_mm_s2 = 4000.0;
         }
@@ -174,37 +174,37 @@ impl Case {
         let scale = r.pick(&[0.05, 0.5, 5.0, 30.0]);
         let bend = r.pick(&[0.02, 0.3, 3.0]);
         let mut points = vec![[0.0; 2]];
-        let mut heading = 6.3 * r.next();
-        for i in 0..(3 + (r.next() * if scale < 1.0 { 150.0 } else { 15.0 }) as usize) {
-            heading += bend * (r.next() - 0.5);
-            let length = scale * (0.1 + r.next());
+        let mut heading = 6.3 * r.ratio();
+        for i in 0..(3 + (r.ratio() * if scale < 1.0 { 150.0 } else { 15.0 }) as usize) {
+            heading += bend * (r.ratio() - 0.5);
+            let length = scale * (0.1 + r.ratio());
             let p = points[i];
             points.push([p[0] + length * libm::cos(heading), p[1] + length * libm::sin(heading)]);
         }
-        let feed = 5.0 + 150.0 * r.next();
-        let varied = r.next() < 0.4;
+        let feed = 5.0 + 150.0 * r.ratio();
+        let varied = r.ratio() < 0.4;
         let feeds = (1..points.len())
-            .map(|_| match r.next() {
+            .map(|_| match r.ratio() {
                 x if varied && x < 0.1 => None,
-                x if varied && x < 0.4 => Some(feed * (0.1 + r.next())),
+                x if varied && x < 0.4 => Some(feed * (0.1 + r.ratio())),
                 _ => Some(feed),
             })
             .collect();
         let mut events = Vec::new();
         let mut k = 0;
-        for _ in 0..(r.next() * 12.0) as usize {
-            k += (libm::exp(r.next() * 7.0)) as u64;
-            let event = match r.next() {
+        for _ in 0..(r.ratio() * 12.0) as usize {
+            k += (libm::exp(r.ratio() * 7.0)) as u64;
+            let event = match r.ratio() {
                 x if x < 0.3 => Event::Hold(r.pick(&[Active, Own])),
                 x if x < 0.5 => Event::Release,
                 x if x < 0.55 => Event::Override(0.0),
-                x if x < 0.65 => Event::Rapid(2.0 * r.next(), 2.0 * r.next()),
+                x if x < 0.65 => Event::Rapid(2.0 * r.ratio(), 2.0 * r.ratio()),
                 x if x < 0.8 => Event::Override(r.pick(&[0.3, 0.5, 1.0, 1.5])),
-                _ => Event::Override(2.0 * r.next()),
+                _ => Event::Override(2.0 * r.ratio()),
             };
             events.push((k, event));
         }
-        events.push((k + 500, Event::Override(0.7 + r.next())));
+        events.push((k + 500, Event::Override(0.7 + r.ratio())));
         events.push((k + 500, Event::Release));
         Self { job, points, feeds, events, late: false }
     }
@@ -343,11 +343,10 @@ impl Case {
 
 #[test]
 fn random_programs_with_random_events() {
-    let count: u64 = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(150);
-    let seed: u64 = std::env::var("SEED").ok().and_then(|c| c.parse().ok()).unwrap_or(0);
+    let (count, seed) = (environment("COUNT", 150), environment("SEED", 0));
     let mut failed = 0;
     for case in seed..seed + count {
-        let mut c = Case::new(&mut Random(case * 7919 + 1));
+        let mut c = Case::new(&mut Random::from_state(case * 7919 + 1));
         c.late = case % 2 == 1;
         if let Err(why) = c.run().map_err(|e| e.to_string()).and_then(|out| c.check(&out)) {
             failed += 1;
@@ -391,7 +390,7 @@ fn fast_override_over_short_blocks_that_were_read_at_a_slow_one() {
 #[test]
 fn override_of_100_percent_again_changes_nothing() {
     for seed in 0..50 {
-        let mut c = Case::new(&mut Random(seed));
+        let mut c = Case::new(&mut Random::from_state(seed));
         c.events.clear();
         let plain = c.run().unwrap();
         c.events = (0..50).map(|i| (i * 7, Event::Override(1.0))).collect();
@@ -413,7 +412,7 @@ fn random_programs_without_events() {
     let mut failed = Vec::new();
     for case in 100..400 {
         for window in [3, 10] {
-            let mut c = Case::new(&mut Random(case * 7919 + 1));
+            let mut c = Case::new(&mut Random::from_state(case * 7919 + 1));
             c.events.clear();
             c.job.window = window;
             let verdict = c.run().map_err(|e| e.to_string()).and_then(|out| c.check(&out));

@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::random::Random;
-use common::{Job, axis, channel};
+use common::{Job, axis, channel, contour};
+use kontur_kit::{Random, count};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 
@@ -36,7 +36,7 @@ struct Case {
 
 impl Case {
     fn new(r: &mut Random) -> Self {
-        Self { axes: machine(r), points: r.contour(150), feed: r.log(10.0, 300.0) }
+        Self { axes: machine(r), points: contour(r, 150), feed: r.log(10.0, 300.0) }
     }
 
     fn time(&self, kind: SlopeKind, points: &Points, feed: f64, window: usize) -> f64 {
@@ -52,8 +52,8 @@ impl Case {
 }
 
 fn cases() -> impl Iterator<Item = (usize, Case)> {
-    let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(60);
-    let mut r = Random(21);
+    let count = count(60);
+    let mut r = Random::from_state(21);
     (0..count).map(move |n| (n, Case::new(&mut r)))
 }
 
@@ -62,7 +62,7 @@ fn cases() -> impl Iterator<Item = (usize, Case)> {
 fn another_form_of_a_contour_takes_the_same_time() {
     let mut most = 0.0_f64;
     for (n, case) in cases() {
-        let mut r = Random(n as u64);
+        let mut r = Random::from_state(n as u64);
         let each = |f: &mut dyn FnMut(&[f64; 3]) -> [f64; 3]| -> Points {
             case.points.iter().map(f).collect()
         };

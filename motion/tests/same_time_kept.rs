@@ -7,10 +7,10 @@
 
 mod common;
 
-use common::random::Random;
-use common::{Job, axis, channel};
+use common::{Job, axis, channel, contour};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_kit::{Random, environment};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Trapez};
 use kontur_motion::block::Tolerance;
@@ -36,7 +36,7 @@ impl Case {
         let ramps_s = [r.log(0.005, 0.05); 4];
         let feed = FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s };
         Self {
-            points: r.contour(100),
+            points: contour(r, 100),
             axes: AxisDynamics { feed, ..axis(1.0) },
             kind: r.pick(&[Trapez, Sin2, Hsc]),
             feed_mm_s: r.log(8.0, 330.0),
@@ -106,13 +106,12 @@ fn forms(case: &Case, r: &mut Random) -> [f64; 6] {
 
 #[test]
 fn another_form_of_a_contour_takes_the_same_time() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|c| c.parse::<u64>().ok());
-    let mut r = Random(number("SEED").unwrap_or(3));
+    let mut r = Random::from_state(environment("SEED", 3));
     let mut all: [Vec<f64>; 6] = Default::default();
-    for n in 0..number("COUNT").unwrap_or(24) {
+    for n in 0..environment("COUNT", 24) {
         let case = Case::new(&mut r);
         let time = case.time(&case.points, 1.0, 1.0);
-        let others = forms(&case, &mut Random(n));
+        let others = forms(&case, &mut Random::from_state(n));
         for (((name, most), other), found) in FORMS.iter().zip(others).zip(&mut all) {
             if other > 0.0 {
                 let differs = ((other - time).abs() - 2.0 * CYCLE_S).max(0.0) / time;

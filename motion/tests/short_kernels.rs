@@ -4,11 +4,11 @@
 
 mod common;
 
-use common::random::Random;
 use common::{Job, axis, channel};
 use kontur_filters::kernel::{Kernel, Tap};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_kit::{Random, environment};
 use kontur_motion::axis::{FeedSlope, StepSlope};
 use kontur_motion::block::SlopeKind::{self, Step, Trapez};
 use kontur_motion::block::Tolerance;
@@ -33,7 +33,7 @@ fn kernel(r: &mut Random, cycle_us: u32) -> Kernel {
     let cycle = CycleTime::from_us(cycle_us).unwrap();
     loop {
         let kernel = if r.chance(0.5) {
-            let mode = 1 + (4.0 * r.next()) as u8;
+            let mode = 1 + (4.0 * r.ratio()) as u8;
             let freq_hz = r.log(0.08, 1.0) / cycle.seconds();
             VibGuardSettings { mode, freq_hz, damping: r.between(0.0, 0.3) }.kernel(cycle).ok()
         } else {
@@ -51,8 +51,8 @@ fn kernel(r: &mut Random, cycle_us: u32) -> Kernel {
 
 impl Case {
     fn new(r: &mut Random) -> Self {
-        let kind = [Step, Trapez][(2.0 * r.next()) as usize];
-        let cycle_us = [250, 500, 1000, 2000, 4000][(5.0 * r.next()) as usize];
+        let kind = [Step, Trapez][(2.0 * r.ratio()) as usize];
+        let cycle_us = [250, 500, 1000, 2000, 4000][(5.0 * r.ratio()) as usize];
         let (feed_mm_s, acc_mm_s2) = (r.log(1.0, 300.0), r.log(300.0, 8000.0));
         // a ramp in which the acceleration is reached
         let ramp_s = r.between(0.1, 1.0) * feed_mm_s / acc_mm_s2 / 2.0_f64.sqrt();
@@ -60,7 +60,7 @@ impl Case {
         let least = feed_mm_s * (feed_mm_s / acc_mm_s2 + ramp_s);
         let (mut heading, mut at) = (r.between(-3.1, 3.1), [0.0; 2]);
         let mut points = vec![at];
-        for _ in 0..2 + (5.0 * r.next()) as usize {
+        for _ in 0..2 + (5.0 * r.ratio()) as usize {
             let length = least * r.log(1.0, 30.0) * 1.01 + 0.01;
             at = [at[0] + length * libm::cos(heading), at[1] + length * libm::sin(heading)];
             points.push(at);
@@ -107,10 +107,9 @@ impl Case {
 /// `COUNT=2000 SEED=7` takes more and others.
 #[test]
 fn a_rest_in_every_corner_is_never_faster() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|c| c.parse::<u64>().ok());
-    let mut r = Random(number("SEED").unwrap_or(5));
+    let mut r = Random::from_state(environment("SEED", 5));
     let mut worst = 0.0_f64;
-    for n in 0..number("COUNT").unwrap_or(300) {
+    for n in 0..environment("COUNT", 300) {
         let case = Case::new(&mut r);
         let (kept, rests) = (case.cycles(), case.rests());
         worst = worst.max(kept as f64 / rests as f64);

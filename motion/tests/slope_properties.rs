@@ -1,8 +1,6 @@
 //! Properties of the slopes over random input at extreme ratios, and an independent numerical integration.
 
-mod common;
-
-use common::random::Random;
+use kontur_kit::Random;
 use kontur_motion::profile::{Profile, RampShape, RampedLimits, SlopeLimits, StepAxis, StepLimits};
 
 const CASES: u32 = 20_000;
@@ -89,7 +87,7 @@ fn check(case: &Case, profile: &Profile, [v0, ve, vf, length]: [f64; 4]) {
 
 #[test]
 fn feasible_plans_end_where_and_how_they_should() {
-    let mut random = Random(1);
+    let mut random = Random::from_state(1);
     let (mut planned, mut refused) = (0, 0);
     for _ in 0..CASES {
         let case = case(&mut random);
@@ -116,7 +114,7 @@ fn feasible_plans_end_where_and_how_they_should() {
 
 #[test]
 fn reachable_velocities_are_feasible_and_largest() {
-    let mut random = Random(2);
+    let mut random = Random::from_state(2);
     for _ in 0..CASES {
         let case = case(&mut random);
         let length = random.log(1e-6, 1e4);
@@ -143,7 +141,7 @@ fn reachable_velocities_are_feasible_and_largest() {
 
 #[test]
 fn distances_grow_with_the_peak_and_reach_with_the_length() {
-    let mut random = Random(3);
+    let mut random = Random::from_state(3);
     for _ in 0..CASES {
         let case = case(&mut random);
         let v0 = velocity(&mut random);
@@ -203,7 +201,7 @@ fn acceleration(shape: RampShape, segments: &[f64], up: f64, down: f64, mut t: f
 
 #[test]
 fn states_agree_with_numerical_integration() {
-    let mut random = Random(4);
+    let mut random = Random::from_state(4);
     let mut integrated = 0;
     for _ in 0..60 {
         let shape = if random.chance(0.5) { RampShape::Trapez } else { RampShape::Sin2 };
@@ -212,7 +210,7 @@ fn states_agree_with_numerical_integration() {
         let mut ramp = || random.log(0.01, 0.1);
         let ramps = [ramp(), ramp(), ramp(), ramp()];
         let limits = SlopeLimits::Ramped(RampedLimits::new(shape, constant, acc, dec, ramps));
-        let (v0, ve) = (random.next() * 30.0, random.next() * 30.0);
+        let (v0, ve) = (random.ratio() * 30.0, random.ratio() * 30.0);
         let length = random.log(0.5, 50.0);
         // too short to get from one speed to the other
         let Ok(profile) = limits.plan(v0, ve, 120.0, length) else { continue };
@@ -247,7 +245,7 @@ fn states_agree_with_numerical_integration() {
 
 #[test]
 fn equal_ramps_give_sin2_the_times_of_trapez() {
-    let mut random = Random(5);
+    let mut random = Random::from_state(5);
     let mut compared = 0;
     for _ in 0..2000 {
         let (acc, dec) = (random.log(10.0, 1e5), random.log(10.0, 1e5));

@@ -152,38 +152,6 @@ fn sampled_positions_of_a_millimetre() {
     }
 }
 
-#[test]
-fn oblique_lines_with_path_limits_of_two_axes() {
-    // direction (0.6, 0.8): acceleration 1000, jerk 10000; (0.96, 0.28): 2083.33 and 28571.43
-    for (a, j, length, peak, duration, segments_ms) in [
-        (
-            1000.0,
-            10_000.0,
-            50.0,
-            179.128784748,
-            0.558257569495,
-            [100.0, 79.128785, 100.0, 0.0, 100.0, 79.128785, 100.0],
-        ),
-        (
-            2000.0 / 0.96,
-            8000.0 / 0.28,
-            100.0,
-            200.0,
-            0.668916667,
-            [72.916667, 23.083333, 72.916667, 331.083333, 72.916667, 23.083333, 72.916667],
-        ),
-    ] {
-        let limits =
-            SlopeLimits::Ramped(RampedLimits::new(RampShape::Trapez, false, a, a, [a / j; 4]));
-        let profile = limits.plan(0.0, 0.0, 200.0, length).unwrap();
-        assert!((profile.peak() - peak).abs() < 5.1e-10);
-        assert!((profile.duration() - duration).abs() < 5.1e-10);
-        for (got, want) in profile.phases().zip(segments_ms) {
-            assert!((got.0 * 1e3 - want).abs() < 5.1e-7);
-        }
-    }
-}
-
 fn step(acc: [f64; 2], dec: [f64; 2], change: f64) -> SlopeLimits {
     SlopeLimits::Step(StepLimits::from_axes(&[StepAxis {
         acc_mm_s2: acc,

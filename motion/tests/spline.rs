@@ -4,8 +4,8 @@
 
 mod common;
 
-use common::random::Random;
-use common::{Job, axis, channel, deviation};
+use common::{Job, axis, channel, circle, deviation, peaks};
+use kontur_kit::{Random, environment};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Trapez};
 use kontur_motion::block::{Block, ChannelDynamics, SplineSettings};
@@ -76,48 +76,31 @@ fn strays(blocks: &[Block], points: &[Vec<f64>]) -> (f64, f64) {
     (out, points.iter().map(|p| deviation(p, &views)).fold(0.0, f64::max))
 }
 
-/// A polygon with edges between 0.01 and 5 mm and any corner but a reversal.
-fn rough(seed: u64, count: usize) -> Vec<Vec<f64>> {
-    let mut random = Random(seed);
-    let (mut heading, mut p) = (0.0, [0.0, 0.0]);
-    let mut points = vec![p.to_vec()];
-    for _ in 0..count {
-        let l = libm::exp(libm::log(0.01) + random.next() * libm::log(500.0));
-        let (sin, cos) = libm::sincos(heading);
-        p = [p[0] + l * cos, p[1] + l * sin];
-        points.push(p.to_vec());
-        let turn = random.next() - 0.5;
-        heading += 5.8 * turn * turn * turn * 4.0;
-    }
-    points
-}
+/// Lengths of edges in mm and the turns between them, both from a number of 0 to 1.
+type Shape = (fn(f64) -> f64, fn(f64) -> f64);
 
-/// As [`rough`], with edges of 0.1 to 5 mm that turn by at most 35 degrees.
-fn gentle(seed: u64, count: usize) -> Vec<Vec<f64>> {
-    let mut random = Random(seed);
-    let (mut heading, mut p) = (0.0, [0.0, 0.0]);
-    let mut points = vec![p.to_vec()];
-    for _ in 0..count {
-        let l = 0.1 * libm::pow(50.0, random.next());
-        let (sin, cos) = libm::sincos(heading);
-        p = [p[0] + l * cos, p[1] + l * sin];
-        points.push(p.to_vec());
-        heading += 1.2 * (random.next() - 0.5);
-    }
-    points
-}
+/// Edges of 0.01 to 5 mm, any corner but a reversal.
+const ROUGH: Shape = (
+    |u| libm::exp(libm::log(0.01) + u * libm::log(500.0)),
+    |u| 5.8 * (u - 0.5) * (u - 0.5) * (u - 0.5) * 4.0,
+);
 
-/// As [`rough`], with edges of 0.6 to 1.2 mm that turn by at most 29 degrees: where a tolerance is a little too small.
-fn even(seed: u64, count: usize) -> Vec<Vec<f64>> {
-    let mut random = Random(seed);
+/// Edges of 0.1 to 5 mm that turn by at most 35 degrees.
+const GENTLE: Shape = (|u| 0.1 * libm::pow(50.0, u), |u| 1.2 * (u - 0.5));
+
+/// Edges of 0.6 to 1.2 mm that turn by at most 29 degrees: where a tolerance is a little too small.
+const EVEN: Shape = (|u| 0.6 * libm::pow(2.0, u), |u| u - 0.5);
+
+fn polygon((edge, turn): Shape, seed: u64, count: usize) -> Vec<Vec<f64>> {
+    let mut random = Random::from_state(seed);
     let (mut heading, mut p) = (0.0, [0.0, 0.0]);
     let mut points = vec![p.to_vec()];
     for _ in 0..count {
-        let l = 0.6 * libm::pow(2.0, random.next());
+        let l = edge(random.ratio());
         let (sin, cos) = libm::sincos(heading);
         p = [p[0] + l * cos, p[1] + l * sin];
         points.push(p.to_vec());
-        heading += random.next() - 0.5;
+        heading += turn(random.ratio());
     }
     points
 }
@@ -126,7 +109,7 @@ fn even(seed: u64, count: usize) -> Vec<Vec<f64>> {
 fn the_tolerance_is_kept_and_the_curve_is_smooth() {
     let job = Job::new(1.0, Hsc);
     for seed in 0..24 {
-        let points = if seed % 2 == 0 { rough(seed, 60) } else { even(seed, 60) };
+        let points = polygon(if seed % 2 == 0 { ROUGH } else { EVEN }, seed, 60);
         for path_dev_mm in [0.001, 0.005, 0.02, 0.03, 0.04, 0.2] {
             let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
             let blocks = splined(&job, settings, &points, 50.0);
@@ -239,16 +222,6 @@ fn slaved_axes() {
     }
 }
 
-fn circle(chord: f64) -> Vec<Vec<f64>> {
-    let n = libm::round(2.0 * std::f64::consts::PI * 10.0 / chord);
-    (0..=2 * n as usize)
-        .map(|k| {
-            let (sin, cos) = libm::sincos(2.0 * std::f64::consts::PI * k as f64 / n);
-            vec![10.0 * cos, 10.0 * sin]
-        })
-        .collect()
-}
-
 /// Relative spread of the path speed away from start and stop.
 fn ripple(out: &[Setpoint]) -> f64 {
     let middle = &out[out.len() / 5..4 * out.len() / 5];
@@ -270,7 +243,7 @@ fn ripple_on_a_circle_with_the_spline() {
         let mut job = Job { window: 400, ..Job::new(1.0, kind) };
         job.slope.optimised = kind == Trapez;
         for chord in [0.05, 0.1, 0.2, 0.5, 1.0, 2.0] {
-            let points = circle(chord);
+            let points = circle(10.0, chord);
             for feed in [50.0, 100.0] {
                 let blocks = splined(&job, SplineSettings::default(), &points, feed);
                 let out = job.run(&points[0], blocks.into_iter());
@@ -282,7 +255,7 @@ fn ripple_on_a_circle_with_the_spline() {
     }
 }
 
-/// Deviation of the spline at the corners of a [`circle`], all knots even: a sixth of an edge times the change of
+/// Deviation of the spline at the corners of a circle of 10 mm, all knots even: a sixth of an edge times the change of
 /// direction.
 fn natural(chord: f64) -> f64 {
     let n = libm::round(2.0 * std::f64::consts::PI * 10.0 / chord);
@@ -296,7 +269,7 @@ fn ripple_on_a_circle_with_the_least_tolerance() {
     let mut job = Job { window: 400, ..Job::new(1.0, Hsc) };
     job.slope.optimised = true;
     for chord in [0.05, 0.2, 0.5, 1.0, 2.0] {
-        let points = circle(chord);
+        let points = circle(10.0, chord);
         let path_dev_mm = natural(chord) * (1.0 + 1e-3);
         let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
         for feed in [50.0, 100.0] {
@@ -314,7 +287,7 @@ fn a_small_tolerance_on_a_circle() {
     let mut job = Job { window: 400, ..Job::new(1.0, Hsc) };
     job.slope.optimised = true;
     for chord in [0.5, 2.0] {
-        let points = circle(chord);
+        let points = circle(10.0, chord);
         let mut last = 0;
         for share in [2.0, 1.001, 0.999, 0.9, 0.75, 0.6, 0.5, 0.4, 0.3, 0.25, 0.201, 0.199, 0.1] {
             let path_dev_mm = natural(chord) * share;
@@ -341,7 +314,7 @@ fn ripple_on_a_circle_with_estimated_curvature() {
         let mut job = Job { dynamics: Arc::new(dynamics), window: 400, ..Job::new(1.0, kind) };
         job.slope.optimised = kind == Trapez;
         for (chord, feed) in [(0.05, 50.0), (0.1, 50.0), (0.2, 50.0), (0.05, 500.0), (0.1, 500.0)] {
-            let points = circle(chord);
+            let points = circle(10.0, chord);
             let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
             let r = ripple(&job.drive(&views, &[feed]));
             println!("{kind:?} chord {chord} F {feed}: ripple {:.4} %", 100.0 * r);
@@ -350,37 +323,22 @@ fn ripple_on_a_circle_with_estimated_curvature() {
     }
 }
 
-/// Peaks of the second and third differences of the setpoints, and the cycles.
-fn peaks(out: &[Setpoint]) -> (usize, f64, f64) {
-    let t = 1e-3;
-    let p = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
-    let (mut acc, mut jerk) = (0.0_f64, 0.0_f64);
-    for k in 0..out.len() {
-        for i in 0..2 {
-            let second = |k: usize| p(k + 2, i) - 2.0 * p(k + 1, i) + p(k, i);
-            acc = acc.max(second(k).abs() / (t * t));
-            jerk = jerk.max((second(k + 1) - second(k)).abs() / (t * t * t));
-        }
-    }
-    (out.len(), acc, jerk)
-}
-
 /// A larger `PATH_DEV` never lengthens the run, and no axis is loaded beyond what the shape of the curve (`a`,
 /// `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together. `COUNT` raises the number of polygons.
 #[test]
 fn a_larger_tolerance_costs_nothing() {
-    let count = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(2);
+    let count = environment("COUNT", 2);
     for kind in [Hsc, Trapez] {
         let mut job = Job { window: 400, ..Job::new(1.0, kind) };
         job.slope.optimised = kind == Trapez;
-        for polygon in [rough, gentle, even] {
+        for shape in [ROUGH, GENTLE, EVEN] {
             for seed in 0..count {
-                let points = polygon(seed, 60);
+                let points = polygon(shape, seed, 60);
                 let mut last = usize::MAX;
                 for path_dev_mm in [1e-4, 1e-3, 0.01, 0.05, 0.2] {
                     let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
                     let blocks = splined(&job, settings, &points, 100.0);
-                    let now = peaks(&job.run(&points[0], blocks.into_iter()));
+                    let now = peaks(&job.run(&points[0], blocks.into_iter()), job.cycle_us);
                     println!("{kind:?} {seed} {path_dev_mm}: {now:?}");
                     assert!(now.0 <= last, "{kind:?} {seed} {path_dev_mm}: {now:?} after {last}");
                     assert!(

@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::random::Random;
-use common::{Job, channel};
+use common::{Job, channel, circle};
+use kontur_kit::{Random, environment};
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
 use kontur_motion::block::SlopeKind::Hsc;
 use kontur_motion::block::{Block, SplineSettings};
@@ -20,16 +20,6 @@ fn machine(axes: usize) -> Job {
 fn rounded(points: &[Vec<f64>], decimals: i32) -> Vec<Vec<f64>> {
     let scale = libm::pow(10.0, f64::from(decimals));
     points.iter().map(|p| p.iter().map(|x| libm::round(x * scale) / scale).collect()).collect()
-}
-
-fn circle(radius: f64, chord: f64) -> Vec<Vec<f64>> {
-    let n = libm::round(2.0 * std::f64::consts::PI * radius / chord);
-    (0..=2 * n as usize)
-        .map(|k| {
-            let (sin, cos) = libm::sincos(2.0 * std::f64::consts::PI * k as f64 / n);
-            vec![radius * cos, radius * sin]
-        })
-        .collect()
 }
 
 fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) -> Vec<Block> {
@@ -112,7 +102,7 @@ fn rounded_rotary_axes_cost_no_time() {
 
 /// Smooth stretches, corners of any angle, tiny edges and long ones, with the noise of rounding.
 fn contour(seed: u64, decimals: i32) -> Vec<Vec<f64>> {
-    let mut random = Random(seed);
+    let mut random = Random::from_state(seed);
     let (mut heading, mut p) = (0.0_f64, [0.0, 0.0, 0.0]);
     let mut points = vec![p.to_vec()];
     for _ in 0..12 {
@@ -179,7 +169,7 @@ fn traced(blocks: &[Block], edges: usize, n: usize) -> Vec<Vec<Vec<f64>>> {
 #[test]
 fn the_whole_stays_within_the_tolerance() {
     let job = machine(3);
-    let count = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(8);
+    let count = environment("COUNT", 8);
     let mut used = 0.0_f64;
     for seed in 0..count {
         let points = contour(seed, if seed % 2 == 0 { 3 } else { 2 });

@@ -3,13 +3,11 @@
 //!
 //! `KONTUR_CASES` raises the number of problems (1000000 before a release).
 
-mod common;
-
-use common::random::Random;
+use kontur_kit::{Random, environment};
 use kontur_motion::profile::{MotionState, ThirdOrderError, ThirdOrderLimits};
 
-fn cases() -> u32 {
-    std::env::var("KONTUR_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(20_000)
+fn cases() -> u64 {
+    environment("KONTUR_CASES", 20_000)
 }
 
 fn limits(random: &mut Random) -> ThirdOrderLimits {
@@ -184,7 +182,7 @@ fn check(problem: &Problem, phases: &[(f64, f64)]) -> Result<(), String> {
 
 #[test]
 fn fastest_is_always_found_and_inside_limits() {
-    let mut random = Random(11);
+    let mut random = Random::from_state(11);
     for i in 0..cases() {
         let p = problem(&mut random, 0.3);
         p.limits
@@ -197,13 +195,13 @@ fn fastest_is_always_found_and_inside_limits() {
 
 #[test]
 fn replanning_on_the_way_keeps_the_end() {
-    let mut random = Random(12);
+    let mut random = Random::from_state(12);
     for i in 0..cases() {
         let p = problem(&mut random, 0.5);
         let phases = p.limits.fastest(&p.start, &p.target).unwrap();
         let total = duration(&phases);
         for k in 1..5 {
-            let t = total * (f64::from(k) + random.next()) / 6.0;
+            let t = total * (f64::from(k) + random.ratio()) / 6.0;
             let rest = p
                 .limits
                 .fastest(&at(&p.start, &phases, t), &p.target)

@@ -1,6 +1,7 @@
 //! Durations against the reference table made with Ruckig 0.19.4 (community version), and against a port of it on
 //! random problems.
 
+use kontur_kit::Random;
 use kontur_motion::profile::{MotionState, ThirdOrderLimits};
 use rsruckig::prelude::*;
 
@@ -68,11 +69,8 @@ fn durations_and_end_states_of_the_reference() {
 
 #[test]
 fn durations_of_an_independent_implementation() {
-    let mut seed = 5u64;
-    let mut between = |lo: f64, hi: f64| {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        lo + (hi - lo) * ((seed >> 11) as f64 / (1u64 << 53) as f64)
-    };
+    let mut random = Random::from_state(5);
+    let mut between = |lo: f64, hi: f64| random.between(lo, hi);
     let mut compared = 0;
     for i in 0..20_000 {
         // jerk 1 and velocities of order 1: the reference works with absolute tolerances

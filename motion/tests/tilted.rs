@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+use kontur_kit::Random;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::limits::PathExtremes;
 use kontur_motion::path::{ArcPath, ArcShape, Path, Tilt, TiltedArc};
@@ -71,11 +72,8 @@ fn a_helix_turns_round_where_height_and_circle_cancel() {
 
 #[test]
 fn derivatives_extremes_and_nearest_points_of_random_arcs() {
-    let mut seed = 11_u64;
-    let mut next = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = Random::from_state(11);
+    let mut next = || random.ratio();
     for _ in 0..200 {
         let tilt = about_y(TAU * next(), [20.0 * next(), -3.0, 5.0]);
         let (r, from, sweep) = (1.0 + 20.0 * next(), TAU * next(), (next() - 0.5) * 30.0);

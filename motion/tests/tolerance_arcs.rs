@@ -4,10 +4,10 @@
 
 mod common;
 
-use common::random::Random;
 use common::{Job, axis, channel, filtered};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_kit::{Random, count, seed};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
 use kontur_motion::block::Tolerance;
@@ -52,12 +52,12 @@ fn vector(piece: &Piece, p: &[f64]) -> [f64; 2] {
 fn contour(r: &mut Random, scale: f64) -> (Vec<Piece>, Vec<Path>) {
     let (mut pieces, mut paths) = (Vec::new(), Vec::new());
     let (mut p, mut heading) = ([0.0, 0.0], 0.0);
-    for _ in 0..3 + (r.next() * 8.0) as usize {
-        if r.next() < 0.5 {
+    for _ in 0..3 + (r.ratio() * 8.0) as usize {
+        if r.ratio() < 0.5 {
             heading += r.between(-3.0, 3.0);
         }
         let start = AxisVec::from_slice(&p);
-        if r.next() < 0.5 {
+        if r.ratio() < 0.5 {
             let l = scale * r.log(0.1, 3.0);
             let q = [p[0] + l * libm::cos(heading), p[1] + l * libm::sin(heading)];
             paths.push(Path::Line(LinePath::new(start, AxisVec::from_slice(&q), &[]).unwrap()));
@@ -65,7 +65,7 @@ fn contour(r: &mut Random, scale: f64) -> (Vec<Piece>, Vec<Path>) {
             p = q;
         } else {
             let radius = scale * r.log(0.1, 3.0);
-            let sweep = r.between(0.2, 6.2) * if r.next() < 0.5 { 1.0 } else { -1.0 };
+            let sweep = r.between(0.2, 6.2) * if r.ratio() < 0.5 { 1.0 } else { -1.0 };
             let from = heading - f64::signum(sweep) * std::f64::consts::FRAC_PI_2;
             let centre = [p[0] - radius * libm::cos(from), p[1] - radius * libm::sin(from)];
             let to = from + sweep;
@@ -82,15 +82,15 @@ fn contour(r: &mut Random, scale: f64) -> (Vec<Piece>, Vec<Path>) {
 
 #[test]
 fn lines_and_arcs_keep_the_tolerance() {
-    let count: usize = std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(60);
-    let mut r = Random(std::env::var("SEED").ok().and_then(|c| c.parse().ok()).unwrap_or(1));
+    let count = count(60);
+    let mut r = Random::from_state(seed());
     for case in 0..count {
-        let scale = [0.05, 0.5, 5.0, 30.0][(r.next() * 4.0) as usize];
+        let scale = [0.05, 0.5, 5.0, 30.0][(r.ratio() * 4.0) as usize];
         let (pieces, paths) = contour(&mut r, scale);
         let tol = r.log(1e-3, 1e-1);
-        let kind = [Trapez, Sin2, Hsc][(r.next() * 3.0) as usize];
-        let cycle_us = [500, 1000, 2000][(r.next() * 3.0) as usize];
-        let mode = 1 + (r.next() * 4.0) as u8;
+        let kind = [Trapez, Sin2, Hsc][(r.ratio() * 3.0) as usize];
+        let cycle_us = [500, 1000, 2000][(r.ratio() * 3.0) as usize];
+        let mode = 1 + (r.ratio() * 4.0) as u8;
         let (freq_hz, damping) = (r.log(5.0, 150.0), r.between(0.0, 0.3));
         let feed = r.between(5.0, 200.0);
         let mut a = axis(1.0);

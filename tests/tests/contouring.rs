@@ -120,24 +120,6 @@ fn stops_suppress_contouring() {
     }
 }
 
-/// 120129 and 120131 refuse the program; 120216 leaves the corner, names its line and the run continues.
-#[test]
-fn messages() {
-    let refused =
-        run("%S\nG01 F600\n#CONTOUR MODE ON [DEV PATH_DEV=0.00001]\nX20\nG260\nM30\n", &[]);
-    assert_eq!(refused.ids(), [120_129]);
-    assert!(refused.totals.aborted);
-    let refused = run("%S\nG01 F600\n#CONTOUR MODE ON [DIST PRE_DIST=0]\nX20\nG260\nM30\n", &[]);
-    assert_eq!(refused.ids(), [120_131]);
-    let short = run("%S\nG01 F600\nG261 X20\nY0.0001\nG260 X0\nM30\n", &[]);
-    assert!(!short.totals.aborted);
-    assert!(short.ids().iter().all(|id| *id == 120_216), "{:?}", short.diagnostics);
-    let lines: Vec<u32> =
-        short.diagnostics.iter().filter_map(|d| d.source.as_ref().map(|s| s.line)).collect();
-    assert_eq!(lines, [3, 4]);
-    assert_eq!(short.set(2).last().unwrap()[..], [0.0, 0.0001]);
-}
-
 /// The records name the blocks in their order, each of them.
 #[test]
 fn lines_stay_in_order() {

@@ -4,35 +4,53 @@ use kontur::console::Console;
 use kontur::{Exit, run_with};
 use std::collections::BTreeMap;
 use std::ffi::OsString;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Numbers of a curve, by column.
 type Curve = Vec<BTreeMap<String, f64>>;
 
-/// Runs the command that is listed with a file name and gives its curves in their order.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Runs the command that is listed with a picture of this name, for the picture and for its numbers, and gives its curves in
+/// their order.
 fn figure(name: &str) -> Vec<Curve> {
-    let list = Path::new(env!("CARGO_MANIFEST_DIR")).join("../interpreter/cli/docs/figures.md");
-    let text = std::fs::read_to_string(list).unwrap();
+    let text = std::fs::read_to_string(root().join("interpreter/cli/docs/figures.md")).unwrap();
     let svg = format!(" -o {name}.svg");
     let command = text.split('`').find(|part| part.ends_with(&svg)).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let (picture, table) = (folder.path().join("a.svg"), folder.path().join("a.csv"));
-    let words = command.strip_suffix(&svg).unwrap().split_whitespace().map(OsString::from);
-    let files = ["-o".into(), picture.clone().into(), "-o".into(), table.clone().into()];
-    let mut console = Console::new(Vec::new(), Vec::new());
-    assert_eq!(run_with(words.chain(files), &mut console), Exit::Finished, "{command}");
-    assert!(std::fs::read_to_string(picture).unwrap().starts_with("<svg"));
-    let mut reader = csv::Reader::from_path(table).unwrap();
+    let outputs = ["a.svg", "a.csv"].map(|file| folder.path().join(file));
+    let path = |word: &str| {
+        let here = root().join(word);
+        if word.starts_with("programs/") { here.into() } else { OsString::from(word) }
+    };
+    // a page has one output
+    let one_each = command.starts_with("kontur report");
+    for some in outputs.chunks(if one_each { 1 } else { 2 }) {
+        let words = command.strip_suffix(&svg).unwrap().split_whitespace().map(path);
+        let files = some.iter().flat_map(|file| ["-o".into(), file.into()]);
+        let mut console = Console::new(Vec::new(), Vec::new());
+        assert_eq!(run_with(words.chain(files), &mut console), Exit::Finished, "{command}");
+    }
+    assert!(std::fs::read_to_string(&outputs[0]).unwrap().starts_with("<svg"));
+    let mut reader = csv::Reader::from_path(&outputs[1]).unwrap();
     let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let by_curve = names[0] == "curve";
     let mut curves: Vec<(String, Curve)> = Vec::new();
     for record in reader.records() {
         let record = record.unwrap();
-        if curves.last().is_none_or(|(curve, _)| *curve != record[0]) {
-            curves.push((record[0].to_owned(), Vec::new()));
+        let curve = if by_curve { record[0].to_owned() } else { String::new() };
+        if curves.last().is_none_or(|(last, _)| *last != curve) {
+            curves.push((curve, Vec::new()));
         }
-        let cells = names.iter().zip(&record).skip(1);
-        let row =
-            cells.filter_map(|(name, cell)| Some((name.clone(), cell.parse().ok()?))).collect();
+        let number = |cell: &str| match cell {
+            "finished" => Some(1.0),
+            "aborted" => Some(0.0),
+            _ => cell.parse().ok(),
+        };
+        let cells = names.iter().zip(&record);
+        let row = cells.filter_map(|(name, cell)| Some((name.clone(), number(cell)?))).collect();
         curves.last_mut().unwrap().1.push(row);
     }
     curves.into_iter().map(|(_, curve)| curve).collect()
@@ -144,47 +162,6 @@ fn sensitivity_of_the_modes() {
     }
 }
 
-/// Runs the listed command with this picture as it stands, and once more for its numbers.
-fn drawn(name: &str) -> Vec<Curve> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let text = std::fs::read_to_string(root.join("interpreter/cli/docs/figures.md")).unwrap();
-    let svg = format!(" -o {name}.svg");
-    let command = text.split('`').find(|part| part.ends_with(&svg)).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    for end in ["svg", "csv"] {
-        let file = folder.path().join(format!("a.{end}"));
-        let path = |word: &str| {
-            let here = root.join(word);
-            if word.starts_with("programs/") { here.into() } else { OsString::from(word) }
-        };
-        let words = command.strip_suffix(&svg).unwrap().split_whitespace().map(path);
-        let mut console = Console::new(Vec::new(), Vec::new());
-        let exit = run_with(words.chain(["-o".into(), file.into()]), &mut console);
-        assert_eq!(exit, Exit::Finished, "{command}");
-    }
-    assert!(std::fs::read_to_string(folder.path().join("a.svg")).unwrap().starts_with("<svg"));
-    let mut reader = csv::Reader::from_path(folder.path().join("a.csv")).unwrap();
-    let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
-    let by_curve = names[0] == "curve";
-    let mut curves: Vec<(String, Curve)> = Vec::new();
-    for record in reader.records() {
-        let record = record.unwrap();
-        let curve = if by_curve { record[0].to_owned() } else { String::new() };
-        if curves.last().is_none_or(|(last, _)| *last != curve) {
-            curves.push((curve, Vec::new()));
-        }
-        let number = |cell: &str| match cell {
-            "finished" => Some(1.0),
-            "aborted" => Some(0.0),
-            _ => cell.parse().ok(),
-        };
-        let cells = names.iter().zip(&record);
-        let row = cells.filter_map(|(name, cell)| Some((name.clone(), number(cell)?))).collect();
-        curves.last_mut().unwrap().1.push(row);
-    }
-    curves.into_iter().map(|(_, curve)| curve).collect()
-}
-
 /// Values of a column, where there are any.
 fn column(curve: &Curve, name: &str) -> Vec<f64> {
     curve.iter().filter_map(|row| row.get(name).copied()).collect()
@@ -193,7 +170,7 @@ fn column(curve: &Curve, name: &str) -> Vec<f64> {
 /// Conformance: F046, F047, F048.
 #[test]
 fn lag_without_and_with_feedforward() {
-    let curves = drawn("lag");
+    let curves = figure("lag");
     assert_eq!(curves.len(), 3);
     let most =
         |curve: &Curve| column(curve, "X_lag_mm").iter().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -204,7 +181,7 @@ fn lag_without_and_with_feedforward() {
     let quiet = column(&curves[1], "X_lag_mm").iter().filter(|x| x.abs() < 0.01).count();
     assert!(quiet > 700, "nothing at constant speed: {quiet} ms");
     assert!(most(&curves[2]) < 0.01 * peak, "{}", most(&curves[2]));
-    let weights = drawn("weight");
+    let weights = figure("weight");
     for (curve, want) in weights.iter().zip([-0.4, 0.0, 0.4]) {
         // the axis travels back: after is below 0
         near(column(curve, "X_lag_mm")[500], want, 1e-3);
@@ -220,7 +197,7 @@ fn spectra_of_improved_position_control() {
     for (name, band, want) in
         [("ipc_53hz", 50.0..=56.0, [810.0, 365.0]), ("ipc_11hz", 9.5..=12.5, [520.0, 270.0])]
     {
-        let curves = drawn(name);
+        let curves = figure(name);
         assert_eq!(curves.len(), 2);
         for (curve, want) in curves.iter().zip(want) {
             let lines = curve.iter().filter(|row| band.contains(&row["f_hz"]));
@@ -228,7 +205,7 @@ fn spectra_of_improved_position_control() {
             near(peak, want, 0.015 * want);
         }
     }
-    let over_time = drawn("ipc");
+    let over_time = figure("ipc");
     assert!(column(&over_time[0], "X_vadd_mm_s").iter().all(|v| v.abs() <= 0.0));
     near(
         column(&over_time[1], "X_vadd_mm_s").into_iter().fold(0.0, |m: f64, v| m.max(v.abs())),
@@ -246,7 +223,7 @@ fn weights_of_improved_position_control() {
         ("ipc_weight_direct", 0, "X_tcp_acc_mm_s2@50..56@0.761..1.939", 305.0, 8.0..=12.0),
         ("ipc_weight_indirect", 1, "X_tcp_acc_mm_s2@9.5..12.5@2.095..3.095", 259.0, 4.0..=4.0),
     ] {
-        let rows = drawn(name).swap_remove(0);
+        let rows = figure(name).swap_remove(0);
         let best = rows.iter().min_by(|a, b| a[signal].total_cmp(&b[signal])).unwrap();
         near(best[signal], least, 0.02 * least);
         let weight = best[&format!("{key}[{stage}].weight_fact_num")];
@@ -254,7 +231,7 @@ fn weights_of_improved_position_control() {
         let (first, last) = (&rows[0], &rows[rows.len() - 1]);
         assert!(first[signal] > best[signal] && last[signal] > best[signal], "{name}");
     }
-    let modes = drawn("ipc_modes").swap_remove(0);
+    let modes = figure("ipc_modes").swap_remove(0);
     let amplitude = |mode: usize| modes[mode]["X_tcp_acc_mm_s2@9.5..12.5@2.095..3.095"];
     near(amplitude(0), 520.0, 8.0);
     near(amplitude(3), 63.0, 8.0);
@@ -265,7 +242,7 @@ fn weights_of_improved_position_control() {
 /// Conformance: I001.
 #[test]
 fn a_higher_kv_by_improved_position_control() {
-    let rows = drawn("ipc_kv").swap_remove(0);
+    let rows = figure("ipc_kv").swap_remove(0);
     let largest = |enable: f64| {
         let runs = rows
             .iter()
@@ -284,7 +261,7 @@ fn slopes_of_one_move() {
     let peak = |curve: &Curve, name: &str| {
         column(curve, name).iter().fold(0.0, |m: f64, x| m.max(x.abs()))
     };
-    let curves = drawn("slopes");
+    let curves = figure("slopes");
     assert_eq!(curves.len(), 4);
     let sine = std::f64::consts::FRAC_PI_2 * jerk;
     for (curve, want) in curves.iter().zip([0.0, jerk, sine, jerk]) {
@@ -295,7 +272,7 @@ fn slopes_of_one_move() {
         near(peak(curve, "j_mm_s3"), want, 2e-3 * want);
     }
     // the border of the blocks lies at 21 mm: its lower feed is not reached, so it is crossed while accelerating
-    let borders = drawn("slopes_border");
+    let borders = figure("slopes_border");
     assert_eq!(borders.len(), 3);
     for curve in &borders {
         let border = at(curve, "s_mm", 21.0, "a_mm_s2");
@@ -303,11 +280,10 @@ fn slopes_of_one_move() {
     }
 }
 
-/// Every command of the list, as it stands there; those that [`drawn`] measures run there.
+/// Every command of the list, as it stands there; those that [`figure`] measures run there.
 #[test]
 fn every_command_of_the_list_runs() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let list = std::fs::read_to_string(root.join("interpreter/cli/docs/figures.md")).unwrap();
+    let list = std::fs::read_to_string(root().join("interpreter/cli/docs/figures.md")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let commands: Vec<&str> =
         list.split('`').skip(1).step_by(2).filter(|part| part.starts_with("kontur ")).collect();
@@ -320,7 +296,7 @@ fn every_command_of_the_list_runs() {
             .map(|word| {
                 let file = Path::new(word);
                 if word.starts_with("programs/") {
-                    root.join(file).into()
+                    root().join(file).into()
                 } else if file.extension().is_some_and(|e| e == "svg" || e == "html") {
                     output = Some(folder.path().join(file));
                     folder.path().join(file).into()

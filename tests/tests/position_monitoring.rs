@@ -42,16 +42,6 @@ fn an_axis_that_does_not_arrive_ends_the_program() {
     assert!(run.records.iter().all(|r| r.line < 3));
 }
 
-/// Conformance: P001, P006, P007.
-#[test]
-fn the_time_limit_decides() {
-    let program = "%P\nG90 G60 G01 X100 F6000\nG60 X120\nM30\n";
-    assert_eq!(stop(program, 400_000).ids(), [70082]);
-    let run = stop(program, 600_000);
-    assert_eq!(run.ids(), [0; 0], "{:?}", run.diagnostics);
-    assert!(!run.totals.aborted);
-}
-
 /// G60 and the modal G360 wait for the window, with the time monitoring on and off. Conformance: P015, P019.
 #[test]
 fn g60_waits_for_the_window() {
@@ -75,17 +65,6 @@ fn moving_axes_are_not_monitored() {
     let passed = run.records.iter().position(|r| r.axes[0].ipo >= 119.0).unwrap();
     let message = run.diagnostics.iter().filter_map(|d| d.cycle).min().unwrap_or(u64::MAX);
     assert!(message > passed as u64, "only the last stop may be late");
-}
-
-/// The sample program with the settings that its first lines name. Conformance: P001, P002.
-#[test]
-fn the_sample_program_of_the_exact_stop() {
-    let text = std::fs::read_to_string(programs().join("fail/70082_exact_stop.nc")).unwrap();
-    let settings: Vec<&str> =
-        text.lines().flat_map(str::split_whitespace).filter(|w| w.starts_with("X.")).collect();
-    let run = run(&text, &settings);
-    assert_eq!(run.ids(), [70082], "{:?}", run.diagnostics);
-    assert!(run.totals.aborted);
 }
 
 /// Both stops of the program that a user runs: 0.6 s are enough, 0.2 s are not. Conformance: P005, P006, P007, P015.

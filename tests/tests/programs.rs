@@ -45,20 +45,6 @@ fn hsc_square() {
     assert!(pass(11..=14).all(|r| r.axes[0].set.to_bits() == r.axes[0].ipo.to_bits()));
 }
 
-/// v / Kv = 2 mm, none, a fifth, 2 mm again at the last cycle of constant speed.
-#[test]
-fn feedforward_lag() {
-    let run = run(&text("feedforward_lag.nc"), &[]);
-    for (block, want) in [(30, 2.0), (50, 0.0), (70, 0.4), (90, 2.0)] {
-        let last = run
-            .records
-            .iter()
-            .rfind(|r| r.block == Some(block) && (r.axes[0].vel.abs() - 100.0).abs() < 1e-6);
-        let lag = last.unwrap().axes[0].lag.abs();
-        assert!((lag - want).abs() < 2e-3, "N{block}: {lag} mm, {want} expected");
-    }
-}
-
 /// Time of motion in s over the lines of a program, in whole cycles.
 fn moving_s(run: &Run, lines: &RangeInclusive<u32>) -> f64 {
     let way: Vec<f64> =

@@ -229,14 +229,6 @@ fn additional_pt1() {
     assert!(own_ids(&run).is_empty());
 }
 
-/// `TIME_DELAY` of 2000 us: two cycles later, bit for bit. Conformance: A065.
-#[test]
-fn additional_time_delay() {
-    let run = additional("enable=1 order=1 type=TIME_DELAY time_constant=2000 share_percent=100");
-    let added = run.axis(0, |a| a.add);
-    assert!(added.iter().enumerate().all(|(k, x)| *x == if k < 12 { 0.0 } else { 1.0 }));
-}
-
 /// The axis filter and the filter of the interface act each on its own part.
 #[test]
 fn both_filters_add_up() {

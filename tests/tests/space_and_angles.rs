@@ -105,22 +105,3 @@ fn contour_lines_of_two_angles() {
         );
     }
 }
-
-/// The page's program of an Akima spline (1255466635) as setpoints: it ends where it should, touches every point, and comes to
-/// rest at none of them but the corner after the spline.
-#[test]
-fn an_akima_spline_runs_through_its_points() {
-    let text = "%P\nG01 X20 Y0 F1000\n#AKIMA TRANS[START=USER END=AUTO]\n#AKIMA STARTVECTOR X1 Y1 Z0\nG151\nG01 X40 Y20\nX60\nY0\nX80\nY10\n\
-        G150\nX70\nM30\n";
-    let run = kontur_tests::run(text, &[]);
-    assert_eq!(run.diagnostics, []);
-    let last = run.records.last().unwrap();
-    assert!((last.axes[0].set - 70.0).abs() < 1e-9 && (last.axes[1].set - 10.0).abs() < 1e-9);
-    let step = 1000.0 / 60.0 * run.cycle_s;
-    for (x, y) in [(40.0, 20.0), (60.0, 20.0), (60.0, 0.0), (80.0, 0.0)] {
-        let near = run.records.iter().map(|r| libm::hypot(r.axes[0].set - x, r.axes[1].set - y));
-        assert!(near.fold(f64::MAX, f64::min) <= step, "{x} {y}");
-    }
-    let inside = run.records.iter().filter(|r| (7..=9).contains(&r.line));
-    assert!(inside.map(|r| r.path.v_mm_s).fold(f64::MAX, f64::min) > 0.1);
-}

@@ -1,7 +1,6 @@
 //! The main job: the square program end to end, judged from its trace and its geometry alone.
 
-use kontur_interpreter::record::Rest;
-use kontur_tests::{from_polyline, machine, programs, residual_mm, run, run_on};
+use kontur_tests::{from_polyline, machine, programs, residual_mm, run};
 
 fn square() -> Vec<Vec<f64>> {
     [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]].map(|p| p.to_vec()).to_vec()
@@ -45,58 +44,7 @@ fn three_passes() {
     }
 }
 
-/// AX_DEV in every mode, at several frequencies and cycle times.
-#[test]
-fn tolerance_in_every_mode() {
-    for mode in 1..=4 {
-        for freq in [20, 40, 80] {
-            for us in [500, 1000, 2000] {
-                let program = format!(
-                    "%C\nN10 G90 G01 F4000\n#VIB GUARD ON [MODE={mode} FREQ={freq} AX_DEV=0.01]\nX1\nY1\nX0\nY0\nM30\n"
-                );
-                let run = run(&program, &[&format!("kontur.cycle_time_us={us}")]);
-                let worst = run.set(2).iter().map(|p| largest(p)).fold(0.0, f64::max);
-                assert!(worst <= 0.01, "mode {mode}, {freq} Hz, {us} us: {worst} mm");
-                assert_eq!(run.set(2).last().unwrap()[..], [0.0, 0.0]);
-            }
-        }
-    }
-}
-
-/// Durations of the square, without the arrival of the axes at its end, on an axis with the vendor's defaults (1000 mm/s2,
-/// 50 ms; T = 1 and 2 ms).
-#[test]
-fn documented_cycle_counts() {
-    for (slope, us, weight, cycles) in [
-        ("TRAPEZ", 1000, 0, 468),
-        ("SIN2", 1000, 0, 468),
-        ("TRAPEZ", 1000, 100, 467),
-        ("TRAPEZ", 1000, 1000, 455),
-        ("STEP", 1000, 0, 248),
-        ("TRAPEZ", 2000, 0, 234),
-        ("TRAPEZ", 2000, 1000, 221),
-        ("STEP", 2000, 0, 121),
-    ] {
-        let machine = kontur_tests::sample_machine(
-            "vendor_defaults",
-            &[
-                &format!("kontur.cycle_time_us={us}"),
-                &format!("X.getriebe[0].dynamik.a_trans_weight={weight}"),
-                &format!("Y.getriebe[0].dynamik.a_trans_weight={weight}"),
-            ],
-        );
-        let program = format!("%C\n#SLOPE [TYPE={slope}]\nG90 G01 X1 F4000\nY1\nX0\nY0\nM30\n");
-        let run = run_on(machine, &program);
-        assert_eq!(
-            run.records.len() - 1 - run.rested(Rest::Arrival),
-            cycles,
-            "{slope}, {us} us, weight {weight}: {:?}",
-            run.diagnostics
-        );
-    }
-}
-
-/// A plant at the set frequency keeps less than 0.1 % of the vibration of the unguarded run.
+/// A plant at the set frequency keeps less than 0.1 % of the vibration of the unguarded run. Conformance: V001.
 #[test]
 fn residual_vibration() {
     for mode in 1..=4 {

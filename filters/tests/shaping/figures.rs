@@ -1,13 +1,13 @@
 //! What the axis filter manual says in words and shows in its figures, as numbers.
 
-use crate::corner::{corner, forward_backward_gap, path};
+use crate::corner::{corner, path};
 use crate::reference::assert_close;
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::hsc::{HscConfig, HscKind};
 use kontur_filters::iir::prototype::Prototype;
 use kontur_filters::iir::{AxisFilter, FilterConfig, FilterKind};
 use kontur_filters::kernel::{Kernel, KernelFilter};
-use kontur_filters::response::{Angle, residual_vibration_ratio, step_response};
+use kontur_filters::response::{Angle, step_response};
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
 use std::f64::consts::PI;
@@ -47,62 +47,6 @@ fn listed(analog: f64, f_hz: f64) -> f64 {
     centre / libm::atan(libm::sin(2.0 * centre) / (2.0 * analog))
 }
 
-/// The frequency in `from..to` where the filter crosses -3.0103 dB.
-fn edge(filter: &AxisFilter, from: f64, to: f64) -> f64 {
-    let over = |f| db(filter, f) > -3.0103;
-    let (mut a, mut b) = (from, to);
-    assert_ne!(over(a), over(b), "no edge between {from} and {to} Hz");
-    for _ in 0..60 {
-        let middle = 0.5 * (a + b);
-        if over(middle) == over(a) { a = middle } else { b = middle }
-    }
-    a
-}
-
-/// Conformance: A016, A017, A018, A019.
-#[test]
-fn pass_and_stop_ranges() {
-    let rows = [
-        (
-            FilterKind::LowPass,
-            Prototype::CritDamping,
-            4,
-            15.0,
-            &[(7.5, -0.802), (15.0, -3.010), (30.0, -9.823)][..],
-        ),
-        (FilterKind::HighPass, Prototype::CritDamping, 4, 15.0, &[(7.5, -9.797), (150.0, -0.028)]),
-        (FilterKind::BandStop, Prototype::Butterworth, 2, 20.0, &[(10.0, -0.003), (40.0, -0.003)]),
-        (FilterKind::BandPass, Prototype::Butterworth, 2, 20.0, &[(20.0, 0.0), (10.0, -31.16)]),
-    ];
-    for (kind, prototype, order, f_hz, points) in rows {
-        let q = if f_hz > 15.0 { listed(4.0, f_hz) } else { 1.0 };
-        for (at, want) in points {
-            let digit = if *want < -31.0 { 5e-3 } else { 5e-4 };
-            assert_close(
-                db(&filter(kind, prototype, order, f_hz, q), *at),
-                *want,
-                digit,
-                &(kind, at),
-            );
-        }
-    }
-    assert!(db(&band_stop(Prototype::Butterworth, 2, 20.0, 4.0), 20.0) < -120.0);
-}
-
-/// Figure 1: order 4, 15 Hz. Conformance: A024.
-#[test]
-fn low_passes_of_order_4() {
-    for (prototype, below, above) in [
-        (Prototype::CritDamping, -0.802, -9.82),
-        (Prototype::Bessel, -0.704, -13.46),
-        (Prototype::Butterworth, -0.017, -24.18),
-    ] {
-        let filter = low_pass(prototype, 4, 15.0);
-        assert_close(db(&filter, 7.5), below, 6e-4, &prototype);
-        assert_close(db(&filter, 30.0), above, 6e-3, &prototype);
-    }
-}
-
 /// Figure 2: CRIT_DAMPING keeps below the step, BESSEL overshoots slightly, BUTTERWORTH considerably and more with
 /// the order. Conformance: A025, A026, A028.
 #[test]
@@ -137,9 +81,6 @@ fn the_high_pass_is_the_mirrored_low_pass() {
             }
         }
     }
-    let high = filter(FilterKind::HighPass, Prototype::CritDamping, 4, 15.0, 1.0);
-    assert_close(db(&high, 7.5), -9.797, 5e-4, &"high-pass");
-    assert_close(db(&low_pass(Prototype::CritDamping, 4, 15.0), 30.0), -9.823, 5e-4, &"low-pass");
 }
 
 /// Figure 4. Conformance: A034.
@@ -149,25 +90,6 @@ fn a_high_pass_swings_around_its_final_value() {
     let y = step_response(&mut high, 2000);
     assert_close(y.iter().copied().fold(0.0, f64::min), -0.350, 5e-4, &"below zero");
     assert!(y.last().unwrap().abs() < 1e-6);
-}
-
-/// Q = f0 / (fo - fu), f0 the geometric mean of the -3 dB points fo and fu.
-/// Conformance: A035, A036, A037, A040, A041.
-#[test]
-fn edges_of_bands() {
-    for (kind, q, low, high) in [
-        (FilterKind::BandPass, 1.0, 12.36, 32.36),
-        (FilterKind::BandPass, 4.0, 17.656, 22.656),
-        (FilterKind::BandStop, 1.0, 12.36, 32.36),
-        (FilterKind::BandStop, 4.0, 17.656, 22.656),
-    ] {
-        let filter = filter(kind, Prototype::Butterworth, 1, 20.0, q);
-        assert_close(db(&filter, low), -3.0103, 0.04, &(kind, q));
-        assert_close(db(&filter, high), -3.0103, 0.04, &(kind, q));
-        let (fu, fo) = (edge(&filter, 1.0, 20.0), edge(&filter, 20.0, 100.0));
-        assert_close((fu * fo).sqrt(), 20.0, 0.02, &(kind, q));
-        assert_close(20.0 / (fo - fu), q, 0.01 * q, &(kind, q));
-    }
 }
 
 /// Conformance: A038, A043.
@@ -198,25 +120,18 @@ fn the_prototype_matters_little_for_bands() {
     }
 }
 
-/// Figure 7: the larger Q, the narrower. Conformance: A042.
-#[test]
-fn band_stops_over_quality() {
-    let width = |q| {
-        let stop = band_stop(Prototype::Butterworth, 2, 20.0, q);
-        edge(&stop, 20.01, 100.0) - edge(&stop, 1.0, 19.99)
-    };
-    for q in [1.0, 2.0, 4.0, 10.0] {
-        assert_close(width(q), 20.0 / q, 1e-6, &q);
-    }
-}
-
 /// Bandwidth `f0 / Q` and edges of band filters at any `f0 T`, found on the magnitude itself: f0 100 Hz, Q 1 and T 1 ms
-/// had a real Q of 1.099.
+/// had a real Q of 1.099. At 20 Hz the edges are those that the document's figures show, and f0 is their geometric mean.
+/// Conformance: A035, A036, A037, A040, A041, A042.
 #[test]
 fn band_filters_keep_their_quality() {
     for kind in [FilterKind::BandPass, FilterKind::BandStop] {
         for prototype in Prototype::ALL {
             for (order, f_hz, q) in [
+                (1, 20.0, 1.0),
+                (1, 20.0, 4.0),
+                (2, 20.0, 2.0),
+                (2, 20.0, 10.0),
                 (1, 100.0, 1.0),
                 (2, 100.0, 1.0),
                 (3, 20.0, 4.0),
@@ -247,6 +162,14 @@ fn band_filters_keep_their_quality() {
                 let said = kontur_filters::iir::transform::band_edges_hz(f_hz, q, 1e-3);
                 assert_close(said.0, low, 1e-6 * f_hz, &context);
                 assert_close(said.1, high, 1e-6 * f_hz, &context);
+                let drawn = match (f_hz, q) {
+                    (20.0, 1.0) => (12.36, 32.36),
+                    (20.0, 4.0) => (17.656, 22.656),
+                    _ => continue,
+                };
+                assert_close(low, drawn.0, 0.05, &context);
+                assert_close(high, drawn.1, 0.05, &context);
+                assert_close((low * high).sqrt(), f_hz, 0.02, &context);
             }
         }
     }
@@ -360,8 +283,7 @@ fn the_slope_of_the_step_hardly_depends_on_the_order() {
     assert!(slopes.windows(2).all(|pair| pair[1] < pair[0]), "{slopes:?}");
 }
 
-/// Figures 14 and 15: a ramp of N + 1 samples; symmetric about the corner.
-/// Conformance: A076, A078, A082.
+/// Figures 14 and 15: the mean of N + 1 samples, whose step response is a ramp. Conformance: A076, A078.
 #[test]
 fn the_hsc_mean() {
     let hsc = HscConfig {
@@ -372,18 +294,11 @@ fn the_hsc_mean() {
         share_ratio: 1.0,
     };
     let kernel = hsc.design(MS).0.unwrap();
-    assert_eq!(kernel.taps().len(), 11);
-    assert!(kernel.taps().iter().all(|tap| (tap.weight - 1.0 / 11.0).abs() < 1e-15));
-    assert_close(kernel.response(Angle::of(40.4, MS)).magnitude_db(), -3.0103, 0.02, &"corner");
-    assert!(forward_backward_gap(&of(kernel.clone()), 0.05, 60) < 1e-12);
+    let mean = FirConfig { order: 10, ..FirConfig::new(FirKind::MovingAverage) };
+    assert_eq!(kernel, mean.design(MS).0.unwrap());
     let y = step_response(&mut of(kernel), 20);
     for (n, y) in y.into_iter().enumerate() {
         assert_close(y, ((n + 1) as f64 / 11.0).min(1.0), 1e-14, &n);
-    }
-    for (order, want) in [(10, 0.02273), (50, 0.10621), (100, 0.21040)] {
-        let hsc = HscConfig { order, ..hsc };
-        let is = corner(&of(hsc.design(MS).0.unwrap()), 1000.0 / 60.0 * 0.001, 500);
-        assert_close(is.contour_error, want, 5.1e-6, &order);
     }
 }
 
@@ -400,24 +315,6 @@ fn double_cycle_feed_or_order_doubles_the_error() {
     assert_close(error(50, 2000.0, MS) / error(50, 1000.0, MS), 2.0, 1e-12, &"feed");
     assert_close(error(200, 1000.0, MS), 0.41874, 5.1e-6, &"order 200");
     assert_close(error(200, 1000.0, MS) / error(100, 1000.0, MS), 1.990, 5e-4, &"order");
-}
-
-/// HSC NoVib of 30 Hz: nothing passes at 30 Hz, an undamped mode there is not excited. Conformance: A077.
-#[test]
-fn the_hsc_no_vib() {
-    for f_hz in [10.0, 30.0] {
-        let hsc = HscConfig {
-            kind: HscKind::NoVib,
-            order: 1,
-            time_constant_us: 0,
-            f_hz,
-            share_ratio: 1.0,
-        };
-        let kernel = hsc.design(MS).0.unwrap();
-        assert!(kernel.response(Angle::of(f_hz, MS)).magnitude() < 1e-12, "{f_hz}");
-        assert!(residual_vibration_ratio(&kernel.impulses(MS), f_hz, 0.0) < 1e-12, "{f_hz}");
-        assert_eq!(kernel, kernel.reversed());
-    }
 }
 
 /// Q acts on band-pass and band-stop alone; lags and the time delay have neither frequency nor prototype, their order

@@ -88,16 +88,6 @@ fn corner_error_of_the_mean_filter() {
     }
     let odd = corner(&filter(mean(11)), per_cycle, 500);
     assert_close(odd.contour_error, per_cycle * 12.0 / 8.0, 1e-12, &11);
-    assert_close(corner(&filter(mean(100)), per_cycle, 500).contour_error, 0.21040, 5e-6, &100);
-}
-
-/// Double feed doubles the error exactly, double order nearly.
-#[test]
-fn the_vendors_law_of_doubling() {
-    let error = |order, per_cycle| corner(&filter(mean(order)), per_cycle, 500).contour_error;
-    assert_close(error(50, 0.2) / error(50, 0.1), 2.0, 1e-12, &"feed");
-    assert_close(error(20, 0.1) / error(10, 0.1), 1.92, 0.005, &"order 10 to 20");
-    assert_close(error(200, 0.1) / error(100, 0.1), 1.990, 0.0005, &"order 100 to 200");
 }
 
 #[test]
@@ -169,12 +159,6 @@ fn the_share_keeps_the_delay() {
     assert_eq!(fir(delay), Kernel::delay(20));
     let half = FirConfig { order: 4, share_ratio: 0.0, ..FirConfig::new(FirKind::MovingAverage) };
     assert_eq!(fir(half), Kernel::delay(2));
-}
-
-#[test]
-fn a_mean_of_order_20_keeps_step_with_a_delay_of_10() {
-    let delay = fir(FirConfig { order: 10, ..FirConfig::new(FirKind::TimeDelay) });
-    assert_close(mean(20).delay_cycles(), delay.delay_cycles(), 1e-12, &"delays");
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn lag(kind: FilterKind, time_constant_us: u32) -> AxisFilter {
     design(&FilterConfig { kind, order: 2, time_constant_us, ..FilterConfig::default() })
 }
 
-/// Conformance: A016, A017, A024.
+/// Conformance: A016, A017, A018, A019, A024.
 #[test]
 fn magnitude_phase_and_delay_of_the_reference() {
     for row in rows("axis_filters_reference") {
@@ -231,9 +231,6 @@ fn minus_three_decibels_at_the_corner() {
 #[test]
 fn a_second_order_lag_is_two_first_order_lags() {
     let (pt1, pt2) = (lag(FilterKind::Pt1, 5000), lag(FilterKind::Pt2, 5000));
-    let f = 1e6 / (2.0 * PI * 5000.0);
-    assert_close(pt1.response(at(f)).magnitude_db(), -3.0103, 1e-5, &"PT1");
-    assert_close(pt2.response(at(f)).magnitude_db(), -6.0206, 1e-5, &"PT2");
     let (mut one, mut two, mut both) = (pt1.clone(), pt1, pt2);
     for n in 0..300 {
         let x = f64::from(n % 7);
@@ -267,22 +264,6 @@ fn lags_are_low_passes_of_their_time_constant() {
 }
 
 #[test]
-fn overshoot_of_the_prototypes() {
-    let overshoot = |prototype, order| {
-        let y = step_response(&mut low_pass(prototype, order, 15.0), 2000);
-        y.into_iter().fold(0.0, f64::max) - 1.0
-    };
-    let mut butterworth = 0.0;
-    for order in 1..=6 {
-        assert!(overshoot(Prototype::CritDamping, order) <= 1e-12, "order {order}");
-        assert!(overshoot(Prototype::Bessel, order) < 0.01, "order {order}");
-        let more = overshoot(Prototype::Butterworth, order);
-        assert!(order == 1 || more > butterworth, "order {order}");
-        butterworth = more;
-    }
-}
-
-#[test]
 fn the_band_stop_has_its_zero_at_the_centre_and_unit_gain_far_away() {
     for prototype in [Prototype::CritDamping, Prototype::Butterworth, Prototype::Bessel] {
         for order in 1..=3 {
@@ -296,31 +277,6 @@ fn the_band_stop_has_its_zero_at_the_centre_and_unit_gain_far_away() {
                 assert_close(stop.response(at(500.0)).magnitude(), 1.0, 1e-12, &config);
                 let pass = design(&FilterConfig { kind: FilterKind::BandPass, ..config });
                 assert_close(pass.response(at(f_hz)).magnitude(), 1.0, 1e-12, &config);
-            }
-        }
-    }
-}
-
-/// With the edges f0 (sqrt(1 + 1/(4 Q^2)) +- 1/(2 Q)) at -3 dB; the discrete ones are off by less than 0.04 dB.
-#[test]
-fn band_edges() {
-    for order in 1..=3 {
-        for prototype in [Prototype::CritDamping, Prototype::Butterworth, Prototype::Bessel] {
-            for kind in [FilterKind::BandPass, FilterKind::BandStop] {
-                let config = FilterConfig {
-                    kind,
-                    prototype,
-                    order,
-                    f_hz: 20.0,
-                    q: 4.0,
-                    ..FilterConfig::default()
-                };
-                let filter = design(&config);
-                for sign in [-1.0, 1.0] {
-                    let edge = 20.0 * ((1.0_f64 + 1.0 / 64.0).sqrt() + sign / 8.0);
-                    let magnitude_db = filter.response(at(edge)).magnitude_db();
-                    assert_close(magnitude_db, -3.0103, 0.04, &config);
-                }
             }
         }
     }
@@ -387,25 +343,6 @@ fn a_time_delay_passes_every_amplitude() {
         let cycles = f64::from(time_constant_us) / 1000.0;
         assert_close(filter.delay_cycles(), cycles, 1e-12, &time_constant_us);
     }
-}
-
-/// Closed forms of the error at a 90 degree corner, v M1 with M1 half the mean absolute deviation.
-#[test]
-fn corner_errors_of_the_low_passes() {
-    let v_mm_s = 1000.0 / 60.0;
-    let printed = [0.0651, 0.0616, 0.0606, 0.0601, 0.0598, 0.0596];
-    for (order, want) in (1..=6).zip(printed) {
-        let filter = low_pass(Prototype::CritDamping, order, 15.0);
-        let is = crate::corner::corner(&filter, v_mm_s * 0.001, 600).contour_error;
-        // Half a per cent between the continuous and the discrete filter.
-        assert_close(is, want, 0.006 * want, &order);
-    }
-    let tau = 0.010;
-    let v = v_mm_s;
-    let pt1 = crate::corner::corner(&lag(FilterKind::Pt1, 10_000), v * 0.001, 600).contour_error;
-    assert_close(pt1, v * tau * libm::exp(-1.0), 0.003 * pt1, &"PT1");
-    let pt2 = crate::corner::corner(&lag(FilterKind::Pt2, 10_000), v * 0.001, 600).contour_error;
-    assert_close(pt2, 4.0 * libm::exp(-2.0) * v * tau, 0.003 * pt2, &"PT2");
 }
 
 fn issues(config: FilterConfig) -> (bool, Vec<FilterIssue>) {

@@ -4,7 +4,7 @@ pub(super) mod akima;
 pub(super) mod bottleneck;
 pub(super) mod compensation;
 pub(super) mod contouring;
-pub(super) mod feed_course;
+mod feed_course;
 pub(super) mod insertion;
 mod motion;
 
@@ -21,7 +21,9 @@ use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
 use std::collections::VecDeque;
 
-pub(super) use motion::{Compensated, Driven, Motion, local_ends, programmed_time_s};
+pub(super) use motion::{
+    Compensated, Corner, CornerFeed, Driven, FeedCourse, Motion, local_ends, programmed_time_s,
+};
 
 /// K-0119.
 fn bottleneck(cut: &Cut) -> Box<Fault> {

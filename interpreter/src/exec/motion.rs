@@ -2,7 +2,7 @@
 
 mod angles;
 mod arcs;
-pub(super) mod coupling;
+mod coupling;
 mod cutting;
 pub(super) mod dynamics;
 mod feed;
@@ -24,7 +24,7 @@ use self::angles::ContourLine;
 use super::block::groups::{Act, Group};
 use super::block::modal::{Compensation, Corners, FeedType, PathMode};
 use super::block::words::{GWord, Words};
-use super::contour::feed_course::FeedCourse;
+use super::contour::FeedCourse;
 use super::contour::insertion::{Insertion, Kind};
 use super::contour::{Compensated, Motion};
 use super::decoder::Decoder;

@@ -135,7 +135,17 @@ pub(super) fn run_with(
 
 /// Runs a text on the built-in machine.
 pub(super) fn run(text: &str) -> Run {
-    run_with(MemorySources::new().with("main.nc", text), machine(&[]), Options::default())
+    run_on(&[], text)
+}
+
+/// Runs a text on the built-in machine with other settings.
+pub(super) fn run_on(settings: &[&str], text: &str) -> Run {
+    run_with(MemorySources::new().with("main.nc", text), machine(settings), Options::default())
+}
+
+/// IDs that a text gets which ends with M30.
+pub(super) fn said(text: &str) -> Vec<String> {
+    run(&format!("{text}\nM30\n")).ids()
 }
 
 /// Runs a text; it must have no diagnostics.

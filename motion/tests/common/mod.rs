@@ -6,10 +6,10 @@
 )]
 
 pub(crate) mod events;
-pub(crate) mod random;
 
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
+use kontur_kit::Random;
 use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope, FeedholdSlope, RapidSlope, StepSlope};
 use kontur_motion::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
 use kontur_motion::path::{LinePath, Path};
@@ -155,4 +155,48 @@ pub(crate) fn second_order_time(limit: &mut [f64], acc: &[f64], step: &[f64]) ->
         limit[k + 1] = limit[k + 1].min(limit[k] + 2.0 * acc[k] * step[k]);
     }
     (0..n).map(|k| 2.0 * step[k] / (limit[k].sqrt() + limit[k + 1].sqrt())).sum()
+}
+
+/// Points of a contour of lines: corners, gentle bends, or up to `chords` chords of arcs.
+pub(crate) fn contour(r: &mut Random, chords: u32) -> Vec<[f64; 3]> {
+    let kinds = [(2.8, 0.05, 20.0, 20), (0.2, 0.05, 5.0, 20), (0.03, 0.1, 0.3, chords)];
+    let (turn, low, high, most) = r.pick(&kinds);
+    let count = 3 + (r.ratio() * f64::from(most)) as usize;
+    let (mut at, mut heading) = ([0.0_f64; 3], 6.3 * r.ratio());
+    let curve = turn * r.between(-0.5, 0.5);
+    let mut out = vec![at];
+    for _ in 0..count {
+        heading += curve + turn * r.between(-0.5, 0.5);
+        let (sin, cos) = libm::sincos(heading);
+        let l = r.log(low, high);
+        at = [at[0] + l * cos, at[1] + l * sin, at[2] + 0.2 * l * r.between(-1.0, 1.0)];
+        out.push(at);
+    }
+    out
+}
+
+/// Points on a circle about the origin in equal chords of about `chord`, twice round.
+pub(crate) fn circle(radius: f64, chord: f64) -> Vec<Vec<f64>> {
+    let n = libm::round(2.0 * std::f64::consts::PI * radius / chord);
+    (0..=2 * n as usize)
+        .map(|k| {
+            let (sin, cos) = libm::sincos(2.0 * std::f64::consts::PI * k as f64 / n);
+            vec![radius * cos, radius * sin]
+        })
+        .collect()
+}
+
+/// Number of setpoints and the peaks of their second and third differences, in mm/s2 and mm/s3.
+pub(crate) fn peaks(out: &[Setpoint], cycle_us: u32) -> (usize, f64, f64) {
+    let t = f64::from(cycle_us) * 1e-6;
+    let p = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
+    let (mut acc, mut jerk) = (0.0_f64, 0.0_f64);
+    for k in 0..out.len() {
+        for i in 0..2 {
+            let a = |k: usize| (p(k + 2, i) - 2.0 * p(k + 1, i) + p(k, i)) / (t * t);
+            acc = acc.max(a(k).abs());
+            jerk = jerk.max((a(k + 1) - a(k)).abs() / t);
+        }
+    }
+    (out.len(), acc, jerk)
 }

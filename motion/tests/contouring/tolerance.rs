@@ -1,40 +1,24 @@
 //! What a larger tolerance of contouring may not do, and the tolerance of the axes on curves.
 
-use super::common::random::Random;
-use super::common::{Job, deviation, filtered};
+use super::common::{Job, deviation, filtered, peaks};
 use super::{at, contoured, dev, line};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_kit::Random;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, ContourSettings, Tolerance};
 use kontur_motion::contouring::Contouring;
 
-/// Peaks of the second and third differences of the setpoints.
-fn peaks(
-    job: &Job,
-    settings: Option<ContourSettings>,
-    points: &[&[f64]],
-    feed: f64,
-) -> (usize, f64, f64) {
+/// Setpoints of a contoured polygon, and the peaks of their differences.
+fn driven(job: &Job, settings: ContourSettings, points: &[&[f64]], feed: f64) -> (usize, f64, f64) {
     let mut stage = Contouring::new();
     let mut blocks = Vec::new();
     for (i, w) in points.windows(2).enumerate() {
         let block = job.block(i as u64, line(w[0], w[1]), feed);
-        blocks.extend(stage.push(Block { contour: settings, ..block }));
+        blocks.extend(stage.push(Block { contour: Some(settings), ..block }));
     }
     blocks.extend(stage.flush());
-    let out = job.run(points[0], blocks.into_iter());
-    let t = f64::from(job.cycle_us) * 1e-6;
-    let p = |k: usize, i: usize| out[k.min(out.len() - 1)].position[i];
-    let (mut acc, mut jerk) = (0.0_f64, 0.0_f64);
-    for k in 0..out.len() {
-        for i in 0..2 {
-            let a = |k: usize| (p(k + 2, i) - 2.0 * p(k + 1, i) + p(k, i)) / (t * t);
-            acc = acc.max(a(k).abs());
-            jerk = jerk.max((a(k + 1) - a(k)).abs() / t);
-        }
-    }
-    (out.len() - 1, acc, jerk)
+    peaks(&job.run(points[0], blocks.into_iter()), job.cycle_us)
 }
 
 /// A larger tolerance never costs time where the speed is planned across block limits, and no axis is loaded beyond
@@ -52,9 +36,9 @@ fn a_larger_tolerance_costs_nothing() {
         for points in shapes {
             let mut job = Job::new(0.0, kind);
             job.slope.optimised = !step;
-            let mut last = peaks(&job, Some(dev(0.001)), points, 100.0);
+            let mut last = driven(&job, dev(0.001), points, 100.0);
             for eps in [0.01, 0.05, 0.2, 1.0] {
-                let now = peaks(&job, Some(dev(eps)), points, 100.0);
+                let now = driven(&job, dev(eps), points, 100.0);
                 assert!(now.0 <= last.0, "{kind:?} {eps}: {now:?} after {last:?}");
                 assert!(now.1 <= last.1.max(acc), "{kind:?} {eps}: {now:?} after {last:?}");
                 assert!(now.2 <= last.2.max(jerk), "{kind:?} {eps}: {now:?} after {last:?}");
@@ -67,8 +51,8 @@ fn a_larger_tolerance_costs_nothing() {
 /// The same over random zigzags: edges of 0.05 to 20 mm, any corner but a reversal, tolerances over four decades.
 #[test]
 fn a_larger_tolerance_costs_nothing_on_random_polygons() {
-    let mut random = Random(9);
-    let mut random = || random.next();
+    let mut random = Random::from_state(9);
+    let mut random = || random.ratio();
     for program in 0..10 {
         let (mut heading, mut at) = (0.0, [0.0, 0.0]);
         let mut points = vec![at];
@@ -85,7 +69,7 @@ fn a_larger_tolerance_costs_nothing_on_random_polygons() {
             job.slope.optimised = true;
             let mut last = usize::MAX;
             for eps in [1e-4, 1e-3, 0.01, 0.1, 1.0] {
-                let now = peaks(&job, Some(dev(eps)), &views, 200.0);
+                let now = driven(&job, dev(eps), &views, 200.0);
                 println!("{program} {kind:?} {eps}: {now:?} after {last}");
                 assert!(now.0 <= last, "{program} {kind:?} {eps}: {now:?} after {last}");
                 assert!(now.1 <= 2000.0 * (1.0 + 1e-6), "{program} {kind:?} {eps}: {now:?}");

@@ -4,4 +4,4 @@ mod oscillator;
 mod random;
 
 pub use oscillator::Oscillator;
-pub use random::{Random, count, seed};
+pub use random::{Random, count, environment, seed};

@@ -14,6 +14,11 @@ impl Random {
         random
     }
 
+    /// A generator whose state is a number as it is.
+    pub fn from_state(state: u64) -> Self {
+        Self(state)
+    }
+
     /// 64 bits; the upper ones are good, the lower ones repeat soon.
     pub fn bits(&mut self) -> u64 {
         self.0 =
@@ -59,12 +64,17 @@ impl Random {
     }
 }
 
+/// A whole number of the environment, else `default`.
+pub fn environment(name: &str, default: u64) -> u64 {
+    std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(default)
+}
+
 /// How many random cases a test takes: `COUNT` of the environment, else `default`.
 pub fn count(default: usize) -> usize {
-    std::env::var("COUNT").ok().and_then(|c| c.parse().ok()).unwrap_or(default)
+    environment("COUNT", default as u64) as usize
 }
 
 /// First seed of a test: `SEED` of the environment, else 1.
 pub fn seed() -> u64 {
-    std::env::var("SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1)
+    environment("SEED", 1)
 }

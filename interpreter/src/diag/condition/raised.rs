@@ -168,7 +168,7 @@ conditions! {
     CoupledTypes = Vendor 20468: Error ProgramAbort 3 1, "coupled axes of different types", cause "a linear axis and a rotary one", hint "couple axes of the same type (P-AXIS-00018)";
     CoupledModes = Vendor 20469: Error ProgramAbort 3 1, "coupled axes of different modes", cause "a modulo axis and one that is none", hint "couple axes of the same mode (P-AXIS-00015)";
     CouplingGroupActive = Vendor 20472: Error ProgramAbort 3 1, "coupling group changed while it is switched on", cause "#SET AX LINK [1, ..] after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before it";
-    MasterIsSlave = Vendor 20475: Error ProgramAbort 3 1, "axis coupled with itself", cause "#SET AX LINK [1, X=X]", hint "write another axis behind the =";
+    MasterIsSlave = Vendor 20475: Error ProgramAbort 3 1, "axis coupled with itself", cause "#SET AX LINK [1, X=X]", hint "write another axis after the =";
     SlaveTwice = Vendor 20476: Error ProgramAbort 3 1, "axis is a slave twice", cause "#SET AX LINK [1, C=X, C=Y]", hint "leave one of the two couplings out";
     CouplingChain = Vendor 20477: Error ProgramAbort 3 1, "axis is master and slave", cause "#SET AX LINK [1, B=X, C=B]", hint "couple both slaves with the first master";
     PositionRequests = Vendor 20500: Error ProgramAbort 3 1, "too many values in #GET CMDPOS, #GET ACTPOS or #SET IPO SOLLPOS", hint "write the rest into a second command";
@@ -180,11 +180,11 @@ conditions! {
     CommentBeginNotAlone = Vendor 20566: Error ProgramAbort 3 1, "#COMMENT BEGIN is not alone in its block", hint "move the words to the next block";
     CommentEndNotAlone = Vendor 20569: Error ProgramAbort 3 1, "#COMMENT END is not alone in its block", hint "move the words to the next block";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
-    PresetWhileMirrored = Vendor 20612: Error ProgramAbort 3 1, "#PSET or #PRESET with active mirroring", cause "G21, then #PSET X200", hint "write G20 before";
+    PresetWhileMirrored = Vendor 20612: Error ProgramAbort 3 1, "#PSET or #PRESET with active mirroring", cause "G21, then #PSET X200", hint "write G20 before it";
     CuttingSpeedLimited = Vendor 20633: Warning None 1 1, "too near to the turning centre for G96: spindle speed limited", cause "G96 at X0", hint "select G96 further out, or raise G196";
     TappingPerRevolution = Vendor 20635: Error ProgramAbort 3 1, "tapping with feed per revolution", cause "G63 under G95", hint "write G94 before it";
     TappingCuttingSpeed = Vendor 20636: Error ProgramAbort 3 1, "tapping with constant cutting speed", cause "G63 under G96", hint "write G97 before it";
-    FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 before";
+    FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 first";
     CoordinateSystemSyntax = Vendor 20675: Error ProgramAbort 3 1, "syntax error in #CS ON[...]", hint "#CS ON [x,y,z,a,b,c], #CS ON [number], #CS DEF [number][x,y,z,a,b,c], #CS OFF [ALL]";
     DwellOtherAxes = Vendor 20685: Warning None 1 1, "G04 with further axes", hint "the time follows the first main axis; write the motion in a block of its own";
     KinematicsWhileActive = Vendor 20687: Error ProgramAbort 3 1, "kinematics changed under an active transformation", cause "#KIN ID under #TRAFO ON", hint "write #TRAFO OFF before #KIN ID";
@@ -218,14 +218,14 @@ conditions! {
     ArrayNotDeclared = Vendor 20921: Error ProgramAbort 3 1, "P array not declared", hint "declare it between #VAR and #ENDVAR";
     ParameterUnknown = Vendor 20925: Error ProgramAbort 3 1, "unknown parameter", cause "read before it was written, or with other dimensions than declared", hint "assign a value before it is read: P1=5";
     DeletedUnknown = Vendor 20932: Error ProgramAbort 3 1, "variable to be deleted does not exist", cause "#DELETE V.P.NAME", hint "EXIST[V.P.NAME] checks whether it exists";
-    MeasuringArc = Vendor 20954: Error ProgramAbort 3 1, "arc as a measuring run", cause "G02 or G03 beside G100 or G310", hint "measuring runs are straight";
+    MeasuringArc = Vendor 20954: Error ProgramAbort 3 1, "arc as a measuring run", cause "G02 or G03 with G100 or G310", hint "measuring runs are straight";
     MeasuringTypeOfG310 = Vendor 20956: Error ProgramAbort 3 1, "G310 does not fit the measuring type", cause "G310 measures with types 5 and 6", hint "select one of them by #MEAS MODE [5]", parameter "P-CHAN-00057";
     DimensionTooSmall = Vendor 20966: Error ProgramAbort 3 1, "size of an array below 1", hint "write 1 or more";
     ArrayOutsideDeclaration = Vendor 20972: Error ProgramAbort 3 1, "values of an array outside #VAR and #ENDVAR", cause "V.P.A[3]=[1,2,3]", hint "declare the array between #VAR and #ENDVAR";
     TooManyDimensions = Vendor 20974: Error ProgramAbort 3 1, "too many dimensions of an array", hint "arrays have up to 4 dimensions";
-    SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before";
+    SuppressWithIncremental = Vendor 20985: Error ProgramAbort 3 1, "#SUPPRESS OFFSETS with G91", hint "write G90 before it";
     SpindleSpeedNegative = Vendor 20991: Error ProgramAbort 3 1, "negative spindle speed in a spindle bracket", hint "M3 and M4 set the direction, REV and SPEED are positive";
-    TappingSpindleFunction = Vendor 21000: Error ProgramAbort 3 1, "spindle function while G63 is active", cause "M3, M4, M5 or M19 beside or behind G63", hint "write G00 or G01 before it: G63 is modal";
+    TappingSpindleFunction = Vendor 21000: Error ProgramAbort 3 1, "spindle function while G63 is active", cause "M3, M4, M5 or M19 in the block of G63 or after it", hint "write G00 or G01 before it: G63 is modal";
     CentreAndRadius = Vendor 21024: Error ProgramAbort 3 1, "centre and radius both given", hint "leave R out, or I, J and K";
     SpindleSpeedTwice = Vendor 21036: Error ProgramAbort 3 1, "spindle speed twice in one block", cause "S[M3 REV100 REV200]", hint "leave one of the two out";
     IndependentSyntax = Vendor 21068: Error ProgramAbort 3 1, "syntax of an independent axis";
@@ -371,7 +371,7 @@ conditions! {
     DuplicateGroup = Kontur 8 "K-DUPGROUP": Error ProgramAbort 3 0, "two functions of one group (no vendor ID known)", hint "write the second one in a block of its own";
     Range = Kontur 9 "K-RANGE": Error ProgramAbort 3 0, "value outside the range of a command key", hint "write a value within the range";
     RadiusTooSmall = Kontur 10 "K-RADIUS-TOO-SMALL": Error ProgramAbort 3 0, "R smaller than half the chord", hint "check the end point and R; the smallest arc is the half circle over the chord";
-    Sqrt = Kontur 11 "K-SQRT": Error ProgramAbort 3 0, "root of a negative number", hint "test the value with $IF before";
+    Sqrt = Kontur 11 "K-SQRT": Error ProgramAbort 3 0, "root of a negative number", hint "test the value with $IF first";
     Undefined = Kontur 12 "K-UNDEF": Error ProgramAbort 3 0, "variable or parameter not defined", hint "assign a value before it is read";
     NoFile = Kontur 13 "K-NOFILE": Error ProgramAbort 3 0, "file cannot be opened", hint "check the name; --path adds folders";
     NoSubroutine = Kontur 14 "K-NOSUB": Error ProgramAbort 3 0, "subroutine not found", hint "local subroutines begin with %L NAME";
@@ -406,7 +406,7 @@ conditions! {
     SetpointError = Kontur 61 "K-SETPOINT-ERROR": Error FeedHold 6 11, "acceleration or jerk of the set position above the limit", cause "P-AXIS-00442, P-AXIS-00444; the vendor's ID is not known", hint "lower the dynamics, or raise the threshold if a filter overshoots";
     TorqueScale = Kontur 62 "K-FF-SCALE": Warning None 1 2, "reference torque or torque scale 0, no torque output", cause "P-AXIS-00392, P-AXIS-00325", hint "write P-AXIS-00392 and P-AXIS-00325";
     IpcOverlap = Kontur 63 "K-IPC-OVERLAP": Warning None 1 2, "pass bands of two stages of Improved Position Control overlap", cause "their dampings influence each other", hint "raise the quality or move the frequencies apart";
-    ResolutionWithoutEffect = Kontur 64 "K-FF-RESOLUTION": Warning None 1 2, "encoder resolution beside a feed constant, without effect", cause "P-AXIS-00233, P-AXIS-00234 are 1 where P-AXIS-00362, P-AXIS-00363 are used", hint "set P-AXIS-00233 and P-AXIS-00234 to 1";
+    ResolutionWithoutEffect = Kontur 64 "K-FF-RESOLUTION": Warning None 1 2, "encoder resolution in addition to a feed constant, without effect", cause "P-AXIS-00233, P-AXIS-00234 are 1 where P-AXIS-00362, P-AXIS-00363 are used", hint "set P-AXIS-00233 and P-AXIS-00234 to 1";
     IncrementsWithoutEffect = Kontur 65 "K-FF-INCREMENTS": Warning None 1 2, "increments per revolution without a feed constant, without effect", cause "P-AXIS-00092 needs P-AXIS-00362, P-AXIS-00363 and P-AXIS-00511, P-AXIS-00512", hint "write P-AXIS-00362, P-AXIS-00363 and P-AXIS-00511, P-AXIS-00512";
     IpcNoInput = Kontur 66 "K-IPC-LOOP": Warning None 1 2, "Improved Position Control without a way into the position loop, off for the axis", cause "a drive that closes the loop needs the additive velocity in its process data; P-AXIS-00320", hint "name S_0_0037 in antr.sercos.mdt[i].nc_ref, or antr.operation_mode CNC_POSITION_CONTROL";
     ListRange = Kontur 70 "K-LIST-RANGE": Warning None 1 2, "list parameter outside its range, corrected", cause "the vendor's ID for this parameter is not known", hint "kontur explain gives the range of the parameter";
@@ -431,7 +431,7 @@ conditions! {
     FilterWithListGuard = Kontur 105 "K-FILTER-LIST-GUARD": Error ProgramAbort 3 1, "#FILTER while a list activates the Vibration Guard", cause "P-AXIS-00588", hint "set vib_guard.active to 0, or use #VIB GUARD";
     GuardWithListFilter = Kontur 106 "K-GUARD-LIST-FILTER": Error ProgramAbort 3 1, "#VIB GUARD while a list configures a filter type", cause "P-AXIS-00586, P-AXIS-00153", hint "leave the filter type out of the list, or use #FILTER";
     AccFactIgnored = Kontur 107 "K-ACC-FACT": Warning None 1 1, "ACC_FACT without effect", cause "it needs a valid P-AXIS-00013", hint "write getriebe[i].dynamik.a_trans_weight (P-AXIS-00013)", parameter "P-AXIS-00013";
-    SpindleFeedforward = Kontur 108 "K-SPINDLE-FF": Error ProgramAbort 3 1, "feedforward beside other commands of a spindle", cause "S[G135 M3 REV1000]", hint "write S[G135] in a bracket of its own";
+    SpindleFeedforward = Kontur 108 "K-SPINDLE-FF": Error ProgramAbort 3 1, "feedforward together with other commands of a spindle", cause "S[G135 M3 REV1000]", hint "write S[G135] in a bracket of its own";
     Odd = Kontur 109 "K-ODD": Note None 1 1, "legal but unusual, worth a look", hint "check whether this is intended";
     ExternalCreated = Kontur 110 "K-EXTERNAL": Warning None 1 1, "external variable created by its first write", cause "V.E. variables are configured with --external", hint "is the name right?";
     Fallback = Kontur 111 "K-FALLBACK": Warning None 1 1, "function replaced by a simpler one", cause "the message says which", hint "the message states what the path does instead";
@@ -445,7 +445,7 @@ conditions! {
     ForeignProgram = Kontur 120 "K-FOREIGN": Error ProgramAbort 3 0, "word of another control's language", cause "#<name>, #100, o100 sub, G5.2, BEGIN PGM", hint "write the program out again with a post-processor for ISG or TwinCAT; parameters are P1 and V.P.NAME here";
     MacroBracket = Kontur 121 "K-MACRO-BRACKET": Error ProgramAbort 3 1, "half a pair of brackets in a macro (no vendor ID known)", cause "\"A\" = \"COS[\"", hint "the text of a macro holds whole levels of brackets: \"A\" = \"COS[90]\"";
     ThreadSpeed = Kontur 122 "K-THREAD-SPEED": Error ProgramAbort 3 1, "thread faster than the axes (no vendor ID known)", cause "pitch times spindle speed above P-AXIS-00212", hint "lower the spindle speed";
-    SpindleTurns = Kontur 123 "K-SPINDLE-TURNS": Error ProgramAbort 3 1, "tapping with a turning spindle (no vendor ID known)", cause "M03 before G63, or before or beside G331", hint "stop the spindle by M05, or position it by M19, in a block before";
+    SpindleTurns = Kontur 123 "K-SPINDLE-TURNS": Error ProgramAbort 3 1, "tapping with a turning spindle (no vendor ID known)", cause "M03 before G63, or before or in the block of G331", hint "stop the spindle with M05, or position it with M19, in an earlier block";
     ThreadPitch = Kontur 124 "K-THREAD-PITCH": Error ProgramAbort 3 1, "thread without a pitch (no vendor ID known)", cause "G33 Z-50 without K", hint "I, J, K are the pitches of X, Y, Z in mm/rev; G33 has no sign";
     FaceTurningAxis = Kontur 125 "K-FACE-TURNING": Error ProgramAbort 3 1, "G96 without exactly one face turning axis in the plane (no vendor ID known)", hint "set the bit 0x40 of P-AXIS-00015 for it", parameter "P-AXIS-00015";
     ArcPoints = Kontur 126 "K-ARC-POINTS": Error ProgramAbort 3 1, "three points of G303 that define no arc (no vendor ID known)", cause "points on a line, or the same point twice", hint "I, J, K lie between start and target, off the line between them";

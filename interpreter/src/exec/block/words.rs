@@ -3,97 +3,18 @@
 //! Assignments act while the words are collected, so that a value sees the assignments written before it. Everything
 //! else acts afterwards, in the order that [`super::din`] keeps.
 
+mod collected;
+
+pub(in crate::exec) use collected::{Code, CycleCall, GWord, Placed, Words};
+
 use super::groups::{self, Act, Group, Row, ValueRule};
 use super::modal::Selection;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::options::Value;
 use crate::exec::suggest;
 use crate::exec::values::system;
-use crate::syntax::ast::{
-    Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Jump, PlaceKind, Return, Sign, Span,
-    Word, WordKind,
-};
-use smallvec::SmallVec;
-
-/// Number and place of a value.
-pub(in crate::exec) type Placed = (f64, Span);
-
-/// A G function of the block.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::exec) struct GWord {
-    pub(in crate::exec) row: &'static Row,
-    pub(in crate::exec) value: Option<f64>,
-    pub(in crate::exec) span: Span,
-}
-
-/// An M or H function of the block.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::exec) struct Code {
-    pub(in crate::exec) number: u32,
-    pub(in crate::exec) value: Option<f64>,
-    pub(in crate::exec) span: Span,
-}
-
-/// An implicit subroutine call.
-#[derive(Clone, Debug)]
-pub(in crate::exec) struct CycleCall {
-    pub(in crate::exec) number: u32,
-    /// Values in written order; `None` for an empty place.
-    pub(in crate::exec) values: Vec<Option<Value>>,
-    pub(in crate::exec) span: Span,
-}
-
-/// The words of one block.
-#[derive(Debug, Default)]
-pub(in crate::exec) struct Words<'b> {
-    pub(in crate::exec) g: SmallVec<[GWord; 6]>,
-    /// Axis, value as written, place.
-    pub(in crate::exec) axes: SmallVec<[(usize, f64, Span); 8]>,
-    /// First sign of the words of modulo axes: the direction of rotation; or the place of a sum whose first sign may
-    /// also belong to its first term.
-    pub(in crate::exec) turns: SmallVec<[(usize, Result<Sign, Span>); 1]>,
-    /// G90 and G91 that act from their place on (P-CHAN-00116): number of axis words before, and whether absolute.
-    pub(in crate::exec) dimensions: SmallVec<[(usize, bool); 2]>,
-    /// I, J, K.
-    pub(in crate::exec) centre: [Option<Placed>; 3],
-    pub(in crate::exec) radius: Option<Placed>,
-    pub(in crate::exec) feed: Option<Placed>,
-    pub(in crate::exec) end_feed: Option<Placed>,
-    /// Spindle and speed.
-    pub(in crate::exec) speeds: SmallVec<[(usize, f64, Span); 1]>,
-    /// Spindle and angle of M19 (`S.POS=180`).
-    pub(in crate::exec) angles: SmallVec<[(usize, f64, Span); 1]>,
-    /// Spindle and angle at which a thread begins (`S.OFFSET=90`).
-    pub(in crate::exec) offsets: SmallVec<[(usize, f64, Span); 1]>,
-    pub(in crate::exec) tool: Option<Placed>,
-    pub(in crate::exec) tool_data: Option<Placed>,
-    /// A write to `V.G.WZ_AKT`.
-    pub(in crate::exec) tool_written: Option<Span>,
-    pub(in crate::exec) m: SmallVec<[Code; 4]>,
-    pub(in crate::exec) h: SmallVec<[Code; 1]>,
-    pub(in crate::exec) cycle: Option<CycleCall>,
-    pub(in crate::exec) brackets: SmallVec<[&'b Bracket; 1]>,
-    pub(in crate::exec) hashes: SmallVec<[(&'b HashWord, Option<f64>, Span); 1]>,
-    pub(in crate::exec) call: Option<(&'b Call, Span)>,
-    pub(in crate::exec) goto: Option<&'b Jump>,
-    /// Where M17 or M29 leads, if they say so.
-    pub(in crate::exec) back: Option<(&'b Return, Span)>,
-}
-
-impl Words<'_> {
-    /// True if the axis word in place `i` is absolute; `modal` is the dimension that the block leaves behind.
-    pub(in crate::exec) fn is_absolute(&self, i: usize, modal: bool) -> bool {
-        let last = self.dimensions.iter().rfind(|(place, _)| *place <= i);
-        last.map_or(modal, |(_, absolute)| *absolute)
-    }
-
-    /// The G function of a group.
-    pub(in crate::exec) fn group(&self, group: Group) -> Option<&GWord> {
-        self.g.iter().find(|g| g.row.group == group)
-    }
-}
+use crate::syntax::ast::{Assign, CodeNumber, Expr, GValue, PlaceKind, Span, Word, WordKind};
 
 impl Decoder {
     /// Collects the words of a block and carries out its assignments. What cannot be used is reported and left out.

@@ -5,7 +5,7 @@
 use super::keys::{above_zero, arguments};
 use super::row::{Call, Row};
 use crate::diag::Condition;
-use crate::exec::contour::feed_course::{Corner, CornerFeed};
+use crate::exec::contour::{Corner, CornerFeed};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::values::number::whole;

@@ -1,6 +1,6 @@
 //! `#SET AX LINK`, `#AX LINK`, `#ENABLE AX LINK`, `#DISABLE AX LINK`: groups of axis couplings.
 //!
-//! The commands read and check groups; what couplings do is in [`crate::exec::motion::coupling`].
+//! The commands read and check groups; what couplings do is in [`crate::exec::motion`].
 //!
 //! Source: TF5200 programming manual, axis couplings (207120267, 207126155, 207133579), gantry operation (285670667);
 //! 20461, 20475 to 20477, 21077, 21110, 21111 and 21281.
@@ -9,7 +9,7 @@ use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::coupling::Pair;
+use crate::exec::motion::state::coupling::Pair;
 use crate::exec::values::number::whole;
 use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
 

@@ -16,6 +16,7 @@
 mod active;
 mod corner;
 mod element;
+mod ends;
 mod inside;
 mod item;
 mod tangential;
@@ -31,7 +32,8 @@ use crate::exec::step::{SourceRef, Sync};
 use crate::syntax::ast::Span;
 use active::Active;
 use corner::{above, straight};
-use element::{Element, line, moving_side, runs_back};
+use element::{Element, moving_side, runs_back};
+use ends::line;
 use inside::Closed;
 use item::Fallible;
 

@@ -9,7 +9,7 @@
 //! after it the path is as fast as it may be; elements that the compensation inserts end as the motion before them.
 
 use super::compensation::Item;
-use super::motion::Motion;
+use super::motion::{Corner, CornerFeed, FeedCourse, Motion};
 use kontur_motion::block::{Block, Feed};
 
 /// Ratio of the feeds of two pieces.
@@ -17,34 +17,6 @@ const STEP: f64 = 1.01;
 
 /// Most pieces of one motion: a range of feeds of 1 to 20,000; beyond it they are coarser.
 const PIECES_MAX: f64 = 1000.0;
-
-/// How the feed of a motion changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::exec) enum FeedCourse {
-    /// G13.
-    Corner(Corner),
-    /// G193: from this feed in mm/s, above 0, linearly along the path.
-    OverPath(f64),
-    /// G293: from this feed in mm/s, above 0, linearly over the time.
-    OverTime(f64),
-}
-
-/// `#CORNER PARAM`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::exec) struct Corner {
-    /// Way in front of the corner, above 0.
-    pub(in crate::exec) dist_mm: f64,
-    pub(in crate::exec) feed: CornerFeed,
-}
-
-/// Feed at a corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::exec) enum CornerFeed {
-    /// Of the programmed feed, above 0.
-    Ratio(f64),
-    /// In mm/s, above 0.
-    MmS(f64),
-}
 
 /// The part of a motion on which the feed changes.
 struct Change {

@@ -1,6 +1,5 @@
 //! A programmed motion on its way through the stages of the contour.
 
-use super::feed_course::FeedCourse;
 use crate::exec::block::modal::Selection;
 use crate::exec::step::{Event, SourceRef};
 use crate::syntax::ast::Span;
@@ -45,6 +44,34 @@ pub(in crate::exec) struct Compensated {
     pub(in crate::exec) selection: Selection,
     /// G11: least radius in mm of the arcs whose feed is that of the tool's engagement.
     pub(in crate::exec) engagement_radius_mm: Option<f64>,
+}
+
+/// How the feed of a motion changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) enum FeedCourse {
+    /// G13.
+    Corner(Corner),
+    /// G193: from this feed in mm/s, above 0, linearly along the path.
+    OverPath(f64),
+    /// G293: from this feed in mm/s, above 0, linearly over the time.
+    OverTime(f64),
+}
+
+/// `#CORNER PARAM`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct Corner {
+    /// Way in front of the corner, above 0.
+    pub(in crate::exec) dist_mm: f64,
+    pub(in crate::exec) feed: CornerFeed,
+}
+
+/// Feed at a corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) enum CornerFeed {
+    /// Of the programmed feed, above 0.
+    Ratio(f64),
+    /// In mm/s, above 0.
+    MmS(f64),
 }
 
 impl Motion {

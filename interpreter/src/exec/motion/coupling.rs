@@ -12,94 +12,14 @@
 //!
 //! [`Independent::way`]: super::state::Independent::way
 
+use super::state::coupling::{Couplings, Follower, Pair};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::{Event, Sync};
 use crate::syntax::ast::Span;
-use kontur_motion::axis::{AxisDynamics, AxisVec};
-use std::collections::BTreeMap;
-
-/// A slave and its master.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::exec) struct Pair {
-    pub(in crate::exec) slave: usize,
-    pub(in crate::exec) master: usize,
-    /// 1, or -1 for a slave that mirrors its master.
-    pub(in crate::exec) ratio: f64,
-    /// Gantry coupling, with monitoring of the actual positions.
-    pub(in crate::exec) is_gantry: bool,
-}
-
-/// A pair in force.
-#[derive(Clone, Copy, Debug)]
-struct Follower {
-    pair: Pair,
-    /// Where both stood when the group was switched on.
-    master_mm: f64,
-    slave_mm: f64,
-    /// Way of the slave at that time.
-    way_mm: f64,
-}
-
-/// The groups of a program.
-#[derive(Debug, Default)]
-pub(in crate::exec) struct Couplings {
-    groups: BTreeMap<u32, Vec<Pair>>,
-    /// In the order in which they were switched on.
-    active: Vec<(u32, Vec<Follower>)>,
-}
-
-impl Couplings {
-    /// No group is switched on.
-    pub(in crate::exec) fn are_off(&self) -> bool {
-        self.active.is_empty()
-    }
-
-    fn is_on(&self, group: u32) -> bool {
-        self.active.iter().any(|(active, _)| *active == group)
-    }
-
-    fn followers(&self) -> impl Iterator<Item = (u32, &Follower)> {
-        self.active.iter().flat_map(|(group, all)| all.iter().map(|f| (*group, f)))
-    }
-
-    pub(super) fn slaves(&self) -> impl Iterator<Item = usize> {
-        self.followers().map(|(_, follower)| follower.pair.slave)
-    }
-
-    /// The group that an axis takes part in, as slave or as master.
-    pub(in crate::exec) fn group_of(&self, axis: usize) -> Option<u32> {
-        let mut of_axis =
-            self.followers().filter(|(_, f)| f.pair.slave == axis || f.pair.master == axis);
-        of_axis.next().map(|(group, _)| group)
-    }
-
-    /// Limits of the masters with those of their slaves.
-    pub(super) fn limit(&self, axes: &mut [AxisDynamics]) {
-        for (_, Follower { pair, .. }) in self.followers() {
-            axes[pair.master] = axes[pair.master].with(&axes[pair.slave]);
-        }
-    }
-
-    /// Where the slave of a follower is when its master has come to `master_mm`.
-    fn slave_at(follower: &Follower, master_mm: f64) -> f64 {
-        follower.slave_mm + follower.pair.ratio * (master_mm - follower.master_mm)
-    }
-
-    /// The slaves of a master with the range that they go through while it goes from `low` to `high`.
-    pub(super) fn slaves_of(
-        &self,
-        master: usize,
-        (low, high): (f64, f64),
-    ) -> impl Iterator<Item = (usize, f64, f64)> {
-        self.followers().filter(move |(_, f)| f.pair.master == master).map(move |(_, f)| {
-            let (a, b) = (Self::slave_at(f, low), Self::slave_at(f, high));
-            (f.pair.slave, a.min(b), a.max(b))
-        })
-    }
-}
+use kontur_motion::axis::AxisVec;
 
 impl Decoder {
     /// `#SET AX LINK`: a group, which must not be switched on.

@@ -29,25 +29,6 @@ const PIECES_MAX: usize = 1000;
 /// Bit of the mode of an axis: face turning axis. Source: P-AXIS-00015.
 const FACE_TURNING: u32 = 0x40;
 
-/// G96, G97 and G196 in force.
-#[derive(Debug, Default)]
-pub(in crate::exec) struct Cutting {
-    /// G96 with its S word.
-    pub(super) speed: Option<CuttingSpeed>,
-    /// G96 is in force, whether or not an S word has come.
-    waits: bool,
-    /// S of G196 in rev/min.
-    rpm_max: Option<f64>,
-}
-
-impl Cutting {
-    /// The S words of the main spindle of this block are not speeds in rev/min.
-    pub(in crate::exec) fn takes_s_words(&self, words: &Words<'_>) -> bool {
-        self.waits
-            || words.group(Group::SpindleMode).is_some_and(|g| g.row.act == Act::CuttingSpeedMax)
-    }
-}
-
 impl Decoder {
     /// G96, G97 and G196 with the S word of their block.
     pub(in crate::exec) fn cutting_words(&mut self, words: &Words<'_>) -> Outcome<()> {

@@ -4,7 +4,7 @@ use crate::diag::Condition;
 use crate::exec::block::groups::Act;
 use crate::exec::block::modal::{Compensation, FeedType};
 use crate::exec::block::words::Words;
-use crate::exec::contour::feed_course::FeedCourse;
+use crate::exec::contour::FeedCourse;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::Span;

@@ -1,15 +1,17 @@
 //! What the room of motions keeps from block to block.
 
+pub(in crate::exec) mod coupling;
+mod cutting;
 pub(in crate::exec) mod measuring;
 
+use self::coupling::Couplings;
+use self::cutting::Cutting;
 use self::measuring::Measuring;
-use super::coupling::Couplings;
-use super::cutting::Cutting;
 use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
 use crate::exec::block::modal::{FeedWord, Modal};
-use crate::exec::contour::feed_course::Corner;
+use crate::exec::contour::Corner;
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::SourceRef;
 use crate::machine::{Channel, Machine};

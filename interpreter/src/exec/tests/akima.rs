@@ -1,6 +1,6 @@
 //! Akima splines.
 
-use super::{assert_near, clean, run};
+use super::{assert_near, clean, run_on, said};
 use kontur_motion::block::Block;
 
 const SPLINE: &str =
@@ -120,17 +120,12 @@ fn what_splines_do_not_do() {
         ("#AKIMA TRANS [START=TANG]", "21220"),
         ("G150 G151", "K-0008"),
     ] {
-        let ids = run(&format!("F1000\n{text}\nM30\n")).ids();
+        let ids = said(&format!("F1000\n{text}"));
         assert_eq!(ids.first().map(String::as_str), Some(id), "{text}");
     }
     // the points stay inside 200 mm, the curve does not
-    let limits = super::machine(&["X.kenngr.swe_pos=2000000"]);
     let text = "F1000\nG151\nX190 Y0\nX199 Y10\nX199 Y20\nX190 Y30\nG150\nM30\n";
-    let sources = crate::source::MemorySources::new().with("main.nc", text);
-    let outside = super::run_with(sources, limits, super::Options::default());
-    assert_eq!(outside.ids(), [""; 0], "{:?}", outside.ids());
-    let limits = super::machine(&["X.kenngr.swe_pos=1990001"]);
-    let sources = crate::source::MemorySources::new().with("main.nc", text);
-    let outside = super::run_with(sources, limits, super::Options::default());
+    assert_eq!(run_on(&["X.kenngr.swe_pos=2000000"], text).ids(), [""; 0]);
+    let outside = run_on(&["X.kenngr.swe_pos=1990001"], text);
     assert_eq!(outside.ids().first().map(String::as_str), Some("21897"));
 }

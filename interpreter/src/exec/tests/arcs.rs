@@ -1,6 +1,6 @@
 //! Arcs and helices as paths of the axes.
 
-use super::{assert_end, assert_near, clean, run};
+use super::{assert_end, assert_near, clean, run_on, said};
 use kontur_motion::path::{ArcPath, Path};
 use std::f64::consts::{PI, TAU};
 
@@ -136,28 +136,24 @@ fn arcs_in_a_tilted_coordinate_system() {
 
 #[test]
 fn software_limits_hold_along_arcs() {
-    let ids = |settings: &[&str], text: &str| {
-        let sources = crate::source::MemorySources::new().with("main.nc", text);
-        super::run_with(sources, super::machine(settings), super::Options::default())
-    };
     // the upper half circle reaches Y 10, the lower one Y -10
     let high = ["Y.kenngr.swe_pos=95000", "Y.kenngr.swe_neg=-100500"];
-    let run = ids(&high, "G00 X10\nG03 X-10 I-10 F100\nM30\n");
+    let run = run_on(&high, "G00 X10\nG03 X-10 I-10 F100\nM30\n");
     assert_eq!(super::places(&run.diagnostics), ["21897 2:1"]);
     assert!(run.diagnostics[0].text.contains("highest position 10"), "{:?}", run.diagnostics);
-    assert!(ids(&high, "G00 X10\nG02 X-10 I-10 F100\nM30\n").diagnostics.is_empty());
+    assert!(run_on(&high, "G00 X10\nG02 X-10 I-10 F100\nM30\n").diagnostics.is_empty());
     // a quarter that does not reach the top, and helices
-    assert!(ids(&high, "G00 X10\nG03 X8 Y6 I-10 F100\nM30\n").diagnostics.is_empty());
-    assert_eq!(ids(&high, "G00 X10\nG03 Z5 I-10 K1 F100\nM30\n").ids(), ["21897"]);
+    assert!(run_on(&high, "G00 X10\nG03 X8 Y6 I-10 F100\nM30\n").diagnostics.is_empty());
+    assert_eq!(run_on(&high, "G00 X10\nG03 Z5 I-10 K1 F100\nM30\n").ids(), ["21897"]);
     // turned by 30 degrees about X the top of the half circle lies at Y 10 cos 30 = 8.66
     let turned = "#CS ON [0,0,0,30,0,0]\nG00 X10\nG03 X-10 I-10 F100\nM30\n";
-    assert!(ids(&high, turned).diagnostics.is_empty());
-    assert_eq!(ids(&["Y.kenngr.swe_pos=86000"], turned).ids(), ["21897"]);
+    assert!(run_on(&high, turned).diagnostics.is_empty());
+    assert_eq!(run_on(&["Y.kenngr.swe_pos=86000"], turned).ids(), ["21897"]);
     // with compensation the centre of the tool counts: radius 10 - 2 inside, 10 + 2 outside
     let inside = "V.G.WZ_AKT.R=2\nG26 G41 G01 X10 Y0 F100\nG03 X-10 I-10\nG40 G01 X0\nM30\n";
-    assert!(ids(&high, inside).diagnostics.is_empty());
+    assert!(run_on(&high, inside).diagnostics.is_empty());
     let outside = inside.replace("G41", "G42");
-    assert_eq!(super::places(&ids(&high, &outside).diagnostics), ["21897 3:1"]);
+    assert_eq!(super::places(&run_on(&high, &outside).diagnostics), ["21897 3:1"]);
 }
 
 /// The end of an arc by its angle is where the compass puts it; an arc with that end point is the same path.
@@ -181,6 +177,6 @@ fn arcs_by_centre_and_angle() {
         ("G02 #CANG=90 R5 F100", "20036"),
         ("G01 X1 #CANG=90 F100", "K-0002"),
     ] {
-        assert_eq!(run(&format!("{text}\nM30\n")).ids(), [id], "{text}");
+        assert_eq!(said(text), [id], "{text}");
     }
 }

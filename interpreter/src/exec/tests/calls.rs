@@ -35,12 +35,6 @@ fn global_subroutines() {
 }
 
 #[test]
-fn a_subroutine_that_calls_itself_ends() {
-    let run = run("%L A\nLL A\n%MAIN\nLL A\nM30\n");
-    assert_eq!(run.ids(), ["K-0006"]);
-}
-
-#[test]
 fn local_variables_live_as_long_as_their_level() {
     let run = run(
         "%L A\n#VAR\nV.L.X = 5\n#ENDVAR\nP1 = V.L.X + V.L.Y\n%MAIN\n#VAR\nV.L.Y = 1\n#ENDVAR\nLL A\nP2 = V.L.X\nM30\n",
@@ -93,18 +87,6 @@ fn ends_of_programs() {
     assert_eq!(run("%L A\nM30\n%MAIN\nLL A\nX1 F100\nM30\n").ids(), ["K-0109"]);
     assert_eq!(run("#FOO\nX1 F100\n").reason(), EndReason::Aborted);
     assert_eq!(run("").ids(), ["K-0003"]);
-}
-
-#[test]
-fn percent_lines() {
-    let run = run("%MAIN\nX1 F100\n% a remark\nX2\nM30\n");
-    assert_eq!((run.ids(), run.end[0]), (vec!["20193".to_owned()], 2.0));
-}
-
-#[test]
-fn open_control_blocks() {
-    assert_eq!(run("$FOR P1=1,2,1\nM30\n").ids(), ["21501"]);
-    assert_eq!(with("L s.nc\nM30\n", "s.nc", "$WHILE 0\n").ids(), ["21502"]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Tool radius compensation.
 
-use super::{assert_near, clean, run};
+use super::{assert_near, clean, run, run_on, said};
 use kontur_motion::block::Feed;
 use kontur_motion::path::Path;
 use std::f64::consts::PI;
@@ -11,6 +11,7 @@ fn ends(text: &str) -> Vec<Vec<f64>> {
     clean(&format!("{TOOL}{text}\nM30\n")).ends()
 }
 
+#[track_caller]
 fn assert_points(found: &[Vec<f64>], expected: &[[f64; 2]]) {
     assert_eq!(found.len(), expected.len(), "{found:?}");
     for (found, expected) in found.iter().zip(expected) {
@@ -25,14 +26,13 @@ const OUTSIDE_OF_IT: [[f64; 2]; 7] =
 
 #[test]
 fn outer_corners_are_rounded() {
-    assert_points(&ends(ROUND_A_SQUARE), &OUTSIDE_OF_IT);
+    assert_ends(ROUND_A_SQUARE, &OUTSIDE_OF_IT);
 }
 
 #[test]
 fn inner_corners_are_intersections() {
-    let e = ends("G42 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30");
     let expected = [[2.0, -10.0], [2.0, -2.0], [8.0, -2.0], [8.0, -20.0], [0.0, -30.0]];
-    assert_points(&e, &expected);
+    assert_ends("G42 X0 Y-10\nY0\nX10\nY-20\nG40 X0 Y-30", &expected);
 }
 
 #[test]
@@ -44,15 +44,6 @@ fn arcs_grow_and_shrink() {
         _ => None,
     });
     assert!((radius.unwrap() - 12.0).abs() < 1e-9);
-    // inside a full circle
-    let run = clean(&format!("{TOOL}G42 X10 Y0\nG02 I-10\nG40 G01 X0 Y0\nM30\n"));
-    match &run.blocks()[1].path {
-        Path::Arc(arc) => {
-            assert!((arc.radius() - 8.0).abs() < 1e-9);
-            assert!((arc.shape().sweep_rad + std::f64::consts::TAU).abs() < 1e-9);
-        }
-        other => panic!("no arc: {other:?}"),
-    }
 }
 
 #[test]
@@ -78,18 +69,6 @@ fn a_change_of_side_crosses_the_contour() {
 }
 
 #[test]
-fn contours_that_are_too_tight() {
-    let id = |text: &str| run(&format!("{TOOL}{text}\nM30\n")).ids();
-    assert_eq!(id("G42 X0 Y-10\nY0\nX1\nY-10\nG40 X5"), ["K-0115"]);
-    assert_eq!(id("G42 Y-10\nY0\nG02 X2 I1\nG40 G01 Y-30"), ["90031"]);
-    assert_eq!(id("G41 G02 X10 I5"), ["90008"]);
-    assert_eq!(id("G41 X10\nG18\nX20"), ["20133"]);
-    assert_eq!(id("G41 X10\nX20\n#FLUSH WAIT\nX30\nG40 Y5"), ["20651"]);
-    assert_eq!(id("G41 X10 G42"), ["20114"]);
-    assert_eq!(run("G26 G41 X10 F100\nX20\nG40 X30\nM30\n").ids(), ["K-0114"]);
-}
-
-#[test]
 fn mirroring_keeps_the_tool_on_its_side_of_the_programmed_contour() {
     let e = ends("G71 G21 G41 X10 Y0\nX20\nG40 X30");
     // the contour runs to -X, the tool stays above it
@@ -98,11 +77,7 @@ fn mirroring_keeps_the_tool_on_its_side_of_the_programmed_contour() {
 
 #[track_caller]
 fn assert_ends(text: &str, expected: &[[f64; 2]]) {
-    let e = ends(text);
-    assert_eq!(e.len(), expected.len(), "{e:?}");
-    for (e, x) in e.iter().zip(expected) {
-        assert_near(&e[..2], x);
-    }
+    assert_points(&ends(text), expected);
 }
 
 #[test]
@@ -129,16 +104,12 @@ fn outer_corners_by_lines() {
 
 #[test]
 fn without_a_word_corners_are_lines() {
-    let run = run("V.G.WZ_AKT.R=2\nG41 X0 Y-10 F100\nY0\nX10\nG40 Y-20\nM30\n");
-    assert!(run.diagnostics.is_empty() && run.blocks().iter().all(|b| b.path.is_straight()));
-    let round = super::machine(&["channel.prog_start.g_gruppe[6].nr=26"]);
     let text = "V.G.WZ_AKT.R=2\nG41 X0 Y-10 F100\nY0\nX10\nG40 Y-20\nM30\n";
-    let sources = crate::source::MemorySources::new().with("main.nc", text);
-    let run = super::run_with(sources, round, super::Options::default());
+    let run = run(text);
+    assert!(run.diagnostics.is_empty() && run.blocks().iter().all(|b| b.path.is_straight()));
+    let run = run_on(&["channel.prog_start.g_gruppe[6].nr=26"], text);
     assert!(run.blocks().iter().any(|b| matches!(b.path, Path::Arc(_))));
-    let wrong = super::machine(&["channel.prog_start.g_gruppe[8].nr=51"]);
-    let sources = crate::source::MemorySources::new().with("main.nc", "M30\n");
-    let run = super::run_with(sources, wrong, super::Options::default());
+    let run = run_on(&["channel.prog_start.g_gruppe[8].nr=51"], "M30\n");
     assert_eq!(
         (run.ids(), run.diagnostics[0].parameter),
         (vec!["K-0111".to_owned()], Some("P-CHAN-00063"))
@@ -174,7 +145,7 @@ fn compensation_in_a_tilted_plane() {
     for (e, [x, y]) in e.iter().zip(OUTSIDE_OF_IT) {
         assert_near(e, &[x * c, y, -x * s]);
     }
-    let id = |text: &str| run(&format!("{TOOL}{text}\nM30\n")).ids();
+    let id = |text: &str| said(&format!("{TOOL}{text}"));
     assert_eq!(id("#CS ON [0,0,0,0,30,0]\nG41 X10\nX20\n#CS OFF\nX30"), ["20802"]);
     assert_eq!(id("G41 X10\nX20\n#CS ON [5,0,0,0,0,0]\nX30"), ["20802"]);
 }
@@ -200,6 +171,7 @@ fn full_circles_inside_and_outside() {
     let turn = std::f64::consts::TAU;
     for (text, radius, sweep) in [
         ("G41 X10 Y0\nG03 I-10\nG40 G01 X0", 8.0, turn),
+        ("G42 X10 Y0\nG02 I-10\nG40 G01 X0", 8.0, -turn),
         ("G42 X10 Y0\nG03 I-10\nG40 G01 X30", 12.0, turn),
         ("G41 X10 Y0\nG02 I-10\nG40 G01 X30", 12.0, -turn),
     ] {
@@ -279,7 +251,7 @@ fn inside_corner_selection() {
 #[test]
 fn what_inside_corner_selection_does_not_allow() {
     let square = "G01 X0 Y0\nX20\nY20\nX0\nY0";
-    let id = |text: &str| run(&format!("{TOOL}G00 X5 Y5\n{text}\nM30\n")).ids();
+    let id = |text: &str| said(&format!("{TOOL}G00 X5 Y5\n{text}"));
     assert_eq!(id(&format!("G238 G41 {square}\nG40 X5 Y5")), [""; 0]);
     // outside of the square the corner is none of the inside
     assert_eq!(id(&format!("G238 G42 {square}\nG40 X5 Y5")), ["K-0115"]);
@@ -346,8 +318,7 @@ fn deselection_without_a_block() {
 /// G138: straight to the point above the beginning of the contour, as G239.
 #[test]
 fn direct_selection() {
-    let direct = ends(&format!("G138\n{ROUND_A_SQUARE}"));
-    assert_points(&direct, &OUTSIDE_OF_IT);
+    assert_ends(&format!("G138\n{ROUND_A_SQUARE}"), &OUTSIDE_OF_IT);
 }
 
 /// Options at their values of the program start change nothing, others are named.
@@ -367,11 +338,7 @@ fn options_of_compensation() {
         ("G236", Some("K-0019")),
         ("G05", Some("K-0115")),
     ] {
-        assert_eq!(
-            run(&format!("{text}\nM30\n")).ids(),
-            id.into_iter().collect::<Vec<_>>(),
-            "{text}"
-        );
+        assert_eq!(said(text), id.into_iter().collect::<Vec<_>>(), "{text}");
     }
 }
 

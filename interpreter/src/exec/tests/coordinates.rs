@@ -1,7 +1,6 @@
 //! Offsets, dimensions, units and frames.
 
-use super::{Options, assert_end, assert_near, clean, machine, run, run_with};
-use crate::source::MemorySources;
+use super::{assert_end, assert_near, clean, run, run_on};
 use kontur_motion::block::Feed;
 
 /// G51 (400180619): words of the face turning axis are diameters with G90, G91 or both as its list says; centres, radii and offsets
@@ -13,9 +12,7 @@ fn diameters() {
     let ends = |settings: &[&str], text: &str| {
         let mut all = vec!["X.kenngr.achs_mode=65"];
         all.extend(settings);
-        let sources = crate::source::MemorySources::new()
-            .with("main.nc", format!("F1000 G18\n{text}\nM30\n"));
-        let run = super::run_with(sources, super::machine(&all), super::Options::default());
+        let run = run_on(&all, &format!("F1000 G18\n{text}\nM30\n"));
         (run.ids(), run.ends().into_iter().map(|e| [e[0], e[2]]).collect::<Vec<_>>())
     };
     let text = "X10\nG51\nX10 Z5\nX20\nG91 X4\nG90 G02 X40 Z11 R6\nG52 G01\nX40\nG92 X1\nG51 X40";
@@ -162,10 +159,9 @@ fn software_limits_are_checked() {
 #[test]
 fn several_dimensions_in_a_block_act_from_their_place_on() {
     // P-CHAN-00116: the examples of the vendor's page
-    let sources = |text: &str| crate::source::MemorySources::new().with("main.nc", text);
-    let several = || super::machine(&["channel.multi_dimension_in_block=1"]);
+    let several = ["channel.multi_dimension_in_block=1"];
     let text = "X1 Y1 Z1 F100\nG90 X10 Y20 G91 Z30\nX15 G90 Y25 Z15\nG91 X10 G90 Z30 G91 Y5\nX20 Z30 G90 Y40\nG90 G91 Z30\nX0 Y0\nM30\n";
-    let run = super::run_with(sources(text), several(), super::Options::default());
+    let run = run_on(&several, text);
     assert!(run.diagnostics.is_empty(), "{:?}", super::shown(&run.diagnostics));
     let expected = [
         [1.0, 1.0, 1.0],
@@ -179,7 +175,7 @@ fn several_dimensions_in_a_block_act_from_their_place_on() {
     assert_eq!(run.ends(), expected);
     // turned by 90 degrees: X is absolute, Y an increment
     let text = "#ROTATION ON [ANGLE=90]\nX5 Y1 F100\nG90 X10 G91 Y2\nM30\n";
-    let run = super::run_with(sources(text), several(), super::Options::default());
+    let run = run_on(&several, text);
     super::assert_near(&run.end, &[-3.0, 10.0, 0.0]);
     assert_eq!(super::run("G90 X1 G91 Y1 F100\nM30\n").ids(), ["K-0008"]);
 }
@@ -188,10 +184,7 @@ fn several_dimensions_in_a_block_act_from_their_place_on() {
 #[test]
 fn modulo_axes_turn_in_the_direction_of_the_first_sign() {
     let modulo = ["Z.kenngr.achs_typ=ACHSTYP_ROTATOR", "Z.kenngr.achs_mode=0x4"];
-    let on = |text: &str| {
-        let sources = MemorySources::new().with("main.nc", text);
-        run_with(sources, machine(&modulo), Options::default())
-    };
+    let on = |text: &str| run_on(&modulo, text);
     let end = |program: &str| {
         let run = on(&format!("{program}\nM30\n"));
         assert!(run.ids().is_empty(), "{program}: {:?}", run.ids());
@@ -240,10 +233,7 @@ fn data_of_lists() {
         "zero.np_grp[2].achse[1].versch=-55000",
         "zero.default_index=2",
     ];
-    let run = |text: &str| {
-        let sources = crate::source::MemorySources::new().with("main.nc", text);
-        super::run_with(sources, super::machine(&settings), super::Options::default())
-    };
+    let run = |text: &str| run_on(&settings, text);
     // group 2 at the start, group 1 by G54, length on Z and the offset of X by D
     assert_eq!(run("X0 Y0 Z0 F100\nM30\n").end, [0.0, -5.5, 0.0]);
     assert_eq!(run("G54 X0 Y0 Z0 F100\nM30\n").end, [10.0, 0.0, 0.0]);

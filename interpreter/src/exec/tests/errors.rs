@@ -1,6 +1,6 @@
 //! Error IDs with their places, the syntax check, and the example programs of the language chapter.
 
-use super::{assert_near, checked, clean, places, run};
+use super::{assert_near, checked, clean, places, run, said};
 
 #[test]
 fn words_that_are_only_ignored_warn_once() {
@@ -34,7 +34,7 @@ fn fractions_of_whole_numbers_are_refused() {
         ("#SLOPE [TYPE=TRAPEZ NO_OPT=0.5]", "K-0009"),
         ("#TURN [THREAD_CHAIN=0.5]", "K-0009"),
     ] {
-        assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), [id], "{text}");
+        assert_eq!(said(text), [id], "{text}");
     }
     for text in [
         "G115=1.5",
@@ -73,10 +73,10 @@ fn tools_by_their_id() {
     assert_eq!(run.ids(), [""; 0]);
     assert_eq!(run.end[2], 12.0);
     for text in ["#TOOL DATA [5, 1]", "#TOOL PREP [5, \"SISTER\"]"] {
-        assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), ["K-0019"], "{text}");
+        assert_eq!(said(text), ["K-0019"], "{text}");
     }
     for text in ["#TOOL DATA", "#TOOL DATA []", "#TOOL REFRESH [1]x"] {
-        assert!(!super::run(&format!("{text}\nM30\n")).ids().is_empty(), "{text}");
+        assert!(!said(text).is_empty(), "{text}");
     }
 }
 
@@ -107,7 +107,7 @@ fn what_the_manual_knows_is_never_unknown() {
         "G108",
         "G236",
     ] {
-        assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), ["K-0019"], "{text}");
+        assert_eq!(said(text), ["K-0019"], "{text}");
     }
     assert_eq!(super::run("G74 X1 Y2 S1\nX5 F100\nM30\n").ids(), ["K-0111"]);
     clean("S[G167 REV1000 M3]\nS[M5]\nM30\n");
@@ -127,11 +127,10 @@ fn what_may_change_the_motion_is_not_ignored() {
         "G112 S2",
         "G141",
     ] {
-        let run = super::run(&format!("{text}\nM30\n"));
-        assert_eq!(run.ids(), ["K-0019"], "{text}");
+        assert_eq!(said(text), ["K-0019"], "{text}");
     }
     for text in ["G66", "G115=3", "G333 X80", "G334=80"] {
-        assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), ["K-0111"], "{text}");
+        assert_eq!(said(text), ["K-0111"], "{text}");
     }
 }
 
@@ -142,7 +141,7 @@ fn the_dialect_guard() {
     assert_eq!(run.end[0], -5.0);
     assert!(clean("G71 G21\nM30\n").diagnostics.is_empty());
     for text in ["M104 S200\nG28", "M190 S60\nX1 F100\nG29", "G92 E0"] {
-        assert_eq!(super::run(&format!("{text}\nM30\n")).ids(), ["K-0120"], "{text}");
+        assert_eq!(said(text), ["K-0120"], "{text}");
     }
     // a spindle speed beside an M function of the machine
     assert!(clean("M104 S200\nG01 X1 F100\nM30\n").diagnostics.is_empty());
@@ -322,8 +321,7 @@ fn definitions_of_couplings_are_checked() {
         ("[1, 5]", "21220"),
         ("", "21220"),
     ] {
-        let run = super::run(&format!("#SET AX LINK {text}\nM30\n"));
-        assert_eq!(run.ids(), [id], "{text}");
+        assert_eq!(said(&format!("#SET AX LINK {text}")), [id], "{text}");
     }
 }
 
@@ -348,8 +346,7 @@ fn brackets_and_values_that_a_command_does_not_take() {
         "#SPLINE ON [1]",
         "#TANGFEED 3",
     ] {
-        let run = super::run(&format!("{text}\nM30\n"));
-        assert_eq!(run.ids().first().map(String::as_str), Some("21220"), "{text}");
+        assert_eq!(said(text).first().map(String::as_str), Some("21220"), "{text}");
     }
     for text in [
         "#CALL AX FAST [X,1,0][Y,2,1]",
@@ -359,7 +356,7 @@ fn brackets_and_values_that_a_command_does_not_take() {
         "#WAIT FOR 1",
         "#DELETE P1",
     ] {
-        let run = super::run(&format!("P1=1\n{text}\nM30\n"));
-        assert!(!run.ids().contains(&"21220".to_owned()), "{text}: {:?}", run.ids());
+        let said = said(&format!("P1=1\n{text}"));
+        assert!(!said.contains(&"21220".to_owned()), "{text}: {said:?}");
     }
 }

@@ -77,7 +77,4 @@ fn the_list_of_first_cases() {
     assert_end("N30X100Y200F500", [100.0, 200.0, 0.0]);
     assert_end("G1 X10 (a (b) c) Y5 F100", [10.0, 5.0, 0.0]);
     assert_end("( N010 #SLOPE[TYPE=HSC]", [0.0; 3]);
-    // an offset is driven with the first absolute position, not with a relative one
-    assert_end("V.G.NP[1].V.X=10\nG90 G54 X0 F100", [10.0, 0.0, 0.0]);
-    assert_end("V.G.NP[1].V.X=10\nG54 G91 X0 F100", [0.0; 3]);
 }

@@ -1,6 +1,6 @@
 //! Expressions, parameters, variables and control blocks.
 
-use super::{assert_end, clean, run, skipping};
+use super::{assert_end, clean, run, run_on, said, skipping};
 
 /// Text of the single message.
 #[track_caller]
@@ -27,12 +27,11 @@ fn expressions() {
 
 #[test]
 fn faults_of_expressions() {
-    let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("P2=LN[-1]"), ["20399"]);
-    assert_eq!(id("P2=5 MOD 0"), ["20396"]);
-    assert_eq!(id("P2=10**400"), ["K-0009"]);
-    assert_eq!(id("V.L.A=1"), ["K-0012"]);
-    assert_eq!(id("P1=V.G.FEDRATE"), ["K-0012"]);
+    assert_eq!(said("P2=LN[-1]"), ["20399"]);
+    assert_eq!(said("P2=5 MOD 0"), ["20396"]);
+    assert_eq!(said("P2=10**400"), ["K-0009"]);
+    assert_eq!(said("V.L.A=1"), ["K-0012"]);
+    assert_eq!(said("P1=V.G.FEDRATE"), ["K-0012"]);
 }
 
 #[test]
@@ -231,19 +230,6 @@ fn jumps_back_are_loops() {
     assert!((macros.end[0] - 31.0).abs() < 1e-12);
 }
 
-#[test]
-fn loops_without_end_are_stopped() {
-    use super::{Options, machine, run_with};
-    use crate::source::MemorySources;
-    let options = Options { max_blocks_at_rest: 1000, max_blocks: 5000, ..Options::default() };
-    let text = "$DO\nP1=1\n$ENDDO\nM30\n";
-    let run = run_with(MemorySources::new().with("main.nc", text), machine(&[]), options.clone());
-    assert_eq!(run.ids(), ["K-0017"]);
-    let text = "F100\n$DO\nG91 X1\nX-1\n$ENDDO\nM30\n";
-    let run = run_with(MemorySources::new().with("main.nc", text), machine(&[]), options);
-    assert_eq!(run.ids(), ["K-0017"]);
-}
-
 /// Functions and messages are handed over a thousand at a time, and a loop of them is one without motion.
 #[test]
 fn events_without_motion_are_handed_over_and_the_loop_is_stopped() {
@@ -277,9 +263,7 @@ fn macros() {
 #[test]
 fn parameters_of_earlier_programs_do_not_exist() {
     // P-CHAN-00067: every run is the first program
-    let sources = crate::source::MemorySources::new().with("main.nc", "X P1 F100\nM30\n");
-    let machine = super::machine(&["channel.p_param_haltend=1"]);
-    let run = super::run_with(sources, machine, super::Options::default());
+    let run = run_on(&["channel.p_param_haltend=1"], "X P1 F100\nM30\n");
     assert_eq!(run.ids(), ["20925"]);
     assert!(run.diagnostics[0].hint.as_deref().is_some_and(|h| h.contains("P-CHAN-00067")));
 }

@@ -1,6 +1,6 @@
 //! Mirroring, rotation and coordinate systems carry a whole path along: arcs, helices, chamfers and compensation.
 
-use super::{assert_near, clean};
+use super::{assert_near, clean, said};
 
 /// Points of every motion of a program.
 fn points(text: &str) -> Vec<[f64; 3]> {
@@ -72,15 +72,8 @@ fn machine_coordinates() {
     assert_near(&e[1][..2], &[5.0, 5.0]);
     assert_near(&e[2], &e[0]);
     for text in ["#MCS ON\n#CS ON [1,0,0,0,0,0]", "V.G.WZ_AKT.R=1\nG41 X10 F100\nX20\n#MCS ON"] {
-        assert!(
-            run_ids(text).iter().any(|id| ["K-0019", "20802"].contains(&id.as_str())),
-            "{text}"
-        );
+        assert!(said(text).iter().any(|id| ["K-0019", "20802"].contains(&id.as_str())), "{text}");
     }
-}
-
-fn run_ids(text: &str) -> Vec<String> {
-    super::run(&format!("{text}\nM30\n")).ids()
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Feeds, weights, stops, dwells, feedforward, spindles and commands around the motion.
 
-use super::{Sync, clean, run};
+use super::{Sync, clean, run, run_on, said};
 use crate::exec::{Event, SpindleMotion};
 use kontur_motion::block::{Feed, SlopeKind};
 
@@ -23,10 +23,9 @@ fn feed_types() {
         feeds("F600 X1\nG93 F2 X2\nG94 X3"),
         [Feed::PathVelocity(10.0), Feed::Duration(2.0), Feed::PathVelocity(10.0)]
     );
-    let id = |text: &str| run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("G137 G93 F2 X1\nG93 X2"), ["20008"]);
+    assert_eq!(said("G137 G93 F2 X1\nG93 X2"), ["20008"]);
     // 10 m/s
-    assert_eq!(id("G137 G93 F0.001 X10"), ["K-0109"]);
+    assert_eq!(said("G137 G93 F0.001 X10"), ["K-0109"]);
 }
 
 #[test]
@@ -142,11 +141,10 @@ fn feedforward_weights_survive_switching() {
     // one block; no motion
     let run = clean("G135 G136 X80 Y95\nM30\n");
     assert!(run.blocks().is_empty());
-    let id = |text: &str| super::run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("G136"), ["K-0002"]);
-    assert_eq!(id("G136 Q5"), ["20200", "K-0002"]);
+    assert_eq!(said("G136"), ["K-0002"]);
+    assert_eq!(said("G136 Q5"), ["20200", "K-0002"]);
     for text in ["S[M3 REV1000.5]", "S[M19 POS45.5]"] {
-        assert_eq!(id(text), [""; 0], "{text}");
+        assert_eq!(said(text), [""; 0], "{text}");
     }
 }
 
@@ -244,8 +242,7 @@ fn messages_to_the_diagnosis_receiver() {
     let with = |value: &str| {
         let text = "#MSG [\"a\"]\n#MSG PLC [\"b\"]\nM30\n";
         let setting = format!("channel.configuration.decoder.msg_to_default={value}");
-        let sources = crate::source::MemorySources::new().with("main.nc", text);
-        super::run_with(sources, super::machine(&[&setting]), super::Options::default())
+        run_on(&[&setting], text)
     };
     assert_eq!(with("STANDARD").messages(), ["a", "b"]);
     let run = with("DISABLED");
@@ -270,8 +267,7 @@ fn messages_and_errors_of_the_program() {
         "P1=2\n#MSG [\"run %d, F = %f, %s\", P1, 1.5, \"x\"]\n#MSG SAVE EXCLUSIVE [\"saved\"]\nM30\n",
     );
     assert_eq!(run.messages(), ["run 2, F = 1.500000, x", "saved"]);
-    let id = |text: &str| super::run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("#ERROR [ID455 RC2 PV1=5]"), ["455"]);
+    assert_eq!(said("#ERROR [ID455 RC2 PV1=5]"), ["455"]);
 }
 
 #[test]
@@ -295,7 +291,7 @@ fn chamfers_and_roundings() {
     let chf = ends("X10\n#CHF=2\nY10");
     super::assert_near(&chf[0], &[10.0 - 2.0_f64.sqrt(), 0.0, 0.0]);
     assert_eq!(ends("X10\nG302 I2\nX20").len(), 2);
-    let id = |text: &str| super::run(&format!("F100\n{text}\nM30\n")).ids();
+    let id = |text: &str| said(&format!("F100\n{text}"));
     assert_eq!(id("X10\nG301\nY10"), ["20012"]);
     assert_eq!(id("G301 I2\nY10"), ["20351"]);
     assert_eq!(id("X10\nG301 I2\n#FLUSH\nY10"), ["20352"]);
@@ -328,10 +324,9 @@ fn contouring_settings_reach_the_blocks() {
     let settings = run.blocks()[0].contour.unwrap();
     assert!(settings.constant_velocity);
     super::assert_near(&[settings.remain_ratio, settings.relevant_path_mm], &[0.2, 0.5]);
-    let id = |text: &str| super::run(&format!("{text}\nM30\n")).ids();
-    assert_eq!(id("#CONTOUR MODE ON [PATH_DEV=0.00001]"), ["120129"]);
-    assert_eq!(id("#CONTOUR MODE ON"), ["120206"]);
-    assert_eq!(id("#CONTOUR MODE [AUTO_VEL]"), ["K-0019"]);
+    assert_eq!(said("#CONTOUR MODE ON [PATH_DEV=0.00001]"), ["120129"]);
+    assert_eq!(said("#CONTOUR MODE ON"), ["120206"]);
+    assert_eq!(said("#CONTOUR MODE [AUTO_VEL]"), ["K-0019"]);
 }
 
 #[test]
@@ -348,10 +343,6 @@ fn splines_through_short_blocks() {
 /// The vendor's programs: TF5200 programming manual, user-specific functions of spindles; diagnosis 20765, 20766.
 #[test]
 fn functions_of_axes_and_spindles() {
-    let two = |text: &str| {
-        let sources = crate::source::MemorySources::new().with("main.nc", text);
-        super::run_with(sources, super::machine(&[]), super::Options::default())
-    };
     let called = |run: &super::Run| -> Vec<String> {
         run.events()
             .into_iter()
@@ -362,10 +353,10 @@ fn functions_of_axes_and_spindles() {
             })
             .collect()
     };
-    let run = two("N10 S[M3 REV300 M10 M11]\nM5\nM30\n");
+    let run = super::run("N10 S[M3 REV300 M10 M11]\nM5\nM30\n");
     assert_eq!((run.ids(), called(&run)), (vec![], vec!["M10".to_owned(), "M11".to_owned()]));
     assert_eq!(run.events().iter().filter(|e| format!("{e:?}").contains("rpm: 300.0")).count(), 1);
-    let run = two("N10 G00 X10 M10 X[M10] S[M10] Y[H5 M12]\nM30\n");
+    let run = super::run("N10 G00 X10 M10 X[M10] S[M10] Y[H5 M12]\nM30\n");
     let wanted = ["M10", "M10", "M10", "H5", "M12"].map(str::to_owned).to_vec();
     assert_eq!((run.ids(), called(&run), run.end[0]), (vec![], wanted, 10.0));
     for (text, id) in [
@@ -376,7 +367,7 @@ fn functions_of_axes_and_spindles() {
         ("S[M30]", "21867"),
         ("X[M30]", "K-0019"),
     ] {
-        assert_eq!(two(&format!("{text}\nM30\n")).ids(), [id], "{text}");
+        assert_eq!(said(text), [id], "{text}");
     }
 }
 

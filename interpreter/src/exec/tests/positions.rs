@@ -1,6 +1,6 @@
 //! Positions into variables, and what the diagnosis manual prints about them.
 
-use super::{Sync, clean, run};
+use super::{Sync, clean, said};
 
 /// The manual's example: the positions drive the axes again.
 #[test]
@@ -37,16 +37,16 @@ fn wrong_requests() {
         ("#GET ACTPOS []", "20186"),
         ("#GET CMDPOS [P1=Q]", "20797"),
     ] {
-        let found = run(&format!("{text}\nM30\n")).ids();
+        let found = said(text);
         assert!(found.iter().any(|f| f == id), "{text}: {found:?}");
     }
     let many: Vec<String> = (1..=33).map(|i| format!("P{i}=X")).collect();
-    assert_eq!(run(&format!("#GET CMDPOS [{}]\nM30\n", many.join(", "))).ids(), ["20500"]);
+    assert_eq!(said(&format!("#GET CMDPOS [{}]", many.join(", "))), ["20500"]);
 }
 
 #[test]
 fn wrong_main_spindles() {
     for text in ["#MAIN SPINDLE [S7]", "#MAIN SPINDLE [S2, S]", "#MAIN SPINDLE 2"] {
-        assert_eq!(run(&format!("{text}\nM30\n")).ids(), ["21220"], "{text}");
+        assert_eq!(said(text), ["21220"], "{text}");
     }
 }

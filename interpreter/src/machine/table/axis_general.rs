@@ -25,7 +25,7 @@ parameters! {
         .axes("TR").source("TF5200 feedforward control");
     axis("P-AXIS-00058", "kenngr.durchm_prog_abs", Raw::Boolean, "with G51 and G90 words of a face turning axis are diameters")
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_ABSOLUTE: Switch;
-    axis("P-AXIS-00059", "kenngr.durchm_prog_rel", Raw::Boolean, "the same with G91")
+    axis("P-AXIS-00059", "kenngr.durchm_prog_rel", Raw::Boolean, "with G51 and G91 words of a face turning axis are diameters")
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_RELATIVE: Switch;
     axis("P-AXIS-00118", "kenngr.messachse", Raw::Boolean, "1: the axis takes part in measuring runs (G100, G310)")
         .default(0.0).axes("TR").source("TF5200 axis parameters"), as MEASURES: Switch;
@@ -44,11 +44,11 @@ parameters! {
     axis("P-AXIS-00297", "kopf.log_achs_name", Raw::Text, "default (alias) name of the axis"), as NAME: Text;
     axis("P-AXIS-00439", "kenngr.dyn_monitoring_v_warn", Raw::Uns32, "warning when setpoint speed > vb_max by this (50119)")
         .range(Bound::At(0.0), Bound::None).default(50.0).unit("0.1%", "0.1%"), as SPEED_WARNING: Number;
-    axis("P-AXIS-00440", "kenngr.dyn_monitoring_v_err", Raw::Uns32, "error threshold of the same (50118); raise it when band-stop filters overshoot")
+    axis("P-AXIS-00440", "kenngr.dyn_monitoring_v_err", Raw::Uns32, "error when setpoint speed > vb_max by this (50118); raise it when band-stop filters overshoot")
         .range(Bound::At(0.0), Bound::None).default(90.0).unit("0.1%", "0.1%"), as SPEED_ERROR: Number;
     axis("P-AXIS-00441", "kenngr.dyn_monitoring_a_warn", Raw::Uns32, "warning when setpoint acceleration > a_max by this")
         .range(Bound::At(0.0), Bound::None).default(500.0).unit("0.1%", "0.1%"), as ACC_WARNING: Number;
-    axis("P-AXIS-00442", "kenngr.dyn_monitoring_a_err", Raw::Uns32, "error threshold; 441 = 442 = 0 switches it off")
+    axis("P-AXIS-00442", "kenngr.dyn_monitoring_a_err", Raw::Uns32, "error when setpoint acceleration > a_max by this; 441 = 442 = 0 switches both off")
         .range(Bound::At(0.0), Bound::None).default(1000.0).unit("0.1%", "0.1%"), as ACC_ERROR: Number;
     axis("P-AXIS-00443", "kenngr.dyn_monitoring_j_warn", Raw::Uns32, "jerk warning, reference a_max/tr_min")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1%", "0.1%"), as JERK_WARNING: Number;
@@ -56,7 +56,7 @@ parameters! {
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1%", "0.1%"), as JERK_ERROR: Number;
     axis("P-AXIS-00520", "lr_param.check_pos_command_limit", Raw::Boolean, "monitor setpoints against the positive limit in the controller every cycle (70195)")
         .default(0.0).axes("T");
-    axis("P-AXIS-00521", "", Raw::Boolean, "the same for the negative limit")
+    axis("P-AXIS-00521", "", Raw::Boolean, "monitor setpoints against the negative limit in the controller every cycle")
         .default(0.0).axes("T");
     axis("P-AXIS-00554", "kenngr.swe_behaviour", Raw::Word(&["ERROR", "ERROR_LR", "WARNING"]), "ERROR | ERROR_LR (warning in preparation, error in controller) | WARNING")
         .default_is(Default::Text("ERROR")).axes("TR"), as LIMIT_BEHAVIOUR: Text;

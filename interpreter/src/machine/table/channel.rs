@@ -81,7 +81,7 @@ parameters! {
     chan("P-CHAN-00160", "g80_prog_file", Raw::Text, "global subroutine called by G80"), as G80_PROGRAM: Text;
     chan("P-CHAN-00171", "max_radius_diff_circle", Raw::Uns32, "G164: limit of the radius difference (21758)")
         .default(50.0).unit("0.1um", "0.1um"), as RADIUS_DIFFERENCE: Number;
-    chan("P-CHAN-00172", "max_proz_radius_diff_circle", Raw::Uns32, "G164: the same relative to the radius; printed default 0.1")
+    chan("P-CHAN-00172", "max_proz_radius_diff_circle", Raw::Uns32, "G164: limit of the radius difference relative to the radius; printed default 0.1")
         .default(1.0).unit("0.1%", "0.1%"), as RADIUS_DIFFERENCE_RATIO: Number;
     chan("P-CHAN-00181", "g00_override_mode", Raw::Word(&["NOT_USED", "MINIMUM_OF_G0_G1", "ACTIVE"]), "override in G00")
         .default_is(Default::Text("NOT_USED")), as RAPID_OVERRIDE: Text;

@@ -28,7 +28,7 @@ parameters! {
         .range(Bound::Beyond(0.0), Bound::None).default(0.5).outside(Condition::ListRange, Correction::Refuse), as MASS_LOAD: Number;
     own("kontur.axis[i].plant.f0", Raw::Real64, "TWO_MASS: natural frequency of the two free masses")
         .range(Bound::Beyond(0.0), Bound::None).default(50.0).unit("Hz", "Hz").outside(Condition::ListRange, Correction::Refuse), as RESONANCE: Number;
-    own("kontur.axis[i].plant.damping", Raw::Real64, "TWO_MASS: damping of that frequency")
+    own("kontur.axis[i].plant.damping", Raw::Real64, "TWO_MASS: damping of the natural frequency of the two free masses")
         .range(Bound::At(0.0), Bound::Beyond(1.0)).default(0.02).outside(Condition::ListRange, Correction::Refuse), as DAMPING: Number;
     own("kontur.axis[i].plant.mode[j].f0", Raw::Real64, "MODAL: natural frequency of mode j; a mode without it does not exist")
         .range(Bound::Beyond(0.0), Bound::None).unit("Hz", "Hz").outside(Condition::ListRange, Correction::Refuse), as MODE_FREQUENCY: Optional;

@@ -1,6 +1,7 @@
 //! An element of the compensated contour and the motion it becomes.
 
 use super::corner::{side_sweep, trimmed};
+use super::ends::{ends, line};
 use super::item::{Fallible, Item, too_tight};
 use super::tangential::{self, Touch};
 use crate::diag::Condition;
@@ -8,9 +9,8 @@ use crate::exec::contour::motion::{Compensated, Motion};
 use crate::exec::fault::Fault;
 use crate::exec::geometry::arc::Point;
 use crate::exec::geometry::planar::{Side, cross, dot, sub};
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Feed;
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::path::{ArcPath, ArcShape, Path};
 
 /// An element whose end is not known yet.
 #[derive(Debug)]
@@ -95,26 +95,6 @@ impl Element {
         }
         Ok(())
     }
-}
-
-/// Start and end of a motion with other places in the plane.
-pub(super) fn ends(
-    motion: &Motion,
-    plane: [usize; 2],
-    start: Point,
-    end: Point,
-) -> (AxisVec, AxisVec) {
-    let place = |v: &AxisVec, p: Point| {
-        let mut v = v.clone();
-        (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
-        v
-    };
-    (place(motion.block.path.start(), start), place(motion.block.path.end(), end))
-}
-
-pub(super) fn line(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> Option<Path> {
-    let (from, to) = ends(motion, plane, start, end);
-    LinePath::new(from, to, &motion.block.dynamics.feed_axes).map(Path::Line)
 }
 
 /// The part of a motion within the plane; `None` if it does not move there.

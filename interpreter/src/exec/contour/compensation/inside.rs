@@ -6,7 +6,8 @@
 
 use super::active::Active;
 use super::corner::{above, inner_corner};
-use super::element::{Element, emit_between, line, moving_side};
+use super::element::{Element, emit_between, moving_side};
+use super::ends::line;
 use super::item::{Fallible, Item, too_tight};
 use crate::diag::Condition;
 use crate::exec::contour::bottleneck::{Cut, Watch};

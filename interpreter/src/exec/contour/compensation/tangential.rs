@@ -5,7 +5,7 @@
 //!
 //! Source: manual of the kernel, tangential selection and deselection of the tool radius compensation (207837451).
 
-use super::element::{ends, line};
+use super::ends::{ends, line};
 use super::item::Fallible;
 use crate::diag::Condition;
 use crate::exec::contour::motion::Motion;

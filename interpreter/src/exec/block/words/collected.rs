@@ -1,0 +1,84 @@
+//! What has been collected from one block.
+
+use crate::exec::block::groups::{Group, Row};
+use crate::exec::options::Value;
+use crate::syntax::ast::{Bracket, Call, HashWord, Jump, Return, Sign, Span};
+use smallvec::SmallVec;
+
+/// Number and place of a value.
+pub(in crate::exec) type Placed = (f64, Span);
+
+/// A G function of the block.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::exec) struct GWord {
+    pub(in crate::exec) row: &'static Row,
+    pub(in crate::exec) value: Option<f64>,
+    pub(in crate::exec) span: Span,
+}
+
+/// An M or H function of the block.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::exec) struct Code {
+    pub(in crate::exec) number: u32,
+    pub(in crate::exec) value: Option<f64>,
+    pub(in crate::exec) span: Span,
+}
+
+/// An implicit subroutine call.
+#[derive(Clone, Debug)]
+pub(in crate::exec) struct CycleCall {
+    pub(in crate::exec) number: u32,
+    /// Values in written order; `None` for an empty place.
+    pub(in crate::exec) values: Vec<Option<Value>>,
+    pub(in crate::exec) span: Span,
+}
+
+/// The words of one block.
+#[derive(Debug, Default)]
+pub(in crate::exec) struct Words<'b> {
+    pub(in crate::exec) g: SmallVec<[GWord; 6]>,
+    /// Axis, value as written, place.
+    pub(in crate::exec) axes: SmallVec<[(usize, f64, Span); 8]>,
+    /// First sign of the words of modulo axes: the direction of rotation; or the place of a sum whose first sign may
+    /// also belong to its first term.
+    pub(in crate::exec) turns: SmallVec<[(usize, Result<Sign, Span>); 1]>,
+    /// G90 and G91 that act from their place on (P-CHAN-00116): number of axis words before, and whether absolute.
+    pub(in crate::exec) dimensions: SmallVec<[(usize, bool); 2]>,
+    /// I, J, K.
+    pub(in crate::exec) centre: [Option<Placed>; 3],
+    pub(in crate::exec) radius: Option<Placed>,
+    pub(in crate::exec) feed: Option<Placed>,
+    pub(in crate::exec) end_feed: Option<Placed>,
+    /// Spindle and speed.
+    pub(in crate::exec) speeds: SmallVec<[(usize, f64, Span); 1]>,
+    /// Spindle and angle of M19 (`S.POS=180`).
+    pub(in crate::exec) angles: SmallVec<[(usize, f64, Span); 1]>,
+    /// Spindle and angle at which a thread begins (`S.OFFSET=90`).
+    pub(in crate::exec) offsets: SmallVec<[(usize, f64, Span); 1]>,
+    pub(in crate::exec) tool: Option<Placed>,
+    pub(in crate::exec) tool_data: Option<Placed>,
+    /// A write to `V.G.WZ_AKT`.
+    pub(in crate::exec) tool_written: Option<Span>,
+    pub(in crate::exec) m: SmallVec<[Code; 4]>,
+    pub(in crate::exec) h: SmallVec<[Code; 1]>,
+    pub(in crate::exec) cycle: Option<CycleCall>,
+    pub(in crate::exec) brackets: SmallVec<[&'b Bracket; 1]>,
+    pub(in crate::exec) hashes: SmallVec<[(&'b HashWord, Option<f64>, Span); 1]>,
+    pub(in crate::exec) call: Option<(&'b Call, Span)>,
+    pub(in crate::exec) goto: Option<&'b Jump>,
+    /// Where M17 or M29 leads, if they say so.
+    pub(in crate::exec) back: Option<(&'b Return, Span)>,
+}
+
+impl Words<'_> {
+    /// True if the axis word in place `i` is absolute; `modal` is the dimension that the block leaves behind.
+    pub(in crate::exec) fn is_absolute(&self, i: usize, modal: bool) -> bool {
+        let last = self.dimensions.iter().rfind(|(place, _)| *place <= i);
+        last.map_or(modal, |(_, absolute)| *absolute)
+    }
+
+    /// The G function of a group.
+    pub(in crate::exec) fn group(&self, group: Group) -> Option<&GWord> {
+        self.g.iter().find(|g| g.row.group == group)
+    }
+}

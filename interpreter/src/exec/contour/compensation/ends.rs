@@ -1,0 +1,27 @@
+//! Motions whose ends are moved within the plane.
+
+use crate::exec::contour::motion::Motion;
+use crate::exec::geometry::arc::Point;
+use kontur_motion::axis::AxisVec;
+use kontur_motion::path::{LinePath, Path};
+
+/// Start and end of a motion with other places in the plane.
+pub(super) fn ends(
+    motion: &Motion,
+    plane: [usize; 2],
+    start: Point,
+    end: Point,
+) -> (AxisVec, AxisVec) {
+    let place = |v: &AxisVec, p: Point| {
+        let mut v = v.clone();
+        (v[plane[0]], v[plane[1]]) = (p[0], p[1]);
+        v
+    };
+    (place(motion.block.path.start(), start), place(motion.block.path.end(), end))
+}
+
+/// The line of a motion between two places in the plane; `None` between equal ends.
+pub(super) fn line(motion: &Motion, plane: [usize; 2], start: Point, end: Point) -> Option<Path> {
+    let (from, to) = ends(motion, plane, start, end);
+    LinePath::new(from, to, &motion.block.dynamics.feed_axes).map(Path::Line)
+}
