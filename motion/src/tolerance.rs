@@ -32,7 +32,8 @@
 //! # How it is kept
 //!
 //! By trying: every plan is sampled on the cycle grid, filtered with the taps of the axes and measured both ways, as the
-//! trace will be ([`search`]). What exceeds the tolerance is put down to kinks and bends by their parts in the sum above
+//! trace will be: first what leaves the contour ([`leaves`]), then, where nothing does, what of it is missed ([`measure`]); each
+//! time only what has changed ([`examine`]). What exceeds the tolerance is put down to kinks and bends by their parts in the sum above
 //! ([`blame`]): an isolated corner is passed more slowly, then rests, then waits; likes within one kernel length share the
 //! even speed that keeps the tolerance. Then the window is planned again ([`tighten`]).
 //!
@@ -83,9 +84,13 @@
 mod blame;
 mod bound;
 mod demands;
+mod dwell;
 mod even;
 mod examine;
+mod glance;
+mod harvest;
 mod kernels;
+mod leaves;
 mod measure;
 mod search;
 mod tighten;

@@ -20,6 +20,10 @@ pub(crate) struct Demands {
     pub(crate) feed: Vec<f64>,
     /// Part of its acceleration that each block may use.
     pub(super) acceleration: Vec<f64>,
+    /// How often in a row more was asked of each boundary: a lower speed without effect, or a longer dwell.
+    pub(super) repeats: Vec<u32>,
+    /// How often in a row a lower speed of each block was without effect, and the excess then.
+    pub(super) slower: Vec<(u32, f64)>,
     /// Speed and excess at each boundary when it was last found too fast.
     pub(super) tried: Vec<Option<(f64, f64)>>,
     /// First boundary whose even speed is not known yet, see [`super::even::foresee`].
@@ -28,8 +32,16 @@ pub(crate) struct Demands {
 
 impl Default for Demands {
     fn default() -> Self {
-        let (cap, stop, tried) = (vec![f64::INFINITY], vec![None], vec![None]);
-        Self { cap, stop, feed: Vec::new(), acceleration: Vec::new(), tried, foreseen: 0 }
+        Self {
+            cap: vec![f64::INFINITY],
+            stop: vec![None],
+            feed: Vec::new(),
+            acceleration: Vec::new(),
+            repeats: vec![0],
+            slower: Vec::new(),
+            tried: vec![None],
+            foreseen: 0,
+        }
     }
 }
 
@@ -47,9 +59,11 @@ impl Demands {
             }
             demands.cap.push(f64::INFINITY);
             demands.stop.push(None);
+            demands.repeats.push(0);
             demands.tried.push(None);
             demands.feed.push(feed);
             demands.acceleration.push(acceleration);
+            demands.slower.push((0, 0.0));
         }
         demands
     }
@@ -102,9 +116,11 @@ impl Demands {
         }
         fill(&mut self.cap, at, count, f64::INFINITY);
         fill(&mut self.stop, at, count, None);
+        fill(&mut self.repeats, at, count, 0);
         fill(&mut self.tried, at, count, None);
         fill(&mut self.feed, at, count, feed);
         fill(&mut self.acceleration, at, count, 1.0);
+        fill(&mut self.slower, at, count, (0, 0.0));
         self.foreseen = self.foreseen.min(at);
     }
 
@@ -112,10 +128,13 @@ impl Demands {
     pub(crate) fn pass(&mut self, blocks: usize) {
         self.cap.drain(..blocks);
         self.stop.drain(..blocks);
+        self.repeats.drain(..blocks);
         self.tried.drain(..blocks);
         self.feed.drain(..blocks);
         self.acceleration.drain(..blocks);
+        self.slower.drain(..blocks);
         (self.cap[0], self.stop[0], self.tried[0]) = (f64::INFINITY, None, None);
+        self.repeats[0] = 0;
         self.foreseen = self.foreseen.saturating_sub(blocks);
     }
 

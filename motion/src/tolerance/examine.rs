@@ -8,60 +8,77 @@ use super::search::joined;
 use super::view::View;
 use super::{Monitor, Trial, Unkept, Verdict};
 use crate::queue::Queued;
-use crate::timeline::{Entry, Moment};
+use crate::timeline::{Entry, Seen};
 use std::sync::Arc;
 
+/// Rounds of planning after which an examination no longer ends with the first kind of excess: their answers call for each other.
+const ROUNDS_OF_PATIENCE: usize = 24;
 /// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
 const ROUNDS_OF_SPEED: usize = 64;
 /// Rounds more for every block.
 const ROUNDS_PER_BLOCK: usize = 2;
 /// Rounds of planning after which the tolerance is given up with a message.
 const ROUNDS: usize = 96;
+
 impl Monitor {
     /// Examines a plan, and tightens the demands if it does not keep the tolerance.
     ///
-    /// Of a plan that has been examined before only what has changed is measured, and last of all, if that keeps the
-    /// tolerance, what has moved in time: the set points lie elsewhere then. Returns for every entry where it was measured,
-    /// see [`Entry::kept`].
+    /// What costs less comes first, and what exceeds is answered before the rest is measured. Of a plan that has been examined
+    /// before only what has changed is measured, and last of all what has moved in time by other than whole cycles: the set
+    /// points lie elsewhere then. Returns what is known of every entry now.
     pub(crate) fn examine(
         &self,
         trial: &Trial<'_>,
         round: usize,
         demands: &mut Demands,
-    ) -> (Verdict, Vec<Option<Moment>>) {
+    ) -> (Verdict, Vec<Seen>) {
         let view = View::new(trial, self);
         let blocks = demands.feed.len();
         // even speeds and parts of blocks are asked for first; where there are no bends to divide, nobody is to blame for that
         if round == 0 && !trial.bends() && foresees(trial.kernels) {
-            let found = view.examine(|_, _| ());
+            let found = view.examine(round, |_, _| ());
             if found.worst.is_none() {
-                return (Verdict::Kept, found.kept(trial));
+                return (Verdict::Kept, found.seen(trial));
             }
             if trial.foresee(demands) {
-                return (Verdict::Tightened, found.kept(trial));
+                return (Verdict::Tightened, found.seen(trial));
             }
         }
         let mut findings = Findings::none(blocks);
         // after many rounds everything in reach counts as a cause
         let all = round >= ROUNDS_OF_SPEED + ROUNDS_PER_BLOCK * blocks;
-        let found = view.examine(|v, record| view.blame(v, record, all, demands, &mut findings));
-        let kept = found.kept(trial);
+        let found =
+            view.examine(round, |v, record| view.blame(v, record, all, demands, &mut findings));
+        let seen = found.seen(trial);
         let Some(worst) = found.worst else {
-            return (Verdict::Kept, kept);
+            return (Verdict::Kept, seen);
         };
         let parts = view.parts(&findings);
         if !parts.is_empty() {
-            return (Verdict::Divided(parts), kept);
+            return (Verdict::Divided(parts), seen);
         }
         // an answer at one corner can make another one necessary at the next
         if round >= ROUNDS + ROUNDS_PER_BLOCK * blocks {
-            return (Verdict::GivenUp(worst), kept);
+            return (Verdict::GivenUp(worst), seen);
         }
         if round > 0 || !trial.foresee(demands) {
-            view.tighten(&findings, (round, all), demands);
+            view.tighten(&findings, all, demands);
         }
-        (Verdict::Tightened, kept)
+        (Verdict::Tightened, seen)
     }
+}
+
+/// How far an examination has got: the last of these was looked at, and those before it keep the tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Depth {
+    /// A first look at what has changed.
+    Glance,
+    /// What of the changed set path leaves the contour.
+    Leaves,
+    /// What of the contour it misses.
+    Misses,
+    /// Both where only the moments have changed.
+    Moved,
 }
 
 /// What of a plan exceeds the tolerance.
@@ -69,45 +86,70 @@ struct Found {
     worst: Option<Unkept>,
     /// Cycles of the violations.
     exceeded: Vec<u64>,
-    /// What has changed keeps the tolerance, and what has moved was measured, too.
-    calm: bool,
+    depth: Depth,
 }
 
 impl Found {
-    /// For every entry of the plan where it has been found to keep the tolerance, see [`Entry::kept`].
-    fn kept(&self, trial: &Trial<'_>) -> Vec<Option<Moment>> {
+    /// What is known of every entry of the plan.
+    fn seen(&self, trial: &Trial<'_>) -> Vec<Seen> {
         let reach = 2.0 * f64::from(trial.kernels.length()) + 4.0;
-        let kept = trial.plan.iter().map(|e| {
+        let seen = trial.plan.iter().map(|e| {
             let [from, to] = [e.start, e.end].map(|m| m.cycles(trial.cycle));
             let near = |k: &u64| (from - reach..=to + reach).contains(&(*k as f64));
             if self.exceeded.iter().any(near) {
-                None
-            } else if self.calm || e.kept.is_none() {
-                Some(e.start)
-            } else {
-                e.kept
+                return Seen::Nothing;
+            }
+            match (self.depth, e.seen) {
+                (Depth::Glance, Seen::Nothing) => Seen::Glanced,
+                (Depth::Leaves, Seen::Nothing | Seen::Glanced) => Seen::Stays(e.start),
+                (Depth::Misses, Seen::Nothing | Seen::Glanced) | (Depth::Moved, _) => {
+                    Seen::Kept(e.start)
+                }
+                // what it leaves was measured at another moment
+                (Depth::Misses, Seen::Stays(at)) => Seen::Kept(at),
+                (_, seen) => seen,
             }
         });
-        kept.collect()
+        seen.collect()
     }
 }
 
 impl View<'_> {
-    /// Measures what has changed since the last examination, then, if that keeps the tolerance, what has moved in time.
-    fn examine(&self, mut found: impl FnMut(&Violation, &Record)) -> Found {
+    /// Looks at what has changed since the last examination, measures it one way and the other, and then what has moved in time;
+    /// what exceeds ends it as a rule.
+    fn examine(&self, round: usize, mut found: impl FnMut(&Violation, &Record)) -> Found {
         let mut exceeded: Vec<u64> = Vec::new();
         let mut found = |v: &Violation, record: &Record| {
             exceeded.push(v.cycle);
             found(v, record);
         };
-        let changed = self.trial.reached_by(|e| e.kept.is_none());
-        let worst = self.search(&changed, &mut found);
-        let calm = worst.is_none();
-        let worst = worst.or_else(|| {
-            let moved = self.trial.reached_by(|e| e.kept.is_some_and(|at| at != e.start));
-            self.search(&moved, &mut found)
-        });
-        Found { worst, exceeded, calm }
+        let of = |which: &dyn Fn(Seen) -> bool| self.trial.reached_by(|e| which(e.seen));
+        let patient = round < ROUNDS_OF_PATIENCE;
+        let mut depth = Depth::Glance;
+        let mut worst = None;
+        if patient {
+            worst = self.glance(&of(&|seen| seen == Seen::Nothing), &mut found);
+        }
+        if worst.is_none() {
+            depth = Depth::Leaves;
+            let new = of(&|seen| matches!(seen, Seen::Nothing | Seen::Glanced));
+            worst = self.leaving(&new, &mut found);
+        }
+        if worst.is_none() || !patient {
+            depth = Depth::Misses;
+            let changed = of(&|seen| !matches!(seen, Seen::Kept(_)));
+            let both = [worst, self.missing(&changed, &mut found)].into_iter().flatten();
+            worst = both.max_by(|a, b| a.deviation_mm.total_cmp(&b.deviation_mm));
+        }
+        if worst.is_none() {
+            depth = Depth::Moved;
+            let moved = self.trial.reached_by(|e| match e.seen {
+                Seen::Stays(at) | Seen::Kept(at) => !at.is_whole_cycles_from(e.start),
+                Seen::Nothing | Seen::Glanced => false,
+            });
+            worst = self.search(&moved, &mut found);
+        }
+        Found { worst, exceeded, depth }
     }
 }
 

@@ -14,6 +14,8 @@ pub struct Kernels {
     pub(super) overshoot: bool,
     /// Not all axes have the same kernel.
     pub(super) unequal: bool,
+    /// Axis of the longest kernel.
+    longest: Option<usize>,
     /// Delay of the longest kernel in cycles.
     pub(super) delay: f64,
     /// Every axis' kernel in few taps: weights, and mean delays in cycles.
@@ -26,10 +28,12 @@ impl Kernels {
         let mut taps = axes.iter().flatten().flat_map(|k| k.taps());
         let overshoot = taps.any(|tap| tap.weight < 0.0);
         let unequal = axes.windows(2).any(|pair| pair[0] != pair[1]);
-        let delay = longest(&axes).map_or(0.0, Kernel::delay_cycles);
+        let length = |i: &usize| axes[*i].as_ref().map_or(0, |k| k.length());
+        let longest = (0..axes.len()).filter(|i| axes[*i].is_some()).max_by_key(length);
+        let delay = longest.and_then(|i| axes[i].as_ref()).map_or(0.0, |k| k.delay_cycles());
         let coarse = axes.iter().map(|k| k.as_ref().map_or_else(|| vec![(1.0, 0.0)], coarse));
         let coarse = coarse.collect();
-        Self { axes, overshoot, unequal, delay, coarse }
+        Self { axes, overshoot, unequal, longest, delay, coarse }
     }
 
     /// True if any axis has a kernel.
@@ -39,7 +43,7 @@ impl Kernels {
 
     /// Cycles until every axis is constant after the path has come to rest.
     pub fn length(&self) -> u32 {
-        self.axes.iter().flatten().map(|k| k.length()).max().unwrap_or(0)
+        self.longest().map_or(0, Kernel::length)
     }
 
     /// True if not all axes have the same kernel.
@@ -49,17 +53,39 @@ impl Kernels {
 
     /// The kernel that reaches back furthest.
     pub(super) fn longest(&self) -> Option<&Kernel> {
-        longest(&self.axes)
+        self.get(self.longest?)
     }
 
     /// The kernel of an axis.
     pub(super) fn get(&self, i: usize) -> Option<&Kernel> {
         self.axes.get(i).and_then(|k| k.as_deref())
     }
-}
 
-fn longest(axes: &[Option<Arc<Kernel>>]) -> Option<&Kernel> {
-    axes.iter().flatten().max_by_key(|k| k.length()).map(|k| &**k)
+    /// Filters rows of the positions of all axes and the path length, which takes the longest kernel; `row` is the one of
+    /// some cycles ago.
+    pub(super) fn filter<'a>(&self, row: impl Fn(u32) -> &'a [f64], out: &mut [f64]) {
+        let n = out.len();
+        let now = &row(0)[..n];
+        out.fill(0.0);
+        if let (false, Some(kernel)) = (self.unequal, self.longest()) {
+            for tap in kernel.taps() {
+                let row = &row(tap.delay)[..n];
+                for i in 0..n {
+                    out[i] += tap.weight * (row[i] - now[i]);
+                }
+            }
+        } else {
+            for (i, y) in out.iter_mut().enumerate() {
+                let kernel = if i + 1 < n { self.get(i) } else { self.longest() };
+                for tap in kernel.map_or(&[][..], Kernel::taps) {
+                    *y += tap.weight * (row(tap.delay)[i] - now[i]);
+                }
+            }
+        }
+        for (y, now) in out.iter_mut().zip(now) {
+            *y += now;
+        }
+    }
 }
 
 /// A kernel of many taps in few.
