@@ -111,7 +111,7 @@ impl SetPath {
         self.push(point);
     }
 
-    fn axes(&self) -> usize {
+    pub(crate) fn axes(&self) -> usize {
         self.axes
     }
 

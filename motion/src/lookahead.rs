@@ -38,6 +38,7 @@
 //! assert_eq!(spans.last().unwrap().end, 2);
 //! ```
 
+mod draft;
 mod knots;
 mod late;
 mod stretch;
@@ -46,6 +47,7 @@ use crate::cap::{Cap, SpeedLimit};
 use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
 use crate::ride::ride;
+pub(crate) use draft::Draft;
 use std::sync::Arc;
 use stretch::{Stretch, cells, most_exceeded};
 
@@ -102,8 +104,21 @@ pub fn plan(
     (v_start, a_start): (Cap, f64),
     end: SpeedLimit,
 ) -> Result<Vec<Span>, Infeasible> {
+    Ok(plan_again(blocks, (feeds, caps), forced, (v_start, a_start), end, None)?.spans)
+}
+
+/// As [`plan`], with what is left of a draft of the same blocks from the same start.
+pub(crate) fn plan_again(
+    blocks: &[Arc<Queued>],
+    (feeds, caps): (&[Cap], &[Cap]),
+    forced: &[bool],
+    (v_start, a_start): (Cap, f64),
+    end: SpeedLimit,
+    before: Option<&Draft>,
+) -> Result<Draft, Infeasible> {
+    let known = before.map_or_else(Vec::new, |draft| draft.left(blocks, (feeds, caps)));
     if blocks.is_empty() {
-        return Ok(Vec::new());
+        return Ok(Draft::default());
     }
     let (entries, carried) = (feeds.to_vec(), vec![false; blocks.len()]);
     // where a plan was left inside, its speed has been computed in another way
@@ -111,10 +126,11 @@ pub fn plan(
     let v_start =
         if rounded { v_start.lower(Cap { v_mm_s: feeds[0].v_mm_s, ..v_start }) } else { v_start };
     let early = Window { blocks, feeds, caps, forced, v_start, a_start, end, entries, carried };
-    match late::entries(blocks, feeds) {
-        Some(entries) => late::plan(&early, entries),
-        None => early.plan(),
-    }
+    Ok(match late::entries(blocks, feeds) {
+        // braking under G901 is a matter of the whole window
+        Some(entries) => Draft::of_spans(late::plan(&early, entries)?),
+        None => Draft::new(early.plan(known)?, blocks, (feeds, caps)),
+    })
 }
 
 impl Window<'_> {
@@ -123,14 +139,14 @@ impl Window<'_> {
         self.caps[b].lower(self.feeds[b - 1]).lower(self.entries[b])
     }
 
-    fn plan(&self) -> Result<Vec<Span>, Infeasible> {
+    /// Plans; `known` are spans planned before under the same limits, in order.
+    fn plan(&self, mut known: Vec<Span>) -> Result<Vec<Span>, Infeasible> {
         let Self { blocks, feeds, caps, .. } = *self;
         let n = blocks.len();
         let mut knot = vec![false; n + 1];
         (knot[0], knot[n]) = (true, true);
         let plain = self.mark_knots(&mut knot);
         let mut soft = self.minima(&knot, &plain);
-        let mut known: Vec<Span> = Vec::new();
         loop {
             let all: Vec<bool> = knot.iter().zip(&soft).map(|(k, s)| *k || *s).collect();
             let stretches = self.stretches(&all);
@@ -148,7 +164,7 @@ impl Window<'_> {
             for (k, s) in stretches.iter().enumerate() {
                 let (from, to) = (speeds[k], speeds[k + 1]);
                 if let Some(same) = unchanged(&known, s, from.v_mm_s, to.v_mm_s) {
-                    spans.push(same);
+                    spans.push(Span { why_up: from.why, why_down: to.why, ..same });
                     continue;
                 }
                 #[cfg(test)]

@@ -11,7 +11,7 @@ mod short;
 
 use crate::asked::Asked;
 use crate::cap::{Cap, SpeedLimit};
-use crate::lookahead::plan;
+use crate::lookahead::{Draft, plan_again};
 use crate::profile::Infeasible;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
@@ -114,7 +114,8 @@ impl Plan {
         blocks.take_while(|q| q.velocity.v_mm_s > 0.0).cloned().collect()
     }
 
-    /// Plans a window and places the spans on the time axis; `forced` boundaries are knots, `end` is why the path ends.
+    /// Plans a window and places the spans on the time axis; `forced` boundaries are knots, `end` is why the path ends,
+    /// and `draft` what was planned for the same window last.
     ///
     /// # Errors
     /// [`Infeasible`] where no speed leads from the start to rest.
@@ -124,6 +125,7 @@ impl Plan {
         forced: &[bool],
         (start, end): (Moment, SpeedLimit),
         cycle: CycleTime,
+        draft: &mut Option<Draft>,
     ) -> Result<Vec<Entry>, Infeasible> {
         let lower = |cap: Cap, demand: f64| cap.lower(Cap::new(demand, SpeedLimit::AxDev));
         let (n, demands) = (window.len(), &self.demands);
@@ -140,7 +142,9 @@ impl Plan {
         let forced: Vec<bool> = (0..=n).map(|i| forced[i] || demands.stop[i].is_some()).collect();
         let gentle = demands.soften(window);
         let from = (self.start.speed, self.start.a_mm_s2);
-        let spans = plan(&gentle, &feeds, &caps, &forced, from, end)?;
+        let limits = (&feeds[..], &caps[..]);
+        let planned = plan_again(&gentle, limits, &forced, from, end, draft.as_ref())?;
+        let spans = &draft.insert(planned).spans;
         // behind a rest the start may have to wait until the filters have left the corner in front of it
         let mut at = match demands.stop[0] {
             Some(wait) => Moment::tick(start.next_tick(cycle) + u64::from(wait)),
@@ -148,7 +152,7 @@ impl Plan {
         };
         let mut s = self.start.s_mm;
         let mut entries = Vec::with_capacity(spans.len());
-        for span in &spans {
+        for span in spans {
             let stop = demands.stop[span.end];
             let stops = stop.is_some() || (span.end == n && end != SpeedLimit::Lookahead);
             let mut entry = Entry::new(at, s, span, window, stops);

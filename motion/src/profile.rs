@@ -25,6 +25,7 @@
 //! assert!((profile.at(0.25).v_mm_s - 200.0).abs() < 1e-9);
 //! ```
 
+mod fit;
 mod leg;
 mod legs;
 mod phase;
@@ -38,11 +39,12 @@ mod step;
 mod third_order;
 mod weaker;
 
+pub use fit::Infeasible;
 pub(crate) use phase::Phase;
 pub use ramp::RampShape;
 pub use ramped::RampedLimits;
 pub(crate) use ramped::Rates;
 pub use row::{Profile, State};
-pub use slope::{Infeasible, SlopeLimits};
+pub use slope::SlopeLimits;
 pub use step::{StepAxis, StepLimits};
 pub use third_order::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderPhases};

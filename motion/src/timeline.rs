@@ -44,6 +44,11 @@ impl Moment {
         self.after_s + self.error_s
     }
 
+    /// True if whole cycles lie between both: what starts there has the same states in its cycles.
+    pub(crate) fn is_whole_cycles_from(self, other: Self) -> bool {
+        (self.after_s, self.error_s) == (other.after_s, other.error_s)
+    }
+
     /// In cycles since the start of the program.
     pub(crate) fn cycles(self, cycle: CycleTime) -> f64 {
         self.origin as f64 + self.seconds() / cycle.seconds()
@@ -53,6 +58,19 @@ impl Moment {
     pub(crate) fn next_tick(self, cycle: CycleTime) -> u64 {
         self.origin + (self.seconds() / cycle.seconds() - 1e-9).ceil().max(0.0) as u64
     }
+}
+
+/// What the examinations of earlier plans have found of an entry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Seen {
+    /// Nothing, or that it exceeds the tolerance.
+    Nothing,
+    /// At a first look it keeps the tolerance.
+    Glanced,
+    /// Its set points stay at the contour, as it began when that was measured; what it misses is not known.
+    Stays(Moment),
+    /// It kept the tolerance when it was measured last, and began then.
+    Kept(Moment),
 }
 
 /// A span placed in time.
@@ -73,8 +91,7 @@ pub(crate) struct Entry {
     pub(crate) caps: SmallVec<[(Cap, Option<Asked>); 1]>,
     /// The motion ends here, at its next tick.
     pub(crate) stops: bool,
-    /// Where the entry began when it was measured last, if it kept the tolerance then.
-    pub(crate) kept: Option<Moment>,
+    pub(crate) seen: Seen,
     /// Time in s since the start from which on another entry takes over.
     cut_s: Option<f64>,
 }
@@ -146,7 +163,7 @@ impl Entry {
             feeds: SmallVec::new(),
             caps: SmallVec::new(),
             stops,
-            kept: None,
+            seen: Seen::Nothing,
             cut_s: None,
         }
     }

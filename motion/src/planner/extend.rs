@@ -7,7 +7,7 @@ use crate::deviation::{Change, What};
 use crate::plan::{Segment, Start, last_blocks};
 use crate::profile::{Infeasible, SlopeLimits};
 use crate::queue::Queued;
-use crate::timeline::{Entry, Moment};
+use crate::timeline::{Entry, Moment, Seen};
 use crate::tolerance::{Demands, Trial, Unkept, Verdict};
 use kontur_filters::time::CycleTime;
 use smallvec::SmallVec;
@@ -37,12 +37,14 @@ impl Planner {
         let mut forced = vec![false; window.len() + 1];
         let last_window = last_blocks(&window, self.window);
         let mut last: Option<Vec<Entry>> = None;
+        let mut draft = None;
         let (mut round, mut given_up) = (0, false);
         loop {
-            let mut entries = match self.plan.place(&window, &forced, (start, end), self.cycle) {
-                Ok(entries) => entries,
-                Err(e) => return self.fall_back().ok_or(e),
-            };
+            let mut entries =
+                match self.plan.place(&window, &forced, (start, end), self.cycle, &mut draft) {
+                    Ok(entries) => entries,
+                    Err(e) => return self.fall_back().ok_or(e),
+                };
             let before = last.as_deref().unwrap_or_else(|| self.plan.reserve.make_contiguous());
             recall(&mut entries, before, self.cycle);
             let verdict = self.verdict(&mut entries, round);
@@ -98,10 +100,10 @@ impl Planner {
             return Verdict::Kept;
         }
         let mut demands = std::mem::take(&mut self.plan.demands);
-        let (verdict, kept) = self.monitor.examine(&self.trial(entries), round, &mut demands);
+        let (verdict, seen) = self.monitor.examine(&self.trial(entries), round, &mut demands);
         self.plan.demands = demands;
-        for (entry, kept) in entries.iter_mut().zip(kept) {
-            entry.kept = kept;
+        for (entry, seen) in entries.iter_mut().zip(seen) {
+            entry.seen = seen;
         }
         verdict
     }
@@ -132,11 +134,12 @@ impl Planner {
             let window = self.plan.window();
             self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
-            let mut last = Vec::new();
+            let (mut last, mut draft) = (Vec::new(), None);
             let mut round = 0;
             let parts = loop {
                 let ends = (self.plan.start.moment, SpeedLimit::Stop);
-                let mut entries = self.plan.place(&window, &forced, ends, self.cycle).ok()?;
+                let mut entries =
+                    self.plan.place(&window, &forced, ends, self.cycle, &mut draft).ok()?;
                 recall(&mut entries, &last, self.cycle);
                 match self.verdict(&mut entries, round) {
                     Verdict::Kept => return Some(entries),
@@ -262,8 +265,8 @@ fn entries_before(entries: &[Entry], limit: usize) -> Option<usize> {
     Some(before.count()).filter(|count| *count > 0)
 }
 
-/// Notes in a plan which entries have been measured in the plan before it, over the same blocks: those with the same profile,
-/// and with the same wait in front.
+/// Notes in a plan what has been seen of the plan before it, over the same blocks: of entries with the same profile, and with
+/// the same wait in front.
 fn recall(plan: &mut [Entry], before: &[Entry], cycle: CycleTime) {
     let waited = |list: &[Entry], i: usize| {
         let end = |p: usize| list[p].end.cycles(cycle);
@@ -275,12 +278,12 @@ fn recall(plan: &mut [Entry], before: &[Entry], cycle: CycleTime) {
             behind += before[old].blocks.len();
             old += 1;
         }
-        if let Some(same) = before.get(old).filter(|e| behind == at && e.kept.is_some())
+        if let Some(same) = before.get(old).filter(|e| behind == at && e.seen != Seen::Nothing)
             && same.blocks.len() == plan[i].blocks.len()
             && same.profile == plan[i].profile
             && (waited(before, old) - waited(plan, i)).abs() < 1.0
         {
-            plan[i].kept = same.kept;
+            plan[i].seen = same.seen;
         }
         at += plan[i].blocks.len();
     }

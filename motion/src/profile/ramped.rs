@@ -1,10 +1,10 @@
 //! TRAPEZ and SIN2: acceleration that builds up and falls in ramps.
 
+use super::fit::Infeasible;
 use super::leg::{LegLimits, LegPair};
 use super::legs::Legs;
 use super::ramp::RampShape;
 use super::row::Profile;
-use super::slope::Infeasible;
 
 /// Path limits of a non-linear slope.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! STEP: acceleration jumps between levels that depend on the velocity.
 
+use super::fit::{Infeasible, add_rounding_down};
 use super::legs::Legs;
 use super::phase::Phase;
 use super::ramp::RampShape;
 use super::row::Profile;
-use super::slope::{Infeasible, add_rounding_down};
 use smallvec::SmallVec;
 
 /// Two-stage limits of one axis, referred to the path (divided by its component of the tangent).

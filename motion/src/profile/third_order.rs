@@ -17,6 +17,7 @@ mod fastest;
 mod peak;
 mod polynomial;
 mod scaled;
+mod solver;
 mod task;
 
 pub use task::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderPhases};

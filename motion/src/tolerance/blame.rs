@@ -14,6 +14,7 @@
 use super::Demands;
 use super::even::{ALIKE, Evenly, aim, fastest};
 use super::measure::{Record, Violation};
+use super::tighten::hurry;
 use super::view::{Mark, View};
 use crate::axis::AxisVec;
 
@@ -237,7 +238,10 @@ impl View<'_> {
             even.max(LEAST_OF_ROUND * present)
         } else {
             // where the speed is even already, or a change of speed is the cause
-            present * (aim(v.tolerance_mm) / v.deviation_mm).sqrt().clamp(MOST, 0.995)
+            let blocks = shared.marks.iter().filter_map(|m| marks[*m].block);
+            let steps = hurry(blocks.map(|b| demands.slower[b].0).max().unwrap_or(0));
+            let step = (aim(v.tolerance_mm) / v.deviation_mm).sqrt().min(0.995);
+            present * libm::pow(step, f64::from(steps)).max(MOST)
         };
         for m in &shared.marks {
             if let Some(b) = marks[*m].block {

@@ -1,8 +1,9 @@
-//! Measures the set points of some cycles: how far they leave the contour, and what of it they miss.
+//! Measures what the set path misses of the contour.
 
+use super::harvest::Harvest;
 use super::search::Suspects;
 use super::view::{Buffer, View};
-use super::{BORDER_CYCLES, MARGIN_MM, Unkept};
+use super::{MARGIN_MM, Unkept};
 use crate::axis::AxisVec;
 use crate::deviation::{ALIKE, Excursion, SetPath};
 use smallvec::{SmallVec, smallvec};
@@ -20,9 +21,7 @@ const MOST_LINES: u64 = 8;
 /// Points of the contour looked at in a cycle in which it may be missed.
 const PARTS: f64 = 4.0;
 /// Distance between the points of the contour that are looked at, in tolerances.
-const SPACING: f64 = 0.02;
-/// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be.
-const DOUBT: f64 = 0.9;
+pub(super) const SPACING: f64 = 0.02;
 
 /// A moment at which the tolerance is exceeded.
 #[derive(Clone, Debug)]
@@ -63,6 +62,15 @@ pub(super) struct Record {
 }
 
 impl Record {
+    /// Nothing yet; the next cycle is `first`.
+    pub(super) fn starting(first: u64) -> Self {
+        Self { first, s_mm: Vec::new() }
+    }
+
+    pub(super) fn push(&mut self, s_mm: f64) {
+        self.s_mm.push(s_mm);
+    }
+
     /// Path length in cycle `k`, which is one of the stretch or of the reach in front of it.
     pub(super) fn s(&self, k: u64) -> f64 {
         let at = k.saturating_sub(self.first) as usize;
@@ -135,9 +143,9 @@ impl Foot {
 }
 
 impl View<'_> {
-    /// Hands the worst violations of the cycles `from..=to` among some suspects, at most one for half a kernel, to `found`,
-    /// and keeps the worst of all.
-    pub(super) fn measure(
+    /// Hands what is missed of the contour among some suspects, as far as it shows in the cycles `from..=to`, to `found`, the
+    /// worst at most of half a kernel, and keeps the worst of all.
+    pub(super) fn missed(
         &self,
         from: u64,
         to: u64,
@@ -151,78 +159,29 @@ impl View<'_> {
         let mut buffer = Buffer::new(self);
         let n = buffer.set().len();
         let first = from.saturating_sub(2 * length + 4);
-        let mut record = Record { first, s_mm: Vec::with_capacity((to - first) as usize + 1) };
+        let mut record = Record::starting(first);
         let mut set = SetPath::starting(first, n);
         buffer.seek(first);
         let mut at = marks.partition_point(|m| m.cycles < from as f64 - reach - 2.0);
-        let mut bucket: Option<Violation> = None;
+        let mut harvest = Harvest::new(self, worst, found);
         let mut between = AxisVec::zeros(n);
         let mut walk = contour.walk();
         let mut hint = from;
         let (mut looked, mut last): (Option<f64>, Option<Foot>) = (None, None);
-        let half = (length / 2).max(1);
-        let mut note = |v: Violation, record: &Record| {
-            if worst.as_ref().is_none_or(|w| w.deviation_mm < v.deviation_mm) {
-                let i = marks.partition_point(|m| m.cycles <= v.cycle as f64).max(1) - 1;
-                let seq = marks[i].queued.block.seq;
-                let Violation { deviation_mm, tolerance_mm, .. } = v;
-                *worst = Some(Unkept { seq, deviation_mm, tolerance_mm });
-            }
-            bucket = Some(match bucket.take() {
-                Some(b) if b.cycle / half == v.cycle / half => {
-                    if v.excess() > b.excess() {
-                        v
-                    } else {
-                        b
-                    }
-                }
-                Some(b) => {
-                    found(&b, record);
-                    v
-                }
-                None => v,
-            });
-        };
         for k in first..=to {
             buffer.step(k);
-            record.s_mm.push(buffer.s());
+            record.push(buffer.s());
             set.push(buffer.set());
             if k < from {
                 continue;
             }
             let moment = k as f64;
-            let tolerance = self.tolerance(moment - reach, moment);
-            if tolerance.is_finite() && suspects.leaves(k) {
-                let mut out = Excursion::none(n);
-                set.leaves(contour, k, (moment - reach, moment), &mut out);
-                let mut deviation_mm = out.largest();
-                if out.length > DOUBT * tolerance && deviation_mm <= within(tolerance) {
-                    // the components depend on what counts as within reach
-                    let doubtful = set.doubtful(
-                        contour,
-                        k,
-                        (moment - reach, moment),
-                        (BORDER_CYCLES, 10.0 * SPACING * tolerance),
-                    );
-                    deviation_mm = deviation_mm.max(doubtful);
-                }
-                if deviation_mm > within(tolerance) {
-                    let axis = out.axis();
-                    let positive = out.vector[axis] > 0.0;
-                    let missed = None;
-                    let tolerance_mm = tolerance;
-                    note(
-                        Violation { cycle: k, deviation_mm, tolerance_mm, axis, positive, missed },
-                        &record,
-                    );
-                }
-            }
             // points of the contour that the filters hold no longer
             let all = |moment: f64| {
                 let first = moment.floor().max(0.0) as u64;
                 (first, first + length + 2)
             };
-            let mut missed = |point: &[f64], near: (u64, u64), moment: f64, s: f64| {
+            let mut look = |point: &[f64], near: (u64, u64), moment: f64, s: f64| {
                 let tolerance_mm = self.tolerance(moment, moment + reach);
                 let wary_mm = certain(tolerance_mm);
                 let all = all(moment);
@@ -238,7 +197,7 @@ impl View<'_> {
                     let axis = out.axis();
                     let positive = out.vector[axis] > 0.0;
                     let missed = Some((AxisVec::from_slice(point), s));
-                    note(
+                    harvest.take(
                         Violation { cycle, deviation_mm, tolerance_mm, axis, positive, missed },
                         &record,
                     );
@@ -250,7 +209,7 @@ impl View<'_> {
             while at < marks.len() && marks[at].cycles + reach + 1.0 <= moment {
                 let mark = &marks[at];
                 if at > 0 && mark.is_kink() && suspects.way_at(mark.s_mm).is_some() {
-                    missed(&mark.point, all(mark.cycles), mark.cycles, mark.s_mm);
+                    look(&mark.point, all(mark.cycles), mark.cycles, mark.s_mm);
                 }
                 at += 1;
             }
@@ -290,7 +249,7 @@ impl View<'_> {
                 // the nearest set point is found close to the last one
                 hint = if last.is_some() { hint } else { way.cycle }.max(held);
                 let near = (hint.saturating_sub(HINT).max(held), hint + HINT);
-                let foot = missed(&between, near, held as f64, s);
+                let foot = look(&between, near, held as f64, s);
                 hint = foot.as_ref().map_or(near.0, |foot| foot.cycle);
                 let before = std::mem::replace(&mut last, foot);
                 let (Some(low), Some(high)) = (before, last.clone()) else { continue };
@@ -308,15 +267,13 @@ impl View<'_> {
                         around[0].min(around[1]).saturating_sub(HINT).max(held),
                         around[0].max(around[1]) + HINT,
                     );
-                    let Some(foot) = missed(&between, near, held as f64, mid) else { break };
+                    let Some(foot) = look(&between, near, held as f64, mid) else { break };
                     open.push((foot.clone(), high, halvings - 1));
                     open.push((low, foot, halvings - 1));
                 }
             }
         }
-        if let Some(v) = bucket {
-            found(&v, &record);
-        }
+        harvest.end(&record);
     }
 
     /// Largest `|q''|` of an axis in 1/mm between two path lengths.

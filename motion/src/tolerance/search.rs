@@ -10,7 +10,7 @@ use super::view::{Buffer, View};
 use crate::contour::WARY;
 use crate::timeline::{PathState, Reader};
 
-/// Cycles measured in one go, so that long stretches need little memory.
+/// Cycles measured in one go.
 const CHUNK: u64 = 8192;
 /// Share by which the way of one cycle may differ from that of another on a stretch of constant speed.
 const EVEN: f64 = 1e-7;
@@ -60,12 +60,6 @@ impl Suspects {
         });
     }
 
-    /// True if the set point of a cycle is among them.
-    pub(super) fn leaves(&self, k: u64) -> bool {
-        let i = self.cycles.partition_point(|range| range.1 < k);
-        self.cycles.get(i).is_some_and(|range| range.0 <= k)
-    }
-
     /// The points among them that a point of the contour belongs to.
     pub(super) fn way_at(&self, s: f64) -> Option<Way> {
         let i = self.ways.partition_point(|way| way.to < s);
@@ -80,15 +74,46 @@ impl Suspects {
 }
 
 impl View<'_> {
-    /// Measures the plan in some cycles, ranges in order, and hands every stretch's worst violations, at most one for half a
-    /// kernel, to `found`; returns the worst of all.
+    /// Measures the plan in some cycles, ranges in order, both ways: what leaves the contour and, where nothing does, what of it
+    /// is missed. Every stretch's worst violations, at most one for half a kernel, go to `found`; returns the worst of all.
     pub(super) fn search(
+        &self,
+        among: &[(u64, u64)],
+        mut found: impl FnMut(&Violation, &Record),
+    ) -> Option<Unkept> {
+        self.leaving(among, &mut found).or_else(|| self.missing(among, found))
+    }
+
+    /// Measures what of the contour is missed in some cycles; as [`Self::search`].
+    pub(super) fn missing(
         &self,
         among: &[(u64, u64)],
         mut found: impl FnMut(&Violation, &Record),
     ) -> Option<Unkept> {
         let reach = u64::from(self.trial.kernels.length());
         let mut worst: Option<Unkept> = None;
+        let mut buffer = Buffer::new(self);
+        let mut companion = Companion::new(&self.marks, &self.contour, buffer.set().len());
+        for stretch in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
+            let suspects = self.suspects(stretch, &mut buffer, &mut companion, |_, _, _| ());
+            // the filters let go what they hold before it is known to be missed
+            let ends = suspects.cycles.iter().map(|(a, b)| (*a, b + reach + 2));
+            let held = ends.map(|(a, b)| (a.max(stretch.0), b.min(stretch.1)));
+            for (from, to) in joined(held.filter(|(a, b)| a <= b).collect(), reach) {
+                self.missed(from, to, &suspects, &mut found, &mut worst);
+            }
+        }
+        worst
+    }
+
+    /// First cycle that a survey of some cycles takes: what is missed there is known in them.
+    pub(super) fn first_for(&self, (from, _): (u64, u64)) -> u64 {
+        from.saturating_sub(u64::from(self.trial.kernels.length()) + 3)
+    }
+
+    /// The cycles among some that can leave the contour, or miss something of it.
+    pub(super) fn active(&self, among: &[(u64, u64)]) -> Vec<(u64, u64)> {
+        let reach = u64::from(self.trial.kernels.length());
         let mut reader = Reader::new(self.trial.timeline, self.trial.plan);
         let mut active: Vec<(u64, u64)> = Vec::new();
         let calm = self.calm();
@@ -113,35 +138,21 @@ impl View<'_> {
                 }
             }
         }
-        let mut buffer = Buffer::new(self);
-        let mut companion = Companion::new(&self.marks, &self.contour, buffer.set().len());
-        for stretch in joined(active, reach) {
-            let suspects = self.suspects(stretch, &mut buffer, &mut companion);
-            // the filters let go what they hold before it is known to be missed
-            let ends = suspects.cycles.iter().map(|(a, b)| (*a, b + reach + 2));
-            let held = ends.map(|(a, b)| (a.max(stretch.0), b.min(stretch.1)));
-            for (mut from, to) in joined(held.filter(|(a, b)| a <= b).collect(), reach) {
-                while from <= to {
-                    let until = to.min(from + CHUNK);
-                    self.measure(from, until, &suspects, &mut found, &mut worst);
-                    from = until + 1;
-                }
-            }
-        }
-        worst
+        joined(active, reach)
     }
 
-    /// What of a stretch of cycles the bound does not excuse.
-    fn suspects(
+    /// What of a stretch of cycles the bound does not excuse; `each` is called with every cycle, and whether its set point is a
+    /// suspect.
+    pub(super) fn suspects(
         &self,
         (from, to): (u64, u64),
         buffer: &mut Buffer<'_>,
         companion: &mut Companion<'_>,
+        mut each: impl FnMut(u64, &Buffer<'_>, bool),
     ) -> Suspects {
         let length = self.trial.kernels.length();
         let reach = f64::from(length);
-        // what is missed there is known in the stretch
-        let first = from.saturating_sub(u64::from(length) + 3);
+        let first = self.first_for((from, to));
         buffer.seek(first);
         companion.jump();
         let mut out = Suspects::default();
@@ -158,7 +169,9 @@ impl View<'_> {
             let moment = k as f64;
             let tolerance = self.tolerance(moment - reach, moment + reach);
             // what is a little longer than the shortest vector may be taken for it
-            if (known || k >= from) && (1.0 + WARY) * apart > within(tolerance) {
+            let suspect = (known || k >= from) && (1.0 + WARY) * apart > within(tolerance);
+            each(k, buffer, suspect);
+            if suspect {
                 out.add(k, older, middle);
                 last = Some(k);
             } else if last.is_some_and(|last| last + 1 == k) {
@@ -226,6 +239,12 @@ fn within_of(among: &[(u64, u64)], (from, to): (f64, f64)) -> Vec<(u64, u64)> {
     let first = among.partition_point(|range| range.1 < from);
     let inside = among[first..].iter().take_while(|range| range.0 <= to);
     inside.map(|range| (range.0.max(from), range.1.min(to))).collect()
+}
+
+/// A range of cycles in parts, so that long stretches need little memory.
+pub(super) fn chunks(from: u64, to: u64) -> impl Iterator<Item = (u64, u64)> {
+    let starts = std::iter::successors(Some(from), |from| Some(from + CHUNK + 1));
+    starts.take_while(move |from| *from <= to).map(move |from| (from, to.min(from + CHUNK)))
 }
 
 /// Ranges of cycles in order; those less than `reach` apart are one.

@@ -1,10 +1,8 @@
 //! Answers an excess: lower speeds, stops, dwells and accelerations for the next round.
 
 use super::blame::Findings;
-use super::measure::within;
-use super::view::{Buffer, Mark, View};
+use super::view::{Mark, View};
 use super::{Demands, Trial};
-use crate::deviation::{Excursion, SetPath};
 use crate::overshoot::gentle;
 use crate::queue::Queued;
 use kontur_filters::kernel::{Kernel, Tap};
@@ -16,9 +14,14 @@ const AIM: f64 = 0.003;
 /// Part of the acceleration of a lone start or stop below which no block is slowed down.
 const LEAST_SHARE: f64 = 0.1;
 
-/// Rounds after which the least step of a dwell doubles, from the second time on: neighbours that share an error move it back and
-/// forth, and a cycle is a small part of a long kernel.
-const ROUNDS_OF_A_STEP: usize = 16;
+/// Part of the kernel by which the least step of a dwell grows every time it is made longer: neighbours that share an error move
+/// it back and forth.
+const GROWTH: f64 = 1.0 / 256.0;
+
+/// Times that a place is made slower without effect after which the steps grow.
+const PATIENCE: u32 = 8;
+/// Part of an excess from which on it counts as left.
+const WITHOUT_EFFECT: f64 = 0.9;
 
 /// Part of the speed that is left when everything in reach counts as a cause: few rounds remain.
 const HASTE: f64 = 0.85;
@@ -41,13 +44,8 @@ impl View<'_> {
             .collect()
     }
 
-    /// Lowers what is to blame, in round `round`; `all`: everything in reach.
-    pub(super) fn tighten(
-        &self,
-        findings: &Findings,
-        (round, all): (usize, bool),
-        demands: &mut Demands,
-    ) {
+    /// Lowers what is to blame; `all`: everything in reach.
+    pub(super) fn tighten(&self, findings: &Findings, all: bool, demands: &mut Demands) {
         let Self { trial, marks, .. } = self;
         let full = trial.kernels.length();
         let mut soften = vec![None; demands.feed.len()];
@@ -59,7 +57,7 @@ impl View<'_> {
             }
             let swings = trial.kernels.overshoot
                 && demands.stop[b]
-                    .is_some_and(|dwell| dwell == full || !self.keeps(mark, dwell, full));
+                    .is_some_and(|dwell| dwell == full || !self.rest_at(mark, dwell).keeps(full));
             if swings {
                 // what is left is the overshoot of the stop itself
                 let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
@@ -80,9 +78,10 @@ impl View<'_> {
             if let Some(dwell) = resting {
                 // in small steps, because neighbouring corners within reach share the error
                 let most = (dwell + (full / 8).max(1)).min(full);
-                let least = 1 << (round / ROUNDS_OF_A_STEP).saturating_sub(1).min(16);
-                let needed = self.needed_dwell(mark, dwell, most);
+                let least = 1 + (GROWTH * f64::from(full) * f64::from(demands.repeats[b])) as u32;
+                let needed = self.rest_at(mark, dwell).needed(most);
                 demands.stop[b] = Some(needed.max(dwell + least).min(full));
+                demands.repeats[b] += 1;
                 continue;
             }
             let m1 =
@@ -94,13 +93,17 @@ impl View<'_> {
                 let seen = (e - excess) / (v - now);
                 if seen.is_finite() { seen } else { steepest }.clamp(0.25 * steepest, steepest)
             });
+            let stays = demands.tried[b].is_some_and(|(_, e)| excess > WITHOUT_EFFECT * e);
+            demands.repeats[b] = if stays { demands.repeats[b] + 1 } else { 0 };
             demands.tried[b] = Some((now, excess));
             let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(0.0);
-            let lowered = now - (excess + AIM * tolerance) / slope;
+            let step = (excess + AIM * tolerance) / slope;
+            let lowered = now - step * f64::from(hurry(demands.repeats[b]));
             if lowered > 0.03 * now {
                 demands.cap[b] = demands.cap[b].min(lowered);
             } else {
                 (demands.cap[b], demands.stop[b]) = (0.0, Some(0));
+                demands.repeats[b] = 0;
             }
         }
         for mark in marks {
@@ -119,6 +122,9 @@ impl View<'_> {
                 if queued.bend > 0.0 || !starts_only || findings.even[b].is_finite() {
                     let even = if all { HASTE * findings.even[b] } else { findings.even[b] };
                     demands.feed[b] = demands.feed[b].min(even.max(slow_enough));
+                    let (repeats, before) = demands.slower[b];
+                    let stays = excess > WITHOUT_EFFECT * before;
+                    demands.slower[b] = (if stays { repeats + 1 } else { 0 }, excess);
                 }
             }
             if let Some((excess, tolerance)) = soften[b] {
@@ -134,47 +140,6 @@ impl View<'_> {
                 };
             }
         }
-    }
-
-    /// Least dwell at a stop, up to `most` cycles, that keeps the tolerance as far as this corner is concerned, by
-    /// bisection; `most` if none does.
-    fn needed_dwell(&self, mark: &Mark, dwell: u32, most: u32) -> u32 {
-        let (mut low, mut high) = (dwell, most);
-        while high - low > 1 {
-            let mid = low + (high - low) / 2;
-            if self.keeps(mark, dwell, mid) { high = mid } else { low = mid }
-        }
-        high
-    }
-
-    /// True if `cycles` of dwell in place of `dwell` keep the tolerance at a stop.
-    fn keeps(&self, mark: &Mark, dwell: u32, cycles: u32) -> bool {
-        let start = mark.cycles.round() as u64;
-        let rest = start.saturating_sub(u64::from(dwell));
-        let full = self.trial.kernels.length();
-        let tolerance = mark.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
-        let (from, to) = (rest as f64 - f64::from(full), start as f64 + f64::from(full));
-        let before = rest.saturating_sub(u64::from(full));
-        let mut buffer = Buffer::new(self);
-        let n = buffer.set().len();
-        let mut set = SetPath::starting(before, n);
-        let mut out = Excursion::none(n);
-        buffer.seek(before);
-        for k in before..=rest + u64::from(cycles + full) {
-            // before the rest as planned, behind it as planned after the present dwell
-            let behind = k.saturating_sub(rest + u64::from(cycles));
-            buffer.step(if behind > 0 { start + behind } else { k.min(rest) });
-            set.push(buffer.set());
-            if k >= rest {
-                set.leaves(&self.contour, k, (from, to), &mut out);
-                if out.largest() > within(tolerance) {
-                    return false;
-                }
-            }
-        }
-        let among = (rest, rest + u64::from(cycles + full) + 1);
-        set.misses(&mark.point, among, tolerance, &mut out);
-        out.largest() <= within(tolerance)
     }
 }
 
@@ -218,6 +183,12 @@ fn gentle_ratio(trial: &Trial<'_>, mark: &Mark, queued: &Queued, tolerance: f64)
         })
         .fold(a, f64::min);
     gentlest / a
+}
+
+/// How many steps to take at once where so many have been without effect.
+pub(super) fn hurry(before: u32) -> u32 {
+    let rows = before / PATIENCE;
+    1 + rows * rows
 }
 
 /// Keeps the larger excess.

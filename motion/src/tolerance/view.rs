@@ -201,7 +201,8 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    fn take(&mut self, k: u64) {
+    /// Takes cycle `k` alone.
+    pub(super) fn take(&mut self, k: u64) {
         self.view.state(k, &mut self.reader, &mut self.state);
         let kept = (self.reach - 1) * self.width;
         if self.rows.len() >= ROOM * self.reach * self.width {
@@ -217,35 +218,21 @@ impl<'a> Buffer<'a> {
     /// Takes cycle `k` and filters.
     pub(super) fn step(&mut self, k: u64) {
         self.take(k);
-        let kernels = self.view.trial.kernels;
-        let (width, newest) = (self.width, self.rows.len() - self.width);
-        let row = |delay: u32| {
-            let at = newest - delay as usize * width;
-            &self.rows[at..at + width]
-        };
-        let now = row(0);
-        self.filtered.fill(0.0);
-        if let (false, Some(kernel)) = (kernels.unequal, kernels.longest()) {
-            for tap in kernel.taps() {
-                for ((y, x), now) in self.filtered.iter_mut().zip(row(tap.delay)).zip(now) {
-                    *y += tap.weight * (x - now);
-                }
-            }
-        } else {
-            let path = width - 1;
-            for (i, y) in self.filtered.iter_mut().enumerate() {
-                let kernel = if i < path { kernels.get(i) } else { kernels.longest() };
-                for tap in kernel.map_or(&[][..], Kernel::taps) {
-                    *y += tap.weight * (row(tap.delay)[i] - now[i]);
-                }
-            }
-        }
-        for (y, now) in self.filtered.iter_mut().zip(now) {
-            *y += now;
-        }
+        self.filter();
     }
 
-    /// Set point of the cycle taken last.
+    /// Set point and mean path length of the cycle taken last.
+    pub(super) fn filter(&mut self) {
+        let Self { rows, width, .. } = self;
+        let newest = rows.len() - *width;
+        let row = |delay: u32| {
+            let at = newest - delay as usize * *width;
+            &rows[at..at + *width]
+        };
+        self.view.trial.kernels.filter(row, &mut self.filtered);
+    }
+
+    /// Set point of the cycle filtered last.
     pub(super) fn set(&self) -> &[f64] {
         &self.filtered[..self.width - 1]
     }

@@ -1,0 +1,156 @@
+//! What the tolerance asks of the plan.
+
+use super::kernels::Kernels;
+use crate::asked::Asked;
+use crate::queue::Queued;
+use kontur_filters::kernel::Kernel;
+use kontur_filters::time::CycleTime;
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// What the monitor asks of the blocks ahead, one entry per boundary or block of the window; it stays with them when the
+/// window moves on.
+#[derive(Clone, Debug)]
+pub(crate) struct Demands {
+    /// Velocity cap at each boundary.
+    pub(crate) cap: Vec<f64>,
+    /// Full stop at the boundary with this many cycles of dwell.
+    pub(crate) stop: Vec<Option<u32>>,
+    /// Velocity cap of each block.
+    pub(crate) feed: Vec<f64>,
+    /// Part of its acceleration that each block may use.
+    pub(super) acceleration: Vec<f64>,
+    /// How often in a row more was asked of each boundary: a lower speed without effect, or a longer dwell.
+    pub(super) repeats: Vec<u32>,
+    /// How often in a row a lower speed of each block was without effect, and the excess then.
+    pub(super) slower: Vec<(u32, f64)>,
+    /// Speed and excess at each boundary when it was last found too fast.
+    pub(super) tried: Vec<Option<(f64, f64)>>,
+    /// First boundary whose even speed is not known yet, see [`super::even::foresee`].
+    pub(super) foreseen: usize,
+}
+
+impl Default for Demands {
+    fn default() -> Self {
+        Self {
+            cap: vec![f64::INFINITY],
+            stop: vec![None],
+            feed: Vec::new(),
+            acceleration: Vec::new(),
+            repeats: vec![0],
+            slower: Vec::new(),
+            tried: vec![None],
+            foreseen: 0,
+        }
+    }
+}
+
+impl Demands {
+    /// What was asked of blocks before, when they are planned once more: it depends on the contour and the filters more than
+    /// on the rest of the plan, and the search for it takes many rounds. The path gets to the first block in another state.
+    pub(crate) fn again(blocks: impl Iterator<Item = Asked>) -> Self {
+        let mut demands = Self::default();
+        for Asked { cap, stop, feed, acceleration } in blocks {
+            // the boundary in front of the block; a new one behind it
+            if let (Some(last), Some(rest), false) =
+                (demands.cap.last_mut(), demands.stop.last_mut(), demands.feed.is_empty())
+            {
+                (*last, *rest) = (cap, stop);
+            }
+            demands.cap.push(f64::INFINITY);
+            demands.stop.push(None);
+            demands.repeats.push(0);
+            demands.tried.push(None);
+            demands.feed.push(feed);
+            demands.acceleration.push(acceleration);
+            demands.slower.push((0, 0.0));
+        }
+        demands
+    }
+
+    /// What is asked of a block and of the boundary in front of it; `None` if it has not been planned yet.
+    pub(crate) fn of(&self, block: usize) -> Option<Asked> {
+        Some(Asked {
+            feed: *self.feed.get(block)?,
+            cap: self.cap[block],
+            stop: self.stop[block],
+            acceleration: self.acceleration[block],
+        })
+    }
+
+    /// Adds what is known of blocks before they are planned: axes whose filters have different delays leave a straight line
+    /// by the speed times the difference, so a line long enough to be run through evenly has a speed of its own.
+    pub(crate) fn reach_over(
+        &mut self,
+        window: &[Arc<Queued>],
+        kernels: &Kernels,
+        cycle: CycleTime,
+    ) {
+        let known = self.feed.len();
+        self.insert(known, window.len().saturating_sub(known), f64::INFINITY);
+        if !kernels.unequal {
+            return;
+        }
+        let delay = |i: usize| kernels.get(i).map_or(0.0, Kernel::delay_cycles) * cycle.seconds();
+        for (queued, feed) in window.iter().zip(&mut self.feed).skip(known) {
+            let Some(tolerance) = queued.block.tolerance.ax_dev_mm else { continue };
+            if !queued.block.path.is_straight() {
+                continue;
+            }
+            let u = &queued.ends.tangent_in;
+            let norm: f64 = u.iter().map(|c| c * c).sum();
+            let along: f64 =
+                u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
+            let aside = |(i, c): (usize, &f64)| (c * (delay(i) - along)).abs();
+            let speed = tolerance / u.iter().enumerate().map(aside).fold(0.0, f64::max);
+            if speed * f64::from(kernels.length()) * cycle.seconds() <= queued.length {
+                *feed = speed;
+            }
+        }
+    }
+
+    /// Makes room for `count` blocks in front of block `at`, held to nothing but a speed.
+    pub(crate) fn insert(&mut self, at: usize, count: usize, feed: f64) {
+        fn fill<T: Clone>(list: &mut Vec<T>, at: usize, count: usize, value: T) {
+            list.splice(at..at, std::iter::repeat_n(value, count));
+        }
+        fill(&mut self.cap, at, count, f64::INFINITY);
+        fill(&mut self.stop, at, count, None);
+        fill(&mut self.repeats, at, count, 0);
+        fill(&mut self.tried, at, count, None);
+        fill(&mut self.feed, at, count, feed);
+        fill(&mut self.acceleration, at, count, 1.0);
+        fill(&mut self.slower, at, count, (0, 0.0));
+        self.foreseen = self.foreseen.min(at);
+    }
+
+    /// Forgets the first blocks, which are final. The boundary behind them has only what is asked of it from now on.
+    pub(crate) fn pass(&mut self, blocks: usize) {
+        self.cap.drain(..blocks);
+        self.stop.drain(..blocks);
+        self.repeats.drain(..blocks);
+        self.tried.drain(..blocks);
+        self.feed.drain(..blocks);
+        self.acceleration.drain(..blocks);
+        self.slower.drain(..blocks);
+        (self.cap[0], self.stop[0], self.tried[0]) = (f64::INFINITY, None, None);
+        self.repeats[0] = 0;
+        self.foreseen = self.foreseen.saturating_sub(blocks);
+    }
+
+    /// The blocks with the acceleration that is left to them.
+    pub(crate) fn soften<'a>(&self, window: &'a [Arc<Queued>]) -> Cow<'a, [Arc<Queued>]> {
+        if self.acceleration.iter().all(|ratio| *ratio >= 1.0) {
+            return Cow::Borrowed(window);
+        }
+        let soften = |(queued, ratio): (&Arc<Queued>, &f64)| {
+            if *ratio >= 1.0 {
+                return Arc::clone(queued);
+            }
+            let mut soft = Queued::clone(queued);
+            soft.slope = soft.slope.scaled(*ratio);
+            Arc::new(soft)
+        };
+        Cow::Owned(window.iter().zip(&self.acceleration).map(soften).collect())
+    }
+}

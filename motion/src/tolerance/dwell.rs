@@ -1,0 +1,93 @@
+//! How long a stop has to last, as far as one corner is concerned.
+//!
+//! What the path does around the stop is sampled once; a dwell of another length puts the same states further apart. A few set
+//! points are enough: the next plan is measured in any case.
+
+use super::measure::within;
+use super::view::{Mark, View};
+use crate::axis::AxisVec;
+use crate::deviation::{Excursion, SetPath};
+use crate::timeline::{PathState, Reader};
+
+/// Set points looked at in one length of the kernel.
+const LOOKS: u32 = 64;
+
+/// A stop of the plan and what lies around it.
+pub(super) struct Rest<'a> {
+    view: &'a View<'a>,
+    mark: &'a Mark,
+    dwell: u32,
+    /// Cycle in which the path comes to rest.
+    cycle: u64,
+    /// Positions and path length in the cycles of one kernel up to the rest, and behind it.
+    before: Vec<AxisVec>,
+    behind: Vec<AxisVec>,
+}
+
+impl<'a> View<'a> {
+    /// The stop in front of a mark, which lasts `dwell` cycles.
+    pub(super) fn rest_at(&'a self, mark: &'a Mark, dwell: u32) -> Rest<'a> {
+        let go = mark.cycles.round() as u64;
+        let cycle = go.saturating_sub(u64::from(dwell));
+        let full = u64::from(self.trial.kernels.length());
+        let mut reader = Reader::new(self.trial.timeline, self.trial.plan);
+        let mut state = PathState::at_rest(&mark.point);
+        let mut row = |k: u64| {
+            self.state(k, &mut reader, &mut state);
+            state.position.iter().copied().chain([state.s]).collect::<AxisVec>()
+        };
+        let before = (cycle.saturating_sub(full)..=cycle).map(&mut row).collect();
+        let behind = (go + 1..=go + full).map(row).collect();
+        Rest { view: self, mark, dwell, cycle, before, behind }
+    }
+}
+
+impl Rest<'_> {
+    /// Least dwell in cycles, longer than now and at most `most`, that keeps the tolerance as far as this corner is
+    /// concerned, by bisection; `most` if none does.
+    pub(super) fn needed(&self, most: u32) -> u32 {
+        let (mut low, mut high) = (self.dwell, most);
+        while high - low > 1 {
+            let mid = low + (high - low) / 2;
+            if self.keeps(mid) { high = mid } else { low = mid }
+        }
+        high
+    }
+
+    /// True if `cycles` of dwell keep the tolerance.
+    pub(super) fn keeps(&self, cycles: u32) -> bool {
+        let View { trial, contour, .. } = self.view;
+        let full = trial.kernels.length();
+        let tolerance = self.mark.queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
+        let reach = (
+            self.cycle as f64 - f64::from(full),
+            (self.cycle + u64::from(self.dwell + full)) as f64,
+        );
+        let n = self.mark.point.len();
+        let mut filtered = AxisVec::zeros(n + 1);
+        let mut vector = AxisVec::zeros(n);
+        let mut set = SetPath::starting(0, n);
+        for k in (0..=cycles + full).step_by((full / LOOKS).max(1) as usize) {
+            trial.kernels.filter(|delay| self.row(k, delay, cycles), &mut filtered);
+            let point = &filtered[..n];
+            contour.nearest(point, reach.0, reach.1, &mut vector);
+            if vector.iter().any(|c| c.abs() > within(tolerance)) {
+                return false;
+            }
+            set.push(point);
+        }
+        let mut out = Excursion::none(n);
+        set.misses(&self.mark.point, (0, set.end()), tolerance, &mut out);
+        out.largest() <= within(tolerance)
+    }
+
+    /// State `delay` cycles before cycle `k` of a rest of so many cycles.
+    fn row(&self, k: u32, delay: u32, cycles: u32) -> &[f64] {
+        let last = self.before.len() - 1;
+        match (k.checked_sub(delay), delay.saturating_sub(k)) {
+            (None, back) => &self.before[last.saturating_sub(back as usize)],
+            (Some(at), _) if at > cycles => &self.behind[(at - cycles) as usize - 1],
+            _ => &self.before[last],
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! The examination of a plan: what has changed is measured, and what exceeds is answered.
+
+use super::blame::Findings;
+use super::demands::Demands;
+use super::even::{foresee, foresees};
+use super::measure::{Record, Violation};
+use super::search::joined;
+use super::view::View;
+use super::{Monitor, Trial, Unkept, Verdict};
+use crate::queue::Queued;
+use crate::timeline::{Entry, Seen};
+use std::sync::Arc;
+
+/// Rounds of planning after which an examination no longer ends with the first kind of excess: their answers call for each other.
+const ROUNDS_OF_PATIENCE: usize = 24;
+/// Rounds of planning after which the causes of an excess stop and dwell for the whole kernel.
+const ROUNDS_OF_SPEED: usize = 64;
+/// Rounds more for every block.
+const ROUNDS_PER_BLOCK: usize = 2;
+/// Rounds of planning after which the tolerance is given up with a message.
+const ROUNDS: usize = 96;
+
+impl Monitor {
+    /// Examines a plan, and tightens the demands if it does not keep the tolerance.
+    ///
+    /// What costs less comes first, and what exceeds is answered before the rest is measured. Of a plan that has been examined
+    /// before only what has changed is measured, and last of all what has moved in time by other than whole cycles: the set
+    /// points lie elsewhere then. Returns what is known of every entry now.
+    pub(crate) fn examine(
+        &self,
+        trial: &Trial<'_>,
+        round: usize,
+        demands: &mut Demands,
+    ) -> (Verdict, Vec<Seen>) {
+        let view = View::new(trial, self);
+        let blocks = demands.feed.len();
+        // even speeds and parts of blocks are asked for first; where there are no bends to divide, nobody is to blame for that
+        if round == 0 && !trial.bends() && foresees(trial.kernels) {
+            let found = view.examine(round, |_, _| ());
+            if found.worst.is_none() {
+                return (Verdict::Kept, found.seen(trial));
+            }
+            if trial.foresee(demands) {
+                return (Verdict::Tightened, found.seen(trial));
+            }
+        }
+        let mut findings = Findings::none(blocks);
+        // after many rounds everything in reach counts as a cause
+        let all = round >= ROUNDS_OF_SPEED + ROUNDS_PER_BLOCK * blocks;
+        let found =
+            view.examine(round, |v, record| view.blame(v, record, all, demands, &mut findings));
+        let seen = found.seen(trial);
+        let Some(worst) = found.worst else {
+            return (Verdict::Kept, seen);
+        };
+        let parts = view.parts(&findings);
+        if !parts.is_empty() {
+            return (Verdict::Divided(parts), seen);
+        }
+        // an answer at one corner can make another one necessary at the next
+        if round >= ROUNDS + ROUNDS_PER_BLOCK * blocks {
+            return (Verdict::GivenUp(worst), seen);
+        }
+        if round > 0 || !trial.foresee(demands) {
+            view.tighten(&findings, all, demands);
+        }
+        (Verdict::Tightened, seen)
+    }
+}
+
+/// How far an examination has got: the last of these was looked at, and those before it keep the tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Depth {
+    /// A first look at what has changed.
+    Glance,
+    /// What of the changed set path leaves the contour.
+    Leaves,
+    /// What of the contour it misses.
+    Misses,
+    /// Both where only the moments have changed.
+    Moved,
+}
+
+/// What of a plan exceeds the tolerance.
+struct Found {
+    worst: Option<Unkept>,
+    /// Cycles of the violations.
+    exceeded: Vec<u64>,
+    depth: Depth,
+}
+
+impl Found {
+    /// What is known of every entry of the plan.
+    fn seen(&self, trial: &Trial<'_>) -> Vec<Seen> {
+        let reach = 2.0 * f64::from(trial.kernels.length()) + 4.0;
+        let seen = trial.plan.iter().map(|e| {
+            let [from, to] = [e.start, e.end].map(|m| m.cycles(trial.cycle));
+            let near = |k: &u64| (from - reach..=to + reach).contains(&(*k as f64));
+            if self.exceeded.iter().any(near) {
+                return Seen::Nothing;
+            }
+            match (self.depth, e.seen) {
+                (Depth::Glance, Seen::Nothing) => Seen::Glanced,
+                (Depth::Leaves, Seen::Nothing | Seen::Glanced) => Seen::Stays(e.start),
+                (Depth::Misses, Seen::Nothing | Seen::Glanced) | (Depth::Moved, _) => {
+                    Seen::Kept(e.start)
+                }
+                // what it leaves was measured at another moment
+                (Depth::Misses, Seen::Stays(at)) => Seen::Kept(at),
+                (_, seen) => seen,
+            }
+        });
+        seen.collect()
+    }
+}
+
+impl View<'_> {
+    /// Looks at what has changed since the last examination, measures it one way and the other, and then what has moved in time;
+    /// what exceeds ends it as a rule.
+    fn examine(&self, round: usize, mut found: impl FnMut(&Violation, &Record)) -> Found {
+        let mut exceeded: Vec<u64> = Vec::new();
+        let mut found = |v: &Violation, record: &Record| {
+            exceeded.push(v.cycle);
+            found(v, record);
+        };
+        let of = |which: &dyn Fn(Seen) -> bool| self.trial.reached_by(|e| which(e.seen));
+        let patient = round < ROUNDS_OF_PATIENCE;
+        let mut depth = Depth::Glance;
+        let mut worst = None;
+        if patient {
+            worst = self.glance(&of(&|seen| seen == Seen::Nothing), &mut found);
+        }
+        if worst.is_none() {
+            depth = Depth::Leaves;
+            let new = of(&|seen| matches!(seen, Seen::Nothing | Seen::Glanced));
+            worst = self.leaving(&new, &mut found);
+        }
+        if worst.is_none() || !patient {
+            depth = Depth::Misses;
+            let changed = of(&|seen| !matches!(seen, Seen::Kept(_)));
+            let both = [worst, self.missing(&changed, &mut found)].into_iter().flatten();
+            worst = both.max_by(|a, b| a.deviation_mm.total_cmp(&b.deviation_mm));
+        }
+        if worst.is_none() {
+            depth = Depth::Moved;
+            let moved = self.trial.reached_by(|e| match e.seen {
+                Seen::Stays(at) | Seen::Kept(at) => !at.is_whole_cycles_from(e.start),
+                Seen::Nothing | Seen::Glanced => false,
+            });
+            worst = self.search(&moved, &mut found);
+        }
+        Found { worst, exceeded, depth }
+    }
+}
+
+impl Trial<'_> {
+    /// True if a block of the plan is bent.
+    fn bends(&self) -> bool {
+        self.plan.iter().flat_map(|e| &e.blocks).any(|(queued, _)| queued.bend > 0.0)
+    }
+
+    /// See [`foresee`].
+    fn foresee(&self, demands: &mut Demands) -> bool {
+        let blocks = self.plan.iter().flat_map(|e| &e.blocks);
+        let window: Vec<Arc<Queued>> = blocks.map(|(queued, _)| Arc::clone(queued)).collect();
+        let start = self.plan.first().map_or(0.0, |e| e.s0);
+        foresee(demands, &window, self.past, start, (self.kernels, self.cycle))
+    }
+
+    /// Cycles still to come whose set points, or what they miss, depend on some entries.
+    fn reached_by(&self, which: impl Fn(&Entry) -> bool) -> Vec<(u64, u64)> {
+        let reach = 2.0 * f64::from(self.kernels.length()) + 5.0;
+        let entries = self.timeline.entries().chain(self.plan).filter(|e| which(e));
+        let cycles = entries.map(|e| {
+            let [from, to] = [e.start, e.end].map(|m| m.cycles(self.cycle));
+            ((from - 3.0).max(0.0) as u64, (to + reach).ceil() as u64)
+        });
+        let ahead = cycles.map(|(from, to)| (from.max(self.now + 1), to));
+        joined(ahead.filter(|(from, to)| from <= to).collect(), 0)
+    }
+}

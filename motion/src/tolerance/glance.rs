@@ -1,0 +1,73 @@
+//! A first look at a plan that is still being searched for, under filters of many cycles: a few set points in every length of the
+//! kernel, each with the nearest point of the contour.
+//!
+//! Most plans of a search fail by far, and then it is enough to know where. What such a look does not see, the measure of the last
+//! plans does.
+
+use super::Unkept;
+use super::harvest::Harvest;
+use super::measure::{Record, Violation, within};
+use super::search::chunks;
+use super::view::{Buffer, View};
+use crate::axis::AxisVec;
+use crate::contour::WARY;
+
+/// Set points looked at in one length of the kernel.
+const LOOKS: u32 = 128;
+
+impl View<'_> {
+    /// Looks at the plan in some cycles, ranges in order; as [`Self::search`].
+    pub(super) fn glance(
+        &self,
+        among: &[(u64, u64)],
+        mut found: impl FnMut(&Violation, &Record),
+    ) -> Option<Unkept> {
+        let Self { trial, contour, .. } = self;
+        let length = trial.kernels.length();
+        let (reach, every) = (f64::from(length), u64::from((length / LOOKS).max(1)));
+        let mut worst: Option<Unkept> = None;
+        if every == 1 {
+            return worst;
+        }
+        let mut buffer = Buffer::new(self);
+        let n = buffer.set().len();
+        let (mut companion, mut vector) = (AxisVec::zeros(n), AxisVec::zeros(n));
+        let mut walk = contour.walk();
+        for (from, to) in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
+            let first = from.saturating_sub(u64::from(length) + 1);
+            let mut record = Record::starting(first);
+            let mut harvest = Harvest::new(self, &mut worst, &mut found);
+            buffer.seek(first);
+            for k in first..=to {
+                buffer.take(k);
+                record.push(buffer.s());
+                if k < from || (k - from) % every != 0 {
+                    continue;
+                }
+                let moment = k as f64;
+                let tolerance_mm = self.tolerance(moment - reach, moment);
+                buffer.filter();
+                walk.position(buffer.middle(), &mut companion);
+                let aside =
+                    buffer.set().iter().zip(companion.iter()).map(|(a, b)| (a - b) * (a - b));
+                if tolerance_mm.is_infinite()
+                    || (1.0 + WARY) * aside.sum::<f64>().sqrt() <= within(tolerance_mm)
+                {
+                    continue;
+                }
+                contour.nearest(buffer.set(), moment - reach, moment, &mut vector);
+                let largest = |i: &usize, j: &usize| vector[*i].abs().total_cmp(&vector[*j].abs());
+                let Some(axis) = (0..n).max_by(largest) else { continue };
+                let deviation_mm = vector[axis].abs();
+                if deviation_mm > within(tolerance_mm) {
+                    let (positive, missed) = (vector[axis] > 0.0, None);
+                    let cycle = k;
+                    let v = Violation { cycle, deviation_mm, tolerance_mm, axis, positive, missed };
+                    harvest.take(v, &record);
+                }
+            }
+            harvest.end(&record);
+        }
+        worst
+    }
+}

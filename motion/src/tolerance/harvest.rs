@@ -1,0 +1,50 @@
+//! The violations that are answered: of those that lie close together the worst one.
+
+use super::Unkept;
+use super::measure::{Record, Violation};
+use super::view::View;
+
+/// Takes violations in order of their cycles, and hands on at most one for half a kernel.
+pub(super) struct Harvest<'a, F> {
+    view: &'a View<'a>,
+    half: u64,
+    bucket: Option<Violation>,
+    /// The worst of all.
+    worst: &'a mut Option<Unkept>,
+    found: &'a mut F,
+}
+
+impl<'a, F: FnMut(&Violation, &Record)> Harvest<'a, F> {
+    pub(super) fn new(view: &'a View<'a>, worst: &'a mut Option<Unkept>, found: &'a mut F) -> Self {
+        let half = (u64::from(view.trial.kernels.length()) / 2).max(1);
+        Self { view, half, bucket: None, worst, found }
+    }
+
+    pub(super) fn take(&mut self, v: Violation, record: &Record) {
+        if self.worst.as_ref().is_none_or(|w| w.deviation_mm < v.deviation_mm) {
+            let marks = &self.view.marks;
+            let i = marks.partition_point(|m| m.cycles <= v.cycle as f64).max(1) - 1;
+            let seq = marks[i].queued.block.seq;
+            let Violation { deviation_mm, tolerance_mm, .. } = v;
+            *self.worst = Some(Unkept { seq, deviation_mm, tolerance_mm });
+        }
+        self.bucket =
+            Some(match self.bucket.take() {
+                Some(b) if b.cycle / self.half == v.cycle / self.half => {
+                    if v.excess() > b.excess() { v } else { b }
+                }
+                Some(b) => {
+                    (self.found)(&b, record);
+                    v
+                }
+                None => v,
+            });
+    }
+
+    /// Nothing follows.
+    pub(super) fn end(mut self, record: &Record) {
+        if let Some(v) = self.bucket.take() {
+            (self.found)(&v, record);
+        }
+    }
+}

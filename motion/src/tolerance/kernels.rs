@@ -1,0 +1,100 @@
+//! The filter kernels of the axes, as the tolerance looks at them.
+
+use kontur_filters::kernel::Kernel;
+use std::sync::Arc;
+
+/// Taps of a kernel in the search for an even speed.
+const COARSE: usize = 24;
+
+/// The filter kernels of the axes of a channel.
+#[derive(Clone, Debug, Default)]
+pub struct Kernels {
+    pub(super) axes: Vec<Option<Arc<Kernel>>>,
+    /// A kernel with negative weights overshoots where the path starts and stops, straight blocks included.
+    pub(super) overshoot: bool,
+    /// Not all axes have the same kernel.
+    pub(super) unequal: bool,
+    /// Axis of the longest kernel.
+    longest: Option<usize>,
+    /// Delay of the longest kernel in cycles.
+    pub(super) delay: f64,
+    /// Every axis' kernel in few taps: weights, and mean delays in cycles.
+    pub(super) coarse: Vec<Vec<(f64, f64)>>,
+}
+
+impl Kernels {
+    /// One kernel per axis, `None` without one.
+    pub fn new(axes: Vec<Option<Arc<Kernel>>>) -> Self {
+        let mut taps = axes.iter().flatten().flat_map(|k| k.taps());
+        let overshoot = taps.any(|tap| tap.weight < 0.0);
+        let unequal = axes.windows(2).any(|pair| pair[0] != pair[1]);
+        let length = |i: &usize| axes[*i].as_ref().map_or(0, |k| k.length());
+        let longest = (0..axes.len()).filter(|i| axes[*i].is_some()).max_by_key(length);
+        let delay = longest.and_then(|i| axes[i].as_ref()).map_or(0.0, |k| k.delay_cycles());
+        let coarse = axes.iter().map(|k| k.as_ref().map_or_else(|| vec![(1.0, 0.0)], coarse));
+        let coarse = coarse.collect();
+        Self { axes, overshoot, unequal, longest, delay, coarse }
+    }
+
+    /// True if any axis has a kernel.
+    pub fn any(&self) -> bool {
+        self.axes.iter().any(Option::is_some)
+    }
+
+    /// Cycles until every axis is constant after the path has come to rest.
+    pub fn length(&self) -> u32 {
+        self.longest().map_or(0, Kernel::length)
+    }
+
+    /// True if not all axes have the same kernel.
+    pub(crate) fn differ(&self) -> bool {
+        self.unequal
+    }
+
+    /// The kernel that reaches back furthest.
+    pub(super) fn longest(&self) -> Option<&Kernel> {
+        self.get(self.longest?)
+    }
+
+    /// The kernel of an axis.
+    pub(super) fn get(&self, i: usize) -> Option<&Kernel> {
+        self.axes.get(i).and_then(|k| k.as_deref())
+    }
+
+    /// Filters rows of the positions of all axes and the path length, which takes the longest kernel; `row` is the one of
+    /// some cycles ago.
+    pub(super) fn filter<'a>(&self, row: impl Fn(u32) -> &'a [f64], out: &mut [f64]) {
+        let n = out.len();
+        let now = &row(0)[..n];
+        out.fill(0.0);
+        if let (false, Some(kernel)) = (self.unequal, self.longest()) {
+            for tap in kernel.taps() {
+                let row = &row(tap.delay)[..n];
+                for i in 0..n {
+                    out[i] += tap.weight * (row[i] - now[i]);
+                }
+            }
+        } else {
+            for (i, y) in out.iter_mut().enumerate() {
+                let kernel = if i + 1 < n { self.get(i) } else { self.longest() };
+                for tap in kernel.map_or(&[][..], Kernel::taps) {
+                    *y += tap.weight * (row(tap.delay)[i] - now[i]);
+                }
+            }
+        }
+        for (y, now) in out.iter_mut().zip(now) {
+            *y += now;
+        }
+    }
+}
+
+/// A kernel of many taps in few.
+fn coarse(kernel: &Arc<Kernel>) -> Vec<(f64, f64)> {
+    let taps = kernel.taps();
+    let parts = taps.chunks(taps.len().div_ceil(COARSE)).filter_map(|part| {
+        let weight: f64 = part.iter().map(|t| t.weight).sum();
+        let delay: f64 = part.iter().map(|t| t.weight * f64::from(t.delay)).sum();
+        (weight.abs() > 0.0).then(|| (weight, delay / weight))
+    });
+    parts.collect()
+}

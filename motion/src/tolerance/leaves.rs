@@ -1,0 +1,68 @@
+//! Measures how far the set path leaves the contour.
+
+use super::bound::Companion;
+use super::harvest::Harvest;
+use super::measure::{Record, SPACING, Violation, within};
+use super::search::chunks;
+use super::view::{Buffer, View};
+use super::{BORDER_CYCLES, Unkept};
+use crate::deviation::{Excursion, SetPath};
+
+/// Part of the tolerance from which on a vector, over all axes, is looked at for what else it could be.
+const DOUBT: f64 = 0.9;
+
+impl View<'_> {
+    /// Measures the set path in some cycles, ranges in order, and hands the worst violations, at most one for half a kernel,
+    /// to `found`; returns the worst of all.
+    pub(super) fn leaving(
+        &self,
+        among: &[(u64, u64)],
+        mut found: impl FnMut(&Violation, &Record),
+    ) -> Option<Unkept> {
+        let mut worst: Option<Unkept> = None;
+        let mut buffer = Buffer::new(self);
+        let n = buffer.set().len();
+        let mut companion = Companion::new(&self.marks, &self.contour, n);
+        for (from, to) in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
+            let first = self.first_for((from, to));
+            let mut record = Record::starting(first);
+            let mut set = SetPath::starting(first, n);
+            let mut harvest = Harvest::new(self, &mut worst, &mut found);
+            self.suspects((from, to), &mut buffer, &mut companion, |k, buffer, suspect| {
+                record.push(buffer.s());
+                set.push(buffer.set());
+                if k >= from
+                    && suspect
+                    && let Some(v) = self.leaves_at(k, &set)
+                {
+                    harvest.take(v, &record);
+                }
+            });
+            harvest.end(&record);
+        }
+        worst
+    }
+
+    /// The violation on the way to the set point of cycle `k`, if it is one.
+    fn leaves_at(&self, k: u64, set: &SetPath) -> Option<Violation> {
+        let contour = &self.contour;
+        let moment = k as f64;
+        let within_reach = (moment - f64::from(self.trial.kernels.length()), moment);
+        let tolerance_mm = self.tolerance(within_reach.0, within_reach.1);
+        if tolerance_mm.is_infinite() {
+            return None;
+        }
+        let mut out = Excursion::none(set.axes());
+        set.leaves(contour, k, within_reach, &mut out);
+        let mut deviation_mm = out.largest();
+        if out.length > DOUBT * tolerance_mm && deviation_mm <= within(tolerance_mm) {
+            // the components depend on what counts as within reach
+            let apart = (BORDER_CYCLES, 10.0 * SPACING * tolerance_mm);
+            deviation_mm = deviation_mm.max(set.doubtful(contour, k, within_reach, apart));
+        }
+        let axis = out.axis();
+        let (positive, missed) = (out.vector[axis] > 0.0, None);
+        let v = Violation { cycle: k, deviation_mm, tolerance_mm, axis, positive, missed };
+        (deviation_mm > within(tolerance_mm)).then_some(v)
+    }
+}
