@@ -159,7 +159,13 @@ pub(super) fn from_error(
             let start = offset + before.trim_ascii_end().len() - length;
             let problem = Problem::syntax(Span::new(start, start + length), text);
             let second = is_numbered(before) && is_numbered(&masked[start..]);
-            let condition = if second { Condition::BlockNumberTwice } else { Condition::Syntax };
+            let condition = match second {
+                true if masked[offset..start].split_whitespace().nth(1).is_some() => {
+                    Condition::BlockNumberBehindWords
+                }
+                true => Condition::BlockNumberTwice,
+                false => Condition::Syntax,
+            };
             Problem { condition, ..problem }
         }
         _ => refine(problem, before, rest, context, masked, &expected),

@@ -78,6 +78,7 @@ conditions! {
     NoFaceTurningAxis = Vendor 20042: Error ProgramAbort 3 1, "no face turning axis in the plane of G51", hint "set the bit 0x40 of P-AXIS-00015 for exactly one axis of the plane", parameter "P-AXIS-00015";
     VariableNotReadable = Vendor 20097: Error ProgramAbort 3 1, "variable may not be read", hint "its access rights allow writing only";
     VariableNotWritable = Vendor 20100: Error ProgramAbort 3 1, "variable may not be written", hint "assign to a P parameter or to a variable of the classes V.P, V.L, V.S";
+    BlockNumberBehindWords = Vendor 20105: Error ProgramAbort 3 1, "second block number in one block", cause "N20 X10 N30", hint "leave one of the two out";
     GNumberTooLarge = Vendor 20107: Error ProgramAbort 3 1, "G number outside the data format", hint "G functions have numbers up to 999";
     TwoMotionModes = Vendor 20108: Error ProgramAbort 3 1, "two motion modes in one block", cause "G01 … G00", hint "one of G00, G01, G02, G03, G04 per block";
     TwoFeedInterpolations = Vendor 20109: Error ProgramAbort 3 1, "two of G08/G193/G293", hint "one of G08, G193, G293 per block";
@@ -185,12 +186,15 @@ conditions! {
     TappingPerRevolution = Vendor 20635: Error ProgramAbort 3 1, "tapping with feed per revolution", cause "G63 under G95", hint "write G94 before it";
     TappingCuttingSpeed = Vendor 20636: Error ProgramAbort 3 1, "tapping with constant cutting speed", cause "G63 under G96", hint "write G97 before it";
     FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 before";
+    LengthWithCompensation = Vendor 20671: Error ProgramAbort 3 1, "tool length compensation selected while tool radius compensation is active", cause "#TLC ON between G41 or G42 and G40", hint "write #TLC ON before G41 or behind G40";
     CoordinateSystemSyntax = Vendor 20675: Error ProgramAbort 3 1, "syntax error in #CS ON[...]", hint "#CS ON [x,y,z,a,b,c], #CS ON [number], #CS DEF [number][x,y,z,a,b,c], #CS OFF [ALL]";
+    SystemAngle = Vendor 20676: Error ProgramAbort 3 1, "angle of a coordinate system outside -360 to 360 deg", cause "#CS ON [0,0,0,0,0,450]", hint "take full turns off the angle";
     DwellOtherAxes = Vendor 20685: Warning None 1 1, "G04 with further axes", hint "the time follows the first main axis; write the motion in a block of its own";
     KinematicsWhileActive = Vendor 20687: Error ProgramAbort 3 1, "kinematics changed under an active transformation", cause "#KIN ID under #TRAFO ON", hint "write #TRAFO OFF before #KIN ID";
     InsertionsWithoutMotion = Vendor 20701: Warning None 1 1, "two of G301/G302 without motion between them", hint "leave one of the two out";
     MacroNesting = Vendor 20734: Error ProgramAbort 3 1, "nesting stack exhausted", hint "does the macro use itself?";
     ToolTwice = Vendor 20738: Error ProgramAbort 3 1, "D and V.G.WZ_AKT in one block", hint "write one of the two into a block of its own";
+    ToolOffsetTwice = Vendor 20739: Error ProgramAbort 3 1, "D and an offset V.G.WZ_AKT.V in one block", hint "write one of the two into a block of its own";
     DwellRange = Vendor 20752: Error ProgramAbort 3 1, "dwell time out of range", hint "the time is in seconds";
     MTwice = Vendor 20765: Error ProgramAbort 3 1, "M function twice in one block", cause "M10 M10", hint "leave one of the two out";
     HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "leave one of the two out";
@@ -208,6 +212,7 @@ conditions! {
     OverrideSwitchTwice = Vendor 20846: Error ProgramAbort 3 1, "G166 twice in one block", hint "leave one of the two out";
     MirrorSwitch = Vendor 20860: Error ProgramAbort 3 1, "mirroring is switched by 1 and -1 only", cause "G351 X2", hint "-1 mirrors the axis, 1 does not";
     ExistArgument = Vendor 20868: Error ProgramAbort 3 1, "EXIST without the name of a parameter or variable", hint "write EXIST[P1] or EXIST[V.P.NAME]";
+    CommandAxisUnknown = Vendor 20875: Error ProgramAbort 3 1, "unknown axis in #FACE or #CYL", cause "#CYL [X, J] on a machine without an axis J", hint "name axes of the channel";
     DeclarationCharacter = Vendor 20904: Error ProgramAbort 3 1, "wrong character in the declaration of a variable or parameter", cause "V.L.TAB[2]=[1;2]", hint "write V.P.NAME : TYPE = value; values of arrays are separated by commas";
     VariableIndex = Vendor 20906: Error ProgramAbort 3 1, "index outside an array variable", hint "indices begin at 0; SIZEOF[V.P.NAME] is the size";
     VariableType = Vendor 20908: Error ProgramAbort 3 1, "variable type cannot be declared", hint "types are BOOLEAN, SGN08, UNS08, SGN16, UNS16, SGN32, UNS32, REAL64, STRING[n]";
@@ -244,6 +249,7 @@ conditions! {
     SlaveIsActiveSlave = Vendor 21283: Error ProgramAbort 3 1, "slave is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     SlaveIsActiveMaster = Vendor 21284: Error ProgramAbort 3 1, "slave is a master in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     MasterIsActiveSlave = Vendor 21285: Error ProgramAbort 3 1, "master is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
+    AxisFunctionMissing = Vendor 21301: Error ProgramAbort 3 1, "bracket of an axis that does not begin with its function", cause "X[POS=10 INDP_SYN ..]", hint "the function comes first: INDP_SYN, INDP_ASYN, OSC, OVERRIDE, SET_POSITION, M or H functions";
     PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "remarks begin with ; or (; no block may precede %NAME";
     TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "leave G05 out";
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
@@ -256,6 +262,7 @@ conditions! {
     CycleCentreOutside = Vendor 21384: Error ProgramAbort 3 1, "centre of a cycle outside of a cycle", cause "@I=100 in a main program", hint "@I, @J and @K are words of cycles; write I, J, K";
     CycleSpindleOutside = Vendor 21385: Error ProgramAbort 3 1, "spindle of a cycle outside of a cycle", cause "@S=1000 in a main program", hint "@S is a word of cycles; write the spindle";
     ConditionalOpen = Vendor 21387: Error ProgramAbort 3 1, "#IF without #ENDIF", hint "write #ENDIF before the end of the program";
+    WaitWithoutSyn = Vendor 21413: Error ProgramAbort 3 1, "WAIT of #MACHINE DATA without SYN", hint "write #MACHINE DATA SYN [.. WAIT] or leave WAIT out";
     OverrideKeyTwice = Vendor 21420: Error ProgramAbort 3 1, "keyword twice in #OVERRIDE", hint "leave one of the two out";
     TextOperator = Vendor 21458: Error ProgramAbort 3 1, "operator that texts do not have", hint "texts are joined by + and compared by == and !=";
     TextTooLong = Vendor 21462: Error ProgramAbort 3 1, "text too long for its variable", hint "declare it with a longer STRING[n], up to 126";
@@ -290,6 +297,8 @@ conditions! {
     FilterMode = Vendor 22068: Error ProgramAbort 3 1, "invalid MODE in #FILTER", hint "keys are HSC, ORDER, ORDER_TIME, SHARE, AX_DEV, FCUT, ACC_FACT, QUALITY";
     CallCharacter = Vendor 22151: Error ProgramAbort 3 1, "wrong character in an implicit call", cause "G80 [..]", hint "separate the values with commas: G80 [1, 2, , 4]";
     RotationAxis = Vendor 22156: Error ProgramAbort 3 1, "axis outside the plane of a contour rotation", cause "G68 with the third main axis", hint "the centre of the rotation is given by the two axes of the plane";
+    TwoRampWeights = Vendor 22180: Error ProgramAbort 3 1, "two weights of ramp times in one block", cause "G132 X70 G133=100", hint "write them into blocks of their own";
+    TwoVelocityWeights = Vendor 22182: Error ProgramAbort 3 1, "two weights of the highest speed in one block", cause "G127 X70 G128=100", hint "write them into blocks of their own";
     MessageSuppressed = Vendor 22194: Warning None 1 1, "#MSG to the diagnosis receiver is suppressed, warning", cause "P-CHAN-00518", parameter "P-CHAN-00518";
     MessageForbidden = Vendor 22195: Error ProgramAbort 3 1, "#MSG to the diagnosis receiver is suppressed, error", cause "P-CHAN-00518", parameter "P-CHAN-00518";
     CircleAngleAndEnd = Vendor 22253: Error ProgramAbort 3 1, "#CANG together with an end point", cause "G02 X10 I5 #CANG=90", hint "an arc ends at its angle or at its end point: delete one of them";

@@ -10,7 +10,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::suggest;
-use crate::exec::values::system;
+use crate::exec::values::{every_axis, system};
 use crate::syntax::ast::{
     Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Jump, PlaceKind, Return, Sign, Span,
     Word, WordKind,
@@ -70,7 +70,7 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) tool: Option<Placed>,
     pub(in crate::exec) tool_data: Option<Placed>,
     /// A write to `V.G.WZ_AKT`.
-    pub(in crate::exec) tool_written: Option<Span>,
+    pub(in crate::exec) tool_written: Option<(Condition, Span)>,
     pub(in crate::exec) m: SmallVec<[Code; 4]>,
     pub(in crate::exec) h: SmallVec<[Code; 1]>,
     pub(in crate::exec) cycle: Option<CycleCall>,
@@ -106,9 +106,9 @@ impl Decoder {
                 }
             }
         }
-        if let (Some(_), Some(span)) = (block.tool_data, block.tool_written) {
+        if let (Some(_), Some((condition, span))) = (block.tool_data, block.tool_written) {
             let text = "D and a write to V.G.WZ_AKT in one block: both set the tool data in use";
-            self.report.note(Fault::new(Condition::ToolTwice, text, span));
+            self.report.note(Fault::new(condition, text, span));
         }
     }
 
@@ -155,7 +155,13 @@ impl Decoder {
                 if let PlaceKind::Variable(segments) = &assign.target.kind
                     && system::is_active_tool(segments)
                 {
-                    block.tool_written = Some(span);
+                    let condition = match &segments[..] {
+                        [_, _, offset, ..] if offset.name.eq_ignore_ascii_case("V") => {
+                            Condition::ToolOffsetTwice
+                        }
+                        _ => Condition::ToolTwice,
+                    };
+                    block.tool_written = Some((condition, span));
                 }
                 self.assign(assign)
             }
@@ -195,6 +201,13 @@ impl Decoder {
     }
 
     fn assign(&mut self, assign: &Assign) -> Outcome<()> {
+        if every_axis::is_all(&assign.target) {
+            return (0..self.machine.axes.len()).try_for_each(|axis| {
+                let assign = every_axis::of_axis(assign, axis);
+                let value = self.value(&assign.value)?;
+                self.write(&assign.target, value, assign.value.span)
+            });
+        }
         let value = self.value(&assign.value)?;
         self.write(&assign.target, value, assign.value.span)
     }

@@ -333,6 +333,10 @@ pub(in crate::exec) fn write(
             let axis = path.axis(d, 3)?;
             d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
         }
+        ["G", "NP_AKT", "V", _] | ["G", "NP_AKT", "V"] => {
+            let axis = path.axis(d, 3)?;
+            d.geometry.coordinates.set_zero_offset(axis, x()? * d.axis_unit(axis));
+        }
         ["G", "RW"] => {
             d.motion.measuring.residual_path_mm = x()? * d.modal.unit_mm();
         }
