@@ -432,7 +432,8 @@ impl Decoder {
     /// Axes of the active plane, its coordinate system if it lies askew to the axes, and the compensation.
     fn in_plane(&self, span: Span) -> Outcome<InPlane> {
         let axis = |m: usize| self.geometry.coordinates.main_axis(m);
-        let compensated = self.modal.compensation != Compensation::Off;
+        let compensated =
+            self.modal.compensation != Compensation::Off && !self.modal.compensation_suppressed;
         let PlaneImage { main, keeps_sense, tilt } = self.image_of_plane(span)?;
         let (Some(first), Some(second)) = (axis(main[0]), axis(main[1])) else {
             if compensated {
@@ -448,6 +449,7 @@ impl Decoder {
             straight_corners: (self.modal.corners == Corners::Straight)
                 .then_some(self.modal.corner_stretch),
             reverse: self.modal.turns_back,
+            perpendicular_change: self.modal.perpendicular_change,
             selection: self.modal.selection,
             engagement_radius_mm: self
                 .modal

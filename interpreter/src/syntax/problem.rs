@@ -479,7 +479,7 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::chain
         | Rule::value_name => (0, VALUE),
         Rule::digits | Rule::code_number | Rule::code_digits => (1, "a number"),
-        Rule::equals => (2, EQUALS),
+        Rule::equals | Rule::compound => (2, EQUALS),
         Rule::comma => (3, COMMA),
         Rule::close => (4, "`]`"),
         Rule::open | Rule::group | Rule::cycle_group | Rule::index | Rule::word_bracket => {

@@ -180,6 +180,7 @@ conditions! {
     FaceAxisReleased = Vendor 20546: Error ProgramAbort 1 1, "face turning axis released while diameters are programmed", cause "#PUT AX [X] under G51", hint "write G52 first";
     CommentBeginNotAlone = Vendor 20566: Error ProgramAbort 3 1, "#COMMENT BEGIN is not alone in its block", hint "move the words to the next block";
     CommentEndNotAlone = Vendor 20569: Error ProgramAbort 3 1, "#COMMENT END is not alone in its block", hint "move the words to the next block";
+    DividedByZero = Vendor 20574: Error ProgramAbort 3 1, "division by zero with /=", cause "P1 /= P2 with P2=0", hint "test the divisor with $IF before";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
     PresetWhileMirrored = Vendor 20612: Error ProgramAbort 3 1, "#PSET or #PRESET with active mirroring", cause "G21, then #PSET X200", hint "write G20 before";
     CuttingSpeedLimited = Vendor 20633: Warning None 1 1, "too near to the turning centre for G96: spindle speed limited", cause "G96 at X0", hint "select G96 further out, or raise G196";

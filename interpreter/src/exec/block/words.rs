@@ -12,8 +12,8 @@ use crate::exec::options::Value;
 use crate::exec::suggest;
 use crate::exec::values::{every_axis, system};
 use crate::syntax::ast::{
-    Assign, Bracket, Call, CodeNumber, Expr, GValue, HashWord, Jump, PlaceKind, Return, Sign, Span,
-    Word, WordKind,
+    Assign, Binary, BinaryOp, Bracket, Call, CodeNumber, Expr, ExprKind, GValue, HashWord, Jump,
+    PlaceKind, Return, Sign, Span, Word, WordKind,
 };
 use smallvec::SmallVec;
 
@@ -150,6 +150,13 @@ impl Decoder {
                 if let PlaceKind::Cycle(name) = &assign.target.kind
                     && !name.starts_with('P')
                 {
+                    if let Some(operator) = assign.operator {
+                        let text = format!(
+                            "@{name} takes a value with `=`, not with `{}=`",
+                            operator.symbol()
+                        );
+                        return Err(Fault::new(Condition::Syntax, text, span));
+                    }
                     return self.cycle_address(name, assign, span, block);
                 }
                 if let PlaceKind::Variable(segments) = &assign.target.kind
@@ -202,14 +209,29 @@ impl Decoder {
 
     fn assign(&mut self, assign: &Assign) -> Outcome<()> {
         if every_axis::is_all(&assign.target) {
-            return (0..self.machine.axes.len()).try_for_each(|axis| {
-                let assign = every_axis::of_axis(assign, axis);
-                let value = self.value(&assign.value)?;
-                self.write(&assign.target, value, assign.value.span)
-            });
+            return (0..self.machine.axes.len())
+                .try_for_each(|axis| self.assign_one(&every_axis::of_axis(assign, axis)));
         }
-        let value = self.value(&assign.value)?;
-        self.write(&assign.target, value, assign.value.span)
+        self.assign_one(assign)
+    }
+
+    fn assign_one(&mut self, assign: &Assign) -> Outcome<()> {
+        let Assign { target, operator, value } = assign;
+        let span = value.span;
+        let result = match operator {
+            None => self.value(value)?,
+            Some(BinaryOp::Divide) if self.number(value)? == 0.0 => {
+                let text = "division by zero with /=";
+                return Err(Fault::new(Condition::DividedByZero, text, span));
+            }
+            Some(op) => {
+                let left = Expr { kind: target.clone().into(), span: target.span };
+                let both = Binary { op: *op, left, right: value.clone() };
+                let whole = Expr { kind: ExprKind::Binary(Box::new(both)), span };
+                self.value(&whole)?
+            }
+        };
+        self.write(target, result, span)
     }
 
     fn code(

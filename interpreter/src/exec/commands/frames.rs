@@ -277,8 +277,9 @@ pub(super) fn kinematic(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     });
     if let Some(word) = unknown {
         let text = format!("{}: unknown axis {}", call.title(), word.text);
-        return Err(Fault::new(Condition::CommandAxisUnknown, text, word.span)
-            .hint(decoder.names.hint()));
+        return Err(
+            Fault::new(Condition::CommandAxisUnknown, text, word.span).hint(decoder.names.hint())
+        );
     }
     Err(Fault::unsupported(call.title(), call.span()))
 }

@@ -18,6 +18,7 @@ mod corner;
 mod element;
 mod inside;
 mod item;
+mod radius;
 mod tangential;
 
 use super::bottleneck::{Cut, Watch};
@@ -142,6 +143,19 @@ impl Compensator {
             && runs_back(&active.last.side, &side)
         {
             self.active = Some(Box::new(active.turn_back(motion, side, out)?));
+            return Ok(());
+        }
+        if let Some(c) = motion.compensation
+            && c.perpendicular_change
+            && c.distance_mm * active.distance > 0.0
+            && !active.last.approach
+        {
+            let mut found = None;
+            let next = active.change_radius(motion, side, c.distance_mm, out, &mut found)?;
+            self.active = Some(Box::new(next));
+            if !self.told {
+                self.cut = found;
+            }
             return Ok(());
         }
         // another side or radius, or none: a line leads there

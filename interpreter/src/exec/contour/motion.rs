@@ -41,6 +41,8 @@ pub(in crate::exec) struct Compensated {
     pub(in crate::exec) straight_corners: Option<f64>,
     /// The tool turns round where a contour that runs back changes its side.
     pub(in crate::exec) reverse: bool,
+    /// Another radius is taken up by a line perpendicular to the contour.
+    pub(in crate::exec) perpendicular_change: bool,
     /// How it begins and ends.
     pub(in crate::exec) selection: Selection,
     /// G11: least radius in mm of the arcs whose feed is that of the tool's engagement.

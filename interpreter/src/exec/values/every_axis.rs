@@ -13,15 +13,15 @@ pub(in crate::exec) fn is_all(place: &Place) -> bool {
 
 /// The assignment for one axis, by its index.
 pub(in crate::exec) fn of_axis(assign: &Assign, axis: usize) -> Assign {
-    Assign { target: place(&assign.target, axis), value: expression(&assign.value, axis) }
+    let Assign { target, operator, value } = assign;
+    let (target, value) = (place(target, axis), expression(value, axis));
+    Assign { target, operator: *operator, value }
 }
 
 fn names_all(segments: &[Segment]) -> bool {
     let is = |segment: &Segment, name: &str| segment.name.eq_ignore_ascii_case(name);
     match segments {
-        [g, np, all] => {
-            is(g, "G") && (is(np, "NP") || is(np, "NP_AKT")) && is(all, "ALL")
-        }
+        [g, np, all] => is(g, "G") && (is(np, "NP") || is(np, "NP_AKT")) && is(all, "ALL"),
         _ => false,
     }
 }
