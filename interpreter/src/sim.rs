@@ -18,6 +18,7 @@ mod spindle;
 mod start;
 mod totals;
 mod wait;
+mod wear;
 
 pub use inputs::{Change, Changes, Signal};
 pub use totals::{SettledStop, Stops, Totals};
@@ -42,6 +43,7 @@ use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use wait::{AwaitedMark, Parts, Wait};
+use wear::Wear;
 
 /// Where a run is.
 #[derive(Debug)]
@@ -123,6 +125,8 @@ pub(crate) struct Simulation {
     thread: Option<Thread>,
     /// A measuring run is on its way.
     probing: Option<Probing>,
+    /// `#OTC`.
+    wear: Wear,
     /// Set positions of the path axes in the cycle before as the planner has them, in a thread.
     planned: AxisVec,
     vector: AxisVec,
@@ -268,6 +272,7 @@ impl Simulation {
         for (chain, inputs) in self.chains.iter_mut().zip(&self.inputs.axes) {
             chain.set_inputs(*inputs);
         }
+        self.take_wear(k);
         let channel = &self.machine.channel;
         self.planner.set_override(self.inputs.ratios(channel.rapid_override));
         self.hold_path();

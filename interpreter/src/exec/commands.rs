@@ -24,6 +24,7 @@ mod spindles;
 mod splines;
 mod tools;
 mod turning;
+mod wear;
 
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
@@ -130,7 +131,7 @@ const ROWS: &[Row] = &[
     off_only("DYNAMIC WEIGHT"),
     off_only("DYN_WEIGHT"),
     off_only("DIST CTRL"),
-    off_only("OTC"),
+    wear::OTC,
     off_only("LIFT"),
     unsupported("ACHSTAUSCH"),
     splines::AKIMA_TRANS,

@@ -55,6 +55,9 @@ pub(super) struct Contour {
     pub(super) akima: Akima,
     driven: Vec<Driven>,
     blocks: u64,
+    /// Where the tool is at the contour has to be told (`#OTC`), and what was told last.
+    tells_engagement: bool,
+    engaged: Option<([usize; 2], bool)>,
 }
 
 impl Contour {
@@ -67,6 +70,11 @@ impl Contour {
             Item::Motion(mut motion) => {
                 motion.block.seq = self.blocks;
                 self.blocks += 1;
+                let engaged = motion.engaged.map(|left| (motion.plane, left));
+                if self.tells_engagement && self.engaged != engaged {
+                    self.engaged = engaged;
+                    motion.events.push(Event::Engaged(engaged));
+                }
                 let Motion { block, source, events, .. } = *motion;
                 Step::Motion { block, source, events }
             }
@@ -75,6 +83,11 @@ impl Contour {
                 Step::Sync { what, source, events }
             }
         })
+    }
+
+    /// `#OTC`: from here on the simulation needs to know where the tool is at the contour.
+    pub(super) fn tell_engagement(&mut self) {
+        self.tells_engagement = true;
     }
 
     pub(super) fn event(&mut self, event: Event) {

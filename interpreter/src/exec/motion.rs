@@ -19,6 +19,7 @@ pub(super) mod state;
 mod straight;
 mod technology;
 mod threads;
+mod wear;
 
 use self::angles::ContourLine;
 use super::block::groups::{Act, Group};
@@ -416,6 +417,7 @@ impl Decoder {
             tilt,
             local: false,
             compensation,
+            engaged: None,
             tangential: std::mem::take(&mut self.contour.tangential),
             akima,
             span,
@@ -435,6 +437,10 @@ impl Decoder {
         let compensated =
             self.modal.compensation != Compensation::Off && !self.modal.compensation_suppressed;
         let PlaneImage { main, keeps_sense, tilt } = self.image_of_plane(span)?;
+        if compensated && tilt.is_some() && self.motion.wear.on && self.motion.wear.radius {
+            let what = "#OTC [RADIUS] in a plane askew to the axes";
+            return Err(Fault::unsupported(what, span));
+        }
         let (Some(first), Some(second)) = (axis(main[0]), axis(main[1])) else {
             if compensated {
                 let text = "the plane of the tool radius compensation has no axis in the channel";

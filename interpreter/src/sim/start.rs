@@ -7,6 +7,7 @@ use super::inputs::Inputs;
 use super::smoothing::Smoothing;
 use super::spindle::Spindle;
 use super::totals::Totals;
+use super::wear::Wear;
 use super::{Phase, Simulation, fault};
 use crate::diag::Diagnostic;
 use crate::exec::{Executor, Options, SourceRef};
@@ -77,6 +78,7 @@ impl Simulation {
             thread_delay: 0.0,
             thread: None,
             probing: None,
+            wear: Wear::default(),
             planned: start[..n].iter().copied().collect(),
             vector: AxisVec::zeros(n),
             measures_deviation: true,

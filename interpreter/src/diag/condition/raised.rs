@@ -263,6 +263,7 @@ conditions! {
     CycleCentreOutside = Vendor 21384: Error ProgramAbort 3 1, "centre of a cycle outside of a cycle", cause "@I=100 in a main program", hint "@I, @J and @K are words of cycles; write I, J, K";
     CycleSpindleOutside = Vendor 21385: Error ProgramAbort 3 1, "spindle of a cycle outside of a cycle", cause "@S=1000 in a main program", hint "@S is a word of cycles; write the spindle";
     ConditionalOpen = Vendor 21387: Error ProgramAbort 3 1, "#IF without #ENDIF", hint "write #ENDIF before the end of the program";
+    WearWithoutWheel = Vendor 21391: Error ProgramAbort 3 1, "#OTC ON without a grinding tool", cause "tool data of another type are selected", hint "wz[i].typ of the tool list is 2 for grinding tools", parameter "P-TOOL-00001";
     WaitWithoutSyn = Vendor 21413: Error ProgramAbort 3 1, "WAIT of #MACHINE DATA without SYN", hint "write #MACHINE DATA SYN [.. WAIT] or leave WAIT out";
     OverrideKeyTwice = Vendor 21420: Error ProgramAbort 3 1, "keyword twice in #OVERRIDE", hint "leave one of the two out";
     TextOperator = Vendor 21458: Error ProgramAbort 3 1, "operator that texts do not have", hint "texts are joined by + and compared by == and !=";
@@ -468,6 +469,7 @@ conditions! {
     MeasuringWay = Kontur 135 "K-MEASURING-WAY": Error ProgramAbort 3 1, "measuring run without travel (no vendor ID known)", cause "G100 X10 where the axis is at 10", hint "the target must lie beyond the surface to be measured";
     SlaveProgrammed = Kontur 136 "K-SLAVE": Error ProgramAbort 3 1, "motion of an axis that follows a master (no vendor ID known)", cause "C10 after #ENABLE AX LINK [1] with C=X", hint "move the master, or write #DISABLE AX LINK before it";
     CouplingGroupUndefined = Kontur 137 "K-NO-GROUP": Error ProgramAbort 3 1, "coupling group that is not defined (no vendor ID known)", cause "#ENABLE AX LINK [2] without #SET AX LINK [2, ..]", hint "write #SET AX LINK [group, slave=master] before it; group 0, that of the channel list, is not read";
+    WearLimited = Kontur 138 "K-WEAR-LIMITED": Warning None 1 1, "wear from outside beyond what the tool allows, limited", cause "wear_mm of --input above P-TOOL-00031", hint "raise wz[i].grinding_max_infeed of the tool list", parameter "P-TOOL-00031";
     ProjectRead = Kontur 140 "K-PROJECT": Note None 1 2, "lists taken out of a TwinCAT project", cause "-m names a .tsproj, an .xti, or a folder with them";
     ProjectWrong = Kontur 141 "K-PROJECT-WRONG": Error JobAbort 3 0, "TwinCAT project that is not XML or contains no CNC", cause "-m names a .tsproj, an .xti, or a folder with them", hint "name the project that has the axes and the channel of the CNC, or a folder with its exported .xti files";
 }

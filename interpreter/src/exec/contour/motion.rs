@@ -21,6 +21,8 @@ pub(in crate::exec) struct Motion {
     /// The path is in the coordinates of the tilt.
     pub(in crate::exec) local: bool,
     pub(in crate::exec) compensation: Option<Compensated>,
+    /// The tool is at the contour of G41 or G42, to its left if true; not on its way there or back.
+    pub(in crate::exec) engaged: Option<bool>,
     /// G05: it begins or ends the compensation in an arc.
     pub(in crate::exec) tangential: bool,
     /// How its feed changes along it.

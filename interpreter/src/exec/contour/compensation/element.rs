@@ -52,6 +52,7 @@ impl Element {
     ) -> Fallible<()> {
         let Self { mut motion, side, start, approach, .. } = self;
         let source = motion.source;
+        motion.engaged = (!approach).then_some(distance > 0.0);
         let path = match &side {
             Side::Line { .. } => {
                 let along = dot(sub(end, start), side.tangent(false));

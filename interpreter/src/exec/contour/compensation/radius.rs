@@ -6,7 +6,7 @@
 //! its new radius to what follows: a larger radius is taken up perpendicular to the element before the corner, a smaller one
 //! perpendicular to the element behind it.
 
-use super::active::Active;
+use super::active::{Active, at_contour};
 use super::corner::{above, inner_corner, straight};
 use super::element::{Element, emit_between};
 use super::item::{Fallible, Item, too_tight};
@@ -61,7 +61,7 @@ impl Active {
         let from = next.last.start;
         let to = above(from, tangent_at(&side, from), distance - before);
         let line = straight(&next.last.motion, &at, plane, from, to);
-        out.extend(line.map(Item::Motion));
+        out.extend(line.map(|line| at_contour(line, distance)));
         next.distance = distance;
         next.last.start = to;
         next.watch = fresh(&next.last, distance);
@@ -94,7 +94,8 @@ impl Active {
         let template = self.last.motion.clone();
         let Self { perpendicular, tilt, last, between, .. } = self;
         last.emit(from, plane, before, out)?;
-        out.extend(straight(&template, &at, plane, from, to).map(Item::Motion));
+        let line = straight(&template, &at, plane, from, to);
+        out.extend(line.map(|line| at_contour(line, distance)));
         emit_between(between, to, plane, out);
         let active = |last: Element| {
             let watch = fresh(&last, distance);
