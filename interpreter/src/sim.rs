@@ -344,13 +344,13 @@ impl Simulation {
             Step::Motion { block, source, events } => self.motion(block, source, events),
             Step::Sync { what, source, events } => {
                 let measures = match &what {
-                    Sync::Measured { through } => Some(*through),
+                    Sync::Measured { through, stops } => Some((*through, stops.clone())),
                     _ => None,
                 };
                 self.pending = Some((After::Sync(what), source, events));
                 self.path_stops();
-                if let Some(through) = measures {
-                    self.begin_probing(through);
+                if let Some((through, stops)) = measures {
+                    self.begin_probing(through, &stops);
                 }
             }
             Step::End { reason, source, events } => {

@@ -91,6 +91,8 @@ pub(crate) enum Sync {
     Measured {
         /// The signal does not stop the path (G106).
         through: bool,
+        /// Path axes whose lag is the signal in place of the probe (measuring type 7).
+        stops: Vec<usize>,
     },
     /// The end of G33.
     ThreadEnd,
