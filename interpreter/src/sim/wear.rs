@@ -39,6 +39,8 @@ impl Follower {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wear {
     setting: Option<WearSetting>,
+    /// ACC_WEIGHT, which still holds while the offset goes back to 0.
+    acceleration_ratio: f64,
     /// Axes of the plane, and whether the tool is to the left of the contour that it follows.
     engaged: Option<([usize; 2], bool)>,
     /// Direction of the contour in the plane.
@@ -57,6 +59,7 @@ impl Wear {
             self.way_mm = 0.0;
         }
         self.setting = setting;
+        self.acceleration_ratio = setting.map_or(self.acceleration_ratio, |s| s.acceleration_ratio);
         self.followers.resize(axes, Follower::default());
     }
 
@@ -99,9 +102,7 @@ impl Wear {
             self.along = None;
         }
         let mut targets: SmallVec<[f64; 4]> = SmallVec::from_elem(0.0, self.followers.len());
-        let mut ratio = 1.0;
         if let Some(setting) = self.setting {
-            ratio = setting.acceleration_ratio;
             if self.engaged.is_some() || setting.part != WornPart::Radius {
                 self.way_mm += ds;
             }
@@ -118,7 +119,7 @@ impl Wear {
             }
         }
         for (i, (follower, target)) in self.followers.iter_mut().zip(targets).enumerate() {
-            follower.step(target, a(i) * ratio, t);
+            follower.step(target, a(i) * self.acceleration_ratio, t);
         }
     }
 }

@@ -34,7 +34,7 @@ use active::Active;
 use corner::{above, straight};
 use element::{Element, line, moving_side, runs_back};
 use inside::Closed;
-use item::Fallible;
+use item::{Fallible, vanished};
 
 use tangential::Touch;
 
@@ -234,7 +234,10 @@ impl Compensator {
             };
             match way {
                 Some(path) => motion.block.path = path,
-                None => return Ok(()),
+                None => {
+                    vanished(motion, out);
+                    return Ok(());
+                }
             }
         }
         let Some(Compensated { distance_mm: distance, selection, .. }) = motion.compensation else {

@@ -1,7 +1,7 @@
 //! An element of the compensated contour and the motion it becomes.
 
 use super::corner::{side_sweep, trimmed};
-use super::item::{Fallible, Item, too_tight};
+use super::item::{Fallible, Item, too_tight, vanished};
 use super::tangential::{self, Touch};
 use crate::diag::Condition;
 use crate::exec::contour::motion::{Compensated, Motion};
@@ -38,6 +38,8 @@ impl Element {
         if let Some(path) = tangential::way(&motion, plane, (start, end), tangent, Touch::End)? {
             motion.block.path = path;
             out.push(Item::Motion(motion));
+        } else {
+            vanished(motion, out);
         }
         Ok(())
     }
@@ -93,6 +95,8 @@ impl Element {
         if let Some(path) = path {
             motion.block.path = path;
             out.push(Item::Motion(motion));
+        } else {
+            vanished(motion, out);
         }
         Ok(())
     }
@@ -153,9 +157,11 @@ pub(super) fn emit_between(between: Vec<Item>, at: Point, plane: [usize; 2], out
                 if let Some(path) = line(&motion, plane, at, at) {
                     motion.block.path = path;
                     out.push(Item::Motion(motion));
+                } else {
+                    vanished(motion, out);
                 }
             }
-            Item::Rest(_) => out.push(item),
+            Item::Rest(_) | Item::Events(_) => out.push(item),
         }
     }
 }
