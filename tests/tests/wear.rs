@@ -76,7 +76,7 @@ fn wear_by_the_way_grows_with_it() {
     for line in 4..=7 {
         let records: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
         let middle = records[records.len() / 2];
-        let offset: f64 = middle.axes[..3].iter().map(|a| a.add.powi(2)).sum::<f64>().sqrt();
+        let offset: f64 = middle.axes[..3].iter().map(|a| a.add * a.add).sum::<f64>().sqrt();
         let wear = (middle.path.s_mm - start) * 0.01;
         // the cycle in which a block begins counts to either block
         assert!((offset - wear).abs() < 0.01 * 0.11, "{offset} instead of {wear}");

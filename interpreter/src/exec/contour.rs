@@ -46,6 +46,8 @@ pub(super) struct Contour {
     /// What the compensator has just completed.
     done: Vec<Item>,
     events: Vec<Event>,
+    /// Events of motions of which compensation has left nothing, for the next step.
+    stray: Vec<Event>,
     held: Option<Box<Motion>>,
     insertion: Option<Box<Insertion>>,
     compensator: Compensator,
@@ -63,14 +65,14 @@ pub(super) struct Contour {
 impl Contour {
     /// The next step.
     pub(super) fn pop(&mut self) -> Option<Step> {
-        let mut before = Vec::new();
+        let mut before = std::mem::take(&mut self.stray);
         loop {
             let Some(item) = self.queue.pop_front() else {
                 let mut end = self.end.take().map(|end| *end);
                 if let Some(Step::End { events, .. }) = &mut end {
                     events.splice(0..0, before);
                 } else {
-                    self.events.splice(0..0, before);
+                    self.stray = before;
                 }
                 return end;
             };

@@ -19,7 +19,7 @@ pub(super) mod state;
 mod straight;
 mod technology;
 mod threads;
-mod wear;
+pub(super) mod wear;
 
 use self::angles::ContourLine;
 use super::block::groups::{Act, Group};

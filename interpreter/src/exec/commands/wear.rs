@@ -7,11 +7,12 @@ use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::wear::WearSource;
 use crate::exec::step::Event;
 use crate::syntax::ast::Span;
 
 /// mm of wear for a mm of way in one unit of WEAR_CONST, 0.1 um for a metre.
-pub(super) const WEAR_UNIT: f64 = 1e-7;
+const WEAR_UNIT: f64 = 1e-7;
 
 arguments! {
     /// Keys of `#OTC`.
@@ -55,10 +56,12 @@ fn wear(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if keys.radius.or(keys.length).is_some() {
         setting.radius = keys.radius.is_some();
     }
-    if keys.disc.or(keys.cont).or(keys.auto).is_some() {
-        setting.from_outside = keys.cont.is_none();
-        setting.by_way = keys.disc.is_none();
-    }
+    setting.source = match (keys.disc, keys.cont, keys.auto) {
+        (Some(_), _, _) => WearSource::Outside,
+        (_, Some(_), _) => WearSource::Way,
+        (_, _, Some(_)) => WearSource::Both,
+        (None, None, None) => setting.source,
+    };
     match keys.wear_const {
         Some((constant, _)) => setting.ratio = Some(constant * WEAR_UNIT),
         None if keys.wear_const_tool.is_some() => setting.ratio = None,

@@ -232,13 +232,11 @@ impl Compensator {
                 Some(tangent) => tangential::way(&motion, plane, (at, end), tangent, Touch::Start)?,
                 None => line(&motion, plane, at, end),
             };
-            match way {
-                Some(path) => motion.block.path = path,
-                None => {
-                    vanished(motion, out);
-                    return Ok(());
-                }
-            }
+            let Some(path) = way else {
+                vanished(motion.events, out);
+                return Ok(());
+            };
+            motion.block.path = path;
         }
         let Some(Compensated { distance_mm: distance, selection, .. }) = motion.compensation else {
             self.tangential = false;

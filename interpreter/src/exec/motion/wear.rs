@@ -9,6 +9,17 @@ use crate::exec::step::{Event, WearSetting, WornPart};
 use crate::machine::ToolKind;
 use crate::syntax::ast::Span;
 
+/// Where the wear comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum WearSource {
+    /// DISC: from outside.
+    Outside,
+    /// CONT: by the way that is driven.
+    Way,
+    /// AUTO: the sum.
+    Both,
+}
+
 /// What `#OTC` has set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::exec) struct OnlineCompensation {
@@ -16,10 +27,8 @@ pub(in crate::exec) struct OnlineCompensation {
     pub(in crate::exec) on: bool,
     /// RADIUS; otherwise LENGTH.
     pub(in crate::exec) radius: bool,
-    /// Wear by the way that is driven: CONT and AUTO.
-    pub(in crate::exec) by_way: bool,
-    /// Wear from outside: DISC and AUTO.
-    pub(in crate::exec) from_outside: bool,
+    /// DISC, CONT, AUTO.
+    pub(in crate::exec) source: WearSource,
     /// WEAR_CONST in mm of wear for a mm of way; `None`: that of the tool.
     pub(in crate::exec) ratio: Option<f64>,
     /// ACC_WEIGHT, above 0.
@@ -31,8 +40,7 @@ impl Default for OnlineCompensation {
         Self {
             on: false,
             radius: false,
-            by_way: true,
-            from_outside: true,
+            source: WearSource::Both,
             ratio: None,
             acceleration_ratio: 1.0,
         }
@@ -64,11 +72,13 @@ impl Decoder {
             };
             WornPart::Length { axis }
         };
+        let by_way = wear.source != WearSource::Outside;
+        let from_outside = wear.source != WearSource::Way;
         let setting = WearSetting {
             part,
-            ratio: if wear.by_way { wear.ratio.unwrap_or(tool.wear_ratio) } else { 0.0 },
-            most_mm: if wear.from_outside { tool.most_infeed_mm } else { 0.0 },
-            from_outside: wear.from_outside,
+            ratio: if by_way { wear.ratio.unwrap_or(tool.wear_ratio) } else { 0.0 },
+            most_mm: if from_outside { tool.most_infeed_mm } else { 0.0 },
+            from_outside,
             acceleration_ratio: wear.acceleration_ratio,
         };
         self.contour.tell_engagement();

@@ -1,6 +1,12 @@
 //! `+=`, `-=`, `*=`, `/=`, and zero offsets of all axes at once.
 
-use super::{assert_end, checked, clean, ids, run};
+use super::{checked, clean, ids, run};
+
+/// End position of a program of rapid motions.
+#[track_caller]
+fn assert_end(text: &str, expected: [f64; 3]) {
+    super::assert_end(&format!("G00\n{text}"), expected);
+}
 
 #[test]
 fn a_value_is_changed_by_what_stands_on_the_right() {
@@ -51,7 +57,7 @@ fn the_current_offset_holds_until_another_group_is_selected() {
     assert_end(&format!("{text}#MCS ON\nX5\n#MCS OFF"), [5.0, 0.0, 0.0]);
     assert_end(&format!("{text}#MCS ON\nX5\n#MCS OFF\nX2"), [202.0, 0.0, 0.0]);
     // in inches
-    assert_end("G70 V.G.NP_AKT.V.X=1\nG71 X0", [25.4, 0.0, 0.0]);
+    assert_end("G70\nV.G.NP_AKT.V.X=1\nG71 X0", [25.4, 0.0, 0.0]);
 }
 
 #[test]

@@ -39,7 +39,7 @@ impl Element {
             motion.block.path = path;
             out.push(Item::Motion(motion));
         } else {
-            vanished(motion, out);
+            vanished(motion.events, out);
         }
         Ok(())
     }
@@ -96,7 +96,7 @@ impl Element {
             motion.block.path = path;
             out.push(Item::Motion(motion));
         } else {
-            vanished(motion, out);
+            vanished(motion.events, out);
         }
         Ok(())
     }
@@ -158,7 +158,7 @@ pub(super) fn emit_between(between: Vec<Item>, at: Point, plane: [usize; 2], out
                     motion.block.path = path;
                     out.push(Item::Motion(motion));
                 } else {
-                    vanished(motion, out);
+                    vanished(motion.events, out);
                 }
             }
             Item::Rest(_) | Item::Events(_) => out.push(item),

@@ -84,7 +84,7 @@ impl Closed {
             approach.block.path = path;
             out.push(Item::Motion(approach));
         } else {
-            vanished(approach, out);
+            vanished(approach.events, out);
         }
         let mut active: Option<Active> = None;
         let (mut before, mut found) = (Vec::new(), None);

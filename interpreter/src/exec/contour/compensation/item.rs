@@ -22,10 +22,10 @@ pub(in crate::exec) struct Rest {
     pub(in crate::exec) events: Vec<Event>,
 }
 
-/// A motion of which nothing is left.
-pub(super) fn vanished(motion: Box<Motion>, out: &mut Vec<Item>) {
-    if !motion.events.is_empty() {
-        out.push(Item::Events(motion.events));
+/// The events of a motion of which nothing is left.
+pub(super) fn vanished(events: Vec<Event>, out: &mut Vec<Item>) {
+    if !events.is_empty() {
+        out.push(Item::Events(events));
     }
 }
 
