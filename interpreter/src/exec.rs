@@ -27,6 +27,7 @@ pub(crate) use program::executor::Executor;
 pub(crate) use step::{
     Approach, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion, OscillatingMotion,
     Probed, ShapingSettings, ShapingSetup, SourceRef, SpindleMotion, SpindleState, Step, Sync,
+    WearSetting, WornPart,
 };
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ pub use lists::ListFiles;
 pub use overrides::Override;
 pub use parameters::{Parameters, Setting};
 pub use setup::{AdditionalInterface, ChainSetup, FirPreset, KernelPreset, VibGuardPreset};
-pub use tools::{Tool, ZeroOffsets};
+pub use tools::{Tool, ToolKind, ZeroOffsets};
 
 use kontur_filters::time::CycleTime;
 use std::collections::BTreeMap;

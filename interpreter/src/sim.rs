@@ -19,6 +19,7 @@ mod spindle;
 mod start;
 mod totals;
 mod wait;
+mod wear;
 
 pub use inputs::{Change, Changes, Signal};
 pub(crate) use out::{Measuring, Messages, Samples};
@@ -44,6 +45,7 @@ use spindle::Spindle;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use wait::{AwaitedMark, Parts, Wait};
+use wear::Wear;
 
 /// Where a run is.
 #[derive(Debug)]
@@ -127,6 +129,8 @@ pub(crate) struct Simulation {
     thread: Option<Thread>,
     /// A measuring run is on its way.
     probing: Option<Probing>,
+    /// `#OTC`.
+    wear: Wear,
     /// Set positions of the path axes in the cycle before as the planner has them, in a thread.
     planned: AxisVec,
     max_cycles: u64,
@@ -282,6 +286,7 @@ impl Simulation {
         for (chain, inputs) in self.chains.iter_mut().zip(&self.inputs.axes) {
             chain.set_inputs(*inputs);
         }
+        self.take_wear(k);
         let channel = &self.machine.channel;
         self.planner.set_override(self.inputs.ratios(channel.rapid_override));
         self.hold_path();
@@ -353,13 +358,13 @@ impl Simulation {
             Step::Motion { block, source, events } => self.motion(block, source, events),
             Step::Sync { what, source, events } => {
                 let measures = match &what {
-                    Sync::Measured { through } => Some(*through),
+                    Sync::Measured { through, stops } => Some((*through, stops.clone())),
                     _ => None,
                 };
                 self.pending = Some((After::Sync(what), source, events));
                 self.path_stops();
-                if let Some(through) = measures {
-                    self.begin_probing(through);
+                if let Some((through, stops)) = measures {
+                    self.begin_probing(through, &stops);
                 }
             }
             Step::End { reason, source, events } => {

@@ -82,6 +82,13 @@ pub fn sample_machine(name: &str, settings: &[&str]) -> (Machine, Vec<Diagnostic
     Machine::load(&Folder(programs()), &start_up, &overrides).unwrap()
 }
 
+/// A machine of `tests/suite/machines`, whose lists are partly those of the sample machines.
+pub fn suite_machine(name: &str, settings: &[&str]) -> (Machine, Vec<Diagnostic>) {
+    let overrides: Vec<Override> = settings.iter().map(|s| Override::parse(s).unwrap()).collect();
+    let start_up = format!("tests/suite/machines/{name}/hochlauf.lis");
+    Machine::load(&Folder(programs().join("..")), &start_up, &overrides).unwrap()
+}
+
 /// Runs a program text on the built-in machine.
 pub fn run(program: &str, settings: &[&str]) -> Run {
     run_on(machine(settings), program)

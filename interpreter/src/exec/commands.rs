@@ -24,6 +24,7 @@ mod spindles;
 mod splines;
 mod tools;
 mod turning;
+mod wear;
 
 use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
@@ -117,9 +118,9 @@ const ROWS: &[Row] = &[
     run("KIN ID", frames::transformation).several().values(),
     run("ORI MODE", frames::transformation).several().values(),
     run("PTP", frames::transformation).several().values(),
-    off_only("CYL"),
-    off_only("TLC"),
-    off_only("FACE"),
+    run("CYL", frames::kinematic).several().values(),
+    run("TLC", frames::kinematic).several().values(),
+    run("FACE", frames::kinematic).several().values(),
     off_only("CAX"),
     off_only("CAXTRACK"),
     compensation::TANGFEED,
@@ -130,7 +131,7 @@ const ROWS: &[Row] = &[
     off_only("DYNAMIC WEIGHT"),
     off_only("DYN_WEIGHT"),
     off_only("DIST CTRL"),
-    off_only("OTC"),
+    wear::OTC,
     off_only("LIFT"),
     unsupported("ACHSTAUSCH"),
     splines::AKIMA_TRANS,

@@ -49,6 +49,8 @@ pub(super) struct Contour {
     /// What the compensator has just completed.
     done: Vec<Item>,
     events: Vec<Event>,
+    /// Events of motions of which compensation has left nothing, for the next step.
+    stray: Vec<Event>,
     held: Option<Box<Motion>>,
     insertion: Option<Box<Insertion>>,
     compensator: Compensator,
@@ -58,26 +60,60 @@ pub(super) struct Contour {
     pub(super) akima: Akima,
     driven: Vec<Driven>,
     blocks: u64,
+    /// Where the tool is at the contour has to be told (`#OTC`), and what was told last.
+    tells_engagement: bool,
+    engaged: Option<([usize; 2], bool)>,
 }
 
 impl Contour {
     /// The next step.
     pub(super) fn pop(&mut self) -> Option<Step> {
-        let Some(item) = self.queue.pop_front() else {
-            return self.end.take().map(|end| *end);
-        };
-        Some(match item {
-            Item::Motion(mut motion) => {
-                motion.block.seq = self.blocks;
-                self.blocks += 1;
-                let Motion { block, source, events, .. } = *motion;
-                Step::Motion { block, source, events }
+        let mut before = std::mem::take(&mut self.stray);
+        loop {
+            let Some(item) = self.queue.pop_front() else {
+                let mut end = self.end.take().map(|end| *end);
+                if let Some(Step::End { events, .. }) = &mut end {
+                    events.splice(0..0, before);
+                } else {
+                    self.stray = before;
+                }
+                return end;
+            };
+            let (mut step, engaged) = match item {
+                Item::Events(events) => {
+                    before.extend(events);
+                    continue;
+                }
+                Item::Motion(mut motion) => {
+                    motion.block.seq = self.blocks;
+                    self.blocks += 1;
+                    let engaged = motion.engaged.map(|left| (motion.plane, left));
+                    let Motion { block, source, events, .. } = *motion;
+                    (Step::Motion { block, source, events }, Some(engaged))
+                }
+                Item::Rest(rest) => {
+                    let Rest { what, source, events } = *rest;
+                    (Step::Sync { what, source, events }, None)
+                }
+            };
+            let (Step::Motion { events, .. }
+            | Step::Sync { events, .. }
+            | Step::End { events, .. }) = &mut step;
+            events.splice(0..0, before);
+            if let Some(engaged) = engaged
+                && self.tells_engagement
+                && self.engaged != engaged
+            {
+                self.engaged = engaged;
+                events.push(Event::Engaged(engaged));
             }
-            Item::Rest(rest) => {
-                let Rest { what, source, events } = *rest;
-                Step::Sync { what, source, events }
-            }
-        })
+            return Some(step);
+        }
+    }
+
+    /// `#OTC`: from here on the simulation needs to know where the tool is at the contour.
+    pub(super) fn tell_engagement(&mut self) {
+        self.tells_engagement = true;
     }
 
     pub(super) fn event(&mut self, event: Event) {
@@ -309,7 +345,7 @@ impl Contour {
                 Item::Motion(motion) if motion.course.is_some() => {
                     self.queue.extend(feed_course::pieces(motion));
                 }
-                Item::Motion(_) | Item::Rest(_) => self.queue.push_back(item),
+                Item::Motion(_) | Item::Rest(_) | Item::Events(_) => self.queue.push_back(item),
             }
         }
     }

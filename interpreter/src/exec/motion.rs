@@ -19,6 +19,7 @@ pub(super) mod state;
 pub(super) mod straight;
 mod technology;
 mod threads;
+pub(super) mod wear;
 
 use self::angles::ContourLine;
 use super::block::groups::{Act, Group};
@@ -416,6 +417,7 @@ impl Decoder {
             tilt,
             local: false,
             compensation,
+            engaged: None,
             tangential: std::mem::take(&mut self.contour.tangential),
             akima,
             span,
@@ -432,8 +434,13 @@ impl Decoder {
     /// Axes of the active plane, its coordinate system if it lies askew to the axes, and the compensation.
     fn in_plane(&self, span: Span) -> Outcome<InPlane> {
         let axis = |m: usize| self.geometry.coordinates.main_axis(m);
-        let compensated = self.modal.compensation != Compensation::Off;
+        let compensated =
+            self.modal.compensation != Compensation::Off && !self.modal.compensation_suppressed;
         let PlaneImage { main, keeps_sense, tilt } = self.image_of_plane(span)?;
+        if compensated && tilt.is_some() && self.motion.wear.on && self.motion.wear.radius {
+            let what = "#OTC [RADIUS] in a plane askew to the axes";
+            return Err(Fault::unsupported(what, span));
+        }
         let (Some(first), Some(second)) = (axis(main[0]), axis(main[1])) else {
             if compensated {
                 let text = "the plane of the tool radius compensation has no axis in the channel";
@@ -448,6 +455,7 @@ impl Decoder {
             straight_corners: (self.modal.corners == Corners::Straight)
                 .then_some(self.modal.corner_stretch),
             reverse: self.modal.turns_back,
+            perpendicular_change: self.modal.perpendicular_change,
             selection: self.modal.selection,
             engagement_radius_mm: self
                 .modal

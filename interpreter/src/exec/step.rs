@@ -91,6 +91,8 @@ pub(crate) enum Sync {
     Measured {
         /// The signal does not stop the path (G106).
         through: bool,
+        /// Path axes whose lag is the signal in place of the probe (measuring type 7).
+        stops: Vec<usize>,
     },
     /// The end of G33.
     ThreadEnd,
@@ -230,6 +232,10 @@ pub(crate) enum Event {
         /// Where the master stands, in mm (deg).
         master_mm: f64,
     },
+    /// `#OTC ON`, or OFF with `None`.
+    Wear(Option<WearSetting>),
+    /// The tool comes to the contour of G41 or G42 in these axes, to its left if true, or leaves it.
+    Engaged(Option<([usize; 2], bool)>),
     /// `#DISABLE AX LINK`: the axis stays where it is.
     Uncouple {
         /// Path axis.
@@ -405,4 +411,31 @@ pub(crate) struct Probed {
     pub signal_mm: Option<AxisVec>,
     /// Where the axes have come to rest, as set positions.
     pub rest_mm: AxisVec,
+}
+
+/// What wears of a grinding wheel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum WornPart {
+    /// The radius: the axes of the plane follow, while the tool is at the contour.
+    Radius,
+    /// The length.
+    Length {
+        /// Path axis perpendicular to the plane.
+        axis: usize,
+    },
+}
+
+/// Online tool compensation in force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct WearSetting {
+    /// What wears.
+    pub(crate) part: WornPart,
+    /// Wear in mm for a mm of way.
+    pub(crate) ratio: f64,
+    /// Wear from outside counts (input `wear_mm`).
+    pub(crate) from_outside: bool,
+    /// Most wear from outside in mm (P-TOOL-00031).
+    pub(crate) most_mm: f64,
+    /// Share of the acceleration limit of the axes with which they follow a change.
+    pub(crate) acceleration_ratio: f64,
 }

@@ -2,6 +2,7 @@
 
 mod akima;
 mod arcs;
+mod assignments;
 mod calls;
 mod compensation;
 mod coordinates;
@@ -13,6 +14,7 @@ mod flow;
 mod frames;
 mod modes;
 mod positions;
+mod radius_change;
 mod random;
 mod returns;
 mod shaping;

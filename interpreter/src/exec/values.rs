@@ -3,6 +3,7 @@
 //! Owns the variables and timers; reads everything that a system variable shows and changes nothing else, but for the few
 //! system variables that may be written.
 
+pub(super) mod every_axis;
 pub(super) mod expr;
 pub(super) mod functions;
 pub(super) mod number;

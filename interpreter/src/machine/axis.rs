@@ -91,6 +91,15 @@ impl Axis {
         self.get(axis_general::MEASURES)
     }
 
+    /// Lag in mm (deg) beyond which a measuring run of type 7 takes the axis to be at a fixed stop (P-AXIS-00330, and the
+    /// first of P-AXIS-00774, 00769 and 00331 that is not negative); `None`: it never is.
+    pub fn fixed_stop_lag_mm(&self) -> Option<f64> {
+        let limits = [axis_general::STOP_LAG_OF_RUN, axis_general::STOP_LAG_OF_DRIVE];
+        let limits = limits.into_iter().chain([axis_general::STOP_LAG]);
+        let limit = limits.map(|param| self.get(param)).find(|limit| *limit >= 0.0)?;
+        (self.get(axis_general::STOPS) && limit > 0.0).then_some(limit)
+    }
+
     /// Speed of measuring runs of type 2 in mm/s (deg/s), P-AXIS-00215.
     pub(crate) fn measuring_speed_mm_s(&self) -> f64 {
         self.get(axis_general::MEASURING_SPEED)

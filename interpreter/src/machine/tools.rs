@@ -9,6 +9,32 @@ use std::collections::BTreeMap;
 /// mm in one inch.
 const INCH_MM: f64 = 25.4;
 
+/// What a tool is for (P-TOOL-00001).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToolKind {
+    /// 0.
+    #[default]
+    Milling,
+    /// 1.
+    Turning,
+    /// 2.
+    Grinding,
+    /// 3, the wire of an erosion machine.
+    Wire,
+}
+
+impl ToolKind {
+    /// For messages.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Milling => "milling",
+            Self::Turning => "turning",
+            Self::Grinding => "grinding",
+            Self::Wire => "wire",
+        }
+    }
+}
+
 /// One tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
@@ -22,6 +48,14 @@ pub struct Tool {
     pub parameters: BTreeMap<u32, f64>,
     /// P-TOOL-00005; data that a program writes are valid.
     pub is_valid: bool,
+    /// P-TOOL-00001.
+    pub kind: ToolKind,
+    /// Wear of a grinding wheel in mm for a mm of way (P-TOOL-00030).
+    pub wear_ratio: f64,
+    /// Most wear that may come from outside, in mm (P-TOOL-00031).
+    pub most_infeed_mm: f64,
+    /// Angle between the axis of a grinding wheel and the third main axis in deg (P-TOOL-00138).
+    pub tilt_deg: f64,
 }
 
 impl Default for Tool {
@@ -32,6 +66,10 @@ impl Default for Tool {
             offsets_mm: BTreeMap::new(),
             parameters: BTreeMap::new(),
             is_valid: true,
+            kind: ToolKind::Milling,
+            wear_ratio: 0.0,
+            most_infeed_mm: 0.0,
+            tilt_deg: 0.0,
         }
     }
 }
@@ -70,6 +108,17 @@ fn tool_of(list: &Parameters, i: u32) -> Tool {
         radius_mm: list.get(tool::RADIUS.at(i)) * scale,
         length_mm: list.get(tool::LENGTH.at(i)) * scale,
         is_valid: list.get(tool::VALID.at(i)),
+        kind: match list.get(tool::KIND.at(i)) {
+            1 => ToolKind::Turning,
+            2 => ToolKind::Grinding,
+            3 => ToolKind::Wire,
+            _ => ToolKind::Milling,
+        },
+        // 0.1 um for a metre
+        wear_ratio: list.get(tool::WEAR.at(i)) * 1e-7,
+        most_infeed_mm: list.get(tool::INFEED.at(i)).abs(),
+        // the list has 0.0001 deg
+        tilt_deg: list.get(tool::TILT.at(i)) / 1e4,
         ..Tool::default()
     }
 }

@@ -4,6 +4,7 @@ use super::Simulation;
 use super::axes::Driver;
 use super::chain::AxisChain;
 use super::out::MESSAGES_MAX;
+use crate::diag::{Condition, Diagnostic};
 use crate::exec::Event;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
@@ -30,6 +31,11 @@ impl Simulation {
                 self.independent.couple(slave, master, ratio, master_mm);
             }
             Event::Uncouple { slave } => self.independent.uncouple(slave),
+            Event::Wear(setting) => {
+                self.wear.set(setting, self.path_axes());
+                self.take_wear(k);
+            }
+            Event::Engaged(engaged) => self.wear.engage(engaged),
             Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
             Event::SpindleFeedforward { spindle, on, weight_ratio } => {
                 self.spindle_feedforward(spindle, on, weight_ratio);
@@ -72,6 +78,17 @@ impl Simulation {
                     self.messages.own.push(message);
                 }
             }
+        }
+    }
+
+    /// The wear from outside; K-0138 once it is more than the tool allows.
+    pub(super) fn take_wear(&mut self, k: u64) {
+        let wear_mm = self.inputs.wear_mm;
+        if self.wear.take_outside(wear_mm) && self.inputs.tells_wear_limit() {
+            let text = format!("wear_mm {wear_mm} is beyond what the tool allows, limited");
+            let mut d = Diagnostic::new(Condition::WearLimited, text);
+            (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
+            self.messages.own.push(d);
         }
     }
 
@@ -142,6 +159,9 @@ impl Simulation {
         let (mut setups, _) = self.machine.chains();
         match AxisChain::new(setups.swap_remove(i), at_mm, self.inputs.axes[i], self.cycle) {
             Ok(mut chain) => {
+                if let Driver::Path(p) = self.drivers[i] {
+                    chain.start_worn(self.wear.offset_mm(p));
+                }
                 let kernel = self.executor.shaping().axes.get(i).and_then(|a| a.kernel.clone());
                 // it has just begun, at rest
                 if chain.set_kernel(kernel).is_err() {

@@ -51,6 +51,7 @@ impl Simulation {
         self.take_inputs(k);
         self.watch_thread();
         let setpoint = self.planner.setpoint();
+        let ds = setpoint.s_mm - self.record.path.s_mm;
         let mut faults = Vec::new();
         let mut positions = setpoint.position.clone();
         let alone = !self.independent.is_unused();
@@ -69,6 +70,17 @@ impl Simulation {
         self.spindles.iter_mut().for_each(|s| s.cut(&positions));
         let spindles: SmallVec<[f64; 4]> =
             self.spindles.iter_mut().map(|s| s.step(&positions, self.cycle)).collect();
+        if !self.wear.is_unused() {
+            let axes = &self.machine.axes;
+            let limit = |axis: usize| axes[axis].dynamics().a_max_mm_s2;
+            let t = self.cycle.seconds();
+            self.wear.step((&self.path_position, &positions), ds, limit, t);
+            for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
+                if let Driver::Path(p) = driver {
+                    chain.set_wear(self.wear.offset_mm(*p));
+                }
+            }
+        }
         self.path_position.copy_from_slice(&positions);
         for (i, chain) in self.chains.iter_mut().enumerate() {
             if let Driver::Spindle(s) = self.drivers[i]

@@ -40,6 +40,8 @@ pub(crate) struct AxisChain {
     control: AxisControl,
     additional: Option<AdditionalInterface>,
     inputs: AxisInputs,
+    /// What online tool compensation adds behind the filters.
+    wear_mm: f64,
     filter_window_mm: f64,
     delay_cycles: f64,
     /// Interpolated setpoints as far back as the delay reaches, newest last.
@@ -74,6 +76,7 @@ impl AxisChain {
             control,
             additional,
             inputs,
+            wear_mm: 0.0,
             filter_window_mm: setup.filter_window_mm,
             delay_cycles: 0.0,
             ipo: VecDeque::new(),
@@ -221,11 +224,25 @@ impl AxisChain {
     /// The additional position of this cycle; nothing if the interface is off.
     fn additional_mm(&mut self) -> f64 {
         let x = self.inputs.additional_mm;
-        match &mut self.additional {
+        let additional_mm = match &mut self.additional {
             None => 0.0,
             Some(AdditionalInterface { filter: None }) => x,
             Some(AdditionalInterface { filter: Some(filter) }) => filter.step(x),
-        }
+        };
+        additional_mm + self.wear_mm
+    }
+
+    /// The offset of online tool compensation from the next cycle on.
+    pub(crate) fn set_wear(&mut self, wear_mm: f64) {
+        self.wear_mm = wear_mm;
+    }
+
+    /// A chain that has just begun has this offset of online tool compensation already.
+    pub(crate) fn start_worn(&mut self, wear_mm: f64) {
+        self.wear_mm = wear_mm;
+        let additional_mm = self.additional.as_ref().map_or(0.0, |_| self.inputs.additional_mm);
+        let additional_mm = additional_mm + wear_mm;
+        self.control.start_with(self.set, AxisInputs { additional_mm, ..self.inputs });
     }
 
     /// One cycle: fills the record and returns what the monitors have raised, if anything.
@@ -292,7 +309,7 @@ impl AxisChain {
             Some(AdditionalInterface { filter: None }) => self.inputs.additional_mm,
             Some(AdditionalInterface { filter: Some(_) }) => return false,
         };
-        let inputs = AxisInputs { additional_mm, ..self.inputs };
+        let inputs = AxisInputs { additional_mm: additional_mm + self.wear_mm, ..self.inputs };
         self.shaping.rests_under(ipo)
             && self.control.rests_under(self.set, gain, jerk_limited, &inputs)
     }

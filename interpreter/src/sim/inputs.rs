@@ -28,6 +28,8 @@ pub enum Signal {
     /// `X_probe_mm`: position of an axis in mm (deg) where the probe signals, if the actual position passes it in a
     /// measuring run.
     Surface(usize),
+    /// `wear_mm`: wear of a grinding wheel that the PLC would give (`#OTC` with DISC or AUTO); default 0.
+    Wear,
     /// `X_add_mm`: position of the additional interface of an axis in mm (deg), in front of its filter.
     Additional(usize),
     /// `X_force_mm_s2`: external force on an axis as acceleration of the whole mass in mm/s2 (deg/s2).
@@ -44,6 +46,7 @@ impl Signal {
             ("rapid_override_percent".to_owned(), Self::RapidOverride),
             ("feedhold".to_owned(), Self::Feedhold),
             ("probe".to_owned(), Self::Probe),
+            ("wear_mm".to_owned(), Self::Wear),
         ];
         for (i, axis) in machine.all_axes().enumerate() {
             let unit = if axis.kind() == AxisKind::Linear { "mm" } else { "deg" };
@@ -63,7 +66,9 @@ impl Signal {
         match self {
             Self::Override | Self::RapidOverride => (0.0, 200.0),
             Self::Feedhold | Self::Probe => (0.0, 1.0),
-            Self::Additional(_) | Self::EncoderOffset(_) | Self::Surface(_) => (-1e6, 1e6),
+            Self::Additional(_) | Self::EncoderOffset(_) | Self::Surface(_) | Self::Wear => {
+                (-1e6, 1e6)
+            }
             Self::Force(_) => (-1e9, 1e9),
         }
     }
@@ -161,6 +166,9 @@ pub(super) struct Inputs {
     pub(super) feedhold: bool,
     /// The probe signals.
     pub(super) probe: bool,
+    /// Wear of a grinding wheel from outside.
+    pub(super) wear_mm: f64,
+    wear_limit_told: bool,
     /// Where it signals, for each path axis.
     pub(super) surfaces_mm: Vec<Option<f64>>,
     pub(super) axes: Vec<AxisInputs>,
@@ -183,6 +191,8 @@ impl Inputs {
             rapid_ratio: 1.0,
             feedhold: false,
             probe: false,
+            wear_mm: 0.0,
+            wear_limit_told: false,
             surfaces_mm: Vec::new(),
             axes: vec![AxisInputs::default(); axes],
             seen: BTreeSet::new(),
@@ -229,6 +239,7 @@ impl Inputs {
                 Signal::RapidOverride => self.rapid_ratio = value / 100.0,
                 Signal::Feedhold => self.feedhold = value > 0.0,
                 Signal::Probe => self.probe = value > 0.0,
+                Signal::Wear => self.wear_mm = value,
                 Signal::Surface(i) => {
                     let axes = self.surfaces_mm.len().max(i + 1);
                     self.surfaces_mm.resize(axes, None);
@@ -241,6 +252,11 @@ impl Inputs {
             self.fetch()?;
         }
         Ok(any)
+    }
+
+    /// True once: that the wear from outside is limited has not been said yet.
+    pub(super) fn tells_wear_limit(&mut self) -> bool {
+        !std::mem::replace(&mut self.wear_limit_told, true)
     }
 
     fn axis(&mut self, i: usize) -> &mut AxisInputs {

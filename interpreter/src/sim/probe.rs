@@ -2,7 +2,8 @@
 //!
 //! Assumption: the signal of `probe` latches the actual positions of the cycle in which it acts, that of `X_probe_mm` the
 //! positions at which the actual position of the axis passes it, with a straight line between two cycles. The path brakes
-//! as under feedhold, with the slope of its block.
+//! as under feedhold, with the slope of its block. Measuring type 7 has no probe: its signal is the lag of an axis, which
+//! stands at a fixed stop (206202891, P-AXIS-00331); the torque limit of the drive is not simulated.
 
 use super::inputs::Inputs;
 use super::{Phase, Simulation};
@@ -15,6 +16,8 @@ use kontur_motion::axis::AxisVec;
 pub(super) struct Probing {
     /// The signal does not stop the path.
     through: bool,
+    /// Axes whose lag is the signal, with the lag in mm (deg); without any it is the probe.
+    stops: Vec<(usize, f64)>,
     /// Actual positions in the cycle before.
     before_mm: AxisVec,
     /// Actual positions at the signal.
@@ -28,7 +31,13 @@ impl Probing {
     }
 
     /// Actual positions at the signal of this cycle, if there is one.
-    fn latched(&self, inputs: &Inputs, now_mm: &[f64]) -> Option<AxisVec> {
+    fn latched(&self, inputs: &Inputs, now_mm: &[f64], lag_mm: &[f64]) -> Option<AxisVec> {
+        if !self.stops.is_empty() {
+            let stands = |(axis, most): &(usize, f64)| {
+                lag_mm.get(*axis).is_some_and(|lag| lag.abs() > *most)
+            };
+            return self.stops.iter().any(stands).then(|| AxisVec::from_slice(now_mm));
+        }
         if inputs.probe {
             return Some(AxisVec::from_slice(now_mm));
         }
@@ -48,10 +57,14 @@ impl Probing {
 
 impl Simulation {
     /// The next motion is a measuring run: nothing of it has been driven yet.
-    pub(super) fn begin_probing(&mut self, through: bool) {
+    pub(super) fn begin_probing(&mut self, through: bool, stops: &[usize]) {
         let before_mm = self.actual_mm();
-        self.probing = Some(Probing { through, before_mm, signal_mm: None });
-        if self.inputs.probe {
+        let limit =
+            |axis: &usize| Some((*axis, self.machine.axes.get(*axis)?.fixed_stop_lag_mm()?));
+        let stops: Vec<_> = stops.iter().filter_map(limit).collect();
+        let probes = stops.is_empty();
+        self.probing = Some(Probing { through, stops, before_mm, signal_mm: None });
+        if probes && self.inputs.probe {
             let text = "the probe signals before the measuring run begins";
             let k = self.planner.setpoint().k;
             let mut d = Diagnostic::new(Condition::ProbeActuated, text);
@@ -78,10 +91,10 @@ impl Simulation {
         if self.probing.is_none() || !matches!(self.phase, Phase::Running) {
             return;
         }
-        let now_mm = self.actual_mm();
+        let (now_mm, lag_mm) = (self.actual_mm(), self.lag_mm());
         let Some(probing) = &mut self.probing else { return };
         if probing.signal_mm.is_none() {
-            probing.signal_mm = probing.latched(&self.inputs, &now_mm);
+            probing.signal_mm = probing.latched(&self.inputs, &now_mm, &lag_mm);
         }
         probing.before_mm = now_mm;
         if probing.holds() {

@@ -7,6 +7,7 @@ use super::inputs::Inputs;
 use super::smoothing::Smoothing;
 use super::spindle::Spindle;
 use super::totals::Totals;
+use super::wear::Wear;
 use super::{Messages, Phase, Simulation, fault};
 use crate::diag::Diagnostic;
 use crate::exec::{Executor, Options, SourceRef};
@@ -76,6 +77,7 @@ impl Simulation {
             thread_delay: 0.0,
             thread: None,
             probing: None,
+            wear: Wear::default(),
             planned: start[..n].iter().copied().collect(),
             max_cycles,
             messages: Messages { own: diagnostics, ..Messages::default() },

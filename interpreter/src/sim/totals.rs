@@ -122,6 +122,8 @@ impl Totals {
             | Event::Oscillation { .. }
             | Event::Couple { .. }
             | Event::Uncouple { .. }
+            | Event::Wear(_)
+            | Event::Engaged(_)
             | Event::Spindle { .. } => None,
         }
     }

@@ -65,7 +65,7 @@ impl BinaryOp {
     }
 
     /// The operator of a text that the grammar accepted.
-    fn from_text(text: &str) -> Self {
+    pub(in crate::syntax) fn from_text(text: &str) -> Self {
         match text.to_ascii_uppercase().as_str() {
             "||" | "OR" => Self::Or,
             "XOR" => Self::Xor,

@@ -1,9 +1,10 @@
 //! Tree to text: the spelling that this crate uses in messages, and the check of the parser by parsing again.
 
 use super::ast::{
-    Binary, Block, BlockNumber, Body, Call, CallKind, CodeNumber, Command, Control, ControlKind,
-    Declaration, Expr, ExprKind, GValue, Group, Item, ItemKind, ItemValue, Jump, JumpKind,
-    LabelKind, Name, ParameterIndex, Place, PlaceKind, Return, ReturnLevel, Sign, Word, WordKind,
+    Binary, BinaryOp, Block, BlockNumber, Body, Call, CallKind, CodeNumber, Command, Control,
+    ControlKind, Declaration, Expr, ExprKind, GValue, Group, Item, ItemKind, ItemValue, Jump,
+    JumpKind, LabelKind, Name, ParameterIndex, Place, PlaceKind, Return, ReturnLevel, Sign, Word,
+    WordKind,
 };
 use std::fmt::{Display, Formatter, Result};
 
@@ -146,7 +147,10 @@ impl Display for Word {
                 }
             }
             WordKind::Bracket(bracket) => write!(f, "{}{}", bracket.name, bracket.group),
-            WordKind::Assign(assign) => write!(f, "{}={}", assign.target, assign.value),
+            WordKind::Assign(assign) => {
+                let operator = assign.operator.map_or("", BinaryOp::symbol);
+                write!(f, "{}{operator}={}", assign.target, assign.value)
+            }
             WordKind::MacroDefinition(m) => write!(f, "{}={}", Quoted(&m.name), Quoted(&m.text)),
             WordKind::MacroUse(name) => write!(f, "{}", Quoted(name)),
             WordKind::Hash(word) => {

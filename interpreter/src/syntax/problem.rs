@@ -159,7 +159,13 @@ pub(super) fn from_error(
             let start = offset + before.trim_ascii_end().len() - length;
             let problem = Problem::syntax(Span::new(start, start + length), text);
             let second = is_numbered(before) && is_numbered(&masked[start..]);
-            let condition = if second { Condition::BlockNumberTwice } else { Condition::Syntax };
+            let condition = match second {
+                true if masked[offset..start].split_whitespace().nth(1).is_some() => {
+                    Condition::BlockNumberBehindWords
+                }
+                true => Condition::BlockNumberTwice,
+                false => Condition::Syntax,
+            };
             Problem { condition, ..problem }
         }
         _ => refine(problem, before, rest, context, masked, &expected),
@@ -473,7 +479,7 @@ fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::chain
         | Rule::value_name => (0, VALUE),
         Rule::digits | Rule::code_number | Rule::code_digits => (1, "a number"),
-        Rule::equals => (2, EQUALS),
+        Rule::equals | Rule::compound => (2, EQUALS),
         Rule::comma => (3, COMMA),
         Rule::close => (4, "`]`"),
         Rule::open | Rule::group | Rule::cycle_group | Rule::index | Rule::word_bracket => {

@@ -1,6 +1,8 @@
-; check: exit 1
+; run: exit 0
 ; page 483740299 change of the tool radius across the contour (#TRC)
-; error K-0019 at 5:11
+; passes X52.5396 Y44.5145
+; passes X53.3971 Y44.0000
+; end X120 Y0
 N10 G00 X0 Y0 F1000
 N20 #TRC [PERPENDICULAR_RADIUS_CHANGE=1]
 N30 V.G.WZ_AKT.R = 5

@@ -38,9 +38,7 @@ const fn documented(
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
     documented(Vendor(2100), "", Error, ProgramAbort, 7, 2, "diagnosis file cannot be written", "#DIAGNOSIS"),
-    documented(Vendor(20574), "", Error, ProgramAbort, 3, 1, "division by zero with /=", ""),
     documented(Vendor(20747), "", Error, ProgramAbort, 3, 1, "too many subroutine files", ""),
-    documented(Vendor(20875), "", Error, ProgramAbort, 3, 1, "unknown axis designation in a command", ""),
     documented(Vendor(21141), "", Error, ProgramAbort, 3, 1, "command not allowed in a manual block", ""),
     documented(Vendor(21372), "", Error, ProgramAbort, 3, 1, "logical axis number unknown or invalid", ""),
     documented(Vendor(21777), "", Error, ProgramAbort, 3, 1, "keyword index outside the data format", ""),

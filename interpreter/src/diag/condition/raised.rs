@@ -78,6 +78,7 @@ conditions! {
     NoFaceTurningAxis = Vendor 20042: Error ProgramAbort 3 1, "no face turning axis in the plane of G51", hint "set the bit 0x40 of P-AXIS-00015 for exactly one axis of the plane", parameter "P-AXIS-00015";
     VariableNotReadable = Vendor 20097: Error ProgramAbort 3 1, "variable may not be read", hint "its access rights allow writing only";
     VariableNotWritable = Vendor 20100: Error ProgramAbort 3 1, "variable may not be written", hint "assign to a P parameter or to a variable of the classes V.P, V.L, V.S";
+    BlockNumberBehindWords = Vendor 20105: Error ProgramAbort 3 1, "second block number in one block", cause "N20 X10 N30", hint "leave one of the two out";
     GNumberTooLarge = Vendor 20107: Error ProgramAbort 3 1, "G number outside the data format", hint "G functions have numbers up to 999";
     TwoMotionModes = Vendor 20108: Error ProgramAbort 3 1, "two motion modes in one block", cause "G01 … G00", hint "one of G00, G01, G02, G03, G04 per block";
     TwoFeedInterpolations = Vendor 20109: Error ProgramAbort 3 1, "two of G08/G193/G293", hint "one of G08, G193, G293 per block";
@@ -179,18 +180,22 @@ conditions! {
     FaceAxisReleased = Vendor 20546: Error ProgramAbort 1 1, "face turning axis released while diameters are programmed", cause "#PUT AX [X] under G51", hint "write G52 first";
     CommentBeginNotAlone = Vendor 20566: Error ProgramAbort 3 1, "#COMMENT BEGIN is not alone in its block", hint "move the words to the next block";
     CommentEndNotAlone = Vendor 20569: Error ProgramAbort 3 1, "#COMMENT END is not alone in its block", hint "move the words to the next block";
+    DividedByZero = Vendor 20574: Error ProgramAbort 3 1, "division by zero with /=", cause "P1 /= P2 with P2=0", hint "test the divisor with $IF before";
     ConditionalNotFirst = Vendor 20593: Error ProgramAbort 3 1, "#IF/#ELSE/#ENDIF not first in the block", hint "only a skip mark may precede it";
     PresetWhileMirrored = Vendor 20612: Error ProgramAbort 3 1, "#PSET or #PRESET with active mirroring", cause "G21, then #PSET X200", hint "write G20 before it";
     CuttingSpeedLimited = Vendor 20633: Warning None 1 1, "too near to the turning centre for G96: spindle speed limited", cause "G96 at X0", hint "select G96 further out, or raise G196";
     TappingPerRevolution = Vendor 20635: Error ProgramAbort 3 1, "tapping with feed per revolution", cause "G63 under G95", hint "write G94 before it";
     TappingCuttingSpeed = Vendor 20636: Error ProgramAbort 3 1, "tapping with constant cutting speed", cause "G63 under G96", hint "write G97 before it";
     FlushWithCompensation = Vendor 20651: Error ProgramAbort 3 1, "channel flush with active tool radius compensation", hint "switch the compensation off with G40 first";
+    LengthWithCompensation = Vendor 20671: Error ProgramAbort 3 1, "tool length compensation selected while tool radius compensation is active", cause "#TLC ON between G41 or G42 and G40", hint "write #TLC ON before G41 or behind G40";
     CoordinateSystemSyntax = Vendor 20675: Error ProgramAbort 3 1, "syntax error in #CS ON[...]", hint "#CS ON [x,y,z,a,b,c], #CS ON [number], #CS DEF [number][x,y,z,a,b,c], #CS OFF [ALL]";
+    SystemAngle = Vendor 20676: Error ProgramAbort 3 1, "angle of a coordinate system outside -360 to 360 deg", cause "#CS ON [0,0,0,0,0,450]", hint "take full turns off the angle";
     DwellOtherAxes = Vendor 20685: Warning None 1 1, "G04 with further axes", hint "the time follows the first main axis; write the motion in a block of its own";
     KinematicsWhileActive = Vendor 20687: Error ProgramAbort 3 1, "kinematics changed under an active transformation", cause "#KIN ID under #TRAFO ON", hint "write #TRAFO OFF before #KIN ID";
     InsertionsWithoutMotion = Vendor 20701: Warning None 1 1, "two of G301/G302 without motion between them", hint "leave one of the two out";
     MacroNesting = Vendor 20734: Error ProgramAbort 3 1, "nesting stack exhausted", hint "does the macro use itself?";
     ToolTwice = Vendor 20738: Error ProgramAbort 3 1, "D and V.G.WZ_AKT in one block", hint "write one of the two into a block of its own";
+    ToolOffsetTwice = Vendor 20739: Error ProgramAbort 3 1, "D and an offset V.G.WZ_AKT.V in one block", hint "write one of the two into a block of its own";
     DwellRange = Vendor 20752: Error ProgramAbort 3 1, "dwell time out of range", hint "the time is in seconds";
     MTwice = Vendor 20765: Error ProgramAbort 3 1, "M function twice in one block", cause "M10 M10", hint "leave one of the two out";
     HTwice = Vendor 20766: Error ProgramAbort 3 1, "H function twice in one block", cause "H10 H10", hint "leave one of the two out";
@@ -208,6 +213,7 @@ conditions! {
     OverrideSwitchTwice = Vendor 20846: Error ProgramAbort 3 1, "G166 twice in one block", hint "leave one of the two out";
     MirrorSwitch = Vendor 20860: Error ProgramAbort 3 1, "mirroring is switched by 1 and -1 only", cause "G351 X2", hint "-1 mirrors the axis, 1 does not";
     ExistArgument = Vendor 20868: Error ProgramAbort 3 1, "EXIST without the name of a parameter or variable", hint "write EXIST[P1] or EXIST[V.P.NAME]";
+    CommandAxisUnknown = Vendor 20875: Error ProgramAbort 3 1, "unknown axis in #FACE or #CYL", cause "#CYL [X, J] on a machine without an axis J", hint "name axes of the channel";
     DeclarationCharacter = Vendor 20904: Error ProgramAbort 3 1, "wrong character in the declaration of a variable or parameter", cause "V.L.TAB[2]=[1;2]", hint "write V.P.NAME : TYPE = value; values of arrays are separated by commas";
     VariableIndex = Vendor 20906: Error ProgramAbort 3 1, "index outside an array variable", hint "indices begin at 0; SIZEOF[V.P.NAME] is the size";
     VariableType = Vendor 20908: Error ProgramAbort 3 1, "variable type cannot be declared", hint "types are BOOLEAN, SGN08, UNS08, SGN16, UNS16, SGN32, UNS32, REAL64, STRING[n]";
@@ -244,6 +250,7 @@ conditions! {
     SlaveIsActiveSlave = Vendor 21283: Error ProgramAbort 3 1, "slave is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     SlaveIsActiveMaster = Vendor 21284: Error ProgramAbort 3 1, "slave is a master in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
     MasterIsActiveSlave = Vendor 21285: Error ProgramAbort 3 1, "master is a slave in another coupling group that is switched on", hint "switch the other group off, or leave the pair out";
+    AxisFunctionMissing = Vendor 21301: Error ProgramAbort 3 1, "bracket of an axis that does not begin with its function", cause "X[POS=10 INDP_SYN ..]", hint "the function comes first: INDP_SYN, INDP_ASYN, OSC, OVERRIDE, SET_POSITION, M or H functions";
     PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "remarks begin with ; or (; no block may precede %NAME";
     TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "leave G05 out";
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
@@ -256,6 +263,8 @@ conditions! {
     CycleCentreOutside = Vendor 21384: Error ProgramAbort 3 1, "centre of a cycle outside of a cycle", cause "@I=100 in a main program", hint "@I, @J and @K are words of cycles; write I, J, K";
     CycleSpindleOutside = Vendor 21385: Error ProgramAbort 3 1, "spindle of a cycle outside of a cycle", cause "@S=1000 in a main program", hint "@S is a word of cycles; write the spindle";
     ConditionalOpen = Vendor 21387: Error ProgramAbort 3 1, "#IF without #ENDIF", hint "write #ENDIF before the end of the program";
+    WearWithoutWheel = Vendor 21391: Error ProgramAbort 3 1, "#OTC ON without a grinding tool", cause "tool data of another type are selected", hint "wz[i].typ of the tool list is 2 for grinding tools", parameter "P-TOOL-00001";
+    WaitWithoutSyn = Vendor 21413: Error ProgramAbort 3 1, "WAIT of #MACHINE DATA without SYN", hint "write #MACHINE DATA SYN [.. WAIT] or leave WAIT out";
     OverrideKeyTwice = Vendor 21420: Error ProgramAbort 3 1, "keyword twice in #OVERRIDE", hint "leave one of the two out";
     TextOperator = Vendor 21458: Error ProgramAbort 3 1, "operator that texts do not have", hint "texts are joined by + and compared by == and !=";
     TextTooLong = Vendor 21462: Error ProgramAbort 3 1, "text too long for its variable", hint "declare it with a longer STRING[n], up to 126";
@@ -290,6 +299,8 @@ conditions! {
     FilterMode = Vendor 22068: Error ProgramAbort 3 1, "invalid MODE in #FILTER", hint "keys are HSC, ORDER, ORDER_TIME, SHARE, AX_DEV, FCUT, ACC_FACT, QUALITY";
     CallCharacter = Vendor 22151: Error ProgramAbort 3 1, "wrong character in an implicit call", cause "G80 [..]", hint "separate the values with commas: G80 [1, 2, , 4]";
     RotationAxis = Vendor 22156: Error ProgramAbort 3 1, "axis outside the plane of a contour rotation", cause "G68 with the third main axis", hint "the centre of the rotation is given by the two axes of the plane";
+    TwoRampWeights = Vendor 22180: Error ProgramAbort 3 1, "two weights of ramp times in one block", cause "G132 X70 G133=100", hint "write them into blocks of their own";
+    TwoVelocityWeights = Vendor 22182: Error ProgramAbort 3 1, "two weights of the highest speed in one block", cause "G127 X70 G128=100", hint "write them into blocks of their own";
     MessageSuppressed = Vendor 22194: Warning None 1 1, "#MSG to the diagnosis receiver is suppressed, warning", cause "P-CHAN-00518", parameter "P-CHAN-00518";
     MessageForbidden = Vendor 22195: Error ProgramAbort 3 1, "#MSG to the diagnosis receiver is suppressed, error", cause "P-CHAN-00518", parameter "P-CHAN-00518";
     CircleAngleAndEnd = Vendor 22253: Error ProgramAbort 3 1, "#CANG together with an end point", cause "G02 X10 I5 #CANG=90", hint "an arc ends at its angle or at its end point: delete one of them";
@@ -458,6 +469,7 @@ conditions! {
     MeasuringWay = Kontur 135 "K-MEASURING-WAY": Error ProgramAbort 3 1, "measuring run without travel (no vendor ID known)", cause "G100 X10 where the axis is at 10", hint "the target must lie beyond the surface to be measured";
     SlaveProgrammed = Kontur 136 "K-SLAVE": Error ProgramAbort 3 1, "motion of an axis that follows a master (no vendor ID known)", cause "C10 after #ENABLE AX LINK [1] with C=X", hint "move the master, or write #DISABLE AX LINK before it";
     CouplingGroupUndefined = Kontur 137 "K-NO-GROUP": Error ProgramAbort 3 1, "coupling group that is not defined (no vendor ID known)", cause "#ENABLE AX LINK [2] without #SET AX LINK [2, ..]", hint "write #SET AX LINK [group, slave=master] before it; group 0, that of the channel list, is not read";
+    WearLimited = Kontur 138 "K-WEAR-LIMITED": Warning None 1 1, "wear from outside beyond what the tool allows, limited", cause "wear_mm of --input above P-TOOL-00031", hint "raise wz[i].grinding_max_infeed of the tool list", parameter "P-TOOL-00031";
     ProjectRead = Kontur 140 "K-PROJECT": Note None 1 2, "lists taken out of a TwinCAT project", cause "-m names a .tsproj, an .xti, or a folder with them";
     ProjectWrong = Kontur 141 "K-PROJECT-WRONG": Error JobAbort 3 0, "TwinCAT project that is not XML or contains no CNC", cause "-m names a .tsproj, an .xti, or a folder with them", hint "name the project that has the axes and the channel of the CNC, or a folder with its exported .xti files";
 }

@@ -1,7 +1,7 @@
 //! Axis and spindle commands in brackets: `X[OVERRIDE ..]`, `X[INDP_SYN ..]`, `X[M10]`, `S[M3 REV1000 M10]`,
 //! `S[G135 G136=80]`.
 //!
-//! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); TF5200 feedforward control (spindles); 21738, 21867.
+//! Source: TF5200 programming manual (M and H functions of spindles: user-specific functions); TF5200 feedforward control (spindles); 21301, 21738, 21867.
 
 use super::modes::weight_ratio;
 use super::words::Words;
@@ -37,6 +37,33 @@ const OTHER_WORDS: &[&str] = &[
     "G230",
     "G231",
     "G233",
+];
+
+/// Words that belong to the functions of an axis and cannot come before them (21301).
+const OF_FUNCTIONS: &[&str] = &[
+    "POS",
+    "FEED",
+    "TIME",
+    "FEED_MAX_WEIGHT",
+    "SLOPE_TYPE",
+    "ACC_WEIGHT",
+    "RAPID_ACC_WEIGHT",
+    "INCL_OFFSETS",
+    "DRY_RUN",
+    "G00",
+    "G0",
+    "G01",
+    "G1",
+    "G90",
+    "G91",
+    "G100",
+    "1ST_POS",
+    "2ND_POS",
+    "ZERO_POS",
+    "EXCUR",
+    "FREQ",
+    "NBR_OSC",
+    "OFFSET",
 ];
 
 /// What one item of a spindle bracket means.
@@ -131,6 +158,14 @@ impl Decoder {
             Some((
                 Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
                 _,
+            )) if OF_FUNCTIONS.iter().any(|other| word.is(other)) => {
+                let name = self.names.name(axis);
+                let text = format!("{name}[{} ..]: its function comes first", word.text);
+                Err(Fault::new(Condition::AxisFunctionMissing, text, *span))
+            }
+            Some((
+                Item { kind: ItemKind::Flag(word) | ItemKind::Pair { key: word, .. }, span },
+                _,
             )) => {
                 let name = self.names.name(axis);
                 Err(Fault::unsupported(format!("{name}[{}]", word.text), *span))
@@ -191,12 +226,6 @@ impl Decoder {
         }
         let feedforward =
             |i: &SpindleItem| matches!(i, SpindleItem::Feedforward(_) | SpindleItem::Weight(_));
-        let some = items.iter().find(|(i, _)| feedforward(i));
-        let other = items.iter().find(|(i, _)| !feedforward(i));
-        if let (Some(_), Some((_, span))) = (some, other) {
-            let text = "feedforward needs a bracket of its own, without other commands";
-            return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
-        }
         let mut weights = items.iter().filter(|(i, _)| matches!(i, SpindleItem::Weight(_)));
         if let (Some(_), Some((_, span))) = (weights.next(), weights.next()) {
             return Err(Fault::new(
@@ -204,6 +233,12 @@ impl Decoder {
                 "G136 twice for one spindle",
                 *span,
             ));
+        }
+        let some = items.iter().find(|(i, _)| feedforward(i));
+        let other = items.iter().find(|(i, _)| !feedforward(i));
+        if let (Some(_), Some((_, span))) = (some, other) {
+            let text = "feedforward needs a bracket of its own, without other commands";
+            return Err(Fault::new(Condition::SpindleFeedforward, text, *span));
         }
         for (i, (item, span)) in items.iter().enumerate() {
             let same = |(other, _): &(SpindleItem, Span)| discriminant(other) == discriminant(item);

@@ -37,6 +37,8 @@ pub(in crate::exec) enum Group {
     Insertion,
     Feedforward,
     FullOverride,
+    RampWeight,
+    VelocityWeight,
     /// No group: several may share a block.
     None,
 }
@@ -66,6 +68,8 @@ impl Group {
             Self::FullOverride => Condition::OverrideSwitchTwice,
             Self::CornerDeceleration => Condition::TwoCornerDecelerations,
             Self::CompensationTransition => Condition::TwoCorners,
+            Self::RampWeight => Condition::TwoRampWeights,
+            Self::VelocityWeight => Condition::TwoVelocityWeights,
             Self::Deceleration
             | Self::Plane
             | Self::Rotation
@@ -107,6 +111,8 @@ impl Group {
             Self::Insertion => "insertion",
             Self::Feedforward => "feedforward",
             Self::FullOverride => "override of the block",
+            Self::RampWeight => "weights of ramp times",
+            Self::VelocityWeight => "weights of the highest speed",
             Self::None => "",
         }
     }
@@ -304,14 +310,14 @@ const ROWS: &[Row] = &[
     v(115, Group::LookAhead, Act::LookAheadFunctions),
     g(116, Group::LookAhead, Act::StopAtTransitions(true)),
     g(117, Group::LookAhead, Act::StopAtTransitions(false)),
-    g(127, Group::None, Act::WeightOfAxes(Weight::Velocity)),
-    v(128, Group::None, Act::WeightOfAll(Weight::Velocity)),
+    g(127, Group::VelocityWeight, Act::WeightOfAxes(Weight::Velocity)),
+    v(128, Group::VelocityWeight, Act::WeightOfAll(Weight::Velocity)),
     v(129, Group::None, Act::WeightOfAll(Weight::RapidVelocity)),
     g(130, Group::None, Act::WeightOfAxes(Weight::Acceleration)),
     v(131, Group::None, Act::WeightOfAll(Weight::Acceleration)),
-    g(132, Group::None, Act::WeightOfAxes(Weight::Ramp)),
-    v(133, Group::None, Act::WeightOfAll(Weight::Ramp)),
-    v(134, Group::None, Act::WeightOfAll(Weight::GeometricRamp)),
+    g(132, Group::RampWeight, Act::WeightOfAxes(Weight::Ramp)),
+    v(133, Group::RampWeight, Act::WeightOfAll(Weight::Ramp)),
+    v(134, Group::RampWeight, Act::WeightOfAll(Weight::GeometricRamp)),
     g(135, Group::Feedforward, Act::Feedforward(true)),
     g(136, Group::None, Act::FeedforwardWeights),
     g(137, Group::Feedforward, Act::Feedforward(false)),
@@ -337,7 +343,7 @@ const ROWS: &[Row] = &[
     g(202, Group::Manual, Act::Manual),
     g(230, Group::None, Act::WeightOfAxes(Weight::RapidAcceleration)),
     v(231, Group::None, Act::WeightOfAll(Weight::RapidAcceleration)),
-    v(233, Group::None, Act::WeightOfAll(Weight::RapidRamp)),
+    v(233, Group::RampWeight, Act::WeightOfAll(Weight::RapidRamp)),
     g(236, Group::CompensationSelection, Act::Unsupported("selection of tool radius compensation on the path")),
     g(237, Group::CompensationSelection, Act::Selection(Selection::Perpendicular)),
     g(238, Group::CompensationSelection, Act::Selection(Selection::InsideCorner)),
@@ -353,8 +359,8 @@ const ROWS: &[Row] = &[
     g(332, Group::Path, Act::Path(PathMode::TapBack)),
     g(333, Group::None, Act::Simplified(FEED_HOLD)),
     v(334, Group::None, Act::Simplified(FEED_HOLD)),
-    g(338, Group::None, Act::Simplified(FEED_HOLD)),
-    v(339, Group::None, Act::Simplified(FEED_HOLD)),
+    g(338, Group::RampWeight, Act::Simplified(FEED_HOLD)),
+    v(339, Group::RampWeight, Act::Simplified(FEED_HOLD)),
     g(351, Group::Mirror, Act::MirrorAxes),
     g(359, Group::Transition, Act::ExactStop(false)),
     g(360, Group::Transition, Act::ExactStop(true)),

@@ -146,6 +146,10 @@ pub(in crate::exec) struct Modal {
     pub(in crate::exec) corner_stretch: f64,
     /// `#TRC [REVERSE]`.
     pub(in crate::exec) turns_back: bool,
+    /// `#TRC [PERPENDICULAR_RADIUS_CHANGE]`.
+    pub(in crate::exec) perpendicular_change: bool,
+    /// `#TRC [SUPPRESS_TRC]`: the tool follows the contour itself.
+    pub(in crate::exec) compensation_suppressed: bool,
     /// G161: centres in coordinates of the program.
     pub(in crate::exec) centre_absolute: bool,
     /// G165.
@@ -196,6 +200,8 @@ impl Modal {
             engagement_radius_mm: 0.0,
             corner_stretch: 1.0,
             turns_back: false,
+            perpendicular_change: false,
+            compensation_suppressed: false,
             centre_absolute: false,
             centre_correction: true,
             radius_mm: None,

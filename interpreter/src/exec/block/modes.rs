@@ -150,6 +150,8 @@ impl Decoder {
             crate::exec::geometry::tools::Tool::default()
         };
         self.tool_offsets();
+        let applied = self.apply_wear(span);
+        self.motion.wear.on &= self.report.keep(applied).is_some();
     }
 
     /// Offsets of the selected tool.

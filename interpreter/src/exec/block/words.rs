@@ -13,8 +13,10 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::suggest;
-use crate::exec::values::system;
-use crate::syntax::ast::{Assign, CodeNumber, Expr, GValue, PlaceKind, Span, Word, WordKind};
+use crate::exec::values::{every_axis, system};
+use crate::syntax::ast::{
+    Assign, Binary, BinaryOp, CodeNumber, Expr, ExprKind, GValue, PlaceKind, Span, Word, WordKind,
+};
 
 impl Decoder {
     /// Collects the words of a block and carries out its assignments. What cannot be used is reported and left out.
@@ -27,9 +29,9 @@ impl Decoder {
                 }
             }
         }
-        if let (Some(_), Some(span)) = (block.tool_data, block.tool_written) {
+        if let (Some(_), Some((condition, span))) = (block.tool_data, block.tool_written) {
             let text = "D and a write to V.G.WZ_AKT in one block: both set the tool data in use";
-            self.report.note(Fault::new(Condition::ToolTwice, text, span));
+            self.report.note(Fault::new(condition, text, span));
         }
     }
 
@@ -71,12 +73,25 @@ impl Decoder {
                 if let PlaceKind::Cycle(name) = &assign.target.kind
                     && !name.starts_with('P')
                 {
+                    if let Some(operator) = assign.operator {
+                        let text = format!(
+                            "@{name} takes a value with `=`, not with `{}=`",
+                            operator.symbol()
+                        );
+                        return Err(Fault::new(Condition::Syntax, text, span));
+                    }
                     return self.cycle_address(name, assign, span, block);
                 }
                 if let PlaceKind::Variable(segments) = &assign.target.kind
                     && system::is_active_tool(segments)
                 {
-                    block.tool_written = Some(span);
+                    let condition = match &segments[..] {
+                        [_, _, offset, ..] if offset.name.eq_ignore_ascii_case("V") => {
+                            Condition::ToolOffsetTwice
+                        }
+                        _ => Condition::ToolTwice,
+                    };
+                    block.tool_written = Some((condition, span));
                 }
                 self.assign(assign)
             }
@@ -116,8 +131,30 @@ impl Decoder {
     }
 
     fn assign(&mut self, assign: &Assign) -> Outcome<()> {
-        let value = self.value(&assign.value)?;
-        self.write(&assign.target, value, assign.value.span)
+        if every_axis::is_all(&assign.target) {
+            return (0..self.machine.axes.len())
+                .try_for_each(|axis| self.assign_one(&every_axis::of_axis(assign, axis)));
+        }
+        self.assign_one(assign)
+    }
+
+    fn assign_one(&mut self, assign: &Assign) -> Outcome<()> {
+        let Assign { target, operator, value } = assign;
+        let span = value.span;
+        let result = match operator {
+            None => self.value(value)?,
+            Some(BinaryOp::Divide) if self.number(value)? == 0.0 => {
+                let text = "division by zero with /=";
+                return Err(Fault::new(Condition::DividedByZero, text, span));
+            }
+            Some(op) => {
+                let left = Expr { kind: target.clone().into(), span: target.span };
+                let both = Binary { op: *op, left, right: value.clone() };
+                let whole = Expr { kind: ExprKind::Binary(Box::new(both)), span };
+                self.value(&whole)?
+            }
+        };
+        self.write(target, result, span)
     }
 
     fn code(

@@ -5,6 +5,7 @@
 use super::keys::{arguments, at_least, between};
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
+use crate::exec::block::modal::Compensation;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::{Item, ItemKind, ItemValue, Span};
@@ -26,8 +27,8 @@ arguments! {
         ext_angle: Number "EXT_ANGLE_BLOCK_INTERSECTION", "", "0; others are not supported";
         g236_lin: Number "G236_LIN" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
         tangential_limit: Number "TANGENTIAL_LIMIT" in between(0.1, 3.0), "deg", "3; others are not supported";
-        perpendicular: Number "PERPENDICULAR_RADIUS_CHANGE" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
-        suppress: Number "SUPPRESS_TRC" in between(0.0, 1.0).whole(), "", "0; 1 is not supported";
+        perpendicular: Number "PERPENDICULAR_RADIUS_CHANGE" in between(0.0, 1.0).whole(), "", "1: another radius is taken up perpendicular to the contour; default 0";
+        suppress: Number "SUPPRESS_TRC" in between(0.0, 1.0).whole(), "", "1: G41 and G42 calculate no parallel, the tool follows the contour; between G40 and G41 only; default 0";
         online: Number "ONLINE", "", "0; others are not supported";
         inverse: Number "INVERSE", "", "0; 1 is not supported";
         split: Flag "SPLIT", "", "not supported";
@@ -58,8 +59,6 @@ impl TrcArguments {
             ("EXT_ANGLE_BLOCK_INTERSECTION", self.ext_angle, 0.0),
             ("G236_LIN", self.g236_lin, 0.0),
             ("TANGENTIAL_LIMIT", self.tangential_limit, TANGENTIAL_LIMIT_DEG),
-            ("PERPENDICULAR_RADIUS_CHANGE", self.perpendicular, 0.0),
-            ("SUPPRESS_TRC", self.suppress, 0.0),
             ("GEN_CIR_BLOCK_IN_CORNER", self.gen_circle, 0.0),
             ("ONLINE", self.online, 0.0),
             ("INVERSE", self.inverse, 0.0),
@@ -103,6 +102,16 @@ fn options(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     }
     if let Some((reverse, _)) = keys.reverse {
         decoder.modal.turns_back = reverse > 0.0;
+    }
+    if let Some((perpendicular, _)) = keys.perpendicular {
+        decoder.modal.perpendicular_change = perpendicular > 0.0;
+    }
+    if let Some((suppress, span)) = keys.suppress {
+        if decoder.modal.compensation != Compensation::Off {
+            let what = "#TRC [SUPPRESS_TRC] between G41 or G42 and G40";
+            return Err(Fault::unsupported(what, span));
+        }
+        decoder.modal.compensation_suppressed = suppress > 0.0;
     }
     if let Some((factor, span)) = keys.stretch {
         decoder.modal.corner_stretch = factor;

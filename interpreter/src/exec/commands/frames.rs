@@ -1,6 +1,6 @@
 //! `#ROTATION`, `#CS`, `#MCS`, `#TRAFO` and relatives.
 //!
-//! Source: TF5200 programming manual, coordinate systems; P-CHAN-00394 (rotations ZYX).
+//! Source: TF5200 programming manual, coordinate systems; P-CHAN-00394 (rotations ZYX); 20671, 20676, 20875.
 
 use super::keys::arguments;
 use super::row::{Call, Row};
@@ -71,6 +71,16 @@ fn system(decoder: &Decoder, group: &Group) -> Outcome<Frame> {
                 ));
             }
         }
+    }
+    if let Some((angle, item)) =
+        values.iter().zip(&group.items).skip(3).find(|(angle, _)| angle.abs() > 360.0)
+    {
+        let text = format!("the angle {angle} deg of a coordinate system is outside -360 to 360");
+        return Err(Fault::new(Condition::SystemAngle, text, item.span).with(|d| {
+            d.value(ValueKind::Wrong, *angle, "deg")
+                .value(ValueKind::LowerLimit, -360.0, "deg")
+                .value(ValueKind::UpperLimit, 360.0, "deg")
+        }));
     }
     let unit = decoder.modal.unit_mm();
     let [x, y, z, a, b, c] = values;
@@ -249,6 +259,29 @@ fn machine_coordinates(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         decoder.tool_offsets();
     }
     Ok(())
+}
+
+/// `#CYL`, `#FACE`, `#TLC`: refused, once what is wrong with them anyway has been told.
+pub(super) fn kinematic(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    if call.command.on == Some(false) {
+        return Ok(());
+    }
+    if call.name == "TLC" && decoder.modal.compensation != Compensation::Off {
+        let text = "#TLC ON while tool radius compensation is active";
+        return Err(Fault::new(Condition::LengthWithCompensation, text, call.span()));
+    }
+    let names = call.command.groups.iter().flat_map(|group| &group.items);
+    let unknown = names.filter(|_| call.name != "TLC").find_map(|item| match &item.kind {
+        ItemKind::Flag(word) if decoder.names.of_name(&word.text).is_none() => Some(word),
+        _ => None,
+    });
+    if let Some(word) = unknown {
+        let text = format!("{}: unknown axis {}", call.title(), word.text);
+        return Err(
+            Fault::new(Condition::CommandAxisUnknown, text, word.span).hint(decoder.names.hint())
+        );
+    }
+    Err(Fault::unsupported(call.title(), call.span()))
 }
 
 /// `#TRAFO`, `#RTCP`, `#KIN ID`, `#PTP`, `#ORI MODE`: kinematics.

@@ -294,12 +294,13 @@ arguments! {
     struct MachineDataArguments {
         axis: Word "AX", "", "the axis";
         parameter: Word "AXPARAM", "", "key and value as in the axis list";
+        wait: Flag "WAIT", "", "with SYN: the program waits, as it does here anyway";
     }
 }
 
 /// Row of `#MACHINE DATA`.
 pub(super) const MACHINE_DATA: Row = Row::run("MACHINE DATA", machine_data)
-    .form("#MACHINE DATA [SYN] [AX=.. AXPARAM=\"key value\"]")
+    .form("#MACHINE DATA [SYN] [AX=.. AXPARAM=\"key value\" WAIT]")
     .meaning("changes a parameter of an axis list from here on; the path stops")
     .keys(MachineDataArguments::KEYS)
     .example("#MACHINE DATA [AX=Z AXPARAM=\"getriebe[0].kv 3000\"]");
@@ -310,6 +311,10 @@ fn machine_data(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         return Err(call.unexpected(word));
     }
     let keys = MachineDataArguments::read(decoder, &call.title(), call.command.groups.first())?;
+    if let (Some(span), []) = (keys.wait, call.rest) {
+        let text = "WAIT of #MACHINE DATA needs SYN";
+        return Err(Fault::new(Condition::WaitWithoutSyn, text, span));
+    }
     let (Some((text, at)), Some((parameter, span))) = (keys.axis, keys.parameter) else {
         let text = "#MACHINE DATA needs AX and AXPARAM";
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));

@@ -19,6 +19,7 @@ mod element;
 mod ends;
 mod inside;
 mod item;
+mod radius;
 mod tangential;
 
 use super::bottleneck::{Cut, Watch};
@@ -35,7 +36,7 @@ use corner::{above, straight};
 use element::{Element, moving_side, runs_back};
 use ends::line;
 use inside::Closed;
-use item::Fallible;
+use item::{Fallible, vanished};
 
 use tangential::Touch;
 
@@ -151,6 +152,19 @@ impl Compensator {
             self.active = Some(Box::new(active.turn_back(motion, side, out)?));
             return Ok(());
         }
+        if let Some(c) = motion.compensation
+            && c.perpendicular_change
+            && c.distance_mm * active.distance > 0.0
+            && !active.last.approach
+        {
+            let mut found = None;
+            let next = active.change_radius(motion, side, c.distance_mm, out, &mut found)?;
+            self.active = Some(Box::new(next));
+            if !self.told {
+                self.cut = found;
+            }
+            return Ok(());
+        }
         // another side or radius, or none: a line leads there
         if active.perpendicular
             || motion.compensation.is_some_and(|c| c.selection == Selection::Perpendicular)
@@ -225,10 +239,11 @@ impl Compensator {
                 Some(tangent) => tangential::way(&motion, plane, (at, end), tangent, Touch::Start)?,
                 None => line(&motion, plane, at, end),
             };
-            match way {
-                Some(path) => motion.block.path = path,
-                None => return Ok(()),
-            }
+            let Some(path) = way else {
+                vanished(motion.events, out);
+                return Ok(());
+            };
+            motion.block.path = path;
         }
         let Some(Compensated { distance_mm: distance, selection, .. }) = motion.compensation else {
             self.tangential = false;

@@ -20,6 +20,8 @@ pub(in crate::exec) struct Motion {
     /// The path is in the coordinates of the tilt.
     pub(in crate::exec) local: bool,
     pub(in crate::exec) compensation: Option<Compensated>,
+    /// The tool is at the contour of G41 or G42, to its left if true; not on its way there or back.
+    pub(in crate::exec) engaged: Option<bool>,
     /// G05: it begins or ends the compensation in an arc.
     pub(in crate::exec) tangential: bool,
     /// How its feed changes along it.
@@ -40,6 +42,8 @@ pub(in crate::exec) struct Compensated {
     pub(in crate::exec) straight_corners: Option<f64>,
     /// The tool turns round where a contour that runs back changes its side.
     pub(in crate::exec) reverse: bool,
+    /// Another radius is taken up by a line perpendicular to the contour.
+    pub(in crate::exec) perpendicular_change: bool,
     /// How it begins and ends.
     pub(in crate::exec) selection: Selection,
     /// G11: least radius in mm of the arcs whose feed is that of the tool's engagement.

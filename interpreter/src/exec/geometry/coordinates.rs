@@ -55,6 +55,8 @@ pub(in crate::exec) struct Coordinates {
     /// Active zero-offset group, 0 = none (G53).
     zero_group: u32,
     zero_table: BTreeMap<u32, AxisVec>,
+    /// Values of `V.G.NP_AKT`, which hold until another group is selected.
+    zero_written: BTreeMap<usize, f64>,
     /// Axes whose entry of a group is left out (G160).
     zero_masked: BTreeSet<(u32, usize)>,
     preset: AxisVec,
@@ -86,6 +88,7 @@ impl Coordinates {
             main,
             zero_group: 0,
             zero_table: BTreeMap::new(),
+            zero_written: BTreeMap::new(),
             zero_masked: BTreeSet::new(),
             preset: AxisVec::zeros(n),
             position_preset: AxisVec::zeros(n),
@@ -163,6 +166,9 @@ impl Coordinates {
     /// Active zero offset.
     #[inline]
     pub(in crate::exec) fn zero_offset(&self, axis: usize) -> f64 {
+        if let Some(written) = self.zero_written.get(&axis) {
+            return *written;
+        }
         if self.zero_table.is_empty() || self.zero_masked.contains(&(self.zero_group, axis)) {
             return 0.0;
         }
@@ -182,6 +188,12 @@ impl Coordinates {
     /// G53 (group 0), G54 to G59, G159.
     pub(in crate::exec) fn select_zero_group(&mut self, group: u32) {
         self.zero_group = group;
+        self.zero_written.clear();
+    }
+
+    /// `V.G.NP_AKT`: another zero offset in use; the table keeps its own.
+    pub(in crate::exec) fn set_zero_offset(&mut self, axis: usize, value_mm: f64) {
+        self.zero_written.insert(axis, value_mm);
     }
 
     /// G160: leaves the entry of an axis out of a group, or takes it in again.

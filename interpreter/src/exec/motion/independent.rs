@@ -238,7 +238,7 @@ impl Decoder {
 
     /// `#WAIT INDP [X, Y]`, `#WAIT INDP ALL`.
     ///
-    /// Assumption: the join waits for the set positions, as without the exact stop of P-CHAN-00297.
+    /// It waits for set positions; with P-CHAN-00297 = 2 for those of all axes, and for their windows.
     pub(in crate::exec) fn wait_for_independent(
         &mut self,
         all: bool,
@@ -252,7 +252,14 @@ impl Decoder {
             let text = "#WAIT INDP needs [axes] or ALL";
             return Err(Fault::new(Condition::TokenUnknown, text, span));
         }
+        let in_windows = self.machine.channel.joins_in_windows;
+        if in_windows {
+            axes = (0..self.machine.axes.len()).collect();
+        }
         self.join(axes);
+        if in_windows {
+            self.sync(Sync::ExactStop);
+        }
         Ok(())
     }
 }

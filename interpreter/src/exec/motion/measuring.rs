@@ -54,7 +54,10 @@ impl Decoder {
             let text = format!("G{}: the axes are already at the target", g.row.number);
             return Err(Fault::new(Condition::MeasuringWay, text, g.span));
         }
-        self.sync(Sync::Measured { through });
+        // a fixed stop shows in the lag of an axis of the run
+        let axes = words.axes.iter().map(|(axis, _, _)| *axis);
+        let stops = if kind == 7 { axes.collect() } else { Vec::new() };
+        self.sync(Sync::Measured { through, stops });
         let coordinates = &self.geometry.coordinates;
         let axes = 0..self.machine.axes.len();
         let needs_signal = kind == 2
@@ -80,15 +83,12 @@ impl Decoder {
         let of_kind = |condition, text| {
             Fault::new(condition, text, g.span).with(|d| d.value(ValueKind::Current, kind, "-"))
         };
-        if kind == 7 {
-            return Err(Fault::unsupported("measuring type 7 (motion to a fixed stop)", g.span));
-        }
         match (g.row.number, kind) {
             (100, 5 | 6) => {
                 let text = format!("G100 with measuring type {kind}");
                 return Err(of_kind(Condition::MeasuringTypeOfG100, text));
             }
-            (310, 1..=4) => {
+            (310, 1..=4 | 7) => {
                 let text = format!("G310 with measuring type {kind}");
                 return Err(of_kind(Condition::MeasuringTypeOfG310, text));
             }
@@ -153,6 +153,14 @@ impl Decoder {
                 return Err(Fault::new(Condition::NoMeasuringAxis, text, *at)
                     .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
             }
+        }
+        let stop = |(axis, _, _): &&(usize, f64, Span)| {
+            self.machine.axes[*axis].fixed_stop_lag_mm().is_some()
+        };
+        if kind == 7 && words.axes.iter().find(stop).is_none() {
+            let text = "measuring type 7: no axis of the run looks for a fixed stop";
+            let hint = "set kenngr.meas_signal_fixed_stop to 1 and a lag in kenngr.fixed_stop_pos_lag_limit";
+            return Err(Fault::new(Condition::NoMeasuringAxis, text, g.span).hint(hint));
         }
         if self.modal.compensation != Compensation::Off {
             return Err(Fault::unsupported("measuring with tool radius compensation", g.span));

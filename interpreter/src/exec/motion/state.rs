@@ -10,6 +10,7 @@ use self::measuring::Measuring;
 use super::dynamics::{Weights, channel_dynamics};
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
+use super::wear::OnlineCompensation;
 use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::Corner;
 use crate::exec::geometry::coordinates::Target;
@@ -55,6 +56,8 @@ pub(in crate::exec) struct MotionState {
     /// G40 with G239: the tool is beside the contour, not where the program was.
     pub(in crate::exec) left_contour: bool,
     pub(in crate::exec) cutting: Cutting,
+    /// `#OTC`.
+    pub(in crate::exec) wear: OnlineCompensation,
 }
 
 impl MotionState {
@@ -81,6 +84,7 @@ impl MotionState {
             feed_before: None,
             left_contour: false,
             cutting: Cutting::default(),
+            wear: OnlineCompensation::default(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Tool radius compensation.
 
-use super::{assert_near, clean, run, run_on, said};
+use super::{Event, assert_near, clean, run, run_on, said};
 use kontur_motion::block::Feed;
 use kontur_motion::path::Path;
 use std::f64::consts::PI;
@@ -435,4 +435,25 @@ fn a_contour_that_runs_back_changes_its_side_in_place() {
     // a corner is no reversal: the usual change of side
     let corner = "X-5 Y0\nG41 X0 Y0\nX20\nG42 X5 Y10\nX-20\nG40 Y30";
     assert_eq!(ends(corner), ends(&format!("#TRC [REVERSE=1]\n{corner}")));
+}
+
+#[test]
+fn events_of_a_motion_of_which_nothing_is_left_happen() {
+    // the approach ends where the tool is, and so does the way back
+    let text =
+        "V.G.WZ_AKT.R=2\nG26 G138 F100 X2 Y0\nG42 X0 Y0 M77\nY20\nG40 X2 M78\nX50 M79\nM30\n";
+    let run = clean(text);
+    assert_points(&run.ends(), &[[2.0, 0.0], [2.0, 20.0], [50.0, 20.0]]);
+    let numbers: Vec<u32> = run
+        .events()
+        .into_iter()
+        .filter_map(|event| match event {
+            Event::MFunction { number, .. } => Some(*number),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(numbers, [77, 78, 79]);
+    // also where nothing follows
+    let run = clean("V.G.WZ_AKT.R=2\nG26 G138 F100 X2 Y0\nG42 X0 Y0\nY20\nG40 X2 M78\nM30\n");
+    assert!(run.events().iter().any(|e| matches!(e, Event::MFunction { number: 78, .. })));
 }

@@ -103,7 +103,6 @@ fn what_the_manual_knows_is_never_unknown() {
         "S[SYNC]",
         "S[G131=50]",
         "S[CALLAX]",
-        "#MEAS MODE [7]\nG100 X5 F100",
         "G108",
         "G236",
     ] {

@@ -97,6 +97,8 @@ const ROWS: &[Row] = &[
     Row { name: &["G", "WZ", "V", "*"], read: |d, p| { let a = p.axis(d, 3)?; number(offset(&p.tool(d)?, a)) } },
     Row { name: &["G", "WZ", "P"], read: |d, p| { let i = p.index(d, 2, 1000)?; number(parameter(&p.tool(d)?, i)) } },
     Row { name: &["G", "WZ", "OK"], read: |d, p| { let i = p.index(d, 1, u32::MAX)?; truth(d.geometry.tools.table.get(&i).is_some_and(|t| t.is_valid)) } },
+    Row { name: &["G", "WZ", "TYPE"], read: |d, p| number(f64::from(p.tool(d)?.kind as u32)) },
+    Row { name: &["G", "WZ_AKT", "TYPE"], read: |d, _| number(f64::from(d.geometry.tools.active.kind as u32)) },
     Row { name: &["G", "WZ", "ME"], read: |_, _| number(0.0) },
     Row { name: &["G", "T_AKT"], read: |d, _| number(f64::from(d.geometry.tools.tool)) },
     Row { name: &["G", "D_AKT"], read: |d, _| number(f64::from(d.geometry.tools.data)) },
@@ -332,6 +334,10 @@ pub(in crate::exec) fn write(
             let group = path.index(d, 1, 999)?;
             let axis = path.axis(d, 3)?;
             d.geometry.coordinates.set_zero_entry(group, axis, x()? * d.axis_unit(axis));
+        }
+        ["G", "NP_AKT", "V", _] | ["G", "NP_AKT", "V"] => {
+            let axis = path.axis(d, 3)?;
+            d.geometry.coordinates.set_zero_offset(axis, x()? * d.axis_unit(axis));
         }
         ["G", "RW"] => {
             d.motion.measuring.residual_path_mm = x()? * d.modal.unit_mm();

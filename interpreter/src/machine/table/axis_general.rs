@@ -29,6 +29,14 @@ parameters! {
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_RELATIVE: Switch;
     axis("P-AXIS-00118", "kenngr.messachse", Raw::Boolean, "1: the axis takes part in measuring runs (G100, G310)")
         .default(0.0).axes("TR").source("TF5200 axis parameters"), as MEASURES: Switch;
+    axis("P-AXIS-00330", "kenngr.meas_signal_fixed_stop", Raw::Boolean, "1: measuring type 7 looks for a fixed stop with this axis")
+        .default(0.0), as STOPS: Switch;
+    axis("P-AXIS-00331", "kenngr.fixed_stop_pos_lag_limit", Raw::Uns32, "measuring type 7: lag beyond which the axis is at its fixed stop; 0 never")
+        .default(0.0).unit("0.1um", "0.0001deg"), as STOP_LAG: Number;
+    axis("P-AXIS-00769", "antr.fixed_stop.detect.pos_lag_limit", Raw::Sgn32, "in place of P-AXIS-00331 if it is not negative")
+        .default(-1.0).unit("0.1um", "0.0001deg"), as STOP_LAG_OF_DRIVE: Number;
+    axis("P-AXIS-00774", "kenngr.measure.fixed_stop_detect.pos_lag_limit", Raw::Sgn32, "in place of P-AXIS-00769 if it is not negative")
+        .default(-1.0).unit("0.1um", "0.0001deg"), as STOP_LAG_OF_RUN: Number;
     axis("P-AXIS-00215", "kenngr.vb_messen", Raw::Uns32, "speed of measuring runs of type 2")
         .range(Bound::At(1.0), Bound::None).default(16666.0).unit("um/s", "0.001deg/s").axes("TR").source("TF5200 axis parameters"), as MEASURING_SPEED: Number;
     axis("P-AXIS-00109", "kenngr.max_vb_override", Raw::Uns16, "override ceiling of single axes and spindles")

@@ -1,6 +1,6 @@
 //! Words of a block: addresses, names, assignments and calls.
 
-use super::{Expr, Group, Ident, Jump, Place, Sign, Span};
+use super::{BinaryOp, Expr, Group, Ident, Jump, Place, Sign, Span};
 
 /// One word of a block.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,6 +153,8 @@ pub struct Bracket {
 pub struct Assign {
     /// Left side.
     pub target: Place,
+    /// The operator of `+=`, `-=`, `*=` and `/=`.
+    pub operator: Option<BinaryOp>,
     /// Right side.
     pub value: Expr,
 }

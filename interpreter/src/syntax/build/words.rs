@@ -4,8 +4,8 @@ use super::Builder;
 use crate::syntax::Problem;
 use crate::syntax::Rule;
 use crate::syntax::ast::{
-    Assign, Bracket, Call, CallKind, CodeNumber, Expr, GValue, Group, HashWord, Ident, Jump,
-    JumpKind, LabelKind, MacroDefinition, Name, Place, Return, ReturnLevel, Sign, Span, Word,
+    Assign, BinaryOp, Bracket, Call, CallKind, CodeNumber, Expr, GValue, Group, HashWord, Ident,
+    Jump, JumpKind, LabelKind, MacroDefinition, Name, Place, Return, ReturnLevel, Sign, Span, Word,
     WordKind,
 };
 use pest::iterators::Pair;
@@ -44,6 +44,7 @@ impl Builder<'_> {
         let mut code = CodeNumber::Literal(0);
         let mut value = None;
         let mut sign = None;
+        let mut operator = None;
         let mut slots = Vec::new();
         let mut group = Group::default();
         for part in pair.into_inner() {
@@ -62,6 +63,9 @@ impl Builder<'_> {
                 | Rule::axes_hash
                 | Rule::hash_name => name = Some(self.written(span)),
                 Rule::place => place = Some(self.place(part)),
+                Rule::compound => {
+                    operator = Some(BinaryOp::from_text(&part.as_str()[..1]));
+                }
                 rule @ (Rule::expression | Rule::signed_number) => {
                     sign = match part.as_str().as_bytes().first() {
                         Some(b'+') => Some(Sign::Plus),
@@ -104,7 +108,7 @@ impl Builder<'_> {
             (_, value) => {
                 let value = value.unwrap_or_else(Self::zero);
                 match place {
-                    Some(target) => WordKind::Assign(Box::new(Assign { target, value })),
+                    Some(target) => WordKind::Assign(Box::new(Assign { target, operator, value })),
                     None => WordKind::Address { name: address(), sign, value },
                 }
             }

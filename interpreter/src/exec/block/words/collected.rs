@@ -1,5 +1,6 @@
 //! What has been collected from one block.
 
+use crate::diag::Condition;
 use crate::exec::block::groups::{Group, Row};
 use crate::exec::options::Value;
 use crate::syntax::ast::{Bracket, Call, HashWord, Jump, Return, Sign, Span};
@@ -58,7 +59,7 @@ pub(in crate::exec) struct Words<'b> {
     pub(in crate::exec) tool: Option<Placed>,
     pub(in crate::exec) tool_data: Option<Placed>,
     /// A write to `V.G.WZ_AKT`.
-    pub(in crate::exec) tool_written: Option<Span>,
+    pub(in crate::exec) tool_written: Option<(Condition, Span)>,
     pub(in crate::exec) m: SmallVec<[Code; 4]>,
     pub(in crate::exec) h: SmallVec<[Code; 1]>,
     pub(in crate::exec) cycle: Option<CycleCall>,

@@ -16,6 +16,12 @@ use smallvec::SmallVec;
 /// Steps between two motions that a corner may wait for.
 const BETWEEN_MAX: usize = 1000;
 
+/// An inserted line along which the tool stays at the contour.
+pub(super) fn at_contour(mut line: Box<Motion>, distance: f64) -> Item {
+    line.engaged = Some(distance > 0.0);
+    Item::Motion(line)
+}
+
 /// Compensation in force.
 #[derive(Debug)]
 pub(super) struct Active {
@@ -117,7 +123,7 @@ impl Active {
             let mut from = end;
             for to in points {
                 let line = straight(&template, motion.block.path.start(), plane, from, to);
-                out.extend(line.map(Item::Motion));
+                out.extend(line.map(|line| at_contour(line, distance)));
                 from = to;
             }
             from

@@ -84,6 +84,7 @@ pub(super) fn corner_arc(
     let path = ArcPath::new(place(from), place(to), shape, feed_axes)?;
     let mut arc = before.clone();
     arc.block.path = Path::Arc(path);
+    arc.engaged = Some(distance > 0.0);
     arc.events.clear();
     Some(Item::Motion(Box::new(arc)))
 }

@@ -2,7 +2,7 @@
 
 use super::corner::{side_sweep, trimmed};
 use super::ends::{ends, line};
-use super::item::{Fallible, Item, too_tight};
+use super::item::{Fallible, Item, too_tight, vanished};
 use super::tangential::{self, Touch};
 use crate::diag::Condition;
 use crate::exec::contour::motion::{Compensated, Motion};
@@ -38,6 +38,8 @@ impl Element {
         if let Some(path) = tangential::way(&motion, plane, (start, end), tangent, Touch::End)? {
             motion.block.path = path;
             out.push(Item::Motion(motion));
+        } else {
+            vanished(motion.events, out);
         }
         Ok(())
     }
@@ -52,6 +54,7 @@ impl Element {
     ) -> Fallible<()> {
         let Self { mut motion, side, start, approach, .. } = self;
         let source = motion.source;
+        motion.engaged = (!approach).then_some(distance > 0.0);
         let path = match &side {
             Side::Line { .. } => {
                 let along = dot(sub(end, start), side.tangent(false));
@@ -92,6 +95,8 @@ impl Element {
         if let Some(path) = path {
             motion.block.path = path;
             out.push(Item::Motion(motion));
+        } else {
+            vanished(motion.events, out);
         }
         Ok(())
     }
@@ -132,9 +137,11 @@ pub(super) fn emit_between(between: Vec<Item>, at: Point, plane: [usize; 2], out
                 if let Some(path) = line(&motion, plane, at, at) {
                     motion.block.path = path;
                     out.push(Item::Motion(motion));
+                } else {
+                    vanished(motion.events, out);
                 }
             }
-            Item::Rest(_) => out.push(item),
+            Item::Rest(_) | Item::Events(_) => out.push(item),
         }
     }
 }

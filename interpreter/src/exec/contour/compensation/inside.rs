@@ -8,7 +8,7 @@ use super::active::Active;
 use super::corner::{above, inner_corner};
 use super::element::{Element, emit_between, moving_side};
 use super::ends::line;
-use super::item::{Fallible, Item, too_tight};
+use super::item::{Fallible, Item, too_tight, vanished};
 use crate::diag::Condition;
 use crate::exec::contour::bottleneck::{Cut, Watch};
 use crate::exec::contour::motion::Motion;
@@ -84,13 +84,15 @@ impl Closed {
         if let Some(path) = line(&approach, plane, from, at) {
             approach.block.path = path;
             out.push(Item::Motion(approach));
+        } else {
+            vanished(approach.events, out);
         }
         let mut active: Option<Active> = None;
         let (mut before, mut found) = (Vec::new(), None);
         for item in items {
             let motion = match item {
                 Item::Motion(motion) => motion,
-                rest @ Item::Rest(_) => {
+                rest @ (Item::Rest(_) | Item::Events(_)) => {
                     match &mut active {
                         Some(active) => active.hold(rest, Span::default())?,
                         None => before.push(rest),

@@ -10,6 +10,8 @@ use crate::exec::step::{Event, SourceRef, Sync};
 pub(in crate::exec) enum Item {
     Motion(Box<Motion>),
     Rest(Box<Rest>),
+    /// What belongs to a motion of which compensation has left nothing: it happens with the next step.
+    Events(Vec<Event>),
 }
 
 /// A step at rest.
@@ -18,6 +20,13 @@ pub(in crate::exec) struct Rest {
     pub(in crate::exec) what: Sync,
     pub(in crate::exec) source: SourceRef,
     pub(in crate::exec) events: Vec<Event>,
+}
+
+/// The events of a motion of which nothing is left.
+pub(super) fn vanished(events: Vec<Event>, out: &mut Vec<Item>) {
+    if !events.is_empty() {
+        out.push(Item::Events(events));
+    }
 }
 
 pub(super) type Fallible<T> = Result<T, Box<Fault>>;

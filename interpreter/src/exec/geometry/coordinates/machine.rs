@@ -5,6 +5,7 @@
 use super::super::frame::Frame;
 use super::{Coordinates, Rotation};
 use kontur_motion::axis::AxisVec;
+use std::collections::BTreeMap;
 
 /// A zero-offset group without entries.
 const NO_GROUP: u32 = u32::MAX;
@@ -14,6 +15,7 @@ const NO_GROUP: u32 = u32::MAX;
 pub(super) struct Suspended {
     applied: AxisVec,
     zero_group: u32,
+    zero_written: BTreeMap<usize, f64>,
     preset: AxisVec,
     position_preset: AxisVec,
     measuring: AxisVec,
@@ -40,6 +42,7 @@ impl Coordinates {
         self.suspended = Some(Box::new(Suspended {
             applied: std::mem::replace(&mut self.applied, zeros()),
             zero_group: std::mem::replace(&mut self.zero_group, NO_GROUP),
+            zero_written: std::mem::take(&mut self.zero_written),
             preset: std::mem::replace(&mut self.preset, zeros()),
             position_preset: std::mem::replace(&mut self.position_preset, zeros()),
             measuring: std::mem::replace(&mut self.measuring, zeros()),
@@ -59,7 +62,7 @@ impl Coordinates {
         (self.applied, self.zero_group, self.preset) = (applied, zero_group, preset);
         (self.position_preset, self.mirrored) = (position_preset, mirrored);
         (self.rotation, self.systems) = (before.rotation, before.systems);
-        self.measuring = before.measuring;
+        (self.measuring, self.zero_written) = (before.measuring, before.zero_written);
         self.frame_changed();
         true
     }

@@ -1,0 +1,88 @@
+//! Online tool compensation (`#OTC`): what a program has set, and what the simulation needs of it.
+//!
+//! Source: TF5200 online tool compensation (213641867, 213655947, 213664139, 213718539, 213774347).
+
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::step::{Event, WearSetting, WornPart};
+use crate::machine::ToolKind;
+use crate::syntax::ast::Span;
+
+/// Where the wear comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum WearSource {
+    /// DISC: from outside.
+    Outside,
+    /// CONT: by the way that is driven.
+    Way,
+    /// AUTO: the sum.
+    Both,
+}
+
+/// What `#OTC` has set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::exec) struct OnlineCompensation {
+    /// `#OTC ON`.
+    pub(in crate::exec) on: bool,
+    /// RADIUS; otherwise LENGTH.
+    pub(in crate::exec) radius: bool,
+    /// DISC, CONT, AUTO.
+    pub(in crate::exec) source: WearSource,
+    /// WEAR_CONST in mm of wear for a mm of way; `None`: that of the tool.
+    pub(in crate::exec) ratio: Option<f64>,
+    /// ACC_WEIGHT, above 0.
+    pub(in crate::exec) acceleration_ratio: f64,
+}
+
+impl Default for OnlineCompensation {
+    fn default() -> Self {
+        Self {
+            on: false,
+            radius: false,
+            source: WearSource::Both,
+            ratio: None,
+            acceleration_ratio: 1.0,
+        }
+    }
+}
+
+impl Decoder {
+    /// Hands the setting over to the simulation: `#OTC ON`, or other tool data while it is on.
+    pub(in crate::exec) fn apply_wear(&mut self, span: Span) -> Outcome<()> {
+        let wear = self.motion.wear;
+        if !wear.on {
+            return Ok(());
+        }
+        let tool = &self.geometry.tools.active;
+        if tool.kind != ToolKind::Grinding {
+            let text = format!("#OTC ON with the data of a {} tool", tool.kind.name());
+            return Err(Fault::new(Condition::WearWithoutWheel, text, span));
+        }
+        if tool.tilt_deg.abs() > 0.0 {
+            return Err(Fault::unsupported("#OTC with a tilted grinding wheel", span));
+        }
+        let part = if wear.radius {
+            WornPart::Radius
+        } else {
+            let normal = self.modal.plane.main_axes()[2];
+            let Some(axis) = self.geometry.coordinates.main_axis(normal) else {
+                let text = "#OTC [LENGTH]: the channel has no axis perpendicular to the plane";
+                return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
+            };
+            WornPart::Length { axis }
+        };
+        let by_way = wear.source != WearSource::Outside;
+        let from_outside = wear.source != WearSource::Way;
+        let setting = WearSetting {
+            part,
+            ratio: if by_way { wear.ratio.unwrap_or(tool.wear_ratio) } else { 0.0 },
+            most_mm: if from_outside { tool.most_infeed_mm } else { 0.0 },
+            from_outside,
+            acceleration_ratio: wear.acceleration_ratio,
+        };
+        self.contour.tell_engagement();
+        self.contour.event(Event::Wear(Some(setting)));
+        Ok(())
+    }
+}

@@ -1,0 +1,136 @@
+//! Another radius of the tool perpendicular to the contour (`#TRC [PERPENDICULAR_RADIUS_CHANGE=1]`), suppressed
+//! compensation (`#TRC [SUPPRESS_TRC=1]`).
+//!
+//! Expected points by elementary geometry, and distances from the contour by brute force over random contours.
+
+use super::{Step, assert_near, clean, run};
+use std::fmt::Write as _;
+
+const TRC: &str = "#TRC [PERPENDICULAR_RADIUS_CHANGE=1]\nG138 F100\n";
+
+fn ends(text: &str) -> Vec<Vec<f64>> {
+    clean(&format!("{TRC}{text}\nM30\n")).ends()
+}
+
+fn assert_points(found: &[Vec<f64>], expected: &[[f64; 2]]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert_near(&found[..2], expected);
+    }
+}
+
+#[test]
+fn the_inside_corner_has_the_larger_radius() {
+    // up along Y and on along X, the tool in the corner: radius 2, then 3
+    let larger = ends("V.G.WZ_AKT.R=2\nG42 X0 Y-20\nY0\nV.G.WZ_AKT.R=3\nX30\nG40 X50 Y0");
+    assert_points(&larger, &[[2.0, -20.0], [2.0, -3.0], [3.0, -3.0], [30.0, -3.0], [50.0, 0.0]]);
+    let smaller = ends("V.G.WZ_AKT.R=3\nG42 X0 Y-20\nY0\nV.G.WZ_AKT.R=2\nX30\nG40 X50 Y0");
+    assert_points(&smaller, &[[3.0, -20.0], [3.0, -3.0], [3.0, -2.0], [30.0, -2.0], [50.0, 0.0]]);
+}
+
+#[test]
+fn the_outside_corner_has_the_larger_radius() {
+    let larger = ends("G26 V.G.WZ_AKT.R=2\nG41 X0 Y-20\nY0\nV.G.WZ_AKT.R=3\nX30\nG40 X50 Y0");
+    assert_points(
+        &larger,
+        &[[-2.0, -20.0], [-2.0, 0.0], [-3.0, 0.0], [0.0, 3.0], [30.0, 3.0], [50.0, 0.0]],
+    );
+    let smaller = ends("G26 V.G.WZ_AKT.R=3\nG41 X0 Y-20\nY0\nV.G.WZ_AKT.R=2\nX30\nG40 X50 Y0");
+    assert_points(
+        &smaller,
+        &[[-3.0, -20.0], [-3.0, 0.0], [0.0, 3.0], [0.0, 2.0], [30.0, 2.0], [50.0, 0.0]],
+    );
+}
+
+#[test]
+fn without_the_option_a_line_leads_to_the_new_radius() {
+    let text =
+        "V.G.WZ_AKT.R=2\nG138 G42 F100 X0 Y-20\nY0\nV.G.WZ_AKT.R=3\nX30\nX60\nG40 X80\nM30\n";
+    let e = clean(text).ends();
+    assert_near(&e[1][..2], &[2.0, 0.0]);
+    assert_near(&e[2][..2], &[30.0, -3.0]);
+}
+
+#[test]
+fn a_suppressed_compensation_follows_the_contour() {
+    let run = clean(
+        "V.G.WZ_AKT.R=2\n#TRC [SUPPRESS_TRC=1]\nG41 F100 X0 Y-20\nY0\nX30\nG40 X50\n\
+         #TRC [SUPPRESS_TRC=0]\nG138 G41 X50 Y0\nX80\nG40 X90 Y5\nM30\n",
+    );
+    let e = run.ends();
+    assert_points(&e[..4], &[[0.0, -20.0], [0.0, 0.0], [30.0, 0.0], [50.0, 0.0]]);
+    assert_near(&e[e.len() - 2][..2], &[80.0, 2.0]);
+    let inside = "V.G.WZ_AKT.R=2\nG41 F100 X10\nX20\n#TRC [SUPPRESS_TRC=1]\nM30\n";
+    assert_eq!(super::run(inside).ids()[0], "K-0019");
+}
+
+/// Distance of a point from a line between two others.
+fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let d = [b[0] - a[0], b[1] - a[1]];
+    let t = ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / (d[0] * d[0] + d[1] * d[1]);
+    let t = t.clamp(0.0, 1.0);
+    libm::hypot(p[0] - a[0] - t * d[0], p[1] - a[1] - t * d[1])
+}
+
+#[test]
+fn random_contours_are_nowhere_cut() {
+    let mut state = 7_u64;
+    let mut random = |low: f64, high: f64| {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((state >> 33) as f64 / (1_u64 << 31) as f64)
+    };
+    let mut driven = 0;
+    for k in 0..300 {
+        let mut points = vec![[0.0, 0.0]];
+        let mut angle = random(0.0, 360.0);
+        for _ in 0..4 {
+            angle += random(-130.0, 130.0);
+            let (length, last) = (random(25.0, 50.0), points[points.len() - 1]);
+            let (sin, cos) = libm::sincos(angle.to_radians());
+            points.push([last[0] + length * cos, last[1] + length * sin]);
+        }
+        let (first, second) = (random(1.0, 5.0), random(1.0, 5.0));
+        let (side, corner) = (["G41", "G42"][k % 2], ["G25", "G26"][k / 2 % 2]);
+        let mut text = format!(
+            "{TRC}{corner} V.G.WZ_AKT.R={first:.6}\nX{:.6} Y{:.6}\n{side} X0 Y0\n",
+            points[0][0] - 30.0,
+            points[0][1]
+        );
+        for (i, p) in points.iter().enumerate().skip(1) {
+            if i == 3 {
+                let _ = writeln!(text, "V.G.WZ_AKT.R={second:.6}");
+            }
+            let _ = writeln!(text, "N{i} X{:.9} Y{:.9}", p[0], p[1]);
+        }
+        let [x, y] = points[4].map(|p| p + 40.0);
+        let _ = writeln!(text, "N9 G40 X{x:.6} Y{y:.6}\nM30");
+        let outcome = run(&text);
+        if !outcome.diagnostics.is_empty() {
+            // too tight for one of the two, or a bottleneck between elements further apart
+            continue;
+        }
+        driven += 1;
+        for step in &outcome.steps {
+            let Step::Motion { block, source, .. } = step else { continue };
+            let Some(at @ 1..=4) = source.block else { continue };
+            let at = at as usize;
+            // of the arcs about outer corners the ends
+            let (a, b) = (block.path.start(), block.path.end());
+            let pieces = if block.path.is_straight() { 20 } else { 1 };
+            let samples = (0..=pieces).map(|i| {
+                let t = f64::from(i) / f64::from(pieces);
+                [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
+            });
+            for p in samples {
+                // with its neighbours alone: what lies further away is the business of the warning K-0119
+                for i in at.saturating_sub(1).max(1)..=(at + 1).min(4) {
+                    let far = distance(p, points[i - 1], points[i]);
+                    let least = if i > 2 && at > 2 { second } else { first.min(second) };
+                    assert!(far > least - 1e-6, "{far} instead of {least} at {p:?}\n{text}");
+                }
+            }
+        }
+    }
+    assert!(driven > 150, "{driven} of 300 contours were driven");
+}

@@ -1,0 +1,10 @@
+; run: exit 0
+; page 251254923 diagnosis 20244, right
+N10 G00 X0 Y0 Z0 P1=1
+N20 $DO
+N30 P1=P1+1
+N40 $IF P1 == 2
+N50 $CONTINUE
+N60 $ENDIF
+N100 $ENDDO P1 < 10
+N1000 M30

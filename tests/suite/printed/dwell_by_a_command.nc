@@ -1,0 +1,10 @@
+; run: exit 0
+; page 206132747 dwell times (#TIME)
+#VAR
+  V.L.TIME=3.5
+#ENDVAR
+N10 #TIME 2.5
+N20 P1=2
+N30 #TIME P1
+N50 #TIME V.L.TIME
+N60 M30

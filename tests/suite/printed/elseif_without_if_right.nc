@@ -1,0 +1,9 @@
+; run: exit 0
+; page 251133067 diagnosis 20216, right
+N01 P1=0
+N05 $IF P1==1
+N10 G00 X0 Y0 Z0
+N20 $ELSEIF P1==2
+N30 G00 X100 Y0 Z0
+N40 $ENDIF
+N1000 M30

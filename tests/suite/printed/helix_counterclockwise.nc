@@ -1,0 +1,10 @@
+; run: exit 0
+; page 206109707 helix
+; passes X0 Y-10 Z5
+; passes X10 Y0 Z10
+; passes X0 Y10 Z15
+; end X-10 Y0 Z20
+N05 G00 X-10
+N10 G17 G90 G01 X-10 Y0 Z0 F500 G161
+N20 G03 I0 J0 Z20
+N30 M30

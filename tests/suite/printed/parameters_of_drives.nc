@@ -1,0 +1,9 @@
+; check: exit 1
+; page 207643147 writing to drives (#DRIVE WR SYN)
+; error K-0019 at 6:5
+; error K-0019 at 8:5
+N05 X0 Y0 Z0
+N10 #DRIVE WR SYN [AX=X MOTOR=2 PARAM_SET=4 KEY=torque_limit VAL=400 WAIT]
+N20 X100 Y50 Z30 G01 F3000
+N60 #DRIVE WAIT SYN [AX=X SWITCH_OK]
+N80 M30

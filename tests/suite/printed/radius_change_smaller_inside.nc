@@ -1,0 +1,15 @@
+; run: exit 0
+; page 483740299 perpendicular change of the radius, inside corner, smaller
+; passes X53.3971 Y44.0000
+; passes X53.3971 Y45.0000
+; end X120 Y0
+N05 G0 X0 Y0 F1000
+#TRC [PERPENDICULAR_RADIUS_CHANGE=1]
+N10 V.G.WZ_AKT.R= 6
+N20 G42
+N40 G01 X20 Y0
+N50 G01 X50 Y50
+N55 V.G.WZ_AKT.R = 5
+N60 G01 X100
+N70 G40 X120 Y0
+N99 M30

@@ -1,0 +1,10 @@
+; run: exit 0
+; page 15557181579 speeds of a spindle (REV)
+N10 S[REV300]
+N20 S[M04]
+N30 S[M03 REV1000]
+N40 S[REV500]
+N50 S[M05 REV100]
+N60 S[M04]
+N70 S[M05]
+N80 M30

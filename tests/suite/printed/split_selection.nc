@@ -1,0 +1,5 @@
+; check: exit 1
+; page 1010448779 selection in segments (SPLIT)
+; error K-0019 at 4:11
+N10 #TRC [SPLIT_PATH COMBINED DIST_SEG1=5 FEED_SEG1=500 DIST_SEG2=3 FEED_SEG2=300]
+N20 M30

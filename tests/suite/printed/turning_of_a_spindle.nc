@@ -1,0 +1,11 @@
+; run: exit 0
+; page 208191499 spindle commands M3, M4, M5 in brackets
+N10 S[REV1000]
+N20 S[M03]
+N30 S[M04]
+N40 S[REV500]
+N50 S[M05 REV300]
+N60 S[M04]
+N70 S[M05]
+N80 S[M03 REV1000]
+N90 M30

@@ -1,0 +1,7 @@
+; run: exit 0
+; page 251193995 diagnosis 20230, right
+N10 G00 X0 Y0 Z0
+N20 $FOR P2=1,10,1
+N25 G01 X100 F10000
+N30 $ENDFOR
+N1000 M30

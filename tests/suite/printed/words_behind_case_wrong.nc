@@ -1,0 +1,10 @@
+; check: exit 1
+; page 251159179 diagnosis 20222, wrong
+; error 20222 at 7:13
+N10 G00 X0 Y0 Z0
+N20 P1=5
+N30 $SWITCH P1
+N40 $CASE 5 G01 X100 F100
+N50 $BREAK
+N90 $ENDSWITCH
+N1000 M30

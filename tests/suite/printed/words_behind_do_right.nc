@@ -1,0 +1,7 @@
+; run: exit 0
+; page 251233163 diagnosis 20239, right
+N10 G00 X0 Y0 Z0 P1=0
+N20 $DO
+N30 P1=P1+1
+N50 $ENDDO P1<2
+N1000 M30

@@ -1,0 +1,9 @@
+; check: exit 1
+; page 251137419 diagnosis 20217, wrong
+; error 20217 at 7:22
+N10 G00 X0 Y0 Z0
+N251 P2=0
+N252 $IF P2
+N253 $ELSEIF P2==100 G01 X200 F500
+N254 $ENDIF
+N1000 M30

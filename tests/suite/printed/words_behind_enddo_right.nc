@@ -1,0 +1,9 @@
+; run: exit 0
+; page 251241867 diagnosis 20241, right
+N10 G00 X0 Y0 Z0
+N20 P2=10
+N30 $DO
+N35 P2=P2-1
+N40 $ENDDO P2 >= 10
+N45 G01 X100 F10000
+N1000 M30

@@ -1,0 +1,9 @@
+; check: exit 1
+; page 251241867 diagnosis 20241, wrong
+; error 20241 at 8:21
+N10 G00 X0 Y0 Z0
+N20 P2=10
+N30 $DO
+N35 P2=P2-1
+N40 $ENDDO P2 >= 10 G01 X100 F1000
+N1000 M30

@@ -1,0 +1,178 @@
+//! Online tool compensation (`#OTC`): where the wear puts the axes, and measuring type 7 (a fixed stop shows in the lag).
+//!
+//! Programs after the examples of TF5200 online tool compensation (213664139). Expected offsets from the direction of the
+//! programmed contour and from the way that the trace itself shows.
+
+use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::machine::Machine;
+use kontur_tests::{Run, machine, run_with_inputs, suite_machine};
+
+/// The machine with a tool list: D1 is a grinding wheel of radius 2.
+fn grinding() -> (Machine, Vec<Diagnostic>) {
+    suite_machine("grinding", &[])
+}
+
+fn ids(run: &Run) -> Vec<String> {
+    run.diagnostics.iter().map(|d| d.id.to_string()).collect()
+}
+
+/// Additional positions of X, Y and Z in the middle of a line; its end belongs to the corner.
+fn added(run: &Run, line: u32) -> [f64; 3] {
+    let records: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
+    let record = records[records.len() / 2];
+    [0, 1, 2].map(|axis| record.axes[axis].add)
+}
+
+#[track_caller]
+fn near(a: [f64; 3], b: [f64; 3]) {
+    assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} instead of {b:?}");
+}
+
+/// Round a square, counter-clockwise with the wheel outside, or clockwise with G41.
+fn square(otc: &str, side: &str) -> String {
+    let y = if side == "G42" { "X102\nY100\nX2\nY0" } else { "Y100\nX102\nY0\nX2" };
+    format!(
+        "G26 D1 F6000 X-20\n{otc}\nG138 {side} G01 X2 Y0\n{y}\nG40 X-20 Y-5\n#OTC OFF\nG04 0.2\nM30\n"
+    )
+}
+
+#[test]
+fn wear_from_outside_moves_the_wheel_towards_the_contour() {
+    let wear = [(0.0, "wear_mm", 0.5)];
+    let run = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G42"), &wear);
+    assert!(run.diagnostics.is_empty(), "{:?}", run.diagnostics);
+    // the wheel is below, to the right, above and to the left of the square
+    near(added(&run, 4), [0.0, 0.5, 0.0]);
+    near(added(&run, 5), [-0.5, 0.0, 0.0]);
+    near(added(&run, 6), [0.0, -0.5, 0.0]);
+    near(added(&run, 7), [0.5, 0.0, 0.0]);
+    let run = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G41"), &wear);
+    near(added(&run, 4), [0.5, 0.0, 0.0]);
+    near(added(&run, 5), [0.0, -0.5, 0.0]);
+    near(added(&run, 6), [-0.5, 0.0, 0.0]);
+}
+
+#[test]
+fn the_ways_to_the_contour_and_back_are_without_wear() {
+    let wear = [(0.0, "wear_mm", 0.5)];
+    let run = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G42"), &wear);
+    let approach = run.records.iter().filter(|r| r.line == 3);
+    assert!(approach.clone().count() > 10);
+    for r in approach {
+        assert!(r.axes[..3].iter().all(|a| a.add == 0.0), "at {}", r.k);
+    }
+    near(added(&run, 8), [0.0; 3]);
+    // the set positions stay on the programmed path, and the deviation is measured there
+    assert!(run.records.iter().all(|r| r.axes[0].set.to_bits() == r.axes[0].ipo.to_bits()));
+    assert!(run.records.iter().all(|r| r.contour_err_mm == 0.0));
+}
+
+#[test]
+fn wear_by_the_way_grows_with_it() {
+    // 1e5 units of 0.1 um for a metre are 10 mm for a metre
+    let text = square("#OTC ON [RADIUS CONT WEAR_CONST=100000]", "G42");
+    let run = run_with_inputs(grinding(), &text, &[]);
+    let start = run.records.iter().rfind(|r| r.line == 3).unwrap().path.s_mm;
+    for line in 4..=7 {
+        let records: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
+        let middle = records[records.len() / 2];
+        let offset: f64 = middle.axes[..3].iter().map(|a| a.add * a.add).sum::<f64>().sqrt();
+        let wear = (middle.path.s_mm - start) * 0.01;
+        // the cycle in which a block begins counts to either block
+        assert!((offset - wear).abs() < 0.01 * 0.11, "{offset} instead of {wear}");
+    }
+    // the tool list has 1 um for a metre; DISC leaves it out
+    let listed = run_with_inputs(grinding(), &square("#OTC ON [RADIUS CONT]", "G42"), &[]);
+    // some 350 mm up to the middle of the last side
+    let [x, ..] = added(&listed, 7);
+    assert!((x - 0.35e-3).abs() < 0.02e-3, "{x}");
+    let none = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G42"), &[]);
+    assert!(none.records.iter().all(|r| r.axes[..3].iter().all(|a| a.add == 0.0)));
+}
+
+#[test]
+fn automatic_is_the_sum() {
+    let text = square("#OTC ON [RADIUS AUTO WEAR_CONST=100000]", "G42");
+    let both = run_with_inputs(grinding(), &text, &[(0.0, "wear_mm", 0.5)]);
+    let text = text.replace("AUTO", "CONT");
+    let way = run_with_inputs(grinding(), &text, &[(0.0, "wear_mm", 0.5)]);
+    assert!((added(&both, 7)[0] - added(&way, 7)[0] - 0.5).abs() < 1e-9);
+}
+
+#[test]
+fn the_length_needs_no_contour() {
+    let text = "D1 F6000\n#OTC [DISC]\n#OTC ON\nX50\n#OTC OFF\nG04 0.2\nM30\n";
+    let run = run_with_inputs(grinding(), text, &[(0.0, "wear_mm", 0.25)]);
+    near(added(&run, 4), [0.0, 0.0, -0.25]);
+    near(added(&run, 6), [0.0; 3]);
+}
+
+#[test]
+fn a_change_is_followed_within_the_acceleration_of_the_axis() {
+    for percent in [100.0, 5.0] {
+        let text = square(&format!("#OTC ON [RADIUS DISC ACC_WEIGHT={percent}]"), "G42");
+        let inputs = [(0.0, "wear_mm", 0.5), (1.5, "wear_mm", -0.4), (2.7, "wear_mm", 1.0)];
+        let (built, warnings) = grinding();
+        let limit = built.axes[0].dynamics().a_max_mm_s2 * percent / 100.0;
+        let run = run_with_inputs((built, warnings), &text, &inputs);
+        let t = run.cycle_s;
+        for axis in 0..2 {
+            let x: Vec<f64> = run.records.iter().map(|r| r.axes[axis].add).collect();
+            for w in x.windows(3) {
+                let a = (w[2] - 2.0 * w[1] + w[0]) / (t * t);
+                assert!(a.abs() <= limit * (1.0 + 1e-6) + 1e-6, "{a} of {limit}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_the_tool_does_not_allow_is_said() {
+    let text = square("#OTC ON [RADIUS DISC]", "G42");
+    // 2 mm at most
+    let run = run_with_inputs(grinding(), &text, &[(0.0, "wear_mm", 3.0)]);
+    assert_eq!(ids(&run), ["K-0138"]);
+    near(added(&run, 4), [0.0, 2.0, 0.0]);
+    // a cutter, no tool at all, and a cutter while it is on
+    let cutter = run_with_inputs(grinding(), &text.replace("D1", "D2"), &[]);
+    assert_eq!(ids(&cutter), ["21391"]);
+    let later = "D1 F6000\n#OTC ON\nX10\nD2\nX20\nM30\n";
+    assert_eq!(ids(&run_with_inputs(grinding(), later, &[])), ["21391"]);
+}
+
+/// The built-in machine whose X looks for a fixed stop: 2 mm of lag.
+fn stopping(more: &[&str]) -> (Machine, Vec<Diagnostic>) {
+    let mut settings = vec!["X,Y.kenngr.messachse=1"];
+    settings.extend(more);
+    machine(&settings)
+}
+
+const STOP: [&str; 2] =
+    ["X.kenngr.meas_signal_fixed_stop=1", "X.kenngr.fixed_stop_pos_lag_limit=20000"];
+
+#[test]
+fn a_fixed_stop_ends_the_run() {
+    let text = "#MEAS MODE [7]\nG100 X50 F1200\nG01 Z[V.A.MERF.X]\nM30\n";
+    // a force that the drive cannot overcome, for as long as the run lasts
+    let force = [(1.0, "X_force_mm_s2", -30_000.0), (1.1, "X_force_mm_s2", 0.0)];
+    let run = run_with_inputs(stopping(&STOP), text, &force);
+    let at = run.records.iter().position(|r| r.axes[0].lag.abs() > 2.0).unwrap();
+    assert!(run.records[at - 1].axes[0].lag.abs() <= 2.0);
+    // before it the path is driven as programmed, behind it there is only the way of braking
+    let (here, rest) = (&run.records[at], run.records.last().unwrap());
+    assert!((here.path.v_mm_s - 20.0).abs() < 1e-9);
+    assert!(rest.axes[0].ipo > here.axes[0].ipo && rest.axes[0].ipo < here.axes[0].ipo + 2.0);
+    assert!((rest.axes[2].ipo - 1.0).abs() < 1e-9, "the signal is known to the program");
+    // the same without the force, and with a lag of the run that is never reached
+    for (settings, inputs) in [
+        (&STOP[..], &[][..]),
+        (&["X.kenngr.measure.fixed_stop_detect.pos_lag_limit=1000000"][..], &force[..]),
+    ] {
+        let all: Vec<&str> = STOP.iter().chain(settings).copied().collect();
+        let run = run_with_inputs(stopping(&all), text, inputs);
+        assert!((run.records.last().unwrap().axes[0].ipo - 50.0).abs() < 1e-9);
+        assert!(run.records.last().unwrap().axes[2].ipo.abs() < 1e-9);
+    }
+    let refused = run_with_inputs(stopping(&[]), text, &[]);
+    assert_eq!(ids(&refused), ["50059"]);
+}
