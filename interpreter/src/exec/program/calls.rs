@@ -140,7 +140,7 @@ impl Executor {
             .frames
             .iter()
             .filter(|f| level.index.entry(f.open).end.is_none())
-            .map(|f| (f.keyword, *level.index.entry(f.open)))
+            .map(|f| (f.keyword, level.index.entry(f.open)))
             .collect();
         let Some((keyword, entry)) = open.first().copied() else { return };
         let closer = keyword.closer().map_or("", super::index::Keyword::text);

@@ -1,12 +1,12 @@
 //! Open program files: text, structure, and the parsed blocks of what runs more than once.
 
 use super::actual::needs_actual;
-use super::index::{Index, build};
+use super::index::{Index, Labels, STRUCTURE_MAX, Section, build};
 use crate::diag::{Diagnostic, Location};
 use crate::exec::options::SkipLevels;
 use crate::exec::step::Sync;
 use crate::source::{BLOCK_LENGTH_MAX, BlockReader, OpenError, Position, RawBlock, Sources};
-use crate::syntax::ast::{Block, Body, Span};
+use crate::syntax::ast::{Block, Body, LabelKind, Span};
 use crate::syntax::macros;
 use crate::syntax::{Parser, Plain, PlainFrame, PlainWord};
 use std::collections::BTreeMap;
@@ -16,9 +16,6 @@ use std::sync::Arc;
 
 /// Blocks of all files that are kept parsed; those beyond are parsed again on every pass.
 const CACHED_MAX: usize = 50_000;
-
-/// Block numbers that are kept of one program, for `L SEQUENCE`.
-const NUMBERS_MAX: usize = 500_000;
 
 /// A parsed block.
 #[derive(Debug)]
@@ -335,29 +332,38 @@ impl Files {
         Ok(Some((block, reader.position())))
     }
 
-    /// Begin and end of the first block of each number between two places, outside of `#COMMENT`.
+    /// Place of the first block of each number of a section, outside of `#COMMENT`; `None` if these are too many to be kept.
     ///
     /// # Errors
     /// The file cannot be read.
-    pub(in crate::exec) fn numbers(
-        &mut self,
-        file: usize,
-        from: Position,
-        end: u64,
-    ) -> io::Result<BTreeMap<u64, (Position, Position)>> {
+    pub(super) fn numbers(&mut self, file: usize, section: usize) -> io::Result<Option<Labels>> {
         let ProgramFile { reader, index, .. } = &mut self.open[file];
-        reader.seek(from);
-        let mut numbers = BTreeMap::new();
-        while reader.position().offset < end && numbers.len() < NUMBERS_MAX {
+        let Section { start, end, .. } = index.sections[section];
+        reader.seek(start);
+        let mut numbers = Labels::default();
+        while reader.position().offset < end && numbers.bytes() <= STRUCTURE_MAX {
             let Some(raw) = reader.next_block()? else { break };
-            let (position, number) = (raw.position, super::index::number_of(raw.text));
-            if let Some(number) = number
-                && index.block(position).is_some()
+            let Some(number) = super::index::number_of(raw.text).map(LabelKind::Number) else {
+                continue;
+            };
+            if let Some(place) = index.block(raw.position)
+                && numbers.get(section, &number).is_none()
             {
-                numbers.entry(number).or_insert((position, reader.position()));
+                numbers.insert(section, number, place);
             }
         }
-        Ok(numbers)
+        Ok(Some(numbers).filter(|numbers| numbers.bytes() <= STRUCTURE_MAX))
+    }
+
+    /// Place of the block that follows the one at a position.
+    pub(in crate::exec) fn behind(&mut self, file: usize, position: Position) -> Position {
+        let ProgramFile { reader, .. } = &mut self.open[file];
+        reader.seek(position);
+        // it was read before: what cannot be read now ends there
+        match reader.next_block() {
+            Ok(Some(_)) => reader.position(),
+            _ => position,
+        }
     }
 
     /// Place of all of the block at a position.

@@ -4,18 +4,22 @@
 //! memory does not depend on the blocks in between.
 
 mod build;
+mod entries;
 mod head;
 mod keyword;
 mod labels;
+mod packed;
 #[cfg(test)]
 mod tests;
 
 use crate::source::Position;
 use crate::syntax::ast::{LabelKind, Span};
+pub(super) use build::STRUCTURE_MAX;
 pub(in crate::exec) use build::build;
+use entries::Entries;
 pub(in crate::exec) use head::number_of;
 pub(in crate::exec) use keyword::Keyword;
-use labels::Labels;
+pub(super) use labels::Labels;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -23,7 +27,7 @@ use std::sync::Arc;
 pub(in crate::exec) type EntryId = u32;
 
 /// One statement.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) struct Entry {
     pub(in crate::exec) position: Position,
     /// The keyword in its block.
@@ -37,6 +41,14 @@ pub(in crate::exec) struct Entry {
     pub(in crate::exec) end: Option<EntryId>,
     /// Innermost structure around it.
     pub(in crate::exec) parent: Option<EntryId>,
+}
+
+impl Entry {
+    /// Without partners; `start` is the place of the keyword in its block.
+    fn alone(position: Position, start: usize, keyword: Keyword) -> Self {
+        let span = Span::new(start, start + keyword.text().len());
+        Self { position, span, keyword, open: None, next: None, end: None, parent: None }
+    }
 }
 
 /// Target of a jump.
@@ -59,9 +71,9 @@ pub(in crate::exec) struct Section {
 }
 
 /// Structure of a file.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(in crate::exec) struct Index {
-    pub(in crate::exec) entries: Vec<Entry>,
+    entries: Entries,
     pub(in crate::exec) sections: Vec<Section>,
     labels: Labels,
     /// First local subroutine of each name.
@@ -73,12 +85,17 @@ pub(in crate::exec) struct Index {
 impl Index {
     /// The entry at a place.
     pub(in crate::exec) fn at(&self, position: Position) -> Option<EntryId> {
-        let i = self.entries.binary_search_by_key(&position.offset, |e| e.position.offset).ok()?;
-        EntryId::try_from(i).ok()
+        let (id, last) = self.entries.last_up_to(position.offset)?;
+        (last.offset == position.offset).then_some(id)
     }
 
-    pub(in crate::exec) fn entry(&self, id: EntryId) -> &Entry {
-        &self.entries[id as usize]
+    pub(in crate::exec) fn entry(&self, id: EntryId) -> Entry {
+        self.entries.get(id)
+    }
+
+    /// Comments and `#IF` statements, in the order of the text.
+    pub(super) fn silencing(&self) -> impl Iterator<Item = Entry> {
+        self.entries.silencing()
     }
 
     /// Label of a section.
@@ -89,10 +106,10 @@ impl Index {
     /// Where a block is in the structure of its section; `None` inside `#COMMENT`.
     pub(super) fn block(&self, position: Position) -> Option<LabelPlace> {
         // the last statement up to the block says what the block is in
-        let before = self.entries.partition_point(|e| e.position.offset <= position.offset);
-        let Some(entry) = before.checked_sub(1).map(|i| &self.entries[i]) else {
+        let Some((id, _)) = self.entries.last_up_to(position.offset) else {
             return Some(LabelPlace { position, parent: None });
         };
+        let entry = self.entry(id);
         let itself = entry.position.offset == position.offset;
         let keyword = entry.keyword;
         let closes = keyword.opener().and_then(Keyword::closer) == Some(keyword);

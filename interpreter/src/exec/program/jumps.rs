@@ -174,9 +174,7 @@ impl Executor {
         let program = self.program_of(level);
         if let LabelKind::Number(number) = label {
             self.learn_numbers(file, section, span)?;
-            let blocks = self.sequences.known.get(&(file, section));
-            let block = blocks.and_then(|blocks| blocks.get(number));
-            if let Some(place) = block.and_then(|(at, _)| self.levels[level].index.block(*at)) {
+            if let Some(place) = self.numbered(file, section, *number) {
                 return Ok(place);
             }
             let text = format!("{program} has neither a label nor a block N{number}");

@@ -9,11 +9,12 @@
 
 use super::calls::{LEVELS_MAX, Target};
 use super::executor::Executor;
+use super::index::LabelPlace;
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::values::number::whole;
-use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, Span};
+use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, LabelKind, Span};
 
 /// Contents of the bracket.
 #[derive(Default)]
@@ -53,13 +54,13 @@ impl Executor {
         };
         self.learn_numbers(file, section, group.span)?;
         let place = |number: u64, span: Span| {
-            let known = self.sequences.known.get(&(file, section));
-            known.and_then(|blocks| blocks.get(&number)).copied().ok_or_else(|| {
+            self.numbered(file, section, number).ok_or_else(|| {
                 let text = format!("the program has no block N{number}");
                 Fault::new(Condition::Label, text, span)
             })
         };
-        let ((start, _), (end, behind)) = (place(first, at)?, place(last, to)?);
+        let (start, end) = (place(first, at)?.position, place(last, to)?.position);
+        let behind = self.files.behind(file, end);
         if end.offset < start.offset {
             let text = format!("the block N{last} comes before N{first}");
             return Err(Fault::new(Condition::Label, text, to));
@@ -152,13 +153,23 @@ impl Executor {
         if self.sequences.known.contains_key(&(file, section)) {
             return Ok(());
         }
-        let index = std::sync::Arc::clone(&self.files.file(file).index);
-        let part = &index.sections[section];
-        let blocks = self.files.numbers(file, part.start, part.end).map_err(|error| {
-            let name = std::sync::Arc::clone(&self.files.file(file).name);
-            Fault::new(Condition::NoFile, format!("{name}: {error}"), span)
+        let name = std::sync::Arc::clone(&self.files.file(file).name);
+        let numbers = self
+            .files
+            .numbers(file, section)
+            .map_err(|error| Fault::new(Condition::NoFile, format!("{name}: {error}"), span))?;
+        let numbers = numbers.ok_or_else(|| {
+            let text = format!("{name}: too many block numbers without order to look for one");
+            Fault::new(Condition::Nesting, text, span)
+                .hint("number the blocks of the program in rising order")
         })?;
-        self.sequences.known.insert((file, section), blocks);
+        self.sequences.known.insert((file, section), numbers);
         Ok(())
+    }
+
+    /// The first block of a number, once the numbers of its program are learnt.
+    pub(super) fn numbered(&self, file: usize, section: usize, number: u64) -> Option<LabelPlace> {
+        let numbers = self.sequences.known.get(&(file, section))?;
+        numbers.get(section, &LabelKind::Number(number))
     }
 }

@@ -1,6 +1,6 @@
 //! What a program keeps from block to block: its levels with their control blocks, what it calls, the numbers it knows.
 
-use super::index::{EntryId, Index, Keyword};
+use super::index::{EntryId, Index, Keyword, Labels};
 use super::info::ProgramInfo;
 use crate::exec::block::modal::Modal;
 use crate::exec::options::Value;
@@ -100,11 +100,8 @@ pub(in crate::exec) struct ModalCycle {
     pub(super) every_block: bool,
 }
 
-/// Begin and end of the first block of each number of a program.
-pub(super) type Blocks = BTreeMap<u64, (Position, Position)>;
-
 /// Block numbers of the programs that sequences or returns asked for, by file and section.
 #[derive(Debug, Default)]
 pub(in crate::exec) struct Sequences {
-    pub(super) known: BTreeMap<(usize, usize), Blocks>,
+    pub(super) known: BTreeMap<(usize, usize), Labels>,
 }

@@ -164,9 +164,8 @@ struct Silence {
 
 impl Silence {
     fn of(index: &Index) -> Self {
-        let around = |keyword| matches!(keyword, Keyword::CommentBegin | Keyword::ConditionalIf);
         let mut furthest = 0;
-        let entries = index.entries.iter().filter(|e| around(e.keyword)).map(|e| {
+        let entries = index.silencing().map(|e| {
             let end = e.end.map_or(u64::MAX, |end| index.entry(end).position.offset);
             furthest = end.max(furthest);
             (e.position, furthest)

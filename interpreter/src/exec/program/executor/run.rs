@@ -106,7 +106,7 @@ impl Executor {
     /// Comment blocks, inactive branches and remarks: true if the entry needs no parsing.
     fn jump_over(&mut self, id: EntryId) -> bool {
         let Some(level) = self.levels.last() else { return true };
-        let entry = *level.index.entry(id);
+        let entry = level.index.entry(id);
         match entry.keyword {
             Keyword::CommentBegin => {
                 match entry.end.map(|end| level.index.entry(end).position) {

@@ -16,8 +16,11 @@ use std::sync::Arc;
 /// Deepest nesting of control statements. Assumption: the vendor prints no number for 20211.
 const NESTING_MAX: usize = 64;
 
-/// Control statements, labels and programs of one file: its structure is all that is kept of it, up to 100 MB.
-const STRUCTURE_MAX: usize = 500_000;
+/// Memory in bytes for control statements, labels and programs of one file: its structure is all that is kept of it.
+pub(in crate::exec::program) const STRUCTURE_MAX: usize = 100_000_000;
+
+/// Bytes that a program or a local subroutine takes, with its name.
+const SECTION_BYTES: usize = 256;
 
 /// Mistakes of structure that are reported for one file.
 const DIAGNOSTICS_MAX: usize = 100;
@@ -41,6 +44,8 @@ struct Builder<'a> {
     remarks: Vec<(EntryId, bool)>,
     end_seen: bool,
     diagnostics: Vec<Diagnostic>,
+    /// Nothing more is read: it is nested too deep, or there is too much of it.
+    gives_up: bool,
 }
 
 impl Builder<'_> {
@@ -51,7 +56,7 @@ impl Builder<'_> {
             if first == Some(b'#') && is_command(head.rest, "COMMENT", "END") {
                 self.alone(raw, &head, Condition::CommentEndNotAlone);
                 let id = self.push(raw.position, head.at, Keyword::CommentEnd);
-                self.index.entries[open as usize].end = Some(id);
+                self.index.entries.change(open, |e| e.end = Some(id));
                 self.comment = None;
             }
             return;
@@ -84,20 +89,13 @@ impl Builder<'_> {
 
     fn is_full(&self) -> bool {
         let Index { entries, sections, labels, .. } = &self.index;
-        entries.len() + sections.len() + labels.len() > STRUCTURE_MAX
+        entries.bytes() + labels.bytes() + sections.len() * SECTION_BYTES > STRUCTURE_MAX
     }
 
     fn push(&mut self, position: Position, at: usize, keyword: Keyword) -> EntryId {
         let id = EntryId::try_from(self.index.entries.len()).unwrap_or(EntryId::MAX);
-        self.index.entries.push(Entry {
-            position,
-            span: Span::new(at, at + keyword.text().len()),
-            keyword,
-            open: None,
-            next: None,
-            end: None,
-            parent: self.stack.last().copied(),
-        });
+        let parent = self.stack.last().copied();
+        self.index.entries.push(Entry { parent, ..Entry::alone(position, at, keyword) }, parent);
         id
     }
 
@@ -203,9 +201,10 @@ impl Builder<'_> {
             }
             "IF" => {
                 let id = self.push(raw.position, head.at, Keyword::ConditionalIf);
-                self.index.entries[id as usize].open = Some(id);
+                self.index.entries.change(id, |e| e.open = Some(id));
                 self.conditional.push(self.stack.clone());
                 self.conditional_open.push(id);
+                self.nested(raw, head, self.conditional_open.len());
             }
             "ELSE" | "ENDIF" => {
                 let Some(open) = self.conditional_open.last().copied() else {
@@ -216,7 +215,7 @@ impl Builder<'_> {
                 let keyword =
                     if name == "ELSE" { Keyword::ConditionalElse } else { Keyword::ConditionalEnd };
                 let id = self.push(raw.position, head.at, keyword);
-                self.index.entries[id as usize].open = Some(open);
+                self.index.entries.change(id, |e| e.open = Some(open));
                 self.chain(open, id);
                 if keyword == Keyword::ConditionalEnd {
                     self.finish(open, id);
@@ -254,20 +253,13 @@ impl Builder<'_> {
         }
         let id = self.push(raw.position, head.at, keyword);
         if keyword.closer().is_some() {
-            self.index.entries[id as usize].open = Some(id);
+            self.index.entries.change(id, |e| e.open = Some(id));
             self.stack.push(id);
-            if self.stack.len() > NESTING_MAX {
-                let text = format!("control statements nested more than {NESTING_MAX} deep");
-                let d = Diagnostic::new(Condition::ControlNesting, text);
-                self.report(raw, head.at, name.len() + 1, d);
-            }
+            self.nested(raw, head, self.stack.len());
             return;
         }
         let Some(opener) = keyword.opener() else { return };
-        let found = self
-            .stack
-            .iter()
-            .rposition(|open| self.index.entries[*open as usize].keyword == opener);
+        let found = self.stack.iter().rposition(|open| self.index.entry(*open).keyword == opener);
         let Some(depth) = found else {
             let text = format!("{} without {}", keyword.text(), opener.text());
             let d = Diagnostic::new(keyword.unexpected(), text);
@@ -275,7 +267,7 @@ impl Builder<'_> {
             return;
         };
         if let Some(inner) = self.stack.get(depth + 1).copied() {
-            let inner = self.index.entries[inner as usize];
+            let inner = self.index.entry(inner);
             let closer = inner.keyword.closer().map_or("", Keyword::text);
             let text = format!(
                 "{} inside {}: its {closer} is missing (line {})",
@@ -288,9 +280,8 @@ impl Builder<'_> {
             self.stack.truncate(depth + 1);
         }
         let open = self.stack[depth];
-        let parent = self.index.entries[open as usize].parent;
-        self.index.entries[id as usize].open = Some(open);
-        self.index.entries[id as usize].parent = parent;
+        let parent = self.index.entry(open).parent;
+        self.index.entries.change(id, |e| (e.open, e.parent) = (Some(open), parent));
         self.chain(open, id);
         if keyword.opener().and_then(Keyword::closer) == Some(keyword) {
             self.finish(open, id);
@@ -298,10 +289,20 @@ impl Builder<'_> {
         }
     }
 
+    /// 20211 for a statement that is nested too deep.
+    fn nested(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, depth: usize) {
+        if depth > NESTING_MAX {
+            let text = format!("control statements nested more than {NESTING_MAX} deep");
+            let d = Diagnostic::new(Condition::ControlNesting, text);
+            self.report(raw, head.at, word(&head.rest[1..]).len() + 1, d);
+            self.gives_up = true;
+        }
+    }
+
     /// Appends a clause to its structure.
     fn chain(&mut self, open: EntryId, id: EntryId) {
         let last = self.last_clause.insert(open, id).unwrap_or(open);
-        self.index.entries[last as usize].next = Some(id);
+        self.index.entries.change(last, |e| e.next = Some(id));
     }
 
     /// The structure is closed: every clause learns where.
@@ -309,9 +310,8 @@ impl Builder<'_> {
         self.last_clause.remove(&open);
         let mut at = Some(open);
         while let Some(id) = at {
-            let entry = &mut self.index.entries[id as usize];
-            entry.end = Some(end);
-            at = entry.next;
+            self.index.entries.change(id, |e| e.end = Some(end));
+            at = self.index.entry(id).next;
         }
     }
 }
@@ -335,6 +335,7 @@ pub(in crate::exec) fn build(
         remarks: Vec::new(),
         end_seen: false,
         diagnostics: Vec::new(),
+        gives_up: false,
     };
     reader.seek(Position::START);
     loop {
@@ -345,10 +346,16 @@ pub(in crate::exec) fn build(
         builder.block(&raw, skip);
         if builder.is_full() {
             let text = format!(
-                "more than {STRUCTURE_MAX} control statements, labels and subroutines in one file"
+                "control statements, labels and subroutines of one file take more than {} MB",
+                STRUCTURE_MAX / 1_000_000
             );
+            let hint = "divide the program into several files, called one after the other";
             let location = raw.locate(file, Span::new(0, raw.text.len()));
-            builder.diagnostics.push(Diagnostic::new(Condition::Nesting, text).at(location));
+            let diagnostic = Diagnostic::new(Condition::Nesting, text).at(location).hint(hint);
+            builder.diagnostics.push(diagnostic);
+            builder.gives_up = true;
+        }
+        if builder.gives_up {
             break;
         }
     }

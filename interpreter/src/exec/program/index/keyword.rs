@@ -35,6 +35,40 @@ pub(in crate::exec) enum Keyword {
 }
 
 impl Keyword {
+    /// Every keyword, in the order of their codes (`keyword as u8`).
+    const ALL: [Self; 25] = [
+        Self::If,
+        Self::IfGoto,
+        Self::ElseIf,
+        Self::Else,
+        Self::EndIf,
+        Self::Switch,
+        Self::Case,
+        Self::Default,
+        Self::EndSwitch,
+        Self::For,
+        Self::EndFor,
+        Self::While,
+        Self::EndWhile,
+        Self::Do,
+        Self::EndDo,
+        Self::Repeat,
+        Self::Until,
+        Self::Break,
+        Self::Continue,
+        Self::CommentBegin,
+        Self::CommentEnd,
+        Self::ConditionalIf,
+        Self::ConditionalElse,
+        Self::ConditionalEnd,
+        Self::Remark,
+    ];
+
+    /// The keyword of a code.
+    pub(super) fn of_code(code: u8) -> Self {
+        Self::ALL.get(usize::from(code)).copied().unwrap_or(Self::Remark)
+    }
+
     pub(super) fn of_control(word: &str) -> Option<Self> {
         Some(match word {
             "IF" => Self::If,
@@ -135,5 +169,19 @@ impl Keyword {
 
     pub(in crate::exec) fn is_loop(self) -> bool {
         matches!(self, Self::For | Self::While | Self::Do | Self::Repeat)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_those_of_the_keywords() {
+        for (code, keyword) in (0..).zip(Keyword::ALL) {
+            assert_eq!(keyword as u8, code);
+            assert_eq!(Keyword::of_code(code), keyword);
+        }
+        assert_eq!(Keyword::Remark as usize + 1, Keyword::ALL.len());
     }
 }

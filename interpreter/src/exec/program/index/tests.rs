@@ -1,9 +1,10 @@
 //! Tests of `index`.
 
 use super::head::{SAYING, says_nothing};
-use super::{Index, Keyword, build};
+use super::{Entry, EntryId, Index, Keyword, build};
 use crate::exec::options::SkipLevels;
-use crate::source::{BlockReader, MemorySources, Sources};
+use crate::source::{BlockReader, MemorySources, Position, Sources};
+use kontur_kit::Random;
 use std::sync::Arc;
 
 fn index(text: &str) -> (Index, Vec<String>) {
@@ -16,6 +17,10 @@ fn index(text: &str) -> (Index, Vec<String>) {
         .map(|d| format!("{} {}", d.id, d.source.as_ref().map_or(0, |s| s.line)))
         .collect();
     (index, shown)
+}
+
+fn entries(index: &Index) -> Vec<Entry> {
+    (0..index.entries.len()).map(|id| index.entry(EntryId::try_from(id).unwrap())).collect()
 }
 
 #[test]
@@ -45,11 +50,12 @@ fn percent_lines_inside_a_program_are_remarks_unless_a_program_follows() {
 fn partners_of_control_statements() {
     let (i, d) = index("$IF P1\n$FOR P1=1,2,1\n$ENDFOR\n$ELSEIF P2\n$ELSE\nX1\n$ENDIF\n");
     assert!(d.is_empty(), "{d:?}");
-    let next: Vec<_> = i.entries.iter().map(|e| e.next).collect();
+    let entries = entries(&i);
+    let next: Vec<_> = entries.iter().map(|e| e.next).collect();
     assert_eq!(next, [Some(3), Some(2), None, Some(4), Some(5), None]);
-    assert_eq!(i.entries[4].end, Some(5));
-    assert_eq!(i.entries[1].parent, Some(0));
-    assert_eq!(i.entries[0].keyword, Keyword::If);
+    assert_eq!(entries[4].end, Some(5));
+    assert_eq!(entries[1].parent, Some(0));
+    assert_eq!(entries[0].keyword, Keyword::If);
 }
 
 #[test]
@@ -104,9 +110,10 @@ fn lines_gone_over_are_counted() {
     let text = format!("%A\n{plain}N7: X1\n$IF P1\n{plain}$ENDIF\nM30\n%L B\n{plain}");
     let (i, d) = index(&text);
     assert_eq!(d, ["K-0109 22"]);
-    let lines: Vec<_> = i.entries.iter().map(|e| e.position.line).collect();
+    let entries = entries(&i);
+    let lines: Vec<_> = entries.iter().map(|e| e.position.line).collect();
     assert_eq!(lines, [11, 20]);
-    let offsets: Vec<_> = i.entries.iter().map(|e| e.position.offset).collect();
+    let offsets: Vec<_> = entries.iter().map(|e| e.position.offset).collect();
     let place = |word: &str| text.find(word).unwrap() as u64;
     assert_eq!(offsets, [place("$IF"), place("$ENDIF")]);
     assert_eq!(i.sections[0].end, place("%L B"));
@@ -118,6 +125,155 @@ fn nothing_inside_comment_blocks_counts() {
     let (i, d) = index("#COMMENT BEGIN\n$IF (\n%L X\n#COMMENT END\nX1\n");
     assert!(d.is_empty());
     assert_eq!(i.entries.len(), 2);
-    assert_eq!(i.entries[0].end, Some(1));
+    assert_eq!(i.entry(0).end, Some(1));
     assert_eq!(i.sections.len(), 1);
+}
+
+/// Statements of a program, with their partners as they were written.
+#[derive(Default)]
+struct Written {
+    text: String,
+    lines: u32,
+    /// Place, opening statement, next clause, closing statement, structure around it.
+    partners: Vec<(Position, [Option<EntryId>; 4])>,
+}
+
+impl Written {
+    fn line(&mut self, line: &str) {
+        self.text.push_str(line);
+        self.text.push('\n');
+        self.lines += 1;
+    }
+
+    fn statement(&mut self, line: &str, around: Option<EntryId>) -> EntryId {
+        let id = EntryId::try_from(self.partners.len()).unwrap();
+        let position = Position { offset: self.text.len() as u64, line: self.lines + 1 };
+        self.partners.push((position, [None, None, None, around]));
+        self.line(line);
+        id
+    }
+
+    /// Some lines, structures among them, inside of one.
+    fn lines(&mut self, random: &mut Random, around: Option<EntryId>, depth: usize) {
+        for _ in 0..random.pick(&[0, 1, 2, 5, if depth == 0 { 300 } else { 40 }]) {
+            if self.partners.len() > 3000 {
+                return;
+            }
+            match random.below(if depth < 4 { 9 } else { 4 }) {
+                0 => self.line("N10 G01 X1"),
+                1 => self.line("(a remark)"),
+                2 => _ = self.statement("$BREAK", around),
+                3 => _ = self.statement("N7 $IF P1 > 2 $GOTO N10", around),
+                4 => self.structure(random, around, depth, ["$FOR P1 = 1, 5, 1", "$ENDFOR"], &[]),
+                5 => self.structure(random, around, depth, [" $WHILE P1 < 5", "N3 $ENDWHILE"], &[]),
+                6 => self.structure(random, around, depth, ["$REPEAT", "$UNTIL P1 == 1"], &[]),
+                7 => {
+                    let cases = ["$CASE 1", "$CASE 2", "$CASE 3", "$DEFAULT"];
+                    let cases = &cases[random.below(4)..];
+                    self.structure(random, around, depth, ["$SWITCH P1", "$ENDSWITCH"], cases);
+                }
+                _ => {
+                    let clauses = ["$ELSEIF P1", "/$ELSEIF P2", "$ELSE"];
+                    let clauses = &clauses[random.below(4)..];
+                    self.structure(random, around, depth, ["$IF P1 == 1", "$ENDIF"], clauses);
+                }
+            }
+        }
+    }
+
+    fn structure(
+        &mut self,
+        random: &mut Random,
+        around: Option<EntryId>,
+        depth: usize,
+        [opens, closes]: [&str; 2],
+        clauses: &[&str],
+    ) {
+        let open = self.statement(opens, around);
+        let mut parts = vec![open];
+        for line in clauses.iter().chain([&closes]) {
+            self.lines(random, Some(open), depth + 1);
+            parts.push(self.statement(line, around));
+        }
+        let end = parts.last().copied();
+        for (i, part) in parts.iter().enumerate() {
+            let next = parts.get(i + 1).copied();
+            self.partners[*part as usize].1 = [Some(open), next, end, around];
+        }
+    }
+}
+
+/// However many statements lie between them, partners are those that were written.
+#[test]
+fn partners_are_found_in_long_programs() {
+    let mut most = 0;
+    for seed in 0..60 {
+        let mut written = Written::default();
+        written.lines(&mut Random::new(seed), None, 0);
+        let (index, found) = index(&written.text);
+        assert!(found.is_empty(), "{seed}: {found:?}");
+        let entries = entries(&index);
+        most = most.max(entries.len());
+        assert_eq!(entries.len(), written.partners.len());
+        for (id, (entry, (position, partners))) in (0..).zip(entries.iter().zip(&written.partners))
+        {
+            assert_eq!(entry.position, *position);
+            assert_eq!([entry.open, entry.next, entry.end, entry.parent], *partners, "{seed} {id}");
+            assert_eq!(index.at(*position), Some(id));
+            let beside = Position { offset: position.offset + 1, ..*position };
+            assert_eq!(index.at(beside), None);
+        }
+    }
+    assert!(most > 1000, "{most}");
+}
+
+/// Statements with mistakes among them mean the same whatever follows them and wherever they are.
+#[test]
+fn mistakes_mean_the_same_in_long_programs() {
+    let lines = [
+        "$IF 1",
+        "$ENDIF",
+        "$ELSE",
+        "$ELSEIF 1",
+        "$FOR P1=1,2,1",
+        "$ENDFOR",
+        "$WHILE 1",
+        "$ENDWHILE",
+        "#IF 1",
+        "#ELSE",
+        "#ENDIF",
+        "#COMMENT BEGIN",
+        "#COMMENT END",
+        "$SWITCH 1",
+        "$CASE 1",
+        "$ENDSWITCH",
+        "%A",
+        "%L B",
+        "$DO",
+    ];
+    for seed in 0..300 {
+        let mut random = Random::new(seed);
+        // few enough to be kept as they are
+        let few: Vec<_> = (0..40).map(|_| random.pick(&lines)).collect();
+        let few = few.join("\n") + "\n";
+        let before = "$BREAK\n".repeat(random.below(40));
+        let (short, _) = index(&format!("%M\n{few}"));
+        let (long, _) = index(&format!("%M\n{before}{few}{}", "$BREAK\n".repeat(100)));
+        let (begins, offset) = (before.lines().count(), before.len() as u64);
+        let shifted = |id: Option<EntryId>| id.map(|id| id + EntryId::try_from(begins).unwrap());
+        for (id, entry) in (0..).zip(entries(&short)) {
+            let other = long.entry(shifted(Some(id)).unwrap());
+            let expected = Entry {
+                position: other.position,
+                span: other.span,
+                open: shifted(entry.open),
+                next: shifted(entry.next),
+                end: shifted(entry.end),
+                parent: shifted(entry.parent),
+                ..entry
+            };
+            assert_eq!(other, expected, "{seed} {id}\n{few}");
+            assert_eq!(other.position.offset, offset + entry.position.offset);
+        }
+    }
 }

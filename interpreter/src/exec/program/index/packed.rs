@@ -1,0 +1,40 @@
+//! Small differences of what follows each other in a text, some bytes each.
+
+use integer_encoding::VarInt;
+
+/// What follows each other in a group: a reader finds its place at the beginning of one and goes on from there.
+pub(super) const GROUP: usize = 16;
+
+/// Numbers behind each other, the small ones in one byte.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Bytes(Vec<u8>);
+
+impl Bytes {
+    /// Where the next number will be.
+    pub(super) fn end(&self) -> usize {
+        self.0.len()
+    }
+
+    pub(super) fn push(&mut self, number: impl VarInt) {
+        let mut room = [0; 10];
+        let length = number.encode_var(&mut room);
+        self.0.extend_from_slice(&room[..length]);
+    }
+
+    /// Reads from a place on.
+    pub(super) fn from(&self, place: usize) -> Numbers<'_> {
+        Numbers(self.0.get(place..).unwrap_or_default())
+    }
+}
+
+/// See [`Bytes::from`].
+pub(super) struct Numbers<'a>(&'a [u8]);
+
+impl Numbers<'_> {
+    /// The next number, zero behind the last one.
+    pub(super) fn next<N: VarInt + Default>(&mut self) -> N {
+        let Some((number, length)) = N::decode_var(self.0) else { return N::default() };
+        self.0 = &self.0[length..];
+        number
+    }
+}
