@@ -11,7 +11,8 @@
 //! 4. *forward pass*: no knot is faster than what can be reached from the one before;
 //! 5. *check* (TRAPEZ, SIN2, HSC): a span that exceeds a limit inside, or whose blocks differ in acceleration, is planned
 //!    along its limits, see [`crate::ride`]; where that is refused, the boundary that is exceeded most becomes a knot, and
-//!    3 to 5 are repeated.
+//!    3 to 5 are repeated;
+//! 6. *passing* (TRAPEZ, HSC): where that is faster, a kink is passed with an acceleration, see [`passing`].
 //!
 //! Guarantee: every span is feasible, and by induction a stop is possible from every state that is ever output, because
 //! the passes only lower velocities and `reach_down` is monotone.
@@ -41,6 +42,7 @@
 mod draft;
 mod knots;
 mod late;
+mod passing;
 mod stretch;
 
 use crate::cap::{Cap, SpeedLimit};
@@ -126,11 +128,13 @@ pub(crate) fn plan_again(
     let v_start =
         if rounded { v_start.lower(Cap { v_mm_s: feeds[0].v_mm_s, ..v_start }) } else { v_start };
     let early = Window { blocks, feeds, caps, forced, v_start, a_start, end, entries, carried };
-    Ok(match late::entries(blocks, feeds) {
-        // braking under G901 is a matter of the whole window
-        Some(entries) => Draft::of_spans(late::plan(&early, entries)?),
-        None => Draft::new(early.plan(known)?, blocks, (feeds, caps)),
-    })
+    // braking under G901 is a matter of the whole window
+    if let Some(entries) = late::entries(blocks, feeds) {
+        return Ok(Draft::of_spans(late::plan(&early, entries)?));
+    }
+    let spans = early.plan(known)?;
+    let passing = early.pass(&spans);
+    Ok(Draft::new(spans, passing, blocks, (feeds, caps)))
 }
 
 impl Window<'_> {

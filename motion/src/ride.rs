@@ -18,7 +18,7 @@ mod climb;
 mod meet;
 mod sine;
 
-use crate::profile::{Phase, Profile, RampShape, Rates};
+use crate::profile::{MotionState, Phase, Profile, RampShape, Rates, ThirdOrderLimits};
 use climb::climb;
 use meet::Meet;
 
@@ -26,6 +26,8 @@ use meet::Meet;
 const SHORTEST_RAMP_S: f64 = 1e-4;
 /// Relative slack of a limit: rounding.
 const SLACK: f64 = 1e-9;
+/// Speed in mm/s that is rest but for rounding.
+const REST_MM_S: f64 = 1e-9;
 /// Relative gain of speed from which on a hill between two equal limits at the ends of a block is driven.
 const HILL: f64 = 0.005;
 
@@ -107,6 +109,60 @@ pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Prof
     let fall = turned(&climb(&mirror(cells), v1, 0.0)?, length);
     let speed = Meet { cells, rise: &rise, fall: &fall, v1 }.speed()?;
     Some(Profile::over(speed, length))
+}
+
+/// One block, or several between which nothing changes, with one jerk.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Alone {
+    block: Block,
+}
+
+impl Alone {
+    /// `None` if the limits change on the way, the ramps differ, or are those of SIN2.
+    pub(crate) fn of(cells: &[Cell]) -> Option<Self> {
+        let block = match joined(own(cells))[..] {
+            [block] if cells[0].rates.shape == RampShape::Trapez => block,
+            _ => return None,
+        };
+        let jerk = block.jerks[0];
+        block.jerks.iter().all(|j| (j - jerk).abs() <= SLACK * jerk).then_some(Self { block })
+    }
+
+    /// Jerk in mm/s3.
+    pub(crate) fn jerk(&self) -> f64 {
+        self.block.jerks[0]
+    }
+
+    /// Acceleration and deceleration in mm/s2.
+    pub(crate) fn rates(&self) -> [f64; 2] {
+        [self.block.acc, self.block.dec]
+    }
+
+    /// The fastest speed from one velocity and acceleration to another; `None` if there is none within the limits.
+    pub(crate) fn fastest(&self, (v0, a0): (f64, f64), (v1, a1): (f64, f64)) -> Option<Profile> {
+        #[cfg(test)]
+        crate::closed_forms::add();
+        let Block { end, v, acc, dec, .. } = self.block;
+        let limits = ThirdOrderLimits {
+            v_max_mm_s: v * (1.0 + SLACK),
+            v_min_mm_s: 0.0,
+            a_max_mm_s2: acc.max(a0).max(a1) * (1.0 + SLACK),
+            a_min_mm_s2: -dec.max(-a0).max(-a1) * (1.0 + SLACK),
+            jerk_mm_s3: self.jerk(),
+        };
+        let state = |p_mm: f64, v_mm_s: f64, a_mm_s2: f64| MotionState { p_mm, v_mm_s, a_mm_s2 };
+        let found = limits.fastest(&state(0.0, v0, a0), &state(end, v1, a1)).ok()?;
+        let mut at = Phase::state(0.0, v0, a0);
+        let phases = found.into_iter().map(|(t, j)| {
+            let phase = at.ramp(RampShape::Trapez, j, t);
+            at = phase.end();
+            phase
+        });
+        let phases: Vec<Phase> = phases.collect();
+        // a start that is too steep for what is ahead of it exceeds that
+        let keeps = |p: &Phase| p.lowest() >= -REST_MM_S && p.peak() <= v * (1.0 + 2.0 * SLACK);
+        phases.iter().all(keeps).then(|| Profile::over(phases, end))
+    }
 }
 
 /// Phases run backwards from the other end.

@@ -9,18 +9,26 @@ use std::sync::Arc;
 #[derive(Default)]
 pub(crate) struct Draft {
     pub(crate) spans: Vec<Span>,
+    /// The plan with acceleration zero at its knots, where some of them are passed with another one.
+    flat: Option<Vec<Span>>,
     blocks: Vec<Arc<Queued>>,
     feeds: Vec<Cap>,
     caps: Vec<Cap>,
 }
 
 impl Draft {
+    /// `passing`: what takes the place of a plan, see [`super::passing`].
     pub(super) fn new(
         spans: Vec<Span>,
+        passing: Option<Vec<Span>>,
         blocks: &[Arc<Queued>],
         (feeds, caps): (&[Cap], &[Cap]),
     ) -> Self {
-        Self { spans, blocks: blocks.to_vec(), feeds: feeds.to_vec(), caps: caps.to_vec() }
+        let (spans, flat) = match passing {
+            Some(passing) => (passing, Some(spans)),
+            None => (spans, None),
+        };
+        Self { spans, flat, blocks: blocks.to_vec(), feeds: feeds.to_vec(), caps: caps.to_vec() }
     }
 
     /// A plan of which nothing can be used again.
@@ -42,7 +50,7 @@ impl Draft {
             let inside = span.first + 1..span.end;
             (span.first..span.end).all(same) && caps[inside.clone()] == self.caps[inside]
         };
-        self.spans.iter().filter(stays).cloned().collect()
+        self.flat.as_ref().unwrap_or(&self.spans).iter().filter(stays).cloned().collect()
     }
 }
 

@@ -49,7 +49,7 @@ fn highest(blocks: &[Arc<Queued>], feeds: &[Cap], i: usize) -> Cap {
 pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Vec<Span>, Infeasible> {
     let mut late = Window { entries, ..early.clone() };
     late.carry_start();
-    let best = match (late.plan(Vec::new()), early.plan(Vec::new())) {
+    let best = match (late.plan_passing(), early.plan_passing()) {
         (Ok(late), Ok(early)) => faster(late, early),
         (Ok(plan), _) | (_, Ok(plan)) => plan,
         (Err(e), _) => return Err(e),
@@ -136,7 +136,7 @@ impl Window<'_> {
             for b in joints {
                 window.carried[b] = true;
             }
-            match window.plan(Vec::new()) {
+            match window.plan_passing() {
                 Ok(next) => plan = Some(next),
                 Err(_) => break,
             }

@@ -1,0 +1,78 @@
+//! Kinks that hold the path down between two lines, against closed forms.
+
+mod common;
+
+use common::{Job, axis, channel};
+use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
+use kontur_motion::planner::Setpoint;
+
+const CYCLE_US: u32 = 100;
+const CYCLE_S: f64 = 1e-4;
+/// Kinks may use the velocity jump of 1 ms of acceleration.
+const KINK_WEIGHT: f64 = 10.0;
+/// Acceleration in mm/s2, jerks in mm/s3: X is quick, Z is slow.
+const ACC: f64 = 2000.0;
+const QUICK: f64 = ACC / 0.01;
+const SLOW: f64 = ACC / 0.1;
+
+fn drive(kind: SlopeKind, points: &[&[f64]]) -> Vec<Setpoint> {
+    let of = |ramp: f64| AxisDynamics {
+        feed: FeedSlope { acc_mm_s2: ACC, dec_mm_s2: ACC, ramps_s: [ramp; 4] },
+        ..axis(KINK_WEIGHT)
+    };
+    let job = Job {
+        dynamics: channel(vec![of(ACC / QUICK), of(ACC / SLOW)]),
+        cycle_us: CYCLE_US,
+        ..Job::new(KINK_WEIGHT, kind)
+    };
+    job.drive(points, &[200.0])
+}
+
+/// Along X, then at 45 degrees, where Z holds the jerk down.
+const POINTS: [[f64; 2]; 3] = [[0.0, 0.0], [8.0, 0.0], [14.0, 6.0]];
+
+/// Speed at the kink: Z jumps by `v / sqrt 2`, X by less.
+fn at_kink() -> f64 {
+    ACC * 1e-3 * 2.0_f64.sqrt()
+}
+
+/// In front of the kink, with the jerk of X, the speed is lowest `a^2 / 2j` below the one at the kink and
+/// `v t - j t^3 / 3` away from it; there `a` is what the path has at the kink.
+#[test]
+fn the_lowest_speed_lies_on_the_quicker_side() {
+    for kind in [Hsc, Trapez] {
+        let out = drive(kind, &POINTS.each_ref().map(|p| &p[..]));
+        let kink = out.iter().position(|p| p.seq == 1).unwrap();
+        let Setpoint { v_mm_s: v, a_mm_s2: a, s_mm: s, .. } = out[kink];
+        // the setpoint lies up to a cycle behind the kink
+        let behind_s = 2.0 * (s - 8.0) / (v + at_kink());
+        assert!((0.0..=CYCLE_S).contains(&behind_s), "{kind:?}: {behind_s}");
+        assert!((v - a * behind_s - at_kink()).abs() < 2e-4, "{kind:?}: {v}");
+        assert!(a > 100.0, "{kind:?}: {a}");
+        let lowest = out[kink - 400..kink + 400]
+            .iter()
+            .min_by(|p, q| p.v_mm_s.total_cmp(&q.v_mm_s))
+            .unwrap();
+        let a = a - SLOW / 2.0_f64.sqrt() * behind_s;
+        let t = a / QUICK;
+        let (dip, way) = (a * t / 2.0, at_kink() * t - QUICK * t * t * t / 3.0);
+        assert!((at_kink() - lowest.v_mm_s - dip).abs() < 0.01 * dip, "{kind:?}: {lowest:?}");
+        let slip = CYCLE_S * at_kink();
+        assert!((8.0 - lowest.s_mm - way).abs() < slip, "{kind:?}: {lowest:?}");
+    }
+}
+
+/// Where both sides are the same nothing is gained: the path is slowest at the kink.
+#[test]
+fn between_equal_lines_the_lowest_speed_is_at_the_kink() {
+    // bends that one axis sees as the other one does
+    let points = [[0.0, 0.0], [6.0, 2.0], [12.0, 0.0]];
+    for kind in [Hsc, Trapez] {
+        let out = drive(kind, &points.each_ref().map(|p| &p[..]));
+        let kink = out.iter().position(|p| p.seq == 1).unwrap();
+        let near = &out[kink - 400..kink + 400];
+        let lowest = near.iter().map(|p| p.v_mm_s).fold(f64::INFINITY, f64::min);
+        assert!(out[kink].v_mm_s - lowest < 1e-3, "{kind:?}: {lowest}");
+    }
+}
