@@ -104,6 +104,7 @@ conditions! {
     MeasuringTypeOfG100 = Vendor 20138: Error ProgramAbort 3 1, "G100 does not fit the measuring type", cause "types 5 and 6 measure by G310", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
     LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
     SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
+    TwoSignalFunctions = Vendor 20156: Error ProgramAbort 3 1, "two M functions in a block that wait for the signal of edge banding", cause "P-CHAN-00041 is MNE_SNS for both", hint "write one of them into a block of its own", parameter "P-CHAN-00041";
     ToolWhileCoupled = Vendor 20169: Error ProgramAbort 3 1, "tool data changed while axes are coupled", cause "D2 after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before the D word";
     ToolDataTwice = Vendor 20170: Error ProgramAbort 3 1, "D twice in one block", hint "leave one of the two out";
     FeedTwice = Vendor 20175: Error ProgramAbort 3 1, "F twice in one block", hint "the feed holds for the whole block: leave one F out";
@@ -307,6 +308,9 @@ conditions! {
     ProbeActuated = Vendor 50052: Error FeedHold 6 1, "the probe is actuated before the measuring run", hint "clear the probe first: the input `probe` is 1 where the run begins";
     NoMeasuringAxis = Vendor 50059: Error FeedHold 6 1, "axis that does not take part in measuring runs", cause "kenngr.messachse 0", hint "set kenngr.messachse to 1", parameter "P-AXIS-00118";
     MeasuringAxes = Vendor 50061: Error FeedHold 6 1, "more axes in a measuring run than its type allows", cause "type 2 has one axis, type 4 the three main axes", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
+    MovedWithoutBanding = Vendor 50263: Error FeedHold 6 1, "moved main axis that does not take part in edge banding", cause "kenngr.kasto_achse 0", hint "set kenngr.kasto_achse to 1", parameter "P-AXIS-00098";
+    NoBandingAxis = Vendor 50398: Error FeedHold 6 1, "no axis for edge banding", cause "kenngr.kasto_achse is 0 for all main axes", hint "set kenngr.kasto_achse to 1 for the axes of the plane", parameter "P-AXIS-00098";
+    BandingPath = Vendor 50655: Error FeedHold 6 1, "not enough path for the way after the signal of edge banding", cause "the block ends before, or the path is too fast to stop that soon", hint "lengthen the block, lower F, or raise V.G.RW", parameter "P-CHAN-00030";
     SpeedError = Vendor 50118: Error FeedHold 6 0, "axis speed above the limit", cause "> vb_max·(1+P-AXIS-00440/1000), default +9 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     SpeedWarning = Vendor 50119: Warning None 1 0, "axis speed above the warning level", cause "P-AXIS-00439, +5 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     DynamicsLimited = Vendor 50130: Warning None 1 0, "dynamics limited", cause "weighting G130-G133, G231, G233 beyond the limit", hint "lower the weight, or raise what the axis list allows (P-AXIS-00008 for accelerations)";
