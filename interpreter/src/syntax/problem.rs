@@ -260,6 +260,12 @@ fn refine(
             let problem = raised(problem, condition);
             if rest.is_empty() { problem.hint("the bracket is not closed") } else { problem }
         }
+        // its axis comes behind the bracket
+        Context::Command
+            if before.trim_end().ends_with(']') && has_name(content, &["#SET", "TIP"]) =>
+        {
+            Problem::new(Condition::Unsupported, problem.span, "#SET TIP is not supported")
+        }
         Context::Command if before.trim_end().ends_with(']') => {
             raised(problem, Condition::WordsBehindCommand)
         }
@@ -307,10 +313,14 @@ fn refine(
 
 /// `#GET CMDPOS`, `#GET ACTPOS` and `#SET IPO SOLLPOS`, which have a number of their own for their bracket.
 fn asks_for_positions(content: &str) -> bool {
-    let name = content.split('[').next().unwrap_or_default().to_ascii_uppercase();
-    let words: Vec<&str> = name.split_ascii_whitespace().collect();
-    [&["#GET", "CMDPOS"][..], &["#GET", "ACTPOS"], &["#SET", "IPO", "SOLLPOS"]]
-        .contains(&&words[..])
+    let names = [&["#GET", "CMDPOS"][..], &["#GET", "ACTPOS"], &["#SET", "IPO", "SOLLPOS"]];
+    names.iter().any(|name| has_name(content, name))
+}
+
+/// The block is the command with these words in its name.
+fn has_name(content: &str, name: &[&str]) -> bool {
+    let words = content.split('[').next().unwrap_or_default().split_ascii_whitespace();
+    words.map(str::to_ascii_uppercase).eq(name.iter().copied())
 }
 
 /// The vendor's number for what is wrong after a control statement.

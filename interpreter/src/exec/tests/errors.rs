@@ -95,6 +95,8 @@ fn what_the_manual_knows_is_never_unknown() {
         "#SPLINE TYPE BSPLINE",
         "#SET SPLINETYPE BSPLINE",
         "#TOOL LIFE READ",
+        "#SET TIP [1.0, 1.5, 2.0] X",
+        "#RT WHILE",
         "#VOLCOMP ON",
         "Z[OSC ON ZERO_POS=1 EXCUR=2 FEED=100 SHORT]",
         "X[LIFT 1]",
