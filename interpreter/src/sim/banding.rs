@@ -43,11 +43,12 @@ impl Simulation {
 
     /// Looks for the signal after a cycle; the path ends at its stop from the next one on.
     pub(super) fn watch_banding(&mut self) {
-        let now_mm = self.actual_mm();
-        let Some(banding) = &mut self.banding else { return };
-        if banding.signalled || !matches!(self.phase, Phase::Running | Phase::Waiting(_)) {
+        let waits = self.banding.as_ref().is_some_and(|banding| !banding.signalled);
+        if !waits || !matches!(self.phase, Phase::Running | Phase::Waiting(_)) {
             return;
         }
+        let now_mm = self.actual_mm();
+        let Some(banding) = &mut self.banding else { return };
         let signal = banding.latched(&self.inputs, &now_mm);
         banding.before_mm = now_mm;
         let Some(mut place) = signal else { return };
