@@ -25,9 +25,9 @@ pub use program::check::Checked;
 pub(crate) use program::check::check;
 pub(crate) use program::executor::Executor;
 pub(crate) use step::{
-    Approach, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion, OscillatingMotion,
-    Probed, ShapingSettings, ShapingSetup, SourceRef, SpindleMotion, SpindleState, Step, Sync,
-    WearSetting, WornPart,
+    Approach, BandingRun, CuttingSpeed, EndReason, Event, Feedback, IndependentMotion,
+    OscillatingMotion, Probed, ShapingSettings, ShapingSetup, SourceRef, SpindleMotion,
+    SpindleState, Step, Sync, WearSetting, WornPart,
 };
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 
 mod act;
 mod axes;
+mod banding;
 mod chain;
 mod fault;
 mod independent;
@@ -30,6 +31,7 @@ use crate::exec::{EndReason, Event, Executor, Feedback, SourceRef, Step, Sync};
 use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use axes::Driver;
+use banding::Banding;
 use chain::AxisChain;
 use independent::IndependentAxes;
 use inputs::Inputs;
@@ -129,6 +131,8 @@ pub(crate) struct Simulation {
     thread: Option<Thread>,
     /// A measuring run is on its way.
     probing: Option<Probing>,
+    /// A motion of edge banding is on its way.
+    banding: Option<Banding>,
     /// `#OTC`.
     wear: Wear,
     /// Set positions of the path axes in the cycle before as the planner has them, in a thread.
@@ -264,6 +268,7 @@ impl Simulation {
         }
         self.through_the_axes();
         self.watch_probe();
+        self.watch_banding();
         self.check_time();
         true
     }
@@ -379,8 +384,13 @@ impl Simulation {
         let jerk_limited = block.slope.kind != SlopeKind::Step;
         let motion = Motion::of(&block);
         let (seq, target) = (block.seq, block.path.end().clone());
+        let bands = events.iter().any(|event| matches!(event, Event::Banding(_)));
         self.underway.push_back(Underway { seq, source, motion, target, jerk_limited, events });
         self.smoothing.push(*block, &mut self.planner);
+        if bands {
+            self.smoothing.flush(&mut self.planner);
+            self.planner.halt_behind();
+        }
         self.not_contoured();
     }
 
@@ -393,6 +403,10 @@ impl Simulation {
 
     /// The path has come to rest after everything that was pushed.
     fn at_rest(&mut self) {
+        if self.planner.halts() {
+            self.at_halt();
+            return;
+        }
         let Some((after, source, events)) = self.pending.take() else {
             self.pull();
             return;
@@ -402,6 +416,17 @@ impl Simulation {
         for event in events {
             self.act(event, k);
         }
+        self.expect_stops();
+        let wait = match after {
+            After::Sync(sync) => Wait::for_sync(sync, self.cycle),
+            After::End(reason) => Wait::for_end(reason),
+        };
+        wait.end_oscillations(&mut self.independent);
+        self.phase = Phase::Waiting(wait);
+    }
+
+    /// The axes are expected where the path rests.
+    fn expect_stops(&mut self) {
         for (i, chain) in self.chains.iter_mut().enumerate() {
             if let Driver::Path(p) = self.drivers[i]
                 && !self.independent.is_moving(p)
@@ -411,12 +436,6 @@ impl Simulation {
                 self.stops_at[i] = self.current;
             }
         }
-        let wait = match after {
-            After::Sync(sync) => Wait::for_sync(sync, self.cycle),
-            After::End(reason) => Wait::for_end(reason),
-        };
-        wait.end_oscillations(&mut self.independent);
-        self.phase = Phase::Waiting(wait);
     }
 
     /// A wait is over: acts and returns to the program.
@@ -436,6 +455,8 @@ impl Simulation {
                 self.thread_delay = 0.0;
                 self.thread = None;
             }
+            wait::Action::Halted => self.call_at_halt(),
+            wait::Action::Resume => self.resume(),
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),
             wait::Action::MachineData { axis } => self.machine_data(axis),
             wait::Action::SetPosition { axis, offset_mm } => {

@@ -31,6 +31,7 @@
 
 mod extend;
 mod feedhold;
+mod halt;
 mod replan;
 mod sharp;
 
@@ -79,7 +80,8 @@ pub enum Next {
     Setpoint,
     /// More blocks, or [`Planner::finish`], are needed first.
     Input,
-    /// At rest at the end of everything that was pushed before [`Planner::finish`].
+    /// At rest at the end of everything that was pushed before [`Planner::finish`], or where the path halts
+    /// ([`Planner::halts`]).
     Rest,
 }
 
@@ -110,6 +112,8 @@ pub struct Planner {
     /// Cycle in which the kernels were set.
     kernels_since: Option<u64>,
     brake: Option<EmergencyBraking>,
+    /// What lies behind the place where the path halts, if it is to halt.
+    halted: Option<Vec<Segment>>,
     /// Override and feedhold in effect, and those asked for.
     active: Realtime,
     wanted: Realtime,
@@ -145,6 +149,7 @@ impl Planner {
             changes: None,
             kernels_since: None,
             brake: None,
+            halted: None,
             active: Realtime::default(),
             wanted: Realtime::default(),
         }
@@ -203,7 +208,7 @@ impl Planner {
         if self.is_held() {
             let start = Start { speed: Cap::STOP, a_mm_s2: 0.0, ..self.plan.start };
             self.plan = Plan::from_state(start);
-            self.last = None;
+            (self.last, self.halted) = (None, None);
         }
     }
 
@@ -249,6 +254,11 @@ impl Planner {
         self.finishing = true;
     }
 
+    /// The path comes to rest behind what is planned.
+    fn ends(&self) -> bool {
+        self.finishing || self.halted.is_some()
+    }
+
     /// Produces the next setpoint if it can.
     ///
     /// # Errors
@@ -264,9 +274,9 @@ impl Planner {
                 return Ok(Next::Setpoint);
             }
             if self.plan.segments.is_empty() && self.plan.is_at_rest() {
-                return Ok(if self.finishing { Next::Rest } else { Next::Input });
+                return Ok(if self.ends() { Next::Rest } else { Next::Input });
             }
-            if !self.finishing && self.plan.programmed() < 2 * self.window {
+            if !self.ends() && self.plan.programmed() < 2 * self.window {
                 return Ok(Next::Input);
             }
             if self.is_held() {

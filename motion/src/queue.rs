@@ -110,6 +110,16 @@ impl Queued {
         Arc::new(rest)
     }
 
+    /// The first `s` mm of what is left of the block.
+    pub(crate) fn up_to(&self, s: f64) -> Self {
+        let mut part = Self::clone(self);
+        (part.length, part.goes_on) = (s, true);
+        let end = part.offset + s;
+        part.block.path.tangent(end, &mut part.ends.tangent_out);
+        part.block.path.curvature(end, &mut part.ends.curvature_out);
+        part
+    }
+
     /// True if braking to the feed of the next block may begin in that block (G901).
     pub(crate) fn brakes_late_into(&self, next: &Self) -> bool {
         let hsc = [self, next].iter().any(|q| q.block.slope.kind == SlopeKind::Hsc);
@@ -170,15 +180,9 @@ impl Queued {
         }
         let last = groups.len().saturating_sub(1);
         let part = |(i, (from, to, bend)): (usize, (f64, f64, f64))| {
-            let mut part = Self::clone(&self.remainder(from));
-            part.bend = bend;
-            if i < last {
-                (part.length, part.goes_on) = (to - from, true);
-                let end = self.offset + to;
-                part.block.path.tangent(end, &mut part.ends.tangent_out);
-                part.block.path.curvature(end, &mut part.ends.curvature_out);
-            }
-            Arc::new(part)
+            let rest = self.remainder(from);
+            let part = if i < last { rest.up_to(to - from) } else { Self::clone(&rest) };
+            Arc::new(Self { bend, ..part })
         };
         if last == 0 {
             return vec![Arc::clone(self)];

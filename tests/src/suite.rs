@@ -93,8 +93,10 @@ pub fn call(
 ) -> Result<(u8, Vec<Said>), String> {
     let mut args: Vec<OsString> = vec![verb.into(), program.into()];
     for option in options {
-        let machine = machines().join(option);
-        args.push(if machine.is_dir() { machine.into() } else { option.into() });
+        // a machine, or what `--input` reads
+        let places = [machines().join(option), folder("inputs").join(option)];
+        let file = places.into_iter().find(|path| path.exists());
+        args.push(file.map_or_else(|| option.into(), Into::into));
     }
     args.extend(more.iter().cloned());
     args.extend(["--diagnostics", "json"].map(OsString::from));

@@ -183,6 +183,8 @@ const ROWS: &[Row] = &[
     unsupported("UNLOCK"),
     unsupported("WCS TO MCS"),
     unsupported("RT CYCLE"),
+    unsupported("RT WHILE"),
+    unsupported("RT ENDWHILE"),
     unsupported("VOLCOMP"),
     unsupported("JOG"),
     unsupported("HANDWHEEL"),

@@ -120,6 +120,11 @@ impl Contour {
         self.events.push(event);
     }
 
+    /// A chamfer or rounding waits for the next motion.
+    pub(super) fn inserts(&self) -> bool {
+        self.insertion.is_some()
+    }
+
     /// Number of events that wait for the next step.
     pub(super) fn waiting(&self) -> usize {
         self.events.len()

@@ -2,6 +2,7 @@
 
 mod angles;
 mod arcs;
+mod banding;
 mod coupling;
 mod cutting;
 pub(super) mod dynamics;

@@ -236,6 +236,8 @@ pub(crate) enum Event {
     Wear(Option<WearSetting>),
     /// The tool comes to the contour of G41 or G42 in these axes, to its left if true, or leaves it.
     Engaged(Option<([usize; 2], bool)>),
+    /// Edge banding: the motion waits for the signal of the probe.
+    Banding(BandingRun),
     /// `#DISABLE AX LINK`: the axis stays where it is.
     Uncouple {
         /// Path axis.
@@ -411,6 +413,19 @@ pub(crate) struct Probed {
     pub signal_mm: Option<AxisVec>,
     /// Where the axes have come to rest, as set positions.
     pub rest_mm: AxisVec,
+}
+
+/// Edge banding in one motion: the path stops once behind the signal of the probe and continues after the function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct BandingRun {
+    /// Way from the place of the signal to the stop in mm, not negative.
+    pub(crate) way_mm: f64,
+    /// M function that is called at the stop.
+    pub(crate) number: u32,
+    /// Its value.
+    pub(crate) value: Option<f64>,
+    /// How long the path waits for it, in s.
+    pub(crate) seconds: f64,
 }
 
 /// What wears of a grinding wheel.

@@ -62,6 +62,8 @@ const COMMANDS: &[Command] = &[
     row(&["G74"], "G74 X1 Y2", "homing: the axes count as homed where they are", "the numbers are the order", "", "G74 X1 Y2", &["K-0111"]),
     row(&["G100", "G106"], "G100 X.. Y.. F.. [G106]", "measuring run: a straight line that ends where the probe signals; with G106 it continues to its target",
         "", "the signal comes from --input: probe at a time, X_probe_mm at a position of an axis; V.A.MESS.X, V.A.MERF.X, V.A.MOFFS.X hold what was measured", "G100 X10 F500", &["#MEAS", "G101", "G310", "K-0133", "50052", "50059", "P-CHAN-00057", "P-AXIS-00118", "P-AXIS-00215"]),
+    row(&["G107", "G108"], "G108   M97 G01 X.. Y.. F..   G107", "edge banding: in the next motion with an M function that is MNE_SNS in P-CHAN-00041 the path stops a way (V.G.RW) behind the signal of the probe, calls the function and continues; G107 ends it",
+        "", "the signal comes from --input: probe at a time, X_probe_mm at a position of an axis", "G108", &["G100", "K-0133", "20156", "50263", "50398", "50655", "P-AXIS-00098", "P-CHAN-00030", "P-CHAN-00041"]),
     row(&["G310"], "G310 G01 X.. F.. $GOTO[LABEL]", "measuring run of types 5 and 6: after a signal the program continues at the label, from the position of the axes", "", "", "G310 G01 X10 F500", &["G100", "#MEAS", "20956"]),
     row(&["G101", "G102"], "G101 X1 Y1   G102 X1", "takes measuring offsets (measured less target) times a factor into the offsets, and out again", "", "acts with the next absolute word of the axis", "G102 X1", &["G100", "K-0134"]),
     row(&["G98", "G99"], "G98 X..   G99 X..", "negative, positive software limit of an axis until the end of the program", "", "", "G99 X500", &["21897", "P-AXIS-00177", "P-AXIS-00178"]),

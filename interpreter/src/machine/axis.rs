@@ -91,6 +91,11 @@ impl Axis {
         self.get(axis_general::MEASURES)
     }
 
+    /// It takes part in edge banding (P-AXIS-00098).
+    pub(crate) fn bands(&self) -> bool {
+        self.get(axis_general::BANDS)
+    }
+
     /// Lag in mm (deg) beyond which a measuring run of type 7 takes the axis to be at a fixed stop (P-AXIS-00330, and the
     /// first of P-AXIS-00774, 00769 and 00331 that is not negative); `None`: it never is.
     pub fn fixed_stop_lag_mm(&self) -> Option<f64> {

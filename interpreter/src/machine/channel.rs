@@ -6,7 +6,10 @@ use super::table::param::{Number, Optional, Param, Text, Whole, whole};
 use super::table::start_up as from;
 use kontur_motion::block::{CurveJerk, SlopeKind, TransitionJerkMode, VectorLimits};
 use kontur_motion::realtime::OverrideMode;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// MNE_SNS of P-CHAN-00041.
+const AT_SIGNAL: u32 = 0x20;
 
 /// How many blocks the planner looks ahead (P-STUP-00070, P-STUP-00071).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +113,8 @@ pub struct Channel {
     pub g_groups: BTreeMap<u32, u32>,
     /// Durations of M functions in s (P-CHAN-00040).
     pub m_durations_s: BTreeMap<u32, f64>,
+    /// M functions that wait for the signal of edge banding (P-CHAN-00041 with MNE_SNS).
+    pub m_at_signal: BTreeSet<u32>,
     /// Durations of H functions in s (P-CHAN-00026).
     pub h_durations_s: BTreeMap<u32, f64>,
     /// Durations of the functions of each spindle in s, in the order of the list.
@@ -128,6 +133,8 @@ pub struct Channel {
     pub missing_signal_is_error: bool,
     /// Way after the signal in edge banding in mm (P-CHAN-00030).
     pub residual_path_mm: f64,
+    /// Edge banding lasts over several blocks (P-CHAN-00029).
+    pub banding_over_blocks: bool,
     /// The override does not act on G33 (P-CHAN-00836).
     pub thread_ignores_override: bool,
     /// Consecutive blocks of G33 are one thread (P-CHAN-00837).
@@ -254,6 +261,10 @@ impl Channel {
                 .filter_map(|(group, g)| Some((group, whole(g)?)))
                 .collect(),
             m_durations_s: table(of::M_DURATION),
+            m_at_signal: table(of::M_SYNCHRONISATION)
+                .into_iter()
+                .filter_map(|(m, kind)| (whole(kind)? & AT_SIGNAL != 0).then_some(m))
+                .collect(),
             h_durations_s: table(of::H_DURATION),
             spindle_durations_s: (0..SPINDLES).map(|i| SpindleDurations::of(p, i)).collect(),
             g8x_programs: (80..)
@@ -266,6 +277,7 @@ impl Channel {
             measuring_type: p.get(of::MEASURING_TYPE),
             missing_signal_is_error: p.get(of::MISSING_SIGNAL_IS_ERROR),
             residual_path_mm: p.get(of::RESIDUAL_PATH),
+            banding_over_blocks: p.get(of::BANDING_OVER_BLOCKS),
             thread_ignores_override: p.get(of::THREAD_IGNORES_OVERRIDE),
             thread_chain: p.get(of::THREAD_CHAIN),
             diagnosis_messages: match p.get(of::DIAGNOSIS_MESSAGES).as_deref() {

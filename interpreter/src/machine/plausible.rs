@@ -300,3 +300,22 @@ pub(super) fn check_presets(parameters: &Parameters, diagnostics: &mut Vec<Diagn
     let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
     diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
 }
+
+/// K-0075: the PLC acknowledges every function at once, so the path does not wait as P-CHAN-00041 says.
+pub(super) fn check_synchronisation(parameters: &Parameters, diagnostics: &mut Vec<Diagnostic>) {
+    let key = channel::M_SYNCHRONISATION.place().row.key;
+    let at_once = channel::SYNCHRONISATION
+        .iter()
+        .filter(|(name, _)| ["NO_SYNCH", "MOS", "MNE_SNS"].contains(name));
+    let at_once: Vec<u32> = at_once.map(|(_, bits)| *bits).collect();
+    let waits = |value: Option<f64>| value.and_then(whole).is_some_and(|v| !at_once.contains(&v));
+    let mut listed = parameters.settings().filter(|(_, s)| s.row.key == key);
+    let Some((i, setting)) = listed.find(|(_, s)| waits(s.value.number())) else { return };
+    let text = format!(
+        "m_synch[{}]: no time is spent on the acknowledgement of functions, the path does not wait for it",
+        i[0]
+    );
+    let hint = "m_prozess_zeit (P-CHAN-00040) and --techno-times let the path wait for M functions";
+    let diagnostic = Diagnostic::new(Condition::ListNoEffect, text).hint(hint);
+    diagnostics.push(finish(diagnostic, setting.row, setting.at.clone(), None));
+}

@@ -35,6 +35,7 @@ impl Simulation {
                 self.wear.set(setting, self.path_axes());
                 self.take_wear(k);
             }
+            Event::Banding(run) => self.begin_banding(run),
             Event::Engaged(engaged) => self.wear.engage(engaged),
             Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
             Event::SpindleFeedforward { spindle, on, weight_ratio } => {

@@ -77,7 +77,7 @@ impl Simulation {
     }
 
     /// Brakes everything and ends the run.
-    fn stop(&mut self, told: Vec<(usize, Condition)>) {
+    pub(super) fn stop(&mut self, told: Vec<(usize, Condition)>) {
         self.totals.aborted = true;
         if !matches!(self.phase, Phase::Stopping(_)) {
             for spindle in &mut self.spindles {

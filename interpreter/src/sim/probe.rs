@@ -38,21 +38,25 @@ impl Probing {
             };
             return self.stops.iter().any(stands).then(|| AxisVec::from_slice(now_mm));
         }
-        if inputs.probe {
-            return Some(AxisVec::from_slice(now_mm));
-        }
-        let passed = |(axis, surface): (usize, Option<f64>)| {
-            let (before, now) = (*self.before_mm.get(axis)?, *now_mm.get(axis)?);
-            let surface = surface?;
-            let passes =
-                (before < surface && surface <= now) || (now <= surface && surface < before);
-            passes.then(|| (surface - before) / (now - before))
-        };
-        let surfaces = inputs.surfaces_mm.iter().copied().enumerate();
-        let share = surfaces.filter_map(passed).min_by(f64::total_cmp)?;
-        let between = |(before, now): (&f64, &f64)| before + (now - before) * share;
-        Some(self.before_mm.iter().zip(now_mm).map(between).collect())
+        signal(inputs, &self.before_mm, now_mm)
     }
+}
+
+/// Actual positions where the probe signals between two cycles, if it does.
+pub(super) fn signal(inputs: &Inputs, before_mm: &[f64], now_mm: &[f64]) -> Option<AxisVec> {
+    if inputs.probe {
+        return Some(AxisVec::from_slice(now_mm));
+    }
+    let passed = |(axis, surface): (usize, Option<f64>)| {
+        let (before, now) = (*before_mm.get(axis)?, *now_mm.get(axis)?);
+        let surface = surface?;
+        let passes = (before < surface && surface <= now) || (now <= surface && surface < before);
+        passes.then(|| (surface - before) / (now - before))
+    };
+    let surfaces = inputs.surfaces_mm.iter().copied().enumerate();
+    let share = surfaces.filter_map(passed).min_by(f64::total_cmp)?;
+    let between = |(before, now): (&f64, &f64)| before + (now - before) * share;
+    Some(before_mm.iter().zip(now_mm).map(between).collect())
 }
 
 impl Simulation {

@@ -77,6 +77,7 @@ impl Simulation {
             thread_delay: 0.0,
             thread: None,
             probing: None,
+            banding: None,
             wear: Wear::default(),
             planned: start[..n].iter().copied().collect(),
             max_cycles,

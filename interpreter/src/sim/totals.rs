@@ -124,6 +124,7 @@ impl Totals {
             | Event::Uncouple { .. }
             | Event::Wear(_)
             | Event::Engaged(_)
+            | Event::Banding(_)
             | Event::Spindle { .. } => None,
         }
     }

@@ -22,6 +22,10 @@ pub(super) enum Action {
         axis: usize,
         offset_mm: f64,
     },
+    /// The axes are in their windows where the path has halted.
+    Halted,
+    /// The path continues behind its halt.
+    Resume,
     /// The axes do not go with a spindle any more.
     ThreadEnd,
     End(EndReason),
@@ -112,6 +116,17 @@ impl Wait {
         Self { until, action: Action::None, patience: Patience::default() }
     }
 
+    /// The path has halted: the axes come into their windows.
+    pub(super) fn for_halt() -> Self {
+        Self { until: Until::InPosition, action: Action::Halted, patience: Patience::default() }
+    }
+
+    /// What was called at a halt takes so many seconds.
+    pub(super) fn before_resuming(seconds: f64, cycle: CycleTime) -> Self {
+        let until = Until::Cycles((seconds / cycle.seconds()).round() as u64, Rest::Technology);
+        Self { until, action: Action::Resume, patience: Patience::default() }
+    }
+
     /// The end of the program: every axis has arrived.
     pub(super) fn for_end(reason: EndReason) -> Self {
         let action = Action::End(reason);
@@ -177,6 +192,8 @@ impl Wait {
             Action::None
             | Action::MachineData { .. }
             | Action::SetPosition { .. }
+            | Action::Halted
+            | Action::Resume
             | Action::ThreadEnd
             | Action::End(_) => true,
         };

@@ -1,5 +1,8 @@
 //! Errors of the grammar in the words of a user, with the vendor's number where there is one.
 
+mod expected;
+
+use self::expected::{BRACKET, COMMA, END, EQUALS, LEVEL, OPERATOR, VALUE, expected};
 use super::ast::{Function, Span};
 use super::{Rule, scan};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
@@ -257,6 +260,12 @@ fn refine(
             let problem = raised(problem, condition);
             if rest.is_empty() { problem.hint("the bracket is not closed") } else { problem }
         }
+        // its axis comes behind the bracket
+        Context::Command
+            if before.trim_end().ends_with(']') && has_name(content, &["#SET", "TIP"]) =>
+        {
+            Problem::new(Condition::Unsupported, problem.span, "#SET TIP is not supported")
+        }
         Context::Command if before.trim_end().ends_with(']') => {
             raised(problem, Condition::WordsBehindCommand)
         }
@@ -304,10 +313,14 @@ fn refine(
 
 /// `#GET CMDPOS`, `#GET ACTPOS` and `#SET IPO SOLLPOS`, which have a number of their own for their bracket.
 fn asks_for_positions(content: &str) -> bool {
-    let name = content.split('[').next().unwrap_or_default().to_ascii_uppercase();
-    let words: Vec<&str> = name.split_ascii_whitespace().collect();
-    [&["#GET", "CMDPOS"][..], &["#GET", "ACTPOS"], &["#SET", "IPO", "SOLLPOS"]]
-        .contains(&&words[..])
+    let names = [&["#GET", "CMDPOS"][..], &["#GET", "ACTPOS"], &["#SET", "IPO", "SOLLPOS"]];
+    names.iter().any(|name| has_name(content, name))
+}
+
+/// The block is the command with these words in its name.
+fn has_name(content: &str, name: &[&str]) -> bool {
+    let words = content.split('[').next().unwrap_or_default().split_ascii_whitespace();
+    words.map(str::to_ascii_uppercase).eq(name.iter().copied())
 }
 
 /// The vendor's number for what is wrong after a control statement.
@@ -438,77 +451,4 @@ fn without_value(problem: &Problem, before: &str) -> Problem {
 fn token(rest: &str) -> usize {
     let run = rest.bytes().take_while(|b| b.is_ascii_alphanumeric() || *b == b'_').count();
     if run > 0 { run } else { rest.chars().next().map_or(0, char::len_utf8) }
-}
-
-const VALUE: &str = "a value";
-const EQUALS: &str = "`=`";
-const BRACKET: &str = "`[`";
-const LEVEL: &str = "MAIN or JUMPS";
-const WORD: &str = "a word";
-const COMMA: &str = "`,`";
-const OPERATOR: &str = "an operator";
-const END: &str = "the end of the block";
-
-/// What could have stood there, in the order of likelihood and without repetition.
-fn expected(rules: &[Rule]) -> Vec<&'static str> {
-    let mut words: Vec<(u8, &'static str)> =
-        rules.iter().filter_map(|rule| user_word(*rule)).collect();
-    words.sort_unstable();
-    words.dedup();
-    let mut words: Vec<&'static str> = words.into_iter().map(|(_, word)| word).collect();
-    // A value may begin with a bracket or a parameter, and an index may follow nearly everywhere: no news.
-    let value = words.contains(&VALUE);
-    let many = words.len() > 1;
-    words.retain(|word| !(value && *word == WORD || many && *word == BRACKET));
-    words.truncate(4);
-    words
-}
-
-/// A rule of the grammar in the words of a user.
-fn user_word(rule: Rule) -> Option<(u8, &'static str)> {
-    Some(match rule {
-        Rule::expression
-        | Rule::decimal
-        | Rule::sign
-        | Rule::constant
-        | Rule::function
-        | Rule::bracketed
-        | Rule::function_name
-        | Rule::signed_number
-        | Rule::value
-        | Rule::chain
-        | Rule::value_name => (0, VALUE),
-        Rule::digits | Rule::code_number | Rule::code_digits => (1, "a number"),
-        Rule::equals | Rule::compound => (2, EQUALS),
-        Rule::comma => (3, COMMA),
-        Rule::close => (4, "`]`"),
-        Rule::open | Rule::group | Rule::cycle_group | Rule::index | Rule::word_bracket => {
-            (5, BRACKET)
-        }
-        Rule::key
-        | Rule::ordinal
-        | Rule::flag
-        | Rule::item
-        | Rule::pair
-        | Rule::bare_pair
-        | Rule::item_value => (6, "a key"),
-        Rule::operator => (7, OPERATOR),
-        Rule::return_main | Rule::return_jumps | Rule::return_key => (5, LEVEL),
-        Rule::target | Rule::label_name => (8, "a label"),
-        Rule::file_name | Rule::program_call => (8, "a program name"),
-        Rule::type_name => (8, "a type"),
-        Rule::command_word => (8, "a command word"),
-        Rule::place
-        | Rule::parameter
-        | Rule::variable
-        | Rule::assignment
-        | Rule::hash_name
-        | Rule::hash_word
-        | Rule::g_word
-        | Rule::m_word
-        | Rule::letter
-        | Rule::letter_word => (10, WORD),
-        Rule::EOI => (11, END),
-        _ => return None,
-    })
 }

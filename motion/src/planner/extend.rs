@@ -28,7 +28,7 @@ impl Planner {
         }
         let end = if barred {
             SpeedLimit::Feed
-        } else if self.finishing {
+        } else if self.ends() {
             SpeedLimit::Stop
         } else {
             SpeedLimit::Lookahead

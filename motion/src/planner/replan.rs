@@ -42,11 +42,11 @@ use std::sync::Arc;
 const SLACK: f64 = 1e-9;
 
 /// Parts of a block that end closer together than this, in mm, end at the same place.
-const SAME_END_MM: f64 = 1e-9;
+pub(super) const SAME_END_MM: f64 = 1e-9;
 
 /// Parts of the acceleration with which the speed changes, one after the other, where the tolerance leaves no more. What is gentle
 /// is a matter of the speed and the filters: a slow path rests within a cycle even with a small part of it.
-const GENTLER: [f64; 8] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01, 0.003, 0.001];
+pub(super) const GENTLER: [f64; 8] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01, 0.003, 0.001];
 
 /// What has become of a leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,8 +104,8 @@ impl Planner {
     }
 
     /// Changes the speed at the first place where a leg with a part of the acceleration fits; false if that is not to be waited
-    /// for any longer.
-    fn change_speed(
+    /// for any longer. `ahead` may end in front of the old plan, then nothing is driven behind it.
+    pub(super) fn change_speed(
         &mut self,
         old: &[Entry],
         over: usize,
@@ -122,6 +122,7 @@ impl Planner {
         });
         let inside: SmallVec<[(usize, u64); 32]> = inside.map(|later| (over, later)).collect();
         let ends = (over + 1..=old.len()).map(|i| (i, 0));
+        let end = ahead.last().map_or(f64::INFINITY, |(s, segment)| s + segment.queued.length);
         let mut exceeds = false;
         for (i, later) in std::iter::once((over, 0)).chain(inside).chain(ends) {
             let (spot, kept) = if later > 0 {
@@ -131,6 +132,9 @@ impl Planner {
             } else {
                 (self.spot(old, over, i), old[..i].to_vec())
             };
+            if spot.s > end + SAME_END_MM {
+                break;
+            }
             let waited = spot.moment.cycles(cycle) - k as f64;
             if exceeds && !gentlest && waited >= f64::from(self.kernels.length()) {
                 break;
@@ -146,7 +150,7 @@ impl Planner {
     }
 
     /// Everything known from the entry of the present cycle on, with the path length at which it starts.
-    fn ahead(&self, old: &[Entry]) -> Vec<(f64, Segment)> {
+    pub(super) fn ahead(&self, old: &[Entry]) -> Vec<(f64, Segment)> {
         let mut out: Vec<(f64, Segment)> = Vec::new();
         let mut add = |s: f64, queued: &Arc<Queued>, cap: Cap, asked: Option<Asked>| {
             // not the rest of a block that is listed already

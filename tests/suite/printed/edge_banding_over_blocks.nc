@@ -1,7 +1,6 @@
-; check: exit 1
+; check --set channel.kasto_multi_block=1: exit 1
 ; page 206224907 edge banding over several blocks (G107)
-; error K-0019 at 6:5
-; error K-0019 at 10:5
+; error K-0019 at 5:5
 N10 X0 Y0
 N20 G108
 N30 G01 X90 Y90 F20

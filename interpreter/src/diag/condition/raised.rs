@@ -104,6 +104,7 @@ conditions! {
     MeasuringTypeOfG100 = Vendor 20138: Error ProgramAbort 3 1, "G100 does not fit the measuring type", cause "types 5 and 6 measure by G310", hint "select another type by #MEAS MODE [1]", parameter "P-CHAN-00057";
     LookAheadRange = Vendor 20151: Error ProgramAbort 3 1, "G115 value outside 0…14", hint "G116 stops at every transition, G117 is the complete look-ahead";
     SpindleMTwice = Vendor 20155: Error ProgramAbort 3 1, "M function of a spindle twice", cause "S[M3 M4]", hint "leave one of the two out";
+    TwoSignalFunctions = Vendor 20156: Error ProgramAbort 3 1, "two M functions in a block that wait for the signal of edge banding", cause "P-CHAN-00041 is MNE_SNS for both", hint "write one of them into a block of its own", parameter "P-CHAN-00041";
     ToolWhileCoupled = Vendor 20169: Error ProgramAbort 3 1, "tool data changed while axes are coupled", cause "D2 after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before the D word";
     ToolDataTwice = Vendor 20170: Error ProgramAbort 3 1, "D twice in one block", hint "leave one of the two out";
     FeedTwice = Vendor 20175: Error ProgramAbort 3 1, "F twice in one block", hint "the feed holds for the whole block: leave one F out";
@@ -311,7 +312,10 @@ conditions! {
     SpeedWarning = Vendor 50119: Warning None 1 0, "axis speed above the warning level", cause "P-AXIS-00439, +5 %", hint "lower the feed, or a filter overshoots: CRIT_DAMPING and BESSEL hardly do";
     DynamicsLimited = Vendor 50130: Warning None 1 0, "dynamics limited", cause "weighting G130-G133, G231, G233 beyond the limit", hint "lower the weight, or raise what the axis list allows (P-AXIS-00008 for accelerations)";
     CuttingSpeedZero = Vendor 50182: Error ProgramAbort 6 1, "cutting speed 0", cause "G96 S0", hint "S is the cutting speed in m/min under G96";
+    MovedWithoutBanding = Vendor 50263: Error FeedHold 6 1, "moved main axis that does not take part in edge banding", cause "kenngr.kasto_achse 0", hint "set kenngr.kasto_achse to 1", parameter "P-AXIS-00098";
+    NoBandingAxis = Vendor 50398: Error FeedHold 6 1, "no axis for edge banding", cause "kenngr.kasto_achse is 0 for all main axes", hint "set kenngr.kasto_achse to 1 for the axes of the plane", parameter "P-AXIS-00098";
     OscillationFeed = Vendor 50593: Error AbruptStop 6 1, "oscillation without a feed", cause "X[OSC ON ..] with FEED=0, or without FEED, FREQ and TIME", hint "X[OSC ON 1ST_POS=-10 2ND_POS=10 FEED=1000]";
+    BandingPath = Vendor 50655: Error FeedHold 6 1, "not enough path for the way after the signal of edge banding", cause "the block ends before, or the path is too fast to stop that soon", hint "lengthen the block, lower F, or raise V.G.RW", parameter "P-CHAN-00030";
     FilterTime = Vendor 50663: Error JobAbort 7 0, "filter time constant not allowed", cause "P-AXIS-00357: PT1 and PT2 at least one cycle, delay below 6 cycles", hint "raise or lower filter[i].time_constant (P-AXIS-00357)";
     GuardNotRealisable = Vendor 50820: Error FeedHold 6 0, "frequency and damping do not fit Vibration Guard", cause "frequency too high or damping too large for T", hint "use a smaller cycle, less damping or a higher frequency (the manual's advice); kontur tune proposes both";
     FilterTimeBelowCycle = Vendor 50910: Warning None 1 0, "order_time/time_constant below the cycle time", hint "the filter gets at least one cycle: raise the time, or give ORDER";

@@ -66,8 +66,13 @@ impl Decoder {
             self.report.keep(outcome);
         }
         self.technology_wait();
+        let banding = self.banding_run(&words);
+        let banding = self.report.keep(banding).flatten();
         if !preset {
             self.motion_or_dwell(&words, takes_axes, span);
+        }
+        if let Some(at) = banding {
+            self.banding_moves(at);
         }
         self.join_synchronous();
         let after = self.functions_after(&words);
@@ -202,6 +207,7 @@ impl Decoder {
                     self.report.note_once("G11", Fault::new(Condition::Fallback, text, g.span));
                 }
             }
+            Act::Banding(on) => self.set_banding(on, g)?,
             Act::LateBraking(late) => self.modal.late_braking = late,
             Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
             Act::CentreCorrection(on) => self.modal.centre_correction = on,

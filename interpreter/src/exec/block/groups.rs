@@ -202,6 +202,8 @@ pub(in crate::exec) enum Act {
     Measure,
     /// G106.
     MeasureThrough,
+    /// G108 (true), G107.
+    Banding(bool),
     /// G101 (true), G102.
     MeasuringOffsets(bool),
     /// What holds anyway in this tool.
@@ -242,7 +244,6 @@ const fn v(number: u32, group: Group, act: Act) -> Row {
 
 const FEED_CHANGE: &str = "a higher feed is reached after the start of its block, as at start";
 const FEED_HOLD: &str = "feedhold brakes without the weights of its own";
-const EDGE_BANDING: &str = "edge banding";
 
 /// Every row, ordered by number. G80 to G89 and G800 to G899 are subroutine calls and not in it.
 #[rustfmt::skip]
@@ -304,8 +305,8 @@ const ROWS: &[Row] = &[
     g(101, Group::Measuring, Act::MeasuringOffsets(true)),
     g(102, Group::Measuring, Act::MeasuringOffsets(false)),
     g(106, Group::None, Act::MeasureThrough),
-    g(107, Group::Measuring, Act::Unsupported(EDGE_BANDING)),
-    g(108, Group::Measuring, Act::Unsupported(EDGE_BANDING)),
+    g(107, Group::Measuring, Act::Banding(false)),
+    g(108, Group::Measuring, Act::Banding(true)),
     g(112, Group::None, Act::Unsupported("gear stages")),
     v(115, Group::LookAhead, Act::LookAheadFunctions),
     g(116, Group::LookAhead, Act::StopAtTransitions(true)),

@@ -11,17 +11,21 @@ use crate::machine::Channel;
 impl Decoder {
     /// A function goes to the machine: its duration is waited for ([`Self::technology_wait`]) or named once.
     pub(in crate::exec) fn takes_time(&mut self, function: Function) {
+        // Assumption: the functions of a block go to the machine together, so the longest decides
+        self.technology.pending_s = self.technology.pending_s.max(self.counted_time_s(function));
+    }
+
+    /// Time in s that a function takes; if it is not counted, 0, and it is named once.
+    pub(in crate::exec) fn counted_time_s(&mut self, function: Function) -> f64 {
         let declared = declared(&self.machine.channel, function);
         if self.technology.counted
             && let Some((seconds, _)) = declared
         {
-            // Assumption: the functions of a block go to the machine together, so the longest decides
-            self.technology.pending_s = self.technology.pending_s.max(seconds);
-            return;
+            return seconds;
         }
         let simulated = matches!(function, Function::Spindle { .. } | Function::Speed { .. });
         if (simulated && declared.is_none()) || !self.technology.named.insert(function) {
-            return;
+            return 0.0;
         }
         let spindle = |i: usize| self.motion.spindles.get(i).map_or("", |s| s.name.as_str());
         let name = match function {
@@ -36,6 +40,7 @@ impl Decoder {
             None => name,
         };
         self.contour.event(Event::Uncounted { function });
+        0.0
     }
 
     /// The path waits for the functions called since the last wait.

@@ -95,6 +95,8 @@ fn what_the_manual_knows_is_never_unknown() {
         "#SPLINE TYPE BSPLINE",
         "#SET SPLINETYPE BSPLINE",
         "#TOOL LIFE READ",
+        "#SET TIP [1.0, 1.5, 2.0] X",
+        "#RT WHILE",
         "#VOLCOMP ON",
         "Z[OSC ON ZERO_POS=1 EXCUR=2 FEED=100 SHORT]",
         "X[LIFT 1]",
@@ -103,7 +105,6 @@ fn what_the_manual_knows_is_never_unknown() {
         "S[SYNC]",
         "S[G131=50]",
         "S[CALLAX]",
-        "G108",
         "G236",
     ] {
         assert_eq!(said(text), ["K-0019"], "{text}");

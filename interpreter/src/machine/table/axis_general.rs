@@ -27,6 +27,8 @@ parameters! {
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_ABSOLUTE: Switch;
     axis("P-AXIS-00059", "kenngr.durchm_prog_rel", Raw::Boolean, "with G51 and G91 words of a face turning axis are diameters")
         .default(0.0).axes("T").source("TF5200 axis parameters"), as DIAMETER_RELATIVE: Switch;
+    axis("P-AXIS-00098", "kenngr.kasto_achse", Raw::Boolean, "1: the axis takes part in edge banding (G108)")
+        .default(0.0).axes("TR").source("TF5200 axis parameters"), as BANDS: Switch;
     axis("P-AXIS-00118", "kenngr.messachse", Raw::Boolean, "1: the axis takes part in measuring runs (G100, G310)")
         .default(0.0).axes("TR").source("TF5200 axis parameters"), as MEASURES: Switch;
     axis("P-AXIS-00330", "kenngr.meas_signal_fixed_stop", Raw::Boolean, "1: measuring type 7 looks for a fixed stop with this axis")

@@ -4,6 +4,18 @@ use super::param::parameters;
 use super::row::{Bound, Correction, Default, Raw, chan};
 use crate::diag::Condition;
 
+/// Kinds of synchronisation with the PLC (P-CHAN-00041).
+pub(crate) const SYNCHRONISATION: &[(&str, u32)] = &[
+    ("NO_SYNCH", 0x0),
+    ("MOS", 0x1),
+    ("MVS_SVS", 0x2),
+    ("MVS_SNS", 0x4),
+    ("MNS_SNS", 0x8),
+    ("MNE_SNS", 0x20),
+    ("MVS_SLM", 0x4000),
+    ("MVS_SLP", 0x8000),
+];
+
 parameters! {
     chan("P-CHAN-00001", "prog_start.slope.acceleration", Raw::Sgn16, "which accelerations G130 and G131 weight: 0 all, 1 a_beschl, 2 a_brems")
         .range(Bound::At(0.0), Bound::At(2.0)).default(0.0), as ACC_SELECTION: Whole;
@@ -35,6 +47,10 @@ parameters! {
         .range(Bound::At(0.0), Bound::At(1.0)).default(0.0), as INCH: Switch;
     chan("P-CHAN-00030", "kasto_residual_path", Raw::Sgn32, "edge banding: way after the signal of the probe")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters"), as RESIDUAL_PATH: Number;
+    chan("P-CHAN-00029", "kasto_multi_block", Raw::Boolean, "edge banding: 1 over several blocks, to G107 (not supported with G108)")
+        .default(0.0).source("TF5200 channel parameters"), as BANDING_OVER_BLOCKS: Switch;
+    chan("P-CHAN-00041", "m_synch[i]", Raw::Flags(SYNCHRONISATION), "when M function i goes to the PLC and is acknowledged; only MNE_SNS acts here, with G108: all others are acknowledged at once")
+        .source("TF5200 channel parameters"), as M_SYNCHRONISATION: Optional;
     chan("P-CHAN-00057", "messtyp", Raw::Uns16, "measuring type at program start, see #MEAS; no document prints a default, here 1")
         .range(Bound::At(1.0), Bound::At(7.0)).default(1.0).source("TF5200 channel parameters"), as MEASURING_TYPE: Whole;
     chan("P-CHAN-00176", "meas_error_no_signal", Raw::Boolean, "measuring type 1: 1, a measuring run without a signal of the probe is an error")

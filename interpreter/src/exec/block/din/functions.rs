@@ -118,6 +118,10 @@ impl Decoder {
     }
 
     fn m_function(&mut self, m: &Code) {
+        if self.motion.measuring.banding && self.machine.channel.m_at_signal.contains(&m.number) {
+            // the motion takes care of it
+            return;
+        }
         if let Some(text) = crate::exec::block::dialect::m_function(m.number) {
             let key = format!("M{}", m.number);
             self.report.note_once(&key, Fault::new(Condition::Dialect, text, m.span));

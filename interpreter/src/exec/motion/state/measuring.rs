@@ -41,6 +41,8 @@ pub(in crate::exec) struct Measuring {
     pub(in crate::exec) kind: u32,
     /// `ERR_NO_SIGNAL`; `None`: as the list and the type say.
     pub(in crate::exec) missing_is_error: Option<bool>,
+    /// G108: the next motion with an M function that waits for the signal is one of edge banding.
+    pub(in crate::exec) banding: bool,
     /// V.G.RW in mm.
     pub(in crate::exec) residual_path_mm: f64,
     /// Of every axis.
@@ -55,6 +57,7 @@ impl Measuring {
         Self {
             kind: channel.measuring_type,
             missing_is_error: None,
+            banding: false,
             residual_path_mm: channel.residual_path_mm,
             results: vec![Measured::default(); axes],
             feed: None,

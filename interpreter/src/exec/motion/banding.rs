@@ -1,0 +1,107 @@
+//! Edge banding: G108 and an M function that waits for the signal of the probe (MNE_SNS).
+//!
+//! The M function stands in a motion. Where the probe signals on this motion, the path drives `V.G.RW` further, stops, waits
+//! until the axes are in their windows, calls the function, and continues to the target. Nothing moves beyond the block
+//! before that. G108 ends with it.
+//!
+//! Source: TF5200 programming manual, edge banding (206213899, 206219787, 206230027), M and H functions (285989771), channel
+//! parameters (148909195, 149011467), diagnosis (250932875, 257774219, 257878667, 258470539).
+//! Assumptions, where they are silent: the way counts from the place of the path that is nearest to the measured actual
+//! position; the path stops at the end of this way, not behind it.
+
+use crate::diag::{Condition, ValueKind};
+use crate::exec::block::groups::{Act, Group};
+use crate::exec::block::modal::Compensation;
+use crate::exec::block::words::{GWord, Words};
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::motion::state::Function;
+use crate::exec::step::{BandingRun, Event};
+use crate::syntax::ast::Span;
+
+impl Decoder {
+    /// G108, G107.
+    pub(in crate::exec) fn set_banding(&mut self, on: bool, g: &GWord) -> Outcome<()> {
+        if on && self.machine.channel.banding_over_blocks {
+            return Err(Fault::unsupported(
+                "edge banding over several blocks (P-CHAN-00029)",
+                g.span,
+            ));
+        }
+        self.motion.measuring.banding = on;
+        Ok(())
+    }
+
+    /// The motion of this block waits for the signal, if edge banding is on and it has the M function for it; the place of
+    /// that function comes back.
+    pub(in crate::exec) fn banding_run(&mut self, words: &Words<'_>) -> Outcome<Option<Span>> {
+        let at_signal = &self.machine.channel.m_at_signal;
+        let mut functions = words.m.iter().filter(|m| at_signal.contains(&m.number));
+        let Some(m) = functions.next() else { return Ok(None) };
+        if let Some(second) = functions.next() {
+            let text = format!("M{} beside M{}: both wait for a signal", second.number, m.number);
+            return Err(Fault::new(Condition::TwoSignalFunctions, text, second.span)
+                .with(|d| d.value(ValueKind::Current, second.number, "-")));
+        }
+        if !std::mem::take(&mut self.motion.measuring.banding) {
+            return Ok(None);
+        }
+        self.banding_fits(words, m.span)?;
+        let seconds = self.counted_time_s(Function::M(m.number));
+        let way_mm = self.motion.measuring.residual_path_mm;
+        let run = BandingRun { way_mm, number: m.number, value: m.value, seconds };
+        self.contour.event(Event::Banding(run));
+        Ok(Some(m.span))
+    }
+
+    /// A block of edge banding has been executed: it has to move.
+    pub(in crate::exec) fn banding_moves(&mut self, span: Span) {
+        if !self.moved && !self.report.failed() {
+            let text = "edge banding in a block without travel";
+            self.report.note(Fault::new(Condition::MeasuringWay, text, span));
+        }
+    }
+
+    /// What does not go with it.
+    fn banding_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
+        let what = if self.modal.compensation != Compensation::Off {
+            "edge banding with tool radius compensation"
+        } else if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
+            "edge banding in a spline"
+        } else if self.modal.contouring || words.g.iter().any(|g| g.row.act == Act::ContourOnce) {
+            "edge banding with contouring"
+        } else if self.contour.inserts() || words.group(Group::Insertion).is_some() {
+            "edge banding beside chamfers and roundings"
+        } else if self.path_mode(words).is_thread() {
+            "edge banding in a thread"
+        } else if self.modal.corner_deceleration
+            || words.g.iter().any(|g| matches!(g.row.act, Act::FeedOverPath | Act::FeedOverTime))
+        {
+            "edge banding with a feed that changes along the block (G13, G193, G293)"
+        } else {
+            return self.banding_axes(words, span);
+        };
+        Err(Fault::unsupported(what, span))
+    }
+
+    /// The axes of the motion are marked for it.
+    fn banding_axes(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
+        let coordinates = &self.geometry.coordinates;
+        let main = (0..3).filter_map(|i| coordinates.main_axis(i));
+        if !main.into_iter().any(|axis| self.machine.axes[axis].bands()) {
+            let text = "edge banding: no main axis takes part in it";
+            return Err(Fault::new(Condition::NoBandingAxis, text, span));
+        }
+        for (axis, _, at) in &words.axes {
+            let listed = &self.machine.axes[*axis];
+            if coordinates.main_index(*axis).is_some() && !listed.bands() {
+                let name = self.names.name(*axis).to_owned();
+                let number = listed.number();
+                let text = format!("axis {name} moves and does not take part in edge banding");
+                return Err(Fault::new(Condition::MovedWithoutBanding, text, *at)
+                    .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,102 @@
+//! Edge banding: a motion stops once behind the signal of the probe, and continues.
+//!
+//! The planner asks for nothing beyond the motion until that has happened, so the path would rest at its end; behind the stop
+//! it passes the end like any other.
+
+use super::inputs::Inputs;
+use super::wait::Wait;
+use super::{Phase, Simulation, probe};
+use crate::diag::{Condition, Diagnostic};
+use crate::exec::{BandingRun, Event, SourceRef};
+use kontur_motion::axis::AxisVec;
+
+/// A motion of edge banding.
+#[derive(Clone, Debug)]
+pub(super) struct Banding {
+    run: BandingRun,
+    /// Its number.
+    seq: u64,
+    source: SourceRef,
+    /// Actual positions in the cycle before.
+    before_mm: AxisVec,
+    signalled: bool,
+}
+
+impl Banding {
+    /// Actual positions at the signal of this cycle, if there is one.
+    fn latched(&self, inputs: &Inputs, now_mm: &[f64]) -> Option<AxisVec> {
+        probe::signal(inputs, &self.before_mm, now_mm)
+    }
+}
+
+impl Simulation {
+    /// The motion has begun.
+    pub(super) fn begin_banding(&mut self, run: BandingRun) {
+        let (seq, source) = (self.planner.setpoint().seq, self.current);
+        let before_mm = self.actual_mm();
+        self.banding = Some(Banding { run, seq, source, before_mm, signalled: false });
+        if self.inputs.probe {
+            let text = "the probe signals before the motion of edge banding begins";
+            self.banding_fails(Condition::ProbeActuated, text);
+        }
+    }
+
+    /// Looks for the signal after a cycle; the path ends at its stop from the next one on.
+    pub(super) fn watch_banding(&mut self) {
+        let waits = self.banding.as_ref().is_some_and(|banding| !banding.signalled);
+        if !waits || !matches!(self.phase, Phase::Running | Phase::Waiting(_)) {
+            return;
+        }
+        let now_mm = self.actual_mm();
+        let Some(banding) = &mut self.banding else { return };
+        let signal = banding.latched(&self.inputs, &now_mm);
+        banding.before_mm = now_mm;
+        let Some(mut place) = signal else { return };
+        banding.signalled = true;
+        let (seq, way_mm) = (banding.seq, banding.run.way_mm);
+        let k = self.planner.setpoint().k;
+        for (p, x) in place.iter_mut().enumerate() {
+            *x -= self.independent.way_mm(p, k);
+        }
+        if !self.planner.halt_in(seq, &place, way_mm) {
+            let text =
+                "the block is too short, or the path too fast, for the way behind the signal";
+            self.banding_fails(Condition::BandingPath, text);
+        }
+    }
+
+    /// The path has come to rest at its stop, or at the end of the motion.
+    pub(super) fn at_halt(&mut self) {
+        self.expect_stops();
+        self.phase = Phase::Waiting(Wait::for_halt());
+    }
+
+    /// The axes are in their windows: the function is called, and the path waits for it.
+    pub(super) fn call_at_halt(&mut self) {
+        let Some(Banding { run, signalled, source, .. }) = self.banding else { return };
+        if !signalled {
+            let text = "the probe has not signalled on the motion of edge banding";
+            self.banding_fails(Condition::NoProbeSignal, text);
+            return;
+        }
+        let BandingRun { number, value, seconds, .. } = run;
+        self.act(Event::MFunction { number, value }, self.planner.setpoint().k);
+        self.waits_at = source;
+        self.phase = Phase::Waiting(Wait::before_resuming(seconds, self.cycle));
+    }
+
+    /// The path continues.
+    pub(super) fn resume(&mut self) {
+        self.banding = None;
+        self.planner.resume();
+    }
+
+    fn banding_fails(&mut self, condition: Condition, text: &str) {
+        let k = self.planner.setpoint().k;
+        let mut d = Diagnostic::new(condition, text);
+        (d.cycle, d.time_s) = (Some(k), Some(self.cycle.time_of(k)));
+        d.source = self.banding.as_ref().and_then(|b| self.executor.locate(b.source));
+        self.messages.own.push(d);
+        self.stop(Vec::new());
+    }
+}
