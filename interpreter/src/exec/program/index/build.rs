@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// Deepest nesting of control statements. Assumption: the vendor prints no number for 20211.
 const NESTING_MAX: usize = 64;
 
+/// Nesting at which the rest of a file is not read any more: mistakes up to there are reported one by one.
+const NESTING_READ: usize = 4 * NESTING_MAX;
+
 /// Memory in bytes for control statements, labels and programs of one file: its structure is all that is kept of it.
 pub(in crate::exec::program) const STRUCTURE_MAX: usize = 100_000_000;
 
@@ -295,7 +298,7 @@ impl Builder<'_> {
             let text = format!("control statements nested more than {NESTING_MAX} deep");
             let d = Diagnostic::new(Condition::ControlNesting, text);
             self.report(raw, head.at, word(&head.rest[1..]).len() + 1, d);
-            self.gives_up = true;
+            self.gives_up |= depth > NESTING_READ;
         }
     }
 
