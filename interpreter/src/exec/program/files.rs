@@ -356,7 +356,7 @@ impl Files {
     }
 
     /// Place of the block that follows the one at a position.
-    pub(in crate::exec) fn behind(&mut self, file: usize, position: Position) -> Position {
+    pub(super) fn behind(&mut self, file: usize, position: Position) -> Position {
         let ProgramFile { reader, .. } = &mut self.open[file];
         reader.seek(position);
         // it was read before: what cannot be read now ends there

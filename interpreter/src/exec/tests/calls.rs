@@ -2,6 +2,7 @@
 
 use super::{EndReason, Event, Options, Run, assert_end, clean, machine, run, run_with};
 use crate::source::MemorySources;
+use kontur_kit::Random;
 
 fn with(main: &str, name: &str, sub: &str) -> Run {
     let sources = MemorySources::new().with("main.nc", main).with(name, sub);
@@ -300,6 +301,25 @@ fn block_sequences() {
     assert_eq!(run.end[0], 2.0);
     let hidden = "#COMMENT BEGIN\nN10 X100\n#COMMENT END\nL SEQUENCE [N10]\nM30\n";
     assert_eq!(super::run(hidden).ids(), ["K-0015"]);
+}
+
+/// Of several blocks with a number the first one counts, in whatever order the numbers are written.
+#[test]
+fn sequences_begin_at_the_first_block_of_their_number() {
+    for seed in 0..40 {
+        let mut random = Random::new(seed);
+        let numbers: Vec<usize> = (0..400)
+            .map(|i| if random.chance(0.8) { 10 * (i % 150) } else { random.below(2000) })
+            .collect();
+        let blocks = numbers.iter().zip(1..).map(|(n, y)| format!("N{n} Y{y}\n"));
+        let wanted = random.pick(&numbers);
+        let first = numbers.iter().position(|n| *n == wanted).unwrap() + 1;
+        let run = clean(&format!(
+            "G01 F60000\n$GOTO [BEHIND]\n{}[BEHIND] L SEQUENCE [N{wanted}]\nM30\n",
+            blocks.collect::<String>()
+        ));
+        assert_eq!(run.end, [0.0, first as f64, 0.0], "{seed}: N{wanted}");
+    }
 }
 
 /// REPEAT: so many passes in all; ENDTAG: the call ends the sequence too, whichever end comes first.

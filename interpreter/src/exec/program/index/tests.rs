@@ -4,7 +4,9 @@ use super::head::{SAYING, says_nothing};
 use super::{Entry, EntryId, Index, Keyword, build};
 use crate::exec::options::SkipLevels;
 use crate::source::{BlockReader, MemorySources, Position, Sources};
+use crate::syntax::ast::LabelKind;
 use kontur_kit::Random;
+use std::fmt::Write as _;
 use std::sync::Arc;
 
 fn index(text: &str) -> (Index, Vec<String>) {
@@ -225,6 +227,25 @@ fn partners_are_found_in_long_programs() {
         }
     }
     assert!(most > 1000, "{most}");
+}
+
+/// A label and a statement on every other line of a long program: there is no limit to their number that it reaches.
+#[test]
+fn every_block_of_a_long_program_may_have_a_label() {
+    const COUNT: u64 = 300_000;
+    let text: String = (0..COUNT).fold(String::new(), |mut text, n| {
+        let _ = writeln!(text, "N{n}: X1\n$BREAK");
+        text
+    });
+    let (index, found) = index(&text);
+    assert!(found.is_empty(), "{found:?}");
+    for n in [0, 1, COUNT / 2, COUNT - 1] {
+        let line = u32::try_from(2 * n + 1).unwrap();
+        let label = index.label(0, &LabelKind::Number(n)).map(|place| place.position.line);
+        assert_eq!(label, Some(line));
+        let statement = index.entry(EntryId::try_from(n).unwrap());
+        assert_eq!((statement.keyword, statement.position.line), (Keyword::Break, line + 1));
+    }
 }
 
 /// Statements with mistakes among them mean the same whatever follows them and wherever they are.
