@@ -11,6 +11,8 @@ use crate::ride::has_hill;
 /// value (Assumption: a CAM contour changes its direction from block to block by little, and the control does not
 /// stop accelerating there).
 const NEARLY_EQUAL: f64 = 0.1;
+/// Relative difference up to which limits of two blocks are the same: rounding.
+const ALIKE: f64 = 1e-6;
 
 impl Window<'_> {
     /// Boundaries at which the fastest speed without a jerk limit has a local minimum worth the name: there the acceleration
@@ -33,23 +35,55 @@ impl Window<'_> {
         for i in 0..n {
             square[i + 1] = square[i + 1].min(square[i] + gain(i, true));
         }
-        let own_hill = |i: usize| {
-            let v = square[i].max(square[i + 1]).sqrt();
-            rates(&blocks[i]).is_some_and(|r| has_hill(blocks[i].length, v, &r))
+        // where a line is only divided nothing is to be decided, and a hill may reach over its parts
+        let divides: Vec<bool> = (0..=n).map(|b| b > 0 && b < n && self.only_divides(b)).collect();
+        let (mut begins, mut ends): (Vec<usize>, Vec<usize>) = (0..n).map(|i| (i, i + 1)).unzip();
+        for i in 1..n {
+            if divides[i] {
+                begins[i] = begins[i - 1];
+            }
+        }
+        for i in (1..n).rev() {
+            if divides[i] {
+                ends[i - 1] = ends[i];
+            }
+        }
+        // of the part of a line between two boundaries
+        let own_hill = |from: usize, to: usize| {
+            let v = square[from].max(square[to]).sqrt();
+            let length = blocks[from..to].iter().map(|b| b.length).sum();
+            rates(&blocks[from]).is_some_and(|r| has_hill(length, v, &r))
         };
         (0..=n)
             .map(|i| {
                 i > 0
                     && i < n
+                    && !divides[i]
                     && !knot[i]
                     && !plain[i]
                     && blocks[i].plans_across()
                     && rates(&blocks[i]).is_some()
                     && square[i] >= own[i]
-                    && (square[i] <= square[i - 1] || own_hill(i - 1))
-                    && (square[i] <= square[i + 1] || own_hill(i))
+                    && (square[i] <= square[begins[i - 1]] || own_hill(begins[i - 1], i))
+                    && (square[i] <= square[ends[i]] || own_hill(i, ends[i]))
             })
             .collect()
+    }
+
+    /// True if the blocks on both sides of a boundary are parts of one line to the planner.
+    fn only_divides(&self, b: usize) -> bool {
+        let [before, behind] = [b - 1, b].map(|i| &self.blocks[i]);
+        let feed = self.feeds[b];
+        let same = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs();
+        !self.forced[b]
+            && !self.carried[b]
+            && !is_above(feed.v_mm_s, self.limit(b).v_mm_s)
+            && same(self.feeds[b - 1].v_mm_s, feed.v_mm_s)
+            && before.block.slope == behind.block.slope
+            && rates(before).zip(rates(behind)).is_some_and(|(x, y)| {
+                let ramps = x.ramps.iter().zip(y.ramps).all(|(x, y)| same(*x, y));
+                ramps && same(x.acc, y.acc) && same(x.dec, y.dec)
+            })
     }
 
     /// Drops the minima at which acceleration zero would cost speed; true if there were any.
