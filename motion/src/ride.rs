@@ -144,7 +144,7 @@ impl Alone {
         crate::closed_forms::add();
         let Block { end, v, acc, dec, .. } = self.block;
         let limits = ThirdOrderLimits {
-            v_max_mm_s: v * (1.0 + SLACK),
+            v_max_mm_s: v.max(v0).max(v1),
             v_min_mm_s: 0.0,
             a_max_mm_s2: acc.max(a0).max(a1) * (1.0 + SLACK),
             a_min_mm_s2: -dec.max(-a0).max(-a1) * (1.0 + SLACK),
