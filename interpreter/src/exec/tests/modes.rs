@@ -61,6 +61,11 @@ fn exact_stops() {
     let run = clean("G60 X1 F100\nX2\nG360 X3\nX4\nG359 X5\nM30\n");
     let shape: Vec<_> = run.steps.iter().map(|s| matches!(s, super::Step::Sync { .. })).collect();
     assert_eq!(shape, [false, true, false, false, true, false, true, false, false]);
+    // a block without axes has a speed of zero at its end, too, but no axis to wait for
+    let alone = super::run("G00 X1\nG60 G01 F100\nX2\nM30\n");
+    assert_eq!(alone.ids(), ["20003"]);
+    assert_eq!(alone.syncs(), [&Sync::Stop]);
+    assert!(matches!(alone.steps[..], [_, super::Step::Sync { .. }, ..]), "{:?}", alone.steps);
 }
 
 #[test]
