@@ -41,7 +41,7 @@ pub use run::{Run, Sink};
 
 use crate::diag::{Condition, Diagnostic};
 use crate::exec;
-use crate::machine::{AxisKind, Machine};
+use crate::machine::{AxisKind, Machine, ToolKind};
 use crate::sim::Simulation;
 use crate::source::Sources;
 use std::fmt;
@@ -148,15 +148,20 @@ impl Job {
 fn facts(program: &str, machine: &Machine, simulation: &Simulation, several_files: bool) -> Facts {
     let (chains, _) = machine.chains();
     let stop = |i: usize| chains.get(i).map(|chain| chain.control.exact_stop).unwrap_or_default();
-    let axes = machine.all_axes().enumerate().map(|(i, axis)| AxisFacts {
-        name: axis.name().to_owned(),
-        rotary: axis.kind() != AxisKind::Linear,
-        spindle: axis.kind() == AxisKind::Spindle,
-        modal: simulation.has_tool_point(i),
-        v_max: axis.dynamics().v_max_mm_s,
-        a_max: axis.dynamics().a_max_mm_s2,
-        window: stop(i).window_mm,
-        settling_s: stop(i).settling_s,
+    let grinds = machine.tools.values().any(|tool| tool.kind == ToolKind::Grinding);
+    let axes = machine.all_axes().zip(simulation.chains()).enumerate().map(|(i, (axis, chain))| {
+        AxisFacts {
+            name: axis.name().to_owned(),
+            rotary: axis.kind() != AxisKind::Linear,
+            spindle: axis.kind() == AxisKind::Spindle,
+            modal: chain.has_tool_point(),
+            load_apart: !chain.shows_load_twice(),
+            additional: grinds || axis.has_additional_interface(),
+            v_max: axis.dynamics().v_max_mm_s,
+            a_max: axis.dynamics().a_max_mm_s2,
+            window: stop(i).window_mm,
+            settling_s: stop(i).settling_s,
+        }
     });
     let files = simulation.files().iter().map(ToString::to_string).collect();
     Facts {

@@ -145,13 +145,14 @@ pub(crate) struct Simulation {
 }
 
 impl Simulation {
-    /// Connects the real-time inputs, before the first cycle.
+    /// Connects the real-time inputs, before the first cycle; false if they never change anything.
     ///
     /// Changes come in the order of time. An error among them ends the run, as [`Totals::input_failed`] shows.
-    pub(crate) fn connect(&mut self, changes: Changes) {
+    pub(crate) fn connect(&mut self, changes: Changes) -> bool {
         if let Err(failure) = self.inputs.connect(changes) {
             self.input_fails(*failure);
         }
+        !self.inputs.is_over()
     }
 
     /// The records need no deviation from the contour: not a number stands for it, until a block demands a tolerance.
@@ -166,9 +167,9 @@ impl Simulation {
         self.executor.files()
     }
 
-    /// True if the plant of a chain (path axes, then spindles) has a tool point of its own.
-    pub(crate) fn has_tool_point(&self, chain: usize) -> bool {
-        self.chains.get(chain).is_some_and(AxisChain::has_tool_point)
+    /// Path axes, then spindles.
+    pub(crate) fn chains(&self) -> &[AxisChain] {
+        &self.chains
     }
 
     /// Messages since the last call, if there are any.

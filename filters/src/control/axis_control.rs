@@ -237,6 +237,12 @@ impl AxisControl {
         &self.lag
     }
 
+    /// [`ControlOutput::load_mm`] is [`ControlOutput::act_mm`] in every cycle, unless
+    /// [`AxisInputs::encoder_offset_mm`] says otherwise: a rigid plant, read without steps.
+    pub fn shows_load_twice(&self) -> bool {
+        !self.plant.is_elastic() && self.config.increment_mm <= 0.0
+    }
+
     /// The plant separates the tool point from the load.
     pub fn has_tool_point(&self) -> bool {
         self.plant.has_tool_point()

@@ -245,6 +245,16 @@ impl Plant {
         &self.measured
     }
 
+    /// The model separates the load from the motor.
+    pub fn is_elastic(&self) -> bool {
+        match &self.dynamics {
+            Dynamics::Follow { .. } => false,
+            Dynamics::Two(linear) => linear.is_elastic(),
+            Dynamics::Three(linear) => linear.is_elastic(),
+            Dynamics::Many(linear) => linear.is_elastic(),
+        }
+    }
+
     /// The models separate the tool point from the load.
     pub fn has_tool_point(&self) -> bool {
         match &self.dynamics {

@@ -121,7 +121,8 @@ pub struct RunArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
 
-    /// Columns of the trace: groups or names, separated by commas
+    /// Columns of the trace: groups or names, separated by commas; `default` is `time,path,ipo,set,err,axis` without columns
+    /// that only repeat others
     #[arg(long, value_name = "GROUPS|NAMES", default_value = DEFAULT_SIGNALS, requires = "output")]
     pub signals: String,
 

@@ -102,7 +102,10 @@ impl Run {
     /// the run, [`Totals::input_failed`] says so.
     #[must_use]
     pub fn with_inputs(mut self, changes: Changes) -> Self {
-        self.simulation.connect(changes);
+        if self.simulation.connect(changes) {
+            // one of them may be an error of an encoder
+            self.facts.axes.iter_mut().for_each(|axis| axis.load_apart = true);
+        }
         self
     }
 

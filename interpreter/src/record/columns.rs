@@ -25,8 +25,12 @@ use crate::record::{AxisRecord, CycleRecord};
 pub const GROUPS: [&str; 10] =
     ["time", "path", "ipo", "set", "kin", "err", "ctrl", "drive", "axis", "spindle"];
 
+/// The columns of a trace by default: [`DEFAULT_GROUPS`] without what only repeats other columns on this machine
+/// ([`Column::repeats`]).
+pub const DEFAULT_SIGNALS: &str = "default";
+
 /// Groups of a trace by default.
-pub const DEFAULT_SIGNALS: &str = "time,path,ipo,set,err,axis";
+pub const DEFAULT_GROUPS: [&str; 6] = ["time", "path", "ipo", "set", "err", "axis"];
 
 /// Decimals of positions: 0.1 nm, a thousandth of the vendor's increment of 0.1 um.
 const POSITION_DECIMALS: u8 = 7;
@@ -61,6 +65,8 @@ pub struct Column {
     pub decimals: u8,
     /// The group that brings it.
     pub group: &'static str,
+    /// It is the actual position of a load that cannot be elsewhere, or the zero of what nothing is added to.
+    pub repeats: bool,
     /// `mm`, `deg/s2`, `Nm`, ...; empty for words, flags, counts and what is in the drive's format.
     pub unit: String,
 }
@@ -198,7 +204,14 @@ pub fn all(facts: &Facts) -> Vec<Column> {
 }
 
 fn plain(name: &str, group: &'static str, content: Content) -> Column {
-    Column { name: name.to_owned(), content, decimals: 0, group, unit: String::new() }
+    Column {
+        name: name.to_owned(),
+        content,
+        decimals: 0,
+        group,
+        repeats: false,
+        unit: String::new(),
+    }
 }
 
 fn quantities<'a>(
@@ -212,12 +225,18 @@ fn quantities<'a>(
             content: Content::Axis(index, value),
             decimals: unit.decimals(),
             group,
+            repeats: match word {
+                "load" => !axis.load_apart,
+                "add" => !axis.additional,
+                _ => false,
+            },
             unit: unit.name(axis.unit()),
         },
     )
 }
 
-/// The columns that `signals` asks for: groups or column names separated by commas, in the order of the trace.
+/// The columns that `signals` asks for: groups, column names and [`DEFAULT_SIGNALS`], separated by commas, in the order of
+/// the trace. A group that is named has all its columns.
 ///
 /// # Errors
 /// An unknown word: the message names the choices.
@@ -225,17 +244,21 @@ pub fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, String> {
     let all = all(facts);
     let words: Vec<&str> = signals.split(',').map(str::trim).filter(|w| !w.is_empty()).collect();
     for word in &words {
-        if !GROUPS.contains(word) && !all.iter().any(|c| c.name == *word) {
+        let known = *word == DEFAULT_SIGNALS || GROUPS.contains(word);
+        if !known && !all.iter().any(|c| c.name == *word) {
             let names: Vec<&str> = all.iter().map(|c| c.name.as_str()).collect();
             return Err(format!(
-                "`{word}` is neither a group nor a column\n  groups: {}\n  columns: {}",
+                "`{word}` is neither a group nor a column\n  groups: {DEFAULT_SIGNALS}, {}\n  columns: {}",
                 GROUPS.join(", "),
                 names.join(", ")
             ));
         }
     }
-    let wanted =
-        |c: &Column| c.group == "time" || words.iter().any(|w| *w == c.group || *w == c.name);
+    let by_default = |c: &Column| DEFAULT_GROUPS.contains(&c.group) && !c.repeats;
+    let asked = |c: &Column, word: &str| {
+        word == c.group || word == c.name || word == DEFAULT_SIGNALS && by_default(c)
+    };
+    let wanted = |c: &Column| c.group == "time" || words.iter().any(|word| asked(c, word));
     Ok(all.into_iter().filter(wanted).collect())
 }
 
@@ -267,9 +290,28 @@ mod tests {
         assert_eq!(
             names(DEFAULT_SIGNALS).join(","),
             "t_s,line,block,s_mm,v_mm_s,a_mm_s2,j_mm_s3,v_limit,X_ipo_mm,C_ipo_deg,X_set_mm,C_set_deg,\
-             X_err_mm,X_dev_mm,C_err_deg,C_dev_deg,contour_err_mm,X_ref_mm,X_act_mm,X_load_mm,X_lag_mm,\
-             X_add_mm,X_settling_s,C_ref_deg,C_act_deg,C_load_deg,C_lag_deg,C_add_deg,C_settling_s"
+             X_err_mm,X_dev_mm,C_err_deg,C_dev_deg,contour_err_mm,X_ref_mm,X_act_mm,X_lag_mm,X_settling_s,\
+             C_ref_deg,C_act_deg,C_lag_deg,C_settling_s"
         );
+    }
+
+    /// What repeats another column is there where it does not, and where it is asked for.
+    #[test]
+    fn repeating_columns_are_there_when_asked_for() {
+        let of = |signals: &str, load_apart, additional| {
+            let mut facts = facts();
+            (facts.axes[0].load_apart, facts.axes[0].additional) = (load_apart, additional);
+            let names = select(signals, &facts).unwrap().into_iter().map(|c| c.name);
+            names
+                .filter(|n| n.contains("_load_") || n.contains("_add_"))
+                .collect::<Vec<_>>()
+                .join(",")
+        };
+        assert_eq!(of("default", false, false), "");
+        assert_eq!(of("default", true, false), "X_load_mm");
+        assert_eq!(of("default,kin", false, true), "X_add_mm");
+        assert_eq!(of("default,X_load_mm", false, false), "X_load_mm");
+        assert_eq!(of("axis", false, false), "X_load_mm,X_add_mm,C_load_deg,C_add_deg");
     }
 
     #[test]

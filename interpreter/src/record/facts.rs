@@ -35,6 +35,12 @@ pub struct AxisFacts {
     pub spindle: bool,
     /// The plant model has a tool point of its own (`X_tcp_mm`).
     pub modal: bool,
+    /// The load can be elsewhere than the actual position says (`X_load_mm`): an elastic plant, an encoder with steps, or
+    /// inputs that may disturb it.
+    pub load_apart: bool,
+    /// Positions can be added after the axis filters (`X_add_mm`): the additional interface is on, or the tool list
+    /// has a grinding tool for `#OTC`.
+    pub additional: bool,
     /// Largest velocity in mm/s or deg/s (P-AXIS-00212).
     pub v_max: f64,
     /// Largest acceleration in mm/s2 or deg/s2 (P-AXIS-00008).

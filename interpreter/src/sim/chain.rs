@@ -192,6 +192,11 @@ impl AxisChain {
         self.shaping.flush_cycles() + tail.max(0.0) as u32
     }
 
+    /// The load is where the actual position says, as long as nothing from outside disturbs the encoder.
+    pub(crate) fn shows_load_twice(&self) -> bool {
+        self.control.shows_load_twice()
+    }
+
     /// Tool point separate from the load.
     pub(crate) fn has_tool_point(&self) -> bool {
         self.control.has_tool_point()

@@ -104,6 +104,10 @@ impl<S: States> LinearPlant<S> {
         self.cycles = 0;
     }
 
+    pub(super) const fn is_elastic(&self) -> bool {
+        self.elastic
+    }
+
     pub(super) const fn has_tool_point(&self) -> bool {
         self.has_tool_point
     }

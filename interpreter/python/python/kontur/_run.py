@@ -16,7 +16,7 @@ from ._words import Options, Settings, StrPath, program_words
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-DEFAULT_SIGNALS = "time,path,ipo,set,err,axis"
+DEFAULT_SIGNALS = "default"
 """Groups of columns if nothing is said."""
 
 
