@@ -265,18 +265,24 @@ impl Window<'_> {
             let s = &stretches[k];
             let best = self.limit(s.first);
             let behind = v[k + 1];
-            let reach = s.slope.reach_down(behind.v_mm_s, s.length);
-            v[k] = best.lower(Cap::new(reach, behind.why));
+            v[k] = if s.slope.clearly_reaches_down(best.v_mm_s, behind.v_mm_s, s.length) {
+                best
+            } else {
+                best.lower(Cap::new(s.slope.reach_down(behind.v_mm_s, s.length), behind.why))
+            };
             v[k].v_mm_s = self.entry_speed(s, v[k].v_mm_s, behind.v_mm_s);
         }
         for k in 1..m {
             let s = &stretches[k - 1];
+            let before = v[k - 1];
             let reach = if k == 1 {
                 s.reach_from(self.v_start.v_mm_s, self.a_start)
+            } else if s.slope.clearly_reaches_up(before.v_mm_s, v[k].v_mm_s, s.length) {
+                continue;
             } else {
-                s.slope.reach_up(v[k - 1].v_mm_s, s.length)
+                s.slope.reach_up(before.v_mm_s, s.length)
             };
-            v[k] = v[k].lower(Cap::new(reach, v[k - 1].why));
+            v[k] = v[k].lower(Cap::new(reach, before.why));
         }
         v
     }
