@@ -72,6 +72,8 @@ pub struct Span {
     pub why_up: SpeedLimit,
     /// What held the speed down while braking.
     pub why_down: SpeedLimit,
+    /// Speeds in mm/s between which it was planned: those of the profile but for rounding.
+    asked: (f64, f64),
 }
 
 /// What is planned: blocks with what each of them and each boundary allows. Entry `i` of `caps`, `forced`, `entries` and
@@ -109,7 +111,8 @@ pub fn plan(
     Ok(plan_again(blocks, (feeds, caps), forced, (v_start, a_start), end, None)?.spans)
 }
 
-/// As [`plan`], with what is left of a draft of the same blocks from the same start.
+/// As [`plan`], with what is left of a draft: of the same blocks, or of blocks of which the first ones are behind the start
+/// now ([`Draft::pass`]).
 pub(crate) fn plan_again(
     blocks: &[Arc<Queued>],
     (feeds, caps): (&[Cap], &[Cap]),
@@ -118,7 +121,7 @@ pub(crate) fn plan_again(
     end: SpeedLimit,
     before: Option<&Draft>,
 ) -> Result<Draft, Infeasible> {
-    let known = before.map_or_else(Vec::new, |draft| draft.left(blocks, (feeds, caps)));
+    let known = before.map_or_else(Vec::new, |draft| draft.left(a_start, blocks, (feeds, caps)));
     if blocks.is_empty() {
         return Ok(Draft::default());
     }
@@ -134,7 +137,7 @@ pub(crate) fn plan_again(
     }
     let spans = early.plan(known)?;
     let passing = early.pass(&spans);
-    Ok(Draft::new(spans, passing, blocks, (feeds, caps)))
+    Ok(Draft::new(spans, passing, a_start, blocks, (feeds, caps)))
 }
 
 impl Window<'_> {
@@ -167,7 +170,8 @@ impl Window<'_> {
             }
             for (k, s) in stretches.iter().enumerate() {
                 let (from, to) = (speeds[k], speeds[k + 1]);
-                if let Some(same) = unchanged(&known, s, from.v_mm_s, to.v_mm_s) {
+                let asked = (from.v_mm_s, to.v_mm_s);
+                if let Some(same) = unchanged(&known, s, asked) {
                     spans.push(Span { why_up: from.why, why_down: to.why, ..same });
                     continue;
                 }
@@ -181,13 +185,14 @@ impl Window<'_> {
                         if s.end < blocks.len() && soft[s.end] && !knot[s.end] {
                             soft[s.end] = false;
                             again = true;
+                            spans = known;
                             break;
                         }
                         return Err(Infeasible { length_mm: s.length, needed_mm: f64::INFINITY });
                     };
                     let (first, end) = (s.first, s.end);
                     let (why_up, why_down) = (from.why, to.why);
-                    spans.push(Span { first, end, profile, why_up, why_down });
+                    spans.push(Span { first, end, profile, why_up, why_down, asked });
                     continue;
                 }
                 let mut profile = s.profile(from.v_mm_s, to.v_mm_s)?;
@@ -214,6 +219,7 @@ impl Window<'_> {
                     profile,
                     why_up: from.why,
                     why_down: to.why,
+                    asked,
                 });
             }
             if !again {
@@ -294,10 +300,10 @@ fn is_above(v: f64, feed: f64) -> bool {
 }
 
 /// The span of the last round, if neither its ends nor its speeds have changed.
-fn unchanged(known: &[Span], s: &Stretch, v0: f64, v1: f64) -> Option<Span> {
+fn unchanged(known: &[Span], s: &Stretch, asked: (f64, f64)) -> Option<Span> {
     let span = &known[known.binary_search_by_key(&s.first, |span| span.first).ok()?];
-    let ends = (span.profile.at(0.0).v_mm_s, span.profile.at(span.profile.duration()).v_mm_s);
-    let same =
-        span.end == s.end && ends.0.to_bits() == v0.to_bits() && ends.1.to_bits() == v1.to_bits();
+    let same = span.end == s.end
+        && span.asked.0.to_bits() == asked.0.to_bits()
+        && span.asked.1.to_bits() == asked.1.to_bits();
     same.then(|| span.clone())
 }

@@ -37,14 +37,12 @@ impl Planner {
         let mut forced = vec![false; window.len() + 1];
         let last_window = last_blocks(&window, self.window);
         let mut last: Option<Vec<Entry>> = None;
-        let mut draft = None;
         let (mut round, mut given_up) = (0, false);
         loop {
-            let mut entries =
-                match self.plan.place(&window, &forced, (start, end), self.cycle, &mut draft) {
-                    Ok(entries) => entries,
-                    Err(e) => return self.fall_back().ok_or(e),
-                };
+            let mut entries = match self.plan.place(&window, &forced, (start, end), self.cycle) {
+                Ok(entries) => entries,
+                Err(e) => return self.fall_back().ok_or(e),
+            };
             let before = last.as_deref().unwrap_or_else(|| self.plan.reserve.make_contiguous());
             recall(&mut entries, before, self.cycle);
             let verdict = self.verdict(&mut entries, round);
@@ -134,12 +132,11 @@ impl Planner {
             let window = self.plan.window();
             self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
-            let (mut last, mut draft) = (Vec::new(), None);
+            let mut last = Vec::new();
             let mut round = 0;
             let parts = loop {
                 let ends = (self.plan.start.moment, SpeedLimit::Stop);
-                let mut entries =
-                    self.plan.place(&window, &forced, ends, self.cycle, &mut draft).ok()?;
+                let mut entries = self.plan.place(&window, &forced, ends, self.cycle).ok()?;
                 recall(&mut entries, &last, self.cycle);
                 match self.verdict(&mut entries, round) {
                     Verdict::Kept => return Some(entries),
