@@ -50,6 +50,7 @@ use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
 use crate::ride::ride;
 pub(crate) use draft::Draft;
+use std::borrow::Cow;
 use std::sync::Arc;
 use stretch::{Stretch, cells, most_exceeded};
 
@@ -140,7 +141,7 @@ pub(crate) fn plan_again(
     Ok(Draft::new(spans, passing, a_start, blocks, (feeds, caps)))
 }
 
-impl Window<'_> {
+impl<'a> Window<'a> {
     /// Speed and reason that the boundary before block `b` allows.
     fn limit(&self, b: usize) -> Cap {
         self.caps[b].lower(self.feeds[b - 1]).lower(self.entries[b])
@@ -229,7 +230,7 @@ impl Window<'_> {
         }
     }
 
-    fn stretches(&self, knot: &[bool]) -> Vec<Stretch> {
+    fn stretches(&self, knot: &[bool]) -> Vec<Stretch<'a>> {
         let mut out = Vec::with_capacity(self.blocks.len());
         let mut first = 0;
         for (end, _) in knot.iter().enumerate().skip(1).filter(|(_, k)| **k) {
@@ -239,14 +240,14 @@ impl Window<'_> {
         out
     }
 
-    fn stretch(&self, first: usize, end: usize) -> Stretch {
+    fn stretch(&self, first: usize, end: usize) -> Stretch<'a> {
         let Self { blocks, feeds, .. } = *self;
         let mut s = Stretch {
             first,
             end,
             length: blocks[first].length,
             feed: feeds[first].v_mm_s,
-            slope: blocks[first].slope.clone(),
+            slope: Cow::Borrowed(&blocks[first].slope),
         };
         for i in first + 1..end {
             s.length += blocks[i].length;
@@ -257,13 +258,13 @@ impl Window<'_> {
                 // across blocks of different feed the check finds what is exceeded
                 s.feed.max(feeds[i].v_mm_s)
             };
-            s.slope = s.slope.weaker(&blocks[i].slope);
+            s.slope = Cow::Owned(s.slope.weaker(&blocks[i].slope));
         }
         s
     }
 
     /// Backward and forward pass: speed and reason at every knot.
-    fn passes(&self, stretches: &[Stretch]) -> Vec<Cap> {
+    fn passes(&self, stretches: &[Stretch<'_>]) -> Vec<Cap> {
         let m = stretches.len();
         let mut v = vec![self.v_start; m + 1];
         v[m] = Cap::new(0.0, self.end);
@@ -300,7 +301,7 @@ fn is_above(v: f64, feed: f64) -> bool {
 }
 
 /// The span of the last round, if neither its ends nor its speeds have changed.
-fn unchanged(known: &[Span], s: &Stretch, asked: (f64, f64)) -> Option<Span> {
+fn unchanged(known: &[Span], s: &Stretch<'_>, asked: (f64, f64)) -> Option<Span> {
     let span = &known[known.binary_search_by_key(&s.first, |span| span.first).ok()?];
     let same = span.end == s.end
         && span.asked.0.to_bits() == asked.0.to_bits()
