@@ -103,6 +103,8 @@ pub(crate) struct Simulation {
     chains: Vec<AxisChain>,
     drivers: Vec<Driver>,
     spindles: Vec<Spindle>,
+    /// Setpoint of every spindle in this cycle, in deg.
+    spindle_deg: Vec<f64>,
     inputs: Inputs,
     independent: IndependentAxes,
     /// Feedforward gain of every chain.
@@ -387,7 +389,7 @@ impl Simulation {
         let (seq, target) = (block.seq, block.path.end().clone());
         let bands = events.iter().any(|event| matches!(event, Event::Banding(_)));
         self.underway.push_back(Underway { seq, source, motion, target, jerk_limited, events });
-        self.smoothing.push(*block, &mut self.planner);
+        self.smoothing.push(block, &mut self.planner);
         if bands {
             self.smoothing.flush(&mut self.planner);
             self.planner.halt_behind();

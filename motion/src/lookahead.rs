@@ -50,6 +50,7 @@ use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
 use crate::ride::ride;
 pub(crate) use draft::Draft;
+use std::borrow::Cow;
 use std::sync::Arc;
 use stretch::{Stretch, cells, most_exceeded};
 
@@ -72,6 +73,8 @@ pub struct Span {
     pub why_up: SpeedLimit,
     /// What held the speed down while braking.
     pub why_down: SpeedLimit,
+    /// Speeds in mm/s between which it was planned: those of the profile but for rounding.
+    asked: (f64, f64),
 }
 
 /// What is planned: blocks with what each of them and each boundary allows. Entry `i` of `caps`, `forced`, `entries` and
@@ -109,7 +112,8 @@ pub fn plan(
     Ok(plan_again(blocks, (feeds, caps), forced, (v_start, a_start), end, None)?.spans)
 }
 
-/// As [`plan`], with what is left of a draft of the same blocks from the same start.
+/// As [`plan`], with what is left of a draft: of the same blocks, or of blocks of which the first ones are behind the start
+/// now ([`Draft::pass`]).
 pub(crate) fn plan_again(
     blocks: &[Arc<Queued>],
     (feeds, caps): (&[Cap], &[Cap]),
@@ -118,7 +122,7 @@ pub(crate) fn plan_again(
     end: SpeedLimit,
     before: Option<&Draft>,
 ) -> Result<Draft, Infeasible> {
-    let known = before.map_or_else(Vec::new, |draft| draft.left(blocks, (feeds, caps)));
+    let known = before.map_or_else(Vec::new, |draft| draft.left(a_start, blocks, (feeds, caps)));
     if blocks.is_empty() {
         return Ok(Draft::default());
     }
@@ -134,10 +138,10 @@ pub(crate) fn plan_again(
     }
     let spans = early.plan(known)?;
     let passing = early.pass(&spans);
-    Ok(Draft::new(spans, passing, blocks, (feeds, caps)))
+    Ok(Draft::new(spans, passing, a_start, blocks, (feeds, caps)))
 }
 
-impl Window<'_> {
+impl<'a> Window<'a> {
     /// Speed and reason that the boundary before block `b` allows.
     fn limit(&self, b: usize) -> Cap {
         self.caps[b].lower(self.feeds[b - 1]).lower(self.entries[b])
@@ -167,7 +171,8 @@ impl Window<'_> {
             }
             for (k, s) in stretches.iter().enumerate() {
                 let (from, to) = (speeds[k], speeds[k + 1]);
-                if let Some(same) = unchanged(&known, s, from.v_mm_s, to.v_mm_s) {
+                let asked = (from.v_mm_s, to.v_mm_s);
+                if let Some(same) = unchanged(&known, s, asked) {
                     spans.push(Span { why_up: from.why, why_down: to.why, ..same });
                     continue;
                 }
@@ -181,13 +186,14 @@ impl Window<'_> {
                         if s.end < blocks.len() && soft[s.end] && !knot[s.end] {
                             soft[s.end] = false;
                             again = true;
+                            spans = known;
                             break;
                         }
                         return Err(Infeasible { length_mm: s.length, needed_mm: f64::INFINITY });
                     };
                     let (first, end) = (s.first, s.end);
                     let (why_up, why_down) = (from.why, to.why);
-                    spans.push(Span { first, end, profile, why_up, why_down });
+                    spans.push(Span { first, end, profile, why_up, why_down, asked });
                     continue;
                 }
                 let mut profile = s.profile(from.v_mm_s, to.v_mm_s)?;
@@ -214,6 +220,7 @@ impl Window<'_> {
                     profile,
                     why_up: from.why,
                     why_down: to.why,
+                    asked,
                 });
             }
             if !again {
@@ -223,7 +230,7 @@ impl Window<'_> {
         }
     }
 
-    fn stretches(&self, knot: &[bool]) -> Vec<Stretch> {
+    fn stretches(&self, knot: &[bool]) -> Vec<Stretch<'a>> {
         let mut out = Vec::with_capacity(self.blocks.len());
         let mut first = 0;
         for (end, _) in knot.iter().enumerate().skip(1).filter(|(_, k)| **k) {
@@ -233,14 +240,14 @@ impl Window<'_> {
         out
     }
 
-    fn stretch(&self, first: usize, end: usize) -> Stretch {
+    fn stretch(&self, first: usize, end: usize) -> Stretch<'a> {
         let Self { blocks, feeds, .. } = *self;
         let mut s = Stretch {
             first,
             end,
             length: blocks[first].length,
             feed: feeds[first].v_mm_s,
-            slope: blocks[first].slope.clone(),
+            slope: Cow::Borrowed(&blocks[first].slope),
         };
         for i in first + 1..end {
             s.length += blocks[i].length;
@@ -251,13 +258,13 @@ impl Window<'_> {
                 // across blocks of different feed the check finds what is exceeded
                 s.feed.max(feeds[i].v_mm_s)
             };
-            s.slope = s.slope.weaker(&blocks[i].slope);
+            s.slope = Cow::Owned(s.slope.weaker(&blocks[i].slope));
         }
         s
     }
 
     /// Backward and forward pass: speed and reason at every knot.
-    fn passes(&self, stretches: &[Stretch]) -> Vec<Cap> {
+    fn passes(&self, stretches: &[Stretch<'_>]) -> Vec<Cap> {
         let m = stretches.len();
         let mut v = vec![self.v_start; m + 1];
         v[m] = Cap::new(0.0, self.end);
@@ -265,18 +272,24 @@ impl Window<'_> {
             let s = &stretches[k];
             let best = self.limit(s.first);
             let behind = v[k + 1];
-            let reach = s.slope.reach_down(behind.v_mm_s, s.length);
-            v[k] = best.lower(Cap::new(reach, behind.why));
+            v[k] = if s.slope.clearly_reaches_down(best.v_mm_s, behind.v_mm_s, s.length) {
+                best
+            } else {
+                best.lower(Cap::new(s.slope.reach_down(behind.v_mm_s, s.length), behind.why))
+            };
             v[k].v_mm_s = self.entry_speed(s, v[k].v_mm_s, behind.v_mm_s);
         }
         for k in 1..m {
             let s = &stretches[k - 1];
+            let before = v[k - 1];
             let reach = if k == 1 {
                 s.reach_from(self.v_start.v_mm_s, self.a_start)
+            } else if s.slope.clearly_reaches_up(before.v_mm_s, v[k].v_mm_s, s.length) {
+                continue;
             } else {
-                s.slope.reach_up(v[k - 1].v_mm_s, s.length)
+                s.slope.reach_up(before.v_mm_s, s.length)
             };
-            v[k] = v[k].lower(Cap::new(reach, v[k - 1].why));
+            v[k] = v[k].lower(Cap::new(reach, before.why));
         }
         v
     }
@@ -288,10 +301,10 @@ fn is_above(v: f64, feed: f64) -> bool {
 }
 
 /// The span of the last round, if neither its ends nor its speeds have changed.
-fn unchanged(known: &[Span], s: &Stretch, v0: f64, v1: f64) -> Option<Span> {
+fn unchanged(known: &[Span], s: &Stretch<'_>, asked: (f64, f64)) -> Option<Span> {
     let span = &known[known.binary_search_by_key(&s.first, |span| span.first).ok()?];
-    let ends = (span.profile.at(0.0).v_mm_s, span.profile.at(span.profile.duration()).v_mm_s);
-    let same =
-        span.end == s.end && ends.0.to_bits() == v0.to_bits() && ends.1.to_bits() == v1.to_bits();
+    let same = span.end == s.end
+        && span.asked.0.to_bits() == asked.0.to_bits()
+        && span.asked.1.to_bits() == asked.1.to_bits();
     same.then(|| span.clone())
 }

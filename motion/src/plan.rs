@@ -55,6 +55,8 @@ pub(crate) struct Plan {
     pub(crate) demands: Demands,
     /// Rest of the spans found last, from the start to rest.
     pub(crate) reserve: VecDeque<Entry>,
+    /// The plan found last; most of it stays as it is in the next one.
+    draft: Option<Draft>,
 }
 
 impl Default for Plan {
@@ -73,6 +75,7 @@ impl Plan {
             start,
             demands: Demands::default(),
             reserve: VecDeque::new(),
+            draft: None,
         }
     }
 
@@ -90,6 +93,7 @@ impl Plan {
     pub(crate) fn replace(&mut self, segments: Vec<Segment>) {
         self.demands = Demands::again(segments.iter().map(|s| s.asked.unwrap_or_default()));
         self.segments = segments.into();
+        self.draft = None;
         self.programmed = programmed(&self.segments);
     }
 
@@ -114,18 +118,16 @@ impl Plan {
         blocks.take_while(|q| q.velocity.v_mm_s > 0.0).cloned().collect()
     }
 
-    /// Plans a window and places the spans on the time axis; `forced` boundaries are knots, `end` is why the path ends,
-    /// and `draft` what was planned for the same window last.
+    /// Plans a window and places the spans on the time axis; `forced` boundaries are knots, and `end` is why the path ends.
     ///
     /// # Errors
     /// [`Infeasible`] where no speed leads from the start to rest.
     pub(crate) fn place(
-        &self,
+        &mut self,
         window: &[Arc<Queued>],
         forced: &[bool],
         (start, end): (Moment, SpeedLimit),
         cycle: CycleTime,
-        draft: &mut Option<Draft>,
     ) -> Result<Vec<Entry>, Infeasible> {
         let lower = |cap: Cap, demand: f64| cap.lower(Cap::new(demand, SpeedLimit::AxDev));
         let (n, demands) = (window.len(), &self.demands);
@@ -143,8 +145,8 @@ impl Plan {
         let gentle = demands.soften(window);
         let from = (self.start.speed, self.start.a_mm_s2);
         let limits = (&feeds[..], &caps[..]);
-        let planned = plan_again(&gentle, limits, &forced, from, end, draft.as_ref())?;
-        let spans = &draft.insert(planned).spans;
+        let planned = plan_again(&gentle, limits, &forced, from, end, self.draft.as_ref())?;
+        let spans = &self.draft.insert(planned).spans;
         // behind a rest the start may have to wait until the filters have left the corner in front of it
         let mut at = match demands.stop[0] {
             Some(wait) => Moment::tick(start.next_tick(cycle) + u64::from(wait)),
@@ -179,6 +181,9 @@ impl Plan {
         let final_ones = self.asked().take(count).collect();
         self.segments.drain(..count);
         self.demands.pass(count);
+        if let Some(draft) = &mut self.draft {
+            draft.pass(count);
+        }
         self.programmed = programmed(&self.segments);
         final_ones
     }

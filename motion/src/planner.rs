@@ -213,19 +213,20 @@ impl Planner {
     }
 
     /// Adds a block behind the ones pushed so far. Its path starts where the one before ends.
-    pub fn push(&mut self, block: Block) {
+    pub fn push(&mut self, block: impl Into<Box<Block>>) {
+        let block = block.into();
         match sharp::parts(&block) {
-            Some(parts) => parts.into_iter().for_each(|part| self.enqueue(part)),
+            Some(parts) => parts.into_iter().for_each(|part| self.enqueue(part.into())),
             None => self.enqueue(block),
         }
     }
 
-    fn enqueue(&mut self, block: Block) {
+    fn enqueue(&mut self, block: Box<Block>) {
         self.finishing = false;
         let table = &mut self.slopes[usize::from(block.feed == Feed::Rapid)];
         table.take_if(|table| !table.serves(&block));
         let table = table.get_or_insert_with(|| SlopeTable::of(&block, self.cycle));
-        let queued = Arc::new(Queued::with(block, table)).rated(&self.active.ratios);
+        let queued = Arc::new(Queued::with(block, table, &self.active.ratios));
         let cap = match &self.last {
             Some(last) => transition(
                 &last.block,

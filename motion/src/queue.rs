@@ -31,8 +31,8 @@ const WORTH: f64 = 0.1;
 /// A block with its own limits, computed once when it enters the queue.
 #[derive(Clone, Debug)]
 pub struct Queued {
-    /// The block.
-    pub block: Block,
+    /// The block, where it was programmed: it is large.
+    pub block: Box<Block>,
     /// Tangents and curvatures at both ends.
     pub ends: Ends,
     /// Path length in mm at which the block starts: not 0 for the rest of a block after a change of speed inside it.
@@ -53,24 +53,38 @@ pub struct Queued {
     pub(crate) goes_on: bool,
 }
 
+/// Path velocity under a real-time override, and what it would be if no feed were programmed.
+fn rated(block: &Block, speeds: &PathSpeeds, ratios: &Override) -> (Cap, Cap) {
+    let rated = |speeds: &PathSpeeds| {
+        if block.full_override {
+            speeds.limited(speeds.programmed_mm_s)
+        } else {
+            ratios.velocity(speeds)
+        }
+    };
+    (rated(speeds), rated(&PathSpeeds { programmed_mm_s: f64::INFINITY, ..*speeds }))
+}
+
 impl Queued {
     /// Derives the limits of a block.
-    pub fn new(block: Block, cycle: CycleTime) -> Self {
+    pub fn new(block: impl Into<Box<Block>>, cycle: CycleTime) -> Self {
+        let block = block.into();
         let table = SlopeTable::of(&block, cycle);
-        Self::with(block, &table)
+        Self::with(block, &table, &Override::default())
     }
 
-    /// Derives the limits of a block with its table.
-    pub(crate) fn with(block: Block, table: &SlopeTable) -> Self {
+    /// Derives the limits of a block with its table, under a real-time override.
+    pub(crate) fn with(block: Box<Block>, table: &SlopeTable, ratios: &Override) -> Self {
         let x = PathExtremes::of(&block.path);
         let speeds = PathSpeeds::of(&block, &x);
+        let (velocity, ceiling) = rated(&block, &speeds, ratios);
         Self {
             offset: 0.0,
             speeds,
             ends: Ends::of(&block),
             length: block.path.length(),
-            velocity: speeds.limited(speeds.programmed_mm_s),
-            ceiling: speeds.limited(f64::INFINITY),
+            velocity,
+            ceiling,
             slope: table.path_slope(&x),
             bend: x.second.iter().copied().fold(0.0, f64::max),
             goes_on: false,
@@ -80,15 +94,7 @@ impl Queued {
 
     /// The block under a real-time override.
     pub(crate) fn rated(self: &Arc<Self>, ratios: &Override) -> Arc<Self> {
-        let rated = |speeds: &PathSpeeds| {
-            if self.block.full_override {
-                speeds.limited(speeds.programmed_mm_s)
-            } else {
-                ratios.velocity(speeds)
-            }
-        };
-        let velocity = rated(&self.speeds);
-        let ceiling = rated(&PathSpeeds { programmed_mm_s: f64::INFINITY, ..self.speeds });
+        let (velocity, ceiling) = rated(&self.block, &self.speeds, ratios);
         if velocity == self.velocity && ceiling == self.ceiling {
             Arc::clone(self)
         } else {

@@ -3,7 +3,6 @@
 use super::{Phase, SettledStop, Simulation};
 use crate::machine::{Axis, Machine};
 use crate::record::{PathRecord, Rest};
-use smallvec::SmallVec;
 
 /// Where the setpoint of a chain comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,8 +67,9 @@ impl Simulation {
             self.independent.follow(&mut positions);
         }
         self.spindles.iter_mut().for_each(|s| s.cut(&positions));
-        let spindles: SmallVec<[f64; 4]> =
-            self.spindles.iter_mut().map(|s| s.step(&positions, self.cycle)).collect();
+        for (degrees, spindle) in self.spindle_deg.iter_mut().zip(&mut self.spindles) {
+            *degrees = spindle.step(&positions, self.cycle);
+        }
         if !self.wear.is_unused() {
             let axes = &self.machine.axes;
             let limit = |axis: usize| axes[axis].dynamics().a_max_mm_s2;
@@ -92,7 +92,7 @@ impl Simulation {
             let ipo = match (self.frozen[i], self.drivers[i]) {
                 (Some(x), _) => x,
                 (None, Driver::Path(p)) => positions[p],
-                (None, Driver::Spindle(s)) => spindles[s],
+                (None, Driver::Spindle(s)) => self.spindle_deg[s],
                 (None, Driver::Standing) => chain.set_mm(),
             };
             let record = &mut self.record.axes[i];

@@ -19,12 +19,12 @@ pub(super) struct Smoothing {
 
 impl Smoothing {
     /// Takes a programmed motion; what is final goes to the planner.
-    pub(super) fn push(&mut self, block: Block, planner: &mut Planner) {
+    pub(super) fn push(&mut self, block: Box<Block>, planner: &mut Planner) {
         if self.splining.passes(&block) && self.contouring.passes(&block) {
             planner.push(block);
             return;
         }
-        for block in self.splining.push(block) {
+        for block in self.splining.push(*block) {
             for block in self.contouring.push(block) {
                 planner.push(block);
             }

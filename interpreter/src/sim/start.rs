@@ -49,7 +49,8 @@ impl Simulation {
             }
         }
         let window = machine.channel.look_ahead.blocks as usize;
-        let spindles = machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
+        let spindles: Vec<_> =
+            machine.spindles.iter().map(|a| Spindle::new(&a.dynamics())).collect();
         let records = chains.iter().map(AxisChain::at_start).collect();
         let mut simulation = Self {
             smoothing: Smoothing::default(),
@@ -64,6 +65,7 @@ impl Simulation {
             independent: IndependentAxes::new(n),
             chains,
             drivers,
+            spindle_deg: vec![0.0; spindles.len()],
             spindles,
             underway: VecDeque::new(),
             current: SourceRef::default(),

@@ -1,4 +1,8 @@
-//! A plan that is made again and again under limits of which few change: what it was made for stays with it.
+//! A plan that is made again and again, under limits of which few change or with more blocks behind it: what it was made for
+//! stays with it.
+//!
+//! The profile of a span depends on its blocks, their feeds, the caps of the boundaries inside, and the speeds at its ends; that of
+//! the first span also on the acceleration there. Which boundaries are knots does not matter: a span is asked for by its ends.
 
 use super::Span;
 use crate::cap::Cap;
@@ -6,11 +10,13 @@ use crate::queue::Queued;
 use std::sync::Arc;
 
 /// A plan with what it was made for: where that stays as it is, so does the plan.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
     pub(crate) spans: Vec<Span>,
     /// The plan with acceleration zero at its knots, where some of them are passed with another one.
     flat: Option<Vec<Span>>,
+    /// Acceleration in mm/s2 with which the span of the first block begins.
+    a_start: f64,
     blocks: Vec<Arc<Queued>>,
     feeds: Vec<Cap>,
     caps: Vec<Cap>,
@@ -21,6 +27,7 @@ impl Draft {
     pub(super) fn new(
         spans: Vec<Span>,
         passing: Option<Vec<Span>>,
+        a_start: f64,
         blocks: &[Arc<Queued>],
         (feeds, caps): (&[Cap], &[Cap]),
     ) -> Self {
@@ -28,7 +35,8 @@ impl Draft {
             Some(passing) => (passing, Some(spans)),
             None => (spans, None),
         };
-        Self { spans, flat, blocks: blocks.to_vec(), feeds: feeds.to_vec(), caps: caps.to_vec() }
+        let (feeds, caps) = (feeds.to_vec(), caps.to_vec());
+        Self { spans, flat, a_start, blocks: blocks.to_vec(), feeds, caps }
     }
 
     /// A plan of which nothing can be used again.
@@ -36,19 +44,49 @@ impl Draft {
         Self { spans, ..Self::default() }
     }
 
+    /// What is left when the first blocks are behind the start.
+    pub(crate) fn pass(&mut self, count: usize) {
+        if count == 0 {
+            return;
+        }
+        if count >= self.blocks.len() {
+            *self = Self::default();
+            return;
+        }
+        if let Some(flat) = self.flat.take() {
+            self.spans = flat;
+        }
+        self.spans.retain_mut(|span| {
+            let ahead = span.first >= count;
+            if ahead {
+                (span.first, span.end) = (span.first - count, span.end - count);
+            }
+            ahead
+        });
+        // between spans the acceleration is zero
+        self.a_start = 0.0;
+        self.blocks.drain(..count);
+        self.feeds.drain(..count);
+        self.caps.drain(..count);
+    }
+
     /// The spans inside which nothing else is allowed now.
     pub(super) fn left(
         &self,
+        a_start: f64,
         blocks: &[Arc<Queued>],
         (feeds, caps): (&[Cap], &[Cap]),
     ) -> Vec<Span> {
+        let begins_as_before = a_start.to_bits() == self.a_start.to_bits();
         let same = |i: usize| {
             let [now, before] = [blocks, &self.blocks].map(|list| list.get(i));
             now.zip(before).is_some_and(|(a, b)| Arc::ptr_eq(a, b)) && feeds[i] == self.feeds[i]
         };
         let stays = |span: &&Span| {
             let inside = span.first + 1..span.end;
-            (span.first..span.end).all(same) && caps[inside.clone()] == self.caps[inside]
+            (begins_as_before || span.first > 0)
+                && (span.first..span.end).all(same)
+                && caps[inside.clone()] == self.caps[inside]
         };
         self.flat.as_ref().unwrap_or(&self.spans).iter().filter(stays).cloned().collect()
     }
@@ -61,6 +99,8 @@ mod tests {
         include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs"));
     }
 
+    use super::Draft;
+    use crate::block::{Slope, SlopeKind};
     use crate::cap::{Cap, SpeedLimit};
     use crate::lookahead::plan_again;
     use crate::queue::Queued;
@@ -68,43 +108,111 @@ mod tests {
     use kontur_filters::time::CycleTime;
     use proptest::prelude::*;
 
+    /// Chords of these lengths and directions: the accelerations of the path differ from one to the next.
+    fn contour(slope: Slope, chords: &[(f64, f64)]) -> Vec<Arc<Queued>> {
+        let cycle = CycleTime::from_us(1000).unwrap();
+        let mut at = [0.0, 0.0];
+        let blocks = chords.iter().zip(1..).map(|((length, angle), seq)| {
+            let from = at;
+            at = [at[0] + length * libm::cos(*angle), at[1] + length * libm::sin(*angle)];
+            let block = block(seq, from, at, 100.0);
+            Arc::new(Queued::new(crate::block::Block { slope, ..block }, cycle))
+        });
+        blocks.collect()
+    }
+
+    fn slopes() -> impl Strategy<Value = Slope> {
+        let kinds = [SlopeKind::Step, SlopeKind::Trapez, SlopeKind::Sin2, SlopeKind::Hsc];
+        (prop::sample::select(kinds.to_vec()), any::<bool>(), any::<bool>()).prop_map(
+            |(kind, optimised, constant_ramp_time)| Slope { kind, optimised, constant_ramp_time },
+        )
+    }
+
+    /// The caps in front of blocks, with a stop behind the last one.
+    fn closed(caps: &[f64]) -> Vec<Cap> {
+        let corner = |v: &f64| Cap::new(*v, SpeedLimit::Corner);
+        caps.iter().map(corner).chain([Cap::STOP]).collect()
+    }
+
+    /// Plans once from nothing and once with a draft.
+    fn twice(
+        blocks: &[Arc<Queued>],
+        limits: (&[Cap], &[Cap]),
+        start: (Cap, f64),
+        before: Option<&Draft>,
+    ) -> Result<Option<Draft>, TestCaseError> {
+        let forced = vec![false; blocks.len() + 1];
+        let plan = |before| plan_again(blocks, limits, &forced, start, SpeedLimit::Stop, before);
+        let (anew, again) = match (plan(None), plan(before)) {
+            (Ok(anew), Ok(again)) => (anew, again),
+            (anew, again) => {
+                prop_assert!(anew.is_err() && again.is_err());
+                return Ok(None);
+            }
+        };
+        prop_assert_eq!(anew.spans.len(), again.spans.len());
+        for (a, b) in anew.spans.iter().zip(&again.spans) {
+            prop_assert_eq!(
+                (a.first, a.end, a.why_up, a.why_down),
+                (b.first, b.end, b.why_up, b.why_down)
+            );
+            prop_assert!(a.profile == b.profile);
+        }
+        Ok(Some(again))
+    }
+
     proptest! {
         /// Random blocks whose limits are lowered here and there, round after round: a plan made again is to the bit the one
         /// made from nothing.
         #[test]
         fn a_plan_made_again_is_the_plan_made_anew(
-            lengths in prop::collection::vec(0.05..3.0f64, 2..40),
+            slope in slopes(),
+            chords in prop::collection::vec((0.05..3.0f64, 0.0..1.5f64), 2..40),
             caps in prop::collection::vec(1.0..120.0f64, 40),
             lowered in prop::collection::vec((0..40usize, 0.5..1.0f64, any::<bool>()), 1..12),
         ) {
-            let cycle = CycleTime::from_us(1000).unwrap();
-            let mut x = 0.0;
-            let blocks = lengths.iter().zip(1..).map(|(length, seq)| {
-                let from = x;
-                x += length;
-                Arc::new(Queued::new(block(seq, [from, 0.0], [x, 0.0], 100.0), cycle))
-            });
-            let blocks: Vec<_> = blocks.collect();
+            let blocks = contour(slope, &chords);
             let n = blocks.len();
             let mut feeds: Vec<Cap> = blocks.iter().map(|b| b.velocity).collect();
-            let mut caps: Vec<Cap> =
-                caps[..n].iter().map(|v| Cap::new(*v, SpeedLimit::Corner)).chain([Cap::STOP]).collect();
+            let mut caps = closed(&caps[..n]);
             let mut draft = None;
             for (at, ratio, feed) in lowered {
                 let limit = if feed { &mut feeds[at % n] } else { &mut caps[at % n] };
                 limit.v_mm_s *= ratio;
-                let forced = vec![false; n + 1];
-                let plan = |before| {
-                    let start = (Cap::STOP, 0.0);
-                    plan_again(&blocks, (&feeds, &caps), &forced, start, SpeedLimit::Stop, before)
-                };
-                let (anew, again) = (plan(None).unwrap(), plan(draft.as_ref()).unwrap());
-                prop_assert_eq!(anew.spans.len(), again.spans.len());
-                for (a, b) in anew.spans.iter().zip(&again.spans) {
-                    prop_assert_eq!((a.first, a.end, a.why_up, a.why_down), (b.first, b.end, b.why_up, b.why_down));
-                    prop_assert!(a.profile == b.profile);
+                draft = twice(&blocks, (&feeds, &caps), (Cap::STOP, 0.0), draft.as_ref())?;
+            }
+        }
+
+        /// A window that moves along a random contour, and stops now and then inside a span, with the acceleration that the path
+        /// has there: what is kept of the plan before changes no bit.
+        #[test]
+        fn a_plan_whose_window_moves_on_is_the_plan_made_anew(
+            slope in slopes(),
+            chords in prop::collection::vec((0.05..3.0f64, 0.0..1.5f64), 100),
+            caps in prop::collection::vec(prop_oneof![1.0..120.0f64, 90.0..120.0f64], 100),
+            moves in prop::collection::vec((0..25usize, 1..25usize), 1..8),
+        ) {
+            let blocks = contour(slope, &chords);
+            let (mut first, mut end) = (0, 20);
+            let (mut start, mut draft) = ((Cap::STOP, 0.0), None::<Draft>);
+            for (passed, more) in moves {
+                let window = &blocks[first..end];
+                let feeds: Vec<Cap> = window.iter().map(|b| b.velocity).collect();
+                let planned = twice(window, (&feeds, &closed(&caps[first..end])), start, draft.as_ref())?;
+                let Some(mut planned) = planned else { break };
+                let passed = passed.min(end - first - 1);
+                if let Some(span) = planned.spans.iter().find(|s| s.first < passed && passed <= s.end) {
+                    let s_mm = window[span.first..passed].iter().map(|b| b.length).sum();
+                    let parted = (passed < span.end).then(|| span.profile.split(s_mm));
+                    let Some((profile, _)) = parted.unwrap_or_else(|| Some((span.profile.clone(), span.profile.clone()))) else {
+                        break;
+                    };
+                    let state = profile.end();
+                    start = (Cap::new(state.v_mm_s, span.why_down), state.a_mm_s2);
                 }
-                draft = Some(again);
+                planned.pass(passed);
+                draft = Some(planned);
+                (first, end) = (first + passed, (end + more).min(blocks.len()));
             }
         }
     }

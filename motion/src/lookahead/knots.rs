@@ -89,7 +89,7 @@ impl Window<'_> {
     /// Drops the minima at which acceleration zero would cost speed; true if there were any.
     pub(super) fn drop_lowered(
         &self,
-        stretches: &[Stretch],
+        stretches: &[Stretch<'_>],
         speeds: &[Cap],
         knot: &[bool],
         soft: &mut [bool],

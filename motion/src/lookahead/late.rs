@@ -69,7 +69,7 @@ fn faster(a: Vec<Span>, b: Vec<Span>) -> Vec<Span> {
 impl Window<'_> {
     /// The highest speed, at most `most`, at which a stretch that ends with `v1` may be entered: above its feed no
     /// boundary inside is passed faster than it allows, now and when a later plan ends it at its feed.
-    pub(super) fn entry_speed(&self, s: &Stretch, most: f64, v1: f64) -> f64 {
+    pub(super) fn entry_speed(&self, s: &Stretch<'_>, most: f64, v1: f64) -> f64 {
         if !s.is_above(most) {
             return most;
         }
@@ -87,7 +87,7 @@ impl Window<'_> {
     }
 
     /// True if no boundary inside a stretch is passed faster than it allows.
-    pub(super) fn keeps(&self, s: &Stretch, v0: f64, v1: f64) -> bool {
+    pub(super) fn keeps(&self, s: &Stretch<'_>, v0: f64, v1: f64) -> bool {
         if s.end - s.first == 1 || !s.is_above(v0) {
             return true;
         }

@@ -7,23 +7,25 @@ use crate::cap::Cap;
 use crate::profile::{Infeasible, Profile, Rates, SlopeLimits};
 use crate::queue::Queued;
 use crate::ride::{Cell, has_hill};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Relative difference of path acceleration from which on blocks planned across are not planned with the weakest of them.
 const UNEVEN: f64 = 0.01;
 
 /// Blocks `first..end` between two knots.
-pub(super) struct Stretch {
+pub(super) struct Stretch<'a> {
     pub(super) first: usize,
     pub(super) end: usize,
     /// Length in mm.
     pub(super) length: f64,
     /// Highest feed in mm/s.
     pub(super) feed: f64,
-    pub(super) slope: SlopeLimits,
+    /// The one of its only block, or the weakest of several.
+    pub(super) slope: Cow<'a, SlopeLimits>,
 }
 
-impl Stretch {
+impl Stretch<'_> {
     /// Both in one, with the feed of the second one: braking continues from the first to the second.
     pub(super) fn carried_into(self, second: &Self) -> Self {
         Self {
@@ -31,7 +33,7 @@ impl Stretch {
             end: second.end,
             length: self.length + second.length,
             feed: second.feed,
-            slope: self.slope.weaker(&second.slope),
+            slope: Cow::Owned(self.slope.weaker(&second.slope)),
         }
     }
 
@@ -97,7 +99,7 @@ pub(super) fn most_exceeded(
     blocks: &[Arc<Queued>],
     feeds: &[Cap],
     caps: &[Cap],
-    s: &Stretch,
+    s: &Stretch<'_>,
     profile: &Profile,
 ) -> Option<usize> {
     let mut worst = (1.0 + 1e-9, None);

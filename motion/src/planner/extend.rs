@@ -37,14 +37,12 @@ impl Planner {
         let mut forced = vec![false; window.len() + 1];
         let last_window = last_blocks(&window, self.window);
         let mut last: Option<Vec<Entry>> = None;
-        let mut draft = None;
         let (mut round, mut given_up) = (0, false);
         loop {
-            let mut entries =
-                match self.plan.place(&window, &forced, (start, end), self.cycle, &mut draft) {
-                    Ok(entries) => entries,
-                    Err(e) => return self.fall_back().ok_or(e),
-                };
+            let mut entries = match self.plan.place(&window, &forced, (start, end), self.cycle) {
+                Ok(entries) => entries,
+                Err(e) => return self.fall_back().ok_or(e),
+            };
             let before = last.as_deref().unwrap_or_else(|| self.plan.reserve.make_contiguous());
             recall(&mut entries, before, self.cycle);
             let verdict = self.verdict(&mut entries, round);
@@ -67,7 +65,9 @@ impl Planner {
                 }
             }
             let rests = end != SpeedLimit::Lookahead;
-            let entries = if rests { entries } else { self.part(entries, last_window) };
+            if !rests {
+                self.part(&mut entries, last_window);
+            }
             let count =
                 if rests { Some(entries.len()) } else { entries_before(&entries, last_window) };
             let Some(count) = count else {
@@ -134,12 +134,11 @@ impl Planner {
             let window = self.plan.window();
             self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
-            let (mut last, mut draft) = (Vec::new(), None);
+            let mut last = Vec::new();
             let mut round = 0;
             let parts = loop {
                 let ends = (self.plan.start.moment, SpeedLimit::Stop);
-                let mut entries =
-                    self.plan.place(&window, &forced, ends, self.cycle, &mut draft).ok()?;
+                let mut entries = self.plan.place(&window, &forced, ends, self.cycle).ok()?;
                 recall(&mut entries, &last, self.cycle);
                 match self.verdict(&mut entries, round) {
                     Verdict::Kept => return Some(entries),
@@ -153,23 +152,23 @@ impl Planner {
         }
     }
 
-    /// The entries with the one that reaches over the start of block `limit` in two, where its blocks may be left with an
-    /// acceleration.
-    fn part(&self, entries: Vec<Entry>, limit: usize) -> Vec<Entry> {
-        let mut out = Vec::with_capacity(entries.len() + 1);
+    /// Puts the entry that reaches over the start of block `limit` in two, where its blocks may be left with an acceleration.
+    fn part(&self, entries: &mut Vec<Entry>, limit: usize) {
         let mut first = 0;
-        for entry in entries {
-            let n = entry.blocks.len();
-            let parts = (first < limit && limit < first + n && self.may_part(&entry))
-                .then(|| entry.split(limit - first))
-                .flatten();
-            first += n;
-            match parts {
-                Some(parts) => out.extend(parts),
-                None => out.push(entry),
-            }
+        let over = entries.iter().position(|entry| {
+            first += entry.blocks.len();
+            first > limit
+        });
+        let Some(over) = over else { return };
+        let entry = &entries[over];
+        let before = limit - (first - entry.blocks.len());
+        if before > 0
+            && self.may_part(entry)
+            && let Some([now, later]) = entry.split(before)
+        {
+            entries[over] = later;
+            entries.insert(over, now);
         }
-        out
     }
 
     /// True if a plan may start inside an entry: braking under G901 and what keeps a tolerance are planned as a whole, and

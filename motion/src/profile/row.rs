@@ -1,6 +1,7 @@
 //! The speed over a path length: a row of phases, whoever has planned it.
 
 use super::phase::Phase;
+use std::sync::Arc;
 
 /// State of the path coordinate at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,8 +19,8 @@ pub struct State {
 /// A speed that never goes backwards, in phases of constant jerk or of one sine-square ramp.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    /// Phases in order with the times at which they start; there may be empty ones.
-    phases: Vec<(f64, Phase)>,
+    /// Phases in order with the times at which they start; there may be empty ones. Shared: plans hand their profiles on.
+    phases: Arc<[(f64, Phase)]>,
     duration: f64,
     end: State,
 }
@@ -27,14 +28,14 @@ pub struct Profile {
 impl Profile {
     /// Phases that follow each other, and the state at their end.
     pub(super) fn new(phases: impl IntoIterator<Item = Phase>, end: State) -> Self {
-        let phases = phases.into_iter();
-        let mut timed = Vec::with_capacity(phases.size_hint().0);
         let mut duration = 0.0;
-        for phase in phases {
-            timed.push((duration, phase));
+        let timed = phases.into_iter().map(|phase| {
+            let start = duration;
             duration += phase.t;
-        }
-        Self { phases: timed, duration, end }
+            (start, phase)
+        });
+        let phases = timed.collect();
+        Self { phases, duration, end }
     }
 
     /// Phases that follow each other over a length.
@@ -51,11 +52,11 @@ impl Profile {
     }
 
     /// The same with what follows after its end.
-    pub(super) fn followed_by(self, next: &Self) -> Self {
+    pub(super) fn followed_by(&self, next: &Self) -> Self {
         let length = self.end.s_mm;
         let moved = next.phases.iter().map(|(_, p)| p.placed_at(length + p.s));
         let end = State { s_mm: length + next.end.s_mm, ..next.end };
-        Self::new(self.phases.into_iter().map(|(_, p)| p).chain(moved), end)
+        Self::new(self.phases.iter().map(|(_, p)| *p).chain(moved), end)
     }
 
     /// The parts before and after a path length, the acceleration there as it is; `None` if that cuts a sine-square ramp, or

@@ -7,6 +7,8 @@ use super::step::StepLimits;
 
 /// Halvings of the speed at which the acceleration stops between two legs of braking.
 const HALVINGS: u32 = 50;
+/// Relative difference of speeds that no rounding makes up for.
+const CLEARLY: f64 = 1e-9;
 
 /// Path limits of one span: how its velocity may change.
 ///
@@ -74,6 +76,23 @@ impl SlopeLimits {
         }
     }
 
+    /// True if a speed-up from `v0` clearly reaches `v1` within `length`: then [`Self::reach_up`] is not less, and need not be
+    /// asked. Its answer takes a cube root, this one a square root at most.
+    pub(crate) fn clearly_reaches_up(&self, v0: f64, v1: f64, length: f64) -> bool {
+        match self {
+            Self::Step(_) => false,
+            Self::Ramped(l) => l.up().distance(v0, v1 * (1.0 + CLEARLY) - v0) <= length,
+        }
+    }
+
+    /// True if braking from `v1` clearly gets to `ve` within `length`, see [`Self::clearly_reaches_up`].
+    pub(crate) fn clearly_reaches_down(&self, v1: f64, ve: f64, length: f64) -> bool {
+        match self {
+            Self::Step(_) => false,
+            Self::Ramped(l) => l.down().distance(ve, v1 * (1.0 + CLEARLY) - ve) <= length,
+        }
+    }
+
     /// The whole span: from `v0` to a peak of at most `vf`, then to `ve`, over exactly `length`.
     ///
     /// A `vf` below `max(v0, ve)` counts as that maximum. Where the boundary velocities miss the length by
@@ -126,5 +145,41 @@ impl SlopeLimits {
             return Ok(profile);
         }
         self.plan(v0, ve, v0, length)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::SlopeLimits;
+    use crate::profile::{RampShape, RampedLimits};
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What is clearly reached is never more than the reach itself, to the last bit; and what is a little more or less
+        /// than the reach is told apart.
+        #[test]
+        fn what_is_clearly_reached_is_within_reach(
+            sin2 in any::<bool>(),
+            constant_ramp_time in any::<bool>(),
+            (acc, dec) in (1.0..20_000.0f64, 1.0..20_000.0f64),
+            ramps in prop::array::uniform4(prop_oneof![Just(0.0), 1e-4..0.5f64]),
+            (v, length) in (prop_oneof![Just(0.0), 1e-9..2000.0f64], prop_oneof![0.0..1e-3f64, 1e-3..500.0f64]),
+            offset in prop_oneof![Just(0.0), -1e-6..1e-6f64, -1e-13..1e-13f64],
+        ) {
+            let shape = if sin2 { RampShape::Sin2 } else { RampShape::Trapez };
+            let slope = SlopeLimits::Ramped(RampedLimits::new(shape, constant_ramp_time, acc, dec, ramps));
+            for up in [true, false] {
+                let (reach, clearly): (f64, &dyn Fn(f64) -> bool) = if up {
+                    (slope.reach_up(v, length), &|to| slope.clearly_reaches_up(v, to, length))
+                } else {
+                    (slope.reach_down(v, length), &|from| slope.clearly_reaches_down(from, v, length))
+                };
+                let asked = reach * (1.0 + offset);
+                prop_assert!(!clearly(asked) || asked <= reach, "{asked} is beyond {reach}");
+                prop_assert!(!clearly(f64::INFINITY) && !clearly(reach * (1.0 + 1e-8) + 1e-12));
+                prop_assert!(reach <= v || clearly(0.5 * (v + reach)) || reach - v < 1e-6 * v);
+                prop_assert!(length <= 0.0 || clearly(0.5 * v));
+            }
+        }
     }
 }
