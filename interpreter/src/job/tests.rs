@@ -1,5 +1,5 @@
 use super::*;
-use crate::record::CycleRecord;
+use crate::record::{CycleRecord, columns};
 use crate::source::MemorySources;
 use kontur_filters::vib_guard::VibGuardSettings;
 
@@ -111,6 +111,45 @@ fn a_second_thread_changes_nothing() {
                 let Ok(()) = run.to_end_on_threads(thread, &mut sink);
             });
             assert!(alone == together, "{text}");
+        }
+    }
+}
+
+/// Columns that a trace leaves out by default say in no cycle what the others do not; where they would, they are there.
+#[test]
+fn columns_that_repeat_others_do_so_in_every_cycle() {
+    let two_masses = "kontur.axis[1].plant.model=TWO_MASS";
+    let cases: [(&[&str], &str, &str); 6] = [
+        (&[], "", ""),
+        (&[two_masses], "", "X_load_mm"),
+        (&["X.antr.feed_const_num=2"], "", "X_load_mm"),
+        (&["X.lr_param.add_interface.enable=1"], "", "X_add_mm"),
+        (&["X.lr_param.add_interface.enable=1"], "t_s,X_add_mm\n0.05,0.1\n", "X_load_mm X_add_mm"),
+        (&[], "t_s,X_encoder_offset_mm\n0.05,0.1\n", "X_load_mm"),
+    ];
+    for (settings, inputs, different) in cases {
+        let job = job("G01 X10 F6000\nX0 Y3\nM30\n", settings, Options::default());
+        let files = [("a.csv", || Ok(inputs.as_bytes()))];
+        let files = if inputs.is_empty() { &[][..] } else { &files[..] };
+        let changes = inputs::open(files, job.machine()).unwrap();
+        let mut run = job.start().unwrap().with_inputs(changes);
+        let all = columns::all(run.facts());
+        let default = columns::select("default", run.facts()).unwrap();
+        let records = records(&mut run);
+        let differs = |name: &str, other: &str| {
+            let [this, other] = [name, other].map(|n| all.iter().find(|c| c.name == n));
+            let value = |c: Option<&columns::Column>, r| c.and_then(|c| c.number(r)).unwrap_or(0.0);
+            records.iter().any(|r| value(this, r).to_bits() != value(other, r).to_bits())
+        };
+        for axis in ["X", "Y", "Z"] {
+            let pairs = [("load", format!("{axis}_act_mm")), ("add", String::new())];
+            for (word, other) in pairs {
+                let name = format!("{axis}_{word}_mm");
+                let shown = default.iter().any(|c| c.name == name);
+                assert!(shown || !differs(&name, &other), "{name} {settings:?} {inputs}");
+                let expected = different.split(' ').any(|d| d == name);
+                assert!(shown || !expected, "{name} {settings:?} {inputs}");
+            }
         }
     }
 }
