@@ -354,7 +354,7 @@ mod tests {
         let mut c = at(&[0.0, 0.0, 0.0]);
         c.set_zero_entry(1, 0, 10.0);
         c.set_zero_entry(1, 1, 5.0);
-        c.select_zero_group(1);
+        c.select_zero_group(1, false);
         c.program([word(0, 0.0, false)]);
         assert_eq!(c.target()[..], [0.0, 0.0, 0.0]);
         c.program([word(0, 0.0, true)]);
@@ -379,7 +379,7 @@ mod tests {
     fn rotation_acts_before_offsets() {
         let mut c = at(&[0.0, 0.0, 0.0]);
         c.set_zero_entry(1, 0, 100.0);
-        c.select_zero_group(1);
+        c.select_zero_group(1, false);
         c.set_rotation(Some(Rotation { plane: [0, 1], deg: 90.0, centre: [0.0, 0.0] }));
         c.program([word(0, 10.0, true)]);
         assert_eq!(c.target()[..], [100.0, 10.0, 0.0]);

@@ -21,6 +21,8 @@ pub(super) struct Layer {
     pub(super) system: Frame,
     /// Active zero-offset group, 0 = G53.
     zero_group: u32,
+    /// It was selected by G159.
+    zero_group_by_value: bool,
     /// Values of `V.G.NP_AKT`, which hold until another group is selected.
     zero_written: BTreeMap<usize, f64>,
     /// G92.
@@ -35,6 +37,7 @@ impl Layer {
         Self {
             system,
             zero_group: NO_GROUP,
+            zero_group_by_value: false,
             zero_written: BTreeMap::new(),
             preset: AxisVec::zeros(axes),
             position_preset: AxisVec::zeros(axes),
@@ -94,12 +97,19 @@ impl Coordinates {
         self.offsets_changed();
     }
 
-    /// G53 (group 0), G54 to G59, G159.
-    pub(in crate::exec) fn select_zero_group(&mut self, group: u32) {
+    /// G53 (group 0), G54 to G59; G159 is `by_value`.
+    pub(in crate::exec) fn select_zero_group(&mut self, group: u32, by_value: bool) {
         self.change(|layer| {
             layer.zero_group = group;
+            layer.zero_group_by_value = by_value;
             layer.zero_written.clear();
         });
+    }
+
+    /// Group in the innermost system, and whether G159 selected it.
+    pub(in crate::exec) fn zero_group(&self) -> (u32, bool) {
+        let layer = self.layer();
+        (layer.zero_group, layer.zero_group_by_value)
     }
 
     /// `V.G.NP_AKT`: another zero offset in use; the table keeps its own.
