@@ -124,6 +124,7 @@ impl Executor {
             return;
         }
         self.contouring_at_end();
+        self.decoder.banding_ends();
         self.end(EndReason::Finished);
     }
 
